@@ -1,0 +1,93 @@
+//! What a sampler needs from a density, and what a study may ask beyond that.
+
+use mpm_tensor::Matrix;
+use rand::Rng;
+
+use crate::Frame;
+
+/// An unnormalised density `p` on ℝᴰ: the two functions a user writes to sample an own target.
+pub trait Target<const D: usize>: Sync {
+    /// log p(x), up to an additive constant that does not depend on `x`.
+    fn log_density(&self, x: &[f64; D]) -> f64;
+
+    /// The score s(x) = ∇ log p(x).
+    fn score(&self, x: &[f64; D]) -> [f64; D];
+
+    /// Scores of many points at once: `out[p] = score(xs[p])`.
+    ///
+    /// Override it where a batch is cheaper than its parts (a regression is one matrix product).
+    /// `xs` and `out` have the same length; an implementation must not depend on the batch's composition,
+    /// i.e. it returns the same bits for a point wherever it stands.
+    fn scores(&self, xs: &[[f64; D]], out: &mut [[f64; D]]) {
+        for (x, score) in xs.iter().zip(out) {
+            *score = self.score(x);
+        }
+    }
+}
+
+/// Independent exact draws from the normalised density.
+pub trait ExactDraws<const D: usize>: Sync {
+    /// One draw.
+    fn draw(&self, rng: &mut dyn Rng) -> [f64; D];
+}
+
+/// A map T with T(U) ~ p for U uniform on the unit cube; quasi-random points through it are the strong baseline.
+pub trait UnitCubeTransport<const D: usize>: Sync {
+    /// The dimension of the cube (it may exceed `D`, e.g. a mixture spends one coordinate on the mode).
+    fn cube_dimension(&self) -> usize;
+
+    /// The image of `u`, whose length is [`cube_dimension`](Self::cube_dimension) and whose entries lie in (0, 1).
+    fn transport(&self, u: &[f64]) -> [f64; D];
+}
+
+/// Mean and covariance of a density.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Moments<const D: usize> {
+    /// E[x].
+    pub mean: [f64; D],
+    /// E[(x − mean)(x − mean)ᵀ].
+    pub covariance: Matrix<D>,
+}
+
+/// A named mode of a multimodal density: points are assigned to the nearest centre in units of `width`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mode<const D: usize> {
+    /// Centre of the mode.
+    pub centre: [f64; D],
+    /// Standard deviation of the mode (isotropic).
+    pub width: f64,
+    /// Probability mass of the mode; the masses of a target sum to one.
+    pub mass: f64,
+}
+
+/// A target of the catalogue: a density together with what is known about it.
+pub trait CatalogueTarget<const D: usize>: Target<D> {
+    /// The name used on the command line.
+    fn name(&self) -> &str;
+
+    /// The frame x = μ + L z in which the target has unit scale.
+    fn frame(&self) -> Frame<D>;
+
+    /// A box that holds nearly all of the mass (for plots and dense grids): `[lower, upper]` per axis.
+    fn domain(&self) -> [[f64; 2]; D];
+
+    /// Exact draws, where the target has them.
+    fn exact_draws(&self) -> Option<&dyn ExactDraws<D>> {
+        None
+    }
+
+    /// The map from the unit cube, where the target has one.
+    fn unit_cube_transport(&self) -> Option<&dyn UnitCubeTransport<D>> {
+        None
+    }
+
+    /// Exact mean and covariance, where they are known in closed form.
+    fn moments(&self) -> Option<Moments<D>> {
+        None
+    }
+
+    /// The modes and their masses; empty for a unimodal target.
+    fn modes(&self) -> &[Mode<D>] {
+        &[]
+    }
+}
