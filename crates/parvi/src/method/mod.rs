@@ -1,0 +1,48 @@
+//! The methods and their options.
+
+mod mpm_options;
+mod paper_options;
+mod svgd_options;
+
+pub use mpm_options::{MpmOptions, ScoreLocation};
+pub use paper_options::{Annealing, Elasticity, Guards, PaperOptions};
+pub use svgd_options::SvgdOptions;
+
+/// Background basis of the mechanics.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum BasisChoice {
+    /// Tensor-product hat functions: 2ᴰ nodes per particle.
+    Linear,
+    /// Tensor-product quadratic B-splines: 3ᴰ nodes per particle.
+    #[default]
+    Quadratic,
+    /// Tensor-product cubic B-splines: 4ᴰ nodes per particle.
+    Cubic,
+}
+
+/// How velocities travel between particles and nodes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum TransferChoice {
+    /// Particle in cell: v_p = Σ w_ip v_i.
+    #[default]
+    Pic,
+    /// Affine particle in cell: PIC with a velocity gradient per particle.
+    Apic,
+    /// FLIP blend with share `a` ∈ [0, 1] of FLIP.
+    Flip(f64),
+}
+
+/// A method together with its options.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Method {
+    /// Calibrated isothermal gas (the default).
+    Mpm(MpmOptions),
+    /// Algorithms 1 (PIC) and 2 (APIC) of the MPM-ParVI paper.
+    Paper(PaperOptions),
+    /// Stein variational gradient descent.
+    Svgd(SvgdOptions),
+    /// Independent exact draws.
+    Iid,
+    /// Scrambled Sobol points through the target's map from the unit cube.
+    Sobol,
+}

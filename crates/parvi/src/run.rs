@@ -1,0 +1,164 @@
+//! What every sampler takes and returns.
+
+use std::ops::ControlFlow;
+
+use mpm_core::MpmError;
+
+/// Size, seed and start of a run; the same for every method.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Run {
+    /// Number of particles M ≥ 2.
+    pub particles: usize,
+    /// Seed of every random choice of the run.
+    pub seed: u64,
+    /// Where the particles begin.
+    pub start: Start,
+}
+
+impl Run {
+    /// A run from the default start.
+    pub fn new(particles: usize, seed: u64) -> Self {
+        Self {
+            particles,
+            seed,
+            start: Start::default(),
+        }
+    }
+}
+
+/// The particles' initial law, in the coordinates z of the target's frame: z ~ N(mean · 1, sd² I).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Start {
+    /// Mean of every coordinate, in target scales.
+    pub mean: f64,
+    /// Standard deviation of every coordinate, in target scales; > 0.
+    pub standard_deviation: f64,
+}
+
+impl Default for Start {
+    fn default() -> Self {
+        Self {
+            mean: 0.0,
+            standard_deviation: 1.0,
+        }
+    }
+}
+
+/// What a run returns.
+#[derive(Clone, Debug)]
+pub struct Samples<const D: usize> {
+    /// Particle positions in the target's own coordinates, in the order in which the particles were started.
+    pub positions: Vec<[f64; D]>,
+    /// Weights that sum to one; `None` when all are equal.
+    pub weights: Option<Vec<f64>>,
+    /// Steps taken.
+    pub steps: usize,
+    /// Evaluations of the score at one point, in total.
+    pub score_evaluations: u64,
+    /// Galerkin–Stein residual relative to its value for i.i.d. draws (1 = as good as i.i.d.; smaller is better).
+    pub residual: Option<f64>,
+    /// Grid spacing h in the frame's units (the last one, where a schedule varies it).
+    pub spacing: Option<f64>,
+    /// Nodes with mass in the last step.
+    pub active_nodes: Option<usize>,
+    /// Bytes held by particles and grid at the end of the run.
+    pub storage_bytes: Option<usize>,
+    /// History, one entry every `trace_every` steps.
+    pub trace: Vec<TracePoint>,
+}
+
+/// State of a run at one step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TracePoint {
+    /// Step number, from 1.
+    pub step: usize,
+    /// Pseudo-time Σ Δt.
+    pub time: f64,
+    /// Residual relative to i.i.d. draws, where it was measured in this step.
+    pub residual: Option<f64>,
+    /// ½ Σ m |v|² (total mass 1), in frame coordinates.
+    pub kinetic_energy: f64,
+    /// −E[log p] over the particles, in frame coordinates, up to a constant of the target; where it was measured.
+    pub potential_energy: Option<f64>,
+    /// Largest displacement of a node in this step, in units of h.
+    pub displacement: f64,
+}
+
+/// Progress of a run, handed to the observer after every step.
+#[derive(Clone, Copy, Debug)]
+pub struct Progress {
+    /// Steps done.
+    pub step: usize,
+    /// Steps in all.
+    pub steps: usize,
+}
+
+/// Watches a run; a return of `Break` stops it with [`SampleError::Interrupted`].
+pub trait Observer {
+    /// Called after every step.
+    fn after_step(&mut self, progress: Progress) -> ControlFlow<()>;
+}
+
+/// Watches nothing.
+pub struct Silent;
+
+impl Observer for Silent {
+    fn after_step(&mut self, _progress: Progress) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+}
+
+/// Why a run could not give particles.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SampleError {
+    /// An option is outside its range.
+    #[error("{field} = {value}: must be {expected}")]
+    InvalidOption {
+        /// The option's name.
+        field: &'static str,
+        /// The value given.
+        value: f64,
+        /// What is allowed.
+        expected: &'static str,
+    },
+    /// The target gave a score that is not finite.
+    #[error("the score of the target is not finite at x = {position:?} (step {step}, particle {particle}): {score:?}")]
+    ScoreNotFinite {
+        /// Step in which it happened.
+        step: usize,
+        /// Particle, in the order of the start.
+        particle: usize,
+        /// Where the score was evaluated.
+        position: Vec<f64>,
+        /// What the target returned.
+        score: Vec<f64>,
+    },
+    /// The positions stopped being finite.
+    #[error("the particles are no longer finite after step {step}: {reason}")]
+    Diverged {
+        /// Step in which it happened.
+        step: usize,
+        /// What went out of bounds.
+        reason: String,
+    },
+    /// The method needs what the target does not have.
+    #[error("method `{method}` needs {needs}, which target `{target}` does not have")]
+    Unsupported {
+        /// Method.
+        method: &'static str,
+        /// Target.
+        target: String,
+        /// The missing capability.
+        needs: &'static str,
+    },
+    /// The mechanics refused the state.
+    #[error(transparent)]
+    Mechanics(#[from] MpmError),
+    /// The observer stopped the run.
+    #[error("interrupted after step {step}")]
+    Interrupted {
+        /// Steps done.
+        step: usize,
+    },
+}
