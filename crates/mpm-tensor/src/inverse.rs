@@ -1,0 +1,99 @@
+//! The inverse of a general matrix.
+
+use crate::Matrix;
+use crate::lower_upper::LowerUpper;
+
+impl<const D: usize> Matrix<D> {
+    /// The inverse A⁻¹: closed form (adjugate over determinant) for D ≤ 3, elimination with partial pivoting above.
+    ///
+    /// `None` if an entry is not finite, if the computed determinant is zero, or if the inverse overflows. A matrix that
+    /// is singular only up to rounding yields a huge inverse.
+    #[inline]
+    pub fn inverse(&self) -> Option<Self> {
+        let scale = self.maximum_norm();
+        if !scale.is_finite() {
+            return None;
+        }
+        // Entries of order one: products neither overflow nor underflow.
+        let scaled = if scale > 0.0 {
+            Self::from_fn(|i, j| self.0[i][j] / scale)
+        } else {
+            *self
+        };
+        let inverse = if D <= 3 {
+            scaled.closed_inverse()
+        } else {
+            LowerUpper::new(&scaled).inverse()
+        };
+        let inverse = Self::from_fn(|i, j| inverse.0[i][j] / scale);
+        inverse.is_finite().then_some(inverse)
+    }
+
+    /// adj A / det A for D ≤ 3; not finite where the determinant is zero.
+    #[inline]
+    fn closed_inverse(&self) -> Self {
+        let a = &self.0;
+        let determinant = self.determinant();
+        Self::from_fn(|i, j| {
+            let cofactor = match D {
+                1 => 1.0,
+                2 if i == j => a[1 - i][1 - j],
+                2 => -a[i][j],
+                _ => {
+                    // Cyclic indices carry the sign of the cofactor of A_ji.
+                    let (r, s) = ((j + 1) % 3, (j + 2) % 3);
+                    let (p, q) = ((i + 1) % 3, (i + 2) % 3);
+                    a[r][p] * a[s][q] - a[r][q] * a[s][p]
+                }
+            };
+            cofactor / determinant
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn known_inverses() {
+        assert_eq!(Matrix([[4.0]]).inverse(), Some(Matrix([[0.25]])));
+        assert_eq!(
+            Matrix([[1.0, 2.0], [3.0, 4.0]]).inverse(),
+            Some(Matrix([[-2.0, 1.0], [1.5, -0.5]]))
+        );
+        let upper = Matrix([[1.0, 1.0, 0.0], [0.0, 1.0, 1.0], [0.0, 0.0, 2.0]]);
+        assert_eq!(
+            upper.inverse(),
+            Some(Matrix([
+                [1.0, -1.0, 0.5],
+                [0.0, 1.0, -0.5],
+                [0.0, 0.0, 0.5]
+            ]))
+        );
+        assert_eq!(Matrix::<6>::IDENTITY.inverse(), Some(Matrix::IDENTITY));
+    }
+
+    #[test]
+    fn singular_and_non_finite_matrices_have_none() {
+        assert_eq!(Matrix::<1>::ZERO.inverse(), None);
+        assert_eq!(Matrix([[1.0, 2.0], [2.0, 4.0]]).inverse(), None);
+        assert_eq!(Matrix::<3>::ZERO.inverse(), None);
+        assert_eq!(Matrix::<5>::from_fn(|i, j| (i * j) as f64).inverse(), None);
+        assert_eq!(Matrix([[f64::NAN, 0.0], [0.0, 1.0]]).inverse(), None);
+        assert_eq!(
+            Matrix::<4>::diagonal(&[1.0, f64::INFINITY, 1.0, 1.0]).inverse(),
+            None
+        );
+    }
+
+    #[test]
+    fn tiny_and_huge_scales_are_inverted() {
+        for scale in [1e-200, 1e200] {
+            let inverse = (Matrix::<3>::IDENTITY * scale)
+                .inverse()
+                .expect("a multiple of the identity");
+            assert!((inverse * scale - Matrix::IDENTITY).frobenius_norm() < 1e-15);
+        }
+    }
+}
