@@ -2,6 +2,7 @@
 
 use crate::Matrix;
 use crate::lower_upper::LowerUpper;
+use crate::scaling::reciprocal_scale;
 
 impl<const D: usize> Matrix<D> {
     /// The inverse A⁻¹: closed form (adjugate over determinant) for D ≤ 3, elimination with partial pivoting above.
@@ -10,22 +11,14 @@ impl<const D: usize> Matrix<D> {
     /// is singular only up to rounding yields a huge inverse.
     #[inline]
     pub fn inverse(&self) -> Option<Self> {
-        let scale = self.maximum_norm();
-        if !scale.is_finite() {
-            return None;
-        }
-        // Entries of order one: products neither overflow nor underflow.
-        let scaled = if scale > 0.0 {
-            Self::from_fn(|i, j| self.0[i][j] / scale)
-        } else {
-            *self
-        };
+        // Entries of order one: products of D of them neither overflow nor underflow to zero.
+        let factor = reciprocal_scale(self)?;
+        let scaled = *self * factor;
         let inverse = if D <= 3 {
             scaled.closed_inverse()
         } else {
             LowerUpper::new(&scaled).inverse()
-        };
-        let inverse = Self::from_fn(|i, j| inverse.0[i][j] / scale);
+        } * factor;
         inverse.is_finite().then_some(inverse)
     }
 

@@ -4,8 +4,18 @@ mod matrix;
 mod matrix_operators;
 pub mod vector;
 
+mod cholesky;
 mod determinant;
 mod inverse;
-mod lower_upper;
+mod polar;
+mod singular_values;
+mod symmetric_eigen;
 
+mod lower_upper;
+mod scaling;
+
+pub use cholesky::{Cholesky, NotPositiveDefinite};
 pub use matrix::Matrix;
+pub use polar::Polar;
+pub use singular_values::SingularValues;
+pub use symmetric_eigen::SymmetricEigen;
