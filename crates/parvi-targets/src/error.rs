@@ -1,0 +1,271 @@
+//! The one error type of the crate.
+
+use thiserror::Error;
+
+/// Everything that can be wrong with a target, its parameters, its data or a request for it.
+///
+/// Each variant carries the field, file, line or value that a message needs; the library itself prints nothing.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum TargetError {
+    /// A number that has to be finite is NaN or infinite.
+    #[error("{field} is {value}: it must be a finite number")]
+    NotFinite {
+        /// The field.
+        field: String,
+        /// The offending value.
+        value: f64,
+    },
+    /// A number lies outside of the range it may have.
+    #[error("{field} is {value}: allowed is {allowed}")]
+    OutOfRange {
+        /// The field.
+        field: String,
+        /// The offending value.
+        value: f64,
+        /// The range in words.
+        allowed: &'static str,
+    },
+    /// A list that needs an entry has none.
+    #[error("{field} is empty")]
+    Empty {
+        /// The field.
+        field: String,
+    },
+    /// A list has the wrong length.
+    #[error("{field} has length {found}, expected {expected}")]
+    Length {
+        /// The field.
+        field: String,
+        /// The length that fits.
+        expected: usize,
+        /// The length that was given.
+        found: usize,
+    },
+    /// A covariance is not symmetric.
+    #[error("{field} is not symmetric: entries ({row}, {column}) and ({column}, {row}) differ by {difference:e}")]
+    NotSymmetric {
+        /// The field.
+        field: String,
+        /// Row of the worst entry, counted from 0.
+        row: usize,
+        /// Column of the worst entry, counted from 0.
+        column: usize,
+        /// Their difference.
+        difference: f64,
+    },
+    /// A covariance or a Hessian is not positive definite.
+    #[error("{field} is not positive definite (pivot {value:e} on axis {axis})")]
+    NotPositiveDefinite {
+        /// The field.
+        field: String,
+        /// The axis, counted from 0, on which the factorisation stopped.
+        axis: usize,
+        /// The pivot met there.
+        value: f64,
+    },
+
+    /// No target has this name.
+    #[error("unknown target '{name}': known are {known}")]
+    UnknownTarget {
+        /// The name asked for.
+        name: String,
+        /// The names that exist, separated by commas.
+        known: String,
+    },
+    /// A parameter was given that the target does not have.
+    #[error("target '{target}' has no parameter '{parameter}' (given as {value}): {allowed}")]
+    ParameterNotAllowed {
+        /// The target.
+        target: String,
+        /// The parameter.
+        parameter: &'static str,
+        /// Its value, as text.
+        value: String,
+        /// The parameters it has, in words.
+        allowed: String,
+    },
+    /// A parameter that the target cannot do without is missing.
+    #[error("target '{target}' needs the parameter '{parameter}'")]
+    ParameterMissing {
+        /// The target.
+        target: String,
+        /// The parameter.
+        parameter: &'static str,
+    },
+    /// The target leaves the dimension free and none was given.
+    #[error("target '{target}' needs a dimension: {allowed}")]
+    DimensionMissing {
+        /// The target.
+        target: String,
+        /// The dimensions it has, in words.
+        allowed: String,
+    },
+    /// The target does not exist in this dimension.
+    #[error("dimension {dimension} does not fit target '{target}': {allowed}")]
+    DimensionNotAllowed {
+        /// The target.
+        target: String,
+        /// The dimension asked for.
+        dimension: usize,
+        /// The dimensions it has, in words.
+        allowed: String,
+    },
+
+    /// The data file could not be opened or read.
+    #[error("cannot read {file}: {reason}")]
+    DataUnreadable {
+        /// The file.
+        file: String,
+        /// What the system said.
+        reason: String,
+    },
+    /// The file has no header, or a column without a name.
+    #[error("{file}, line {line}: column {column} of the header is empty")]
+    DataHeaderEmpty {
+        /// The file.
+        file: String,
+        /// The line, counted from 1.
+        line: u64,
+        /// The column, counted from 1.
+        column: usize,
+    },
+    /// Two columns share a name.
+    #[error("{file}, line {line}: the column name '{column}' appears twice")]
+    DataHeaderDuplicate {
+        /// The file.
+        file: String,
+        /// The line, counted from 1.
+        line: u64,
+        /// The repeated name.
+        column: String,
+    },
+    /// A row has more or fewer cells than the header.
+    #[error("{file}, line {line}: {found} cells, but the header has {expected} columns")]
+    DataRaggedRow {
+        /// The file.
+        file: String,
+        /// The line, counted from 1.
+        line: u64,
+        /// The number of columns of the header.
+        expected: usize,
+        /// The number of cells of the row.
+        found: usize,
+    },
+    /// A cell is empty.
+    #[error("{file}, line {line}: column '{column}' is empty")]
+    DataMissingCell {
+        /// The file.
+        file: String,
+        /// The line, counted from 1.
+        line: u64,
+        /// The column's name.
+        column: String,
+    },
+    /// A cell is not a number.
+    #[error("{file}, line {line}: column '{column}' holds '{value}', which is not a number")]
+    DataNotNumeric {
+        /// The file.
+        file: String,
+        /// The line, counted from 1.
+        line: u64,
+        /// The column's name.
+        column: String,
+        /// The cell's text.
+        value: String,
+    },
+    /// A cell is NaN, infinite or too large for a 64-bit number.
+    #[error("{file}, line {line}: column '{column}' holds '{value}', which is not finite")]
+    DataNotFinite {
+        /// The file.
+        file: String,
+        /// The line, counted from 1.
+        line: u64,
+        /// The column's name.
+        column: String,
+        /// The cell's text.
+        value: String,
+    },
+    /// The response of a logistic regression is neither 0 nor 1.
+    #[error("{file}, line {line}: the response '{column}' is '{value}', it must be 0 or 1")]
+    DataResponse {
+        /// The file.
+        file: String,
+        /// The line, counted from 1.
+        line: u64,
+        /// The column's name.
+        column: String,
+        /// The cell's text.
+        value: String,
+    },
+    /// The file has a header and nothing else.
+    #[error("{file} has no rows of data")]
+    DataNoRows {
+        /// The file.
+        file: String,
+    },
+    /// The file has more covariates than the crate has dimensions.
+    #[error("{file} has {found} covariates; with the intercept at most {maximum} are possible")]
+    DataTooManyCovariates {
+        /// The file.
+        file: String,
+        /// The number of covariates found.
+        found: usize,
+        /// The largest number possible.
+        maximum: usize,
+    },
+    /// The columns are linearly dependent and the prior does not make up for it.
+    #[error("{file}: the columns {columns} are linearly dependent, and without a proper prior on them the posterior is improper")]
+    DataCollinear {
+        /// The file.
+        file: String,
+        /// The names of the columns involved, separated by commas.
+        columns: String,
+    },
+    /// A hyperplane separates the responses and the prior does not bound the coefficients.
+    #[error("{file}: the columns {columns} separate the responses perfectly, and without a proper prior on them the posterior is improper")]
+    DataSeparated {
+        /// The file.
+        file: String,
+        /// The names of the columns whose coefficients diverge, separated by commas.
+        columns: String,
+    },
+
+    /// Newton's method did not find the mode.
+    #[error("no mode found for '{target}' after {iterations} Newton steps (last step {step:e} posterior standard deviations)")]
+    ModeNotFound {
+        /// The target.
+        target: String,
+        /// The number of steps taken.
+        iterations: usize,
+        /// Length of the last step in posterior standard deviations.
+        step: f64,
+    },
+    /// Importance sampling met a density or weight it cannot use.
+    #[error("importance sampling of '{target}' failed: {reason}")]
+    ReferenceFailed {
+        /// The target.
+        target: String,
+        /// What went wrong, with the value.
+        reason: String,
+    },
+}
+
+/// `Ok(value)` for a finite number, else [`TargetError::NotFinite`].
+pub(crate) fn finite(field: &str, value: f64) -> Result<f64, TargetError> {
+    if value.is_finite() {
+        Ok(value)
+    } else {
+        Err(TargetError::NotFinite { field: field.to_owned(), value })
+    }
+}
+
+/// `Ok(value)` for a finite number above zero.
+pub(crate) fn positive(field: &str, value: f64) -> Result<f64, TargetError> {
+    finite(field, value)?;
+    if value > 0.0 {
+        Ok(value)
+    } else {
+        Err(TargetError::OutOfRange { field: field.to_owned(), value, allowed: "a number above 0" })
+    }
+}
