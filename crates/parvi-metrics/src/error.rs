@@ -1,0 +1,110 @@
+//! What can be wrong with the input of a metric.
+
+/// The error of every metric: it names the place and the offending value.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MetricError {
+    /// A cloud without points.
+    #[error("the cloud has no points")]
+    Empty,
+    /// A coordinate that is NaN or infinite.
+    #[error("point {index} has the coordinate {value} on axis {axis}; every coordinate must be finite")]
+    NonFinitePoint {
+        /// Index of the point.
+        index: usize,
+        /// Axis of the coordinate, from 0.
+        axis: usize,
+        /// The coordinate.
+        value: f64,
+    },
+    /// Two slices that must have one entry per point but do not.
+    #[error("{name} has {given} entries for {points} points")]
+    LengthMismatch {
+        /// The slice that does not fit.
+        name: &'static str,
+        /// Number of points.
+        points: usize,
+        /// Number of entries given.
+        given: usize,
+    },
+    /// A weight that is negative, NaN or infinite.
+    #[error("weight {index} is {value}; weights must be finite and at least 0")]
+    InvalidWeight {
+        /// Index of the weight.
+        index: usize,
+        /// The weight.
+        value: f64,
+    },
+    /// Weights whose sum is zero or overflows.
+    #[error("the weights sum to {total}; the sum must be positive and finite")]
+    InvalidTotalWeight {
+        /// The sum.
+        total: f64,
+    },
+    /// A statistic over pairs of distinct points, of a cloud with fewer than two points of positive weight.
+    #[error("{statistic} needs two points of positive weight")]
+    TooFewPoints {
+        /// The statistic asked for.
+        statistic: &'static str,
+    },
+    /// A score that is NaN or infinite.
+    #[error("the score of point {index} is {value} on axis {axis}; every score must be finite")]
+    NonFiniteScore {
+        /// Index of the point.
+        index: usize,
+        /// Axis of the score, from 0.
+        axis: usize,
+        /// The value.
+        value: f64,
+    },
+    /// A parameter outside its range.
+    #[error("{name} is {value}; it must be {requirement}")]
+    InvalidParameter {
+        /// The parameter.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it must be.
+        requirement: &'static str,
+    },
+    /// An entry of a list of parameters (a quantile level, a mode's width) outside its range.
+    #[error("{name} {index} is {value}; it must be {requirement}")]
+    InvalidEntry {
+        /// The list.
+        name: &'static str,
+        /// Index in the list.
+        index: usize,
+        /// Its value.
+        value: f64,
+        /// What it must be.
+        requirement: &'static str,
+    },
+    /// A covariance that is not symmetric positive definite.
+    #[error("the covariance is not symmetric and positive definite: {reason} {value}")]
+    InvalidCovariance {
+        /// What was found.
+        reason: &'static str,
+        /// The offending value.
+        value: f64,
+    },
+    /// A list of modes without entries.
+    #[error("the list of modes is empty")]
+    NoModes,
+    /// Finite input whose result exceeds the range of `f64`.
+    #[error("{metric} overflows: the result is {value}")]
+    Overflow {
+        /// The metric.
+        metric: &'static str,
+        /// What came out.
+        value: f64,
+    },
+}
+
+/// `value` if it is finite, else the error of an overflow in `metric`.
+pub(crate) fn finite(metric: &'static str, value: f64) -> Result<f64, MetricError> {
+    if value.is_finite() {
+        Ok(value)
+    } else {
+        Err(MetricError::Overflow { metric, value })
+    }
+}
