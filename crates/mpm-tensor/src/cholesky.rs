@@ -40,10 +40,7 @@ impl<const D: usize> Cholesky<D> {
                 } else if rest > 0.0 && rest.is_finite() {
                     lower.0[i][i] = rest.sqrt();
                 } else {
-                    return Err(NotPositiveDefinite {
-                        index: i,
-                        pivot: rest,
-                    });
+                    return Err(NotPositiveDefinite { index: i, pivot: rest });
                 }
             }
         }
@@ -158,17 +155,8 @@ mod tests {
     fn the_error_names_the_pivot() {
         let indefinite = Matrix([[1.0, 2.0], [2.0, 1.0]]);
         let error = Cholesky::new(&indefinite).expect_err("indefinite");
-        assert_eq!(
-            error,
-            NotPositiveDefinite {
-                index: 1,
-                pivot: -3.0
-            }
-        );
-        assert_eq!(
-            error.to_string(),
-            "the matrix is not positive definite: pivot 1 is -3"
-        );
+        assert_eq!(error, NotPositiveDefinite { index: 1, pivot: -3.0 });
+        assert_eq!(error.to_string(), "the matrix is not positive definite: pivot 1 is -3");
         let error = Cholesky::new(&Matrix([[f64::NAN]])).expect_err("not a number");
         assert!(error.index == 0 && error.pivot.is_nan());
         assert!(Cholesky::new(&Matrix([[f64::INFINITY]])).is_err());
@@ -183,9 +171,6 @@ mod tests {
         );
         assert_eq!(Matrix::<3>::ZERO.lower_triangular_inverse(), None);
         assert_eq!(Matrix([[f64::INFINITY]]).lower_triangular_inverse(), None);
-        assert_eq!(
-            Matrix([[1.0, 0.0], [f64::NAN, 1.0]]).lower_triangular_inverse(),
-            None
-        );
+        assert_eq!(Matrix([[1.0, 0.0], [f64::NAN, 1.0]]).lower_triangular_inverse(), None);
     }
 }

@@ -7,7 +7,7 @@ impl<const D: usize> Matrix<D> {
     /// The determinant det A: closed form for D ≤ 3, elimination with partial pivoting above; 1 for D = 0.
     ///
     /// The absolute error is a small multiple of 2⁻⁵² Π_i ‖row i‖. NaN if an entry is NaN; an infinite entry gives NaN
-    /// or an infinity. An exactly singular matrix of integers below 2²⁰ gives exactly 0 for D ≤ 2 and D = 3.
+    /// or an infinity.
     #[inline]
     pub fn determinant(&self) -> f64 {
         let a = &self.0;

@@ -12,6 +12,7 @@ mod singular_values;
 mod symmetric_eigen;
 
 mod lower_upper;
+mod plane_rotation;
 mod scaling;
 
 pub use cholesky::{Cholesky, NotPositiveDefinite};

@@ -1,4 +1,4 @@
-//! Gaussian elimination with partial pivoting, for D ≥ 4.
+//! Gaussian elimination with partial pivoting, for dimensions beyond the closed forms.
 
 use crate::{Matrix, vector};
 
@@ -42,11 +42,7 @@ impl<const D: usize> LowerUpper<D> {
                 }
             }
         }
-        Self {
-            factors,
-            rows,
-            sign,
-        }
+        Self { factors, rows, sign }
     }
 
     /// det A = det P · Π_i U_ii.

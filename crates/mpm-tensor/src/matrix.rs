@@ -144,10 +144,7 @@ mod tests {
     #[test]
     fn constructors_place_their_entries() {
         assert_eq!(Matrix::<2>::IDENTITY, Matrix([[1.0, 0.0], [0.0, 1.0]]));
-        assert_eq!(
-            Matrix::diagonal(&[2.0, 3.0]),
-            Matrix([[2.0, 0.0], [0.0, 3.0]])
-        );
+        assert_eq!(Matrix::diagonal(&[2.0, 3.0]), Matrix([[2.0, 0.0], [0.0, 3.0]]));
         assert_eq!(
             Matrix::outer(&[1.0, 2.0], &[3.0, 4.0]),
             Matrix([[3.0, 4.0], [6.0, 8.0]])

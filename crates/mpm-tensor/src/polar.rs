@@ -56,10 +56,7 @@ mod tests {
     fn a_reflection_goes_into_the_stretch() {
         let polar = Polar::new(&Matrix::diagonal(&[3.0, 1.0, -2.0])).expect("finite entries");
         assert!((polar.rotation.determinant() - 1.0).abs() < 1e-15);
-        assert_eq!(
-            polar.rotation * polar.stretch,
-            Matrix::diagonal(&[3.0, 1.0, -2.0])
-        );
+        assert_eq!(polar.rotation * polar.stretch, Matrix::diagonal(&[3.0, 1.0, -2.0]));
         assert_eq!(Polar::new(&Matrix([[f64::NAN]])), None);
     }
 }

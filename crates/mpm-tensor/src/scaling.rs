@@ -26,8 +26,7 @@ mod tests {
     fn entries_are_brought_to_order_one() {
         for size in [1.0, 3.0, 1e-300, 1e300, f64::MAX, f64::MIN_POSITIVE, 1e-310] {
             let matrix = Matrix([[0.0, -size], [size / 2.0, 0.0]]);
-            let scaled =
-                (matrix * reciprocal_scale(&matrix).expect("finite entries")).maximum_norm();
+            let scaled = (matrix * reciprocal_scale(&matrix).expect("finite entries")).maximum_norm();
             assert!(
                 scaled < 2.0 && (scaled >= 1.0 || size < f64::MIN_POSITIVE),
                 "{size}: {scaled}"

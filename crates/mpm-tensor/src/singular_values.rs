@@ -1,9 +1,10 @@
 //! The singular value decomposition.
 
+use crate::plane_rotation::PlaneRotation;
 use crate::scaling::reciprocal_scale;
 use crate::{Matrix, vector};
 
-/// Sweeps after which the iteration stops in any case; it converges quadratically, in 4 to 12 sweeps for D ≤ 8.
+/// Sweeps after which the iteration stops in any case; it converges in 2 to 15 sweeps for D ≤ 8.
 const MAXIMUM_SWEEPS: usize = 60;
 
 /// Squared length below which a column of a matrix with largest entry in [1, 2) counts as zero.
@@ -63,37 +64,18 @@ impl<const D: usize> SingularValues<D> {
     }
 }
 
-/// Rotates the images p and q until they are orthogonal, the longer one first; false if they already were.
-fn orthogonalise<const D: usize>(
-    images: &mut Matrix<D>,
-    right: &mut Matrix<D>,
-    p: usize,
-    q: usize,
-) -> bool {
-    if vector::norm_squared(&images.0[p]) < vector::norm_squared(&images.0[q]) {
-        images.0.swap(p, q);
-        right.0.swap(p, q);
-    }
-    let (long, short) = (
-        vector::norm_squared(&images.0[p]),
-        vector::norm_squared(&images.0[q]),
-    );
+/// Rotates the images p and q until they are orthogonal; false if they already were.
+fn orthogonalise<const D: usize>(images: &mut Matrix<D>, right: &mut Matrix<D>, p: usize, q: usize) -> bool {
+    let first = vector::norm_squared(&images.0[p]);
+    let second = vector::norm_squared(&images.0[q]);
     let product = vector::dot(&images.0[p], &images.0[q]);
-    let negligible = f64::EPSILON * (D as f64).sqrt() * long.sqrt() * short.sqrt();
-    if short < NULL_COLUMN || product.abs() <= negligible {
+    let negligible = f64::EPSILON * (D as f64).sqrt() * first.sqrt() * second.sqrt();
+    if first.min(second) < NULL_COLUMN || product.abs() <= negligible {
         return false;
     }
-    let theta = (long - short) / (2.0 * product);
-    let tangent = (1.0 / (theta.abs() + (theta * theta + 1.0).sqrt())).copysign(theta);
-    let cosine = 1.0 / (tangent * tangent + 1.0).sqrt();
-    let sine = tangent * cosine;
-    for rows in [images, right] {
-        for r in 0..D {
-            let (first, second) = (rows.0[p][r], rows.0[q][r]);
-            rows.0[p][r] = cosine * first + sine * second;
-            rows.0[q][r] = cosine * second - sine * first;
-        }
-    }
+    let rotation = PlaneRotation::diagonalising(first, product, second);
+    rotation.apply_to_rows(images, p, q);
+    rotation.apply_to_rows(right, p, q);
     true
 }
 
@@ -125,8 +107,7 @@ mod tests {
 
     #[test]
     fn singular_values_descend() {
-        let decomposition =
-            SingularValues::new(&Matrix([[0.0, 3.0], [-5.0, 0.0]])).expect("finite entries");
+        let decomposition = SingularValues::new(&Matrix([[0.0, 3.0], [-5.0, 0.0]])).expect("finite entries");
         assert_eq!(decomposition.values, [5.0, 3.0]);
     }
 
@@ -140,10 +121,7 @@ mod tests {
 
     #[test]
     fn non_finite_entries_have_none() {
-        assert_eq!(
-            SingularValues::new(&Matrix([[1.0, f64::NAN], [0.0, 1.0]])),
-            None
-        );
+        assert_eq!(SingularValues::new(&Matrix([[1.0, f64::NAN], [0.0, 1.0]])), None);
         assert_eq!(SingularValues::new(&Matrix([[f64::INFINITY]])), None);
     }
 }

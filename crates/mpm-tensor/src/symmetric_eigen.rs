@@ -1,9 +1,10 @@
 //! The spectral decomposition of a symmetric matrix.
 
 use crate::Matrix;
+use crate::plane_rotation::PlaneRotation;
 use crate::scaling::reciprocal_scale;
 
-/// Sweeps after which the iteration stops in any case; it converges quadratically, in 4 to 12 sweeps for D ≤ 8.
+/// Sweeps after which the iteration stops in any case; it converges in 2 to 15 sweeps for D ≤ 8.
 const MAXIMUM_SWEEPS: usize = 60;
 
 /// The spectral decomposition A = Q diag(λ) Qᵀ of a symmetric matrix, eigenvalues ascending.
@@ -63,38 +64,25 @@ impl<const D: usize> SymmetricEigen<D> {
 }
 
 /// One Jacobi rotation A ← Jᵀ A J in the plane (p, q) that makes A_pq zero; false if A_pq is already negligible.
-fn annihilate<const D: usize>(
-    a: &mut Matrix<D>,
-    vectors: &mut Matrix<D>,
-    p: usize,
-    q: usize,
-) -> bool {
+fn annihilate<const D: usize>(a: &mut Matrix<D>, vectors: &mut Matrix<D>, p: usize, q: usize) -> bool {
     let off_diagonal = a.0[p][q];
     let negligible = f64::EPSILON * a.0[p][p].abs().sqrt() * a.0[q][q].abs().sqrt();
     if off_diagonal.abs() <= negligible.max(f64::MIN_POSITIVE) {
         return false;
     }
-    // The smaller root of t² + 2 θ t − 1 = 0: a rotation by at most 45°.
-    let theta = (a.0[q][q] - a.0[p][p]) / (2.0 * off_diagonal);
-    let tangent = (1.0 / (theta.abs() + (theta * theta + 1.0).sqrt())).copysign(theta);
-    let cosine = 1.0 / (tangent * tangent + 1.0).sqrt();
-    let sine = tangent * cosine;
-    a.0[p][p] -= tangent * off_diagonal;
-    a.0[q][q] += tangent * off_diagonal;
+    let rotation = PlaneRotation::diagonalising(a.0[p][p], off_diagonal, a.0[q][q]);
+    a.0[p][p] -= rotation.tangent * off_diagonal;
+    a.0[q][q] += rotation.tangent * off_diagonal;
     a.0[p][q] = 0.0;
     a.0[q][p] = 0.0;
-    for r in 0..D {
-        if r != p && r != q {
-            let (rp, rq) = (a.0[r][p], a.0[r][q]);
-            a.0[r][p] = cosine * rp - sine * rq;
-            a.0[r][q] = sine * rp + cosine * rq;
-            a.0[p][r] = a.0[r][p];
-            a.0[q][r] = a.0[r][q];
-        }
-        let (vp, vq) = (vectors.0[p][r], vectors.0[q][r]);
-        vectors.0[p][r] = cosine * vp - sine * vq;
-        vectors.0[q][r] = sine * vp + cosine * vq;
+    for r in (0..D).filter(|&r| r != p && r != q) {
+        let (first, second) = rotation.apply(a.0[r][p], a.0[r][q]);
+        a.0[r][p] = first;
+        a.0[p][r] = first;
+        a.0[r][q] = second;
+        a.0[q][r] = second;
     }
+    rotation.apply_to_rows(vectors, p, q);
     true
 }
 
@@ -114,10 +102,7 @@ mod tests {
 
     #[test]
     fn non_finite_entries_have_none() {
-        assert_eq!(
-            SymmetricEigen::new(&Matrix([[1.0, f64::NAN], [0.0, 1.0]])),
-            None
-        );
+        assert_eq!(SymmetricEigen::new(&Matrix([[1.0, f64::NAN], [0.0, 1.0]])), None);
         assert_eq!(SymmetricEigen::new(&Matrix([[f64::INFINITY]])), None);
         assert_eq!(
             SymmetricEigen::new(&Matrix::<3>::ZERO).map(|eigen| eigen.values),
