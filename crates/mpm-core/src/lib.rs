@@ -1,15 +1,23 @@
 //! placeholder
 
-/// Errors of the mechanics.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum MpmError {
-    /// A position is not finite.
-    #[error("particle {particle} is at {position:?}, which is not finite")]
-    PositionNotFinite {
-        /// Particle.
-        particle: usize,
-        /// Position.
-        position: Vec<f64>,
-    },
-}
+mod basis;
+mod body_force;
+mod control;
+mod error;
+mod grid;
+mod medium;
+mod particles;
+mod schedule;
+mod step;
+mod transfer;
+
+pub use basis::Basis;
+pub use body_force::{BodyForce, NoBodyForce};
+pub use control::{StepControl, StepReport};
+pub use error::MpmError;
+pub use grid::SplineGrid;
+pub use medium::{Gas, Medium, StressImpulse};
+pub use particles::{Masses, Particles};
+pub use schedule::Schedule;
+pub use step::Mpm;
+pub use transfer::{Apic, Flip, FlipNode, GridNode, Pic, StencilNodes, Transfer, VelocityNode, gather, scatter};

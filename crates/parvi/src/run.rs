@@ -108,6 +108,20 @@ impl Observer for Silent {
     }
 }
 
+impl SampleError {
+    /// The same failure, said of a step of a run.
+    pub(crate) fn in_step(step: usize, error: MpmError) -> Self {
+        match error {
+            MpmError::BodyForceNotFinite { position, value, .. } => Self::ScoreNotFinite {
+                step,
+                position,
+                score: value,
+            },
+            source => Self::Mechanics { step, source },
+        }
+    }
+}
+
 /// Why a run could not give particles.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -123,12 +137,10 @@ pub enum SampleError {
         expected: &'static str,
     },
     /// The target gave a score that is not finite.
-    #[error("the score of the target is not finite at x = {position:?} (step {step}, particle {particle}): {score:?}")]
+    #[error("step {step}: the score of the target at x = {position:?} is {score:?}, which is not finite")]
     ScoreNotFinite {
         /// Step in which it happened.
         step: usize,
-        /// Particle, in the order of the start.
-        particle: usize,
         /// Where the score was evaluated.
         position: Vec<f64>,
         /// What the target returned.
@@ -153,8 +165,16 @@ pub enum SampleError {
         needs: &'static str,
     },
     /// The mechanics refused the state.
-    #[error(transparent)]
-    Mechanics(#[from] MpmError),
+    #[error("step {step}: {source}")]
+    Mechanics {
+        /// Step in which it happened.
+        step: usize,
+        /// What it said.
+        source: MpmError,
+    },
+    /// The elastic law refused its parameters.
+    #[error("{0}")]
+    Material(String),
     /// The observer stopped the run.
     #[error("interrupted after step {step}")]
     Interrupted {

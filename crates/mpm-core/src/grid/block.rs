@@ -1,0 +1,82 @@
+//! Geometry of a block: 64 nodes in any dimension, so that one `u64` says which of them are active.
+
+/// log₂ of the block's edge per axis: six bits are dealt to the axes, the last ones first.
+///
+/// Edges: 64 | 8·8 | 4·4·4 | 2·2·4·4 | 2·2·2·2·4 | 2⁶ | 1·2⁶ | 1·1·2⁶ for D = 1…8.
+pub const fn edge_bits<const D: usize>() -> [u32; D] {
+    let mut bits = [0; D];
+    let mut axis = 0;
+    while axis < D {
+        bits[axis] = (6 / D + (axis >= D - 6 % D) as usize) as u32;
+        axis += 1;
+    }
+    bits
+}
+
+/// Block coordinates of a node and its place (0…63) inside the block, the last axis fastest.
+#[inline(always)]
+pub fn locate<const D: usize>(node: &[i64; D]) -> ([i32; D], u32) {
+    let bits = const { edge_bits::<D>() };
+    let mut block = [0; D];
+    let mut local = 0;
+    for a in 0..D {
+        block[a] = (node[a] >> bits[a]) as i32;
+        local = (local << bits[a]) | (node[a] & ((1 << bits[a]) - 1)) as u32;
+    }
+    (block, local)
+}
+
+/// Node coordinates of a place in a block; the inverse of [`locate`].
+pub fn node_at<const D: usize>(block: &[i32; D], local: u32) -> [i64; D] {
+    let bits = const { edge_bits::<D>() };
+    let mut node = [0; D];
+    let mut rest = local;
+    for a in (0..D).rev() {
+        node[a] = (i64::from(block[a]) << bits[a]) | i64::from(rest & ((1 << bits[a]) - 1));
+        rest >>= bits[a];
+    }
+    node
+}
+
+/// Blocks per axis that stencils of `width` nodes with their base in one block can touch.
+pub fn reach<const D: usize>(width: usize) -> [usize; D] {
+    let bits = const { edge_bits::<D>() };
+    std::array::from_fn(|a| (((1 << bits[a]) - 1 + width - 1) >> bits[a]) + 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn round_trips<const D: usize>() {
+        let bits = edge_bits::<D>();
+        assert_eq!(bits.iter().sum::<u32>(), 6, "a block of dimension {D} has 64 nodes");
+        for shift in [-1000, -7, 0, 123_456_789] {
+            let node: [i64; D] = std::array::from_fn(|a| shift + 3 * a as i64);
+            let (block, local) = locate(&node);
+            assert!(local < 64);
+            assert_eq!(node_at(&block, local), node);
+        }
+    }
+
+    #[test]
+    fn locate_and_node_at_are_inverse() {
+        round_trips::<1>();
+        round_trips::<2>();
+        round_trips::<3>();
+        round_trips::<4>();
+        round_trips::<5>();
+        round_trips::<6>();
+        round_trips::<7>();
+        round_trips::<8>();
+    }
+
+    #[test]
+    fn reach_counts_the_blocks_a_stencil_crosses() {
+        assert_eq!(reach::<1>(3), [2]);
+        assert_eq!(reach::<6>(3), [2; 6]);
+        assert_eq!(reach::<6>(4), [3; 6]);
+        assert_eq!(reach::<8>(2), [2; 8]);
+        assert_eq!(reach::<8>(3), [3, 3, 2, 2, 2, 2, 2, 2]);
+    }
+}

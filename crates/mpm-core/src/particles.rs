@@ -1,0 +1,175 @@
+//! Particles as structure of arrays; a field that a scene does not use is an empty vector.
+
+use mpm_tensor::Matrix;
+
+use crate::MpmError;
+
+/// Particle masses.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Masses {
+    /// All the same; nothing is stored per particle.
+    Equal(f64),
+    /// One each.
+    Each(Vec<f64>),
+}
+
+impl Masses {
+    /// Mass m_p.
+    #[inline(always)]
+    pub fn get(&self, particle: usize) -> f64 {
+        match self {
+            Self::Equal(mass) => *mass,
+            Self::Each(masses) => masses[particle],
+        }
+    }
+}
+
+/// State of M particles. Positions and velocities always exist; the other fields only where a scene needs them.
+#[derive(Clone, Debug)]
+pub struct Particles<const D: usize> {
+    /// x_p.
+    pub positions: Vec<[f64; D]>,
+    /// v_p.
+    pub velocities: Vec<[f64; D]>,
+    /// m_p.
+    pub masses: Masses,
+    /// B_p, the affine velocity moment of APIC; empty without APIC.
+    pub affine: Vec<Matrix<D>>,
+    /// F_p; empty for media without elasticity.
+    pub deformation_gradients: Vec<Matrix<D>>,
+    /// V⁰_p, reference volume; empty for media without elasticity.
+    pub reference_volumes: Vec<f64>,
+    /// Number of the particle in the order of creation.
+    identities: Vec<u32>,
+    scratch: Scratch<D>,
+}
+
+/// Buffers for the reordering, kept between steps.
+#[derive(Clone, Debug, Default)]
+struct Scratch<const D: usize> {
+    vectors: Vec<[f64; D]>,
+    matrices: Vec<Matrix<D>>,
+    scalars: Vec<f64>,
+    indices: Vec<u32>,
+}
+
+impl<const D: usize> Particles<D> {
+    /// Particles at rest with equal masses that sum to `total_mass`.
+    pub fn at_rest(positions: Vec<[f64; D]>, total_mass: f64) -> Self {
+        let count = positions.len();
+        Self {
+            velocities: vec![[0.0; D]; count],
+            masses: Masses::Equal(total_mass / count.max(1) as f64),
+            affine: Vec::new(),
+            deformation_gradients: Vec::new(),
+            reference_volumes: Vec::new(),
+            identities: (0..count as u32).collect(),
+            scratch: Scratch::default(),
+            positions,
+        }
+    }
+
+    /// Add the field F_p = I and the reference volumes V⁰_p, one per particle in the present order.
+    pub fn with_elastic_state(mut self, reference_volumes: Vec<f64>) -> Self {
+        self.deformation_gradients = vec![Matrix::IDENTITY; self.len()];
+        self.reference_volumes = reference_volumes;
+        self
+    }
+
+    /// Number of particles M.
+    pub fn len(&self) -> usize {
+        self.positions.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.positions.is_empty()
+    }
+
+    /// Number, in the order of creation, of the particle that stands at `index`.
+    pub fn identity(&self, index: usize) -> usize {
+        self.identities[index] as usize
+    }
+
+    /// An error that speaks of the particle by its number in the order of creation.
+    pub(crate) fn name(&self, error: MpmError) -> MpmError {
+        match error {
+            MpmError::PositionOutOfRange { particle, position, spacing } => MpmError::PositionOutOfRange {
+                particle: self.identity(particle),
+                position,
+                spacing,
+            },
+            other => other,
+        }
+    }
+
+    /// A field in the order of creation.
+    pub fn in_creation_order<T: Copy>(&self, field: &[T]) -> Vec<T> {
+        let mut place = vec![0; field.len()];
+        for (index, &identity) in self.identities.iter().enumerate() {
+            place[identity as usize] = index;
+        }
+        place.into_iter().map(|index| field[index]).collect()
+    }
+
+    /// Put particle `order[k]` at place k, for every field that exists.
+    pub fn reorder(&mut self, order: &[u32]) {
+        let s = &mut self.scratch;
+        permute(&mut self.positions, &mut s.vectors, order);
+        permute(&mut self.velocities, &mut s.vectors, order);
+        permute(&mut self.affine, &mut s.matrices, order);
+        permute(&mut self.deformation_gradients, &mut s.matrices, order);
+        permute(&mut self.reference_volumes, &mut s.scalars, order);
+        permute(&mut self.identities, &mut s.indices, order);
+        if let Masses::Each(masses) = &mut self.masses {
+            permute(masses, &mut s.scalars, order);
+        }
+    }
+
+    /// Largest speed max_p |v_p|.
+    pub fn largest_speed(&self) -> f64 {
+        let square = |v: &[f64; D]| v.iter().map(|c| c * c).sum::<f64>();
+        self.velocities
+            .iter()
+            .map(square)
+            .fold(0.0, f64::max)
+            .sqrt()
+    }
+
+    /// ½ Σ m_p |v_p|².
+    pub fn kinetic_energy(&self) -> f64 {
+        let square = |v: &[f64; D]| v.iter().map(|c| c * c).sum::<f64>();
+        let each = self.velocities.iter().enumerate();
+        0.5 * each
+            .map(|(p, v)| self.masses.get(p) * square(v))
+            .sum::<f64>()
+    }
+
+    /// Bytes held.
+    pub fn storage_bytes(&self) -> usize {
+        let vector = size_of::<[f64; D]>();
+        let matrix = size_of::<Matrix<D>>();
+        let scalars = self.reference_volumes.capacity()
+            + self.scratch.scalars.capacity()
+            + match &self.masses {
+                Masses::Equal(_) => 0,
+                Masses::Each(masses) => masses.capacity(),
+            };
+        vector * (self.positions.capacity() + self.velocities.capacity() + self.scratch.vectors.capacity())
+            + matrix
+                * (self.affine.capacity()
+                    + self.deformation_gradients.capacity()
+                    + self.scratch.matrices.capacity())
+            + 8 * scalars
+            + 4 * (self.identities.capacity() + self.scratch.indices.capacity())
+    }
+}
+
+fn permute<T: Copy>(field: &mut Vec<T>, scratch: &mut Vec<T>, order: &[u32]) {
+    if field.is_empty() {
+        return;
+    }
+    scratch.clear();
+    scratch.extend(order.iter().map(|&from| field[from as usize]));
+    std::mem::swap(field, scratch);
+}

@@ -1,0 +1,248 @@
+//! One step of the material point method: rebuild, forces, particles → grid, grid update, grid → particles.
+
+use mpm_tensor::Matrix;
+use rayon::prelude::*;
+
+use crate::transfer::{Divide, GridNode, Transfer, gather, scatter};
+use crate::{Basis, BodyForce, Medium, MpmError, Particles, StepControl, StepReport, StressImpulse};
+
+/// A body of particles on a basis: what moves (`particles`), where (`basis`), how velocities travel (`transfer`), what it
+/// is made of (`medium`) and what pulls at it (`body_force`).
+pub struct Mpm<const D: usize, B, T: Transfer<D>, M, F> {
+    /// State of the particles, in schedule order after a step.
+    pub particles: Particles<D>,
+    /// Background discretisation.
+    pub basis: B,
+    /// Velocity transfer.
+    pub transfer: T,
+    /// Constitutive behaviour.
+    pub medium: M,
+    /// External force.
+    pub body_force: F,
+    nodes: Vec<T::Node>,
+    accelerations: Vec<[f64; D]>,
+    node_positions: Vec<[f64; D]>,
+    node_forces: Vec<[f64; D]>,
+}
+
+impl<const D: usize, B, T, M, F> Mpm<D, B, T, M, F>
+where
+    B: Basis<D>,
+    T: Transfer<D>,
+    M: Medium<D>,
+    F: BodyForce<D>,
+{
+    /// A body; fields that transfer and medium need are added to the particles.
+    pub fn new(mut particles: Particles<D>, basis: B, transfer: T, medium: M, body_force: F) -> Self {
+        if T::AFFINE {
+            particles.affine.resize(particles.len(), Matrix::ZERO);
+        }
+        Self {
+            particles,
+            basis,
+            transfer,
+            medium,
+            body_force,
+            nodes: Vec::new(),
+            accelerations: Vec::new(),
+            node_positions: Vec::new(),
+            node_forces: Vec::new(),
+        }
+    }
+
+    /// One explicit step (symplectic Euler), as long as `control` allows.
+    ///
+    /// # Errors
+    /// [`MpmError`] where a position leaves the grid's range or a force is not finite; the particles then stay where they
+    /// were.
+    pub fn step(&mut self, control: &StepControl) -> Result<StepReport, MpmError> {
+        let h = self.basis.spacing();
+        let wave_speed = self.medium.wave_speed(&self.particles);
+        let dt = control.next_time_step(h, wave_speed, self.particles.largest_speed());
+        let damping = control.damping(dt);
+
+        self.rebuild()?;
+        self.evaluate_particle_forces()?;
+        self.particles_to_grid(dt);
+        self.evaluate_node_forces()?;
+        let speed = self.update_grid(dt, damping, control.speed_limit(h, dt));
+        self.grid_to_particles(dt, damping);
+
+        Ok(StepReport {
+            time_step: dt,
+            active_nodes: self.basis.node_count(),
+            displacement: speed * dt / h,
+        })
+    }
+
+    /// Bytes held by particles, grid and nodes.
+    pub fn storage_bytes(&self) -> usize {
+        let vectors = self.accelerations.capacity() + self.node_positions.capacity() + self.node_forces.capacity();
+        self.particles.storage_bytes()
+            + self.basis.storage_bytes()
+            + self.nodes.capacity() * size_of::<T::Node>()
+            + vectors * size_of::<[f64; D]>()
+    }
+
+    /// Sort the particles by cell and number the nodes they touch.
+    fn rebuild(&mut self) -> Result<(), MpmError> {
+        self.basis
+            .rebuild(&self.particles.positions)
+            .map_err(|error| self.particles.name(error))?;
+        self.particles.reorder(self.basis.schedule().order());
+        Ok(())
+    }
+
+    /// Force per unit mass at the particles.
+    fn evaluate_particle_forces(&mut self) -> Result<(), MpmError> {
+        if F::AT_PARTICLES {
+            self.accelerations.resize(self.particles.len(), [0.0; D]);
+            self.body_force
+                .at_particles(&self.particles.positions, &mut self.accelerations)?;
+        }
+        Ok(())
+    }
+
+    /// P2G: m_i = Σ_p w_ip m_p; m_i v_i = Σ_p w_ip m_p [v_p + B_p D_p⁻¹ (x_i − x_p)] + Δt Σ_p (w_ip m_p g_p − V⁰_p τ_p ∇w_ip).
+    fn particles_to_grid(&mut self, dt: f64) {
+        self.nodes.clear();
+        self.nodes.resize(self.basis.node_count(), T::Node::default());
+        let (particles, medium, basis) = (&self.particles, &self.medium, &self.basis);
+        let accelerations = &self.accelerations;
+        scatter(basis, &particles.positions, &mut self.nodes, |p, x, stencil| {
+            let mass = particles.masses.get(p);
+            let momentum = particles.velocities[p].map(|v| mass * v);
+            let stress = medium.impulse(particles, p, dt);
+            let mut value = if T::INCREMENTAL { [0.0; D] } else { momentum };
+            if F::AT_PARTICLES {
+                for a in 0..D {
+                    value[a] += dt * mass * accelerations[p][a];
+                }
+            }
+            stress.for_each_flux(basis, x, &value, |index, weight, flux| {
+                let node = stencil.node(index);
+                node.add(weight * mass, flux);
+                if T::INCREMENTAL {
+                    node.add_momentum(&momentum.map(|c| weight * c));
+                }
+            });
+            if T::AFFINE {
+                let affine = particles.affine[p] * mass;
+                basis.for_each_node(x, |index, entry| {
+                    let direction = basis.affine_direction(entry);
+                    stencil.node(index).add_momentum(&affine.apply(&direction));
+                });
+            }
+        });
+    }
+
+    /// Force at the nodes themselves.
+    fn evaluate_node_forces(&mut self) -> Result<(), MpmError> {
+        if F::AT_NODES {
+            self.basis.node_positions(&mut self.node_positions);
+            self.node_forces.resize(self.nodes.len(), [0.0; D]);
+            let nodes = &self.nodes;
+            self.body_force
+                .at_nodes(&self.node_positions, |i| nodes[i].mass(), &mut self.node_forces)?;
+        }
+        Ok(())
+    }
+
+    /// v_i ← damping (v_i + Δt f_i / m_i); returns the largest speed.
+    fn update_grid(&mut self, dt: f64, damping: f64, speed_limit: f64) -> f64 {
+        let forces = &self.node_forces;
+        let advance = |(i, node): (usize, &mut T::Node)| {
+            let impulse = if F::AT_NODES { forces[i].map(|f| dt * f) } else { [0.0; D] };
+            node.advance(&impulse, damping, speed_limit)
+        };
+        let nodes = self.nodes.par_iter_mut().with_min_len(4096).enumerate();
+        nodes.map(advance).reduce(|| 0.0, f64::max).sqrt()
+    }
+
+    /// G2P: v_p = Σ_i w_ip v_i, B_p = Σ_i w_ip v_i (x_i − x_p)ᵀ, F_p ← (I + Δt Σ_i v_i ∇w_ipᵀ) F_p, x_p ← x_p + Δt Σ_i w_ip v_i.
+    fn grid_to_particles(&mut self, dt: f64, damping: f64) {
+        let (basis, nodes, transfer) = (&self.basis, &self.nodes, self.transfer);
+        gather(basis, Moving::of(&mut self.particles), &|data: &mut Moving<D>, k, _, cell_nodes| {
+            let x = data.positions[k];
+            let (mut velocity, mut change) = ([0.0; D], [0.0; D]);
+            let (mut affine, mut velocity_gradient) = (Matrix::<D>::ZERO, Matrix::<D>::ZERO);
+            basis.for_each_node(&x, |index, entry| {
+                let node = &nodes[cell_nodes[index] as usize];
+                let v = node.velocity();
+                for a in 0..D {
+                    velocity[a] += entry.weight * v[a];
+                }
+                if T::INCREMENTAL {
+                    let node_change = node.change(damping);
+                    for a in 0..D {
+                        change[a] += entry.weight * node_change[a];
+                    }
+                }
+                if T::AFFINE {
+                    add_outer(&mut affine, entry.weight, v, &entry.offset);
+                }
+                if M::DEFORMS {
+                    add_outer(&mut velocity_gradient, 1.0, v, &entry.gradient);
+                }
+            });
+            data.velocities[k] = transfer.particle_velocity(&velocity, &change, &data.velocities[k], damping);
+            for a in 0..D {
+                data.positions[k][a] = x[a] + dt * velocity[a];
+            }
+            if T::AFFINE {
+                data.affine[k] = affine;
+            }
+            if M::DEFORMS {
+                #[allow(non_snake_case)]
+                let F = &mut data.deformation_gradients[k];
+                *F = (Matrix::IDENTITY + velocity_gradient * dt) * *F;
+            }
+        });
+    }
+}
+
+/// `matrix` += scale a bᵀ.
+#[inline(always)]
+fn add_outer<const D: usize>(matrix: &mut Matrix<D>, scale: f64, a: &[f64; D], b: &[f64; D]) {
+    for i in 0..D {
+        for j in 0..D {
+            matrix.0[i][j] += scale * a[i] * b[j];
+        }
+    }
+}
+
+/// The fields that the grid-to-particle transfer writes.
+struct Moving<'a, const D: usize> {
+    positions: &'a mut [[f64; D]],
+    velocities: &'a mut [[f64; D]],
+    affine: &'a mut [Matrix<D>],
+    deformation_gradients: &'a mut [Matrix<D>],
+}
+
+impl<'a, const D: usize> Moving<'a, D> {
+    fn of(particles: &'a mut Particles<D>) -> Self {
+        Self {
+            positions: &mut particles.positions,
+            velocities: &mut particles.velocities,
+            affine: &mut particles.affine,
+            deformation_gradients: &mut particles.deformation_gradients,
+        }
+    }
+}
+
+impl<const D: usize> Divide for Moving<'_, D> {
+    fn divide(self, count: usize) -> (Self, Self) {
+        let (positions, right_positions) = self.positions.divide(count);
+        let (velocities, right_velocities) = self.velocities.divide(count);
+        let (affine, right_affine) = self.affine.divide(count);
+        let (deformation_gradients, right_deformation_gradients) = self.deformation_gradients.divide(count);
+        let left = Self { positions, velocities, affine, deformation_gradients };
+        let right = Self {
+            positions: right_positions,
+            velocities: right_velocities,
+            affine: right_affine,
+            deformation_gradients: right_deformation_gradients,
+        };
+        (left, right)
+    }
+}

@@ -1,0 +1,87 @@
+use super::{GridNode, Transfer, shorten};
+
+/// FLIP blend (Brackbill & Ruppel 1986; Zhu & Bridson 2005) with share a of FLIP:
+/// v_p ← (1−a) Σ w_ip v_iⁿ⁺¹ + a (v_p + Σ w_ip (v_iⁿ⁺¹ − v_iⁿ)); positions always move with Σ w_ip v_iⁿ⁺¹.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Flip {
+    /// Share a ∈ [0, 1]: 0 is PIC, 1 is FLIP.
+    pub share: f64,
+}
+
+impl<const D: usize> Transfer<D> for Flip {
+    type Node = FlipNode<D>;
+    const AFFINE: bool = false;
+    const INCREMENTAL: bool = true;
+
+    #[inline(always)]
+    fn particle_velocity(&self, interpolated: &[f64; D], change: &[f64; D], own: &[f64; D], damping: f64) -> [f64; D] {
+        std::array::from_fn(|a| {
+            (1.0 - self.share) * interpolated[a] + self.share * (damping * own[a] + change[a])
+        })
+    }
+}
+
+/// Mass and both velocities of a node; impulses are kept apart from the momentum until `advance`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FlipNode<const D: usize> {
+    mass: f64,
+    /// Impulse until `advance`, vⁿ⁺¹ afterwards.
+    velocity: [f64; D],
+    /// Momentum until `advance`, vⁿ afterwards.
+    previous: [f64; D],
+}
+
+impl<const D: usize> Default for FlipNode<D> {
+    fn default() -> Self {
+        Self {
+            mass: 0.0,
+            velocity: [0.0; D],
+            previous: [0.0; D],
+        }
+    }
+}
+
+impl<const D: usize> GridNode<D> for FlipNode<D> {
+    #[inline(always)]
+    fn add(&mut self, mass: f64, impulse: &[f64; D]) {
+        self.mass += mass;
+        for a in 0..D {
+            self.velocity[a] += impulse[a];
+        }
+    }
+
+    #[inline(always)]
+    fn add_momentum(&mut self, momentum: &[f64; D]) {
+        for a in 0..D {
+            self.previous[a] += momentum[a];
+        }
+    }
+
+    #[inline(always)]
+    fn mass(&self) -> f64 {
+        self.mass
+    }
+
+    #[inline(always)]
+    fn advance(&mut self, impulse: &[f64; D], damping: f64, speed_limit: f64) -> f64 {
+        if self.mass <= 0.0 {
+            *self = Self::default();
+            return 0.0;
+        }
+        for a in 0..D {
+            self.previous[a] /= self.mass;
+            self.velocity[a] = damping * (self.previous[a] + (self.velocity[a] + impulse[a]) / self.mass);
+        }
+        shorten(&mut self.velocity, speed_limit)
+    }
+
+    #[inline(always)]
+    fn velocity(&self) -> &[f64; D] {
+        &self.velocity
+    }
+
+    #[inline(always)]
+    fn change(&self, damping: f64) -> [f64; D] {
+        std::array::from_fn(|a| self.velocity[a] - damping * self.previous[a])
+    }
+}

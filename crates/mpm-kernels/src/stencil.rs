@@ -1,0 +1,160 @@
+//! Tensor-product stencils: Wᴰ nodes from D rows of one-dimensional weights.
+
+use crate::Spline;
+
+/// One node of a stencil as seen from a particle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Entry<const D: usize> {
+    /// w_ip = w_i(x_p).
+    pub weight: f64,
+    /// ∇w_ip, the gradient with respect to the particle's position; 1/length.
+    pub gradient: [f64; D],
+    /// x_i − x_p.
+    pub offset: [f64; D],
+}
+
+/// Weights of a particle on the Wᴰ nodes base + {0, …, W−1}ᴰ of a uniform grid with spacing h:
+/// w_ip = Π_a N(u_a − i_a), ∂w_ip/∂x_a = N′(u_a − i_a)/h Π_{b≠a} N(u_b − i_b), u = (x − origin)/h.
+#[derive(Clone, Copy, Debug)]
+pub struct Stencil<const W: usize, const D: usize> {
+    /// First node per axis.
+    pub base: [i64; D],
+    weights: [[f64; W]; D],
+    derivatives: [[f64; W]; D],
+    offsets: [[f64; W]; D],
+}
+
+impl<const W: usize, const D: usize> Stencil<W, D> {
+    /// Nodes in a stencil: Wᴰ.
+    pub const SIZE: usize = W.pow(D as u32);
+
+    /// The stencil of position `x` on the grid {origin + h i}.
+    #[inline(always)]
+    pub fn new<S: Spline<W>>(x: &[f64; D], origin: &[f64; D], spacing: f64) -> Self {
+        let inverse = 1.0 / spacing;
+        let mut stencil = Self {
+            base: [0; D],
+            weights: [[0.0; W]; D],
+            derivatives: [[0.0; W]; D],
+            offsets: [[0.0; W]; D],
+        };
+        for a in 0..D {
+            let u = (x[a] - origin[a]) * inverse;
+            let row = S::row(u);
+            stencil.base[a] = row.base;
+            stencil.weights[a] = row.weights;
+            for j in 0..W {
+                stencil.derivatives[a][j] = row.derivatives[j] * inverse;
+                stencil.offsets[a][j] = ((row.base + j as i64) as f64 - u) * spacing;
+            }
+        }
+        stencil
+    }
+
+    /// Visit all Wᴰ nodes, the last axis fastest; the first argument counts from 0.
+    #[inline(always)]
+    pub fn for_each(&self, mut visit: impl FnMut(usize, &Entry<D>)) {
+        let extend = |a: usize, j: usize, before: &Entry<D>| {
+            let (w, dw) = (self.weights[a][j], self.derivatives[a][j]);
+            let mut entry = *before;
+            for b in 0..a {
+                entry.gradient[b] = before.gradient[b] * w;
+            }
+            entry.gradient[a] = before.weight * dw;
+            entry.weight = before.weight * w;
+            entry.offset[a] = self.offsets[a][j];
+            entry
+        };
+        let one = Entry {
+            weight: 1.0,
+            gradient: [0.0; D],
+            offset: [0.0; D],
+        };
+        walk::<W, D, _>(one, extend, &mut visit);
+    }
+
+    /// Visit all Wᴰ nodes with their weight and the flux w_ip `value` + `scale` ∇w_ip, at D + 1 products per node:
+    /// component a is Π_{b≠a} N_b · (N_a `value`_a + `scale` ∂N_a).
+    #[inline(always)]
+    pub fn for_each_flux(&self, value: &[f64; D], scale: f64, mut visit: impl FnMut(usize, f64, &[f64; D])) {
+        let own: [[f64; W]; D] = std::array::from_fn(|a| {
+            std::array::from_fn(|j| self.weights[a][j] * value[a] + self.derivatives[a][j] * scale)
+        });
+        let extend = |a: usize, j: usize, before: &(f64, [f64; D])| {
+            let w = self.weights[a][j];
+            let mut flux = before.1;
+            for b in 0..a {
+                flux[b] = before.1[b] * w;
+            }
+            flux[a] = before.0 * own[a][j];
+            (before.0 * w, flux)
+        };
+        walk::<W, D, _>((1.0, [0.0; D]), extend, &mut |index, (weight, flux)| visit(index, *weight, flux));
+    }
+}
+
+/// Visit all products of one factor per axis, the last axis fastest: `extend(a, j, P)` is the product over the axes
+/// before a, taken over to axis a with factor j.
+///
+/// The inner loops have a constant length, so that they unroll; products over the outer axes are carried along and
+/// renewed only from the first digit that changed.
+#[inline(always)]
+fn walk<const W: usize, const D: usize, P: Copy>(
+    one: P,
+    extend: impl Fn(usize, usize, &P) -> P,
+    visit: &mut impl FnMut(usize, &P),
+) {
+    match D {
+        1 => {
+            for j in 0..W {
+                visit(j, &extend(0, j, &one));
+            }
+        }
+        2 => {
+            for i in 0..W {
+                let row = extend(0, i, &one);
+                for j in 0..W {
+                    visit(i * W + j, &extend(1, j, &row));
+                }
+            }
+        }
+        3 => {
+            for i in 0..W {
+                let plane = extend(0, i, &one);
+                for j in 0..W {
+                    let row = extend(1, j, &plane);
+                    for k in 0..W {
+                        visit((i * W + j) * W + k, &extend(2, k, &row));
+                    }
+                }
+            }
+        }
+        _ => {
+            let mut digit = [0usize; D];
+            let mut products = [one; D];
+            let (mut changed, mut index) = (0, 0);
+            loop {
+                for a in changed..D - 2 {
+                    products[a + 1] = extend(a, digit[a], &products[a]);
+                }
+                for j in 0..W {
+                    let row = extend(D - 2, j, &products[D - 2]);
+                    for k in 0..W {
+                        visit(index + k, &extend(D - 1, k, &row));
+                    }
+                    index += W;
+                }
+                if index == W.pow(D as u32) {
+                    return;
+                }
+                changed = D - 3;
+                digit[changed] += 1;
+                while digit[changed] == W {
+                    digit[changed] = 0;
+                    changed -= 1;
+                    digit[changed] += 1;
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,101 @@
+//! What every kernel and every stencil must do.
+use mpm_kernels::{Cubic, Linear, Quadratic, Spline, Stencil};
+use proptest::prelude::*;
+
+fn kernel_conforms<const W: usize, S: Spline<W>>(u: f64) {
+    let row = S::row(u);
+    let sum: f64 = row.weights.iter().sum();
+    let slope: f64 = row.derivatives.iter().sum();
+    let first: f64 = (0..W)
+        .map(|j| row.weights[j] * (row.base + j as i64) as f64)
+        .sum();
+    assert!((sum - 1.0).abs() < 1e-14, "{}: partition of unity {sum}", S::NAME);
+    assert!(slope.abs() < 1e-13, "{}: derivatives sum to {slope}", S::NAME);
+    assert!((first - u).abs() < 1e-12 * (1.0 + u.abs()), "{}: linear reproduction", S::NAME);
+    for j in 0..W {
+        let r = u - (row.base + j as i64) as f64;
+        assert!(row.weights[j] >= 0.0);
+        assert!((row.weights[j] - S::value(r)).abs() < 1e-14);
+        let step = 1e-6;
+        let difference = (S::value(r + step) - S::value(r - step)) / (2.0 * step);
+        let kink = W == 2 && (r.abs() < 2.0 * step || (r.abs() - 1.0).abs() < 2.0 * step);
+        if !kink {
+            assert!((S::derivative(r) - difference).abs() < 1e-5, "{} at {r}", S::NAME);
+            assert!((row.derivatives[j] - S::derivative(r)).abs() < 1e-12, "{} at {r}", S::NAME);
+        }
+    }
+    if let Some(moment) = S::SECOND_MOMENT {
+        let second: f64 = (0..W)
+            .map(|j| row.weights[j] * (u - (row.base + j as i64) as f64).powi(2))
+            .sum();
+        assert!((second - moment).abs() < 1e-13, "{}: second moment {second}", S::NAME);
+    }
+}
+
+fn stencil_conforms<const W: usize, const D: usize, S: Spline<W>>(x: [f64; D], origin: [f64; D], h: f64) {
+    let stencil = Stencil::<W, D>::new::<S>(&x, &origin, h);
+    let mut seen = 0;
+    let (mut sum, mut mean, mut slope) = (0.0, [0.0; D], [0.0; D]);
+    stencil.for_each(|index, entry| {
+        assert_eq!(index, seen);
+        seen += 1;
+        // The naive oracle: decode the index, multiply the kernels.
+        let mut rest = index;
+        let mut digits = [0; D];
+        for a in (0..D).rev() {
+            digits[a] = rest % W;
+            rest /= W;
+        }
+        let r: [f64; D] =
+            std::array::from_fn(|a| (x[a] - origin[a]) / h - (stencil.base[a] + digits[a] as i64) as f64);
+        let weight: f64 = r.iter().map(|&r| S::value(r)).product();
+        assert!((entry.weight - weight).abs() < 1e-12);
+        for a in 0..D {
+            if W > 2 {
+                let gradient: f64 = (0..D)
+                    .map(|b| if a == b { S::derivative(r[b]) / h } else { S::value(r[b]) })
+                    .product();
+                assert!((entry.gradient[a] - gradient).abs() < 1e-9 / h);
+            }
+            assert!((entry.offset[a] + r[a] * h).abs() < 1e-12 * (1.0 + x[a].abs()));
+            mean[a] += entry.weight * entry.offset[a];
+            slope[a] += entry.gradient[a];
+        }
+        sum += entry.weight;
+    });
+    assert_eq!(seen, W.pow(D as u32));
+    assert!((sum - 1.0).abs() < 1e-13);
+    for a in 0..D {
+        assert!(mean[a].abs() < 1e-12 * (1.0 + x[a].abs()));
+        assert!(slope[a].abs() < 1e-12 / h);
+    }
+}
+
+proptest! {
+    #[test]
+    fn kernels(u in -1e3..1e3f64) {
+        kernel_conforms::<2, Linear>(u);
+        kernel_conforms::<3, Quadratic>(u);
+        kernel_conforms::<4, Cubic>(u);
+    }
+
+    #[test]
+    fn stencils(x in prop::array::uniform4(-20.0..20.0f64), o in prop::array::uniform4(-1.0..1.0f64), h in 0.05..3.0f64) {
+        stencil_conforms::<2, 1, Linear>([x[0]], [o[0]], h);
+        stencil_conforms::<3, 1, Quadratic>([x[0]], [o[0]], h);
+        stencil_conforms::<3, 2, Quadratic>([x[0], x[1]], [o[0], o[1]], h);
+        stencil_conforms::<4, 3, Cubic>([x[0], x[1], x[2]], [o[0], o[1], o[2]], h);
+        stencil_conforms::<2, 4, Linear>(x, o, h);
+        stencil_conforms::<3, 4, Quadratic>(x, o, h);
+    }
+}
+
+#[test]
+fn nodes_and_half_way_points_are_no_exception() {
+    for k in -6..=6 {
+        let u = f64::from(k) * 0.5;
+        kernel_conforms::<2, Linear>(u);
+        kernel_conforms::<3, Quadratic>(u);
+        kernel_conforms::<4, Cubic>(u);
+    }
+}

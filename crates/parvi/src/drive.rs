@@ -1,0 +1,130 @@
+//! The loop around the step, shared by the calibrated sampler and the paper's algorithms.
+
+use mpm_core::{Medium, Mpm, SplineGrid, StepControl, Transfer};
+use mpm_kernels::Spline;
+use parvi_targets::Frame;
+
+use crate::framed_score::ScoreForce;
+use crate::moment_correction::correct_moments;
+use crate::residual::galerkin_stein_residual;
+use crate::{Observer, Progress, SampleError, Samples, TracePoint};
+
+/// One step of a plan.
+pub(crate) struct PlannedStep<const D: usize> {
+    /// Origin of the grid.
+    pub origin: [f64; D],
+    /// Factor α of the score.
+    pub alpha: f64,
+    /// Limits of the step.
+    pub control: StepControl,
+}
+
+/// What the loop is to do.
+pub(crate) struct Plan<P> {
+    /// Steps.
+    pub steps: usize,
+    /// Spacing h.
+    pub spacing: f64,
+    /// The step with a number, from 1; asked for in order.
+    pub step: P,
+    /// Finish with the affine Stein correction.
+    pub moment_correction: bool,
+    /// Record the state every so many steps (0: never).
+    pub trace_every: usize,
+}
+
+/// Steps of Newton's method in the final correction; the second serves targets that are not Gaussian.
+const CORRECTIONS: usize = 2;
+
+/// Run `body` as planned; its particles are in frame coordinates, the result in the target's.
+pub(crate) fn drive<'a, S, T, M, F, P, const W: usize, const D: usize>(
+    mut body: Mpm<D, SplineGrid<S, W, D>, T, M, F>,
+    frame: &Frame<D>,
+    mut plan: Plan<P>,
+    observer: &mut dyn Observer,
+) -> Result<Samples<D>, SampleError>
+where
+    S: Spline<W>,
+    T: Transfer<D>,
+    M: Medium<D>,
+    F: ScoreForce<'a, D>,
+    P: FnMut(usize) -> PlannedStep<D>,
+{
+    let (steps, spacing) = (plan.steps, plan.spacing);
+    let mut certificate = SplineGrid::<S, W, D>::new([0.0; D], spacing).map_err(|e| SampleError::in_step(0, e))?;
+    let mut scores = vec![[0.0; D]; body.particles.len()];
+    let mut trace = Vec::new();
+    let (mut time, mut active_nodes) = (0.0, 0);
+    for step in 1..=steps {
+        let failed = |error| SampleError::in_step(step, error);
+        let planned = (plan.step)(step);
+        body.basis.place(planned.origin, spacing).map_err(failed)?;
+        body.body_force.set_alpha(planned.alpha);
+        let report = body.step(&planned.control).map_err(failed)?;
+        time += report.time_step;
+        active_nodes = report.active_nodes;
+        if plan.trace_every > 0 && (step % plan.trace_every == 0 || step == 1) {
+            let positions = &body.particles.positions;
+            let score = body.body_force.score();
+            score.evaluate(positions, &mut scores).map_err(failed)?;
+            away_from(&mut certificate, planned.origin, spacing).map_err(failed)?;
+            let residual = galerkin_stein_residual(&mut certificate, positions, &scores).map_err(failed)?;
+            trace.push(TracePoint {
+                step,
+                time,
+                residual: Some(residual.ratio()),
+                kinetic_energy: body.particles.kinetic_energy(),
+                potential_energy: Some(score.potential_energy(positions)),
+                displacement: report.displacement,
+            });
+        }
+        if observer.after_step(Progress { step, steps }).is_break() {
+            return Err(SampleError::Interrupted { step });
+        }
+    }
+
+    let failed = |error| SampleError::in_step(steps, error);
+    let storage_bytes = body.storage_bytes();
+    let score = body.body_force.score();
+    let positions = &mut body.particles.positions;
+    if plan.moment_correction {
+        for _ in 0..CORRECTIONS {
+            correct_moments(positions, score, &mut scores).map_err(failed)?;
+        }
+    }
+    score.evaluate(positions, &mut scores).map_err(failed)?;
+    let residual = galerkin_stein_residual(&mut certificate, positions, &scores).map_err(failed)?;
+    let score_evaluations = score.evaluations;
+    let in_order = body.particles.in_creation_order(&body.particles.positions);
+    Ok(Samples {
+        positions: finite(in_order.iter().map(|z| frame.to_target(z)).collect(), steps)?,
+        weights: None,
+        steps,
+        score_evaluations,
+        residual: Some(residual.ratio()),
+        spacing: Some(spacing),
+        active_nodes: Some(active_nodes),
+        storage_bytes: Some(storage_bytes),
+        trace,
+    })
+}
+
+/// Put the certificate's grid where the particles were not moved: half a cell off the step's origin.
+fn away_from<S: Spline<W>, const W: usize, const D: usize>(
+    certificate: &mut SplineGrid<S, W, D>,
+    origin: [f64; D],
+    spacing: f64,
+) -> Result<(), mpm_core::MpmError> {
+    certificate.place(origin.map(|c| c + 0.5 * spacing), spacing)
+}
+
+/// The positions, if all are finite.
+pub(crate) fn finite<const D: usize>(positions: Vec<[f64; D]>, step: usize) -> Result<Vec<[f64; D]>, SampleError> {
+    match positions.iter().position(|x| !x.iter().all(|c| c.is_finite())) {
+        None => Ok(positions),
+        Some(particle) => Err(SampleError::Diverged {
+            step,
+            reason: format!("particle {particle} is at {:?}", positions[particle]),
+        }),
+    }
+}

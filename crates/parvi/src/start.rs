@@ -1,0 +1,53 @@
+//! Where the particles begin, and what a run may ask for.
+
+use rand::SeedableRng;
+use rand::rngs::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+
+use crate::{Run, SampleError};
+
+impl Run {
+    /// The generator of a run's random choices; `stream` keeps independent choices apart.
+    pub(crate) fn generator(&self, stream: u64) -> ChaCha8Rng {
+        let mut generator = ChaCha8Rng::seed_from_u64(self.seed);
+        generator.set_stream(stream);
+        generator
+    }
+
+    /// Independent draws from the start law, in frame coordinates.
+    pub(crate) fn start_positions<const D: usize>(&self) -> Result<Vec<[f64; D]>, SampleError> {
+        check("particles", self.particles as f64, self.particles >= 2, "at least 2")?;
+        let sd = self.start.standard_deviation;
+        check("start standard deviation", sd, sd > 0.0 && sd.is_finite(), "positive and finite")?;
+        check("start mean", self.start.mean, self.start.mean.is_finite(), "finite")?;
+        let mut generator = self.generator(0);
+        let mut coordinate = || {
+            let normal: f64 = StandardNormal.sample(&mut generator);
+            self.start.mean + sd * normal
+        };
+        Ok((0..self.particles).map(|_| std::array::from_fn(|_| coordinate())).collect())
+    }
+}
+
+/// An error that names the option, unless `allowed`.
+pub(crate) fn check(field: &'static str, value: f64, allowed: bool, expected: &'static str) -> Result<(), SampleError> {
+    if allowed {
+        Ok(())
+    } else {
+        Err(SampleError::InvalidOption { field, value, expected })
+    }
+}
+
+/// `value` (or the default), checked to be positive and finite.
+pub(crate) fn positive(field: &'static str, value: Option<f64>, default: f64) -> Result<f64, SampleError> {
+    let value = value.unwrap_or(default);
+    check(field, value, value > 0.0 && value.is_finite(), "positive and finite")?;
+    Ok(value)
+}
+
+/// The number of steps (or the default), checked to be at least one.
+pub(crate) fn steps(value: Option<usize>, default: usize) -> Result<usize, SampleError> {
+    let value = value.unwrap_or(default);
+    check("steps", value as f64, value >= 1, "at least 1")?;
+    Ok(value)
+}
