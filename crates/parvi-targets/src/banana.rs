@@ -24,7 +24,10 @@ impl Banana {
     /// # Errors
     /// [`TargetError::NotFinite`], or [`TargetError::OutOfRange`] unless σ > 0.
     pub fn new(curvature: f64, width: f64) -> Result<Self, TargetError> {
-        Ok(Self { curvature: finite("curvature", curvature)?, width: positive("width", width)? })
+        Ok(Self {
+            curvature: finite("curvature", curvature)?,
+            width: positive("width", width)?,
+        })
     }
 
     /// b.
@@ -55,7 +58,10 @@ impl Banana {
 impl Default for Banana {
     /// b = 1, σ = 0.5.
     fn default() -> Self {
-        Self { curvature: 1.0, width: 0.5 }
+        Self {
+            curvature: 1.0,
+            width: 0.5,
+        }
     }
 }
 
@@ -112,6 +118,9 @@ impl CatalogueTarget<2> for Banana {
     }
 
     fn moments(&self) -> Option<Moments<2>> {
-        Some(Moments { mean: [0.0; 2], covariance: Matrix([[1.0, 0.0], [0.0, self.variance_of_second()]]) })
+        Some(Moments {
+            mean: [0.0; 2],
+            covariance: Matrix([[1.0, 0.0], [0.0, self.variance_of_second()]]),
+        })
     }
 }

@@ -215,7 +215,9 @@ pub enum TargetError {
         maximum: usize,
     },
     /// The columns are linearly dependent and the prior does not make up for it.
-    #[error("{file}: the columns {columns} are linearly dependent, and without a proper prior on them the posterior is improper")]
+    #[error(
+        "{file}: the columns {columns} are linearly dependent, and without a proper prior on them the posterior is improper"
+    )]
     DataCollinear {
         /// The file.
         file: String,
@@ -223,7 +225,9 @@ pub enum TargetError {
         columns: String,
     },
     /// A hyperplane separates the responses and the prior does not bound the coefficients.
-    #[error("{file}: the columns {columns} separate the responses perfectly, and without a proper prior on them the posterior is improper")]
+    #[error(
+        "{file}: the columns {columns} separate the responses perfectly, and without a proper prior on them the posterior is improper"
+    )]
     DataSeparated {
         /// The file.
         file: String,
@@ -232,7 +236,9 @@ pub enum TargetError {
     },
 
     /// Newton's method did not find the mode.
-    #[error("no mode found for '{target}' after {iterations} Newton steps (last step {step:e} posterior standard deviations)")]
+    #[error(
+        "no mode found for '{target}' after {iterations} Newton steps (last step {step:e} posterior standard deviations)"
+    )]
     ModeNotFound {
         /// The target.
         target: String,
@@ -256,7 +262,10 @@ pub(crate) fn finite(field: &str, value: f64) -> Result<f64, TargetError> {
     if value.is_finite() {
         Ok(value)
     } else {
-        Err(TargetError::NotFinite { field: field.to_owned(), value })
+        Err(TargetError::NotFinite {
+            field: field.to_owned(),
+            value,
+        })
     }
 }
 
@@ -266,6 +275,10 @@ pub(crate) fn positive(field: &str, value: f64) -> Result<f64, TargetError> {
     if value > 0.0 {
         Ok(value)
     } else {
-        Err(TargetError::OutOfRange { field: field.to_owned(), value, allowed: "a number above 0" })
+        Err(TargetError::OutOfRange {
+            field: field.to_owned(),
+            value,
+            allowed: "a number above 0",
+        })
     }
 }

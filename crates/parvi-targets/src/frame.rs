@@ -1,6 +1,6 @@
 //! The affine map between a target's coordinates and coordinates of unit scale.
 
-use mpm_tensor::Matrix;
+use mpm_tensor::{Cholesky, Matrix};
 
 use crate::TargetError;
 use crate::error::{finite, positive};
@@ -29,7 +29,10 @@ impl<const D: usize> Frame<D> {
     /// variances) or [`TargetError::NotPositiveDefinite`].
     pub fn new(centre: [f64; D], covariance: Matrix<D>) -> Result<Self, TargetError> {
         check_centre(&centre)?;
-        Ok(Self { centre, factor: cholesky_factor("the covariance", &covariance)? })
+        Ok(Self {
+            centre,
+            factor: cholesky_factor("the covariance", &covariance)?,
+        })
     }
 
     /// The frame of a diagonal covariance, given by its standard deviations.
@@ -50,7 +53,10 @@ impl<const D: usize> Frame<D> {
         for i in 0..D {
             factor[i][i] = scales[i];
         }
-        Self { centre, factor: Matrix(factor) }
+        Self {
+            centre,
+            factor: Matrix(factor),
+        }
     }
 
     /// μ.
@@ -153,36 +159,48 @@ pub(crate) fn cholesky_factor<const D: usize>(field: &str, matrix: &Matrix<D>) -
             finite(&format!("entry ({i}, {j}) of {field}"), a[i][j])?;
         }
         if a[i][i] <= 0.0 {
-            return Err(TargetError::NotPositiveDefinite { field: field.to_owned(), axis: i, value: a[i][i] });
+            return Err(TargetError::NotPositiveDefinite {
+                field: field.to_owned(),
+                axis: i,
+                value: a[i][i],
+            });
         }
         scale[i] = a[i][i].sqrt();
     }
-    let mut l = [[0.0; D]; D];
+    let mut scaled = [[0.0; D]; D];
     for i in 0..D {
         for j in 0..=i {
             let unit = scale[i] * scale[j];
             let difference = a[i][j] - a[j][i];
             if difference.abs() > 1e-9 * unit {
-                return Err(TargetError::NotSymmetric { field: field.to_owned(), row: i, column: j, difference });
+                return Err(TargetError::NotSymmetric {
+                    field: field.to_owned(),
+                    row: i,
+                    column: j,
+                    difference,
+                });
             }
-            let mut rest = a[i][j] / unit;
-            for k in 0..j {
-                rest -= l[i][k] * l[j][k];
-            }
-            if i == j {
-                if !(rest > 8.0 * f64::EPSILON) {
-                    return Err(TargetError::NotPositiveDefinite { field: field.to_owned(), axis: i, value: rest });
-                }
-                l[i][i] = rest.sqrt();
-            } else {
-                l[i][j] = rest / l[j][j];
-            }
+            scaled[i][j] = a[i][j] / unit;
         }
     }
+    let not_definite = |axis, value| TargetError::NotPositiveDefinite {
+        field: field.to_owned(),
+        axis,
+        value,
+    };
+    let mut lower = match Cholesky::new(&Matrix(scaled)) {
+        Ok(factor) => *factor.lower(),
+        Err(error) => return Err(not_definite(error.index, error.pivot)),
+    };
     for i in 0..D {
+        // A pivot at the level of rounding is zero.
+        let pivot = lower.0[i][i] * lower.0[i][i];
+        if pivot <= 8.0 * f64::EPSILON {
+            return Err(not_definite(i, pivot));
+        }
         for j in 0..=i {
-            l[i][j] *= scale[i];
+            lower.0[i][j] *= scale[i];
         }
     }
-    Ok(Matrix(l))
+    Ok(lower)
 }

@@ -58,7 +58,11 @@ impl<const D: usize> Gaussian<D> {
 
     fn from_frame(frame: Frame<D>, covariance: Matrix<D>) -> Self {
         let log_normalisation = -frame.log_determinant() - D as f64 * HALF_LOG_TWO_PI;
-        Self { frame, covariance, log_normalisation }
+        Self {
+            frame,
+            covariance,
+            log_normalisation,
+        }
     }
 }
 
@@ -112,7 +116,10 @@ impl<const D: usize> CatalogueTarget<D> for Gaussian<D> {
     }
 
     fn moments(&self) -> Option<Moments<D>> {
-        Some(Moments { mean: *self.frame.centre(), covariance: self.covariance })
+        Some(Moments {
+            mean: *self.frame.centre(),
+            covariance: self.covariance,
+        })
     }
 }
 

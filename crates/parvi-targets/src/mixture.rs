@@ -29,7 +29,9 @@ impl<const D: usize> GaussianMixture<D> {
     /// width or mass that is not finite, or a width or mass that is not above zero.
     pub fn new(name: &str, modes: &[Mode<D>]) -> Result<Self, TargetError> {
         if modes.is_empty() {
-            return Err(TargetError::Empty { field: format!("the list of modes of '{name}'") });
+            return Err(TargetError::Empty {
+                field: format!("the list of modes of '{name}'"),
+            });
         }
         for (index, mode) in modes.iter().enumerate() {
             for (axis, &value) in mode.centre.iter().enumerate() {
@@ -39,12 +41,26 @@ impl<const D: usize> GaussianMixture<D> {
             positive(&format!("the mass of mode {index}"), mode.mass)?;
         }
         let total = finite("the sum of the masses", modes.iter().map(|mode| mode.mass).sum())?;
-        let modes: Vec<_> = modes.iter().map(|mode| Mode { mass: mode.mass / total, ..*mode }).collect();
-        let log_heights =
-            modes.iter().map(|mode| mode.mass.ln() - D as f64 * (mode.width.ln() + HALF_LOG_TWO_PI)).collect();
+        let modes: Vec<_> = modes
+            .iter()
+            .map(|mode| Mode {
+                mass: mode.mass / total,
+                ..*mode
+            })
+            .collect();
+        let log_heights = modes
+            .iter()
+            .map(|mode| mode.mass.ln() - D as f64 * (mode.width.ln() + HALF_LOG_TWO_PI))
+            .collect();
         let moments = moments_of(&modes);
         let frame = Frame::new(moments.mean, moments.covariance)?;
-        Ok(Self { name: name.to_owned(), modes, log_heights, moments, frame })
+        Ok(Self {
+            name: name.to_owned(),
+            modes,
+            log_heights,
+            moments,
+            frame,
+        })
     }
 
     /// `mixture-2`: modes at ∓1.5 e₁ of width 0.5 (or `width`), masses 0.3 and 0.7.
@@ -52,7 +68,11 @@ impl<const D: usize> GaussianMixture<D> {
     /// # Errors
     /// As [`new`](Self::new), for the width.
     pub fn two_unequal(width: f64) -> Result<Self, TargetError> {
-        let mode = |position, mass| Mode { centre: on_axis(0, position), width, mass };
+        let mode = |position, mass| Mode {
+            centre: on_axis(0, position),
+            width,
+            mass,
+        };
         Self::new("mixture-2", &[mode(-1.5, 0.3), mode(1.5, 0.7)])
     }
 
@@ -68,8 +88,15 @@ impl<const D: usize> GaussianMixture<D> {
                 allowed: "2 or more".to_owned(),
             });
         }
-        let mode = |axis, position, width, mass| Mode { centre: on_axis(axis, position), width, mass };
-        Self::new("mixture-3", &[mode(0, -4.0, 0.6, 0.2), mode(0, 4.0, 0.4, 0.5), mode(1, 5.0, 0.5, 0.3)])
+        let mode = |axis, position, width, mass| Mode {
+            centre: on_axis(axis, position),
+            width,
+            mass,
+        };
+        Self::new(
+            "mixture-3",
+            &[mode(0, -4.0, 0.6, 0.2), mode(0, 4.0, 0.4, 0.5), mode(1, 5.0, 0.5, 0.3)],
+        )
     }
 
     /// log(π_k N(x; c_k, w_k² I)) for each mode, and the largest of them.
@@ -104,7 +131,14 @@ impl GaussianMixture<2> {
     /// As [`new`](GaussianMixture::new), for the width.
     pub fn four_equal(width: f64) -> Result<Self, TargetError> {
         let corners = [[-2.0, -2.0], [-2.0, 2.0], [2.0, -2.0], [2.0, 2.0]];
-        Self::new("mixture-4", &corners.map(|centre| Mode { centre, width, mass: 0.25 }))
+        Self::new(
+            "mixture-4",
+            &corners.map(|centre| Mode {
+                centre,
+                width,
+                mass: 0.25,
+            }),
+        )
     }
 }
 
@@ -168,10 +202,12 @@ impl<const D: usize> CatalogueTarget<D> for GaussianMixture<D> {
 
     fn domain(&self) -> [[f64; 2]; D] {
         std::array::from_fn(|axis| {
-            self.modes.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], mode| {
-                let (centre, half) = (mode.centre[axis], 4.0 * mode.width);
-                [low.min(centre - half), high.max(centre + half)]
-            })
+            self.modes
+                .iter()
+                .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], mode| {
+                    let (centre, half) = (mode.centre[axis], 4.0 * mode.width);
+                    [low.min(centre - half), high.max(centre + half)]
+                })
         })
     }
 
@@ -213,5 +249,8 @@ fn moments_of<const D: usize>(modes: &[Mode<D>]) -> Moments<D> {
             }
         }
     }
-    Moments { mean, covariance: Matrix(covariance) }
+    Moments {
+        mean,
+        covariance: Matrix(covariance),
+    }
 }

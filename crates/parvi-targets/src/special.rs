@@ -24,44 +24,64 @@ pub(crate) fn log_one_plus_exp(t: f64) -> f64 {
     t.max(0.0) + (-t.abs()).exp().ln_1p()
 }
 
-/// The quantile of the gamma distribution with the given shape and rate 1, for u in (0, 1).
-///
-/// Newton steps on y = ln x against the incomplete gamma function (its smaller tail), kept inside a bracket that
-/// shrinks with every evaluation.
-pub(crate) fn gamma_quantile(shape: f64, u: f64) -> f64 {
-    let upper_tail = u > 0.5;
-    // g(y) > 0 where x = e^y lies above the quantile.
-    let excess = |y: f64| {
-        let x = y.exp();
-        if upper_tail { (1.0 - u) - gamma_ur(shape, x) } else { gamma_lr(shape, x) - u }
-    };
-    let log_density = |y: f64| shape * y - y.exp() - ln_gamma(shape);
-
-    // Wilson–Hilferty where it is positive, else the leading term x^a / Γ(a + 1) of the lower tail.
-    let z = normal_quantile(u);
-    let cube_root = 1.0 - 1.0 / (9.0 * shape) + z / (3.0 * shape.sqrt());
-    let small = (u.ln() + ln_gamma(shape + 1.0)) / shape;
-    let mut y = if cube_root > 0.1 { (shape * cube_root.powi(3)).ln() } else { small };
-    let (mut low, mut high) = (small.min(y) - 1.0, y.max(small).max(0.0) + 3.0);
-    y = y.clamp(low.max(-700.0), high.min(700.0));
-    low = low.max(-745.0);
-    high = high.min(709.0);
-    for _ in 0..100 {
-        let g = excess(y);
-        if g > 0.0 {
-            high = y;
+/// The root of an increasing function inside a bracket, by Newton steps with the function's derivative where they stay
+/// inside the bracket, which shrinks with every evaluation, and by bisection where they do not.
+pub(crate) fn increasing_root(
+    function: impl Fn(f64) -> f64,
+    derivative: impl Fn(f64) -> f64,
+    [mut low, mut high]: [f64; 2],
+    start: f64,
+) -> f64 {
+    let mut root = start.clamp(low, high);
+    for _ in 0..200 {
+        let value = function(root);
+        if value > 0.0 {
+            high = root;
         } else {
-            low = y;
+            low = root;
         }
-        let newton = y - g / log_density(y).exp();
-        let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-        let moved = (next - y).abs();
-        y = next;
-        if moved <= 4.0 * f64::EPSILON * y.abs().max(1.0) {
+        let newton = root - value / derivative(root);
+        let next = if newton > low && newton < high {
+            newton
+        } else {
+            0.5 * (low + high)
+        };
+        let moved = (next - root).abs();
+        root = next;
+        if moved <= 2.0 * f64::EPSILON * root.abs() {
             break;
         }
     }
-    y.exp()
+    root
+}
+
+/// The quantile of the gamma distribution with the given shape and rate 1, for u in (0, 1).
+///
+/// The root in y = ln x of the incomplete gamma function (the smaller tail), started from the Wilson–Hilferty
+/// approximation or, in the far lower tail, from the leading term xᵃ / Γ(a + 1), which is a lower bound.
+pub(crate) fn gamma_quantile(shape: f64, u: f64) -> f64 {
+    let excess = |y: f64| {
+        let x = y.exp();
+        if u > 0.5 {
+            (1.0 - u) - gamma_ur(shape, x)
+        } else {
+            gamma_lr(shape, x) - u
+        }
+    };
+    let log_gamma = ln_gamma(shape);
+    let density = |y: f64| (shape * y - y.exp() - log_gamma).exp();
+    let lower_bound = (u.ln() + ln_gamma(shape + 1.0)) / shape;
+    let cube_root = 1.0 - 1.0 / (9.0 * shape) + normal_quantile(u) / (3.0 * shape.sqrt());
+    let start = if cube_root > 0.2 {
+        shape.ln() + 3.0 * cube_root.ln()
+    } else {
+        lower_bound
+    };
+    let bracket = [
+        (lower_bound - 1e-3).max(-740.0),
+        (shape + 100.0 + 20.0 * shape.sqrt()).ln().max(lower_bound),
+    ];
+    increasing_root(excess, density, bracket, start).exp()
 }
 
 #[cfg(test)]
@@ -82,7 +102,10 @@ mod tests {
             for u in [1e-12, 1e-6, 0.01, 0.3, 0.5, 0.500001, 0.9, 0.999, 1.0 - 1e-10] {
                 let x = gamma_quantile(shape, u);
                 let back = gamma_lr(shape, x);
-                assert!((back - u).abs() <= 1e-12 * u + 1e-15, "shape {shape}, u {u}: x {x}, P {back}");
+                assert!(
+                    (back - u).abs() <= 1e-12 * u + 1e-15,
+                    "shape {shape}, u {u}: x {x}, P {back}"
+                );
             }
         }
         // Shape 1 is the exponential distribution.

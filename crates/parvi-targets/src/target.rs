@@ -23,6 +23,14 @@ pub trait Target<const D: usize>: Sync {
             *score = self.score(x);
         }
     }
+
+    /// Log densities of many points at once: `out[p] = log_density(xs[p])`, with the same promises as
+    /// [`scores`](Self::scores).
+    fn log_densities(&self, xs: &[[f64; D]], out: &mut [f64]) {
+        for (x, log_density) in xs.iter().zip(out) {
+            *log_density = self.log_density(x);
+        }
+    }
 }
 
 /// Independent exact draws from the normalised density.

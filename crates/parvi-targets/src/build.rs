@@ -1,0 +1,146 @@
+//! From a name and parameters to a target.
+
+use std::any::Any;
+use std::path::Path;
+
+use crate::catalogue::{Dimensions, MAXIMUM_DIMENSION, Parameters, TargetInfo, target_info};
+use crate::logistic::DEFAULT_PRIOR_STANDARD_DEVIATION;
+use crate::wells::{WELLS_SMALL_ROWS, wells};
+use crate::{
+    Banana, CatalogueTarget, Funnel, Gaussian, GaussianMixture, LogisticRegression, RegressionData, Ring, StudentT,
+    TargetError,
+};
+
+/// A target of the catalogue, whichever it is.
+pub type BoxedTarget<const D: usize> = Box<dyn CatalogueTarget<D> + Send + Sync>;
+
+/// The dimension of a target: `requested` if it exists there, else its only or its default dimension.
+///
+/// For `logistic` the data file is read.
+///
+/// # Errors
+/// [`TargetError::UnknownTarget`]; [`TargetError::ParameterNotAllowed`] and [`TargetError::ParameterMissing`];
+/// [`TargetError::DimensionMissing`] where one has to be given; [`TargetError::DimensionNotAllowed`]; the errors of
+/// [`RegressionData::from_csv_file`].
+pub fn dimension_of(name: &str, requested: Option<usize>, parameters: &Parameters) -> Result<usize, TargetError> {
+    let info = target_info(name)?;
+    info.check(parameters)?;
+    let not_allowed = |dimension, allowed| TargetError::DimensionNotAllowed {
+        target: name.to_owned(),
+        dimension,
+        allowed,
+    };
+    if let Some(dimension) = requested.filter(|dimension| !(1..=MAXIMUM_DIMENSION).contains(dimension)) {
+        return Err(not_allowed(dimension, info.dimensions.in_words()));
+    }
+    let (only, allowed) = match info.dimensions {
+        Dimensions::Fixed(only) => (only, info.dimensions.in_words()),
+        Dimensions::FromData => {
+            let path = data_path(info, parameters)?;
+            let dimension = RegressionData::from_csv_file(path)?.dimension();
+            (
+                dimension,
+                format!("{dimension}, the number of columns of {}", path.display()),
+            )
+        }
+        Dimensions::Range {
+            minimum,
+            maximum,
+            default,
+        } => {
+            let allowed = info.dimensions.in_words();
+            return match requested.or(default) {
+                Some(dimension) if (minimum..=maximum).contains(&dimension) => Ok(dimension),
+                Some(dimension) => Err(not_allowed(dimension, allowed)),
+                None => Err(TargetError::DimensionMissing {
+                    target: name.to_owned(),
+                    allowed,
+                }),
+            };
+        }
+    };
+    match requested {
+        Some(dimension) if dimension != only => Err(not_allowed(dimension, allowed)),
+        _ => Ok(only),
+    }
+}
+
+/// The target of a name, in dimension D.
+///
+/// # Errors
+/// As [`dimension_of`] for `requested` = D, and those of the target's constructor.
+pub fn build<const D: usize>(name: &str, parameters: &Parameters) -> Result<BoxedTarget<D>, TargetError> {
+    dimension_of(name, Some(D), parameters)?;
+    let prior = parameters
+        .prior_standard_deviation
+        .unwrap_or(DEFAULT_PRIOR_STANDARD_DEVIATION);
+    let regression = |data| -> Result<BoxedTarget<D>, TargetError> {
+        Ok(Box::new(LogisticRegression::<D>::with_prior(name, data, prior)?))
+    };
+    match name {
+        "gaussian" => Ok(Box::new(Gaussian::<D>::autoregressive(
+            parameters.correlation.unwrap_or(0.0),
+        )?)),
+        "mixture-2" => Ok(Box::new(GaussianMixture::<D>::two_unequal(
+            parameters.width.unwrap_or(0.5),
+        )?)),
+        "mixture-3" => Ok(Box::new(GaussianMixture::<D>::three_far()?)),
+        "funnel" => Ok(Box::new(Funnel::<D>::new(parameters.width.unwrap_or(1.5))?)),
+        "student-t" => Ok(Box::new(StudentT::<D>::new(
+            parameters.degrees_of_freedom.unwrap_or(5.0),
+        )?)),
+        "wells" => regression(wells(D, None)?),
+        "wells-small" => regression(wells(D, Some(WELLS_SMALL_ROWS))?),
+        "logistic" => regression(RegressionData::from_csv_file(data_path(
+            target_info(name)?,
+            parameters,
+        )?)?),
+        _ => in_dimension(build_planar(name, parameters)?),
+    }
+}
+
+/// The targets that exist in the plane only.
+fn build_planar(name: &str, parameters: &Parameters) -> Result<BoxedTarget<2>, TargetError> {
+    Ok(match name {
+        "banana" => Box::new(Banana::new(
+            parameters.curvature.unwrap_or(1.0),
+            parameters.width.unwrap_or(0.5),
+        )?),
+        "ring" => Box::new(Ring::new(
+            parameters.radius.unwrap_or(2.0),
+            parameters.width.unwrap_or(0.2),
+        )?),
+        "mixture-4" => Box::new(GaussianMixture::<2>::four_equal(parameters.width.unwrap_or(0.5))?),
+        _ => return Err(unknown(name)),
+    })
+}
+
+/// A target of dimension 2 as one of dimension D, which are the same type where D = 2.
+fn in_dimension<const D: usize>(target: BoxedTarget<2>) -> Result<BoxedTarget<D>, TargetError> {
+    let name = target.name().to_owned();
+    let same: Box<dyn Any> = Box::new(target);
+    same.downcast::<BoxedTarget<D>>()
+        .map(|target| *target)
+        .map_err(|_| TargetError::DimensionNotAllowed {
+            target: name,
+            dimension: D,
+            allowed: "2".to_owned(),
+        })
+}
+
+fn unknown(name: &str) -> TargetError {
+    match target_info(name) {
+        Err(error) => error,
+        Ok(info) => TargetError::UnknownTarget {
+            name: info.name.to_owned(),
+            known: String::new(),
+        },
+    }
+}
+
+fn data_path<'a>(info: &TargetInfo, parameters: &'a Parameters) -> Result<&'a Path, TargetError> {
+    parameters.data.as_deref().ok_or_else(|| TargetError::ParameterMissing {
+        target: info.name.to_owned(),
+        parameter: "data",
+    })
+}

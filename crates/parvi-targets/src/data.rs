@@ -1,0 +1,150 @@
+//! Data of a logistic regression: a 0/1 response and a design matrix whose first column is the intercept.
+
+use rand::rngs::ChaCha8Rng;
+use rand::{RngExt, SeedableRng};
+use rand_distr::{Distribution, StandardNormal};
+
+use crate::TargetError;
+use crate::error::finite;
+
+/// The name of the intercept's column.
+const INTERCEPT: &str = "intercept";
+
+/// n rows of a 0/1 response y_i and d covariates x_i, the first of them the constant 1 of the intercept.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RegressionData {
+    source: String,
+    names: Vec<String>,
+    /// n × d, row by row.
+    covariates: Vec<f64>,
+    responses: Vec<bool>,
+}
+
+impl RegressionData {
+    /// Data from memory; the intercept is put in front of the covariates of every row.
+    ///
+    /// `source` names the data in error messages, `names` the covariates (without the intercept); `rows` holds a response
+    /// and as many covariates as there are names per row.
+    ///
+    /// # Errors
+    /// [`TargetError::DataNoRows`]; [`TargetError::Length`] for a row of another length; [`TargetError::NotFinite`].
+    pub fn new(source: &str, names: &[&str], rows: &[(bool, Vec<f64>)]) -> Result<Self, TargetError> {
+        let mut data = Self::empty(source, names.iter().map(|&name| name.to_owned()));
+        for (index, (response, covariates)) in rows.iter().enumerate() {
+            if covariates.len() != names.len() {
+                return Err(TargetError::Length {
+                    field: format!("row {index} of {source}"),
+                    expected: names.len(),
+                    found: covariates.len(),
+                });
+            }
+            for (name, &value) in names.iter().zip(covariates) {
+                finite(&format!("'{name}' in row {index} of {source}"), value)?;
+            }
+            data.push(*response, covariates);
+        }
+        data.non_empty()
+    }
+
+    /// `rows` rows of synthetic data: covariates x_ij ~ N(0, 1) behind the intercept, responses 1 with probability
+    /// 1 / (1 + exp(−x_iᵀ β)), β = `coefficients` with the intercept first. The same seed gives the same data.
+    ///
+    /// # Errors
+    /// [`TargetError::Empty`] without coefficients, [`TargetError::DataNoRows`] for `rows` = 0,
+    /// [`TargetError::NotFinite`] for a coefficient.
+    pub fn synthetic(coefficients: &[f64], rows: usize, seed: u64) -> Result<Self, TargetError> {
+        if coefficients.is_empty() {
+            return Err(TargetError::Empty {
+                field: "the list of coefficients".to_owned(),
+            });
+        }
+        for (index, &coefficient) in coefficients.iter().enumerate() {
+            finite(&format!("coefficient {index}"), coefficient)?;
+        }
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        let mut data = Self::empty(
+            "synthetic data",
+            (1..coefficients.len()).map(|index| format!("x{index}")),
+        );
+        let mut covariates = vec![0.0; coefficients.len() - 1];
+        for _ in 0..rows {
+            covariates.fill_with(|| StandardNormal.sample(&mut rng));
+            let slope: f64 = coefficients[1..].iter().zip(&covariates).map(|(b, x)| b * x).sum();
+            let probability = 1.0 / (1.0 + (-(coefficients[0] + slope)).exp());
+            data.push(rng.random::<f64>() < probability, &covariates);
+        }
+        data.non_empty()
+    }
+
+    /// No rows yet; `names` without the intercept.
+    pub(crate) fn empty(source: &str, names: impl Iterator<Item = String>) -> Self {
+        let names = std::iter::once(INTERCEPT.to_owned()).chain(names).collect();
+        Self {
+            source: source.to_owned(),
+            names,
+            covariates: Vec::new(),
+            responses: Vec::new(),
+        }
+    }
+
+    /// Appends a row; `covariates` without the intercept, as many as there are names.
+    pub(crate) fn push(&mut self, response: bool, covariates: &[f64]) {
+        debug_assert_eq!(covariates.len() + 1, self.names.len());
+        self.responses.push(response);
+        self.covariates.push(1.0);
+        self.covariates.extend_from_slice(covariates);
+    }
+
+    /// Itself, or the error that there are no rows.
+    pub(crate) fn non_empty(self) -> Result<Self, TargetError> {
+        if self.responses.is_empty() {
+            Err(TargetError::DataNoRows { file: self.source })
+        } else {
+            Ok(self)
+        }
+    }
+
+    /// The file or name that error messages show.
+    pub fn source(&self) -> &str {
+        &self.source
+    }
+
+    /// The d column names, `intercept` first.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// The dimension d of the regression: the number of covariates, plus one for the intercept.
+    pub fn dimension(&self) -> usize {
+        self.names.len()
+    }
+
+    /// The number of rows n, at least one.
+    pub fn rows(&self) -> usize {
+        self.responses.len()
+    }
+
+    /// The responses y_i.
+    pub fn responses(&self) -> &[bool] {
+        &self.responses
+    }
+
+    /// The d covariates of row `row`, the intercept's 1 first; `None` beyond the last row.
+    pub fn covariates(&self, row: usize) -> Option<&[f64]> {
+        let d = self.dimension();
+        self.covariates.get(row.checked_mul(d)?..)?.get(..d)
+    }
+
+    /// The rows as arrays of length D, or the error that D is not the data's dimension.
+    pub(crate) fn rows_of<const D: usize>(&self) -> Result<Vec<[f64; D]>, TargetError> {
+        let (rows, rest) = self.covariates.as_chunks::<D>();
+        if D != self.dimension() || !rest.is_empty() {
+            return Err(TargetError::Length {
+                field: format!("the coefficient vector of {}", self.source),
+                expected: self.dimension(),
+                found: D,
+            });
+        }
+        Ok(rows.to_vec())
+    }
+}
