@@ -1,0 +1,343 @@
+//! Grids of panels with lines, markers and error bars under one legend: what traces, scalings and error curves share.
+
+use super::data::{PlotError, check_size};
+use super::legend::{LegendEntry, Swatch, draw_legend, draw_notes, draw_title};
+use super::panel::{AxesParts, Panel, X_AXIS_ROOM, x_ticks, y_tick_room, y_ticks};
+use super::scale::{AxisKind, Scale, Ticks, plottable};
+use super::style::{FIGURE_WIDTH, GUIDE, LABEL_SIZE, LINE_WIDTH, MARGIN, SeriesStyle};
+use super::svg::{Drawing, Rectangle, Stroke};
+use super::text::{Anchor, TextStyle};
+
+/// How the points of a series are connected.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Connection {
+    /// Not at all.
+    None,
+    /// By solid lines.
+    Solid,
+    /// By dashed lines.
+    Dashed,
+}
+
+impl Connection {
+    fn dash(self) -> Option<&'static str> {
+        match self {
+            Connection::None => None,
+            Connection::Solid => Some(""),
+            Connection::Dashed => Some("4.5 2.5"),
+        }
+    }
+}
+
+/// Points (x, y) in order; values that cannot be drawn interrupt the line.
+#[derive(Debug, Clone)]
+pub(super) struct ChartSeries {
+    /// The legend's text; empty for none.
+    pub label: String,
+    pub style: SeriesStyle,
+    pub x: Vec<f64>,
+    pub y: Vec<f64>,
+    /// The ends of vertical error bars, or empty.
+    pub bars: Vec<(f64, f64)>,
+    pub connection: Connection,
+    pub markers: bool,
+}
+
+/// A horizontal line across a panel.
+#[derive(Debug, Clone)]
+pub(super) struct Level {
+    pub value: f64,
+    pub label: String,
+}
+
+#[derive(Debug, Clone)]
+pub(super) struct ChartPanel {
+    pub title: String,
+    pub x_label: String,
+    pub y_label: String,
+    pub x_kind: AxisKind,
+    pub y_kind: AxisKind,
+    pub series: Vec<ChartSeries>,
+    pub levels: Vec<Level>,
+}
+
+/// Panels in rows under one title and legend.
+#[derive(Debug, Clone)]
+pub(super) struct Chart {
+    pub title: String,
+    pub panels: Vec<ChartPanel>,
+    pub columns: usize,
+    pub width: f64,
+    pub panel_height: f64,
+    pub notes: Vec<String>,
+}
+
+/// The number of columns and the figure's width for so many small multiples.
+pub(super) fn arrangement(panels: usize) -> (usize, f64) {
+    match panels {
+        0 | 1 => (1, 0.76 * FIGURE_WIDTH),
+        2 | 4 => (2, FIGURE_WIDTH),
+        _ => (3, FIGURE_WIDTH),
+    }
+}
+
+struct Prepared {
+    x: Scale,
+    y: Scale,
+    y_ticks: Ticks,
+}
+
+impl Chart {
+    /// Draws the chart.
+    pub fn draw(&self) -> Result<String, PlotError> {
+        let prepared = self.prepare()?;
+        let columns = self.columns.clamp(1, self.panels.len());
+        let rows = self.panels.len().div_ceil(columns);
+        let one_y_label = self.panels.windows(2).all(|p| p[0].y_label == p[1].y_label);
+        let one_x_label = self.panels.windows(2).all(|p| p[0].x_label == p[1].x_label);
+        let titled = self.panels.iter().any(|panel| !panel.title.is_empty());
+
+        // Panels of one column start at one abscissa: the widest tick labels of the column decide.
+        let column_ticks: Vec<f64> = (0..columns)
+            .map(|column| {
+                let members = prepared.iter().skip(column).step_by(columns);
+                members.map(|p| y_tick_room(&p.y_ticks)).fold(0.0, f64::max)
+            })
+            .collect();
+        // A common axis label stays unless the panels' powers of ten differ.
+        let one_exponent = prepared
+            .windows(2)
+            .all(|p| p[0].y_ticks.exponent == p[1].y_ticks.exponent);
+        let labelled = |column: usize| column == 0 || !one_y_label || !one_exponent;
+        let label_room = |column: usize| {
+            if labelled(column) {
+                LABEL_SIZE + 5.0
+            } else {
+                0.0
+            }
+        };
+        let left_rooms: Vec<f64> = (0..columns)
+            .map(|column| column_ticks[column] + label_room(column))
+            .collect();
+        let gap = 10.0;
+        let right = MARGIN + 8.0;
+        let taken: f64 =
+            left_rooms.iter().sum::<f64>() + gap * (columns - 1) as f64 + MARGIN + right;
+        let panel_width = ((self.width - taken) / columns as f64).max(40.0);
+
+        let mut drawing = Drawing::new(&self.title);
+        let room = self.width - 2.0 * MARGIN;
+        let mut top = MARGIN + draw_title(&mut drawing, (MARGIN, MARGIN), room, &self.title);
+        let entries = self.legend_entries();
+        let indent = MARGIN + left_rooms[0];
+        let legend = draw_legend(
+            &mut drawing,
+            (indent, top),
+            self.width - indent - MARGIN,
+            &entries,
+        );
+        top += if legend > 0.0 { legend + 6.0 } else { 2.0 };
+
+        let title_room = if titled { LABEL_SIZE + 5.0 } else { 4.0 };
+        let row_height = title_room + self.panel_height + X_AXIS_ROOM + 6.0;
+        for (index, (panel, prepared)) in self.panels.iter().zip(&prepared).enumerate() {
+            let (row, column) = (index / columns, index % columns);
+            let left = MARGIN
+                + left_rooms[..=column].iter().sum::<f64>()
+                + column as f64 * (panel_width + gap);
+            let axes = Panel {
+                area: Rectangle {
+                    x: left,
+                    y: top + row as f64 * row_height + title_room,
+                    width: panel_width,
+                    height: self.panel_height,
+                },
+                x: prepared.x,
+                y: prepared.y,
+            };
+            let x_ticks = x_ticks(&axes.x, panel_width, 10.0);
+            let lowest = index + columns >= self.panels.len();
+            let x_label = if lowest || !one_x_label || x_ticks.exponent != 0 {
+                panel.x_label.as_str()
+            } else {
+                ""
+            };
+            let parts = AxesParts {
+                x_ticks,
+                y_ticks: prepared.y_ticks.clone(),
+                x_label: Some(x_label),
+                y_label: labelled(column).then_some((
+                    panel.y_label.as_str(),
+                    left_rooms[column] - 0.5 * LABEL_SIZE,
+                )),
+                y_tick_labels: true,
+            };
+            draw_panel(&mut drawing, &axes, panel, &parts);
+        }
+        let bottom = top + rows as f64 * row_height;
+        let notes = draw_notes(&mut drawing, (MARGIN, bottom - 4.0), room, &self.notes);
+        Ok(drawing.finish(self.width, bottom + notes + MARGIN - 4.0))
+    }
+
+    /// Checks sizes, fits the scales and divides the vertical axes.
+    fn prepare(&self) -> Result<Vec<Prepared>, PlotError> {
+        if self.panels.is_empty() {
+            return Err(PlotError::Empty {
+                what: "panels".to_string(),
+            });
+        }
+        let mut drawable = false;
+        let mut prepared = Vec::with_capacity(self.panels.len());
+        for panel in &self.panels {
+            let (mut abscissas, mut ordinates) = (Vec::new(), Vec::new());
+            for series in &panel.series {
+                check_size(|| series.label.clone(), series.x.len(), series.y.len())?;
+                if !series.bars.is_empty() {
+                    let what = || format!("{}: error bars", series.label);
+                    check_size(what, series.y.len(), series.bars.len())?;
+                }
+                let pairs = series.x.iter().zip(&series.y).enumerate();
+                for (index, (x, y)) in pairs.filter(|(_, (x, y))| plottable(**x) && plottable(**y))
+                {
+                    abscissas.push(*x);
+                    ordinates.push(*y);
+                    if let Some(bar) = series.bars.get(index) {
+                        ordinates.extend([bar.0, bar.1]);
+                    }
+                }
+            }
+            drawable |= !abscissas.is_empty();
+            ordinates.extend(panel.levels.iter().map(|level| level.value));
+            let y = Scale::around(ordinates, panel.y_kind, 0.06);
+            prepared.push(Prepared {
+                x: Scale::around(abscissas, panel.x_kind, 0.04),
+                y_ticks: y_ticks(&y, self.panel_height, 4.0),
+                y,
+            });
+        }
+        if drawable {
+            Ok(prepared)
+        } else {
+            Err(PlotError::Empty {
+                what: "series".to_string(),
+            })
+        }
+    }
+
+    /// One entry per label, in the order of appearance: series first, then levels.
+    fn legend_entries(&self) -> Vec<LegendEntry<'_>> {
+        let mut entries: Vec<LegendEntry<'_>> = Vec::new();
+        let mut add = |swatch: Swatch<'static>, label: &str| {
+            if !label.is_empty() && entries.iter().all(|entry| entry.label != label) {
+                entries.push(LegendEntry {
+                    swatch,
+                    label: label.to_string(),
+                });
+            }
+        };
+        for series in self.panels.iter().flat_map(|panel| &panel.series) {
+            let swatch = Swatch::Series {
+                style: series.style,
+                line: series.connection.dash(),
+                markers: series.markers,
+            };
+            add(swatch, &series.label);
+        }
+        for level in self.panels.iter().flat_map(|panel| &panel.levels) {
+            add(Swatch::Line(Stroke::dashed(GUIDE, 1.1)), &level.label);
+        }
+        entries
+    }
+}
+
+fn draw_panel(drawing: &mut Drawing, axes: &Panel, panel: &ChartPanel, parts: &AxesParts<'_>) {
+    let area = axes.area;
+    axes.draw_grid(drawing, &parts.x_ticks, &parts.y_ticks);
+    drawing.clipped(area, |drawing| {
+        for level in &panel.levels {
+            if let Some(y) = axes.y_at(level.value) {
+                let stroke = Stroke::dashed(GUIDE, 1.1);
+                drawing.line((area.x, y), (area.right(), y), stroke);
+            }
+        }
+        for series in &panel.series {
+            if let Some(dash) = series.connection.dash() {
+                let stroke = Stroke {
+                    color: series.style.color,
+                    width: LINE_WIDTH,
+                    dash,
+                };
+                drawing.paths(&line_segments(axes, series), stroke);
+            }
+        }
+    });
+    for series in &panel.series {
+        draw_bars(drawing, axes, series);
+    }
+    for series in panel.series.iter().filter(|series| series.markers) {
+        for (x, y) in series.x.iter().zip(&series.y) {
+            if let Some(at) = axes.point(*x, *y) {
+                drawing.marker(at, series.style);
+            }
+        }
+    }
+    axes.draw_axes(drawing, parts);
+    let title = TextStyle {
+        bold: true,
+        ..TextStyle::sized(LABEL_SIZE, Anchor::Start)
+    };
+    drawing.text((area.x, area.y - 4.5), &panel.title, title);
+}
+
+/// The series' line, interrupted where values cannot be drawn. Of many points within half a point of the page's width, only
+/// the first, lowest, highest and last are kept, which looks the same.
+fn line_segments(axes: &Panel, series: &ChartSeries) -> Vec<Vec<(f64, f64)>> {
+    let mut segments = vec![Vec::new()];
+    for (x, y) in series.x.iter().zip(&series.y) {
+        match (axes.point(*x, *y), segments.last_mut()) {
+            (Some(point), Some(segment)) => segment.push(point),
+            (None, Some(segment)) if !segment.is_empty() => segments.push(Vec::new()),
+            _ => {}
+        }
+    }
+    segments.retain(|segment| segment.len() > 1);
+    segments.iter().map(|segment| thinned(segment)).collect()
+}
+
+fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let column = |point: &(f64, f64)| (2.0 * point.0).floor();
+    points
+        .chunk_by(|left, right| column(left) == column(right))
+        .flat_map(|group| {
+            let by_height = |l: &usize, r: &usize| group[*l].1.total_cmp(&group[*r].1);
+            let mut kept = vec![0, group.len() - 1];
+            kept.extend((0..group.len()).min_by(by_height));
+            kept.extend((0..group.len()).max_by(by_height));
+            kept.sort_unstable();
+            kept.dedup();
+            kept.into_iter().map(|index| group[index])
+        })
+        .collect()
+}
+
+/// Vertical error bars; an end that a logarithmic axis cannot show reaches the edge of the panel.
+fn draw_bars(drawing: &mut Drawing, axes: &Panel, series: &ChartSeries) {
+    let area = axes.area;
+    let mut segments = Vec::new();
+    for ((x, y), (low, high)) in series.x.iter().zip(&series.y).zip(&series.bars) {
+        if axes.point(*x, *y).is_none() || low.is_nan() || high.is_nan() {
+            continue;
+        }
+        let Some(x) = axes.x_at(*x) else { continue };
+        let bottom = axes.y_at(*low).unwrap_or(area.bottom()).min(area.bottom());
+        let top = axes.y_at(*high).unwrap_or(area.y).max(area.y);
+        segments.push([(x, bottom), (x, top)]);
+        if axes.y_at(*low).is_some() {
+            segments.push([(x - 2.0, bottom), (x + 2.0, bottom)]);
+        }
+        if axes.y_at(*high).is_some() {
+            segments.push([(x - 2.0, top), (x + 2.0, top)]);
+        }
+    }
+    drawing.lines(&segments, Stroke::solid(series.style.color, 0.9));
+}

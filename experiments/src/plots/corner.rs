@@ -1,0 +1,140 @@
+//! Corner plots: every pair of coordinates over the target's contours, marginals on the diagonal.
+
+use super::data::{PlotError, PointCloud, Reference, coordinate_labels};
+use super::density_panel::{
+    Marginal, cloud_notes, contour_entry, draw_cloud, marginal_entries, outside, pair_density,
+    particle_entry,
+};
+use super::legend::{draw_legend, draw_notes, draw_title, entry_width};
+use super::panel::{AxesParts, Panel, X_AXIS_ROOM, x_ticks, y_tick_room, y_ticks};
+use super::scale::{Scale, Ticks};
+use super::style::{FIGURE_WIDTH, LABEL_SIZE, MARGIN};
+use super::svg::{Drawing, Rectangle};
+
+/// A corner plot for d = 1 … 6.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CornerPlot<'a> {
+    /// The title; empty for none.
+    pub title: &'a str,
+    /// The particles with their weights.
+    pub particles: PointCloud<'a>,
+    /// The label of each coordinate, with its unit; empty for x₁ … x_d.
+    pub labels: &'a [String],
+    /// The density to compare with; its joint densities become contours, its marginals curves.
+    pub reference: Reference<'a>,
+    /// The text in the legend for the reference; empty for "target".
+    pub reference_label: &'a str,
+}
+
+/// The space between panels.
+const GAP: f64 = 7.0;
+
+/// Draws the corner plot as an SVG document.
+///
+/// # Errors
+/// As for [`super::histogram::histogram`].
+pub fn corner(plot: &CornerPlot<'_>) -> Result<String, PlotError> {
+    let columns = plot.particles.columns(1, 6)?;
+    let dimension = columns.len();
+    let labels = coordinate_labels(plot.labels, dimension)?;
+    let reference = plot.reference.check(dimension)?;
+    let weights = plot.particles.weights;
+    let mut scales = Vec::with_capacity(dimension);
+    let mut marginals = Vec::with_capacity(dimension);
+    for (axis, column) in columns.iter().enumerate() {
+        let scale = reference.scale(axis, column, weights)?;
+        marginals.push(Marginal::new(column, weights, &reference, axis, &scale)?);
+        scales.push(scale);
+    }
+    let width = match dimension {
+        1 | 2 => 0.72 * FIGURE_WIDTH,
+        3 => 0.85 * FIGURE_WIDTH,
+        _ => FIGURE_WIDTH,
+    };
+    // The rows' tick labels decide the left margin; the size of a panel decides their ticks. A first guess suffices.
+    let guess = (width - 60.0) / dimension as f64 - GAP;
+    let vertical: Vec<Ticks> = scales
+        .iter()
+        .map(|s| y_ticks(s, guess, GAP / 2.0))
+        .collect();
+    let tick_room = vertical.iter().skip(1).map(y_tick_room).fold(8.0, f64::max);
+    let left = MARGIN + LABEL_SIZE + 5.0 + tick_room;
+    let size = (width - left - MARGIN - 2.0 - GAP * (dimension - 1) as f64) / dimension as f64;
+    let height = if dimension == 1 { 0.6 * size } else { size };
+
+    let mut drawing = Drawing::new(plot.title);
+    let room = width - 2.0 * MARGIN;
+    let mut top = MARGIN + draw_title(&mut drawing, (MARGIN, MARGIN), room, plot.title);
+    let densities: Vec<Vec<_>> = (0..dimension)
+        .map(|row| {
+            (0..row)
+                .map(|column| pair_density(&reference, column, row, &scales[column], &scales[row]))
+                .collect()
+        })
+        .collect();
+    let mut entries = marginal_entries(&marginals, plot.reference_label);
+    if dimension > 1 {
+        entries.push(particle_entry("particles"));
+    }
+    if densities.iter().flatten().any(Option::is_some) {
+        entries.push(contour_entry(plot.reference_label));
+    }
+    // The legend stands in the empty upper triangle where it fits, else above.
+    let corner_room = (dimension - 1) as f64 * (size + GAP) - 12.0;
+    if entry_width(&entries) <= corner_room {
+        top += 2.0;
+        let at = (left + size + GAP + 12.0, top);
+        draw_legend(&mut drawing, at, entry_width(&entries), &entries);
+    } else {
+        top += draw_legend(&mut drawing, (left, top), width - left - MARGIN, &entries) + 8.0;
+    }
+
+    for row in 0..dimension {
+        for column in 0..=row {
+            let area = Rectangle {
+                x: left + column as f64 * (size + GAP),
+                y: top + row as f64 * (height + GAP),
+                width: size,
+                height,
+            };
+            let mut parts = AxesParts {
+                x_ticks: x_ticks(&scales[column], size, GAP / 2.0),
+                x_label: (row == dimension - 1).then_some(labels[column].as_str()),
+                ..AxesParts::default()
+            };
+            if row == column {
+                let peak = marginals[row].peak();
+                let panel = Panel {
+                    area,
+                    x: scales[column],
+                    y: Scale::linear(0.0, if peak > 0.0 { 1.1 * peak } else { 1.0 }, 0.0),
+                };
+                marginals[row].draw(&mut drawing, &panel);
+                if dimension == 1 {
+                    parts.y_label = Some(("density", tick_room + 0.5 * LABEL_SIZE));
+                }
+                panel.draw_axes(&mut drawing, &parts);
+                continue;
+            }
+            let panel = Panel {
+                area,
+                x: scales[column],
+                y: scales[row],
+            };
+            let density = densities[row][column].as_ref();
+            let pair = (columns[column].as_slice(), columns[row].as_slice());
+            draw_cloud(&mut drawing, &panel, pair, weights, density);
+            parts.y_ticks = vertical[row].clone();
+            parts.y_tick_labels = column == 0;
+            if column == 0 {
+                parts.y_label = Some((&labels[row], tick_room + 5.0 + 0.5 * LABEL_SIZE));
+            }
+            panel.draw_axes(&mut drawing, &parts);
+        }
+    }
+    let bottom = top + dimension as f64 * (height + GAP) - GAP + X_AXIS_ROOM + 2.0;
+    let hidden = outside(&columns, &scales);
+    let notes = cloud_notes(columns[0].len(), hidden, dimension > 1);
+    let notes = draw_notes(&mut drawing, (MARGIN, bottom), room, &notes);
+    Ok(drawing.finish(width, bottom + notes + MARGIN))
+}

@@ -1,0 +1,121 @@
+//! Marginal histograms and kernel density estimates of the particles (step 3 of Algorithm 1 of arXiv 2407.20287).
+
+use super::data::{PlotError, PointCloud, Reference, coordinate_labels};
+use super::density_panel::{Marginal, cloud_notes, marginal_entries, outside};
+use super::legend::{draw_legend, draw_notes, draw_title};
+use super::panel::{AxesParts, Panel, X_AXIS_ROOM, x_ticks, y_tick_room, y_ticks};
+use super::scale::Scale;
+use super::style::{FIGURE_WIDTH, LABEL_SIZE, MARGIN};
+use super::svg::{Drawing, Rectangle};
+
+/// A figure of marginals, one panel per coordinate, d = 1 … 8.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HistogramPlot<'a> {
+    /// The title; empty for none.
+    pub title: &'a str,
+    /// The particles with their weights.
+    pub particles: PointCloud<'a>,
+    /// The label of each coordinate, with its unit; empty for x₁ … x_d.
+    pub labels: &'a [String],
+    /// The density to compare with.
+    pub reference: Reference<'a>,
+    /// The text in the legend for the reference; empty for "target".
+    pub reference_label: &'a str,
+}
+
+/// Draws the marginals as an SVG document.
+///
+/// # Errors
+/// See [`PlotError`]: no points, points of different or unsupported dimension, coordinates that are not finite, weights
+/// that do not fit or are all zero, a reference of another size.
+pub fn histogram(plot: &HistogramPlot<'_>) -> Result<String, PlotError> {
+    let columns = plot.particles.columns(1, 8)?;
+    let dimension = columns.len();
+    let labels = coordinate_labels(plot.labels, dimension)?;
+    let reference = plot.reference.check(dimension)?;
+    let weights = plot.particles.weights;
+    let mut scales = Vec::with_capacity(dimension);
+    let mut marginals = Vec::with_capacity(dimension);
+    for (axis, column) in columns.iter().enumerate() {
+        let scale = reference.scale(axis, column, weights)?;
+        marginals.push(Marginal::new(column, weights, &reference, axis, &scale)?);
+        scales.push(scale);
+    }
+    let (per_row, width) = match dimension {
+        1 => (1, 0.7 * FIGURE_WIDTH),
+        2 | 4 => (2, FIGURE_WIDTH),
+        7 | 8 => (4, FIGURE_WIDTH),
+        _ => (3, FIGURE_WIDTH),
+    };
+    let height = if per_row < 3 { 140.0 } else { 100.0 };
+    let heights: Vec<Scale> = marginals
+        .iter()
+        .map(|marginal| {
+            let peak = marginal.peak();
+            let peak = if peak > 0.0 { peak } else { 1.0 };
+            Scale::linear(0.0, 1.08 * peak, 0.0)
+        })
+        .collect();
+    let vertical: Vec<_> = heights.iter().map(|y| y_ticks(y, height, 4.0)).collect();
+    let scaled = vertical.iter().any(|ticks| ticks.exponent != 0);
+    let tick_room: Vec<f64> = (0..per_row)
+        .map(|column| {
+            let members = vertical.iter().skip(column).step_by(per_row);
+            members.map(y_tick_room).fold(0.0, f64::max)
+        })
+        .collect();
+    let labelled = |column: usize| column == 0 || scaled;
+    let left_room = |column: usize| {
+        tick_room[column]
+            + if labelled(column) {
+                LABEL_SIZE + 5.0
+            } else {
+                0.0
+            }
+    };
+    let gap = 10.0;
+    let left_rooms: f64 = (0..per_row).map(left_room).sum();
+    let taken = left_rooms + gap * (per_row - 1) as f64 + 2.0 * MARGIN + 8.0;
+    let panel_width = (width - taken) / per_row as f64;
+
+    let mut drawing = Drawing::new(plot.title);
+    let room = width - 2.0 * MARGIN;
+    let mut top = MARGIN + draw_title(&mut drawing, (MARGIN, MARGIN), room, plot.title);
+    let entries = marginal_entries(&marginals, plot.reference_label);
+    let indent = MARGIN + left_room(0);
+    top += draw_legend(
+        &mut drawing,
+        (indent, top),
+        width - indent - MARGIN,
+        &entries,
+    ) + 8.0;
+    let row_height = height + X_AXIS_ROOM + 10.0;
+    for (axis, marginal) in marginals.iter().enumerate() {
+        let (row, column) = (axis / per_row, axis % per_row);
+        let left =
+            MARGIN + (0..=column).map(left_room).sum::<f64>() + column as f64 * (panel_width + gap);
+        let panel = Panel {
+            area: Rectangle {
+                x: left,
+                y: top + row as f64 * row_height,
+                width: panel_width,
+                height,
+            },
+            x: scales[axis],
+            y: heights[axis],
+        };
+        marginal.draw(&mut drawing, &panel);
+        let parts = AxesParts {
+            x_ticks: x_ticks(&panel.x, panel_width, 8.0),
+            y_ticks: vertical[axis].clone(),
+            x_label: Some(&labels[axis]),
+            y_label: labelled(column).then_some(("density", left_room(column) - 0.5 * LABEL_SIZE)),
+            y_tick_labels: true,
+        };
+        panel.draw_axes(&mut drawing, &parts);
+    }
+    let bottom = top + dimension.div_ceil(per_row) as f64 * row_height - 6.0;
+    let notes = cloud_notes(columns[0].len(), outside(&columns, &scales), false);
+    let notes = draw_notes(&mut drawing, (MARGIN, bottom - 2.0), room, &notes);
+    Ok(drawing.finish(width, bottom + notes + MARGIN - 2.0))
+}

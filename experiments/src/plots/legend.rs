@@ -1,0 +1,158 @@
+//! Legends, which stand outside the panels and so never cover data, and the notes below a figure.
+
+use super::style::{LINE_WIDTH, SeriesStyle, TEXT_SIZE, TITLE_SIZE};
+use super::svg::{Drawing, Rectangle, Stroke};
+use super::text::{Anchor, TextStyle, width};
+
+/// What a legend shows before a label.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Swatch<'a> {
+    /// A marker, with a line through it if `line` is set.
+    Series {
+        /// Colour and marker.
+        style: SeriesStyle,
+        /// Whether points are connected, and how.
+        line: Option<&'a str>,
+        /// Whether points are marked.
+        markers: bool,
+    },
+    /// A line of the given colour, width and dash pattern.
+    Line(Stroke<'a>),
+    /// A filled area of the given colour and opacity.
+    Area(&'a str, f64),
+    /// A disc of the given colour.
+    Disc(&'a str),
+}
+
+/// A line of a legend.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LegendEntry<'a> {
+    /// What the entry explains.
+    pub swatch: Swatch<'a>,
+    /// The explanation.
+    pub label: String,
+}
+
+const SWATCH: f64 = 20.0;
+const GAP: f64 = 5.0;
+const COLUMN_GAP: f64 = 14.0;
+const ROW: f64 = 13.0;
+
+/// The width of the widest entry, swatch included.
+pub fn entry_width(entries: &[LegendEntry<'_>]) -> f64 {
+    entries
+        .iter()
+        .map(|entry| SWATCH + GAP + width(&entry.label, TEXT_SIZE))
+        .fold(0.0, f64::max)
+}
+
+/// Draws the entries in as many columns as fit into `room` from the point `at` (top left) and returns the height taken.
+pub fn draw_legend(
+    drawing: &mut Drawing,
+    at: (f64, f64),
+    room: f64,
+    entries: &[LegendEntry<'_>],
+) -> f64 {
+    if entries.is_empty() {
+        return 0.0;
+    }
+    let column = entry_width(entries) + COLUMN_GAP;
+    let most = (((room + COLUMN_GAP) / column) as usize).clamp(1, entries.len());
+    let rows = entries.len().div_ceil(most);
+    for (index, entry) in entries.iter().enumerate() {
+        let x = at.0 + (index / rows) as f64 * column;
+        let middle = at.1 + ((index % rows) as f64 + 0.5) * ROW;
+        draw_swatch(drawing, (x, middle), entry.swatch);
+        drawing.text(
+            (x + SWATCH + GAP, middle + 0.36 * TEXT_SIZE),
+            &entry.label,
+            TextStyle::plain(Anchor::Start),
+        );
+    }
+    rows as f64 * ROW
+}
+
+fn draw_swatch(drawing: &mut Drawing, (x, y): (f64, f64), swatch: Swatch<'_>) {
+    let (from, to, middle) = ((x, y), (x + SWATCH, y), (x + 0.5 * SWATCH, y));
+    match swatch {
+        Swatch::Series {
+            style,
+            line,
+            markers,
+        } => {
+            if let Some(dash) = line {
+                let stroke = Stroke {
+                    color: style.color,
+                    width: LINE_WIDTH,
+                    dash,
+                };
+                drawing.line(from, to, stroke);
+            }
+            if markers {
+                drawing.marker(middle, style);
+            }
+        }
+        Swatch::Line(stroke) => drawing.line(from, to, stroke),
+        Swatch::Area(color, opacity) => {
+            let area = Rectangle {
+                x,
+                y: y - 4.0,
+                width: SWATCH,
+                height: 8.0,
+            };
+            drawing.filled_rectangle(area, color, opacity);
+        }
+        Swatch::Disc(color) => drawing.discs(&[middle], 2.0, color, 1.0),
+    }
+}
+
+/// Draws the figure's title, wrapped to `room`, and returns the height taken.
+pub fn draw_title(drawing: &mut Drawing, at: (f64, f64), room: f64, title: &str) -> f64 {
+    let style = TextStyle {
+        bold: true,
+        ..TextStyle::sized(TITLE_SIZE, Anchor::Start)
+    };
+    // Bold letters are about a tenth wider.
+    let lines = wrap(title, room / 1.1, TITLE_SIZE);
+    for (index, line) in lines.iter().enumerate() {
+        let baseline = at.1 + TITLE_SIZE * (0.85 + 1.25 * index as f64);
+        drawing.text((at.0, baseline), line, style);
+    }
+    if lines.is_empty() {
+        0.0
+    } else {
+        lines.len() as f64 * 1.25 * TITLE_SIZE + 3.0
+    }
+}
+
+/// Draws notes below a figure, each wrapped to `room`, and returns the height taken.
+pub fn draw_notes(drawing: &mut Drawing, at: (f64, f64), room: f64, notes: &[String]) -> f64 {
+    let lines: Vec<String> = notes
+        .iter()
+        .flat_map(|note| wrap(note, room, TEXT_SIZE))
+        .collect();
+    for (index, line) in lines.iter().enumerate() {
+        let baseline = at.1 + 4.0 + TEXT_SIZE * (0.85 + 1.3 * index as f64);
+        drawing.text((at.0, baseline), line, TextStyle::plain(Anchor::Start));
+    }
+    if lines.is_empty() {
+        0.0
+    } else {
+        lines.len() as f64 * 1.3 * TEXT_SIZE + 4.0
+    }
+}
+
+/// Breaks a text at spaces into lines of at most `room` points where words allow.
+fn wrap(text: &str, room: f64, size: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if width(line, size) + width(word, size) + 0.32 * size <= room => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_string()),
+        }
+    }
+    lines
+}

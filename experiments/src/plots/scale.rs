@@ -1,0 +1,312 @@
+//! From data to fractions of an axis, and the ticks between.
+
+use super::text::{decimal, power_of_ten};
+
+/// Values beyond this magnitude are not drawn.
+const LARGEST: f64 = 1e300;
+
+/// Whether a figure can show this value.
+pub fn plottable(value: f64) -> bool {
+    value.is_finite() && value.abs() < LARGEST
+}
+
+/// How an axis is divided.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum AxisKind {
+    /// Logarithmic where all values are positive and span more than a factor of 30, linear otherwise.
+    #[default]
+    Automatic,
+    /// Equal steps.
+    Linear,
+    /// Equal factors; values that are not positive are left out.
+    Logarithmic,
+}
+
+/// The map from an interval of data to 0…1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scale {
+    /// Whether the map is logarithmic.
+    pub logarithmic: bool,
+    low: f64,
+    high: f64,
+}
+
+/// The ticks of an axis.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Ticks {
+    /// Labelled ticks: fraction of the axis and label.
+    pub major: Vec<(f64, String)>,
+    /// Ticks without labels.
+    pub minor: Vec<f64>,
+    /// The common power of ten that the labels leave out.
+    pub exponent: i32,
+}
+
+impl Scale {
+    /// A scale for `values` with a margin of `padding` times their span on both sides. Without any drawable value it is
+    /// 0…1 (1…10), around a single one an interval that contains it.
+    pub fn around(values: impl IntoIterator<Item = f64>, kind: AxisKind, padding: f64) -> Scale {
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        let mut smallest_positive = f64::INFINITY;
+        for value in values.into_iter().filter(|&value| plottable(value)) {
+            low = low.min(value);
+            high = high.max(value);
+            if value > 1e-300 {
+                smallest_positive = smallest_positive.min(value);
+            }
+        }
+        let logarithmic = match kind {
+            AxisKind::Linear => false,
+            AxisKind::Logarithmic => true,
+            AxisKind::Automatic => low > 1e-300 && high / low > 30.0,
+        };
+        if !logarithmic {
+            return Scale::linear(low, high, padding);
+        }
+        let (low, high) = if smallest_positive.is_finite() {
+            (smallest_positive.log10(), high.log10())
+        } else {
+            (0.0, 1.0)
+        };
+        let span = high - low;
+        let margin = if span < 0.05 { 0.3 } else { padding * span };
+        Scale {
+            logarithmic,
+            low: low - margin,
+            high: high + margin,
+        }
+    }
+
+    /// A linear scale from `low` to `high` with a margin.
+    pub fn linear(low: f64, high: f64, padding: f64) -> Scale {
+        if low.partial_cmp(&high).is_none_or(|order| order.is_gt()) {
+            return Scale {
+                logarithmic: false,
+                low: 0.0,
+                high: 1.0,
+            };
+        }
+        let span = high - low;
+        let magnitude = low.abs().max(high.abs());
+        let margin = if span <= 1e-11 * magnitude || span < 1e-290 {
+            if magnitude < 1e-280 {
+                0.5
+            } else {
+                0.1 * magnitude
+            }
+        } else {
+            padding * span
+        };
+        Scale {
+            logarithmic: false,
+            low: low - margin,
+            high: high + margin,
+        }
+    }
+
+    /// The data at the ends of the axis.
+    pub fn ends(&self) -> (f64, f64) {
+        if self.logarithmic {
+            (10f64.powf(self.low), 10f64.powf(self.high))
+        } else {
+            (self.low, self.high)
+        }
+    }
+
+    /// The length of the axis: in data units, or in decades if logarithmic.
+    pub fn span(&self) -> f64 {
+        self.high - self.low
+    }
+
+    /// The same scale, widened symmetrically to `span` if that is longer.
+    pub fn widened(self, span: f64) -> Scale {
+        let margin = 0.5 * (span - self.span()).max(0.0);
+        Scale {
+            low: self.low - margin,
+            high: self.high + margin,
+            ..self
+        }
+    }
+
+    /// Where `value` lies on the axis, 0 at its start and 1 at its end; `None` for values that cannot be drawn.
+    pub fn fraction(&self, value: f64) -> Option<f64> {
+        if !plottable(value) || (self.logarithmic && value <= 1e-300) {
+            return None;
+        }
+        let position = if self.logarithmic {
+            value.log10()
+        } else {
+            value
+        };
+        let fraction = (position - self.low) / (self.high - self.low);
+        fraction.is_finite().then_some(fraction)
+    }
+
+    /// Ticks for an axis with room for labels: `fits(labels)` says whether these labels at these fractions do not touch.
+    pub fn ticks(&self, fits: impl Fn(&[(f64, String)]) -> bool) -> Ticks {
+        let mut fewest = None;
+        for count in [9, 8, 7, 6, 5, 4, 3, 2] {
+            let ticks = if self.logarithmic {
+                self.logarithmic_ticks(count)
+            } else {
+                self.linear_ticks(count)
+            };
+            if ticks.major.len() >= 2 && fits(&ticks.major) {
+                return ticks;
+            }
+            if !ticks.major.is_empty() {
+                fewest = Some(ticks);
+            }
+        }
+        let mut ticks = fewest.unwrap_or_default();
+        ticks.major.truncate(1);
+        ticks
+    }
+
+    fn linear_ticks(&self, count: usize) -> Ticks {
+        let (step, parts) = nice_step((self.high - self.low) / count as f64);
+        let magnitude = self.low.abs().max(self.high.abs());
+        let leading = magnitude.log10().floor() as i32;
+        let exponent = if (-3..5).contains(&leading) {
+            0
+        } else {
+            leading
+        };
+        let unit = 10f64.powi(exponent);
+        let decimals = (exponent as f64 - (step * 1.000_001).log10().floor()).clamp(0.0, 15.0);
+        let mut ticks = Ticks {
+            exponent,
+            ..Ticks::default()
+        };
+        let minor = step / parts;
+        let first = (self.low / minor - 1e-9).ceil();
+        let total = (((self.high - self.low) / minor) as usize).min(200) + 2;
+        for index in 0..total {
+            let multiple = first + index as f64;
+            let value = multiple * minor;
+            let fraction = (value - self.low) / (self.high - self.low);
+            if !(-1e-9..=1.0 + 1e-9).contains(&fraction) {
+                continue;
+            }
+            if (multiple / parts - (multiple / parts).round()).abs() < 1e-6 {
+                let label = decimal(value / unit, decimals as usize);
+                ticks.major.push((fraction, label));
+            } else {
+                ticks.minor.push(fraction);
+            }
+        }
+        ticks
+    }
+
+    fn logarithmic_ticks(&self, count: usize) -> Ticks {
+        let (first, last) = (self.low.floor() as i32, self.high.ceil() as i32);
+        let decades = self.high - self.low;
+        let stride = ((decades / count as f64).ceil() as i32).max(1);
+        let fraction = |position: f64| (position - self.low) / (self.high - self.low);
+        let visible = |fraction: &f64| (-1e-9..=1.0 + 1e-9).contains(fraction);
+        // With fewer than two whole decades, twos and fives are labelled too where there is room.
+        let factors: &[i32] = match (decades < 1.6, count) {
+            (true, 7..) => &[1, 2, 3, 5],
+            (true, 4..) => &[1, 2, 5],
+            (true, 3) => &[1, 3],
+            _ => &[1],
+        };
+        let plain = first >= -3 && last <= 4;
+        let mut ticks = Ticks::default();
+        for exponent in first..=last {
+            for factor in 1..10 {
+                let place = fraction(f64::from(exponent) + f64::from(factor).log10());
+                if !visible(&place) {
+                    continue;
+                }
+                let labelled =
+                    factors.contains(&factor) && (factor > 1 || exponent.rem_euclid(stride) == 0);
+                if labelled {
+                    let label = match factor {
+                        _ if plain => {
+                            let value = f64::from(factor) * 10f64.powi(exponent);
+                            decimal(value, usize::try_from(-exponent).unwrap_or(0))
+                        }
+                        1 => power_of_ten(exponent),
+                        _ => format!("{factor}×{}", power_of_ten(exponent)),
+                    };
+                    ticks.major.push((place, label));
+                } else if stride == 1 || (factor == 1 && decades < 40.0) {
+                    ticks.minor.push(place);
+                }
+            }
+        }
+        ticks
+    }
+}
+
+/// The smallest of 1, 2, 5 times a power of ten that is at least `step`, and into how many parts minor ticks divide it.
+fn nice_step(step: f64) -> (f64, f64) {
+    let unit = 10f64.powf(step.log10().floor());
+    for (factor, parts) in [(1.0, 5.0), (2.0, 4.0), (5.0, 5.0)] {
+        if factor * unit >= step * (1.0 - 1e-9) {
+            return (factor * unit, parts);
+        }
+    }
+    (10.0 * unit, 5.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn labels(ticks: &Ticks) -> Vec<&str> {
+        ticks.major.iter().map(|tick| tick.1.as_str()).collect()
+    }
+
+    #[test]
+    fn linear_ticks_are_round_numbers() {
+        let scale = Scale::around([-1.1, 1.1], AxisKind::Linear, 0.0);
+        let ticks = scale.ticks(|labels| labels.len() <= 5);
+        assert_eq!(labels(&ticks), ["−1.0", "−0.5", "0.0", "0.5", "1.0"]);
+        assert_eq!(scale.fraction(0.0), Some(0.5));
+    }
+
+    #[test]
+    fn tiny_values_share_a_power_of_ten() {
+        let ticks = Scale::around([0.0, 4e-6], AxisKind::Linear, 0.0).ticks(|l| l.len() <= 5);
+        assert_eq!(labels(&ticks), ["0", "1", "2", "3", "4"]);
+        assert_eq!(ticks.exponent, -6);
+    }
+
+    #[test]
+    fn logarithmic_ticks_are_decades_with_minor_ticks() {
+        let scale = Scale::around([1e-6, 1e-2], AxisKind::Automatic, 0.0);
+        assert!(scale.logarithmic);
+        let ticks = scale.ticks(|_| true);
+        assert_eq!(ticks.major[0].1, "10^{−6}");
+        assert_eq!(ticks.major.len(), 5);
+        assert_eq!(ticks.minor.len(), 4 * 8);
+        assert_eq!(scale.fraction(-1.0), None);
+    }
+
+    #[test]
+    fn any_data_has_an_axis() {
+        let hard = [
+            vec![],
+            vec![0.0],
+            vec![3.0, 3.0],
+            vec![f64::NAN, f64::INFINITY],
+            vec![1e-310, 1e-308],
+            vec![-1e299, 1e299],
+            vec![1.0, 1.0 + 1e-15],
+            vec![1e8, 1e8 + 1.0],
+            vec![-5.0, 0.0],
+        ];
+        for values in hard {
+            for kind in [AxisKind::Automatic, AxisKind::Linear, AxisKind::Logarithmic] {
+                let scale = Scale::around(values.clone(), kind, 0.05);
+                assert!(scale.span() > 0.0, "{values:?} {kind:?} {scale:?}");
+                let ticks = scale.ticks(|_| true);
+                assert!(ticks.major.len() < 40 && ticks.minor.len() < 400);
+                assert!(!ticks.major.is_empty(), "{values:?} {kind:?} {scale:?}");
+                assert!(ticks.major.iter().all(|tick| tick.0.is_finite()));
+            }
+        }
+    }
+}

@@ -1,0 +1,226 @@
+//! Text in figures: superscripts and subscripts, width estimates, escaping and numbers.
+
+use super::style::TEXT_SIZE;
+
+/// Where a text sits relative to its anchor point, horizontally.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Anchor {
+    /// The text starts at the point.
+    Start,
+    /// The text is centred on the point.
+    Middle,
+    /// The text ends at the point.
+    End,
+}
+
+/// How a text is set.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TextStyle {
+    /// The font size in points.
+    pub size: f64,
+    /// The horizontal alignment.
+    pub anchor: Anchor,
+    /// Whether the text is bold.
+    pub bold: bool,
+    /// Whether the text runs upwards.
+    pub upwards: bool,
+}
+
+impl TextStyle {
+    /// Plain text of the size of tick labels.
+    pub const fn plain(anchor: Anchor) -> TextStyle {
+        TextStyle::sized(TEXT_SIZE, anchor)
+    }
+
+    /// Plain text of the given size.
+    pub const fn sized(size: f64, anchor: Anchor) -> TextStyle {
+        TextStyle {
+            size,
+            anchor,
+            bold: false,
+            upwards: false,
+        }
+    }
+}
+
+/// The size of superscripts and subscripts relative to the text.
+const SCRIPT: f64 = 0.78;
+/// How far a superscript is raised, relative to the text size.
+const RAISE: f64 = 0.38;
+/// How far a subscript is lowered.
+const LOWER: f64 = 0.2;
+
+/// A stretch of text on one level.
+#[derive(Debug, Clone, PartialEq)]
+struct Run {
+    text: String,
+    /// The shift of the baseline in text sizes, upwards positive.
+    shift: f64,
+}
+
+/// Splits `label` at `^{…}` and `_{…}`; an unclosed brace is ordinary text.
+fn runs(label: &str) -> Vec<Run> {
+    let mut runs = Vec::new();
+    let mut push = |text: &str, shift: f64| {
+        if !text.is_empty() {
+            runs.push(Run {
+                text: text.to_string(),
+                shift,
+            });
+        }
+    };
+    let mut rest = label;
+    loop {
+        let opening = ["^{", "_{"]
+            .iter()
+            .filter_map(|mark| rest.find(mark))
+            .min()
+            .and_then(|start| Some((start, start + 2 + rest[start + 2..].find('}')?)));
+        let Some((start, end)) = opening else {
+            push(rest, 0.0);
+            return runs;
+        };
+        push(&rest[..start], 0.0);
+        let raised = rest[start..].starts_with('^');
+        push(&rest[start + 2..end], if raised { RAISE } else { -LOWER });
+        rest = &rest[end + 1..];
+    }
+}
+
+/// The label without its markup, e.g. for a document's title.
+pub fn plain_text(label: &str) -> String {
+    runs(label).into_iter().map(|run| run.text).collect()
+}
+
+/// The content of a `<text>` element for `label`, in which `^{…}` and `_{…}` mark superscripts and subscripts.
+pub fn markup(label: &str, size: f64) -> String {
+    let mut level = 0.0;
+    let mut content = String::new();
+    for run in runs(label) {
+        let text = escape(&run.text);
+        if run.shift == level && run.shift == 0.0 {
+            content.push_str(&text);
+            continue;
+        }
+        let step = number((level - run.shift) * size);
+        level = run.shift;
+        if run.shift == 0.0 {
+            content.push_str(&format!("<tspan dy=\"{step}\">{text}</tspan>"));
+        } else {
+            let small = number(SCRIPT * size);
+            content.push_str(&format!(
+                "<tspan dy=\"{step}\" font-size=\"{small}\">{text}</tspan>"
+            ));
+        }
+    }
+    content
+}
+
+/// An estimate of the label's width in points, from the advance widths of DejaVu Sans, the widest of the font families.
+pub fn width(label: &str, size: f64) -> f64 {
+    runs(label)
+        .iter()
+        .map(|run| {
+            let scale = if run.shift == 0.0 {
+                size
+            } else {
+                SCRIPT * size
+            };
+            run.text.chars().map(advance).sum::<f64>() * scale
+        })
+        .sum()
+}
+
+/// The advance width of a character in ems.
+fn advance(character: char) -> f64 {
+    match character {
+        'i' | 'j' | 'l' | '\'' => 0.28,
+        ' ' | '.' | ',' | '·' => 0.32,
+        ':' | ';' | '|' | '/' | '\\' | 'I' | 'J' => 0.34,
+        'f' | 't' | 'r' | '(' | ')' | '[' | ']' | '-' => 0.4,
+        's' | 'c' | 'z' | '*' => 0.53,
+        'w' | '−' | '+' | '=' | '<' | '>' | '×' | '±' | '≤' | '≥' | '≈' | '∝' | '_' => {
+            0.84
+        }
+        'm' | 'W' | '—' | '%' | '…' => 0.99,
+        'M' | '@' => 0.9,
+        'A'..='H' | 'K' | 'L' | 'N'..='V' | 'X'..='Z' => 0.73,
+        _ => 0.64,
+    }
+}
+
+/// Escapes the characters that XML reserves and drops the control characters that it forbids.
+pub fn escape(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for character in text.chars() {
+        match character {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            c if c.is_control() || c == '\u{fffe}' || c == '\u{ffff}' => escaped.push(' '),
+            c => escaped.push(c),
+        }
+    }
+    escaped
+}
+
+/// A coordinate with at most two decimals and no superfluous zeros. Not a number becomes 0: no drawing may contain it.
+pub fn number(value: f64) -> String {
+    if !value.is_finite() {
+        return "0".to_string();
+    }
+    let mut text = format!("{:.2}", value.clamp(-1e6, 1e6));
+    while text.ends_with('0') {
+        text.pop();
+    }
+    if text.ends_with('.') {
+        text.pop();
+    }
+    if text == "-0" {
+        text.remove(0);
+    }
+    text
+}
+
+/// A number for a reader: a true minus sign, `decimals` decimals.
+pub fn decimal(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(rest) if rest.chars().all(|c| c == '0' || c == '.') => rest.to_string(),
+        Some(rest) => format!("−{rest}"),
+        None => text,
+    }
+}
+
+/// A power of ten for a reader, with markup.
+pub fn power_of_ten(exponent: i32) -> String {
+    format!("10^{{{}}}", decimal(f64::from(exponent), 0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        assert_eq!(number(1.0), "1");
+        assert_eq!(number(-0.001), "0");
+        assert_eq!(number(12.345), "12.35");
+        assert_eq!(number(100.0), "100");
+        assert_eq!(number(f64::NAN), "0");
+        assert_eq!(decimal(-0.001, 2), "0.00");
+        assert_eq!(decimal(-1.5, 1), "−1.5");
+    }
+
+    #[test]
+    fn scripts_return_to_the_baseline() {
+        assert_eq!(
+            markup("a^{2} < b", 10.0),
+            "a<tspan dy=\"-3.8\" font-size=\"7.8\">2</tspan><tspan dy=\"3.8\"> &lt; b</tspan>"
+        );
+        assert_eq!(plain_text("x_{1} (10^{3} m)"), "x1 (103 m)");
+        assert_eq!(markup("x_{1", 10.0), "x_{1");
+        assert!(width("10^{2}", 10.0) < width("102", 10.0));
+    }
+}

@@ -1,0 +1,137 @@
+//! Median, quartiles and extremes of a sample.
+
+use super::{StatisticsError, check_finite, check_weighted};
+
+/// The five-number summary of a sample.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Summary {
+    /// The number of values.
+    pub count: usize,
+    /// The smallest value.
+    pub minimum: f64,
+    /// The quantile at ¼.
+    pub lower_quartile: f64,
+    /// The quantile at ½.
+    pub median: f64,
+    /// The quantile at ¾.
+    pub upper_quartile: f64,
+    /// The largest value.
+    pub maximum: f64,
+}
+
+/// The five-number summary of `values`. A quantile at q interpolates linearly between the order statistics around
+/// position q (n − 1) (Hyndman & Fan 1996, definition 7).
+///
+/// # Errors
+/// [`StatisticsError::Empty`] without values, [`StatisticsError::NotFinite`] if one is NaN or infinite.
+pub fn summarize(values: &[f64]) -> Result<Summary, StatisticsError> {
+    if values.is_empty() {
+        return Err(StatisticsError::Empty { what: "values" });
+    }
+    check_finite("values", values)?;
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let quantile = |level: f64| {
+        let position = level * (sorted.len() - 1) as f64;
+        let below = (position.floor() as usize).min(sorted.len() - 1);
+        let above = (below + 1).min(sorted.len() - 1);
+        sorted[below] + (position - below as f64) * (sorted[above] - sorted[below])
+    };
+    Ok(Summary {
+        count: sorted.len(),
+        minimum: sorted[0],
+        lower_quartile: quantile(0.25),
+        median: quantile(0.5),
+        upper_quartile: quantile(0.75),
+        maximum: sorted[sorted.len() - 1],
+    })
+}
+
+/// The quantiles of weighted `values` at `levels` ∈ [0, 1]: linear interpolation between the values at the mid-points of
+/// their steps in the weighted distribution function, constant beyond the first and last.
+///
+/// # Errors
+/// See [`StatisticsError`]; the weights need the values' number and a positive sum.
+pub fn weighted_quantile(
+    values: &[f64],
+    weights: Option<&[f64]>,
+    levels: &[f64],
+) -> Result<Vec<f64>, StatisticsError> {
+    let total = check_weighted("values", values, weights)?;
+    let mut order: Vec<usize> = (0..values.len())
+        .filter(|&index| weights.is_none_or(|weights| weights[index] > 0.0))
+        .collect();
+    order.sort_by(|&left, &right| values[left].total_cmp(&values[right]));
+    let mut middles = Vec::with_capacity(order.len());
+    let mut below = 0.0;
+    for &index in &order {
+        let weight = weights.map_or(1.0, |weights| weights[index]) / total;
+        middles.push(below + 0.5 * weight);
+        below += weight;
+    }
+    let quantile = |level: f64| {
+        let next = middles.partition_point(|&middle| middle < level);
+        if next == 0 {
+            return values[order[0]];
+        }
+        if next == order.len() {
+            return values[order[order.len() - 1]];
+        }
+        let (low, high) = (values[order[next - 1]], values[order[next]]);
+        let fraction = (level - middles[next - 1]) / (middles[next] - middles[next - 1]);
+        low + fraction * (high - low)
+    };
+    Ok(levels.iter().map(|&level| quantile(level)).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quartiles_follow_definition_seven() {
+        let summary = summarize(&[4.0, 1.0, 3.0, 2.0]).unwrap();
+        assert_eq!(summary.count, 4);
+        assert_eq!((summary.minimum, summary.maximum), (1.0, 4.0));
+        assert_eq!(summary.lower_quartile, 1.75);
+        assert_eq!(summary.median, 2.5);
+        assert_eq!(summary.upper_quartile, 3.25);
+    }
+
+    #[test]
+    fn one_value_is_its_own_summary() {
+        let summary = summarize(&[7.0]).unwrap();
+        assert_eq!((summary.lower_quartile, summary.median), (7.0, 7.0));
+    }
+
+    #[test]
+    fn bad_samples_are_errors() {
+        assert!(matches!(summarize(&[]), Err(StatisticsError::Empty { .. })));
+        assert!(matches!(
+            summarize(&[1.0, f64::NAN]),
+            Err(StatisticsError::NotFinite { index: 1, .. })
+        ));
+    }
+
+    #[test]
+    fn equal_weights_change_nothing() {
+        let values = [3.0, 1.0, 2.0, 5.0];
+        let levels = [0.0, 0.3, 0.5, 0.9, 1.0];
+        assert_eq!(
+            weighted_quantile(&values, None, &levels),
+            weighted_quantile(&values, Some(&[2.0; 4]), &levels)
+        );
+        assert_eq!(weighted_quantile(&values, None, &[0.5]).unwrap(), [2.5]);
+    }
+
+    #[test]
+    fn a_value_without_weight_does_not_count() {
+        let quantiles =
+            weighted_quantile(&[1.0, 100.0], Some(&[1.0, 0.0]), &[0.0, 0.5, 1.0]).unwrap();
+        assert_eq!(quantiles, [1.0, 1.0, 1.0]);
+        assert_eq!(
+            weighted_quantile(&[1.0], Some(&[0.0]), &[0.5]),
+            Err(StatisticsError::NoWeight)
+        );
+    }
+}
