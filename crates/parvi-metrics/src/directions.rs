@@ -36,7 +36,9 @@ impl<const D: usize> Directions<D> {
             }
             normalised(vector)
         };
-        Ok(Self { vectors: (0..count).map(vector).collect() })
+        Ok(Self {
+            vectors: (0..count).map(vector).collect(),
+        })
     }
 
     /// `count` independent uniform directions; the same seed gives the same directions.
@@ -46,7 +48,9 @@ impl<const D: usize> Directions<D> {
     pub fn random(count: usize, seed: u64) -> Result<Self, MetricError> {
         check_count(count)?;
         let mut rng = ChaCha12Rng::seed_from_u64(seed);
-        let vectors = (0..count).map(|_| normalised(std::array::from_fn(|_| rng.sample(StandardNormal)))).collect();
+        let vectors = (0..count)
+            .map(|_| normalised(std::array::from_fn(|_| rng.sample(StandardNormal))))
+            .collect();
         Ok(Self { vectors })
     }
 
@@ -60,7 +64,11 @@ fn check_count(count: usize) -> Result<(), MetricError> {
     if count > 0 {
         return Ok(());
     }
-    Err(MetricError::InvalidParameter { name: "the number of directions", value: 0.0, requirement: "at least 1" })
+    Err(MetricError::InvalidParameter {
+        name: "the number of directions",
+        value: 0.0,
+        requirement: "at least 1",
+    })
 }
 
 /// `vector` divided by its length; the first axis for the zero vector.
@@ -107,8 +115,14 @@ mod tests {
         second_moments(&Directions::<3>::evenly_spread(500).unwrap(), 0.01);
         second_moments(&Directions::<6>::evenly_spread(500).unwrap(), 0.01);
         second_moments(&Directions::<6>::random(20_000, 1).unwrap(), 0.01);
-        assert_eq!(Directions::<3>::random(4, 9).unwrap(), Directions::random(4, 9).unwrap());
-        assert!(matches!(Directions::<2>::evenly_spread(0), Err(MetricError::InvalidParameter { .. })));
+        assert_eq!(
+            Directions::<3>::random(4, 9).unwrap(),
+            Directions::random(4, 9).unwrap()
+        );
+        assert!(matches!(
+            Directions::<2>::evenly_spread(0),
+            Err(MetricError::InvalidParameter { .. })
+        ));
         assert!(Directions::<2>::random(0, 1).is_err());
     }
 }

@@ -35,8 +35,20 @@ impl<const D: usize> GaussianDiscrepancy<D> {
     pub fn new(mean: [f64; D], covariance: &Matrix<D>, kernel: RadialKernel) -> Result<Self, MetricError> {
         let eigen = checked_eigen(&mean, covariance)?;
         let square = kernel.bandwidth() * kernel.bandwidth();
-        let product = |factor: f64| eigen.values.iter().map(|l| (1.0 + factor * l / square).sqrt().recip()).product();
-        Ok(Self { kernel, mean, eigen, amplitude: product(1.0), mean_kernel: product(2.0) })
+        let product = |factor: f64| {
+            eigen
+                .values
+                .iter()
+                .map(|l| (1.0 + factor * l / square).sqrt().recip())
+                .product()
+        };
+        Ok(Self {
+            kernel,
+            mean,
+            eigen,
+            amplitude: product(1.0),
+            mean_kernel: product(2.0),
+        })
     }
 
     /// E k(Y, Y').
@@ -49,7 +61,11 @@ impl<const D: usize> GaussianDiscrepancy<D> {
         let offset = std::array::from_fn(|axis| x[axis] - self.mean[axis]);
         let components = self.eigen.vectors.apply_transposed(&offset);
         let square = self.kernel.bandwidth() * self.kernel.bandwidth();
-        let exponent: f64 = components.iter().zip(&self.eigen.values).map(|(a, l)| a * a / (square + l)).sum();
+        let exponent: f64 = components
+            .iter()
+            .zip(&self.eigen.values)
+            .map(|(a, l)| a * a / (square + l))
+            .sum();
         self.amplitude * (-0.5 * exponent).exp()
     }
 
@@ -59,7 +75,9 @@ impl<const D: usize> GaussianDiscrepancy<D> {
     /// # Errors
     /// [`MetricError::Overflow`] if a term is not finite.
     pub fn squared(&self, cloud: &Cloud<'_, D>) -> Result<f64, MetricError> {
-        let cross = chunked_sum(cloud.len(), |i| cloud.weight(i) * self.expected_kernel(&cloud.points()[i]));
+        let cross = chunked_sum(cloud.len(), |i| {
+            cloud.weight(i) * self.expected_kernel(&cloud.points()[i])
+        });
         let value = mean_kernel(cloud, &self.kernel) + self.mean_kernel - 2.0 * cross;
         finite("the maximum mean discrepancy from a Gaussian", value)
     }

@@ -20,7 +20,10 @@ pub struct InverseMultiquadric {
 impl Default for InverseMultiquadric {
     /// c = 1, β = −½, for targets of unit scale.
     fn default() -> Self {
-        Self { offset: 1.0, exponent: -0.5 }
+        Self {
+            offset: 1.0,
+            exponent: -0.5,
+        }
     }
 }
 
@@ -33,11 +36,19 @@ impl InverseMultiquadric {
     pub fn new(offset: f64, exponent: f64) -> Result<Self, MetricError> {
         if !(offset.is_finite() && offset > 0.0) {
             let (name, requirement) = ("the offset of the kernel", "positive and finite");
-            return Err(MetricError::InvalidParameter { name, value: offset, requirement });
+            return Err(MetricError::InvalidParameter {
+                name,
+                value: offset,
+                requirement,
+            });
         }
         if !(exponent > -1.0 && exponent < 0.0) {
             let (name, requirement) = ("the exponent of the kernel", "between -1 and 0");
-            return Err(MetricError::InvalidParameter { name, value: exponent, requirement });
+            return Err(MetricError::InvalidParameter {
+                name,
+                value: exponent,
+                requirement,
+            });
         }
         Ok(Self { offset, exponent })
     }
@@ -92,7 +103,11 @@ pub fn kernel_stein_discrepancy<const D: usize>(
     kernel: &InverseMultiquadric,
 ) -> Result<SteinDiscrepancy, MetricError> {
     if scores.len() != cloud.len() {
-        return Err(MetricError::LengthMismatch { name: "scores", points: cloud.len(), given: scores.len() });
+        return Err(MetricError::LengthMismatch {
+            name: "scores",
+            points: cloud.len(),
+            given: scores.len(),
+        });
     }
     for (index, score) in scores.iter().enumerate() {
         for (axis, &value) in score.iter().enumerate() {
@@ -112,8 +127,14 @@ pub fn kernel_stein_discrepancy<const D: usize>(
         let value = power * (mpm_tensor::vector::norm_squared(score) - 2.0 * kernel.exponent * D as f64 * inverse);
         cloud.weight(index) * cloud.weight(index) * value
     }));
-    let unbiased_squared = cloud.distinct_pair_share(NAME).ok().map(|share| (squared - diagonal) / share);
-    Ok(SteinDiscrepancy { squared, unbiased_squared })
+    let unbiased_squared = cloud
+        .distinct_pair_share(NAME)
+        .ok()
+        .map(|share| (squared - diagonal) / share);
+    Ok(SteinDiscrepancy {
+        squared,
+        unbiased_squared,
+    })
 }
 
 /// [`kernel_stein_discrepancy`] with the scores of a target.

@@ -25,9 +25,7 @@ pub use energy_distance::{EnergyReference, energy_distance_squared, mean_pair_di
 pub use error::MetricError;
 pub use gaussian_discrepancy::GaussianDiscrepancy;
 pub use gaussian_energy::GaussianEnergy;
-pub use kernel_stein::{
-    InverseMultiquadric, SteinDiscrepancy, kernel_stein_discrepancy, target_stein_discrepancy,
-};
+pub use kernel_stein::{InverseMultiquadric, SteinDiscrepancy, kernel_stein_discrepancy, target_stein_discrepancy};
 pub use maximum_mean_discrepancy::{DiscrepancyReference, maximum_mean_discrepancy_squared};
 pub use mode_mass::ModeMasses;
 pub use moments::{CloudMoments, MomentError, quantiles};

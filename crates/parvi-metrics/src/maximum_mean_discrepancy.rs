@@ -30,7 +30,11 @@ impl<const D: usize> PairFunction for Kernel<'_, D> {
 
 /// Σ_ij w_i w_j k(x_i, x_j), the diagonal included.
 pub(crate) fn mean_kernel<const D: usize>(cloud: &Cloud<'_, D>, kernel: &RadialKernel) -> f64 {
-    let function = Kernel { rate: kernel.rate(), rows: cloud.points(), columns: &Packed::new(cloud.points()) };
+    let function = Kernel {
+        rate: kernel.rate(),
+        rows: cloud.points(),
+        columns: &Packed::new(cloud.points()),
+    };
     symmetric_sum(&function, &PackedWeights::new(cloud))
 }
 
@@ -52,9 +56,16 @@ pub fn maximum_mean_discrepancy_squared<const D: usize>(
     second: &Cloud<'_, D>,
     kernel: &RadialKernel,
 ) -> Result<f64, MetricError> {
-    let function = Kernel { rate: kernel.rate(), rows: first.points(), columns: &Packed::new(second.points()) };
+    let function = Kernel {
+        rate: kernel.rate(),
+        rows: first.points(),
+        columns: &Packed::new(second.points()),
+    };
     let cross = cross_sum(&function, &PackedWeights::new(first), &PackedWeights::new(second));
-    finite(NAME, mean_kernel(first, kernel) + mean_kernel(second, kernel) - 2.0 * cross)
+    finite(
+        NAME,
+        mean_kernel(first, kernel) + mean_kernel(second, kernel) - 2.0 * cross,
+    )
 }
 
 /// A reference sample y_1…y_N ~ p, prepared once and compared with many clouds: its own term is the U-statistic
@@ -76,7 +87,12 @@ impl<const D: usize> DiscrepancyReference<D> {
         let share = reference.distinct_pair_share("the mean kernel of a reference sample")?;
         let distinct = mean_kernel(reference, &kernel) - reference.squared_weight_sum();
         let (points, weights) = (Packed::new(reference.points()), PackedWeights::new(reference));
-        Ok(Self { kernel, mean_kernel: finite(NAME, distinct / share)?, points, weights })
+        Ok(Self {
+            kernel,
+            mean_kernel: finite(NAME, distinct / share)?,
+            points,
+            weights,
+        })
     }
 
     /// The unbiased estimate of E k(Y, Y').
@@ -89,7 +105,11 @@ impl<const D: usize> DiscrepancyReference<D> {
     /// # Errors
     /// [`MetricError::Overflow`] if a term is not finite.
     pub fn squared(&self, cloud: &Cloud<'_, D>) -> Result<f64, MetricError> {
-        let function = Kernel { rate: self.kernel.rate(), rows: cloud.points(), columns: &self.points };
+        let function = Kernel {
+            rate: self.kernel.rate(),
+            rows: cloud.points(),
+            columns: &self.points,
+        };
         let cross = cross_sum(&function, &PackedWeights::new(cloud), &self.weights);
         finite(NAME, mean_kernel(cloud, &self.kernel) + self.mean_kernel - 2.0 * cross)
     }

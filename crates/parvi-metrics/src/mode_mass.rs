@@ -35,8 +35,16 @@ impl ModeMasses {
         let true_masses: Vec<f64> = modes.iter().map(|mode| mode.mass).collect();
         let squares = cloud.squared_weight_sum();
         let standard_errors = true_masses.iter().map(|p| (p * (1.0 - p) * squares).sqrt()).collect();
-        let largest_error = masses.iter().zip(&true_masses).fold(0.0, |e: f64, (mass, p)| e.max((mass - p).abs()));
-        Ok(Self { masses, true_masses, standard_errors, largest_error })
+        let largest_error = masses
+            .iter()
+            .zip(&true_masses)
+            .fold(0.0, |e: f64, (mass, p)| e.max((mass - p).abs()));
+        Ok(Self {
+            masses,
+            true_masses,
+            standard_errors,
+            largest_error,
+        })
     }
 }
 
@@ -45,7 +53,14 @@ fn check<const D: usize>(modes: &[Mode<D>]) -> Result<(), MetricError> {
         return Err(MetricError::NoModes);
     }
     for (index, mode) in modes.iter().enumerate() {
-        let invalid = |name, value, requirement| Err(MetricError::InvalidEntry { name, index, value, requirement });
+        let invalid = |name, value, requirement| {
+            Err(MetricError::InvalidEntry {
+                name,
+                index,
+                value,
+                requirement,
+            })
+        };
         if !(mode.width.is_finite() && mode.width > 0.0) {
             return invalid("the width of mode", mode.width, "positive and finite");
         }

@@ -38,7 +38,9 @@ impl<const D: usize> CloudMoments<D> {
         let mut covariance = Matrix([[0.0; D]; D]);
         for i in 0..D {
             for j in 0..=i {
-                let products = cloud.iter().map(|(x, weight)| weight * ((x[i] - mean[i]) * (x[j] - mean[j])));
+                let products = cloud
+                    .iter()
+                    .map(|(x, weight)| weight * ((x[i] - mean[i]) * (x[j] - mean[j])));
                 covariance.0[i][j] = finite(NAME, sum(products))?;
                 covariance.0[j][i] = covariance.0[i][j];
             }
@@ -51,12 +53,21 @@ impl<const D: usize> CloudMoments<D> {
             })
         };
         let (skewness, kurtosis) = (standardised(3), standardised(4));
-        Ok(Self { mean, covariance, standard_deviation, skewness, kurtosis })
+        Ok(Self {
+            mean,
+            covariance,
+            standard_deviation,
+            skewness,
+            kurtosis,
+        })
     }
 
     /// Mean and covariance, in the form in which targets state theirs.
     pub fn moments(&self) -> Moments<D> {
-        Moments { mean: self.mean, covariance: self.covariance }
+        Moments {
+            mean: self.mean,
+            covariance: self.covariance,
+        }
     }
 }
 
@@ -73,7 +84,12 @@ pub fn quantiles<const D: usize>(cloud: &Cloud<'_, D>, levels: &[f64]) -> Result
     for (index, &value) in levels.iter().enumerate() {
         if !(0.0..=1.0).contains(&value) {
             let (name, requirement) = ("the level of quantile", "between 0 and 1");
-            return Err(MetricError::InvalidEntry { name, index, value, requirement });
+            return Err(MetricError::InvalidEntry {
+                name,
+                index,
+                value,
+                requirement,
+            });
         }
     }
     let mut result = vec![[0.0; D]; levels.len()];
@@ -123,18 +139,32 @@ impl<const D: usize> MomentError<D> {
         }
         let largest = |values: &[f64; D]| values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
         let (largest_mean, largest_standard_deviation) = (largest(&mean), largest(&standard_deviation));
-        Ok(Self { mean, standard_deviation, largest_mean, largest_standard_deviation, largest_covariance })
+        Ok(Self {
+            mean,
+            standard_deviation,
+            largest_mean,
+            largest_standard_deviation,
+            largest_covariance,
+        })
     }
 }
 
 /// The standard deviations of a reference whose mean and variances are usable.
 pub(crate) fn checked_scale<const D: usize>(reference: &Moments<D>) -> Result<[f64; D], MetricError> {
     if let Some((index, &value)) = reference.mean.iter().enumerate().find(|(_, value)| !value.is_finite()) {
-        return Err(MetricError::InvalidEntry { name: "reference mean", index, value, requirement: "finite" });
+        return Err(MetricError::InvalidEntry {
+            name: "reference mean",
+            index,
+            value,
+            requirement: "finite",
+        });
     }
     let variance: [f64; D] = std::array::from_fn(|axis| reference.covariance.0[axis][axis]);
     match variance.iter().find(|value| !(value.is_finite() && **value > 0.0)) {
-        Some(&value) => Err(MetricError::InvalidCovariance { reason: "it has the variance", value }),
+        Some(&value) => Err(MetricError::InvalidCovariance {
+            reason: "it has the variance",
+            value,
+        }),
         None => Ok(variance.map(f64::sqrt)),
     }
 }

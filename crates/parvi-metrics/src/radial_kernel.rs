@@ -51,7 +51,9 @@ impl RadialKernel {
                 }
             }
         }
-        let too_few = MetricError::TooFewPoints { statistic: "the median of the positive distances" };
+        let too_few = MetricError::TooFewPoints {
+            statistic: "the median of the positive distances",
+        };
         let cloud = Cloud::weighted(&distances, &products)
             .map_err(|error| if error == MetricError::Empty { too_few } else { error })?;
         Self::new(SortedSample::along_axis(&cloud, 0).quantile(0.5))

@@ -25,7 +25,9 @@ pub fn sliced_wasserstein<const D: usize>(
     second: &Cloud<'_, D>,
     directions: &Directions<D>,
 ) -> Result<f64, MetricError> {
-    average(directions, |_, direction| transport_cost(&project(first, direction), &project(second, direction), square))
+    average(directions, |_, direction| {
+        transport_cost(&project(first, direction), &project(second, direction), square)
+    })
 }
 
 /// A reference sample, projected and sorted once, for the distance to many clouds.
@@ -41,8 +43,15 @@ pub struct SlicedReference<const D: usize> {
 impl<const D: usize> SlicedReference<D> {
     /// Projects and sorts the reference: O(L N log N).
     pub fn new(reference: &Cloud<'_, D>, directions: Directions<D>) -> Self {
-        let projections = directions.vectors().par_iter().map(|direction| project(reference, direction)).collect();
-        Self { directions, projections }
+        let projections = directions
+            .vectors()
+            .par_iter()
+            .map(|direction| project(reference, direction))
+            .collect();
+        Self {
+            directions,
+            projections,
+        }
     }
 
     /// The sliced Wasserstein distance of a cloud from the reference, as [`sliced_wasserstein`] gives it.
@@ -69,8 +78,12 @@ fn average<const D: usize>(
     directions: &Directions<D>,
     cost: impl Fn(usize, &[f64; D]) -> f64 + Send + Sync,
 ) -> Result<f64, MetricError> {
-    let costs: Vec<f64> =
-        directions.vectors().par_iter().enumerate().map(|(index, direction)| cost(index, direction)).collect();
+    let costs: Vec<f64> = directions
+        .vectors()
+        .par_iter()
+        .enumerate()
+        .map(|(index, direction)| cost(index, direction))
+        .collect();
     let count = costs.len() as f64;
     Ok(finite("the sliced Wasserstein distance", sum(costs) / count)?.sqrt())
 }

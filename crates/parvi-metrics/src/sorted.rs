@@ -66,10 +66,17 @@ impl SortedSample {
     /// The value at which F passes `level`; where F equals it (to rounding) along a gap, the middle of the gap.
     pub(crate) fn quantile(&self, level: f64) -> f64 {
         const ROUNDING: f64 = 1e-12;
-        let index = self.cumulative.partition_point(|f| *f < level - ROUNDING).min(self.values.len() - 1);
+        let index = self
+            .cumulative
+            .partition_point(|f| *f < level - ROUNDING)
+            .min(self.values.len() - 1);
         let next = (index + 1).min(self.values.len() - 1);
         let on_gap = level > ROUNDING && (self.cumulative[index] - level).abs() <= ROUNDING;
-        if on_gap { 0.5 * self.values[index] + 0.5 * self.values[next] } else { self.values[index] }
+        if on_gap {
+            0.5 * self.values[index] + 0.5 * self.values[next]
+        } else {
+            self.values[index]
+        }
     }
 
     /// ∫ g(F, G) dx over the gaps of the merged values of two samples, between the smallest and the largest value.

@@ -37,13 +37,20 @@ impl<const D: usize> Standardiser<D> {
     }
 
     fn with_covariance(mean: [f64; D], covariance: &Matrix<D>) -> Result<Self, MetricError> {
-        let invalid = |pivot| MetricError::InvalidCovariance { reason: "it has the Cholesky pivot", value: pivot };
-        Ok(Self { mean, factor: Cholesky::new(covariance).map_err(|error| invalid(error.pivot))? })
+        let invalid = |pivot| MetricError::InvalidCovariance {
+            reason: "it has the Cholesky pivot",
+            value: pivot,
+        };
+        Ok(Self {
+            mean,
+            factor: Cholesky::new(covariance).map_err(|error| invalid(error.pivot))?,
+        })
     }
 
     /// z = L⁻¹(x − m).
     pub fn point(&self, x: &[f64; D]) -> [f64; D] {
-        self.factor.solve_lower(&std::array::from_fn(|axis| x[axis] - self.mean[axis]))
+        self.factor
+            .solve_lower(&std::array::from_fn(|axis| x[axis] - self.mean[axis]))
     }
 
     /// [`Standardiser::point`] for every point.

@@ -1,16 +1,10 @@
 //! The energy distance from a Gaussian against known values, sampled references and its i.i.d. level.
 
+mod common;
+
+use common::normal_points;
 use mpm_tensor::Matrix;
 use parvi_metrics::{Cloud, EnergyReference, GaussianEnergy, MetricError};
-use rand::{RngExt, SeedableRng, rngs::ChaCha12Rng};
-use rand_distr::StandardNormal;
-
-fn normal_points<const D: usize>(count: usize, seed: u64) -> Vec<[f64; D]> {
-    let mut rng = ChaCha12Rng::seed_from_u64(seed);
-    (0..count)
-        .map(|_| std::array::from_fn(|_| rng.sample(StandardNormal)))
-        .collect()
-}
 
 #[test]
 fn mean_distances_of_standard_gaussians() {
