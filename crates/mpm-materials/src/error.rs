@@ -1,0 +1,72 @@
+//! What can be wrong with a parameter or with a deformation.
+
+/// A material parameter outside its range. Each variant carries the value as given.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum ParameterError {
+    /// Young's modulus E must be positive and finite.
+    #[error("Young's modulus must be positive and finite, not {value}")]
+    YoungModulus {
+        /// E as given.
+        value: f64,
+    },
+    /// Poisson's ratio ν must lie strictly between −1 and 1/2.
+    #[error("Poisson's ratio must lie strictly between -1 and 1/2, not {value}")]
+    PoissonRatio {
+        /// ν as given.
+        value: f64,
+    },
+    /// The shear modulus μ must be positive and finite.
+    #[error("the shear modulus must be positive and finite, not {value}")]
+    ShearModulus {
+        /// μ as given, or as computed from E and ν.
+        value: f64,
+    },
+    /// Lamé's first parameter λ must be finite and above −2μ/3.
+    #[error("Lame's first parameter must be finite and above -2/3 of the shear modulus, not {value}")]
+    FirstLameParameter {
+        /// λ as given, or as computed from E and ν.
+        value: f64,
+    },
+    /// The ratio κ of pressure to density must be positive and finite.
+    #[error("the pressure per density must be positive and finite, not {value}")]
+    PressurePerDensity {
+        /// κ as given.
+        value: f64,
+    },
+    /// The reference density ρ₀ must be positive and finite.
+    #[error("the reference density must be positive and finite, not {value}")]
+    ReferenceDensity {
+        /// ρ₀ as given.
+        value: f64,
+    },
+}
+
+/// A deformation gradient for which a material has no stress.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum DeformationError {
+    /// An entry of F is NaN or infinite.
+    #[error("the deformation gradient is not finite: entry ({row}, {column}) is {value}")]
+    NotFinite {
+        /// Zero-based row of the first such entry.
+        row: usize,
+        /// Zero-based column of the first such entry.
+        column: usize,
+        /// The entry.
+        value: f64,
+    },
+    /// The material is crushed or turned inside out: J = det F is not a positive finite number.
+    #[error("the volume ratio det F must be positive and finite, not {volume_ratio}")]
+    VolumeRatio {
+        /// J = det F.
+        volume_ratio: f64,
+    },
+}
+
+/// `Ok` for a positive finite value, the error made of it otherwise.
+pub(crate) fn positive(value: f64, error: impl FnOnce(f64) -> ParameterError) -> Result<f64, ParameterError> {
+    if value > 0.0 && value.is_finite() {
+        Ok(value)
+    } else {
+        Err(error(value))
+    }
+}

@@ -1,0 +1,105 @@
+//! The compressible Neo-Hookean solid.
+
+use mpm_tensor::Matrix;
+
+use crate::material::{check_volume_ratio, inverse_transpose, log_volume_ratio};
+use crate::stretch::{largest_squared_stretch, left_cauchy_green};
+use crate::{DeformationError, ElasticModuli, Material};
+
+/// The compressible Neo-Hookean solid, ψ = μ/2 (tr FᵀF − D) − μ ln J + λ/2 ln² J with J = det F.
+///
+/// P = μ (F − F⁻ᵀ) + λ ln J F⁻ᵀ and τ = μ (F Fᵀ − I) + λ ln J I, which needs no inverse. Objective and isotropic; ψ = 0 and
+/// τ = 0 at rest.
+///
+/// **Defined for J > 0 only.** ψ grows without bound as J → 0, so the exact motion never gets there, but a time step that is
+/// too long can. [`Material::check`] and [`Material::checked_kirchhoff_stress`] then return
+/// [`DeformationError::VolumeRatio`] with J; the unchecked methods return NaN (all diagonal entries of a stress).
+///
+/// Source: Bonet & Wood, *Nonlinear Continuum Mechanics*, 2nd ed., Eqs. 6.27–6.29; Huang, arXiv 2407.20287.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NeoHookean {
+    /// λ and μ.
+    pub moduli: ElasticModuli,
+}
+
+impl NeoHookean {
+    /// The material with these moduli.
+    pub fn new(moduli: ElasticModuli) -> Self {
+        Self { moduli }
+    }
+}
+
+#[allow(non_snake_case)]
+impl<const D: usize> Material<D> for NeoHookean {
+    #[inline]
+    fn energy_density(&self, F: &Matrix<D>) -> f64 {
+        let log_J = log_volume_ratio(F);
+        self.moduli.shear_modulus() * (0.5 * (F.contract(F) - D as f64) - log_J)
+            + 0.5 * self.moduli.first_lame_parameter() * log_J * log_J
+    }
+
+    #[inline]
+    fn kirchhoff_stress(&self, F: &Matrix<D>) -> Matrix<D> {
+        let mu = self.moduli.shear_modulus();
+        let pressure = self.moduli.first_lame_parameter() * log_volume_ratio(F);
+        let mut stress = left_cauchy_green(F) * mu;
+        for i in 0..D {
+            stress.0[i][i] += pressure - mu;
+        }
+        stress
+    }
+
+    fn first_piola_kirchhoff(&self, F: &Matrix<D>) -> Matrix<D> {
+        let mu = self.moduli.shear_modulus();
+        let pressure = self.moduli.first_lame_parameter() * log_volume_ratio(F);
+        *F * mu + inverse_transpose(F) * (pressure - mu)
+    }
+
+    /// ρ₀ c² = μ Λ² + max(0, λ + μ − λ ln J) with a bound of the largest stretch Λ of F.
+    #[inline]
+    fn wave_speed(&self, F: &Matrix<D>, reference_density: f64) -> f64 {
+        let (lambda, mu) = (self.moduli.first_lame_parameter(), self.moduli.shear_modulus());
+        let pressure_part = lambda + mu - lambda * log_volume_ratio(F);
+        // Not f64::max, which would hide NaN.
+        let pressure_part = if pressure_part < 0.0 { 0.0 } else { pressure_part };
+        ((mu * largest_squared_stretch(F) + pressure_part) / reference_density).sqrt()
+    }
+
+    fn check(&self, F: &Matrix<D>) -> Result<(), DeformationError> {
+        check_volume_ratio(F).map(|_| ())
+    }
+}
+
+#[cfg(test)]
+#[allow(non_snake_case)]
+mod tests {
+    use super::*;
+
+    fn material() -> NeoHookean {
+        NeoHookean::new(ElasticModuli::from_lame(3.0, 2.0).expect("in range"))
+    }
+
+    #[test]
+    fn a_uniaxial_stretch_gives_the_hand_calculation() {
+        let F = Matrix::diagonal(&[2.0, 1.0]);
+        let log_2 = 2f64.ln();
+        assert!((material().energy_density(&F) - (3.0 - 2.0 * log_2 + 1.5 * log_2 * log_2)).abs() < 1e-15);
+        let expected = Matrix::diagonal(&[6.0 + 3.0 * log_2, 3.0 * log_2]);
+        assert!((material().kirchhoff_stress(&F) - expected).frobenius_norm() < 1e-14);
+    }
+
+    #[test]
+    fn an_inverted_element_is_an_error_with_its_volume_ratio() {
+        for (F, volume_ratio) in [
+            (Matrix::diagonal(&[1.0, -0.5]), -0.5),
+            (Matrix::diagonal(&[0.0, 2.0]), 0.0),
+        ] {
+            let error = material().checked_kirchhoff_stress(&F).expect_err("inverted");
+            assert_eq!(error, DeformationError::VolumeRatio { volume_ratio });
+            assert!(material().kirchhoff_stress(&F).trace().is_nan());
+            assert!(material().first_piola_kirchhoff(&F).trace().is_nan());
+            assert!(material().energy_density(&F).is_nan());
+            assert!(material().wave_speed(&F, 1.0).is_nan());
+        }
+    }
+}

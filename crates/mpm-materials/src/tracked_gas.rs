@@ -1,0 +1,112 @@
+//! The isothermal gas as a function of the deformation gradient.
+
+use mpm_tensor::Matrix;
+
+use crate::error::positive;
+use crate::material::{check_volume_ratio, inverse_transpose, log_volume_ratio};
+use crate::{DeformationError, IsothermalGas, Material, ParameterError};
+
+/// The isothermal gas whose volume is tracked by F: ψ = −κ ρ₀ ln J, P = −κ ρ₀ F⁻ᵀ, τ = −κ ρ₀ I.
+///
+/// τ is constant because V⁰ τ = −V P I = −κ m I: the reason why [`IsothermalGas`] needs no F. Use this form to run the gas
+/// through a step made for solids, and to measure the elastic energy −κ Σ_p m_p ln J_p. Objective; **not** free of stress at
+/// F = I, a gas has no such state. Defined for J > 0 only: otherwise [`Material::check`] fails with J, and the unchecked
+/// methods return NaN.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TrackedGas {
+    gas: IsothermalGas,
+    reference_density: f64,
+}
+
+impl TrackedGas {
+    /// The gas with mass ρ₀ per reference volume.
+    ///
+    /// # Errors
+    ///
+    /// [`ParameterError::ReferenceDensity`] unless 0 < ρ₀ < ∞.
+    pub fn new(gas: IsothermalGas, reference_density: f64) -> Result<Self, ParameterError> {
+        let error = |value| ParameterError::ReferenceDensity { value };
+        Ok(Self {
+            gas,
+            reference_density: positive(reference_density, error)?,
+        })
+    }
+
+    /// The gas itself.
+    pub fn gas(&self) -> IsothermalGas {
+        self.gas
+    }
+
+    /// ρ₀, mass per reference volume.
+    pub fn reference_density(&self) -> f64 {
+        self.reference_density
+    }
+
+    /// J P = κ ρ₀, the Kirchhoff pressure, the same for every admissible F; NaN unless J is positive and finite.
+    #[allow(non_snake_case)]
+    #[inline]
+    fn kirchhoff_pressure<const D: usize>(&self, F: &Matrix<D>) -> f64 {
+        let J = F.determinant();
+        let pressure = self.gas.pressure(self.reference_density);
+        if J > 0.0 && J < f64::INFINITY {
+            pressure
+        } else {
+            f64::NAN
+        }
+    }
+}
+
+#[allow(non_snake_case)]
+impl<const D: usize> Material<D> for TrackedGas {
+    #[inline]
+    fn energy_density(&self, F: &Matrix<D>) -> f64 {
+        -self.gas.pressure(self.reference_density) * log_volume_ratio(F)
+    }
+
+    #[inline]
+    fn kirchhoff_stress(&self, F: &Matrix<D>) -> Matrix<D> {
+        Matrix::diagonal(&[-self.kirchhoff_pressure(F); D])
+    }
+
+    fn first_piola_kirchhoff(&self, F: &Matrix<D>) -> Matrix<D> {
+        inverse_transpose(F) * -self.kirchhoff_pressure(F)
+    }
+
+    /// c = √(κ ρ₀ / `reference_density`), which is √κ if the density passed is the gas's own ρ₀.
+    #[inline]
+    fn wave_speed(&self, F: &Matrix<D>, reference_density: f64) -> f64 {
+        (self.kirchhoff_pressure(F) / reference_density).sqrt()
+    }
+
+    fn check(&self, F: &Matrix<D>) -> Result<(), DeformationError> {
+        check_volume_ratio(F).map(|_| ())
+    }
+}
+
+#[cfg(test)]
+#[allow(non_snake_case)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_stress_times_the_volume_is_that_of_the_gas_without_deformation() {
+        let (kappa, density, reference_volume) = (1.5, 0.8, 0.25);
+        let gas = IsothermalGas::new(kappa).expect("positive");
+        let tracked = gas.with_reference_density(density).expect("positive");
+        let F = Matrix([[1.3, 0.2], [-0.1, 0.7]]);
+        let expected = Matrix::IDENTITY * -gas.pressure_times_volume(density * reference_volume);
+        let force_factor = tracked.kirchhoff_stress(&F) * reference_volume;
+        assert!((force_factor - expected).frobenius_norm() < 1e-16);
+        assert_eq!(Material::<2>::wave_speed(&tracked, &F, density), gas.wave_speed());
+        assert_eq!((tracked.gas(), tracked.reference_density()), (gas, density));
+    }
+
+    #[test]
+    fn an_inverted_gas_is_an_error_with_its_volume_ratio() {
+        let tracked = IsothermalGas::CALIBRATED.with_reference_density(1.0).expect("positive");
+        let F = Matrix::diagonal(&[1.0, -2.0]);
+        let error = tracked.checked_kirchhoff_stress(&F).expect_err("inverted");
+        assert_eq!(error, DeformationError::VolumeRatio { volume_ratio: -2.0 });
+        assert!(tracked.kirchhoff_stress(&F).trace().is_nan());
+    }
+}
