@@ -96,8 +96,8 @@ mod tests {
         let F = Matrix([[1.3, 0.2], [-0.1, 0.7]]);
         let expected = Matrix::IDENTITY * -gas.pressure_times_volume(density * reference_volume);
         let force_factor = tracked.kirchhoff_stress(&F) * reference_volume;
-        assert!((force_factor - expected).frobenius_norm() < 1e-16);
-        assert_eq!(Material::<2>::wave_speed(&tracked, &F, density), gas.wave_speed());
+        assert!((force_factor - expected).frobenius_norm() < 1e-15);
+        assert!((tracked.wave_speed(&F, density) - gas.wave_speed()).abs() < 1e-15);
         assert_eq!((tracked.gas(), tracked.reference_density()), (gas, density));
     }
 
