@@ -1,7 +1,8 @@
 //! Time per particle of one calibrated step (isothermal gas in a Gaussian well, PIC), rebuild and sorting included.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use mpm_core::{BodyForce, Gas, Mpm, MpmError, Particles, Pic, SplineGrid, StepControl};
+use mpm_core::{BodyForce, Mpm, MpmError, Particles, Pic, SplineGrid, StepControl};
+use mpm_materials::IsothermalGas;
 use mpm_kernels::{Cubic, Linear, Quadratic, Spline};
 use rand::{SeedableRng, rngs::ChaCha8Rng};
 use rand_distr::{Distribution, StandardNormal};
@@ -38,7 +39,7 @@ fn bench_step<S: Spline<W>, const W: usize, const D: usize>(c: &mut Criterion, p
         Particles::at_rest(positions, 1.0),
         SplineGrid::<S, W, D>::new([0.0; D], h).unwrap(),
         Pic,
-        Gas { pressure_per_density: 1.0 },
+        IsothermalGas::new(1.0).unwrap(),
         Well,
     );
     let control = StepControl { time_step: 0.5 * h, courant: f64::INFINITY, displacement: 0.5, friction: 1.0 };

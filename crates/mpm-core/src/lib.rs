@@ -16,7 +16,7 @@ pub use body_force::{BodyForce, NoBodyForce};
 pub use control::{StepControl, StepReport};
 pub use error::MpmError;
 pub use grid::SplineGrid;
-pub use medium::{Gas, Medium, StressImpulse};
+pub use medium::{Elastic, Medium, StressImpulse};
 pub use particles::{Masses, Particles};
 pub use schedule::Schedule;
 pub use step::Mpm;

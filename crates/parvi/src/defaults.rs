@@ -1,16 +1,23 @@
 //! Every default of the calibrated sampler, in one place, in the units of the frame.
+//!
+//! Chosen by scans of ED² against N(0, I) over d = 1…6, M = 128…4,096 and five seeds; see docs/results.
 
 use crate::BasisChoice;
 
-/// Steps.
-pub fn steps() -> usize {
-    100
-}
+/// Steps. With the two evaluations of the moment correction and the final one this makes at most 100 scores per particle.
+pub const STEPS: usize = 97;
 
-/// Spacing h of a tensor-product grid for M particles in D dimensions.
+/// Spacing h of a tensor-product grid for M particles in D dimensions: (0.3 D − 0.17) (M / 512)^{−1/(D+5)}.
+///
+/// Hats resolve less than quadratic splines at the same spacing and cubic ones more, hence the factor.
 pub fn spacing<const D: usize>(basis: BasisChoice, particles: usize) -> f64 {
-    let _ = (basis, particles);
-    1.0
+    let d = D as f64;
+    let factor = match basis {
+        BasisChoice::Linear => 1.15,
+        BasisChoice::Quadratic => 1.0,
+        BasisChoice::Cubic => 0.9,
+    };
+    factor * (0.3 * d - 0.17) * (particles as f64 / 512.0).powf(-1.0 / (d + 5.0))
 }
 
 /// Δt for spacing h.

@@ -1,7 +1,8 @@
 //! The calibrated sampler: an isothermal gas under the score, on a grid whose origin moves every step.
 
-use mpm_core::{Apic, Flip, Gas, Mpm, Particles, Pic, SplineGrid, StepControl, Transfer};
+use mpm_core::{Apic, Flip, Mpm, Particles, Pic, SplineGrid, StepControl, Transfer};
 use mpm_kernels::{Cubic, Linear, Quadratic, Spline};
+use mpm_materials::IsothermalGas;
 use parvi_targets::{Frame, Target};
 use rand::RngExt;
 
@@ -81,7 +82,7 @@ impl MpmOptions {
         run: &Run,
         observer: &mut dyn Observer,
     ) -> Result<Samples<D>, SampleError> {
-        let steps = steps(self.steps, defaults::steps())?;
+        let steps = steps(self.steps, defaults::STEPS)?;
         let spacing = positive("spacing", self.spacing, defaults::spacing::<D>(self.basis, run.particles))?;
         let time_step = positive("time step", self.time_step, defaults::time_step(spacing))?;
         let friction = self.friction.unwrap_or(defaults::FRICTION);
@@ -96,9 +97,7 @@ impl MpmOptions {
 
         let particles = Particles::at_rest(run.start_positions()?, 1.0);
         let grid = SplineGrid::<S, W, D>::new([0.0; D], spacing).map_err(|e| SampleError::in_step(0, e))?;
-        let gas = Gas {
-            pressure_per_density: 1.0,
-        };
+        let gas = IsothermalGas::new(1.0)?;
         let mut generator = run.generator(1);
         let mut shifts = Kronecker::new(std::array::from_fn(|_| generator.random::<f64>()));
         let plan = Plan {

@@ -173,8 +173,8 @@ pub enum SampleError {
         source: MpmError,
     },
     /// The elastic law refused its parameters.
-    #[error("{0}")]
-    Material(String),
+    #[error(transparent)]
+    Material(#[from] mpm_materials::ParameterError),
     /// The observer stopped the run.
     #[error("interrupted after step {step}")]
     Interrupted {

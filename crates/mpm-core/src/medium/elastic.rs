@@ -24,6 +24,7 @@ impl<const D: usize, M: Material<D>> Medium<D> for Elastic<M> {
     }
 
     fn wave_speed(&self, particles: &Particles<D>) -> f64 {
+        #[allow(non_snake_case)]
         let of_particle = |(p, F): (usize, &Matrix<D>)| {
             let density = particles.masses.get(p) / particles.reference_volumes[p];
             self.material.wave_speed(F, density)

@@ -1,10 +1,11 @@
 //! What the particles are made of: the stress impulse of a step, and whether it needs a deformation gradient.
 
+mod elastic;
 mod gas;
 
 use mpm_tensor::Matrix;
 
-pub use gas::Gas;
+pub use elastic::Elastic;
 
 use crate::{Basis, Particles};
 
