@@ -27,3 +27,9 @@ pub fn time_step(spacing: f64) -> f64 {
 
 /// Friction γ.
 pub const FRICTION: f64 = 1.5;
+
+/// Steps of the paper's algorithms.
+pub const PAPER_STEPS: usize = 200;
+
+/// Steps of Stein variational gradient descent.
+pub const SVGD_STEPS: usize = 500;

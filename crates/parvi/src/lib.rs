@@ -8,11 +8,13 @@ mod kronecker;
 mod method;
 mod moment_correction;
 mod mpm;
+mod paper;
 mod residual;
 mod run;
 mod start;
+mod svgd;
 
-pub use exact::independent_draws;
+pub use exact::{independent_draws, sobol_points};
 pub use method::*;
 pub use residual::{Residual, galerkin_stein_residual};
 pub use run::*;
@@ -20,8 +22,11 @@ pub use run::*;
 use parvi_targets::CatalogueTarget;
 
 /// Sample a catalogue target with any method, in the target's own frame.
+///
+/// # Errors
+/// [`SampleError`].
 pub fn sample<const D: usize>(
-    target: &(dyn CatalogueTarget<D> + Sync),
+    target: &dyn CatalogueTarget<D>,
     method: &Method,
     run: &Run,
     observer: &mut dyn Observer,
@@ -29,7 +34,9 @@ pub fn sample<const D: usize>(
     let frame = target.frame();
     match method {
         Method::Mpm(options) => options.sample(target, &frame, run, observer),
+        Method::Paper(options) => options.sample(target, &frame, run, observer),
+        Method::Svgd(options) => options.sample(target, &frame, run, observer),
         Method::Iid => independent_draws(target, run),
-        _ => Err(SampleError::Unsupported { method: "any", target: target.name().to_string(), needs: "an implementation" })
+        Method::Sobol => sobol_points(target, run),
     }
 }

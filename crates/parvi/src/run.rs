@@ -45,7 +45,7 @@ impl Default for Start {
 }
 
 /// What a run returns.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Samples<const D: usize> {
     /// Particle positions in the target's own coordinates, in the order in which the particles were started.
     pub positions: Vec<[f64; D]>,

@@ -14,9 +14,17 @@ impl Run {
         generator
     }
 
+    /// M, checked to be a number that particles can be counted with.
+    pub(crate) fn checked_particles(&self) -> Result<usize, SampleError> {
+        let count = self.particles;
+        let allowed = count >= 2 && u32::try_from(count).is_ok();
+        check("particles", count as f64, allowed, "from 2 to 2^32 - 1")?;
+        Ok(count)
+    }
+
     /// Independent draws from the start law, in frame coordinates.
     pub(crate) fn start_positions<const D: usize>(&self) -> Result<Vec<[f64; D]>, SampleError> {
-        check("particles", self.particles as f64, self.particles >= 2, "at least 2")?;
+        let count = self.checked_particles()?;
         let sd = self.start.standard_deviation;
         check("start standard deviation", sd, sd > 0.0 && sd.is_finite(), "positive and finite")?;
         check("start mean", self.start.mean, self.start.mean.is_finite(), "finite")?;
@@ -25,7 +33,7 @@ impl Run {
             let normal: f64 = StandardNormal.sample(&mut generator);
             self.start.mean + sd * normal
         };
-        Ok((0..self.particles).map(|_| std::array::from_fn(|_| coordinate())).collect())
+        Ok((0..count).map(|_| std::array::from_fn(|_| coordinate())).collect())
     }
 }
 
