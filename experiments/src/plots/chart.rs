@@ -2,7 +2,9 @@
 
 use super::data::{PlotError, check_size};
 use super::legend::{LegendEntry, Swatch, draw_legend, draw_notes, draw_title};
-use super::panel::{AxesParts, Panel, X_AXIS_ROOM, x_ticks, y_tick_room, y_ticks};
+use super::panel::{
+    AxesParts, Panel, label_lines, label_room, x_axis_room, x_ticks, y_tick_room, y_ticks,
+};
 use super::scale::{AxisKind, Scale, Ticks, plottable};
 use super::style::{FIGURE_WIDTH, GUIDE, LABEL_SIZE, LINE_WIDTH, MARGIN, SeriesStyle};
 use super::svg::{Drawing, Rectangle, Stroke};
@@ -109,15 +111,16 @@ impl Chart {
             .windows(2)
             .all(|p| p[0].y_ticks.exponent == p[1].y_ticks.exponent);
         let labelled = |column: usize| column == 0 || !one_y_label || !one_exponent;
-        let label_room = |column: usize| {
-            if labelled(column) {
-                LABEL_SIZE + 5.0
-            } else {
-                0.0
-            }
-        };
         let left_rooms: Vec<f64> = (0..columns)
-            .map(|column| column_ticks[column] + label_room(column))
+            .map(|column| {
+                let members = self.panels.iter().zip(&prepared).skip(column);
+                let lines = members.step_by(columns).map(|(panel, prepared)| {
+                    let exponent = prepared.y_ticks.exponent;
+                    label_lines(&panel.y_label, exponent, self.panel_height).len()
+                });
+                let lines = lines.filter(|_| labelled(column)).max().unwrap_or(0);
+                column_ticks[column] + label_room(lines)
+            })
             .collect();
         let gap = 10.0;
         let right = MARGIN + 8.0;
@@ -139,7 +142,28 @@ impl Chart {
         top += if legend > 0.0 { legend + 6.0 } else { 2.0 };
 
         let title_room = if titled { LABEL_SIZE + 5.0 } else { 4.0 };
-        let row_height = title_room + self.panel_height + X_AXIS_ROOM + 6.0;
+        let x_ticks: Vec<Ticks> = prepared
+            .iter()
+            .map(|prepared| x_ticks(&prepared.x, panel_width, 10.0))
+            .collect();
+        // Within a column, equal labels of the horizontal axes are written below the lowest panel only.
+        let x_label = |index: usize| {
+            let lowest = index + columns >= self.panels.len();
+            if lowest || !one_x_label || x_ticks[index].exponent != 0 {
+                self.panels[index].x_label.as_str()
+            } else {
+                ""
+            }
+        };
+        let mut row_tops = vec![top];
+        for row in 0..rows {
+            let members = row * columns..((row + 1) * columns).min(self.panels.len());
+            let lines = members.map(|index| {
+                label_lines(x_label(index), x_ticks[index].exponent, panel_width).len()
+            });
+            let below = x_axis_room(lines.max().unwrap_or(0)) + 6.0;
+            row_tops.push(row_tops[row] + title_room + self.panel_height + below);
+        }
         for (index, (panel, prepared)) in self.panels.iter().zip(&prepared).enumerate() {
             let (row, column) = (index / columns, index % columns);
             let left = MARGIN
@@ -148,33 +172,23 @@ impl Chart {
             let axes = Panel {
                 area: Rectangle {
                     x: left,
-                    y: top + row as f64 * row_height + title_room,
+                    y: row_tops[row] + title_room,
                     width: panel_width,
                     height: self.panel_height,
                 },
                 x: prepared.x,
                 y: prepared.y,
             };
-            let x_ticks = x_ticks(&axes.x, panel_width, 10.0);
-            let lowest = index + columns >= self.panels.len();
-            let x_label = if lowest || !one_x_label || x_ticks.exponent != 0 {
-                panel.x_label.as_str()
-            } else {
-                ""
-            };
             let parts = AxesParts {
-                x_ticks,
+                x_ticks: x_ticks[index].clone(),
                 y_ticks: prepared.y_ticks.clone(),
-                x_label: Some(x_label),
-                y_label: labelled(column).then_some((
-                    panel.y_label.as_str(),
-                    left_rooms[column] - 0.5 * LABEL_SIZE,
-                )),
-                y_tick_labels: true,
+                x_label: Some(x_label(index)),
+                y_label: if labelled(column) { &panel.y_label } else { "" },
+                y_tick_room: Some(column_ticks[column]),
             };
             draw_panel(&mut drawing, &axes, panel, &parts);
         }
-        let bottom = top + rows as f64 * row_height;
+        let bottom = row_tops[rows];
         let notes = draw_notes(&mut drawing, (MARGIN, bottom - 4.0), room, &self.notes);
         Ok(drawing.finish(self.width, bottom + notes + MARGIN - 4.0))
     }
@@ -211,7 +225,7 @@ impl Chart {
             let y = Scale::around(ordinates, panel.y_kind, 0.06);
             prepared.push(Prepared {
                 x: Scale::around(abscissas, panel.x_kind, 0.04),
-                y_ticks: y_ticks(&y, self.panel_height, 4.0),
+                y_ticks: y_ticks(&y, self.panel_height, 5.0),
                 y,
             });
         }

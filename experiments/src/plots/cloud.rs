@@ -5,8 +5,10 @@ use super::density_panel::{
     cloud_notes, contour_entry, draw_cloud, outside, pair_density, particle_entry,
 };
 use super::legend::{draw_legend, draw_notes, draw_title};
-use super::panel::{AxesParts, Panel, X_AXIS_ROOM, x_ticks, y_tick_room, y_ticks};
-use super::style::{FIGURE_WIDTH, LABEL_SIZE, MARGIN};
+use super::panel::{
+    AxesParts, Panel, label_lines, label_room, x_axis_room, x_ticks, y_tick_room, y_ticks,
+};
+use super::style::{FIGURE_WIDTH, MARGIN};
 use super::svg::{Drawing, Rectangle};
 
 /// A scatter plot of two-dimensional particles.
@@ -39,19 +41,23 @@ pub fn cloud(plot: &CloudPlot<'_>) -> Result<String, PlotError> {
     let weights = plot.particles.weights;
     let mut x = reference.scale(0, &columns[0], weights)?;
     let mut y = reference.scale(1, &columns[1], weights)?;
-    let width = 0.72 * FIGURE_WIDTH;
-    let mut height = 0.58 * FIGURE_WIDTH;
-    let room_for_labels = MARGIN + LABEL_SIZE + 5.0;
-    let left = room_for_labels + y_tick_room(&y_ticks(&y, height, 4.0));
-    let panel_width = width - left - MARGIN - 8.0;
+    let mut width = 0.72 * FIGURE_WIDTH;
+    let mut height = 0.55 * FIGURE_WIDTH;
+    let vertical = y_ticks(&y, height, 5.0);
+    let y_lines = label_lines(&labels[1], vertical.exponent, height).len();
+    let left = MARGIN + label_room(y_lines) + y_tick_room(&vertical);
+    let edge = MARGIN + 8.0;
+    let mut panel_width = width - left - edge;
     if plot.equal_units {
-        // The height follows the data between three fifths and six fifths of the width; beyond, an axis is widened.
-        height = (panel_width * y.span() / x.span()).clamp(0.6 * panel_width, 1.2 * panel_width);
-        (x, y) = (
-            x.widened(y.span() * panel_width / height),
-            y.widened(x.span() * height / panel_width),
-        );
+        // The frame takes the data's shape between two limits; beyond them an axis shows more than the data.
+        let shape = (y.span() / x.span()).clamp(0.6, 1.8);
+        height = (shape * panel_width).min(1.15 * panel_width);
+        panel_width = height / shape;
+        width = (left + panel_width + edge).max(0.55 * FIGURE_WIDTH);
+        (x, y) = (x.widened(y.span() / shape), y.widened(x.span() * shape));
     }
+    let vertical = y_ticks(&y, height, 5.0);
+    let tick_room = y_tick_room(&vertical);
     let mut drawing = Drawing::new(plot.title);
     let room = width - 2.0 * MARGIN;
     let mut top = MARGIN + draw_title(&mut drawing, (MARGIN, MARGIN), room, plot.title);
@@ -79,13 +85,14 @@ pub fn cloud(plot: &CloudPlot<'_>) -> Result<String, PlotError> {
     draw_cloud(&mut drawing, &panel, pair, weights, density.as_ref());
     let parts = AxesParts {
         x_ticks: x_ticks(&x, panel_width, 8.0),
-        y_ticks: y_ticks(&y, height, 4.0),
+        y_ticks: vertical,
         x_label: Some(&labels[0]),
-        y_label: Some((&labels[1], left - MARGIN - 0.5 * LABEL_SIZE)),
-        y_tick_labels: true,
+        y_label: &labels[1],
+        y_tick_room: Some(tick_room),
     };
+    let x_lines = label_lines(&labels[0], parts.x_ticks.exponent, panel_width).len();
     panel.draw_axes(&mut drawing, &parts);
-    let bottom = panel.area.bottom() + X_AXIS_ROOM + 2.0;
+    let bottom = panel.area.bottom() + x_axis_room(x_lines) + 2.0;
     let notes = cloud_notes(columns[0].len(), outside(&columns, &[x, y]), true);
     let notes = draw_notes(&mut drawing, (MARGIN, bottom), room, &notes);
     Ok(drawing.finish(width, bottom + notes + MARGIN))

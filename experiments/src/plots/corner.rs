@@ -2,13 +2,15 @@
 
 use super::data::{PlotError, PointCloud, Reference, coordinate_labels};
 use super::density_panel::{
-    Marginal, cloud_notes, contour_entry, draw_cloud, marginal_entries, outside, pair_density,
-    particle_entry,
+    Marginal, REFERENCE_SWATCH, cloud_notes, contour_entry, draw_cloud, marginal_entries, outside,
+    pair_density, particle_entry,
 };
 use super::legend::{draw_legend, draw_notes, draw_title, entry_width};
-use super::panel::{AxesParts, Panel, X_AXIS_ROOM, x_ticks, y_tick_room, y_ticks};
+use super::panel::{
+    AxesParts, Panel, label_lines, label_room, x_axis_room, x_ticks, y_tick_room, y_ticks,
+};
 use super::scale::{Scale, Ticks};
-use super::style::{FIGURE_WIDTH, LABEL_SIZE, MARGIN};
+use super::style::{FIGURE_WIDTH, MARGIN};
 use super::svg::{Drawing, Rectangle};
 
 /// A corner plot for d = 1 … 6.
@@ -51,14 +53,16 @@ pub fn corner(plot: &CornerPlot<'_>) -> Result<String, PlotError> {
         3 => 0.85 * FIGURE_WIDTH,
         _ => FIGURE_WIDTH,
     };
-    // The rows' tick labels decide the left margin; the size of a panel decides their ticks. A first guess suffices.
-    let guess = (width - 60.0) / dimension as f64 - GAP;
+    // The rows' tick labels and axis labels decide the left margin; a first guess of the panels' size decides those.
+    let guess = (width - 70.0) / dimension as f64 - GAP;
     let vertical: Vec<Ticks> = scales
         .iter()
-        .map(|s| y_ticks(s, guess, GAP / 2.0))
+        .map(|scale| y_ticks(scale, guess, GAP / 2.0))
         .collect();
     let tick_room = vertical.iter().skip(1).map(y_tick_room).fold(8.0, f64::max);
-    let left = MARGIN + LABEL_SIZE + 5.0 + tick_room;
+    let lines =
+        (1..dimension).map(|row| label_lines(&labels[row], vertical[row].exponent, guess).len());
+    let left = MARGIN + label_room(lines.max().unwrap_or(1)) + tick_room;
     let size = (width - left - MARGIN - 2.0 - GAP * (dimension - 1) as f64) / dimension as f64;
     let height = if dimension == 1 { 0.6 * size } else { size };
 
@@ -72,11 +76,15 @@ pub fn corner(plot: &CornerPlot<'_>) -> Result<String, PlotError> {
                 .collect()
         })
         .collect();
+    let contours = densities.iter().flatten().any(Option::is_some);
     let mut entries = marginal_entries(&marginals, plot.reference_label);
+    if contours {
+        entries.retain(|entry| entry.swatch != REFERENCE_SWATCH);
+    }
     if dimension > 1 {
         entries.push(particle_entry("particles"));
     }
-    if densities.iter().flatten().any(Option::is_some) {
+    if contours {
         entries.push(contour_entry(plot.reference_label));
     }
     // The legend stands in the empty upper triangle where it fits, else above.
@@ -89,6 +97,10 @@ pub fn corner(plot: &CornerPlot<'_>) -> Result<String, PlotError> {
         top += draw_legend(&mut drawing, (left, top), width - left - MARGIN, &entries) + 8.0;
     }
 
+    let horizontal: Vec<Ticks> = scales
+        .iter()
+        .map(|scale| x_ticks(scale, size, GAP / 2.0))
+        .collect();
     for row in 0..dimension {
         for column in 0..=row {
             let area = Rectangle {
@@ -98,7 +110,7 @@ pub fn corner(plot: &CornerPlot<'_>) -> Result<String, PlotError> {
                 height,
             };
             let mut parts = AxesParts {
-                x_ticks: x_ticks(&scales[column], size, GAP / 2.0),
+                x_ticks: horizontal[column].clone(),
                 x_label: (row == dimension - 1).then_some(labels[column].as_str()),
                 ..AxesParts::default()
             };
@@ -111,7 +123,8 @@ pub fn corner(plot: &CornerPlot<'_>) -> Result<String, PlotError> {
                 };
                 marginals[row].draw(&mut drawing, &panel);
                 if dimension == 1 {
-                    parts.y_label = Some(("density", tick_room + 0.5 * LABEL_SIZE));
+                    parts.y_label = "density";
+                    parts.y_tick_room = Some(tick_room);
                 }
                 panel.draw_axes(&mut drawing, &parts);
                 continue;
@@ -125,14 +138,18 @@ pub fn corner(plot: &CornerPlot<'_>) -> Result<String, PlotError> {
             let pair = (columns[column].as_slice(), columns[row].as_slice());
             draw_cloud(&mut drawing, &panel, pair, weights, density);
             parts.y_ticks = vertical[row].clone();
-            parts.y_tick_labels = column == 0;
             if column == 0 {
-                parts.y_label = Some((&labels[row], tick_room + 5.0 + 0.5 * LABEL_SIZE));
+                parts.y_label = &labels[row];
+                parts.y_tick_room = Some(tick_room);
             }
             panel.draw_axes(&mut drawing, &parts);
         }
     }
-    let bottom = top + dimension as f64 * (height + GAP) - GAP + X_AXIS_ROOM + 2.0;
+    let lines = (0..dimension)
+        .map(|axis| label_lines(&labels[axis], horizontal[axis].exponent, size).len())
+        .max();
+    let bottom =
+        top + dimension as f64 * (height + GAP) - GAP + x_axis_room(lines.unwrap_or(0)) + 2.0;
     let hidden = outside(&columns, &scales);
     let notes = cloud_notes(columns[0].len(), hidden, dimension > 1);
     let notes = draw_notes(&mut drawing, (MARGIN, bottom), room, &notes);

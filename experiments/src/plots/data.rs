@@ -189,7 +189,9 @@ impl CheckedReference<'_> {
         match self {
             CheckedReference::None => Ok(None),
             CheckedReference::Draws { columns, weights } => {
-                core_interval(&columns[axis], *weights).map(Some)
+                // The extremes of many draws say little about where the density is.
+                let levels = weighted_quantile(&columns[axis], *weights, &[0.001, 0.999])?;
+                Ok(Some((levels[0], levels[1])))
             }
             CheckedReference::Exact { marginals, pairs } => {
                 if let Some(Some(curve)) = marginals.get(axis) {

@@ -1,7 +1,8 @@
 //! What histograms, corner plots and scatter plots share: marginals and particles over density contours.
 
 use crate::statistics::{
-    Bandwidth, DensityGrid, equidistant, kernel_density, kernel_density_grid, weighted_quantile,
+    Bandwidth, DensityGrid, bandwidth, equidistant, kernel_density, kernel_density_grid,
+    weighted_quantile,
 };
 
 use super::contour::{contour_lines, levels_of_mass};
@@ -17,6 +18,9 @@ pub(super) const CONTOUR_MASSES: [f64; 3] = [0.5, 0.9, 0.99];
 
 /// No panel draws more particles than this; of more, every k-th is drawn.
 pub(super) const MOST_POINTS: usize = 4000;
+
+/// How legends show the reference.
+pub(super) const REFERENCE_SWATCH: Swatch<'static> = Swatch::Line(Stroke::solid(REFERENCE, 1.1));
 
 const HISTOGRAM_OPACITY: f64 = 0.32;
 
@@ -115,8 +119,9 @@ fn draw_curve(drawing: &mut Drawing, panel: &Panel, curve: &Curve, stroke: Strok
     drawing.paths(&[points], stroke);
 }
 
-/// Bars of equal width over the shown interval, normalised by the weight of all points. The width follows Freedman &
-/// Diaconis, 2 IQR n^(−1/3), with the effective sample size, within 8…60 bars over the interval.
+/// Bars of equal width over the shown interval, normalised by the weight of all points. The width is that of Freedman &
+/// Diaconis, 2 IQR n^(−1/3) with the effective sample size, or, where smaller as for separated modes, what corresponds to it
+/// for a kernel of the plug-in width, within 8…60 bars over the interval.
 fn histogram_bars(
     column: &[f64],
     weights: Option<&[f64]>,
@@ -127,7 +132,11 @@ fn histogram_bars(
     let total: f64 = (0..column.len()).map(weight).sum();
     let squares: f64 = (0..column.len()).map(|i| (weight(i) / total).powi(2)).sum();
     let quartiles = weighted_quantile(column, weights, &[0.25, 0.75])?;
-    let natural = 2.0 * (quartiles[1] - quartiles[0]) * squares.cbrt();
+    let mut natural = 2.0 * (quartiles[1] - quartiles[0]) * squares.cbrt();
+    if let Ok(width) = bandwidth(column, weights, Bandwidth::default()) {
+        // For a Gaussian: 2.7 σ n^(−1/3) = 2.55 h n^(−2/15) with h = 1.06 σ n^(−1/5).
+        natural = natural.min(2.55 * width * squares.powf(2.0 / 15.0));
+    }
     let count = if natural > 0.0 {
         ((high - low) / natural).clamp(8.0, 60.0) as usize
     } else {
@@ -170,7 +179,7 @@ pub(super) fn pair_density(
                 let margin = 0.08 * (high - low);
                 (low - margin, high + margin)
             };
-            kernel_density_grid(first, second, *weights, range(x), range(y), 110).ok()
+            kernel_density_grid(first, second, *weights, (range(x), range(y)), 110).ok()
         }
         CheckedReference::Exact { pairs, .. } => pairs
             .iter()
@@ -179,8 +188,9 @@ pub(super) fn pair_density(
     }
 }
 
-/// Draws the particles as discs, smaller and fainter the more there are, their area in proportion to their weight, and the
-/// contours of `density` over them. Returns how many of the drawn particles lie outside the axes.
+/// Draws the particles as discs, smaller and fainter the more there are, their area in proportion to their weight up to
+/// four times the mean, and the
+/// contours of `density` over them.
 pub(super) fn draw_cloud(
     drawing: &mut Drawing,
     panel: &Panel,
@@ -191,14 +201,14 @@ pub(super) fn draw_cloud(
     let stride = x.len().div_ceil(MOST_POINTS);
     let drawn = x.len().div_ceil(stride) as f64;
     let extent = panel.area.width.min(panel.area.height);
-    let radius = (0.011 * extent * (500.0 / drawn).powf(0.3)).clamp(0.4, 1.8);
-    let opacity = (0.75 * (500.0 / drawn).powf(0.25)).clamp(0.3, 0.85);
+    let radius = (0.009 * extent * (500.0 / drawn).powf(0.35)).clamp(0.45, 1.7);
+    let opacity = (0.7 * (500.0 / drawn).powf(0.25)).clamp(0.3, 0.8);
     let mean = weights.map_or(1.0, |w| w.iter().sum::<f64>() / w.len() as f64);
     // Radii in steps of a quarter of the usual one, so that discs of one size share paths.
-    let mut sizes: Vec<Vec<(f64, f64)>> = vec![Vec::new(); 13];
+    let mut sizes: Vec<Vec<(f64, f64)>> = vec![Vec::new(); 9];
     for index in (0..x.len()).step_by(stride) {
         let relative = weights.map_or(1.0, |weights| weights[index] / mean);
-        let step = (4.0 * relative.sqrt()).round().min(12.0) as usize;
+        let step = (4.0 * relative.sqrt()).round().min(8.0) as usize;
         if let Some(at) = panel.point(x[index], y[index])
             && panel.contains(at)
         {
@@ -206,7 +216,7 @@ pub(super) fn draw_cloud(
         }
     }
     drawing.clipped(panel.area, |drawing| {
-        for (step, centres) in sizes.iter().enumerate().skip(1) {
+        for (step, centres) in sizes.iter().enumerate().skip(1).rev() {
             if !centres.is_empty() {
                 let radius = (radius * step as f64 / 4.0).max(0.25);
                 drawing.discs(centres, radius, PARTICLES, opacity);
@@ -217,15 +227,26 @@ pub(super) fn draw_cloud(
             let lines: Vec<Vec<(f64, f64)>> = contour_lines(grid, level)
                 .into_iter()
                 .map(|line| {
-                    line.into_iter()
-                        .filter_map(|(x, y)| panel.point(x, y))
-                        .collect()
+                    let points = line.into_iter().filter_map(|(x, y)| panel.point(x, y));
+                    spaced(&points.collect::<Vec<_>>())
                 })
                 .collect();
-            drawing.paths(&lines, Stroke::solid("#fff", 2.2));
+            drawing.paths(&lines, Stroke::solid("#fff", 1.7));
             drawing.paths(&lines, Stroke::solid(REFERENCE, 0.9));
         }
     });
+}
+
+/// The line without points closer than 0.8 points on the page to the last one kept; its ends stay.
+fn spaced(line: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let mut kept: Vec<(f64, f64)> = Vec::new();
+    for (index, point) in line.iter().enumerate() {
+        let far = |last: &(f64, f64)| (point.0 - last.0).hypot(point.1 - last.1) > 0.8;
+        if index + 1 == line.len() || kept.last().is_none_or(far) {
+            kept.push(*point);
+        }
+    }
+    kept
 }
 
 /// How many of the points lie outside the given scales in at least one coordinate.
@@ -273,7 +294,7 @@ pub(super) fn marginal_entries<'a>(
     }
     if marginals.iter().any(Marginal::has_reference) {
         entries.push(LegendEntry {
-            swatch: Swatch::Line(Stroke::solid(REFERENCE, 1.1)),
+            swatch: REFERENCE_SWATCH,
             label: or_target(reference_label),
         });
     }
@@ -283,8 +304,8 @@ pub(super) fn marginal_entries<'a>(
 /// The legend's entry for contours.
 pub(super) fn contour_entry<'a>(reference_label: &str) -> LegendEntry<'a> {
     LegendEntry {
-        swatch: Swatch::Line(Stroke::solid(REFERENCE, 0.9)),
-        label: format!("{}: 50, 90, 99 % of its mass", or_target(reference_label)),
+        swatch: REFERENCE_SWATCH,
+        label: format!("{}; contours hold 50, 90, 99 %", or_target(reference_label)),
     }
 }
 

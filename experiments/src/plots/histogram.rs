@@ -3,9 +3,11 @@
 use super::data::{PlotError, PointCloud, Reference, coordinate_labels};
 use super::density_panel::{Marginal, cloud_notes, marginal_entries, outside};
 use super::legend::{draw_legend, draw_notes, draw_title};
-use super::panel::{AxesParts, Panel, X_AXIS_ROOM, x_ticks, y_tick_room, y_ticks};
+use super::panel::{
+    AxesParts, Panel, label_lines, label_room, x_axis_room, x_ticks, y_tick_room, y_ticks,
+};
 use super::scale::Scale;
-use super::style::{FIGURE_WIDTH, LABEL_SIZE, MARGIN};
+use super::style::{FIGURE_WIDTH, MARGIN};
 use super::svg::{Drawing, Rectangle};
 
 /// A figure of marginals, one panel per coordinate, d = 1 … 8.
@@ -44,7 +46,6 @@ pub fn histogram(plot: &HistogramPlot<'_>) -> Result<String, PlotError> {
     let (per_row, width) = match dimension {
         1 => (1, 0.7 * FIGURE_WIDTH),
         2 | 4 => (2, FIGURE_WIDTH),
-        7 | 8 => (4, FIGURE_WIDTH),
         _ => (3, FIGURE_WIDTH),
     };
     let height = if per_row < 3 { 140.0 } else { 100.0 };
@@ -56,22 +57,25 @@ pub fn histogram(plot: &HistogramPlot<'_>) -> Result<String, PlotError> {
             Scale::linear(0.0, 1.08 * peak, 0.0)
         })
         .collect();
-    let vertical: Vec<_> = heights.iter().map(|y| y_ticks(y, height, 4.0)).collect();
-    let scaled = vertical.iter().any(|ticks| ticks.exponent != 0);
+    let vertical: Vec<_> = heights.iter().map(|y| y_ticks(y, height, 5.0)).collect();
+    let y_label = |axis: usize| {
+        // One label per row, except where a panel has a power of ten of its own.
+        if axis.is_multiple_of(per_row) || vertical[axis].exponent != 0 {
+            "density"
+        } else {
+            ""
+        }
+    };
+    let widest = |column: usize, room: &dyn Fn(usize) -> f64| {
+        let members = (column..dimension).step_by(per_row);
+        members.map(room).fold(0.0, f64::max)
+    };
     let tick_room: Vec<f64> = (0..per_row)
-        .map(|column| {
-            let members = vertical.iter().skip(column).step_by(per_row);
-            members.map(y_tick_room).fold(0.0, f64::max)
-        })
+        .map(|column| widest(column, &|axis| y_tick_room(&vertical[axis])))
         .collect();
-    let labelled = |column: usize| column == 0 || scaled;
     let left_room = |column: usize| {
-        tick_room[column]
-            + if labelled(column) {
-                LABEL_SIZE + 5.0
-            } else {
-                0.0
-            }
+        let lines = |axis: usize| label_lines(y_label(axis), vertical[axis].exponent, height).len();
+        tick_room[column] + widest(column, &|axis| label_room(lines(axis)))
     };
     let gap = 10.0;
     let left_rooms: f64 = (0..per_row).map(left_room).sum();
@@ -89,7 +93,14 @@ pub fn histogram(plot: &HistogramPlot<'_>) -> Result<String, PlotError> {
         width - indent - MARGIN,
         &entries,
     ) + 8.0;
-    let row_height = height + X_AXIS_ROOM + 10.0;
+    let horizontal: Vec<_> = scales
+        .iter()
+        .map(|x| x_ticks(x, panel_width, 8.0))
+        .collect();
+    let lines = (0..dimension)
+        .map(|axis| label_lines(&labels[axis], horizontal[axis].exponent, panel_width).len())
+        .max();
+    let row_height = height + x_axis_room(lines.unwrap_or(0)) + 10.0;
     for (axis, marginal) in marginals.iter().enumerate() {
         let (row, column) = (axis / per_row, axis % per_row);
         let left =
@@ -106,11 +117,11 @@ pub fn histogram(plot: &HistogramPlot<'_>) -> Result<String, PlotError> {
         };
         marginal.draw(&mut drawing, &panel);
         let parts = AxesParts {
-            x_ticks: x_ticks(&panel.x, panel_width, 8.0),
+            x_ticks: horizontal[axis].clone(),
             y_ticks: vertical[axis].clone(),
             x_label: Some(&labels[axis]),
-            y_label: labelled(column).then_some(("density", left_room(column) - 0.5 * LABEL_SIZE)),
-            y_tick_labels: true,
+            y_label: y_label(axis),
+            y_tick_room: Some(tick_room[column]),
         };
         panel.draw_axes(&mut drawing, &parts);
     }

@@ -2,7 +2,7 @@
 
 use super::style::{LINE_WIDTH, SeriesStyle, TEXT_SIZE, TITLE_SIZE};
 use super::svg::{Drawing, Rectangle, Stroke};
-use super::text::{Anchor, TextStyle, width};
+use super::text::{Anchor, TextStyle, width, wrap};
 
 /// What a legend shows before a label.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,28 +46,33 @@ pub fn entry_width(entries: &[LegendEntry<'_>]) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Draws the entries in as many columns as fit into `room` from the point `at` (top left) and returns the height taken.
+/// Draws the entries, column by column in as many columns as fit into `room`, from the point `at` (top left) and returns the
+/// height taken.
 pub fn draw_legend(
     drawing: &mut Drawing,
     at: (f64, f64),
     room: f64,
     entries: &[LegendEntry<'_>],
 ) -> f64 {
-    if entries.is_empty() {
+    let fits = |rows: &usize| {
+        let columns = entries.chunks(*rows);
+        columns.map(|c| entry_width(c) + COLUMN_GAP).sum::<f64>() <= room + COLUMN_GAP
+    };
+    let Some(rows) = (1..=entries.len()).find(|rows| fits(rows) || *rows == entries.len()) else {
         return 0.0;
-    }
-    let column = entry_width(entries) + COLUMN_GAP;
-    let most = (((room + COLUMN_GAP) / column) as usize).clamp(1, entries.len());
-    let rows = entries.len().div_ceil(most);
-    for (index, entry) in entries.iter().enumerate() {
-        let x = at.0 + (index / rows) as f64 * column;
-        let middle = at.1 + ((index % rows) as f64 + 0.5) * ROW;
-        draw_swatch(drawing, (x, middle), entry.swatch);
-        drawing.text(
-            (x + SWATCH + GAP, middle + 0.36 * TEXT_SIZE),
-            &entry.label,
-            TextStyle::plain(Anchor::Start),
-        );
+    };
+    let mut x = at.0;
+    for column in entries.chunks(rows) {
+        for (row, entry) in column.iter().enumerate() {
+            let middle = at.1 + (row as f64 + 0.5) * ROW;
+            draw_swatch(drawing, (x, middle), entry.swatch);
+            drawing.text(
+                (x + SWATCH + GAP, middle + 0.36 * TEXT_SIZE),
+                &entry.label,
+                TextStyle::plain(Anchor::Start),
+            );
+        }
+        x += entry_width(column) + COLUMN_GAP;
     }
     rows as f64 * ROW
 }
@@ -140,19 +145,4 @@ pub fn draw_notes(drawing: &mut Drawing, at: (f64, f64), room: f64, notes: &[Str
     } else {
         lines.len() as f64 * 1.3 * TEXT_SIZE + 4.0
     }
-}
-
-/// Breaks a text at spaces into lines of at most `room` points where words allow.
-fn wrap(text: &str, room: f64, size: f64) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
-        match lines.last_mut() {
-            Some(line) if width(line, size) + width(word, size) + 0.32 * size <= room => {
-                line.push(' ');
-                line.push_str(word);
-            }
-            _ => lines.push(word.to_string()),
-        }
-    }
-    lines
 }

@@ -3,7 +3,7 @@
 use super::scale::{Scale, Ticks};
 use super::style::{AXIS_WIDTH, GRID, INK, LABEL_SIZE, MAJOR_TICK, MINOR_TICK, TEXT_SIZE};
 use super::svg::{Drawing, Rectangle, Stroke};
-use super::text::{Anchor, TextStyle, power_of_ten, width};
+use super::text::{Anchor, TextStyle, power_of_ten, width, wrap};
 
 /// The distance between a tick and its label.
 const TICK_GAP: f64 = 2.5;
@@ -28,10 +28,10 @@ pub struct AxesParts<'a> {
     pub y_ticks: Ticks,
     /// The label of the horizontal axis; `None` leaves out tick labels too.
     pub x_label: Option<&'a str>,
-    /// The label of the vertical axis and the distance of its centre line from the frame; `None` leaves it out.
-    pub y_label: Option<(&'a str, f64)>,
-    /// Whether the vertical ticks are labelled.
-    pub y_tick_labels: bool,
+    /// The label of the vertical axis.
+    pub y_label: &'a str,
+    /// The room for the tick labels between the frame and the vertical axis' label; `None` leaves out both.
+    pub y_tick_room: Option<f64>,
 }
 
 impl Panel {
@@ -100,53 +100,76 @@ impl Panel {
                 drawing.text((x, baseline), text, TextStyle::plain(Anchor::Middle));
             }
             let middle = area.x + 0.5 * area.width;
-            let label = with_exponent(label, parts.x_ticks.exponent);
-            drawing.text(
-                (middle, baseline + 3.5 + LABEL_SIZE),
-                &label,
-                TextStyle::sized(fitted_size(&label, area.width + 20.0), Anchor::Middle),
-            );
+            let lines = label_lines(label, parts.x_ticks.exponent, area.width);
+            for (index, line) in lines.iter().enumerate() {
+                let y = baseline + 3.5 + LABEL_SIZE + index as f64 * LINE_HEIGHT;
+                let style = TextStyle::sized(LABEL_SIZE, Anchor::Middle);
+                drawing.text((middle, y), line, style);
+            }
         }
-        if parts.y_tick_labels {
+        if let Some(tick_room) = parts.y_tick_room {
             let x = area.x - MAJOR_TICK - TICK_GAP;
             for (fraction, text) in &parts.y_ticks.major {
                 let y = bottom - fraction * area.height + 0.36 * TEXT_SIZE;
                 drawing.text((x, y), text, TextStyle::plain(Anchor::End));
             }
-        }
-        if let Some((label, distance)) = parts.y_label {
-            let label = with_exponent(label, parts.y_ticks.exponent);
-            let style = TextStyle {
-                upwards: true,
-                ..TextStyle::sized(fitted_size(&label, area.height + 20.0), Anchor::Middle)
-            };
-            let at = (
-                area.x - distance + 0.36 * LABEL_SIZE,
-                area.y + 0.5 * area.height,
-            );
-            drawing.text(at, &label, style);
+            let lines = label_lines(parts.y_label, parts.y_ticks.exponent, area.height);
+            for (index, line) in lines.iter().rev().enumerate() {
+                let distance = tick_room + 6.5 + index as f64 * LINE_HEIGHT;
+                let style = TextStyle {
+                    upwards: true,
+                    ..TextStyle::sized(LABEL_SIZE, Anchor::Middle)
+                };
+                let middle = area.y + 0.5 * area.height;
+                drawing.text((area.x - distance, middle), line, style);
+            }
         }
     }
 }
 
-/// The label with the power of ten that the tick labels leave out.
-fn with_exponent(label: &str, exponent: i32) -> String {
-    if exponent == 0 {
-        return label.to_string();
+/// The distance between the lines of a label.
+const LINE_HEIGHT: f64 = 1.2 * LABEL_SIZE;
+
+/// An axis label with the power of ten that the tick labels leave out, in lines not much longer than the axis.
+pub fn label_lines(label: &str, exponent: i32, length: f64) -> Vec<String> {
+    let label = if exponent == 0 {
+        label.to_string()
+    } else {
+        format!("{label} (×{})", power_of_ten(exponent))
+    };
+    // What stands in parentheses, such as a unit, stays together.
+    let mut depth = 0;
+    let joined: String = label
+        .chars()
+        .map(|character| {
+            match character {
+                '(' => depth += 1,
+                ')' => depth -= 1,
+                _ => {}
+            }
+            if character == ' ' && depth > 0 {
+                '\u{a0}'
+            } else {
+                character
+            }
+        })
+        .collect();
+    wrap(&joined, length, LABEL_SIZE)
+}
+
+/// The room that an axis label of so many lines needs beside the tick labels.
+pub fn label_room(lines: usize) -> f64 {
+    if lines == 0 {
+        0.0
+    } else {
+        lines as f64 * LINE_HEIGHT + 5.0
     }
-    format!("{label} (×{})", power_of_ten(exponent))
-        .trim_start()
-        .to_string()
 }
 
-/// The label size, reduced down to the text size for long labels.
-fn fitted_size(label: &str, room: f64) -> f64 {
-    let natural = width(label, LABEL_SIZE);
-    (LABEL_SIZE * (room / natural.max(1.0)).min(1.0)).max(TEXT_SIZE)
+/// The room that a horizontal axis needs below its frame for ticks, tick labels and a label of so many lines.
+pub fn x_axis_room(lines: usize) -> f64 {
+    MAJOR_TICK + TICK_GAP + TEXT_SIZE + label_room(lines)
 }
-
-/// The room that a horizontal axis needs below its frame: ticks, tick labels and the label.
-pub const X_AXIS_ROOM: f64 = MAJOR_TICK + TICK_GAP + TEXT_SIZE + 4.0 + LABEL_SIZE;
 
 /// Horizontal ticks for an axis `length` points long. Labels that would stick out of the axis by more than `overhang` are
 /// left off.
@@ -157,11 +180,11 @@ pub fn x_ticks(scale: &Scale, length: f64, overhang: f64) -> Ticks {
     };
     let mut ticks = scale.ticks(|labels| {
         let kept: Vec<&(f64, String)> = labels.iter().filter(|label| inside(label)).collect();
-        kept.len() >= 2.min(labels.len())
-            && kept.windows(2).all(|pair| {
-                let room = 0.5 * (width(&pair[0].1, TEXT_SIZE) + width(&pair[1].1, TEXT_SIZE));
-                (pair[1].0 - pair[0].0) * length >= room + 7.0
-            })
+        let apart = kept.windows(2).all(|pair| {
+            let room = 0.5 * (width(&pair[0].1, TEXT_SIZE) + width(&pair[1].1, TEXT_SIZE));
+            (pair[1].0 - pair[0].0) * length >= room + 5.0
+        });
+        apart.then_some(kept.len())
     });
     for tick in &mut ticks.major {
         if !inside(tick) {
@@ -173,15 +196,18 @@ pub fn x_ticks(scale: &Scale, length: f64, overhang: f64) -> Ticks {
 
 /// Vertical ticks for an axis `length` points long; labels that would stick out by more than `overhang` are left off.
 pub fn y_ticks(scale: &Scale, length: f64, overhang: f64) -> Ticks {
+    let half = 0.5 * TEXT_SIZE - overhang;
+    let inside =
+        |(fraction, _): &(f64, String)| (half..=length - half).contains(&(fraction * length));
     let mut ticks = scale.ticks(|labels| {
-        labels
+        let apart = labels
             .windows(2)
-            .all(|pair| (pair[1].0 - pair[0].0) * length >= 2.0 * TEXT_SIZE)
+            .all(|pair| (pair[1].0 - pair[0].0) * length >= 1.6 * TEXT_SIZE);
+        apart.then(|| labels.iter().filter(|label| inside(label)).count())
     });
-    let half = 0.5 * TEXT_SIZE;
-    for (fraction, label) in &mut ticks.major {
-        if *fraction * length < half - overhang || *fraction * length > length - half + overhang {
-            label.clear();
+    for tick in &mut ticks.major {
+        if !inside(tick) {
+            tick.1.clear();
         }
     }
     ticks

@@ -142,38 +142,63 @@ impl Scale {
         fraction.is_finite().then_some(fraction)
     }
 
-    /// Ticks for an axis with room for labels: `fits(labels)` says whether these labels at these fractions do not touch.
-    pub fn ticks(&self, fits: impl Fn(&[(f64, String)]) -> bool) -> Ticks {
-        let mut fewest = None;
-        for count in [9, 8, 7, 6, 5, 4, 3, 2] {
-            let ticks = if self.logarithmic {
-                self.logarithmic_ticks(count)
-            } else {
-                self.linear_ticks(count)
-            };
-            if ticks.major.len() >= 2 && fits(&ticks.major) {
-                return ticks;
-            }
-            if !ticks.major.is_empty() {
-                fewest = Some(ticks);
-            }
-        }
-        let mut ticks = fewest.unwrap_or_default();
-        ticks.major.truncate(1);
-        ticks
+    /// Ticks for an axis with limited room: `kept(labels)` is the number of labels that would be shown of those given with
+    /// their fractions, or `None` if some would touch. The finest division that shows two labels or more is taken, else the
+    /// finest that shows one.
+    pub fn ticks(&self, kept: impl Fn(&[(f64, String)]) -> Option<usize>) -> Ticks {
+        let candidates: Vec<Ticks> = if self.logarithmic {
+            [9, 8, 7, 6, 5, 4, 3, 2]
+                .into_iter()
+                .map(|count| self.logarithmic_ticks(count))
+                .collect()
+        } else {
+            self.steps()
+                .into_iter()
+                .map(|(step, parts)| self.linear_ticks(step, parts))
+                .collect()
+        };
+        let shown = |ticks: &Ticks| kept(&ticks.major).unwrap_or(0);
+        let best = candidates.iter().find(|ticks| shown(ticks) >= 2);
+        let best = best.or_else(|| candidates.iter().find(|ticks| shown(ticks) == 1));
+        best.or(candidates.last()).cloned().unwrap_or_default()
     }
 
-    fn linear_ticks(&self, count: usize) -> Ticks {
-        let (step, parts) = nice_step((self.high - self.low) / count as f64);
+    /// The steps between labels to try and into how many parts minor ticks divide each: first 1, 2 and 5 times powers of
+    /// ten, from fine to coarse, then less usual ones.
+    fn steps(&self) -> Vec<(f64, f64)> {
+        let span = self.high - self.low;
+        let decade = span.log10().floor() as i32;
+        let mut steps = Vec::new();
+        for factors in [
+            [(1.0, 5.0), (2.0, 4.0), (5.0, 5.0)],
+            [(2.5, 5.0), (3.0, 3.0), (4.0, 4.0)],
+        ] {
+            for exponent in decade - 1..=decade {
+                for (factor, parts) in factors {
+                    let step = factor * 10f64.powi(exponent);
+                    if step >= span / 10.0 && step <= span {
+                        steps.push((step, parts));
+                    }
+                }
+            }
+        }
+        steps
+    }
+
+    fn linear_ticks(&self, step: f64, parts: f64) -> Ticks {
         let magnitude = self.low.abs().max(self.high.abs());
         let leading = magnitude.log10().floor() as i32;
-        let exponent = if (-3..5).contains(&leading) {
+        let exponent = if (-2..4).contains(&leading) {
             0
         } else {
             leading
         };
         let unit = 10f64.powi(exponent);
-        let decimals = (exponent as f64 - (step * 1.000_001).log10().floor()).clamp(0.0, 15.0);
+        let whole = |decimals: &i32| {
+            let multiple = step / unit * 10f64.powi(*decimals);
+            (multiple - multiple.round()).abs() < 1e-6 * multiple
+        };
+        let decimals = (0..15).find(whole).unwrap_or(15);
         let mut ticks = Ticks {
             exponent,
             ..Ticks::default()
@@ -240,17 +265,6 @@ impl Scale {
     }
 }
 
-/// The smallest of 1, 2, 5 times a power of ten that is at least `step`, and into how many parts minor ticks divide it.
-fn nice_step(step: f64) -> (f64, f64) {
-    let unit = 10f64.powf(step.log10().floor());
-    for (factor, parts) in [(1.0, 5.0), (2.0, 4.0), (5.0, 5.0)] {
-        if factor * unit >= step * (1.0 - 1e-9) {
-            return (factor * unit, parts);
-        }
-    }
-    (10.0 * unit, 5.0)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -262,14 +276,15 @@ mod tests {
     #[test]
     fn linear_ticks_are_round_numbers() {
         let scale = Scale::around([-1.1, 1.1], AxisKind::Linear, 0.0);
-        let ticks = scale.ticks(|labels| labels.len() <= 5);
+        let ticks = scale.ticks(|labels| (labels.len() <= 5).then_some(labels.len()));
         assert_eq!(labels(&ticks), ["−1.0", "−0.5", "0.0", "0.5", "1.0"]);
         assert_eq!(scale.fraction(0.0), Some(0.5));
     }
 
     #[test]
     fn tiny_values_share_a_power_of_ten() {
-        let ticks = Scale::around([0.0, 4e-6], AxisKind::Linear, 0.0).ticks(|l| l.len() <= 5);
+        let ticks = Scale::around([0.0, 4e-6], AxisKind::Linear, 0.0)
+            .ticks(|l| (l.len() <= 5).then_some(l.len()));
         assert_eq!(labels(&ticks), ["0", "1", "2", "3", "4"]);
         assert_eq!(ticks.exponent, -6);
     }
@@ -278,7 +293,7 @@ mod tests {
     fn logarithmic_ticks_are_decades_with_minor_ticks() {
         let scale = Scale::around([1e-6, 1e-2], AxisKind::Automatic, 0.0);
         assert!(scale.logarithmic);
-        let ticks = scale.ticks(|_| true);
+        let ticks = scale.ticks(|l| Some(l.len()));
         assert_eq!(ticks.major[0].1, "10^{−6}");
         assert_eq!(ticks.major.len(), 5);
         assert_eq!(ticks.minor.len(), 4 * 8);
@@ -302,7 +317,7 @@ mod tests {
             for kind in [AxisKind::Automatic, AxisKind::Linear, AxisKind::Logarithmic] {
                 let scale = Scale::around(values.clone(), kind, 0.05);
                 assert!(scale.span() > 0.0, "{values:?} {kind:?} {scale:?}");
-                let ticks = scale.ticks(|_| true);
+                let ticks = scale.ticks(|l| Some(l.len()));
                 assert!(ticks.major.len() < 40 && ticks.minor.len() < 400);
                 assert!(!ticks.major.is_empty(), "{values:?} {kind:?} {scale:?}");
                 assert!(ticks.major.iter().all(|tick| tick.0.is_finite()));

@@ -88,16 +88,14 @@ pub fn scaling(plot: &ScalingPlot) -> Result<String, PlotError> {
     let names: Vec<&str> = plot.series.iter().map(|s| s.label.as_str()).collect();
     let mut lines = Vec::new();
     let mut points = Vec::new();
+    let mut fits = 0;
     for (series, style) in plot.series.iter().zip(styles(&names)) {
         check_size(|| series.label.clone(), series.x.len(), series.y.len())?;
         let (x, y) = usable(series, 0.0);
         let mut label = series.label.clone();
         if let Some(law) = scaling_fit(series, plot.fit_from) {
-            label = format!(
-                "{label}: ∝ {}^{{{}}}",
-                plot.x_symbol,
-                exponent_text(&law, 0)
-            );
+            label = format!("{label}: b = {}", exponent_text(&law, 0));
+            fits += 1;
             let fitted = x.iter().copied().filter(|x| *x >= plot.fit_from);
             let low = fitted.clone().fold(f64::INFINITY, f64::min);
             let high = fitted.fold(0.0, f64::max);
@@ -146,6 +144,18 @@ pub fn scaling(plot: &ScalingPlot) -> Result<String, PlotError> {
         });
     }
     points.extend(lines);
+    let mut notes = Vec::new();
+    if fits > 0 {
+        let symbol = &plot.x_symbol;
+        let range = if plot.fit_from > 0.0 {
+            format!(", {symbol} ≥ {}", plot.fit_from)
+        } else {
+            String::new()
+        };
+        notes.push(format!(
+            "Lines: least-squares fits ∝ {symbol}^{{b}}{range}; b with its 95 % confidence interval."
+        ));
+    }
     let (columns, width) = arrangement(1);
     let panel = ChartPanel {
         title: String::new(),
@@ -162,7 +172,7 @@ pub fn scaling(plot: &ScalingPlot) -> Result<String, PlotError> {
         columns,
         width,
         panel_height: 220.0,
-        notes: Vec::new(),
+        notes,
     }
     .draw()
 }

@@ -106,8 +106,7 @@ impl Drawing {
 
     /// Many straight lines with one stroke.
     pub fn lines(&mut self, segments: &[[(f64, f64); 2]], stroke: Stroke<'_>) {
-        let paths: Vec<Vec<(f64, f64)>> =
-            segments.iter().map(|ends| ends.to_vec()).collect();
+        let paths: Vec<Vec<(f64, f64)>> = segments.iter().map(|ends| ends.to_vec()).collect();
         self.paths(&paths, stroke);
     }
 
@@ -193,7 +192,9 @@ impl Drawing {
     /// Many discs of one size. Each of a few paths holds every n-th disc, so that overlapping ones darken each other while
     /// the document stays small.
     pub fn discs(&mut self, centres: &[(f64, f64)], radius: f64, color: &str, opacity: f64) {
-        let layers = centres.len().div_ceil(100).clamp(1, 24);
+        // Larger discs overlap sooner and get more layers.
+        let members = (80.0 / (radius * radius)).clamp(4.0, 200.0) as usize;
+        let layers = centres.len().div_ceil(members).clamp(1, 40);
         for layer in 0..layers {
             let mut data = String::new();
             for (x, y) in centres.iter().skip(layer).step_by(layers) {

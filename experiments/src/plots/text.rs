@@ -63,10 +63,8 @@ fn runs(label: &str) -> Vec<Run> {
     let mut runs = Vec::new();
     let mut push = |text: &str, shift: f64| {
         if !text.is_empty() {
-            runs.push(Run {
-                text: text.to_string(),
-                shift,
-            });
+            let text = text.to_string();
+            runs.push(Run { text, shift });
         }
     };
     let mut rest = label;
@@ -97,21 +95,25 @@ pub fn markup(label: &str, size: f64) -> String {
     let mut level = 0.0;
     let mut content = String::new();
     for run in runs(label) {
-        let text = escape(&run.text);
         if run.shift == level && run.shift == 0.0 {
-            content.push_str(&text);
+            content.push_str(&escape(&run.text));
             continue;
         }
+        // Some viewers drop a space at the start of a stretch, so it becomes a shift.
+        let text = run.text.trim_start_matches([' ', '\u{a0}']);
+        let spaces = run.text.chars().count() - text.chars().count();
+        let gap = match spaces {
+            0 => String::new(),
+            _ => format!(" dx=\"{}\"", number(0.32 * size * spaces as f64)),
+        };
         let step = number((level - run.shift) * size);
         level = run.shift;
-        if run.shift == 0.0 {
-            content.push_str(&format!("<tspan dy=\"{step}\">{text}</tspan>"));
-        } else {
-            let small = number(SCRIPT * size);
-            content.push_str(&format!(
-                "<tspan dy=\"{step}\" font-size=\"{small}\">{text}</tspan>"
-            ));
-        }
+        let small = match run.shift {
+            0.0 => String::new(),
+            _ => format!(" font-size=\"{}\"", number(SCRIPT * size)),
+        };
+        let text = escape(text);
+        content.push_str(&format!("<tspan{gap} dy=\"{step}\"{small}>{text}</tspan>"));
     }
     content
 }
@@ -131,11 +133,26 @@ pub fn width(label: &str, size: f64) -> f64 {
         .sum()
 }
 
+/// Breaks a text at spaces into lines of at most `room` points where words allow.
+pub fn wrap(text: &str, room: f64, size: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split(' ').filter(|word| !word.is_empty()) {
+        match lines.last_mut() {
+            Some(line) if width(line, size) + width(word, size) + 0.32 * size <= room => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_string()),
+        }
+    }
+    lines
+}
+
 /// The advance width of a character in ems.
 fn advance(character: char) -> f64 {
     match character {
         'i' | 'j' | 'l' | '\'' => 0.28,
-        ' ' | '.' | ',' | '·' => 0.32,
+        ' ' | '\u{a0}' | '.' | ',' | '·' => 0.32,
         ':' | ';' | '|' | '/' | '\\' | 'I' | 'J' => 0.34,
         'f' | 't' | 'r' | '(' | ')' | '[' | ']' | '-' => 0.4,
         's' | 'c' | 'z' | '*' => 0.53,
@@ -217,7 +234,7 @@ mod tests {
     fn scripts_return_to_the_baseline() {
         assert_eq!(
             markup("a^{2} < b", 10.0),
-            "a<tspan dy=\"-3.8\" font-size=\"7.8\">2</tspan><tspan dy=\"3.8\"> &lt; b</tspan>"
+            "a<tspan dy=\"-3.8\" font-size=\"7.8\">2</tspan><tspan dx=\"3.2\" dy=\"3.8\">&lt; b</tspan>"
         );
         assert_eq!(plain_text("x_{1} (10^{3} m)"), "x1 (103 m)");
         assert_eq!(markup("x_{1", 10.0), "x_{1");
