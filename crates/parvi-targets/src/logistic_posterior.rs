@@ -13,9 +13,11 @@ pub(crate) fn log_posterior<const D: usize>(
     precision: &[f64; D],
     coefficients: &[f64; D],
 ) -> f64 {
+    // Partial sums: the rounding of a long sum grows with its length.
+    let loss = |row: &[f64; D]| log_one_plus_exp(-vector::dot(row, coefficients));
     let likelihood: f64 = signed_rows
-        .iter()
-        .map(|row| log_one_plus_exp(-vector::dot(row, coefficients)))
+        .chunks(64)
+        .map(|rows| rows.iter().map(loss).sum::<f64>())
         .sum();
     let prior: f64 = (0..D).map(|k| precision[k] * coefficients[k] * coefficients[k]).sum();
     -likelihood - 0.5 * prior

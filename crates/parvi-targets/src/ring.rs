@@ -1,11 +1,11 @@
 //! A ring around the origin of the plane.
 
-use std::f64::consts::{PI, SQRT_2, TAU};
+use std::f64::consts::{PI, TAU};
 
 use mpm_tensor::Matrix;
 use rand::{Rng, RngExt};
 use rand_distr::Open01;
-use statrs::function::erf::erfc;
+use statrs::function::gamma::gamma_ur;
 
 use crate::error::{finite, positive};
 use crate::special::increasing_root;
@@ -97,9 +97,19 @@ impl Ring {
     }
 }
 
-/// ∫_t^∞ e^(−s²/2) ds = √(2π) Φ(−t).
+/// ∫_t^∞ e^(−s²/2) ds = √(2π) Φ(−t) = √(π/2) Q(½, ½t²) for t > 0, Q the upper regularised incomplete gamma function.
+///
+/// Not by way of erfc: the one of statrs 0.19 has a relative error of 1e-10 around ½.
 fn half_mass(t: f64) -> f64 {
-    (0.5 * PI).sqrt() * erfc(t / SQRT_2)
+    let square = 0.5 * t * t;
+    let tail = if square == 0.0 {
+        1.0
+    } else if square < 740.0 {
+        gamma_ur(0.5, square)
+    } else {
+        0.0
+    };
+    (0.5 * PI).sqrt() * if t < 0.0 { 2.0 - tail } else { tail }
 }
 
 impl Default for Ring {

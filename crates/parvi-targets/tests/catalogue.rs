@@ -1,0 +1,178 @@
+//! The catalogue's entries against the targets they describe, and its errors.
+
+use parvi_targets::{Dimensions, Parameters, TargetError, build, catalogue, dimension_of, target_info};
+
+/// Builds an entry in dimension D where it exists there, and compares what is said with what is so.
+fn check_in<const D: usize>() {
+    for info in catalogue()
+        .iter()
+        .filter(|info| info.dimensions != Dimensions::FromData)
+    {
+        let parameters = Parameters::default();
+        let exists = match info.dimensions {
+            Dimensions::Fixed(only) => D == only,
+            Dimensions::Range { minimum, maximum, .. } => (minimum..=maximum).contains(&D),
+            Dimensions::FromData => false,
+        };
+        match build::<D>(info.name, &parameters) {
+            Ok(target) => {
+                assert!(exists, "{} in {D}", info.name);
+                assert_eq!(target.name(), info.name);
+                assert_eq!(target.exact_draws().is_some(), info.exact_draws);
+                assert_eq!(target.unit_cube_transport().is_some(), info.unit_cube_transport);
+                assert_eq!(target.moments().is_some(), info.moments);
+                assert_eq!(target.modes().len().max(1), info.modes);
+                assert_eq!(dimension_of(info.name, Some(D), &parameters), Ok(D));
+            }
+            Err(error) => {
+                assert!(!exists, "{} in {D}: {error}", info.name);
+                assert!(matches!(error, TargetError::DimensionNotAllowed { dimension, .. } if dimension == D));
+            }
+        }
+    }
+}
+
+#[test]
+fn entries_describe_their_targets() {
+    check_in::<1>();
+    check_in::<2>();
+    check_in::<3>();
+    check_in::<4>();
+    check_in::<5>();
+    check_in::<6>();
+    check_in::<7>();
+    check_in::<8>();
+    check_in::<9>();
+}
+
+#[test]
+fn dimensions_are_resolved() {
+    let none = Parameters::default();
+    assert_eq!(dimension_of("banana", None, &none), Ok(2));
+    assert_eq!(dimension_of("wells-small", None, &none), Ok(5));
+    assert_eq!(dimension_of("wells-small", Some(3), &none), Ok(3));
+    let message = |name, requested| dimension_of(name, requested, &none).unwrap_err().to_string();
+    assert_eq!(message("gaussian", None), "target 'gaussian' needs a dimension: 1 to 8");
+    assert_eq!(message("wells", None), "target 'wells' needs a dimension: 1 to 6");
+    assert_eq!(
+        message("gaussian", Some(0)),
+        "dimension 0 does not fit target 'gaussian': 1 to 8"
+    );
+    assert_eq!(
+        message("gaussian", Some(9)),
+        "dimension 9 does not fit target 'gaussian': 1 to 8"
+    );
+    assert_eq!(
+        message("wells", Some(7)),
+        "dimension 7 does not fit target 'wells': 1 to 6"
+    );
+    assert_eq!(
+        message("funnel", Some(1)),
+        "dimension 1 does not fit target 'funnel': 2 to 8"
+    );
+    assert_eq!(message("ring", Some(3)), "dimension 3 does not fit target 'ring': 2");
+    assert_eq!(
+        message("logistic", Some(3)),
+        "target 'logistic' needs the parameter 'data'"
+    );
+}
+
+#[test]
+fn unknown_names_list_the_known_ones() {
+    let error = target_info("wels").unwrap_err().to_string();
+    assert!(
+        error.starts_with("unknown target 'wels': known are gaussian, banana, ring, "),
+        "{error}"
+    );
+    assert!(build::<2>("wels", &Parameters::default()).is_err());
+    assert!(dimension_of("", None, &Parameters::default()).is_err());
+}
+
+#[test]
+fn parameters_reach_their_target_and_no_other() {
+    let parameters = Parameters {
+        correlation: Some(0.5),
+        ..Parameters::default()
+    };
+    let moments = build::<3>("gaussian", &parameters).unwrap().moments().unwrap();
+    assert_eq!(moments.covariance.0[0], [1.0, 0.5, 0.25]);
+    let error = build::<2>("ring", &parameters).map(|_| ()).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "target 'ring' has no parameter 'correlation' (given as 0.5): it has radius, width"
+    );
+    let error = build::<2>("mixture-3", &parameters).map(|_| ()).unwrap_err();
+    assert!(error.to_string().ends_with("it has none"));
+    for correlation in [1.0, -1.0, 2.0, f64::NAN] {
+        let parameters = Parameters {
+            correlation: Some(correlation),
+            ..Parameters::default()
+        };
+        assert!(build::<2>("gaussian", &parameters).is_err());
+    }
+    let bad = [
+        (
+            "banana",
+            Parameters {
+                width: Some(0.0),
+                ..Parameters::default()
+            },
+        ),
+        (
+            "banana",
+            Parameters {
+                curvature: Some(f64::INFINITY),
+                ..Parameters::default()
+            },
+        ),
+        (
+            "ring",
+            Parameters {
+                radius: Some(-1.0),
+                ..Parameters::default()
+            },
+        ),
+        (
+            "ring",
+            Parameters {
+                width: Some(f64::NAN),
+                ..Parameters::default()
+            },
+        ),
+        (
+            "mixture-2",
+            Parameters {
+                width: Some(-0.5),
+                ..Parameters::default()
+            },
+        ),
+        (
+            "funnel",
+            Parameters {
+                width: Some(100.0),
+                ..Parameters::default()
+            },
+        ),
+        (
+            "student-t",
+            Parameters {
+                degrees_of_freedom: Some(0.0),
+                ..Parameters::default()
+            },
+        ),
+        (
+            "wells",
+            Parameters {
+                prior_standard_deviation: Some(-1.0),
+                ..Parameters::default()
+            },
+        ),
+    ];
+    for (name, parameters) in bad {
+        let error = build::<2>(name, &parameters).map(|_| ()).unwrap_err();
+        assert!(
+            matches!(error, TargetError::OutOfRange { .. } | TargetError::NotFinite { .. }),
+            "{name}: {error}"
+        );
+    }
+}

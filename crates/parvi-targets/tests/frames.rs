@@ -1,0 +1,116 @@
+//! Properties of frames, for random centres and covariances.
+
+use mpm_tensor::Matrix;
+use parvi_targets::{Frame, Gaussian, Target, TargetError};
+use proptest::prelude::*;
+
+/// A A ᵀ plus a little of the identity, scaled per axis by powers of ten.
+fn covariance(entries: [[f64; 4]; 4], exponents: [f64; 4]) -> Matrix<4> {
+    Matrix::from_fn(|i, j| {
+        let product: f64 = (0..4).map(|k| entries[i][k] * entries[j][k]).sum();
+        let scale = 10_f64.powf(exponents[i] + exponents[j]);
+        scale * (product + if i == j { 0.05 } else { 0.0 })
+    })
+}
+
+fn entries() -> impl Strategy<Value = [[f64; 4]; 4]> {
+    prop::array::uniform4(prop::array::uniform4(-1.0..1.0_f64))
+}
+
+fn four(range: std::ops::Range<f64>) -> impl Strategy<Value = [f64; 4]> {
+    prop::array::uniform4(range)
+}
+
+proptest! {
+    #[test]
+    fn frames_invert_and_pull_back(
+        entries in entries(),
+        exponents in four(-3.0..3.0),
+        centre in four(-10.0..10.0),
+        z in four(-5.0..5.0),
+        score in four(-5.0..5.0),
+    ) {
+        let covariance = covariance(entries, exponents);
+        let frame = Frame::new(centre, covariance).unwrap();
+        let x = frame.to_target(&z);
+        let back = frame.to_reference(&x);
+        // Digits of x − μ are lost where the centre is far larger than the scale.
+        for k in 0..4 {
+            let lost = (0..4).map(|i| centre[i].abs() / frame.factor().0[i][i]).fold(1.0, f64::max);
+            prop_assert!((back[k] - z[k]).abs() < 1e-12 * lost);
+        }
+        let rebuilt = frame.covariance();
+        for i in 0..4 {
+            for j in 0..4 {
+                let unit = (covariance.0[i][i] * covariance.0[j][j]).sqrt();
+                prop_assert!((rebuilt.0[i][j] - covariance.0[i][j]).abs() < 1e-13 * unit);
+            }
+        }
+        // z · Lᵀs = (L z) · s.
+        let pulled = frame.pull_back_score(&score);
+        let left: f64 = pulled.iter().zip(z).map(|(a, b)| a * b).sum();
+        let moved: [f64; 4] = std::array::from_fn(|i| (0..4).map(|j| frame.factor().0[i][j] * z[j]).sum());
+        let size: f64 = moved.iter().zip(score).map(|(a, b)| (a * b).abs()).sum();
+        let right: f64 = moved.iter().zip(score).map(|(a, b)| a * b).sum();
+        prop_assert!((left - right).abs() < 1e-12 * (1.0 + size) * 10.0);
+        let again = frame.pull_back_score(&frame.push_forward_score(&score));
+        for k in 0..4 {
+            prop_assert!((again[k] - score[k]).abs() < 1e-10);
+        }
+        // log det L = ½ log det C, and in the frame the Gaussian is standard: score −z.
+        prop_assert!((frame.log_determinant() - 0.5 * covariance.determinant().ln()).abs() < 1e-9);
+        let gaussian = Gaussian::new(centre, covariance).unwrap();
+        let standard = frame.pull_back_score(&gaussian.score(&x));
+        for k in 0..4 {
+            prop_assert!((standard[k] + back[k]).abs() < 1e-9 * (1.0 + back[k].abs()));
+        }
+    }
+}
+
+#[test]
+fn identity_and_scales() {
+    let identity = Frame::<3>::identity();
+    assert_eq!(identity.to_target(&[1.0, 2.0, 3.0]), [1.0, 2.0, 3.0]);
+    assert_eq!(identity.log_determinant(), 0.0);
+    let frame = Frame::from_scales([1.0, -1.0], [2.0, 0.5]).unwrap();
+    assert_eq!(frame.to_target(&[1.0, 2.0]), [3.0, 0.0]);
+    assert_eq!(frame.to_reference(&[3.0, 0.0]), [1.0, 2.0]);
+    assert_eq!(frame.pull_back_score(&[1.0, 2.0]), [2.0, 1.0]);
+    assert_eq!(frame.covariance(), Matrix([[4.0, 0.0], [0.0, 0.25]]));
+    assert_eq!(*frame.centre(), [1.0, -1.0]);
+}
+
+#[test]
+fn bad_frames_are_refused() {
+    let covariance = |a, b, c, d| Frame::new([0.0; 2], Matrix([[a, b], [c, d]])).unwrap_err();
+    assert!(matches!(
+        covariance(1.0, 2.0, 2.0, 1.0),
+        TargetError::NotPositiveDefinite { axis: 1, .. }
+    ));
+    assert!(matches!(
+        covariance(1.0, 1.0, 1.0, 1.0),
+        TargetError::NotPositiveDefinite { axis: 1, .. }
+    ));
+    assert!(matches!(
+        covariance(-1.0, 0.0, 0.0, 1.0),
+        TargetError::NotPositiveDefinite { axis: 0, .. }
+    ));
+    assert!(matches!(
+        covariance(1.0, 0.1, 0.2, 1.0),
+        TargetError::NotSymmetric { row: 1, column: 0, .. }
+    ));
+    assert!(matches!(
+        covariance(1.0, f64::NAN, 0.0, 1.0),
+        TargetError::NotFinite { .. }
+    ));
+    assert!(matches!(
+        Frame::from_scales([0.0; 2], [1.0, 0.0]),
+        Err(TargetError::OutOfRange { .. })
+    ));
+    assert!(matches!(
+        Frame::from_scales([f64::INFINITY], [1.0]),
+        Err(TargetError::NotFinite { .. })
+    ));
+    // Scales from 1e-150 to 1e150 are no obstacle.
+    assert!(Frame::new([0.0; 2], Matrix([[1e-300, 0.0], [0.0, 1e300]])).is_ok());
+}
