@@ -1,3 +1,5 @@
+use mpm_materials::DeformationError;
+
 /// Why the mechanics refused a state.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -5,17 +7,38 @@ pub enum MpmError {
     /// A position is not a number, or so far out that its grid coordinate leaves the integer range.
     #[error("particle {particle} is at {position:?}, outside the grid's range (spacing {spacing})")]
     PositionOutOfRange {
-        /// Particle, in the order in which it was created.
+        /// From [`Mpm::step`](crate::Mpm::step): the particle in the order of creation. From
+        /// [`Basis::rebuild`](crate::Basis::rebuild): its place in the list of positions.
         particle: usize,
         /// Its position.
         position: Vec<f64>,
         /// Spacing of the grid.
         spacing: f64,
     },
+    /// A particle is deformed so that the material has no stress, for example turned inside out.
+    #[error("particle {particle}: {source}")]
+    Deformation {
+        /// From [`Mpm::step`](crate::Mpm::step): the particle in the order of creation. From
+        /// [`Medium::wave_speed`](crate::Medium::wave_speed): its place among the particles.
+        particle: usize,
+        /// What the material says.
+        source: DeformationError,
+    },
+    /// A particle has no finite wave speed although its deformation is admissible: mass or reference volume is at fault.
+    #[error("particle {particle} has wave speed {wave_speed} at reference density {reference_density}")]
+    WaveSpeed {
+        /// As in [`Deformation`](Self::Deformation).
+        particle: usize,
+        /// The wave speed.
+        wave_speed: f64,
+        /// m_p / V⁰_p.
+        reference_density: f64,
+    },
     /// The body force at a point is not finite.
     #[error("the body force at {position:?} is {value:?}, which is not finite")]
     BodyForceNotFinite {
-        /// Index of the point in the batch.
+        /// From [`Mpm::step`](crate::Mpm::step): the particle in the order of creation, or the number of the node. From a
+        /// [`BodyForce`](crate::BodyForce): the index of the point in the batch.
         index: usize,
         /// Where it was evaluated.
         position: Vec<f64>,
@@ -23,7 +46,9 @@ pub enum MpmError {
         value: Vec<f64>,
     },
     /// The stencils need more nodes than 32-bit node numbers can count.
-    #[error("{nodes} active nodes exceed the range of node numbers; use a wider spacing or fewer particles")]
+    #[error(
+        "the particles touch at least {nodes} nodes, more than can be numbered; use a wider spacing or fewer particles"
+    )]
     TooManyNodes {
         /// Nodes needed, at least.
         nodes: u64,

@@ -5,6 +5,7 @@ mod body_force;
 mod control;
 mod error;
 mod grid;
+mod largest;
 mod medium;
 mod particles;
 mod schedule;

@@ -94,10 +94,32 @@ impl<const D: usize> Particles<D> {
     /// An error that speaks of the particle by its number in the order of creation.
     pub(crate) fn name(&self, error: MpmError) -> MpmError {
         match error {
-            MpmError::PositionOutOfRange { particle, position, spacing } => MpmError::PositionOutOfRange {
+            MpmError::PositionOutOfRange {
+                particle,
+                position,
+                spacing,
+            } => MpmError::PositionOutOfRange {
                 particle: self.identity(particle),
                 position,
                 spacing,
+            },
+            MpmError::Deformation { particle, source } => MpmError::Deformation {
+                particle: self.identity(particle),
+                source,
+            },
+            MpmError::WaveSpeed {
+                particle,
+                wave_speed,
+                reference_density,
+            } => MpmError::WaveSpeed {
+                particle: self.identity(particle),
+                wave_speed,
+                reference_density,
+            },
+            MpmError::BodyForceNotFinite { index, position, value } => MpmError::BodyForceNotFinite {
+                index: self.identity(index),
+                position,
+                value,
             },
             other => other,
         }
@@ -129,20 +151,14 @@ impl<const D: usize> Particles<D> {
     /// Largest speed max_p |v_p|.
     pub fn largest_speed(&self) -> f64 {
         let square = |v: &[f64; D]| v.iter().map(|c| c * c).sum::<f64>();
-        self.velocities
-            .iter()
-            .map(square)
-            .fold(0.0, f64::max)
-            .sqrt()
+        self.velocities.iter().map(square).fold(0.0, f64::max).sqrt()
     }
 
     /// ½ Σ m_p |v_p|².
     pub fn kinetic_energy(&self) -> f64 {
         let square = |v: &[f64; D]| v.iter().map(|c| c * c).sum::<f64>();
         let each = self.velocities.iter().enumerate();
-        0.5 * each
-            .map(|(p, v)| self.masses.get(p) * square(v))
-            .sum::<f64>()
+        0.5 * each.map(|(p, v)| self.masses.get(p) * square(v)).sum::<f64>()
     }
 
     /// Bytes held.
@@ -157,9 +173,7 @@ impl<const D: usize> Particles<D> {
             };
         vector * (self.positions.capacity() + self.velocities.capacity() + self.scratch.vectors.capacity())
             + matrix
-                * (self.affine.capacity()
-                    + self.deformation_gradients.capacity()
-                    + self.scratch.matrices.capacity())
+                * (self.affine.capacity() + self.deformation_gradients.capacity() + self.scratch.matrices.capacity())
             + 8 * scalars
             + 4 * (self.identities.capacity() + self.scratch.indices.capacity())
     }

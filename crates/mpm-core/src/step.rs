@@ -57,7 +57,10 @@ where
     /// were.
     pub fn step(&mut self, control: &StepControl) -> Result<StepReport, MpmError> {
         let h = self.basis.spacing();
-        let wave_speed = self.medium.wave_speed(&self.particles);
+        let wave_speed = self
+            .medium
+            .wave_speed(&self.particles)
+            .map_err(|error| self.particles.name(error))?;
         let dt = control.next_time_step(h, wave_speed, self.particles.largest_speed());
         let damping = control.damping(dt);
 
@@ -152,7 +155,11 @@ where
     fn update_grid(&mut self, dt: f64, damping: f64, speed_limit: f64) -> f64 {
         let forces = &self.node_forces;
         let advance = |(i, node): (usize, &mut T::Node)| {
-            let impulse = if F::AT_NODES { forces[i].map(|f| dt * f) } else { [0.0; D] };
+            let impulse = if F::AT_NODES {
+                forces[i].map(|f| dt * f)
+            } else {
+                [0.0; D]
+            };
             node.advance(&impulse, damping, speed_limit)
         };
         let nodes = self.nodes.par_iter_mut().with_min_len(4096).enumerate();
@@ -162,42 +169,46 @@ where
     /// G2P: v_p = Σ_i w_ip v_i, B_p = Σ_i w_ip v_i (x_i − x_p)ᵀ, F_p ← (I + Δt Σ_i v_i ∇w_ipᵀ) F_p, x_p ← x_p + Δt Σ_i w_ip v_i.
     fn grid_to_particles(&mut self, dt: f64, damping: f64) {
         let (basis, nodes, transfer) = (&self.basis, &self.nodes, self.transfer);
-        gather(basis, Moving::of(&mut self.particles), &|data: &mut Moving<D>, k, _, cell_nodes| {
-            let x = data.positions[k];
-            let (mut velocity, mut change) = ([0.0; D], [0.0; D]);
-            let (mut affine, mut velocity_gradient) = (Matrix::<D>::ZERO, Matrix::<D>::ZERO);
-            basis.for_each_node(&x, |index, entry| {
-                let node = &nodes[cell_nodes[index] as usize];
-                let v = node.velocity();
-                for a in 0..D {
-                    velocity[a] += entry.weight * v[a];
-                }
-                if T::INCREMENTAL {
-                    let node_change = node.change(damping);
+        gather(
+            basis,
+            Moving::of(&mut self.particles),
+            &|data: &mut Moving<D>, k, _, cell_nodes| {
+                let x = data.positions[k];
+                let (mut velocity, mut change) = ([0.0; D], [0.0; D]);
+                let (mut affine, mut velocity_gradient) = (Matrix::<D>::ZERO, Matrix::<D>::ZERO);
+                basis.for_each_node(&x, |index, entry| {
+                    let node = &nodes[cell_nodes[index] as usize];
+                    let v = node.velocity();
                     for a in 0..D {
-                        change[a] += entry.weight * node_change[a];
+                        velocity[a] += entry.weight * v[a];
                     }
+                    if T::INCREMENTAL {
+                        let node_change = node.change(damping);
+                        for a in 0..D {
+                            change[a] += entry.weight * node_change[a];
+                        }
+                    }
+                    if T::AFFINE {
+                        add_outer(&mut affine, entry.weight, v, &entry.offset);
+                    }
+                    if M::DEFORMS {
+                        add_outer(&mut velocity_gradient, 1.0, v, &entry.gradient);
+                    }
+                });
+                data.velocities[k] = transfer.particle_velocity(&velocity, &change, &data.velocities[k], damping);
+                for a in 0..D {
+                    data.positions[k][a] = x[a] + dt * velocity[a];
                 }
                 if T::AFFINE {
-                    add_outer(&mut affine, entry.weight, v, &entry.offset);
+                    data.affine[k] = affine;
                 }
                 if M::DEFORMS {
-                    add_outer(&mut velocity_gradient, 1.0, v, &entry.gradient);
+                    #[allow(non_snake_case)]
+                    let F = &mut data.deformation_gradients[k];
+                    *F = (Matrix::IDENTITY + velocity_gradient * dt) * *F;
                 }
-            });
-            data.velocities[k] = transfer.particle_velocity(&velocity, &change, &data.velocities[k], damping);
-            for a in 0..D {
-                data.positions[k][a] = x[a] + dt * velocity[a];
-            }
-            if T::AFFINE {
-                data.affine[k] = affine;
-            }
-            if M::DEFORMS {
-                #[allow(non_snake_case)]
-                let F = &mut data.deformation_gradients[k];
-                *F = (Matrix::IDENTITY + velocity_gradient * dt) * *F;
-            }
-        });
+            },
+        );
     }
 }
 
@@ -236,7 +247,12 @@ impl<const D: usize> Divide for Moving<'_, D> {
         let (velocities, right_velocities) = self.velocities.divide(count);
         let (affine, right_affine) = self.affine.divide(count);
         let (deformation_gradients, right_deformation_gradients) = self.deformation_gradients.divide(count);
-        let left = Self { positions, velocities, affine, deformation_gradients };
+        let left = Self {
+            positions,
+            velocities,
+            affine,
+            deformation_gradients,
+        };
         let right = Self {
             positions: right_positions,
             velocities: right_velocities,

@@ -106,11 +106,7 @@ impl Spline<3> for Quadratic {
         let centre = f - 1.0;
         Row {
             base,
-            weights: [
-                0.5 * left * left,
-                0.75 - centre * centre,
-                0.5 * right * right,
-            ],
+            weights: [0.5 * left * left, 0.75 - centre * centre, 0.5 * right * right],
             derivatives: [-left, -2.0 * centre, right],
         }
     }

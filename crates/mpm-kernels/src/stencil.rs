@@ -89,7 +89,9 @@ impl<const W: usize, const D: usize> Stencil<W, D> {
             flux[a] = before.0 * own[a][j];
             (before.0 * w, flux)
         };
-        walk::<W, D, _>((1.0, [0.0; D]), extend, &mut |index, (weight, flux)| visit(index, *weight, flux));
+        walk::<W, D, _>((1.0, [0.0; D]), extend, &mut |index, (weight, flux)| {
+            visit(index, *weight, flux)
+        });
     }
 }
 

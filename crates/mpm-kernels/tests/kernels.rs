@@ -6,12 +6,14 @@ fn kernel_conforms<const W: usize, S: Spline<W>>(u: f64) {
     let row = S::row(u);
     let sum: f64 = row.weights.iter().sum();
     let slope: f64 = row.derivatives.iter().sum();
-    let first: f64 = (0..W)
-        .map(|j| row.weights[j] * (row.base + j as i64) as f64)
-        .sum();
+    let first: f64 = (0..W).map(|j| row.weights[j] * (row.base + j as i64) as f64).sum();
     assert!((sum - 1.0).abs() < 1e-14, "{}: partition of unity {sum}", S::NAME);
     assert!(slope.abs() < 1e-13, "{}: derivatives sum to {slope}", S::NAME);
-    assert!((first - u).abs() < 1e-12 * (1.0 + u.abs()), "{}: linear reproduction", S::NAME);
+    assert!(
+        (first - u).abs() < 1e-12 * (1.0 + u.abs()),
+        "{}: linear reproduction",
+        S::NAME
+    );
     for j in 0..W {
         let r = u - (row.base + j as i64) as f64;
         assert!(row.weights[j] >= 0.0);
@@ -21,7 +23,11 @@ fn kernel_conforms<const W: usize, S: Spline<W>>(u: f64) {
         let kink = W == 2 && (r.abs() < 2.0 * step || (r.abs() - 1.0).abs() < 2.0 * step);
         if !kink {
             assert!((S::derivative(r) - difference).abs() < 1e-5, "{} at {r}", S::NAME);
-            assert!((row.derivatives[j] - S::derivative(r)).abs() < 1e-12, "{} at {r}", S::NAME);
+            assert!(
+                (row.derivatives[j] - S::derivative(r)).abs() < 1e-12,
+                "{} at {r}",
+                S::NAME
+            );
         }
     }
     if let Some(moment) = S::SECOND_MOMENT {
@@ -46,14 +52,19 @@ fn stencil_conforms<const W: usize, const D: usize, S: Spline<W>>(x: [f64; D], o
             digits[a] = rest % W;
             rest /= W;
         }
-        let r: [f64; D] =
-            std::array::from_fn(|a| (x[a] - origin[a]) / h - (stencil.base[a] + digits[a] as i64) as f64);
+        let r: [f64; D] = std::array::from_fn(|a| (x[a] - origin[a]) / h - (stencil.base[a] + digits[a] as i64) as f64);
         let weight: f64 = r.iter().map(|&r| S::value(r)).product();
         assert!((entry.weight - weight).abs() < 1e-12);
         for a in 0..D {
             if W > 2 {
                 let gradient: f64 = (0..D)
-                    .map(|b| if a == b { S::derivative(r[b]) / h } else { S::value(r[b]) })
+                    .map(|b| {
+                        if a == b {
+                            S::derivative(r[b]) / h
+                        } else {
+                            S::value(r[b])
+                        }
+                    })
                     .product();
                 assert!((entry.gradient[a] - gradient).abs() < 1e-9 / h);
             }

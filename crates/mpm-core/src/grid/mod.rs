@@ -193,8 +193,7 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
         self.masks.clear();
         let slots = self.template.neighbours.len();
         self.neighbours.clear();
-        self.neighbours
-            .resize(self.schedule.group_count() * slots, u32::MAX);
+        self.neighbours.resize(self.schedule.group_count() * slots, u32::MAX);
         let mut touched = vec![0u64; slots];
         for (group, &number) in self.scratch.sorted_blocks.iter().enumerate() {
             touched.fill(0);
@@ -284,9 +283,7 @@ impl<S: Spline<W>, const W: usize, const D: usize> Basis<D> for SplineGrid<S, W,
             let mut rest = mask;
             while rest != 0 {
                 let node = node_at(block, rest.trailing_zeros());
-                out.push(std::array::from_fn(|a| {
-                    self.origin[a] + self.spacing * node[a] as f64
-                }));
+                out.push(std::array::from_fn(|a| self.origin[a] + self.spacing * node[a] as f64));
                 rest &= rest - 1;
             }
         }

@@ -1,7 +1,7 @@
 use mpm_materials::IsothermalGas;
 
 use super::Medium;
-use crate::Particles;
+use crate::{MpmError, Particles};
 
 /// P = κρ, so V_p P_p = κ m_p: the internal force κ Σ_p m_p ∇w_ip needs neither F nor J.
 impl<const D: usize> Medium<D> for IsothermalGas {
@@ -13,7 +13,7 @@ impl<const D: usize> Medium<D> for IsothermalGas {
         time_step * self.pressure_times_volume(particles.masses.get(particle))
     }
 
-    fn wave_speed(&self, _: &Particles<D>) -> f64 {
-        IsothermalGas::wave_speed(self)
+    fn wave_speed(&self, _: &Particles<D>) -> Result<f64, MpmError> {
+        Ok(IsothermalGas::wave_speed(self))
     }
 }

@@ -7,7 +7,7 @@ use mpm_tensor::Matrix;
 
 pub use elastic::Elastic;
 
-use crate::{Basis, Particles};
+use crate::{Basis, MpmError, Particles};
 
 /// Impulses per node that are linear in ∇w_ip: a pressure (`f64`) or a full stress (`Matrix<D>`).
 pub trait StressImpulse<const D: usize>: Copy + Send + Sync {
@@ -25,7 +25,11 @@ pub trait StressImpulse<const D: usize>: Copy + Send + Sync {
     ) {
         basis.for_each_node(x, |index, entry| {
             let stress = self.at(&entry.gradient);
-            visit(index, entry.weight, &std::array::from_fn(|a| entry.weight * value[a] + stress[a]));
+            visit(
+                index,
+                entry.weight,
+                &std::array::from_fn(|a| entry.weight * value[a] + stress[a]),
+            );
         });
     }
 }
@@ -66,7 +70,11 @@ pub trait Medium<const D: usize>: Sync {
     /// −Δt V⁰_p τ_p of one particle.
     fn impulse(&self, particles: &Particles<D>, particle: usize, time_step: f64) -> Self::Impulse;
 
-    /// Largest wave speed in the medium's present state, for the CFL condition.
-    fn wave_speed(&self, particles: &Particles<D>) -> f64;
+    /// Largest wave speed in the medium's present state, for the CFL condition. Asked once at the start of every step, it
+    /// is also where a medium refuses a state.
+    ///
+    /// # Errors
+    /// [`MpmError::Deformation`] for the first particle that has no stress, [`MpmError::WaveSpeed`] for the first one with
+    /// mass and reference volume that give no wave speed.
+    fn wave_speed(&self, particles: &Particles<D>) -> Result<f64, MpmError>;
 }
-

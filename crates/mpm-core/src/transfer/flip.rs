@@ -15,9 +15,7 @@ impl<const D: usize> Transfer<D> for Flip {
 
     #[inline(always)]
     fn particle_velocity(&self, interpolated: &[f64; D], change: &[f64; D], own: &[f64; D], damping: f64) -> [f64; D] {
-        std::array::from_fn(|a| {
-            (1.0 - self.share) * interpolated[a] + self.share * (damping * own[a] + change[a])
-        })
+        std::array::from_fn(|a| (1.0 - self.share) * interpolated[a] + self.share * (damping * own[a] + change[a]))
     }
 }
 
