@@ -6,6 +6,7 @@
 //! bytes; no figure contains NaN; input that cannot be drawn is a [`PlotError`].
 
 mod chart;
+mod chart_panel;
 pub mod cloud;
 pub mod contour;
 pub mod corner;

@@ -191,7 +191,16 @@ pub fn x_ticks(scale: &Scale, length: f64, overhang: f64) -> Ticks {
             tick.1.clear();
         }
     }
+    thin_minor_ticks(scale, &mut ticks, length);
     ticks
+}
+
+/// Leaves out the minor ticks of a linear axis where they would stand closer than 3 points.
+fn thin_minor_ticks(scale: &Scale, ticks: &mut Ticks, length: f64) {
+    let count = ticks.minor.len() + ticks.major.len();
+    if !scale.logarithmic && count as f64 * 3.0 > length {
+        ticks.minor.clear();
+    }
 }
 
 /// Vertical ticks for an axis `length` points long; labels that would stick out by more than `overhang` are left off.
@@ -210,6 +219,7 @@ pub fn y_ticks(scale: &Scale, length: f64, overhang: f64) -> Ticks {
             tick.1.clear();
         }
     }
+    thin_minor_ticks(scale, &mut ticks, length);
     ticks
 }
 

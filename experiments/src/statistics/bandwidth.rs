@@ -119,10 +119,9 @@ fn sheather_jones(
         let sum: f64 = energies
             .iter()
             .enumerate()
-            .map(|(index, energy)| {
-                let square = ((index + 1) * (index + 1)) as f64;
-                square.powi(order) * energy * (-square * PI * PI * time).exp()
-            })
+            .map(|(index, energy)| (((index + 1) * (index + 1)) as f64, energy))
+            .take_while(|(square, _)| square * PI * PI * time < 700.0)
+            .map(|(square, energy)| square.powi(order) * energy * (-square * PI * PI * time).exp())
             .sum();
         2.0 * PI.powi(2 * order) * sum
     };

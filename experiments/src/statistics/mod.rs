@@ -2,11 +2,13 @@
 
 pub mod bandwidth;
 pub mod kernel_density;
+pub mod kernel_density_grid;
 pub mod power_law;
 pub mod summary;
 
 pub use bandwidth::{Bandwidth, bandwidth};
-pub use kernel_density::{DensityGrid, equidistant, kernel_density, kernel_density_grid};
+pub use kernel_density::{DensityGrid, equidistant, kernel_density};
+pub use kernel_density_grid::kernel_density_grid;
 pub use power_law::{Exponent, PowerLaw, fit_power_law, fit_power_law_of};
 pub use summary::{Summary, summarize, weighted_quantile};
 
