@@ -1,27 +1,73 @@
 //! Step control: how long a step may be, and how far it may move a particle.
 
+use crate::MpmError;
+
 /// Limits of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepControl {
-    /// Longest time step.
+    /// Longest time step; > 0 and finite.
     pub time_step: f64,
-    /// C in Δt ≤ C h / (c + max |v_p|), c the wave speed; infinite: off.
+    /// C > 0 in Δt ≤ C h / (c + max |v_p|), c the wave speed; infinite: off.
     pub courant: f64,
-    /// No particle moves farther than this multiple of h in a step; infinite: off. Nodal velocities are shortened, and
+    /// No particle moves farther than this multiple (> 0) of h in a step; infinite: off. Nodal velocities are shortened, and
     /// the weights of a basis with w ≥ 0 average them, so the limit holds for the particles.
     pub displacement: f64,
-    /// Friction γ: velocities are multiplied by e^{−γΔt}.
+    /// Friction γ ≥ 0, finite: velocities are multiplied by e^{−γΔt}.
     pub friction: f64,
 }
 
 impl StepControl {
-    /// Δt of the next step.
-    pub fn next_time_step(&self, spacing: f64, wave_speed: f64, largest_speed: f64) -> f64 {
-        let signal = wave_speed + largest_speed;
-        if signal > 0.0 {
-            self.time_step.min(self.courant * spacing / signal)
+    /// Whether every limit is in its range.
+    ///
+    /// # Errors
+    /// [`MpmError::InvalidParameter`] with the first that is not.
+    pub fn check(&self) -> Result<(), MpmError> {
+        let positive = |value: f64| value > 0.0;
+        let limits = [
+            (
+                "time_step",
+                self.time_step,
+                positive(self.time_step) && self.time_step.is_finite(),
+                "positive and finite",
+            ),
+            ("courant", self.courant, positive(self.courant), "positive"),
+            (
+                "displacement",
+                self.displacement,
+                positive(self.displacement),
+                "positive",
+            ),
+            (
+                "friction",
+                self.friction,
+                self.friction >= 0.0 && self.friction.is_finite(),
+                "at least 0 and finite",
+            ),
+        ];
+        for (field, value, valid, expected) in limits {
+            if !valid {
+                return Err(MpmError::InvalidParameter { field, value, expected });
+            }
+        }
+        Ok(())
+    }
+
+    /// Δt of the next step, min(`time_step`, C h / (c + max |v_p|)).
+    ///
+    /// # Errors
+    /// [`MpmError::NoTimeStep`] where the speeds leave none: Δt would be zero or is not a number.
+    pub fn next_time_step(&self, spacing: f64, wave_speed: f64, particle_speed: f64) -> Result<f64, MpmError> {
+        if self.courant == f64::INFINITY {
+            return Ok(self.time_step);
+        }
+        let bound = self.courant * spacing / (wave_speed + particle_speed);
+        if bound > 0.0 {
+            Ok(self.time_step.min(bound))
         } else {
-            self.time_step
+            Err(MpmError::NoTimeStep {
+                wave_speed,
+                particle_speed,
+            })
         }
     }
 
@@ -43,6 +89,6 @@ pub struct StepReport {
     pub time_step: f64,
     /// Active nodes.
     pub active_nodes: usize,
-    /// Largest nodal displacement Δt |v_i| / h before the limit was applied.
+    /// Largest nodal displacement Δt |v_i| / h before the limit was applied; infinite where |v_i|² overflows.
     pub displacement: f64,
 }

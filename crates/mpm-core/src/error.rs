@@ -45,6 +45,32 @@ pub enum MpmError {
         /// What came out.
         value: Vec<f64>,
     },
+    /// A nodal velocity is not finite although the body force is: a particle's velocity, mass or stress is at fault.
+    #[error("the velocity of the node at {position:?} is {velocity:?}, which is not finite")]
+    VelocityNotFinite {
+        /// Where the node is.
+        position: Vec<f64>,
+        /// Its velocity.
+        velocity: Vec<f64>,
+    },
+    /// The Courant condition leaves no time step.
+    #[error("no time step is short enough for wave speed {wave_speed} and particle speed {particle_speed}")]
+    NoTimeStep {
+        /// Largest wave speed.
+        wave_speed: f64,
+        /// Largest speed of a particle.
+        particle_speed: f64,
+    },
+    /// A field of the particles has too many or too few entries, or is missing.
+    #[error("particle field {field} has {length} entries, not {expected}")]
+    FieldLength {
+        /// Name of the field.
+        field: &'static str,
+        /// Its length.
+        length: usize,
+        /// Number of particles.
+        expected: usize,
+    },
     /// The stencils need more nodes than 32-bit node numbers can count.
     #[error(
         "the particles touch at least {nodes} nodes, more than can be numbered; use a wider spacing or fewer particles"

@@ -3,6 +3,7 @@
 use mpm_tensor::Matrix;
 
 use crate::MpmError;
+use crate::largest::larger_or_nan;
 
 /// Particle masses.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,6 +70,33 @@ impl<const D: usize> Particles<D> {
         }
     }
 
+    /// Whether every field has one entry per particle; fields that a scene does not use may be empty.
+    pub(crate) fn check_lengths(&self, affine: bool, deforms: bool) -> Result<(), MpmError> {
+        let expected = self.identities.len();
+        let masses = match &self.masses {
+            Masses::Equal(_) => expected,
+            Masses::Each(masses) => masses.len(),
+        };
+        let fields = [
+            ("positions", self.positions.len(), true),
+            ("velocities", self.velocities.len(), true),
+            ("masses", masses, true),
+            ("affine", self.affine.len(), affine),
+            ("deformation_gradients", self.deformation_gradients.len(), deforms),
+            ("reference_volumes", self.reference_volumes.len(), deforms),
+        ];
+        for (field, length, used) in fields {
+            if length != expected && (used || length > 0) {
+                return Err(MpmError::FieldLength {
+                    field,
+                    length,
+                    expected,
+                });
+            }
+        }
+        Ok(())
+    }
+
     /// Add the field F_p = I and the reference volumes V⁰_p, one per particle in the present order.
     pub fn with_elastic_state(mut self, reference_volumes: Vec<f64>) -> Self {
         self.deformation_gradients = vec![Matrix::IDENTITY; self.len()];
@@ -86,25 +114,26 @@ impl<const D: usize> Particles<D> {
         self.positions.is_empty()
     }
 
-    /// Number, in the order of creation, of the particle that stands at `index`.
+    /// Number, in the order of creation, of the particle that stands at `index` < [`len`](Self::len).
     pub fn identity(&self, index: usize) -> usize {
         self.identities[index] as usize
     }
 
     /// An error that speaks of the particle by its number in the order of creation.
     pub(crate) fn name(&self, error: MpmError) -> MpmError {
+        let created = |index: usize| self.identities.get(index).map_or(index, |&identity| identity as usize);
         match error {
             MpmError::PositionOutOfRange {
                 particle,
                 position,
                 spacing,
             } => MpmError::PositionOutOfRange {
-                particle: self.identity(particle),
+                particle: created(particle),
                 position,
                 spacing,
             },
             MpmError::Deformation { particle, source } => MpmError::Deformation {
-                particle: self.identity(particle),
+                particle: created(particle),
                 source,
             },
             MpmError::WaveSpeed {
@@ -112,12 +141,12 @@ impl<const D: usize> Particles<D> {
                 wave_speed,
                 reference_density,
             } => MpmError::WaveSpeed {
-                particle: self.identity(particle),
+                particle: created(particle),
                 wave_speed,
                 reference_density,
             },
             MpmError::BodyForceNotFinite { index, position, value } => MpmError::BodyForceNotFinite {
-                index: self.identity(index),
+                index: created(index),
                 position,
                 value,
             },
@@ -125,17 +154,19 @@ impl<const D: usize> Particles<D> {
         }
     }
 
-    /// A field in the order of creation.
+    /// A field in the order of creation. A field that does not exist stays empty.
     pub fn in_creation_order<T: Copy>(&self, field: &[T]) -> Vec<T> {
-        let mut place = vec![0; field.len()];
-        for (index, &identity) in self.identities.iter().enumerate() {
-            place[identity as usize] = index;
+        let mut sorted = field.to_vec();
+        for (&value, &identity) in field.iter().zip(&self.identities) {
+            if let Some(entry) = sorted.get_mut(identity as usize) {
+                *entry = value;
+            }
         }
-        place.into_iter().map(|index| field[index]).collect()
+        sorted
     }
 
     /// Put particle `order[k]` at place k, for every field that exists.
-    pub fn reorder(&mut self, order: &[u32]) {
+    pub(crate) fn reorder(&mut self, order: &[u32]) {
         let s = &mut self.scratch;
         permute(&mut self.positions, &mut s.vectors, order);
         permute(&mut self.velocities, &mut s.vectors, order);
@@ -148,13 +179,13 @@ impl<const D: usize> Particles<D> {
         }
     }
 
-    /// Largest speed max_p |v_p|.
+    /// Largest speed max_p |v_p|; NaN if a velocity is.
     pub fn largest_speed(&self) -> f64 {
         let square = |v: &[f64; D]| v.iter().map(|c| c * c).sum::<f64>();
-        self.velocities.iter().map(square).fold(0.0, f64::max).sqrt()
+        self.velocities.iter().map(square).fold(0.0, larger_or_nan).sqrt()
     }
 
-    /// ½ Σ m_p |v_p|².
+    /// ½ Σ m_p |v_p|², without the affine part of the velocity.
     pub fn kinetic_energy(&self) -> f64 {
         let square = |v: &[f64; D]| v.iter().map(|c| c * c).sum::<f64>();
         let each = self.velocities.iter().enumerate();

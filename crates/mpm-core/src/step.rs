@@ -3,27 +3,9 @@
 use mpm_tensor::Matrix;
 use rayon::prelude::*;
 
-use crate::transfer::{Divide, GridNode, Transfer, gather, scatter};
-use crate::{Basis, BodyForce, Medium, MpmError, Particles, StepControl, StepReport, StressImpulse};
-
-/// A body of particles on a basis: what moves (`particles`), where (`basis`), how velocities travel (`transfer`), what it
-/// is made of (`medium`) and what pulls at it (`body_force`).
-pub struct Mpm<const D: usize, B, T: Transfer<D>, M, F> {
-    /// State of the particles, in schedule order after a step.
-    pub particles: Particles<D>,
-    /// Background discretisation.
-    pub basis: B,
-    /// Velocity transfer.
-    pub transfer: T,
-    /// Constitutive behaviour.
-    pub medium: M,
-    /// External force.
-    pub body_force: F,
-    nodes: Vec<T::Node>,
-    accelerations: Vec<[f64; D]>,
-    node_positions: Vec<[f64; D]>,
-    node_forces: Vec<[f64; D]>,
-}
+use crate::largest::larger_or_nan;
+use crate::transfer::{GridNode, Moving, Transfer, gather, scatter};
+use crate::{Basis, BodyForce, Medium, Mpm, MpmError, StepControl, StepReport, StressImpulse};
 
 impl<const D: usize, B, T, M, F> Mpm<D, B, T, M, F>
 where
@@ -32,43 +14,23 @@ where
     M: Medium<D>,
     F: BodyForce<D>,
 {
-    /// A body; fields that transfer and medium need are added to the particles.
-    pub fn new(mut particles: Particles<D>, basis: B, transfer: T, medium: M, body_force: F) -> Self {
-        if T::AFFINE {
-            particles.affine.resize(particles.len(), Matrix::ZERO);
-        }
-        Self {
-            particles,
-            basis,
-            transfer,
-            medium,
-            body_force,
-            nodes: Vec::new(),
-            accelerations: Vec::new(),
-            node_positions: Vec::new(),
-            node_forces: Vec::new(),
-        }
-    }
-
     /// One explicit step (symplectic Euler), as long as `control` allows.
     ///
     /// # Errors
-    /// [`MpmError`] where a position leaves the grid's range or a force is not finite; the particles then stay where they
-    /// were.
+    /// [`MpmError`]: limits or field lengths that make no sense, an inadmissible deformation, a position outside the grid's
+    /// range, a force or a nodal velocity that is not finite. The particles' state is then what it was, up to their order.
     pub fn step(&mut self, control: &StepControl) -> Result<StepReport, MpmError> {
+        control.check()?;
+        self.particles.check_lengths(T::AFFINE, M::DEFORMS)?;
         let h = self.basis.spacing();
-        let wave_speed = self
-            .medium
-            .wave_speed(&self.particles)
-            .map_err(|error| self.particles.name(error))?;
-        let dt = control.next_time_step(h, wave_speed, self.particles.largest_speed());
+        let dt = self.choose_time_step(control, h)?;
         let damping = control.damping(dt);
 
         self.rebuild()?;
         self.evaluate_particle_forces()?;
         self.particles_to_grid(dt);
         self.evaluate_node_forces()?;
-        let speed = self.update_grid(dt, damping, control.speed_limit(h, dt));
+        let speed = self.update_grid(dt, damping, control.speed_limit(h, dt))?;
         self.grid_to_particles(dt, damping);
 
         Ok(StepReport {
@@ -78,13 +40,11 @@ where
         })
     }
 
-    /// Bytes held by particles, grid and nodes.
-    pub fn storage_bytes(&self) -> usize {
-        let vectors = self.accelerations.capacity() + self.node_positions.capacity() + self.node_forces.capacity();
-        self.particles.storage_bytes()
-            + self.basis.storage_bytes()
-            + self.nodes.capacity() * size_of::<T::Node>()
-            + vectors * size_of::<[f64; D]>()
+    /// Δt, by the wave speed of the medium and the speed of the particles.
+    fn choose_time_step(&self, control: &StepControl, h: f64) -> Result<f64, MpmError> {
+        let wave_speed = self.medium.wave_speed(&self.particles);
+        let wave_speed = wave_speed.map_err(|error| self.particles.name(error))?;
+        control.next_time_step(h, wave_speed, self.particles.largest_speed())
     }
 
     /// Sort the particles by cell and number the nodes they touch.
@@ -101,7 +61,8 @@ where
         if F::AT_PARTICLES {
             self.accelerations.resize(self.particles.len(), [0.0; D]);
             self.body_force
-                .at_particles(&self.particles.positions, &mut self.accelerations)?;
+                .at_particles(&self.particles.positions, &mut self.accelerations)
+                .map_err(|error| self.particles.name(error))?;
         }
         Ok(())
     }
@@ -151,8 +112,8 @@ where
         Ok(())
     }
 
-    /// v_i ← damping (v_i + Δt f_i / m_i); returns the largest speed.
-    fn update_grid(&mut self, dt: f64, damping: f64, speed_limit: f64) -> f64 {
+    /// v_i ← damping (v_i + Δt f_i / m_i), shortened to the limit; returns the largest speed before.
+    fn update_grid(&mut self, dt: f64, damping: f64, speed_limit: f64) -> Result<f64, MpmError> {
         let forces = &self.node_forces;
         let advance = |(i, node): (usize, &mut T::Node)| {
             let impulse = if F::AT_NODES {
@@ -163,7 +124,11 @@ where
             node.advance(&impulse, damping, speed_limit)
         };
         let nodes = self.nodes.par_iter_mut().with_min_len(4096).enumerate();
-        nodes.map(advance).reduce(|| 0.0, f64::max).sqrt()
+        let square = nodes.map(advance).reduce(|| 0.0, larger_or_nan);
+        if square.is_nan() {
+            return Err(self.what_is_not_finite());
+        }
+        Ok(square.sqrt())
     }
 
     /// G2P: v_p = Σ_i w_ip v_i, B_p = Σ_i w_ip v_i (x_i − x_p)ᵀ, F_p ← (I + Δt Σ_i v_i ∇w_ipᵀ) F_p, x_p ← x_p + Δt Σ_i w_ip v_i.
@@ -219,46 +184,5 @@ fn add_outer<const D: usize>(matrix: &mut Matrix<D>, scale: f64, a: &[f64; D], b
         for j in 0..D {
             matrix.0[i][j] += scale * a[i] * b[j];
         }
-    }
-}
-
-/// The fields that the grid-to-particle transfer writes.
-struct Moving<'a, const D: usize> {
-    positions: &'a mut [[f64; D]],
-    velocities: &'a mut [[f64; D]],
-    affine: &'a mut [Matrix<D>],
-    deformation_gradients: &'a mut [Matrix<D>],
-}
-
-impl<'a, const D: usize> Moving<'a, D> {
-    fn of(particles: &'a mut Particles<D>) -> Self {
-        Self {
-            positions: &mut particles.positions,
-            velocities: &mut particles.velocities,
-            affine: &mut particles.affine,
-            deformation_gradients: &mut particles.deformation_gradients,
-        }
-    }
-}
-
-impl<const D: usize> Divide for Moving<'_, D> {
-    fn divide(self, count: usize) -> (Self, Self) {
-        let (positions, right_positions) = self.positions.divide(count);
-        let (velocities, right_velocities) = self.velocities.divide(count);
-        let (affine, right_affine) = self.affine.divide(count);
-        let (deformation_gradients, right_deformation_gradients) = self.deformation_gradients.divide(count);
-        let left = Self {
-            positions,
-            velocities,
-            affine,
-            deformation_gradients,
-        };
-        let right = Self {
-            positions: right_positions,
-            velocities: right_velocities,
-            affine: right_affine,
-            deformation_gradients: right_deformation_gradients,
-        };
-        (left, right)
     }
 }

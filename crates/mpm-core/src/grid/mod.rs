@@ -61,7 +61,7 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
     /// A grid of spacing `h` with a node at `origin`.
     ///
     /// # Errors
-    /// [`MpmError::InvalidParameter`] unless `h` is positive and finite.
+    /// [`MpmError::InvalidParameter`] unless `h` is positive and `h` and `origin` are finite.
     pub fn new(origin: [f64; D], h: f64) -> Result<Self, MpmError> {
         let mut grid = Self {
             kernel: PhantomData,
@@ -85,8 +85,15 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
     /// Move the grid: a node at `origin`, spacing `h`. Takes effect with the next rebuild.
     ///
     /// # Errors
-    /// [`MpmError::InvalidParameter`] unless `h` is positive and finite.
+    /// [`MpmError::InvalidParameter`] unless `h` is positive and `h` and `origin` are finite.
     pub fn place(&mut self, origin: [f64; D], h: f64) -> Result<(), MpmError> {
+        if let Some(&value) = origin.iter().find(|c| !c.is_finite()) {
+            return Err(MpmError::InvalidParameter {
+                field: "origin",
+                value,
+                expected: "finite",
+            });
+        }
         if !(h > 0.0 && h.is_finite()) {
             return Err(MpmError::InvalidParameter {
                 field: "spacing",

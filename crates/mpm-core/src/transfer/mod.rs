@@ -3,12 +3,14 @@
 mod apic;
 mod flip;
 mod gather;
+mod moving;
 mod pic;
 mod scatter;
 
 pub use apic::Apic;
 pub use flip::{Flip, FlipNode};
 pub use gather::{Divide, gather};
+pub(crate) use moving::Moving;
 pub use pic::{Pic, VelocityNode};
 pub use scatter::{StencilNodes, scatter};
 
@@ -23,9 +25,10 @@ pub trait GridNode<const D: usize>: Copy + Default + Send + Sync {
     /// m_i.
     fn mass(&self) -> f64;
 
-    /// Turn momentum into velocity: v_i = damping (v_iⁿ + Δt f_i / m_i), shortened to `speed_limit`.
+    /// Turn momentum into velocity: v_i = damping (v_iⁿ + Δt f_i / m_i), shortened to `speed_limit`; 0 where m_i ≤ 0.
     ///
-    /// `impulse` is Δt times a force at the node itself. Returns the squared speed before shortening.
+    /// `impulse` is Δt times a force at the node itself. Returns the squared speed before shortening: infinite where the
+    /// square overflows, NaN where the velocity itself is not finite.
     fn advance(&mut self, impulse: &[f64; D], damping: f64, speed_limit: f64) -> f64;
 
     /// v_i after [`advance`](Self::advance).
@@ -50,10 +53,14 @@ pub trait Transfer<const D: usize>: Copy + Send + Sync {
     fn particle_velocity(&self, interpolated: &[f64; D], change: &[f64; D], own: &[f64; D], damping: f64) -> [f64; D];
 }
 
-/// `vector`, shortened to the length `limit` if it is longer; and its squared length before.
+/// Shorten `vector` to the length `limit` if it is longer. Returns its squared length before: infinite where the square
+/// overflows, NaN where the vector is not finite.
 #[inline(always)]
 fn shorten<const D: usize>(vector: &mut [f64; D], limit: f64) -> f64 {
     let square: f64 = vector.iter().map(|c| c * c).sum();
+    if !square.is_finite() {
+        return shorten_huge(vector, limit);
+    }
     if square > limit * limit {
         let scale = limit / square.sqrt();
         for c in vector.iter_mut() {
@@ -61,4 +68,52 @@ fn shorten<const D: usize>(vector: &mut [f64; D], limit: f64) -> f64 {
         }
     }
     square
+}
+
+/// [`shorten`] where the square is not a finite number.
+#[cold]
+fn shorten_huge<const D: usize>(vector: &mut [f64; D], limit: f64) -> f64 {
+    if !vector.iter().all(|c| c.is_finite()) {
+        return f64::NAN;
+    }
+    if limit < f64::INFINITY {
+        let largest = vector.iter().fold(0.0, |largest: f64, c| largest.max(c.abs()));
+        let unit = vector.map(|c| c / largest);
+        let length = unit.iter().map(|c| c * c).sum::<f64>().sqrt();
+        *vector = unit.map(|c| c * (limit / length));
+    }
+    f64::INFINITY
+}
+
+#[cfg(test)]
+mod tests {
+    use super::shorten;
+
+    #[test]
+    fn a_vector_is_shortened_to_the_limit_and_keeps_its_direction() {
+        let mut vector = [3.0, -4.0];
+        assert_eq!(shorten(&mut vector, 5.0), 25.0);
+        assert_eq!(vector, [3.0, -4.0]);
+        assert_eq!(shorten(&mut vector, 2.5), 25.0);
+        assert_eq!(vector, [1.5, -2.0]);
+        assert_eq!(shorten(&mut vector, f64::INFINITY), 6.25);
+    }
+
+    #[test]
+    fn a_square_that_overflows_is_no_obstacle() {
+        let mut vector = [3e200, -4e200];
+        assert_eq!(shorten(&mut vector, f64::INFINITY), f64::INFINITY);
+        assert_eq!(vector, [3e200, -4e200]);
+        assert_eq!(shorten(&mut vector, 5.0), f64::INFINITY);
+        assert!((vector[0] - 3.0).abs() < 1e-15 && (vector[1] + 4.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn what_is_not_finite_gives_nan() {
+        for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            for limit in [1.0, f64::INFINITY] {
+                assert!(shorten(&mut [1.0, value], limit).is_nan());
+            }
+        }
+    }
 }
