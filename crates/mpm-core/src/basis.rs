@@ -9,10 +9,21 @@ use crate::{MpmError, Schedule};
 /// The step is written once over this trait; a uniform B-spline grid, a simplex lattice and an unstructured mesh are
 /// implementations. A basis groups particles into *cells*, in which all particles touch the same nodes, so that node
 /// numbers are looked up once per cell.
-pub trait Basis<const D: usize>: Sync {
+///
+/// # Safety
+/// [`scatter`](crate::scatter) writes to the nodes of all groups of one colour concurrently, without locks. From one rebuild
+/// to the next, therefore, and on every call:
+///
+/// * [`schedule`](Self::schedule) is the same, and no group occurs twice among its colours;
+/// * [`cell_nodes`](Self::cell_nodes) of cells in two different groups of one colour have no node number in common.
+///
+/// Everything else an implementation may get wrong leads to wrong results or a panic, not to a data race.
+#[allow(unsafe_code)]
+pub unsafe trait Basis<const D: usize>: Sync {
     /// Activate the nodes that these positions touch, number them 0..n, and lay out the particles by cell.
     ///
-    /// Afterwards particle `k` of the schedule is particle `schedule().order()[k]` of `positions`.
+    /// Afterwards particle `k` of the schedule is particle `schedule().order()[k]` of `positions`. After an error the basis
+    /// is of no use until a rebuild succeeds.
     ///
     /// # Errors
     /// [`MpmError::PositionOutOfRange`], [`MpmError::TooManyNodes`].
@@ -30,13 +41,14 @@ pub trait Basis<const D: usize>: Sync {
     /// Length h over which the basis resolves a field.
     fn spacing(&self) -> f64;
 
-    /// Nodes that one particle touches.
+    /// Nodes that one particle touches, the same for all; nodes on which its weight and gradient vanish count too.
     fn stencil_size(&self) -> usize;
 
-    /// Node numbers that the particles of `cell` touch, in the order of [`for_each_node`](Self::for_each_node).
+    /// The [`stencil_size`](Self::stencil_size) node numbers that the particles of `cell` touch, in the order of
+    /// [`for_each_node`](Self::for_each_node).
     fn cell_nodes(&self, cell: usize, nodes: &mut Vec<u32>);
 
-    /// Visit the stencil of a particle at `x`: position in [`cell_nodes`](Self::cell_nodes), weight, gradient, offset.
+    /// Visit the stencil of a particle at `x`: place in [`cell_nodes`](Self::cell_nodes), weight, gradient, offset.
     fn for_each_node(&self, x: &[f64; D], visit: impl FnMut(usize, &Entry<D>));
 
     /// Visit the stencil of a particle at `x` with weight and flux w_ip `value` + `scale` ∇w_ip.

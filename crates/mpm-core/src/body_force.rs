@@ -11,18 +11,22 @@ pub trait BodyForce<const D: usize>: Sync {
     /// Whether [`at_nodes`](Self::at_nodes) gives forces.
     const AT_NODES: bool;
 
-    /// Force per unit mass at every particle.
+    /// Force per unit mass at every particle, in the order of `positions`. Every entry of `accelerations` has to be set: it
+    /// holds a value of an earlier step.
     ///
     /// # Errors
-    /// [`MpmError::BodyForceNotFinite`] where the force is not a number.
+    /// [`MpmError::BodyForceNotFinite`] with the index of a point where the force is not finite. An implementation may leave
+    /// this to the step, which finds such a force before it moves a particle.
     fn at_particles(&mut self, _positions: &[[f64; D]], _accelerations: &mut [[f64; D]]) -> Result<(), MpmError> {
         Ok(())
     }
 
-    /// Force at every node, given the nodal positions and masses.
+    /// Force at every node, given the nodal positions and masses. Every entry of `forces` has to be set: it holds a value of
+    /// an earlier step. A force on a node without mass moves nothing.
     ///
     /// # Errors
-    /// [`MpmError::BodyForceNotFinite`] where the force is not a number.
+    /// [`MpmError::BodyForceNotFinite`] with the index of a point where the force is not finite. An implementation may leave
+    /// this to the step, which finds such a force before it moves a particle.
     fn at_nodes(
         &mut self,
         _positions: &[[f64; D]],

@@ -19,13 +19,11 @@ pub struct Schedule {
 }
 
 impl Schedule {
-    /// A schedule from its parts (see the field of the same name; each `starts` ends with the total).
+    /// A schedule from its parts: `order` as in [`order`](Self::order); the first particle of every cell; the first cell of
+    /// every group; the groups sorted by colour; the first of them for every colour. Each `starts` ends with the total.
     ///
-    /// # Safety
-    /// With the basis this schedule belongs to, cells in two different groups of one colour must not share a node
-    /// number: particle-to-grid transfers write to the nodes of such groups concurrently.
-    #[allow(unsafe_code)]
-    pub unsafe fn new(
+    /// What the colours have to satisfy is part of the contract of [`Basis`](crate::Basis).
+    pub fn new(
         order: Vec<u32>,
         cell_starts: Vec<u32>,
         group_starts: Vec<u32>,

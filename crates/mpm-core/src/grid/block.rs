@@ -39,9 +39,27 @@ pub fn node_at<const D: usize>(block: &[i32; D], local: u32) -> [i64; D] {
 }
 
 /// Blocks per axis that stencils of `width` nodes with their base in one block can touch.
-pub fn reach<const D: usize>(width: usize) -> [usize; D] {
+pub const fn reach<const D: usize>(width: usize) -> [usize; D] {
     let bits = const { edge_bits::<D>() };
-    std::array::from_fn(|a| (((1 << bits[a]) - 1 + width - 1) >> bits[a]) + 1)
+    let mut reach = [0; D];
+    let mut axis = 0;
+    while axis < D {
+        reach[axis] = (((1 << bits[axis]) - 1 + width - 1) >> bits[axis]) + 1;
+        axis += 1;
+    }
+    reach
+}
+
+/// Blocks that stencils of `width` nodes per axis with their base in one block can touch.
+pub const fn slot_count<const D: usize>(width: usize) -> usize {
+    let reach = reach::<D>(width);
+    let mut count = 1;
+    let mut axis = 0;
+    while axis < D {
+        count *= reach[axis];
+        axis += 1;
+    }
+    count
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use std::marker::PhantomData;
 
 use mpm_kernels::{Entry, Spline, Stencil};
 
-use self::block::{locate, node_at};
+use self::block::{locate, node_at, slot_count};
 use self::block_map::BlockMap;
 use self::template::Template;
 use crate::{Basis, MpmError, Schedule};
@@ -35,12 +35,12 @@ pub struct SplineGrid<S, const W: usize, const D: usize> {
     masks: Vec<u64>,
     /// Number of the first active node of every block, and their count at the end.
     first_nodes: Vec<u32>,
-    /// For every particle block and slot of the template: number of the node block.
+    /// For every group (particle block in lexicographic order) and slot of the template: number of the node block.
     neighbours: Vec<u32>,
     /// Place in its block, for every cell.
     cell_places: Vec<u8>,
-    /// Particle block, for every cell.
-    cell_blocks: Vec<u32>,
+    /// Group, for every cell.
+    cell_groups: Vec<u32>,
     schedule: Schedule,
     scratch: Scratch,
 }
@@ -63,6 +63,12 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
     /// # Errors
     /// [`MpmError::InvalidParameter`] unless `h` is positive and `h` and `origin` are finite.
     pub fn new(origin: [f64; D], h: f64) -> Result<Self, MpmError> {
+        const {
+            assert!(
+                slot_count::<D>(W) <= 1 << 16,
+                "the stencil reaches more blocks than 16 bits can number"
+            )
+        }
         let mut grid = Self {
             kernel: PhantomData,
             origin,
@@ -74,7 +80,7 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
             first_nodes: Vec::new(),
             neighbours: Vec::new(),
             cell_places: Vec::new(),
-            cell_blocks: Vec::new(),
+            cell_groups: Vec::new(),
             schedule: Schedule::default(),
             scratch: Scratch::default(),
         };
@@ -105,6 +111,15 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
         Ok(())
     }
 
+    /// The rebuild, in four phases.
+    fn renumber(&mut self, positions: &[[f64; D]]) -> Result<(), MpmError> {
+        self.locate_particles(positions)?;
+        self.sort_particles();
+        self.activate_nodes()?;
+        self.colour_groups();
+        Ok(())
+    }
+
     /// Phase 1 of the rebuild: the block and the cell of every particle.
     fn locate_particles(&mut self, positions: &[[f64; D]]) -> Result<(), MpmError> {
         self.particle_blocks.clear();
@@ -126,7 +141,7 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
             if block != last.0 {
                 last = (block, self.particle_blocks.number(block));
                 if last.1 >= BLOCK_LIMIT {
-                    let nodes = u64::from(last.1) * Stencil::<W, D>::SIZE as u64;
+                    let nodes = u64::from(last.1); // every block of particles has a node of its own: a stencil's base
                     return Err(MpmError::TooManyNodes { nodes });
                 }
             }
@@ -168,7 +183,7 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
         cell_starts.clear();
         group_starts.clear();
         self.cell_places.clear();
-        self.cell_blocks.clear();
+        self.cell_groups.clear();
         let mut start = 0;
         for (slot, cursor) in cursors.iter_mut().enumerate() {
             if slot % 64 == 0 {
@@ -179,7 +194,7 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
             if count > 0 {
                 cell_starts.push(start);
                 self.cell_places.push((slot % 64) as u8);
-                self.cell_blocks.push((slot / 64) as u32);
+                self.cell_groups.push((slot / 64) as u32);
                 start += count;
             }
         }
@@ -266,13 +281,18 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
     }
 }
 
-impl<S: Spline<W>, const W: usize, const D: usize> Basis<D> for SplineGrid<S, W, D> {
+// SAFETY: only `rebuild` changes what the two methods of the contract read; where it fails, no group is left. `colour_groups` lists every group once. Stencils
+// with their base in one block touch blocks at offsets 0 ≤ offset < reach per axis (`Template`); two blocks of one colour
+// differ by a non-zero multiple of reach on some axis, so that the blocks their stencils touch are disjoint, and so are
+// the numbers of the nodes in them.
+#[allow(unsafe_code)]
+unsafe impl<S: Spline<W>, const W: usize, const D: usize> Basis<D> for SplineGrid<S, W, D> {
     fn rebuild(&mut self, positions: &[[f64; D]]) -> Result<(), MpmError> {
-        self.locate_particles(positions)?;
-        self.sort_particles();
-        self.activate_nodes()?;
-        self.colour_groups();
-        Ok(())
+        let result = self.renumber(positions);
+        if result.is_err() {
+            self.schedule = Schedule::default(); // half a rebuild must not be scattered to
+        }
+        result
     }
 
     fn schedule(&self) -> &Schedule {
@@ -307,7 +327,7 @@ impl<S: Spline<W>, const W: usize, const D: usize> Basis<D> for SplineGrid<S, W,
     #[inline]
     fn cell_nodes(&self, cell: usize, nodes: &mut Vec<u32>) {
         let slots = self.template.neighbours.len();
-        let row = &self.neighbours[self.cell_blocks[cell] as usize * slots..][..slots];
+        let row = &self.neighbours[self.cell_groups[cell] as usize * slots..][..slots];
         nodes.clear();
         nodes.extend(
             self.template
@@ -350,7 +370,7 @@ impl<S: Spline<W>, const W: usize, const D: usize> Basis<D> for SplineGrid<S, W,
         let words = [
             &self.first_nodes,
             &self.neighbours,
-            &self.cell_blocks,
+            &self.cell_groups,
             &s.keys,
             &s.sorted_blocks,
             &s.ranks,

@@ -1,6 +1,6 @@
 //! What the stencils of one kernel look like from each of the 64 cells of a block; the same for all blocks.
 
-use super::block::{locate, node_at, reach};
+use super::block::{locate, node_at, reach, slot_count};
 
 /// Precomputed geometry of stencils with `width` nodes per axis.
 #[derive(Clone, Debug)]
@@ -18,7 +18,7 @@ pub struct Template<const D: usize> {
 impl<const D: usize> Template<D> {
     pub fn new(width: usize) -> Self {
         let reach = reach::<D>(width);
-        let slots: usize = reach.iter().product();
+        let slots = slot_count::<D>(width);
         let neighbours = (0..slots)
             .map(|slot| digits(slot, &reach).map(|digit| digit as i32))
             .collect();
@@ -68,7 +68,9 @@ impl<const D: usize> Template<D> {
     }
 
     pub fn storage_bytes(&self) -> usize {
-        self.nodes.capacity() * 4 + self.touched.iter().map(|t| t.capacity() * 16).sum::<usize>()
+        self.neighbours.capacity() * size_of::<[i32; D]>()
+            + self.nodes.capacity() * 4
+            + self.touched.iter().map(|t| t.capacity() * 16).sum::<usize>()
     }
 }
 

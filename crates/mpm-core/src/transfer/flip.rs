@@ -2,6 +2,8 @@ use super::{GridNode, Transfer, shorten};
 
 /// FLIP blend (Brackbill & Ruppel 1986; Zhu & Bridson 2005) with share a of FLIP:
 /// v_p ← (1−a) Σ w_ip v_iⁿ⁺¹ + a (v_p + Σ w_ip (v_iⁿ⁺¹ − v_iⁿ)); positions always move with Σ w_ip v_iⁿ⁺¹.
+///
+/// With friction, v_p and v_iⁿ in the second term are damped by the factor e^{−γΔt} that vⁿ⁺¹ contains.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Flip {
     /// Share a ∈ [0, 1]: 0 is PIC, 1 is FLIP.

@@ -68,7 +68,7 @@ impl<N> StencilNodes<'_, N> {
     pub fn node(&mut self, index: usize) -> &mut N {
         // SAFETY: all numbers were checked against the slice. No other reference to the node lives: within the group the
         // result borrows `self`; other groups that run now have the same colour, hence other nodes (the contract of
-        // `Schedule::new`); colours follow one another.
+        // `Basis`); colours follow one another.
         #[allow(unsafe_code)]
         unsafe {
             &mut *self.nodes.first.add(self.numbers[index] as usize)
