@@ -3,7 +3,7 @@
 use std::any::Any;
 use std::path::Path;
 
-use crate::catalogue::{Dimensions, MAXIMUM_DIMENSION, Parameters, TargetInfo, target_info};
+use crate::catalogue::{Dimensions, MAXIMUM_DIMENSION, Parameters, TargetInfo, target_info, unknown_target};
 use crate::logistic::DEFAULT_PRIOR_STANDARD_DEVIATION;
 use crate::wells::{WELLS_SMALL_ROWS, wells};
 use crate::{
@@ -111,7 +111,7 @@ fn build_planar(name: &str, parameters: &Parameters) -> Result<BoxedTarget<2>, T
             parameters.width.unwrap_or(0.2),
         )?),
         "mixture-4" => Box::new(GaussianMixture::<2>::four_equal(parameters.width.unwrap_or(0.5))?),
-        _ => return Err(unknown(name)),
+        _ => return Err(unknown_target(name)),
     })
 }
 
@@ -126,16 +126,6 @@ fn in_dimension<const D: usize>(target: BoxedTarget<2>) -> Result<BoxedTarget<D>
             dimension: D,
             allowed: "2".to_owned(),
         })
-}
-
-fn unknown(name: &str) -> TargetError {
-    match target_info(name) {
-        Err(error) => error,
-        Ok(info) => TargetError::UnknownTarget {
-            name: info.name.to_owned(),
-            known: String::new(),
-        },
-    }
 }
 
 fn data_path<'a>(info: &TargetInfo, parameters: &'a Parameters) -> Result<&'a Path, TargetError> {

@@ -166,10 +166,15 @@ pub fn target_info(name: &str) -> Result<&'static TargetInfo, TargetError> {
     CATALOGUE
         .iter()
         .find(|info| info.name == name)
-        .ok_or_else(|| TargetError::UnknownTarget {
-            name: name.to_owned(),
-            known: CATALOGUE.map(|info| info.name).join(", "),
-        })
+        .ok_or_else(|| unknown_target(name))
+}
+
+/// The error that lists the names that exist.
+pub(crate) fn unknown_target(name: &str) -> TargetError {
+    TargetError::UnknownTarget {
+        name: name.to_owned(),
+        known: CATALOGUE.map(|info| info.name).join(", "),
+    }
 }
 
 const fn parameter(name: &'static str, default: &'static str, meaning: &'static str) -> ParameterInfo {

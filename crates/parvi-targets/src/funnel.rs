@@ -8,8 +8,8 @@ use crate::gaussian::{normal_quantiles, standard_normal};
 use crate::special::HALF_LOG_TWO_PI;
 use crate::{CatalogueTarget, ExactDraws, Frame, Moments, Target, TargetError, UnitCubeTransport};
 
-/// e^−x₁ is clamped at e^600, so that the score far down the throat of the funnel stays a number.
-const LARGEST_EXPONENT: f64 = 600.0;
+/// e^−x₁ is clamped at e^500, so that the score far down the throat of the funnel stays a number.
+const LARGEST_EXPONENT: f64 = 500.0;
 
 /// x₁ ~ N(0, w²), x_j ~ N(0, exp(x₁)) for j ≥ 2, with w = 1.5 unless set.
 ///

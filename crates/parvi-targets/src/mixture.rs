@@ -99,7 +99,7 @@ impl<const D: usize> GaussianMixture<D> {
         )
     }
 
-    /// log(π_k N(x; c_k, w_k² I)) for each mode, and the largest of them.
+    /// log(π_k N(x; c_k, w_k² I)) for each mode.
     fn log_terms(&self, x: &[f64; D]) -> impl Iterator<Item = f64> + Clone {
         let x = *x;
         self.modes.iter().zip(&self.log_heights).map(move |(mode, height)| {

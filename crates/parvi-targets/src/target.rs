@@ -51,9 +51,9 @@ pub trait UnitCubeTransport<const D: usize>: Sync {
 /// Mean and covariance of a density.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moments<const D: usize> {
-    /// E[x].
+    /// The mean m = E(x).
     pub mean: [f64; D],
-    /// E[(x − mean)(x − mean)ᵀ].
+    /// The covariance E((x − m)(x − m)ᵀ).
     pub covariance: Matrix<D>,
 }
 

@@ -22,6 +22,8 @@ fn four(range: std::ops::Range<f64>) -> impl Strategy<Value = [f64; 4]> {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
     #[test]
     fn frames_invert_and_pull_back(
         entries in entries(),
