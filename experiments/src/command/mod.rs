@@ -1,0 +1,66 @@
+//! The command line: one subcommand per file.
+
+mod report;
+mod run;
+mod sample;
+mod targets;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use crate::{CommandError, console, interrupt};
+
+/// Particle-based variational inference by the material point method.
+#[derive(Parser)]
+#[command(name = "parvi", version, about, arg_required_else_help = true)]
+struct CommandLine {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// List the targets: names, dimensions, parameters and what is known about each
+    Targets(targets::Arguments),
+    /// Sample a target and write the particles to a file
+    Sample(Box<sample::Arguments>),
+    /// Run a study; resumes if the directory holds a part of it
+    Run(run::Arguments),
+    /// Write tables and plots of a study again from its raw results
+    Report(report::Arguments),
+}
+
+/// Parses the arguments of the process, does what they say and gives the exit code: 0 for success, 1 for an error,
+/// 2 for a command line that makes no sense, 130 for an interruption.
+pub fn main() -> ExitCode {
+    let line = match CommandLine::try_parse() {
+        Ok(line) => line,
+        Err(error) => {
+            // Help and version come as errors that belong on standard output; clap knows.
+            let _ = error.print();
+            return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
+        }
+    };
+    let result = match line.command {
+        Command::Targets(arguments) => targets::execute(&arguments),
+        Command::Sample(arguments) => sample::execute(&arguments),
+        Command::Run(arguments) => run::execute(&arguments),
+        Command::Report(arguments) => report::execute(&arguments),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            console::notice(&format!("error: {error}"));
+            ExitCode::from(exit_code(&error))
+        }
+    }
+}
+
+fn exit_code(error: &CommandError) -> u8 {
+    match error {
+        CommandError::Flag(_) | CommandError::OutputExtension { .. } => 2,
+        error if error.is_interruption() => interrupt::EXIT_CODE,
+        _ => 1,
+    }
+}

@@ -1,0 +1,84 @@
+//! `parvi sample`: particles of one target by one method, into one file.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use parvi::Run;
+
+use crate::options::{Dimension, MethodName, MethodOptions, ParticleCount, TargetParameters, TargetSpecification};
+use crate::output::{ParticleFile, ParticleFormat};
+use crate::progress::StepProgress;
+use crate::sampling::{self, Outcome};
+use crate::{CommandError, console, interrupt};
+
+/// Target, method and file.
+#[derive(Args)]
+pub struct Arguments {
+    /// Target, see `parvi targets`
+    #[arg(long, value_name = "NAME")]
+    target: String,
+    /// Dimension from 1 to 8, where the target leaves it free
+    #[arg(long, value_name = "D", allow_negative_numbers = true)]
+    dim: Option<Dimension>,
+    /// Number of particles, at least 2
+    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    particles: ParticleCount,
+    /// Method
+    #[arg(long, value_enum, default_value_t)]
+    method: MethodName,
+    /// Seed of every random choice
+    #[arg(long, value_name = "S", default_value_t = 0)]
+    seed: u64,
+    /// File of the particles, .csv or .npy
+    #[arg(long, value_name = "FILE.csv|.npy")]
+    out: PathBuf,
+    #[command(flatten)]
+    parameters: TargetParameters,
+    #[command(flatten)]
+    options: MethodOptions,
+}
+
+/// Samples and writes; nothing stands under the file's name unless all of it is finite.
+pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
+    let method = arguments.options.method(arguments.method)?;
+    ParticleFormat::of(&arguments.out)?;
+    let target = TargetSpecification {
+        name: arguments.target.clone(),
+        dim: arguments.dim,
+        parameters: arguments.parameters.clone(),
+    };
+    let mut run = Run::new(arguments.particles.get(), arguments.seed);
+    run.start = arguments.options.start();
+    target.dimension()?;
+    let file = ParticleFile::create(&arguments.out)?;
+    interrupt::listen();
+    let mut progress = StepProgress::new();
+    let outcome = sampling::sample(&target, &method, &run, &mut progress)?;
+    progress.clear();
+    file.write(&outcome.particles)?;
+    console::print_pairs(&pairs(arguments, &outcome))
+}
+
+/// What standard output says; a key without a value is left out.
+fn pairs(arguments: &Arguments, outcome: &Outcome) -> Vec<(&'static str, String)> {
+    let mut pairs = vec![
+        ("method", arguments.method.to_string()),
+        ("steps", outcome.steps.to_string()),
+        ("score_evaluations", outcome.score_evaluations.to_string()),
+        ("wall_seconds", format!("{:.6}", outcome.wall_seconds)),
+    ];
+    let optional = [
+        ("residual", outcome.residual.map(|value| value.to_string())),
+        ("spacing", outcome.spacing.map(|value| value.to_string())),
+        ("active_nodes", outcome.active_nodes.map(|value| value.to_string())),
+        ("storage_bytes", outcome.storage_bytes.map(|value| value.to_string())),
+    ];
+    pairs.extend(optional.into_iter().filter_map(|(key, value)| Some((key, value?))));
+    pairs.extend([
+        ("target", arguments.target.clone()),
+        ("dim", outcome.particles.dimension().to_string()),
+        ("particles", outcome.particles.len().to_string()),
+        ("seed", arguments.seed.to_string()),
+    ]);
+    pairs
+}

@@ -1,0 +1,40 @@
+//! `parvi targets`: the catalogue.
+
+use clap::Args;
+use parvi_targets::{TargetInfo, catalogue};
+
+use crate::{CommandError, console};
+
+/// No arguments.
+#[derive(Args)]
+pub struct Arguments {}
+
+/// Lists names, dimensions, parameters with defaults, and what is known.
+pub fn execute(_arguments: &Arguments) -> Result<(), CommandError> {
+    let width = catalogue().iter().map(|info| info.name.len()).max().unwrap_or(0);
+    let entries: Vec<String> = catalogue().iter().map(|info| entry(info, width)).collect();
+    console::print(&entries.join("\n"))
+}
+
+fn entry(info: &TargetInfo, width: usize) -> String {
+    let indent = " ".repeat(width + 2);
+    let mut text = format!("{:width$}  {}\n", info.name, info.summary);
+    text.push_str(&format!("{indent}dimension: {}\n", info.dimensions.in_words()));
+    for parameter in info.parameters {
+        let default = parameter.default.map_or("required".to_owned(), |value| format!("[{value}]"));
+        text.push_str(&format!("{indent}--{} {default}: {}\n", parameter.name, parameter.meaning));
+    }
+    let mut known = Vec::new();
+    if info.exact_draws {
+        known.push("exact draws".to_owned());
+    }
+    if info.unit_cube_transport {
+        known.push("quasi-random draws".to_owned());
+    }
+    known.push(if info.moments { "moments" } else { "moments by importance sampling" }.to_owned());
+    if info.modes > 1 {
+        known.push(format!("{} modes with their masses", info.modes));
+    }
+    text.push_str(&format!("{indent}known: {}\n", known.join(", ")));
+    text
+}

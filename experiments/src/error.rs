@@ -1,0 +1,132 @@
+//! The one error type of the command.
+
+use std::path::{Path, PathBuf};
+
+use parvi::SampleError;
+use parvi_metrics::MetricError;
+use parvi_targets::TargetError;
+use thiserror::Error;
+
+use crate::options::OptionError;
+use crate::plots::PlotError;
+use crate::statistics::StatisticsError;
+
+/// Everything that ends a command early, with the file, line, field or flag and the value that did it.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum CommandError {
+    /// A target, its parameters or its data are wrong.
+    #[error(transparent)]
+    Target(#[from] TargetError),
+    /// A sampler gave no particles.
+    #[error(transparent)]
+    Sample(#[from] SampleError),
+    /// A metric refused its input.
+    #[error(transparent)]
+    Metric(#[from] MetricError),
+    /// A figure could not be drawn.
+    #[error(transparent)]
+    Plot(#[from] PlotError),
+    /// A statistic refused its input.
+    #[error(transparent)]
+    Statistics(#[from] StatisticsError),
+    /// A flag does not fit the method or has a value outside of its range.
+    #[error("--{}: {}", .0.name, .0.reason)]
+    Flag(#[from] OptionError),
+    /// The extension of the output file is not one that can be written.
+    #[error("--out {}: the extension must be .csv or .npy", .path.display())]
+    OutputExtension {
+        /// The file asked for.
+        path: PathBuf,
+    },
+    /// A number that should be finite is not.
+    #[error("{what} is not finite: {value}")]
+    NotFinite {
+        /// What was computed.
+        what: String,
+        /// What came out.
+        value: f64,
+    },
+    /// A file or directory could not be read or written.
+    #[error("cannot {operation} {path}: {source}")]
+    File {
+        /// What was tried, e.g. `write`.
+        operation: &'static str,
+        /// The file.
+        path: String,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// A configuration does not say what it has to, or says too much.
+    #[error("{file}, line {line}, column {column}: {message}{}", quoted(.text))]
+    Config {
+        /// The file.
+        file: String,
+        /// The line, counted from 1.
+        line: usize,
+        /// The column, counted from 1.
+        column: usize,
+        /// What is wrong.
+        message: String,
+        /// The text of the line.
+        text: String,
+    },
+    /// The parts of a configuration do not fit together.
+    #[error("{file}: {field}: {message}")]
+    ConfigField {
+        /// The file.
+        file: String,
+        /// The field.
+        field: String,
+        /// What is wrong with it, with its value.
+        message: String,
+    },
+    /// The output directory is in use by something else.
+    #[error("{directory} {occupant}; it was left untouched, choose another --out")]
+    DirectoryOccupied {
+        /// The directory.
+        directory: String,
+        /// What it holds.
+        occupant: String,
+    },
+    /// A study's own file does not hold what a study writes.
+    #[error("{file}: {message}")]
+    ResultsUnreadable {
+        /// The file.
+        file: String,
+        /// What is wrong, with line and value.
+        message: String,
+    },
+    /// Ctrl-C.
+    #[error("interrupted{hint}")]
+    Interrupted {
+        /// How to go on.
+        hint: String,
+    },
+    /// A pool of threads could not be started.
+    #[error("cannot start {threads} threads: {reason}")]
+    Threads {
+        /// Their number.
+        threads: usize,
+        /// What the system said.
+        reason: String,
+    },
+}
+
+impl CommandError {
+    /// An operation on a file failed.
+    pub fn file(operation: &'static str, path: impl AsRef<Path>, source: std::io::Error) -> Self {
+        Self::File { operation, path: path.as_ref().display().to_string(), source }
+    }
+
+    /// Whether the command was interrupted rather than failed.
+    pub fn is_interruption(&self) -> bool {
+        matches!(self, Self::Interrupted { .. } | Self::Sample(SampleError::Interrupted { .. }))
+    }
+}
+
+/// The offending line, in parentheses; nothing for an empty one.
+fn quoted(text: &str) -> String {
+    let text = text.trim();
+    if text.is_empty() { String::new() } else { format!(" (in `{text}`)") }
+}

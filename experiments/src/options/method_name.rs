@@ -1,0 +1,65 @@
+//! The methods by name.
+
+use std::fmt::{self, Display, Formatter};
+
+use clap::ValueEnum;
+use serde::{Deserialize, Serialize};
+
+/// A sampling method.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum MethodName {
+    /// Material point method with the calibrated gas law
+    #[default]
+    Mpm,
+    /// Algorithm 1 of the MPM-ParVI paper
+    PaperPic,
+    /// Algorithm 2 of the MPM-ParVI paper
+    PaperApic,
+    /// Stein variational gradient descent
+    Svgd,
+    /// Independent exact draws
+    Iid,
+    /// Scrambled Sobol points
+    Sobol,
+}
+
+impl MethodName {
+    /// All methods.
+    pub const ALL: [Self; 6] = [Self::Mpm, Self::PaperPic, Self::PaperApic, Self::Svgd, Self::Iid, Self::Sobol];
+
+    /// The name as typed.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Mpm => "mpm",
+            Self::PaperPic => "paper-pic",
+            Self::PaperApic => "paper-apic",
+            Self::Svgd => "svgd",
+            Self::Iid => "iid",
+            Self::Sobol => "sobol",
+        }
+    }
+
+    /// Whether the method takes steps from a start; draws come at once.
+    pub fn iterates(self) -> bool {
+        !matches!(self, Self::Iid | Self::Sobol)
+    }
+}
+
+impl Display for MethodName {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        formatter.write_str(self.as_str())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_names_are_those_of_the_command_line() {
+        for method in MethodName::ALL {
+            assert_eq!(MethodName::from_str(method.as_str(), false), Ok(method));
+        }
+    }
+}

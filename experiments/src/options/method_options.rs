@@ -1,0 +1,303 @@
+//! The options of all methods, and which of them belong to which method.
+
+use clap::Args;
+use parvi::{Annealing, Guards, Method, MpmOptions, PaperOptions, Start, SvgdOptions, TransferChoice};
+use serde::{Deserialize, Serialize};
+
+use super::{Basis, Limit, Material, MethodName, OptionError, Score, StepCount, Switch, Transfer};
+
+/// Options of the methods; `None`: the method's own default.
+#[derive(Args, Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
+#[command(next_help_heading = "Options of the method")]
+pub struct MethodOptions {
+    /// Steps [mpm, paper-*, svgd]
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    pub steps: Option<StepCount>,
+    /// Background basis [mpm, paper-*]
+    #[arg(long)]
+    pub basis: Option<Basis>,
+    /// Grid spacing in units of the target's scale [mpm, paper-*]
+    #[arg(long, value_name = "H", allow_negative_numbers = true)]
+    pub spacing: Option<f64>,
+    /// Time step [mpm, paper-*]
+    #[arg(long, value_name = "DT", allow_negative_numbers = true)]
+    pub time_step: Option<f64>,
+    /// Where the score is evaluated [mpm, paper-*]
+    #[arg(long)]
+    pub score: Option<Score>,
+    /// Largest displacement per step in units of the spacing, or `off` [paper-*; mpm: a number]
+    #[arg(long, value_name = "C|off", allow_negative_numbers = true)]
+    pub displacement_limit: Option<Limit>,
+    /// Move the grid every step [mpm]
+    #[arg(long)]
+    pub shifts: Option<Switch>,
+    /// Finish with the affine Stein correction [mpm]
+    #[arg(long)]
+    pub moment_correction: Option<Switch>,
+    /// Velocity transfer [mpm]
+    #[arg(long)]
+    pub transfer: Option<Transfer>,
+    /// Share of FLIP in --transfer flip, from 0 to 1 [mpm]
+    #[arg(long, value_name = "A", allow_negative_numbers = true)]
+    pub flip_share: Option<f64>,
+    /// Friction, per unit of time [mpm]
+    #[arg(long, value_name = "GAMMA", allow_negative_numbers = true)]
+    pub friction: Option<f64>,
+    /// Elastic law [paper-*]
+    #[arg(long)]
+    pub material: Option<Material>,
+    /// Young's modulus [paper-*]
+    #[arg(long, value_name = "E", allow_negative_numbers = true)]
+    pub youngs_modulus: Option<f64>,
+    /// Poisson's ratio [paper-*]
+    #[arg(long, value_name = "NU", allow_negative_numbers = true)]
+    pub poissons_ratio: Option<f64>,
+    /// Constant factor before the force [paper-*]
+    #[arg(long, allow_negative_numbers = true)]
+    pub alpha: Option<f64>,
+    /// Factor before the force in the first step, with --alpha-to [paper-*]
+    #[arg(long, value_name = "ALPHA", allow_negative_numbers = true)]
+    pub alpha_from: Option<f64>,
+    /// Factor before the force in the last step, with --alpha-from [paper-*]
+    #[arg(long, value_name = "ALPHA", allow_negative_numbers = true)]
+    pub alpha_to: Option<f64>,
+    /// All guards at once; single guards can be set beside it [paper-*]
+    #[arg(long)]
+    pub guards: Option<Switch>,
+    /// Nodes lighter than this share of the mean particle mass get no force, 0: off [paper-*]
+    #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
+    pub mass_floor: Option<f64>,
+    /// Multiply the force by the nodal mass [paper-*]
+    #[arg(long)]
+    pub mass_weighted_force: Option<Switch>,
+    /// Courant number that limits the time step, or `off` [paper-*]
+    #[arg(long, value_name = "C|off", allow_negative_numbers = true)]
+    pub courant: Option<Limit>,
+    /// Step size of the optimiser [svgd]
+    #[arg(long, value_name = "SIZE", allow_negative_numbers = true)]
+    pub step_size: Option<f64>,
+    /// Fixed kernel bandwidth instead of the median rule [svgd]
+    #[arg(long, allow_negative_numbers = true)]
+    pub bandwidth: Option<f64>,
+    /// Mean of every coordinate at the start, in units of the target's scale [mpm, paper-*, svgd]
+    #[arg(long, value_name = "MEAN", allow_negative_numbers = true)]
+    pub start_mean: Option<f64>,
+    /// Standard deviation of every coordinate at the start [mpm, paper-*, svgd]
+    #[arg(long, value_name = "SD", allow_negative_numbers = true)]
+    pub start_sd: Option<f64>,
+    /// Measure residual and energy every so many steps; set by the studies.
+    #[arg(skip)]
+    #[serde(skip)]
+    pub trace_every: usize,
+}
+
+/// The methods that have an option.
+type Owners = &'static [MethodName];
+const GAS: Owners = &[MethodName::Mpm];
+const PAPER: Owners = &[MethodName::PaperPic, MethodName::PaperApic];
+const GRID: Owners = &[MethodName::Mpm, MethodName::PaperPic, MethodName::PaperApic];
+const STEIN: Owners = &[MethodName::Svgd];
+const STARTED: Owners = &[MethodName::Mpm, MethodName::PaperPic, MethodName::PaperApic, MethodName::Svgd];
+
+/// A range for numbers.
+type Range = (fn(f64) -> bool, &'static str);
+const POSITIVE: Range = (|x| x > 0.0 && x.is_finite(), "a number above 0");
+const NOT_NEGATIVE: Range = (|x| x >= 0.0 && x.is_finite(), "a number of at least 0");
+const FINITE: Range = (f64::is_finite, "a finite number");
+const SHARE: Range = (|x| (0.0..=1.0).contains(&x), "from 0 to 1");
+const POISSON: Range = (|x| x > -1.0 && x < 0.5, "above -1 and below 0.5");
+
+impl MethodOptions {
+    /// The method for the sampler.
+    ///
+    /// # Errors
+    /// The first option that does not fit the method, contradicts another one or lies outside of its range.
+    pub fn method(&self, name: MethodName) -> Result<Method, OptionError> {
+        self.check_fit(name)?;
+        self.check_ranges()?;
+        self.check_pairs()?;
+        let steps = self.steps.map(StepCount::get);
+        Ok(match name {
+            MethodName::Mpm => Method::Mpm(self.mpm(steps)?),
+            MethodName::PaperPic => Method::Paper(self.paper(steps, false)),
+            MethodName::PaperApic => Method::Paper(self.paper(steps, true)),
+            MethodName::Svgd => {
+                let default = SvgdOptions::default();
+                Method::Svgd(SvgdOptions {
+                    steps: steps.or(default.steps),
+                    step_size: self.step_size.unwrap_or(default.step_size),
+                    bandwidth: self.bandwidth,
+                    trace_every: self.trace_every,
+                })
+            }
+            MethodName::Iid => Method::Iid,
+            MethodName::Sobol => Method::Sobol,
+        })
+    }
+
+    /// Where the particles begin.
+    pub fn start(&self) -> Start {
+        let default = Start::default();
+        Start {
+            mean: self.start_mean.unwrap_or(default.mean),
+            standard_deviation: self.start_sd.unwrap_or(default.standard_deviation),
+        }
+    }
+
+    fn mpm(&self, steps: Option<usize>) -> Result<MpmOptions, OptionError> {
+        let default = MpmOptions::default();
+        let transfer = match self.transfer {
+            None => default.transfer,
+            Some(Transfer::Pic) => TransferChoice::Pic,
+            Some(Transfer::Apic) => TransferChoice::Apic,
+            Some(Transfer::Flip) => TransferChoice::Flip(self.flip_share.unwrap_or(0.95)),
+        };
+        let displacement_limit = match self.displacement_limit {
+            None => default.displacement_limit,
+            Some(Limit::At(limit)) => limit,
+            Some(Limit::Off) => return Err(OptionError::misfit("displacement-limit", "off", "mpm")),
+        };
+        Ok(MpmOptions {
+            basis: self.basis.map_or(default.basis, Into::into),
+            transfer,
+            spacing: self.spacing.or(default.spacing),
+            steps: steps.or(default.steps),
+            time_step: self.time_step.or(default.time_step),
+            friction: self.friction.or(default.friction),
+            shifts: self.shifts.map_or(default.shifts, Switch::is_on),
+            moment_correction: self.moment_correction.map_or(default.moment_correction, Switch::is_on),
+            score_location: self.score.map_or(default.score_location, Into::into),
+            displacement_limit,
+            trace_every: self.trace_every,
+        })
+    }
+
+    fn paper(&self, steps: Option<usize>, affine: bool) -> PaperOptions {
+        let default = PaperOptions::default();
+        let annealing = match (self.alpha, self.alpha_from, self.alpha_to) {
+            (Some(alpha), _, _) => Annealing::Constant(alpha),
+            (None, Some(from), Some(to)) => Annealing::Geometric { from, to },
+            _ => default.annealing,
+        };
+        PaperOptions {
+            affine,
+            basis: self.basis.map_or(default.basis, Into::into),
+            elasticity: self.material.map_or(default.elasticity, Into::into),
+            youngs_modulus: self.youngs_modulus.unwrap_or(default.youngs_modulus),
+            poissons_ratio: self.poissons_ratio.unwrap_or(default.poissons_ratio),
+            annealing,
+            score_location: self.score.map_or(default.score_location, Into::into),
+            spacing: self.spacing.or(default.spacing),
+            steps: steps.or(default.steps),
+            time_step: self.time_step.or(default.time_step),
+            guards: self.guards(),
+            trace_every: self.trace_every,
+        }
+    }
+
+    fn guards(&self) -> Guards {
+        let base = match self.guards {
+            Some(Switch::Off) => Guards::none(),
+            _ => Guards::default(),
+        };
+        Guards {
+            mass_floor: self.mass_floor.unwrap_or(base.mass_floor),
+            mass_weighted_force: self.mass_weighted_force.map_or(base.mass_weighted_force, Switch::is_on),
+            courant: self.courant.map_or(base.courant, Limit::value),
+            displacement_limit: self.displacement_limit.map_or(base.displacement_limit, Limit::value),
+        }
+    }
+
+    /// Refuses options that the method does not have.
+    fn check_fit(&self, method: MethodName) -> Result<(), OptionError> {
+        for (name, value, owners) in self.given() {
+            if !owners.contains(&method) {
+                return Err(OptionError::misfit(name, &value, method.as_str()));
+            }
+        }
+        Ok(())
+    }
+
+    /// The options that are set: name, value as typed, methods that have it.
+    fn given(&self) -> Vec<(&'static str, String, Owners)> {
+        fn text<T: ToString>(value: &Option<T>) -> Option<String> {
+            value.as_ref().map(T::to_string)
+        }
+        let all = [
+            ("steps", text(&self.steps), STARTED),
+            ("basis", text(&self.basis), GRID),
+            ("spacing", text(&self.spacing), GRID),
+            ("time-step", text(&self.time_step), GRID),
+            ("score", text(&self.score), GRID),
+            ("displacement-limit", text(&self.displacement_limit), GRID),
+            ("shifts", text(&self.shifts), GAS),
+            ("moment-correction", text(&self.moment_correction), GAS),
+            ("transfer", text(&self.transfer), GAS),
+            ("flip-share", text(&self.flip_share), GAS),
+            ("friction", text(&self.friction), GAS),
+            ("material", text(&self.material), PAPER),
+            ("youngs-modulus", text(&self.youngs_modulus), PAPER),
+            ("poissons-ratio", text(&self.poissons_ratio), PAPER),
+            ("alpha", text(&self.alpha), PAPER),
+            ("alpha-from", text(&self.alpha_from), PAPER),
+            ("alpha-to", text(&self.alpha_to), PAPER),
+            ("guards", text(&self.guards), PAPER),
+            ("mass-floor", text(&self.mass_floor), PAPER),
+            ("mass-weighted-force", text(&self.mass_weighted_force), PAPER),
+            ("courant", text(&self.courant), PAPER),
+            ("step-size", text(&self.step_size), STEIN),
+            ("bandwidth", text(&self.bandwidth), STEIN),
+            ("start-mean", text(&self.start_mean), STARTED),
+            ("start-sd", text(&self.start_sd), STARTED),
+        ];
+        all.into_iter().filter_map(|(name, value, owners)| Some((name, value?, owners))).collect()
+    }
+
+    fn check_ranges(&self) -> Result<(), OptionError> {
+        let numbers: [(&str, Option<f64>, Range); 15] = [
+            ("spacing", self.spacing, POSITIVE),
+            ("time-step", self.time_step, POSITIVE),
+            ("displacement-limit", self.displacement_limit.and_then(Limit::value), POSITIVE),
+            ("flip-share", self.flip_share, SHARE),
+            ("friction", self.friction, NOT_NEGATIVE),
+            ("youngs-modulus", self.youngs_modulus, POSITIVE),
+            ("poissons-ratio", self.poissons_ratio, POISSON),
+            ("alpha", self.alpha, POSITIVE),
+            ("alpha-from", self.alpha_from, POSITIVE),
+            ("alpha-to", self.alpha_to, POSITIVE),
+            ("mass-floor", self.mass_floor, NOT_NEGATIVE),
+            ("courant", self.courant.and_then(Limit::value), POSITIVE),
+            ("step-size", self.step_size, POSITIVE),
+            ("bandwidth", self.bandwidth, POSITIVE),
+            ("start-sd", self.start_sd, POSITIVE),
+        ];
+        for (name, value, (holds, expected)) in numbers.into_iter().chain([("start-mean", self.start_mean, FINITE)]) {
+            if let Some(value) = value
+                && !holds(value)
+            {
+                return Err(OptionError::out_of_range(name, value, expected));
+            }
+        }
+        Ok(())
+    }
+
+    /// Options that need or exclude each other.
+    fn check_pairs(&self) -> Result<(), OptionError> {
+        let refuse = |name: &str, value: f64, reason: &str| {
+            Err(OptionError { name: name.to_owned(), reason: format!("{value} {reason}") })
+        };
+        if let Some(share) = self.flip_share
+            && self.transfer != Some(Transfer::Flip)
+        {
+            return refuse("flip-share", share, "needs the transfer `flip`");
+        }
+        match (self.alpha, self.alpha_from, self.alpha_to) {
+            (Some(_), Some(from), _) => refuse("alpha-from", from, "contradicts a constant alpha"),
+            (Some(_), _, Some(to)) => refuse("alpha-to", to, "contradicts a constant alpha"),
+            (None, Some(from), None) => refuse("alpha-from", from, "needs alpha-to beside it"),
+            (None, None, Some(to)) => refuse("alpha-to", to, "needs alpha-from beside it"),
+            _ => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,61 @@
+//! A method with its options, as a configuration states it.
+
+use parvi::Method;
+use serde::{Deserialize, Serialize};
+
+use super::{MethodName, MethodOptions, OptionError};
+
+/// `{ name = "mpm", options = { spacing = 0.5 } }`; options that do not fit the method are refused while reading.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Stated")]
+pub struct MethodSpecification {
+    /// The method.
+    pub name: MethodName,
+    /// A name of its own in tables and figures, where one method appears with several options.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub label: Option<String>,
+    /// Its options.
+    pub options: MethodOptions,
+}
+
+/// What the configuration says, before it is checked.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Stated {
+    name: MethodName,
+    label: Option<String>,
+    #[serde(default)]
+    options: MethodOptions,
+}
+
+impl TryFrom<Stated> for MethodSpecification {
+    type Error = OptionError;
+
+    fn try_from(stated: Stated) -> Result<Self, OptionError> {
+        stated.options.method(stated.name)?;
+        Ok(Self { name: stated.name, label: stated.label, options: stated.options })
+    }
+}
+
+impl MethodSpecification {
+    /// A method with its default options.
+    pub fn plain(name: MethodName) -> Self {
+        Self { name, label: None, options: MethodOptions::default() }
+    }
+
+    /// The name in tables and figures.
+    pub fn label(&self) -> &str {
+        self.label.as_deref().unwrap_or(self.name.as_str())
+    }
+
+    /// The method for the sampler, with another number of steps where one is given and the method takes steps.
+    pub fn method(&self, steps: Option<usize>) -> Result<Method, OptionError> {
+        let mut options = self.options.clone();
+        if self.name.iterates()
+            && let Some(steps) = steps
+        {
+            options.steps = i64::try_from(steps).ok().and_then(super::StepCount::new);
+        }
+        options.method(self.name)
+    }
+}

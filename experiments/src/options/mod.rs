@@ -1,0 +1,19 @@
+//! Options of targets and methods, with the same names on the command line and in configurations.
+
+mod bounded;
+mod limit;
+mod method_name;
+mod method_options;
+mod method_specification;
+mod option_error;
+mod option_values;
+mod target_specification;
+
+pub use bounded::{Bounded, Dimension, ParticleCount, StepCount};
+pub use limit::Limit;
+pub use method_name::MethodName;
+pub use method_options::MethodOptions;
+pub use method_specification::MethodSpecification;
+pub use option_error::OptionError;
+pub use option_values::{Basis, Material, Score, Switch, Transfer};
+pub use target_specification::{TargetParameters, TargetSpecification};

@@ -1,0 +1,134 @@
+//! Options whose values are words.
+
+use std::fmt::{self, Display, Formatter};
+
+use clap::ValueEnum;
+use parvi::{BasisChoice, Elasticity, ScoreLocation};
+use serde::{Deserialize, Serialize};
+
+/// Background basis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Basis {
+    /// Tensor-product hat functions
+    Linear,
+    /// Tensor-product quadratic B-splines
+    Quadratic,
+    /// Tensor-product cubic B-splines
+    Cubic,
+}
+
+impl From<Basis> for BasisChoice {
+    fn from(basis: Basis) -> Self {
+        match basis {
+            Basis::Linear => Self::Linear,
+            Basis::Quadratic => Self::Quadratic,
+            Basis::Cubic => Self::Cubic,
+        }
+    }
+}
+
+/// On or off.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Switch {
+    /// On
+    On,
+    /// Off
+    Off,
+}
+
+impl Switch {
+    /// Whether it is on.
+    pub fn is_on(self) -> bool {
+        self == Self::On
+    }
+}
+
+/// How velocities travel between particles and nodes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Transfer {
+    /// Particle in cell
+    Pic,
+    /// Affine particle in cell
+    Apic,
+    /// A blend of FLIP and PIC, see --flip-share
+    Flip,
+}
+
+/// Where the score is evaluated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Score {
+    /// At the particles
+    Particles,
+    /// At the nodes
+    Nodes,
+}
+
+impl From<Score> for ScoreLocation {
+    fn from(score: Score) -> Self {
+        match score {
+            Score::Particles => Self::Particles,
+            Score::Nodes => Self::Nodes,
+        }
+    }
+}
+
+/// Elastic law of the paper's algorithms.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Material {
+    /// Compressible Neo-Hookean solid
+    NeoHookean,
+    /// Small-strain linear elasticity
+    LinearElastic,
+}
+
+impl From<Material> for Elasticity {
+    fn from(material: Material) -> Self {
+        match material {
+            Material::NeoHookean => Self::NeoHookean,
+            Material::LinearElastic => Self::Linear,
+        }
+    }
+}
+
+/// The word of a value, as it is typed.
+fn word(value: &impl ValueEnum, formatter: &mut Formatter<'_>) -> fmt::Result {
+    match value.to_possible_value() {
+        Some(possible) => write!(formatter, "{}", possible.get_name()),
+        None => Ok(()),
+    }
+}
+
+impl Display for Basis {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        word(self, formatter)
+    }
+}
+
+impl Display for Switch {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        word(self, formatter)
+    }
+}
+
+impl Display for Transfer {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        word(self, formatter)
+    }
+}
+
+impl Display for Score {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        word(self, formatter)
+    }
+}
+
+impl Display for Material {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        word(self, formatter)
+    }
+}

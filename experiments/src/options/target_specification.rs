@@ -1,0 +1,145 @@
+//! A target with its dimension and parameters, as flags or as a configuration states it.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use parvi_targets::{Parameters, RegressionData, TargetError, wells};
+use serde::{Deserialize, Serialize};
+
+use super::Dimension;
+
+/// Parameters of the targets; `None`: the target's own default.
+#[derive(Args, Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
+#[command(next_help_heading = "Parameters of the target")]
+pub struct TargetParameters {
+    /// Correlation R of neighbouring axes, C_ij = R^|i-j| [gaussian]
+    #[arg(long, value_name = "R", allow_negative_numbers = true)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub correlation: Option<f64>,
+    /// Curvature b [banana]
+    #[arg(long, value_name = "B", allow_negative_numbers = true)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub curvature: Option<f64>,
+    /// Width: standard deviation across the curve, the ring or a mode, of the funnel's mouth [banana, ring, mixture-*, funnel]
+    #[arg(long, value_name = "SIGMA", allow_negative_numbers = true)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub width: Option<f64>,
+    /// Radius of the ring [ring]
+    #[arg(long, allow_negative_numbers = true)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub radius: Option<f64>,
+    /// Degrees of freedom [student-t]
+    #[arg(long, value_name = "NU", allow_negative_numbers = true)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub degrees_of_freedom: Option<f64>,
+    /// Standard deviation of the Gaussian prior of each coefficient [wells, wells-small, logistic]
+    #[arg(long, value_name = "SD", allow_negative_numbers = true)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub prior_sd: Option<f64>,
+    /// Data: a header, the 0/1 response first, then the covariates [logistic]
+    #[arg(long, value_name = "FILE.csv")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub data: Option<PathBuf>,
+}
+
+impl TargetParameters {
+    /// The same for the catalogue.
+    pub fn to_catalogue(&self) -> Parameters {
+        Parameters {
+            correlation: self.correlation,
+            curvature: self.curvature,
+            width: self.width,
+            radius: self.radius,
+            degrees_of_freedom: self.degrees_of_freedom,
+            prior_standard_deviation: self.prior_sd,
+            data: self.data.clone(),
+        }
+    }
+}
+
+/// `{ name = "gaussian", dim = 4, parameters = { correlation = 0.5 } }`; an unknown name or a dimension that the
+/// target does not have is refused while reading.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Stated")]
+pub struct TargetSpecification {
+    /// The name in the catalogue.
+    pub name: String,
+    /// The dimension, where the target leaves it free.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dim: Option<Dimension>,
+    /// The parameters.
+    pub parameters: TargetParameters,
+}
+
+/// What the configuration says, before it is checked.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Stated {
+    name: String,
+    dim: Option<Dimension>,
+    #[serde(default)]
+    parameters: TargetParameters,
+}
+
+impl TryFrom<Stated> for TargetSpecification {
+    type Error = TargetError;
+
+    fn try_from(stated: Stated) -> Result<Self, TargetError> {
+        let specification = Self { name: stated.name, dim: stated.dim, parameters: stated.parameters };
+        specification.dimension()?;
+        Ok(specification)
+    }
+}
+
+impl TargetSpecification {
+    /// A target with its default parameters.
+    pub fn plain(name: &str, dim: Option<Dimension>) -> Self {
+        Self { name: name.to_owned(), dim, parameters: TargetParameters::default() }
+    }
+
+    /// d, from the request, the target or its data.
+    pub fn dimension(&self) -> Result<usize, TargetError> {
+        parvi_targets::dimension_of(&self.name, self.dim.map(Dimension::get), &self.parameters.to_catalogue())
+    }
+
+    /// The coordinates' names: the covariates of a regression, else x₁ … x_d in the notation of the figures.
+    pub fn coordinate_names(&self) -> Vec<String> {
+        let dimension = self.dimension().unwrap_or(0);
+        let data = match (self.name.as_str(), &self.parameters.data) {
+            ("wells" | "wells-small", _) => wells(dimension, None).ok(),
+            (_, Some(path)) => RegressionData::from_csv_file(path).ok(),
+            _ => None,
+        };
+        match data {
+            Some(data) => data.names().to_vec(),
+            None => (1..=dimension).map(|axis| format!("x_{{{axis}}}")).collect(),
+        }
+    }
+
+    /// Name, dimension and parameters in a form that fits into a file name, different for different targets.
+    pub fn label(&self) -> String {
+        let mut label = self.name.clone();
+        if let Some(dim) = self.dim {
+            label.push_str(&format!("-d{dim}"));
+        }
+        let parameters = &self.parameters;
+        let numbers = [
+            ("correlation", parameters.correlation),
+            ("curvature", parameters.curvature),
+            ("width", parameters.width),
+            ("radius", parameters.radius),
+            ("degrees", parameters.degrees_of_freedom),
+            ("prior", parameters.prior_sd),
+        ];
+        for (name, value) in numbers {
+            if let Some(value) = value {
+                label.push_str(&format!("-{name}{value}"));
+            }
+        }
+        if let Some(stem) = parameters.data.as_deref().and_then(|path| path.file_stem()) {
+            label.push_str(&format!("-{}", stem.to_string_lossy()));
+        }
+        label
+    }
+}

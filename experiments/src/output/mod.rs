@@ -1,0 +1,60 @@
+//! Files of particles, written whole or not at all.
+
+mod atomic_file;
+mod particles;
+pub mod particles_csv;
+pub mod particles_npy;
+
+use std::path::{Path, PathBuf};
+
+pub use atomic_file::{AtomicFile, PARTIAL_SUFFIX};
+pub use particles::Particles;
+
+use crate::CommandError;
+
+/// How particles are written; the extension of the file decides.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ParticleFormat {
+    /// Comma-separated values with a header.
+    Csv,
+    /// A NumPy array.
+    Npy,
+}
+
+impl ParticleFormat {
+    /// The format that the extension of `path` stands for (upper or lower case).
+    ///
+    /// # Errors
+    /// [`CommandError::OutputExtension`] for any other extension.
+    pub fn of(path: &Path) -> Result<Self, CommandError> {
+        let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
+        match extension.as_deref() {
+            Some("csv") => Ok(Self::Csv),
+            Some("npy") => Ok(Self::Npy),
+            _ => Err(CommandError::OutputExtension { path: path.to_owned() }),
+        }
+    }
+}
+
+/// A file that waits for its particles.
+pub struct ParticleFile {
+    format: ParticleFormat,
+    file: AtomicFile,
+}
+
+impl ParticleFile {
+    /// Opens a temporary file beside `path`, before the work that fills it.
+    pub fn create(path: impl Into<PathBuf>) -> Result<Self, CommandError> {
+        let path = path.into();
+        Ok(Self { format: ParticleFormat::of(&path)?, file: AtomicFile::create(path)? })
+    }
+
+    /// Writes the particles and gives the file its final name.
+    pub fn write(mut self, particles: &Particles) -> Result<(), CommandError> {
+        self.file.fill(|writer| match self.format {
+            ParticleFormat::Csv => particles_csv::write(particles, writer),
+            ParticleFormat::Npy => particles_npy::write(particles, writer),
+        })?;
+        self.file.commit()
+    }
+}

@@ -1,0 +1,85 @@
+//! Particles whose dimension is known at run time, as files hold them.
+
+use parvi::Samples;
+
+/// M points in d dimensions, row by row, with weights where they differ.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Particles {
+    dimension: usize,
+    coordinates: Vec<f64>,
+    weights: Option<Vec<f64>>,
+}
+
+impl Particles {
+    /// From points of compile-time dimension.
+    pub fn new<const D: usize>(positions: &[[f64; D]], weights: Option<&[f64]>) -> Self {
+        Self { dimension: D, coordinates: positions.as_flattened().to_vec(), weights: weights.map(<[f64]>::to_vec) }
+    }
+
+    /// From the coordinates of all points, one point after the other; an incomplete last point is dropped.
+    pub fn from_coordinates(dimension: usize, mut coordinates: Vec<f64>, weights: Option<Vec<f64>>) -> Self {
+        let dimension = dimension.max(1);
+        coordinates.truncate(coordinates.len() / dimension * dimension);
+        Self { dimension, coordinates, weights }
+    }
+
+    /// d.
+    pub fn dimension(&self) -> usize {
+        self.dimension
+    }
+
+    /// M.
+    pub fn len(&self) -> usize {
+        self.coordinates.len() / self.dimension
+    }
+
+    /// Whether there is no point.
+    pub fn is_empty(&self) -> bool {
+        self.coordinates.is_empty()
+    }
+
+    /// The points, as slices of length d.
+    pub fn rows(&self) -> impl Iterator<Item = &[f64]> {
+        self.coordinates.chunks_exact(self.dimension)
+    }
+
+    /// All coordinates, one point after the other.
+    pub fn coordinates(&self) -> &[f64] {
+        &self.coordinates
+    }
+
+    /// One coordinate of every point.
+    pub fn column(&self, axis: usize) -> Vec<f64> {
+        self.rows().map(|row| row[axis]).collect()
+    }
+
+    /// Weights that sum to one; `None` when all are equal.
+    pub fn weights(&self) -> Option<&[f64]> {
+        self.weights.as_deref()
+    }
+
+    /// The weight of one point.
+    pub fn weight(&self, index: usize) -> f64 {
+        match &self.weights {
+            Some(weights) => weights.get(index).copied().unwrap_or(0.0),
+            None => 1.0 / self.len() as f64,
+        }
+    }
+
+    /// The points as arrays; `None` if the dimension is another.
+    pub fn points<const D: usize>(&self) -> Option<Vec<[f64; D]>> {
+        (D == self.dimension).then(|| self.coordinates.as_chunks::<D>().0.to_vec())
+    }
+
+    /// The first value that is not finite.
+    pub fn first_not_finite(&self) -> Option<f64> {
+        let weights = self.weights.iter().flatten();
+        self.coordinates.iter().chain(weights).copied().find(|value| !value.is_finite())
+    }
+}
+
+impl<const D: usize> From<&Samples<D>> for Particles {
+    fn from(samples: &Samples<D>) -> Self {
+        Self::new(&samples.positions, samples.weights.as_deref())
+    }
+}

@@ -1,0 +1,99 @@
+//! Particles as comma-separated values.
+
+use std::io::{self, Write};
+use std::path::Path;
+
+use super::Particles;
+use crate::CommandError;
+
+/// Writes the header x1,…,xD (and `weight` where weights differ) and one particle per row.
+///
+/// Numbers are the shortest that read back to the same bits.
+pub fn write(particles: &Particles, writer: &mut dyn Write) -> io::Result<()> {
+    let mut header: Vec<String> = (1..=particles.dimension()).map(|axis| format!("x{axis}")).collect();
+    if particles.weights().is_some() {
+        header.push("weight".to_owned());
+    }
+    writeln!(writer, "{}", header.join(","))?;
+    for (index, row) in particles.rows().enumerate() {
+        for (axis, value) in row.iter().enumerate() {
+            if axis > 0 {
+                write!(writer, ",")?;
+            }
+            write!(writer, "{value:?}")?;
+        }
+        if particles.weights().is_some() {
+            write!(writer, ",{:?}", particles.weight(index))?;
+        }
+        writeln!(writer)?;
+    }
+    Ok(())
+}
+
+/// Reads what [`write`] writes.
+///
+/// # Errors
+/// [`CommandError::ResultsUnreadable`] with the line of a row that does not fit.
+pub fn read(path: &Path) -> Result<Particles, CommandError> {
+    let unreadable = |message: String| CommandError::ResultsUnreadable { file: path.display().to_string(), message };
+    let mut reader = csv::Reader::from_path(path).map_err(|error| unreadable(error.to_string()))?;
+    let header = reader.headers().map_err(|error| unreadable(error.to_string()))?;
+    let columns = header.len();
+    let weighted = header.iter().next_back() == Some("weight");
+    let dimension = columns - usize::from(weighted);
+    if dimension == 0 {
+        return Err(unreadable("no coordinate in the header".to_owned()));
+    }
+    let (mut coordinates, mut weights) = (Vec::new(), Vec::new());
+    for record in reader.records() {
+        let record = record.map_err(|error| unreadable(error.to_string()))?;
+        let line = record.position().map_or(0, csv::Position::line);
+        for (column, cell) in record.iter().enumerate() {
+            let value: f64 =
+                cell.parse().map_err(|_| unreadable(format!("line {line}: '{cell}' is not a number")))?;
+            if column < dimension { &mut coordinates } else { &mut weights }.push(value);
+        }
+    }
+    Ok(Particles::from_coordinates(dimension, coordinates, weighted.then_some(weights)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn text(particles: &Particles) -> String {
+        let mut bytes = Vec::new();
+        write(particles, &mut bytes).unwrap();
+        String::from_utf8(bytes).unwrap()
+    }
+
+    #[test]
+    fn numbers_are_the_shortest_that_read_back() {
+        let particles = Particles::new(&[[0.1, -2.0], [1e-300, 1.0 / 3.0]], None);
+        assert_eq!(text(&particles), "x1,x2\n0.1,-2.0\n1e-300,0.3333333333333333\n");
+    }
+
+    #[test]
+    fn weights_are_the_last_column() {
+        let particles = Particles::new(&[[1.5], [2.5]], Some(&[0.25, 0.75]));
+        assert_eq!(text(&particles), "x1,weight\n1.5,0.25\n2.5,0.75\n");
+    }
+
+    #[test]
+    fn reading_gives_the_same_bits() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("x.csv");
+        let particles = Particles::new(&[[0.1 + 0.2, -1e300], [f64::MIN_POSITIVE, 7.0]], Some(&[0.5, 0.5]));
+        std::fs::write(&path, text(&particles)).unwrap();
+        assert_eq!(read(&path).unwrap(), particles);
+    }
+
+    #[test]
+    fn a_bad_cell_is_reported_with_its_line() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("x.csv");
+        std::fs::write(&path, "x1,x2\n1,2\n3,four\n").unwrap();
+        let message = read(&path).unwrap_err().to_string();
+        assert!(message.contains("line 3: 'four' is not a number"), "{message}");
+    }
+}

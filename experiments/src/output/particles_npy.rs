@@ -1,0 +1,45 @@
+//! Particles as a NumPy array: f64, M × D, or M × (D+1) with the weights last.
+
+use std::io::{self, Write};
+
+use npyz::WriterBuilder;
+
+use super::Particles;
+
+/// Writes the array in row-major order.
+pub fn write(particles: &Particles, writer: &mut dyn Write) -> io::Result<()> {
+    let columns = particles.dimension() + usize::from(particles.weights().is_some());
+    let shape = [particles.len() as u64, columns as u64];
+    let mut array = npyz::WriteOptions::new().default_dtype().shape(&shape).writer(writer).begin_nd()?;
+    for (index, row) in particles.rows().enumerate() {
+        array.extend(row.iter().copied())?;
+        if particles.weights().is_some() {
+            array.push(&particles.weight(index))?;
+        }
+    }
+    array.finish()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(particles: &Particles) -> (Vec<u64>, Vec<f64>) {
+        let mut bytes = Vec::new();
+        write(particles, &mut bytes).unwrap();
+        let array = npyz::NpyFile::new(bytes.as_slice()).unwrap();
+        (array.shape().to_vec(), array.into_vec().unwrap())
+    }
+
+    #[test]
+    fn shape_and_order_are_those_of_the_rows() {
+        let particles = Particles::new(&[[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]], None);
+        assert_eq!(read(&particles), (vec![3, 2], vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0]));
+    }
+
+    #[test]
+    fn weights_are_the_last_column() {
+        let particles = Particles::new(&[[1.0], [2.0]], Some(&[0.25, 0.75]));
+        assert_eq!(read(&particles), (vec![2, 2], vec![1.0, 0.25, 2.0, 0.75]));
+    }
+}

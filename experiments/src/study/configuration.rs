@@ -1,0 +1,152 @@
+//! Reading a study's configuration: every mistake is reported with file, line, column and the text of the line.
+
+use std::fs;
+use std::path::Path;
+
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+use toml::Spanned;
+
+use crate::CommandError;
+
+/// The text of a configuration and what can be said about it before its kind is known.
+#[derive(Clone, Debug)]
+pub struct Configuration {
+    file: String,
+    text: String,
+    kind: Spanned<String>,
+    hash: String,
+}
+
+/// The one key that every configuration has.
+#[derive(Deserialize)]
+struct Kind {
+    kind: Spanned<String>,
+}
+
+impl Configuration {
+    /// Reads the file and its `kind`.
+    ///
+    /// # Errors
+    /// [`CommandError::File`] if it cannot be read, [`CommandError::Config`] if it is no TOML or has no `kind`.
+    pub fn read(path: &Path) -> Result<Self, CommandError> {
+        let text = fs::read_to_string(path).map_err(|source| CommandError::file("read", path, source))?;
+        Self::from_text(path.display().to_string(), text)
+    }
+
+    fn from_text(file: String, text: String) -> Result<Self, CommandError> {
+        let kind: Kind = parse(&file, &text)?;
+        let table: toml::Table = parse(&file, &text)?;
+        Ok(Self { kind: kind.kind, hash: fingerprint(&canonical(&table)), file, text })
+    }
+
+    /// The study's kind, as written.
+    pub fn kind(&self) -> &str {
+        self.kind.get_ref()
+    }
+
+    /// The text, as read.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The file it came from.
+    pub fn file(&self) -> &str {
+        &self.file
+    }
+
+    /// A fingerprint of all keys and values; comments, spaces and the order of keys do not matter.
+    pub fn hash(&self) -> &str {
+        &self.hash
+    }
+
+    /// The configuration as its kind understands it. Unknown keys are errors.
+    pub fn parse<T: DeserializeOwned>(&self) -> Result<T, CommandError> {
+        parse(&self.file, &self.text)
+    }
+
+    /// The error for a kind that does not exist.
+    pub fn unknown_kind(&self, known: &[&str]) -> CommandError {
+        let message = format!("unknown kind `{}`, expected one of {}", self.kind(), known.join(", "));
+        located(&self.file, &self.text, self.kind.span().start, message)
+    }
+}
+
+fn parse<T: DeserializeOwned>(file: &str, text: &str) -> Result<T, CommandError> {
+    toml::from_str(text).map_err(|error| {
+        let start = error.span().map_or(0, |span| span.start);
+        located(file, text, start, error.message().trim().replace('\n', ", "))
+    })
+}
+
+/// An error at a byte of the text.
+fn located(file: &str, text: &str, byte: usize, message: String) -> CommandError {
+    let before = text.get(..byte).unwrap_or(text);
+    let line_start = before.rfind('\n').map_or(0, |position| position + 1);
+    CommandError::Config {
+        file: file.to_owned(),
+        line: before.matches('\n').count() + 1,
+        column: before[line_start..].chars().count() + 1,
+        message,
+        text: text[line_start..].lines().next().unwrap_or_default().to_owned(),
+    }
+}
+
+/// All keys in alphabetical order, as JSON.
+fn canonical(table: &toml::Table) -> String {
+    // A TOML table has string keys and plain values only, all of which JSON can hold.
+    serde_json::to_string(table).unwrap_or_default()
+}
+
+/// The 64-bit FNV-1a hash in hexadecimal digits.
+fn fingerprint(text: &str) -> String {
+    let mut hash: u64 = 0xcbf2_9ce4_8422_2325;
+    for byte in text.bytes() {
+        hash = (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
+    }
+    format!("{hash:016x}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::options::ParticleCount;
+
+    #[derive(Debug, Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Example {
+        #[serde(rename = "kind")]
+        _kind: String,
+        #[serde(rename = "particles")]
+        _particles: ParticleCount,
+    }
+
+    fn message(text: &str) -> String {
+        Configuration::from_text("c.toml".to_owned(), text.to_owned())
+            .and_then(|configuration| configuration.parse::<Example>())
+            .unwrap_err()
+            .to_string()
+    }
+
+    #[test]
+    fn mistakes_are_reported_where_they_are() {
+        let unknown = message("kind = \"a\"\nparticles = 5\n  particle = 3\n");
+        assert!(unknown.starts_with("c.toml, line 3, column 3: unknown field `particle`"), "{unknown}");
+        let negative = message("kind = \"a\"\nparticles = -5\n");
+        assert_eq!(
+            negative,
+            "c.toml, line 2, column 13: -5 is out of range: must be from 2 to 100000000 (in `particles = -5`)"
+        );
+        let broken = message("kind = \"a\"\nparticles = \n");
+        assert!(broken.starts_with("c.toml, line 2, "), "{broken}");
+        let missing = message("particles = 3");
+        assert!(missing.contains("missing field `kind`"), "{missing}");
+    }
+
+    #[test]
+    fn the_hash_sees_values_and_not_their_looks() {
+        let hash = |text: &str| Configuration::from_text(String::new(), text.to_owned()).unwrap().hash;
+        assert_eq!(hash("kind = \"a\"\nx = 1 # one"), hash("x=1\nkind = 'a'"));
+        assert_ne!(hash("kind = \"a\"\nx = 1"), hash("kind = \"a\"\nx = 2"));
+    }
+}

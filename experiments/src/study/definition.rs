@@ -1,0 +1,65 @@
+//! What a study is.
+
+use serde::de::DeserializeOwned;
+
+use super::directory::StudyDirectory;
+use super::document::Document;
+use super::results::Row;
+use crate::CommandError;
+use crate::progress::CaseObserver;
+
+/// One piece of work of a study.
+pub trait Case: Sync {
+    /// A name made of the case's content, the same in every run; it stands in results.csv and in file names.
+    fn id(&self) -> String;
+
+    /// What the case is expected to cost relative to others; for the progress bar.
+    fn cost(&self) -> f64 {
+        1.0
+    }
+}
+
+/// A study: its configuration, which is a list of cases, and the report on their rows.
+pub trait Study: DeserializeOwned + Sync {
+    /// A case.
+    type Case: Case;
+    /// What a case gives.
+    type Row: Row + Send + Sync;
+    /// What one case may leave in memory for the next, such as a reference that is dear to compute.
+    type Shared: Default;
+
+    /// The `kind` in the configuration.
+    const KIND: &'static str;
+
+    /// The seeds, for the manifest.
+    fn seeds(&self) -> Vec<u64>;
+
+    /// The number of threads; `None`: as many as the environment gives.
+    fn threads(&self) -> Option<usize>;
+
+    /// All cases, in the order in which they run.
+    ///
+    /// # Errors
+    /// Parts of the configuration that do not fit together.
+    fn cases(&self) -> Result<Vec<Self::Case>, CommandError>;
+
+    /// Runs a case; raw results go into the directory, the row is appended by the caller.
+    fn run(
+        &self,
+        case: &Self::Case,
+        shared: &mut Self::Shared,
+        directory: &StudyDirectory,
+        observer: &mut CaseObserver,
+    ) -> Result<Self::Row, CommandError>;
+
+    /// Tables and plots of the rows, which may be a part of all; nothing is sampled.
+    fn report(&self, rows: &[Self::Row], directory: &StudyDirectory) -> Result<Report, CommandError>;
+}
+
+/// What a report says.
+pub struct Report {
+    /// The page.
+    pub document: Document,
+    /// The most important of it, as `key=value` lines for standard output.
+    pub summary: Vec<(&'static str, String)>,
+}

@@ -1,0 +1,167 @@
+//! A study's directory: config.toml, manifest.json, results.csv, raw/, figures/ and report.md.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::configuration::Configuration;
+use super::{manifest, results};
+use crate::CommandError;
+use crate::output::{AtomicFile, PARTIAL_SUFFIX};
+
+/// The name of the configuration in it.
+pub const CONFIGURATION: &str = "config.toml";
+
+/// A directory that holds one study and nothing else.
+#[derive(Clone, Debug)]
+pub struct StudyDirectory {
+    path: PathBuf,
+}
+
+impl StudyDirectory {
+    /// Takes a directory for a study: a new one, an empty one, or one that holds a part of the same study.
+    ///
+    /// # Errors
+    /// [`CommandError::DirectoryOccupied`] if it holds something else, which is left untouched;
+    /// [`CommandError::File`] if it cannot be made or written.
+    pub fn claim(path: &Path, configuration: &Configuration) -> Result<Self, CommandError> {
+        let directory = Self { path: path.to_owned() };
+        let existing = directory.configuration_path();
+        if existing.exists() {
+            directory.check_same_study(configuration)?;
+        } else {
+            directory.check_empty()?;
+            fs::create_dir_all(path).map_err(|source| CommandError::file("create", path, source))?;
+            AtomicFile::write(existing, configuration.text())?;
+        }
+        for part in ["raw", "figures"] {
+            let part = path.join(part);
+            fs::create_dir_all(&part).map_err(|source| CommandError::file("create", &part, source))?;
+        }
+        Ok(directory)
+    }
+
+    /// A directory in which a study was run before.
+    pub fn existing(path: &Path) -> Result<(Self, Configuration), CommandError> {
+        let directory = Self { path: path.to_owned() };
+        let configuration = Configuration::read(&directory.configuration_path())?;
+        Ok((directory, configuration))
+    }
+
+    fn check_same_study(&self, configuration: &Configuration) -> Result<(), CommandError> {
+        // A config.toml that is no study's is a stranger's as well.
+        let here = Configuration::read(&self.configuration_path())
+            .map_err(|error| self.occupied(format!("holds a {CONFIGURATION} that is no study's ({error})")))?;
+        if here.hash() == configuration.hash() {
+            return Ok(());
+        }
+        Err(self.occupied(format!(
+            "holds another study (kind `{}`, config hash {}; {} has kind `{}`, config hash {})",
+            here.kind(),
+            here.hash(),
+            configuration.file(),
+            configuration.kind(),
+            configuration.hash(),
+        )))
+    }
+
+    fn check_empty(&self) -> Result<(), CommandError> {
+        if !self.path.exists() {
+            return Ok(());
+        }
+        let entries = fs::read_dir(&self.path).map_err(|source| CommandError::file("write", &self.path, source))?;
+        for entry in entries {
+            let entry = entry.map_err(|source| CommandError::file("read", &self.path, source))?;
+            let name = entry.file_name().to_string_lossy().into_owned();
+            if !name.ends_with(PARTIAL_SUFFIX) {
+                return Err(self.occupied(format!("is not empty and holds no study (there is `{name}`)")));
+            }
+        }
+        Ok(())
+    }
+
+    fn occupied(&self, occupant: String) -> CommandError {
+        CommandError::DirectoryOccupied { directory: self.path.display().to_string(), occupant }
+    }
+
+    fn configuration_path(&self) -> PathBuf {
+        self.path.join(CONFIGURATION)
+    }
+
+    /// manifest.json.
+    pub fn manifest(&self) -> PathBuf {
+        self.path.join(manifest::FILE_NAME)
+    }
+
+    /// results.csv.
+    pub fn results(&self) -> PathBuf {
+        self.path.join(results::FILE_NAME)
+    }
+
+    /// report.md.
+    pub fn report(&self) -> PathBuf {
+        self.path.join("report.md")
+    }
+
+    /// A file of raw results.
+    pub fn raw(&self, name: &str) -> PathBuf {
+        self.path.join("raw").join(name)
+    }
+
+    /// A figure, by the name that the report links to.
+    pub fn figure(&self, name: &str) -> PathBuf {
+        self.path.join("figures").join(name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn configuration(directory: &Path, text: &str) -> Configuration {
+        let path = directory.join("study.toml");
+        fs::write(&path, text).unwrap();
+        Configuration::read(&path).unwrap()
+    }
+
+    #[test]
+    fn new_empty_and_own_directories_are_taken() {
+        let root = tempfile::tempdir().unwrap();
+        let study = configuration(root.path(), "kind = \"a\"\n");
+        let path = root.path().join("deep/new");
+        StudyDirectory::claim(&path, &study).unwrap();
+        StudyDirectory::claim(&path, &study).unwrap();
+        let empty = root.path().join("empty");
+        fs::create_dir(&empty).unwrap();
+        StudyDirectory::claim(&empty, &study).unwrap();
+        assert_eq!(fs::read_to_string(empty.join(CONFIGURATION)).unwrap(), study.text());
+    }
+
+    #[test]
+    fn strangers_are_left_alone() {
+        let root = tempfile::tempdir().unwrap();
+        let path = root.path().join("out");
+        StudyDirectory::claim(&path, &configuration(root.path(), "kind = \"a\"\n")).unwrap();
+        let other = configuration(root.path(), "kind = \"a\"\nseed = 3\n");
+        let message = StudyDirectory::claim(&path, &other).unwrap_err().to_string();
+        assert!(message.contains("holds another study"), "{message}");
+        assert_eq!(fs::read_to_string(path.join(CONFIGURATION)).unwrap(), "kind = \"a\"\n");
+
+        let full = root.path().join("full");
+        fs::create_dir(&full).unwrap();
+        fs::write(full.join("thesis.tex"), "").unwrap();
+        let message = StudyDirectory::claim(&full, &other).unwrap_err().to_string();
+        assert!(message.contains("`thesis.tex`"), "{message}");
+        assert_eq!(fs::read_dir(&full).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn a_file_is_no_directory() {
+        let root = tempfile::tempdir().unwrap();
+        let path = root.path().join("study.toml");
+        let study = configuration(root.path(), "kind = \"a\"\n");
+        let message = StudyDirectory::claim(&path, &study).unwrap_err().to_string();
+        assert!(message.starts_with("cannot write"), "{message}");
+        let message = StudyDirectory::claim(&path.join("below"), &study).unwrap_err().to_string();
+        assert!(message.starts_with("cannot create"), "{message}");
+    }
+}

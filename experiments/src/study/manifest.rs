@@ -1,0 +1,151 @@
+//! manifest.json: what a study was computed with.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use super::machine;
+use crate::CommandError;
+use crate::output::AtomicFile;
+
+/// The file's name.
+pub const FILE_NAME: &str = "manifest.json";
+
+/// One start of the command on a study.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Provenance {
+    /// When it was started, in UTC.
+    pub started: String,
+    /// Commit that the binary was built from; `None` outside of a repository.
+    pub commit: Option<String>,
+    /// Whether the sources differed from that commit.
+    pub dirty: Option<bool>,
+    /// Compiler.
+    pub rustc: String,
+    /// Processor.
+    pub cpu: Option<String>,
+    /// Threads that samplers and metrics may use.
+    pub threads: usize,
+}
+
+impl Provenance {
+    /// Of this process.
+    pub fn now(threads: usize) -> Self {
+        Self {
+            started: machine::utc_now(),
+            commit: Some(env!("PARVI_COMMIT")).filter(|text| !text.is_empty()).map(str::to_owned),
+            dirty: env!("PARVI_DIRTY").parse().ok(),
+            rustc: env!("PARVI_RUSTC").to_owned(),
+            cpu: machine::processor(),
+            threads,
+        }
+    }
+
+    /// The same but for the time of the start.
+    fn same_origin(&self, other: &Self) -> bool {
+        Self { started: String::new(), ..self.clone() } == Self { started: String::new(), ..other.clone() }
+    }
+}
+
+/// The whole manifest.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Manifest {
+    /// The study's kind.
+    pub kind: String,
+    /// Fingerprint of the configuration.
+    pub config_hash: String,
+    /// Seeds, as in the configuration.
+    pub seed: Vec<u64>,
+    /// The first start.
+    #[serde(flatten)]
+    pub first: Provenance,
+    /// Later starts that resumed it.
+    #[serde(default)]
+    pub resumed: Vec<Provenance>,
+    /// Versions of all crates in the binary.
+    pub crates: BTreeMap<String, String>,
+}
+
+impl Manifest {
+    /// For a study that begins.
+    pub fn new(kind: &str, config_hash: &str, seed: Vec<u64>, threads: usize) -> Self {
+        Self {
+            kind: kind.to_owned(),
+            config_hash: config_hash.to_owned(),
+            seed,
+            first: Provenance::now(threads),
+            resumed: Vec::new(),
+            crates: locked_crates(),
+        }
+    }
+
+    /// Reads a study's manifest.
+    pub fn read(path: &Path) -> Result<Self, CommandError> {
+        let text = std::fs::read_to_string(path).map_err(|source| CommandError::file("read", path, source))?;
+        serde_json::from_str(&text).map_err(|error| CommandError::ResultsUnreadable {
+            file: path.display().to_string(),
+            message: error.to_string(),
+        })
+    }
+
+    /// Writes it.
+    pub fn write(&self, path: &Path) -> Result<(), CommandError> {
+        let text = serde_json::to_string_pretty(self)
+            .map_err(|error| CommandError::file("write", path, std::io::Error::other(error)))?;
+        AtomicFile::write(path, text + "\n")
+    }
+
+    /// Whether all starts used the same code, compiler, processor and number of threads.
+    pub fn is_uniform(&self) -> bool {
+        self.resumed.iter().all(|start| start.same_origin(&self.first))
+    }
+}
+
+/// Names and versions in the lock file; several versions of one crate are joined by commas.
+fn locked_crates() -> BTreeMap<String, String> {
+    #[derive(Deserialize)]
+    struct Lock {
+        package: Vec<Package>,
+    }
+    #[derive(Deserialize)]
+    struct Package {
+        name: String,
+        version: String,
+    }
+    let packages = toml::from_str::<Lock>(include_str!("../../../Cargo.lock")).map_or(Vec::new(), |lock| lock.package);
+    let mut crates: BTreeMap<String, String> = BTreeMap::new();
+    for package in packages {
+        let versions = crates.entry(package.name).or_default();
+        if !versions.is_empty() {
+            versions.push_str(", ");
+        }
+        versions.push_str(&package.version);
+    }
+    crates
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_manifest_reads_back() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join(FILE_NAME);
+        let mut manifest = Manifest::new("quickstart", "0123", vec![0, 1], 2);
+        manifest.resumed.push(Provenance::now(2));
+        manifest.write(&path).unwrap();
+        assert_eq!(Manifest::read(&path).unwrap(), manifest);
+        assert!(manifest.is_uniform());
+        assert!(manifest.crates.contains_key("parvi"));
+        assert!(manifest.first.rustc.starts_with("rustc "));
+    }
+
+    #[test]
+    fn another_number_of_threads_is_another_origin() {
+        let mut manifest = Manifest::new("quickstart", "0123", vec![0], 2);
+        manifest.resumed.push(Provenance::now(1));
+        assert!(!manifest.is_uniform());
+    }
+}

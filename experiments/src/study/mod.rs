@@ -1,0 +1,61 @@
+//! Studies: lists of cases with their raw results, tables and plots in one directory.
+
+mod attempt;
+mod configuration;
+mod covariance_spacing;
+mod definition;
+mod directory;
+mod document;
+mod machine;
+mod manifest;
+mod moments;
+mod quickstart;
+mod results;
+mod runner;
+mod scaling;
+mod time_error;
+mod trace_file;
+
+use std::path::Path;
+
+use configuration::Configuration;
+use definition::Study;
+use directory::StudyDirectory;
+
+use crate::CommandError;
+
+/// All kinds.
+const KINDS: [&str; 4] = [
+    quickstart::Quickstart::KIND,
+    scaling::Scaling::KIND,
+    time_error::TimeError::KIND,
+    covariance_spacing::CovarianceSpacing::KIND,
+];
+
+/// Runs the study that a configuration describes.
+pub fn run(configuration: &Path, out: &Path) -> Result<(), CommandError> {
+    let configuration = Configuration::read(configuration)?;
+    match configuration.kind() {
+        quickstart::Quickstart::KIND => runner::run::<quickstart::Quickstart>(&configuration, out),
+        scaling::Scaling::KIND => runner::run::<scaling::Scaling>(&configuration, out),
+        time_error::TimeError::KIND => runner::run::<time_error::TimeError>(&configuration, out),
+        covariance_spacing::CovarianceSpacing::KIND => {
+            runner::run::<covariance_spacing::CovarianceSpacing>(&configuration, out)
+        }
+        _ => Err(configuration.unknown_kind(&KINDS)),
+    }
+}
+
+/// Writes the report of a directory again.
+pub fn report(path: &Path) -> Result<(), CommandError> {
+    let (directory, configuration) = StudyDirectory::existing(path)?;
+    match configuration.kind() {
+        quickstart::Quickstart::KIND => runner::report::<quickstart::Quickstart>(&configuration, &directory),
+        scaling::Scaling::KIND => runner::report::<scaling::Scaling>(&configuration, &directory),
+        time_error::TimeError::KIND => runner::report::<time_error::TimeError>(&configuration, &directory),
+        covariance_spacing::CovarianceSpacing::KIND => {
+            runner::report::<covariance_spacing::CovarianceSpacing>(&configuration, &directory)
+        }
+        _ => Err(configuration.unknown_kind(&KINDS)),
+    }
+}

@@ -1,0 +1,157 @@
+//! The figures of the study `quickstart`, from its raw files.
+
+use parvi_targets::BoxedTarget;
+
+use super::configuration::Part;
+use super::{Case, Quickstart};
+use crate::CommandError;
+use crate::dispatch::{TargetTask, with_target};
+use crate::output::{Particles, particles_csv};
+use crate::plots::{
+    AxisKind, CloudPlot, CornerPlot, HistogramPlot, PairDensity, PointCloud, Reference, ReferenceLevel, TracePanel, TracePlot,
+    TraceSeries, cloud, corner, histogram, trace,
+};
+use crate::statistics::DensityGrid;
+use crate::study::directory::StudyDirectory;
+use crate::study::document::Document;
+use crate::study::trace_file::{self, TraceRow};
+
+/// Corner plot and marginals of the posterior over the reference draws.
+pub fn posterior(
+    study: &Quickstart,
+    particles: &Particles,
+    directory: &StudyDirectory,
+    document: &mut Document,
+) -> Result<(), CommandError> {
+    let draws = particles_csv::read(&Case::Reference.particles_file(directory))?;
+    let (points, draws) = (rows(particles), rows(&draws));
+    let labels = study.posterior.target.coordinate_names();
+    let cloud = PointCloud { points: &points, weights: particles.weights() };
+    let reference = Reference::Draws(PointCloud::equal(&draws));
+    let reference_label = "reference";
+    let plot =
+        CornerPlot { title: "", particles: cloud, labels: &labels, reference, reference_label };
+    let caption = "The posterior's particles over the reference: lines enclose 50, 90 and 99 % of its mass.";
+    document.figure(directory, "posterior-corner.svg", caption, corner(&plot))?;
+    let plot =
+        HistogramPlot { title: "", particles: cloud, labels: &labels, reference, reference_label };
+    let caption = "Marginals of the posterior: histogram and kernel density estimate of the particles, and the reference.";
+    document.figure(directory, "posterior-marginals.svg", caption, histogram(&plot))
+}
+
+/// The particles for the eye over the contours of their target.
+pub fn picture(
+    study: &Quickstart,
+    particles: &Particles,
+    directory: &StudyDirectory,
+    document: &mut Document,
+) -> Result<(), CommandError> {
+    let points = rows(particles);
+    let density = with_target(&study.picture.target, DensityTask { size: 161 })?;
+    let pairs = [PairDensity { horizontal: 0, vertical: 1, grid: density }];
+    let plot = CloudPlot {
+        title: "",
+        particles: PointCloud { points: &points, weights: particles.weights() },
+        particles_label: "",
+        labels: &study.picture.target.coordinate_names(),
+        reference: Reference::Exact { marginals: &[], pairs: &pairs },
+        reference_label: "",
+        equal_units: true,
+    };
+    let caption = format!(
+        "{} particles of `{}` on the target `{}`; lines enclose 50, 90 and 99 % of its mass.",
+        particles.len(),
+        study.picture.method.label(),
+        study.picture.target.label(),
+    );
+    document.figure(directory, "picture.svg", &caption, cloud(&plot))
+}
+
+/// Residual and energies of both runs against the steps.
+pub fn traces(study: &Quickstart, directory: &StudyDirectory, document: &mut Document) -> Result<(), CommandError> {
+    let mut runs = Vec::new();
+    for (case, part) in [(Case::Posterior, &study.posterior), (Case::Picture, &study.picture)] {
+        let path = case.trace_file(directory);
+        if path.exists() {
+            runs.push((part, trace_file::read(&path)?));
+        }
+    }
+    let plot = TracePlot {
+        title: String::new(),
+        x_label: "step".to_owned(),
+        panels: vec![
+            TracePanel {
+                y_label: "residual (1: independent draws)".to_owned(),
+                y_axis: AxisKind::Automatic,
+                series: series(&runs, |row| row.residual),
+                levels: vec![ReferenceLevel { value: 1.0, label: "independent draws".to_owned() }],
+            },
+            TracePanel {
+                y_label: "kinetic energy".to_owned(),
+                y_axis: AxisKind::Automatic,
+                series: series(&runs, |row| Some(row.kinetic_energy)),
+                levels: Vec::new(),
+            },
+            TracePanel {
+                y_label: "potential energy above its least value".to_owned(),
+                y_axis: AxisKind::Linear,
+                series: above_least(series(&runs, |row| row.potential_energy)),
+                levels: Vec::new(),
+            },
+            TracePanel {
+                y_label: "largest displacement (spacings)".to_owned(),
+                y_axis: AxisKind::Automatic,
+                series: series(&runs, |row| Some(row.displacement)),
+                levels: Vec::new(),
+            },
+        ],
+    };
+    let caption = "Galerkin–Stein residual, energies (frame coordinates, total mass 1) and largest displacement per step.";
+    document.figure(directory, "traces.svg", caption, trace(&plot))
+}
+
+fn series(runs: &[(&Part, Vec<TraceRow>)], value: impl Fn(&TraceRow) -> Option<f64>) -> Vec<TraceSeries> {
+    let one = |(part, rows): &(&Part, Vec<TraceRow>)| {
+        let points = rows.iter().filter_map(|row| Some((row.step as f64, value(row)?)));
+        let (step, value) = points.unzip();
+        TraceSeries { label: part.target.label(), step, value }
+    };
+    runs.iter().map(one).filter(|series| !series.step.is_empty()).collect()
+}
+
+/// Potentials are known up to a constant of the target.
+fn above_least(mut all: Vec<TraceSeries>) -> Vec<TraceSeries> {
+    for series in &mut all {
+        let least = series.value.iter().copied().fold(f64::INFINITY, f64::min);
+        series.value.iter_mut().for_each(|value| *value -= least);
+    }
+    all
+}
+
+fn rows(particles: &Particles) -> Vec<Vec<f64>> {
+    particles.rows().map(<[f64]>::to_vec).collect()
+}
+
+/// The density of a two-dimensional target on its domain, its largest value 1.
+struct DensityTask {
+    size: usize,
+}
+
+impl TargetTask for DensityTask {
+    type Output = DensityGrid;
+
+    fn run<const D: usize>(self, target: BoxedTarget<D>) -> Result<DensityGrid, CommandError> {
+        let domain = target.domain();
+        let range = |axis: usize| domain.get(axis).map_or((-1.0, 1.0), |[low, high]| (*low, *high));
+        let mut grid = DensityGrid::evaluate(range(0), range(1), (self.size, self.size), |x, y| {
+            let mut point = [0.0; D];
+            for (coordinate, value) in point.iter_mut().zip([x, y]) {
+                *coordinate = value;
+            }
+            target.log_density(&point)
+        });
+        let most = grid.values.iter().copied().filter(|value| value.is_finite()).fold(f64::NEG_INFINITY, f64::max);
+        grid.values.iter_mut().for_each(|value| *value = if value.is_finite() { (*value - most).exp() } else { 0.0 });
+        Ok(grid)
+    }
+}

@@ -1,0 +1,95 @@
+//! The posterior's reference moments and draws, and the file that keeps the moments.
+
+use std::path::Path;
+
+use parvi_targets::{BoxedTarget, ImportanceSample, ReferenceOptions};
+use serde::{Deserialize, Serialize};
+
+use super::configuration::ReferencePart;
+use crate::CommandError;
+use crate::dispatch::TargetTask;
+use crate::output::{AtomicFile, Particles};
+
+/// Reference mean and standard deviation of one coordinate with their standard errors.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ReferenceAxis {
+    /// The coordinate's name.
+    pub name: String,
+    /// E[x].
+    pub mean: f64,
+    /// Standard error of the mean.
+    pub mean_standard_error: f64,
+    /// √Var[x].
+    pub standard_deviation: f64,
+    /// Standard error of the standard deviation.
+    pub standard_deviation_standard_error: f64,
+}
+
+/// Importance sampling of a target; closed-form moments are not used, so that every target is treated alike.
+pub struct ReferenceTask<'a> {
+    /// How much work.
+    pub part: &'a ReferencePart,
+    /// The coordinates' names.
+    pub names: Vec<String>,
+}
+
+/// What importance sampling gave.
+pub struct Reference {
+    /// One entry per coordinate.
+    pub axes: Vec<ReferenceAxis>,
+    /// Resampled draws of equal weight.
+    pub draws: Particles,
+    /// (Σ w)² / Σ w².
+    pub effective_sample_size: f64,
+}
+
+impl TargetTask for ReferenceTask<'_> {
+    type Output = Reference;
+
+    fn run<const D: usize>(self, target: BoxedTarget<D>) -> Result<Reference, CommandError> {
+        let options = ReferenceOptions {
+            points: self.part.points.get(),
+            scramblings: self.part.scramblings.get(),
+            seed: self.part.seed,
+            ..ReferenceOptions::default()
+        };
+        let sample = ImportanceSample::new(target.as_ref(), &options)?;
+        let known = sample.moments();
+        let axes = (0..D)
+            .map(|axis| ReferenceAxis {
+                name: self.names.get(axis).cloned().unwrap_or_else(|| format!("x{}", axis + 1)),
+                mean: known.moments.mean[axis],
+                mean_standard_error: known.mean_error[axis],
+                standard_deviation: known.moments.covariance.0[axis][axis].sqrt(),
+                standard_deviation_standard_error: known.standard_deviation_error[axis],
+            })
+            .collect();
+        let draws = sample.draws().resampled(self.part.draws.get(), self.part.seed);
+        Ok(Reference {
+            axes,
+            draws: Particles::new(&draws, None),
+            effective_sample_size: known.effective_sample_size,
+        })
+    }
+}
+
+/// Writes the moments.
+pub fn write(axes: &[ReferenceAxis], path: &Path) -> Result<(), CommandError> {
+    let failed = |error: csv::Error| CommandError::file("write", path, std::io::Error::other(error));
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    for axis in axes {
+        writer.serialize(axis).map_err(failed)?;
+    }
+    let text = writer.into_inner().map_err(|error| CommandError::file("write", path, error.into_error()))?;
+    AtomicFile::write(path, text)
+}
+
+/// Reads what [`write`] wrote.
+pub fn read(path: &Path) -> Result<Vec<ReferenceAxis>, CommandError> {
+    let unreadable = |error: csv::Error| CommandError::ResultsUnreadable {
+        file: path.display().to_string(),
+        message: error.to_string(),
+    };
+    let mut reader = csv::Reader::from_path(path).map_err(unreadable)?;
+    reader.deserialize().collect::<Result<_, _>>().map_err(unreadable)
+}

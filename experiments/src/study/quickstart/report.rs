@@ -1,0 +1,136 @@
+//! The report of the study `quickstart`.
+
+use super::comparison::Comparison;
+use super::{Case, Quickstart, Row, figures, moments_file, reference};
+use crate::CommandError;
+use crate::output::particles_csv;
+use crate::study::attempt::Status;
+use crate::study::definition::Report;
+use crate::study::directory::StudyDirectory;
+use crate::study::document::{Document, MISSING, number, optional_number};
+
+/// Tables, figures and verdict.
+pub fn report(study: &Quickstart, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
+    let mut document = Document::new("Quickstart: a posterior from real data");
+    let mut summary = vec![("study", "quickstart".to_owned())];
+    let finished = |case: Case| rows.iter().any(|row| row.case == case.name() && row.status == Status::Finished);
+
+    if finished(Case::Reference) && finished(Case::Posterior) {
+        let particles = particles_csv::read(&Case::Posterior.particles_file(directory))?;
+        let comparison = Comparison::new(&particles, &reference::read(&moments_file(directory))?);
+        verdict(study, &comparison, rows, &mut document);
+        summary.extend([
+            ("largest_mean_error", format!("{:.6}", comparison.largest_mean_error())),
+            ("largest_sd_error", format!("{:.6}", comparison.largest_deviation_error())),
+            ("verdict", word(passes(study, &comparison)).to_owned()),
+        ]);
+        moments_table(&comparison, &mut document);
+        document.heading("The posterior");
+        figures::posterior(study, &particles, directory, &mut document)?;
+    } else {
+        document.paragraph("The posterior or its reference is missing, so there is nothing to compare yet.");
+        summary.push(("verdict", "incomplete".to_owned()));
+    }
+    if finished(Case::Picture) {
+        document.heading("A target for the eye");
+        let particles = particles_csv::read(&Case::Picture.particles_file(directory))?;
+        figures::picture(study, &particles, directory, &mut document)?;
+    }
+    document.heading("The way there");
+    figures::traces(study, directory, &mut document)?;
+    runs_table(rows, &mut document);
+    Ok(Report { document, summary })
+}
+
+fn passes(study: &Quickstart, comparison: &Comparison) -> bool {
+    comparison.means_pass(&study.bounds) && comparison.deviations_pass(&study.bounds)
+}
+
+fn word(pass: bool) -> &'static str {
+    if pass { "pass" } else { "fail" }
+}
+
+fn verdict(study: &Quickstart, comparison: &Comparison, rows: &[Row], document: &mut Document) {
+    let bounds = &study.bounds;
+    let within = |pass: bool| if pass { "within" } else { "beyond" };
+    let size = rows
+        .iter()
+        .find(|row| row.case == Case::Reference.name())
+        .and_then(|row| row.effective_sample_size);
+    document.paragraph(format!(
+        "**Verdict: {}.** The largest error of a posterior mean is {} posterior standard deviations, {} the bound of {}; the \
+         largest error of a posterior standard deviation is {} %, {} the bound of {} %.",
+        word(passes(study, comparison)),
+        number(comparison.largest_mean_error()),
+        within(comparison.means_pass(bounds)),
+        bounds.mean,
+        number(100.0 * comparison.largest_deviation_error()),
+        within(comparison.deviations_pass(bounds)),
+        100.0 * bounds.standard_deviation,
+    ));
+    document.paragraph(format!(
+        "Posterior `{}`, {} particles by `{}`, seed {}. The reference is quasi-Monte-Carlo importance sampling with a Student t \
+         proposal, {} points in {} independent scramblings (effective sample size {}); its standard errors come from the spread \
+         between the scramblings and are at most {} posterior standard deviations for the means.",
+        study.posterior.target.label(),
+        study.posterior.particles,
+        study.posterior.method.label(),
+        study.seed,
+        study.reference.points,
+        study.reference.scramblings,
+        size.map_or(MISSING.to_owned(), |size| format!("{size:.0}")),
+        number(comparison.largest_reference_error()),
+    ));
+}
+
+fn moments_table(comparison: &Comparison, document: &mut Document) {
+    document.heading("Posterior moments");
+    let header = [
+        "coefficient", "mean", "reference mean", "± s.e.", "error (sd)", "sd", "reference sd", "± s.e.", "error (%)",
+    ];
+    let table: Vec<Vec<String>> = comparison
+        .axes
+        .iter()
+        .map(|axis| {
+            let reference = &axis.reference;
+            vec![
+                reference.name.clone(),
+                format!("{:.5}", axis.mean),
+                format!("{:.5}", reference.mean),
+                format!("{:.1e}", reference.mean_standard_error),
+                format!("{:+.4}", axis.mean_error),
+                format!("{:.5}", axis.standard_deviation),
+                format!("{:.5}", reference.standard_deviation),
+                format!("{:.1e}", reference.standard_deviation_standard_error),
+                format!("{:+.2}", 100.0 * axis.deviation_error),
+            ]
+        })
+        .collect();
+    document.table(&header, &table);
+}
+
+fn runs_table(rows: &[Row], document: &mut Document) {
+    let header =
+        ["case", "status", "target", "method", "M", "steps", "scores", "residual", "h", "active nodes", "time (s)"];
+    let table: Vec<Vec<String>> = rows
+        .iter()
+        .map(|row| {
+            let note = if row.reason.is_empty() { String::new() } else { format!(": {}", row.reason) };
+            let count = |value: Option<u64>| value.map_or(MISSING.to_owned(), |value| value.to_string());
+            vec![
+                row.case.clone(),
+                format!("{}{note}", row.status.as_str()),
+                row.target.clone(),
+                row.method.clone(),
+                row.particles.to_string(),
+                count(row.steps.map(|steps| steps as u64)),
+                count(row.score_evaluations),
+                optional_number(row.residual),
+                optional_number(row.spacing),
+                count(row.active_nodes.map(|nodes| nodes as u64)),
+                optional_number(row.wall_seconds),
+            ]
+        })
+        .collect();
+    document.table(&header, &table);
+}

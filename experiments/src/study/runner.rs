@@ -1,0 +1,151 @@
+//! Runs the cases of a study that are missing and writes its report.
+
+use std::collections::HashSet;
+
+use super::configuration::Configuration;
+use super::definition::{Case, Study};
+use super::directory::StudyDirectory;
+use super::manifest::{Manifest, Provenance};
+use super::results::{ResultsFile, Row};
+use crate::output::AtomicFile;
+use crate::progress::StudyProgress;
+use crate::{CommandError, console, interrupt};
+
+/// Runs a study into a directory, or the rest of it.
+pub fn run<S: Study>(configuration: &Configuration, out: &std::path::Path) -> Result<(), CommandError> {
+    let study: S = configuration.parse()?;
+    let cases = study.cases().map_err(|error| in_file(error, configuration))?;
+    let directory = StudyDirectory::claim(out, configuration)?;
+    in_threads(study.threads(), || {
+        let mut results = ResultsFile::<S::Row>::open(&directory.results())?;
+        note_start(&study, configuration, &directory)?;
+        run_missing(&study, &cases, &directory, &mut results)?;
+        write_report(&study, results.rows(), &directory)
+    })
+}
+
+/// Writes the report of what a directory holds.
+pub fn report<S: Study>(configuration: &Configuration, directory: &StudyDirectory) -> Result<(), CommandError> {
+    let study: S = configuration.parse()?;
+    let rows = ResultsFile::<S::Row>::read(&directory.results())?;
+    in_threads(study.threads(), || write_report(&study, &rows, directory))
+}
+
+/// Names the file in errors about fields.
+fn in_file(error: CommandError, configuration: &Configuration) -> CommandError {
+    match error {
+        CommandError::ConfigField { field, message, .. } => {
+            CommandError::ConfigField { file: configuration.file().to_owned(), field, message }
+        }
+        error => error,
+    }
+}
+
+fn in_threads<T: Send>(
+    threads: Option<usize>,
+    work: impl FnOnce() -> Result<T, CommandError> + Send,
+) -> Result<T, CommandError> {
+    let Some(threads) = threads else { return work() };
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .map_err(|error| CommandError::Threads { threads, reason: error.to_string() })?
+        .install(work)
+}
+
+/// Writes the manifest, or adds this start to it.
+fn note_start<S: Study>(
+    study: &S,
+    configuration: &Configuration,
+    directory: &StudyDirectory,
+) -> Result<(), CommandError> {
+    let threads = rayon::current_num_threads();
+    let path = directory.manifest();
+    let manifest = if path.exists() {
+        let mut manifest = Manifest::read(&path)?;
+        manifest.resumed.push(Provenance::now(threads));
+        manifest
+    } else {
+        Manifest::new(S::KIND, configuration.hash(), study.seeds(), threads)
+    };
+    manifest.write(&path)
+}
+
+fn run_missing<S: Study>(
+    study: &S,
+    cases: &[S::Case],
+    directory: &StudyDirectory,
+    results: &mut ResultsFile<S::Row>,
+) -> Result<(), CommandError> {
+    let finished: HashSet<String> = results.rows().iter().map(|row| row.case().to_owned()).collect();
+    let total: f64 = cases.iter().map(Case::cost).sum();
+    let done: f64 = cases.iter().filter(|case| finished.contains(&case.id())).map(Case::cost).sum();
+    let mut progress = StudyProgress::new(total, done);
+    let mut shared = S::Shared::default();
+    for case in cases {
+        let id = case.id();
+        if finished.contains(&id) {
+            continue;
+        }
+        let result = if interrupt::requested() {
+            Err(interrupted(results.rows().len(), cases.len()))
+        } else {
+            study.run(case, &mut shared, directory, &mut progress.begin(&id, case.cost()))
+        };
+        match result {
+            Ok(row) => results.append(row)?,
+            Err(error) => {
+                progress.clear();
+                return Err(if error.is_interruption() {
+                    interrupted(results.rows().len(), cases.len())
+                } else {
+                    error
+                });
+            }
+        }
+        progress.end(case.cost());
+    }
+    progress.clear();
+    Ok(())
+}
+
+fn interrupted(done: usize, all: usize) -> CommandError {
+    let hint = format!(": {done} of {all} cases are kept; the same command resumes with the next one");
+    CommandError::Interrupted { hint }
+}
+
+fn write_report<S: Study>(study: &S, rows: &[S::Row], directory: &StudyDirectory) -> Result<(), CommandError> {
+    let mut report = study.report(rows, directory)?;
+    let manifest = Manifest::read(&directory.manifest())?;
+    report.document.heading("Provenance");
+    report.document.paragraph(provenance(&manifest, rows.len(), study.cases()?.len()));
+    AtomicFile::write(directory.report(), report.document.as_str())?;
+    report.summary.push(("report", directory.report().display().to_string()));
+    console::print_pairs(&report.summary)
+}
+
+/// How the figures came about, in words.
+fn provenance(manifest: &Manifest, rows: usize, cases: usize) -> String {
+    let first = &manifest.first;
+    let unknown = "unknown".to_owned();
+    let dirty = match first.dirty {
+        Some(true) => " with uncommitted changes",
+        _ => "",
+    };
+    let mut text = format!(
+        "{rows} of {cases} cases. Commit {}{dirty}, {}, {} threads on {}, started {}, configuration {}.",
+        first.commit.as_ref().unwrap_or(&unknown),
+        first.rustc,
+        first.threads,
+        first.cpu.as_ref().unwrap_or(&unknown),
+        first.started,
+        manifest.config_hash,
+    );
+    if !manifest.is_uniform() {
+        text.push_str(
+            " **Parts of these results were computed by another commit, compiler, processor or number of threads; \
+             manifest.json lists them all.**",
+        );
+    }
+    text
+}

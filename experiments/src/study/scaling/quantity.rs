@@ -1,0 +1,71 @@
+//! What is measured per case, and its growth with the size that a sweep varies.
+
+use super::{Row, Sweep};
+use crate::plots::{ScalingSeries, exponent_text, scaling_fit};
+use crate::study::document::MISSING;
+
+/// A measured quantity.
+pub struct Quantity {
+    /// Name for tables.
+    pub name: &'static str,
+    /// Label of an axis, with the unit.
+    pub axis: &'static str,
+    /// Name of the figure's file, without sweep and extension.
+    pub file: &'static str,
+    /// Its value.
+    pub value: fn(&Row) -> Option<f64>,
+}
+
+/// All quantities.
+pub const QUANTITIES: [Quantity; 5] = [
+    Quantity {
+        name: "time per step",
+        axis: "time per step (s)",
+        file: "time",
+        value: |row| row.wall_seconds_per_step,
+    },
+    Quantity {
+        name: "active nodes",
+        axis: "active nodes",
+        file: "nodes",
+        value: |row| row.active_nodes.map(|count| count as f64),
+    },
+    Quantity {
+        name: "storage",
+        axis: "storage of particles and grid (bytes)",
+        file: "storage",
+        value: |row| row.storage_bytes.map(|bytes| bytes as f64),
+    },
+    Quantity {
+        name: "peak memory",
+        axis: "rise of the resident memory (bytes)",
+        file: "memory",
+        value: |row| row.memory_peak_bytes.map(|bytes| bytes as f64),
+    },
+    Quantity {
+        name: "score evaluations per step",
+        axis: "score evaluations per step",
+        file: "scores",
+        value: |row| Some(row.score_evaluations? as f64 / row.steps.filter(|steps| *steps > 0)? as f64),
+    },
+];
+
+impl Quantity {
+    /// Its values in one dimension of a sweep against the size that the sweep varies.
+    pub fn series(&self, rows: &[Row], sweep: Sweep, dim: usize) -> ScalingSeries {
+        let here = rows.iter().filter(|row| row.sweep == sweep && row.dim == dim);
+        let (x, y) = here.filter_map(|row| Some((size(row), (self.value)(row)?))).unzip();
+        ScalingSeries { label: format!("d = {dim}"), x, y }
+    }
+
+    /// The fitted exponent with its 95 % interval.
+    pub fn exponent(&self, rows: &[Row], sweep: Sweep, dim: usize, fit_from: f64) -> String {
+        scaling_fit(&self.series(rows, sweep, dim), fit_from)
+            .map_or(MISSING.to_owned(), |law| exponent_text(&law, 0))
+    }
+}
+
+/// M or k, whichever the sweep varies.
+fn size(row: &Row) -> f64 {
+    row.nodes_per_axis.unwrap_or(row.particles) as f64
+}

@@ -1,0 +1,205 @@
+//! The report of the study `scaling`.
+
+use super::configuration::Scaling;
+use super::quantity::{QUANTITIES, Quantity};
+use super::{Row, Sweep};
+use crate::CommandError;
+use crate::options::Dimension;
+use crate::plots::{ScalingGuide, ScalingPlot, exponent_text, scaling};
+use crate::statistics::fit_power_law;
+use crate::study::attempt::Status;
+use crate::study::definition::Report;
+use crate::study::directory::StudyDirectory;
+use crate::study::document::{Document, MISSING, number, optional_number};
+
+/// Tables and figures.
+pub fn report(study: &Scaling, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
+    let mut document = Document::new("Scaling with d, M and N = kᵈ");
+    document.paragraph(format!(
+        "Target `{}`, method `{}`, {} steps per run, {} threads. Times are medians of {} runs after one to warm up: the \
+         sampler's own wall time divided by its steps. Peak memory is the rise of the resident set during the first run, \
+         which misses what the allocator had kept from earlier cases; storage is what particles and grid hold. Exponents \
+         are least-squares slopes in logarithms with 95 % confidence intervals.",
+        study.target,
+        study.method.label(),
+        study.steps,
+        study.threads.map_or("all".to_owned(), |threads| threads.to_string()),
+        study.repeats,
+    ));
+    particles_part(study, rows, directory, &mut document)?;
+    nodes_part(study, rows, directory, &mut document)?;
+    all_rows(rows, &mut document);
+
+    let failed = rows.iter().filter(|row| row.status != Status::Finished).count();
+    let summary = vec![
+        ("study", "scaling".to_owned()),
+        ("cases", rows.len().to_string()),
+        ("failed", failed.to_string()),
+    ];
+    Ok(Report { document, summary })
+}
+
+fn particles_part(
+    study: &Scaling,
+    rows: &[Row],
+    directory: &StudyDirectory,
+    document: &mut Document,
+) -> Result<(), CommandError> {
+    let sweep = &study.particles_sweep;
+    let fit_from = sweep.fit_from.get() as f64;
+    document.heading("Growth with M and d");
+    document.paragraph(format!(
+        "The sampler chooses its spacing. Exponents b of M^b, fitted from M = {} on; pairs with M · 3ᵈ above {} are left \
+         out. The paper's estimate for a dense grid, O(M N d²), has exponent 1 in M at fixed N.",
+        sweep.fit_from,
+        number(sweep.largest_work),
+    ));
+    exponent_table(document, rows, Sweep::Particles, &sweep.dims, fit_from);
+    for quantity in &QUANTITIES {
+        let plot = plot(quantity, rows, Sweep::Particles, &sweep.dims, fit_from);
+        let caption = format!("{} against the number of particles.", capitalised(quantity.name));
+        document.figure(directory, &format!("particles-{}.svg", quantity.file), &caption, scaling(&plot))?;
+    }
+    growth_with_dimension(study, rows, document);
+    Ok(())
+}
+
+/// Time per particle and step, by dimension, and its power of the stencil's size 3ᵈ.
+fn growth_with_dimension(study: &Scaling, rows: &[Row], document: &mut Document) {
+    let sweep = &study.particles_sweep;
+    let time = |dim: usize, particles: usize| {
+        let here = |row: &&Row| row.sweep == Sweep::Particles && row.dim == dim && row.particles == particles;
+        Some(rows.iter().find(here)?.wall_seconds_per_step? / particles as f64 * 1e9)
+    };
+    document.paragraph(
+        "Nanoseconds per particle and step, and the exponent b in (3ᵈ)^b, where 3ᵈ is the number of nodes that a particle \
+         touches with quadratic B-splines. The paper's estimate grows as kᵈ d².",
+    );
+    let dims: Vec<usize> = sweep.dims.iter().map(|dim| dim.get()).collect();
+    let labels: Vec<String> = dims.iter().map(|dim| format!("d = {dim}")).collect();
+    let mut header = vec!["M"];
+    header.extend(labels.iter().map(String::as_str));
+    header.push("exponent of 3ᵈ");
+    let mut table = Vec::new();
+    for particles in sweep.particles.iter().map(|count| count.get()) {
+        let times: Vec<Option<f64>> = dims.iter().map(|&dim| time(dim, particles)).collect();
+        let known = dims.iter().zip(&times).filter_map(|(&dim, time)| Some((3f64.powi(dim as i32), (*time)?)));
+        let (sizes, values): (Vec<f64>, Vec<f64>) = known.unzip();
+        let exponent =
+            fit_power_law(&sizes, &values).map_or(MISSING.to_owned(), |law| exponent_text(&law, 0));
+        let mut line = vec![particles.to_string()];
+        line.extend(times.into_iter().map(optional_number));
+        line.push(exponent);
+        table.push(line);
+    }
+    document.table(&header, &table);
+}
+
+fn nodes_part(
+    study: &Scaling,
+    rows: &[Row],
+    directory: &StudyDirectory,
+    document: &mut Document,
+) -> Result<(), CommandError> {
+    let sweep = &study.nodes_sweep;
+    let [low, high] = sweep.interval;
+    document.heading("Growth with the nodes per axis k");
+    document.paragraph(format!(
+        "M = {} particles; h = {}/k, so that k nodes divide the interval [{low}, {high}] per axis (frame units) and a dense \
+         grid would hold N = kᵈ nodes, up to {} here. Exponents b of k^b; the paper's O(M N d²) has exponent d.",
+        sweep.particles,
+        high - low,
+        largest_dense_grid(study),
+    ));
+    exponent_table(document, rows, Sweep::Nodes, &sweep.dims, 0.0);
+    for quantity in &QUANTITIES {
+        let mut plot = plot(quantity, rows, Sweep::Nodes, &sweep.dims, 0.0);
+        if quantity.file == "time" {
+            plot.guides = sweep.dims.iter().filter_map(|dim| dense_guide(&plot, dim.get())).collect();
+        }
+        let caption = format!("{} against the nodes per axis, at fixed M.", capitalised(quantity.name));
+        document.figure(directory, &format!("nodes-{}.svg", quantity.file), &caption, scaling(&plot))?;
+    }
+    Ok(())
+}
+
+fn largest_dense_grid(study: &Scaling) -> String {
+    let nodes = study.nodes_sweep.nodes_per_axis.iter().map(|nodes| nodes.get()).max().unwrap_or(0) as f64;
+    let dim = study.nodes_sweep.dims.iter().map(|dim| dim.get()).max().unwrap_or(0);
+    number(nodes.powi(dim as i32))
+}
+
+/// kᵈ through the first point of that dimension, as far as it stays within a thousand times the measurements.
+fn dense_guide(plot: &ScalingPlot, dim: usize) -> Option<ScalingGuide> {
+    let series = plot.series.iter().find(|series| series.label == format!("d = {dim}"))?;
+    let (&first_size, &first_time) = (series.x.first()?, series.y.first()?);
+    let (_, &last_size) = (series.x.first()?, series.x.last()?);
+    let most = 1e3 * plot.series.iter().flat_map(|series| &series.y).fold(0.0, |most: f64, &y| most.max(y));
+    let power = |size: f64| first_time * (size / first_size).powi(dim as i32);
+    let reach = (first_size * (most / first_time).powf(1.0 / dim as f64)).min(last_size);
+    let x: Vec<f64> = (0..=20).map(|i| first_size * (reach / first_size).powf(f64::from(i) / 20.0)).collect();
+    let y = x.iter().map(|&size| power(size)).collect();
+    Some(ScalingGuide { label: format!("dense grid, k^{{{dim}}}"), curve: crate::plots::Curve { x, y } })
+}
+
+fn plot(quantity: &Quantity, rows: &[Row], sweep: Sweep, dims: &[Dimension], fit_from: f64) -> ScalingPlot {
+    let (x_label, x_symbol) = match sweep {
+        Sweep::Particles => ("number of particles M", "M"),
+        Sweep::Nodes => ("nodes per axis k", "k"),
+    };
+    ScalingPlot {
+        title: String::new(),
+        x_label: x_label.to_owned(),
+        y_label: quantity.axis.to_owned(),
+        x_symbol: x_symbol.to_owned(),
+        fit_from,
+        series: dims.iter().map(|dim| quantity.series(rows, sweep, dim.get())).collect(),
+        guides: Vec::new(),
+    }
+}
+
+fn exponent_table(document: &mut Document, rows: &[Row], sweep: Sweep, dims: &[Dimension], fit_from: f64) {
+    let mut header = vec!["d"];
+    header.extend(QUANTITIES.iter().map(|quantity| quantity.name));
+    header.push("paper, dense grid");
+    let mut table = Vec::new();
+    for dim in dims.iter().map(|dim| dim.get()) {
+        let mut line = vec![dim.to_string()];
+        line.extend(QUANTITIES.iter().map(|quantity| quantity.exponent(rows, sweep, dim, fit_from)));
+        line.push(match sweep {
+            Sweep::Particles => "1".to_owned(),
+            Sweep::Nodes => dim.to_string(),
+        });
+        table.push(line);
+    }
+    document.table(&header, &table);
+}
+
+fn all_rows(rows: &[Row], document: &mut Document) {
+    document.heading("All cases");
+    let header =
+        ["case", "status", "h", "active nodes", "scores", "storage (bytes)", "peak memory (bytes)", "time per step (s)"];
+    let count = |value: Option<u64>| value.map_or(MISSING.to_owned(), |value| value.to_string());
+    let table: Vec<Vec<String>> = rows
+        .iter()
+        .map(|row| {
+            let note = if row.reason.is_empty() { String::new() } else { format!(": {}", row.reason) };
+            vec![
+                row.case.clone(),
+                format!("{}{note}", row.status.as_str()),
+                optional_number(row.spacing),
+                count(row.active_nodes.map(|nodes| nodes as u64)),
+                count(row.score_evaluations),
+                count(row.storage_bytes.map(|bytes| bytes as u64)),
+                count(row.memory_peak_bytes),
+                optional_number(row.wall_seconds_per_step),
+            ]
+        })
+        .collect();
+    document.table(&header, &table);
+}
+
+fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+}

@@ -1,0 +1,58 @@
+//! Runs the built command and looks at what it says and leaves.
+
+#![allow(dead_code)]
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+/// The built command.
+pub fn command() -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_parvi"));
+    command.env("RAYON_NUM_THREADS", "2");
+    command
+}
+
+/// Runs `parvi` with arguments separated by spaces in a directory.
+pub fn parvi(directory: &Path, arguments: &str) -> Output {
+    command().current_dir(directory).args(arguments.split_whitespace()).output().unwrap()
+}
+
+/// Standard output as text.
+pub fn stdout(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+/// Standard error as text.
+pub fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+/// The value of a `key=value` line.
+pub fn value(output: &Output, key: &str) -> Option<String> {
+    let text = stdout(output);
+    text.lines().find_map(|line| line.strip_prefix(key)?.strip_prefix('=').map(str::to_owned))
+}
+
+/// The names of all files of a directory, hidden ones included, in order.
+pub fn files(directory: &Path) -> Vec<String> {
+    let mut names: Vec<String> = std::fs::read_dir(directory)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    names
+}
+
+/// Asserts that a command failed with one clear message that holds all `parts`, wrote nothing to standard output and did
+/// not panic.
+pub fn assert_refused(output: &Output, parts: &[&str]) {
+    let message = stderr(output);
+    assert!(!output.status.success(), "it succeeded: {message}");
+    assert!(output.status.code().is_some(), "it was ended by a signal: {message}");
+    assert!(!message.contains("panicked"), "{message}");
+    assert!(message.starts_with("error: "), "{message}");
+    assert_eq!(stdout(output), "");
+    for part in parts {
+        assert!(message.contains(part), "`{part}` is missing in: {message}");
+    }
+}
