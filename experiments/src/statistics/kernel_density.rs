@@ -7,6 +7,9 @@ use super::{Bandwidth, StatisticsError, bandwidth, check_weighted};
 /// Beyond this many standard deviations the kernel is taken as zero (it is below 4e-6 of its height there).
 pub(super) const REACH: f64 = 5.0;
 
+/// Large samples are gathered on nodes this many to a kernel width, which widens the kernel by less than 0.1 %.
+const BINS_PER_WIDTH: f64 = 12.0;
+
 /// The density Σ_p w_p N(x; x_p, h²) / Σ_p w_p at each of `locations`, which must ascend.
 ///
 /// # Errors
@@ -21,6 +24,11 @@ pub fn kernel_density(
     let width = bandwidth(values, weights, rule)?;
     let mut density = vec![0.0; locations.len()];
     let height = 1.0 / (total * width * (2.0 * PI).sqrt());
+    let binned = binned(values, weights, width / BINS_PER_WIDTH);
+    let (values, weights) = match &binned {
+        Some((nodes, masses)) => (nodes.as_slice(), Some(masses.as_slice())),
+        None => (values, weights),
+    };
     for (index, value) in values.iter().enumerate() {
         let weight = weights.map_or(1.0, |weights| weights[index]) * height;
         let first = locations.partition_point(|&x| x < value - REACH * width);
@@ -33,6 +41,27 @@ pub fn kernel_density(
         }
     }
     Ok(density)
+}
+
+/// The sample's weight shared linearly between neighbouring nodes `spacing` apart; `None` for samples so small or so far
+/// spread that this saves nothing.
+fn binned(values: &[f64], weights: Option<&[f64]>, spacing: f64) -> Option<(Vec<f64>, Vec<f64>)> {
+    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let nodes = (high - low) / spacing + 2.0;
+    if values.len() < 10_000 || nodes.is_nan() || nodes > 0.2 * values.len() as f64 {
+        return None;
+    }
+    let mut masses = vec![0.0; nodes as usize + 1];
+    for (index, value) in values.iter().enumerate() {
+        let weight = weights.map_or(1.0, |weights| weights[index]);
+        let position = (value - low) / spacing;
+        let right = position - position.floor();
+        masses[position as usize] += weight * (1.0 - right);
+        masses[position as usize + 1] += weight * right;
+    }
+    let nodes = (0..masses.len()).map(|index| low + index as f64 * spacing);
+    Some((nodes.collect(), masses))
 }
 
 /// Density values on a rectangular grid.
@@ -104,6 +133,24 @@ mod tests {
         let kernel = Normal::new(1.0, 0.5).unwrap();
         assert!((density[0] - kernel.pdf(0.5)).abs() < 1e-14);
         assert!((density[1] - kernel.pdf(1.0)).abs() < 1e-14);
+    }
+
+    #[test]
+    fn binning_changes_a_large_sample_by_less_than_a_thousandth() {
+        let points = normal_points(20_000);
+        let locations = equidistant((-3.0, 3.0), 31);
+        let rule = Bandwidth::Fixed(0.1);
+        let density = kernel_density(&points, None, rule, &locations).unwrap();
+        // The normal density convolved with the kernel.
+        let exact = Normal::new(0.0, 1.01f64.sqrt()).unwrap();
+        for (x, value) in locations.iter().zip(&density) {
+            assert!((value / exact.pdf(*x) - 1.0).abs() < 5e-3, "{x}: {value}");
+        }
+        let direct: f64 = points
+            .iter()
+            .map(|point| Normal::new(*point, 0.1).unwrap().pdf(0.0) / 20_000.0)
+            .sum();
+        assert!((density[15] / direct - 1.0).abs() < 1e-3);
     }
 
     #[test]

@@ -58,26 +58,28 @@ pub fn weighted_quantile(
     levels: &[f64],
 ) -> Result<Vec<f64>, StatisticsError> {
     let total = check_weighted("values", values, weights)?;
-    let mut order: Vec<usize> = (0..values.len())
-        .filter(|&index| weights.is_none_or(|weights| weights[index] > 0.0))
+    let weight = |index: usize| weights.map_or(1.0, |weights| weights[index]);
+    let mut sorted: Vec<(f64, f64)> = (0..values.len())
+        .map(|index| (values[index], weight(index) / total))
+        .filter(|(_, weight)| *weight > 0.0)
         .collect();
-    order.sort_by(|&left, &right| values[left].total_cmp(&values[right]));
-    let mut middles = Vec::with_capacity(order.len());
+    sorted.sort_unstable_by(|left, right| {
+        let by_value = left.0.total_cmp(&right.0);
+        by_value.then(left.1.total_cmp(&right.1))
+    });
+    let mut middles = Vec::with_capacity(sorted.len());
     let mut below = 0.0;
-    for &index in &order {
-        let weight = weights.map_or(1.0, |weights| weights[index]) / total;
+    for (_, weight) in &sorted {
         middles.push(below + 0.5 * weight);
         below += weight;
     }
+    let last = sorted.len() - 1;
     let quantile = |level: f64| {
         let next = middles.partition_point(|&middle| middle < level);
-        if next == 0 {
-            return values[order[0]];
+        if next == 0 || next > last {
+            return sorted[next.min(last)].0;
         }
-        if next == order.len() {
-            return values[order[order.len() - 1]];
-        }
-        let (low, high) = (values[order[next - 1]], values[order[next]]);
+        let (low, high) = (sorted[next - 1].0, sorted[next].0);
         let fraction = (level - middles[next - 1]) / (middles[next] - middles[next - 1]);
         low + fraction * (high - low)
     };
