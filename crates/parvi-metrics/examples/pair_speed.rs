@@ -4,13 +4,16 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use parvi_metrics::{Cloud, EnergyReference, GaussianEnergy, MetricError, mean_pair_distance};
+use parvi_metrics::{
+    Cloud, Directions, EnergyReference, GaussianEnergy, InverseMultiquadric, MetricError, RadialKernel,
+    SlicedReference, kernel_stein_discrepancy, maximum_mean_discrepancy_squared, mean_pair_distance,
+};
 use rand::{RngExt, SeedableRng, rngs::ChaCha12Rng};
 use rand_distr::StandardNormal;
 
-/// Seconds of the fastest of five runs.
+/// Seconds of the fastest of many runs.
 fn seconds<T>(run: impl Fn() -> T) -> f64 {
-    (0..5)
+    (0..50)
         .map(|_| {
             let start = Instant::now();
             black_box(run());
@@ -49,13 +52,31 @@ fn measure<const D: usize>(count: usize) -> Result<(), MetricError> {
     );
     let one = seconds(|| gaussian.squared(&cloud));
     println!("  ED2 from Gaussian  {:8.3} ms in all", one * 1e3);
+    let kernel = RadialKernel::new(1.5)?;
+    let other = Cloud::new(&reference_points)?;
+    let all = seconds(|| maximum_mean_discrepancy_squared(&cloud, &other, &kernel));
+    println!(
+        "  MMD, radial kernel {:8.3} ns per evaluated pair",
+        all / (2.0 * n * n) * 1e9
+    );
+    let all = seconds(|| kernel_stein_discrepancy(&cloud, &points, &InverseMultiquadric::default()));
+    println!(
+        "  KSD                {:8.3} ns per distinct pair",
+        all / (n * (n - 1.0) / 2.0) * 1e9
+    );
+    let sliced = SlicedReference::new(&other, Directions::evenly_spread(64)?);
+    let all = seconds(|| sliced.distance(&cloud));
+    println!(
+        "  sliced W2          {:8.1} ns per particle and direction",
+        all / (n * if D == 1 { 1.0 } else { 64.0 }) * 1e9
+    );
     Ok(())
 }
 
 fn main() -> Result<(), MetricError> {
     println!("{} threads", rayon::current_num_threads());
-    measure::<1>(8192)?;
-    measure::<2>(8192)?;
-    measure::<4>(8192)?;
-    measure::<6>(8192)
+    measure::<1>(2048)?;
+    measure::<2>(2048)?;
+    measure::<4>(2048)?;
+    measure::<6>(2048)
 }

@@ -56,7 +56,7 @@ pub fn mean_pair_distance<const D: usize>(cloud: &Cloud<'_, D>) -> Result<f64, M
 /// [`EnergyReference`], which removes the reference's own bias.
 ///
 /// Source: G. J. Székely, M. L. Rizzo, *Energy statistics: A class of statistics based on distances*, J. Stat. Plan.
-/// Inference 143, 2013, Eq. (1) and Proposition 1.
+/// Inference 143, 2013, §2.
 ///
 /// # Errors
 /// [`MetricError::Overflow`] if a squared distance exceeds the range of `f64`.

@@ -17,8 +17,8 @@ const NAME: &str = "the energy distance from a Gaussian";
 /// their value by the trapezoidal rule in log t. M independent particles have the expectation E‖Y − Y'‖ / M. The unit is
 /// that of the points.
 ///
-/// Source: Székely & Rizzo 2013 (as for [`energy_distance_squared`](crate::energy_distance_squared)), Eq. (1); the
-/// integral is their Lemma 1 for exponent 1, radially averaged.
+/// Source: Székely & Rizzo 2013 (as for [`energy_distance_squared`](crate::energy_distance_squared)); the integral is
+/// Γ(−½) = −2√π written out.
 #[derive(Clone, Debug)]
 pub struct GaussianEnergy<const D: usize> {
     mean: [f64; D],
@@ -141,7 +141,7 @@ pub(crate) fn checked_eigen<const D: usize>(
         value: f64::NAN,
     };
     let eigen = SymmetricEigen::new(covariance).ok_or(not_finite)?;
-    match eigen.values.iter().find(|value| !(**value > 0.0)) {
+    match eigen.values.iter().find(|value| value.is_nan() || **value <= 0.0) {
         Some(&value) => Err(MetricError::InvalidCovariance {
             reason: "it has the eigenvalue",
             value,

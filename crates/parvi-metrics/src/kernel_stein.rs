@@ -91,8 +91,8 @@ impl SteinDiscrepancy {
 /// `scores` has one score per point. The unit is that of s² k: choose coordinates in which the target has unit scale
 /// ([`Standardiser`](crate::Standardiser)). O(M²), in parallel and independent of the number of threads.
 ///
-/// Source: J. Gorham, L. Mackey, *Measuring sample quality with kernels*, ICML 2017, Eq. (4) and §4; Q. Liu, J. Lee,
-/// M. Jordan, *A kernelized Stein discrepancy for goodness-of-fit tests*, ICML 2016, Theorem 3.6 and Eq. (14).
+/// Source: J. Gorham, L. Mackey, *Measuring sample quality with kernels*, ICML 2017, §3–4; Q. Liu, J. Lee,
+/// M. Jordan, *A kernelized Stein discrepancy for goodness-of-fit tests*, ICML 2016, Theorem 3.6.
 ///
 /// # Errors
 /// [`MetricError::LengthMismatch`] unless there is one score per point, [`MetricError::NonFiniteScore`] for a NaN or

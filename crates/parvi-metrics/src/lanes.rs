@@ -1,9 +1,10 @@
-//! Eight numbers at a time: fixed-size arrays whose loops the compiler turns into vector instructions.
+//! Four numbers at a time: fixed-size arrays whose loops the compiler turns into vector instructions.
 //!
 //! The width is part of the order of summation, so results do not depend on the machine's vector registers.
 
-/// Numbers handled together.
-pub(crate) const LANES: usize = 8;
+/// Numbers handled together. With SSE2 registers, eight make the energy distance and MMD in six dimensions about a fifth
+/// slower than four (spilling) and the Stein kernel a quarter faster.
+pub(crate) const LANES: usize = 4;
 
 /// One number per lane.
 pub(crate) type Lanes = [f64; LANES];
@@ -11,13 +12,14 @@ pub(crate) type Lanes = [f64; LANES];
 /// Pairwise sum of the lanes.
 #[inline]
 pub(crate) fn reduce(x: &Lanes) -> f64 {
-    ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]))
+    (x[0] + x[2]) + (x[1] + x[3])
 }
 
 /// e^{-x} = 2^k (1 + q) with q = e^r − 1 and |r| ≤ ½ ln 2, for x ≥ 0; returns (2^k, q).
 ///
-/// Cody–Waite reduction and the Taylor series of degree 13, whose remainder is below 2e-17 of q. `x` above 708 counts
-/// as 708. Branch-free, so that eight lanes vectorise, which a call of the mathematics library would not.
+/// Cody–Waite reduction, then e^r − 1 = 2r / (r coth(r/2) − r) = r + r c / (2 − c), where c = r − T and
+/// T = r coth(r/2) − 2 = Σ_n 2 B_2n r^2n / (2n)! with the Bernoulli numbers B; six terms leave 1e-17. `x` above 708
+/// counts as 708. Branch-free, so that the lanes vectorise, which a call of the mathematics library would not.
 #[inline]
 fn split_exponential(x: f64) -> (f64, f64) {
     const LN_2_HIGH: f64 = f64::from_bits(0x3FE6_2E42_FEE0_0000);
@@ -29,27 +31,23 @@ fn split_exponential(x: f64) -> (f64, f64) {
     let k = rounded - ROUNDER;
     let power = f64::from_bits((rounded.to_bits() << 52).wrapping_add(1023 << 52));
     let r = (y - k * LN_2_HIGH) - k * LN_2_LOW;
-    const COEFFICIENTS: [f64; 11] = [
-        1.0 / 479_001_600.0,
-        1.0 / 39_916_800.0,
-        1.0 / 3_628_800.0,
-        1.0 / 362_880.0,
-        1.0 / 40_320.0,
-        1.0 / 5_040.0,
-        1.0 / 720.0,
-        1.0 / 120.0,
-        1.0 / 24.0,
+    const COEFFICIENTS: [f64; 5] = [
+        1.0 / 23_950_080.0,
+        -1.0 / 604_800.0,
+        1.0 / 15_120.0,
+        -1.0 / 360.0,
         1.0 / 6.0,
-        0.5,
     ];
-    let mut polynomial = 1.0 / 6_227_020_800.0;
+    let square = r * r;
+    let mut polynomial = -691.0 / 653_837_184_000.0;
     for coefficient in COEFFICIENTS {
-        polynomial = polynomial * r + coefficient;
+        polynomial = polynomial * square + coefficient;
     }
-    (power, r + r * r * polynomial)
+    let c = r - square * polynomial;
+    (power, r + r * c / (2.0 - c))
 }
 
-/// e^{-x} per lane for x ≥ 0, to 1 ulp or so; below the smallest normal number it stays there.
+/// e^{-x} per lane for x ≥ 0, to about one unit in the last place; it never falls below e^{-708} = 3e-308.
 #[inline]
 pub(crate) fn negative_exponential(x: &Lanes) -> Lanes {
     let mut out = [0.0; LANES];
@@ -81,7 +79,7 @@ mod tests {
         for step in 0..200_000 {
             let x = 10f64.powf(-18.0 + 20.8 * f64::from(step) / 200_000.0);
             let exponential = negative_exponential(&[x; LANES])[3];
-            let complement = one_minus_negative_exponential(&[x; LANES])[5];
+            let complement = one_minus_negative_exponential(&[x; LANES])[0];
             worst[0] = worst[0].max((exponential / (-x).exp() - 1.0).abs());
             worst[1] = worst[1].max((complement / -(-x).exp_m1() - 1.0).abs());
         }
@@ -94,7 +92,6 @@ mod tests {
         assert_eq!(one_minus_negative_exponential(&[0.0; LANES]), [0.0; LANES]);
         assert!(negative_exponential(&[1e300; LANES])[0] < 1e-307);
         assert_eq!(one_minus_negative_exponential(&[f64::INFINITY; LANES]), [1.0; LANES]);
-        // NaN counts as the largest argument; callers check their input.
-        assert_eq!(reduce(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0]), 36.0);
+        assert_eq!(reduce(&[1.0, 2.0, 3.0, 4.0]), 10.0);
     }
 }

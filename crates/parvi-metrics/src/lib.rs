@@ -1,4 +1,5 @@
-//! How far a particle cloud is from its target.
+#![doc = include_str!("../README.md")]
+
 mod cloud;
 mod directions;
 mod energy_distance;

@@ -23,7 +23,7 @@ const MAXIMUM_NODES: usize = 1 << 13;
 ///
 /// by the trapezoidal rule in u, which converges exponentially in 1/h. Its sums beyond the two ends are geometric
 /// series: at the left of 1 − φ = c₁t − c₂t² + c₃t³, at the right of 1 − φ = 1. The nodes and everything that
-/// depends on λ alone are tabulated; a mean costs one exponential per node (150 or so), eight at a time.
+/// depends on λ alone are tabulated; a mean costs one exponential per node (150 or so), four at a time.
 pub(crate) struct NormExpectation<const D: usize> {
     eigenvalues: [f64; D],
     nodes: Vec<Node<D>>,
@@ -33,7 +33,7 @@ pub(crate) struct NormExpectation<const D: usize> {
     right: f64,
 }
 
-/// Eight nodes: h e^{−u/2} / 2√π, ½ Σ_i log(1 + 2tλ_i) and t / (1 + 2tλ_i).
+/// Four nodes: h e^{−u/2} / 2√π, ½ Σ_i log(1 + 2tλ_i) and t / (1 + 2tλ_i).
 struct Node<const D: usize> {
     weight: Lanes,
     logarithm: Lanes,
@@ -150,13 +150,13 @@ mod tests {
 
     /// E‖N(0, I)‖ = √2 Γ((d+1)/2) / Γ(d/2), by its recurrence from d to d + 2.
     fn isotropic<const D: usize>() {
-        let start = if D % 2 == 1 {
+        let start = if !D.is_multiple_of(2) {
             (2.0 / PI).sqrt()
         } else {
             (PI / 2.0).sqrt()
         };
         let expected = (1..D)
-            .filter(|d| (D - d) % 2 == 0)
+            .filter(|d| (D - d).is_multiple_of(2))
             .fold(start, |value, d| value * (d as f64 + 1.0) / d as f64);
         for bound in [0.0, 10.0, 1e8] {
             let value = NormExpectation::new([1.0; D], bound).unwrap().evaluate(&[0.0; D]);

@@ -1,6 +1,6 @@
 //! Σ_ij w_i u_j f(x_i, y_j) over all pairs: tiled, vectorised, parallel, and the same bits on any number of threads.
 //!
-//! Rows are summed eight columns at a time in a fixed order, tiles of [`TILE`] × [`TILE`] pairs are added with
+//! Rows are summed four columns at a time in a fixed order, tiles of [`TILE`] × [`TILE`] pairs are added with
 //! compensation, so the error of a mean of N² positive terms stays near 1e-15 of its value for any N.
 
 use crate::Cloud;
@@ -12,7 +12,7 @@ const TILE: usize = 128;
 /// Groups of lanes per tile.
 const TILE_GROUPS: usize = TILE / LANES;
 
-/// Vectors in groups of eight, axis by axis: `groups[g][axis][lane]` is the coordinate of vector `g · 8 + lane`.
+/// Vectors in groups of four, axis by axis: `groups[g][axis][lane]` is the coordinate of vector `g · 4 + lane`.
 ///
 /// The last group is padded with a vector of its own, so that padding causes no overflow of its own.
 pub(crate) struct Packed<const D: usize> {
@@ -39,7 +39,7 @@ impl<const D: usize> Packed<D> {
     }
 }
 
-/// |x − y_j|² for the eight points of a group.
+/// |x − y_j|² for the four points of a group.
 #[inline]
 pub(crate) fn squared_distances<const D: usize>(x: &[f64; D], group: &[Lanes; D]) -> Lanes {
     let mut squares = [0.0; LANES];
@@ -58,7 +58,7 @@ pub(crate) trait PairFunction: Sync {
     type Row;
     /// The row's data.
     fn row(&self, index: usize) -> Self::Row;
-    /// f(x_i, y_j) for the eight points j of a group; the values of padding must be finite, they are multiplied by 0.
+    /// f(x_i, y_j) for the four points j of a group; the values of padding must be finite, they are multiplied by 0.
     fn evaluate(&self, row: &Self::Row, group: usize) -> Lanes;
 }
 

@@ -16,7 +16,7 @@ use crate::{Cloud, Directions, MetricError};
 /// directions in parallel, independent of the number of threads.
 ///
 /// Source: N. Bonneel, J. Rabin, G. Peyré, H. Pfister, *Sliced and Radon Wasserstein barycenters of measures*, J. Math.
-/// Imaging Vis. 51, 2015, Eq. (9).
+/// Imaging Vis. 51, 2015.
 ///
 /// # Errors
 /// [`MetricError::Overflow`] if a squared distance exceeds the range of `f64`.
