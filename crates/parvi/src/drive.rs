@@ -33,9 +33,6 @@ pub(crate) struct Plan<P> {
     pub trace_every: usize,
 }
 
-/// Steps of Newton's method in the final correction; the second serves targets that are not Gaussian.
-const CORRECTIONS: usize = 2;
-
 /// Run `body` as planned; its particles are in frame coordinates, the result in the target's.
 pub(crate) fn drive<'a, S, T, M, F, P, const W: usize, const D: usize>(
     mut body: Mpm<D, SplineGrid<S, W, D>, T, M, F>,
@@ -88,11 +85,10 @@ where
     let score = body.body_force.score();
     let positions = &mut body.particles.positions;
     if plan.moment_correction {
-        for _ in 0..CORRECTIONS {
-            correct_moments(positions, score, &mut scores).map_err(failed)?;
-        }
+        correct_moments(positions, score, &mut scores).map_err(failed)?;
+    } else {
+        score.evaluate(positions, &mut scores).map_err(failed)?;
     }
-    score.evaluate(positions, &mut scores).map_err(failed)?;
     let residual = galerkin_stein_residual(&mut certificate, positions, &scores).map_err(failed)?;
     let score_evaluations = score.evaluations;
     let in_order = body.particles.in_creation_order(&body.particles.positions);

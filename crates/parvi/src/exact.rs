@@ -18,7 +18,9 @@ pub fn independent_draws<const D: usize>(
         .exact_draws()
         .ok_or_else(|| unsupported("iid", target.name(), "exact draws"))?;
     let mut generator = run.generator(0);
-    of(std::iter::repeat_with(|| draws.draw(&mut generator)).take(count).collect())
+    of(std::iter::repeat_with(|| draws.draw(&mut generator))
+        .take(count)
+        .collect())
 }
 
 /// The first M points of a scrambled Sobol sequence through the target's map from the unit cube.

@@ -43,7 +43,10 @@ impl<'a, const D: usize> FramedScore<'a, D> {
 
     /// −E[log p(x)] over equally weighted points.
     pub fn potential_energy(&self, zs: &[[f64; D]]) -> f64 {
-        let sum: f64 = zs.iter().map(|z| self.target.log_density(&self.frame.to_target(z))).sum();
+        let sum: f64 = zs
+            .iter()
+            .map(|z| self.target.log_density(&self.frame.to_target(z)))
+            .sum();
         -sum / zs.len() as f64
     }
 }

@@ -49,7 +49,7 @@ mod tests {
             assert!(u.iter().all(|c| (0.0..1.0).contains(c)));
             counts[(0..3).fold(0, |index, a| 2 * index + (u[a] >= 0.5) as usize)] += 1;
         }
-        // A multinomial count would scatter by 9.
-        assert!(counts.iter().all(|&count: &i32| (count - 100).abs() <= 4), "{counts:?}");
+        // Independent points would scatter by 9 in every octant; the largest of eight deviations would be about 16.
+        assert!(counts.iter().all(|&count: &i32| (count - 100).abs() <= 8), "{counts:?}");
     }
 }

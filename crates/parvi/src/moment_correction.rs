@@ -8,52 +8,208 @@ use crate::framed_score::FramedScore;
 /// Moves beyond this size (in frame units, or relative) are not a correction any more and are left undone.
 const LIMIT: f64 = 0.25;
 
-/// Stein's identity with the test functions 1 and x, which no grid of finite extent contains, reads E[s] = 0 and
-/// E[s (x − x̄)ᵀ] = −I. One Newton step of the affine map x ← x̄ + b + A (x − x̄) towards it: with the covariance C of the
-/// particles and the mean curvature Q = −sym(E[s (x − x̄)ᵀ] C⁻¹), b = Q⁻¹ E[s], and A is the symmetric map that takes C to
-/// Q⁻¹, A = C^{−½} (C^{½} Q⁻¹ C^{½})^{½} C^{−½}. For a Gaussian target one step gives its mean and covariance exactly.
+/// A full step that leaves more than this share of the defect was no Newton step: the target is far from Gaussian.
+const CONTRACTION: f64 = 0.5;
+
+/// Move the particles by affine maps until E[s] = 0 and E[s (x − x̄)ᵀ] = −I hold for them, as far as that goes.
 ///
-/// Returns the size of the move, or `None` where it was not made: too large to be a correction, or Q not positive.
+/// Stein's identity with the test functions 1 and x, which no grid of finite extent contains (docs/theory.md, Eq. 12). One
+/// Newton step x ← x̄ + b + A (x − x̄): with the covariance C of the particles and the mean curvature
+/// Q = −sym(E[s (x − x̄)ᵀ] C⁻¹), b = Q⁻¹ E[s], and A is the symmetric map that takes C to Q⁻¹. For a Gaussian target one step
+/// gives mean and covariance exactly, and up to two are taken. Where a full step does not at least halve the defect, a
+/// secant step along the same direction is tried instead; no step is kept that enlarges the defect.
+///
+/// `scores` are overwritten with those at the final positions; at most three evaluations per particle.
 pub(crate) fn correct_moments<const D: usize>(
     positions: &mut [[f64; D]],
     score: &mut FramedScore<'_, D>,
-    scores: &mut [[f64; D]],
-) -> Result<Option<f64>, MpmError> {
+    scores: &mut Vec<[f64; D]>,
+) -> Result<(), MpmError> {
     score.evaluate(positions, scores)?;
-    let Some((mean, shift, stretch)) = affine_move(positions, scores) else {
-        return Ok(None);
-    };
-    let size = vector::norm(&shift).max((stretch - Matrix::IDENTITY).frobenius_norm());
-    if size.is_nan() || size > LIMIT {
-        return Ok(None);
+    let mut trial = positions.to_vec();
+    let mut trial_scores = scores.clone();
+    for _ in 0..2 {
+        let before = SteinMoments::of(positions, scores);
+        let Some(full) = before.newton_step().filter(|step| step.size() <= LIMIT) else {
+            return Ok(());
+        };
+        full.apply(positions, &mut trial);
+        score.evaluate(&trial, &mut trial_scores)?;
+        let after = SteinMoments::of(&trial, &trial_scores);
+        let contracts = after.defect() <= CONTRACTION * before.defect();
+        if !contracts {
+            full.shortened(before.secant(&after)).apply(positions, &mut trial);
+            score.evaluate(&trial, &mut trial_scores)?;
+            if SteinMoments::of(&trial, &trial_scores).defect() >= before.defect() {
+                return Ok(());
+            }
+        }
+        positions.copy_from_slice(&trial);
+        std::mem::swap(scores, &mut trial_scores);
+        if !contracts {
+            return Ok(());
+        }
     }
-    for x in positions {
-        let moved = stretch.apply(&vector::subtract(x, &mean));
-        *x = std::array::from_fn(|a| mean[a] + shift[a] + moved[a]);
-    }
-    Ok(Some(size))
+    Ok(())
 }
 
-/// x̄, b and A.
-fn affine_move<const D: usize>(positions: &[[f64; D]], scores: &[[f64; D]]) -> Option<([f64; D], [f64; D], Matrix<D>)> {
-    let share = 1.0 / positions.len() as f64;
-    let (mut mean, mut mean_score) = ([0.0; D], [0.0; D]);
-    for (x, s) in positions.iter().zip(scores) {
-        vector::accumulate(&mut mean, share, x);
-        vector::accumulate(&mut mean_score, share, s);
+/// x ← x̄ + b + A (x − x̄).
+struct AffineStep<const D: usize> {
+    mean: [f64; D],
+    shift: [f64; D],
+    stretch: Matrix<D>,
+}
+
+impl<const D: usize> AffineStep<D> {
+    /// max(|b|, ‖A − I‖); NaN counts as infinite.
+    fn size(&self) -> f64 {
+        let stretch = (self.stretch - Matrix::IDENTITY).frobenius_norm();
+        let shift = vector::norm(&self.shift);
+        if shift.is_nan() || stretch.is_nan() {
+            f64::INFINITY
+        } else {
+            shift.max(stretch)
+        }
     }
-    let (mut covariance, mut stein) = (Matrix::<D>::ZERO, Matrix::<D>::ZERO);
-    for (x, s) in positions.iter().zip(scores) {
-        let x = vector::subtract(x, &mean);
-        covariance = covariance + Matrix::outer(&x, &x) * share;
-        stein = stein - Matrix::outer(s, &x) * share;
+
+    /// The same move, `share` of the way.
+    fn shortened(&self, share: f64) -> Self {
+        Self {
+            mean: self.mean,
+            shift: vector::scale(&self.shift, share),
+            stretch: Matrix::IDENTITY + (self.stretch - Matrix::IDENTITY) * share,
+        }
     }
-    let of_covariance = SymmetricEigen::new(&covariance)?;
-    let root = of_covariance.map(f64::sqrt);
-    let inverse_root = of_covariance.map(|value| value.sqrt().recip());
-    let curvature = (stein * (inverse_root * inverse_root)).symmetric_part();
-    let inverse_curvature = SymmetricEigen::new(&curvature)?.map(|value| if value > 0.0 { value.recip() } else { f64::NAN });
-    let middle = SymmetricEigen::new(&(root * inverse_curvature * root).symmetric_part())?.map(f64::sqrt);
-    let stretch = inverse_root * middle * inverse_root;
-    Some((mean, inverse_curvature.apply(&mean_score), stretch))
+
+    fn apply(&self, from: &[[f64; D]], to: &mut [[f64; D]]) {
+        for (x, moved) in from.iter().zip(to) {
+            let stretched = self.stretch.apply(&vector::subtract(x, &self.mean));
+            *moved = std::array::from_fn(|a| self.mean[a] + self.shift[a] + stretched[a]);
+        }
+    }
+}
+
+/// Sample moments of positions and scores.
+struct SteinMoments<const D: usize> {
+    mean: [f64; D],
+    covariance: Matrix<D>,
+    mean_score: [f64; D],
+    /// −E[s (x − x̄)ᵀ].
+    stein: Matrix<D>,
+}
+
+impl<const D: usize> SteinMoments<D> {
+    fn of(positions: &[[f64; D]], scores: &[[f64; D]]) -> Self {
+        let share = 1.0 / positions.len() as f64;
+        let (mut mean, mut mean_score) = ([0.0; D], [0.0; D]);
+        for (x, s) in positions.iter().zip(scores) {
+            vector::accumulate(&mut mean, share, x);
+            vector::accumulate(&mut mean_score, share, s);
+        }
+        let (mut covariance, mut stein) = (Matrix::<D>::ZERO, Matrix::<D>::ZERO);
+        for (x, s) in positions.iter().zip(scores) {
+            let x = vector::subtract(x, &mean);
+            for a in 0..D {
+                for b in 0..D {
+                    covariance.0[a][b] += share * x[a] * x[b];
+                    stein.0[a][b] -= share * s[a] * x[b];
+                }
+            }
+        }
+        Self {
+            mean,
+            covariance,
+            mean_score,
+            stein,
+        }
+    }
+
+    /// |E[s]|² + ‖I + E[s (x − x̄)ᵀ]‖².
+    fn defect(&self) -> f64 {
+        self.defect_product(self)
+    }
+
+    /// The scalar product whose square is the defect.
+    fn defect_product(&self, other: &Self) -> f64 {
+        let (ours, theirs) = (Matrix::IDENTITY - self.stein, Matrix::IDENTITY - other.stein);
+        vector::dot(&self.mean_score, &other.mean_score) + ours.contract(&theirs)
+    }
+
+    /// Share of a step from here to `after` at which the defect, taken as linear along it, is least; in [0, 1].
+    fn secant(&self, after: &Self) -> f64 {
+        let product = self.defect_product(after);
+        let change = self.defect() - 2.0 * product + after.defect();
+        let share = (self.defect() - product) / change;
+        if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.0 }
+    }
+
+    fn newton_step(&self) -> Option<AffineStep<D>> {
+        let of_covariance = SymmetricEigen::new(&self.covariance)?;
+        let root = of_covariance.map(f64::sqrt);
+        let inverse_root = of_covariance.map(|value| value.sqrt().recip());
+        let curvature = (self.stein * (inverse_root * inverse_root)).symmetric_part();
+        let inverse = |value: f64| if value > 0.0 { value.recip() } else { f64::NAN };
+        let inverse_curvature = SymmetricEigen::new(&curvature)?.map(inverse);
+        let middle = SymmetricEigen::new(&(root * inverse_curvature * root).symmetric_part())?.map(f64::sqrt);
+        Some(AffineStep {
+            mean: self.mean,
+            shift: inverse_curvature.apply(&self.mean_score),
+            stretch: inverse_root * middle * inverse_root,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use parvi_targets::{Banana, Frame, Gaussian, Target};
+
+    use super::*;
+    use crate::Run;
+
+    fn corrected<const D: usize>(target: &dyn Target<D>, positions: &[[f64; D]]) -> (Vec<[f64; D]>, f64, f64) {
+        let frame = Frame::identity();
+        let mut score = FramedScore::new(target, &frame);
+        let mut scores = vec![[0.0; D]; positions.len()];
+        score.evaluate(positions, &mut scores).unwrap();
+        let before = SteinMoments::of(positions, &scores).defect();
+        let mut moved = positions.to_vec();
+        correct_moments(&mut moved, &mut score, &mut scores).unwrap();
+        let after = SteinMoments::of(&moved, &scores).defect();
+        let mut fresh = vec![[0.0; D]; positions.len()];
+        score.evaluate(&moved, &mut fresh).unwrap();
+        assert_eq!(scores, fresh, "scores are those at the final positions");
+        (moved, before, after)
+    }
+
+    #[test]
+    fn gaussian_moments_become_exact() {
+        let covariance = Matrix([[1.05, 0.06, 0.0], [0.06, 0.95, -0.04], [0.0, -0.04, 1.02]]);
+        let mean = [0.03, -0.05, 0.02];
+        let target = Gaussian::new(mean, covariance).unwrap();
+        let start = Run::new(2000, 3).start_positions::<3>().unwrap();
+        let (moved, _, after) = corrected(&target, &start);
+        assert!(after < 1e-24, "{after}");
+        let moments = SteinMoments::of(&moved, &moved);
+        assert!((moments.covariance - covariance).frobenius_norm() < 1e-12);
+        assert!(vector::distance(&moments.mean, &mean) < 1e-12);
+    }
+
+    #[test]
+    fn never_enlarges_the_defect() {
+        let target = Banana::new(1.0, 0.5).unwrap();
+        for seed in 0..20 {
+            let start: Vec<[f64; 2]> = Run::new(300, seed).start_positions::<2>().unwrap();
+            let on_the_banana: Vec<_> = start.iter().map(|z| [z[0], z[0] * z[0] - 1.0 + 0.5 * z[1]]).collect();
+            let (_, before, after) = corrected(&target, &on_the_banana);
+            assert!(after <= before, "{before} -> {after}");
+        }
+    }
+
+    #[test]
+    fn a_move_that_is_no_correction_is_left_undone() {
+        let target = Gaussian::<2>::standard();
+        let far: Vec<[f64; 2]> = Run::new(50, 1).start_positions::<2>().unwrap();
+        let far: Vec<_> = far.iter().map(|x| [x[0] + 5.0, x[1]]).collect();
+        assert_eq!(corrected(&target, &far).0, far);
+    }
 }

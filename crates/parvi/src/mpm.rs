@@ -83,10 +83,19 @@ impl MpmOptions {
         observer: &mut dyn Observer,
     ) -> Result<Samples<D>, SampleError> {
         let steps = steps(self.steps, defaults::STEPS)?;
-        let spacing = positive("spacing", self.spacing, defaults::spacing::<D>(self.basis, run.particles))?;
+        let spacing = positive(
+            "spacing",
+            self.spacing,
+            defaults::spacing::<D>(self.basis, run.particles),
+        )?;
         let time_step = positive("time step", self.time_step, defaults::time_step(spacing))?;
         let friction = self.friction.unwrap_or(defaults::FRICTION);
-        check("friction", friction, friction >= 0.0 && friction.is_finite(), "at least 0 and finite")?;
+        check(
+            "friction",
+            friction,
+            friction >= 0.0 && friction.is_finite(),
+            "at least 0 and finite",
+        )?;
         let displacement = positive("displacement limit", Some(self.displacement_limit), 0.0)?;
         let control = StepControl {
             time_step,

@@ -8,7 +8,9 @@ use parvi_targets::{Frame, Target};
 use crate::drive::{Plan, PlannedStep, drive};
 use crate::framed_score::{FramedScore, ScoreAtNodes, ScoreAtParticles, ScoreForce};
 use crate::start::{check, positive, steps};
-use crate::{Annealing, BasisChoice, Elasticity, Observer, PaperOptions, Run, SampleError, Samples, ScoreLocation, defaults};
+use crate::{
+    Annealing, BasisChoice, Elasticity, Observer, PaperOptions, Run, SampleError, Samples, ScoreLocation, defaults,
+};
 
 /// What every layer of the dispatch hands on.
 struct Job<'a, const D: usize> {
@@ -76,7 +78,12 @@ impl PaperOptions {
             }
             ScoreLocation::Nodes => {
                 let floor = self.guards.mass_floor;
-                check("mass floor", floor, floor >= 0.0 && floor.is_finite(), "at least 0 and finite")?;
+                check(
+                    "mass floor",
+                    floor,
+                    floor >= 0.0 && floor.is_finite(),
+                    "at least 0 and finite",
+                )?;
                 let force = ScoreAtNodes {
                     score,
                     alpha: 1.0,
@@ -95,7 +102,11 @@ impl PaperOptions {
         job: Job<D>,
     ) -> Result<Samples<D>, SampleError> {
         let steps = steps(self.steps, defaults::PAPER_STEPS)?;
-        let spacing = positive("spacing", self.spacing, defaults::spacing::<D>(self.basis, job.run.particles))?;
+        let spacing = positive(
+            "spacing",
+            self.spacing,
+            defaults::spacing::<D>(self.basis, job.run.particles),
+        )?;
         let optional = |field, value: Option<f64>| value.map_or(Ok(f64::INFINITY), |_| positive(field, value, 0.0));
         let control = StepControl {
             time_step: positive("time step", self.time_step, defaults::time_step(spacing))?,
@@ -121,7 +132,12 @@ impl PaperOptions {
             trace_every: self.trace_every,
         };
         let medium = Elastic { material: job.material };
-        drive(Mpm::new(particles, grid, transfer, medium, force), job.frame, plan, job.observer)
+        drive(
+            Mpm::new(particles, grid, transfer, medium, force),
+            job.frame,
+            plan,
+            job.observer,
+        )
     }
 }
 

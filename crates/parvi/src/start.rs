@@ -26,7 +26,12 @@ impl Run {
     pub(crate) fn start_positions<const D: usize>(&self) -> Result<Vec<[f64; D]>, SampleError> {
         let count = self.checked_particles()?;
         let sd = self.start.standard_deviation;
-        check("start standard deviation", sd, sd > 0.0 && sd.is_finite(), "positive and finite")?;
+        check(
+            "start standard deviation",
+            sd,
+            sd > 0.0 && sd.is_finite(),
+            "positive and finite",
+        )?;
         check("start mean", self.start.mean, self.start.mean.is_finite(), "finite")?;
         let mut generator = self.generator(0);
         let mut coordinate = || {

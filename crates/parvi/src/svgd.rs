@@ -29,7 +29,12 @@ impl SvgdOptions {
         let steps = steps(self.steps, defaults::SVGD_STEPS)?;
         let rate = positive("step size", Some(self.step_size), 0.0)?;
         if let Some(bandwidth) = self.bandwidth {
-            check("bandwidth", bandwidth, bandwidth > 0.0 && bandwidth.is_finite(), "positive and finite")?;
+            check(
+                "bandwidth",
+                bandwidth,
+                bandwidth > 0.0 && bandwidth.is_finite(),
+                "positive and finite",
+            )?;
         }
         let mut positions = run.start_positions::<D>()?;
         let mut score = FramedScore::new(target, frame);

@@ -32,7 +32,8 @@ pub struct Guards {
     pub mass_weighted_force: bool,
     /// Limit Δt by the wave speed and the particle velocity: Δt ≤ C h / (c + |v|) (`None`: off).
     pub courant: Option<f64>,
-    /// Largest displacement of a node per step in units of h (`None`: off).
+    /// Largest displacement of a node per step in units of h (`None`: off). Below 1/(2d) no particle can be turned inside
+    /// out in a step: quadratic B-splines give |Δt ∂v_a/∂x_b| ≤ 2 · limit.
     pub displacement_limit: Option<f64>,
 }
 
@@ -42,7 +43,7 @@ impl Default for Guards {
             mass_floor: 0.1,
             mass_weighted_force: true,
             courant: Some(0.5),
-            displacement_limit: Some(0.5),
+            displacement_limit: Some(0.2),
         }
     }
 }
