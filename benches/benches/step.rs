@@ -1,7 +1,7 @@
 //! Time per particle of one calibrated step (isothermal gas in a Gaussian well, PIC), rebuild and sorting included.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use mpm_core::{BodyForce, Mpm, MpmError, Particles, Pic, SplineGrid, StepControl};
+use mpm_core::{BodyForce, ForceLocation, Mpm, MpmError, Particles, Pic, SplineGrid, StepControl};
 use mpm_materials::IsothermalGas;
 use mpm_kernels::{Cubic, Linear, Quadratic, Spline};
 use rand::{SeedableRng, rngs::ChaCha8Rng};
@@ -11,8 +11,9 @@ use rand_distr::{Distribution, StandardNormal};
 struct Well;
 
 impl<const D: usize> BodyForce<D> for Well {
-    const AT_PARTICLES: bool = true;
-    const AT_NODES: bool = false;
+    fn location(&self) -> ForceLocation {
+        ForceLocation::Particles
+    }
     fn at_particles(&mut self, xs: &[[f64; D]], out: &mut [[f64; D]]) -> Result<(), MpmError> {
         for (x, g) in xs.iter().zip(out) {
             *g = x.map(|c| -c);

@@ -2,14 +2,23 @@
 
 use crate::MpmError;
 
-/// An external force. What a force does not use ([`AT_PARTICLES`](Self::AT_PARTICLES),
-/// [`AT_NODES`](Self::AT_NODES)) is neither stored nor computed.
-pub trait BodyForce<const D: usize>: Sync {
-    /// Whether [`at_particles`](Self::at_particles) gives accelerations.
-    const AT_PARTICLES: bool;
+/// Where an external force acts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ForceLocation {
+    /// There is none.
+    Nowhere,
+    /// Per unit mass at the particles ([`BodyForce::at_particles`]).
+    Particles,
+    /// At the nodes ([`BodyForce::at_nodes`]).
+    Nodes,
+}
 
-    /// Whether [`at_nodes`](Self::at_nodes) gives forces.
-    const AT_NODES: bool;
+/// An external force. What a force does not use is neither stored nor computed.
+///
+/// The location is a value and not a type: the step looks at it once per particle, and is compiled half as often.
+pub trait BodyForce<const D: usize>: Sync {
+    /// Where the force acts; asked once per step.
+    fn location(&self) -> ForceLocation;
 
     /// Force per unit mass at every particle, in the order of `positions`. Every entry of `accelerations` has to be set: it
     /// holds a value of an earlier step.
@@ -42,6 +51,7 @@ pub trait BodyForce<const D: usize>: Sync {
 pub struct NoBodyForce;
 
 impl<const D: usize> BodyForce<D> for NoBodyForce {
-    const AT_PARTICLES: bool = false;
-    const AT_NODES: bool = false;
+    fn location(&self) -> ForceLocation {
+        ForceLocation::Nowhere
+    }
 }

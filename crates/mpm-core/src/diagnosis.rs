@@ -1,6 +1,6 @@
 //! What made a nodal velocity something other than a number; looked for only once it has happened.
 
-use crate::{Basis, BodyForce, GridNode, Medium, Mpm, MpmError, Transfer};
+use crate::{Basis, BodyForce, ForceLocation, GridNode, Medium, Mpm, MpmError, Transfer};
 
 impl<const D: usize, B, T, M, F> Mpm<D, B, T, M, F>
 where
@@ -11,7 +11,7 @@ where
 {
     /// The first force at a particle, else the first force at a node, else the first nodal velocity that is not finite.
     pub(crate) fn what_is_not_finite(&mut self) -> MpmError {
-        if F::AT_PARTICLES
+        if self.body_force.location() == ForceLocation::Particles
             && let Some(index) = first_not_finite(&self.accelerations)
         {
             return self.particles.name(MpmError::BodyForceNotFinite {
@@ -21,7 +21,7 @@ where
             });
         }
         self.basis.node_positions(&mut self.node_positions);
-        if F::AT_NODES
+        if self.body_force.location() == ForceLocation::Nodes
             && let Some(index) = first_not_finite(&self.node_forces)
         {
             return MpmError::BodyForceNotFinite {

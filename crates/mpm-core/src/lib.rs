@@ -15,7 +15,7 @@ mod step;
 mod transfer;
 
 pub use basis::Basis;
-pub use body_force::{BodyForce, NoBodyForce};
+pub use body_force::{BodyForce, ForceLocation, NoBodyForce};
 pub use control::{StepControl, StepReport};
 pub use error::MpmError;
 pub use grid::SplineGrid;

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use crate::largest::larger_or_nan;
 use crate::transfer::{GridNode, Moving, Transfer, gather, scatter};
-use crate::{Basis, BodyForce, Medium, Mpm, MpmError, StepControl, StepReport, StressImpulse};
+use crate::{Basis, BodyForce, ForceLocation, Medium, Mpm, MpmError, StepControl, StepReport, StressImpulse};
 
 impl<const D: usize, B, T, M, F> Mpm<D, B, T, M, F>
 where
@@ -58,7 +58,7 @@ where
 
     /// Force per unit mass at the particles.
     fn evaluate_particle_forces(&mut self) -> Result<(), MpmError> {
-        if F::AT_PARTICLES {
+        if self.body_force.location() == ForceLocation::Particles {
             self.accelerations.resize(self.particles.len(), [0.0; D]);
             self.body_force
                 .at_particles(&self.particles.positions, &mut self.accelerations)
@@ -73,12 +73,13 @@ where
         self.nodes.resize(self.basis.node_count(), T::Node::default());
         let (particles, medium, basis) = (&self.particles, &self.medium, &self.basis);
         let accelerations = &self.accelerations;
+        let pulled = self.body_force.location() == ForceLocation::Particles;
         scatter(basis, &particles.positions, &mut self.nodes, |p, x, stencil| {
             let mass = particles.masses.get(p);
             let momentum = particles.velocities[p].map(|v| mass * v);
             let stress = medium.impulse(particles, p, dt);
             let mut value = if T::INCREMENTAL { [0.0; D] } else { momentum };
-            if F::AT_PARTICLES {
+            if pulled {
                 for a in 0..D {
                     value[a] += dt * mass * accelerations[p][a];
                 }
@@ -102,7 +103,7 @@ where
 
     /// Force at the nodes themselves.
     fn evaluate_node_forces(&mut self) -> Result<(), MpmError> {
-        if F::AT_NODES {
+        if self.body_force.location() == ForceLocation::Nodes {
             self.basis.node_positions(&mut self.node_positions);
             self.node_forces.resize(self.nodes.len(), [0.0; D]);
             let nodes = &self.nodes;
@@ -115,12 +116,9 @@ where
     /// v_i ← damping (v_i + Δt f_i / m_i), shortened to the limit; returns the largest speed before.
     fn update_grid(&mut self, dt: f64, damping: f64, speed_limit: f64) -> Result<f64, MpmError> {
         let forces = &self.node_forces;
+        let pulled = self.body_force.location() == ForceLocation::Nodes;
         let advance = |(i, node): (usize, &mut T::Node)| {
-            let impulse = if F::AT_NODES {
-                forces[i].map(|f| dt * f)
-            } else {
-                [0.0; D]
-            };
+            let impulse = if pulled { forces[i].map(|f| dt * f) } else { [0.0; D] };
             node.advance(&impulse, damping, speed_limit)
         };
         let nodes = self.nodes.par_iter_mut().with_min_len(4096).enumerate();

@@ -34,8 +34,8 @@ pub(crate) struct Plan<P> {
 }
 
 /// Run `body` as planned; its particles are in frame coordinates, the result in the target's.
-pub(crate) fn drive<'a, S, T, M, F, P, const W: usize, const D: usize>(
-    mut body: Mpm<D, SplineGrid<S, W, D>, T, M, F>,
+pub(crate) fn drive<S, T, M, P, const W: usize, const D: usize>(
+    mut body: Mpm<D, SplineGrid<S, W, D>, T, M, ScoreForce<'_, D>>,
     frame: &Frame<D>,
     mut plan: Plan<P>,
     observer: &mut dyn Observer,
@@ -44,7 +44,6 @@ where
     S: Spline<W>,
     T: Transfer<D>,
     M: Medium<D>,
-    F: ScoreForce<'a, D>,
     P: FnMut(usize) -> PlannedStep<D>,
 {
     let (steps, spacing) = (plan.steps, plan.spacing);
@@ -56,13 +55,13 @@ where
         let failed = |error| SampleError::in_step(step, error);
         let planned = (plan.step)(step);
         body.basis.place(planned.origin, spacing).map_err(failed)?;
-        body.body_force.set_alpha(planned.alpha);
+        body.body_force.alpha = planned.alpha;
         let report = body.step(&planned.control).map_err(failed)?;
         time += report.time_step;
         active_nodes = report.active_nodes;
         if plan.trace_every > 0 && (step % plan.trace_every == 0 || step == 1) {
             let positions = &body.particles.positions;
-            let score = body.body_force.score();
+            let score = &mut body.body_force.score;
             score.evaluate(positions, &mut scores).map_err(failed)?;
             away_from(&mut certificate, planned.origin, spacing).map_err(failed)?;
             let residual = galerkin_stein_residual(&mut certificate, positions, &scores).map_err(failed)?;
@@ -82,7 +81,7 @@ where
 
     let failed = |error| SampleError::in_step(steps, error);
     let storage_bytes = body.storage_bytes();
-    let score = body.body_force.score();
+    let score = &mut body.body_force.score;
     let positions = &mut body.particles.positions;
     if plan.moment_correction {
         correct_moments(positions, score, &mut scores).map_err(failed)?;

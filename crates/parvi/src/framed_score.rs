@@ -1,9 +1,11 @@
 //! The score as a body force in the coordinates of the frame.
 
-use mpm_core::{BodyForce, MpmError};
+use mpm_core::{BodyForce, ForceLocation, MpmError};
 use parvi_targets::{Frame, Target};
 
-/// Scores of `target` pulled back to frame coordinates: x = μ + L z, s_z = Lᵀ ∇ log p(x), times α.
+use crate::ScoreLocation;
+
+/// Scores of `target` pulled back to frame coordinates: x = μ + L z, s_z = Lᵀ ∇ log p(x).
 pub(crate) struct FramedScore<'a, const D: usize> {
     pub target: &'a (dyn Target<D> + 'a),
     pub frame: &'a Frame<D>,
@@ -51,45 +53,27 @@ impl<'a, const D: usize> FramedScore<'a, D> {
     }
 }
 
-/// A body force that is a score, times a factor α that a schedule may change.
-pub(crate) trait ScoreForce<'a, const D: usize>: BodyForce<D> {
-    /// Set α.
-    fn set_alpha(&mut self, alpha: f64);
-
-    /// The score behind the force.
-    fn score(&mut self) -> &mut FramedScore<'a, D>;
-}
-
-impl<'a, const D: usize> ScoreForce<'a, D> for ScoreAtParticles<'a, D> {
-    fn set_alpha(&mut self, alpha: f64) {
-        self.alpha = alpha;
-    }
-
-    fn score(&mut self) -> &mut FramedScore<'a, D> {
-        &mut self.score
-    }
-}
-
-impl<'a, const D: usize> ScoreForce<'a, D> for ScoreAtNodes<'a, D> {
-    fn set_alpha(&mut self, alpha: f64) {
-        self.alpha = alpha;
-    }
-
-    fn score(&mut self) -> &mut FramedScore<'a, D> {
-        &mut self.score
-    }
-}
-
-/// The score at the particles, as a force per unit mass (paper, Eq. 5).
-pub(crate) struct ScoreAtParticles<'a, const D: usize> {
+/// The score as the force of a step, times a factor α that a schedule may change.
+pub(crate) struct ScoreForce<'a, const D: usize> {
+    /// The score.
     pub score: FramedScore<'a, D>,
     /// Factor α.
     pub alpha: f64,
+    /// At the particles as a force per unit mass (paper, Eq. 5), or at the nodes (Eq. 3).
+    pub location: ScoreLocation,
+    /// At the nodes: f_i = m_i α s(x_i), a force per unit mass, instead of α s(x_i).
+    pub mass_weighted: bool,
+    /// At the nodes: those lighter than this receive no force.
+    pub mass_floor: f64,
 }
 
-impl<const D: usize> BodyForce<D> for ScoreAtParticles<'_, D> {
-    const AT_PARTICLES: bool = true;
-    const AT_NODES: bool = false;
+impl<const D: usize> BodyForce<D> for ScoreForce<'_, D> {
+    fn location(&self) -> ForceLocation {
+        match self.location {
+            ScoreLocation::Particles => ForceLocation::Particles,
+            ScoreLocation::Nodes => ForceLocation::Nodes,
+        }
+    }
 
     fn at_particles(&mut self, positions: &[[f64; D]], accelerations: &mut [[f64; D]]) -> Result<(), MpmError> {
         self.score.evaluate(positions, accelerations)?;
@@ -100,22 +84,6 @@ impl<const D: usize> BodyForce<D> for ScoreAtParticles<'_, D> {
         }
         Ok(())
     }
-}
-
-/// The score at the nodes (paper, Eq. 3): f_i = α s(x_i), or m_i α s(x_i) with `mass_weighted`.
-pub(crate) struct ScoreAtNodes<'a, const D: usize> {
-    pub score: FramedScore<'a, D>,
-    /// Factor α.
-    pub alpha: f64,
-    /// Multiply by the nodal mass, which makes α s a force per unit mass.
-    pub mass_weighted: bool,
-    /// Nodes lighter than this receive no force.
-    pub mass_floor: f64,
-}
-
-impl<const D: usize> BodyForce<D> for ScoreAtNodes<'_, D> {
-    const AT_PARTICLES: bool = false;
-    const AT_NODES: bool = true;
 
     fn at_nodes(
         &mut self,

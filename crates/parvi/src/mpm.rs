@@ -7,10 +7,10 @@ use parvi_targets::{Frame, Target};
 use rand::RngExt;
 
 use crate::drive::{Plan, PlannedStep, drive};
-use crate::framed_score::{FramedScore, ScoreAtNodes, ScoreAtParticles, ScoreForce};
+use crate::framed_score::{FramedScore, ScoreForce};
 use crate::kronecker::Kronecker;
 use crate::start::{check, positive, steps};
-use crate::{BasisChoice, MpmOptions, Observer, Run, SampleError, Samples, ScoreLocation, TransferChoice, defaults};
+use crate::{BasisChoice, MpmOptions, Observer, Run, SampleError, Samples, TransferChoice, defaults};
 
 impl MpmOptions {
     /// Sample `target` in the coordinates of `frame`.
@@ -39,45 +39,19 @@ impl MpmOptions {
         observer: &mut dyn Observer,
     ) -> Result<Samples<D>, SampleError> {
         match self.transfer {
-            TransferChoice::Pic => self.with_transfer::<S, Pic, W, D>(Pic, target, frame, run, observer),
-            TransferChoice::Apic => self.with_transfer::<S, Apic, W, D>(Apic, target, frame, run, observer),
+            TransferChoice::Pic => self.run::<S, Pic, W, D>(Pic, target, frame, run, observer),
+            TransferChoice::Apic => self.run::<S, Apic, W, D>(Apic, target, frame, run, observer),
             TransferChoice::Flip(share) => {
                 check("FLIP share", share, (0.0..=1.0).contains(&share), "in [0, 1]")?;
-                self.with_transfer::<S, Flip, W, D>(Flip { share }, target, frame, run, observer)
+                self.run::<S, Flip, W, D>(Flip { share }, target, frame, run, observer)
             }
         }
     }
 
-    fn with_transfer<S: Spline<W>, T: Transfer<D>, const W: usize, const D: usize>(
+    fn run<S: Spline<W>, T: Transfer<D>, const W: usize, const D: usize>(
         &self,
         transfer: T,
         target: &dyn Target<D>,
-        frame: &Frame<D>,
-        run: &Run,
-        observer: &mut dyn Observer,
-    ) -> Result<Samples<D>, SampleError> {
-        let score = FramedScore::new(target, frame);
-        match self.score_location {
-            ScoreLocation::Particles => {
-                let force = ScoreAtParticles { score, alpha: 1.0 };
-                self.run::<S, _, _, W, D>(transfer, force, frame, run, observer)
-            }
-            ScoreLocation::Nodes => {
-                let force = ScoreAtNodes {
-                    score,
-                    alpha: 1.0,
-                    mass_weighted: true,
-                    mass_floor: 0.0,
-                };
-                self.run::<S, _, _, W, D>(transfer, force, frame, run, observer)
-            }
-        }
-    }
-
-    fn run<'a, S: Spline<W>, T: Transfer<D>, F: ScoreForce<'a, D>, const W: usize, const D: usize>(
-        &self,
-        transfer: T,
-        force: F,
         frame: &Frame<D>,
         run: &Run,
         observer: &mut dyn Observer,
@@ -123,6 +97,13 @@ impl MpmOptions {
             },
             moment_correction: self.moment_correction,
             trace_every: self.trace_every,
+        };
+        let force = ScoreForce {
+            score: FramedScore::new(target, frame),
+            alpha: 1.0,
+            location: self.score_location,
+            mass_weighted: true,
+            mass_floor: 0.0,
         };
         let body = Mpm::new(particles, grid, transfer, gas, force);
         drive(body, frame, plan, observer)

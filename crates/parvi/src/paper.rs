@@ -6,11 +6,9 @@ use mpm_materials::{ElasticModuli, LinearElastic, Material, NeoHookean};
 use parvi_targets::{Frame, Target};
 
 use crate::drive::{Plan, PlannedStep, drive};
-use crate::framed_score::{FramedScore, ScoreAtNodes, ScoreAtParticles, ScoreForce};
+use crate::framed_score::{FramedScore, ScoreForce};
 use crate::start::{check, positive, steps};
-use crate::{
-    Annealing, BasisChoice, Elasticity, Observer, PaperOptions, Run, SampleError, Samples, ScoreLocation, defaults,
-};
+use crate::{Annealing, BasisChoice, Elasticity, Observer, PaperOptions, Run, SampleError, Samples, defaults};
 
 /// What every layer of the dispatch hands on.
 struct Job<'a, const D: usize> {
@@ -59,46 +57,15 @@ impl PaperOptions {
         job: Job<D>,
     ) -> Result<Samples<D>, SampleError> {
         if self.affine {
-            self.with_transfer::<S, Apic, W, D>(Apic, job)
+            self.run::<S, Apic, W, D>(Apic, job)
         } else {
-            self.with_transfer::<S, Pic, W, D>(Pic, job)
+            self.run::<S, Pic, W, D>(Pic, job)
         }
     }
 
-    fn with_transfer<S: Spline<W>, T: Transfer<D>, const W: usize, const D: usize>(
+    fn run<S: Spline<W>, T: Transfer<D>, const W: usize, const D: usize>(
         &self,
         transfer: T,
-        job: Job<D>,
-    ) -> Result<Samples<D>, SampleError> {
-        let score = FramedScore::new(job.target, job.frame);
-        match self.score_location {
-            ScoreLocation::Particles => {
-                let force = ScoreAtParticles { score, alpha: 1.0 };
-                self.run::<S, _, _, W, D>(transfer, force, job)
-            }
-            ScoreLocation::Nodes => {
-                let floor = self.guards.mass_floor;
-                check(
-                    "mass floor",
-                    floor,
-                    floor >= 0.0 && floor.is_finite(),
-                    "at least 0 and finite",
-                )?;
-                let force = ScoreAtNodes {
-                    score,
-                    alpha: 1.0,
-                    mass_weighted: self.guards.mass_weighted_force,
-                    mass_floor: floor / job.run.particles.max(1) as f64,
-                };
-                self.run::<S, _, _, W, D>(transfer, force, job)
-            }
-        }
-    }
-
-    fn run<'a, S: Spline<W>, T: Transfer<D>, F: ScoreForce<'a, D>, const W: usize, const D: usize>(
-        &self,
-        transfer: T,
-        force: F,
         job: Job<D>,
     ) -> Result<Samples<D>, SampleError> {
         let steps = steps(self.steps, defaults::PAPER_STEPS)?;
@@ -130,6 +97,20 @@ impl PaperOptions {
             },
             moment_correction: false,
             trace_every: self.trace_every,
+        };
+        let floor = self.guards.mass_floor;
+        check(
+            "mass floor",
+            floor,
+            floor >= 0.0 && floor.is_finite(),
+            "at least 0 and finite",
+        )?;
+        let force = ScoreForce {
+            score: FramedScore::new(job.target, job.frame),
+            alpha: 1.0,
+            location: self.score_location,
+            mass_weighted: self.guards.mass_weighted_force,
+            mass_floor: floor / job.run.particles as f64,
         };
         let medium = Elastic { material: job.material };
         drive(
