@@ -3,9 +3,7 @@
 use super::chart_panel::draw_panel;
 use super::data::{PlotError, check_size};
 use super::legend::{LegendEntry, Swatch, draw_legend, draw_notes, draw_title};
-use super::panel::{
-    AxesParts, Panel, label_lines, label_room, x_axis_room, x_ticks, y_tick_room, y_ticks,
-};
+use super::panel::{AxesParts, Panel, label_lines, label_room, x_axis_room, x_ticks, y_tick_room, y_ticks};
 use super::scale::{AxisKind, Scale, Ticks, plottable};
 use super::style::{FIGURE_WIDTH, GUIDE, LABEL_SIZE, MARGIN, SeriesStyle};
 use super::svg::{Drawing, Rectangle, Stroke};
@@ -125,8 +123,7 @@ impl Chart {
             .collect();
         let gap = 10.0;
         let right = MARGIN + 8.0;
-        let taken: f64 =
-            left_rooms.iter().sum::<f64>() + gap * (columns - 1) as f64 + MARGIN + right;
+        let taken: f64 = left_rooms.iter().sum::<f64>() + gap * (columns - 1) as f64 + MARGIN + right;
         let panel_width = ((self.width - taken) / columns as f64).max(40.0);
 
         let mut drawing = Drawing::new(&self.title);
@@ -134,12 +131,7 @@ impl Chart {
         let mut top = MARGIN + draw_title(&mut drawing, (MARGIN, MARGIN), room, &self.title);
         let entries = self.legend_entries();
         let indent = MARGIN + left_rooms[0];
-        let legend = draw_legend(
-            &mut drawing,
-            (indent, top),
-            self.width - indent - MARGIN,
-            &entries,
-        );
+        let legend = draw_legend(&mut drawing, (indent, top), self.width - indent - MARGIN, &entries);
         top += if legend > 0.0 { legend + 6.0 } else { 2.0 };
 
         let title_room = if titled { LABEL_SIZE + 5.0 } else { 4.0 };
@@ -159,17 +151,13 @@ impl Chart {
         let mut row_tops = vec![top];
         for row in 0..rows {
             let members = row * columns..((row + 1) * columns).min(self.panels.len());
-            let lines = members.map(|index| {
-                label_lines(x_label(index), x_ticks[index].exponent, panel_width).len()
-            });
+            let lines = members.map(|index| label_lines(x_label(index), x_ticks[index].exponent, panel_width).len());
             let below = x_axis_room(lines.max().unwrap_or(0)) + 6.0;
             row_tops.push(row_tops[row] + title_room + self.panel_height + below);
         }
         for (index, (panel, prepared)) in self.panels.iter().zip(&prepared).enumerate() {
             let (row, column) = (index / columns, index % columns);
-            let left = MARGIN
-                + left_rooms[..=column].iter().sum::<f64>()
-                + column as f64 * (panel_width + gap);
+            let left = MARGIN + left_rooms[..=column].iter().sum::<f64>() + column as f64 * (panel_width + gap);
             let axes = Panel {
                 area: Rectangle {
                     x: left,
@@ -212,8 +200,7 @@ impl Chart {
                     check_size(what, series.y.len(), series.bars.len())?;
                 }
                 let pairs = series.x.iter().zip(&series.y).enumerate();
-                for (index, (x, y)) in pairs.filter(|(_, (x, y))| plottable(**x) && plottable(**y))
-                {
+                for (index, (x, y)) in pairs.filter(|(_, (x, y))| plottable(**x) && plottable(**y)) {
                     abscissas.push(*x);
                     ordinates.push(*y);
                     if let Some(bar) = series.bars.get(index) {

@@ -7,12 +7,7 @@ use super::svg::{Drawing, Stroke};
 use super::text::{Anchor, TextStyle};
 
 /// Draws one panel: grid, levels, lines, bars, markers, axes and title.
-pub(super) fn draw_panel(
-    drawing: &mut Drawing,
-    axes: &Panel,
-    panel: &ChartPanel,
-    parts: &AxesParts<'_>,
-) {
+pub(super) fn draw_panel(drawing: &mut Drawing, axes: &Panel, panel: &ChartPanel, parts: &AxesParts<'_>) {
     let area = axes.area;
     axes.draw_grid(drawing, &parts.x_ticks, &parts.y_ticks);
     drawing.clipped(area, |drawing| {

@@ -1,13 +1,9 @@
 //! One cloud of particles in the plane over the target's contours.
 
 use super::data::{PlotError, PointCloud, Reference, coordinate_labels};
-use super::density_panel::{
-    cloud_notes, contour_entry, draw_cloud, outside, pair_density, particle_entry,
-};
+use super::density_panel::{cloud_notes, contour_entry, draw_cloud, outside, pair_density, particle_entry};
 use super::legend::{draw_legend, draw_notes, draw_title};
-use super::panel::{
-    AxesParts, Panel, label_lines, label_room, x_axis_room, x_ticks, y_tick_room, y_ticks,
-};
+use super::panel::{AxesParts, Panel, label_lines, label_room, x_axis_room, x_ticks, y_tick_room, y_ticks};
 use super::style::{FIGURE_WIDTH, MARGIN};
 use super::svg::{Drawing, Rectangle};
 

@@ -42,11 +42,7 @@ fn cell_sizes(nodes: &[f64]) -> Vec<f64> {
         .map(|index| {
             let below = nodes[index.saturating_sub(1)];
             let above = nodes[(index + 1).min(nodes.len() - 1)];
-            if nodes.len() < 2 {
-                1.0
-            } else {
-                0.5 * (above - below)
-            }
+            if nodes.len() < 2 { 1.0 } else { 0.5 * (above - below) }
         })
         .collect()
 }
@@ -66,9 +62,7 @@ pub fn contour_lines(grid: &DensityGrid, level: f64) -> Vec<Vec<(f64, f64)>> {
     let crossing = |edge: (usize, usize)| {
         let (first, second) = (value(edge.0), value(edge.1));
         let fraction = (level - first) / (second - first);
-        let along = |nodes: &[f64], from: usize, to: usize| {
-            nodes[from] + fraction * (nodes[to] - nodes[from])
-        };
+        let along = |nodes: &[f64], from: usize, to: usize| nodes[from] + fraction * (nodes[to] - nodes[from]);
         (
             along(&grid.x, edge.0 % columns, edge.1 % columns),
             along(&grid.y, edge.0 / columns, edge.1 / columns),

@@ -2,13 +2,11 @@
 
 use super::data::{PlotError, PointCloud, Reference, coordinate_labels};
 use super::density_panel::{
-    Marginal, REFERENCE_SWATCH, cloud_notes, contour_entry, draw_cloud, marginal_entries, outside,
-    pair_density, particle_entry,
+    Marginal, REFERENCE_SWATCH, cloud_notes, contour_entry, draw_cloud, marginal_entries, outside, pair_density,
+    particle_entry,
 };
 use super::legend::{draw_legend, draw_notes, draw_title, entry_width};
-use super::panel::{
-    AxesParts, Panel, label_lines, label_room, x_axis_room, x_ticks, y_tick_room, y_ticks,
-};
+use super::panel::{AxesParts, Panel, label_lines, label_room, x_axis_room, x_ticks, y_tick_room, y_ticks};
 use super::scale::{Scale, Ticks};
 use super::style::{FIGURE_WIDTH, MARGIN};
 use super::svg::{Drawing, Rectangle};
@@ -55,13 +53,9 @@ pub fn corner(plot: &CornerPlot<'_>) -> Result<String, PlotError> {
     };
     // The rows' tick labels and axis labels decide the left margin; a first guess of the panels' size decides those.
     let guess = (width - 70.0) / dimension as f64 - GAP;
-    let vertical: Vec<Ticks> = scales
-        .iter()
-        .map(|scale| y_ticks(scale, guess, GAP / 2.0))
-        .collect();
+    let vertical: Vec<Ticks> = scales.iter().map(|scale| y_ticks(scale, guess, GAP / 2.0)).collect();
     let tick_room = vertical.iter().skip(1).map(y_tick_room).fold(8.0, f64::max);
-    let lines =
-        (1..dimension).map(|row| label_lines(&labels[row], vertical[row].exponent, guess).len());
+    let lines = (1..dimension).map(|row| label_lines(&labels[row], vertical[row].exponent, guess).len());
     let left = MARGIN + label_room(lines.max().unwrap_or(1)) + tick_room;
     let size = (width - left - MARGIN - 2.0 - GAP * (dimension - 1) as f64) / dimension as f64;
     let height = if dimension == 1 { 0.6 * size } else { size };
@@ -97,10 +91,7 @@ pub fn corner(plot: &CornerPlot<'_>) -> Result<String, PlotError> {
         top += draw_legend(&mut drawing, (left, top), width - left - MARGIN, &entries) + 8.0;
     }
 
-    let horizontal: Vec<Ticks> = scales
-        .iter()
-        .map(|scale| x_ticks(scale, size, GAP / 2.0))
-        .collect();
+    let horizontal: Vec<Ticks> = scales.iter().map(|scale| x_ticks(scale, size, GAP / 2.0)).collect();
     for row in 0..dimension {
         for column in 0..=row {
             let area = Rectangle {
@@ -148,8 +139,7 @@ pub fn corner(plot: &CornerPlot<'_>) -> Result<String, PlotError> {
     let lines = (0..dimension)
         .map(|axis| label_lines(&labels[axis], horizontal[axis].exponent, size).len())
         .max();
-    let bottom =
-        top + dimension as f64 * (height + GAP) - GAP + x_axis_room(lines.unwrap_or(0)) + 2.0;
+    let bottom = top + dimension as f64 * (height + GAP) - GAP + x_axis_room(lines.unwrap_or(0)) + 2.0;
     let hidden = outside(&columns, &scales);
     let notes = cloud_notes(columns[0].len(), hidden, dimension > 1);
     let notes = draw_notes(&mut drawing, (MARGIN, bottom), room, &notes);

@@ -60,19 +60,12 @@ pub struct PointCloud<'a> {
 impl<'a> PointCloud<'a> {
     /// Points with equal weights.
     pub fn equal(points: &'a [Vec<f64>]) -> PointCloud<'a> {
-        PointCloud {
-            points,
-            weights: None,
-        }
+        PointCloud { points, weights: None }
     }
 
     /// The columns of the cloud after all checks: at least one point, one dimension between the bounds, coordinates that
     /// can be drawn, weights that fit.
-    pub(super) fn columns(
-        &self,
-        smallest: usize,
-        largest: usize,
-    ) -> Result<Vec<Vec<f64>>, PlotError> {
+    pub(super) fn columns(&self, smallest: usize, largest: usize) -> Result<Vec<Vec<f64>>, PlotError> {
         let Some(first) = self.points.first() else {
             return Err(PlotError::Empty {
                 what: "points".to_string(),
@@ -220,12 +213,7 @@ impl CheckedReference<'_> {
     }
 
     /// The scale of coordinate `axis` for particles and reference together.
-    pub(super) fn scale(
-        &self,
-        axis: usize,
-        column: &[f64],
-        weights: Option<&[f64]>,
-    ) -> Result<Scale, PlotError> {
+    pub(super) fn scale(&self, axis: usize, column: &[f64], weights: Option<&[f64]>) -> Result<Scale, PlotError> {
         let (mut low, mut high) = core_interval(column, weights)?;
         if let Some(interval) = self.interval(axis)? {
             low = low.min(interval.0);
@@ -265,25 +253,16 @@ fn support(nodes: &[f64], density: impl Fn(usize) -> f64) -> Option<(f64, f64)> 
 }
 
 /// The labels of d coordinates, x₁ … x_d if none are given.
-pub(super) fn coordinate_labels(
-    labels: &[String],
-    dimension: usize,
-) -> Result<Vec<String>, PlotError> {
+pub(super) fn coordinate_labels(labels: &[String], dimension: usize) -> Result<Vec<String>, PlotError> {
     if labels.is_empty() {
-        return Ok((1..=dimension)
-            .map(|axis| format!("x_{{{axis}}}"))
-            .collect());
+        return Ok((1..=dimension).map(|axis| format!("x_{{{axis}}}")).collect());
     }
     check_size(|| "labels".to_string(), dimension, labels.len())?;
     Ok(labels.to_vec())
 }
 
 /// Checks a size; `what` names the input in the error.
-pub(super) fn check_size(
-    what: impl FnOnce() -> String,
-    expected: usize,
-    found: usize,
-) -> Result<(), PlotError> {
+pub(super) fn check_size(what: impl FnOnce() -> String, expected: usize, found: usize) -> Result<(), PlotError> {
     if expected == found {
         return Ok(());
     }

@@ -1,8 +1,7 @@
 //! What histograms, corner plots and scatter plots share: marginals and particles over density contours.
 
 use crate::statistics::{
-    Bandwidth, DensityGrid, bandwidth, equidistant, kernel_density, kernel_density_grid,
-    weighted_quantile,
+    Bandwidth, DensityGrid, bandwidth, equidistant, kernel_density, kernel_density_grid, weighted_quantile,
 };
 
 use super::contour::{contour_lines, levels_of_mass};
@@ -122,11 +121,7 @@ fn draw_curve(drawing: &mut Drawing, panel: &Panel, curve: &Curve, stroke: Strok
 /// Bars of equal width over the shown interval, normalised by the weight of all points. The width is that of Freedman &
 /// Diaconis, 2 IQR n^(−1/3) with the effective sample size, or, where smaller as for separated modes, what corresponds to it
 /// for a kernel of the plug-in width, within 8…60 bars over the interval.
-fn histogram_bars(
-    column: &[f64],
-    weights: Option<&[f64]>,
-    scale: &Scale,
-) -> Result<Vec<(f64, f64, f64)>, PlotError> {
+fn histogram_bars(column: &[f64], weights: Option<&[f64]>, scale: &Scale) -> Result<Vec<(f64, f64, f64)>, PlotError> {
     let (low, high) = scale.ends();
     let weight = |index: usize| weights.map_or(1.0, |weights| weights[index]);
     let total: f64 = (0..column.len()).map(weight).sum();
@@ -266,9 +261,7 @@ pub(super) fn outside(columns: &[Vec<f64>], scales: &[Scale]) -> usize {
 pub(super) fn cloud_notes(total: usize, outside: usize, thinned: bool) -> Vec<String> {
     let mut notes = Vec::new();
     if outside > 0 {
-        notes.push(format!(
-            "{outside} of {total} particles lie outside the axes."
-        ));
+        notes.push(format!("{outside} of {total} particles lie outside the axes."));
     }
     let stride = total.div_ceil(MOST_POINTS);
     if thinned && stride > 1 {
@@ -278,10 +271,7 @@ pub(super) fn cloud_notes(total: usize, outside: usize, thinned: bool) -> Vec<St
 }
 
 /// The legend's entries for marginals.
-pub(super) fn marginal_entries<'a>(
-    marginals: &[Marginal],
-    reference_label: &str,
-) -> Vec<LegendEntry<'a>> {
+pub(super) fn marginal_entries<'a>(marginals: &[Marginal], reference_label: &str) -> Vec<LegendEntry<'a>> {
     let mut entries = vec![LegendEntry {
         swatch: Swatch::Area(PARTICLES, HISTOGRAM_OPACITY),
         label: "particles, histogram".to_string(),

@@ -3,9 +3,7 @@
 use super::data::{PlotError, PointCloud, Reference, coordinate_labels};
 use super::density_panel::{Marginal, cloud_notes, marginal_entries, outside};
 use super::legend::{draw_legend, draw_notes, draw_title};
-use super::panel::{
-    AxesParts, Panel, label_lines, label_room, x_axis_room, x_ticks, y_tick_room, y_ticks,
-};
+use super::panel::{AxesParts, Panel, label_lines, label_room, x_axis_room, x_ticks, y_tick_room, y_ticks};
 use super::scale::Scale;
 use super::style::{FIGURE_WIDTH, MARGIN};
 use super::svg::{Drawing, Rectangle};
@@ -87,24 +85,15 @@ pub fn histogram(plot: &HistogramPlot<'_>) -> Result<String, PlotError> {
     let mut top = MARGIN + draw_title(&mut drawing, (MARGIN, MARGIN), room, plot.title);
     let entries = marginal_entries(&marginals, plot.reference_label);
     let indent = MARGIN + left_room(0);
-    top += draw_legend(
-        &mut drawing,
-        (indent, top),
-        width - indent - MARGIN,
-        &entries,
-    ) + 8.0;
-    let horizontal: Vec<_> = scales
-        .iter()
-        .map(|x| x_ticks(x, panel_width, 8.0))
-        .collect();
+    top += draw_legend(&mut drawing, (indent, top), width - indent - MARGIN, &entries) + 8.0;
+    let horizontal: Vec<_> = scales.iter().map(|x| x_ticks(x, panel_width, 8.0)).collect();
     let lines = (0..dimension)
         .map(|axis| label_lines(&labels[axis], horizontal[axis].exponent, panel_width).len())
         .max();
     let row_height = height + x_axis_room(lines.unwrap_or(0)) + 10.0;
     for (axis, marginal) in marginals.iter().enumerate() {
         let (row, column) = (axis / per_row, axis % per_row);
-        let left =
-            MARGIN + (0..=column).map(left_room).sum::<f64>() + column as f64 * (panel_width + gap);
+        let left = MARGIN + (0..=column).map(left_room).sum::<f64>() + column as f64 * (panel_width + gap);
         let panel = Panel {
             area: Rectangle {
                 x: left,

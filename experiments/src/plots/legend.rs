@@ -48,12 +48,7 @@ pub fn entry_width(entries: &[LegendEntry<'_>]) -> f64 {
 
 /// Draws the entries, column by column in as many columns as fit into `room`, from the point `at` (top left) and returns the
 /// height taken.
-pub fn draw_legend(
-    drawing: &mut Drawing,
-    at: (f64, f64),
-    room: f64,
-    entries: &[LegendEntry<'_>],
-) -> f64 {
+pub fn draw_legend(drawing: &mut Drawing, at: (f64, f64), room: f64, entries: &[LegendEntry<'_>]) -> f64 {
     let fits = |rows: &usize| {
         let columns = entries.chunks(*rows);
         columns.map(|c| entry_width(c) + COLUMN_GAP).sum::<f64>() <= room + COLUMN_GAP
@@ -80,11 +75,7 @@ pub fn draw_legend(
 fn draw_swatch(drawing: &mut Drawing, (x, y): (f64, f64), swatch: Swatch<'_>) {
     let (from, to, middle) = ((x, y), (x + SWATCH, y), (x + 0.5 * SWATCH, y));
     match swatch {
-        Swatch::Series {
-            style,
-            line,
-            markers,
-        } => {
+        Swatch::Series { style, line, markers } => {
             if let Some(dash) = line {
                 let stroke = Stroke {
                     color: style.color,
@@ -132,10 +123,7 @@ pub fn draw_title(drawing: &mut Drawing, at: (f64, f64), room: f64, title: &str)
 
 /// Draws notes below a figure, each wrapped to `room`, and returns the height taken.
 pub fn draw_notes(drawing: &mut Drawing, at: (f64, f64), room: f64, notes: &[String]) -> f64 {
-    let lines: Vec<String> = notes
-        .iter()
-        .flat_map(|note| wrap(note, room, TEXT_SIZE))
-        .collect();
+    let lines: Vec<String> = notes.iter().flat_map(|note| wrap(note, room, TEXT_SIZE)).collect();
     for (index, line) in lines.iter().enumerate() {
         let baseline = at.1 + 4.0 + TEXT_SIZE * (0.85 + 1.3 * index as f64);
         drawing.text((at.0, baseline), line, TextStyle::plain(Anchor::Start));

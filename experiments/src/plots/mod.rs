@@ -34,7 +34,5 @@ pub use histogram::{HistogramPlot, histogram};
 pub use line::{LinePlot, LineSeries, ReferenceLevel, line};
 pub use scale::AxisKind;
 pub use scaling::{ScalingGuide, ScalingPlot, ScalingSeries, exponent_text, scaling, scaling_fit};
-pub use time_error::{
-    Spread, TimeErrorCurve, TimeErrorPanel, TimeErrorPlot, TimeErrorPoint, time_error,
-};
+pub use time_error::{Spread, TimeErrorCurve, TimeErrorPanel, TimeErrorPlot, TimeErrorPoint, time_error};
 pub use trace::{TracePanel, TracePlot, TraceSeries, trace};

@@ -54,8 +54,7 @@ impl Panel {
 
     /// Whether a page position lies inside the frame.
     pub fn contains(&self, (x, y): (f64, f64)) -> bool {
-        (self.area.x..=self.area.right()).contains(&x)
-            && (self.area.y..=self.area.bottom()).contains(&y)
+        (self.area.x..=self.area.right()).contains(&x) && (self.area.y..=self.area.bottom()).contains(&y)
     }
 
     /// Light lines at the labelled ticks.
@@ -206,8 +205,7 @@ fn thin_minor_ticks(scale: &Scale, ticks: &mut Ticks, length: f64) {
 /// Vertical ticks for an axis `length` points long; labels that would stick out by more than `overhang` are left off.
 pub fn y_ticks(scale: &Scale, length: f64, overhang: f64) -> Ticks {
     let half = 0.5 * TEXT_SIZE - overhang;
-    let inside =
-        |(fraction, _): &(f64, String)| (half..=length - half).contains(&(fraction * length));
+    let inside = |(fraction, _): &(f64, String)| (half..=length - half).contains(&(fraction * length));
     let mut ticks = scale.ticks(|labels| {
         let apart = labels
             .windows(2)

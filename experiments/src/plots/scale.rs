@@ -89,11 +89,7 @@ impl Scale {
         let span = high - low;
         let magnitude = low.abs().max(high.abs());
         let margin = if span <= 1e-11 * magnitude || span < 1e-290 {
-            if magnitude < 1e-280 {
-                0.5
-            } else {
-                0.1 * magnitude
-            }
+            if magnitude < 1e-280 { 0.5 } else { 0.1 * magnitude }
         } else {
             padding * span
         };
@@ -133,11 +129,7 @@ impl Scale {
         if !plottable(value) || (self.logarithmic && value <= 1e-300) {
             return None;
         }
-        let position = if self.logarithmic {
-            value.log10()
-        } else {
-            value
-        };
+        let position = if self.logarithmic { value.log10() } else { value };
         let fraction = (position - self.low) / (self.high - self.low);
         fraction.is_finite().then_some(fraction)
     }
@@ -188,11 +180,7 @@ impl Scale {
     fn linear_ticks(&self, step: f64, parts: f64) -> Ticks {
         let magnitude = self.low.abs().max(self.high.abs());
         let leading = magnitude.log10().floor() as i32;
-        let exponent = if (-2..4).contains(&leading) {
-            0
-        } else {
-            leading
-        };
+        let exponent = if (-2..4).contains(&leading) { 0 } else { leading };
         let unit = 10f64.powi(exponent);
         let whole = |decimals: &i32| {
             let multiple = step / unit * 10f64.powi(*decimals);
@@ -244,8 +232,7 @@ impl Scale {
                 if !visible(&place) {
                     continue;
                 }
-                let labelled =
-                    factors.contains(&factor) && (factor > 1 || exponent.rem_euclid(stride) == 0);
+                let labelled = factors.contains(&factor) && (factor > 1 || exponent.rem_euclid(stride) == 0);
                 if labelled {
                     let label = match factor {
                         _ if plain => {
@@ -283,8 +270,7 @@ mod tests {
 
     #[test]
     fn tiny_values_share_a_power_of_ten() {
-        let ticks = Scale::around([0.0, 4e-6], AxisKind::Linear, 0.0)
-            .ticks(|l| (l.len() <= 5).then_some(l.len()));
+        let ticks = Scale::around([0.0, 4e-6], AxisKind::Linear, 0.0).ticks(|l| (l.len() <= 5).then_some(l.len()));
         assert_eq!(labels(&ticks), ["0", "1", "2", "3", "4"]);
         assert_eq!(ticks.exponent, -6);
     }

@@ -125,11 +125,7 @@ pub fn scaling(plot: &ScalingPlot) -> Result<String, PlotError> {
         });
     }
     for guide in &plot.guides {
-        check_size(
-            || guide.label.clone(),
-            guide.curve.x.len(),
-            guide.curve.y.len(),
-        )?;
+        check_size(|| guide.label.clone(), guide.curve.x.len(), guide.curve.y.len())?;
         lines.push(ChartSeries {
             label: guide.label.clone(),
             style: SeriesStyle {

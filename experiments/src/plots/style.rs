@@ -122,8 +122,7 @@ pub fn styles(names: &[&str]) -> Vec<SeriesStyle> {
                 // Prefer a fresh colour; with eight taken, a fresh combination of colour and marker.
                 let free = |style: &SeriesStyle| {
                     !taken.contains(style)
-                        && (taken.len() >= PALETTE.len()
-                            || taken.iter().all(|other| other.color != style.color))
+                        && (taken.len() >= PALETTE.len() || taken.iter().all(|other| other.color != style.color))
                 };
                 let style = (next..next + 2 * PALETTE.len() * MARKERS.len())
                     .map(sequence_style)
@@ -152,22 +151,10 @@ mod tests {
     fn no_two_series_look_alike() {
         let names: Vec<String> = (0..20).map(|i| format!("s{i}")).collect();
         let mut all: Vec<&str> = names.iter().map(String::as_str).collect();
-        all.extend([
-            "mpm",
-            "svgd",
-            "iid",
-            "sobol",
-            "paper-pic",
-            "paper-apic",
-            "nuts",
-        ]);
+        all.extend(["mpm", "svgd", "iid", "sobol", "paper-pic", "paper-apic", "nuts"]);
         let styles = styles(&all);
         for (index, style) in styles.iter().enumerate() {
-            assert!(
-                !styles[..index].contains(style),
-                "{}: {style:?}",
-                all[index]
-            );
+            assert!(!styles[..index].contains(style), "{}: {style:?}", all[index]);
         }
     }
 }

@@ -44,11 +44,7 @@ pub struct Stroke<'a> {
 impl<'a> Stroke<'a> {
     /// A solid line.
     pub const fn solid(color: &'a str, width: f64) -> Stroke<'a> {
-        Stroke {
-            color,
-            width,
-            dash: "",
-        }
+        Stroke { color, width, dash: "" }
     }
 
     /// A dashed line.
@@ -61,11 +57,7 @@ impl<'a> Stroke<'a> {
     }
 
     fn attributes(&self) -> String {
-        let mut text = format!(
-            "stroke=\"{}\" stroke-width=\"{}\"",
-            self.color,
-            number(self.width)
-        );
+        let mut text = format!("stroke=\"{}\" stroke-width=\"{}\"", self.color, number(self.width));
         if !self.dash.is_empty() {
             let _ = write!(text, " stroke-dasharray=\"{}\"", self.dash);
         }
@@ -171,11 +163,7 @@ impl Drawing {
             Anchor::Middle => " text-anchor=\"middle\"",
             Anchor::End => " text-anchor=\"end\"",
         };
-        let weight = if style.bold {
-            " font-weight=\"bold\""
-        } else {
-            ""
-        };
+        let weight = if style.bold { " font-weight=\"bold\"" } else { "" };
         let rotation = if style.upwards {
             format!(" transform=\"rotate(-90 {x} {y})\"")
         } else {
@@ -224,37 +212,21 @@ impl Drawing {
             points.push(points[0]);
             path_data(&points)
         };
-        let filled = format!(
-            "fill=\"{}\" stroke=\"#fff\" stroke-width=\"0.4\"",
-            style.color
-        );
-        let open = format!(
-            "fill=\"none\" stroke=\"{}\" stroke-width=\"1.3\"",
-            style.color
-        );
+        let filled = format!("fill=\"{}\" stroke=\"#fff\" stroke-width=\"0.4\"", style.color);
+        let open = format!("fill=\"none\" stroke=\"{}\" stroke-width=\"1.3\"", style.color);
         let cross = |a: f64, b: f64| {
             path_data(&[(at.0 - a * r, at.1 - b * r), (at.0 + a * r, at.1 + b * r)])
                 + &path_data(&[(at.0 - b * r, at.1 + a * r), (at.0 + b * r, at.1 - a * r)])
         };
         let (data, paint) = match style.marker {
-            Marker::Square => (
-                polygon(&[(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)]),
-                filled,
-            ),
+            Marker::Square => (polygon(&[(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)]), filled),
             Marker::TriangleUp => (polygon(&[(0.0, -1.2), (1.1, 0.8), (-1.1, 0.8)]), filled),
             Marker::TriangleDown => (polygon(&[(0.0, 1.2), (1.1, -0.8), (-1.1, -0.8)]), filled),
-            Marker::Diamond => (
-                polygon(&[(0.0, -1.25), (1.25, 0.0), (0.0, 1.25), (-1.25, 0.0)]),
-                filled,
-            ),
+            Marker::Diamond => (polygon(&[(0.0, -1.25), (1.25, 0.0), (0.0, 1.25), (-1.25, 0.0)]), filled),
             Marker::Plus => (cross(1.15, 0.0), open),
             Marker::Cross => (cross(0.9, 0.9), open),
             Marker::Circle | Marker::Ring => {
-                let paint = if style.marker == Marker::Ring {
-                    open
-                } else {
-                    filled
-                };
+                let paint = if style.marker == Marker::Ring { open } else { filled };
                 let _ = writeln!(
                     self.body,
                     "<circle cx=\"{}\" cy=\"{}\" r=\"{}\" {paint}/>",
@@ -297,10 +269,7 @@ impl Drawing {
 
 /// Path data for a polygonal line, closed if its ends agree; points that are not finite are left out.
 fn path_data(points: &[(f64, f64)]) -> String {
-    let finite: Vec<&(f64, f64)> = points
-        .iter()
-        .filter(|(x, y)| x.is_finite() && y.is_finite())
-        .collect();
+    let finite: Vec<&(f64, f64)> = points.iter().filter(|(x, y)| x.is_finite() && y.is_finite()).collect();
     let closed = finite.len() > 3 && finite.first() == finite.last();
     let open_end = finite.len() - usize::from(closed);
     let mut data = String::new();

@@ -91,9 +91,7 @@ fn cloud_of(cloud: PointCloud<'_>, reference: Reference<'_>) -> Result<String, P
 fn every_dimension_has_its_figures() {
     let reference = points(3000, 8);
     for dimension in 1..=8 {
-        let cut = |rows: &[Vec<f64>]| -> Vec<Vec<f64>> {
-            rows.iter().map(|row| row[..dimension].to_vec()).collect()
-        };
+        let cut = |rows: &[Vec<f64>]| -> Vec<Vec<f64>> { rows.iter().map(|row| row[..dimension].to_vec()).collect() };
         let (particles, draws) = (points(300, dimension), cut(&reference));
         let cloud = PointCloud::equal(&particles);
         let reference = Reference::Draws(PointCloud::equal(&draws));
@@ -176,9 +174,7 @@ fn exact_densities_are_drawn_with_weights_and_labels() {
 fn degenerate_clouds_are_drawn() {
     let constant = vec![vec![1.5, -2.0]; 20];
     let single = vec![vec![0.0, 0.0]];
-    let line: Vec<Vec<f64>> = (0..50)
-        .map(|i| vec![f64::from(i), 2.0 * f64::from(i)])
-        .collect();
+    let line: Vec<Vec<f64>> = (0..50).map(|i| vec![f64::from(i), 2.0 * f64::from(i)]).collect();
     let two_values: Vec<Vec<f64>> = (0..50).map(|i| vec![f64::from(i % 2), 1e9]).collect();
     let huge = vec![vec![1e299, -1e299], vec![-1e299, 1e299], vec![0.0, 1e-300]];
     for points in [&constant, &single, &line, &two_values, &huge] {
@@ -221,14 +217,7 @@ fn bad_clouds_are_errors() {
             ..
         })
     ));
-    assert!(matches!(
-        of(&broken),
-        Err(PlotError::NotFinite {
-            row: 1,
-            axis: 1,
-            ..
-        })
-    ));
+    assert!(matches!(of(&broken), Err(PlotError::NotFinite { row: 1, axis: 1, .. })));
     let weighted = |weights: &[f64]| {
         let cloud = PointCloud {
             points: &good,

@@ -123,11 +123,7 @@ pub fn width(label: &str, size: f64) -> f64 {
     runs(label)
         .iter()
         .map(|run| {
-            let scale = if run.shift == 0.0 {
-                size
-            } else {
-                SCRIPT * size
-            };
+            let scale = if run.shift == 0.0 { size } else { SCRIPT * size };
             run.text.chars().map(advance).sum::<f64>() * scale
         })
         .sum()
@@ -156,9 +152,7 @@ fn advance(character: char) -> f64 {
         ':' | ';' | '|' | '/' | '\\' | 'I' | 'J' => 0.34,
         'f' | 't' | 'r' | '(' | ')' | '[' | ']' | '-' => 0.4,
         's' | 'c' | 'z' | '*' => 0.53,
-        'w' | '−' | '+' | '=' | '<' | '>' | '×' | '±' | '≤' | '≥' | '≈' | '∝' | '_' => {
-            0.84
-        }
+        'w' | '−' | '+' | '=' | '<' | '>' | '×' | '±' | '≤' | '≥' | '≈' | '∝' | '_' => 0.84,
         'm' | 'W' | '—' | '%' | '…' => 0.99,
         'M' | '@' => 0.9,
         'A'..='H' | 'K' | 'L' | 'N'..='V' | 'X'..='Z' => 0.73,

@@ -115,10 +115,7 @@ pub fn time_error(plot: &TimeErrorPlot) -> Result<String, PlotError> {
                 });
             }
             if failed > 0 {
-                failures.push(format!(
-                    "{} on {} ({failed} of {runs})",
-                    curve.method, panel.target
-                ));
+                failures.push(format!("{} on {} ({failed} of {runs})", curve.method, panel.target));
             }
             series.push(drawn);
         }
@@ -140,18 +137,11 @@ pub fn time_error(plot: &TimeErrorPlot) -> Result<String, PlotError> {
         });
     }
     let mut notes = vec![match plot.spread {
-        Spread::Extremes => {
-            "Medians over seeds; bars from the smallest to the largest error.".to_string()
-        }
-        Spread::Quartiles => {
-            "Medians over seeds; bars from the lower to the upper quartile.".to_string()
-        }
+        Spread::Extremes => "Medians over seeds; bars from the smallest to the largest error.".to_string(),
+        Spread::Quartiles => "Medians over seeds; bars from the lower to the upper quartile.".to_string(),
     }];
     if !failures.is_empty() {
-        notes.push(format!(
-            "Runs without a finite error: {}.",
-            failures.join(", ")
-        ));
+        notes.push(format!("Runs without a finite error: {}.", failures.join(", ")));
     }
     let (columns, width) = arrangement(plot.panels.len());
     Chart {

@@ -69,11 +69,7 @@ pub fn trace(plot: &TracePlot) -> Result<String, PlotError> {
                 .map(|series| {
                     let index = names.iter().position(|name| *name == series.label);
                     ChartSeries {
-                        label: if single {
-                            String::new()
-                        } else {
-                            series.label.clone()
-                        },
+                        label: if single { String::new() } else { series.label.clone() },
                         style: styles[index.unwrap_or(0)],
                         x: series.step.clone(),
                         y: series.value.clone(),

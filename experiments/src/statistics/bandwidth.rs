@@ -25,11 +25,7 @@ pub enum Bandwidth {
 /// # Errors
 /// [`StatisticsError::NoSpread`] if all values with a positive weight are equal (except for a fixed width), otherwise what is
 /// wrong with the values or weights.
-pub fn bandwidth(
-    values: &[f64],
-    weights: Option<&[f64]>,
-    rule: Bandwidth,
-) -> Result<f64, StatisticsError> {
+pub fn bandwidth(values: &[f64], weights: Option<&[f64]>, rule: Bandwidth) -> Result<f64, StatisticsError> {
     let total = check_weighted("values", values, weights)?;
     if let Bandwidth::Fixed(width) = rule {
         if width.is_finite() && width > 0.0 {
@@ -43,9 +39,7 @@ pub fn bandwidth(
     }
     let weight = |index: usize| weights.map_or(1.0, |weights| weights[index]) / total;
     let mean: f64 = (0..values.len()).map(|i| weight(i) * values[i]).sum();
-    let variance: f64 = (0..values.len())
-        .map(|i| weight(i) * (values[i] - mean).powi(2))
-        .sum();
+    let variance: f64 = (0..values.len()).map(|i| weight(i) * (values[i] - mean).powi(2)).sum();
     let concentration: f64 = (0..values.len()).map(|i| weight(i).powi(2)).sum();
     let size = 1.0 / concentration;
     let deviation = variance.sqrt();
@@ -58,18 +52,12 @@ pub fn bandwidth(
     let levels = weighted_quantile(values, weights, &[0.001, 0.25, 0.75, 0.999])?;
     let silverman = {
         let spread = (levels[2] - levels[1]) / 1.34;
-        let scale = if spread > 0.0 {
-            spread.min(deviation)
-        } else {
-            deviation
-        };
+        let scale = if spread > 0.0 { spread.min(deviation) } else { deviation };
         0.9 * scale * size.powf(-0.2)
     };
     Ok(match rule {
         Bandwidth::Scott => 1.06 * deviation * size.powf(-0.2),
-        Bandwidth::SheatherJones => {
-            sheather_jones(values, weights, size, (levels[0], levels[3])).unwrap_or(silverman)
-        }
+        Bandwidth::SheatherJones => sheather_jones(values, weights, size, (levels[0], levels[3])).unwrap_or(silverman),
         _ => silverman,
     })
 }
@@ -80,12 +68,7 @@ const BINS: usize = 1024;
 /// The improved Sheather–Jones width: the root t* of t = ξ γ⁽⁵⁾(t), where γ chains the plug-in estimates of ‖f⁽ˢ⁾‖² from
 /// s = 7 down to 2, computed from the discrete cosine transform of a histogram. The core between two outer quantiles
 /// decides, so that single far points do not coarsen the histogram.
-fn sheather_jones(
-    values: &[f64],
-    weights: Option<&[f64]>,
-    size: f64,
-    core: (f64, f64),
-) -> Option<f64> {
+fn sheather_jones(values: &[f64], weights: Option<&[f64]>, size: f64, core: (f64, f64)) -> Option<f64> {
     let range = 2.0 * (core.1 - core.0);
     if !(range > 0.0 && range.is_finite()) {
         return None;
@@ -130,9 +113,8 @@ fn sheather_jones(
         for order in (2..=6).rev() {
             let odd_product: f64 = (1..=order).map(|i| f64::from(2 * i - 1)).product();
             let factor = (1.0 + 0.5f64.powf(f64::from(order) + 0.5)) / 3.0;
-            let plug_in =
-                (2.0 * factor * odd_product / (2.0 * PI).sqrt() / size / roughness_estimate)
-                    .powf(2.0 / f64::from(3 + 2 * order));
+            let plug_in = (2.0 * factor * odd_product / (2.0 * PI).sqrt() / size / roughness_estimate)
+                .powf(2.0 / f64::from(3 + 2 * order));
             roughness_estimate = roughness(order, plug_in);
         }
         time - (2.0 * size * PI.sqrt() * roughness_estimate).powf(-0.4)
@@ -179,11 +161,7 @@ mod tests {
     fn all_rules_agree_on_a_gaussian() {
         let points = normal_points(2000, 3.0, 2.0);
         let best = 1.06 * 2.0 * 2000f64.powf(-0.2);
-        for rule in [
-            Bandwidth::SheatherJones,
-            Bandwidth::Silverman,
-            Bandwidth::Scott,
-        ] {
+        for rule in [Bandwidth::SheatherJones, Bandwidth::Silverman, Bandwidth::Scott] {
             let width = bandwidth(&points, None, rule).unwrap();
             assert!((0.75..1.15).contains(&(width / best)), "{rule:?}: {width}");
         }

@@ -117,8 +117,7 @@ mod tests {
     #[test]
     fn the_estimate_of_a_gaussian_is_a_gaussian_of_total_mass_one() {
         let locations = equidistant((-6.0, 6.0), 241);
-        let density =
-            kernel_density(&normal_points(2000), None, Bandwidth::default(), &locations).unwrap();
+        let density = kernel_density(&normal_points(2000), None, Bandwidth::default(), &locations).unwrap();
         let mass: f64 = density.iter().sum::<f64>() * 0.05;
         assert!((mass - 1.0).abs() < 1e-4, "{mass}");
         let normal = Normal::new(0.0, 1.0).unwrap();
@@ -155,13 +154,7 @@ mod tests {
 
     #[test]
     fn weights_shift_the_mass() {
-        let density = kernel_density(
-            &[-1.0, 1.0],
-            Some(&[1.0, 3.0]),
-            Bandwidth::Fixed(0.1),
-            &[-1.0, 1.0],
-        )
-        .unwrap();
+        let density = kernel_density(&[-1.0, 1.0], Some(&[1.0, 3.0]), Bandwidth::Fixed(0.1), &[-1.0, 1.0]).unwrap();
         assert!((density[1] / density[0] - 3.0).abs() < 1e-12);
     }
 

@@ -88,10 +88,7 @@ fn spread_masses(
             continue;
         }
         let mass = weights.map_or(1.0, |weights| weights[index]);
-        let (column, row) = (
-            (across as usize).min(size - 2),
-            (down as usize).min(size - 2),
-        );
+        let (column, row) = ((across as usize).min(size - 2), (down as usize).min(size - 2));
         let (right, below) = (across - column as f64, down - row as f64);
         let node = row * size + column;
         masses[node] += mass * (1.0 - right) * (1.0 - below);
@@ -113,20 +110,14 @@ struct Kernel {
 
 impl Kernel {
     /// The masses on the nodes of a grid, each spread by the kernel widened by 2^(class / 2) for its node's class 0…4.
-    fn smooth(
-        &self,
-        masses: &[f64],
-        spacing: [f64; 2],
-        size: usize,
-        class: impl Fn(usize) -> usize,
-    ) -> Vec<f64> {
+    fn smooth(&self, masses: &[f64], spacing: [f64; 2], size: usize, class: impl Fn(usize) -> usize) -> Vec<f64> {
         let mut stencils: Vec<Option<Stencil>> = vec![None; 5];
         let mut values = vec![0.0; masses.len()];
         for (node, mass) in masses.iter().enumerate().filter(|(_, mass)| **mass > 0.0) {
             let (row, column) = ((node / size) as isize, (node % size) as isize);
             let class = class(node).min(4);
-            let stencil = stencils[class]
-                .get_or_insert_with(|| self.stencil(spacing, size, 2f64.powf(0.5 * class as f64)));
+            let stencil =
+                stencils[class].get_or_insert_with(|| self.stencil(spacing, size, 2f64.powf(0.5 * class as f64)));
             for &(down, across, weight) in stencil.iter() {
                 let (to_row, to_column) = (row + down, column + across);
                 let inside = 0..size as isize;
@@ -219,10 +210,7 @@ mod tests {
                 .map(|i| normal.inverse_cdf((0.5 + step * (i + 1) as f64).fract()))
                 .collect()
         };
-        (
-            sequence(0.754_877_666_246_693),
-            sequence(0.569_840_290_998_053),
-        )
+        (sequence(0.754_877_666_246_693), sequence(0.569_840_290_998_053))
     }
 
     #[test]
@@ -230,11 +218,7 @@ mod tests {
         let (x, z) = normal_pairs(20_000);
         let slope = 0.99;
         let rest = (1.0f64 - slope * slope).sqrt();
-        let y: Vec<f64> = x
-            .iter()
-            .zip(&z)
-            .map(|(x, z)| slope * x + rest * z)
-            .collect();
+        let y: Vec<f64> = x.iter().zip(&z).map(|(x, z)| slope * x + rest * z).collect();
         let grid = kernel_density_grid(&x, &y, None, ((-4.0, 4.0), (-4.0, 4.0)), 161).unwrap();
         let cell = 0.05f64.powi(2);
         let (mut mass, mut product, mut square) = (0.0, 0.0, 0.0);

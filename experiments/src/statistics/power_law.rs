@@ -102,11 +102,7 @@ pub fn fit_power_law_of(predictors: &[&[f64]], y: &[f64]) -> Result<PowerLaw, St
     let exponents = (0..size)
         .map(|j| Exponent {
             value: slopes[j],
-            half_width: quantile.map(|t| {
-                t * (residual_sum / freedom as f64 * inverse[j][j])
-                    .max(0.0)
-                    .sqrt()
-            }),
+            half_width: quantile.map(|t| t * (residual_sum / freedom as f64 * inverse[j][j]).max(0.0).sqrt()),
         })
         .collect();
     let intercept = response.0
@@ -128,10 +124,7 @@ pub fn fit_power_law_of(predictors: &[&[f64]], y: &[f64]) -> Result<PowerLaw, St
 }
 
 /// The mean of the logarithms and their deviations from it.
-fn centred_logarithms(
-    what: &'static str,
-    values: &[f64],
-) -> Result<(f64, Vec<f64>), StatisticsError> {
+fn centred_logarithms(what: &'static str, values: &[f64]) -> Result<(f64, Vec<f64>), StatisticsError> {
     if let Some(index) = values.iter().position(|&v| !(v.is_finite() && v > 0.0)) {
         return Err(StatisticsError::NotPositive {
             what,
@@ -208,8 +201,7 @@ mod tests {
     /// error is (0.2 / 2 / 5)^½ = 0.1414 and t₀.₉₇₅ with two degrees of freedom 4.3027.
     #[test]
     fn the_interval_is_students() {
-        let law =
-            fit_power_law(&[1.0, 10.0, 100.0, 1000.0], &[10.0, 100.0, 100.0, 1000.0]).unwrap();
+        let law = fit_power_law(&[1.0, 10.0, 100.0, 1000.0], &[10.0, 100.0, 100.0, 1000.0]).unwrap();
         let exponent = law.exponents[0];
         assert!((exponent.value - 0.6).abs() < 1e-12);
         assert!((exponent.half_width.unwrap() - 4.302_653 * 0.02f64.sqrt()).abs() < 1e-5);
@@ -242,10 +234,7 @@ mod tests {
 
     #[test]
     fn degenerate_data_are_errors() {
-        assert!(matches!(
-            fit_power_law(&[], &[]),
-            Err(StatisticsError::Empty { .. })
-        ));
+        assert!(matches!(fit_power_law(&[], &[]), Err(StatisticsError::Empty { .. })));
         assert!(matches!(
             fit_power_law(&[2.0, 2.0, 2.0], &[1.0, 2.0, 3.0]),
             Err(StatisticsError::Undetermined { .. })

@@ -52,11 +52,7 @@ pub fn summarize(values: &[f64]) -> Result<Summary, StatisticsError> {
 ///
 /// # Errors
 /// See [`StatisticsError`]; the weights need the values' number and a positive sum.
-pub fn weighted_quantile(
-    values: &[f64],
-    weights: Option<&[f64]>,
-    levels: &[f64],
-) -> Result<Vec<f64>, StatisticsError> {
+pub fn weighted_quantile(values: &[f64], weights: Option<&[f64]>, levels: &[f64]) -> Result<Vec<f64>, StatisticsError> {
     let total = check_weighted("values", values, weights)?;
     let weight = |index: usize| weights.map_or(1.0, |weights| weights[index]);
     let mut sorted: Vec<(f64, f64)> = (0..values.len())
@@ -128,8 +124,7 @@ mod tests {
 
     #[test]
     fn a_value_without_weight_does_not_count() {
-        let quantiles =
-            weighted_quantile(&[1.0, 100.0], Some(&[1.0, 0.0]), &[0.0, 0.5, 1.0]).unwrap();
+        let quantiles = weighted_quantile(&[1.0, 100.0], Some(&[1.0, 0.0]), &[0.0, 0.5, 1.0]).unwrap();
         assert_eq!(quantiles, [1.0, 1.0, 1.0]);
         assert_eq!(
             weighted_quantile(&[1.0], Some(&[0.0]), &[0.5]),

@@ -37,10 +37,7 @@ fn traces_break_where_values_end() {
         assert!(svg.contains(text), "{text}");
     }
     assert!(svg.len() < 60_000, "long traces are thinned: {}", svg.len());
-    assert!(matches!(
-        trace(&TracePlot::default()),
-        Err(PlotError::Empty { .. })
-    ));
+    assert!(matches!(trace(&TracePlot::default()), Err(PlotError::Empty { .. })));
 }
 
 #[test]
@@ -80,10 +77,7 @@ fn scalings_state_their_exponents() {
     assert_well_formed(&scaling(&plot).unwrap());
     plot.series[0].y.pop();
     assert!(matches!(scaling(&plot), Err(PlotError::Size { .. })));
-    assert!(matches!(
-        scaling(&ScalingPlot::default()),
-        Err(PlotError::Empty { .. })
-    ));
+    assert!(matches!(scaling(&ScalingPlot::default()), Err(PlotError::Empty { .. })));
 }
 
 #[test]
@@ -113,12 +107,7 @@ fn failed_runs_are_counted_below_the_figure() {
     };
     let svg = time_error(&plot).unwrap();
     assert_well_formed(&svg);
-    for text in [
-        "ring",
-        "banana",
-        "i.i.d. draws",
-        "paper-pic on ring (2 of 3)",
-    ] {
+    for text in ["ring", "banana", "i.i.d. draws", "paper-pic on ring (2 of 3)"] {
         assert!(svg.contains(text), "{text}");
     }
     plot.panels[0].curves[0].points[0].cost.pop();
