@@ -6,11 +6,20 @@ use std::process::Command;
 /// The first line that a program prints, if it runs and succeeds.
 fn output(program: &str, arguments: &[&str]) -> Option<String> {
     let result = Command::new(program).args(arguments).output().ok()?;
-    result.status.success().then(|| String::from_utf8_lossy(&result.stdout).trim().to_owned())
+    result
+        .status
+        .success()
+        .then(|| String::from_utf8_lossy(&result.stdout).trim().to_owned())
 }
 
 fn main() {
-    let sources = ["../crates", "../experiments/src", "../experiments/build.rs", "../Cargo.toml", "../Cargo.lock"];
+    let sources = [
+        "../crates",
+        "../experiments/src",
+        "../experiments/build.rs",
+        "../Cargo.toml",
+        "../Cargo.lock",
+    ];
     for source in sources {
         emit(&format!("rerun-if-changed={source}"));
     }
@@ -23,7 +32,9 @@ fn main() {
     let commit = output("git", &["rev-parse", "HEAD"]).unwrap_or_default();
     let mut status = vec!["--no-optional-locks", "status", "--porcelain", "--"];
     status.extend(sources);
-    let dirty = output("git", &status).map(|changes| (!changes.is_empty()).to_string()).unwrap_or_default();
+    let dirty = output("git", &status)
+        .map(|changes| (!changes.is_empty()).to_string())
+        .unwrap_or_default();
     let compiler = std::env::var("RUSTC").unwrap_or_else(|_| "rustc".to_owned());
     let version = output(&compiler, &["--version"]).unwrap_or_default();
     emit(&format!("rustc-env=PARVI_COMMIT={commit}"));

@@ -116,17 +116,28 @@ pub enum CommandError {
 impl CommandError {
     /// An operation on a file failed.
     pub fn file(operation: &'static str, path: impl AsRef<Path>, source: std::io::Error) -> Self {
-        Self::File { operation, path: path.as_ref().display().to_string(), source }
+        Self::File {
+            operation,
+            path: path.as_ref().display().to_string(),
+            source,
+        }
     }
 
     /// Whether the command was interrupted rather than failed.
     pub fn is_interruption(&self) -> bool {
-        matches!(self, Self::Interrupted { .. } | Self::Sample(SampleError::Interrupted { .. }))
+        matches!(
+            self,
+            Self::Interrupted { .. } | Self::Sample(SampleError::Interrupted { .. })
+        )
     }
 }
 
 /// The offending line, in parentheses; nothing for an empty one.
 fn quoted(text: &str) -> String {
     let text = text.trim();
-    if text.is_empty() { String::new() } else { format!(" (in `{text}`)") }
+    if text.is_empty() {
+        String::new()
+    } else {
+        format!(" (in `{text}`)")
+    }
 }

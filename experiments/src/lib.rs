@@ -9,6 +9,7 @@ mod console;
 mod dispatch;
 mod error;
 mod interrupt;
+mod machine;
 pub mod options;
 pub mod output;
 pub mod plots;

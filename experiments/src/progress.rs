@@ -14,7 +14,11 @@ fn style(template: &str) -> ProgressStyle {
 
 /// Whether a sampler should go on.
 fn unless_interrupted() -> ControlFlow<()> {
-    if interrupt::requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    if interrupt::requested() {
+        ControlFlow::Break(())
+    } else {
+        ControlFlow::Continue(())
+    }
 }
 
 /// The bar of a single run: steps.
@@ -73,7 +77,11 @@ impl StudyProgress {
     /// Begins a case; its observer moves the bar within it.
     pub fn begin(&self, case: &str, cost: f64) -> CaseObserver {
         self.bar.set_message(case.to_owned());
-        CaseObserver { bar: self.bar.clone(), base: self.done, cost }
+        CaseObserver {
+            bar: self.bar.clone(),
+            base: self.done,
+            cost,
+        }
     }
 
     /// Ends a case.

@@ -75,7 +75,10 @@ pub fn sample_target<const D: usize>(
     let wall_seconds = begin.elapsed().as_secs_f64();
     let particles = Particles::from(&samples);
     if let Some(value) = particles.first_not_finite() {
-        return Err(CommandError::NotFinite { what: "a particle".to_owned(), value });
+        return Err(CommandError::NotFinite {
+            what: "a particle".to_owned(),
+            value,
+        });
     }
     Ok(Outcome {
         particles,

@@ -16,9 +16,18 @@ fn refused(flags: &str, parts: &[&str]) {
 
 #[test]
 fn dimensions_out_of_range() {
-    refused("--target gaussian --dim 0 --particles 64", &["--dim", "0", "from 1 to 8"]);
-    refused("--target gaussian --dim 9 --particles 64", &["--dim", "9", "from 1 to 8"]);
-    refused("--target gaussian --dim -3 --particles 64", &["--dim", "-3", "from 1 to 8"]);
+    refused(
+        "--target gaussian --dim 0 --particles 64",
+        &["--dim", "0", "from 1 to 8"],
+    );
+    refused(
+        "--target gaussian --dim 9 --particles 64",
+        &["--dim", "9", "from 1 to 8"],
+    );
+    refused(
+        "--target gaussian --dim -3 --particles 64",
+        &["--dim", "-3", "from 1 to 8"],
+    );
     refused("--target gaussian --dim two --particles 64", &["--dim", "two"]);
     refused("--target gaussian --particles 64", &["gaussian", "dimension"]);
     refused("--target banana --dim 3 --particles 64", &["banana", "3"]);
@@ -27,29 +36,59 @@ fn dimensions_out_of_range() {
 
 #[test]
 fn sizes_out_of_range() {
-    refused("--target gaussian --dim 2 --particles -5", &["--particles", "-5", "from 2"]);
+    refused(
+        "--target gaussian --dim 2 --particles -5",
+        &["--particles", "-5", "from 2"],
+    );
     refused("--target gaussian --dim 2 --particles 0", &["--particles", "0"]);
     refused("--target gaussian --dim 2 --particles 1", &["--particles", "1"]);
-    refused("--target gaussian --dim 2 --particles 64 --steps 0", &["--steps", "0", "from 1"]);
-    refused("--target gaussian --dim 2 --particles 64 --steps -1", &["--steps", "-1"]);
+    refused(
+        "--target gaussian --dim 2 --particles 64 --steps 0",
+        &["--steps", "0", "from 1"],
+    );
+    refused(
+        "--target gaussian --dim 2 --particles 64 --steps -1",
+        &["--steps", "-1"],
+    );
     refused("--target gaussian --dim 2 --particles 64 --seed -1", &["--seed", "-1"]);
 }
 
 #[test]
 fn unknown_names() {
     refused("--target doughnut --particles 64", &["doughnut", "ring"]);
-    refused("--target banana --particles 64 --method annealing", &["--method", "annealing", "mpm"]);
-    refused("--target banana --particles 64 --basis lattice-of-boxes", &["--basis", "lattice-of-boxes"]);
+    refused(
+        "--target banana --particles 64 --method annealing",
+        &["--method", "annealing", "mpm"],
+    );
+    refused(
+        "--target banana --particles 64 --basis lattice-of-boxes",
+        &["--basis", "lattice-of-boxes"],
+    );
     refused("--target banana --particles 64 --sede 3", &["--sede"]);
 }
 
 #[test]
 fn flags_that_do_not_fit_the_method() {
-    refused("--target banana --particles 64 --method svgd --spacing 0.5", &["--spacing", "0.5", "svgd"]);
-    refused("--target banana --particles 64 --method iid --steps 10", &["--steps", "10", "iid"]);
-    refused("--target banana --particles 64 --youngs-modulus 2", &["--youngs-modulus", "2", "mpm"]);
-    refused("--target banana --particles 64 --method paper-pic --friction 1", &["--friction", "1", "paper-pic"]);
-    refused("--target banana --particles 64 --flip-share 0.9", &["--flip-share", "0.9", "flip"]);
+    refused(
+        "--target banana --particles 64 --method svgd --spacing 0.5",
+        &["--spacing", "0.5", "svgd"],
+    );
+    refused(
+        "--target banana --particles 64 --method iid --steps 10",
+        &["--steps", "10", "iid"],
+    );
+    refused(
+        "--target banana --particles 64 --youngs-modulus 2",
+        &["--youngs-modulus", "2", "mpm"],
+    );
+    refused(
+        "--target banana --particles 64 --method paper-pic --friction 1",
+        &["--friction", "1", "paper-pic"],
+    );
+    refused(
+        "--target banana --particles 64 --flip-share 0.9",
+        &["--flip-share", "0.9", "flip"],
+    );
     refused(
         "--target banana --particles 64 --method paper-pic --alpha-from 2",
         &["--alpha-from", "2", "alpha-to"],
@@ -60,36 +99,62 @@ fn flags_that_do_not_fit_the_method() {
 fn flags_that_do_not_fit_the_target() {
     refused("--target banana --particles 64 --radius 2", &["radius", "2", "banana"]);
     refused("--target ring --particles 64 --prior-sd 2", &["prior-sd", "2", "ring"]);
-    refused("--target gaussian --dim 2 --particles 64 --data wells.csv", &["data", "wells.csv", "gaussian"]);
-    refused("--target gaussian --dim 2 --particles 64 --correlation 1.5", &["correlation", "1.5"]);
+    refused(
+        "--target gaussian --dim 2 --particles 64 --data wells.csv",
+        &["data", "wells.csv", "gaussian"],
+    );
+    refused(
+        "--target gaussian --dim 2 --particles 64 --correlation 1.5",
+        &["correlation", "1.5"],
+    );
     refused("--target ring --particles 64 --width -1", &["width", "-1"]);
-    refused("--target student-t --dim 2 --particles 64 --degrees-of-freedom NaN", &["degrees", "NaN"]);
+    refused(
+        "--target student-t --dim 2 --particles 64 --degrees-of-freedom NaN",
+        &["degrees", "NaN"],
+    );
 }
 
 #[test]
 fn values_out_of_range() {
-    refused("--target banana --particles 64 --spacing 0", &["--spacing", "0", "above 0"]);
+    refused(
+        "--target banana --particles 64 --spacing 0",
+        &["--spacing", "0", "above 0"],
+    );
     refused("--target banana --particles 64 --spacing NaN", &["--spacing", "NaN"]);
-    refused("--target banana --particles 64 --time-step -0.1", &["--time-step", "-0.1"]);
+    refused(
+        "--target banana --particles 64 --time-step -0.1",
+        &["--time-step", "-0.1"],
+    );
     refused("--target banana --particles 64 --friction inf", &["--friction", "inf"]);
     refused("--target banana --particles 64 --start-sd 0", &["--start-sd", "0"]);
     refused(
         "--target banana --particles 64 --method paper-apic --poissons-ratio 0.5",
         &["--poissons-ratio", "0.5", "below 0.5"],
     );
-    refused("--target banana --particles 64 --transfer flip --flip-share 1.2", &["--flip-share", "1.2"]);
+    refused(
+        "--target banana --particles 64 --transfer flip --flip-share 1.2",
+        &["--flip-share", "1.2"],
+    );
 }
 
 #[test]
 fn methods_that_need_more_than_the_target_has() {
     refused("--target wells --dim 3 --particles 64 --method iid", &["iid", "wells"]);
-    refused("--target wells --dim 3 --particles 64 --method sobol", &["sobol", "wells"]);
+    refused(
+        "--target wells --dim 3 --particles 64 --method sobol",
+        &["sobol", "wells"],
+    );
 }
 
 #[test]
 fn output_files_that_cannot_be() {
     let directory = tempfile::tempdir().unwrap();
-    let sample = |out: &str| parvi(directory.path(), &format!("sample --target banana --particles 64 --out {out}"));
+    let sample = |out: &str| {
+        parvi(
+            directory.path(),
+            &format!("sample --target banana --particles 64 --out {out}"),
+        )
+    };
     assert_refused(&sample("x.txt"), &["--out", "x.txt", ".csv", ".npy"]);
     assert_refused(&sample("x"), &["--out", "x", ".csv"]);
     assert_refused(&sample("missing/x.csv"), &["missing/x.csv"]);

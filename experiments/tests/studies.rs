@@ -18,7 +18,10 @@ fn run(text: &str) -> (tempfile::TempDir, std::process::Output) {
 fn assert_report(root: &Path, figures: usize) -> String {
     let report = std::fs::read_to_string(root.join("out/report.md")).unwrap();
     let names = files(&root.join("out/figures"));
-    assert!(names.iter().all(|name| report.contains(&format!("(figures/{name})"))), "{report}");
+    assert!(
+        names.iter().all(|name| report.contains(&format!("(figures/{name})"))),
+        "{report}"
+    );
     assert_eq!(names.len(), figures, "{report}");
     assert!(report.contains("Provenance"));
     assert!(!report.contains("NaN"), "{report}");
@@ -28,8 +31,12 @@ fn assert_report(root: &Path, figures: usize) -> String {
 #[test]
 fn quickstart() {
     let text = include_str!("../configs/quickstart.toml");
-    let text = text.replace("particles = 2048", "particles = 300").replace("points = 262144", "points = 16384");
-    let text = text.replace("particles = 1000", "particles = 200").replace("draws = 20000", "draws = 2000");
+    let text = text
+        .replace("particles = 2048", "particles = 300")
+        .replace("points = 262144", "points = 16384");
+    let text = text
+        .replace("particles = 1000", "particles = 200")
+        .replace("draws = 20000", "draws = 2000");
     let (root, output) = run(&text);
     let report = assert_report(root.path(), 4);
     assert!(report.contains("**Verdict: "));
@@ -40,8 +47,7 @@ fn quickstart() {
 
 #[test]
 fn covariance_spacing() {
-    let (root, output) = run(
-        r#"
+    let (root, output) = run(r#"
         kind = "covariance-spacing"
         seeds = [0, 1]
         particles = 200
@@ -50,16 +56,14 @@ fn covariance_spacing() {
             { dim = 1, spacings = [0.5, 1.0], judged-spacing = 1.0, bound = 0.5 },
             { dim = 2, spacings = [1.2, 0.6] },
         ]
-        "#,
-    );
+        "#);
     assert_report(root.path(), 1);
     assert_eq!(value(&output, "verdict").unwrap(), "pass");
 }
 
 #[test]
 fn scaling() {
-    let (root, output) = run(
-        r#"
+    let (root, output) = run(r#"
         kind = "scaling"
         seed = 0
         threads = 1
@@ -76,10 +80,10 @@ fn scaling() {
         dims = [2]
         particles = 100
         nodes-per-axis = [8, 64, 10000]
+        fit-from = 64
         box = [-4.0, 4.0]
-        "#,
-    );
-    let report = assert_report(root.path(), 10);
+        "#);
+    let report = assert_report(root.path(), 8);
     assert_eq!(value(&output, "cases").unwrap(), "9");
     assert_eq!(value(&output, "failed").unwrap(), "0");
     assert!(report.contains("paper, dense grid"));
@@ -87,21 +91,23 @@ fn scaling() {
 
 #[test]
 fn time_error() {
-    let (root, output) = run(
-        r#"
+    let (root, output) = run(r#"
         kind = "time-error"
         seeds = [0]
         particles = 100
         steps = [2, 5]
-        reference-draws = 1000
+        reference-points = 1000
         reference-seed = 1
         directions = 8
         targets = [{ name = "mixture-4" }, { name = "wells-small" }]
         methods = [{ name = "mpm" }, { name = "paper-pic" }, { name = "svgd" }, { name = "iid" }, { name = "sobol" }]
-        "#,
-    );
+        "#);
     let report = assert_report(root.path(), 4);
-    assert_eq!(value(&output, "unsupported").unwrap(), "1", "Sobol points of a posterior");
+    assert_eq!(
+        value(&output, "unsupported").unwrap(),
+        "1",
+        "Sobol points of a posterior"
+    );
     assert!(report.contains("The paper's algorithms"));
 }
 

@@ -14,7 +14,7 @@ seeds = [0, 1]
 threads = 1
 particles = 64
 steps = [2, 4]
-reference-draws = 1000
+reference-points = 1000
 reference-seed = 7
 directions = 8
 targets = [{ name = "gaussian", dim = 2 }, { name = "banana" }, { name = "wells-small", dim = 2 }]
@@ -34,7 +34,12 @@ fn results(directory: &Path) -> Vec<Vec<String>> {
         .map(|name| !name.starts_with("wall") && !name.starts_with("memory"))
         .collect();
     let pick = |record: csv::StringRecord| {
-        record.iter().zip(&kept).filter(|(_, keep)| **keep).map(|(cell, _)| cell.to_owned()).collect()
+        record
+            .iter()
+            .zip(&kept)
+            .filter(|(_, keep)| **keep)
+            .map(|(cell, _)| cell.to_owned())
+            .collect()
     };
     reader.records().map(|record| pick(record.unwrap())).collect()
 }
@@ -81,7 +86,17 @@ fn the_report_needs_the_raw_results_alone() {
     std::fs::write(root.path().join("study.toml"), STUDY).unwrap();
     run(root.path(), "out");
     let out = root.path().join("out");
-    assert_eq!(files(&out), ["config.toml", "figures", "manifest.json", "raw", "report.md", "results.csv"]);
+    assert_eq!(
+        files(&out),
+        [
+            "config.toml",
+            "figures",
+            "manifest.json",
+            "raw",
+            "report.md",
+            "results.csv"
+        ]
+    );
     let report = std::fs::read_to_string(out.join("report.md")).unwrap();
     let figures = files(&out.join("figures"));
     assert!(!figures.is_empty());
@@ -101,7 +116,11 @@ fn the_report_needs_the_raw_results_alone() {
 #[test]
 fn an_interrupted_study_can_be_resumed() {
     let root = tempfile::tempdir().unwrap();
-    std::fs::write(root.path().join("study.toml"), STUDY.replace("seeds = [0, 1]", "seeds = [0, 1, 2, 3, 4, 5]")).unwrap();
+    std::fs::write(
+        root.path().join("study.toml"),
+        STUDY.replace("seeds = [0, 1]", "seeds = [0, 1, 2, 3, 4, 5]"),
+    )
+    .unwrap();
     run(root.path(), "whole");
     let mut child = command()
         .current_dir(root.path())
@@ -115,10 +134,16 @@ fn an_interrupted_study_can_be_resumed() {
     let begin = Instant::now();
     while std::fs::read_to_string(&path).map_or(0, |text| text.lines().count()) < 6 {
         assert!(begin.elapsed() < Duration::from_secs(60), "no rows appear");
-        assert!(child.try_wait().unwrap().is_none(), "it ended before it was interrupted");
+        assert!(
+            child.try_wait().unwrap().is_none(),
+            "it ended before it was interrupted"
+        );
         std::thread::sleep(Duration::from_millis(1));
     }
-    let kill = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    let kill = std::process::Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status()
+        .unwrap();
     assert!(kill.success());
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(130), "{}", stderr(&output));

@@ -2,7 +2,7 @@
 
 mod report;
 mod run;
-mod sample;
+pub(crate) mod sample;
 mod targets;
 
 use std::process::ExitCode;

@@ -5,11 +5,15 @@ use std::path::PathBuf;
 use clap::Args;
 use parvi::Run;
 
+use crate::machine::MemoryGauge;
 use crate::options::{Dimension, MethodName, MethodOptions, ParticleCount, TargetParameters, TargetSpecification};
 use crate::output::{ParticleFile, ParticleFormat};
 use crate::progress::StepProgress;
 use crate::sampling::{self, Outcome};
 use crate::{CommandError, console, interrupt};
+
+/// The key of the rise of the process's resident memory while it sampled; Linux only.
+pub const PEAK_MEMORY_KEY: &str = "peak_memory_bytes";
 
 /// Target, method and file.
 #[derive(Args)]
@@ -27,7 +31,7 @@ pub struct Arguments {
     #[arg(long, value_enum, default_value_t)]
     method: MethodName,
     /// Seed of every random choice
-    #[arg(long, value_name = "S", default_value_t = 0)]
+    #[arg(long, value_name = "S", default_value_t = 0, allow_negative_numbers = true)]
     seed: u64,
     /// File of the particles, .csv or .npy
     #[arg(long, value_name = "FILE.csv|.npy")]
@@ -53,14 +57,16 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let file = ParticleFile::create(&arguments.out)?;
     interrupt::listen();
     let mut progress = StepProgress::new();
+    let memory = MemoryGauge::begin();
     let outcome = sampling::sample(&target, &method, &run, &mut progress)?;
+    let peak_memory = memory.peak_bytes();
     progress.clear();
     file.write(&outcome.particles)?;
-    console::print_pairs(&pairs(arguments, &outcome))
+    console::print_pairs(&pairs(arguments, &outcome, peak_memory))
 }
 
 /// What standard output says; a key without a value is left out.
-fn pairs(arguments: &Arguments, outcome: &Outcome) -> Vec<(&'static str, String)> {
+fn pairs(arguments: &Arguments, outcome: &Outcome, peak_memory: Option<u64>) -> Vec<(&'static str, String)> {
     let mut pairs = vec![
         ("method", arguments.method.to_string()),
         ("steps", outcome.steps.to_string()),
@@ -72,6 +78,7 @@ fn pairs(arguments: &Arguments, outcome: &Outcome) -> Vec<(&'static str, String)
         ("spacing", outcome.spacing.map(|value| value.to_string())),
         ("active_nodes", outcome.active_nodes.map(|value| value.to_string())),
         ("storage_bytes", outcome.storage_bytes.map(|value| value.to_string())),
+        (PEAK_MEMORY_KEY, peak_memory.map(|value| value.to_string())),
     ];
     pairs.extend(optional.into_iter().filter_map(|(key, value)| Some((key, value?))));
     pairs.extend([

@@ -21,8 +21,13 @@ fn entry(info: &TargetInfo, width: usize) -> String {
     let mut text = format!("{:width$}  {}\n", info.name, info.summary);
     text.push_str(&format!("{indent}dimension: {}\n", info.dimensions.in_words()));
     for parameter in info.parameters {
-        let default = parameter.default.map_or("required".to_owned(), |value| format!("[{value}]"));
-        text.push_str(&format!("{indent}--{} {default}: {}\n", parameter.name, parameter.meaning));
+        let default = parameter
+            .default
+            .map_or("required".to_owned(), |value| format!("[{value}]"));
+        text.push_str(&format!(
+            "{indent}--{} {default}: {}\n",
+            parameter.name, parameter.meaning
+        ));
     }
     let mut known = Vec::new();
     if info.exact_draws {
@@ -31,7 +36,14 @@ fn entry(info: &TargetInfo, width: usize) -> String {
     if info.unit_cube_transport {
         known.push("quasi-random draws".to_owned());
     }
-    known.push(if info.moments { "moments" } else { "moments by importance sampling" }.to_owned());
+    known.push(
+        if info.moments {
+            "moments"
+        } else {
+            "moments by importance sampling"
+        }
+        .to_owned(),
+    );
     if info.modes > 1 {
         known.push(format!("{} modes with their masses", info.modes));
     }

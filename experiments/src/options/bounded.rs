@@ -50,7 +50,9 @@ impl<const LEAST: i64, const MOST: i64> FromStr for Bounded<LEAST, MOST> {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let value: i64 = text.parse().map_err(|_| format!("must be an integer from {LEAST} to {MOST}"))?;
+        let value: i64 = text
+            .parse()
+            .map_err(|_| format!("must be an integer from {LEAST} to {MOST}"))?;
         Self::try_from(value)
     }
 }
@@ -69,7 +71,13 @@ mod tests {
     fn the_ends_belong_to_the_range() {
         assert_eq!(Dimension::new(8).unwrap().get(), 8);
         assert_eq!(Dimension::new(9), None);
-        assert_eq!("0".parse::<Dimension>().unwrap_err(), "0 is out of range: must be from 1 to 8");
-        assert_eq!("two".parse::<ParticleCount>().unwrap_err(), "must be an integer from 2 to 100000000");
+        assert_eq!(
+            "0".parse::<Dimension>().unwrap_err(),
+            "0 is out of range: must be from 1 to 8"
+        );
+        assert_eq!(
+            "two".parse::<ParticleCount>().unwrap_err(),
+            "must be an integer from 2 to 100000000"
+        );
     }
 }

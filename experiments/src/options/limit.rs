@@ -32,7 +32,9 @@ impl FromStr for Limit {
         if text == "off" {
             return Ok(Self::Off);
         }
-        text.parse().map(Self::At).map_err(|_| "must be a number or `off`".to_owned())
+        text.parse()
+            .map(Self::At)
+            .map_err(|_| "must be a number or `off`".to_owned())
     }
 }
 

@@ -26,7 +26,14 @@ pub enum MethodName {
 
 impl MethodName {
     /// All methods.
-    pub const ALL: [Self; 6] = [Self::Mpm, Self::PaperPic, Self::PaperApic, Self::Svgd, Self::Iid, Self::Sobol];
+    pub const ALL: [Self; 6] = [
+        Self::Mpm,
+        Self::PaperPic,
+        Self::PaperApic,
+        Self::Svgd,
+        Self::Iid,
+        Self::Sobol,
+    ];
 
     /// The name as typed.
     pub fn as_str(self) -> &'static str {

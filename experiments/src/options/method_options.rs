@@ -98,7 +98,12 @@ const GAS: Owners = &[MethodName::Mpm];
 const PAPER: Owners = &[MethodName::PaperPic, MethodName::PaperApic];
 const GRID: Owners = &[MethodName::Mpm, MethodName::PaperPic, MethodName::PaperApic];
 const STEIN: Owners = &[MethodName::Svgd];
-const STARTED: Owners = &[MethodName::Mpm, MethodName::PaperPic, MethodName::PaperApic, MethodName::Svgd];
+const STARTED: Owners = &[
+    MethodName::Mpm,
+    MethodName::PaperPic,
+    MethodName::PaperApic,
+    MethodName::Svgd,
+];
 
 /// A range for numbers.
 type Range = (fn(f64) -> bool, &'static str);
@@ -219,6 +224,14 @@ impl MethodOptions {
         Ok(())
     }
 
+    /// The flags that say the same on the command line.
+    pub fn flags(&self) -> Vec<String> {
+        self.given()
+            .into_iter()
+            .flat_map(|(name, value, _)| [format!("--{name}"), value])
+            .collect()
+    }
+
     /// The options that are set: name, value as typed, methods that have it.
     fn given(&self) -> Vec<(&'static str, String, Owners)> {
         fn text<T: ToString>(value: &Option<T>) -> Option<String> {
@@ -251,14 +264,20 @@ impl MethodOptions {
             ("start-mean", text(&self.start_mean), STARTED),
             ("start-sd", text(&self.start_sd), STARTED),
         ];
-        all.into_iter().filter_map(|(name, value, owners)| Some((name, value?, owners))).collect()
+        all.into_iter()
+            .filter_map(|(name, value, owners)| Some((name, value?, owners)))
+            .collect()
     }
 
     fn check_ranges(&self) -> Result<(), OptionError> {
         let numbers: [(&str, Option<f64>, Range); 15] = [
             ("spacing", self.spacing, POSITIVE),
             ("time-step", self.time_step, POSITIVE),
-            ("displacement-limit", self.displacement_limit.and_then(Limit::value), POSITIVE),
+            (
+                "displacement-limit",
+                self.displacement_limit.and_then(Limit::value),
+                POSITIVE,
+            ),
             ("flip-share", self.flip_share, SHARE),
             ("friction", self.friction, NOT_NEGATIVE),
             ("youngs-modulus", self.youngs_modulus, POSITIVE),
@@ -285,7 +304,10 @@ impl MethodOptions {
     /// Options that need or exclude each other.
     fn check_pairs(&self) -> Result<(), OptionError> {
         let refuse = |name: &str, value: f64, reason: &str| {
-            Err(OptionError { name: name.to_owned(), reason: format!("{value} {reason}") })
+            Err(OptionError {
+                name: name.to_owned(),
+                reason: format!("{value} {reason}"),
+            })
         };
         if let Some(share) = self.flip_share
             && self.transfer != Some(Transfer::Flip)

@@ -33,14 +33,22 @@ impl TryFrom<Stated> for MethodSpecification {
 
     fn try_from(stated: Stated) -> Result<Self, OptionError> {
         stated.options.method(stated.name)?;
-        Ok(Self { name: stated.name, label: stated.label, options: stated.options })
+        Ok(Self {
+            name: stated.name,
+            label: stated.label,
+            options: stated.options,
+        })
     }
 }
 
 impl MethodSpecification {
     /// A method with its default options.
     pub fn plain(name: MethodName) -> Self {
-        Self { name, label: None, options: MethodOptions::default() }
+        Self {
+            name,
+            label: None,
+            options: MethodOptions::default(),
+        }
     }
 
     /// The name in tables and figures.

@@ -14,12 +14,18 @@ pub struct OptionError {
 impl OptionError {
     /// An option that a method does not have.
     pub fn misfit(name: &str, value: &str, method: &str) -> Self {
-        Self { name: name.to_owned(), reason: format!("{value} does not fit method `{method}`") }
+        Self {
+            name: name.to_owned(),
+            reason: format!("{value} does not fit method `{method}`"),
+        }
     }
 
     /// A value outside of its range.
     pub fn out_of_range(name: &str, value: impl Display, expected: &str) -> Self {
-        Self { name: name.to_owned(), reason: format!("{value} must be {expected}") }
+        Self {
+            name: name.to_owned(),
+            reason: format!("{value} must be {expected}"),
+        }
     }
 }
 

@@ -86,7 +86,11 @@ impl TryFrom<Stated> for TargetSpecification {
     type Error = TargetError;
 
     fn try_from(stated: Stated) -> Result<Self, TargetError> {
-        let specification = Self { name: stated.name, dim: stated.dim, parameters: stated.parameters };
+        let specification = Self {
+            name: stated.name,
+            dim: stated.dim,
+            parameters: stated.parameters,
+        };
         specification.dimension()?;
         Ok(specification)
     }
@@ -95,12 +99,20 @@ impl TryFrom<Stated> for TargetSpecification {
 impl TargetSpecification {
     /// A target with its default parameters.
     pub fn plain(name: &str, dim: Option<Dimension>) -> Self {
-        Self { name: name.to_owned(), dim, parameters: TargetParameters::default() }
+        Self {
+            name: name.to_owned(),
+            dim,
+            parameters: TargetParameters::default(),
+        }
     }
 
     /// d, from the request, the target or its data.
     pub fn dimension(&self) -> Result<usize, TargetError> {
-        parvi_targets::dimension_of(&self.name, self.dim.map(Dimension::get), &self.parameters.to_catalogue())
+        parvi_targets::dimension_of(
+            &self.name,
+            self.dim.map(Dimension::get),
+            &self.parameters.to_catalogue(),
+        )
     }
 
     /// The coordinates' names: the covariates of a regression, else x₁ … x_d in the notation of the figures.
@@ -125,12 +137,12 @@ impl TargetSpecification {
         }
         let parameters = &self.parameters;
         let numbers = [
-            ("correlation", parameters.correlation),
-            ("curvature", parameters.curvature),
-            ("width", parameters.width),
+            ("r", parameters.correlation),
+            ("b", parameters.curvature),
+            ("w", parameters.width),
             ("radius", parameters.radius),
-            ("degrees", parameters.degrees_of_freedom),
-            ("prior", parameters.prior_sd),
+            ("nu", parameters.degrees_of_freedom),
+            ("sd", parameters.prior_sd),
         ];
         for (name, value) in numbers {
             if let Some(value) = value {

@@ -34,8 +34,17 @@ impl AtomicFile {
         }
         let temporary_name = format!(".{}.{}{PARTIAL_SUFFIX}", name.to_string_lossy(), std::process::id());
         let temporary = destination.with_file_name(temporary_name);
-        let file = OpenOptions::new().write(true).create(true).truncate(true).open(&temporary).map_err(refuse)?;
-        Ok(Self { destination, temporary, writer: Some(BufWriter::new(file)) })
+        let file = OpenOptions::new()
+            .write(true)
+            .create(true)
+            .truncate(true)
+            .open(&temporary)
+            .map_err(refuse)?;
+        Ok(Self {
+            destination,
+            temporary,
+            writer: Some(BufWriter::new(file)),
+        })
     }
 
     /// Writes all bytes of a whole file.
@@ -46,11 +55,10 @@ impl AtomicFile {
     }
 
     /// Lets a function write the content.
-    pub fn fill(
-        &mut self,
-        content: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
-    ) -> Result<(), CommandError> {
-        let Some(writer) = self.writer.as_mut() else { return Ok(()) };
+    pub fn fill(&mut self, content: impl FnOnce(&mut dyn Write) -> std::io::Result<()>) -> Result<(), CommandError> {
+        let Some(writer) = self.writer.as_mut() else {
+            return Ok(());
+        };
         content(writer).map_err(|source| CommandError::file("write", &self.destination, source))
     }
 

@@ -27,7 +27,9 @@ impl ParticleFormat {
     /// # Errors
     /// [`CommandError::OutputExtension`] for any other extension.
     pub fn of(path: &Path) -> Result<Self, CommandError> {
-        let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
+        let extension = path
+            .extension()
+            .map(|extension| extension.to_string_lossy().to_lowercase());
         match extension.as_deref() {
             Some("csv") => Ok(Self::Csv),
             Some("npy") => Ok(Self::Npy),
@@ -46,7 +48,10 @@ impl ParticleFile {
     /// Opens a temporary file beside `path`, before the work that fills it.
     pub fn create(path: impl Into<PathBuf>) -> Result<Self, CommandError> {
         let path = path.into();
-        Ok(Self { format: ParticleFormat::of(&path)?, file: AtomicFile::create(path)? })
+        Ok(Self {
+            format: ParticleFormat::of(&path)?,
+            file: AtomicFile::create(path)?,
+        })
     }
 
     /// Writes the particles and gives the file its final name.

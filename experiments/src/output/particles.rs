@@ -13,14 +13,22 @@ pub struct Particles {
 impl Particles {
     /// From points of compile-time dimension.
     pub fn new<const D: usize>(positions: &[[f64; D]], weights: Option<&[f64]>) -> Self {
-        Self { dimension: D, coordinates: positions.as_flattened().to_vec(), weights: weights.map(<[f64]>::to_vec) }
+        Self {
+            dimension: D,
+            coordinates: positions.as_flattened().to_vec(),
+            weights: weights.map(<[f64]>::to_vec),
+        }
     }
 
     /// From the coordinates of all points, one point after the other; an incomplete last point is dropped.
     pub fn from_coordinates(dimension: usize, mut coordinates: Vec<f64>, weights: Option<Vec<f64>>) -> Self {
         let dimension = dimension.max(1);
         coordinates.truncate(coordinates.len() / dimension * dimension);
-        Self { dimension, coordinates, weights }
+        Self {
+            dimension,
+            coordinates,
+            weights,
+        }
     }
 
     /// d.
@@ -74,7 +82,11 @@ impl Particles {
     /// The first value that is not finite.
     pub fn first_not_finite(&self) -> Option<f64> {
         let weights = self.weights.iter().flatten();
-        self.coordinates.iter().chain(weights).copied().find(|value| !value.is_finite())
+        self.coordinates
+            .iter()
+            .chain(weights)
+            .copied()
+            .find(|value| !value.is_finite())
     }
 }
 

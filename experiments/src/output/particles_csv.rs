@@ -35,7 +35,10 @@ pub fn write(particles: &Particles, writer: &mut dyn Write) -> io::Result<()> {
 /// # Errors
 /// [`CommandError::ResultsUnreadable`] with the line of a row that does not fit.
 pub fn read(path: &Path) -> Result<Particles, CommandError> {
-    let unreadable = |message: String| CommandError::ResultsUnreadable { file: path.display().to_string(), message };
+    let unreadable = |message: String| CommandError::ResultsUnreadable {
+        file: path.display().to_string(),
+        message,
+    };
     let mut reader = csv::Reader::from_path(path).map_err(|error| unreadable(error.to_string()))?;
     let header = reader.headers().map_err(|error| unreadable(error.to_string()))?;
     let columns = header.len();
@@ -49,12 +52,22 @@ pub fn read(path: &Path) -> Result<Particles, CommandError> {
         let record = record.map_err(|error| unreadable(error.to_string()))?;
         let line = record.position().map_or(0, csv::Position::line);
         for (column, cell) in record.iter().enumerate() {
-            let value: f64 =
-                cell.parse().map_err(|_| unreadable(format!("line {line}: '{cell}' is not a number")))?;
-            if column < dimension { &mut coordinates } else { &mut weights }.push(value);
+            let value: f64 = cell
+                .parse()
+                .map_err(|_| unreadable(format!("line {line}: '{cell}' is not a number")))?;
+            if column < dimension {
+                &mut coordinates
+            } else {
+                &mut weights
+            }
+            .push(value);
         }
     }
-    Ok(Particles::from_coordinates(dimension, coordinates, weighted.then_some(weights)))
+    Ok(Particles::from_coordinates(
+        dimension,
+        coordinates,
+        weighted.then_some(weights),
+    ))
 }
 
 #[cfg(test)]

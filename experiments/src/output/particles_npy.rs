@@ -10,7 +10,11 @@ use super::Particles;
 pub fn write(particles: &Particles, writer: &mut dyn Write) -> io::Result<()> {
     let columns = particles.dimension() + usize::from(particles.weights().is_some());
     let shape = [particles.len() as u64, columns as u64];
-    let mut array = npyz::WriteOptions::new().default_dtype().shape(&shape).writer(writer).begin_nd()?;
+    let mut array = npyz::WriteOptions::new()
+        .default_dtype()
+        .shape(&shape)
+        .writer(writer)
+        .begin_nd()?;
     for (index, row) in particles.rows().enumerate() {
         array.extend(row.iter().copied())?;
         if particles.weights().is_some() {

@@ -59,7 +59,10 @@ mod tests {
 
     #[test]
     fn divergence_is_a_result_and_interruption_is_not() {
-        let diverged = SampleError::Diverged { step: 3, reason: "a position\nis NaN".to_owned() };
+        let diverged = SampleError::Diverged {
+            step: 3,
+            reason: "a position\nis NaN".to_owned(),
+        };
         match attempt::<()>(Err(diverged.into())).unwrap() {
             Attempt::Failed(Status::Diverged, reason) => assert!(!reason.contains('\n')),
             _ => panic!("a divergence is a failed attempt"),

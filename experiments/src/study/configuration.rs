@@ -37,7 +37,12 @@ impl Configuration {
     fn from_text(file: String, text: String) -> Result<Self, CommandError> {
         let kind: Kind = parse(&file, &text)?;
         let table: toml::Table = parse(&file, &text)?;
-        Ok(Self { kind: kind.kind, hash: fingerprint(&canonical(&table)), file, text })
+        Ok(Self {
+            kind: kind.kind,
+            hash: fingerprint(&canonical(&table)),
+            file,
+            text,
+        })
     }
 
     /// The study's kind, as written.
@@ -131,7 +136,10 @@ mod tests {
     #[test]
     fn mistakes_are_reported_where_they_are() {
         let unknown = message("kind = \"a\"\nparticles = 5\n  particle = 3\n");
-        assert!(unknown.starts_with("c.toml, line 3, column 3: unknown field `particle`"), "{unknown}");
+        assert!(
+            unknown.starts_with("c.toml, line 3, column 3: unknown field `particle`"),
+            "{unknown}"
+        );
         let negative = message("kind = \"a\"\nparticles = -5\n");
         assert_eq!(
             negative,

@@ -80,7 +80,10 @@ impl StudyDirectory {
     }
 
     fn occupied(&self, occupant: String) -> CommandError {
-        CommandError::DirectoryOccupied { directory: self.path.display().to_string(), occupant }
+        CommandError::DirectoryOccupied {
+            directory: self.path.display().to_string(),
+            occupant,
+        }
     }
 
     fn configuration_path(&self) -> PathBuf {
@@ -161,7 +164,9 @@ mod tests {
         let study = configuration(root.path(), "kind = \"a\"\n");
         let message = StudyDirectory::claim(&path, &study).unwrap_err().to_string();
         assert!(message.starts_with("cannot write"), "{message}");
-        let message = StudyDirectory::claim(&path.join("below"), &study).unwrap_err().to_string();
+        let message = StudyDirectory::claim(&path.join("below"), &study)
+            .unwrap_err()
+            .to_string();
         assert!(message.starts_with("cannot create"), "{message}");
     }
 }

@@ -16,7 +16,9 @@ pub struct Document {
 impl Document {
     /// A page with a title.
     pub fn new(title: &str) -> Self {
-        Self { text: format!("# {title}\n") }
+        Self {
+            text: format!("# {title}\n"),
+        }
     }
 
     /// A heading below the title.
@@ -32,11 +34,17 @@ impl Document {
     /// A table; columns whose cells are numbers are aligned to the right.
     pub fn table(&mut self, header: &[&str], rows: &[Vec<String>]) {
         let numeric = |column: usize| {
-            let mut cells = rows.iter().filter_map(|row| row.get(column)).filter(|cell| cell.as_str() != MISSING);
+            let mut cells = rows
+                .iter()
+                .filter_map(|row| row.get(column))
+                .filter(|cell| cell.as_str() != MISSING);
             cells.all(|cell| cell.starts_with(|c: char| c.is_ascii_digit() || "-−+±<".contains(c)))
         };
-        let rule: Vec<&str> = (0..header.len()).map(|column| if numeric(column) { "---:" } else { "---" }).collect();
-        self.text.push_str(&format!("\n| {} |\n| {} |\n", header.join(" | "), rule.join(" | ")));
+        let rule: Vec<&str> = (0..header.len())
+            .map(|column| if numeric(column) { "---:" } else { "---" })
+            .collect();
+        self.text
+            .push_str(&format!("\n| {} |\n| {} |\n", header.join(" | "), rule.join(" | ")));
         for row in rows {
             let cells: Vec<String> = row.iter().map(|cell| cell.replace('|', "\\|")).collect();
             self.text.push_str(&format!("| {} |\n", cells.join(" | ")));
@@ -55,7 +63,8 @@ impl Document {
             Ok(svg) => {
                 AtomicFile::write(directory.figure(name), svg)?;
                 let alternative = caption.replace(['[', ']'], "");
-                self.text.push_str(&format!("\n![{alternative}](figures/{name})\n\n*{caption}*\n"));
+                self.text
+                    .push_str(&format!("\n![{alternative}](figures/{name})\n\n*{caption}*\n"));
             }
             Err(error) => self.paragraph(format!("*{caption}* The figure was not drawn: {error}.")),
         }
@@ -98,8 +107,10 @@ mod tests {
 
     #[test]
     fn numbers_have_three_digits() {
-        let texts: Vec<String> =
-            [0.0, 1.0, -0.012345, 12345.6, 1e-5, 2.5e7, f64::NAN].into_iter().map(number).collect();
+        let texts: Vec<String> = [0.0, 1.0, -0.012345, 12345.6, 1e-5, 2.5e7, f64::NAN]
+            .into_iter()
+            .map(number)
+            .collect();
         assert_eq!(texts, ["0", "1.00", "-0.0123", "12346", "1.00e-5", "2.50e7", MISSING]);
     }
 
@@ -107,7 +118,10 @@ mod tests {
     fn a_page_is_markdown() {
         let mut page = Document::new("Title");
         page.heading("Part");
-        page.table(&["name", "value"], &[vec!["a|b".into(), "1".into()], vec!["c".into(), MISSING.into()]]);
+        page.table(
+            &["name", "value"],
+            &[vec!["a|b".into(), "1".into()], vec!["c".into(), MISSING.into()]],
+        );
         assert_eq!(
             page.as_str(),
             "# Title\n\n## Part\n\n| name | value |\n| --- | ---: |\n| a\\|b | 1 |\n| c | – |\n"

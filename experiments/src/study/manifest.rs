@@ -5,9 +5,8 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::machine;
-use crate::CommandError;
 use crate::output::AtomicFile;
+use crate::{CommandError, machine};
 
 /// The file's name.
 pub const FILE_NAME: &str = "manifest.json";
@@ -34,7 +33,9 @@ impl Provenance {
     pub fn now(threads: usize) -> Self {
         Self {
             started: machine::utc_now(),
-            commit: Some(env!("PARVI_COMMIT")).filter(|text| !text.is_empty()).map(str::to_owned),
+            commit: Some(env!("PARVI_COMMIT"))
+                .filter(|text| !text.is_empty())
+                .map(str::to_owned),
             dirty: env!("PARVI_DIRTY").parse().ok(),
             rustc: env!("PARVI_RUSTC").to_owned(),
             cpu: machine::processor(),
@@ -44,7 +45,13 @@ impl Provenance {
 
     /// The same but for the time of the start.
     fn same_origin(&self, other: &Self) -> bool {
-        Self { started: String::new(), ..self.clone() } == Self { started: String::new(), ..other.clone() }
+        Self {
+            started: String::new(),
+            ..self.clone()
+        } == Self {
+            started: String::new(),
+            ..other.clone()
+        }
     }
 }
 

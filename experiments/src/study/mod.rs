@@ -6,7 +6,6 @@ mod covariance_spacing;
 mod definition;
 mod directory;
 mod document;
-mod machine;
 mod manifest;
 mod moments;
 mod quickstart;

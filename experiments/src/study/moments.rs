@@ -36,7 +36,9 @@ impl SampleMoments {
 
     /// √Ĉ_ii.
     pub fn standard_deviations(&self) -> Vec<f64> {
-        (0..self.mean.len()).map(|axis| self.covariance[axis][axis].sqrt()).collect()
+        (0..self.mean.len())
+            .map(|axis| self.covariance[axis][axis].sqrt())
+            .collect()
     }
 
     /// max_i |x̄_i|.

@@ -54,19 +54,32 @@ impl<R: Row> ResultsFile<R> {
         }
         let mut bytes = Vec::new();
         file.read_to_end(&mut bytes).map_err(failed("read"))?;
-        let whole = bytes.iter().rposition(|&byte| byte == b'\n').map_or(0, |position| position + 1);
+        let whole = bytes
+            .iter()
+            .rposition(|&byte| byte == b'\n')
+            .map_or(0, |position| position + 1);
         if whole < bytes.len() {
             file.set_len(whole as u64).map_err(failed("write"))?;
             bytes.truncate(whole);
         }
         file.seek(SeekFrom::Start(whole as u64)).map_err(failed("read"))?;
-        Ok(Self { rows: parse(path, &bytes)?, has_header: whole > 0, path: path.to_owned(), file })
+        Ok(Self {
+            rows: parse(path, &bytes)?,
+            has_header: whole > 0,
+            path: path.to_owned(),
+            file,
+        })
     }
 
     /// Reads the rows without changing the file; a last line without its end is skipped.
     pub fn read(path: &Path) -> Result<Vec<R>, CommandError> {
         let mut bytes = std::fs::read(path).map_err(|source| CommandError::file("read", path, source))?;
-        bytes.truncate(bytes.iter().rposition(|&byte| byte == b'\n').map_or(0, |position| position + 1));
+        bytes.truncate(
+            bytes
+                .iter()
+                .rposition(|&byte| byte == b'\n')
+                .map_or(0, |position| position + 1),
+        );
         parse(path, &bytes)
     }
 
@@ -78,10 +91,17 @@ impl<R: Row> ResultsFile<R> {
     /// Adds a row with one write and waits until it is on the disk.
     pub fn append(&mut self, row: R) -> Result<(), CommandError> {
         let failed = |source| CommandError::file("write", &self.path, source);
-        let mut writer = csv::WriterBuilder::new().has_headers(!self.has_header).from_writer(Vec::new());
-        writer.serialize(&row).map_err(|error| failed(std::io::Error::other(error)))?;
+        let mut writer = csv::WriterBuilder::new()
+            .has_headers(!self.has_header)
+            .from_writer(Vec::new());
+        writer
+            .serialize(&row)
+            .map_err(|error| failed(std::io::Error::other(error)))?;
         let line = writer.into_inner().map_err(|error| failed(error.into_error()))?;
-        self.file.write_all(&line).and_then(|()| self.file.sync_data()).map_err(failed)?;
+        self.file
+            .write_all(&line)
+            .and_then(|()| self.file.sync_data())
+            .map_err(failed)?;
         self.has_header = true;
         self.rows.push(row);
         Ok(())
@@ -124,7 +144,10 @@ mod tests {
     }
 
     fn row(case: &str, value: Option<f64>) -> Example {
-        Example { case: case.to_owned(), value }
+        Example {
+            case: case.to_owned(),
+            value,
+        }
     }
 
     #[test]

@@ -34,9 +34,11 @@ pub fn report<S: Study>(configuration: &Configuration, directory: &StudyDirector
 /// Names the file in errors about fields.
 fn in_file(error: CommandError, configuration: &Configuration) -> CommandError {
     match error {
-        CommandError::ConfigField { field, message, .. } => {
-            CommandError::ConfigField { file: configuration.file().to_owned(), field, message }
-        }
+        CommandError::ConfigField { field, message, .. } => CommandError::ConfigField {
+            file: configuration.file().to_owned(),
+            field,
+            message,
+        },
         error => error,
     }
 }
@@ -49,7 +51,10 @@ fn in_threads<T: Send>(
     rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()
-        .map_err(|error| CommandError::Threads { threads, reason: error.to_string() })?
+        .map_err(|error| CommandError::Threads {
+            threads,
+            reason: error.to_string(),
+        })?
         .install(work)
 }
 
@@ -79,7 +84,11 @@ fn run_missing<S: Study>(
 ) -> Result<(), CommandError> {
     let finished: HashSet<String> = results.rows().iter().map(|row| row.case().to_owned()).collect();
     let total: f64 = cases.iter().map(Case::cost).sum();
-    let done: f64 = cases.iter().filter(|case| finished.contains(&case.id())).map(Case::cost).sum();
+    let done: f64 = cases
+        .iter()
+        .filter(|case| finished.contains(&case.id()))
+        .map(Case::cost)
+        .sum();
     let mut progress = StudyProgress::new(total, done);
     let mut shared = S::Shared::default();
     for case in cases {
@@ -118,9 +127,13 @@ fn write_report<S: Study>(study: &S, rows: &[S::Row], directory: &StudyDirectory
     let mut report = study.report(rows, directory)?;
     let manifest = Manifest::read(&directory.manifest())?;
     report.document.heading("Provenance");
-    report.document.paragraph(provenance(&manifest, rows.len(), study.cases()?.len()));
+    report
+        .document
+        .paragraph(provenance(&manifest, rows.len(), study.cases()?.len()));
     AtomicFile::write(directory.report(), report.document.as_str())?;
-    report.summary.push(("report", directory.report().display().to_string()));
+    report
+        .summary
+        .push(("report", directory.report().display().to_string()));
     console::print_pairs(&report.summary)
 }
 

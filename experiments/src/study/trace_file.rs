@@ -46,7 +46,9 @@ pub fn write(trace: &[TracePoint], path: &Path) -> Result<(), CommandError> {
             .serialize(TraceRow::from(point))
             .map_err(|error| CommandError::file("write", path, std::io::Error::other(error)))?;
     }
-    let text = writer.into_inner().map_err(|error| CommandError::file("write", path, error.into_error()))?;
+    let text = writer
+        .into_inner()
+        .map_err(|error| CommandError::file("write", path, error.into_error()))?;
     AtomicFile::write(path, text)
 }
 

@@ -14,7 +14,11 @@ pub fn command() -> Command {
 
 /// Runs `parvi` with arguments separated by spaces in a directory.
 pub fn parvi(directory: &Path, arguments: &str) -> Output {
-    command().current_dir(directory).args(arguments.split_whitespace()).output().unwrap()
+    command()
+        .current_dir(directory)
+        .args(arguments.split_whitespace())
+        .output()
+        .unwrap()
 }
 
 /// Standard output as text.
@@ -30,7 +34,8 @@ pub fn stderr(output: &Output) -> String {
 /// The value of a `key=value` line.
 pub fn value(output: &Output, key: &str) -> Option<String> {
     let text = stdout(output);
-    text.lines().find_map(|line| line.strip_prefix(key)?.strip_prefix('=').map(str::to_owned))
+    text.lines()
+        .find_map(|line| line.strip_prefix(key)?.strip_prefix('=').map(str::to_owned))
 }
 
 /// The names of all files of a directory, hidden ones included, in order.

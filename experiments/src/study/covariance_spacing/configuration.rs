@@ -41,13 +41,20 @@ impl CovarianceSpacing {
     /// Checks what belongs together.
     pub fn check(&self) -> Result<(), CommandError> {
         let refuse = |field: &str, message: String| {
-            Err(CommandError::ConfigField { file: String::new(), field: field.to_owned(), message })
+            Err(CommandError::ConfigField {
+                file: String::new(),
+                field: field.to_owned(),
+                message,
+            })
         };
         if self.seeds.is_empty() {
             return refuse("seeds", "is empty".to_owned());
         }
         if self.method.options.spacing.is_some() {
-            return refuse("method.options.spacing", "belongs into the series' `spacings`".to_owned());
+            return refuse(
+                "method.options.spacing",
+                "belongs into the series' `spacings`".to_owned(),
+            );
         }
         for series in &self.series {
             if let Some(spacing) = series.spacings.iter().find(|h| !(**h > 0.0 && h.is_finite())) {
@@ -56,7 +63,10 @@ impl CovarianceSpacing {
             if let Some(judged) = series.judged_spacing
                 && !series.spacings.contains(&judged)
             {
-                return refuse("judged-spacing", format!("{judged} is not among the spacings of d = {}", series.dim));
+                return refuse(
+                    "judged-spacing",
+                    format!("{judged} is not among the spacings of d = {}", series.dim),
+                );
             }
         }
         Ok(())

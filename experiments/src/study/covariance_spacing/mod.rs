@@ -84,7 +84,11 @@ impl Study for CovarianceSpacing {
         let mut cases = Vec::new();
         for series in &self.series {
             for &spacing in &series.spacings {
-                cases.extend(self.seeds.iter().map(|&seed| Case { dim: series.dim, spacing, seed }));
+                cases.extend(self.seeds.iter().map(|&seed| Case {
+                    dim: series.dim,
+                    spacing,
+                    seed,
+                }));
             }
         }
         Ok(cases)

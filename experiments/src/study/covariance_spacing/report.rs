@@ -1,18 +1,21 @@
 //! The report of the study `covariance-spacing`.
 
-use super::configuration::{CovarianceSpacing, Series};
 use super::Row;
+use super::configuration::{CovarianceSpacing, Series};
+use crate::CommandError;
 use crate::plots::{AxisKind, LinePlot, LineSeries, ReferenceLevel, line};
 use crate::statistics::summarize;
 use crate::study::definition::Report;
 use crate::study::directory::StudyDirectory;
 use crate::study::document::{Document, MISSING, number, optional_number};
-use crate::CommandError;
 
 /// The covariance errors of one dimension and spacing, over the seeds.
 fn errors(rows: &[Row], series: &Series, spacing: f64) -> Vec<f64> {
     let here = |row: &&Row| row.dim == series.dim.get() && row.spacing == spacing;
-    rows.iter().filter(here).filter_map(|row| row.covariance_error).collect()
+    rows.iter()
+        .filter(here)
+        .filter_map(|row| row.covariance_error)
+        .collect()
 }
 
 /// The largest error at the judged spacing, and whether it keeps its bound.
@@ -54,7 +57,11 @@ pub fn report(study: &CovarianceSpacing, rows: &[Row], directory: &StudyDirector
     document.table(&["d", "h", "largest error", "bound", "verdict"], &table);
 
     document.heading("Error against spacing");
-    let curves = study.series.iter().map(|series| curve(rows, series)).collect::<Result<Vec<_>, _>>()?;
+    let curves = study
+        .series
+        .iter()
+        .map(|series| curve(rows, series))
+        .collect::<Result<Vec<_>, _>>()?;
     let mut bounds: Vec<f64> = study.series.iter().filter_map(|series| series.bound).collect();
     bounds.sort_by(f64::total_cmp);
     bounds.dedup();
@@ -65,7 +72,13 @@ pub fn report(study: &CovarianceSpacing, rows: &[Row], directory: &StudyDirector
         x_axis: AxisKind::Linear,
         y_axis: AxisKind::Logarithmic,
         series: curves,
-        levels: bounds.iter().map(|&value| ReferenceLevel { value, label: "bound".to_owned() }).collect(),
+        levels: bounds
+            .iter()
+            .map(|&value| ReferenceLevel {
+                value,
+                label: "bound".to_owned(),
+            })
+            .collect(),
     };
     let caption = "Covariance error of resting particles; medians over the seeds, bars from least to most.";
     document.figure(directory, "covariance-spacing.svg", caption, line(&plot))?;
@@ -76,26 +89,43 @@ pub fn report(study: &CovarianceSpacing, rows: &[Row], directory: &StudyDirector
             let errors = errors(rows, series, spacing);
             let median = summarize(&errors).ok().map(|summary| summary.median);
             let here = |row: &&Row| row.dim == series.dim.get() && row.spacing == spacing;
-            let failed: Vec<&str> =
-                rows.iter().filter(here).filter(|row| row.covariance_error.is_none()).map(|row| row.status.as_str()).collect();
+            let failed: Vec<&str> = rows
+                .iter()
+                .filter(here)
+                .filter(|row| row.covariance_error.is_none())
+                .map(|row| row.status.as_str())
+                .collect();
             let nodes = rows.iter().find(here).and_then(|row| row.active_nodes);
             table.push(vec![
                 series.dim.to_string(),
                 spacing.to_string(),
                 optional_number(median),
                 nodes.map_or(MISSING.to_owned(), |count| count.to_string()),
-                if failed.is_empty() { MISSING.to_owned() } else { failed.join(", ") },
+                if failed.is_empty() {
+                    MISSING.to_owned()
+                } else {
+                    failed.join(", ")
+                },
             ]);
         }
     }
     document.table(&["d", "h", "median error", "active nodes", "failed"], &table);
 
     let verdict = if all_kept { "pass" } else { "fail" };
-    Ok(Report { document, summary: vec![("study", "covariance-spacing".to_owned()), ("verdict", verdict.to_owned())] })
+    Ok(Report {
+        document,
+        summary: vec![
+            ("study", "covariance-spacing".to_owned()),
+            ("verdict", verdict.to_owned()),
+        ],
+    })
 }
 
 fn curve(rows: &[Row], series: &Series) -> Result<LineSeries, CommandError> {
-    let mut line = LineSeries { label: format!("d = {}", series.dim), ..LineSeries::default() };
+    let mut line = LineSeries {
+        label: format!("d = {}", series.dim),
+        ..LineSeries::default()
+    };
     let mut spacings = series.spacings.clone();
     spacings.sort_by(f64::total_cmp);
     for spacing in spacings {

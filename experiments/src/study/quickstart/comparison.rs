@@ -48,12 +48,16 @@ impl Comparison {
 
     /// The largest error of a mean in posterior standard deviations.
     pub fn largest_mean_error(&self) -> f64 {
-        self.axes.iter().fold(0.0, |worst, axis| worst.max(axis.mean_error.abs()))
+        self.axes
+            .iter()
+            .fold(0.0, |worst, axis| worst.max(axis.mean_error.abs()))
     }
 
     /// The largest relative error of a standard deviation.
     pub fn largest_deviation_error(&self) -> f64 {
-        self.axes.iter().fold(0.0, |worst, axis| worst.max(axis.deviation_error.abs()))
+        self.axes
+            .iter()
+            .fold(0.0, |worst, axis| worst.max(axis.deviation_error.abs()))
     }
 
     /// The largest standard error of a reference mean in posterior standard deviations.
@@ -91,7 +95,10 @@ mod tests {
         assert!((comparison.largest_mean_error() - 0.05).abs() < 1e-12);
         assert!(comparison.largest_deviation_error() < 1e-12);
         assert!((comparison.largest_reference_error() - 0.001).abs() < 1e-12);
-        let bounds = Bounds { mean: 0.02, standard_deviation: 0.03 };
+        let bounds = Bounds {
+            mean: 0.02,
+            standard_deviation: 0.03,
+        };
         assert!(!comparison.means_pass(&bounds));
         assert!(comparison.deviations_pass(&bounds));
     }

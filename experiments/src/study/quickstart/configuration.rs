@@ -67,13 +67,23 @@ impl Quickstart {
     /// Checks what belongs together.
     pub fn check(&self) -> Result<(), CommandError> {
         let refuse = |field: &str, message: String| {
-            Err(CommandError::ConfigField { file: String::new(), field: field.to_owned(), message })
+            Err(CommandError::ConfigField {
+                file: String::new(),
+                field: field.to_owned(),
+                message,
+            })
         };
         let dimension = self.picture.target.dimension()?;
         if dimension != 2 {
-            return refuse("picture.target", format!("`{}` has d = {dimension}, must be 2", self.picture.target.label()));
+            return refuse(
+                "picture.target",
+                format!("`{}` has d = {dimension}, must be 2", self.picture.target.label()),
+            );
         }
-        for (field, bound) in [("mean", self.bounds.mean), ("standard-deviation", self.bounds.standard_deviation)] {
+        for (field, bound) in [
+            ("mean", self.bounds.mean),
+            ("standard-deviation", self.bounds.standard_deviation),
+        ] {
             if !(bound > 0.0 && bound.is_finite()) {
                 return refuse(&format!("bounds.{field}"), format!("{bound} must be a number above 0"));
             }

@@ -8,8 +8,8 @@ use crate::CommandError;
 use crate::dispatch::{TargetTask, with_target};
 use crate::output::{Particles, particles_csv};
 use crate::plots::{
-    AxisKind, CloudPlot, CornerPlot, HistogramPlot, PairDensity, PointCloud, Reference, ReferenceLevel, TracePanel, TracePlot,
-    TraceSeries, cloud, corner, histogram, trace,
+    AxisKind, CloudPlot, CornerPlot, HistogramPlot, PairDensity, PointCloud, Reference, ReferenceLevel, TracePanel,
+    TracePlot, TraceSeries, cloud, corner, histogram, trace,
 };
 use crate::statistics::DensityGrid;
 use crate::study::directory::StudyDirectory;
@@ -26,16 +26,30 @@ pub fn posterior(
     let draws = particles_csv::read(&Case::Reference.particles_file(directory))?;
     let (points, draws) = (rows(particles), rows(&draws));
     let labels = study.posterior.target.coordinate_names();
-    let cloud = PointCloud { points: &points, weights: particles.weights() };
+    let cloud = PointCloud {
+        points: &points,
+        weights: particles.weights(),
+    };
     let reference = Reference::Draws(PointCloud::equal(&draws));
     let reference_label = "reference";
-    let plot =
-        CornerPlot { title: "", particles: cloud, labels: &labels, reference, reference_label };
+    let plot = CornerPlot {
+        title: "",
+        particles: cloud,
+        labels: &labels,
+        reference,
+        reference_label,
+    };
     let caption = "The posterior's particles over the reference: lines enclose 50, 90 and 99 % of its mass.";
     document.figure(directory, "posterior-corner.svg", caption, corner(&plot))?;
-    let plot =
-        HistogramPlot { title: "", particles: cloud, labels: &labels, reference, reference_label };
-    let caption = "Marginals of the posterior: histogram and kernel density estimate of the particles, and the reference.";
+    let plot = HistogramPlot {
+        title: "",
+        particles: cloud,
+        labels: &labels,
+        reference,
+        reference_label,
+    };
+    let caption =
+        "Marginals of the posterior: histogram and kernel density estimate of the particles, and the reference.";
     document.figure(directory, "posterior-marginals.svg", caption, histogram(&plot))
 }
 
@@ -48,13 +62,23 @@ pub fn picture(
 ) -> Result<(), CommandError> {
     let points = rows(particles);
     let density = with_target(&study.picture.target, DensityTask { size: 161 })?;
-    let pairs = [PairDensity { horizontal: 0, vertical: 1, grid: density }];
+    let pairs = [PairDensity {
+        horizontal: 0,
+        vertical: 1,
+        grid: density,
+    }];
     let plot = CloudPlot {
         title: "",
-        particles: PointCloud { points: &points, weights: particles.weights() },
+        particles: PointCloud {
+            points: &points,
+            weights: particles.weights(),
+        },
         particles_label: "",
         labels: &study.picture.target.coordinate_names(),
-        reference: Reference::Exact { marginals: &[], pairs: &pairs },
+        reference: Reference::Exact {
+            marginals: &[],
+            pairs: &pairs,
+        },
         reference_label: "",
         equal_units: true,
     };
@@ -84,7 +108,10 @@ pub fn traces(study: &Quickstart, directory: &StudyDirectory, document: &mut Doc
                 y_label: "residual (1: independent draws)".to_owned(),
                 y_axis: AxisKind::Automatic,
                 series: series(&runs, |row| row.residual),
-                levels: vec![ReferenceLevel { value: 1.0, label: "independent draws".to_owned() }],
+                levels: vec![ReferenceLevel {
+                    value: 1.0,
+                    label: "independent draws".to_owned(),
+                }],
             },
             TracePanel {
                 y_label: "kinetic energy".to_owned(),
@@ -98,15 +125,9 @@ pub fn traces(study: &Quickstart, directory: &StudyDirectory, document: &mut Doc
                 series: above_least(series(&runs, |row| row.potential_energy)),
                 levels: Vec::new(),
             },
-            TracePanel {
-                y_label: "largest displacement (spacings)".to_owned(),
-                y_axis: AxisKind::Automatic,
-                series: series(&runs, |row| Some(row.displacement)),
-                levels: Vec::new(),
-            },
         ],
     };
-    let caption = "Galerkin–Stein residual, energies (frame coordinates, total mass 1) and largest displacement per step.";
+    let caption = "Galerkin–Stein residual and energies (frame coordinates, total mass 1) against the steps.";
     document.figure(directory, "traces.svg", caption, trace(&plot))
 }
 
@@ -114,7 +135,11 @@ fn series(runs: &[(&Part, Vec<TraceRow>)], value: impl Fn(&TraceRow) -> Option<f
     let one = |(part, rows): &(&Part, Vec<TraceRow>)| {
         let points = rows.iter().filter_map(|row| Some((row.step as f64, value(row)?)));
         let (step, value) = points.unzip();
-        TraceSeries { label: part.target.label(), step, value }
+        TraceSeries {
+            label: part.target.label(),
+            step,
+            value,
+        }
     };
     runs.iter().map(one).filter(|series| !series.step.is_empty()).collect()
 }
@@ -150,8 +175,15 @@ impl TargetTask for DensityTask {
             }
             target.log_density(&point)
         });
-        let most = grid.values.iter().copied().filter(|value| value.is_finite()).fold(f64::NEG_INFINITY, f64::max);
-        grid.values.iter_mut().for_each(|value| *value = if value.is_finite() { (*value - most).exp() } else { 0.0 });
+        let most = grid
+            .values
+            .iter()
+            .copied()
+            .filter(|value| value.is_finite())
+            .fold(f64::NEG_INFINITY, f64::max);
+        grid.values
+            .iter_mut()
+            .for_each(|value| *value = if value.is_finite() { (*value - most).exp() } else { 0.0 });
         Ok(grid)
     }
 }

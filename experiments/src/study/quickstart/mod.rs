@@ -168,12 +168,20 @@ impl Quickstart {
     fn run_reference(&self, directory: &StudyDirectory) -> Result<Row, CommandError> {
         let target = &self.posterior.target;
         let begin = Instant::now();
-        let task = ReferenceTask { part: &self.reference, names: target.coordinate_names() };
+        let task = ReferenceTask {
+            part: &self.reference,
+            names: target.coordinate_names(),
+        };
         let reference = with_target(target, task)?;
         let wall_seconds = begin.elapsed().as_secs_f64();
         reference::write(&reference.axes, &moments_file(directory))?;
         ParticleFile::create(Case::Reference.particles_file(directory))?.write(&reference.draws)?;
-        let mut row = Row::new(Case::Reference, &self.posterior, "importance-sampling", self.reference.points.get())?;
+        let mut row = Row::new(
+            Case::Reference,
+            &self.posterior,
+            "importance-sampling",
+            self.reference.points.get(),
+        )?;
         row.effective_sample_size = Some(reference.effective_sample_size);
         row.wall_seconds = Some(wall_seconds);
         Ok(row)

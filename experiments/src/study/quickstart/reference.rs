@@ -57,7 +57,11 @@ impl TargetTask for ReferenceTask<'_> {
         let known = sample.moments();
         let axes = (0..D)
             .map(|axis| ReferenceAxis {
-                name: self.names.get(axis).cloned().unwrap_or_else(|| format!("x{}", axis + 1)),
+                name: self
+                    .names
+                    .get(axis)
+                    .cloned()
+                    .unwrap_or_else(|| format!("x{}", axis + 1)),
                 mean: known.moments.mean[axis],
                 mean_standard_error: known.mean_error[axis],
                 standard_deviation: known.moments.covariance.0[axis][axis].sqrt(),
@@ -80,7 +84,9 @@ pub fn write(axes: &[ReferenceAxis], path: &Path) -> Result<(), CommandError> {
     for axis in axes {
         writer.serialize(axis).map_err(failed)?;
     }
-    let text = writer.into_inner().map_err(|error| CommandError::file("write", path, error.into_error()))?;
+    let text = writer
+        .into_inner()
+        .map_err(|error| CommandError::file("write", path, error.into_error()))?;
     AtomicFile::write(path, text)
 }
 

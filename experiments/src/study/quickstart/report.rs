@@ -13,7 +13,10 @@ use crate::study::document::{Document, MISSING, number, optional_number};
 pub fn report(study: &Quickstart, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
     let mut document = Document::new("Quickstart: a posterior from real data");
     let mut summary = vec![("study", "quickstart".to_owned())];
-    let finished = |case: Case| rows.iter().any(|row| row.case == case.name() && row.status == Status::Finished);
+    let finished = |case: Case| {
+        rows.iter()
+            .any(|row| row.case == case.name() && row.status == Status::Finished)
+    };
 
     if finished(Case::Reference) && finished(Case::Posterior) {
         let particles = particles_csv::read(&Case::Posterior.particles_file(directory))?;
@@ -21,7 +24,10 @@ pub fn report(study: &Quickstart, rows: &[Row], directory: &StudyDirectory) -> R
         verdict(study, &comparison, rows, &mut document);
         summary.extend([
             ("largest_mean_error", format!("{:.6}", comparison.largest_mean_error())),
-            ("largest_sd_error", format!("{:.6}", comparison.largest_deviation_error())),
+            (
+                "largest_sd_error",
+                format!("{:.6}", comparison.largest_deviation_error()),
+            ),
             ("verdict", word(passes(study, &comparison)).to_owned()),
         ]);
         moments_table(&comparison, &mut document);
@@ -86,7 +92,15 @@ fn verdict(study: &Quickstart, comparison: &Comparison, rows: &[Row], document: 
 fn moments_table(comparison: &Comparison, document: &mut Document) {
     document.heading("Posterior moments");
     let header = [
-        "coefficient", "mean", "reference mean", "± s.e.", "error (sd)", "sd", "reference sd", "± s.e.", "error (%)",
+        "coefficient",
+        "mean",
+        "reference mean",
+        "± s.e.",
+        "error (sd)",
+        "sd",
+        "reference sd",
+        "± s.e.",
+        "error (%)",
     ];
     let table: Vec<Vec<String>> = comparison
         .axes
@@ -110,12 +124,27 @@ fn moments_table(comparison: &Comparison, document: &mut Document) {
 }
 
 fn runs_table(rows: &[Row], document: &mut Document) {
-    let header =
-        ["case", "status", "target", "method", "M", "steps", "scores", "residual", "h", "active nodes", "time (s)"];
+    let header = [
+        "case",
+        "status",
+        "target",
+        "method",
+        "M",
+        "steps",
+        "scores",
+        "residual",
+        "h",
+        "active nodes",
+        "time (s)",
+    ];
     let table: Vec<Vec<String>> = rows
         .iter()
         .map(|row| {
-            let note = if row.reason.is_empty() { String::new() } else { format!(": {}", row.reason) };
+            let note = if row.reason.is_empty() {
+                String::new()
+            } else {
+                format!(": {}", row.reason)
+            };
             let count = |value: Option<u64>| value.map_or(MISSING.to_owned(), |value| value.to_string());
             vec![
                 row.case.clone(),

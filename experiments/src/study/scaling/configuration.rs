@@ -54,6 +54,8 @@ pub struct NodesSweep {
     pub particles: ParticleCount,
     /// k.
     pub nodes_per_axis: Vec<Bounded<2, 1_000_000>>,
+    /// A second fit uses the k from here on.
+    pub fit_from: Bounded<2, 1_000_000>,
     /// The interval per axis, in frame units, that k nodes divide: h = width / k.
     #[serde(rename = "box")]
     pub interval: [f64; 2],
@@ -63,7 +65,11 @@ impl Scaling {
     /// The cases of both sweeps, cheap ones first within each dimension.
     pub fn all_cases(&self) -> Result<Vec<Case>, CommandError> {
         let refuse = |field: &str, message: String| {
-            Err(CommandError::ConfigField { file: String::new(), field: field.to_owned(), message })
+            Err(CommandError::ConfigField {
+                file: String::new(),
+                field: field.to_owned(),
+                message,
+            })
         };
         let [low, high] = self.nodes_sweep.interval;
         if !(low < high && (high - low).is_finite()) {
@@ -71,7 +77,10 @@ impl Scaling {
         }
         let sweep = &self.particles_sweep;
         if !(sweep.largest_work > 0.0) {
-            return refuse("particles-sweep.largest-work", format!("{} must be above 0", sweep.largest_work));
+            return refuse(
+                "particles-sweep.largest-work",
+                format!("{} must be above 0", sweep.largest_work),
+            );
         }
         for &dim in sweep.dims.iter().chain(&self.nodes_sweep.dims) {
             TargetSpecification::plain(&self.target, Some(dim)).dimension()?;
@@ -82,7 +91,13 @@ impl Scaling {
                 let work = particles.get() as f64 * 3f64.powi(dim.get() as i32);
                 if work <= sweep.largest_work {
                     let particles = particles.get();
-                    cases.push(Case { sweep: Sweep::Particles, dim, particles, nodes_per_axis: None, spacing: None });
+                    cases.push(Case {
+                        sweep: Sweep::Particles,
+                        dim,
+                        particles,
+                        nodes_per_axis: None,
+                        spacing: None,
+                    });
                 }
             }
         }

@@ -1,10 +1,11 @@
 //! Study `scaling`: how time per step, memory, active nodes and score evaluations grow with d, M and k.
 //!
 //! Two sweeps: over d and M with the sampler's own spacing, and over the nodes per axis k of the box that holds the
-//! target at fixed M, where a dense grid would hold N = kᵈ nodes. Each case runs once to warm up, which also gives the
-//! memory, and then several times on the clock; the median counts.
+//! target at fixed M, where a dense grid would hold N = kᵈ nodes. Each case runs once to warm up and then several times on the clock; the
+//! median counts. The memory is that of one more run in a process of its own.
 
 mod configuration;
+mod memory;
 mod quantity;
 mod report;
 
@@ -16,7 +17,6 @@ pub use configuration::Scaling;
 use super::attempt::{Attempt, Status, attempt};
 use super::definition::{self, Report, Study};
 use super::directory::StudyDirectory;
-use super::machine::MemoryGauge;
 use super::results;
 use crate::options::{Bounded, TargetSpecification};
 use crate::progress::CaseObserver;
@@ -152,7 +152,6 @@ impl Study for Scaling {
         let mut row = Row::new(case);
         let mut times = Vec::new();
         for repeat in 0..=self.repeats.get() {
-            let gauge = (repeat == 0).then(MemoryGauge::begin);
             let outcome = match attempt(sampling::sample(&target, &method, &run, observer))? {
                 Attempt::Finished(outcome) => outcome,
                 Attempt::Failed(status, reason) => {
@@ -160,14 +159,14 @@ impl Study for Scaling {
                     return Ok(row);
                 }
             };
-            match gauge {
-                Some(gauge) => {
-                    row.memory_peak_bytes = gauge.peak_bytes();
-                    row.note(&outcome);
-                }
-                None => times.push(outcome.wall_seconds / outcome.steps.max(1) as f64),
+            if repeat == 0 {
+                row.note(&outcome);
+            } else {
+                times.push(outcome.wall_seconds / outcome.steps.max(1) as f64);
             }
         }
+        specification.options.steps = Some(self.steps);
+        row.memory_peak_bytes = memory::peak_of_own_process(&target, &specification, &run, self.threads());
         let quantiles = statistics::weighted_quantile(&times, None, &[0.0, 0.5, 1.0])?;
         row.wall_seconds_per_step_least = Some(quantiles[0]);
         row.wall_seconds_per_step = Some(quantiles[1]);

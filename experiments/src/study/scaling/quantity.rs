@@ -10,8 +10,8 @@ pub struct Quantity {
     pub name: &'static str,
     /// Label of an axis, with the unit.
     pub axis: &'static str,
-    /// Name of the figure's file, without sweep and extension.
-    pub file: &'static str,
+    /// Name of the figure's file, without sweep and extension; `None` for what a table says better.
+    pub file: Option<&'static str>,
     /// Its value.
     pub value: fn(&Row) -> Option<f64>,
 }
@@ -21,31 +21,31 @@ pub const QUANTITIES: [Quantity; 5] = [
     Quantity {
         name: "time per step",
         axis: "time per step (s)",
-        file: "time",
+        file: Some("time"),
         value: |row| row.wall_seconds_per_step,
     },
     Quantity {
         name: "active nodes",
         axis: "active nodes",
-        file: "nodes",
+        file: Some("nodes"),
         value: |row| row.active_nodes.map(|count| count as f64),
     },
     Quantity {
         name: "storage",
         axis: "storage of particles and grid (bytes)",
-        file: "storage",
+        file: Some("storage"),
         value: |row| row.storage_bytes.map(|bytes| bytes as f64),
     },
     Quantity {
         name: "peak memory",
         axis: "rise of the resident memory (bytes)",
-        file: "memory",
+        file: Some("memory"),
         value: |row| row.memory_peak_bytes.map(|bytes| bytes as f64),
     },
     Quantity {
         name: "score evaluations per step",
         axis: "score evaluations per step",
-        file: "scores",
+        file: None,
         value: |row| Some(row.score_evaluations? as f64 / row.steps.filter(|steps| *steps > 0)? as f64),
     },
 ];
@@ -55,13 +55,16 @@ impl Quantity {
     pub fn series(&self, rows: &[Row], sweep: Sweep, dim: usize) -> ScalingSeries {
         let here = rows.iter().filter(|row| row.sweep == sweep && row.dim == dim);
         let (x, y) = here.filter_map(|row| Some((size(row), (self.value)(row)?))).unzip();
-        ScalingSeries { label: format!("d = {dim}"), x, y }
+        ScalingSeries {
+            label: format!("d = {dim}"),
+            x,
+            y,
+        }
     }
 
     /// The fitted exponent with its 95 % interval.
     pub fn exponent(&self, rows: &[Row], sweep: Sweep, dim: usize, fit_from: f64) -> String {
-        scaling_fit(&self.series(rows, sweep, dim), fit_from)
-            .map_or(MISSING.to_owned(), |law| exponent_text(&law, 0))
+        scaling_fit(&self.series(rows, sweep, dim), fit_from).map_or(MISSING.to_owned(), |law| exponent_text(&law, 0))
     }
 }
 

@@ -17,8 +17,8 @@ pub fn report(study: &Scaling, rows: &[Row], directory: &StudyDirectory) -> Resu
     let mut document = Document::new("Scaling with d, M and N = kᵈ");
     document.paragraph(format!(
         "Target `{}`, method `{}`, {} steps per run, {} threads. Times are medians of {} runs after one to warm up: the \
-         sampler's own wall time divided by its steps. Peak memory is the rise of the resident set during the first run, \
-         which misses what the allocator had kept from earlier cases; storage is what particles and grid hold. Exponents \
+         sampler's own wall time divided by its steps. Storage is what particles and grid hold; peak memory is the rise of the resident \
+         set of a process that does one such run. Exponents \
          are least-squares slopes in logarithms with 95 % confidence intervals.",
         study.target,
         study.method.label(),
@@ -55,10 +55,10 @@ fn particles_part(
         number(sweep.largest_work),
     ));
     exponent_table(document, rows, Sweep::Particles, &sweep.dims, fit_from);
-    for quantity in &QUANTITIES {
+    for (quantity, file) in drawn() {
         let plot = plot(quantity, rows, Sweep::Particles, &sweep.dims, fit_from);
         let caption = format!("{} against the number of particles.", capitalised(quantity.name));
-        document.figure(directory, &format!("particles-{}.svg", quantity.file), &caption, scaling(&plot))?;
+        document.figure(directory, &format!("particles-{file}.svg"), &caption, scaling(&plot))?;
     }
     growth_with_dimension(study, rows, document);
     Ok(())
@@ -83,10 +83,12 @@ fn growth_with_dimension(study: &Scaling, rows: &[Row], document: &mut Document)
     let mut table = Vec::new();
     for particles in sweep.particles.iter().map(|count| count.get()) {
         let times: Vec<Option<f64>> = dims.iter().map(|&dim| time(dim, particles)).collect();
-        let known = dims.iter().zip(&times).filter_map(|(&dim, time)| Some((3f64.powi(dim as i32), (*time)?)));
+        let known = dims
+            .iter()
+            .zip(&times)
+            .filter_map(|(&dim, time)| Some((3f64.powi(dim as i32), (*time)?)));
         let (sizes, values): (Vec<f64>, Vec<f64>) = known.unzip();
-        let exponent =
-            fit_power_law(&sizes, &values).map_or(MISSING.to_owned(), |law| exponent_text(&law, 0));
+        let exponent = fit_power_law(&sizes, &values).map_or(MISSING.to_owned(), |law| exponent_text(&law, 0));
         let mut line = vec![particles.to_string()];
         line.extend(times.into_iter().map(optional_number));
         line.push(exponent);
@@ -112,19 +114,34 @@ fn nodes_part(
         largest_dense_grid(study),
     ));
     exponent_table(document, rows, Sweep::Nodes, &sweep.dims, 0.0);
-    for quantity in &QUANTITIES {
+    document.paragraph(format!(
+        "The same from k = {} on, where most particles are alone in their cells and touch 3ᵈ nodes each:",
+        sweep.fit_from,
+    ));
+    exponent_table(document, rows, Sweep::Nodes, &sweep.dims, sweep.fit_from.get() as f64);
+    for (quantity, file) in drawn() {
         let mut plot = plot(quantity, rows, Sweep::Nodes, &sweep.dims, 0.0);
-        if quantity.file == "time" {
-            plot.guides = sweep.dims.iter().filter_map(|dim| dense_guide(&plot, dim.get())).collect();
+        if file == "time" {
+            plot.guides = sweep
+                .dims
+                .iter()
+                .filter_map(|dim| dense_guide(&plot, dim.get()))
+                .collect();
         }
         let caption = format!("{} against the nodes per axis, at fixed M.", capitalised(quantity.name));
-        document.figure(directory, &format!("nodes-{}.svg", quantity.file), &caption, scaling(&plot))?;
+        document.figure(directory, &format!("nodes-{file}.svg"), &caption, scaling(&plot))?;
     }
     Ok(())
 }
 
 fn largest_dense_grid(study: &Scaling) -> String {
-    let nodes = study.nodes_sweep.nodes_per_axis.iter().map(|nodes| nodes.get()).max().unwrap_or(0) as f64;
+    let nodes = study
+        .nodes_sweep
+        .nodes_per_axis
+        .iter()
+        .map(|nodes| nodes.get())
+        .max()
+        .unwrap_or(0) as f64;
     let dim = study.nodes_sweep.dims.iter().map(|dim| dim.get()).max().unwrap_or(0);
     number(nodes.powi(dim as i32))
 }
@@ -134,12 +151,29 @@ fn dense_guide(plot: &ScalingPlot, dim: usize) -> Option<ScalingGuide> {
     let series = plot.series.iter().find(|series| series.label == format!("d = {dim}"))?;
     let (&first_size, &first_time) = (series.x.first()?, series.y.first()?);
     let (_, &last_size) = (series.x.first()?, series.x.last()?);
-    let most = 1e3 * plot.series.iter().flat_map(|series| &series.y).fold(0.0, |most: f64, &y| most.max(y));
+    let most = 1e3
+        * plot
+            .series
+            .iter()
+            .flat_map(|series| &series.y)
+            .fold(0.0, |most: f64, &y| most.max(y));
     let power = |size: f64| first_time * (size / first_size).powi(dim as i32);
     let reach = (first_size * (most / first_time).powf(1.0 / dim as f64)).min(last_size);
-    let x: Vec<f64> = (0..=20).map(|i| first_size * (reach / first_size).powf(f64::from(i) / 20.0)).collect();
+    let x: Vec<f64> = (0..=20)
+        .map(|i| first_size * (reach / first_size).powf(f64::from(i) / 20.0))
+        .collect();
     let y = x.iter().map(|&size| power(size)).collect();
-    Some(ScalingGuide { label: format!("dense grid, k^{{{dim}}}"), curve: crate::plots::Curve { x, y } })
+    Some(ScalingGuide {
+        label: format!("dense grid, k^{{{dim}}}"),
+        curve: crate::plots::Curve { x, y },
+    })
+}
+
+/// The quantities that have a figure.
+fn drawn() -> impl Iterator<Item = (&'static Quantity, &'static str)> {
+    QUANTITIES
+        .iter()
+        .filter_map(|quantity| Some((quantity, quantity.file?)))
 }
 
 fn plot(quantity: &Quantity, rows: &[Row], sweep: Sweep, dims: &[Dimension], fit_from: f64) -> ScalingPlot {
@@ -165,7 +199,11 @@ fn exponent_table(document: &mut Document, rows: &[Row], sweep: Sweep, dims: &[D
     let mut table = Vec::new();
     for dim in dims.iter().map(|dim| dim.get()) {
         let mut line = vec![dim.to_string()];
-        line.extend(QUANTITIES.iter().map(|quantity| quantity.exponent(rows, sweep, dim, fit_from)));
+        line.extend(
+            QUANTITIES
+                .iter()
+                .map(|quantity| quantity.exponent(rows, sweep, dim, fit_from)),
+        );
         line.push(match sweep {
             Sweep::Particles => "1".to_owned(),
             Sweep::Nodes => dim.to_string(),
@@ -177,13 +215,25 @@ fn exponent_table(document: &mut Document, rows: &[Row], sweep: Sweep, dims: &[D
 
 fn all_rows(rows: &[Row], document: &mut Document) {
     document.heading("All cases");
-    let header =
-        ["case", "status", "h", "active nodes", "scores", "storage (bytes)", "peak memory (bytes)", "time per step (s)"];
+    let header = [
+        "case",
+        "status",
+        "h",
+        "active nodes",
+        "scores",
+        "storage (bytes)",
+        "peak memory (bytes)",
+        "time per step (s)",
+    ];
     let count = |value: Option<u64>| value.map_or(MISSING.to_owned(), |value| value.to_string());
     let table: Vec<Vec<String>> = rows
         .iter()
         .map(|row| {
-            let note = if row.reason.is_empty() { String::new() } else { format!(": {}", row.reason) };
+            let note = if row.reason.is_empty() {
+                String::new()
+            } else {
+                format!(": {}", row.reason)
+            };
             vec![
                 row.case.clone(),
                 format!("{}{note}", row.status.as_str()),
@@ -201,5 +251,7 @@ fn all_rows(rows: &[Row], document: &mut Document) {
 
 fn capitalised(text: &str) -> String {
     let mut letters = text.chars();
-    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+    letters
+        .next()
+        .map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
 }

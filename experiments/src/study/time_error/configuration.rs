@@ -23,9 +23,9 @@ pub struct TimeError {
     pub particles: ParticleCount,
     /// Numbers of steps for methods that take steps, unless their own options fix them.
     pub steps: Vec<StepCount>,
-    /// Draws that stand for a target that is no Gaussian.
-    pub reference_draws: Bounded<1000, 1_000_000>,
-    /// Seed of the reference draws.
+    /// Quasi-random points that stand for a target; a power of two keeps their balance.
+    pub reference_points: Bounded<1000, 1_000_000>,
+    /// Seed of the reference points.
     pub reference_seed: u64,
     /// Directions of the sliced Wasserstein distance.
     pub directions: Bounded<1, 100_000>,
@@ -39,7 +39,11 @@ impl TimeError {
     /// The cases, target by target, so that a target's reference is made once.
     pub fn all_cases(&self) -> Result<Vec<Case>, CommandError> {
         let refuse = |field: &str, message: &str| {
-            Err(CommandError::ConfigField { file: String::new(), field: field.to_owned(), message: message.to_owned() })
+            Err(CommandError::ConfigField {
+                file: String::new(),
+                field: field.to_owned(),
+                message: message.to_owned(),
+            })
         };
         if self.seeds.is_empty() {
             return refuse("seeds", "is empty");
@@ -55,7 +59,14 @@ impl TimeError {
                     for &seed in &self.seeds {
                         let (target, method) = (target.clone(), method.clone());
                         let particles = self.particles.get();
-                        let case = Case { target_index, target, method, particles, steps, seed };
+                        let case = Case {
+                            target_index,
+                            target,
+                            method,
+                            particles,
+                            steps,
+                            seed,
+                        };
                         if !ids.insert(definition::Case::id(&case)) {
                             return refuse("methods", &format!("two cases are `{}`", definition::Case::id(&case)));
                         }

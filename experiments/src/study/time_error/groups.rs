@@ -32,7 +32,10 @@ pub fn settings<'a>(rows: &'a [Row], target: &str, method: &str) -> Vec<Setting<
         // Diverged runs keep the steps they were asked for, as finished ones do.
         match settings.iter_mut().find(|setting| setting.steps == row.steps) {
             Some(setting) => setting.runs.push(row),
-            None => settings.push(Setting { steps: row.steps, runs: vec![row] }),
+            None => settings.push(Setting {
+                steps: row.steps,
+                runs: vec![row],
+            }),
         }
     }
     settings.sort_by_key(|setting| setting.steps);

@@ -1,6 +1,6 @@
 //! Study `time-error`: error against wall time and score evaluations, all methods on all targets.
 //!
-//! The yardstick is a set of independent exact draws of the same size M; where a target has none, draws are resampled
+//! The yardstick is a set of independent exact draws of the same size M; where a target has none, they are drawn
 //! from its reference draws. A run that diverges is a row with its reason.
 
 mod configuration;
@@ -18,10 +18,10 @@ use super::attempt::{Attempt, Status, attempt};
 use super::definition::{self, Report, Study};
 use super::directory::StudyDirectory;
 use super::results;
+use crate::CommandError;
 use crate::options::{Bounded, MethodName, MethodSpecification, TargetSpecification};
 use crate::progress::CaseObserver;
 use crate::sampling::{self, Outcome};
-use crate::CommandError;
 
 /// One run.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,14 +37,22 @@ pub struct Case {
 impl definition::Case for Case {
     fn id(&self) -> String {
         let steps = self.steps.map_or(String::new(), |steps| format!("-t{steps}"));
-        format!("{}-{}-m{}{steps}-s{}", self.target.label(), self.method.label(), self.particles, self.seed)
+        format!(
+            "{}-{}-m{}{steps}-s{}",
+            self.target.label(),
+            self.method.label(),
+            self.particles,
+            self.seed
+        )
     }
 
     fn cost(&self) -> f64 {
+        // Milliseconds, roughly: a distance to the reference, and M² pairs or M · 3ᵈ nodes per step.
         let steps = self.steps.unwrap_or(0) as f64;
+        let dimension = self.target.dimension().unwrap_or(1) as i32;
         let per_step = match self.method.name {
-            MethodName::Svgd => 4.0,
-            _ => 0.2,
+            MethodName::Svgd => 10.0,
+            _ => 0.03 * 3f64.powi(dimension),
         };
         100.0 + per_step * steps
     }
@@ -160,7 +168,7 @@ fn run_case(case: &Case, yardstick: &dyn Yardstick, observer: &mut CaseObserver)
             return Ok(row);
         }
     };
-    
+
     row.score_evaluations = Some(outcome.score_evaluations);
     row.wall_seconds = Some(outcome.wall_seconds);
     row.residual = outcome.residual;
@@ -190,7 +198,7 @@ fn sample(
     let method = case.method.method(case.steps)?;
     if method == Method::Iid && !yardstick.has_exact_draws() {
         let outcome = yardstick.resample(case.particles, case.seed)?;
-        return Ok(Attempt::Finished((outcome, "resampled reference draws")));
+        return Ok(Attempt::Finished((outcome, "drawn from the importance sample")));
     }
     let mut run = Run::new(case.particles, case.seed);
     run.start = case.method.options.start();

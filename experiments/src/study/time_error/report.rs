@@ -22,13 +22,12 @@ pub fn report(study: &TimeError, rows: &[Row], directory: &StudyDirectory) -> Re
     let mut document = Document::new("Error against wall time and score evaluations");
     document.paragraph(format!(
         "M = {} particles, {} seeds; medians over the seeds. ED² is the squared energy distance, exact against Gaussians and \
-         against {} reference draws else (free of the reference's own bias, so that a value below its noise may be negative); \
-         SW₂ is the sliced Wasserstein distance over {} directions. Regressions are measured in posterior standard deviations \
+         against {} quasi-random reference points else; SW₂ is the sliced Wasserstein distance over {} directions. Regressions are measured in posterior standard deviations \
          per axis. The yardstick is the error of M independent draws: for ED² its expectation E‖Y − Y'‖/M, else the median \
-         over the seeds (draws resampled from the reference where a target has no exact ones).",
+         over the seeds (draws from the importance sample where a target has no exact ones).",
         study.particles,
         study.seeds.len(),
-        study.reference_draws,
+        study.reference_points,
         study.directions,
     ));
     figures(study, rows, directory, &mut document)?;
@@ -59,8 +58,14 @@ fn figures(
     document: &mut Document,
 ) -> Result<(), CommandError> {
     document.heading("Figures");
-    let errors = [("energy", "ED²", "squared energy distance ED²", ENERGY), ("sliced", "SW₂", "sliced Wasserstein SW_{2}", SLICED)];
-    let costs = [("time", "wall time", "wall time (s)", SECONDS), ("scores", "score evaluations", "score evaluations", SCORES)];
+    let errors = [
+        ("energy", "ED²", "squared energy distance ED²", ENERGY),
+        ("sliced", "SW₂", "sliced Wasserstein SW_{2}", SLICED),
+    ];
+    let costs = [
+        ("time", "wall time", "wall time (s)", SECONDS),
+        ("scores", "score evaluations", "score evaluations", SCORES),
+    ];
     for (error_file, error_name, y_label, error) in errors {
         for (cost_file, cost_name, x_label, cost) in costs {
             let panels = targets(study)
@@ -74,6 +79,7 @@ fn figures(
                         independent_level(rows, target, error)
                     },
                 })
+                .filter(|panel: &TimeErrorPanel| !panel.curves.is_empty())
                 .collect();
             let plot = TimeErrorPlot {
                 title: String::new(),
@@ -86,7 +92,12 @@ fn figures(
             let caption = format!(
                 "{error_name} against {cost_name}, a point per number of steps; medians over the seeds, bars from least to most."
             );
-            document.figure(directory, &format!("{error_file}-{cost_file}.svg"), &caption, time_error(&plot))?;
+            document.figure(
+                directory,
+                &format!("{error_file}-{cost_file}.svg"),
+                &caption,
+                time_error(&plot),
+            )?;
         }
     }
     Ok(())
@@ -104,8 +115,14 @@ fn curves(study: &TimeError, rows: &[Row], target: &str, cost: Quantity, error: 
                 error: setting.runs.iter().map(|row| error(row).unwrap_or(f64::NAN)).collect(),
             })
             .collect();
-        if points.iter().any(|point| point.error.iter().any(|error| error.is_finite())) {
-            curves.push(TimeErrorCurve { method: method.label().to_owned(), points });
+        if points
+            .iter()
+            .any(|point| point.error.iter().any(|error| error.is_finite()))
+        {
+            curves.push(TimeErrorCurve {
+                method: method.label().to_owned(),
+                points,
+            });
         }
     }
     curves
@@ -120,8 +137,18 @@ fn target_table(study: &TimeError, rows: &[Row], target: &str, document: &mut Do
         optional_number(independent),
     ));
     let header = [
-        "method", "steps", "finished", "ED²", "ED² / i.i.d.", "SW₂", "SW₂ / i.i.d.", "mean (sd)", "sd (relative)",
-        "mode mass", "scores", "time (s)",
+        "method",
+        "steps",
+        "finished",
+        "ED²",
+        "ED² / i.i.d.",
+        "SW₂",
+        "SW₂ / i.i.d.",
+        "mean (sd)",
+        "sd (relative)",
+        "mode mass",
+        "scores",
+        "time (s)",
     ];
     let mut table = Vec::new();
     for method in &study.methods {
@@ -155,21 +182,37 @@ fn paper_part(study: &TimeError, rows: &[Row], document: &mut Document) {
          with the smallest median ED²; the last is the largest number of steps.",
     );
     let header = [
-        "target", "method", "finished", "best steps", "best ED² / i.i.d.", "best SW₂", "last ED² / i.i.d.", "last SW₂",
-        "last mean (sd)", "last sd (relative)",
+        "target",
+        "method",
+        "finished",
+        "best steps",
+        "best ED² / i.i.d.",
+        "best SW₂",
+        "last ED² / i.i.d.",
+        "last SW₂",
+        "last mean (sd)",
+        "last sd (relative)",
     ];
     let is_paper = |name: MethodName| matches!(name, MethodName::PaperPic | MethodName::PaperApic);
     let mut table = Vec::new();
     let mut failures: Vec<String> = Vec::new();
     for target in targets(study) {
-        if rows.iter().find(|row| row.target == target).is_none_or(|row| row.dim != 2) {
+        if rows
+            .iter()
+            .find(|row| row.target == target)
+            .is_none_or(|row| row.dim != 2)
+        {
             continue;
         }
         for method in study.methods.iter().filter(|method| is_paper(method.name)) {
             let settings = settings(rows, &target, method.label());
             let Some(last) = settings.last() else { continue };
             table.push(paper_row(rows, &target, method.label(), &settings, last));
-            for row in settings.iter().flat_map(|setting| &setting.runs).filter(|row| row.status != Status::Finished) {
+            for row in settings
+                .iter()
+                .flat_map(|setting| &setting.runs)
+                .filter(|row| row.status != Status::Finished)
+            {
                 failures.push(format!("- `{}`: {}: {}", row.case, row.status.as_str(), row.note));
             }
         }

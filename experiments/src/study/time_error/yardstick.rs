@@ -1,15 +1,22 @@
 //! What particles are measured against.
 //!
-//! For a Gaussian the energy distance is exact; every other target is represented by reference draws: exact ones, or
-//! draws resampled from an importance sample where the target has none. Regressions, whose axes have units of their own, are
-//! measured in the posterior's standard deviations per axis; all other targets in their own coordinates.
+//! For a Gaussian the energy distance is exact; every other target is represented by reference points: scrambled Sobol
+//! points through its map from the unit cube, or points resampled systematically from an importance sample where it has no
+//! such map. Such points are no independent draws but stand for the distribution far more closely, so the reference's own
+//! term of the energy distance is its V-statistic. Regressions, whose axes have units of their own, are measured in the
+//! posterior's standard deviations per axis; all other targets in their own coordinates.
 
 use std::time::Instant;
 
 use parvi_metrics::{
-    Cloud, Directions, EnergyReference, GaussianEnergy, MetricError, ModeMasses, MomentError, SlicedReference, Standardiser,
+    Cloud, Directions, EnergyReference, GaussianEnergy, MetricError, ModeMasses, MomentError, SlicedReference,
+    Standardiser,
 };
-use parvi_targets::{BoxedTarget, ImportanceSample, Moments, ReferenceOptions, WeightedDraws, reference_draws};
+use parvi_targets::{
+    BoxedTarget, ImportanceSample, Moments, ReferenceOptions, SobolSequence, UnitCubeTransport, WeightedDraws,
+};
+use rand::rngs::ChaCha8Rng;
+use rand::{RngExt, SeedableRng};
 
 use super::TimeError;
 use crate::CommandError;
@@ -41,7 +48,7 @@ pub trait Yardstick: Send {
     /// Whether the target has exact draws.
     fn has_exact_draws(&self) -> bool;
 
-    /// Draws resampled from the reference, for a target without exact draws.
+    /// Independent draws from the importance sample of a target without exact draws.
     fn resample(&self, particles: usize, seed: u64) -> Result<Outcome, CommandError>;
 
     /// The errors of particles.
@@ -65,10 +72,73 @@ impl TargetTask for Build<'_> {
     }
 }
 
-/// The energy distance, exact or from draws.
+/// The energy distance, exact or from reference points.
 enum Energy<const D: usize> {
     Gaussian(GaussianEnergy<D>),
-    Draws(EnergyReference<D>),
+    Points {
+        reference: EnergyReference<D>,
+        /// V − U of the reference's own term: U pairs distinct points only, V all.
+        pairs_with_themselves: f64,
+    },
+}
+
+impl<const D: usize> Energy<D> {
+    fn mean_distance(&self) -> f64 {
+        match self {
+            Self::Gaussian(energy) => energy.mean_distance(),
+            Self::Points {
+                reference,
+                pairs_with_themselves,
+            } => reference.mean_distance() + pairs_with_themselves,
+        }
+    }
+
+    fn squared(&self, cloud: &Cloud<'_, D>) -> Result<f64, MetricError> {
+        match self {
+            Self::Gaussian(energy) => energy.squared(cloud),
+            Self::Points {
+                reference,
+                pairs_with_themselves,
+            } => Ok(reference.squared(cloud)? - pairs_with_themselves),
+        }
+    }
+}
+
+/// Scrambled Sobol points through the target's map.
+fn quasi_random<const D: usize>(
+    transport: &dyn UnitCubeTransport<D>,
+    count: usize,
+    seed: u64,
+) -> Result<Vec<[f64; D]>, CommandError> {
+    let sequence = SobolSequence::scrambled(transport.cube_dimension(), seed)?;
+    let count = u32::try_from(count).unwrap_or(u32::MAX);
+    Ok((0..count)
+        .map(|index| transport.transport(&sequence.point(index)))
+        .collect())
+}
+
+/// Independent draws from weighted points, by inversion of their cumulative weights.
+fn independent<const D: usize>(sample: &WeightedDraws<D>, count: usize, seed: u64) -> Vec<[f64; D]> {
+    let mut total = 0.0;
+    let cumulative: Vec<f64> = sample
+        .weights
+        .iter()
+        .map(|weight| {
+            total += weight;
+            total
+        })
+        .collect();
+    let mut generator = ChaCha8Rng::seed_from_u64(seed);
+    let last = sample.points.len().saturating_sub(1);
+    (0..count)
+        .filter_map(|_| {
+            let goal = generator.random::<f64>() * total;
+            sample
+                .points
+                .get(cumulative.partition_point(|&sum| sum <= goal).min(last))
+                .copied()
+        })
+        .collect()
 }
 
 struct TargetYardstick<const D: usize> {
@@ -84,10 +154,13 @@ struct TargetYardstick<const D: usize> {
 
 impl<const D: usize> TargetYardstick<D> {
     fn new(target: BoxedTarget<D>, study: &TimeError) -> Result<Self, CommandError> {
-        let options = ReferenceOptions { seed: study.reference_seed, ..ReferenceOptions::default() };
-        let count = study.reference_draws.get();
-        let (draws, moments, sample) = match (target.exact_draws(), target.moments()) {
-            (Some(_), Some(moments)) => (reference_draws(target.as_ref(), count, &options)?, moments, None),
+        let options = ReferenceOptions {
+            seed: study.reference_seed,
+            ..ReferenceOptions::default()
+        };
+        let count = study.reference_points.get();
+        let (points, moments, sample) = match (target.unit_cube_transport(), target.moments()) {
+            (Some(transport), Some(moments)) => (quasi_random(transport, count, study.reference_seed)?, moments, None),
             _ => {
                 let sample = ImportanceSample::new(target.as_ref(), &options)?;
                 let moments = sample.moments().moments;
@@ -96,27 +169,36 @@ impl<const D: usize> TargetYardstick<D> {
             }
         };
         let coordinates = sample.as_ref().map(|_| Standardiser::per_axis(&moments)).transpose()?;
-        let draws = match &coordinates {
-            Some(coordinates) => coordinates.points(&draws),
-            None => draws,
+        let points = match &coordinates {
+            Some(coordinates) => coordinates.points(&points),
+            None => points,
         };
-        let cloud = Cloud::new(&draws)?;
+        let cloud = Cloud::new(&points)?;
         let energy = if target.name() == "gaussian" {
             Energy::Gaussian(GaussianEnergy::new(moments.mean, &moments.covariance)?)
         } else {
-            Energy::Draws(EnergyReference::new(&cloud)?)
+            let reference = EnergyReference::new(&cloud)?;
+            let pairs_with_themselves = -reference.mean_distance() / points.len() as f64;
+            Energy::Points {
+                reference,
+                pairs_with_themselves,
+            }
         };
         let sliced = SlicedReference::new(&cloud, Directions::evenly_spread(study.directions.get())?);
-        Ok(Self { target, moments, coordinates, sample, energy, sliced })
+        Ok(Self {
+            target,
+            moments,
+            coordinates,
+            sample,
+            energy,
+            sliced,
+        })
     }
 }
 
 impl<const D: usize> Yardstick for TargetYardstick<D> {
     fn mean_distance(&self) -> f64 {
-        match &self.energy {
-            Energy::Gaussian(energy) => energy.mean_distance(),
-            Energy::Draws(energy) => energy.mean_distance(),
-        }
+        self.energy.mean_distance()
     }
 
     fn has_exact_draws(&self) -> bool {
@@ -125,8 +207,14 @@ impl<const D: usize> Yardstick for TargetYardstick<D> {
 
     fn resample(&self, particles: usize, seed: u64) -> Result<Outcome, CommandError> {
         let begin = Instant::now();
-        let points = self.sample.as_ref().map_or(Vec::new(), |sample| sample.resampled(particles, seed));
-        Ok(Outcome::of_draws(Particles::new(&points, None), begin.elapsed().as_secs_f64()))
+        let points = self
+            .sample
+            .as_ref()
+            .map_or(Vec::new(), |sample| independent(sample, particles, seed));
+        Ok(Outcome::of_draws(
+            Particles::new(&points, None),
+            begin.elapsed().as_secs_f64(),
+        ))
     }
 
     fn measure(&self, particles: &Particles) -> Result<Errors, CommandError> {
@@ -145,12 +233,8 @@ impl<const D: usize> Yardstick for TargetYardstick<D> {
             }
             None => own,
         };
-        let energy: Result<f64, MetricError> = match &self.energy {
-            Energy::Gaussian(energy) => energy.squared(&cloud),
-            Energy::Draws(energy) => energy.squared(&cloud),
-        };
         Ok(Errors {
-            energy_distance_squared: energy?,
+            energy_distance_squared: self.energy.squared(&cloud)?,
             sliced_wasserstein: self.sliced.distance(&cloud)?,
             mean: moments.largest_mean,
             deviation: moments.largest_standard_deviation,
