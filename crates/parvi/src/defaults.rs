@@ -4,8 +4,8 @@
 
 use crate::BasisChoice;
 
-/// Steps. With the two evaluations of the moment correction and the final one this makes at most 100 scores per particle.
-pub const STEPS: usize = 97;
+/// Steps. With the four evaluations that the moment correction may take this makes at most 100 scores per particle.
+pub const STEPS: usize = 96;
 
 /// Spacing h of a tensor-product grid for M particles in D dimensions: (0.3 D − 0.17) (M / 512)^{−1/(D+5)}.
 ///
@@ -23,6 +23,14 @@ pub fn spacing<const D: usize>(basis: BasisChoice, particles: usize) -> f64 {
 /// Δt for spacing h.
 pub fn time_step(spacing: f64) -> f64 {
     (0.6 * spacing).min(0.6)
+}
+
+/// Factor of Δt in step `step` of `steps`: one, then over the last quarter linearly down to a fifth.
+///
+/// Gradients of the shape functions have kinks, so particles at rest keep trembling by an amount that grows with Δt.
+pub fn settling(step: usize, steps: usize) -> f64 {
+    let left = (steps - step.min(steps)) as f64 / (0.25 * steps as f64);
+    0.2 + 0.8 * left.min(1.0)
 }
 
 /// Friction γ.

@@ -86,14 +86,17 @@ impl MpmOptions {
         let plan = Plan {
             steps,
             spacing,
-            step: |_| PlannedStep {
+            step: |step| PlannedStep {
                 origin: if self.shifts {
                     shifts.next_point().map(|u| u * spacing)
                 } else {
                     [0.0; D]
                 },
                 alpha: 1.0,
-                control,
+                control: StepControl {
+                    time_step: time_step * defaults::settling(step, steps),
+                    ..control
+                },
             },
             moment_correction: self.moment_correction,
             trace_every: self.trace_every,
