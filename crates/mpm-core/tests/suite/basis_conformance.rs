@@ -1,0 +1,314 @@
+//! What every basis must do, whatever its nodes are.
+
+use std::collections::{HashMap, HashSet};
+
+use mpm_core::Basis;
+use mpm_tensor::Matrix;
+use rand::RngExt;
+
+use crate::scenes::{dot, generator, norm, normal, stencil};
+
+/// Random clouds on a randomly placed basis, each on a basis that was in use before.
+fn conforms<const D: usize, B: Basis<D>>(name: &str, make: impl Fn([f64; D], f64) -> B) {
+    for case in 0..3 {
+        let mut random = generator(100 * D as u64 + case);
+        let h = 10f64.powf(random.random_range(-1.5..1.5));
+        let origin = normal::<D>(&mut random).map(|c| 5.0 * h * c);
+        let mut basis = make(origin, h);
+        let count = (40_000 / basis.stencil_size()).clamp(12, 400);
+        for round in 0..2 {
+            let positions = cloud(count, origin, h, &mut random);
+            basis.rebuild(&positions).unwrap();
+            let what = format!("{name}, D = {D}, case {case}, round {round}");
+            layout_is_sound(&basis, &positions, &what);
+            stencils_are_right(&basis, &positions, &what);
+            gradients_are_derivatives(&basis, &positions, &what);
+        }
+    }
+}
+
+/// A clump, a wider cloud, points on nodes of a grid at `origin`, and stragglers far away on all sides.
+fn cloud<const D: usize>(count: usize, origin: [f64; D], h: f64, random: &mut rand::rngs::ChaCha8Rng) -> Vec<[f64; D]> {
+    let point = |k: usize| {
+        let spread = [0.3 * h, 3.0 * h, 3.0 * h, 200.0 * h][k % 4];
+        let z = normal::<D>(random).map(|c| spread * c);
+        if k % 12 == 1 {
+            return std::array::from_fn(|a| origin[a] + h * (z[a] / h).round());
+        }
+        std::array::from_fn(|a| origin[a] + z[a])
+    };
+    (0..count).map(point).collect()
+}
+
+/// The schedule is a permutation in cells, groups and colours, and groups of one colour share no node.
+fn layout_is_sound<const D: usize, B: Basis<D>>(basis: &B, positions: &[[f64; D]], what: &str) {
+    let schedule = basis.schedule();
+    let mut order = schedule.order().to_vec();
+    order.sort_unstable();
+    assert!(
+        order.iter().copied().eq(0..positions.len() as u32),
+        "{what}: no permutation"
+    );
+
+    let (mut next_particle, mut next_cell) = (0, 0);
+    for group in 0..schedule.group_count() {
+        let cells = schedule.group(group);
+        assert_eq!(cells.start, next_cell, "{what}: groups do not partition the cells");
+        assert!(!cells.is_empty(), "{what}: empty group");
+        assert_eq!(schedule.group_particles(group).start, next_particle);
+        next_cell = cells.end;
+        for cell in cells {
+            let particles = schedule.cell(cell);
+            assert_eq!(
+                particles.start, next_particle,
+                "{what}: cells do not partition the particles"
+            );
+            assert!(!particles.is_empty(), "{what}: empty cell");
+            next_particle = particles.end;
+        }
+        assert_eq!(schedule.group_particles(group).end, next_particle);
+    }
+    assert_eq!(
+        (next_cell, next_particle),
+        (schedule.cell_count(), positions.len()),
+        "{what}"
+    );
+
+    let mut coloured = HashSet::new();
+    let mut cell_nodes = Vec::new();
+    for groups in schedule.colours() {
+        let mut owner = HashMap::new();
+        for &group in groups {
+            assert!(coloured.insert(group), "{what}: group {group} has two colours");
+            for cell in schedule.group(group as usize) {
+                basis.cell_nodes(cell, &mut cell_nodes);
+                for &node in &cell_nodes {
+                    let first = *owner.entry(node).or_insert(group);
+                    assert_eq!(first, group, "{what}: two groups of one colour share node {node}");
+                }
+            }
+        }
+    }
+    assert_eq!(coloured.len(), schedule.group_count(), "{what}: a group has no colour");
+}
+
+/// Weights, offsets, fluxes and node numbers, and that the active nodes are the touched ones.
+fn stencils_are_right<const D: usize, B: Basis<D>>(basis: &B, positions: &[[f64; D]], what: &str) {
+    let (schedule, h) = (basis.schedule(), basis.spacing());
+    let mut node_positions = Vec::new();
+    basis.node_positions(&mut node_positions);
+    assert_eq!(node_positions.len(), basis.node_count());
+    let mut touched = vec![false; basis.node_count()];
+    let mut cell_nodes = Vec::new();
+    for cell in 0..schedule.cell_count() {
+        basis.cell_nodes(cell, &mut cell_nodes);
+        assert_eq!(cell_nodes.len(), basis.stencil_size(), "{what}");
+        let distinct: HashSet<_> = cell_nodes.iter().collect();
+        assert_eq!(
+            distinct.len(),
+            cell_nodes.len(),
+            "{what}: a node occurs twice in a cell"
+        );
+        for &node in &cell_nodes {
+            touched[node as usize] = true;
+        }
+        for place in schedule.cell(cell) {
+            let x = positions[schedule.order()[place] as usize];
+            stencil_is_right(basis, &x, &cell_nodes, &node_positions, what);
+        }
+    }
+    assert!(
+        touched.iter().all(|&t| t),
+        "{what}: an active node that no cell touches"
+    );
+    let distinct: HashSet<_> = node_positions
+        .iter()
+        .map(|x| x.map(|c| (c / (1e-6 * h)).round() as i64))
+        .collect();
+    assert_eq!(distinct.len(), node_positions.len(), "{what}: one node has two numbers");
+}
+
+fn stencil_is_right<const D: usize, B: Basis<D>>(
+    basis: &B,
+    x: &[f64; D],
+    cell_nodes: &[u32],
+    node_positions: &[[f64; D]],
+    what: &str,
+) {
+    let h = basis.spacing();
+    let rounding = 1e-12 * (norm(x) + h);
+    let seen = stencil(basis, x);
+    assert!(
+        seen.iter().map(|s| s.0).eq(0..seen.len()),
+        "{what}: places out of order"
+    );
+    assert!(seen.len() <= basis.stencil_size());
+
+    let (mut sum, mut slope, mut mean) = (0.0, [0.0; D], [0.0; D]);
+    let mut second_moment = Matrix::<D>::ZERO;
+    for &(place, weight, gradient, offset) in &seen {
+        let node = node_positions[cell_nodes[place] as usize];
+        assert!(weight >= 0.0, "{what}: weight {weight}");
+        sum += weight;
+        for a in 0..D {
+            let expected = node[a] - x[a];
+            assert!(
+                (offset[a] - expected).abs() < rounding,
+                "{what}: offset {} for {expected}",
+                offset[a]
+            );
+            slope[a] += gradient[a];
+            mean[a] += weight * node[a];
+        }
+        second_moment += Matrix::outer(&offset, &offset) * weight;
+    }
+    assert!((sum - 1.0).abs() < 1e-13, "{what}: weights sum to {sum}");
+    for a in 0..D {
+        assert!(
+            (mean[a] - x[a]).abs() < rounding,
+            "{what}: linear reproduction, {} for {}",
+            mean[a],
+            x[a]
+        );
+        assert!(slope[a].abs() < 1e-12 / h, "{what}: gradients sum to {slope:?}");
+    }
+
+    // w D⁻¹ (x_i − x) times D, so that no inverse is taken where D is singular.
+    basis.for_each_node(x, |_, entry| {
+        let direction = second_moment.apply(&basis.affine_direction(entry));
+        for a in 0..D {
+            let expected = entry.weight * entry.offset[a];
+            assert!((direction[a] - expected).abs() < 1e-12 * h, "{what}: affine direction");
+        }
+    });
+
+    let (value, scale) = (std::array::from_fn(|a| 0.7 - 0.4 * a as f64), 0.3 * h);
+    let mut visits = seen.iter();
+    basis.for_each_flux(x, &value, scale, |place, weight, flux| {
+        let &(expected_place, expected_weight, gradient, _) = visits.next().unwrap();
+        assert_eq!(place, expected_place, "{what}");
+        assert!((weight - expected_weight).abs() < 1e-15, "{what}");
+        for a in 0..D {
+            let expected = expected_weight * value[a] + scale * gradient[a];
+            assert!(
+                (flux[a] - expected).abs() < 1e-14,
+                "{what}: flux {} for {expected}",
+                flux[a]
+            );
+        }
+    });
+    assert!(visits.next().is_none(), "{what}: fluxes for fewer nodes");
+}
+
+/// ∇w against central differences, where w has no kink within the step: hats have one at the points put on nodes.
+fn gradients_are_derivatives<const D: usize, B: Basis<D>>(basis: &B, positions: &[[f64; D]], what: &str) {
+    let h = basis.spacing();
+    let step = 1e-5 * h;
+    // Weights by node, the node told by its position.
+    let weights = |x: &[f64; D]| -> HashMap<[i64; D], f64> {
+        let key = |offset: [f64; D]| {
+            std::array::from_fn(|a| ((x[a] + offset[a] - positions[0][a]) / h * 64.0).round() as i64)
+        };
+        stencil(basis, x).into_iter().map(|s| (key(s.3), s.1)).collect()
+    };
+    let sample = positions.iter().filter(|x| norm(x) < 1e3 * h).take(20);
+    let (mut compared, mut kinks) = (0, 0);
+    for x in sample {
+        let here = weights(x);
+        let gradients: Vec<[f64; D]> = stencil(basis, x).iter().map(|s| s.2).collect();
+        let keys: Vec<[i64; D]> = stencil(basis, x)
+            .iter()
+            .map(|s| std::array::from_fn(|a| ((x[a] + s.3[a] - positions[0][a]) / h * 64.0).round() as i64))
+            .collect();
+        for a in 0..D {
+            let shifted = |sign: f64| {
+                let mut y = *x;
+                y[a] += sign * step;
+                weights(&y)
+            };
+            let (before, after) = (shifted(-1.0), shifted(1.0));
+            let at = |w: &HashMap<[i64; D], f64>, key| w.get(key).copied().unwrap_or(0.0);
+            for (key, gradient) in keys.iter().zip(&gradients) {
+                let (w0, w1, w2) = (at(&before, key), at(&here, key), at(&after, key));
+                if (w2 - 2.0 * w1 + w0).abs() > 1e-3 * step / h {
+                    kinks += 1;
+                    continue;
+                }
+                compared += 1;
+                let difference = (w2 - w0) / (2.0 * step);
+                assert!(
+                    (gradient[a] - difference).abs() < 1e-6 / h,
+                    "{what}: gradient {} for {difference}",
+                    gradient[a]
+                );
+            }
+        }
+    }
+    assert!(5 * kinks < compared, "{what}: {kinks} kinks, {compared} comparisons");
+}
+
+/// A displaced point reads the same shape functions: w_i is a function of space, not of the cell that evaluates it.
+fn fields_are_continuous<const D: usize, B: Basis<D>>(name: &str, make: impl Fn([f64; D], f64) -> B) {
+    let mut random = generator(7);
+    let mut basis = make([0.0; D], 1.0);
+    let direction = normal::<D>(&mut random);
+    let length = norm(&direction);
+    let line: Vec<[f64; D]> = (0..200)
+        .map(|k| direction.map(|c| c / length * 0.02 * f64::from(k)))
+        .collect();
+    basis.rebuild(&line).unwrap();
+    // A quadratic field of the nodes: its interpolant is continuous along any line.
+    let field = |x: &[f64; D]| {
+        let mut sum = 0.0;
+        for (_, weight, _, offset) in stencil(&basis, x) {
+            let node: [f64; D] = std::array::from_fn(|a| x[a] + offset[a]);
+            sum += weight * dot(&node, &node);
+        }
+        sum
+    };
+    for pair in line.windows(2) {
+        let jump = (field(&pair[1]) - field(&pair[0])).abs();
+        assert!(
+            jump < 0.02 * 3.0 * (D as f64 + 8.0),
+            "{name}, D = {D}: jump {jump} from {:?}",
+            pair[0]
+        );
+    }
+}
+
+#[test]
+fn every_basis_conforms_in_one_dimension() {
+    every_basis!(conforms, 1);
+}
+
+#[test]
+fn every_basis_conforms_in_two_dimensions() {
+    every_basis!(conforms, 2);
+}
+
+#[test]
+fn every_basis_conforms_in_three_dimensions() {
+    every_basis!(conforms, 3);
+}
+
+#[test]
+fn every_basis_conforms_in_four_dimensions() {
+    every_basis!(conforms, 4);
+}
+
+#[test]
+fn every_basis_conforms_in_five_dimensions() {
+    every_basis!(conforms, 5);
+}
+
+#[test]
+fn every_basis_conforms_in_six_dimensions() {
+    every_basis!(conforms, 6);
+}
+
+#[test]
+fn fields_are_continuous_along_lines() {
+    every_basis!(fields_are_continuous, 1);
+    every_basis!(fields_are_continuous, 2);
+    every_basis!(fields_are_continuous, 3);
+}

@@ -1,0 +1,151 @@
+//! Mass, momentum and, with APIC, angular momentum.
+
+use mpm_core::{Apic, Basis, Flip, Masses, Medium, Mpm, Particles, Pic, SplineGrid, Transfer, scatter};
+use mpm_kernels::{Cubic, Linear, Quadratic, Spline};
+use mpm_materials::IsothermalGas;
+use mpm_tensor::Matrix;
+use proptest::prelude::*;
+use rand::RngExt;
+
+use crate::scenes::{Pull, free, gaussian_cloud, generator, neo_hookean, normal};
+
+/// Σ m_p v_p and Σ m_p (x_a v_b − x_b v_a + B_ba − B_ab), the affine part being Σ_i w_ip (x_i − x_p) ∧ C_p (x_i − x_p).
+fn momenta<const D: usize>(particles: &Particles<D>) -> ([f64; D], Matrix<D>) {
+    let (mut linear, mut angular) = ([0.0; D], Matrix::ZERO);
+    for p in 0..particles.len() {
+        let (m, x, v) = (particles.masses.get(p), particles.positions[p], particles.velocities[p]);
+        for a in 0..D {
+            linear[a] += m * v[a];
+            for b in 0..D {
+                angular.0[a][b] += m * (x[a] * v[b] - x[b] * v[a]);
+                if let Some(affine) = particles.affine.get(p) {
+                    angular.0[a][b] += m * (affine.0[b][a] - affine.0[a][b]);
+                }
+            }
+        }
+    }
+    (linear, angular)
+}
+
+fn cloud<const D: usize>(seed: u64, count: usize) -> Particles<D> {
+    let mut random = generator(seed);
+    let mut particles = Particles::at_rest(gaussian_cloud(count, seed + 1), 1.0);
+    particles.velocities = (0..count).map(|_| normal(&mut random)).collect();
+    particles.masses = Masses::Each((0..count).map(|_| random.random::<f64>() / count as f64).collect());
+    particles
+}
+
+/// A few steps without external force; what must be conserved is.
+fn conserves<S: Spline<W>, T: Transfer<D>, M: Medium<D>, const W: usize, const D: usize>(
+    seed: u64,
+    h: f64,
+    transfer: T,
+    medium: M,
+) {
+    let mut particles = cloud::<D>(seed, 30);
+    if M::DEFORMS {
+        particles = particles.with_elastic_state(vec![1.0 / 30.0; 30]);
+    }
+    let grid = SplineGrid::<S, W, D>::new([0.3 * h; D], h).unwrap();
+    let mut mpm = Mpm::new(particles, grid, transfer, medium, Pull::none());
+    let (linear, angular) = momenta(&mpm.particles);
+    for _ in 0..4 {
+        mpm.step(&free(0.002 * h)).unwrap();
+    }
+    let (linear_after, angular_after) = momenta(&mpm.particles);
+    for a in 0..D {
+        assert!(
+            (linear_after[a] - linear[a]).abs() < 1e-12,
+            "{}: {linear:?} became {linear_after:?}",
+            S::NAME
+        );
+        for b in 0..D {
+            let change = angular_after.0[a][b] - angular.0[a][b];
+            assert!(
+                !T::AFFINE || change.abs() < 1e-12,
+                "{}: angular momentum off by {change}",
+                S::NAME
+            );
+        }
+    }
+}
+
+fn every_transfer<S: Spline<W>, const W: usize, const D: usize>(seed: u64, h: f64) {
+    let gas = IsothermalGas::CALIBRATED;
+    let solid = neo_hookean(2.0);
+    conserves::<S, _, _, W, D>(seed, h, Pic, gas);
+    conserves::<S, _, _, W, D>(seed, h, Pic, solid);
+    conserves::<S, _, _, W, D>(seed, h, Flip { share: 0.95 }, gas);
+    conserves::<S, _, _, W, D>(seed, h, Flip { share: 0.95 }, solid);
+    conserves::<S, _, _, W, D>(seed, h, Apic, gas);
+    conserves::<S, _, _, W, D>(seed, h, Apic, solid);
+}
+
+/// Σ_i m_i = Σ_p m_p and Σ_i m_i x_i = Σ_p m_p x_p.
+fn mass_arrives<const D: usize, B: Basis<D>>(name: &str, make: impl Fn([f64; D], f64) -> B) {
+    let particles = cloud::<D>(3, 200);
+    let mut basis = make([0.17; D], 0.6);
+    basis.rebuild(&particles.positions).unwrap();
+    let order = basis.schedule().order();
+    let sorted: Vec<[f64; D]> = order.iter().map(|&p| particles.positions[p as usize]).collect();
+    let mut nodes = vec![0.0; basis.node_count()];
+    scatter(&basis, &sorted, &mut nodes, |p, x, stencil| {
+        let mass = particles.masses.get(order[p] as usize);
+        basis.for_each_node(x, |index, entry| *stencil.node(index) += mass * entry.weight);
+    });
+    let mut positions = Vec::new();
+    basis.node_positions(&mut positions);
+    let total: f64 = (0..particles.len()).map(|p| particles.masses.get(p)).sum();
+    assert!((nodes.iter().sum::<f64>() - total).abs() < 1e-14, "{name}");
+    for a in 0..D {
+        let of_nodes: f64 = nodes.iter().zip(&positions).map(|(m, x)| m * x[a]).sum();
+        let of_particles: f64 = (0..particles.len())
+            .map(|p| particles.masses.get(p) * particles.positions[p][a])
+            .sum();
+        assert!((of_nodes - of_particles).abs() < 1e-13, "{name}: centre of mass");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    #[test]
+    fn momentum_is_conserved(seed in 0u64..1_000_000, h in 0.3..1.5f64) {
+        every_transfer::<Linear, 2, 2>(seed, h);
+        every_transfer::<Quadratic, 3, 1>(seed, h);
+        every_transfer::<Quadratic, 3, 2>(seed, h);
+        every_transfer::<Quadratic, 3, 3>(seed, h);
+        every_transfer::<Cubic, 4, 2>(seed, h);
+    }
+}
+
+#[test]
+fn mass_and_its_centre_arrive_at_the_nodes() {
+    every_basis!(mass_arrives, 1);
+    every_basis!(mass_arrives, 2);
+    every_basis!(mass_arrives, 3);
+    every_basis!(mass_arrives, 4);
+}
+
+#[test]
+fn a_rigid_rotation_survives_apic_and_not_pic() {
+    fn share_kept<T: Transfer<2>>(transfer: T) -> f64 {
+        let h = 0.5;
+        let mut particles = Particles::at_rest(gaussian_cloud::<2>(400, 9), 1.0);
+        particles.velocities = particles.positions.iter().map(|x| [-x[1], x[0]]).collect();
+        if T::AFFINE {
+            let spin = Matrix([[0.0, -1.0], [1.0, 0.0]]);
+            particles.affine = vec![spin * (0.25 * h * h); 400]; // B = C D
+        }
+        let gas = IsothermalGas::new(1e-6).unwrap();
+        let grid = SplineGrid::<Quadratic, 3, 2>::new([0.0; 2], h).unwrap();
+        let mut mpm = Mpm::new(particles, grid, transfer, gas, Pull::none());
+        let before = momenta(&mpm.particles).1.0[0][1];
+        for _ in 0..20 {
+            mpm.step(&free(0.01)).unwrap();
+        }
+        momenta(&mpm.particles).1.0[0][1] / before
+    }
+    assert!((share_kept(Apic) - 1.0).abs() < 1e-12);
+    assert!(share_kept(Pic) < 0.9);
+}

@@ -1,0 +1,65 @@
+//! Counters of a fixed scene, so that no change of the grid or of the step goes unnoticed.
+
+use mpm_core::{Basis, Mpm, Particles, Pic, SplineGrid};
+use mpm_kernels::Quadratic;
+use mpm_materials::IsothermalGas;
+
+use crate::scenes::{Pull, dot, free, gaussian_cloud};
+
+#[derive(Debug, PartialEq)]
+struct Counters {
+    active_nodes: usize,
+    cells: usize,
+    groups: usize,
+    /// Mean of |x|², to nine digits.
+    mean_square: String,
+}
+
+/// 2000 particles under the score of N(0, I), 25 steps with a moving grid.
+fn scene<const D: usize>(h: f64) -> Counters {
+    let count = 2000;
+    let start = gaussian_cloud::<D>(count, 2024)
+        .iter()
+        .map(|x| x.map(|c| 0.6 * c + 0.7))
+        .collect();
+    let grid = SplineGrid::<Quadratic, 3, D>::new([0.0; D], h).unwrap();
+    let mut mpm = Mpm::new(
+        Particles::at_rest(start, 1.0),
+        grid,
+        Pic,
+        IsothermalGas::CALIBRATED,
+        Pull::well(),
+    );
+    let mut control = free(0.4 * h);
+    (control.displacement, control.friction, control.courant) = (0.5, 1.5, 1.0);
+    for step in 0..25 {
+        mpm.basis.place([0.618_033_988_75 * h * f64::from(step); D], h).unwrap();
+        mpm.step(&control).unwrap();
+    }
+    let schedule = mpm.basis.schedule();
+    let squares: f64 = mpm.particles.positions.iter().map(|x| dot(x, x)).sum();
+    Counters {
+        active_nodes: mpm.basis.node_count(),
+        cells: schedule.cell_count(),
+        groups: schedule.group_count(),
+        mean_square: format!("{:.8e}", squares / count as f64),
+    }
+}
+
+#[test]
+fn counters_are_those_committed() {
+    let golden = |active_nodes, cells, groups, mean_square: &str| Counters {
+        active_nodes,
+        cells,
+        groups,
+        mean_square: mean_square.to_owned(),
+    };
+    let counted = [scene::<1>(0.1), scene::<2>(0.3), scene::<3>(0.6), scene::<6>(1.6)];
+    let committed = [
+        golden(57, 54, 2, "9.76233179e-1"),
+        golden(461, 303, 13, "2.11750909e0"),
+        golden(1325, 486, 32, "2.95368798e0"),
+        golden(30053, 672, 104, "5.89055886e0"),
+    ];
+    assert_eq!(counted, committed);
+}

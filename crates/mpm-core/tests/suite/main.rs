@@ -1,0 +1,17 @@
+//! What the mechanics promise, one theme per file.
+
+#[macro_use]
+mod scenes;
+
+mod basis_conformance;
+mod conservation;
+mod determinism;
+mod errors;
+mod force_identities;
+mod golden_counters;
+mod grid_oracle;
+mod naive_step;
+mod optional_fields;
+mod sparse_memory;
+mod step_control;
+mod step_oracle;

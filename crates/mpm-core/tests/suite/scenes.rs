@@ -1,0 +1,166 @@
+//! Clouds, forces and controls that the themes share, and the list of bases.
+
+use mpm_core::{Basis, BodyForce, Elastic, ForceLocation, MpmError, StepControl};
+use mpm_materials::{ElasticModuli, Material, NeoHookean};
+use mpm_tensor::Matrix;
+use rand::{RngExt, SeedableRng, rngs::ChaCha8Rng};
+use rand_distr::{Distribution, StandardNormal};
+
+/// Call `$check::<D, _>(name, make)` for every basis, `make(origin, spacing)` giving an empty one. A further basis is one
+/// line here.
+macro_rules! every_basis {
+    ($check:ident, $dimension:literal) => {{
+        use mpm_core::SplineGrid;
+        use mpm_kernels::{Cubic, Linear, Quadratic};
+        $check::<$dimension, _>("linear", |o, h| SplineGrid::<Linear, 2, $dimension>::new(o, h).unwrap());
+        $check::<$dimension, _>("quadratic", |o, h| {
+            SplineGrid::<Quadratic, 3, $dimension>::new(o, h).unwrap()
+        });
+        $check::<$dimension, _>("cubic", |o, h| SplineGrid::<Cubic, 4, $dimension>::new(o, h).unwrap());
+    }};
+}
+
+pub fn generator(seed: u64) -> ChaCha8Rng {
+    ChaCha8Rng::seed_from_u64(seed)
+}
+
+pub fn normal<const D: usize>(generator: &mut ChaCha8Rng) -> [f64; D] {
+    std::array::from_fn(|_| StandardNormal.sample(generator))
+}
+
+/// Draws from N(0, I).
+pub fn gaussian_cloud<const D: usize>(count: usize, seed: u64) -> Vec<[f64; D]> {
+    let mut generator = generator(seed);
+    (0..count).map(|_| normal(&mut generator)).collect()
+}
+
+/// Draws from the cube [0, `edge`)ᴰ.
+pub fn uniform_cloud<const D: usize>(count: usize, edge: f64, seed: u64) -> Vec<[f64; D]> {
+    let mut generator = generator(seed);
+    let mut point = || std::array::from_fn(|_| edge * generator.random::<f64>());
+    (0..count).map(|_| point()).collect()
+}
+
+/// A step of the given length with no other limit and no friction.
+pub fn free(time_step: f64) -> StepControl {
+    StepControl {
+        time_step,
+        courant: f64::INFINITY,
+        displacement: f64::INFINITY,
+        friction: 0.0,
+    }
+}
+
+/// The elastic law that the themes share; behind a reference, so that the step is compiled once for all laws.
+pub type Solid<const D: usize> = Elastic<&'static dyn Material<D>>;
+
+/// A solid of the given law.
+pub fn solid<const D: usize>(law: impl Material<D> + 'static) -> Solid<D> {
+    Elastic {
+        material: Box::leak(Box::new(law)),
+    }
+}
+
+/// A Neo-Hookean solid of Young's modulus `young` and Poisson's ratio 0.3.
+pub fn neo_hookean<const D: usize>(young: f64) -> Solid<D> {
+    solid(NeoHookean::new(ElasticModuli::new(young, 0.3).unwrap()))
+}
+
+/// A force as a function of position and mass.
+type ForceField<'a, const D: usize> = dyn Fn(&[f64; D], f64) -> [f64; D] + Sync + 'a;
+
+/// A body force by a function of position and mass; one type for all scenes.
+pub struct Pull<'a, const D: usize> {
+    location: ForceLocation,
+    value: Box<ForceField<'a, D>>,
+}
+
+impl<'a, const D: usize> Pull<'a, D> {
+    pub fn none() -> Self {
+        Self {
+            location: ForceLocation::Nowhere,
+            value: Box::new(|_, _| unreachable!("there is no force")),
+        }
+    }
+
+    /// A force per unit mass at the particles.
+    pub fn at_particles(value: impl Fn(&[f64; D]) -> [f64; D] + Sync + 'a) -> Self {
+        Self {
+            location: ForceLocation::Particles,
+            value: Box::new(move |x, _| value(x)),
+        }
+    }
+
+    /// A force at the nodes, from position and mass.
+    pub fn at_nodes(value: impl Fn(&[f64; D], f64) -> [f64; D] + Sync + 'a) -> Self {
+        Self {
+            location: ForceLocation::Nodes,
+            value: Box::new(value),
+        }
+    }
+
+    /// The score of N(0, I) at the particles.
+    pub fn well() -> Self {
+        Self::at_particles(|x| x.map(|c| -c))
+    }
+}
+
+impl<const D: usize> BodyForce<D> for Pull<'_, D> {
+    fn location(&self) -> ForceLocation {
+        self.location
+    }
+
+    fn at_particles(&mut self, positions: &[[f64; D]], accelerations: &mut [[f64; D]]) -> Result<(), MpmError> {
+        for (x, acceleration) in positions.iter().zip(accelerations) {
+            *acceleration = (self.value)(x, 1.0);
+        }
+        Ok(())
+    }
+
+    fn at_nodes(
+        &mut self,
+        positions: &[[f64; D]],
+        masses: impl Fn(usize) -> f64,
+        forces: &mut [[f64; D]],
+    ) -> Result<(), MpmError> {
+        for (node, (x, force)) in positions.iter().zip(forces).enumerate() {
+            *force = (self.value)(x, masses(node));
+        }
+        Ok(())
+    }
+}
+
+/// One node as a particle sees it: place in the stencil, weight, gradient, offset.
+pub type Seen<const D: usize> = (usize, f64, [f64; D], [f64; D]);
+
+/// The whole stencil of a point.
+#[inline(never)]
+pub fn stencil<const D: usize>(basis: &impl Basis<D>, x: &[f64; D]) -> Vec<Seen<D>> {
+    let mut seen = Vec::new();
+    basis.for_each_node(x, |index, entry| {
+        seen.push((index, entry.weight, entry.gradient, entry.offset))
+    });
+    seen
+}
+
+pub fn dot<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
+    (0..D).map(|i| a[i] * b[i]).sum()
+}
+
+pub fn norm<const D: usize>(a: &[f64; D]) -> f64 {
+    dot(a, a).sqrt()
+}
+
+pub fn distance<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
+    norm::<D>(&std::array::from_fn(|i| a[i] - b[i]))
+}
+
+/// Bits of all entries, for comparisons that forgive nothing.
+pub fn bits<const D: usize>(vectors: &[[f64; D]]) -> Vec<u64> {
+    vectors.iter().flatten().map(|c| c.to_bits()).collect()
+}
+
+/// As [`bits`], for matrices.
+pub fn matrix_bits<const D: usize>(matrices: &[Matrix<D>]) -> Vec<u64> {
+    matrices.iter().flat_map(|m| bits(&m.0)).collect()
+}

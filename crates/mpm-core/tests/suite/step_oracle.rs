@@ -1,0 +1,157 @@
+//! The step against the textbook: every transfer, law and kind of body force.
+
+use mpm_core::{Apic, Flip, Masses, Medium, Mpm, Particles, Pic, SplineGrid, Transfer};
+use mpm_kernels::{Cubic, Linear, Quadratic, Spline};
+use mpm_materials::{ElasticModuli, IsothermalGas, LinearElastic, NeoHookean};
+use mpm_tensor::Matrix;
+use rand::RngExt;
+
+use crate::naive_step::{Force, Kernel, Law, NaiveGrid, NaiveParticle, Velocity, naive_step};
+use crate::scenes::{Pull, free, generator, normal, solid};
+
+const LAMBDA: f64 = 1.5;
+const MU: f64 = 2.0;
+const STEPS: usize = 6;
+
+fn pull<const D: usize>(x: &[f64; D]) -> [f64; D] {
+    std::array::from_fn(|a| 0.3 - 1.2 * x[a] + 0.1 * x[(a + 1) % D])
+}
+
+/// Not proportional to the mass, and bounded by it so that light nodes stay tame.
+fn nodal_pull<const D: usize>(x: &[f64; D], mass: f64) -> [f64; D] {
+    pull(x).map(|c| c * mass / (1.0 + mass))
+}
+
+/// A cube of particles with different masses, volumes, velocities, affine moments and deformations.
+fn body<const D: usize>(seed: u64) -> Vec<NaiveParticle<D>> {
+    let mut random = generator(seed);
+    let count = 20 * D;
+    let particle = |_| {
+        let near = |random: &mut rand::rngs::ChaCha8Rng, scale: f64| {
+            Matrix::<D>::from_fn(|_, _| scale * (2.0 * random.random::<f64>() - 1.0))
+        };
+        NaiveParticle {
+            x: std::array::from_fn(|_| 2.0 * random.random::<f64>() - 1.0),
+            v: normal::<D>(&mut random).map(|c| 0.3 * c),
+            mass: (0.5 + random.random::<f64>()) / count as f64,
+            volume: (0.5 + random.random::<f64>()) * 2f64.powi(D as i32) / count as f64,
+            affine: near(&mut random, 0.02),
+            deformation: Matrix::IDENTITY + near(&mut random, 0.1),
+        }
+    };
+    (0..count).map(particle).collect()
+}
+
+/// Compare `STEPS` steps; the grid moves after every one.
+fn agree<S: Spline<W>, T: Transfer<D>, M: Medium<D>, const W: usize, const D: usize>(
+    (kernel, velocity, law, force): (Kernel, Velocity, Law, Force<D>),
+    (transfer, medium): (T, M),
+    (friction, displacement): (f64, f64),
+) {
+    let body_force = match force {
+        Force::None => Pull::none(),
+        Force::Particles(g) => Pull::at_particles(g),
+        Force::Nodes(f) => Pull::at_nodes(f),
+    };
+    let mut naive = body::<D>(40 + D as u64);
+    let (h, dt) = (0.45, 0.01);
+    let mut particles = Particles::at_rest(naive.iter().map(|p| p.x).collect(), 1.0);
+    particles.masses = Masses::Each(naive.iter().map(|p| p.mass).collect());
+    particles.velocities = naive.iter().map(|p| p.v).collect();
+    if T::AFFINE {
+        particles.affine = naive.iter().map(|p| p.affine).collect();
+    }
+    if M::DEFORMS {
+        particles = particles.with_elastic_state(naive.iter().map(|p| p.volume).collect());
+        particles.deformation_gradients = naive.iter().map(|p| p.deformation).collect();
+    }
+    let grid = SplineGrid::<S, W, D>::new([0.0; D], h).unwrap();
+    let mut mpm = Mpm::new(particles, grid, transfer, medium, body_force);
+    let mut control = free(dt);
+    (control.friction, control.displacement) = (friction, displacement);
+    for step in 0..STEPS {
+        let origin = [0.13 * step as f64; D];
+        mpm.basis.place(origin, h).unwrap();
+        mpm.step(&control).unwrap();
+        let grid = NaiveGrid { kernel, origin, h };
+        naive_step(&mut naive, &grid, law, velocity, force, (dt, friction, displacement));
+
+        let what = format!("{}, {velocity:?}, {law:?}, {force:?}, D = {D}, step {step}", S::NAME);
+        let close = |ours: f64, theirs: f64, field: &str| {
+            assert!(
+                (ours - theirs).abs() < 1e-12 * (1.0 + theirs.abs()),
+                "{what}: {field} {ours} for {theirs}"
+            );
+        };
+        let p = &mpm.particles;
+        let positions = p.in_creation_order(&p.positions);
+        let velocities = p.in_creation_order(&p.velocities);
+        let affine = p.in_creation_order(&p.affine);
+        let deformation = p.in_creation_order(&p.deformation_gradients);
+        for (k, expected) in naive.iter().enumerate() {
+            for a in 0..D {
+                close(positions[k][a], expected.x[a], "x");
+                close(velocities[k][a], expected.v[a], "v");
+                for b in 0..D {
+                    if T::AFFINE {
+                        close(affine[k].0[a][b], expected.affine.0[a][b], "B");
+                    }
+                    if M::DEFORMS {
+                        close(deformation[k].0[a][b], expected.deformation.0[a][b], "F");
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn every_force<S: Spline<W>, T: Transfer<D>, M: Medium<D> + Copy, const W: usize, const D: usize>(
+    (kernel, velocity, law): (Kernel, Velocity, Law),
+    ours: (T, M),
+) {
+    // Hats give light nodes large velocities: there the limit of the displacement is at work, elsewhere there is none.
+    let limit = if W == 2 { 0.1 } else { f64::INFINITY };
+    agree::<S, T, M, W, D>((kernel, velocity, law, Force::None), ours, (0.0, limit));
+    agree::<S, T, M, W, D>((kernel, velocity, law, Force::Particles(pull)), ours, (0.7, limit));
+    agree::<S, T, M, W, D>((kernel, velocity, law, Force::Nodes(nodal_pull)), ours, (0.7, 0.05));
+}
+
+fn every_law<S: Spline<W>, T: Transfer<D>, const W: usize, const D: usize>(
+    kernel: Kernel,
+    velocity: Velocity,
+    transfer: T,
+) {
+    let gas = IsothermalGas::new(0.8).unwrap();
+    every_force::<S, T, _, W, D>((kernel, velocity, Law::Gas { kappa: 0.8 }), (transfer, gas));
+    let moduli = ElasticModuli::from_lame(LAMBDA, MU).unwrap();
+    let (lambda, mu) = (LAMBDA, MU);
+    let neo_hookean = solid(NeoHookean::new(moduli));
+    every_force::<S, T, _, W, D>(
+        (kernel, velocity, Law::NeoHookean { lambda, mu }),
+        (transfer, neo_hookean),
+    );
+    let linear = solid(LinearElastic::new(moduli));
+    every_force::<S, T, _, W, D>(
+        (kernel, velocity, Law::LinearElastic { lambda, mu }),
+        (transfer, linear),
+    );
+}
+
+fn every_transfer<S: Spline<W>, const W: usize, const D: usize>(kernel: Kernel) {
+    every_law::<S, _, W, D>(kernel, Velocity::Pic, Pic);
+    every_law::<S, _, W, D>(kernel, Velocity::Apic, Apic);
+    every_law::<S, _, W, D>(kernel, Velocity::Flip(0.9), Flip { share: 0.9 });
+}
+
+#[test]
+fn the_step_is_the_textbook_s_in_every_dimension() {
+    every_transfer::<Quadratic, 3, 1>(Kernel::Quadratic);
+    every_transfer::<Quadratic, 3, 2>(Kernel::Quadratic);
+    every_transfer::<Quadratic, 3, 3>(Kernel::Quadratic);
+}
+
+#[test]
+fn the_step_is_the_textbook_s_with_every_kernel() {
+    every_transfer::<Linear, 2, 2>(Kernel::Linear);
+    every_transfer::<Cubic, 4, 2>(Kernel::Cubic);
+}
