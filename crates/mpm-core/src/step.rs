@@ -44,7 +44,12 @@ where
     fn choose_time_step(&self, control: &StepControl, h: f64) -> Result<f64, MpmError> {
         let wave_speed = self.medium.wave_speed(&self.particles);
         let wave_speed = wave_speed.map_err(|error| self.particles.name(error))?;
-        control.next_time_step(h, wave_speed, self.particles.largest_speed())
+        let speed = if control.courant.is_finite() {
+            self.particles.largest_speed()
+        } else {
+            0.0 // no limit asks for it
+        };
+        control.next_time_step(h, wave_speed, speed)
     }
 
     /// Sort the particles by cell and number the nodes they touch.

@@ -4,4 +4,4 @@ mod spline;
 mod stencil;
 
 pub use spline::{Cubic, Linear, Quadratic, Row, Spline};
-pub use stencil::{Entry, Stencil};
+pub use stencil::{Entry, Stencil, UniformGrid};

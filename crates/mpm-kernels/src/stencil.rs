@@ -2,6 +2,46 @@
 
 use crate::Spline;
 
+/// The nodes {origin + h i : i ∈ ℤᴰ}.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct UniformGrid<const D: usize> {
+    origin: [f64; D],
+    spacing: f64,
+    inverse_spacing: f64,
+}
+
+impl<const D: usize> UniformGrid<D> {
+    /// The grid with a node at `origin` and spacing h, which should be positive and finite.
+    pub fn new(origin: [f64; D], spacing: f64) -> Self {
+        Self {
+            origin,
+            spacing,
+            inverse_spacing: 1.0 / spacing,
+        }
+    }
+
+    /// A node's position.
+    pub fn origin(&self) -> &[f64; D] {
+        &self.origin
+    }
+
+    /// h.
+    pub fn spacing(&self) -> f64 {
+        self.spacing
+    }
+
+    /// u_a = (x_a − origin_a) / h.
+    #[inline(always)]
+    pub fn coordinate(&self, x: &[f64; D], axis: usize) -> f64 {
+        (x[axis] - self.origin[axis]) * self.inverse_spacing
+    }
+
+    /// Position of the node with index i.
+    pub fn node_position(&self, node: &[i64; D]) -> [f64; D] {
+        std::array::from_fn(|a| self.origin[a] + self.spacing * node[a] as f64)
+    }
+}
+
 /// One node of a stencil as seen from a particle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Entry<const D: usize> {
@@ -28,10 +68,9 @@ impl<const W: usize, const D: usize> Stencil<W, D> {
     /// Nodes in a stencil: Wᴰ.
     pub const SIZE: usize = W.pow(D as u32);
 
-    /// The stencil of position `x` on the grid {origin + h i}.
+    /// The stencil of position `x` on `grid`.
     #[inline(always)]
-    pub fn new<S: Spline<W>>(x: &[f64; D], origin: &[f64; D], spacing: f64) -> Self {
-        let inverse = 1.0 / spacing;
+    pub fn new<S: Spline<W>>(x: &[f64; D], grid: &UniformGrid<D>) -> Self {
         let mut stencil = Self {
             base: [0; D],
             weights: [[0.0; W]; D],
@@ -39,13 +78,13 @@ impl<const W: usize, const D: usize> Stencil<W, D> {
             offsets: [[0.0; W]; D],
         };
         for a in 0..D {
-            let u = (x[a] - origin[a]) * inverse;
+            let u = grid.coordinate(x, a);
             let row = S::row(u);
             stencil.base[a] = row.base;
             stencil.weights[a] = row.weights;
             for j in 0..W {
-                stencil.derivatives[a][j] = row.derivatives[j] * inverse;
-                stencil.offsets[a][j] = ((row.base + j as i64) as f64 - u) * spacing;
+                stencil.derivatives[a][j] = row.derivatives[j] * grid.inverse_spacing;
+                stencil.offsets[a][j] = ((row.base + j as i64) as f64 - u) * grid.spacing;
             }
         }
         stencil

@@ -1,5 +1,5 @@
 //! What every kernel and every stencil must do.
-use mpm_kernels::{Cubic, Linear, Quadratic, Spline, Stencil};
+use mpm_kernels::{Cubic, Linear, Quadratic, Spline, Stencil, UniformGrid};
 use proptest::prelude::*;
 
 fn kernel_conforms<const W: usize, S: Spline<W>>(u: f64) {
@@ -39,7 +39,7 @@ fn kernel_conforms<const W: usize, S: Spline<W>>(u: f64) {
 }
 
 fn stencil_conforms<const W: usize, const D: usize, S: Spline<W>>(x: [f64; D], origin: [f64; D], h: f64) {
-    let stencil = Stencil::<W, D>::new::<S>(&x, &origin, h);
+    let stencil = Stencil::<W, D>::new::<S>(&x, &UniformGrid::new(origin, h));
     let mut seen = 0;
     let (mut sum, mut mean, mut slope) = (0.0, [0.0; D], [0.0; D]);
     stencil.for_each(|index, entry| {

@@ -8,7 +8,7 @@ mod template;
 
 use std::marker::PhantomData;
 
-use mpm_kernels::{Entry, Spline, Stencil};
+use mpm_kernels::{Entry, Spline, Stencil, UniformGrid};
 
 use self::block::{node_at, slot_count};
 use self::block_map::BlockMap;
@@ -19,8 +19,7 @@ use crate::{Basis, MpmError, Schedule};
 #[derive(Clone, Debug)]
 pub struct SplineGrid<S, const W: usize, const D: usize> {
     kernel: PhantomData<S>,
-    origin: [f64; D],
-    spacing: f64,
+    nodes: UniformGrid<D>,
     template: Template<D>,
     /// Blocks that hold particles (the base of their stencil).
     particle_blocks: BlockMap<D>,
@@ -66,8 +65,7 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
         }
         let mut grid = Self {
             kernel: PhantomData,
-            origin,
-            spacing: h,
+            nodes: UniformGrid::new(origin, h),
             template: Template::new(W),
             particle_blocks: BlockMap::default(),
             node_blocks: BlockMap::default(),
@@ -102,7 +100,7 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
                 expected: "positive and finite",
             });
         }
-        (self.origin, self.spacing) = (origin, h);
+        self.nodes = UniformGrid::new(origin, h);
         Ok(())
     }
 }
@@ -136,14 +134,14 @@ unsafe impl<S: Spline<W>, const W: usize, const D: usize> Basis<D> for SplineGri
             let mut rest = mask;
             while rest != 0 {
                 let node = node_at(block, rest.trailing_zeros());
-                out.push(std::array::from_fn(|a| self.origin[a] + self.spacing * node[a] as f64));
+                out.push(self.nodes.node_position(&node));
                 rest &= rest - 1;
             }
         }
     }
 
     fn spacing(&self) -> f64 {
-        self.spacing
+        self.nodes.spacing()
     }
 
     fn stencil_size(&self) -> usize {
@@ -172,12 +170,12 @@ unsafe impl<S: Spline<W>, const W: usize, const D: usize> Basis<D> for SplineGri
 
     #[inline(always)]
     fn for_each_node(&self, x: &[f64; D], visit: impl FnMut(usize, &Entry<D>)) {
-        Stencil::<W, D>::new::<S>(x, &self.origin, self.spacing).for_each(visit);
+        Stencil::<W, D>::new::<S>(x, &self.nodes).for_each(visit);
     }
 
     #[inline(always)]
     fn for_each_flux(&self, x: &[f64; D], value: &[f64; D], scale: f64, visit: impl FnMut(usize, f64, &[f64; D])) {
-        Stencil::<W, D>::new::<S>(x, &self.origin, self.spacing).for_each_flux(value, scale, visit);
+        Stencil::<W, D>::new::<S>(x, &self.nodes).for_each_flux(value, scale, visit);
     }
 
     #[inline(always)]
@@ -185,7 +183,7 @@ unsafe impl<S: Spline<W>, const W: usize, const D: usize> Basis<D> for SplineGri
         match S::SECOND_MOMENT {
             None => entry.gradient,
             Some(moment) => {
-                let scale = entry.weight / (moment * self.spacing * self.spacing);
+                let scale = entry.weight / (moment * self.nodes.spacing() * self.nodes.spacing());
                 entry.offset.map(|c| c * scale)
             }
         }

@@ -28,15 +28,15 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
         let keys = &mut self.scratch.keys;
         keys.clear();
         keys.reserve(positions.len());
-        let inverse = 1.0 / self.spacing;
+        let nodes = self.nodes;
         let mut last = ([i32::MAX; D], 0);
         for (particle, x) in positions.iter().enumerate() {
-            let u: [f64; D] = std::array::from_fn(|a| (x[a] - self.origin[a]) * inverse);
+            let u: [f64; D] = std::array::from_fn(|a| nodes.coordinate(x, a));
             if !u.iter().all(|u| u.abs() < COORDINATE_LIMIT) {
                 return Err(MpmError::PositionOutOfRange {
                     particle,
                     position: x.to_vec(),
-                    spacing: self.spacing,
+                    spacing: nodes.spacing(),
                 });
             }
             let (block, place) = locate(&u.map(|u| S::row(u).base));
