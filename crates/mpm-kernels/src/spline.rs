@@ -18,7 +18,8 @@ pub trait Spline<const W: usize>: Copy + Default + Send + Sync + 'static {
     /// `None` for hat functions, whose second moment vanishes at the nodes (Jiang et al. 2015, §5.3).
     const SECOND_MOMENT: Option<f64>;
 
-    /// All nodes touched from the grid coordinate `u` = x/h, with values and derivatives.
+    /// All nodes touched from the grid coordinate `u` = x/h, |u| < 2⁵¹, with values and derivatives. Beyond, and for NaN, the
+    /// row is without meaning.
     fn row(u: f64) -> Row<W>;
 }
 
@@ -27,7 +28,7 @@ pub trait Spline<const W: usize>: Copy + Default + Send + Sync + 'static {
 pub struct Row<const W: usize> {
     /// Index of the first node.
     pub base: i64,
-    /// N(u − base − j).
+    /// N(u − base − j); not negative but for the rounding of u.
     pub weights: [f64; W],
     /// dN/du (u − base − j), per unit of the grid coordinate.
     pub derivatives: [f64; W],

@@ -84,7 +84,7 @@ impl<const W: usize, const D: usize> Stencil<W, D> {
             stencil.weights[a] = row.weights;
             for j in 0..W {
                 stencil.derivatives[a][j] = row.derivatives[j] * grid.inverse_spacing;
-                stencil.offsets[a][j] = ((row.base + j as i64) as f64 - u) * grid.spacing;
+                stencil.offsets[a][j] = (row.base.wrapping_add(j as i64) as f64 - u) * grid.spacing;
             }
         }
         stencil

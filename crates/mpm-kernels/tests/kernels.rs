@@ -16,7 +16,7 @@ fn kernel_conforms<const W: usize, S: Spline<W>>(u: f64) {
     );
     for j in 0..W {
         let r = u - (row.base + j as i64) as f64;
-        assert!(row.weights[j] >= 0.0);
+        assert!(row.weights[j] >= -f64::EPSILON * u.abs());
         assert!((row.weights[j] - S::value(r)).abs() < 1e-14);
         let step = 1e-6;
         let difference = (S::value(r + step) - S::value(r - step)) / (2.0 * step);
@@ -75,6 +75,22 @@ fn stencil_conforms<const W: usize, const D: usize, S: Spline<W>>(x: [f64; D], o
         sum += entry.weight;
     });
     assert_eq!(seen, W.pow(D as u32));
+
+    // The flux, which takes its own way through the products.
+    let (value, scale) = (std::array::from_fn(|a| 0.3 + a as f64), -0.7 * h);
+    let mut expected = Vec::new();
+    stencil.for_each(|_, entry| {
+        let flux: [f64; D] = std::array::from_fn(|a| entry.weight * value[a] + scale * entry.gradient[a]);
+        expected.push((entry.weight, flux));
+    });
+    let mut fluxes = 0;
+    stencil.for_each_flux(&value, scale, |index, weight, flux| {
+        assert_eq!(index, fluxes);
+        fluxes += 1;
+        assert!((weight - expected[index].0).abs() < 1e-15);
+        assert!((0..D).all(|a| (flux[a] - expected[index].1[a]).abs() < 1e-14));
+    });
+    assert_eq!(fluxes, seen);
     assert!((sum - 1.0).abs() < 1e-13);
     for a in 0..D {
         assert!(mean[a].abs() < 1e-12 * (1.0 + x[a].abs()));
@@ -98,6 +114,21 @@ proptest! {
         stencil_conforms::<4, 3, Cubic>([x[0], x[1], x[2]], [o[0], o[1], o[2]], h);
         stencil_conforms::<2, 4, Linear>(x, o, h);
         stencil_conforms::<3, 4, Quadratic>(x, o, h);
+        let (x, o) = ([x[0], x[1], x[2], x[3], 0.3 * x[0], -x[1]], [o[0], o[1], o[2], o[3], o[0], o[1]]);
+        stencil_conforms::<2, 6, Linear>(x, o, h);
+        stencil_conforms::<3, 6, Quadratic>(x, o, h);
+        stencil_conforms::<3, 5, Quadratic>([x[0], x[1], x[2], x[3], x[4]], [o[0], o[1], o[2], o[3], o[4]], h);
+    }
+
+    #[test]
+    fn no_coordinate_panics(bits in any::<u64>()) {
+        let x = f64::from_bits(bits);
+        for h in [1.0, 1e-300, 1e300, x] {
+            let grid = UniformGrid::new([0.0], h);
+            Stencil::<2, 1>::new::<Linear>(&[x], &grid).for_each(|_, _| ());
+            Stencil::<3, 1>::new::<Quadratic>(&[x], &grid).for_each(|_, _| ());
+            Stencil::<4, 1>::new::<Cubic>(&[x], &grid).for_each(|_, _| ());
+        }
     }
 }
 
@@ -108,5 +139,23 @@ fn nodes_and_half_way_points_are_no_exception() {
         kernel_conforms::<2, Linear>(u);
         kernel_conforms::<3, Quadratic>(u);
         kernel_conforms::<4, Cubic>(u);
+    }
+}
+
+#[test]
+fn coordinates_without_meaning_do_not_panic() {
+    for x in [
+        f64::NAN,
+        f64::INFINITY,
+        f64::NEG_INFINITY,
+        f64::MAX,
+        f64::MIN,
+        9.3e18,
+        -9.3e18,
+    ] {
+        let grid = UniformGrid::new([0.0], 1.0);
+        Stencil::<2, 1>::new::<Linear>(&[x], &grid).for_each(|_, _| ());
+        Stencil::<3, 1>::new::<Quadratic>(&[x], &grid).for_each(|_, _| ());
+        Stencil::<4, 1>::new::<Cubic>(&[x], &grid).for_each(|_, _| ());
     }
 }
