@@ -15,9 +15,9 @@ pub enum ForceLocation {
 
 /// An external force. What a force does not use is neither stored nor computed.
 ///
-/// The location is a value and not a type: the step looks at it once per particle, and is compiled half as often.
+/// The location is a value and not a type: the step looks at it once per particle, and one step serves all forces of a type.
 pub trait BodyForce<const D: usize>: Sync {
-    /// Where the force acts; asked once per step.
+    /// Where the force acts. The step asks several times and counts on one answer.
     fn location(&self) -> ForceLocation;
 
     /// Force per unit mass at every particle, in the order of `positions`. Every entry of `accelerations` has to be set: it
