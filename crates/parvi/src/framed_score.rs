@@ -43,7 +43,7 @@ impl<'a, const D: usize> FramedScore<'a, D> {
         Ok(())
     }
 
-    /// −E[log p(x)] over equally weighted points.
+    /// −E\[log p(x)\] over equally weighted points.
     pub fn potential_energy(&self, zs: &[[f64; D]]) -> f64 {
         let sum: f64 = zs
             .iter()

@@ -11,11 +11,11 @@ const LIMIT: f64 = 0.25;
 /// A full step that leaves more than this share of the defect was no Newton step: the target is far from Gaussian.
 const CONTRACTION: f64 = 0.5;
 
-/// Move the particles by affine maps until E[s] = 0 and E[s (x − x̄)ᵀ] = −I hold for them, as far as that goes.
+/// Move the particles by affine maps until E\[s\] = 0 and E\[s (x − x̄)ᵀ\] = −I hold for them, as far as that goes.
 ///
 /// Stein's identity with the test functions 1 and x, which no grid of finite extent contains (docs/theory.md, Eq. 12). One
 /// Newton step x ← x̄ + b + A (x − x̄): with the covariance C of the particles and the mean curvature
-/// Q = −sym(E[s (x − x̄)ᵀ] C⁻¹), b = Q⁻¹ E[s], and A is the symmetric map that takes C to Q⁻¹. For a Gaussian target one step
+/// Q = −sym(E\[s (x − x̄)ᵀ\] C⁻¹), b = Q⁻¹ E\[s\], and A is the symmetric map that takes C to Q⁻¹. For a Gaussian target one step
 /// gives mean and covariance exactly, and up to two are taken. Where a full step does not at least halve the defect, a
 /// secant step along the same direction is tried instead; no step is kept that enlarges the defect.
 ///
@@ -94,7 +94,7 @@ struct SteinMoments<const D: usize> {
     mean: [f64; D],
     covariance: Matrix<D>,
     mean_score: [f64; D],
-    /// −E[s (x − x̄)ᵀ].
+    /// −E\[s (x − x̄)ᵀ\].
     stein: Matrix<D>,
 }
 
@@ -124,7 +124,7 @@ impl<const D: usize> SteinMoments<D> {
         }
     }
 
-    /// |E[s]|² + ‖I + E[s (x − x̄)ᵀ]‖².
+    /// |E\[s\]|² + ‖I + E\[s (x − x̄)ᵀ\]‖².
     fn defect(&self) -> f64 {
         self.defect_product(self)
     }

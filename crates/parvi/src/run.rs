@@ -78,7 +78,7 @@ pub struct TracePoint {
     pub residual: Option<f64>,
     /// ½ Σ m |v|² (total mass 1), in frame coordinates.
     pub kinetic_energy: f64,
-    /// −E[log p] over the particles, in frame coordinates, up to a constant of the target; where it was measured.
+    /// −E\[log p\] over the particles, in frame coordinates, up to a constant of the target; where it was measured.
     pub potential_energy: Option<f64>,
     /// Largest displacement of a node in this step, in units of h.
     pub displacement: f64,

@@ -29,19 +29,19 @@ pub struct MethodOptions {
     /// Largest displacement per step in units of the spacing, or `off` [paper-*; mpm: a number]
     #[arg(long, value_name = "C|off", allow_negative_numbers = true)]
     pub displacement_limit: Option<Limit>,
-    /// Move the grid every step [mpm]
+    /// Move the grid every step (mpm)
     #[arg(long)]
     pub shifts: Option<Switch>,
-    /// Finish with the affine Stein correction [mpm]
+    /// Finish with the affine Stein correction (mpm)
     #[arg(long)]
     pub moment_correction: Option<Switch>,
-    /// Velocity transfer [mpm]
+    /// Velocity transfer (mpm)
     #[arg(long)]
     pub transfer: Option<Transfer>,
-    /// Share of FLIP in --transfer flip, from 0 to 1 [mpm]
+    /// Share of FLIP in --transfer flip, from 0 to 1 (mpm)
     #[arg(long, value_name = "A", allow_negative_numbers = true)]
     pub flip_share: Option<f64>,
-    /// Friction, per unit of time [mpm]
+    /// Friction, per unit of time (mpm)
     #[arg(long, value_name = "GAMMA", allow_negative_numbers = true)]
     pub friction: Option<f64>,
     /// Elastic law [paper-*]
@@ -74,10 +74,10 @@ pub struct MethodOptions {
     /// Courant number that limits the time step, or `off` [paper-*]
     #[arg(long, value_name = "C|off", allow_negative_numbers = true)]
     pub courant: Option<Limit>,
-    /// Step size of the optimiser [svgd]
+    /// Step size of the optimiser (svgd)
     #[arg(long, value_name = "SIZE", allow_negative_numbers = true)]
     pub step_size: Option<f64>,
-    /// Fixed kernel bandwidth instead of the median rule [svgd]
+    /// Fixed kernel bandwidth instead of the median rule (svgd)
     #[arg(long, allow_negative_numbers = true)]
     pub bandwidth: Option<f64>,
     /// Mean of every coordinate at the start, in units of the target's scale [mpm, paper-*, svgd]

@@ -13,11 +13,11 @@ use super::Dimension;
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
 #[command(next_help_heading = "Parameters of the target")]
 pub struct TargetParameters {
-    /// Correlation R of neighbouring axes, C_ij = R^|i-j| [gaussian]
+    /// Correlation R of neighbouring axes, C_ij = R^|i-j| (gaussian)
     #[arg(long, value_name = "R", allow_negative_numbers = true)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub correlation: Option<f64>,
-    /// Curvature b [banana]
+    /// Curvature b (banana)
     #[arg(long, value_name = "B", allow_negative_numbers = true)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub curvature: Option<f64>,
@@ -25,19 +25,19 @@ pub struct TargetParameters {
     #[arg(long, value_name = "SIGMA", allow_negative_numbers = true)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub width: Option<f64>,
-    /// Radius of the ring [ring]
+    /// Radius of the ring (ring)
     #[arg(long, allow_negative_numbers = true)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub radius: Option<f64>,
-    /// Degrees of freedom [student-t]
+    /// Degrees of freedom (student-t)
     #[arg(long, value_name = "NU", allow_negative_numbers = true)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub degrees_of_freedom: Option<f64>,
-    /// Standard deviation of the Gaussian prior of each coefficient [wells, wells-small, logistic]
+    /// Standard deviation of the Gaussian prior of each coefficient (wells, wells-small, logistic)
     #[arg(long, value_name = "SD", allow_negative_numbers = true)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub prior_sd: Option<f64>,
-    /// Data: a header, the 0/1 response first, then the covariates [logistic]
+    /// Data: a header, the 0/1 response first, then the covariates (logistic)
     #[arg(long, value_name = "FILE.csv")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub data: Option<PathBuf>,

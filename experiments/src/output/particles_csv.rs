@@ -30,7 +30,7 @@ pub fn write(particles: &Particles, writer: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-/// Reads what [`write`] writes.
+/// Reads what [`write`](fn@write) writes.
 ///
 /// # Errors
 /// [`CommandError::ResultsUnreadable`] with the line of a row that does not fit.

@@ -28,7 +28,7 @@ pub struct MpmOptions {
     pub friction: Option<f64>,
     /// Move the grid's origin every step by a Kronecker sequence.
     pub shifts: bool,
-    /// Finish with the affine Stein correction, which makes E[s] = 0 and E[s xᵀ] = −I hold for the particles.
+    /// Finish with the affine Stein correction, which makes E\[s\] = 0 and E\[s xᵀ\] = −I hold for the particles.
     pub moment_correction: bool,
     /// Where the score is evaluated.
     pub score_location: ScoreLocation,

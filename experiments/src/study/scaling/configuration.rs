@@ -76,7 +76,7 @@ impl Scaling {
             return refuse("nodes-sweep.box", format!("[{low}, {high}] is no interval"));
         }
         let sweep = &self.particles_sweep;
-        if !(sweep.largest_work > 0.0) {
+        if sweep.largest_work.is_nan() || sweep.largest_work <= 0.0 {
             return refuse(
                 "particles-sweep.largest-work",
                 format!("{} must be above 0", sweep.largest_work),
