@@ -15,7 +15,8 @@ pub enum ForceLocation {
 
 /// An external force. What a force does not use is neither stored nor computed.
 ///
-/// The location is a value and not a type: the step looks at it once per particle, and one step serves all forces of a type.
+/// The location is a value and not a type: the step looks at it once per particle, and a force
+/// that may act at either place needs one compiled step.
 pub trait BodyForce<const D: usize>: Sync {
     /// Where the force acts. The step asks several times and counts on one answer.
     fn location(&self) -> ForceLocation;

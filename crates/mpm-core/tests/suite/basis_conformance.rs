@@ -8,6 +8,9 @@ use rand::RngExt;
 
 use crate::scenes::{dot, generator, norm, normal, stencil};
 
+/// Bases whose gradient is no derivative by definition: the diffuse gradient of moving least squares.
+const DIFFUSE: [&str; 0] = [];
+
 /// Random clouds on a randomly placed basis, each on a basis that was in use before.
 fn conforms<const D: usize, B: Basis<D>>(name: &str, make: impl Fn([f64; D], f64) -> B) {
     for case in 0..3 {
@@ -22,7 +25,9 @@ fn conforms<const D: usize, B: Basis<D>>(name: &str, make: impl Fn([f64; D], f64
             let what = format!("{name}, D = {D}, case {case}, round {round}");
             layout_is_sound(&basis, &positions, &what);
             stencils_are_right(&basis, &positions, &what);
-            gradients_are_derivatives(&basis, &positions, &what);
+            if !DIFFUSE.contains(&name) {
+                gradients_are_derivatives(&basis, &positions, &what);
+            }
         }
     }
 }
