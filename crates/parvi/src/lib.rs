@@ -40,3 +40,8 @@ pub fn sample<const D: usize>(
         Method::Sobol => sobol_points(target, run),
     }
 }
+
+/// Runs the code of the workspace's README as a doc test.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct WorkspaceReadme;
