@@ -33,10 +33,7 @@ impl StudyDirectory {
             fs::create_dir_all(path).map_err(|source| CommandError::file("create", path, source))?;
             AtomicFile::write(existing, configuration.text())?;
         }
-        for part in ["raw", "figures"] {
-            let part = path.join(part);
-            fs::create_dir_all(&part).map_err(|source| CommandError::file("create", &part, source))?;
-        }
+        directory.make_parts()?;
         Ok(directory)
     }
 
@@ -44,7 +41,16 @@ impl StudyDirectory {
     pub fn existing(path: &Path) -> Result<(Self, Configuration), CommandError> {
         let directory = Self { path: path.to_owned() };
         let configuration = Configuration::read(&directory.configuration_path())?;
+        directory.make_parts()?;
         Ok((directory, configuration))
+    }
+
+    fn make_parts(&self) -> Result<(), CommandError> {
+        for part in ["raw", "figures"] {
+            let part = self.path.join(part);
+            fs::create_dir_all(&part).map_err(|source| CommandError::file("create", &part, source))?;
+        }
+        Ok(())
     }
 
     fn check_same_study(&self, configuration: &Configuration) -> Result<(), CommandError> {
