@@ -1,15 +1,14 @@
 //! What every basis must do, whatever its nodes are.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 
 use mpm_core::Basis;
 use mpm_tensor::Matrix;
 use rand::RngExt;
 
+use crate::basis_gradients::gradients_are_derivatives;
+use crate::basis_layout::layout_is_sound;
 use crate::scenes::{dot, generator, norm, normal, stencil};
-
-/// Bases whose gradient is no derivative by definition: the diffuse gradient of moving least squares.
-const DIFFUSE: [&str; 0] = [];
 
 /// Random clouds on a randomly placed basis, each on a basis that was in use before.
 fn conforms<const D: usize, B: Basis<D>>(name: &str, make: impl Fn([f64; D], f64) -> B) {
@@ -25,9 +24,7 @@ fn conforms<const D: usize, B: Basis<D>>(name: &str, make: impl Fn([f64; D], f64
             let what = format!("{name}, D = {D}, case {case}, round {round}");
             layout_is_sound(&basis, &positions, &what);
             stencils_are_right(&basis, &positions, &what);
-            if !DIFFUSE.contains(&name) {
-                gradients_are_derivatives(&basis, &positions, &what);
-            }
+            gradients_are_derivatives(name, &basis, &positions, &what);
         }
     }
 }
@@ -43,58 +40,6 @@ fn cloud<const D: usize>(count: usize, origin: [f64; D], h: f64, random: &mut ra
         std::array::from_fn(|a| origin[a] + z[a])
     };
     (0..count).map(point).collect()
-}
-
-/// The schedule is a permutation in cells, groups and colours, and groups of one colour share no node.
-fn layout_is_sound<const D: usize, B: Basis<D>>(basis: &B, positions: &[[f64; D]], what: &str) {
-    let schedule = basis.schedule();
-    let mut order = schedule.order().to_vec();
-    order.sort_unstable();
-    assert!(
-        order.iter().copied().eq(0..positions.len() as u32),
-        "{what}: no permutation"
-    );
-
-    let (mut next_particle, mut next_cell) = (0, 0);
-    for group in 0..schedule.group_count() {
-        let cells = schedule.group(group);
-        assert_eq!(cells.start, next_cell, "{what}: groups do not partition the cells");
-        assert!(!cells.is_empty(), "{what}: empty group");
-        assert_eq!(schedule.group_particles(group).start, next_particle);
-        next_cell = cells.end;
-        for cell in cells {
-            let particles = schedule.cell(cell);
-            assert_eq!(
-                particles.start, next_particle,
-                "{what}: cells do not partition the particles"
-            );
-            assert!(!particles.is_empty(), "{what}: empty cell");
-            next_particle = particles.end;
-        }
-        assert_eq!(schedule.group_particles(group).end, next_particle);
-    }
-    assert_eq!(
-        (next_cell, next_particle),
-        (schedule.cell_count(), positions.len()),
-        "{what}"
-    );
-
-    let mut coloured = HashSet::new();
-    let mut cell_nodes = Vec::new();
-    for groups in schedule.colours() {
-        let mut owner = HashMap::new();
-        for &group in groups {
-            assert!(coloured.insert(group), "{what}: group {group} has two colours");
-            for cell in schedule.group(group as usize) {
-                basis.cell_nodes(cell, &mut cell_nodes);
-                for &node in &cell_nodes {
-                    let first = *owner.entry(node).or_insert(group);
-                    assert_eq!(first, group, "{what}: two groups of one colour share node {node}");
-                }
-            }
-        }
-    }
-    assert_eq!(coloured.len(), schedule.group_count(), "{what}: a group has no colour");
 }
 
 /// Weights, offsets, fluxes and node numbers, and that the active nodes are the touched ones.
@@ -203,53 +148,6 @@ fn stencil_is_right<const D: usize, B: Basis<D>>(
         }
     });
     assert!(visits.next().is_none(), "{what}: fluxes for fewer nodes");
-}
-
-/// ∇w against central differences, where w has no kink within the step: hats have one at the points put on nodes.
-fn gradients_are_derivatives<const D: usize, B: Basis<D>>(basis: &B, positions: &[[f64; D]], what: &str) {
-    let h = basis.spacing();
-    let step = 1e-5 * h;
-    // Weights by node, the node told by its position.
-    let weights = |x: &[f64; D]| -> HashMap<[i64; D], f64> {
-        let key = |offset: [f64; D]| {
-            std::array::from_fn(|a| ((x[a] + offset[a] - positions[0][a]) / h * 64.0).round() as i64)
-        };
-        stencil(basis, x).into_iter().map(|s| (key(s.3), s.1)).collect()
-    };
-    let sample = positions.iter().filter(|x| norm(x) < 1e3 * h).take(20);
-    let (mut compared, mut kinks) = (0, 0);
-    for x in sample {
-        let here = weights(x);
-        let gradients: Vec<[f64; D]> = stencil(basis, x).iter().map(|s| s.2).collect();
-        let keys: Vec<[i64; D]> = stencil(basis, x)
-            .iter()
-            .map(|s| std::array::from_fn(|a| ((x[a] + s.3[a] - positions[0][a]) / h * 64.0).round() as i64))
-            .collect();
-        for a in 0..D {
-            let shifted = |sign: f64| {
-                let mut y = *x;
-                y[a] += sign * step;
-                weights(&y)
-            };
-            let (before, after) = (shifted(-1.0), shifted(1.0));
-            let at = |w: &HashMap<[i64; D], f64>, key| w.get(key).copied().unwrap_or(0.0);
-            for (key, gradient) in keys.iter().zip(&gradients) {
-                let (w0, w1, w2) = (at(&before, key), at(&here, key), at(&after, key));
-                if (w2 - 2.0 * w1 + w0).abs() > 1e-3 * step / h {
-                    kinks += 1;
-                    continue;
-                }
-                compared += 1;
-                let difference = (w2 - w0) / (2.0 * step);
-                assert!(
-                    (gradient[a] - difference).abs() < 1e-6 / h,
-                    "{what}: gradient {} for {difference}",
-                    gradient[a]
-                );
-            }
-        }
-    }
-    assert!(5 * kinks < compared, "{what}: {kinks} kinks, {compared} comparisons");
 }
 
 /// A displaced point reads the same shape functions: w_i is a function of space, not of the cell that evaluates it.

@@ -4,6 +4,8 @@
 mod scenes;
 
 mod basis_conformance;
+mod basis_gradients;
+mod basis_layout;
 mod conservation;
 mod determinism;
 mod errors;
