@@ -1,6 +1,7 @@
 //! The one seam: where a particle sits → which nodes, with which weight and gradient.
 
 use mpm_kernels::Entry;
+use mpm_tensor::Matrix;
 
 use crate::{MpmError, Schedule};
 
@@ -10,26 +11,35 @@ use crate::{MpmError, Schedule};
 /// implementations. A basis groups particles into *cells*, in which all particles touch the same nodes, so that node
 /// numbers are looked up once per cell.
 ///
-/// # Safety
-/// [`scatter`](crate::scatter) writes to the nodes of all groups of one colour concurrently, without locks. From one rebuild
-/// to the next, therefore, and on every call:
-///
-/// * [`schedule`](Self::schedule) is the same, and no group occurs twice among its colours;
-/// * [`cell_nodes`](Self::cell_nodes) of cells in two different groups of one colour have no node number in common.
-///
-/// Everything else an implementation may get wrong leads to wrong results or a panic, not to a data race.
-#[allow(unsafe_code)]
-pub unsafe trait Basis<const D: usize>: Sync {
-    /// Activate the nodes that these positions touch, number them 0..n, and lay out the particles by cell.
-    ///
-    /// Afterwards particle `k` of the schedule is particle `schedule().order()[k]` of `positions`. After an error the basis
-    /// is of no use until a rebuild succeeds.
+/// Whatever an implementation gets wrong leads to wrong results or a panic, not to a data race.
+pub trait Basis<const D: usize>: Sync {
+    /// Lay out the particles by cell: afterwards `schedule().order()` and the cells are those of these positions.
     ///
     /// # Errors
-    /// [`MpmError::PositionOutOfRange`], [`MpmError::TooManyNodes`].
-    fn rebuild(&mut self, positions: &[[f64; D]]) -> Result<(), MpmError>;
+    /// [`MpmError::PositionOutOfRange`], [`MpmError::TooManyNodes`]. The basis is then of no use until it has been sorted and
+    /// activated again.
+    fn sort(&mut self, positions: &[[f64; D]]) -> Result<(), MpmError>;
 
-    /// Order of the particles, their cells, and which cells may work side by side.
+    /// Activate the nodes that the positions of the last [`sort`](Self::sort), now in schedule order, touch, and number
+    /// them 0..n.
+    ///
+    /// # Errors
+    /// As [`sort`](Self::sort).
+    fn activate(&mut self, sorted: &[[f64; D]]) -> Result<(), MpmError>;
+
+    /// [`sort`](Self::sort) and [`activate`](Self::activate); returns the positions in schedule order.
+    ///
+    /// # Errors
+    /// As [`sort`](Self::sort).
+    fn rebuild(&mut self, positions: &[[f64; D]]) -> Result<Vec<[f64; D]>, MpmError> {
+        self.sort(positions)?;
+        let order = self.schedule().order();
+        let sorted: Vec<[f64; D]> = order.iter().map(|&p| positions[p as usize]).collect();
+        self.activate(&sorted)?;
+        Ok(sorted)
+    }
+
+    /// Order of the particles, their cells, and the parts that work side by side.
     fn schedule(&self) -> &Schedule;
 
     /// Number of active nodes n.
@@ -45,18 +55,26 @@ pub unsafe trait Basis<const D: usize>: Sync {
     fn stencil_size(&self) -> usize;
 
     /// The [`stencil_size`](Self::stencil_size) node numbers that the particles of `cell` touch, in the order of
-    /// [`for_each_node`](Self::for_each_node).
-    fn cell_nodes(&self, cell: usize, nodes: &mut Vec<u32>);
+    /// [`for_each_node`](Self::for_each_node); written to `scratch` where they are not stored.
+    fn cell_nodes<'a>(&'a self, cell: usize, scratch: &'a mut Vec<u32>) -> &'a [u32];
 
-    /// Visit the stencil of a particle at `x`: place in [`cell_nodes`](Self::cell_nodes), weight, gradient, offset.
-    fn for_each_node(&self, x: &[f64; D], visit: impl FnMut(usize, &Entry<D>));
+    /// Visit the stencil of a particle, given by its place in the schedule and the position `x` that it was activated with:
+    /// place in [`cell_nodes`](Self::cell_nodes), weight, gradient, offset.
+    fn for_each_node(&self, particle: usize, x: &[f64; D], visit: impl FnMut(usize, &Entry<D>));
 
-    /// Visit the stencil of a particle at `x` with weight and flux w_ip `value` + `scale` ∇w_ip.
+    /// As [`for_each_node`](Self::for_each_node), with weight and flux w_ip `value` + `scale` ∇w_ip.
     ///
     /// A basis of tensor products overrides it: the flux of an isotropic stress needs D + 1 products per node.
     #[inline(always)]
-    fn for_each_flux(&self, x: &[f64; D], value: &[f64; D], scale: f64, mut visit: impl FnMut(usize, f64, &[f64; D])) {
-        self.for_each_node(x, |index, entry| {
+    fn for_each_flux(
+        &self,
+        particle: usize,
+        x: &[f64; D],
+        value: &[f64; D],
+        scale: f64,
+        mut visit: impl FnMut(usize, f64, &[f64; D]),
+    ) {
+        self.for_each_node(particle, x, |index, entry| {
             let flux = std::array::from_fn(|a| entry.weight * value[a] + scale * entry.gradient[a]);
             visit(index, entry.weight, &flux);
         });
@@ -68,4 +86,40 @@ pub unsafe trait Basis<const D: usize>: Sync {
 
     /// Bytes held.
     fn storage_bytes(&self) -> usize;
+}
+
+/// A basis on a lattice without end, which can be moved and scaled.
+pub trait UniformBasis<const D: usize>: Basis<D> {
+    /// A node at `origin`, spacing h. Takes effect with the next rebuild.
+    ///
+    /// # Errors
+    /// [`MpmError::InvalidParameter`] unless `h` is positive and `h` and `origin` are finite.
+    fn place(&mut self, origin: [f64; D], h: f64) -> Result<(), MpmError>;
+
+    /// Turn the basis by an orthogonal R (rows: the new axes), seen from how it was made. Bases whose axes are those of space stay as they
+    /// are. Takes effect with the next rebuild.
+    fn turn(&mut self, _rotation: &Matrix<D>) {}
+
+    /// The point of the unit cell of a lattice of spacing h that has the coordinates `fraction` ∈ [0, 1)ᴰ in it: all
+    /// lattices there are have their origin at one such point.
+    fn cell_point(&self, fraction: &[f64; D], h: f64) -> [f64; D];
+}
+
+/// What [`UniformBasis::place`] refuses.
+pub(crate) fn check_placement<const D: usize>(origin: &[f64; D], h: f64) -> Result<(), MpmError> {
+    if let Some(&value) = origin.iter().find(|c| !c.is_finite()) {
+        return Err(MpmError::InvalidParameter {
+            field: "origin",
+            value,
+            expected: "finite",
+        });
+    }
+    if !(h > 0.0 && h.is_finite()) {
+        return Err(MpmError::InvalidParameter {
+            field: "spacing",
+            value: h,
+            expected: "positive and finite",
+        });
+    }
+    Ok(())
 }

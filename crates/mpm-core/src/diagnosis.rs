@@ -30,7 +30,7 @@ where
                 value: self.node_forces[index].to_vec(),
             };
         }
-        let velocities: Vec<[f64; D]> = self.nodes.iter().map(|node| *node.velocity()).collect();
+        let velocities: Vec<[f64; D]> = self.nodes.as_slice().iter().map(|node| *node.velocity()).collect();
         let node = first_not_finite(&velocities).unwrap_or(0);
         MpmError::VelocityNotFinite {
             position: self.node_positions[node].to_vec(),

@@ -2,7 +2,7 @@
 
 use mpm_tensor::Matrix;
 
-use crate::{Basis, BodyForce, Medium, Particles, Transfer};
+use crate::{Basis, BodyForce, Medium, NodeSums, Particles, Transfer};
 
 /// A body of particles on a basis: what moves (`particles`), where (`basis`), how velocities travel (`transfer`), what it
 /// is made of (`medium`) and what pulls at it (`body_force`).
@@ -18,7 +18,7 @@ pub struct Mpm<const D: usize, B, T: Transfer<D>, M, F> {
     /// External force.
     pub body_force: F,
     /// Nodal masses and velocities, in the order of the basis' numbers.
-    pub(crate) nodes: Vec<T::Node>,
+    pub(crate) nodes: NodeSums<T::Node>,
     /// Body force per unit mass at the particles; empty where it acts at nodes.
     pub(crate) accelerations: Vec<[f64; D]>,
     /// Positions of the nodes and force at them; empty where it acts at particles.
@@ -45,7 +45,7 @@ where
             transfer,
             medium,
             body_force,
-            nodes: Vec::new(),
+            nodes: NodeSums::default(),
             accelerations: Vec::new(),
             node_positions: Vec::new(),
             node_forces: Vec::new(),
@@ -57,7 +57,7 @@ where
         let vectors = self.accelerations.capacity() + self.node_positions.capacity() + self.node_forces.capacity();
         self.particles.storage_bytes()
             + self.basis.storage_bytes()
-            + self.nodes.capacity() * size_of::<T::Node>()
+            + self.nodes.storage_bytes()
             + vectors * size_of::<[f64; D]>()
     }
 }

@@ -1,6 +1,7 @@
 //! Particles as structure of arrays; a field that a scene does not use is an empty vector.
 
 use mpm_tensor::Matrix;
+use rayon::prelude::*;
 
 use crate::MpmError;
 use crate::largest::larger_or_nan;
@@ -210,11 +211,14 @@ impl<const D: usize> Particles<D> {
     }
 }
 
-fn permute<T: Copy>(field: &mut Vec<T>, scratch: &mut Vec<T>, order: &[u32]) {
+/// Entries of one piece of work.
+const PERMUTE_LENGTH: usize = 1 << 13;
+
+fn permute<T: Copy + Send + Sync>(field: &mut Vec<T>, scratch: &mut Vec<T>, order: &[u32]) {
     if field.is_empty() {
         return;
     }
-    scratch.clear();
-    scratch.extend(order.iter().map(|&from| field[from as usize]));
+    let sorted = order.par_iter().with_min_len(PERMUTE_LENGTH).map(|&from| field[from as usize]);
+    sorted.collect_into_vec(scratch);
     std::mem::swap(field, scratch);
 }

@@ -1,45 +1,51 @@
-//! Who works when: particles in cells, cells in groups, groups in colours.
+//! Who works when: particles in cells, cells in parts.
 
 use std::ops::Range;
 
-/// The layout of a step: particles are sorted by cell; neighbouring cells form groups; the groups of one colour touch
-/// disjoint sets of nodes, so that they may add to the nodes side by side, and the sum at every node is taken in the same
-/// order on any number of threads.
+/// Particles are sorted by cell; stretches of cells form parts, each with the range of nodes that its cells touch. Parts
+/// add to nodes of their own side by side, and their sums are added in the order of the parts, so that the sum at every
+/// node is the same on any number of threads.
 #[derive(Clone, Debug, Default)]
 pub struct Schedule {
     pub(crate) order: Vec<u32>,
     /// First particle of every cell, and the number of particles at the end.
     pub(crate) cell_starts: Vec<u32>,
-    /// First cell of every group, and the number of cells at the end.
-    pub(crate) group_starts: Vec<u32>,
-    /// Groups sorted by colour.
-    pub(crate) coloured_groups: Vec<u32>,
-    /// First entry of every colour in `coloured_groups`, and their number at the end.
-    pub(crate) colour_starts: Vec<u32>,
+    pub(crate) parts: Vec<Part>,
+    pub(crate) keeps_order: bool,
+    /// Every particle is a cell of its own.
+    pub(crate) lone_particles: bool,
 }
 
+/// A stretch of cells.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Part {
+    /// The cells.
+    pub cells: Range<usize>,
+    /// Numbers between which all nodes lie that the cells touch.
+    pub nodes: Range<usize>,
+}
+
+/// Stencil visits that are worth a part of their own.
+const VISITS_PER_PART: usize = 1 << 15;
+
+/// Parts at most; not more than `FEW_PARTS` where they overlap.
+const MOST_PARTS: usize = 16;
+const FEW_PARTS: usize = 4;
+
 impl Schedule {
-    /// A schedule from its parts: `order` as in [`order`](Self::order); the first particle of every cell; the first cell of
-    /// every group; the groups sorted by colour; the first of them for every colour. Each `starts` ends with the total.
-    ///
-    /// What the colours have to satisfy is part of the contract of [`Basis`](crate::Basis).
-    pub fn new(
-        order: Vec<u32>,
-        cell_starts: Vec<u32>,
-        group_starts: Vec<u32>,
-        coloured_groups: Vec<u32>,
-        colour_starts: Vec<u32>,
-    ) -> Self {
+    /// A schedule of one part, from its order as in [`order`](Self::order) and the first particle of every cell, which ends
+    /// with the number of particles. The parts are made by [`cut`](Self::cut) and [`join`](Self::join).
+    pub fn new(order: Vec<u32>, cell_starts: Vec<u32>) -> Self {
         Self {
             order,
             cell_starts,
-            group_starts,
-            coloured_groups,
-            colour_starts,
+            parts: Vec::new(),
+            keeps_order: false,
+            lone_particles: false,
         }
     }
 
-    /// Particle `order[k]` of the caller is the k-th of the schedule.
+    /// Particle `order[k]` of the caller is the k-th of the schedule; k itself where the schedule keeps the order.
     pub fn order(&self) -> &[u32] {
         &self.order
     }
@@ -52,41 +58,74 @@ impl Schedule {
     /// Particles of a cell, in schedule order.
     #[inline]
     pub fn cell(&self, cell: usize) -> Range<usize> {
+        if self.lone_particles {
+            return cell..cell + 1;
+        }
         self.cell_starts[cell] as usize..self.cell_starts[cell + 1] as usize
     }
 
-    /// Number of groups.
-    pub fn group_count(&self) -> usize {
-        self.group_starts.len().saturating_sub(1)
-    }
-
-    /// Cells of a group.
-    #[inline]
-    pub fn group(&self, group: usize) -> Range<usize> {
-        self.group_starts[group] as usize..self.group_starts[group + 1] as usize
-    }
-
-    /// Particles of a group.
-    pub fn group_particles(&self, group: usize) -> Range<usize> {
-        let cells = self.group(group);
+    /// Particles of a stretch of cells.
+    pub fn particles(&self, cells: &Range<usize>) -> Range<usize> {
         self.cell_starts[cells.start] as usize..self.cell_starts[cells.end] as usize
     }
 
-    /// Groups of every colour.
-    pub fn colours(&self) -> impl Iterator<Item = &[u32]> {
-        self.colour_starts
-            .windows(2)
-            .map(|w| &self.coloured_groups[w[0] as usize..w[1] as usize])
+    /// The parts.
+    pub fn parts(&self) -> &[Part] {
+        &self.parts
+    }
+
+    /// Whether the last sort left every particle where it was.
+    pub fn keeps_order(&self) -> bool {
+        self.keeps_order
+    }
+
+    /// Cut the cells into parts of about equally many particles, as the work is worth with `stencil_size` nodes per
+    /// particle. The cut depends on the particles alone. The parts know no nodes yet.
+    pub fn cut(&mut self, stencil_size: usize) {
+        let (particles, cells) = (self.order.len(), self.cell_count());
+        let worth = (particles * stencil_size / VISITS_PER_PART).clamp(1, MOST_PARTS);
+        let count = 1 << worth.ilog2();
+        self.parts.clear();
+        let mut begin = 0;
+        for k in 1..=count {
+            let end = self.cell_starts[..cells].partition_point(|&start| (start as usize) < k * particles / count);
+            if begin < end {
+                let nodes = 0..0;
+                self.parts.push(Part { cells: begin..end, nodes });
+            }
+            begin = end;
+        }
+    }
+
+    /// Join neighbouring parts, now that they know their nodes, until few are left, where the nodes that several of them
+    /// have would cost more storage than the nodes themselves or half the particles.
+    pub fn join(&mut self, node_count: usize) {
+        let (particles, mut count) = (self.order.len(), self.parts.len());
+        let stored = |parts: &[Part]| parts.iter().map(|part| part.nodes.len()).sum::<usize>();
+        while count > FEW_PARTS && stored(&self.parts) > node_count + node_count.max(particles / 2) {
+            self.parts = self.parts.chunks(2).map(joined).collect();
+            count = self.parts.len();
+        }
+    }
+
+    /// Nothing to do, until the next sort has gone through.
+    pub(crate) fn clear(&mut self) {
+        self.order.clear();
+        self.cell_starts.clear();
+        self.parts.clear();
+        self.keeps_order = false;
     }
 
     pub(crate) fn storage_bytes(&self) -> usize {
-        let vectors = [
-            &self.order,
-            &self.cell_starts,
-            &self.group_starts,
-            &self.coloured_groups,
-            &self.colour_starts,
-        ];
-        vectors.iter().map(|v| v.capacity() * 4).sum()
+        (self.order.capacity() + self.cell_starts.capacity()) * 4 + self.parts.capacity() * size_of::<Part>()
+    }
+}
+
+/// One part for a pair of neighbours, or for one that has none.
+fn joined(pair: &[Part]) -> Part {
+    let (first, last) = (&pair[0], &pair[pair.len() - 1]);
+    Part {
+        cells: first.cells.start..last.cells.end,
+        nodes: first.nodes.start.min(last.nodes.start)..first.nodes.end.max(last.nodes.end),
     }
 }

@@ -4,7 +4,7 @@ use mpm_tensor::Matrix;
 use rayon::prelude::*;
 
 use crate::largest::larger_or_nan;
-use crate::transfer::{GridNode, Moving, Transfer, gather, scatter};
+use crate::transfer::{GridNode, Moving, Transfer, gather};
 use crate::{Basis, BodyForce, ForceLocation, Medium, Mpm, MpmError, StepControl, StepReport, StressImpulse};
 
 impl<const D: usize, B, T, M, F> Mpm<D, B, T, M, F>
@@ -55,10 +55,13 @@ where
     /// Sort the particles by cell and number the nodes they touch.
     fn rebuild(&mut self) -> Result<(), MpmError> {
         self.basis
-            .rebuild(&self.particles.positions)
+            .sort(&self.particles.positions)
             .map_err(|error| self.particles.name(error))?;
-        self.particles.reorder(self.basis.schedule().order());
-        Ok(())
+        let schedule = self.basis.schedule();
+        if !schedule.keeps_order() {
+            self.particles.reorder(schedule.order());
+        }
+        self.basis.activate(&self.particles.positions)
     }
 
     /// Force per unit mass at the particles.
@@ -74,14 +77,12 @@ where
 
     /// P2G: m_i = Σ_p w_ip m_p; m_i v_i = Σ_p w_ip m_p [v_p + B_p D_p⁻¹ (x_i − x_p)] + Δt Σ_p (w_ip m_p g_p − V⁰_p τ_p ∇w_ip).
     fn particles_to_grid(&mut self, dt: f64) {
-        self.nodes.clear();
-        self.nodes.resize(self.basis.node_count(), T::Node::default());
         let (particles, medium, basis) = (&self.particles, &self.medium, &self.basis);
-        let accelerations = &self.accelerations;
+        let (velocities, accelerations) = (&particles.velocities[..], &self.accelerations[..]);
         let pulled = self.body_force.location() == ForceLocation::Particles;
-        scatter(basis, &particles.positions, &mut self.nodes, |p, x, stencil| {
+        self.nodes.scatter(basis, &particles.positions, move |p, x, stencil| {
             let mass = particles.masses.get(p);
-            let momentum = particles.velocities[p].map(|v| mass * v);
+            let momentum = velocities[p].map(|v| mass * v);
             let stress = medium.impulse(particles, p, dt);
             let mut value = if T::INCREMENTAL { [0.0; D] } else { momentum };
             if pulled {
@@ -89,7 +90,7 @@ where
                     value[a] += dt * mass * accelerations[p][a];
                 }
             }
-            stress.for_each_flux(basis, x, &value, |index, weight, flux| {
+            stress.for_each_flux(basis, p, x, &value, |index, weight, flux| {
                 let node = stencil.node(index);
                 node.add(weight * mass, flux);
                 if T::INCREMENTAL {
@@ -98,7 +99,7 @@ where
             });
             if T::AFFINE {
                 let affine = particles.affine[p] * mass;
-                basis.for_each_node(x, |index, entry| {
+                basis.for_each_node(p, x, |index, entry| {
                     let direction = basis.affine_direction(entry);
                     stencil.node(index).add_momentum(&affine.apply(&direction));
                 });
@@ -110,8 +111,8 @@ where
     fn evaluate_node_forces(&mut self) -> Result<(), MpmError> {
         if self.body_force.location() == ForceLocation::Nodes {
             self.basis.node_positions(&mut self.node_positions);
-            self.node_forces.resize(self.nodes.len(), [0.0; D]);
-            let nodes = &self.nodes;
+            let nodes = self.nodes.as_slice();
+            self.node_forces.resize(nodes.len(), [0.0; D]);
             self.body_force
                 .at_nodes(&self.node_positions, |i| nodes[i].mass(), &mut self.node_forces)?;
         }
@@ -126,7 +127,7 @@ where
             let impulse = if pulled { forces[i].map(|f| dt * f) } else { [0.0; D] };
             node.advance(&impulse, damping, speed_limit)
         };
-        let nodes = self.nodes.par_iter_mut().with_min_len(4096).enumerate();
+        let nodes = self.nodes.as_mut_slice().par_iter_mut().with_min_len(4096).enumerate();
         let square = nodes.map(advance).reduce(|| 0.0, larger_or_nan);
         if square.is_nan() {
             return Err(self.what_is_not_finite());
@@ -136,15 +137,15 @@ where
 
     /// G2P: v_p = Σ_i w_ip v_i, B_p = Σ_i w_ip v_i (x_i − x_p)ᵀ, F_p ← (I + Δt Σ_i v_i ∇w_ipᵀ) F_p, x_p ← x_p + Δt Σ_i w_ip v_i.
     fn grid_to_particles(&mut self, dt: f64, damping: f64) {
-        let (basis, nodes, transfer) = (&self.basis, &self.nodes, self.transfer);
+        let (basis, nodes, transfer) = (&self.basis, self.nodes.as_slice(), self.transfer);
         gather(
             basis,
             Moving::of(&mut self.particles),
-            &|data: &mut Moving<D>, k, _, cell_nodes| {
+            move |data: &mut Moving<D>, k, p, cell_nodes| {
                 let x = data.positions[k];
                 let (mut velocity, mut change) = ([0.0; D], [0.0; D]);
                 let (mut affine, mut velocity_gradient) = (Matrix::<D>::ZERO, Matrix::<D>::ZERO);
-                basis.for_each_node(&x, |index, entry| {
+                basis.for_each_node(p, &x, |index, entry| {
                     let node = &nodes[cell_nodes[index] as usize];
                     let v = node.velocity();
                     for a in 0..D {

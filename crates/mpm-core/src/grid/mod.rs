@@ -2,7 +2,6 @@
 //! depend on the number of nodes per axis.
 
 mod block;
-mod block_map;
 mod rebuild;
 mod template;
 
@@ -11,9 +10,10 @@ use std::marker::PhantomData;
 use mpm_kernels::{Entry, Spline, Stencil, UniformGrid};
 
 use self::block::{node_at, slot_count};
-use self::block_map::BlockMap;
 use self::template::Template;
-use crate::{Basis, MpmError, Schedule};
+use crate::basis::check_placement;
+use crate::key_map::KeyMap;
+use crate::{Basis, MpmError, Schedule, UniformBasis};
 
 /// The nodes {origin + h i : i ∈ ℤᴰ} with tensor-product B-splines of kernel `S`; only touched nodes are stored.
 #[derive(Clone, Debug)]
@@ -22,19 +22,21 @@ pub struct SplineGrid<S, const W: usize, const D: usize> {
     nodes: UniformGrid<D>,
     template: Template<D>,
     /// Blocks that hold particles (the base of their stencil).
-    particle_blocks: BlockMap<D>,
+    particle_blocks: KeyMap<[i32; D]>,
     /// Blocks that hold active nodes.
-    node_blocks: BlockMap<D>,
+    node_blocks: KeyMap<[i32; D]>,
     /// Which of a block's 64 nodes are active.
     masks: Vec<u64>,
     /// Number of the first active node of every block, and their count at the end.
     first_nodes: Vec<u32>,
-    /// For every group (particle block in lexicographic order) and slot of the template: number of the node block.
+    /// For every particle block, in lexicographic order, and slot of the template: number of the node block.
     neighbours: Vec<u32>,
+    /// For every particle block, in lexicographic order: numbers of its first cell, and of cells at the end.
+    block_cells: Vec<u32>,
     /// Place in its block, for every cell.
     cell_places: Vec<u8>,
-    /// Group, for every cell.
-    cell_groups: Vec<u32>,
+    /// Rank of its block, for every cell.
+    cell_blocks: Vec<u32>,
     schedule: Schedule,
     scratch: Scratch,
 }
@@ -47,7 +49,8 @@ struct Scratch {
     /// Blocks in lexicographic order, and each block's rank in it.
     sorted_blocks: Vec<u32>,
     ranks: Vec<u32>,
-    /// Next free place per (rank, cell).
+    /// First particle per (rank, place).
+    bin_starts: Vec<u32>,
     cursors: Vec<u32>,
 }
 
@@ -67,56 +70,46 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
             kernel: PhantomData,
             nodes: UniformGrid::new(origin, h),
             template: Template::new(W),
-            particle_blocks: BlockMap::default(),
-            node_blocks: BlockMap::default(),
+            particle_blocks: KeyMap::default(),
+            node_blocks: KeyMap::default(),
             masks: Vec::new(),
             first_nodes: Vec::new(),
             neighbours: Vec::new(),
+            block_cells: Vec::new(),
             cell_places: Vec::new(),
-            cell_groups: Vec::new(),
+            cell_blocks: Vec::new(),
             schedule: Schedule::default(),
             scratch: Scratch::default(),
         };
         grid.place(origin, h)?;
         Ok(grid)
     }
+}
 
-    /// Move the grid: a node at `origin`, spacing `h`. Takes effect with the next rebuild.
-    ///
-    /// # Errors
-    /// [`MpmError::InvalidParameter`] unless `h` is positive and `h` and `origin` are finite.
-    pub fn place(&mut self, origin: [f64; D], h: f64) -> Result<(), MpmError> {
-        if let Some(&value) = origin.iter().find(|c| !c.is_finite()) {
-            return Err(MpmError::InvalidParameter {
-                field: "origin",
-                value,
-                expected: "finite",
-            });
-        }
-        if !(h > 0.0 && h.is_finite()) {
-            return Err(MpmError::InvalidParameter {
-                field: "spacing",
-                value: h,
-                expected: "positive and finite",
-            });
-        }
+impl<S: Spline<W>, const W: usize, const D: usize> UniformBasis<D> for SplineGrid<S, W, D> {
+    fn place(&mut self, origin: [f64; D], h: f64) -> Result<(), MpmError> {
+        check_placement(&origin, h)?;
         self.nodes = UniformGrid::new(origin, h);
         Ok(())
     }
+
+    fn cell_point(&self, fraction: &[f64; D], h: f64) -> [f64; D] {
+        fraction.map(|c| c * h)
+    }
 }
 
-// SAFETY: only `rebuild` changes what the two methods of the contract read; where it fails, no group is left. `colour_groups` lists every group once. Stencils
-// with their base in one block touch blocks at offsets 0 ≤ offset < reach per axis (`Template`); two blocks of one colour
-// differ by a non-zero multiple of reach on some axis, so that the blocks their stencils touch are disjoint, and so are
-// the numbers of the nodes in them.
-#[allow(unsafe_code)]
-unsafe impl<S: Spline<W>, const W: usize, const D: usize> Basis<D> for SplineGrid<S, W, D> {
-    fn rebuild(&mut self, positions: &[[f64; D]]) -> Result<(), MpmError> {
-        let result = self.renumber(positions);
-        if result.is_err() {
-            self.schedule = Schedule::default(); // half a rebuild must not be scattered to
-        }
-        result
+impl<S: Spline<W>, const W: usize, const D: usize> Basis<D> for SplineGrid<S, W, D> {
+    fn sort(&mut self, positions: &[[f64; D]]) -> Result<(), MpmError> {
+        self.schedule.clear();
+        self.locate_particles(positions)?;
+        self.sort_particles();
+        Ok(())
+    }
+
+    fn activate(&mut self, _: &[[f64; D]]) -> Result<(), MpmError> {
+        self.activate_nodes()?;
+        self.divide_cells();
+        Ok(())
     }
 
     fn schedule(&self) -> &Schedule {
@@ -130,7 +123,7 @@ unsafe impl<S: Spline<W>, const W: usize, const D: usize> Basis<D> for SplineGri
     fn node_positions(&self, out: &mut Vec<[f64; D]>) {
         out.clear();
         out.reserve(self.node_count());
-        for (block, &mask) in self.node_blocks.coordinates().iter().zip(&self.masks) {
+        for (block, &mask) in self.node_blocks.keys().iter().zip(&self.masks) {
             let mut rest = mask;
             while rest != 0 {
                 let node = node_at(block, rest.trailing_zeros());
@@ -149,11 +142,11 @@ unsafe impl<S: Spline<W>, const W: usize, const D: usize> Basis<D> for SplineGri
     }
 
     #[inline]
-    fn cell_nodes(&self, cell: usize, nodes: &mut Vec<u32>) {
+    fn cell_nodes<'a>(&'a self, cell: usize, scratch: &'a mut Vec<u32>) -> &'a [u32] {
         let slots = self.template.neighbours.len();
-        let row = &self.neighbours[self.cell_groups[cell] as usize * slots..][..slots];
-        nodes.clear();
-        nodes.extend(
+        let row = &self.neighbours[self.cell_blocks[cell] as usize * slots..][..slots];
+        scratch.clear();
+        scratch.extend(
             self.template
                 .nodes(u32::from(self.cell_places[cell]))
                 .iter()
@@ -166,15 +159,23 @@ unsafe impl<S: Spline<W>, const W: usize, const D: usize> Basis<D> for SplineGri
                     self.first_nodes[block] + before
                 }),
         );
+        scratch
     }
 
     #[inline(always)]
-    fn for_each_node(&self, x: &[f64; D], visit: impl FnMut(usize, &Entry<D>)) {
+    fn for_each_node(&self, _: usize, x: &[f64; D], visit: impl FnMut(usize, &Entry<D>)) {
         Stencil::<W, D>::new::<S>(x, &self.nodes).for_each(visit);
     }
 
     #[inline(always)]
-    fn for_each_flux(&self, x: &[f64; D], value: &[f64; D], scale: f64, visit: impl FnMut(usize, f64, &[f64; D])) {
+    fn for_each_flux(
+        &self,
+        _: usize,
+        x: &[f64; D],
+        value: &[f64; D],
+        scale: f64,
+        visit: impl FnMut(usize, f64, &[f64; D]),
+    ) {
         Stencil::<W, D>::new::<S>(x, &self.nodes).for_each_flux(value, scale, visit);
     }
 
@@ -194,10 +195,12 @@ unsafe impl<S: Spline<W>, const W: usize, const D: usize> Basis<D> for SplineGri
         let words = [
             &self.first_nodes,
             &self.neighbours,
-            &self.cell_groups,
+            &self.block_cells,
+            &self.cell_blocks,
             &s.keys,
             &s.sorted_blocks,
             &s.ranks,
+            &s.bin_starts,
             &s.cursors,
         ];
         self.template.storage_bytes()

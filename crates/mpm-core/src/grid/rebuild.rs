@@ -1,10 +1,11 @@
-//! The rebuild: from positions to cells, active nodes and colours.
+//! The rebuild: from positions to cells, active nodes and parts.
 
 use mpm_kernels::Spline;
 
 use super::block::locate;
 use super::{Scratch, SplineGrid};
-use crate::{MpmError, Schedule};
+use crate::counting_sort::counting_sort;
+use crate::{Basis, MpmError, Schedule};
 
 /// Grid coordinates beyond ±2³⁰ are refused.
 const COORDINATE_LIMIT: f64 = (1u64 << 30) as f64;
@@ -13,17 +14,8 @@ const COORDINATE_LIMIT: f64 = (1u64 << 30) as f64;
 const BLOCK_LIMIT: u32 = 1 << 26;
 
 impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
-    /// The rebuild, in four phases.
-    pub(super) fn renumber(&mut self, positions: &[[f64; D]]) -> Result<(), MpmError> {
-        self.locate_particles(positions)?;
-        self.sort_particles();
-        self.activate_nodes()?;
-        self.colour_groups();
-        Ok(())
-    }
-
-    /// Phase 1 of the rebuild: the block and the cell of every particle.
-    fn locate_particles(&mut self, positions: &[[f64; D]]) -> Result<(), MpmError> {
+    /// Phase 1 of the rebuild (sort): the block and the cell of every particle.
+    pub(super) fn locate_particles(&mut self, positions: &[[f64; D]]) -> Result<(), MpmError> {
         self.particle_blocks.clear();
         let keys = &mut self.scratch.keys;
         keys.clear();
@@ -52,15 +44,16 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
         Ok(())
     }
 
-    /// Phase 2: counting sort of the particles by (block in lexicographic order, cell).
-    fn sort_particles(&mut self) {
+    /// Phase 2 (sort): counting sort of the particles by (block in lexicographic order, cell).
+    pub(super) fn sort_particles(&mut self) {
         let Scratch {
             keys,
             sorted_blocks,
             ranks,
+            bin_starts,
             cursors,
         } = &mut self.scratch;
-        let blocks = self.particle_blocks.coordinates();
+        let blocks = self.particle_blocks.keys();
         sorted_blocks.clear();
         sorted_blocks.extend(0..blocks.len() as u32);
         sorted_blocks.sort_unstable_by_key(|&number| blocks[number as usize]);
@@ -69,65 +62,46 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
         for (rank, &number) in sorted_blocks.iter().enumerate() {
             ranks[number as usize] = rank as u32;
         }
-        cursors.clear();
-        cursors.resize(blocks.len() * 64, 0);
         for key in keys.iter_mut() {
             *key = (ranks[(*key >> 6) as usize] << 6) | (*key & 63);
-            cursors[*key as usize] += 1;
         }
-
-        let Schedule {
-            order,
-            cell_starts,
-            group_starts,
-            ..
-        } = &mut self.schedule;
+        let Schedule { order, cell_starts, .. } = &mut self.schedule;
+        counting_sort(keys, blocks.len() * 64, bin_starts, order, cursors);
         cell_starts.clear();
-        group_starts.clear();
+        self.block_cells.clear();
         self.cell_places.clear();
-        self.cell_groups.clear();
-        let mut start = 0;
-        for (slot, cursor) in cursors.iter_mut().enumerate() {
-            if slot % 64 == 0 {
-                group_starts.push(cell_starts.len() as u32);
+        self.cell_blocks.clear();
+        for (bin, range) in bin_starts.windows(2).enumerate() {
+            if bin % 64 == 0 {
+                self.block_cells.push(cell_starts.len() as u32);
             }
-            let count = *cursor;
-            *cursor = start;
-            if count > 0 {
-                cell_starts.push(start);
-                self.cell_places.push((slot % 64) as u8);
-                self.cell_groups.push((slot / 64) as u32);
-                start += count;
+            if range[0] < range[1] {
+                cell_starts.push(range[0]);
+                self.cell_places.push((bin % 64) as u8);
+                self.cell_blocks.push((bin / 64) as u32);
             }
         }
-        group_starts.push(cell_starts.len() as u32);
-        cell_starts.push(start);
-        order.clear();
-        order.resize(keys.len(), 0);
-        for (particle, &key) in keys.iter().enumerate() {
-            let cursor = &mut cursors[key as usize];
-            order[*cursor as usize] = particle as u32;
-            *cursor += 1;
-        }
+        self.block_cells.push(cell_starts.len() as u32);
+        cell_starts.push(order.len() as u32);
     }
 
-    /// Phase 3: activate and number the nodes that the occupied cells touch.
-    fn activate_nodes(&mut self) -> Result<(), MpmError> {
+    /// Phase 3 (activate): activate and number the nodes that the occupied cells touch.
+    pub(super) fn activate_nodes(&mut self) -> Result<(), MpmError> {
         self.node_blocks.clear();
         self.masks.clear();
         let slots = self.template.neighbours.len();
         self.neighbours.clear();
-        self.neighbours.resize(self.schedule.group_count() * slots, u32::MAX);
+        self.neighbours.resize(self.scratch.sorted_blocks.len() * slots, u32::MAX);
         let mut touched = vec![0u64; slots];
-        for (group, &number) in self.scratch.sorted_blocks.iter().enumerate() {
+        for (rank, &number) in self.scratch.sorted_blocks.iter().enumerate() {
             touched.fill(0);
-            for cell in self.schedule.group(group) {
+            for cell in self.block_cells[rank] as usize..self.block_cells[rank + 1] as usize {
                 for &(slot, mask) in self.template.touched(u32::from(self.cell_places[cell])) {
                     touched[slot as usize] |= mask;
                 }
             }
-            let home = self.particle_blocks.coordinates()[number as usize];
-            let row = &mut self.neighbours[group * slots..][..slots];
+            let home = self.particle_blocks.keys()[number as usize];
+            let row = &mut self.neighbours[rank * slots..][..slots];
             for ((&mask, offset), neighbour) in touched.iter().zip(&self.template.neighbours).zip(row) {
                 if mask != 0 {
                     let block = std::array::from_fn(|a| home[a] + offset[a]);
@@ -153,32 +127,19 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
         Ok(())
     }
 
-    /// Phase 4: sort the groups by colour.
-    fn colour_groups(&mut self) {
-        let colours = self.template.neighbours.len();
-        let blocks = self.particle_blocks.coordinates();
-        let colour = |number: &u32| self.template.colour(&blocks[*number as usize]);
-        let Schedule {
-            coloured_groups,
-            colour_starts,
-            ..
-        } = &mut self.schedule;
-        colour_starts.clear();
-        colour_starts.resize(colours + 1, 0);
-        let sorted = &self.scratch.sorted_blocks;
-        for number in sorted {
-            colour_starts[colour(number) + 1] += 1;
+    /// Phase 4 (activate): cut the cells into parts.
+    pub(super) fn divide_cells(&mut self) {
+        let slots = self.template.neighbours.len();
+        let (neighbours, first_nodes, cell_blocks) = (&self.neighbours, &self.first_nodes, &self.cell_blocks);
+        let (size, count) = (self.stencil_size(), self.node_count());
+        self.schedule.cut(size);
+        for part in &mut self.schedule.parts {
+            let blocks = cell_blocks[part.cells.start] as usize..cell_blocks[part.cells.end - 1] as usize + 1;
+            let touched = neighbours[blocks.start * slots..blocks.end * slots].iter();
+            let touched = touched.filter(|&&block| block != u32::MAX);
+            let ends = touched.fold((u32::MAX, 0), |(low, high), &block| (low.min(block), high.max(block)));
+            part.nodes = first_nodes[ends.0 as usize] as usize..first_nodes[ends.1 as usize + 1] as usize;
         }
-        for c in 0..colours {
-            colour_starts[c + 1] += colour_starts[c];
-        }
-        let mut cursors = colour_starts.clone();
-        coloured_groups.clear();
-        coloured_groups.resize(sorted.len(), 0);
-        for (group, number) in sorted.iter().enumerate() {
-            let cursor = &mut cursors[colour(number)];
-            coloured_groups[*cursor as usize] = group as u32;
-            *cursor += 1;
-        }
+        self.schedule.join(count);
     }
 }

@@ -12,7 +12,6 @@ pub struct Template<const D: usize> {
     /// For each cell: (slot, place in the block) of its widthᴰ nodes.
     nodes: Vec<(u16, u16)>,
     size: usize,
-    reach: [usize; D],
 }
 
 impl<const D: usize> Template<D> {
@@ -44,7 +43,6 @@ impl<const D: usize> Template<D> {
             touched,
             nodes,
             size,
-            reach,
         }
     }
 
@@ -58,13 +56,6 @@ impl<const D: usize> Template<D> {
     #[inline]
     pub fn nodes(&self, cell: u32) -> &[(u16, u16)] {
         &self.nodes[cell as usize * self.size..][..self.size]
-    }
-
-    /// Colour of a block: blocks of one colour are so far apart that no stencil touches nodes of both.
-    pub fn colour(&self, block: &[i32; D]) -> usize {
-        (0..D).fold(0, |colour, a| {
-            colour * self.reach[a] + block[a].rem_euclid(self.reach[a] as i32) as usize
-        })
     }
 
     pub fn storage_bytes(&self) -> usize {

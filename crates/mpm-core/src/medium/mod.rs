@@ -19,11 +19,12 @@ pub trait StressImpulse<const D: usize>: Copy + Send + Sync {
     fn for_each_flux<B: Basis<D>>(
         &self,
         basis: &B,
+        particle: usize,
         x: &[f64; D],
         value: &[f64; D],
         mut visit: impl FnMut(usize, f64, &[f64; D]),
     ) {
-        basis.for_each_node(x, |index, entry| {
+        basis.for_each_node(particle, x, |index, entry| {
             let stress = self.at(&entry.gradient);
             visit(
                 index,
@@ -44,11 +45,12 @@ impl<const D: usize> StressImpulse<D> for f64 {
     fn for_each_flux<B: Basis<D>>(
         &self,
         basis: &B,
+        particle: usize,
         x: &[f64; D],
         value: &[f64; D],
         visit: impl FnMut(usize, f64, &[f64; D]),
     ) {
-        basis.for_each_flux(x, value, *self, visit);
+        basis.for_each_flux(particle, x, value, *self, visit);
     }
 }
 

@@ -1,4 +1,4 @@
-use super::{GridNode, Transfer, shorten};
+use super::{GridNode, Sum, Transfer, shorten};
 
 /// FLIP blend (Brackbill & Ruppel 1986; Zhu & Bridson 2005) with share a of FLIP:
 /// v_p ← (1−a) Σ w_ip v_iⁿ⁺¹ + a (v_p + Σ w_ip (v_iⁿ⁺¹ − v_iⁿ)); positions always move with Σ w_ip v_iⁿ⁺¹.
@@ -37,6 +37,17 @@ impl<const D: usize> Default for FlipNode<D> {
             mass: 0.0,
             velocity: [0.0; D],
             previous: [0.0; D],
+        }
+    }
+}
+
+impl<const D: usize> Sum for FlipNode<D> {
+    #[inline(always)]
+    fn merge(&mut self, other: &Self) {
+        self.mass += other.mass;
+        for a in 0..D {
+            self.velocity[a] += other.velocity[a];
+            self.previous[a] += other.previous[a];
         }
     }
 }

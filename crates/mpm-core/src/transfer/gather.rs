@@ -21,48 +21,44 @@ impl<T: Send> Divide for &mut [T] {
 }
 
 /// Call `update(data, k, p, cell_nodes)` for every particle p (schedule order): k is its place in `data`, `cell_nodes` the
-/// node numbers of its cell. `data` is cut between groups, so that threads never share a particle.
-pub fn gather<const D: usize, B, V>(basis: &B, data: V, update: &(impl Fn(&mut V, usize, usize, &[u32]) + Sync))
+/// node numbers of its cell. `data` is cut between cells, so that threads never share a particle.
+pub fn gather<const D: usize, B, V>(basis: &B, data: V, update: impl Fn(&mut V, usize, usize, &[u32]) + Sync + Send + Copy)
 where
     B: Basis<D>,
     V: Divide,
 {
-    let schedule = basis.schedule();
-    if schedule.group_count() > 0 {
-        gather_groups(basis, 0..schedule.group_count(), data, update);
-    }
+    gather_cells(basis, 0..basis.schedule().cell_count(), data, update);
 }
 
-fn gather_groups<const D: usize, B, V>(
+fn gather_cells<const D: usize, B, V>(
     basis: &B,
-    groups: Range<usize>,
+    cells: Range<usize>,
     mut data: V,
-    update: &(impl Fn(&mut V, usize, usize, &[u32]) + Sync),
+    update: impl Fn(&mut V, usize, usize, &[u32]) + Sync + Send + Copy,
 ) where
     B: Basis<D>,
     V: Divide,
 {
+    if cells.is_empty() {
+        return;
+    }
     let schedule = basis.schedule();
-    let first = schedule.group_particles(groups.start).start;
-    let end = schedule.group_particles(groups.end - 1).end;
-    let several_threads = rayon::current_num_threads() > 1;
-    if several_threads && groups.len() > 1 && (end - first) * basis.stencil_size() > PARALLEL_THRESHOLD {
-        let middle = groups.start + groups.len() / 2;
-        let (left, right) = data.divide(schedule.group_particles(middle).start - first);
+    let particles = schedule.particles(&cells);
+    let worth_two = particles.len() * basis.stencil_size() > PARALLEL_THRESHOLD;
+    if worth_two && cells.len() > 1 && rayon::current_num_threads() > 1 {
+        let middle = cells.start + cells.len() / 2;
+        let (left, right) = data.divide(schedule.cell(middle).start - particles.start);
         rayon::join(
-            || gather_groups(basis, groups.start..middle, left, update),
-            || gather_groups(basis, middle..groups.end, right, update),
+            || gather_cells(basis, cells.start..middle, left, update),
+            || gather_cells(basis, middle..cells.end, right, update),
         );
         return;
     }
-    let mut cell_nodes = Vec::new();
-    for group in groups {
-        for cell in schedule.group(group) {
-            basis.cell_nodes(cell, &mut cell_nodes);
-            let cell_nodes = &cell_nodes[..basis.stencil_size()]; // a constant length: no check per node
-            for particle in schedule.cell(cell) {
-                update(&mut data, particle - first, particle, cell_nodes);
-            }
+    let mut scratch = Vec::new();
+    for cell in cells {
+        let cell_nodes = &basis.cell_nodes(cell, &mut scratch)[..basis.stencil_size()]; // no check per node
+        for particle in schedule.cell(cell) {
+            update(&mut data, particle - particles.start, particle, cell_nodes);
         }
     }
 }

@@ -12,10 +12,10 @@ pub use flip::{Flip, FlipNode};
 pub use gather::{Divide, gather};
 pub(crate) use moving::Moving;
 pub use pic::{Pic, VelocityNode};
-pub use scatter::{StencilNodes, scatter};
+pub use scatter::{NodeSums, StencilNodes, Sum};
 
 /// What a node accumulates and later carries: mass and momentum first, velocity after [`advance`](Self::advance).
-pub trait GridNode<const D: usize>: Copy + Default + Send + Sync {
+pub trait GridNode<const D: usize>: Sum {
     /// Add mass and the impulse of forces.
     fn add(&mut self, mass: f64, impulse: &[f64; D]);
 

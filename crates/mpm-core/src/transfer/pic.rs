@@ -1,4 +1,4 @@
-use super::{GridNode, Transfer, shorten};
+use super::{GridNode, Sum, Transfer, shorten};
 
 /// Particle in cell (Harlow 1964): v_p = Σ_i w_ip v_i. Stable and dissipative (MPM-ParVI paper, Algorithm 1).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -28,6 +28,16 @@ impl<const D: usize> Default for VelocityNode<D> {
         Self {
             mass: 0.0,
             velocity: [0.0; D],
+        }
+    }
+}
+
+impl<const D: usize> Sum for VelocityNode<D> {
+    #[inline(always)]
+    fn merge(&mut self, other: &Self) {
+        self.mass += other.mass;
+        for a in 0..D {
+            self.velocity[a] += other.velocity[a];
         }
     }
 }
