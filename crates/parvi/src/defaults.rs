@@ -5,7 +5,9 @@
 use crate::BasisChoice;
 
 /// Steps. With the four evaluations that the moment correction may take this makes at most 100 scores per particle.
-pub const STEPS: usize = 96;
+pub fn steps(particles: usize) -> usize {
+    if particles < 4096 { 96 } else { 146 }
+}
 
 /// Spacing h of a tensor-product grid for M particles in D dimensions: (0.3 D − 0.17) (M / 512)^{−1/(D+5)}.
 ///
@@ -13,6 +15,7 @@ pub const STEPS: usize = 96;
 pub fn spacing<const D: usize>(basis: BasisChoice, particles: usize) -> f64 {
     let d = D as f64;
     let factor = match basis {
+        BasisChoice::Lattice => 1.3,
         BasisChoice::Linear => 1.15,
         BasisChoice::Quadratic => 1.0,
         BasisChoice::Cubic => 0.9,
@@ -25,13 +28,20 @@ pub fn time_step(spacing: f64) -> f64 {
     (0.6 * spacing).min(0.6)
 }
 
-/// Factor of Δt in step `step` of `steps`: one, then over the last quarter linearly down to a fifth.
-///
-/// Gradients of the shape functions have kinks, so particles at rest keep trembling by an amount that grows with Δt.
-pub fn settling(step: usize, steps: usize) -> f64 {
-    let left = (steps - step.min(steps)) as f64 / (0.25 * steps as f64);
-    0.2 + 0.8 * left.min(1.0)
-}
+/// Ratio of the largest to the smallest spacing that a run draws from.
+pub const SPACING_RANGE: f64 = 1.0;
+
+/// Spacing of the first step over the central one.
+pub const COARSE_START: f64 = 1.0;
+
+/// Share of the steps over which the spacing becomes the central one.
+pub const COARSE_SHARE: f64 = 0.5;
+
+/// Share of the steps over which Δt falls at the end.
+pub const SETTLING_SHARE: f64 = 0.25;
+
+/// Δt of the last step over the full one.
+pub const SETTLING_TIME_STEP: f64 = 0.2;
 
 /// Friction γ.
 pub const FRICTION: f64 = 1.5;

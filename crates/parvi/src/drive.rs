@@ -1,7 +1,7 @@
 //! The loop around the step, shared by the calibrated sampler and the paper's algorithms.
 
-use mpm_core::{Medium, Mpm, SplineGrid, StepControl, Transfer};
-use mpm_kernels::Spline;
+use mpm_core::{Medium, Mpm, StepControl, Transfer, UniformBasis};
+use mpm_tensor::Matrix;
 use parvi_targets::Frame;
 
 use crate::framed_score::ScoreForce;
@@ -11,8 +11,12 @@ use crate::{Observer, Progress, SampleError, Samples, TracePoint};
 
 /// One step of a plan.
 pub(crate) struct PlannedStep<const D: usize> {
-    /// Origin of the grid.
+    /// Where the basis has its origin, in coordinates of its unit cell.
     pub origin: [f64; D],
+    /// Spacing h.
+    pub spacing: f64,
+    /// Turn of the basis.
+    pub rotation: Option<Matrix<D>>,
     /// Factor α of the score.
     pub alpha: f64,
     /// Limits of the step.
@@ -20,11 +24,11 @@ pub(crate) struct PlannedStep<const D: usize> {
 }
 
 /// What the loop is to do.
-pub(crate) struct Plan<P> {
+pub(crate) struct Plan<B, P> {
     /// Steps.
     pub steps: usize,
-    /// Spacing h.
-    pub spacing: f64,
+    /// What residuals are measured on: a basis like the body's, of the plan's central spacing.
+    pub certificate: B,
     /// The step with a number, from 1; asked for in order.
     pub step: P,
     /// Finish with the affine Stein correction.
@@ -34,27 +38,31 @@ pub(crate) struct Plan<P> {
 }
 
 /// Run `body` as planned; its particles are in frame coordinates, the result in the target's.
-pub(crate) fn drive<S, T, M, P, const W: usize, const D: usize>(
-    mut body: Mpm<D, SplineGrid<S, W, D>, T, M, ScoreForce<'_, D>>,
+pub(crate) fn drive<B, T, M, P, const D: usize>(
+    mut body: Mpm<D, B, T, M, ScoreForce<'_, D>>,
     frame: &Frame<D>,
-    mut plan: Plan<P>,
+    mut plan: Plan<B, P>,
     observer: &mut dyn Observer,
 ) -> Result<Samples<D>, SampleError>
 where
-    S: Spline<W>,
+    B: UniformBasis<D>,
     T: Transfer<D>,
     M: Medium<D>,
     P: FnMut(usize) -> PlannedStep<D>,
 {
-    let (steps, spacing) = (plan.steps, plan.spacing);
-    let mut certificate = SplineGrid::<S, W, D>::new([0.0; D], spacing).map_err(|e| SampleError::in_step(0, e))?;
+    let (steps, mut certificate) = (plan.steps, plan.certificate);
+    let spacing = certificate.spacing();
     let mut scores = vec![[0.0; D]; body.particles.len()];
     let mut trace = Vec::new();
     let (mut time, mut active_nodes) = (0.0, 0);
     for step in 1..=steps {
         let failed = |error| SampleError::in_step(step, error);
         let planned = (plan.step)(step);
-        body.basis.place(planned.origin, spacing).map_err(failed)?;
+        if let Some(rotation) = &planned.rotation {
+            body.basis.turn(rotation);
+        }
+        let origin = body.basis.cell_point(&planned.origin, planned.spacing);
+        body.basis.place(origin, planned.spacing).map_err(failed)?;
         body.body_force.alpha = planned.alpha;
         let report = body.step(&planned.control).map_err(failed)?;
         time += report.time_step;
@@ -63,7 +71,7 @@ where
             let positions = &body.particles.positions;
             let score = &mut body.body_force.score;
             score.evaluate(positions, &mut scores).map_err(failed)?;
-            away_from(&mut certificate, planned.origin, spacing).map_err(failed)?;
+            away_from(&mut certificate, &planned.origin, spacing).map_err(failed)?;
             let residual = galerkin_stein_residual(&mut certificate, positions, &scores).map_err(failed)?;
             trace.push(TracePoint {
                 step,
@@ -104,13 +112,14 @@ where
     })
 }
 
-/// Put the certificate's grid where the particles were not moved: half a cell off the step's origin.
-fn away_from<S: Spline<W>, const W: usize, const D: usize>(
-    certificate: &mut SplineGrid<S, W, D>,
-    origin: [f64; D],
+/// Put the certificate's basis where the particles were not moved: half a cell off the step's origin.
+fn away_from<const D: usize>(
+    certificate: &mut impl UniformBasis<D>,
+    origin: &[f64; D],
     spacing: f64,
 ) -> Result<(), mpm_core::MpmError> {
-    certificate.place(origin.map(|c| c + 0.5 * spacing), spacing)
+    let point = certificate.cell_point(&origin.map(|c| c + 0.5), spacing);
+    certificate.place(point, spacing)
 }
 
 /// The positions, if all are finite.

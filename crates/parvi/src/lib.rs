@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 pub mod defaults;
+mod basis_choice;
 mod drive;
 mod exact;
 mod framed_score;
@@ -10,6 +11,7 @@ mod moment_correction;
 mod mpm;
 mod paper;
 mod residual;
+mod rotation;
 mod run;
 mod start;
 mod svgd;

@@ -1,16 +1,26 @@
-//! The calibrated sampler: an isothermal gas under the score, on a grid whose origin moves every step.
+//! The calibrated sampler: an isothermal gas under the score, on a basis whose origin moves every step.
 
-use mpm_core::{Apic, Flip, Mpm, Particles, Pic, SplineGrid, StepControl, Transfer};
-use mpm_kernels::{Cubic, Linear, Quadratic, Spline};
+use mpm_core::{Apic, Flip, Mpm, MpmError, Particles, Pic, StepControl, Transfer, UniformBasis};
 use mpm_materials::IsothermalGas;
 use parvi_targets::{Frame, Target};
 use rand::RngExt;
 
+use crate::basis_choice::OnBasis;
 use crate::drive::{Plan, PlannedStep, drive};
 use crate::framed_score::{FramedScore, ScoreForce};
 use crate::kronecker::Kronecker;
+use crate::rotation::random_rotation;
 use crate::start::{check, positive, steps};
-use crate::{BasisChoice, MpmOptions, Observer, Run, SampleError, Samples, TransferChoice, defaults};
+use crate::{MpmOptions, Observer, Run, SampleError, Samples, TransferChoice, defaults};
+
+/// What every layer of the dispatch hands on.
+struct Job<'a, const D: usize> {
+    options: &'a MpmOptions,
+    target: &'a dyn Target<D>,
+    frame: &'a Frame<D>,
+    run: &'a Run,
+    observer: &'a mut dyn Observer,
+}
 
 impl MpmOptions {
     /// Sample `target` in the coordinates of `frame`.
@@ -24,91 +34,102 @@ impl MpmOptions {
         run: &Run,
         observer: &mut dyn Observer,
     ) -> Result<Samples<D>, SampleError> {
-        match self.basis {
-            BasisChoice::Linear => self.with_spline::<Linear, 2, D>(target, frame, run, observer),
-            BasisChoice::Quadratic => self.with_spline::<Quadratic, 3, D>(target, frame, run, observer),
-            BasisChoice::Cubic => self.with_spline::<Cubic, 4, D>(target, frame, run, observer),
-        }
+        self.spacing_schedule.check()?;
+        self.settling.check()?;
+        let default = defaults::spacing::<D>(self.basis, run.particles);
+        let spacing = positive("spacing", self.spacing, default)?;
+        let job = Job {
+            options: self,
+            target,
+            frame,
+            run,
+            observer,
+        };
+        self.basis.with(spacing, job)
     }
+}
 
-    fn with_spline<S: Spline<W>, const W: usize, const D: usize>(
-        &self,
-        target: &dyn Target<D>,
-        frame: &Frame<D>,
-        run: &Run,
-        observer: &mut dyn Observer,
-    ) -> Result<Samples<D>, SampleError> {
-        match self.transfer {
-            TransferChoice::Pic => self.run::<S, Pic, W, D>(Pic, target, frame, run, observer),
-            TransferChoice::Apic => self.run::<S, Apic, W, D>(Apic, target, frame, run, observer),
+impl<const D: usize> OnBasis<D> for Job<'_, D> {
+    type Output = Samples<D>;
+
+    fn on<B: UniformBasis<D>>(self, make: impl Fn() -> Result<B, MpmError>) -> Result<Samples<D>, SampleError> {
+        match self.options.transfer {
+            TransferChoice::Pic => self.run(Pic, make),
+            TransferChoice::Apic => self.run(Apic, make),
             TransferChoice::Flip(share) => {
                 check("FLIP share", share, (0.0..=1.0).contains(&share), "in [0, 1]")?;
-                self.run::<S, Flip, W, D>(Flip { share }, target, frame, run, observer)
+                self.run(Flip { share }, make)
             }
         }
     }
+}
 
-    fn run<S: Spline<W>, T: Transfer<D>, const W: usize, const D: usize>(
-        &self,
+impl<const D: usize> Job<'_, D> {
+    fn run<B: UniformBasis<D>, T: Transfer<D>>(
+        self,
         transfer: T,
-        target: &dyn Target<D>,
-        frame: &Frame<D>,
-        run: &Run,
-        observer: &mut dyn Observer,
+        make: impl Fn() -> Result<B, MpmError>,
     ) -> Result<Samples<D>, SampleError> {
-        let steps = steps(self.steps, defaults::STEPS)?;
-        let spacing = positive(
-            "spacing",
-            self.spacing,
-            defaults::spacing::<D>(self.basis, run.particles),
-        )?;
-        let time_step = positive("time step", self.time_step, defaults::time_step(spacing))?;
-        let friction = self.friction.unwrap_or(defaults::FRICTION);
+        let (options, run) = (self.options, self.run);
+        let failed = |error| SampleError::in_step(0, error);
+        let (basis, certificate) = (make().map_err(failed)?, make().map_err(failed)?);
+        let spacing = basis.spacing();
+        let steps = steps(options.steps, defaults::steps(run.particles))?;
+        let friction = options.friction.unwrap_or(defaults::FRICTION);
         check(
             "friction",
             friction,
             friction >= 0.0 && friction.is_finite(),
             "at least 0 and finite",
         )?;
-        let displacement = positive("displacement limit", Some(self.displacement_limit), 0.0)?;
+        let time_step = positive("time step", options.time_step, defaults::time_step(spacing))?;
         let control = StepControl {
             time_step,
             courant: 1.0,
-            displacement,
+            displacement: positive("displacement limit", Some(options.displacement_limit), 0.0)?,
             friction,
         };
 
         let particles = Particles::at_rest(run.start_positions()?, 1.0);
-        let grid = SplineGrid::<S, W, D>::new([0.0; D], spacing).map_err(|e| SampleError::in_step(0, e))?;
         let gas = IsothermalGas::new(1.0)?;
         let mut generator = run.generator(1);
         let mut shifts = Kronecker::new(std::array::from_fn(|_| generator.random::<f64>()));
+        let mut rotations = run.generator(2);
+        let mut spacings = generator.random::<f64>();
+        let (schedule, settling) = (&options.spacing_schedule, &options.settling);
         let plan = Plan {
             steps,
-            spacing,
-            step: |step| PlannedStep {
-                origin: if self.shifts {
-                    shifts.next_point().map(|u| u * spacing)
-                } else {
-                    [0.0; D]
-                },
-                alpha: 1.0,
-                control: StepControl {
-                    time_step: time_step * defaults::settling(step, steps),
-                    ..control
-                },
+            certificate,
+            step: |step| {
+                let varies = options.shifts && settling.varies(step, steps);
+                let origin = if varies { shifts.next_point() } else { [0.0; D] };
+                spacings = (spacings + GOLDEN_STEP).fract();
+                let factor = schedule.factor(step, steps, if varies { spacings } else { 0.5 });
+                let shrink = (defaults::time_step(spacing * factor) / defaults::time_step(spacing)).min(factor);
+                PlannedStep {
+                    origin,
+                    spacing: spacing * factor,
+                    rotation: options.rotation.then(|| random_rotation(&mut rotations)),
+                    alpha: 1.0,
+                    control: StepControl {
+                        time_step: time_step * shrink * settling.factor(step, steps),
+                        ..control
+                    },
+                }
             },
-            moment_correction: self.moment_correction,
-            trace_every: self.trace_every,
+            moment_correction: options.moment_correction,
+            trace_every: options.trace_every,
         };
         let force = ScoreForce {
-            score: FramedScore::new(target, frame),
+            score: FramedScore::new(self.target, self.frame),
             alpha: 1.0,
-            location: self.score_location,
+            location: options.score_location,
             mass_weighted: true,
             mass_floor: 0.0,
         };
-        let body = Mpm::new(particles, grid, transfer, gas, force);
-        drive(body, frame, plan, observer)
+        let body = Mpm::new(particles, basis, transfer, gas, force);
+        drive(body, self.frame, plan, self.observer)
     }
 }
+
+const GOLDEN_STEP: f64 = 0.618_033_988_749_894_9;

@@ -1,17 +1,18 @@
 //! Algorithms 1 (PIC) and 2 (APIC) of the MPM-ParVI paper: an elastic body under the score.
 
-use mpm_core::{Apic, Elastic, Mpm, Particles, Pic, SplineGrid, StepControl, Transfer};
-use mpm_kernels::{Cubic, Linear, Quadratic, Spline};
+use mpm_core::{Apic, Elastic, Mpm, MpmError, Particles, Pic, StepControl, Transfer, UniformBasis};
 use mpm_materials::{ElasticModuli, LinearElastic, Material, NeoHookean};
 use parvi_targets::{Frame, Target};
 
+use crate::basis_choice::OnBasis;
 use crate::drive::{Plan, PlannedStep, drive};
 use crate::framed_score::{FramedScore, ScoreForce};
 use crate::start::{check, positive, steps};
-use crate::{Annealing, BasisChoice, Elasticity, Observer, PaperOptions, Run, SampleError, Samples, defaults};
+use crate::{Annealing, Elasticity, Observer, PaperOptions, Run, SampleError, Samples, defaults};
 
 /// What every layer of the dispatch hands on.
 struct Job<'a, const D: usize> {
+    options: &'a PaperOptions,
     target: &'a dyn Target<D>,
     frame: &'a Frame<D>,
     run: &'a Run,
@@ -35,7 +36,10 @@ impl PaperOptions {
     ) -> Result<Samples<D>, SampleError> {
         let moduli = ElasticModuli::new(self.youngs_modulus, self.poissons_ratio)?;
         let (neo_hookean, linear) = (NeoHookean::new(moduli), LinearElastic::new(moduli));
+        let default = defaults::spacing::<D>(self.basis, run.particles);
+        let spacing = positive("spacing", self.spacing, default)?;
         let job = Job {
+            options: self,
             target,
             frame,
             run,
@@ -45,60 +49,59 @@ impl PaperOptions {
             },
             observer,
         };
-        match self.basis {
-            BasisChoice::Linear => self.with_spline::<Linear, 2, D>(job),
-            BasisChoice::Quadratic => self.with_spline::<Quadratic, 3, D>(job),
-            BasisChoice::Cubic => self.with_spline::<Cubic, 4, D>(job),
-        }
+        self.basis.with(spacing, job)
     }
+}
 
-    fn with_spline<S: Spline<W>, const W: usize, const D: usize>(
-        &self,
-        job: Job<D>,
-    ) -> Result<Samples<D>, SampleError> {
-        if self.affine {
-            self.run::<S, Apic, W, D>(Apic, job)
+impl<const D: usize> OnBasis<D> for Job<'_, D> {
+    type Output = Samples<D>;
+
+    fn on<B: UniformBasis<D>>(self, make: impl Fn() -> Result<B, MpmError>) -> Result<Samples<D>, SampleError> {
+        if self.options.affine {
+            self.run(Apic, make)
         } else {
-            self.run::<S, Pic, W, D>(Pic, job)
+            self.run(Pic, make)
         }
     }
+}
 
-    fn run<S: Spline<W>, T: Transfer<D>, const W: usize, const D: usize>(
-        &self,
+impl<const D: usize> Job<'_, D> {
+    fn run<B: UniformBasis<D>, T: Transfer<D>>(
+        self,
         transfer: T,
-        job: Job<D>,
+        make: impl Fn() -> Result<B, MpmError>,
     ) -> Result<Samples<D>, SampleError> {
-        let steps = steps(self.steps, defaults::PAPER_STEPS)?;
-        let spacing = positive(
-            "spacing",
-            self.spacing,
-            defaults::spacing::<D>(self.basis, job.run.particles),
-        )?;
+        let (job, options) = (&self, self.options);
+        let failed = |error| SampleError::in_step(0, error);
+        let (basis, certificate) = (make().map_err(failed)?, make().map_err(failed)?);
+        let spacing = basis.spacing();
+        let steps = steps(options.steps, defaults::PAPER_STEPS)?;
         let optional = |field, value: Option<f64>| value.map_or(Ok(f64::INFINITY), |_| positive(field, value, 0.0));
         let control = StepControl {
-            time_step: positive("time step", self.time_step, defaults::time_step(spacing))?,
-            courant: optional("Courant number", self.guards.courant)?,
-            displacement: optional("displacement limit", self.guards.displacement_limit)?,
+            time_step: positive("time step", options.time_step, defaults::time_step(spacing))?,
+            courant: optional("Courant number", options.guards.courant)?,
+            displacement: optional("displacement limit", options.guards.displacement_limit)?,
             friction: 0.0,
         };
-        let alpha = self.annealing.checked()?;
+        let alpha = options.annealing.checked()?;
 
         let positions = job.run.start_positions()?;
         let volumes = vec![1.0 / positions.len() as f64; positions.len()];
         let particles = Particles::at_rest(positions, 1.0).with_elastic_state(volumes);
-        let grid = SplineGrid::<S, W, D>::new([0.0; D], spacing).map_err(|e| SampleError::in_step(0, e))?;
         let plan = Plan {
             steps,
-            spacing,
+            certificate,
             step: |step| PlannedStep {
                 origin: [0.0; D],
+                spacing,
+                rotation: None,
                 alpha: alpha.at(step, steps),
                 control,
             },
             moment_correction: false,
-            trace_every: self.trace_every,
+            trace_every: options.trace_every,
         };
-        let floor = self.guards.mass_floor;
+        let floor = options.guards.mass_floor;
         check(
             "mass floor",
             floor,
@@ -108,16 +111,16 @@ impl PaperOptions {
         let force = ScoreForce {
             score: FramedScore::new(job.target, job.frame),
             alpha: 1.0,
-            location: self.score_location,
-            mass_weighted: self.guards.mass_weighted_force,
+            location: options.score_location,
+            mass_weighted: options.guards.mass_weighted_force,
             mass_floor: floor / job.run.particles as f64,
         };
         let medium = Elastic { material: job.material };
         drive(
-            Mpm::new(particles, grid, transfer, medium, force),
+            Mpm::new(particles, basis, transfer, medium, force),
             job.frame,
             plan,
-            job.observer,
+            self.observer,
         )
     }
 }

@@ -1,6 +1,6 @@
 //! The Galerkin–Stein residual: how far the particles are from Stein's identity on a grid's shape functions.
 
-use mpm_core::{Basis, MpmError, scatter};
+use mpm_core::{Basis, MpmError, NodeSums, Sum};
 
 /// R and what it would be for independent draws.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,6 +26,26 @@ struct Node<const D: usize> {
     variance: f64,
 }
 
+impl<const D: usize> Default for Node<D> {
+    fn default() -> Self {
+        Self {
+            mass: 0.0,
+            force: [0.0; D],
+            variance: 0.0,
+        }
+    }
+}
+
+impl<const D: usize> Sum for Node<D> {
+    fn merge(&mut self, other: &Self) {
+        self.mass += other.mass;
+        self.variance += other.variance;
+        for a in 0..D {
+            self.force[a] += other.force[a];
+        }
+    }
+}
+
 /// The residual of equally heavy particles of total mass one, with scores `scores`, on `basis` (which is rebuilt).
 ///
 /// Take a basis that the particles were not moved on: forces on the one they were moved on are small by construction.
@@ -37,19 +57,14 @@ pub fn galerkin_stein_residual<const D: usize, B: Basis<D>>(
     positions: &[[f64; D]],
     scores: &[[f64; D]],
 ) -> Result<Residual, MpmError> {
-    basis.rebuild(positions)?;
+    let sorted = basis.rebuild(positions)?;
     let order = basis.schedule().order();
-    let sorted: Vec<[f64; D]> = order.iter().map(|&p| positions[p as usize]).collect();
     let mass = 1.0 / positions.len() as f64;
-    let empty = Node {
-        mass: 0.0,
-        force: [0.0; D],
-        variance: 0.0,
-    };
-    let mut nodes = vec![empty; basis.node_count()];
-    scatter(&*basis, &sorted, &mut nodes, |p, x, stencil| {
+    let basis = &*basis;
+    let mut nodes = NodeSums::<Node<D>>::default();
+    nodes.scatter(basis, &sorted, |p, x, stencil| {
         let value = scores[order[p] as usize].map(|s| mass * s);
-        basis.for_each_flux(x, &value, mass, |index, weight, flux| {
+        basis.for_each_flux(p, x, &value, mass, |index, weight, flux| {
             let node = stencil.node(index);
             node.mass += weight * mass;
             for a in 0..D {
@@ -59,7 +74,7 @@ pub fn galerkin_stein_residual<const D: usize, B: Basis<D>>(
         });
     });
     let (mut square, mut expected) = (0.0, 0.0);
-    for node in &nodes {
+    for node in nodes.as_slice() {
         let scale = 1.0 / (node.mass + 0.1 * mass);
         square += scale * node.force.iter().map(|f| f * f).sum::<f64>();
         expected += scale * node.variance;

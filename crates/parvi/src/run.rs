@@ -33,6 +33,19 @@ pub struct Start {
     pub mean: f64,
     /// Standard deviation of every coordinate, in target scales; > 0.
     pub standard_deviation: f64,
+    /// How the law is drawn from.
+    pub draws: StartDraws,
+}
+
+/// How particles are drawn from their initial law.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum StartDraws {
+    /// Scrambled Sobol points through the normal quantile: a quiet start. What is uneven at lengths below the spacing the
+    /// mechanics hardly sees and would have to smooth over many steps; quasi-random points are even there from the start.
+    #[default]
+    QuasiRandom,
+    /// Independent draws.
+    Independent,
 }
 
 impl Default for Start {
@@ -40,6 +53,7 @@ impl Default for Start {
         Self {
             mean: 0.0,
             standard_deviation: 1.0,
+            draws: StartDraws::default(),
         }
     }
 }

@@ -1,10 +1,11 @@
 //! Where the particles begin, and what a run may ask for.
 
-use rand::SeedableRng;
+use parvi_targets::{CatalogueTarget, Gaussian, SobolSequence};
+use rand::{RngExt, SeedableRng};
 use rand::rngs::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-use crate::{Run, SampleError};
+use crate::{Run, SampleError, StartDraws};
 
 impl Run {
     /// The generator of a run's random choices; `stream` keeps independent choices apart.
@@ -22,7 +23,7 @@ impl Run {
         Ok(count)
     }
 
-    /// Independent draws from the start law, in frame coordinates.
+    /// Draws from the start law, in frame coordinates.
     pub(crate) fn start_positions<const D: usize>(&self) -> Result<Vec<[f64; D]>, SampleError> {
         let count = self.checked_particles()?;
         let sd = self.start.standard_deviation;
@@ -33,12 +34,25 @@ impl Run {
             "positive and finite",
         )?;
         check("start mean", self.start.mean, self.start.mean.is_finite(), "finite")?;
+        let law = Gaussian::<D>::standard();
         let mut generator = self.generator(0);
-        let mut coordinate = || {
-            let normal: f64 = StandardNormal.sample(&mut generator);
-            self.start.mean + sd * normal
+        // Of the seed's own stream, so that the yardstick of the same seed has other points.
+        let sequence = match self.start.draws {
+            StartDraws::QuasiRandom => SobolSequence::scrambled(D, generator.random()).ok(),
+            StartDraws::Independent => None,
         };
-        Ok((0..count).map(|_| std::array::from_fn(|_| coordinate())).collect())
+        let mut point: Box<dyn FnMut(u32) -> [f64; D]> = match (sequence, law.unit_cube_transport()) {
+            (Some(sequence), Some(transport)) => {
+                let mut u = [0.0; D];
+                Box::new(move |index| {
+                    sequence.write(index, &mut u);
+                    transport.transport(&u)
+                })
+            }
+            _ => Box::new(move |_| std::array::from_fn(|_| StandardNormal.sample(&mut generator))),
+        };
+        let scaled = |z: [f64; D]| z.map(|c| self.start.mean + sd * c);
+        Ok((0..count as u32).map(|index| scaled(point(index))).collect())
     }
 }
 

@@ -2,19 +2,23 @@
 
 mod mpm_options;
 mod paper_options;
+mod schedule;
 mod svgd_options;
 
 pub use mpm_options::{MpmOptions, ScoreLocation};
 pub use paper_options::{Annealing, Elasticity, Guards, PaperOptions};
+pub use schedule::{Settling, SpacingSchedule};
 pub use svgd_options::SvgdOptions;
 
 /// Background basis of the mechanics.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum BasisChoice {
+    /// Hat functions on the simplices of the lattice A_D*: D + 1 nodes per particle.
+    #[default]
+    Lattice,
     /// Tensor-product hat functions: 2ᴰ nodes per particle.
     Linear,
     /// Tensor-product quadratic B-splines: 3ᴰ nodes per particle.
-    #[default]
     Quadratic,
     /// Tensor-product cubic B-splines: 4ᴰ nodes per particle.
     Cubic,

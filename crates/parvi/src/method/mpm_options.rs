@@ -1,4 +1,4 @@
-use super::{BasisChoice, TransferChoice};
+use super::{BasisChoice, SpacingSchedule, Settling, TransferChoice};
 
 /// Where the score is evaluated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -18,16 +18,22 @@ pub struct MpmOptions {
     pub basis: BasisChoice,
     /// Velocity transfer.
     pub transfer: TransferChoice,
-    /// Grid spacing h in frame units; > 0.
+    /// Spacing h in frame units; > 0.
     pub spacing: Option<f64>,
+    /// How the spacing varies around h from step to step.
+    pub spacing_schedule: SpacingSchedule,
     /// Steps in all, settling included; ≥ 1.
     pub steps: Option<usize>,
     /// Time step Δt; > 0.
     pub time_step: Option<f64>,
     /// Friction γ ≥ 0 (v ← v e^{−γΔt}).
     pub friction: Option<f64>,
-    /// Move the grid's origin every step by a Kronecker sequence.
+    /// Move the basis' origin every step by a Kronecker sequence.
     pub shifts: bool,
+    /// Turn the lattice by a random rotation; has no meaning for splines.
+    pub rotation: bool,
+    /// How the run ends.
+    pub settling: Settling,
     /// Finish with the affine Stein correction, which makes E\[s\] = 0 and E\[s xᵀ\] = −I hold for the particles.
     pub moment_correction: bool,
     /// Where the score is evaluated.
@@ -44,10 +50,13 @@ impl Default for MpmOptions {
             basis: BasisChoice::default(),
             transfer: TransferChoice::default(),
             spacing: None,
+            spacing_schedule: SpacingSchedule::default(),
             steps: None,
             time_step: None,
             friction: None,
             shifts: true,
+            rotation: false,
+            settling: Settling::default(),
             moment_correction: true,
             score_location: ScoreLocation::default(),
             displacement_limit: 0.5,

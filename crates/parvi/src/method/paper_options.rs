@@ -93,7 +93,7 @@ impl Default for PaperOptions {
     fn default() -> Self {
         Self {
             affine: false,
-            basis: BasisChoice::default(),
+            basis: BasisChoice::Quadratic,
             elasticity: Elasticity::NeoHookean,
             youngs_modulus: 1.0,
             poissons_ratio: 0.3,

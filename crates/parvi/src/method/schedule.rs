@@ -1,0 +1,89 @@
+//! How spacing and time step vary over a run.
+
+use crate::start::check;
+use crate::{SampleError, defaults};
+
+/// The spacing of step n of N around the central spacing h: h c^{(1 − n/(N s))₊} r^{u_n − ½}, u_n ∈ [0, 1) from the same
+/// Kronecker sequence as the shifts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpacingSchedule {
+    /// r ≥ 1: largest over smallest spacing of the draws; 1 draws nothing.
+    pub range: f64,
+    /// c ≥ 1: factor of the spacing in the first step; 1 begins as fine as it ends.
+    pub coarse_start: f64,
+    /// s ∈ (0, 1]: share of the steps over which c falls to 1.
+    pub coarse_share: f64,
+}
+
+impl Default for SpacingSchedule {
+    fn default() -> Self {
+        Self {
+            range: defaults::SPACING_RANGE,
+            coarse_start: defaults::COARSE_START,
+            coarse_share: defaults::COARSE_SHARE,
+        }
+    }
+}
+
+impl SpacingSchedule {
+    pub(crate) fn check(&self) -> Result<(), SampleError> {
+        let at_least_one = |value: f64| value >= 1.0 && value.is_finite();
+        check("spacing range", self.range, at_least_one(self.range), "at least 1 and finite")?;
+        let (start, share) = (self.coarse_start, self.coarse_share);
+        check("coarse start", start, at_least_one(start), "at least 1 and finite")?;
+        check("coarse share", share, share > 0.0 && share <= 1.0, "in (0, 1]")
+    }
+
+    /// Factor of h in step `step` of `steps` (from 1), for the draw `u`.
+    pub(crate) fn factor(&self, step: usize, steps: usize, u: f64) -> f64 {
+        let coarse = (1.0 - step as f64 / (self.coarse_share * steps as f64)).max(0.0);
+        self.coarse_start.powf(coarse) * self.range.powf(u - 0.5)
+    }
+}
+
+/// The end of a run: over the last share of the steps Δt falls linearly from the full one to a fraction of it.
+///
+/// Gradients of the shape functions have kinks, so particles at rest keep trembling by an amount that grows with Δt.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settling {
+    /// Share of the steps, in [0, 1).
+    pub share: f64,
+    /// Δt of the last step over the full one, in (0, 1].
+    pub time_step: f64,
+    /// Whether origin and spacing go on varying meanwhile.
+    pub shifts: bool,
+}
+
+impl Default for Settling {
+    fn default() -> Self {
+        Self {
+            share: defaults::SETTLING_SHARE,
+            time_step: defaults::SETTLING_TIME_STEP,
+            shifts: true,
+        }
+    }
+}
+
+impl Settling {
+    pub(crate) fn check(&self) -> Result<(), SampleError> {
+        let (share, factor) = (self.share, self.time_step);
+        check("settling share", share, (0.0..1.0).contains(&share), "in [0, 1)")?;
+        check("settling time step", factor, factor > 0.0 && factor <= 1.0, "in (0, 1]")
+    }
+
+    /// How much of the way is left in step `step` of `steps` (from 1): 1 before settling begins, 0 at the end.
+    fn left(&self, step: usize, steps: usize) -> f64 {
+        let left = (steps - step.min(steps)) as f64;
+        if self.share > 0.0 { (left / (self.share * steps as f64)).min(1.0) } else { 1.0 }
+    }
+
+    /// Factor of Δt.
+    pub(crate) fn factor(&self, step: usize, steps: usize) -> f64 {
+        self.time_step + (1.0 - self.time_step) * self.left(step, steps)
+    }
+
+    /// Whether origin and spacing vary in this step.
+    pub(crate) fn varies(&self, step: usize, steps: usize) -> bool {
+        self.shifts || self.left(step, steps) >= 1.0
+    }
+}
