@@ -1,11 +1,14 @@
 //! Studies: lists of cases with their raw results, tables and plots in one directory.
 
+mod accuracy;
 mod attempt;
+mod checks;
 mod configuration;
 mod covariance_spacing;
 mod definition;
 mod directory;
 mod document;
+mod gaussian_runs;
 mod manifest;
 mod moments;
 mod quickstart;
@@ -24,11 +27,12 @@ use directory::StudyDirectory;
 use crate::CommandError;
 
 /// All kinds.
-const KINDS: [&str; 4] = [
+const KINDS: [&str; 5] = [
     quickstart::Quickstart::KIND,
     scaling::Scaling::KIND,
     time_error::TimeError::KIND,
     covariance_spacing::CovarianceSpacing::KIND,
+    accuracy::Accuracy::KIND,
 ];
 
 /// Runs the study that a configuration describes.
@@ -41,6 +45,7 @@ pub fn run(configuration: &Path, out: &Path) -> Result<(), CommandError> {
         covariance_spacing::CovarianceSpacing::KIND => {
             runner::run::<covariance_spacing::CovarianceSpacing>(&configuration, out)
         }
+        accuracy::Accuracy::KIND => runner::run::<accuracy::Accuracy>(&configuration, out),
         _ => Err(configuration.unknown_kind(&KINDS)),
     }
 }
@@ -55,6 +60,7 @@ pub fn report(path: &Path) -> Result<(), CommandError> {
         covariance_spacing::CovarianceSpacing::KIND => {
             runner::report::<covariance_spacing::CovarianceSpacing>(&configuration, &directory)
         }
+        accuracy::Accuracy::KIND => runner::report::<accuracy::Accuracy>(&configuration, &directory),
         _ => Err(configuration.unknown_kind(&KINDS)),
     }
 }
