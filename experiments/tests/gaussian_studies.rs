@@ -20,6 +20,20 @@ methods = [
 ]
 "#;
 
+const TIME_TO_LEVEL: &str = r#"
+kind = "time-to-level"
+seed = 1
+threads = 1
+dims = [1, 2]
+particles = 100
+start = { mean = 0.7, standard-deviation = 0.6 }
+steps = [1, 4, 16, 64]
+repeats = 2
+largest-ratio = 1e-3
+method = { name = "mpm" }
+rivals = [{ name = "svgd" }, { name = "mpm", label = "again" }]
+"#;
+
 /// Asserts that a study with one text replaced is refused before anything is written.
 fn refused(study: &str, from: &str, to: &str, parts: &[&str]) {
     let root = tempfile::tempdir().unwrap();
@@ -110,5 +124,68 @@ fn bad_accuracy() {
         "options = { steps = 5 }",
         "options = { basis = \"cubic\" }",
         &["basis", "svgd"],
+    );
+}
+
+#[test]
+fn time_to_level() {
+    let (root, output) = run_study(TIME_TO_LEVEL);
+    let report = assert_report(root.path(), 1);
+    assert!(
+        report.contains("svgd / mpm") && report.contains("again / mpm"),
+        "{report}"
+    );
+    let rows = rows(root.path());
+    assert_eq!(rows.len(), 6);
+    for row in rows.iter().filter(|row| row["method"] == "mpm") {
+        assert_eq!(row["ending"], "reached");
+        let number = |name: &str| row[name].parse::<f64>().unwrap();
+        assert!(number("energy_distance_squared") <= number("energy_level"));
+    }
+    // A budget of a thousandth of the time is used up by the first step.
+    for row in rows.iter().filter(|row| row["method"] != "mpm") {
+        assert_eq!((row["ending"].as_str(), row["steps"].as_str()), ("out-of-time", "1"));
+    }
+    assert!(report.contains("times the level with `svgd`"), "{report}");
+    assert_eq!(value(&output, "reached").unwrap(), "2");
+    assert_eq!(value(&output, "out_of_time").unwrap(), "4");
+}
+
+#[test]
+fn a_resumed_rival_finds_the_time_of_the_method() {
+    let (root, _) = run_study(TIME_TO_LEVEL);
+    let path = root.path().join("out/results.csv");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let first_two: String = text.split_inclusive('\n').take(2).collect();
+    std::fs::write(&path, first_two).unwrap();
+    let output = parvi(root.path(), "run study.toml --out out");
+    assert!(output.status.success());
+    let rows = rows(root.path());
+    let number = |row: usize, name: &str| rows[row][name].parse::<f64>().unwrap();
+    let budget = 1e-3 * number(0, "wall_seconds");
+    assert!((number(1, "wall_budget_seconds") / budget - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn bad_time_to_level() {
+    let refused = |from: &str, to: &str, parts: &[&str]| refused(TIME_TO_LEVEL, from, to, parts);
+    refused("[1, 2]", "[]", &["dims", "empty"]);
+    refused("[1, 2]", "[2, 2]", &["dims", "d2-m100-mpm"]);
+    refused("[1, 4, 16, 64]", "[]", &["steps", "empty"]);
+    refused("[1, 4, 16, 64]", "[1, 4, 4]", &["steps", "4 before 4"]);
+    refused("1e-3", "-1.0", &["largest-ratio", "-1"]);
+    refused("= 0.6 }", "= 0.0 }", &["start.standard-deviation", "0"]);
+    refused("mean = 0.7", "mean = nan", &["start.mean", "NaN"]);
+    refused("mean = 0.7", "middle = 0.7", &["line 7", "`middle`"]);
+    refused("\"svgd\" }", "\"sobol\" }", &["rivals.name", "`sobol`"]);
+    refused(
+        "{ name = \"svgd\" }",
+        "{ name = \"svgd\", options = { steps = 3 } }",
+        &["rivals.options.steps", "`steps`"],
+    );
+    refused(
+        "method = { name = \"mpm\" }",
+        "method = { name = \"mpm\", options = { start-mean = 1.0 } }",
+        &["method.options.start-mean", "`start`"],
     );
 }

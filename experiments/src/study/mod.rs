@@ -16,6 +16,7 @@ mod results;
 mod runner;
 mod scaling;
 mod time_error;
+mod time_to_level;
 mod trace_file;
 
 use std::path::Path;
@@ -27,12 +28,13 @@ use directory::StudyDirectory;
 use crate::CommandError;
 
 /// All kinds.
-const KINDS: [&str; 5] = [
+const KINDS: [&str; 6] = [
     quickstart::Quickstart::KIND,
     scaling::Scaling::KIND,
     time_error::TimeError::KIND,
     covariance_spacing::CovarianceSpacing::KIND,
     accuracy::Accuracy::KIND,
+    time_to_level::TimeToLevel::KIND,
 ];
 
 /// Runs the study that a configuration describes.
@@ -46,6 +48,7 @@ pub fn run(configuration: &Path, out: &Path) -> Result<(), CommandError> {
             runner::run::<covariance_spacing::CovarianceSpacing>(&configuration, out)
         }
         accuracy::Accuracy::KIND => runner::run::<accuracy::Accuracy>(&configuration, out),
+        time_to_level::TimeToLevel::KIND => runner::run::<time_to_level::TimeToLevel>(&configuration, out),
         _ => Err(configuration.unknown_kind(&KINDS)),
     }
 }
@@ -61,6 +64,7 @@ pub fn report(path: &Path) -> Result<(), CommandError> {
             runner::report::<covariance_spacing::CovarianceSpacing>(&configuration, &directory)
         }
         accuracy::Accuracy::KIND => runner::report::<accuracy::Accuracy>(&configuration, &directory),
+        time_to_level::TimeToLevel::KIND => runner::report::<time_to_level::TimeToLevel>(&configuration, &directory),
         _ => Err(configuration.unknown_kind(&KINDS)),
     }
 }
