@@ -2,6 +2,7 @@
 
 mod support;
 
+use std::collections::HashMap;
 use std::path::Path;
 
 use support::{assert_refused, assert_report, files, parvi, run_study, value};
@@ -34,6 +35,17 @@ method = { name = "mpm" }
 rivals = [{ name = "svgd" }, { name = "mpm", label = "again" }]
 "#;
 
+const BASIS_COMPARISON: &str = r#"
+kind = "basis-comparison"
+seeds = [1, 2]
+dims = [1, 2]
+particles = 64
+bases = ["quadratic", "linear"]
+spacings = [0.5, 1.0, 2.0]
+steps = [20, 5]
+method = { name = "mpm", options = { moment-correction = "off" } }
+"#;
+
 /// Asserts that a study with one text replaced is refused before anything is written.
 fn refused(study: &str, from: &str, to: &str, parts: &[&str]) {
     let root = tempfile::tempdir().unwrap();
@@ -46,7 +58,7 @@ fn refused(study: &str, from: &str, to: &str, parts: &[&str]) {
 }
 
 /// The records of results.csv, by the names of the columns.
-fn rows(root: &Path) -> Vec<std::collections::HashMap<String, String>> {
+fn rows(root: &Path) -> Vec<HashMap<String, String>> {
     let mut reader = csv::Reader::from_path(root.join("out/results.csv")).unwrap();
     reader.deserialize().map(|row| row.unwrap()).collect()
 }
@@ -187,5 +199,75 @@ fn bad_time_to_level() {
         "method = { name = \"mpm\" }",
         "method = { name = \"mpm\", options = { start-mean = 1.0 } }",
         &["method.options.start-mean", "`start`"],
+    );
+}
+
+#[test]
+fn basis_comparison() {
+    let (root, output) = run_study(BASIS_COMPARISON);
+    let report = assert_report(root.path(), 1);
+    assert_eq!(value(&output, "cases").unwrap(), (2 * 2 * 3 * 2 * 2).to_string());
+    assert_eq!(value(&output, "failed").unwrap(), "0");
+    for text in ["ED² in the time of quadratic", "time (s), T = 20", "h / default"] {
+        assert!(report.contains(text), "{text} is missing in {report}");
+    }
+    // The first basis fits into its own time with its largest number of steps.
+    let first: Vec<&str> = report
+        .lines()
+        .filter(|line| line.starts_with("| quadratic |"))
+        .collect();
+    assert_eq!(first.len(), 2, "{report}");
+    assert!(first.iter().all(|line| line.ends_with("(T = 20) |")), "{report}");
+    let rows = rows(root.path());
+    let unit = |row: &HashMap<String, String>| {
+        let number = |name: &str| row[name].parse::<f64>().unwrap();
+        number("requested_spacing") / number("spacing_factor")
+    };
+    for row in &rows {
+        let same = |other: &&HashMap<String, String>| other["dim"] == row["dim"] && other["series"] == row["series"];
+        let first = rows.iter().find(same).unwrap();
+        assert!(
+            (unit(row) / unit(first) - 1.0).abs() < 1e-12,
+            "one default per basis: {row:?}"
+        );
+        assert_eq!(row["steps"], row["requested_steps"]);
+    }
+}
+
+#[test]
+fn bad_basis_comparison() {
+    let refused = |from: &str, to: &str, parts: &[&str]| refused(BASIS_COMPARISON, from, to, parts);
+    refused("seeds = [1, 2]", "seeds = []", &["seeds", "empty"]);
+    refused("dims = [1, 2]", "dims = []", &["dims", "empty"]);
+    refused("[\"quadratic\", \"linear\"]", "[]", &["bases", "empty"]);
+    refused("\"linear\"", "\"round\"", &["line 6", "`round`", "quadratic"]);
+    refused(
+        "\"linear\"",
+        "\"quadratic\"",
+        &["bases", "d1-m64-quadratic-f0.5-t20-s1"],
+    );
+    refused("[0.5, 1.0, 2.0]", "[]", &["spacings", "empty"]);
+    refused("[0.5, 1.0, 2.0]", "[0.5, -1.0]", &["spacings", "-1"]);
+    refused("[20, 5]", "[]", &["steps", "empty"]);
+    refused("[20, 5]", "[20, 0]", &["line 8", "0 is out of range"]);
+    refused(
+        "{ moment-correction = \"off\" }",
+        "{ spacing = 1.0 }",
+        &["method.options.spacing", "`spacings`"],
+    );
+    refused(
+        "{ moment-correction = \"off\" }",
+        "{ basis = \"cubic\" }",
+        &["method.options.basis", "`bases`"],
+    );
+    refused(
+        "{ moment-correction = \"off\" }",
+        "{ steps = 3 }",
+        &["method.options.steps", "`steps`"],
+    );
+    refused(
+        "{ name = \"mpm\", options = { moment-correction = \"off\" } }",
+        "{ name = \"svgd\" }",
+        &["basis", "svgd"],
     );
 }

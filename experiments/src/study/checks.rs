@@ -4,6 +4,7 @@ use std::collections::HashSet;
 
 use super::definition::Case;
 use crate::CommandError;
+use crate::options::MethodSpecification;
 
 /// The error for a field whose value does not fit; the runner adds the file.
 pub fn refusal(field: &str, message: impl Into<String>) -> CommandError {
@@ -35,6 +36,14 @@ pub fn unset<T>(field: &str, value: &Option<T>, place: &str) -> Result<(), Comma
     match value {
         Some(_) => Err(refusal(field, format!("belongs into `{place}`"))),
         None => Ok(()),
+    }
+}
+
+/// Refuses a method that lacks one of the options that the study sets.
+pub fn options_fit(field: &str, method: &MethodSpecification) -> Result<(), CommandError> {
+    match method.method(None) {
+        Ok(_) => Ok(()),
+        Err(error) => Err(refusal(&format!("{field}.options.{}", error.name), error.reason)),
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod attempt;
+mod basis_comparison;
 mod checks;
 mod configuration;
 mod covariance_spacing;
@@ -28,13 +29,14 @@ use directory::StudyDirectory;
 use crate::CommandError;
 
 /// All kinds.
-const KINDS: [&str; 6] = [
+const KINDS: [&str; 7] = [
     quickstart::Quickstart::KIND,
     scaling::Scaling::KIND,
     time_error::TimeError::KIND,
     covariance_spacing::CovarianceSpacing::KIND,
     accuracy::Accuracy::KIND,
     time_to_level::TimeToLevel::KIND,
+    basis_comparison::BasisComparison::KIND,
 ];
 
 /// Runs the study that a configuration describes.
@@ -49,6 +51,9 @@ pub fn run(configuration: &Path, out: &Path) -> Result<(), CommandError> {
         }
         accuracy::Accuracy::KIND => runner::run::<accuracy::Accuracy>(&configuration, out),
         time_to_level::TimeToLevel::KIND => runner::run::<time_to_level::TimeToLevel>(&configuration, out),
+        basis_comparison::BasisComparison::KIND => {
+            runner::run::<basis_comparison::BasisComparison>(&configuration, out)
+        }
         _ => Err(configuration.unknown_kind(&KINDS)),
     }
 }
@@ -65,6 +70,9 @@ pub fn report(path: &Path) -> Result<(), CommandError> {
         }
         accuracy::Accuracy::KIND => runner::report::<accuracy::Accuracy>(&configuration, &directory),
         time_to_level::TimeToLevel::KIND => runner::report::<time_to_level::TimeToLevel>(&configuration, &directory),
+        basis_comparison::BasisComparison::KIND => {
+            runner::report::<basis_comparison::BasisComparison>(&configuration, &directory)
+        }
         _ => Err(configuration.unknown_kind(&KINDS)),
     }
 }
