@@ -46,6 +46,14 @@ steps = [20, 5]
 method = { name = "mpm", options = { moment-correction = "off" } }
 "#;
 
+const SPACING_PARTICLES: &str = r#"
+kind = "spacing-particles"
+seeds = [1, 2]
+particles = [64, 32, 16]
+method = { name = "mpm", options = { basis = "linear", steps = 20 } }
+series = [{ dim = 1, spacings = [0.8, 0.2, 0.4] }, { dim = 2, spacings = [0.5, 1.0] }]
+"#;
+
 /// Asserts that a study with one text replaced is refused before anything is written.
 fn refused(study: &str, from: &str, to: &str, parts: &[&str]) {
     let root = tempfile::tempdir().unwrap();
@@ -269,5 +277,43 @@ fn bad_basis_comparison() {
         "{ name = \"mpm\", options = { moment-correction = \"off\" } }",
         "{ name = \"svgd\" }",
         &["basis", "svgd"],
+    );
+}
+
+#[test]
+fn spacing_particles() {
+    let (root, output) = run_study(SPACING_PARTICLES);
+    let report = assert_report(root.path(), 1);
+    assert_eq!(value(&output, "cases").unwrap(), (2 * 3 * (3 + 2)).to_string());
+    assert_eq!(value(&output, "failed").unwrap(), "0");
+    for text in [
+        "| h | M = 16 | M = 32 | M = 64 |",
+        "active nodes / M",
+        "h at M = 512",
+        "**d = 2**",
+    ] {
+        assert!(report.contains(text), "{text} is missing in {report}");
+    }
+    assert!(
+        report.contains("beyond ") || report.contains("they do up to 64"),
+        "{report}"
+    );
+}
+
+#[test]
+fn bad_spacing_particles() {
+    let refused = |from: &str, to: &str, parts: &[&str]| refused(SPACING_PARTICLES, from, to, parts);
+    refused("seeds = [1, 2]", "seeds = []", &["seeds", "empty"]);
+    refused("[64, 32, 16]", "[]", &["particles", "empty"]);
+    refused("[64, 32, 16]", "[64, 64]", &["particles", "d1-m64-mpm-h0.8-t20-s1"]);
+    refused("[0.5, 1.0]", "[]", &["series.spacings", "empty"]);
+    refused("[0.5, 1.0]", "[0.5, 0.0]", &["series.spacings", "0 must be"]);
+    refused("dim = 2", "dim = 9", &["line 6", "9 is out of range"]);
+    refused("dim = 2, spacings", "dim = 2, spacing", &["line 6", "`spacing`"]);
+    refused("steps = 20", "spacing = 0.5", &["method.options.spacing", "`series`"]);
+    refused(
+        "{ name = \"mpm\", options = { basis = \"linear\", steps = 20 } }",
+        "{ name = \"iid\" }",
+        &["spacing", "iid"],
     );
 }

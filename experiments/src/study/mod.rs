@@ -16,6 +16,7 @@ mod quickstart;
 mod results;
 mod runner;
 mod scaling;
+mod spacing_particles;
 mod time_error;
 mod time_to_level;
 mod trace_file;
@@ -29,7 +30,7 @@ use directory::StudyDirectory;
 use crate::CommandError;
 
 /// All kinds.
-const KINDS: [&str; 7] = [
+const KINDS: [&str; 8] = [
     quickstart::Quickstart::KIND,
     scaling::Scaling::KIND,
     time_error::TimeError::KIND,
@@ -37,6 +38,7 @@ const KINDS: [&str; 7] = [
     accuracy::Accuracy::KIND,
     time_to_level::TimeToLevel::KIND,
     basis_comparison::BasisComparison::KIND,
+    spacing_particles::SpacingParticles::KIND,
 ];
 
 /// Runs the study that a configuration describes.
@@ -53,6 +55,9 @@ pub fn run(configuration: &Path, out: &Path) -> Result<(), CommandError> {
         time_to_level::TimeToLevel::KIND => runner::run::<time_to_level::TimeToLevel>(&configuration, out),
         basis_comparison::BasisComparison::KIND => {
             runner::run::<basis_comparison::BasisComparison>(&configuration, out)
+        }
+        spacing_particles::SpacingParticles::KIND => {
+            runner::run::<spacing_particles::SpacingParticles>(&configuration, out)
         }
         _ => Err(configuration.unknown_kind(&KINDS)),
     }
@@ -72,6 +77,9 @@ pub fn report(path: &Path) -> Result<(), CommandError> {
         time_to_level::TimeToLevel::KIND => runner::report::<time_to_level::TimeToLevel>(&configuration, &directory),
         basis_comparison::BasisComparison::KIND => {
             runner::report::<basis_comparison::BasisComparison>(&configuration, &directory)
+        }
+        spacing_particles::SpacingParticles::KIND => {
+            runner::report::<spacing_particles::SpacingParticles>(&configuration, &directory)
         }
         _ => Err(configuration.unknown_kind(&KINDS)),
     }
