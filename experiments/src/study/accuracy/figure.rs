@@ -89,7 +89,7 @@ fn guides(rows: &[Row], dim: Dimension, series: &[LineSeries]) -> Vec<GuideCurve
         dotted,
     };
     vec![
-        guide("expected of i.i.d. draws, slope −1/2", independent, -0.5, false),
-        guide("best slope, −(1 + 1/d)/2", 0.7 * lowest, best_exponent(dim), true),
+        guide("i.i.d. expected, slope −1/2", independent, -0.5, false),
+        guide("best slope −(1 + 1/d)/2", 0.7 * lowest, best_exponent(dim), true),
     ]
 }
