@@ -4,29 +4,7 @@ mod support;
 
 use std::path::Path;
 
-use support::{files, parvi, stderr, value};
-
-fn run(text: &str) -> (tempfile::TempDir, std::process::Output) {
-    let root = tempfile::tempdir().unwrap();
-    std::fs::write(root.path().join("study.toml"), text).unwrap();
-    let output = parvi(root.path(), "run study.toml --out out");
-    assert!(output.status.success(), "{}", stderr(&output));
-    (root, output)
-}
-
-/// Asserts that the report exists, that it links to all figures, and that no figure was left out.
-fn assert_report(root: &Path, figures: usize) -> String {
-    let report = std::fs::read_to_string(root.join("out/report.md")).unwrap();
-    let names = files(&root.join("out/figures"));
-    assert!(
-        names.iter().all(|name| report.contains(&format!("(figures/{name})"))),
-        "{report}"
-    );
-    assert_eq!(names.len(), figures, "{report}");
-    assert!(report.contains("Provenance"));
-    assert!(!report.contains("NaN"), "{report}");
-    report
-}
+use support::{assert_report, files, parvi, run_study, stderr, value};
 
 #[test]
 fn quickstart() {
@@ -37,7 +15,7 @@ fn quickstart() {
     let text = text
         .replace("particles = 1000", "particles = 200")
         .replace("draws = 20000", "draws = 2000");
-    let (root, output) = run(&text);
+    let (root, output) = run_study(&text);
     let report = assert_report(root.path(), 4);
     assert!(report.contains("**Verdict: "));
     assert!(report.contains("intercept"));
@@ -47,7 +25,8 @@ fn quickstart() {
 
 #[test]
 fn covariance_spacing() {
-    let (root, output) = run(r#"
+    let (root, output) = run_study(
+        r#"
         kind = "covariance-spacing"
         seeds = [0, 1]
         particles = 200
@@ -56,14 +35,16 @@ fn covariance_spacing() {
             { dim = 1, spacings = [0.5, 1.0], judged-spacing = 1.0, bound = 0.5 },
             { dim = 2, spacings = [1.2, 0.6] },
         ]
-        "#);
+        "#,
+    );
     assert_report(root.path(), 1);
     assert_eq!(value(&output, "verdict").unwrap(), "pass");
 }
 
 #[test]
 fn scaling() {
-    let (root, output) = run(r#"
+    let (root, output) = run_study(
+        r#"
         kind = "scaling"
         seed = 0
         threads = 1
@@ -82,7 +63,8 @@ fn scaling() {
         nodes-per-axis = [8, 64, 10000]
         fit-from = 64
         box = [-4.0, 4.0]
-        "#);
+        "#,
+    );
     let report = assert_report(root.path(), 8);
     assert_eq!(value(&output, "cases").unwrap(), "9");
     assert_eq!(value(&output, "failed").unwrap(), "0");
@@ -91,7 +73,8 @@ fn scaling() {
 
 #[test]
 fn time_error() {
-    let (root, output) = run(r#"
+    let (root, output) = run_study(
+        r#"
         kind = "time-error"
         seeds = [0]
         particles = 100
@@ -101,7 +84,8 @@ fn time_error() {
         directions = 8
         targets = [{ name = "mixture-4" }, { name = "wells-small" }]
         methods = [{ name = "mpm" }, { name = "paper-pic" }, { name = "svgd" }, { name = "iid" }, { name = "sobol" }]
-        "#);
+        "#,
+    );
     let report = assert_report(root.path(), 4);
     assert_eq!(
         value(&output, "unsupported").unwrap(),

@@ -3,6 +3,7 @@
 use super::chart_panel::draw_panel;
 use super::data::{PlotError, check_size};
 use super::legend::{LegendEntry, Swatch, draw_legend, draw_notes, draw_title};
+use super::line::ReferenceLevel;
 use super::panel::{AxesParts, Panel, label_lines, label_room, x_axis_room, x_ticks, y_tick_room, y_ticks};
 use super::scale::{AxisKind, Scale, Ticks, plottable};
 use super::style::{FIGURE_WIDTH, GUIDE, LABEL_SIZE, MARGIN, SeriesStyle};
@@ -17,6 +18,8 @@ pub(super) enum Connection {
     Solid,
     /// By dashed lines.
     Dashed,
+    /// By dotted lines.
+    Dotted,
 }
 
 impl Connection {
@@ -26,6 +29,7 @@ impl Connection {
             Connection::None => None,
             Connection::Solid => Some(""),
             Connection::Dashed => Some("4.5 2.5"),
+            Connection::Dotted => Some("1.2 2.4"),
         }
     }
 }
@@ -49,6 +53,15 @@ pub(super) struct ChartSeries {
 pub(super) struct Level {
     pub value: f64,
     pub label: String,
+}
+
+impl From<&ReferenceLevel> for Level {
+    fn from(level: &ReferenceLevel) -> Self {
+        Self {
+            value: level.value,
+            label: level.label.clone(),
+        }
+    }
 }
 
 #[derive(Debug, Clone)]

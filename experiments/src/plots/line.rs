@@ -66,14 +66,7 @@ pub fn line(plot: &LinePlot) -> Result<String, PlotError> {
             markers: true,
         })
         .collect();
-    let levels = plot
-        .levels
-        .iter()
-        .map(|level| Level {
-            value: level.value,
-            label: level.label.clone(),
-        })
-        .collect();
+    let levels = plot.levels.iter().map(Level::from).collect();
     let (columns, width) = arrangement(1);
     let panel = ChartPanel {
         title: String::new(),

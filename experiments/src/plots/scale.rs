@@ -218,7 +218,7 @@ impl Scale {
         let fraction = |position: f64| (position - self.low) / (self.high - self.low);
         let visible = |fraction: &f64| (-1e-9..=1.0 + 1e-9).contains(fraction);
         // With fewer than two whole decades, twos and fives are labelled too where there is room.
-        let factors: &[i32] = match (decades < 1.6, count) {
+        let factors: &[i32] = match (decades < 2.0, count) {
             (true, 7..) => &[1, 2, 3, 5],
             (true, 4..) => &[1, 2, 5],
             (true, 3) => &[1, 3],

@@ -61,3 +61,26 @@ pub fn assert_refused(output: &Output, parts: &[&str]) {
         assert!(message.contains(part), "`{part}` is missing in: {message}");
     }
 }
+
+/// Runs a configuration as `study.toml` into `out` of a new directory and asserts that it succeeds.
+pub fn run_study(text: &str) -> (tempfile::TempDir, Output) {
+    let root = tempfile::tempdir().unwrap();
+    std::fs::write(root.path().join("study.toml"), text).unwrap();
+    let output = parvi(root.path(), "run study.toml --out out");
+    assert!(output.status.success(), "{}", stderr(&output));
+    (root, output)
+}
+
+/// Asserts that the report exists, that it links to all figures, and that no figure was left out.
+pub fn assert_report(root: &Path, figures: usize) -> String {
+    let report = std::fs::read_to_string(root.join("out/report.md")).unwrap();
+    let names = files(&root.join("out/figures"));
+    assert!(
+        names.iter().all(|name| report.contains(&format!("(figures/{name})"))),
+        "{report}"
+    );
+    assert_eq!(names.len(), figures, "{report}");
+    assert!(report.contains("Provenance"));
+    assert!(!report.contains("NaN"), "{report}");
+    report
+}

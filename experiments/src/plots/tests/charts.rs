@@ -149,3 +149,60 @@ fn lines_with_bars_on_any_axis() {
     plot.series[0].bars = vec![(0.0, 1.0); 2];
     assert!(matches!(line(&plot), Err(PlotError::Size { .. })));
 }
+
+#[test]
+fn small_multiples_share_styles_and_legend() {
+    let series = |label: &str| LineSeries {
+        label: label.to_string(),
+        x: vec![128.0, 512.0, 2048.0],
+        y: vec![0.1, 0.03, 0.01],
+        bars: vec![(0.09, 0.11), (0.02, 0.04), (0.0, 0.02)],
+    };
+    let guide = |label: &str, dotted: bool| GuideCurve {
+        label: label.to_string(),
+        curve: Curve {
+            x: vec![128.0, 2048.0],
+            y: vec![0.1, 0.025],
+        },
+        dotted,
+    };
+    let panel = |title: &str, names: &[&str]| MultiplesPanel {
+        title: title.to_string(),
+        series: names.iter().map(|name| series(name)).collect(),
+        guides: vec![guide("slope −½", false), guide("best slope", true)],
+        levels: vec![ReferenceLevel {
+            value: 0.05,
+            label: "level".to_string(),
+        }],
+    };
+    let mut plot = MultiplesPlot {
+        x_label: "number of particles M".to_string(),
+        y_label: "energy distance ED".to_string(),
+        x_axis: AxisKind::Logarithmic,
+        y_axis: AxisKind::Logarithmic,
+        panels: vec![panel("d = 1", &["mpm", "first"]), panel("d = 2", &["second", "first"])],
+        notes: vec!["Medians over the seeds.".to_string()],
+        ..MultiplesPlot::default()
+    };
+    let svg = multiples(&plot).unwrap();
+    assert_well_formed(&svg);
+    for text in [
+        "d = 1",
+        "d = 2",
+        "mpm",
+        "second",
+        "slope −½",
+        "best slope",
+        "level",
+        "Medians",
+    ] {
+        assert!(svg.contains(text), "{text}");
+    }
+    assert_eq!(svg.matches(">first<").count(), 1, "one entry in the legend");
+    plot.panels[0].guides[0].curve.x.pop();
+    assert!(matches!(multiples(&plot), Err(PlotError::Size { .. })));
+    assert!(matches!(
+        multiples(&MultiplesPlot::default()),
+        Err(PlotError::Empty { .. })
+    ));
+}

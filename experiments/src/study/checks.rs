@@ -1,0 +1,57 @@
+//! Checks of configurations that several kinds share; every refusal names the field.
+
+use std::collections::HashSet;
+
+use super::definition::Case;
+use crate::CommandError;
+use crate::options::MethodSpecification;
+
+/// The error for a field whose value does not fit; the runner adds the file.
+pub fn refusal(field: &str, message: impl Into<String>) -> CommandError {
+    CommandError::ConfigField {
+        file: String::new(),
+        field: field.to_owned(),
+        message: message.into(),
+    }
+}
+
+/// Refuses an empty list.
+pub fn not_empty<T>(field: &str, values: &[T]) -> Result<(), CommandError> {
+    if values.is_empty() {
+        return Err(refusal(field, "is empty"));
+    }
+    Ok(())
+}
+
+/// Refuses numbers that are not positive and finite.
+pub fn positive(field: &str, values: &[f64]) -> Result<(), CommandError> {
+    match values.iter().find(|value| !(**value > 0.0 && value.is_finite())) {
+        Some(value) => Err(refusal(field, format!("{value} must be a number above 0"))),
+        None => Ok(()),
+    }
+}
+
+/// Refuses an option that the study sets itself.
+pub fn unset<T>(field: &str, value: &Option<T>, place: &str) -> Result<(), CommandError> {
+    match value {
+        Some(_) => Err(refusal(field, format!("belongs into `{place}`"))),
+        None => Ok(()),
+    }
+}
+
+/// Refuses a method that lacks one of the options that the study sets.
+pub fn options_fit(field: &str, method: &MethodSpecification) -> Result<(), CommandError> {
+    match method.method(None) {
+        Ok(_) => Ok(()),
+        Err(error) => Err(refusal(&format!("{field}.options.{}", error.name), error.reason)),
+    }
+}
+
+/// Refuses lists of which two entries make the same case.
+pub fn distinct(field: &str, cases: &[impl Case]) -> Result<(), CommandError> {
+    let mut ids = HashSet::new();
+    match cases.iter().map(Case::id).find(|id| !ids.insert(id.clone())) {
+        Some(id) => Err(refusal(field, format!("two cases are `{id}`"))),
+        None => Ok(()),
+    }
+}

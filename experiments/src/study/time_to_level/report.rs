@@ -1,0 +1,214 @@
+//! The report of the study `time-to-level`.
+
+use super::search::{self, Ending, Trial};
+use super::{Case, Row, TimeToLevel};
+use crate::CommandError;
+use crate::plots::{AxisKind, LineSeries, MultiplesPanel, MultiplesPlot, ReferenceLevel, multiples};
+use crate::statistics::summarize;
+use crate::study::definition::{self, Report};
+use crate::study::directory::StudyDirectory;
+use crate::study::document::{Document, MISSING, number, optional_number};
+
+/// Tables and figure.
+pub fn report(study: &TimeToLevel, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
+    let mut document = Document::new("Wall time to the error of independent draws");
+    document.paragraph(format!(
+        "Target N(0, I), M = {} particles, which begin as N({} · 1, {}² I); seed {}, all methods on the same threads{}. The \
+         level is E‖Y − Y'‖/M, the expected ED² of M independent draws. A method is run with more and more steps until a run \
+         ends at or below the level; its time is that of this one run (median of up to {} where it takes less than a second). \
+         A rival is stopped once a run takes {} times as long as `{}` needed.",
+        study.particles,
+        study.start.mean,
+        study.start.standard_deviation,
+        study.seed,
+        study
+            .threads
+            .map_or(String::new(), |threads| format!(" (at most {threads})")),
+        study.repeats,
+        number(study.largest_ratio),
+        study.method.label(),
+    ));
+    document.heading("Times");
+    times(study, rows, &mut document);
+    document.heading("Figure");
+    let caption = "ED² in units of the level against the wall time of a run, a point per number of steps.";
+    let plot = plot(study, rows, directory)?;
+    document.figure(directory, "time-to-level.svg", caption, multiples(&plot))?;
+    document.heading("All searches");
+    searches(rows, &mut document);
+
+    let count = |ending: Ending| rows.iter().filter(|row| row.ending == ending).count().to_string();
+    let summary = vec![
+        ("study", "time-to-level".to_owned()),
+        ("reached", count(Ending::Reached)),
+        ("out_of_time", count(Ending::OutOfTime)),
+        ("out_of_steps", count(Ending::OutOfSteps)),
+    ];
+    Ok(Report { document, summary })
+}
+
+/// ED² after the last run, in units of the level.
+fn levels(row: &Row) -> Option<f64> {
+    row.energy_distance_squared.map(|energy| energy / row.energy_level)
+}
+
+/// One line per dimension: steps and time of the method and of each rival, and the ratio of times.
+fn times(study: &TimeToLevel, rows: &[Row], document: &mut Document) {
+    let label = study.method.label();
+    let mut header = vec![
+        "d".to_owned(),
+        "level".to_owned(),
+        format!("{label}: steps"),
+        format!("{label}: time (s)"),
+    ];
+    for rival in study.rivals.iter().map(|rival| rival.label()) {
+        header.extend([
+            format!("{rival}: steps"),
+            format!("{rival}: time (s)"),
+            format!("{rival} / {label}"),
+        ]);
+    }
+    let mut table = Vec::new();
+    let mut bounds = Vec::new();
+    for &dim in &study.dims {
+        let find = |label: &str| rows.iter().find(|row| row.dim == dim.get() && row.method == label);
+        let clock = find(label);
+        let mut line = vec![dim.to_string(), optional_number(clock.map(|row| row.energy_level))];
+        line.extend(steps_and_time(clock));
+        let clock = clock.filter(|row| row.ending == Ending::Reached);
+        for rival in &study.rivals {
+            let row = find(rival.label());
+            line.extend(steps_and_time(row));
+            let ratio = row.zip(clock).map(|(row, clock)| row.wall_seconds / clock.wall_seconds);
+            let unreached = row.filter(|row| row.ending != Ending::Reached);
+            line.push(match (ratio, unreached) {
+                (None, _) => MISSING.to_owned(),
+                (Some(ratio), None) => number(ratio),
+                (Some(ratio), Some(row)) => {
+                    bounds.push(bound(row, label, ratio));
+                    format!("> {}", number(ratio))
+                }
+            });
+        }
+        table.push(line);
+    }
+    let header: Vec<&str> = header.iter().map(String::as_str).collect();
+    document.table(&header, &table);
+    if !bounds.is_empty() {
+        document.paragraph(bounds.join("\n"));
+    }
+}
+
+/// Steps and time of the run that reached the level, or of the longest one with a mark that it did not.
+fn steps_and_time(row: Option<&Row>) -> [String; 2] {
+    match row {
+        None => [MISSING.to_owned(), MISSING.to_owned()],
+        Some(row) => {
+            let mark = if row.ending == Ending::Reached { "" } else { "> " };
+            [
+                format!("{mark}{}", row.steps),
+                format!("{mark}{}", number(row.wall_seconds)),
+            ]
+        }
+    }
+}
+
+fn bound(row: &Row, clock: &str, ratio: f64) -> String {
+    let state = levels(row).map_or("diverged".to_owned(), |levels| {
+        format!("ED² is still {} times the level", number(levels))
+    });
+    format!(
+        "- d = {}: after {} steps and {} times the time of `{clock}`, {state} with `{}`.",
+        row.dim,
+        row.steps,
+        number(ratio),
+        row.method,
+    )
+}
+
+fn searches(rows: &[Row], document: &mut Document) {
+    let header = [
+        "d",
+        "method",
+        "ending",
+        "runs",
+        "steps",
+        "ED² / level",
+        "time (s)",
+        "least (s)",
+        "most (s)",
+        "budget (s)",
+    ];
+    let table: Vec<Vec<String>> = rows
+        .iter()
+        .map(|row| {
+            let ending = match row.ending {
+                Ending::Reached => "reached",
+                Ending::OutOfTime => "out of time",
+                Ending::OutOfSteps => "out of steps",
+            };
+            vec![
+                row.dim.to_string(),
+                row.method.clone(),
+                ending.to_owned(),
+                row.runs.to_string(),
+                row.steps.to_string(),
+                optional_number(levels(row)),
+                number(row.wall_seconds),
+                number(row.wall_seconds_least),
+                number(row.wall_seconds_most),
+                optional_number(row.wall_budget_seconds),
+            ]
+        })
+        .collect();
+    document.table(&header, &table);
+}
+
+/// One panel per dimension, one line per method.
+fn plot(study: &TimeToLevel, rows: &[Row], directory: &StudyDirectory) -> Result<MultiplesPlot, CommandError> {
+    let mut panels: Vec<MultiplesPanel> = Vec::new();
+    for case in study.all_cases()? {
+        let id = definition::Case::id(&case);
+        let Some(row) = rows.iter().find(|row| row.case == id) else {
+            continue;
+        };
+        let title = format!("d = {}", case.dim);
+        let line = line(&case, row, &search::read(&case.trials_file(directory))?)?;
+        match panels.last_mut().filter(|panel| panel.title == title) {
+            Some(panel) => panel.series.push(line),
+            None => panels.push(MultiplesPanel {
+                title,
+                series: vec![line],
+                guides: Vec::new(),
+                levels: vec![ReferenceLevel {
+                    value: 1.0,
+                    label: "level of i.i.d. draws".to_owned(),
+                }],
+            }),
+        }
+    }
+    Ok(MultiplesPlot {
+        title: String::new(),
+        x_label: "wall time of a run (s)".to_owned(),
+        y_label: "ED² / level".to_owned(),
+        x_axis: AxisKind::Logarithmic,
+        y_axis: AxisKind::Logarithmic,
+        panels,
+        notes: Vec::new(),
+    })
+}
+
+/// The runs of one search: ED² in levels against the time, repeats in one point.
+fn line(case: &Case, row: &Row, trials: &[Trial]) -> Result<LineSeries, CommandError> {
+    let mut line = LineSeries {
+        label: case.method.label().to_owned(),
+        ..LineSeries::default()
+    };
+    for repeats in trials.chunk_by(|left, right| left.steps == right.steps) {
+        let times: Vec<f64> = repeats.iter().map(|trial| trial.wall_seconds).collect();
+        let energy = repeats.first().and_then(|trial| trial.energy_distance_squared);
+        line.x.push(summarize(&times)?.median);
+        line.y.push(energy.map_or(f64::NAN, |energy| energy / row.energy_level));
+    }
+    Ok(line)
+}
