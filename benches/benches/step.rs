@@ -1,14 +1,17 @@
-//! Time per particle of one calibrated step (isothermal gas in a Gaussian well, PIC), rebuild and sorting included.
+//! Time per particle of one calibrated step (isothermal gas in a Gaussian well, PIC): shift, rebuild and sorting included.
+//!
+//! One thread unless `RAYON_NUM_THREADS` says otherwise.
 
-use std::f64::consts::PI;
-
-use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use mpm_core::{BodyForce, ForceLocation, Mpm, MpmError, Particles, Pic, SplineGrid, StepControl};
-use mpm_kernels::{Cubic, Linear, Quadratic, Spline};
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group};
+use mpm_core::{
+    BodyForce, ForceLocation, Mpm, MpmError, Particles, Pic, SimplexLattice, SplineGrid, StepControl, UniformBasis,
+};
+use mpm_kernels::{Cubic, Linear, Quadratic};
 use mpm_materials::IsothermalGas;
 use parvi::{BasisChoice, defaults};
 use rand::{SeedableRng, rngs::ChaCha8Rng};
 use rand_distr::{Distribution, StandardNormal};
+use rayon::prelude::*;
 
 /// g = −x: the score of N(0, I).
 struct Well;
@@ -18,76 +21,113 @@ impl<const D: usize> BodyForce<D> for Well {
         ForceLocation::Particles
     }
     fn at_particles(&mut self, xs: &[[f64; D]], out: &mut [[f64; D]]) -> Result<(), MpmError> {
-        for (x, g) in xs.iter().zip(out) {
-            *g = x.map(|c| -c);
-        }
+        let chunk = 4096;
+        (xs.par_chunks(chunk), out.par_chunks_mut(chunk))
+            .into_par_iter()
+            .for_each(|(xs, out)| {
+                for (x, g) in xs.iter().zip(out) {
+                    *g = x.map(|c| -c);
+                }
+            });
         Ok(())
     }
 }
 
-/// Spacing at which N(0, I) has about `per_node` particles per active node, where that is finer than the sampler's own.
-fn spacing<const D: usize>(particles: usize, per_node: f64) -> f64 {
-    // Volume of the ball of radius 3, divided among M / per_node nodes.
-    let d = D as f64;
-    let ball = [2.0, PI, 4.1888, 4.9348, 5.2638, 5.1677, 4.7248, 4.0587][D - 1];
-    (ball * 3f64.powf(d) * per_node / particles as f64).powf(1.0 / d)
-}
-
-fn bench_step<S: Spline<W>, const W: usize, const D: usize>(c: &mut Criterion, particles: usize, fine: bool) {
+/// A basis with nodes h apart, at the spacing the sampler gives `particles` particles times `factor`.
+fn bench_step<B: UniformBasis<D>, const D: usize>(
+    c: &mut Criterion,
+    choice: BasisChoice,
+    new: impl FnOnce([f64; D], f64) -> Result<B, MpmError>,
+    particles: usize,
+    factor: f64,
+) {
     let mut rng = ChaCha8Rng::seed_from_u64(1);
     let positions: Vec<[f64; D]> = (0..particles)
         .map(|_| std::array::from_fn(|_| StandardNormal.sample(&mut rng)))
         .collect();
-    let (h, resolution) = if fine {
-        (spacing::<D>(particles, 8.0), "8 particles per node")
-    } else {
-        (
-            defaults::spacing::<D>(BasisChoice::Quadratic, particles),
-            "default spacing",
-        )
-    };
+    let h = factor * defaults::spacing::<D>(choice, particles);
     let mut mpm = Mpm::new(
         Particles::at_rest(positions, 1.0),
-        SplineGrid::<S, W, D>::new([0.0; D], h).unwrap(),
+        new([0.0; D], h).unwrap(),
         Pic,
-        IsothermalGas::new(1.0).unwrap(),
+        IsothermalGas::CALIBRATED,
         Well,
     );
     let control = StepControl {
-        time_step: 0.5 * h,
+        time_step: (0.5 * h).min(0.5),
         courant: f64::INFINITY,
         displacement: 0.5,
-        friction: 1.0,
+        friction: defaults::FRICTION,
     };
     let mut step = 0u32;
     let mut group = c.benchmark_group("calibrated step");
     group.sample_size(20);
     group.throughput(Throughput::Elements(particles as u64));
-    group.bench_function(
-        BenchmarkId::new(format!("{}, d = {D}, {resolution}", S::NAME), particles),
-        |b| {
-            b.iter(|| {
-                step += 1;
-                let shift = (f64::from(step) * 0.618_033_988_749_894_9).fract() * h;
-                mpm.basis.place([shift; D], h).unwrap();
-                mpm.step(&control).unwrap()
-            });
-        },
-    );
+    let name = format!("{choice:?}, d = {D}, {factor} default spacings");
+    group.bench_function(BenchmarkId::new(name, particles), |b| {
+        b.iter(|| {
+            step += 1;
+            let shift = (f64::from(step) * 0.618_033_988_749_894_9).fract() * h;
+            mpm.basis.place([shift; D], h).unwrap();
+            mpm.step(&control).unwrap()
+        });
+    });
     group.finish();
 }
 
+/// At the default spacing, which averages over many particles per node, and at half of it.
+fn bench_lattice<const D: usize>(c: &mut Criterion) {
+    for (particles, factor) in [(100_000, 1.0), (100_000, 0.5), (1_000_000, 1.0)] {
+        bench_step(
+            c,
+            BasisChoice::Lattice,
+            SimplexLattice::<D>::permutohedral,
+            particles,
+            factor,
+        );
+    }
+}
+
 fn benches(c: &mut Criterion) {
-    bench_step::<Quadratic, 3, 1>(c, 100_000, false);
-    bench_step::<Quadratic, 3, 2>(c, 100_000, false);
-    bench_step::<Quadratic, 3, 2>(c, 100_000, true);
-    bench_step::<Quadratic, 3, 3>(c, 100_000, false);
-    bench_step::<Quadratic, 3, 3>(c, 100_000, true);
-    bench_step::<Quadratic, 3, 4>(c, 20_000, false);
-    bench_step::<Quadratic, 3, 6>(c, 10_000, false);
-    bench_step::<Linear, 2, 3>(c, 100_000, false);
-    bench_step::<Cubic, 4, 3>(c, 100_000, false);
+    bench_lattice::<1>(c);
+    bench_lattice::<2>(c);
+    bench_lattice::<3>(c);
+    bench_lattice::<4>(c);
+    bench_lattice::<6>(c);
+    bench_lattice::<8>(c);
+    bench_step(c, BasisChoice::Linear, SplineGrid::<Linear, 2, 3>::new, 100_000, 1.0);
+    bench_step(
+        c,
+        BasisChoice::Quadratic,
+        SplineGrid::<Quadratic, 3, 2>::new,
+        100_000,
+        1.0,
+    );
+    bench_step(
+        c,
+        BasisChoice::Quadratic,
+        SplineGrid::<Quadratic, 3, 3>::new,
+        100_000,
+        1.0,
+    );
+    bench_step(
+        c,
+        BasisChoice::Quadratic,
+        SplineGrid::<Quadratic, 3, 4>::new,
+        20_000,
+        1.0,
+    );
+    bench_step(c, BasisChoice::Cubic, SplineGrid::<Cubic, 4, 3>::new, 100_000, 1.0);
+}
+
+fn main() {
+    let threads = std::env::var("RAYON_NUM_THREADS").map_or(1, |n| n.parse().expect("a number of threads"));
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build_global()
+        .expect("the first pool");
+    step();
+    Criterion::default().configure_from_args().final_summary();
 }
 
 criterion_group!(step, benches);
-criterion_main!(step);

@@ -14,7 +14,11 @@ pub fn counting_sort(keys: &[u32], bins: usize, starts: &mut Vec<u32>, order: &m
     starts.clear();
     starts.resize(bins + 1, 0);
     let threads = rayon::current_num_threads();
-    let depth = if keys.len() < PARALLEL_THRESHOLD { 0 } else { threads.next_power_of_two().ilog2() };
+    let depth = if keys.len() < PARALLEL_THRESHOLD {
+        0
+    } else {
+        threads.next_power_of_two().ilog2()
+    };
     count(keys, 0..bins, &mut starts[1..], depth);
     let mut total = 0;
     for start in starts.iter_mut() {

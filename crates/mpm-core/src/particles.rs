@@ -218,7 +218,10 @@ fn permute<T: Copy + Send + Sync>(field: &mut Vec<T>, scratch: &mut Vec<T>, orde
     if field.is_empty() {
         return;
     }
-    let sorted = order.par_iter().with_min_len(PERMUTE_LENGTH).map(|&from| field[from as usize]);
+    let sorted = order
+        .par_iter()
+        .with_min_len(PERMUTE_LENGTH)
+        .map(|&from| field[from as usize]);
     sorted.collect_into_vec(scratch);
     std::mem::swap(field, scratch);
 }

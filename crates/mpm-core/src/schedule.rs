@@ -91,7 +91,10 @@ impl Schedule {
             let end = self.cell_starts[..cells].partition_point(|&start| (start as usize) < k * particles / count);
             if begin < end {
                 let nodes = 0..0;
-                self.parts.push(Part { cells: begin..end, nodes });
+                self.parts.push(Part {
+                    cells: begin..end,
+                    nodes,
+                });
             }
             begin = end;
         }

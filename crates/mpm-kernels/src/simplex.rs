@@ -167,14 +167,28 @@ impl<const D: usize> SimplexGeometry<D> {
             let row = &self.rows[axis];
             let gradient = std::array::from_fn(|b| row_above[b] - row[b]);
             let weight = above - level;
-            visit(k, &Entry { weight, gradient, offset });
+            visit(
+                k,
+                &Entry {
+                    weight,
+                    gradient,
+                    offset,
+                },
+            );
             for b in 0..D {
                 offset[b] += self.edges[axis][b];
             }
             (above, row_above) = (level, row);
         }
         let weight = above - 1.0;
-        visit(D, &Entry { weight, gradient: *row_above, offset });
+        visit(
+            D,
+            &Entry {
+                weight,
+                gradient: *row_above,
+                offset,
+            },
+        );
     }
 
     /// Visit the vertices with weight and flux w `value` + `scale` ∇w: differences of f `value` + `scale` row.

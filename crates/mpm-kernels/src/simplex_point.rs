@@ -37,8 +37,20 @@ impl<const D: usize> SimplexPoint<D> {
             for l in 0..L {
                 // In lanes either form becomes the machine's maximum and minimum; in few dimensions the second would
                 // become a branch that no one can predict, in more the first brings checks for NaN along.
-                keys[i][l] = if D <= 2 { a[l].max(b[l]) } else if a[l] > b[l] { a[l] } else { b[l] };
-                keys[j][l] = if D <= 2 { a[l].min(b[l]) } else if a[l] < b[l] { a[l] } else { b[l] };
+                keys[i][l] = if D <= 2 {
+                    a[l].max(b[l])
+                } else if a[l] > b[l] {
+                    a[l]
+                } else {
+                    b[l]
+                };
+                keys[j][l] = if D <= 2 {
+                    a[l].min(b[l])
+                } else if a[l] < b[l] {
+                    a[l]
+                } else {
+                    b[l]
+                };
             }
         }
         std::array::from_fn(|l| Self(std::array::from_fn(|k| keys[k][l])))

@@ -7,7 +7,7 @@ use parvi_targets::Frame;
 use crate::framed_score::ScoreForce;
 use crate::moment_correction::correct_moments;
 use crate::residual::galerkin_stein_residual;
-use crate::{Observer, Progress, SampleError, Samples, TracePoint};
+use crate::{MomentCorrection, Observer, Progress, SampleError, Samples, TracePoint};
 
 /// One step of a plan.
 pub(crate) struct PlannedStep<const D: usize> {
@@ -31,8 +31,8 @@ pub(crate) struct Plan<B, P> {
     pub certificate: B,
     /// The step with a number, from 1; asked for in order.
     pub step: P,
-    /// Finish with the affine Stein correction.
-    pub moment_correction: bool,
+    /// The last move.
+    pub moment_correction: MomentCorrection,
     /// Record the state every so many steps (0: never).
     pub trace_every: usize,
 }
@@ -91,11 +91,7 @@ where
     let storage_bytes = body.storage_bytes();
     let score = &mut body.body_force.score;
     let positions = &mut body.particles.positions;
-    if plan.moment_correction {
-        correct_moments(positions, score, &mut scores).map_err(failed)?;
-    } else {
-        score.evaluate(positions, &mut scores).map_err(failed)?;
-    }
+    correct_moments(plan.moment_correction, positions, score, &mut scores).map_err(failed)?;
     let residual = galerkin_stein_residual(&mut certificate, positions, &scores).map_err(failed)?;
     let score_evaluations = score.evaluations;
     let in_order = body.particles.in_creation_order(&body.particles.positions);

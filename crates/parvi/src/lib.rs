@@ -1,7 +1,7 @@
 #![doc = include_str!("../README.md")]
 
-pub mod defaults;
 mod basis_choice;
+pub mod defaults;
 mod drive;
 mod exact;
 mod framed_score;

@@ -1,8 +1,9 @@
-//! The affine Stein correction: the last, global move that makes the first two Stein moments exact.
+//! The affine Stein correction: the last, global move that makes the first Stein moments exact.
 
 use mpm_core::MpmError;
 use mpm_tensor::{Matrix, SymmetricEigen, vector};
 
+use crate::MomentCorrection;
 use crate::framed_score::FramedScore;
 
 /// Moves beyond this size (in frame units, or relative) are not a correction any more and are left undone.
@@ -11,36 +12,44 @@ const LIMIT: f64 = 0.25;
 /// A full step that leaves more than this share of the defect was no Newton step: the target is far from Gaussian.
 const CONTRACTION: f64 = 0.5;
 
-/// Move the particles by affine maps until E\[s\] = 0 and E\[s (x − x̄)ᵀ\] = −I hold for them, as far as that goes.
+/// Evaluate the scores and move the particles by affine maps until E\[s\] = 0 and E\[s (x − x̄)ᵀ\] = −I hold for them, as far as that goes.
 ///
 /// Stein's identity with the test functions 1 and x, which no grid of finite extent contains (docs/theory.md, Eq. 12). One
 /// Newton step x ← x̄ + b + A (x − x̄): with the covariance C of the particles and the mean curvature
 /// Q = −sym(E\[s (x − x̄)ᵀ\] C⁻¹), b = Q⁻¹ E\[s\], and A is the symmetric map that takes C to Q⁻¹. For a Gaussian target one step
-/// gives mean and covariance exactly, and up to two are taken. Where a full step does not at least halve the defect, a
+/// gives mean and covariance exactly. [`MomentCorrection::Mean`] moves by b alone, and once; else up to two steps are taken. Where a full step does not at least halve the defect, a
 /// secant step along the same direction is tried instead; no step is kept that enlarges the defect.
 ///
-/// `scores` are overwritten with those at the final positions; at most three evaluations per particle.
+/// `scores` are overwritten with those at the final positions; at most three evaluations per particle for the mean, five for
+/// both.
 pub(crate) fn correct_moments<const D: usize>(
+    correction: MomentCorrection,
     positions: &mut [[f64; D]],
     score: &mut FramedScore<'_, D>,
     scores: &mut Vec<[f64; D]>,
 ) -> Result<(), MpmError> {
     score.evaluate(positions, scores)?;
+    let steps = match correction {
+        MomentCorrection::Off => return Ok(()),
+        MomentCorrection::Mean => 1,
+        MomentCorrection::Affine => 2,
+    };
+    let moments_of = |positions: &[_], scores: &[_]| SteinMoments::of(correction, positions, scores);
     let mut trial = positions.to_vec();
     let mut trial_scores = scores.clone();
-    for _ in 0..2 {
-        let before = SteinMoments::of(positions, scores);
+    for _ in 0..steps {
+        let before = moments_of(positions, scores);
         let Some(full) = before.newton_step().filter(|step| step.size() <= LIMIT) else {
             return Ok(());
         };
         full.apply(positions, &mut trial);
         score.evaluate(&trial, &mut trial_scores)?;
-        let after = SteinMoments::of(&trial, &trial_scores);
+        let after = moments_of(&trial, &trial_scores);
         let contracts = after.defect() <= CONTRACTION * before.defect();
         if !contracts {
             full.shortened(before.secant(&after)).apply(positions, &mut trial);
             score.evaluate(&trial, &mut trial_scores)?;
-            if SteinMoments::of(&trial, &trial_scores).defect() >= before.defect() {
+            if moments_of(&trial, &trial_scores).defect() >= before.defect() {
                 return Ok(());
             }
         }
@@ -91,6 +100,7 @@ impl<const D: usize> AffineStep<D> {
 
 /// Sample moments of positions and scores.
 struct SteinMoments<const D: usize> {
+    correction: MomentCorrection,
     mean: [f64; D],
     covariance: Matrix<D>,
     mean_score: [f64; D],
@@ -99,7 +109,7 @@ struct SteinMoments<const D: usize> {
 }
 
 impl<const D: usize> SteinMoments<D> {
-    fn of(positions: &[[f64; D]], scores: &[[f64; D]]) -> Self {
+    fn of(correction: MomentCorrection, positions: &[[f64; D]], scores: &[[f64; D]]) -> Self {
         let share = 1.0 / positions.len() as f64;
         let (mut mean, mut mean_score) = ([0.0; D], [0.0; D]);
         for (x, s) in positions.iter().zip(scores) {
@@ -117,6 +127,7 @@ impl<const D: usize> SteinMoments<D> {
             }
         }
         Self {
+            correction,
             mean,
             covariance,
             mean_score,
@@ -124,15 +135,19 @@ impl<const D: usize> SteinMoments<D> {
         }
     }
 
-    /// |E\[s\]|² + ‖I + E\[s (x − x̄)ᵀ\]‖².
+    /// |E\[s\]|² + ‖I + E\[s (x − x̄)ᵀ\]‖², the second term only where the covariance is corrected.
     fn defect(&self) -> f64 {
         self.defect_product(self)
     }
 
     /// The scalar product whose square is the defect.
     fn defect_product(&self, other: &Self) -> f64 {
+        let of_means = vector::dot(&self.mean_score, &other.mean_score);
+        if self.correction == MomentCorrection::Mean {
+            return of_means;
+        }
         let (ours, theirs) = (Matrix::IDENTITY - self.stein, Matrix::IDENTITY - other.stein);
-        vector::dot(&self.mean_score, &other.mean_score) + ours.contract(&theirs)
+        of_means + ours.contract(&theirs)
     }
 
     /// Share of a step from here to `after` at which the defect, taken as linear along it, is least; in [0, 1].
@@ -150,11 +165,16 @@ impl<const D: usize> SteinMoments<D> {
         let curvature = (self.stein * (inverse_root * inverse_root)).symmetric_part();
         let inverse = |value: f64| if value > 0.0 { value.recip() } else { f64::NAN };
         let inverse_curvature = SymmetricEigen::new(&curvature)?.map(inverse);
-        let middle = SymmetricEigen::new(&(root * inverse_curvature * root).symmetric_part())?.map(f64::sqrt);
+        let stretch = if self.correction == MomentCorrection::Mean {
+            Matrix::IDENTITY
+        } else {
+            let middle = SymmetricEigen::new(&(root * inverse_curvature * root).symmetric_part())?.map(f64::sqrt);
+            inverse_root * middle * inverse_root
+        };
         Some(AffineStep {
             mean: self.mean,
             shift: inverse_curvature.apply(&self.mean_score),
-            stretch: inverse_root * middle * inverse_root,
+            stretch,
         })
     }
 }
@@ -166,15 +186,19 @@ mod tests {
     use super::*;
     use crate::Run;
 
-    fn corrected<const D: usize>(target: &dyn Target<D>, positions: &[[f64; D]]) -> (Vec<[f64; D]>, f64, f64) {
+    fn corrected<const D: usize>(
+        correction: MomentCorrection,
+        target: &dyn Target<D>,
+        positions: &[[f64; D]],
+    ) -> (Vec<[f64; D]>, f64, f64) {
         let frame = Frame::identity();
         let mut score = FramedScore::new(target, &frame);
         let mut scores = vec![[0.0; D]; positions.len()];
         score.evaluate(positions, &mut scores).unwrap();
-        let before = SteinMoments::of(positions, &scores).defect();
+        let before = SteinMoments::of(correction, positions, &scores).defect();
         let mut moved = positions.to_vec();
-        correct_moments(&mut moved, &mut score, &mut scores).unwrap();
-        let after = SteinMoments::of(&moved, &scores).defect();
+        correct_moments(correction, &mut moved, &mut score, &mut scores).unwrap();
+        let after = SteinMoments::of(correction, &moved, &scores).defect();
         let mut fresh = vec![[0.0; D]; positions.len()];
         score.evaluate(&moved, &mut fresh).unwrap();
         assert_eq!(scores, fresh, "scores are those at the final positions");
@@ -187,9 +211,9 @@ mod tests {
         let mean = [0.03, -0.05, 0.02];
         let target = Gaussian::new(mean, covariance).unwrap();
         let start = Run::new(2000, 3).start_positions::<3>().unwrap();
-        let (moved, _, after) = corrected(&target, &start);
+        let (moved, _, after) = corrected(MomentCorrection::Affine, &target, &start);
         assert!(after < 1e-24, "{after}");
-        let moments = SteinMoments::of(&moved, &moved);
+        let moments = SteinMoments::of(MomentCorrection::Affine, &moved, &moved);
         assert!((moments.covariance - covariance).frobenius_norm() < 1e-12);
         assert!(vector::distance(&moments.mean, &mean) < 1e-12);
     }
@@ -200,8 +224,10 @@ mod tests {
         for seed in 0..20 {
             let start: Vec<[f64; 2]> = Run::new(300, seed).start_positions::<2>().unwrap();
             let on_the_banana: Vec<_> = start.iter().map(|z| [z[0], z[0] * z[0] - 1.0 + 0.5 * z[1]]).collect();
-            let (_, before, after) = corrected(&target, &on_the_banana);
-            assert!(after <= before, "{before} -> {after}");
+            for correction in [MomentCorrection::Mean, MomentCorrection::Affine] {
+                let (_, before, after) = corrected(correction, &target, &on_the_banana);
+                assert!(after <= before, "{before} -> {after}");
+            }
         }
     }
 
@@ -210,6 +236,6 @@ mod tests {
         let target = Gaussian::<2>::standard();
         let far: Vec<[f64; 2]> = Run::new(50, 1).start_positions::<2>().unwrap();
         let far: Vec<_> = far.iter().map(|x| [x[0] + 5.0, x[1]]).collect();
-        assert_eq!(corrected(&target, &far).0, far);
+        assert_eq!(corrected(MomentCorrection::Affine, &target, &far).0, far);
     }
 }

@@ -8,7 +8,7 @@ use crate::basis_choice::OnBasis;
 use crate::drive::{Plan, PlannedStep, drive};
 use crate::framed_score::{FramedScore, ScoreForce};
 use crate::start::{check, positive, steps};
-use crate::{Annealing, Elasticity, Observer, PaperOptions, Run, SampleError, Samples, defaults};
+use crate::{Annealing, Elasticity, MomentCorrection, Observer, PaperOptions, Run, SampleError, Samples, defaults};
 
 /// What every layer of the dispatch hands on.
 struct Job<'a, const D: usize> {
@@ -98,7 +98,7 @@ impl<const D: usize> Job<'_, D> {
                 alpha: alpha.at(step, steps),
                 control,
             },
-            moment_correction: false,
+            moment_correction: MomentCorrection::Off,
             trace_every: options.trace_every,
         };
         let floor = options.guards.mass_floor;

@@ -1,8 +1,8 @@
 //! Where the particles begin, and what a run may ask for.
 
 use parvi_targets::{CatalogueTarget, Gaussian, SobolSequence};
-use rand::{RngExt, SeedableRng};
 use rand::rngs::ChaCha8Rng;
+use rand::{RngExt, SeedableRng};
 use rand_distr::{Distribution, StandardNormal};
 
 use crate::{Run, SampleError, StartDraws};

@@ -1,10 +1,12 @@
 //! The options of all methods, and which of them belong to which method.
 
 use clap::Args;
-use parvi::{Annealing, Guards, Method, MpmOptions, PaperOptions, Start, SvgdOptions, TransferChoice};
+use parvi::{
+    Annealing, Guards, Method, MpmOptions, PaperOptions, Settling, SpacingSchedule, Start, SvgdOptions, TransferChoice,
+};
 use serde::{Deserialize, Serialize};
 
-use super::{Basis, Limit, Material, MethodName, OptionError, Score, StepCount, Switch, Transfer};
+use super::{Basis, Correction, Draws, Limit, Material, MethodName, OptionError, Score, StepCount, Switch, Transfer};
 
 /// Options of the methods; `None`: the method's own default.
 #[derive(Args, Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -29,12 +31,27 @@ pub struct MethodOptions {
     /// Largest displacement per step in units of the spacing, or `off` [paper-*; mpm: a number]
     #[arg(long, value_name = "C|off", allow_negative_numbers = true)]
     pub displacement_limit: Option<Limit>,
-    /// Move the grid every step (mpm)
+    /// Move the basis' origin and draw its spacing every step (mpm)
     #[arg(long)]
     pub shifts: Option<Switch>,
-    /// Finish with the affine Stein correction (mpm)
+    /// Turn the lattice at random every step (mpm)
     #[arg(long)]
-    pub moment_correction: Option<Switch>,
+    pub rotation: Option<Switch>,
+    /// Largest over smallest spacing that a run draws from, at least 1 (mpm)
+    #[arg(long, value_name = "RATIO", allow_negative_numbers = true)]
+    pub spacing_range: Option<f64>,
+    /// Spacing of the first step over the central one, at least 1 (mpm)
+    #[arg(long, value_name = "RATIO", allow_negative_numbers = true)]
+    pub coarse_start: Option<f64>,
+    /// Share of the steps over which the time step falls at the end, from 0 to below 1 (mpm)
+    #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
+    pub settling: Option<f64>,
+    /// Go on shifting while settling (mpm)
+    #[arg(long)]
+    pub settling_shifts: Option<Switch>,
+    /// What a last affine move of all particles puts right (mpm)
+    #[arg(long)]
+    pub moment_correction: Option<Correction>,
     /// Velocity transfer (mpm)
     #[arg(long)]
     pub transfer: Option<Transfer>,
@@ -86,6 +103,9 @@ pub struct MethodOptions {
     /// Standard deviation of every coordinate at the start [mpm, paper-*, svgd]
     #[arg(long, value_name = "SD", allow_negative_numbers = true)]
     pub start_sd: Option<f64>,
+    /// How the particles are drawn from their initial law [mpm, paper-*, svgd]
+    #[arg(long)]
+    pub start_draws: Option<Draws>,
     /// Measure residual and energy every so many steps; set by the studies.
     #[arg(skip)]
     #[serde(skip)]
@@ -111,6 +131,8 @@ const POSITIVE: Range = (|x| x > 0.0 && x.is_finite(), "a number above 0");
 const NOT_NEGATIVE: Range = (|x| x >= 0.0 && x.is_finite(), "a number of at least 0");
 const FINITE: Range = (f64::is_finite, "a finite number");
 const SHARE: Range = (|x| (0.0..=1.0).contains(&x), "from 0 to 1");
+const RATIO: Range = (|x| x >= 1.0 && x.is_finite(), "a number of at least 1");
+const BELOW_ONE: Range = (|x| (0.0..1.0).contains(&x), "at least 0 and below 1");
 const POISSON: Range = (|x| x > -1.0 && x < 0.5, "above -1 and below 0.5");
 
 impl MethodOptions {
@@ -147,6 +169,7 @@ impl MethodOptions {
         Start {
             mean: self.start_mean.unwrap_or(default.mean),
             standard_deviation: self.start_sd.unwrap_or(default.standard_deviation),
+            draws: self.start_draws.map_or(default.draws, Into::into),
         }
     }
 
@@ -171,7 +194,18 @@ impl MethodOptions {
             time_step: self.time_step.or(default.time_step),
             friction: self.friction.or(default.friction),
             shifts: self.shifts.map_or(default.shifts, Switch::is_on),
-            moment_correction: self.moment_correction.map_or(default.moment_correction, Switch::is_on),
+            rotation: self.rotation.map_or(default.rotation, Switch::is_on),
+            spacing_schedule: SpacingSchedule {
+                range: self.spacing_range.unwrap_or(default.spacing_schedule.range),
+                coarse_start: self.coarse_start.unwrap_or(default.spacing_schedule.coarse_start),
+                ..default.spacing_schedule
+            },
+            settling: Settling {
+                share: self.settling.unwrap_or(default.settling.share),
+                shifts: self.settling_shifts.map_or(default.settling.shifts, Switch::is_on),
+                ..default.settling
+            },
+            moment_correction: self.moment_correction.map_or(default.moment_correction, Into::into),
             score_location: self.score.map_or(default.score_location, Into::into),
             displacement_limit,
             trace_every: self.trace_every,
@@ -245,6 +279,11 @@ impl MethodOptions {
             ("score", text(&self.score), GRID),
             ("displacement-limit", text(&self.displacement_limit), GRID),
             ("shifts", text(&self.shifts), GAS),
+            ("rotation", text(&self.rotation), GAS),
+            ("spacing-range", text(&self.spacing_range), GAS),
+            ("coarse-start", text(&self.coarse_start), GAS),
+            ("settling", text(&self.settling), GAS),
+            ("settling-shifts", text(&self.settling_shifts), GAS),
             ("moment-correction", text(&self.moment_correction), GAS),
             ("transfer", text(&self.transfer), GAS),
             ("flip-share", text(&self.flip_share), GAS),
@@ -263,6 +302,7 @@ impl MethodOptions {
             ("bandwidth", text(&self.bandwidth), STEIN),
             ("start-mean", text(&self.start_mean), STARTED),
             ("start-sd", text(&self.start_sd), STARTED),
+            ("start-draws", text(&self.start_draws), STARTED),
         ];
         all.into_iter()
             .filter_map(|(name, value, owners)| Some((name, value?, owners)))
@@ -270,7 +310,7 @@ impl MethodOptions {
     }
 
     fn check_ranges(&self) -> Result<(), OptionError> {
-        let numbers: [(&str, Option<f64>, Range); 15] = [
+        let numbers: [(&str, Option<f64>, Range); 18] = [
             ("spacing", self.spacing, POSITIVE),
             ("time-step", self.time_step, POSITIVE),
             (
@@ -278,6 +318,9 @@ impl MethodOptions {
                 self.displacement_limit.and_then(Limit::value),
                 POSITIVE,
             ),
+            ("spacing-range", self.spacing_range, RATIO),
+            ("coarse-start", self.coarse_start, RATIO),
+            ("settling", self.settling, BELOW_ONE),
             ("flip-share", self.flip_share, SHARE),
             ("friction", self.friction, NOT_NEGATIVE),
             ("youngs-modulus", self.youngs_modulus, POSITIVE),

@@ -15,5 +15,5 @@ pub use method_name::MethodName;
 pub use method_options::MethodOptions;
 pub use method_specification::MethodSpecification;
 pub use option_error::OptionError;
-pub use option_values::{Basis, Material, Score, Switch, Transfer};
+pub use option_values::{Basis, Correction, Draws, Material, Score, Switch, Transfer};
 pub use target_specification::{TargetParameters, TargetSpecification};

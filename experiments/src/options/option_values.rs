@@ -3,13 +3,15 @@
 use std::fmt::{self, Display, Formatter};
 
 use clap::ValueEnum;
-use parvi::{BasisChoice, Elasticity, ScoreLocation};
+use parvi::{BasisChoice, Elasticity, MomentCorrection, ScoreLocation, StartDraws};
 use serde::{Deserialize, Serialize};
 
 /// Background basis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Basis {
+    /// Hat functions on the simplices of the lattice A_D*
+    Lattice,
     /// Tensor-product hat functions
     Linear,
     /// Tensor-product quadratic B-splines
@@ -21,6 +23,7 @@ pub enum Basis {
 impl From<Basis> for BasisChoice {
     fn from(basis: Basis) -> Self {
         match basis {
+            Basis::Lattice => Self::Lattice,
             Basis::Linear => Self::Linear,
             Basis::Quadratic => Self::Quadratic,
             Basis::Cubic => Self::Cubic,
@@ -42,6 +45,47 @@ impl Switch {
     /// Whether it is on.
     pub fn is_on(self) -> bool {
         self == Self::On
+    }
+}
+
+/// What the last move puts right.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Correction {
+    /// Nothing
+    Off,
+    /// The mean
+    Mean,
+    /// Mean and covariance
+    Affine,
+}
+
+impl From<Correction> for MomentCorrection {
+    fn from(correction: Correction) -> Self {
+        match correction {
+            Correction::Off => Self::Off,
+            Correction::Mean => Self::Mean,
+            Correction::Affine => Self::Affine,
+        }
+    }
+}
+
+/// How particles are drawn from their initial law.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Draws {
+    /// Scrambled Sobol points through the normal quantile
+    QuasiRandom,
+    /// Independent draws
+    Independent,
+}
+
+impl From<Draws> for StartDraws {
+    fn from(draws: Draws) -> Self {
+        match draws {
+            Draws::QuasiRandom => Self::QuasiRandom,
+            Draws::Independent => Self::Independent,
+        }
     }
 }
 
@@ -110,6 +154,18 @@ impl Display for Basis {
 }
 
 impl Display for Switch {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        word(self, formatter)
+    }
+}
+
+impl Display for Correction {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        word(self, formatter)
+    }
+}
+
+impl Display for Draws {
     fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
         word(self, formatter)
     }

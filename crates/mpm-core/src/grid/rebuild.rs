@@ -91,7 +91,8 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
         self.masks.clear();
         let slots = self.template.neighbours.len();
         self.neighbours.clear();
-        self.neighbours.resize(self.scratch.sorted_blocks.len() * slots, u32::MAX);
+        self.neighbours
+            .resize(self.scratch.sorted_blocks.len() * slots, u32::MAX);
         let mut touched = vec![0u64; slots];
         for (rank, &number) in self.scratch.sorted_blocks.iter().enumerate() {
             touched.fill(0);

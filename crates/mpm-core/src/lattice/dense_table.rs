@@ -17,7 +17,8 @@ impl DenseTable {
     /// A table of `size` places, none of them active.
     pub fn clear(&mut self, size: usize) {
         self.marks.clear();
-        self.marks.resize_with(size.next_multiple_of(STRETCH), AtomicU8::default);
+        self.marks
+            .resize_with(size.next_multiple_of(STRETCH), AtomicU8::default);
         if self.numbers.len() < size {
             self.numbers.resize(size, 0);
         }
@@ -53,7 +54,11 @@ impl DenseTable {
     /// The active places, in the order of their numbers.
     pub fn active(&self) -> impl Iterator<Item = u64> {
         let active = |&(_, mark): &(usize, &AtomicU8)| mark.load(Relaxed) != 0;
-        self.marks.iter().enumerate().filter(active).map(|(place, _)| place as u64)
+        self.marks
+            .iter()
+            .enumerate()
+            .filter(active)
+            .map(|(place, _)| place as u64)
     }
 
     pub fn storage_bytes(&self) -> usize {

@@ -10,8 +10,8 @@ use mpm_tensor::Matrix;
 
 use self::dense_table::DenseTable;
 use self::node_box::NodeBox;
-use crate::key_map::KeyMap;
 use crate::basis::check_placement;
+use crate::key_map::KeyMap;
 use crate::{Basis, MpmError, Schedule, UniformBasis};
 
 /// Rebuilds from one sort of the particles to the next. Sorting only keeps neighbours close in memory, and in a few steps no

@@ -42,9 +42,17 @@ impl<const D: usize> NodeBox<D> {
             lanes(xs).for_each(|lanes| range.include(&geometry.coordinates(&lanes)));
             range
         };
-        let range = positions.par_chunks(CHUNK).map(chunk).reduce(|| Range::NONE, Range::with);
+        let range = positions
+            .par_chunks(CHUNK)
+            .map(chunk)
+            .reduce(|| Range::NONE, Range::with);
         let Some((low, high)) = range.ends() else {
-            let inside = |x: &[f64; D]| geometry.coordinates(&[*x]).iter().all(|u| u[0].abs() < COORDINATE_LIMIT);
+            let inside = |x: &[f64; D]| {
+                geometry
+                    .coordinates(&[*x])
+                    .iter()
+                    .all(|u| u[0].abs() < COORDINATE_LIMIT)
+            };
             return Err(positions.iter().position(|x| !inside(x)).unwrap_or(0));
         };
         let ends = geometry.bases(&std::array::from_fn(|a| [low[a], high[a]]));

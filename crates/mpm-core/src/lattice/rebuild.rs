@@ -30,11 +30,12 @@ const EXACT: f64 = (1u64 << 53) as f64;
 impl<const D: usize> SimplexLattice<D> {
     /// Phase 1 of the rebuild (sort): the box of the nodes, and the table that suits it.
     pub(super) fn measure(&mut self, positions: &[[f64; D]]) -> Result<(), MpmError> {
-        self.node_box = NodeBox::around(positions, &self.geometry).map_err(|particle| MpmError::PositionOutOfRange {
-            particle,
-            position: positions[particle].to_vec(),
-            spacing: self.geometry.spacing(),
-        })?;
+        self.node_box =
+            NodeBox::around(positions, &self.geometry).map_err(|particle| MpmError::PositionOutOfRange {
+                particle,
+                position: positions[particle].to_vec(),
+                spacing: self.geometry.spacing(),
+            })?;
         let size = self.node_box.size();
         let storable = FREE_PLACES + PLACES_PER_PARTICLE * positions.len() as f64;
         if size <= storable.min(f64::from(i32::MAX)) {
@@ -52,7 +53,11 @@ impl<const D: usize> SimplexLattice<D> {
         self.age += 1;
         let schedule = &mut self.schedule;
         if !schedule.keeps_order {
-            schedule.order.iter_mut().enumerate().for_each(|(k, entry)| *entry = k as u32);
+            schedule
+                .order
+                .iter_mut()
+                .enumerate()
+                .for_each(|(k, entry)| *entry = k as u32);
             schedule.keeps_order = true;
         }
     }
@@ -141,26 +146,30 @@ fn mark<const D: usize>(
 ) {
     let strides: [u32; LARGEST_LATTICE_DIMENSION] =
         std::array::from_fn(|a| node_box.strides.get(a).map_or(0, |&stride| stride as i64 as u32));
-    let chunks = points.par_chunks_mut(CHUNK).zip(stencils.par_chunks_mut(CHUNK * (D + 1)));
-    chunks.zip(sorted.par_chunks(CHUNK)).for_each(move |((points, stencils), xs)| {
-        let groups = points.chunks_mut(LANES).zip(stencils.chunks_mut(LANES * (D + 1)));
-        for ((points, stencils), lanes) in groups.zip(lanes(xs)) {
-            let (bases, inside) = geometry.simplices(&lanes);
-            let places = node_box.places(&bases).map(|place| (place + TO_BITS).to_bits() as u32);
-            let each = points.iter_mut().zip(stencils.chunks_exact_mut(D + 1));
-            for (l, (point, stencil)) in each.enumerate() {
-                *point = inside[l];
-                let mut node = places[l];
-                for k in 0..D {
-                    stencil[k] = node;
+    let chunks = points
+        .par_chunks_mut(CHUNK)
+        .zip(stencils.par_chunks_mut(CHUNK * (D + 1)));
+    chunks
+        .zip(sorted.par_chunks(CHUNK))
+        .for_each(move |((points, stencils), xs)| {
+            let groups = points.chunks_mut(LANES).zip(stencils.chunks_mut(LANES * (D + 1)));
+            for ((points, stencils), lanes) in groups.zip(lanes(xs)) {
+                let (bases, inside) = geometry.simplices(&lanes);
+                let places = node_box.places(&bases).map(|place| (place + TO_BITS).to_bits() as u32);
+                let each = points.iter_mut().zip(stencils.chunks_exact_mut(D + 1));
+                for (l, (point, stencil)) in each.enumerate() {
+                    *point = inside[l];
+                    let mut node = places[l];
+                    for k in 0..D {
+                        stencil[k] = node;
+                        marks[node as usize].store(1, Relaxed);
+                        node += strides[point.axis(k)];
+                    }
+                    stencil[D] = node;
                     marks[node as usize].store(1, Relaxed);
-                    node += strides[point.axis(k)];
                 }
-                stencil[D] = node;
-                marks[node as usize].store(1, Relaxed);
             }
-        }
-    });
+        });
 }
 
 /// Put the node numbers into the stencils, and their range into every part.

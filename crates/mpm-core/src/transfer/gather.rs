@@ -22,8 +22,11 @@ impl<T: Send> Divide for &mut [T] {
 
 /// Call `update(data, k, p, cell_nodes)` for every particle p (schedule order): k is its place in `data`, `cell_nodes` the
 /// node numbers of its cell. `data` is cut between cells, so that threads never share a particle.
-pub fn gather<const D: usize, B, V>(basis: &B, data: V, update: impl Fn(&mut V, usize, usize, &[u32]) + Sync + Send + Copy)
-where
+pub fn gather<const D: usize, B, V>(
+    basis: &B,
+    data: V,
+    update: impl Fn(&mut V, usize, usize, &[u32]) + Sync + Send + Copy,
+) where
     B: Basis<D>,
     V: Divide,
 {

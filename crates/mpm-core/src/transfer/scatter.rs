@@ -10,6 +10,13 @@ pub trait Sum: Copy + Default + Send + Sync {
     fn merge(&mut self, other: &Self);
 }
 
+impl Sum for f64 {
+    #[inline(always)]
+    fn merge(&mut self, other: &Self) {
+        *self += other;
+    }
+}
+
 /// Nodes of one piece of work when the parts' sums are added.
 const MERGE_LENGTH: usize = 1 << 12;
 
@@ -46,7 +53,11 @@ impl<N: Sum> NodeSums<N> {
         let schedule = basis.schedule();
         let add_up = |cells: std::ops::Range<usize>, first: usize, nodes: &mut [N]| {
             let mut scratch = Vec::new();
-            let deposit = deposit; // a copy of its own, so that what it captured may stay in registers
+            #[expect(
+                clippy::redundant_locals,
+                reason = "a copy of its own, so that what it captured may stay in registers"
+            )]
+            let deposit = deposit;
             for cell in cells {
                 let mut stencil = StencilNodes {
                     numbers: &basis.cell_nodes(cell, &mut scratch)[..basis.stencil_size()],
@@ -75,18 +86,21 @@ impl<N: Sum> NodeSums<N> {
             own.fill(N::default());
             add_up(part.cells.clone(), part.nodes.start, own);
         });
-        self.nodes.par_chunks_mut(MERGE_LENGTH).enumerate().for_each(|(chunk, nodes)| {
-            let begin = chunk * MERGE_LENGTH;
-            for (part, own) in &work {
-                let shared = part.nodes.start.max(begin)..part.nodes.end.min(begin + nodes.len());
-                if !shared.is_empty() {
-                    let from = &own[shared.start - part.nodes.start..shared.end - part.nodes.start];
-                    for (node, sum) in nodes[shared.start - begin..].iter_mut().zip(from) {
-                        node.merge(sum);
+        self.nodes
+            .par_chunks_mut(MERGE_LENGTH)
+            .enumerate()
+            .for_each(|(chunk, nodes)| {
+                let begin = chunk * MERGE_LENGTH;
+                for (part, own) in &work {
+                    let shared = part.nodes.start.max(begin)..part.nodes.end.min(begin + nodes.len());
+                    if !shared.is_empty() {
+                        let from = &own[shared.start - part.nodes.start..shared.end - part.nodes.start];
+                        for (node, sum) in nodes[shared.start - begin..].iter_mut().zip(from) {
+                            node.merge(sum);
+                        }
                     }
                 }
-            }
-        });
+            });
     }
 
     /// Bytes held.

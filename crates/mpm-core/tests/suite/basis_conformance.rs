@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use mpm_core::Basis;
+use mpm_core::{Basis, SimplexLattice};
 use mpm_tensor::Matrix;
 use rand::RngExt;
 
@@ -20,11 +20,11 @@ fn conforms<const D: usize, B: Basis<D>>(name: &str, make: impl Fn([f64; D], f64
         let count = (40_000 / basis.stencil_size()).clamp(12, 400);
         for round in 0..2 {
             let positions = cloud(count, origin, h, &mut random);
-            basis.rebuild(&positions).unwrap();
+            let sorted = basis.rebuild(&positions).unwrap();
             let what = format!("{name}, D = {D}, case {case}, round {round}");
             layout_is_sound(&basis, &positions, &what);
-            stencils_are_right(&basis, &positions, &what);
-            gradients_are_derivatives(name, &basis, &positions, &what);
+            stencils_are_right(&basis, &sorted, &what);
+            gradients_are_derivatives(name, &mut basis, &sorted, &what);
         }
     }
 }
@@ -43,15 +43,15 @@ fn cloud<const D: usize>(count: usize, origin: [f64; D], h: f64, random: &mut ra
 }
 
 /// Weights, offsets, fluxes and node numbers, and that the active nodes are the touched ones.
-fn stencils_are_right<const D: usize, B: Basis<D>>(basis: &B, positions: &[[f64; D]], what: &str) {
+fn stencils_are_right<const D: usize, B: Basis<D>>(basis: &B, sorted: &[[f64; D]], what: &str) {
     let (schedule, h) = (basis.schedule(), basis.spacing());
     let mut node_positions = Vec::new();
     basis.node_positions(&mut node_positions);
     assert_eq!(node_positions.len(), basis.node_count());
     let mut touched = vec![false; basis.node_count()];
-    let mut cell_nodes = Vec::new();
+    let mut scratch = Vec::new();
     for cell in 0..schedule.cell_count() {
-        basis.cell_nodes(cell, &mut cell_nodes);
+        let cell_nodes = basis.cell_nodes(cell, &mut scratch);
         assert_eq!(cell_nodes.len(), basis.stencil_size(), "{what}");
         let distinct: HashSet<_> = cell_nodes.iter().collect();
         assert_eq!(
@@ -59,12 +59,11 @@ fn stencils_are_right<const D: usize, B: Basis<D>>(basis: &B, positions: &[[f64;
             cell_nodes.len(),
             "{what}: a node occurs twice in a cell"
         );
-        for &node in &cell_nodes {
+        for &node in cell_nodes {
             touched[node as usize] = true;
         }
         for place in schedule.cell(cell) {
-            let x = positions[schedule.order()[place] as usize];
-            stencil_is_right(basis, &x, &cell_nodes, &node_positions, what);
+            stencil_is_right(basis, place, &sorted[place], cell_nodes, &node_positions, what);
         }
     }
     assert!(
@@ -80,6 +79,7 @@ fn stencils_are_right<const D: usize, B: Basis<D>>(basis: &B, positions: &[[f64;
 
 fn stencil_is_right<const D: usize, B: Basis<D>>(
     basis: &B,
+    particle: usize,
     x: &[f64; D],
     cell_nodes: &[u32],
     node_positions: &[[f64; D]],
@@ -87,7 +87,7 @@ fn stencil_is_right<const D: usize, B: Basis<D>>(
 ) {
     let h = basis.spacing();
     let rounding = 1e-12 * (norm(x) + h);
-    let seen = stencil(basis, x);
+    let seen = stencil(basis, particle, x);
     assert!(
         seen.iter().map(|s| s.0).eq(0..seen.len()),
         "{what}: places out of order"
@@ -124,7 +124,7 @@ fn stencil_is_right<const D: usize, B: Basis<D>>(
     }
 
     // w D⁻¹ (x_i − x) times D, so that no inverse is taken where D is singular.
-    basis.for_each_node(x, |_, entry| {
+    basis.for_each_node(particle, x, |_, entry| {
         let direction = second_moment.apply(&basis.affine_direction(entry));
         for a in 0..D {
             let expected = entry.weight * entry.offset[a];
@@ -134,7 +134,7 @@ fn stencil_is_right<const D: usize, B: Basis<D>>(
 
     let (value, scale) = (std::array::from_fn(|a| 0.7 - 0.4 * a as f64), 0.3 * h);
     let mut visits = seen.iter();
-    basis.for_each_flux(x, &value, scale, |place, weight, flux| {
+    basis.for_each_flux(particle, x, &value, scale, |place, weight, flux| {
         let &(expected_place, expected_weight, gradient, _) = visits.next().unwrap();
         assert_eq!(place, expected_place, "{what}");
         assert!((weight - expected_weight).abs() < 1e-15, "{what}");
@@ -159,22 +159,27 @@ fn fields_are_continuous<const D: usize, B: Basis<D>>(name: &str, make: impl Fn(
     let line: Vec<[f64; D]> = (0..200)
         .map(|k| direction.map(|c| c / length * 0.02 * f64::from(k)))
         .collect();
-    basis.rebuild(&line).unwrap();
+    let sorted = basis.rebuild(&line).unwrap();
     // A quadratic field of the nodes: its interpolant is continuous along any line.
-    let field = |x: &[f64; D]| {
+    let field = |particle: usize| {
+        let x = &sorted[particle];
         let mut sum = 0.0;
-        for (_, weight, _, offset) in stencil(&basis, x) {
+        for (_, weight, _, offset) in stencil(&basis, particle, x) {
             let node: [f64; D] = std::array::from_fn(|a| x[a] + offset[a]);
             sum += weight * dot(&node, &node);
         }
         sum
     };
-    for pair in line.windows(2) {
-        let jump = (field(&pair[1]) - field(&pair[0])).abs();
+    let mut place = vec![0; line.len()];
+    for (k, &particle) in basis.schedule().order().iter().enumerate() {
+        place[particle as usize] = k;
+    }
+    for pair in place.windows(2) {
+        let jump = (field(pair[1]) - field(pair[0])).abs();
         assert!(
             jump < 0.02 * 3.0 * (D as f64 + 8.0),
             "{name}, D = {D}: jump {jump} from {:?}",
-            pair[0]
+            sorted[pair[0]]
         );
     }
 }
@@ -214,4 +219,11 @@ fn fields_are_continuous_along_lines() {
     every_basis!(fields_are_continuous, 1);
     every_basis!(fields_are_continuous, 2);
     every_basis!(fields_are_continuous, 3);
+}
+
+#[test]
+fn lattices_conform_in_seven_and_eight_dimensions() {
+    conforms::<7, _>("lattice", |o, h| SimplexLattice::<7>::permutohedral(o, h).unwrap());
+    conforms::<8, _>("lattice", |o, h| SimplexLattice::<8>::permutohedral(o, h).unwrap());
+    conforms::<8, _>("Kuhn lattice", |o, h| SimplexLattice::<8>::kuhn(o, h).unwrap());
 }

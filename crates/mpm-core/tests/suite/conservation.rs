@@ -1,6 +1,6 @@
 //! Mass, momentum and, with APIC, angular momentum.
 
-use mpm_core::{Apic, Basis, Flip, Masses, Medium, Mpm, Particles, Pic, SplineGrid, Transfer, scatter};
+use mpm_core::{Apic, Basis, Flip, Masses, Medium, Mpm, NodeSums, Particles, Pic, SplineGrid, Transfer};
 use mpm_kernels::{Cubic, Linear, Quadratic, Spline};
 use mpm_materials::IsothermalGas;
 use mpm_tensor::Matrix;
@@ -85,14 +85,14 @@ fn every_transfer<S: Spline<W>, const W: usize, const D: usize>(seed: u64, h: f6
 fn mass_arrives<const D: usize, B: Basis<D>>(name: &str, make: impl Fn([f64; D], f64) -> B) {
     let particles = cloud::<D>(3, 200);
     let mut basis = make([0.17; D], 0.6);
-    basis.rebuild(&particles.positions).unwrap();
-    let order = basis.schedule().order();
-    let sorted: Vec<[f64; D]> = order.iter().map(|&p| particles.positions[p as usize]).collect();
-    let mut nodes = vec![0.0; basis.node_count()];
-    scatter(&basis, &sorted, &mut nodes, |p, x, stencil| {
-        let mass = particles.masses.get(order[p] as usize);
-        basis.for_each_node(x, |index, entry| *stencil.node(index) += mass * entry.weight);
+    let sorted = basis.rebuild(&particles.positions).unwrap();
+    let (order, masses, stencils) = (basis.schedule().order(), &particles.masses, &basis);
+    let mut sums = NodeSums::default();
+    sums.scatter(&basis, &sorted, |p, x, stencil| {
+        let mass = masses.get(order[p] as usize);
+        stencils.for_each_node(p, x, |index, entry| *stencil.node(index) += mass * entry.weight);
     });
+    let nodes = sums.as_slice();
     let mut positions = Vec::new();
     basis.node_positions(&mut positions);
     let total: f64 = (0..particles.len()).map(|p| particles.masses.get(p)).sum();

@@ -1,6 +1,6 @@
 //! The same bits on one, two and three threads.
 
-use mpm_core::{Apic, Basis, Flip, Medium, Mpm, Particles, Pic, SplineGrid, Transfer};
+use mpm_core::{Apic, Flip, Medium, Mpm, Particles, Pic, SimplexLattice, SplineGrid, Transfer, UniformBasis};
 use mpm_kernels::{Cubic, Quadratic, Spline};
 use mpm_materials::IsothermalGas;
 
@@ -8,13 +8,10 @@ use crate::scenes::{Pull, bits, free, gaussian_cloud, matrix_bits, neo_hookean};
 
 const STEPS: usize = 20;
 
-/// Stencil visits above which one colour, or one share of the particles, is given to several threads.
-const PARALLEL_THRESHOLD: usize = 1 << 14;
-
 /// All state after the steps, as bits.
-fn run<S: Spline<W>, T: Transfer<D>, M: Medium<D>, const W: usize, const D: usize>(
+fn run<B: UniformBasis<D>, T: Transfer<D>, M: Medium<D>, const D: usize>(
     count: usize,
-    h: f64,
+    basis: B,
     transfer: T,
     medium: M,
     body_force: Pull<D>,
@@ -23,8 +20,8 @@ fn run<S: Spline<W>, T: Transfer<D>, M: Medium<D>, const W: usize, const D: usiz
     if M::DEFORMS {
         particles = particles.with_elastic_state(vec![1.0 / count as f64; count]);
     }
-    let grid = SplineGrid::<S, W, D>::new([0.0; D], h).unwrap();
-    let mut mpm = Mpm::new(particles, grid, transfer, medium, body_force);
+    let h = basis.spacing();
+    let mut mpm = Mpm::new(particles, basis, transfer, medium, body_force);
     let mut control = free(0.1 * h);
     (control.displacement, control.friction) = (0.3, 0.5);
     let mut state = Vec::new();
@@ -37,12 +34,10 @@ fn run<S: Spline<W>, T: Transfer<D>, M: Medium<D>, const W: usize, const D: usiz
             report.time_step.to_bits(),
         ]);
     }
-    let schedule = mpm.basis.schedule();
-    let busy = schedule.colours().any(|groups| {
-        let particles: usize = groups.iter().map(|&g| schedule.group_particles(g as usize).len()).sum();
-        groups.len() > 1 && particles * W.pow(D as u32) > PARALLEL_THRESHOLD
-    });
-    assert!(busy, "too small a scene for the parallel paths");
+    assert!(
+        mpm.basis.schedule().parts().len() > 1,
+        "too small a scene for the parallel paths"
+    );
     let p = &mpm.particles;
     state.extend((0..p.len()).map(|k| p.identity(k) as u64));
     state.extend(bits(&p.positions));
@@ -69,6 +64,14 @@ fn nodal_well<const D: usize>() -> Pull<'static, D> {
     Pull::at_nodes(|x, mass| x.map(|c| -c * mass))
 }
 
+fn grid<S: Spline<W>, const W: usize, const D: usize>(h: f64) -> SplineGrid<S, W, D> {
+    SplineGrid::new([0.0; D], h).unwrap()
+}
+
+fn lattice<const D: usize>(h: f64) -> SimplexLattice<D> {
+    SimplexLattice::permutohedral([0.0; D], h).unwrap()
+}
+
 fn gas() -> IsothermalGas {
     IsothermalGas::CALIBRATED
 }
@@ -76,29 +79,35 @@ fn gas() -> IsothermalGas {
 #[test]
 fn pic() {
     same_on_any_pool("D = 1", || {
-        run::<Quadratic, _, _, 3, 1>(40_000, 0.001, Pic, gas(), Pull::well())
+        run(40_000, grid::<Quadratic, 3, 1>(0.001), Pic, gas(), Pull::well())
     });
     same_on_any_pool("D = 2", || {
-        run::<Quadratic, _, _, 3, 2>(16_000, 0.06, Pic, gas(), Pull::well())
+        run(16_000, grid::<Quadratic, 3, 2>(0.06), Pic, gas(), Pull::well())
     });
     same_on_any_pool("D = 2, nodes", || {
-        run::<Cubic, _, _, 4, 2>(16_000, 0.06, Pic, gas(), nodal_well())
+        run(16_000, grid::<Cubic, 4, 2>(0.06), Pic, gas(), nodal_well())
     });
     same_on_any_pool("D = 3", || {
-        run::<Quadratic, _, _, 3, 3>(10_000, 0.2, Pic, gas(), Pull::well())
+        run(10_000, grid::<Quadratic, 3, 3>(0.2), Pic, gas(), Pull::well())
     });
     same_on_any_pool("D = 6", || {
-        run::<Quadratic, _, _, 3, 6>(2_500, 1.0, Pic, gas(), Pull::well())
+        run(2_500, grid::<Quadratic, 3, 6>(1.0), Pic, gas(), Pull::well())
     });
 }
 
 #[test]
 fn apic() {
     same_on_any_pool("gas", || {
-        run::<Quadratic, _, _, 3, 2>(16_000, 0.06, Apic, gas(), Pull::well())
+        run(16_000, grid::<Quadratic, 3, 2>(0.06), Apic, gas(), Pull::well())
     });
     same_on_any_pool("solid", || {
-        run::<Quadratic, _, _, 3, 3>(8_000, 0.25, Apic, neo_hookean(0.5), Pull::well())
+        run(
+            8_000,
+            grid::<Quadratic, 3, 3>(0.25),
+            Apic,
+            neo_hookean(0.5),
+            Pull::well(),
+        )
     });
 }
 
@@ -106,9 +115,30 @@ fn apic() {
 fn flip() {
     let flip = Flip { share: 0.95 };
     same_on_any_pool("gas", || {
-        run::<Quadratic, _, _, 3, 2>(16_000, 0.06, flip, gas(), Pull::well())
+        run(16_000, grid::<Quadratic, 3, 2>(0.06), flip, gas(), Pull::well())
     });
     same_on_any_pool("solid", || {
-        run::<Quadratic, _, _, 3, 3>(8_000, 0.25, flip, neo_hookean(0.5), nodal_well())
+        run(
+            8_000,
+            grid::<Quadratic, 3, 3>(0.25),
+            flip,
+            neo_hookean(0.5),
+            nodal_well(),
+        )
     });
+}
+
+#[test]
+fn lattice_in_all_its_tables() {
+    same_on_any_pool("D = 1", || run(60_000, lattice::<1>(0.01), Pic, gas(), Pull::well()));
+    same_on_any_pool("D = 2", || run(40_000, lattice::<2>(0.1), Pic, gas(), Pull::well()));
+    same_on_any_pool("D = 3", || run(20_000, lattice::<3>(0.3), Apic, gas(), Pull::well()));
+    same_on_any_pool("D = 6, hashed", || {
+        run(12_000, lattice::<6>(0.5), Pic, gas(), Pull::well())
+    });
+    same_on_any_pool("D = 8, hashed by coordinates", || {
+        run(9_000, lattice::<8>(0.05), Pic, gas(), Pull::well())
+    });
+    let flip = Flip { share: 0.95 };
+    same_on_any_pool("FLIP", || run(30_000, lattice::<4>(0.6), flip, gas(), nodal_well()));
 }

@@ -1,7 +1,7 @@
 //! Nodal forces of the calibrated gas under a Gaussian score, at every step:
 //! Σ_i f_i = −Σ⁻¹(x̄ − μ) and Σ_i f_i x_iᵀ = I − Σ⁻¹ E[(x − μ) xᵀ], E the mean over the particles.
 
-use mpm_core::{Basis, Mpm, Particles, Pic, SplineGrid, scatter};
+use mpm_core::{Basis, Mpm, NodeSums, Particles, Pic, SplineGrid, Sum, UniformBasis};
 use mpm_kernels::Quadratic;
 use mpm_materials::IsothermalGas;
 use mpm_tensor::Matrix;
@@ -30,32 +30,45 @@ impl<const D: usize> Gaussian<D> {
     }
 }
 
+/// f_i.
+#[derive(Clone, Copy)]
+struct Force<const D: usize>([f64; D]);
+
+impl<const D: usize> Default for Force<D> {
+    fn default() -> Self {
+        Self([0.0; D])
+    }
+}
+
+impl<const D: usize> Sum for Force<D> {
+    fn merge(&mut self, other: &Self) {
+        for a in 0..D {
+            self.0[a] += other.0[a];
+        }
+    }
+}
+
 fn identities_hold<const D: usize, B: Basis<D>>(
     basis: &mut B,
     positions: &[[f64; D]],
     gaussian: &Gaussian<D>,
     what: &str,
 ) {
-    basis.rebuild(positions).unwrap();
-    let order = basis.schedule().order();
-    let sorted: Vec<[f64; D]> = order.iter().map(|&p| positions[p as usize]).collect();
+    let sorted = basis.rebuild(positions).unwrap();
     let mass = 1.0 / positions.len() as f64;
-    let mut forces = vec![[0.0; D]; basis.node_count()];
+    let mut forces = NodeSums::<Force<D>>::default();
     let shared = &*basis;
-    scatter(shared, &sorted, &mut forces, |_, x, stencil| {
+    forces.scatter(shared, &sorted, |p, x, stencil| {
         let value = gaussian.score(x).map(|s| mass * s);
-        shared.for_each_flux(x, &value, mass, |index, _, flux| {
-            let force = stencil.node(index);
-            for a in 0..D {
-                force[a] += flux[a];
-            }
+        shared.for_each_flux(p, x, &value, mass, |index, _, flux| {
+            stencil.node(index).merge(&Force(*flux));
         });
     });
     let mut nodes = Vec::new();
     basis.node_positions(&mut nodes);
 
     let (mut sum, mut moment) = ([0.0; D], Matrix::ZERO);
-    for (force, node) in forces.iter().zip(&nodes) {
+    for (Force(force), node) in forces.as_slice().iter().zip(&nodes) {
         for a in 0..D {
             sum[a] += force[a];
         }

@@ -10,12 +10,16 @@ use rand_distr::{Distribution, StandardNormal};
 /// line here.
 macro_rules! every_basis {
     ($check:ident, $dimension:literal) => {{
-        use mpm_core::SplineGrid;
+        use mpm_core::{SimplexLattice, SplineGrid};
         use mpm_kernels::{Cubic, Linear, Quadratic};
         $check::<$dimension, _>("linear", |o, h| SplineGrid::<Linear, 2, $dimension>::new(o, h).unwrap());
         $check::<$dimension, _>("quadratic", |o, h| {
             SplineGrid::<Quadratic, 3, $dimension>::new(o, h).unwrap()
         });
+        $check::<$dimension, _>("lattice", |o, h| {
+            SimplexLattice::<$dimension>::permutohedral(o, h).unwrap()
+        });
+        $check::<$dimension, _>("Kuhn lattice", |o, h| SimplexLattice::<$dimension>::kuhn(o, h).unwrap());
         $check::<$dimension, _>("cubic", |o, h| SplineGrid::<Cubic, 4, $dimension>::new(o, h).unwrap());
     }};
 }
@@ -133,11 +137,11 @@ impl<const D: usize> BodyForce<D> for Pull<'_, D> {
 /// One node as a particle sees it: place in the stencil, weight, gradient, offset.
 pub type Seen<const D: usize> = (usize, f64, [f64; D], [f64; D]);
 
-/// The whole stencil of a point.
+/// The whole stencil of a particle, by its place in the schedule.
 #[inline(never)]
-pub fn stencil<const D: usize>(basis: &impl Basis<D>, x: &[f64; D]) -> Vec<Seen<D>> {
+pub fn stencil<const D: usize>(basis: &impl Basis<D>, particle: usize, x: &[f64; D]) -> Vec<Seen<D>> {
     let mut seen = Vec::new();
-    basis.for_each_node(x, |index, entry| {
+    basis.for_each_node(particle, x, |index, entry| {
         seen.push((index, entry.weight, entry.gradient, entry.offset))
     });
     seen

@@ -1,6 +1,6 @@
 //! Memory follows the active nodes: k = 10⁴ nodes per axis in D = 6 (k^D = 10²⁴) is a small grid.
 
-use mpm_core::{Basis, Mpm, Particles, Pic, SplineGrid};
+use mpm_core::{Basis, Mpm, Particles, Pic, SplineGrid, UniformBasis};
 use mpm_kernels::{Linear, Quadratic, Spline};
 use mpm_materials::IsothermalGas;
 

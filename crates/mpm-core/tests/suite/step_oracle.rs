@@ -1,6 +1,6 @@
 //! The step against the textbook: every transfer, law and kind of body force.
 
-use mpm_core::{Apic, Flip, Masses, Medium, Mpm, Particles, Pic, SplineGrid, Transfer};
+use mpm_core::{Apic, Flip, Masses, Medium, Mpm, Particles, Pic, SplineGrid, Transfer, UniformBasis};
 use mpm_kernels::{Cubic, Linear, Quadratic, Spline};
 use mpm_materials::{ElasticModuli, IsothermalGas, LinearElastic, NeoHookean};
 use mpm_tensor::Matrix;

@@ -5,7 +5,7 @@ mod paper_options;
 mod schedule;
 mod svgd_options;
 
-pub use mpm_options::{MpmOptions, ScoreLocation};
+pub use mpm_options::{MomentCorrection, MpmOptions, ScoreLocation};
 pub use paper_options::{Annealing, Elasticity, Guards, PaperOptions};
 pub use schedule::{Settling, SpacingSchedule};
 pub use svgd_options::SvgdOptions;

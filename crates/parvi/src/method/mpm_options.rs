@@ -1,4 +1,4 @@
-use super::{BasisChoice, SpacingSchedule, Settling, TransferChoice};
+use super::{BasisChoice, Settling, SpacingSchedule, TransferChoice};
 
 /// Where the score is evaluated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -9,6 +9,19 @@ pub enum ScoreLocation {
     /// At the nodes, weighted by nodal mass (paper, Eq. 3); cheaper when nodes are few, but the particles'
     /// covariance shrinks by the variance of the kernel.
     Nodes,
+}
+
+/// What the affine Stein correction puts right at the end of a run (docs/theory.md, Eq. 12).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum MomentCorrection {
+    /// Nothing.
+    Off,
+    /// The mean: E\[s\] = 0.
+    #[default]
+    Mean,
+    /// Mean and covariance: E\[s\] = 0 and E\[s (x − x̄)ᵀ\] = −I. The best M points for expectations at large are a little
+    /// narrower than the target, so this raises the energy distance at small M.
+    Affine,
 }
 
 /// Options of the calibrated sampler; `None` means: chosen by the rule in [`crate::defaults`].
@@ -30,12 +43,12 @@ pub struct MpmOptions {
     pub friction: Option<f64>,
     /// Move the basis' origin every step by a Kronecker sequence.
     pub shifts: bool,
-    /// Turn the lattice by a random rotation; has no meaning for splines.
+    /// Turn the lattice by another random rotation in every step; splines keep their axes.
     pub rotation: bool,
     /// How the run ends.
     pub settling: Settling,
-    /// Finish with the affine Stein correction, which makes E\[s\] = 0 and E\[s xᵀ\] = −I hold for the particles.
-    pub moment_correction: bool,
+    /// The last move, made by all particles together.
+    pub moment_correction: MomentCorrection,
     /// Where the score is evaluated.
     pub score_location: ScoreLocation,
     /// Largest displacement per step in units of h; > 0.
@@ -55,9 +68,9 @@ impl Default for MpmOptions {
             time_step: None,
             friction: None,
             shifts: true,
-            rotation: false,
+            rotation: true,
             settling: Settling::default(),
-            moment_correction: true,
+            moment_correction: MomentCorrection::default(),
             score_location: ScoreLocation::default(),
             displacement_limit: 0.5,
             trace_every: 0,

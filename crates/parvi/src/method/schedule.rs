@@ -28,7 +28,12 @@ impl Default for SpacingSchedule {
 impl SpacingSchedule {
     pub(crate) fn check(&self) -> Result<(), SampleError> {
         let at_least_one = |value: f64| value >= 1.0 && value.is_finite();
-        check("spacing range", self.range, at_least_one(self.range), "at least 1 and finite")?;
+        check(
+            "spacing range",
+            self.range,
+            at_least_one(self.range),
+            "at least 1 and finite",
+        )?;
         let (start, share) = (self.coarse_start, self.coarse_share);
         check("coarse start", start, at_least_one(start), "at least 1 and finite")?;
         check("coarse share", share, share > 0.0 && share <= 1.0, "in (0, 1]")
@@ -74,7 +79,11 @@ impl Settling {
     /// How much of the way is left in step `step` of `steps` (from 1): 1 before settling begins, 0 at the end.
     fn left(&self, step: usize, steps: usize) -> f64 {
         let left = (steps - step.min(steps)) as f64;
-        if self.share > 0.0 { (left / (self.share * steps as f64)).min(1.0) } else { 1.0 }
+        if self.share > 0.0 {
+            (left / (self.share * steps as f64)).min(1.0)
+        } else {
+            1.0
+        }
     }
 
     /// Factor of Δt.
