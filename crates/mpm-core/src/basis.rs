@@ -1,6 +1,6 @@
 //! The one seam: where a particle sits → which nodes, with which weight and gradient.
 
-use mpm_kernels::Entry;
+use mpm_kernels::{Deposit, Entry};
 use mpm_tensor::Matrix;
 
 use crate::{MpmError, Schedule};
@@ -62,21 +62,24 @@ pub trait Basis<const D: usize>: Sync {
     /// place in [`cell_nodes`](Self::cell_nodes), weight, gradient, offset.
     fn for_each_node(&self, particle: usize, x: &[f64; D], visit: impl FnMut(usize, &Entry<D>));
 
-    /// As [`for_each_node`](Self::for_each_node), with weight and flux w_ip `value` + `scale` ∇w_ip.
+    /// As [`for_each_node`](Self::for_each_node), with weight and w_ip `value` + `scale` (0, ∇w_ip).
     ///
     /// A basis of tensor products overrides it: the flux of an isotropic stress needs D + 1 products per node.
     #[inline(always)]
-    fn for_each_flux(
+    fn for_each_deposit(
         &self,
         particle: usize,
         x: &[f64; D],
-        value: &[f64; D],
+        value: &Deposit<D>,
         scale: f64,
-        mut visit: impl FnMut(usize, f64, &[f64; D]),
+        mut visit: impl FnMut(usize, f64, &Deposit<D>),
     ) {
         self.for_each_node(particle, x, |index, entry| {
-            let flux = std::array::from_fn(|a| entry.weight * value[a] + scale * entry.gradient[a]);
-            visit(index, entry.weight, &flux);
+            let gradient = Deposit {
+                scalar: 0.0,
+                vector: entry.gradient,
+            };
+            visit(index, entry.weight, &value.combine(entry.weight, &gradient, scale));
         });
     }
 

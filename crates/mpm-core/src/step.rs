@@ -1,6 +1,8 @@
 //! One step of the material point method: rebuild, forces, particles → grid, grid update, grid → particles.
 
+use mpm_kernels::Deposit;
 use mpm_tensor::Matrix;
+use mpm_tensor::vector::multiply_add;
 use rayon::prelude::*;
 
 use crate::largest::larger_or_nan;
@@ -84,15 +86,18 @@ where
             let mass = particles.masses.get(p);
             let momentum = velocities[p].map(|v| mass * v);
             let stress = medium.impulse(particles, p, dt);
-            let mut value = if T::INCREMENTAL { [0.0; D] } else { momentum };
+            let mut value = Deposit {
+                scalar: mass,
+                vector: if T::INCREMENTAL { [0.0; D] } else { momentum },
+            };
             if pulled {
                 for a in 0..D {
-                    value[a] += dt * mass * accelerations[p][a];
+                    value.vector[a] += dt * mass * accelerations[p][a];
                 }
             }
-            stress.for_each_flux(basis, p, x, &value, |index, weight, flux| {
+            stress.for_each_deposit(basis, p, x, &value, |index, weight, deposit| {
                 let node = stencil.node(index);
-                node.add(weight * mass, flux);
+                node.add(deposit);
                 if T::INCREMENTAL {
                     node.add_momentum(&momentum.map(|c| weight * c));
                 }
@@ -149,7 +154,7 @@ where
                     let node = &nodes[cell_nodes[index] as usize];
                     let v = node.velocity();
                     for a in 0..D {
-                        velocity[a] += entry.weight * v[a];
+                        velocity[a] = multiply_add(entry.weight, v[a], velocity[a]);
                     }
                     if T::INCREMENTAL {
                         let node_change = node.change(damping);
@@ -166,7 +171,7 @@ where
                 });
                 data.velocities[k] = transfer.particle_velocity(&velocity, &change, &data.velocities[k], damping);
                 for a in 0..D {
-                    data.positions[k][a] = x[a] + dt * velocity[a];
+                    data.positions[k][a] = multiply_add(dt, velocity[a], x[a]);
                 }
                 if T::AFFINE {
                     data.affine[k] = affine;

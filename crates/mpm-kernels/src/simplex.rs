@@ -2,7 +2,9 @@
 
 use mpm_tensor::Matrix;
 
+use crate::Deposit;
 use crate::Entry;
+use crate::lanes::{LANES, Lanes};
 use crate::simplex_point::{AXES, SimplexPoint};
 
 /// Lattices with more axes are not supported: a particle's simplex is packed into 3 bits per axis.
@@ -20,8 +22,8 @@ pub struct SimplexGeometry<const D: usize> {
     spacing: f64,
     frame: Matrix<D>,
     inverse_frame: Matrix<D>,
-    /// Rows of T / h, then zeros: a node after the last axis has no further row.
-    rows: [[f64; D]; AXES],
+    /// Rows of T / h, each after the zero that a scalar has for a gradient; padded to every number that three bits may hold.
+    rows: [Deposit<D>; AXES],
     /// Columns of h T⁻¹, the edges of the lattice, padded likewise.
     edges: [[f64; D]; AXES],
 }
@@ -65,7 +67,7 @@ impl<const D: usize> SimplexGeometry<D> {
             spacing,
             frame,
             inverse_frame,
-            rows: [[0.0; D]; AXES],
+            rows: [Deposit::ZERO; AXES],
             edges: [[0.0; D]; AXES],
         };
         geometry.place(origin, spacing);
@@ -77,7 +79,7 @@ impl<const D: usize> SimplexGeometry<D> {
         (self.origin, self.spacing) = (origin, spacing);
         for a in 0..D {
             for b in 0..D {
-                self.rows[a][b] = self.frame.0[a][b] / spacing;
+                self.rows[a].vector[b] = self.frame.0[a][b] / spacing;
                 self.edges[a][b] = self.inverse_frame.0[b][a] * spacing;
             }
         }
@@ -98,16 +100,14 @@ impl<const D: usize> SimplexGeometry<D> {
         &self.frame
     }
 
-    /// u = T (x − origin) / h of L points side by side: `u[axis][point]`.
+    /// u = T (x − origin) / h of points side by side: `u[axis]`.
     #[inline(always)]
-    pub fn coordinates<const L: usize>(&self, xs: &[[f64; D]; L]) -> [[f64; L]; D] {
-        let mut u = [[0.0; L]; D];
+    pub fn coordinates(&self, xs: &[[f64; D]; LANES]) -> [Lanes; D] {
+        let mut u = [Lanes::ZERO; D];
         for b in 0..D {
-            let c: [f64; L] = std::array::from_fn(|l| xs[l][b] - self.origin[b]);
+            let c = Lanes::new(xs.map(|x| x[b])) - self.origin[b];
             for a in 0..D {
-                for l in 0..L {
-                    u[a][l] += self.rows[a][b] * c[l];
-                }
+                u[a] = Lanes::splat(self.rows[a].vector[b]).mul_add(c, u[a]);
             }
         }
         u
@@ -116,23 +116,17 @@ impl<const D: usize> SimplexGeometry<D> {
     /// Bases of the simplices of points with lattice coordinates u: the integers below. Where a coordinate is an integer
     /// itself, either neighbour may come out; the simplex is then the closed one on that side.
     #[inline(always)]
-    pub fn bases<const L: usize>(&self, u: &[[f64; L]; D]) -> [[f64; L]; D] {
+    pub fn bases(&self, u: &[Lanes; D]) -> [Lanes; D] {
         const TO_INTEGER: f64 = 6_755_399_441_055_744.0; // 1.5 · 2⁵²: the sum has no room for a fraction
-        u.map(|row| row.map(|u| ((u - 0.5) + TO_INTEGER) - TO_INTEGER))
+        u.map(|u| ((u - 0.5) + TO_INTEGER) - TO_INTEGER)
     }
 
-    /// The simplices that contain L points: their bases, `base[axis][point]`, and where in them the points are.
+    /// The simplices that contain points side by side: their bases, `base[axis]`, and where in them the points are.
     #[inline(always)]
-    pub fn simplices<const L: usize>(&self, xs: &[[f64; D]; L]) -> ([[f64; L]; D], [SimplexPoint<D>; L]) {
+    pub fn simplices(&self, xs: &[[f64; D]; LANES]) -> ([Lanes; D], [SimplexPoint<D>; LANES]) {
         let u = self.coordinates(xs);
         let bases = self.bases(&u);
-        let mut fractions = [[0.0; L]; D];
-        for a in 0..D {
-            for l in 0..L {
-                fractions[a][l] = u[a][l] - bases[a][l];
-            }
-        }
-        (bases, SimplexPoint::sorted(&fractions))
+        (bases, SimplexPoint::sorted(&std::array::from_fn(|a| u[a] - bases[a])))
     }
 
     /// Position of the node with index i.
@@ -164,7 +158,7 @@ impl<const D: usize> SimplexGeometry<D> {
         let (mut above, mut row_above) = (2.0, &[0.0; D]);
         for k in 0..D {
             let (level, axis) = (point.level(k), point.axis(k));
-            let row = &self.rows[axis];
+            let row = &self.rows[axis].vector;
             let gradient = std::array::from_fn(|b| row_above[b] - row[b]);
             let weight = above - level;
             visit(
@@ -191,22 +185,22 @@ impl<const D: usize> SimplexGeometry<D> {
         );
     }
 
-    /// Visit the vertices with weight and flux w `value` + `scale` ∇w: differences of f `value` + `scale` row.
+    /// Visit the vertices with weight and w `value` + `scale` (0, ∇w): differences of (1 + f) `value` + `scale` (0, row).
     #[inline(always)]
-    pub fn for_each_flux(
+    pub fn for_each_deposit(
         &self,
         point: &SimplexPoint<D>,
-        value: &[f64; D],
+        value: &Deposit<D>,
         scale: f64,
-        mut visit: impl FnMut(usize, f64, &[f64; D]),
+        mut visit: impl FnMut(usize, f64, &Deposit<D>),
     ) {
-        let (mut above, mut carried) = (2.0, *value);
+        let (mut above, mut carried) = (2.0, value.combine(2.0, &Deposit::ZERO, 0.0));
         for k in 0..D {
             let (level, row) = (point.level(k), &self.rows[point.axis(k)]);
-            let next: [f64; D] = std::array::from_fn(|b| (level - 1.0) * value[b] + scale * row[b]);
-            visit(k, above - level, &std::array::from_fn(|b| carried[b] - next[b]));
+            let next = value.combine(level, row, scale);
+            visit(k, above - level, &carried.minus(&next));
             (above, carried) = (level, next);
         }
-        visit(D, above - 1.0, &carried);
+        visit(D, above - 1.0, &carried.minus(value));
     }
 }

@@ -1,58 +1,45 @@
 //! Where a point is in its simplex: sorting up to eight fractions without a branch.
 
+use crate::lanes::{LANES, Lanes};
+
 /// Largest number of axes: one takes three bits.
 pub const AXES: usize = 8;
 
 /// A point of a Kuhn simplex: its fractions f in descending order, and the axes that they belong to.
 ///
-/// Entry k is 1 + f_π(k+1), with the axis π(k+1) in the last three of its bits. Fractions are rounded down to multiples of
-/// 2⁻⁴⁹ before: weights are then exact, and their sum is exactly one.
+/// Entry k is 1 + f_π(k+1) with the axis π(k+1) in the last three of its bits: f is known to 2⁻⁴⁹. All entries are multiples
+/// of 2⁻⁵² in [1, 2), so that their differences, the weights, are exact, and the sum of the weights is exactly one.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SimplexPoint<const D: usize>(pub(crate) [f64; D]);
+pub struct SimplexPoint<const D: usize>([f64; D]);
 
 /// The bits that carry an axis.
 const AXIS: u64 = AXES as u64 - 1;
 
+/// The largest number below two that has no axis in its bits.
+const TOP: f64 = 2.0 - (AXES as f64) * f64::EPSILON;
+
 impl<const D: usize> Default for SimplexPoint<D> {
     fn default() -> Self {
-        let [point] = Self::sorted(&[[0.0; 1]; D]);
+        let [point, ..] = Self::sorted(&[Lanes::ZERO; D]);
         point
     }
 }
 
 impl<const D: usize> SimplexPoint<D> {
-    /// The points with the given fractions, in [0, 1]: L points side by side, `fractions[axis][point]`.
+    /// Points with the given fractions, in [0, 1], side by side: `fractions[axis]`.
     #[inline(always)]
-    pub fn sorted<const L: usize>(fractions: &[[f64; L]; D]) -> [Self; L] {
+    pub fn sorted(fractions: &[Lanes; D]) -> [Self; LANES] {
         let network = const { comparators::<D>() };
-        let mut keys = [[0.0; L]; D];
-        for a in 0..D {
-            for l in 0..L {
-                keys[a][l] = f64::from_bits(((fractions[a][l] + 1.0).to_bits() & !AXIS) | a as u64);
-            }
-        }
+        let without_axis = Lanes::splat(f64::from_bits(!AXIS));
+        let mut keys: [Lanes; D] = std::array::from_fn(|a| {
+            let axis = Lanes::splat(f64::from_bits(a as u64));
+            ((fractions[a] + 1.0).fast_min(Lanes::splat(TOP)) & without_axis) | axis
+        });
         for comparator in 0..network.1 {
             let (i, j) = (network.0[comparator].0 as usize, network.0[comparator].1 as usize);
-            let (a, b) = (keys[i], keys[j]);
-            for l in 0..L {
-                // In lanes either form becomes the machine's maximum and minimum; in few dimensions the second would
-                // become a branch that no one can predict, in more the first brings checks for NaN along.
-                keys[i][l] = if D <= 2 {
-                    a[l].max(b[l])
-                } else if a[l] > b[l] {
-                    a[l]
-                } else {
-                    b[l]
-                };
-                keys[j][l] = if D <= 2 {
-                    a[l].min(b[l])
-                } else if a[l] < b[l] {
-                    a[l]
-                } else {
-                    b[l]
-                };
-            }
+            (keys[i], keys[j]) = (keys[i].fast_max(keys[j]), keys[i].fast_min(keys[j]));
         }
+        let keys = keys.map(Lanes::to_array);
         std::array::from_fn(|l| Self(std::array::from_fn(|k| keys[k][l])))
     }
 
@@ -65,7 +52,7 @@ impl<const D: usize> SimplexPoint<D> {
     /// 1 + f_π(k+1).
     #[inline(always)]
     pub fn level(&self, k: usize) -> f64 {
-        f64::from_bits(self.0[k].to_bits() & !AXIS)
+        self.0[k]
     }
 }
 
@@ -103,16 +90,16 @@ mod tests {
     /// By the zero–one principle a network that sorts all sequences of zeros and ones sorts everything.
     fn sorts_zeros_and_ones<const D: usize>() {
         for pattern in 0..1u32 << D {
-            let fractions: [[f64; 1]; D] = std::array::from_fn(|a| [f64::from((pattern >> a) & 1)]);
-            let [point] = SimplexPoint::sorted(&fractions);
+            let fractions: [f64; D] = std::array::from_fn(|a| f64::from((pattern >> a) & 1));
+            let [point, ..] = SimplexPoint::sorted(&fractions.map(Lanes::splat));
             let mut seen = 0u32;
             let mut last = 2.0;
             for k in 0..D {
-                let axis = point.axis(k);
+                let (axis, level) = (point.axis(k), point.level(k));
                 seen |= 1 << axis;
-                assert_eq!(point.level(k), 1.0 + fractions[axis][0], "{pattern:b}: {point:?}");
-                assert!(point.level(k) <= last, "{pattern:b}: {point:?}");
-                last = point.level(k);
+                assert!((level - 1.0 - fractions[axis]).abs() < 4e-15, "{pattern:b}: {point:?}");
+                assert!((1.0..last).contains(&level), "{pattern:b}: {point:?}");
+                last = level;
             }
             assert_eq!(seen, (1 << D) - 1, "{pattern:b}: not a permutation");
         }

@@ -1,6 +1,6 @@
 //! Tensor-product stencils: Wᴰ nodes from D rows of one-dimensional weights.
 
-use crate::Spline;
+use crate::{Deposit, Spline};
 
 /// The nodes {origin + h i : i ∈ ℤᴰ}.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -112,12 +112,12 @@ impl<const W: usize, const D: usize> Stencil<W, D> {
         walk::<W, D, _>(one, extend, &mut visit);
     }
 
-    /// Visit all Wᴰ nodes with their weight and the flux w_ip `value` + `scale` ∇w_ip, at D + 1 products per node:
-    /// component a is Π_{b≠a} N_b · (N_a `value`_a + `scale` ∂N_a).
+    /// Visit all Wᴰ nodes with their weight and w_ip `value` + `scale` (0, ∇w_ip), at D + 1 products per node:
+    /// component a of the vector is Π_{b≠a} N_b · (N_a `value`_a + `scale` ∂N_a).
     #[inline(always)]
-    pub fn for_each_flux(&self, value: &[f64; D], scale: f64, mut visit: impl FnMut(usize, f64, &[f64; D])) {
+    pub fn for_each_deposit(&self, value: &Deposit<D>, scale: f64, mut visit: impl FnMut(usize, f64, &Deposit<D>)) {
         let own: [[f64; W]; D] = std::array::from_fn(|a| {
-            std::array::from_fn(|j| self.weights[a][j] * value[a] + self.derivatives[a][j] * scale)
+            std::array::from_fn(|j| self.weights[a][j] * value.vector[a] + self.derivatives[a][j] * scale)
         });
         let extend = |a: usize, j: usize, before: &(f64, [f64; D])| {
             let w = self.weights[a][j];
@@ -128,8 +128,9 @@ impl<const W: usize, const D: usize> Stencil<W, D> {
             flux[a] = before.0 * own[a][j];
             (before.0 * w, flux)
         };
-        walk::<W, D, _>((1.0, [0.0; D]), extend, &mut |index, (weight, flux)| {
-            visit(index, *weight, flux)
+        walk::<W, D, _>((1.0, [0.0; D]), extend, &mut |index, &(weight, vector)| {
+            let scalar = weight * value.scalar;
+            visit(index, weight, &Deposit { scalar, vector });
         });
     }
 }

@@ -1,5 +1,6 @@
 //! What every kernel and every stencil must do.
-use mpm_kernels::{Cubic, Linear, Quadratic, Spline, Stencil, UniformGrid};
+use mpm_kernels::{Cubic, Deposit, Linear, Quadratic, Spline, Stencil, UniformGrid};
+use mpm_tensor::vector::maximum_norm;
 use proptest::prelude::*;
 
 fn kernel_conforms<const W: usize, S: Spline<W>>(u: f64) {
@@ -76,21 +77,29 @@ fn stencil_conforms<const W: usize, const D: usize, S: Spline<W>>(x: [f64; D], o
     });
     assert_eq!(seen, W.pow(D as u32));
 
-    // The flux, which takes its own way through the products.
-    let (value, scale) = (std::array::from_fn(|a| 0.3 + a as f64), -0.7 * h);
+    // The deposit, which takes its own way through the products.
+    let value = Deposit {
+        scalar: 1.7,
+        vector: std::array::from_fn(|a| 0.3 + a as f64),
+    };
+    let scale = -0.7 * h;
     let mut expected = Vec::new();
     stencil.for_each(|_, entry| {
-        let flux: [f64; D] = std::array::from_fn(|a| entry.weight * value[a] + scale * entry.gradient[a]);
-        expected.push((entry.weight, flux));
+        let gradient = Deposit {
+            scalar: 0.0,
+            vector: entry.gradient,
+        };
+        expected.push((entry.weight, value.combine(entry.weight, &gradient, scale)));
     });
-    let mut fluxes = 0;
-    stencil.for_each_flux(&value, scale, |index, weight, flux| {
-        assert_eq!(index, fluxes);
-        fluxes += 1;
+    let mut deposits = 0;
+    stencil.for_each_deposit(&value, scale, |index, weight, deposit| {
+        assert_eq!(index, deposits);
+        deposits += 1;
         assert!((weight - expected[index].0).abs() < 1e-15);
-        assert!((0..D).all(|a| (flux[a] - expected[index].1[a]).abs() < 1e-14));
+        let error = deposit.minus(&expected[index].1);
+        assert!(error.scalar.abs() < 1e-14 && maximum_norm(&error.vector) < 1e-14);
     });
-    assert_eq!(fluxes, seen);
+    assert_eq!(deposits, seen);
     assert!((sum - 1.0).abs() < 1e-13);
     for a in 0..D {
         assert!(mean[a].abs() < 1e-12 * (1.0 + x[a].abs()));

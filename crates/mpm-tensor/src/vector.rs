@@ -3,6 +3,16 @@
 //! Vectors are plain arrays, so particle storage is a `Vec<[f64; D]>` and literals need no constructor. No function
 //! here panics; NaN and infinite components follow IEEE 754.
 
+/// a b + c: rounded once where the machine does it in one instruction, else twice.
+#[inline(always)]
+pub fn multiply_add(a: f64, b: f64, c: f64) -> f64 {
+    if cfg!(target_feature = "fma") {
+        a.mul_add(b, c)
+    } else {
+        a * b + c
+    }
+}
+
 /// The scalar product a · b = Σ_i a_i b_i, summed in the order of the axes.
 #[inline]
 pub fn dot<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {

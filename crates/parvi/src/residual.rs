@@ -1,6 +1,8 @@
 //! The Galerkin–Stein residual: how far the particles are from Stein's identity on a grid's shape functions.
 
 use mpm_core::{Basis, MpmError, NodeSums, Sum};
+use mpm_kernels::Deposit;
+use mpm_tensor::vector::norm_squared;
 
 /// R and what it would be for independent draws.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,30 +21,17 @@ impl Residual {
     }
 }
 
-#[derive(Clone, Copy)]
+/// Mass and force of a node, and the squares of what the particles contributed to the force.
+#[derive(Clone, Copy, Default)]
 struct Node<const D: usize> {
-    mass: f64,
-    force: [f64; D],
+    sum: Deposit<D>,
     variance: f64,
-}
-
-impl<const D: usize> Default for Node<D> {
-    fn default() -> Self {
-        Self {
-            mass: 0.0,
-            force: [0.0; D],
-            variance: 0.0,
-        }
-    }
 }
 
 impl<const D: usize> Sum for Node<D> {
     fn merge(&mut self, other: &Self) {
-        self.mass += other.mass;
+        self.sum.add(&other.sum);
         self.variance += other.variance;
-        for a in 0..D {
-            self.force[a] += other.force[a];
-        }
     }
 }
 
@@ -63,20 +52,20 @@ pub fn galerkin_stein_residual<const D: usize, B: Basis<D>>(
     let basis = &*basis;
     let mut nodes = NodeSums::<Node<D>>::default();
     nodes.scatter(basis, &sorted, |p, x, stencil| {
-        let value = scores[order[p] as usize].map(|s| mass * s);
-        basis.for_each_flux(p, x, &value, mass, |index, weight, flux| {
+        let value = Deposit {
+            scalar: mass,
+            vector: scores[order[p] as usize].map(|s| mass * s),
+        };
+        basis.for_each_deposit(p, x, &value, mass, |index, _, deposit| {
             let node = stencil.node(index);
-            node.mass += weight * mass;
-            for a in 0..D {
-                node.force[a] += flux[a];
-                node.variance += flux[a] * flux[a];
-            }
+            node.sum.add(deposit);
+            node.variance += norm_squared(&deposit.vector);
         });
     });
     let (mut square, mut expected) = (0.0, 0.0);
     for node in nodes.as_slice() {
-        let scale = 1.0 / (node.mass + 0.1 * mass);
-        square += scale * node.force.iter().map(|f| f * f).sum::<f64>();
+        let scale = 1.0 / (node.sum.scalar + 0.1 * mass);
+        square += scale * norm_squared(&node.sum.vector);
         expected += scale * node.variance;
     }
     Ok(Residual {

@@ -7,7 +7,7 @@ mod template;
 
 use std::marker::PhantomData;
 
-use mpm_kernels::{Entry, Spline, Stencil, UniformGrid};
+use mpm_kernels::{Deposit, Entry, Spline, Stencil, UniformGrid};
 
 use self::block::{node_at, slot_count};
 use self::template::Template;
@@ -168,15 +168,15 @@ impl<S: Spline<W>, const W: usize, const D: usize> Basis<D> for SplineGrid<S, W,
     }
 
     #[inline(always)]
-    fn for_each_flux(
+    fn for_each_deposit(
         &self,
         _: usize,
         x: &[f64; D],
-        value: &[f64; D],
+        value: &Deposit<D>,
         scale: f64,
-        visit: impl FnMut(usize, f64, &[f64; D]),
+        visit: impl FnMut(usize, f64, &Deposit<D>),
     ) {
-        Stencil::<W, D>::new::<S>(x, &self.nodes).for_each_flux(value, scale, visit);
+        Stencil::<W, D>::new::<S>(x, &self.nodes).for_each_deposit(value, scale, visit);
     }
 
     #[inline(always)]

@@ -1,11 +1,10 @@
 //! The simplex lattice as a basis: D + 1 nodes per particle.
 
 mod dense_table;
-mod lanes;
 mod node_box;
 mod rebuild;
 
-use mpm_kernels::{Entry, SimplexGeometry, SimplexPoint};
+use mpm_kernels::{Deposit, Entry, SimplexGeometry, SimplexPoint};
 use mpm_tensor::Matrix;
 
 use self::dense_table::DenseTable;
@@ -160,15 +159,16 @@ impl<const D: usize> Basis<D> for SimplexLattice<D> {
     }
 
     #[inline(always)]
-    fn for_each_flux(
+    fn for_each_deposit(
         &self,
         particle: usize,
         _: &[f64; D],
-        value: &[f64; D],
+        value: &Deposit<D>,
         scale: f64,
-        visit: impl FnMut(usize, f64, &[f64; D]),
+        visit: impl FnMut(usize, f64, &Deposit<D>),
     ) {
-        self.geometry.for_each_flux(&self.points[particle], value, scale, visit);
+        self.geometry
+            .for_each_deposit(&self.points[particle], value, scale, visit);
     }
 
     /// Hats are piecewise linear: ∇w_ip, also where D_p is singular (docs/theory.md, Eq. 23).

@@ -1,9 +1,7 @@
 //! The box of integer coordinates that a cloud's nodes lie in.
 
-use mpm_kernels::SimplexGeometry;
+use mpm_kernels::{LANES, Lanes, SimplexGeometry, groups};
 use rayon::prelude::*;
-
-use super::lanes::{LANES, lanes};
 
 /// Lattice coordinates beyond ±2³⁰ are refused.
 const COORDINATE_LIMIT: f64 = (1u64 << 30) as f64;
@@ -39,7 +37,7 @@ impl<const D: usize> NodeBox<D> {
         }
         let chunk = |xs: &[[f64; D]]| {
             let mut range = Range::NONE;
-            lanes(xs).for_each(|lanes| range.include(&geometry.coordinates(&lanes)));
+            groups(xs).for_each(|group| range.include(&geometry.coordinates(&group)));
             range
         };
         let range = positions
@@ -48,20 +46,18 @@ impl<const D: usize> NodeBox<D> {
             .reduce(|| Range::NONE, Range::with);
         let Some((low, high)) = range.ends() else {
             let inside = |x: &[f64; D]| {
-                geometry
-                    .coordinates(&[*x])
-                    .iter()
-                    .all(|u| u[0].abs() < COORDINATE_LIMIT)
+                let u = geometry.coordinates(&[*x; LANES]);
+                u.iter().all(|&u| first(u).abs() < COORDINATE_LIMIT)
             };
             return Err(positions.iter().position(|x| !inside(x)).unwrap_or(0));
         };
-        let ends = geometry.bases(&std::array::from_fn(|a| [low[a], high[a]]));
-        let extents = ends.map(|[low, high]| high - low + 2.0);
+        let low = geometry.bases(&low.map(Lanes::splat)).map(first);
+        let high = geometry.bases(&high.map(Lanes::splat)).map(first);
+        let extents = std::array::from_fn(|a| high[a] - low[a] + 2.0);
         let mut strides = [1.0; D];
         for a in (0..D - 1).rev() {
             strides[a] = strides[a + 1] * extents[a + 1];
         }
-        let low = ends.map(|[low, _]| low);
         Ok(Self { low, extents, strides })
     }
 
@@ -70,14 +66,12 @@ impl<const D: usize> NodeBox<D> {
         self.strides[0] * self.extents[0]
     }
 
-    /// Places of L integer points side by side, `nodes[axis][point]`.
+    /// Places of integer points side by side, `nodes[axis]`.
     #[inline(always)]
-    pub fn places<const L: usize>(&self, nodes: &[[f64; L]; D]) -> [f64; L] {
-        let mut places = [0.0; L];
+    pub fn places(&self, nodes: &[Lanes; D]) -> Lanes {
+        let mut places = Lanes::ZERO;
         for a in 0..D {
-            for l in 0..L {
-                places[l] += (nodes[a][l] - self.low[a]) * self.strides[a];
-            }
+            places = (nodes[a] - self.low[a]).mul_add(Lanes::splat(self.strides[a]), places);
         }
         places
     }
@@ -95,48 +89,54 @@ impl<const D: usize> NodeBox<D> {
     }
 }
 
+/// Of points side by side, the first.
+fn first(lanes: Lanes) -> f64 {
+    lanes.to_array()[0]
+}
+
 /// Least and largest lattice coordinates.
 #[derive(Clone, Copy)]
 struct Range<const D: usize> {
-    low: [[f64; LANES]; D],
-    high: [[f64; LANES]; D],
+    low: [Lanes; D],
+    high: [Lanes; D],
     /// Zero, or NaN once a coordinate was not finite.
-    fault: [f64; LANES],
+    fault: Lanes,
 }
 
 impl<const D: usize> Range<D> {
     const NONE: Self = Self {
-        low: [[f64::INFINITY; LANES]; D],
-        high: [[f64::NEG_INFINITY; LANES]; D],
-        fault: [0.0; LANES],
+        low: [Lanes::splat(f64::INFINITY); D],
+        high: [Lanes::splat(f64::NEG_INFINITY); D],
+        fault: Lanes::ZERO,
     };
 
     #[inline(always)]
-    fn include(&mut self, u: &[[f64; LANES]; D]) {
+    fn include(&mut self, u: &[Lanes; D]) {
         for a in 0..D {
-            for l in 0..LANES {
-                let c = u[a][l];
-                self.low[a][l] = if c < self.low[a][l] { c } else { self.low[a][l] };
-                self.high[a][l] = if c > self.high[a][l] { c } else { self.high[a][l] };
-                self.fault[l] += 0.0 * c;
-            }
+            self.low[a] = u[a].fast_min(self.low[a]);
+            self.high[a] = u[a].fast_max(self.high[a]);
+            self.fault = u[a].mul_add(Lanes::ZERO, self.fault);
         }
     }
 
     fn with(mut self, other: Self) -> Self {
-        self.include(&other.low);
-        self.include(&other.high);
-        for l in 0..LANES {
-            self.fault[l] += other.fault[l];
+        for a in 0..D {
+            self.low[a] = self.low[a].fast_min(other.low[a]);
+            self.high[a] = self.high[a].fast_max(other.high[a]);
         }
+        self.fault += other.fault;
         self
     }
 
     /// The ends per axis; `None` where coordinates are out of range.
     fn ends(&self) -> Option<([f64; D], [f64; D])> {
-        let low = self.low.map(|row| row.into_iter().fold(f64::INFINITY, f64::min));
-        let high = self.high.map(|row| row.into_iter().fold(f64::NEG_INFINITY, f64::max));
+        let low = self
+            .low
+            .map(|row| row.to_array().into_iter().fold(f64::INFINITY, f64::min));
+        let high = self
+            .high
+            .map(|row| row.to_array().into_iter().fold(f64::NEG_INFINITY, f64::max));
         let sound = (0..D).all(|a| low[a] > -COORDINATE_LIMIT && high[a] < COORDINATE_LIMIT);
-        (sound && self.fault.iter().all(|fault| *fault == 0.0)).then_some((low, high))
+        (sound && self.fault.reduce_add() == 0.0).then_some((low, high))
     }
 }

@@ -1,12 +1,12 @@
 //! The rebuild: from positions to simplices, node numbers and parts. Every particle is a cell of its own.
 
+use std::ops::Range;
 use std::sync::atomic::{AtomicU8, Ordering::Relaxed};
 
-use mpm_kernels::{LARGEST_LATTICE_DIMENSION, SimplexPoint};
+use mpm_kernels::{LANES, LARGEST_LATTICE_DIMENSION, Lanes, SimplexGeometry, SimplexPoint, groups};
 use rayon::prelude::*;
 
 use super::dense_table::DenseTable;
-use super::lanes::{LANES, lanes};
 use super::node_box::NodeBox;
 use super::{NodeTable, SimplexLattice};
 use crate::counting_sort::counting_sort;
@@ -66,23 +66,24 @@ impl<const D: usize> SimplexLattice<D> {
     /// outnumber the particles.
     pub(super) fn sort_particles(&mut self, positions: &[[f64; D]]) {
         let (geometry, node_box, s) = (&self.geometry, &self.node_box, &mut self.scratch);
-        let base = |x: &[f64; D]| geometry.bases(&geometry.coordinates(&[*x]));
+        let base = |x: &[f64; D]| geometry.bases(&geometry.coordinates(&[*x; LANES]));
+        let place = |x: &[f64; D]| node_box.places(&base(x)).to_array()[0];
         let bins = match &self.nodes {
             NodeTable::Dense(_) => {
                 let (size, bins) = (node_box.size(), FREE_PLACES + positions.len() as f64);
                 let shift = (size / bins).log2().ceil().max(0.0) as u32;
-                let key = |x: &[f64; D]| (node_box.places(&base(x))[0] as i64 as u32) >> shift;
+                let key = |x: &[f64; D]| (place(x) as i64 as u32) >> shift;
                 let keys = positions.par_iter().with_min_len(CHUNK).map(key);
                 keys.collect_into_vec(&mut s.keys);
                 (size as usize >> shift) + 1
             }
             NodeTable::Packed(_) => {
-                let place = |x: &[f64; D]| node_box.places(&base(x))[0] as u64;
-                number_all(&mut s.packed_cubes, positions.iter().map(place), &mut s.keys)
+                let key = |x: &[f64; D]| place(x) as u64;
+                number_all(&mut s.packed_cubes, positions.iter().map(key), &mut s.keys)
             }
             NodeTable::Whole(_) => {
-                let whole = |x: &[f64; D]| base(x).map(|c| c[0] as i32);
-                number_all(&mut s.whole_cubes, positions.iter().map(whole), &mut s.keys)
+                let key = |x: &[f64; D]| base(x).map(|c| c.to_array()[0] as i32);
+                number_all(&mut s.whole_cubes, positions.iter().map(key), &mut s.keys)
             }
         };
         let Schedule { order, cell_starts, .. } = &mut self.schedule;
@@ -106,27 +107,30 @@ impl<const D: usize> SimplexLattice<D> {
                 mark(table.marks(), geometry, node_box, sorted, points, stencils);
                 let count = table.number();
                 let numbers = table.numbers();
-                with_parts(parts, stencils, D + 1, |node| numbers[node as usize]);
+                for_each_part(parts, stencils, D + 1, |stencils| {
+                    number_stencils(stencils, D + 1, numbers)
+                });
                 count
             }
             NodeTable::Packed(map) => {
                 let strides = node_box.strides.map(|s| s as u64);
-                let first = |base: &[[f64; 1]; D]| node_box.places(base)[0] as u64;
+                let first = |bases: &[Lanes; D]| node_box.places(bases).to_array().map(|place| place as u64);
                 let next = |key: u64, axis: usize| key + strides[axis];
-                let simplices = points.iter_mut().zip(sorted.iter().map(|x| geometry.simplices(&[*x])));
-                let count = number_nodes(map, stencils, simplices, first, next)?;
-                with_parts(parts, stencils, D + 1, |node| node);
+                let count = number_nodes(map, geometry, sorted, points, stencils, first, next)?;
+                for_each_part(parts, stencils, D + 1, |stencils| range_of(stencils));
                 count
             }
             NodeTable::Whole(map) => {
-                let first = |base: &[[f64; 1]; D]| base.map(|c| c[0] as i32);
+                let first = |bases: &[Lanes; D]| {
+                    let bases = bases.map(Lanes::to_array);
+                    std::array::from_fn(|l| bases.map(|row| row[l] as i32))
+                };
                 let next = |mut key: [i32; D], axis: usize| {
                     key[axis] += 1;
                     key
                 };
-                let simplices = points.iter_mut().zip(sorted.iter().map(|x| geometry.simplices(&[*x])));
-                let count = number_nodes(map, stencils, simplices, first, next)?;
-                with_parts(parts, stencils, D + 1, |node| node);
+                let count = number_nodes(map, geometry, sorted, points, stencils, first, next)?;
+                for_each_part(parts, stencils, D + 1, |stencils| range_of(stencils));
                 count
             }
         };
@@ -138,7 +142,7 @@ impl<const D: usize> SimplexLattice<D> {
 /// Find every particle's simplex, write the places of its nodes to its stencil, and mark them in the table.
 fn mark<const D: usize>(
     marks: &[AtomicU8],
-    geometry: &mpm_kernels::SimplexGeometry<D>,
+    geometry: &SimplexGeometry<D>,
     node_box: &NodeBox<D>,
     sorted: &[[f64; D]],
     points: &mut [SimplexPoint<D>],
@@ -152,14 +156,14 @@ fn mark<const D: usize>(
     chunks
         .zip(sorted.par_chunks(CHUNK))
         .for_each(move |((points, stencils), xs)| {
-            let groups = points.chunks_mut(LANES).zip(stencils.chunks_mut(LANES * (D + 1)));
-            for ((points, stencils), lanes) in groups.zip(lanes(xs)) {
-                let (bases, inside) = geometry.simplices(&lanes);
-                let places = node_box.places(&bases).map(|place| (place + TO_BITS).to_bits() as u32);
+            let outputs = points.chunks_mut(LANES).zip(stencils.chunks_mut(LANES * (D + 1)));
+            for ((points, stencils), xs) in outputs.zip(groups(xs)) {
+                let (bases, inside) = geometry.simplices(&xs);
+                let places = (node_box.places(&bases) + TO_BITS).to_array();
                 let each = points.iter_mut().zip(stencils.chunks_exact_mut(D + 1));
                 for (l, (point, stencil)) in each.enumerate() {
                     *point = inside[l];
-                    let mut node = places[l];
+                    let mut node = places[l].to_bits() as u32;
                     for k in 0..D {
                         stencil[k] = node;
                         marks[node as usize].store(1, Relaxed);
@@ -172,42 +176,70 @@ fn mark<const D: usize>(
         });
 }
 
-/// Put the node numbers into the stencils, and their range into every part.
-fn with_parts(parts: &mut [Part], mut stencils: &mut [u32], size: usize, number: impl Fn(u32) -> u32 + Sync) {
-    let mut work = Vec::with_capacity(parts.len());
+/// Let `work` finish the stencils of every part and say which nodes are in them.
+fn for_each_part(
+    parts: &mut [Part],
+    mut stencils: &mut [u32],
+    size: usize,
+    work: impl Fn(&mut [u32]) -> Range<usize> + Sync,
+) {
+    let mut shares = Vec::with_capacity(parts.len());
     for part in parts {
         let (own, others) = stencils.split_at_mut(part.cells.len() * size);
-        work.push((part, own));
+        shares.push((part, own));
         stencils = others;
     }
-    work.into_par_iter().for_each(|(part, stencils)| {
-        let (mut low, mut high) = (u32::MAX, 0);
-        for node in stencils {
-            *node = number(*node);
-            (low, high) = (low.min(*node), high.max(*node));
-        }
-        part.nodes = low as usize..high as usize + 1;
-    });
+    shares
+        .into_par_iter()
+        .for_each(|(part, stencils)| part.nodes = work(stencils));
 }
 
-/// Number the nodes of all particles in the order in which they are met; returns how many there are.
-fn number_nodes<'a, K: Key, const D: usize>(
+/// Replace places by node numbers. Both grow together, and along a stencil: its ends tell the range.
+fn number_stencils(stencils: &mut [u32], size: usize, numbers: &[u32]) -> Range<usize> {
+    let (mut low, mut high) = (u32::MAX, 0);
+    for stencil in stencils.chunks_exact_mut(size) {
+        for node in stencil.iter_mut() {
+            *node = numbers[*node as usize];
+        }
+        (low, high) = (low.min(stencil[0]), high.max(stencil[size - 1]));
+    }
+    low as usize..high as usize + 1
+}
+
+/// From the lowest to the highest number.
+fn range_of(stencils: &[u32]) -> Range<usize> {
+    let (low, high) = stencils
+        .iter()
+        .fold((u32::MAX, 0), |(low, high), &node| (low.min(node), high.max(node)));
+    low as usize..high as usize + 1
+}
+
+/// Find every particle's simplex, and number the nodes in the order in which they are met; returns how many there are.
+fn number_nodes<K: Key, const D: usize>(
     map: &mut KeyMap<K>,
+    geometry: &SimplexGeometry<D>,
+    sorted: &[[f64; D]],
+    points: &mut [SimplexPoint<D>],
     stencils: &mut [u32],
-    simplices: impl Iterator<Item = (&'a mut SimplexPoint<D>, ([[f64; 1]; D], [SimplexPoint<D>; 1]))>,
-    first: impl Fn(&[[f64; 1]; D]) -> K,
+    first: impl Fn(&[Lanes; D]) -> [K; LANES],
     next: impl Fn(K, usize) -> K,
 ) -> Result<usize, MpmError> {
     map.clear();
-    for (stencil, (point, (base, [inside]))) in stencils.chunks_exact_mut(D + 1).zip(simplices) {
-        *point = inside;
-        let mut key = first(&base);
-        stencil[0] = map.number(key);
-        for k in 0..D {
-            key = next(key, inside.axis(k) % D);
-            stencil[k + 1] = map.number(key);
+    let outputs = points.chunks_mut(LANES).zip(stencils.chunks_mut(LANES * (D + 1)));
+    for ((points, stencils), xs) in outputs.zip(groups(sorted)) {
+        let (bases, inside) = geometry.simplices(&xs);
+        let keys = first(&bases);
+        let each = points.iter_mut().zip(stencils.chunks_exact_mut(D + 1));
+        for (l, (point, stencil)) in each.enumerate() {
+            *point = inside[l];
+            let mut key = keys[l];
+            stencil[0] = map.number(key);
+            for k in 0..D {
+                key = next(key, point.axis(k) % D);
+                stencil[k + 1] = map.number(key);
+            }
         }
-        if map.keys().len() > (u32::MAX - D as u32 - 1) as usize {
+        if map.keys().len() > (u32::MAX as usize) - LANES * (D + 1) {
             let nodes = map.keys().len() as u64;
             return Err(MpmError::TooManyNodes { nodes });
         }

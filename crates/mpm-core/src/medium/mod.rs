@@ -3,6 +3,7 @@
 mod elastic;
 mod gas;
 
+use mpm_kernels::Deposit;
 use mpm_tensor::Matrix;
 
 pub use elastic::Elastic;
@@ -14,23 +15,22 @@ pub trait StressImpulse<const D: usize>: Copy + Send + Sync {
     /// The impulse at a node with shape-function gradient ∇w_ip.
     fn at(&self, gradient: &[f64; D]) -> [f64; D];
 
-    /// Visit the stencil of a particle at `x` with weight and w_ip `value` + [`at`](Self::at)(∇w_ip).
+    /// Visit the stencil of a particle at `x` with weight and w_ip `value` + (0, [`at`](Self::at)(∇w_ip)).
     #[inline(always)]
-    fn for_each_flux<B: Basis<D>>(
+    fn for_each_deposit<B: Basis<D>>(
         &self,
         basis: &B,
         particle: usize,
         x: &[f64; D],
-        value: &[f64; D],
-        mut visit: impl FnMut(usize, f64, &[f64; D]),
+        value: &Deposit<D>,
+        mut visit: impl FnMut(usize, f64, &Deposit<D>),
     ) {
         basis.for_each_node(particle, x, |index, entry| {
-            let stress = self.at(&entry.gradient);
-            visit(
-                index,
-                entry.weight,
-                &std::array::from_fn(|a| entry.weight * value[a] + stress[a]),
-            );
+            let stress = Deposit {
+                scalar: 0.0,
+                vector: self.at(&entry.gradient),
+            };
+            visit(index, entry.weight, &value.combine(entry.weight, &stress, 1.0));
         });
     }
 }
@@ -42,15 +42,15 @@ impl<const D: usize> StressImpulse<D> for f64 {
     }
 
     #[inline(always)]
-    fn for_each_flux<B: Basis<D>>(
+    fn for_each_deposit<B: Basis<D>>(
         &self,
         basis: &B,
         particle: usize,
         x: &[f64; D],
-        value: &[f64; D],
-        visit: impl FnMut(usize, f64, &[f64; D]),
+        value: &Deposit<D>,
+        visit: impl FnMut(usize, f64, &Deposit<D>),
     ) {
-        basis.for_each_flux(particle, x, value, *self, visit);
+        basis.for_each_deposit(particle, x, value, *self, visit);
     }
 }
 

@@ -1,3 +1,5 @@
+use mpm_kernels::Deposit;
+
 use super::{GridNode, Sum, Transfer, shorten};
 
 /// FLIP blend (Brackbill & Ruppel 1986; Zhu & Bridson 2005) with share a of FLIP:
@@ -54,10 +56,10 @@ impl<const D: usize> Sum for FlipNode<D> {
 
 impl<const D: usize> GridNode<D> for FlipNode<D> {
     #[inline(always)]
-    fn add(&mut self, mass: f64, impulse: &[f64; D]) {
-        self.mass += mass;
+    fn add(&mut self, deposit: &Deposit<D>) {
+        self.mass += deposit.scalar;
         for a in 0..D {
-            self.velocity[a] += impulse[a];
+            self.velocity[a] += deposit.vector[a];
         }
     }
 

@@ -7,6 +7,8 @@ mod moving;
 mod pic;
 mod scatter;
 
+use mpm_kernels::Deposit;
+
 pub use apic::Apic;
 pub use flip::{Flip, FlipNode};
 pub use gather::{Divide, gather};
@@ -16,8 +18,8 @@ pub use scatter::{NodeSums, StencilNodes, Sum};
 
 /// What a node accumulates and later carries: mass and momentum first, velocity after [`advance`](Self::advance).
 pub trait GridNode<const D: usize>: Sum {
-    /// Add mass and the impulse of forces.
-    fn add(&mut self, mass: f64, impulse: &[f64; D]);
+    /// Add mass (the scalar) and the impulse of forces (the vector).
+    fn add(&mut self, deposit: &Deposit<D>);
 
     /// Add momentum.
     fn add_momentum(&mut self, momentum: &[f64; D]);

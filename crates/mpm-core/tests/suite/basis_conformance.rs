@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 
 use mpm_core::{Basis, SimplexLattice};
+use mpm_kernels::Deposit;
 use mpm_tensor::Matrix;
 use rand::RngExt;
 
@@ -132,22 +133,29 @@ fn stencil_is_right<const D: usize, B: Basis<D>>(
         }
     });
 
-    let (value, scale) = (std::array::from_fn(|a| 0.7 - 0.4 * a as f64), 0.3 * h);
+    let value = Deposit {
+        scalar: 1.3,
+        vector: std::array::from_fn(|a| 0.7 - 0.4 * a as f64),
+    };
+    let scale = 0.3 * h;
     let mut visits = seen.iter();
-    basis.for_each_flux(particle, x, &value, scale, |place, weight, flux| {
+    basis.for_each_deposit(particle, x, &value, scale, |place, weight, deposit| {
         let &(expected_place, expected_weight, gradient, _) = visits.next().unwrap();
         assert_eq!(place, expected_place, "{what}");
         assert!((weight - expected_weight).abs() < 1e-15, "{what}");
+        assert!(
+            (deposit.scalar - expected_weight * value.scalar).abs() < 1e-14,
+            "{what}"
+        );
         for a in 0..D {
-            let expected = expected_weight * value[a] + scale * gradient[a];
-            assert!(
-                (flux[a] - expected).abs() < 1e-14,
-                "{what}: flux {} for {expected}",
-                flux[a]
+            let (found, expected) = (
+                deposit.vector[a],
+                expected_weight * value.vector[a] + scale * gradient[a],
             );
+            assert!((found - expected).abs() < 1e-14, "{what}: {found} for {expected}");
         }
     });
-    assert!(visits.next().is_none(), "{what}: fluxes for fewer nodes");
+    assert!(visits.next().is_none(), "{what}: deposits at fewer nodes");
 }
 
 /// A displaced point reads the same shape functions: w_i is a function of space, not of the cell that evaluates it.

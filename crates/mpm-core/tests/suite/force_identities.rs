@@ -2,7 +2,7 @@
 //! Σ_i f_i = −Σ⁻¹(x̄ − μ) and Σ_i f_i x_iᵀ = I − Σ⁻¹ E[(x − μ) xᵀ], E the mean over the particles.
 
 use mpm_core::{Basis, Mpm, NodeSums, Particles, Pic, SplineGrid, Sum, UniformBasis};
-use mpm_kernels::Quadratic;
+use mpm_kernels::{Deposit, Quadratic};
 use mpm_materials::IsothermalGas;
 use mpm_tensor::Matrix;
 
@@ -59,9 +59,12 @@ fn identities_hold<const D: usize, B: Basis<D>>(
     let mut forces = NodeSums::<Force<D>>::default();
     let shared = &*basis;
     forces.scatter(shared, &sorted, |p, x, stencil| {
-        let value = gaussian.score(x).map(|s| mass * s);
-        shared.for_each_flux(p, x, &value, mass, |index, _, flux| {
-            stencil.node(index).merge(&Force(*flux));
+        let value = Deposit {
+            scalar: mass,
+            vector: gaussian.score(x).map(|s| mass * s),
+        };
+        shared.for_each_deposit(p, x, &value, mass, |index, _, deposit| {
+            stencil.node(index).merge(&Force(deposit.vector));
         });
     });
     let mut nodes = Vec::new();
