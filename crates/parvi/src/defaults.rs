@@ -40,7 +40,7 @@ pub const COARSE_START: f64 = 1.0;
 pub const COARSE_SHARE: f64 = 0.5;
 
 /// Share of the steps over which Δt falls at the end.
-pub const SETTLING_SHARE: f64 = 0.25;
+pub const SETTLING_SHARE: f64 = 0.5;
 
 /// Δt of the last step over the full one.
 pub const SETTLING_TIME_STEP: f64 = 0.2;

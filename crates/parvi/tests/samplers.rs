@@ -69,7 +69,7 @@ fn energy_distance_is_a_small_share_of_the_independent_one() {
         // Scrambled Sobol points: 0.156e-3.
         assert!(squared <= 0.15e-3, "seed {seed}: ED² = {squared}");
         assert!(samples.score_evaluations <= 100 * 512);
-        assert!(samples.residual.expect("a residual") < 0.5);
+        assert!(samples.residual.expect("a residual") < 0.6);
     }
 }
 

@@ -1,6 +1,6 @@
 //! The report of the study `accuracy`.
 
-use super::configuration::{Accuracy, Entry};
+use super::configuration::Accuracy;
 use super::figure::{best_exponent, plot};
 use crate::CommandError;
 use crate::options::{Dimension, MethodName};
@@ -12,6 +12,9 @@ use crate::study::directory::StudyDirectory;
 use crate::study::document::{Document, MISSING, number, optional_number};
 use crate::study::gaussian_runs::{ENERGY, ENERGY_ROOT, Quantity, Row, SECONDS, failures, largest, median};
 
+/// Methods that a figure can tell apart; where there are more, the tables have to do.
+const MOST_LINES: usize = 8;
+
 /// Tables and figure.
 pub fn report(study: &Accuracy, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
     let mut document = Document::new("Accuracy against the number of particles");
@@ -20,9 +23,11 @@ pub fn report(study: &Accuracy, rows: &[Row], directory: &StudyDirectory) -> Res
          independent draws have the expectation E‖Y − Y'‖/M.",
         study.seeds.len(),
     ));
-    document.heading("Figure");
-    let caption = "Energy distance against the number of particles, by dimension.";
-    document.figure(directory, "accuracy.svg", caption, multiples(&plot(study, rows)))?;
+    if study.methods.len() <= MOST_LINES {
+        document.heading("Figure");
+        let caption = "Energy distance against the number of particles, by dimension.";
+        document.figure(directory, "accuracy.svg", caption, multiples(&plot(study, rows)))?;
+    }
 
     document.heading("Squared energy distance");
     document.paragraph(
@@ -60,36 +65,39 @@ fn counts(study: &Accuracy) -> Vec<usize> {
     counts
 }
 
+/// A line per method, a column or two per size.
 fn energy_table(study: &Accuracy, rows: &[Row], dim: Dimension, document: &mut Document) {
     let yardstick = study
         .methods
         .iter()
         .find(|entry| entry.method.name == MethodName::Sobol)
         .map(|entry| entry.method.label());
-    let compared = |entry: &Entry| yardstick.filter(|label| *label != entry.method.label());
-    let mut header = vec!["M".to_owned(), "i.i.d., expected".to_owned()];
-    for entry in &study.methods {
-        header.push(entry.method.label().to_owned());
-        header.extend(compared(entry).map(|label| format!("{} / {label}", entry.method.label())));
+    let counts = counts(study);
+    let mut header = vec!["method".to_owned()];
+    for particles in &counts {
+        header.push(format!("M = {particles}"));
+        header.extend(yardstick.map(|label| format!("/ {label}")));
     }
-    let mut table = Vec::new();
-    for particles in counts(study) {
+    let mut independent = vec!["i.i.d., expected".to_owned()];
+    for &particles in &counts {
         let expected = rows
             .iter()
             .find(|row| row.dim == dim.get())
-            .map(|row| 1e3 * row.energy_level * row.particles as f64 / particles as f64);
-        let mut line = vec![particles.to_string(), optional_number(expected)];
-        for entry in &study.methods {
+            .map(|row| row.energy_level * row.particles as f64 / particles as f64);
+        independent.push(optional_number(expected.map(|value| 1e3 * value)));
+        independent.extend(yardstick.map(|label| relative(expected, &runs(rows, dim, particles, label))));
+    }
+    let mut table = vec![independent];
+    for entry in &study.methods {
+        let mut line = vec![entry.method.label().to_owned()];
+        for &particles in &counts {
             let here = runs(rows, dim, particles, entry.method.label());
             let middle = median(&here, ENERGY);
             line.push(match (middle, largest(&here, ENERGY)) {
                 (Some(middle), Some(most)) => format!("{} ({})", number(1e3 * middle), number(1e3 * most)),
                 _ => MISSING.to_owned(),
             });
-            line.extend(compared(entry).map(|label| {
-                let bar = median(&runs(rows, dim, particles, label), ENERGY);
-                optional_number(middle.zip(bar).map(|(value, bar)| value / bar))
-            }));
+            line.extend(yardstick.map(|label| relative(middle, &runs(rows, dim, particles, label))));
         }
         table.push(line);
     }
@@ -97,15 +105,19 @@ fn energy_table(study: &Accuracy, rows: &[Row], dim: Dimension, document: &mut D
     document.table(&header, &table);
 }
 
+/// `value` over the median ED² of the yardstick's runs.
+fn relative(value: Option<f64>, yardstick: &[&Row]) -> String {
+    let ratio = value.zip(median(yardstick, ENERGY)).map(|(value, bar)| value / bar);
+    optional_number(ratio)
+}
+
+/// A line per method, a column per dimension.
 fn slopes(study: &Accuracy, rows: &[Row], document: &mut Document) {
     document.heading("Slopes");
     document.paragraph(
         "Exponents b of ED ∝ M^b: least squares in logarithms over the medians, with 95 % confidence intervals. No M points \
          can do better than the order M^(−(1 + 1/d)/2) of optimally spread ones; independent draws have −1/2.",
     );
-    let mut header = vec!["d"];
-    header.extend(study.methods.iter().map(|entry| entry.method.label()));
-    header.extend(["best possible", "independent draws"]);
     let slope = |dim: Dimension, label: &str| {
         let medians = counts(study).into_iter().filter_map(|particles| {
             Some((
@@ -116,20 +128,24 @@ fn slopes(study: &Accuracy, rows: &[Row], document: &mut Document) {
         let (sizes, errors): (Vec<f64>, Vec<f64>) = medians.unzip();
         fit_power_law(&sizes, &errors).map_or(MISSING.to_owned(), |law| exponent_text(&law, 0))
     };
-    let table: Vec<Vec<String>> = study
-        .dims
-        .iter()
-        .map(|&dim| {
-            let mut line = vec![dim.to_string()];
-            line.extend(study.methods.iter().map(|entry| slope(dim, entry.method.label())));
-            line.extend([best_exponent(dim), -0.5].map(|slope| number(slope).replace('-', "−")));
-            line
-        })
-        .collect();
-    document.table(&header, &table);
+    let line = |name: &str, cell: &dyn Fn(Dimension) -> String| {
+        let mut line = vec![name.to_owned()];
+        line.extend(study.dims.iter().map(|&dim| cell(dim)));
+        line
+    };
+    let exact = |slope: f64| number(slope).replace('-', "−");
+    let mut table = vec![
+        line("best possible", &|dim| exact(best_exponent(dim))),
+        line("independent draws", &|_| exact(-0.5)),
+    ];
+    for entry in &study.methods {
+        let label = entry.method.label();
+        table.push(line(label, &|dim| slope(dim, label)));
+    }
+    table_by_dimension(document, &["method"], &study.dims, &table);
 }
 
-/// What the runs took: one table per quantity, a line per size.
+/// What the runs took: a line per method and size, a column per dimension.
 fn costs(study: &Accuracy, rows: &[Row], document: &mut Document) {
     document.heading("Costs");
     let quantities: [(&str, Quantity); 3] = [
@@ -142,30 +158,28 @@ fn costs(study: &Accuracy, rows: &[Row], document: &mut Document) {
         }),
     ];
     for (name, quantity) in quantities {
-        let having: Vec<&str> = study
-            .methods
-            .iter()
-            .map(|entry| entry.method.label())
-            .filter(|label| {
-                rows.iter()
-                    .any(|row| row.series == *label && quantity(row).is_some_and(|value| value > 0.0))
-            })
-            .collect();
-        if having.is_empty() {
-            continue;
-        }
-        let mut header = vec!["d", "M"];
-        header.extend(&having);
         let mut table = Vec::new();
-        for &dim in &study.dims {
+        for entry in &study.methods {
             for particles in counts(study) {
-                let mut line = vec![dim.to_string(), particles.to_string()];
-                let value = |label: &&str| optional_number(median(&runs(rows, dim, particles, label), quantity));
-                line.extend(having.iter().map(value));
-                table.push(line);
+                let value = |&dim: &Dimension| median(&runs(rows, dim, particles, entry.method.label()), quantity);
+                let values: Vec<Option<f64>> = study.dims.iter().map(value).collect();
+                if values.iter().flatten().any(|&value| value > 0.0) {
+                    let mut line = vec![entry.method.label().to_owned(), particles.to_string()];
+                    line.extend(values.into_iter().map(optional_number));
+                    table.push(line);
+                }
             }
         }
-        document.paragraph(name);
-        document.table(&header, &table);
+        if !table.is_empty() {
+            document.paragraph(name);
+            table_by_dimension(document, &["method", "M"], &study.dims, &table);
+        }
     }
+}
+
+/// A table whose last columns are the dimensions.
+fn table_by_dimension(document: &mut Document, first: &[&str], dims: &[Dimension], table: &[Vec<String>]) {
+    let dims: Vec<String> = dims.iter().map(|dim| format!("d = {dim}")).collect();
+    let header: Vec<&str> = first.iter().copied().chain(dims.iter().map(String::as_str)).collect();
+    document.table(&header, table);
 }
