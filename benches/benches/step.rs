@@ -54,7 +54,7 @@ fn bench_step<B: UniformBasis<D>, const D: usize>(
         Well,
     );
     let control = StepControl {
-        time_step: (0.5 * h).min(0.5),
+        time_step: defaults::time_step(h),
         courant: f64::INFINITY,
         displacement: 0.5,
         friction: defaults::FRICTION,

@@ -64,7 +64,7 @@ pub trait Basis<const D: usize>: Sync {
 
     /// As [`for_each_node`](Self::for_each_node), with weight and w_ip `value` + `scale` (0, ∇w_ip).
     ///
-    /// A basis of tensor products overrides it: the flux of an isotropic stress needs D + 1 products per node.
+    /// Bases override it: an isotropic stress needs D + 1 products per node of a tensor product, and as many differences on a lattice.
     #[inline(always)]
     fn for_each_deposit(
         &self,
@@ -93,14 +93,14 @@ pub trait Basis<const D: usize>: Sync {
 
 /// A basis on a lattice without end, which can be moved and scaled.
 pub trait UniformBasis<const D: usize>: Basis<D> {
-    /// A node at `origin`, spacing h. Takes effect with the next rebuild.
+    /// A node at `origin`, spacing h. The basis must be rebuilt before anything else is asked of it.
     ///
     /// # Errors
     /// [`MpmError::InvalidParameter`] unless `h` is positive and `h` and `origin` are finite.
     fn place(&mut self, origin: [f64; D], h: f64) -> Result<(), MpmError>;
 
     /// Turn the basis by an orthogonal R (rows: the new axes), seen from how it was made. Bases whose axes are those of space stay as they
-    /// are. Takes effect with the next rebuild.
+    /// are. The basis must be rebuilt before anything else is asked of it.
     fn turn(&mut self, _rotation: &Matrix<D>) {}
 
     /// The point of the unit cell of a lattice of spacing h that has the coordinates `fraction` ∈ [0, 1)ᴰ in it: all

@@ -34,7 +34,8 @@ const FEW_PARTS: usize = 4;
 
 impl Schedule {
     /// A schedule of one part, from its order as in [`order`](Self::order) and the first particle of every cell, which ends
-    /// with the number of particles. The parts are made by [`cut`](Self::cut) and [`join`](Self::join).
+    /// with the number of particles. The parts are made by [`cut`](Self::cut), [`parts_mut`](Self::parts_mut) and
+    /// [`join`](Self::join).
     pub fn new(order: Vec<u32>, cell_starts: Vec<u32>) -> Self {
         Self {
             order,
@@ -74,6 +75,11 @@ impl Schedule {
         &self.parts
     }
 
+    /// The parts, for a basis to say between [`cut`](Self::cut) and [`join`](Self::join) which nodes they touch.
+    pub fn parts_mut(&mut self) -> &mut [Part] {
+        &mut self.parts
+    }
+
     /// Whether the last sort left every particle where it was.
     pub fn keeps_order(&self) -> bool {
         self.keeps_order
@@ -103,11 +109,10 @@ impl Schedule {
     /// Join neighbouring parts, now that they know their nodes, until few are left, where the nodes that several of them
     /// have would cost more storage than the nodes themselves or half the particles.
     pub fn join(&mut self, node_count: usize) {
-        let (particles, mut count) = (self.order.len(), self.parts.len());
+        let particles = self.order.len();
         let stored = |parts: &[Part]| parts.iter().map(|part| part.nodes.len()).sum::<usize>();
-        while count > FEW_PARTS && stored(&self.parts) > node_count + node_count.max(particles / 2) {
+        while self.parts.len() > FEW_PARTS && stored(&self.parts) > node_count + node_count.max(particles / 2) {
             self.parts = self.parts.chunks(2).map(joined).collect();
-            count = self.parts.len();
         }
     }
 

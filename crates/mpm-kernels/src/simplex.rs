@@ -59,9 +59,6 @@ impl<const D: usize> SimplexGeometry<D> {
     }
 
     fn with_inverse(frame: Matrix<D>, inverse_frame: Matrix<D>, origin: [f64; D], spacing: f64) -> Self {
-        const {
-            assert!(D >= 1 && D <= AXES, "a simplex lattice has 1 to 8 dimensions");
-        }
         let mut geometry = Self {
             origin,
             spacing,
@@ -90,7 +87,7 @@ impl<const D: usize> SimplexGeometry<D> {
         &self.origin
     }
 
-    /// h: a cell of the lattice (a parallelepiped of D! simplices) has the volume hᴰ / det T.
+    /// h: a cell of the lattice (a parallelepiped of D! simplices) has the volume hᴰ / |det T|.
     pub fn spacing(&self) -> f64 {
         self.spacing
     }
@@ -185,7 +182,8 @@ impl<const D: usize> SimplexGeometry<D> {
         );
     }
 
-    /// Visit the vertices with weight and w `value` + `scale` (0, ∇w): differences of (1 + f) `value` + `scale` (0, row).
+    /// Visit the vertices with weight and w `value` + `scale` (0, ∇w): differences of (1 + f) `value` + `scale` (0, row), each
+    /// exact to 2⁻⁵² of `value`, not of w `value`.
     #[inline(always)]
     pub fn for_each_deposit(
         &self,

@@ -29,7 +29,10 @@ impl<const D: usize> SimplexPoint<D> {
     /// Points with the given fractions, in [0, 1], side by side: `fractions[axis]`.
     #[inline(always)]
     pub fn sorted(fractions: &[Lanes; D]) -> [Self; LANES] {
-        let network = const { comparators::<D>() };
+        let network = const {
+            assert!(D >= 1 && D <= AXES, "a simplex lattice has 1 to 8 dimensions");
+            comparators::<D>()
+        };
         let without_axis = Lanes::splat(f64::from_bits(!AXIS));
         let mut keys: [Lanes; D] = std::array::from_fn(|a| {
             let axis = Lanes::splat(f64::from_bits(a as u64));

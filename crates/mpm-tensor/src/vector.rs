@@ -6,7 +6,7 @@
 /// a b + c: rounded once where the machine does it in one instruction, else twice.
 #[inline(always)]
 pub fn multiply_add(a: f64, b: f64, c: f64) -> f64 {
-    if cfg!(target_feature = "fma") {
+    if cfg!(any(target_feature = "fma", target_arch = "aarch64")) {
         a.mul_add(b, c)
     } else {
         a * b + c

@@ -54,24 +54,31 @@ where
     let spacing = certificate.spacing();
     let mut scores = vec![[0.0; D]; body.particles.len()];
     let mut trace = Vec::new();
-    let (mut time, mut active_nodes) = (0.0, 0);
+    let (mut time, mut active_nodes, mut origin) = (0.0, 0, [0.0; D]);
     for step in 1..=steps {
         let failed = |error| SampleError::in_step(step, error);
-        let planned = (plan.step)(step);
+        let mut planned = (plan.step)(step);
         if let Some(rotation) = &planned.rotation {
             body.basis.turn(rotation);
         }
-        let origin = body.basis.cell_point(&planned.origin, planned.spacing);
-        body.basis.place(origin, planned.spacing).map_err(failed)?;
+        origin = planned.origin;
+        let point = body.basis.cell_point(&origin, planned.spacing);
+        body.basis.place(point, planned.spacing).map_err(failed)?;
         body.body_force.alpha = planned.alpha;
+        if let Some(stiffness) = &body.body_force.stiffness {
+            planned.control.time_step = planned.control.time_step.min(stiffness.time_limit());
+        }
         let report = body.step(&planned.control).map_err(failed)?;
+        if let Some(stiffness) = &mut body.body_force.stiffness {
+            stiffness.update(body.basis.schedule().order());
+        }
         time += report.time_step;
         active_nodes = report.active_nodes;
         if plan.trace_every > 0 && (step % plan.trace_every == 0 || step == 1) {
             let positions = &body.particles.positions;
             let score = &mut body.body_force.score;
             score.evaluate(positions, &mut scores).map_err(failed)?;
-            away_from(&mut certificate, &planned.origin, spacing).map_err(failed)?;
+            away_from(&mut certificate, &origin, spacing).map_err(failed)?;
             let residual = galerkin_stein_residual(&mut certificate, positions, &scores).map_err(failed)?;
             trace.push(TracePoint {
                 step,
@@ -92,6 +99,7 @@ where
     let score = &mut body.body_force.score;
     let positions = &mut body.particles.positions;
     correct_moments(plan.moment_correction, positions, score, &mut scores).map_err(failed)?;
+    away_from(&mut certificate, &origin, spacing).map_err(failed)?;
     let residual = galerkin_stein_residual(&mut certificate, positions, &scores).map_err(failed)?;
     let score_evaluations = score.evaluations;
     let in_order = body.particles.in_creation_order(&body.particles.positions);
@@ -114,7 +122,7 @@ fn away_from<const D: usize>(
     origin: &[f64; D],
     spacing: f64,
 ) -> Result<(), mpm_core::MpmError> {
-    let point = certificate.cell_point(&origin.map(|c| c + 0.5), spacing);
+    let point = certificate.cell_point(&origin.map(|c| (c + 0.5).fract()), spacing);
     certificate.place(point, spacing)
 }
 

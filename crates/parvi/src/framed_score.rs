@@ -4,6 +4,7 @@ use mpm_core::{BodyForce, ForceLocation, MpmError};
 use parvi_targets::{Frame, Target};
 
 use crate::ScoreLocation;
+use crate::stiffness::Stiffness;
 
 /// Scores of `target` pulled back to frame coordinates: x = μ + L z, s_z = Lᵀ ∇ log p(x).
 pub(crate) struct FramedScore<'a, const D: usize> {
@@ -65,6 +66,8 @@ pub(crate) struct ScoreForce<'a, const D: usize> {
     pub mass_weighted: bool,
     /// At the nodes: those lighter than this receive no force.
     pub mass_floor: f64,
+    /// Where it is to be known (at the particles), how stiff the target is.
+    pub stiffness: Option<Stiffness<D>>,
 }
 
 impl<const D: usize> BodyForce<D> for ScoreForce<'_, D> {
@@ -77,6 +80,9 @@ impl<const D: usize> BodyForce<D> for ScoreForce<'_, D> {
 
     fn at_particles(&mut self, positions: &[[f64; D]], accelerations: &mut [[f64; D]]) -> Result<(), MpmError> {
         self.score.evaluate(positions, accelerations)?;
+        if let Some(stiffness) = &mut self.stiffness {
+            stiffness.record(positions, accelerations);
+        }
         if self.alpha != 1.0 {
             for acceleration in accelerations {
                 *acceleration = acceleration.map(|c| self.alpha * c);

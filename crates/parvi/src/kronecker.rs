@@ -1,55 +1,66 @@
-//! The Kronecker sequence of the generalised golden ratio: where the grid's origin goes in every step.
+//! The Kronecker sequence of the generalised golden ratio: where the lattice goes in every step, and how wide it is.
 
-/// Points u_n = frac(u_0 + n (φ⁻¹, φ⁻², …)), φ the positive root of φ^{K+1} = φ + 1; of low discrepancy in K dimensions
-/// for every number of points (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences").
+use rand::{Rng, RngExt};
+
+/// Points u_n = frac(u_0 + n (φ⁻¹, φ⁻², …)) of the unit cube in D + 1 dimensions, φ the positive root of φ^{D+2} = φ + 1; of low
+/// discrepancy for every number of points (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences").
+///
+/// D coordinates are for the origin, the last one is for the spacing: one sequence, so that both together are even.
 #[derive(Clone, Debug)]
-pub(crate) struct Kronecker<const K: usize> {
-    start: [f64; K],
-    step: [f64; K],
+pub(crate) struct Kronecker<const D: usize> {
+    start: ([f64; D], f64),
+    phi: f64,
     count: u64,
 }
 
-impl<const K: usize> Kronecker<K> {
-    /// A sequence that starts at `start`, a point of the unit cube.
-    pub fn new(start: [f64; K]) -> Self {
+impl<const D: usize> Kronecker<D> {
+    /// A sequence that starts at a random point.
+    pub fn new(generator: &mut impl Rng) -> Self {
         let mut phi = 2.0f64;
         for _ in 0..60 {
-            phi = (1.0 + phi).powf(1.0 / (K as f64 + 1.0));
+            phi = (1.0 + phi).powf(1.0 / (D as f64 + 2.0));
         }
         Self {
-            start,
-            step: std::array::from_fn(|a| phi.powi(-(a as i32) - 1)),
+            start: (std::array::from_fn(|_| generator.random()), generator.random()),
+            phi,
             count: 0,
         }
     }
 
-    /// The next point of the sequence.
-    pub fn next_point(&mut self) -> [f64; K] {
+    /// The next point of the sequence: D coordinates and the last one.
+    pub fn next_point(&mut self) -> ([f64; D], f64) {
         self.count += 1;
-        std::array::from_fn(|a| (self.start[a] + self.count as f64 * self.step[a]).fract())
+        let coordinate =
+            |start: f64, axis: usize| (start + self.count as f64 * self.phi.powi(-(axis as i32) - 1)).fract();
+        let origin = std::array::from_fn(|a| coordinate(self.start.0[a], a));
+        (origin, coordinate(self.start.1, D))
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use rand::{SeedableRng, rngs::ChaCha8Rng};
+
     use super::*;
 
-    #[test]
-    fn golden_ratio_in_one_dimension() {
-        let mut sequence = Kronecker::new([0.0]);
-        assert!((sequence.next_point()[0] - 0.618_033_988_749_894_9).abs() < 1e-14);
+    fn covers_the_cube_evenly<const D: usize>() {
+        let mut sequence = Kronecker::<D>::new(&mut ChaCha8Rng::seed_from_u64(3));
+        let (cells, per_cell) = (2 << D, 100);
+        let mut counts = vec![0i32; cells];
+        for _ in 0..cells * per_cell {
+            let (u, last) = sequence.next_point();
+            assert!(u.iter().all(|c| (0.0..1.0).contains(c)) && (0.0..1.0).contains(&last));
+            let upper = u.iter().chain([&last]);
+            counts[upper.fold(0, |index, &c| 2 * index + usize::from(c >= 0.5))] += 1;
+        }
+        // Independent points would scatter by 10 in every cell.
+        assert!(counts.iter().all(|&count| (count - 100).abs() <= 8), "{counts:?}");
     }
 
     #[test]
-    fn covers_the_cube_evenly() {
-        let mut sequence = Kronecker::<3>::new([0.2, 0.5, 0.9]);
-        let mut counts = [0; 8];
-        for _ in 0..800 {
-            let u = sequence.next_point();
-            assert!(u.iter().all(|c| (0.0..1.0).contains(c)));
-            counts[(0..3).fold(0, |index, a| 2 * index + (u[a] >= 0.5) as usize)] += 1;
-        }
-        // Independent points would scatter by 9 in every octant; the largest of eight deviations would be about 16.
-        assert!(counts.iter().all(|&count: &i32| (count - 100).abs() <= 8), "{counts:?}");
+    fn origins_and_spacings_together_cover_the_cube_evenly() {
+        covers_the_cube_evenly::<1>();
+        covers_the_cube_evenly::<2>();
+        covers_the_cube_evenly::<3>();
     }
 }

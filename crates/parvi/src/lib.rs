@@ -14,6 +14,7 @@ mod residual;
 mod rotation;
 mod run;
 mod start;
+mod stiffness;
 mod svgd;
 
 pub use exact::{independent_draws, sobol_points};

@@ -1,9 +1,8 @@
-//! The calibrated sampler: an isothermal gas under the score, on a basis whose origin moves every step.
+//! The calibrated sampler: an isothermal gas under the score, on a basis that moves, turns and changes its spacing every step.
 
 use mpm_core::{Apic, Flip, Mpm, MpmError, Particles, Pic, StepControl, Transfer, UniformBasis};
 use mpm_materials::IsothermalGas;
 use parvi_targets::{Frame, Target};
-use rand::RngExt;
 
 use crate::basis_choice::OnBasis;
 use crate::drive::{Plan, PlannedStep, drive};
@@ -11,6 +10,7 @@ use crate::framed_score::{FramedScore, ScoreForce};
 use crate::kronecker::Kronecker;
 use crate::rotation::random_rotation;
 use crate::start::{check, positive, steps};
+use crate::stiffness::Stiffness;
 use crate::{MpmOptions, Observer, Run, SampleError, Samples, TransferChoice, defaults};
 
 /// What every layer of the dispatch hands on.
@@ -34,6 +34,7 @@ impl MpmOptions {
         run: &Run,
         observer: &mut dyn Observer,
     ) -> Result<Samples<D>, SampleError> {
+        run.checked_particles()?;
         self.spacing_schedule.check()?;
         self.settling.check()?;
         let default = defaults::spacing::<D>(self.basis, run.particles);
@@ -93,26 +94,23 @@ impl<const D: usize> Job<'_, D> {
         let particles = Particles::at_rest(run.start_positions()?, 1.0);
         let gas = IsothermalGas::new(1.0)?;
         let mut generator = run.generator(1);
-        let mut shifts = Kronecker::new(std::array::from_fn(|_| generator.random::<f64>()));
+        let mut places = Kronecker::<D>::new(&mut generator);
         let mut rotations = run.generator(2);
-        let mut spacings = generator.random::<f64>();
         let (schedule, settling) = (&options.spacing_schedule, &options.settling);
         let plan = Plan {
             steps,
             certificate,
             step: |step| {
                 let varies = options.shifts && settling.varies(step, steps);
-                let origin = if varies { shifts.next_point() } else { [0.0; D] };
-                spacings = (spacings + GOLDEN_STEP).fract();
-                let factor = schedule.factor(step, steps, if varies { spacings } else { 0.5 });
-                let shrink = (defaults::time_step(spacing * factor) / defaults::time_step(spacing)).min(factor);
+                let (origin, draw) = if varies { places.next_point() } else { ([0.0; D], 0.5) };
+                let factor = schedule.factor(step, steps, draw);
                 PlannedStep {
                     origin,
                     spacing: spacing * factor,
-                    rotation: options.rotation.then(|| random_rotation(&mut rotations)),
+                    rotation: (varies && options.rotation).then(|| random_rotation(&mut rotations)),
                     alpha: 1.0,
                     control: StepControl {
-                        time_step: time_step * shrink * settling.factor(step, steps),
+                        time_step: time_step * time_factor(spacing, factor) * settling.factor(step, steps),
                         ..control
                     },
                 }
@@ -126,10 +124,15 @@ impl<const D: usize> Job<'_, D> {
             location: options.score_location,
             mass_weighted: true,
             mass_floor: 0.0,
+            stiffness: Some(Stiffness::default()),
         };
         let body = Mpm::new(particles, basis, transfer, gas, force);
         drive(body, self.frame, plan, self.observer)
     }
 }
 
-const GOLDEN_STEP: f64 = 0.618_033_988_749_894_9;
+/// Factor of Δt where the spacing is `factor` h: Δt follows a smaller spacing all the way, for the sake of the displacement limit, and
+/// a larger one by the rule for defaults.
+fn time_factor(spacing: f64, factor: f64) -> f64 {
+    (defaults::time_step(spacing * factor) / defaults::time_step(spacing)).min(factor)
+}

@@ -36,6 +36,7 @@ impl PaperOptions {
     ) -> Result<Samples<D>, SampleError> {
         let moduli = ElasticModuli::new(self.youngs_modulus, self.poissons_ratio)?;
         let (neo_hookean, linear) = (NeoHookean::new(moduli), LinearElastic::new(moduli));
+        run.checked_particles()?;
         let default = defaults::spacing::<D>(self.basis, run.particles);
         let spacing = positive("spacing", self.spacing, default)?;
         let job = Job {
@@ -114,6 +115,7 @@ impl<const D: usize> Job<'_, D> {
             location: options.score_location,
             mass_weighted: options.guards.mass_weighted_force,
             mass_floor: floor / job.run.particles as f64,
+            stiffness: None,
         };
         let medium = Elastic { material: job.material };
         drive(

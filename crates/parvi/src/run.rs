@@ -71,7 +71,7 @@ pub struct Samples<const D: usize> {
     pub score_evaluations: u64,
     /// Galerkin–Stein residual relative to its value for i.i.d. draws (1 = as good as i.i.d.; smaller is better).
     pub residual: Option<f64>,
-    /// Grid spacing h in the frame's units (the last one, where a schedule varies it).
+    /// Spacing h in the frame's units: the central one, where it varies.
     pub spacing: Option<f64>,
     /// Nodes with mass in the last step.
     pub active_nodes: Option<usize>,

@@ -34,26 +34,37 @@ impl Run {
             "positive and finite",
         )?;
         check("start mean", self.start.mean, self.start.mean.is_finite(), "finite")?;
-        let law = Gaussian::<D>::standard();
         let mut generator = self.generator(0);
-        // Of the seed's own stream, so that the yardstick of the same seed has other points.
-        let sequence = match self.start.draws {
-            StartDraws::QuasiRandom => SobolSequence::scrambled(D, generator.random()).ok(),
-            StartDraws::Independent => None,
+        let mut positions: Vec<[f64; D]> = match self.start.draws {
+            // Of the seed's own stream, so that the yardstick of the same seed has other points.
+            StartDraws::QuasiRandom => quasi_random_normal(count, generator.random())?,
+            StartDraws::Independent => (0..count)
+                .map(|_| std::array::from_fn(|_| StandardNormal.sample(&mut generator)))
+                .collect(),
         };
-        let mut point: Box<dyn FnMut(u32) -> [f64; D]> = match (sequence, law.unit_cube_transport()) {
-            (Some(sequence), Some(transport)) => {
-                let mut u = [0.0; D];
-                Box::new(move |index| {
-                    sequence.write(index, &mut u);
-                    transport.transport(&u)
-                })
-            }
-            _ => Box::new(move |_| std::array::from_fn(|_| StandardNormal.sample(&mut generator))),
-        };
-        let scaled = |z: [f64; D]| z.map(|c| self.start.mean + sd * c);
-        Ok((0..count as u32).map(|index| scaled(point(index))).collect())
+        for c in positions.as_flattened_mut() {
+            *c = self.start.mean + sd * *c;
+        }
+        Ok(positions)
     }
+}
+
+/// Scrambled Sobol points through the quantile function of N(0, I).
+fn quasi_random_normal<const D: usize>(count: usize, seed: u64) -> Result<Vec<[f64; D]>, SampleError> {
+    let law = Gaussian::<D>::standard();
+    let (Ok(sequence), Some(transport)) = (SobolSequence::scrambled(D, seed), law.unit_cube_transport()) else {
+        return Err(SampleError::InvalidOption {
+            field: "dimensions of a quasi-random start",
+            value: D as f64,
+            expected: "at most 21",
+        });
+    };
+    let point = |index| {
+        let mut u = [0.0; D];
+        sequence.write(index, &mut u);
+        transport.transport(&u)
+    };
+    Ok((0..count as u32).map(point).collect())
 }
 
 /// An error that names the option, unless `allowed`.

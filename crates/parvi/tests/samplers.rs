@@ -4,14 +4,16 @@ use std::ops::ControlFlow;
 
 use mpm_core::SplineGrid;
 use mpm_kernels::Quadratic;
+use mpm_tensor::vector;
 use parvi::{
     BasisChoice, Guards, Method, MomentCorrection, MpmOptions, Observer, PaperOptions, Progress, Run, SampleError,
-    Samples, ScoreLocation, Silent, Start, SvgdOptions, TransferChoice, galerkin_stein_residual, sample,
+    Samples, ScoreLocation, Settling, Silent, Start, StartDraws, SvgdOptions, TransferChoice, galerkin_stein_residual,
+    sample,
 };
 use parvi_metrics::{Cloud, CloudMoments, GaussianEnergy};
 use parvi_targets::{Banana, CatalogueTarget, Frame, Funnel, Gaussian, GaussianMixture, Ring, StudentT, Target};
 
-fn mpm(target: &dyn CatalogueTarget<2>, options: MpmOptions, run: &Run) -> Samples<2> {
+fn mpm<const D: usize>(target: &dyn CatalogueTarget<D>, options: MpmOptions, run: &Run) -> Samples<D> {
     sample(target, &Method::Mpm(options), run, &mut Silent).expect("a run that ends well")
 }
 
@@ -97,7 +99,7 @@ fn bases_transfers_and_score_locations_all_converge() {
             assert!(squared <= 0.4e-3, "{basis:?}, {transfer:?}: {squared}");
         }
     }
-    // At the nodes the covariance shrinks by the kernel's variance, h²/4; the correction repairs it.
+    // At the nodes the covariance shrinks by the kernel's variance; the correction repairs it.
     let at_nodes = MpmOptions {
         score_location: ScoreLocation::Nodes,
         moment_correction: MomentCorrection::Affine,
@@ -182,7 +184,7 @@ fn same_seed_same_bits_on_any_number_of_threads() {
                 .num_threads(threads)
                 .build()
                 .expect("a pool");
-            let run = Run::new(15_000, seed);
+            let run = Run::new(30_000, seed); // enough for several parts
             pool.install(|| bits(&sample(&target, &method, &run, &mut Silent).expect("samples")))
         };
         let one = on(1, 9);
@@ -382,4 +384,85 @@ fn the_trace_has_the_steps_asked_for() {
     let (first, last) = (samples.trace[0], samples.trace[4]);
     assert!(last.residual < first.residual, "the residual falls");
     assert!(last.kinetic_energy < first.kinetic_energy, "the cloud comes to rest");
+}
+
+#[test]
+fn the_residual_does_not_depend_on_the_trace() {
+    let target = Gaussian::<2>::standard();
+    for (basis, shifts) in [(BasisChoice::Lattice, true), (BasisChoice::Quadratic, false)] {
+        let residual = |trace_every| {
+            let options = MpmOptions {
+                basis,
+                shifts,
+                trace_every,
+                steps: Some(20),
+                ..MpmOptions::default()
+            };
+            let samples = mpm(&target, options, &Run::new(400, 4));
+            samples.residual.expect("a residual")
+        };
+        let plain = residual(0);
+        for trace_every in [3, 10] {
+            assert!((residual(trace_every) / plain - 1.0).abs() < 1e-12, "{basis:?}");
+        }
+    }
+}
+
+#[test]
+fn without_shifts_the_body_comes_to_rest() {
+    let target = Gaussian::<2>::standard();
+    let spread = |shifts| {
+        let options = |steps| MpmOptions {
+            shifts,
+            steps: Some(steps),
+            settling: Settling {
+                share: 0.0,
+                ..Settling::default()
+            },
+            moment_correction: MomentCorrection::Off,
+            ..MpmOptions::default()
+        };
+        let run = Run::new(300, 5);
+        let (one, other) = (mpm(&target, options(3000), &run), mpm(&target, options(3001), &run));
+        let pairs = one.positions.iter().zip(&other.positions);
+        pairs.map(|(a, b)| vector::distance(a, b)).fold(0.0, f64::max)
+    };
+    let (resting, moving) = (spread(false), spread(true));
+    assert!(resting < 0.1 * moving, "{resting} with one lattice, {moving} with many");
+}
+
+#[test]
+fn quasi_random_starts_have_the_moments_asked_for_and_are_not_the_yardstick() {
+    let target = Gaussian::<3>::standard();
+    let at = |draws| {
+        let options = MpmOptions {
+            steps: Some(1),
+            time_step: Some(1e-9),
+            moment_correction: MomentCorrection::Off,
+            ..MpmOptions::default()
+        };
+        let start = Start {
+            mean: 2.0,
+            standard_deviation: 0.5,
+            draws,
+        };
+        let run = Run {
+            start,
+            ..Run::new(1024, 8)
+        };
+        mpm(&target, options, &run).positions
+    };
+    let quiet = at(StartDraws::QuasiRandom);
+    for axis in 0..3 {
+        let mean = quiet.iter().map(|x| x[axis]).sum::<f64>() / 1024.0;
+        let variance = quiet.iter().map(|x| (x[axis] - mean).powi(2)).sum::<f64>() / 1024.0;
+        assert!(
+            (mean - 2.0).abs() < 1e-2 && (variance - 0.25).abs() < 5e-3,
+            "{mean}, {variance}"
+        );
+    }
+    assert_ne!(quiet, at(StartDraws::Independent));
+    let yardstick = sample(&target, &Method::Sobol, &Run::new(1024, 8), &mut Silent).expect("points");
+    let same = |x: &[f64; 3], y: &[f64; 3]| (0..3).all(|a| (x[a] - 2.0 - 0.5 * y[a]).abs() < 1e-6);
+    assert!(!quiet.iter().zip(&yardstick.positions).any(|(x, y)| same(x, y)));
 }

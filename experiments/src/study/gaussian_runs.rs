@@ -49,12 +49,21 @@ impl definition::Case for Case {
     }
 
     fn cost(&self) -> f64 {
-        // Microseconds, roughly: the pairs of the energy distance, and per step M² pairs or M · 3ᵈ nodes.
+        // Microseconds, roughly: the pairs of the energy distance, and per step M² pairs or M nodes times those of a stencil.
         let (count, steps) = (self.particles as f64, self.method.options.steps.map(StepCount::get));
         let sampling = match self.method.name {
             MethodName::Iid | MethodName::Sobol => 0.0,
             MethodName::Svgd => steps.unwrap_or(500) as f64 * 3e-3 * count * count,
-            _ => steps.unwrap_or(100) as f64 * 1e-2 * count * 3f64.powi(self.dim.get() as i32),
+            _ => {
+                let dim = self.dim.get();
+                let nodes = match self.method.options.basis.unwrap_or(Basis::Lattice) {
+                    Basis::Lattice => dim as f64 + 1.0,
+                    Basis::Linear => 2f64.powi(dim as i32),
+                    Basis::Quadratic => 3f64.powi(dim as i32),
+                    Basis::Cubic => 4f64.powi(dim as i32),
+                };
+                steps.unwrap_or(100) as f64 * 1e-2 * count * nodes
+            }
         };
         1e3 + 1e-3 * count * count + sampling
     }

@@ -35,7 +35,7 @@ pub struct SimplexLattice<const D: usize> {
     /// The D + 1 node numbers of every particle, from the base of its simplex on.
     stencils: Vec<u32>,
     schedule: Schedule,
-    /// Rebuilds since particles were last sorted.
+    /// Rebuilds since particles were last sorted, that one included.
     age: u32,
     scratch: Scratch<D>,
 }

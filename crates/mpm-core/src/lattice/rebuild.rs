@@ -16,8 +16,7 @@ use crate::{MpmError, Part, Schedule};
 /// Particles of one piece of work.
 const CHUNK: usize = 1 << 12;
 
-/// A box of up to this many places, and so many more per particle, is stored: a byte a place, and four for the number of an
-/// active one.
+/// A box of up to this many places, and so many more per particle, is stored: five bytes a place.
 const FREE_PLACES: f64 = 65_536.0;
 const PLACES_PER_PARTICLE: f64 = 16.0;
 
@@ -63,7 +62,7 @@ impl<const D: usize> SimplexLattice<D> {
     }
 
     /// Phase 2 (sort), every so often: sort the particles by the cube they are in, or by a row of cubes where these
-    /// outnumber the particles.
+    /// outnumber the particles. Cubes that are hashed come in the order in which they are met.
     pub(super) fn sort_particles(&mut self, positions: &[[f64; D]]) {
         let (geometry, node_box, s) = (&self.geometry, &self.node_box, &mut self.scratch);
         let base = |x: &[f64; D]| geometry.bases(&geometry.coordinates(&[*x; LANES]));

@@ -1,7 +1,8 @@
 //! States that the step refuses: what it says, and that the particles stay as they were.
 
 use mpm_core::{
-    Basis, BodyForce, ForceLocation, Masses, Medium, Mpm, MpmError, Particles, Pic, SplineGrid, Transfer, UniformBasis,
+    Basis, BodyForce, ForceLocation, Masses, Medium, Mpm, MpmError, Particles, Pic, SimplexLattice, SplineGrid,
+    Transfer, UniformBasis,
 };
 use mpm_kernels::{Linear, Quadratic};
 use mpm_materials::{DeformationError, ElasticModuli, IsothermalGas, LinearElastic};
@@ -249,4 +250,33 @@ fn no_particles_are_no_error() {
     let mut mpm = Mpm::new(particles, grid(), Pic, neo_hookean(1.0), Pull::none());
     let report = mpm.step(&free(0.01)).unwrap();
     assert_eq!((report.active_nodes, report.displacement), (0, 0.0));
+}
+
+#[test]
+fn a_lattice_names_the_particle_and_recovers() {
+    let limit = (1u64 << 30) as f64; // lattice coordinates, here those of space
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, limit, -limit, 1e300] {
+        let mut lattice = SimplexLattice::kuhn([0.0; 2], 1.0).unwrap();
+        let mut positions = gaussian_cloud::<2>(COUNT, 21);
+        lattice.rebuild(&positions).unwrap();
+        let (nodes, kept) = (lattice.node_count(), positions[17]);
+        positions[17][1] = bad;
+        let error = lattice.rebuild(&positions).expect_err("a position out of range");
+        assert!(
+            matches!(&error, MpmError::PositionOutOfRange { particle: 17, .. }),
+            "{bad}: {error}"
+        );
+        assert!(lattice.schedule().parts().is_empty());
+        positions[17] = kept;
+        lattice.rebuild(&positions).unwrap();
+        assert_eq!(lattice.node_count(), nodes);
+    }
+    // The last coordinates that are in range, and none at all.
+    let mut lattice = SimplexLattice::kuhn([0.0; 2], 1.0).unwrap();
+    lattice.rebuild(&[[limit - 1.0, 1.0 - limit], [0.0; 2]]).unwrap();
+    assert!((5..=6).contains(&lattice.node_count()));
+    lattice.rebuild(&[]).unwrap();
+    assert_eq!(lattice.node_count(), 0);
+    lattice.rebuild(&[[0.25, 0.5]]).unwrap();
+    assert_eq!(lattice.node_count(), 3);
 }

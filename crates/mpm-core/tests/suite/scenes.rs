@@ -10,14 +10,16 @@ use rand_distr::{Distribution, StandardNormal};
 /// line here.
 macro_rules! every_basis {
     ($check:ident, $dimension:literal) => {{
-        use mpm_core::{SimplexLattice, SplineGrid};
+        use mpm_core::{SimplexLattice, SplineGrid, UniformBasis};
         use mpm_kernels::{Cubic, Linear, Quadratic};
         $check::<$dimension, _>("linear", |o, h| SplineGrid::<Linear, 2, $dimension>::new(o, h).unwrap());
         $check::<$dimension, _>("quadratic", |o, h| {
             SplineGrid::<Quadratic, 3, $dimension>::new(o, h).unwrap()
         });
-        $check::<$dimension, _>("lattice", |o, h| {
-            SimplexLattice::<$dimension>::permutohedral(o, h).unwrap()
+        $check::<$dimension, _>("turned lattice", |o, h| {
+            let mut lattice = SimplexLattice::<$dimension>::permutohedral(o, h).unwrap();
+            lattice.turn(&$crate::scenes::reflection());
+            lattice
         });
         $check::<$dimension, _>("Kuhn lattice", |o, h| SimplexLattice::<$dimension>::kuhn(o, h).unwrap());
         $check::<$dimension, _>("cubic", |o, h| SplineGrid::<Cubic, 4, $dimension>::new(o, h).unwrap());
@@ -30,6 +32,12 @@ pub fn generator(seed: u64) -> ChaCha8Rng {
 
 pub fn normal<const D: usize>(generator: &mut ChaCha8Rng) -> [f64; D] {
     std::array::from_fn(|_| StandardNormal.sample(generator))
+}
+
+/// An orthogonal matrix without zeros: I − 2 v vᵀ / |v|².
+pub fn reflection<const D: usize>() -> Matrix<D> {
+    let v: [f64; D] = std::array::from_fn(|a| 1.0 + 0.3 * a as f64);
+    Matrix::IDENTITY - Matrix::outer(&v, &v) * (2.0 / dot(&v, &v))
 }
 
 /// Draws from N(0, I).

@@ -41,9 +41,10 @@ pub struct MpmOptions {
     pub time_step: Option<f64>,
     /// Friction γ ≥ 0 (v ← v e^{−γΔt}).
     pub friction: Option<f64>,
-    /// Move the basis' origin every step by a Kronecker sequence.
+    /// Let the basis vary from step to step: its origin, its spacing within the range of `spacing_schedule`, and with `rotation`
+    /// its orientation. Without, one basis at the central spacing serves the whole run.
     pub shifts: bool,
-    /// Turn the lattice by another random rotation in every step; splines keep their axes.
+    /// Turn the lattice by another random orthogonal matrix in every step that varies it; splines keep their axes.
     pub rotation: bool,
     /// How the run ends.
     pub settling: Settling,

@@ -3,8 +3,8 @@
 use crate::start::check;
 use crate::{SampleError, defaults};
 
-/// The spacing of step n of N around the central spacing h: h c^{(1 − n/(N s))₊} r^{u_n − ½}, u_n ∈ [0, 1) from the same
-/// Kronecker sequence as the shifts.
+/// The spacing of step n of N around the central spacing h: h c^{(1 − (n−1)/(N s))₊} r^{u_n − ½}, u_n ∈ [0, 1) the last coordinate
+/// of the Kronecker sequence whose others are the origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpacingSchedule {
     /// r ≥ 1: largest over smallest spacing of the draws; 1 draws nothing.
@@ -41,21 +41,21 @@ impl SpacingSchedule {
 
     /// Factor of h in step `step` of `steps` (from 1), for the draw `u`.
     pub(crate) fn factor(&self, step: usize, steps: usize, u: f64) -> f64 {
-        let coarse = (1.0 - step as f64 / (self.coarse_share * steps as f64)).max(0.0);
+        let coarse = (1.0 - (step - 1) as f64 / (self.coarse_share * steps as f64)).max(0.0);
         self.coarse_start.powf(coarse) * self.range.powf(u - 0.5)
     }
 }
 
 /// The end of a run: over the last share of the steps Δt falls linearly from the full one to a fraction of it.
 ///
-/// Gradients of the shape functions have kinks, so particles at rest keep trembling by an amount that grows with Δt.
+/// Gradients of hat functions jump, so particles at rest keep trembling by an amount that grows with Δt.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settling {
     /// Share of the steps, in [0, 1).
     pub share: f64,
     /// Δt of the last step over the full one, in (0, 1].
     pub time_step: f64,
-    /// Whether origin and spacing go on varying meanwhile.
+    /// Whether the basis goes on varying meanwhile; else it comes to rest at origin 0 and the central spacing.
     pub shifts: bool,
 }
 
@@ -91,7 +91,7 @@ impl Settling {
         self.time_step + (1.0 - self.time_step) * self.left(step, steps)
     }
 
-    /// Whether origin and spacing vary in this step.
+    /// Whether the basis varies in this step.
     pub(crate) fn varies(&self, step: usize, steps: usize) -> bool {
         self.shifts || self.left(step, steps) >= 1.0
     }

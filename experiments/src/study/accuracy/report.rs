@@ -20,7 +20,8 @@ pub fn report(study: &Accuracy, rows: &[Row], directory: &StudyDirectory) -> Res
     let mut document = Document::new("Accuracy against the number of particles");
     document.paragraph(format!(
         "Target N(0, I), {} seeds. ED² is the squared energy distance, exact in the expectation over the Gaussian; \
-         independent draws have the expectation E‖Y − Y'‖/M.",
+         independent draws have the expectation E‖Y − Y'‖/M. Methods that move particles start from scrambled Sobol points of \
+         N(0, I), on other scramblings than the yardstick's, unless their options say otherwise.",
         study.seeds.len(),
     ));
     if study.methods.len() <= MOST_LINES {

@@ -64,7 +64,7 @@ fn particles_part(
     Ok(())
 }
 
-/// Time per particle and step, by dimension, and its power of the stencil's size 3ᵈ.
+/// Time per particle and step, by dimension, and its powers of d and of 3ᵈ.
 fn growth_with_dimension(study: &Scaling, rows: &[Row], document: &mut Document) {
     let sweep = &study.particles_sweep;
     let time = |dim: usize, particles: usize| {
@@ -72,26 +72,28 @@ fn growth_with_dimension(study: &Scaling, rows: &[Row], document: &mut Document)
         Some(rows.iter().find(here)?.wall_seconds_per_step? / particles as f64 * 1e9)
     };
     document.paragraph(
-        "Nanoseconds per particle and step, and the exponent b in (3ᵈ)^b, where 3ᵈ is the number of nodes that a particle \
-         touches with quadratic B-splines. The paper's estimate grows as kᵈ d².",
+        "Nanoseconds per particle and step, and the exponents b in d^b and (3ᵈ)^b: a particle touches d + 1 nodes of a simplex \
+         lattice and 3ᵈ with quadratic B-splines. The paper's estimate grows as kᵈ d².",
     );
     let dims: Vec<usize> = sweep.dims.iter().map(|dim| dim.get()).collect();
     let labels: Vec<String> = dims.iter().map(|dim| format!("d = {dim}")).collect();
     let mut header = vec!["M"];
     header.extend(labels.iter().map(String::as_str));
-    header.push("exponent of 3ᵈ");
+    header.extend(["exponent of d", "exponent of 3ᵈ"]);
     let mut table = Vec::new();
     for particles in sweep.particles.iter().map(|count| count.get()) {
         let times: Vec<Option<f64>> = dims.iter().map(|&dim| time(dim, particles)).collect();
-        let known = dims
-            .iter()
-            .zip(&times)
-            .filter_map(|(&dim, time)| Some((3f64.powi(dim as i32), (*time)?)));
-        let (sizes, values): (Vec<f64>, Vec<f64>) = known.unzip();
-        let exponent = fit_power_law(&sizes, &values).map_or(MISSING.to_owned(), |law| exponent_text(&law, 0));
+        let exponent = |size: fn(usize) -> f64| {
+            let known = dims
+                .iter()
+                .zip(&times)
+                .filter_map(|(&dim, time)| Some((size(dim), (*time)?)));
+            let (sizes, values): (Vec<f64>, Vec<f64>) = known.unzip();
+            fit_power_law(&sizes, &values).map_or(MISSING.to_owned(), |law| exponent_text(&law, 0))
+        };
         let mut line = vec![particles.to_string()];
-        line.extend(times.into_iter().map(optional_number));
-        line.push(exponent);
+        line.extend(times.iter().copied().map(optional_number));
+        line.extend([exponent(|dim| dim as f64), exponent(|dim| 3f64.powi(dim as i32))]);
         table.push(line);
     }
     document.table(&header, &table);
@@ -115,7 +117,7 @@ fn nodes_part(
     ));
     exponent_table(document, rows, Sweep::Nodes, &sweep.dims, 0.0);
     document.paragraph(format!(
-        "The same from k = {} on, where most particles are alone in their cells and touch 3ᵈ nodes each:",
+        "The same from k = {} on, where most particles are alone among their nodes:",
         sweep.fit_from,
     ));
     exponent_table(document, rows, Sweep::Nodes, &sweep.dims, sweep.fit_from.get() as f64);
