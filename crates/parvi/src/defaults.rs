@@ -30,6 +30,9 @@ pub fn time_step(spacing: f64) -> f64 {
     (0.6 * spacing).min(0.6)
 }
 
+/// Largest Δt √λ, λ the curvature of −log p where the particles are: the angle by which an oscillation advances in a step.
+pub const OSCILLATION_ANGLE: f64 = 1.0;
+
 /// Ratio of the largest to the smallest spacing that a run draws from.
 pub const SPACING_RANGE: f64 = 3.0;
 

@@ -2,11 +2,14 @@
 
 use mpm_tensor::vector;
 
+use crate::defaults;
+
 /// Particles that are looked at, at most.
 const SAMPLE: usize = 1 << 12;
 
-/// λ = (Σ_p |s_p − s'_p|² / Σ_p |x_p − x'_p|²)^½ from one step to the next, x' and s' a step earlier: 1 for the target N(0, I) of
-/// a frame that fits. A pendulum of frequency √λ asks for Δt ≪ 2 / √λ.
+/// λ = (Σ_p |s_p − s'_p|² / Σ_p |x_p − x'_p|²)^½ from one step to the next, x' and s' a step earlier: 1 for N(0, I).
+///
+/// In a well of curvature λ the body oscillates with the frequency √λ, and a Δt beyond 2/√λ would be unstable.
 #[derive(Clone, Debug)]
 pub(crate) struct Stiffness<const D: usize> {
     estimate: f64,
@@ -56,9 +59,9 @@ impl<const D: usize> Stiffness<D> {
         }
     }
 
-    /// The largest Δt that follows the motion in such a well.
+    /// The largest Δt that follows the motion in such a well: [`defaults::OSCILLATION_ANGLE`] / √λ.
     pub fn time_limit(&self) -> f64 {
-        std::env::var("PARVI_C").map_or(1.0, |c| c.parse::<f64>().unwrap()) / self.estimate.sqrt()
+        defaults::OSCILLATION_ANGLE / self.estimate.sqrt()
     }
 }
 
@@ -85,11 +88,8 @@ mod tests {
                 stiffness.record(&positions, &scores);
                 stiffness.update(&order);
             }
-            let expected = (1.0 / curvature).sqrt().min(1.0);
-            assert!(
-                (stiffness.time_factor() - expected).abs() < 1e-6,
-                "{count}, {curvature}"
-            );
+            let expected = defaults::OSCILLATION_ANGLE / f64::sqrt(curvature);
+            assert!((stiffness.time_limit() - expected).abs() < 1e-6, "{count}, {curvature}");
         }
     }
 }
