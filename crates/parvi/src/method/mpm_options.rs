@@ -37,7 +37,7 @@ pub struct MpmOptions {
     pub spacing_schedule: SpacingSchedule,
     /// Steps in all, settling included; ≥ 1.
     pub steps: Option<usize>,
-    /// Time step Δt; > 0.
+    /// Time step Δt at the central spacing; > 0. It follows the spacing drawn, and is shortened where the target is stiff.
     pub time_step: Option<f64>,
     /// Friction γ ≥ 0 (v ← v e^{−γΔt}).
     pub friction: Option<f64>,
