@@ -25,9 +25,9 @@ pub fn spacing<const D: usize>(basis: BasisChoice, particles: usize) -> f64 {
     at_512 * (particles as f64 / 512.0).powf(-1.0 / (d + 5.0))
 }
 
-/// Δt for spacing h.
+/// Δt for spacing h: 0.6 h, but no more than 0.6 until 0.23 h is, from h = 2.6 on.
 pub fn time_step(spacing: f64) -> f64 {
-    (0.6 * spacing).min(0.6)
+    (0.6 * spacing).min(0.6).max(0.23 * spacing)
 }
 
 /// Largest Δt √λ, λ the curvature of −log p where the particles are: the angle by which an oscillation advances in a step.
