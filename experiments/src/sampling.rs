@@ -25,6 +25,8 @@ pub struct Outcome {
     pub spacing: Option<f64>,
     /// Nodes with mass in the last step.
     pub active_nodes: Option<usize>,
+    /// Bodies that moved, each on a separate piece of the target.
+    pub bodies: Option<usize>,
     /// Bytes held by particles and grid.
     pub storage_bytes: Option<usize>,
     /// History.
@@ -43,6 +45,7 @@ impl Outcome {
             residual: None,
             spacing: None,
             active_nodes: None,
+            bodies: None,
             storage_bytes: None,
             trace: Vec::new(),
             wall_seconds,
@@ -87,6 +90,7 @@ pub fn sample_target<const D: usize>(
         residual: samples.residual.filter(|value| value.is_finite()),
         spacing: samples.spacing.filter(|value| value.is_finite()),
         active_nodes: samples.active_nodes,
+        bodies: samples.bodies,
         storage_bytes: samples.storage_bytes,
         trace: samples.trace,
         wall_seconds,

@@ -25,6 +25,12 @@ pub fn spacing<const D: usize>(basis: BasisChoice, particles: usize) -> f64 {
     at_512 * (particles as f64 / 512.0).powf(-1.0 / (d + 5.0))
 }
 
+/// Factor of the spacing where the target is stiffer within than without by `tails`: particles far out are few, and on a lattice too fine for
+/// them have no neighbours to push them outwards.
+pub fn tail_factor(tails: f64) -> f64 {
+    tails.clamp(1.0, 2.0).powf(1.5)
+}
+
 /// Δt for spacing h: 0.6 h, but no more than 0.6 until 0.23 h is, from h = 2.6 on.
 pub fn time_step(spacing: f64) -> f64 {
     (0.6 * spacing).min(0.6).max(0.23 * spacing)

@@ -111,6 +111,7 @@ where
         residual: Some(residual.ratio()),
         spacing: Some(spacing),
         active_nodes: Some(active_nodes),
+        bodies: Some(1),
         storage_bytes: Some(storage_bytes),
         trace,
     })

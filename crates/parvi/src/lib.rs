@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod basis_choice;
+mod bodies;
 pub mod defaults;
 mod drive;
 mod exact;
@@ -15,6 +16,7 @@ mod rotation;
 mod run;
 mod start;
 mod stiffness;
+mod survey;
 mod svgd;
 
 pub use exact::{independent_draws, sobol_points};

@@ -5,25 +5,30 @@ use mpm_materials::IsothermalGas;
 use parvi_targets::{Frame, Target};
 
 use crate::basis_choice::OnBasis;
+use crate::bodies::{InTurn, apportion, union};
 use crate::drive::{Plan, PlannedStep, drive};
 use crate::framed_score::{FramedScore, ScoreForce};
 use crate::kronecker::Kronecker;
 use crate::rotation::random_rotation;
-use crate::start::{check, positive, steps};
+use crate::start::{Stream, check, positive, steps};
 use crate::stiffness::Stiffness;
+use crate::survey::Survey;
 use crate::{MpmOptions, Observer, Run, SampleError, Samples, TransferChoice, defaults};
 
-/// What every layer of the dispatch hands on.
+/// One body, and what every layer of the dispatch hands on.
 struct Job<'a, const D: usize> {
     options: &'a MpmOptions,
     target: &'a dyn Target<D>,
     frame: &'a Frame<D>,
     run: &'a Run,
+    /// The body's number, for its own random choices.
+    body: usize,
+    positions: Vec<[f64; D]>,
     observer: &'a mut dyn Observer,
 }
 
 impl MpmOptions {
-    /// Sample `target` in the coordinates of `frame`.
+    /// Sample `target`; `frame` is what is known of its place and scales, and the unit of the run's start law.
     ///
     /// # Errors
     /// [`SampleError`]: an option out of range, a score that is not finite, or the observer's stop.
@@ -34,19 +39,42 @@ impl MpmOptions {
         run: &Run,
         observer: &mut dyn Observer,
     ) -> Result<Samples<D>, SampleError> {
-        run.checked_particles()?;
+        let particles = run.checked_particles()?;
         self.spacing_schedule.check()?;
         self.settling.check()?;
-        let default = defaults::spacing::<D>(self.basis, run.particles);
-        let spacing = positive("spacing", self.spacing, default)?;
-        let job = Job {
-            options: self,
-            target,
-            frame,
-            run,
-            observer,
+        let mut start = run.start_positions()?;
+        let survey = if self.survey {
+            Survey::new(target, frame, run, &start)?
+        } else {
+            Survey::skipped(frame)
         };
-        self.basis.with(spacing, job)
+        let bodies = apportion(particles, &survey.sites);
+        let mut parts = Vec::with_capacity(bodies.len());
+        for (number, &(site, count)) in bodies.iter().enumerate() {
+            let positions = if survey.keeps_start {
+                std::mem::take(&mut start)
+            } else {
+                run.standard_positions(count, number)?
+            };
+            let default = defaults::spacing::<D>(self.basis, count) * defaults::tail_factor(site.tails);
+            let job = Job {
+                options: self,
+                target,
+                frame: &site.frame,
+                run,
+                body: number,
+                positions,
+                observer: &mut InTurn {
+                    number,
+                    of: bodies.len(),
+                    observer: &mut *observer,
+                },
+            };
+            parts.push(self.basis.with(positive("spacing", self.spacing, default)?, job)?);
+        }
+        let mut samples = union(parts);
+        samples.score_evaluations += survey.evaluations;
+        Ok(samples)
     }
 }
 
@@ -91,11 +119,11 @@ impl<const D: usize> Job<'_, D> {
             friction,
         };
 
-        let particles = Particles::at_rest(run.start_positions()?, 1.0);
+        let particles = Particles::at_rest(self.positions, 1.0);
         let gas = IsothermalGas::new(1.0)?;
-        let mut generator = run.generator(1);
+        let mut generator = run.generator(Stream::Places.of_body(self.body));
         let mut places = Kronecker::<D>::new(&mut generator);
-        let mut rotations = run.generator(2);
+        let mut rotations = run.generator(Stream::Rotations.of_body(self.body));
         let (schedule, settling) = (&options.spacing_schedule, &options.settling);
         let plan = Plan {
             steps,

@@ -61,7 +61,7 @@ impl Default for Start {
 /// What a run returns.
 #[derive(Clone, Debug, Default)]
 pub struct Samples<const D: usize> {
-    /// Particle positions in the target's own coordinates, in the order in which the particles were started.
+    /// Particle positions in the target's own coordinates, in the order in which the particles were started; body after body.
     pub positions: Vec<[f64; D]>,
     /// Weights that sum to one; `None` when all are equal.
     pub weights: Option<Vec<f64>>,
@@ -71,10 +71,12 @@ pub struct Samples<const D: usize> {
     pub score_evaluations: u64,
     /// Galerkin–Stein residual relative to its value for i.i.d. draws (1 = as good as i.i.d.; smaller is better).
     pub residual: Option<f64>,
-    /// Spacing h in the frame's units: the central one, where it varies.
+    /// Spacing h in the frame's units: the central one, where it varies; of several bodies the largest's.
     pub spacing: Option<f64>,
-    /// Nodes with mass in the last step.
+    /// Nodes with mass in the last step, of all bodies.
     pub active_nodes: Option<usize>,
+    /// Bodies that moved, each on a separate piece of the target.
+    pub bodies: Option<usize>,
     /// Bytes held by particles and grid at the end of the run.
     pub storage_bytes: Option<usize>,
     /// History, one entry every `trace_every` steps.

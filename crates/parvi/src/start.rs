@@ -7,6 +7,26 @@ use rand_distr::{Distribution, StandardNormal};
 
 use crate::{Run, SampleError, StartDraws};
 
+/// The independent random choices of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Stream {
+    /// Where particles begin.
+    Start = 0,
+    /// Origins and spacings of the basis.
+    Places = 1,
+    /// Orientations of the basis.
+    Rotations = 2,
+    /// Where scouts begin.
+    Survey = 3,
+}
+
+impl Stream {
+    /// The stream of the body with this number.
+    pub fn of_body(self, body: usize) -> u64 {
+        self as u64 + 4 * body as u64
+    }
+}
+
 impl Run {
     /// The generator of a run's random choices; `stream` keeps independent choices apart.
     pub(crate) fn generator(&self, stream: u64) -> ChaCha8Rng {
@@ -34,23 +54,32 @@ impl Run {
             "positive and finite",
         )?;
         check("start mean", self.start.mean, self.start.mean.is_finite(), "finite")?;
-        let mut generator = self.generator(0);
-        let mut positions: Vec<[f64; D]> = match self.start.draws {
-            // Of the seed's own stream, so that the yardstick of the same seed has other points.
-            StartDraws::QuasiRandom => quasi_random_normal(count, generator.random())?,
-            StartDraws::Independent => (0..count)
-                .map(|_| std::array::from_fn(|_| StandardNormal.sample(&mut generator)))
-                .collect(),
-        };
+        let mut positions = self.standard_positions::<D>(count, 0)?;
         for c in positions.as_flattened_mut() {
             *c = self.start.mean + sd * *c;
         }
         Ok(positions)
     }
+
+    /// `count` draws from N(0, I), the start of a body with this number.
+    pub(crate) fn standard_positions<const D: usize>(
+        &self,
+        count: usize,
+        body: usize,
+    ) -> Result<Vec<[f64; D]>, SampleError> {
+        let mut generator = self.generator(Stream::Start.of_body(body));
+        match self.start.draws {
+            // Of the seed's own stream, so that the yardstick of the same seed has other points.
+            StartDraws::QuasiRandom => quasi_random_normal(count, generator.random()),
+            StartDraws::Independent => Ok((0..count)
+                .map(|_| std::array::from_fn(|_| StandardNormal.sample(&mut generator)))
+                .collect()),
+        }
+    }
 }
 
 /// Scrambled Sobol points through the quantile function of N(0, I).
-fn quasi_random_normal<const D: usize>(count: usize, seed: u64) -> Result<Vec<[f64; D]>, SampleError> {
+pub(crate) fn quasi_random_normal<const D: usize>(count: usize, seed: u64) -> Result<Vec<[f64; D]>, SampleError> {
     let law = Gaussian::<D>::standard();
     let (Ok(sequence), Some(transport)) = (SobolSequence::scrambled(D, seed), law.unit_cube_transport()) else {
         return Err(SampleError::InvalidOption {

@@ -125,7 +125,12 @@ fn far_and_narrow_starts_arrive() {
             },
             ..Run::new(512, 3)
         };
-        let samples = mpm(&target, MpmOptions::default(), &run);
+        // The body's own way, without a survey that would place it on the target.
+        let options = MpmOptions {
+            survey: false,
+            ..MpmOptions::default()
+        };
+        let samples = mpm(&target, options, &run);
         let squared = energy
             .squared(&Cloud::new(&samples.positions).expect("finite"))
             .expect("ED²");

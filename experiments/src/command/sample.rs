@@ -77,6 +77,7 @@ fn pairs(arguments: &Arguments, outcome: &Outcome, peak_memory: Option<u64>) -> 
         ("residual", outcome.residual.map(|value| value.to_string())),
         ("spacing", outcome.spacing.map(|value| value.to_string())),
         ("active_nodes", outcome.active_nodes.map(|value| value.to_string())),
+        ("bodies", outcome.bodies.map(|value| value.to_string())),
         ("storage_bytes", outcome.storage_bytes.map(|value| value.to_string())),
         (PEAK_MEMORY_KEY, peak_memory.map(|value| value.to_string())),
     ];

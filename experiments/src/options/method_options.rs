@@ -31,6 +31,9 @@ pub struct MethodOptions {
     /// Largest displacement per step in units of the spacing, or `off` [paper-*; mpm: a number]
     #[arg(long, value_name = "C|off", allow_negative_numbers = true)]
     pub displacement_limit: Option<Limit>,
+    /// Look for the target's place, scales and pieces before the body moves (mpm)
+    #[arg(long)]
+    pub survey: Option<Switch>,
     /// Move the basis' origin and draw its spacing every step (mpm)
     #[arg(long)]
     pub shifts: Option<Switch>,
@@ -193,6 +196,7 @@ impl MethodOptions {
             steps: steps.or(default.steps),
             time_step: self.time_step.or(default.time_step),
             friction: self.friction.or(default.friction),
+            survey: self.survey.map_or(default.survey, Switch::is_on),
             shifts: self.shifts.map_or(default.shifts, Switch::is_on),
             rotation: self.rotation.map_or(default.rotation, Switch::is_on),
             spacing_schedule: SpacingSchedule {
@@ -278,6 +282,7 @@ impl MethodOptions {
             ("time-step", text(&self.time_step), GRID),
             ("score", text(&self.score), GRID),
             ("displacement-limit", text(&self.displacement_limit), GRID),
+            ("survey", text(&self.survey), GAS),
             ("shifts", text(&self.shifts), GAS),
             ("rotation", text(&self.rotation), GAS),
             ("spacing-range", text(&self.spacing_range), GAS),

@@ -35,6 +35,9 @@ pub struct MpmOptions {
     pub spacing: Option<f64>,
     /// How the spacing varies around h from step to step.
     pub spacing_schedule: SpacingSchedule,
+    /// Look at the target before the body moves: find its place, its scales and its separate pieces, and place a body on each. Without,
+    /// one body moves in the given frame from the given start.
+    pub survey: bool,
     /// Steps in all, settling included; ≥ 1.
     pub steps: Option<usize>,
     /// Time step Δt at the central spacing; > 0. It follows the spacing drawn, and is shortened where the target is stiff.
@@ -63,6 +66,7 @@ impl Default for MpmOptions {
         Self {
             basis: BasisChoice::default(),
             transfer: TransferChoice::default(),
+            survey: true,
             spacing: None,
             spacing_schedule: SpacingSchedule::default(),
             steps: None,

@@ -1,0 +1,99 @@
+//! The look at the target before the body moves: far starts, wrong frames, separate pieces.
+
+use mpm_tensor::Matrix;
+use parvi::{Method, MpmOptions, Run, Samples, Silent, Start, sample};
+use parvi_metrics::{Cloud, CloudMoments, ModeMasses};
+use parvi_targets::{CatalogueTarget, Frame, Gaussian, GaussianMixture, StudentT};
+
+/// Starts in target scales: narrow, wide and far off.
+const STARTS: [(f64, f64); 5] = [(0.0, 0.1), (0.0, 10.0), (10.0, 0.1), (-10.0, 1.0), (10.0, 10.0)];
+
+fn from_start<const D: usize>(target: &dyn CatalogueTarget<D>, particles: usize, (mean, sd): (f64, f64)) -> Samples<D> {
+    let run = Run {
+        start: Start {
+            mean,
+            standard_deviation: sd,
+            ..Start::default()
+        },
+        ..Run::new(particles, 3)
+    };
+    sample(target, &Method::Mpm(MpmOptions::default()), &run, &mut Silent).expect("particles")
+}
+
+#[test]
+fn a_frame_that_is_wrong_by_orders_of_magnitude_is_found() {
+    let scales = [1e-3, 1.0, 1e3];
+    let covariance = Matrix::from_fn(|i, j| scales[i] * scales[j] * if i == j { 1.0 } else { 0.5 });
+    let centre = [0.2, -30.0, 400.0];
+    let target = Gaussian::new(centre, covariance).expect("a covariance");
+    for factor in [1e-2, 1.0, 1e3] {
+        let frame = Frame::from_scales([1.0, 2.0, 3.0], [factor; 3]).expect("a frame");
+        let samples = MpmOptions::default()
+            .sample(&target, &frame, &Run::new(500, 1), &mut Silent)
+            .expect("particles");
+        let moments = CloudMoments::new(&Cloud::new(&samples.positions).expect("finite")).expect("moments");
+        for i in 0..3 {
+            assert!(
+                (moments.mean[i] - centre[i]).abs() < 0.01 * scales[i],
+                "{factor}: {:?}",
+                moments.mean
+            );
+            for j in 0..3 {
+                let error = (moments.covariance.0[i][j] - covariance.0[i][j]) / (scales[i] * scales[j]);
+                assert!(error.abs() < 0.06, "{factor}: {error}");
+            }
+        }
+    }
+}
+
+#[test]
+fn masses_of_separate_modes_are_right_from_any_start() {
+    fn check<const D: usize>(tolerance: f64) {
+        let target = GaussianMixture::<D>::three_far().expect("a mixture");
+        for start in STARTS {
+            let samples = from_start(&target, 1000, start);
+            assert_eq!(samples.bodies, Some(3), "D = {D}, {start:?}");
+            assert_eq!(samples.positions.len(), 1000);
+            let cloud = Cloud::new(&samples.positions).expect("finite");
+            let masses = ModeMasses::new(&cloud, target.modes()).expect("modes");
+            assert!(
+                masses.largest_error < tolerance,
+                "D = {D}, {start:?}: {:?}",
+                masses.masses
+            );
+        }
+    }
+    check::<2>(0.01);
+    check::<4>(0.02);
+}
+
+#[test]
+fn heavy_tails_are_reached_from_any_start() {
+    let target = StudentT::<2>::new(5.0).expect("degrees of freedom");
+    let spread = target.moments().expect("moments").covariance.0[0][0].sqrt();
+    for start in STARTS {
+        let samples = from_start(&target, 1000, start);
+        let moments = CloudMoments::new(&Cloud::new(&samples.positions).expect("finite")).expect("moments");
+        for axis in 0..2 {
+            assert!(
+                moments.mean[axis].abs() < 0.05 * spread,
+                "{start:?}: {:?}",
+                moments.mean
+            );
+            let sd = moments.covariance.0[axis][axis].sqrt();
+            assert!((sd / spread - 1.0).abs() < 0.1, "{start:?}: {sd}");
+        }
+    }
+}
+
+#[test]
+fn without_a_survey_one_body_moves_from_the_start_as_given() {
+    let target = GaussianMixture::<2>::three_far().expect("a mixture");
+    let options = MpmOptions {
+        survey: false,
+        ..MpmOptions::default()
+    };
+    let samples = sample(&target, &Method::Mpm(options), &Run::new(300, 1), &mut Silent).expect("particles");
+    assert_eq!(samples.bodies, Some(1));
+    assert!(samples.score_evaluations <= 100 * 300);
+}
