@@ -35,7 +35,11 @@ impl<const D: usize> SumTarget<D> for LogisticRegression<D> {
 
     /// Matrix products, as for the scores of all rows.
     fn sums_of_term_scores(&self, terms: &[usize], xs: &[[f64; D]], out: &mut [[f64; D]]) {
-        let rows: Vec<[f64; D]> = terms.iter().filter_map(|&term| self.signed_rows.get(term)).copied().collect();
+        let rows: Vec<[f64; D]> = terms
+            .iter()
+            .filter_map(|&term| self.signed_rows.get(term))
+            .copied()
+            .collect();
         logistic_batch::scores(&rows, &[0.0; D], xs, out);
     }
 

@@ -41,3 +41,34 @@ pub trait SumTarget<const D: usize>: Sync {
         self.prior_log_density(x) + terms
     }
 }
+
+/// A sum may be lent to what takes one.
+impl<T: SumTarget<D> + ?Sized, const D: usize> SumTarget<D> for &T {
+    fn terms(&self) -> usize {
+        (**self).terms()
+    }
+
+    fn prior_log_density(&self, x: &[f64; D]) -> f64 {
+        (**self).prior_log_density(x)
+    }
+
+    fn prior_score(&self, x: &[f64; D]) -> [f64; D] {
+        (**self).prior_score(x)
+    }
+
+    fn term_log_density(&self, term: usize, x: &[f64; D]) -> f64 {
+        (**self).term_log_density(term, x)
+    }
+
+    fn term_score(&self, term: usize, x: &[f64; D]) -> [f64; D] {
+        (**self).term_score(term, x)
+    }
+
+    fn sums_of_term_scores(&self, terms: &[usize], xs: &[[f64; D]], out: &mut [[f64; D]]) {
+        (**self).sums_of_term_scores(terms, xs, out);
+    }
+
+    fn full_log_density(&self, x: &[f64; D]) -> f64 {
+        (**self).full_log_density(x)
+    }
+}

@@ -106,21 +106,36 @@ fn integral<T: Target<N>, const N: usize, const D: usize>(
             ranges[axis][0] + step * node as f64
         });
         let weight = target.log_density(&y).exp();
-        if weight > 0.0 { weight * f(&target.constraints().constrain(&y)) } else { 0.0 }
+        if weight > 0.0 {
+            weight * f(&target.constraints().constrain(&y))
+        } else {
+            0.0
+        }
     };
     (0..points).map(value).sum::<f64>() * step.powi(D as i32)
 }
 
 fn assert_close(value: f64, exact: f64, what: &str) {
-    assert!((value - exact).abs() < 1e-8 * exact.abs(), "{what}: {value} for {exact}");
+    assert!(
+        (value - exact).abs() < 1e-8 * exact.abs(),
+        "{what}: {value} for {exact}"
+    );
 }
 
 #[test]
 fn densities_of_one_coordinate_have_their_integrals() {
-    let gamma = Constraints::<1, 1>::builder().positive(1).build().unwrap().target(Gammas(2.5, 1.5));
+    let gamma = Constraints::<1, 1>::builder()
+        .positive(1)
+        .build()
+        .unwrap()
+        .target(Gammas(2.5, 1.5));
     let constant = (ln_gamma(2.5) - 2.5 * 1.5_f64.ln()).exp();
     assert_close(integral(&gamma, [[-30.0, 6.0]], 0.02, |_| 1.0), constant, "gamma");
-    assert_close(integral(&gamma, [[-30.0, 6.0]], 0.02, |x| x[0]), constant * 2.5 / 1.5, "gamma mean");
+    assert_close(
+        integral(&gamma, [[-30.0, 6.0]], 0.02, |x| x[0]),
+        constant * 2.5 / 1.5,
+        "gamma mean",
+    );
 
     let beta = Constraints::<1, 1>::builder().bounded(1, -1.0, 3.0).build().unwrap();
     let beta = beta.target(ShiftedBeta(2.0, 3.0));
@@ -130,8 +145,16 @@ fn densities_of_one_coordinate_have_their_integrals() {
     assert_close(integral(&beta, range, 0.05, |_| 1.0), constant, "beta");
     assert_close(integral(&beta, range, 0.05, |x| x[0]), constant * 0.6, "beta mean");
 
-    let above = Constraints::<1, 1>::builder().lower_bounded(1, 2.0).build().unwrap().target(Logistic);
-    let below = Constraints::<1, 1>::builder().upper_bounded(1, 2.0).build().unwrap().target(Logistic);
+    let above = Constraints::<1, 1>::builder()
+        .lower_bounded(1, 2.0)
+        .build()
+        .unwrap()
+        .target(Logistic);
+    let below = Constraints::<1, 1>::builder()
+        .upper_bounded(1, 2.0)
+        .build()
+        .unwrap()
+        .target(Logistic);
     let share = 1.0 / (1.0 + 2_f64.exp());
     assert_close(integral(&above, [[-40.0, 6.0]], 0.02, |_| 1.0), share, "above 2");
     assert_close(integral(&below, [[-40.0, 6.0]], 0.02, |_| 1.0), 1.0 - share, "below 2");
@@ -139,7 +162,11 @@ fn densities_of_one_coordinate_have_their_integrals() {
 
 #[test]
 fn ordered_pairs_are_half_of_all() {
-    let pairs = Constraints::<2, 2>::builder().ordered(2).build().unwrap().target(Logistic);
+    let pairs = Constraints::<2, 2>::builder()
+        .ordered(2)
+        .build()
+        .unwrap()
+        .target(Logistic);
     let range = [[-45.0, 45.0], [-30.0, 5.0]];
     assert_close(integral(&pairs, range, 0.05, |_| 1.0), 0.5, "ordered");
     // Order statistics of two logistic variables: means ∓1.
@@ -159,7 +186,11 @@ fn a_dirichlet_density_has_its_moments() {
         let mean = exponents[k] / 8.0;
         assert_close(integral(&target, range, 0.2, |x| x[k]), constant * mean, "mean");
         let square = mean * (exponents[k] + 1.0) / 9.0;
-        assert_close(integral(&target, range, 0.2, |x| x[k] * x[k]), constant * square, "square");
+        assert_close(
+            integral(&target, range, 0.2, |x| x[k] * x[k]),
+            constant * square,
+            "square",
+        );
     }
 }
 
@@ -172,9 +203,14 @@ fn correlation_matrices_have_the_volume_and_variance_of_lkj() {
     let uniform = correlations.target(Lkj(1.0));
     assert_close(integral(&uniform, range, 0.35, |_| 1.0), half_square, "volume");
     // η = 2: the marginal of a correlation is Beta(5/2, 5/2) on (−1, 1), of variance 1/6.
-    let factors = Constraints::<6, 3>::builder().correlation_cholesky(3).build().unwrap().target(LkjFactor(2.0));
+    let factors = Constraints::<6, 3>::builder()
+        .correlation_cholesky(3)
+        .build()
+        .unwrap()
+        .target(LkjFactor(2.0));
     let constant = integral(&factors, range, 0.35, |_| 1.0);
-    for correlation in [|x: &[f64; 6]| x[1], |x| x[3], |x| x[1] * x[3] + x[2] * x[4]] {
+    let correlations: [fn(&[f64; 6]) -> f64; 3] = [|x| x[1], |x| x[3], |x| x[1] * x[3] + x[2] * x[4]];
+    for correlation in correlations {
         let variance = integral(&factors, range, 0.35, |x| correlation(x).powi(2)) / constant;
         assert_close(variance, 1.0 / 6.0, "variance");
     }
@@ -187,8 +223,9 @@ fn stein<T: Target<N>, const N: usize, const D: usize>(
 ) {
     const DRAWS: usize = 40_000;
     let mut generator = ChaCha8Rng::seed_from_u64(3);
-    let ys: Vec<[f64; D]> =
-        (0..DRAWS).map(|_| target.constraints().unconstrain(&draw(&mut generator)).unwrap()).collect();
+    let ys: Vec<[f64; D]> = (0..DRAWS)
+        .map(|_| target.constraints().unconstrain(&draw(&mut generator)).unwrap())
+        .collect();
     let mut scores = vec![[0.0; D]; DRAWS];
     target.scores(&ys, &mut scores);
     let mut densities = vec![0.0; DRAWS];
@@ -213,11 +250,19 @@ fn stein<T: Target<N>, const N: usize, const D: usize>(
 #[test]
 fn exact_draws_obey_steins_identities() {
     let gamma = Gamma::new(2.5, 1.0 / 1.5).unwrap();
-    let positive = Constraints::<2, 2>::builder().positive(2).build().unwrap().target(Gammas(2.5, 1.5));
+    let positive = Constraints::<2, 2>::builder()
+        .positive(2)
+        .build()
+        .unwrap()
+        .target(Gammas(2.5, 1.5));
     stein(&positive, |rng| [gamma.sample(rng), gamma.sample(rng)]);
 
     let exponents = [0.8, 2.0, 4.5, 1.0];
-    let simplex = Constraints::<4, 3>::builder().simplex(4).build().unwrap().target(Dirichlet(exponents));
+    let simplex = Constraints::<4, 3>::builder()
+        .simplex(4)
+        .build()
+        .unwrap()
+        .target(Dirichlet(exponents));
     let gammas = exponents.map(|a| Gamma::new(a, 1.0).unwrap());
     stein(&simplex, |rng| {
         let draws = gammas.map(|gamma| gamma.sample(rng));
@@ -230,12 +275,20 @@ fn exact_draws_obey_steins_identities() {
     let first = Beta::new(eta + 0.5, eta + 0.5).unwrap();
     let second = Beta::new(eta, eta).unwrap();
     let mut correlations = move |rng: &mut ChaCha8Rng| {
-        let [a, b, partial] = [first, first, second].map(|beta| 2.0 * beta.sample(rng) - 1.0);
+        let [a, b, partial] = [first, first, second].map(|beta: Beta<f64>| 2.0 * beta.sample(rng) - 1.0);
         [a, b, a * b + partial * ((1.0 - a * a) * (1.0 - b * b)).sqrt()]
     };
-    let matrices = Constraints::<3, 3>::builder().correlation(3).build().unwrap().target(Lkj(eta));
+    let matrices = Constraints::<3, 3>::builder()
+        .correlation(3)
+        .build()
+        .unwrap()
+        .target(Lkj(eta));
     stein(&matrices, &mut correlations);
-    let factors = Constraints::<6, 3>::builder().correlation_cholesky(3).build().unwrap().target(LkjFactor(eta));
+    let factors = Constraints::<6, 3>::builder()
+        .correlation_cholesky(3)
+        .build()
+        .unwrap()
+        .target(LkjFactor(eta));
     stein(&factors, |rng| {
         let [a, b, c] = correlations(rng);
         let diagonal = (1.0 - a * a).sqrt();

@@ -19,10 +19,7 @@ fn slope<const D: usize>(f: impl Fn(&[f64; D]) -> f64, y: &[f64; D], axis: usize
 }
 
 fn close(a: f64, b: f64, tolerance: f64, what: &str) -> Result<(), TestCaseError> {
-    prop_assert!(
-        (a - b).abs() <= tolerance * (1.0 + b.abs()),
-        "{what}: {a} for {b}"
-    );
+    prop_assert!((a - b).abs() <= tolerance * (1.0 + b.abs()), "{what}: {a} for {b}");
     Ok(())
 }
 
@@ -48,7 +45,12 @@ fn conforms<const N: usize, const D: usize>(
     prop_assert_eq!(independent.len(), D);
     let jacobian: [[f64; D]; D] = std::array::from_fn(|k| slopes[independent[k]]);
     let log_jacobian = constraints.log_jacobian(&y);
-    close(log_jacobian, Matrix(jacobian).determinant().abs().ln(), 1e-7, "log |det J|")?;
+    close(
+        log_jacobian,
+        Matrix(jacobian).determinant().abs().ln(),
+        1e-7,
+        "log |det J|",
+    )?;
 
     // Its gradient, and the pull-back of a score.
     let gradient = constraints.pull_back_score(&y, &[0.0; N]);
@@ -192,7 +194,11 @@ fn values_are_the_textbook_ones() {
 
 #[test]
 fn nan_comes_out_as_nan() {
-    let constraints = Constraints::<5, 4>::builder().positive(1).bounded(1, 0.0, 1.0).simplex(3).build();
+    let constraints = Constraints::<5, 4>::builder()
+        .positive(1)
+        .bounded(1, 0.0, 1.0)
+        .simplex(3)
+        .build();
     let x = constraints.unwrap().constrain(&[f64::NAN; 4]);
     assert!(x.iter().all(|x| x.is_nan()), "{x:?}");
 }
@@ -215,7 +221,10 @@ fn lists_that_do_not_fit_are_refused() {
         message,
         "the list of unconstrained coordinates (free 0..2, positive 2..3, simplex 3..6) has length 6, expected 7"
     );
-    assert!(matches!(error::<2, 2>(|list| list), TargetError::Length { found: 0, .. }));
+    assert!(matches!(
+        error::<2, 2>(|list| list),
+        TargetError::Length { found: 0, .. }
+    ));
     for list in [
         (|list| list.free(0)) as fn(ConstraintsBuilder<1, 1>) -> ConstraintsBuilder<1, 1>,
         |list| list.simplex(1),

@@ -85,7 +85,7 @@ fn constraints_and_differences_compose() {
 #[test]
 fn bad_scales_are_refused() {
     let flat = |_: &[f64; 2]| 0.0;
-    let with = |scale| FiniteDifferenceScore::with_scales(flat, [1.0, scale]).unwrap_err();
+    let with = |scale| FiniteDifferenceScore::with_scales(flat, [1.0, scale]).err().unwrap();
     assert!(matches!(with(0.0), TargetError::OutOfRange { .. }));
     assert!(matches!(with(f64::NAN), TargetError::NotFinite { .. }));
 }

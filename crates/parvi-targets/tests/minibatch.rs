@@ -67,13 +67,20 @@ fn estimates_are_unbiased_and_a_control_variate_quietens_them() {
     let exact = xs.map(|x| posterior.score(&x));
     let mode = *posterior.laplace().mode();
     let plain = MinibatchScore::new(&posterior, 50, 1).unwrap();
-    let controlled = MinibatchScore::new(&posterior, 50, 1).unwrap().with_control_variate(mode).unwrap();
+    let controlled = MinibatchScore::new(&posterior, 50, 1)
+        .unwrap()
+        .with_control_variate(mode)
+        .unwrap();
     const CALLS: u64 = 4_000;
     let (mean, noise) = mean_and_noise(&plain, &xs, &exact, CALLS);
     let (controlled_mean, controlled_noise) = mean_and_noise(&controlled, &xs, &exact, CALLS);
     for p in 0..2 {
         let error = vector::distance(&mean[p], &exact[p]);
-        assert!(error < 3.0 * noise[p] / (CALLS as f64).sqrt(), "{error}, noise {}", noise[p]);
+        assert!(
+            error < 3.0 * noise[p] / (CALLS as f64).sqrt(),
+            "{error}, noise {}",
+            noise[p]
+        );
         let error = vector::distance(&controlled_mean[p], &exact[p]);
         assert!(error < 3.0 * controlled_noise[p] / (CALLS as f64).sqrt());
         // At one and two standard deviations from the mode: variances smaller by three orders.
@@ -101,7 +108,10 @@ fn terms_are_drawn_evenly_and_without_replacement() {
         }
     }
     // χ² of 2,000 counts of mean 200 and variance 200 · 0.9: mean n, variance 2n.
-    let chi_square: f64 = counts.iter().map(|&count| (f64::from(count) - 200.0).powi(2) / 180.0).sum();
+    let chi_square: f64 = counts
+        .iter()
+        .map(|&count| (f64::from(count) - 200.0).powi(2) / 180.0)
+        .sum();
     let n = ROWS as f64;
     assert!((chi_square - n).abs() < 4.5 * (2.0 * n).sqrt(), "{chi_square}");
 }
@@ -167,7 +177,10 @@ fn own_sums_need_no_batches() {
         }
     }
     let means = Means(vec![1.0, 2.0, 6.0]);
-    let target = MinibatchScore::new(means, 1, 0).unwrap().with_control_variate([2.0]).unwrap();
+    let target = MinibatchScore::new(means, 1, 0)
+        .unwrap()
+        .with_control_variate([2.0])
+        .unwrap();
     // Gaussian terms have the same slope, so the control variate leaves no noise anywhere: −x + Σ (d − x).
     for x in [-1.0, 0.0, 5.0] {
         assert!((target.score(&[x])[0] - (9.0 - 4.0 * x)).abs() < 1e-12);

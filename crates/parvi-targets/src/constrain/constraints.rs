@@ -67,7 +67,11 @@ impl<const N: usize, const D: usize> Constraints<N, D> {
         }
         if unconstrained != D {
             let list = list(|block| &block.unconstrained);
-            return length(format!("the list of unconstrained coordinates ({list})"), D, unconstrained);
+            return length(
+                format!("the list of unconstrained coordinates ({list})"),
+                D,
+                unconstrained,
+            );
         }
         for block in &blocks {
             let independent = block.transform.independent_coordinates();
