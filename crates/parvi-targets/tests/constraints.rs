@@ -5,7 +5,7 @@ use parvi_targets::{Constraints, ConstraintsBuilder, OutsideSupport, TargetError
 use proptest::prelude::*;
 
 /// Largest dimension tested.
-const MAXIMUM: usize = 9;
+const MAXIMUM: usize = 8;
 
 /// Central differences of fourth order of `f` on axis `axis`.
 fn slope<const D: usize>(f: impl Fn(&[f64; D]) -> f64, y: &[f64; D], axis: usize) -> f64 {
@@ -99,7 +99,7 @@ macro_rules! for_every_transform {
         $check::<3, 1>(|list| list.correlation_cholesky(2), $($argument),+)?;
         $check::<10, 6>(|list| list.correlation_cholesky(4), $($argument),+)?;
         $check::<2, 2>(|list| list.transform(Cubed), $($argument),+)?;
-        $check::<11, 9>(
+        $check::<11, 8>(
             |list| list.simplex(3).positive(1).ordered(2).correlation_cholesky(2).bounded(1, 0.0, 1.0).free(1),
             $($argument),+
         )?;

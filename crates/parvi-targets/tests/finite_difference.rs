@@ -61,13 +61,17 @@ fn known_targets_get_their_scores() {
     check(&student, [3.0, 0.1, -0.4]);
 }
 
+/// A million scales away there are digits left; where rounding hides every change of the density, the score is finite.
 #[test]
 fn far_away_scores_stay_finite() {
     let cauchy = |x: &[f64; 1]| -(x[0] * x[0]).ln_1p();
     let target = FiniteDifferenceScore::new(cauchy);
-    for x in [1e10, -1e30, 1e100] {
+    for x in [1e6, -1e6, 1e8] {
         let score = target.score(&[x])[0];
-        assert!((score * x + 2.0).abs() < 0.5, "{score} at {x}");
+        assert!((score * x + 2.0).abs() < 0.01, "{score} at {x}");
+    }
+    for x in [1e30, -1e100, 1e150] {
+        assert!(target.score(&[x])[0].is_finite() && target.error(&[x])[0].is_finite());
     }
 }
 

@@ -26,7 +26,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let target = FiniteDifferenceScore::new(constraints.log_density(log_density));
 
     let frame = Frame::from_scales(constraints.unconstrain(&[1.0])?, [0.5])?;
-    println!("estimated error of the score at the start: {:.1e}", target.error(frame.centre())[0]);
+    println!(
+        "estimated error of the score at the start: {:.1e}",
+        target.error(frame.centre())[0]
+    );
     let samples = MpmOptions::default().sample(&target, &frame, &Run::new(500, 1), &mut Silent)?;
 
     let rates = constraints.constrain_all(&samples.positions);

@@ -9,7 +9,9 @@ use parvi_targets::{
 
 fn sample<const D: usize>(target: &dyn Target<D>, frame: &Frame<D>, particles: usize) -> Samples<D> {
     let run = Run::new(particles, 2);
-    MpmOptions::default().sample(target, frame, &run, &mut Silent).expect("a run that ends well")
+    MpmOptions::default()
+        .sample(target, frame, &run, &mut Silent)
+        .expect("a run that ends well")
 }
 
 fn moments<const N: usize>(particles: &[[f64; N]]) -> ([f64; N], [f64; N]) {
@@ -57,8 +59,16 @@ fn particles_have_the_moments_in_the_users_coordinates() {
             (p, (p * (1.0 - p) / (total + 1.0)).sqrt())
         };
         // Independent draws: 0.022 standard deviations.
-        assert!((mean[k] - exact).abs() < 0.02 * exact_sd, "mean {k}: {} for {exact}", mean[k]);
-        assert!((sd[k] / exact_sd - 1.0).abs() < 0.05, "sd {k}: {} for {exact_sd}", sd[k]);
+        assert!(
+            (mean[k] - exact).abs() < 0.02 * exact_sd,
+            "mean {k}: {} for {exact}",
+            mean[k]
+        );
+        assert!(
+            (sd[k] / exact_sd - 1.0).abs() < 0.05,
+            "sd {k}: {} for {exact_sd}",
+            sd[k]
+        );
     }
     for x in particles {
         assert!((x[0] + x[1] + x[2] - 1.0).abs() < 1e-12 && x.iter().all(|&x| x > 0.0));
@@ -84,7 +94,12 @@ fn minibatches_of_a_large_regression_give_its_posterior() {
     let data = RegressionData::synthetic(&[0.5, -1.0, 0.8], 10_000, 3).unwrap();
     let posterior = LogisticRegression::<3>::with_prior("synthetic", data, 10.0).unwrap();
     let frame = *posterior.laplace().frame();
-    let minibatch = || MinibatchScore::new(&posterior, 500, 4).unwrap().with_control_variate(*frame.centre()).unwrap();
+    let minibatch = || {
+        MinibatchScore::new(&posterior, 500, 4)
+            .unwrap()
+            .with_control_variate(*frame.centre())
+            .unwrap()
+    };
     let reference = |x: &[f64; 3]| frame.to_reference(x);
     let in_frame = |samples: &Samples<3>| moments(&samples.positions.iter().map(reference).collect::<Vec<_>>());
 
@@ -94,7 +109,10 @@ fn minibatches_of_a_large_regression_give_its_posterior() {
     let (mean_of_batches, sd_of_batches) = in_frame(&samples);
     assert!(vector::distance(&mean, &mean_of_batches) < 0.1);
     for k in 0..3 {
-        assert!((sd_of_batches[k] / sd[k] - 1.0).abs() < 0.05, "{sd_of_batches:?} for {sd:?}");
+        assert!(
+            (sd_of_batches[k] / sd[k] - 1.0).abs() < 0.05,
+            "{sd_of_batches:?} for {sd:?}"
+        );
     }
     // One call per step, and those of the moment correction.
     assert_eq!(samples.score_evaluations, 500 * estimated.calls());
