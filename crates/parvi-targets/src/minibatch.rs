@@ -17,7 +17,8 @@ use crate::{SumTarget, Target, TargetError};
 /// ŝ(x) = ∇ℓ₀(x) + Σ_i ∇ℓ_i(c) + n/b Σ_{i∈S} \[∇ℓ_i(x) − ∇ℓ_i(c)\]: the noise then falls with |x − c| and vanishes at c.
 /// Take c near the mode.
 ///
-/// All points of one call of [`scores`](Target::scores) share one S, so the noise moves them together. S depends on the
+/// All points of one call of [`scores`](Target::scores) share one S, so the noise moves a cloud as a whole: without a control
+/// variate its mean can end standard deviations away from the target's. S depends on the
 /// seed and on the number of calls made before: as long as calls follow each other (a sampler's do) a run has the same bits
 /// on any number of threads. [`restart`](Self::restart) before a second run with the same target.
 /// [`score`](Target::score) is a call with one point. Log densities use all terms.
