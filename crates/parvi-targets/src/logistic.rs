@@ -23,9 +23,9 @@ pub struct LogisticRegression<const D: usize> {
     name: String,
     data: RegressionData,
     /// (2y_i − 1) x_i: for either response the likelihood of a row is then σ(row · β).
-    signed_rows: Vec<[f64; D]>,
+    pub(crate) signed_rows: Vec<[f64; D]>,
     /// 1/s_k², zero for a flat prior.
-    precision: [f64; D],
+    pub(crate) precision: [f64; D],
     laplace: Laplace<D>,
 }
 

@@ -17,7 +17,9 @@ pub trait Target<const D: usize>: Sync {
     ///
     /// Override it where a batch is cheaper than its parts (a regression is one matrix product).
     /// `xs` and `out` have the same length; an implementation must not depend on the batch's composition,
-    /// i.e. it returns the same bits for a point wherever it stands.
+    /// i.e. it returns the same bits for a point wherever it stands. A score that is estimated
+    /// ([`MinibatchScore`](crate::MinibatchScore)) may differ from call to call, but all points of one call share one
+    /// estimate, which depends on a seed and the number of calls before alone: within a call the promise holds.
     fn scores(&self, xs: &[[f64; D]], out: &mut [[f64; D]]) {
         for (x, score) in xs.iter().zip(out) {
             *score = self.score(x);
@@ -30,6 +32,25 @@ pub trait Target<const D: usize>: Sync {
         for (x, log_density) in xs.iter().zip(out) {
             *log_density = self.log_density(x);
         }
+    }
+}
+
+/// A target may be lent to what takes one.
+impl<T: Target<D> + ?Sized, const D: usize> Target<D> for &T {
+    fn log_density(&self, x: &[f64; D]) -> f64 {
+        (**self).log_density(x)
+    }
+
+    fn score(&self, x: &[f64; D]) -> [f64; D] {
+        (**self).score(x)
+    }
+
+    fn scores(&self, xs: &[[f64; D]], out: &mut [[f64; D]]) {
+        (**self).scores(xs, out);
+    }
+
+    fn log_densities(&self, xs: &[[f64; D]], out: &mut [f64]) {
+        (**self).log_densities(xs, out);
     }
 }
 

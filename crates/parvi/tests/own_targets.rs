@@ -1,0 +1,127 @@
+//! Targets that a user brings: with constraints, without a gradient, with many rows of data.
+
+use mpm_tensor::vector;
+use parvi::{MpmOptions, Run, Samples, Silent};
+use parvi_metrics::{Cloud, CloudMoments};
+use parvi_targets::{
+    Constraints, FiniteDifferenceScore, Frame, LogisticRegression, MinibatchScore, RegressionData, Target,
+};
+
+fn sample<const D: usize>(target: &dyn Target<D>, frame: &Frame<D>, particles: usize) -> Samples<D> {
+    let run = Run::new(particles, 2);
+    MpmOptions::default()
+        .sample(target, frame, &run, &mut Silent)
+        .expect("a run that ends well")
+}
+
+fn moments<const N: usize>(particles: &[[f64; N]]) -> ([f64; N], [f64; N]) {
+    let cloud = Cloud::new(particles).expect("finite particles");
+    let moments = CloudMoments::new(&cloud).expect("moments");
+    (moments.mean, std::array::from_fn(|k| moments.covariance.0[k][k].sqrt()))
+}
+
+/// Counts of three kinds under a uniform prior, times a gamma density: ∝ Π p_k^(a_k − 1) · t e^(−t).
+struct CountsAndTime;
+
+const EXPONENTS: [f64; 3] = [6.0, 3.0, 10.0];
+
+impl Target<4> for CountsAndTime {
+    fn log_density(&self, x: &[f64; 4]) -> f64 {
+        let counts: f64 = (0..3).map(|k| (EXPONENTS[k] - 1.0) * x[k].ln()).sum();
+        counts + x[3].ln() - x[3]
+    }
+
+    fn score(&self, x: &[f64; 4]) -> [f64; 4] {
+        let count = |k: usize| (EXPONENTS[k] - 1.0) / x[k];
+        [count(0), count(1), count(2), 1.0 / x[3] - 1.0]
+    }
+}
+
+fn counts_and_time() -> (Constraints<4, 3>, Frame<3>) {
+    let constraints = Constraints::<4, 3>::builder().simplex(3).positive(1).build().unwrap();
+    let centre = constraints.unconstrain(&[0.3, 0.2, 0.5, 1.5]).unwrap();
+    (constraints, Frame::from_scales(centre, [0.5, 0.5, 0.8]).unwrap())
+}
+
+#[test]
+fn particles_have_the_moments_in_the_users_coordinates() {
+    let (constraints, frame) = counts_and_time();
+    let target = constraints.target(CountsAndTime);
+    let samples = sample(&target, &frame, 2000);
+    let particles = constraints.constrain_all(&samples.positions);
+    let (mean, sd) = moments(&particles);
+    let total: f64 = EXPONENTS.iter().sum();
+    for k in 0..4 {
+        let (exact, exact_sd) = if k == 3 {
+            (2.0, 2_f64.sqrt())
+        } else {
+            let p = EXPONENTS[k] / total;
+            (p, (p * (1.0 - p) / (total + 1.0)).sqrt())
+        };
+        // Independent draws: 0.022 standard deviations.
+        assert!(
+            (mean[k] - exact).abs() < 0.02 * exact_sd,
+            "mean {k}: {} for {exact}",
+            mean[k]
+        );
+        assert!(
+            (sd[k] / exact_sd - 1.0).abs() < 0.05,
+            "sd {k}: {} for {exact_sd}",
+            sd[k]
+        );
+    }
+    for x in particles {
+        assert!((x[0] + x[1] + x[2] - 1.0).abs() < 1e-12 && x.iter().all(|&x| x > 0.0));
+    }
+}
+
+#[test]
+fn differences_do_as_well_as_the_score() {
+    let (constraints, frame) = counts_and_time();
+    let exact = constraints.target(CountsAndTime);
+    let differences = FiniteDifferenceScore::new(constraints.log_density(|x| CountsAndTime.log_density(x)));
+    let (mean, sd) = moments(&sample(&exact, &frame, 500).positions);
+    let (mean_of_differences, sd_of_differences) = moments(&sample(&differences, &frame, 500).positions);
+    // In the unconstrained coordinates, of scale 0.5. Errors of 1e-9 can move a particle to the other side of a face.
+    for k in 0..3 {
+        assert!((mean[k] - mean_of_differences[k]).abs() < 1e-4);
+        assert!((sd[k] - sd_of_differences[k]).abs() < 1e-3);
+    }
+}
+
+#[test]
+fn minibatches_of_a_large_regression_give_its_posterior() {
+    let data = RegressionData::synthetic(&[0.5, -1.0, 0.8], 10_000, 3).unwrap();
+    let posterior = LogisticRegression::<3>::with_prior("synthetic", data, 10.0).unwrap();
+    let frame = *posterior.laplace().frame();
+    let minibatch = || {
+        MinibatchScore::new(&posterior, 500, 4)
+            .unwrap()
+            .with_control_variate(*frame.centre())
+            .unwrap()
+    };
+    let reference = |x: &[f64; 3]| frame.to_reference(x);
+    let in_frame = |samples: &Samples<3>| moments(&samples.positions.iter().map(reference).collect::<Vec<_>>());
+
+    let (mean, sd) = in_frame(&sample(&posterior, &frame, 500));
+    let estimated = minibatch();
+    let samples = sample(&estimated, &frame, 500);
+    let (mean_of_batches, sd_of_batches) = in_frame(&samples);
+    assert!(vector::distance(&mean, &mean_of_batches) < 0.1);
+    for k in 0..3 {
+        assert!(
+            (sd_of_batches[k] / sd[k] - 1.0).abs() < 0.05,
+            "{sd_of_batches:?} for {sd:?}"
+        );
+    }
+    // One call per step, and those of the moment correction.
+    assert_eq!(samples.score_evaluations, 500 * estimated.calls());
+
+    // The same seed, the same bits; on one thread and on two.
+    for threads in [1, 2] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let again = minibatch();
+        let positions = pool.install(|| sample(&again, &frame, 500)).positions;
+        assert_eq!(positions, samples.positions);
+    }
+}
