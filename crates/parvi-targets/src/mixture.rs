@@ -3,7 +3,7 @@
 use mpm_tensor::Matrix;
 use rand::{Rng, RngExt};
 
-use crate::error::{finite, positive};
+use crate::error::{at_least_two, finite, positive};
 use crate::gaussian::{normal_quantiles, standard_normal};
 use crate::special::HALF_LOG_TWO_PI;
 use crate::{CatalogueTarget, ExactDraws, Frame, Mode, Moments, Target, TargetError, UnitCubeTransport};
@@ -81,13 +81,7 @@ impl<const D: usize> GaussianMixture<D> {
     /// # Errors
     /// [`TargetError::DimensionNotAllowed`] for D < 2.
     pub fn three_far() -> Result<Self, TargetError> {
-        if D < 2 {
-            return Err(TargetError::DimensionNotAllowed {
-                target: "mixture-3".to_owned(),
-                dimension: D,
-                allowed: "2 or more".to_owned(),
-            });
-        }
+        at_least_two("mixture-3", D)?;
         let mode = |axis, position, width, mass| Mode {
             centre: on_axis(axis, position),
             width,
