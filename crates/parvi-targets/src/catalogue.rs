@@ -305,11 +305,7 @@ static CATALOGUE: [TargetInfo; 17] = [
         "x1 ~ N(1, s^2), x2, x4, ... ~ N(x1^2, w^2), x3, x5, ... ~ N(the square of the one before, w^2)",
         &[
             parameter("spread", "1", "s, standard deviation of x1"),
-            parameter(
-                "width",
-                "0.3",
-                "w, standard deviation about the parabolas",
-            ),
+            parameter("width", "0.3", "w, standard deviation about the parabolas"),
         ],
         1,
     ),

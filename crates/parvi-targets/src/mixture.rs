@@ -78,6 +78,8 @@ impl<const D: usize> GaussianMixture<D> {
 
     /// `mixture-3`: modes at −4e₁, 4e₁, 5e₂ of widths 0.6, 0.4, 0.5 and masses 0.2, 0.5, 0.3.
     ///
+    /// Far apart: the distances are 11.1, 8.2 and 10.0 times √(w_a² + w_b²), and more than 10 times either width.
+    ///
     /// # Errors
     /// [`TargetError::DimensionNotAllowed`] for D < 2.
     pub fn three_far() -> Result<Self, TargetError> {

@@ -178,7 +178,7 @@ mod tests {
             assert!(inverse_mills_ratio(t).is_finite(), "{t}");
         }
         assert!((inverse_mills_ratio(-1e8) / 1e8 - 1.0).abs() < 1e-15);
-        assert_eq!(log_normal_distribution(40.0), 0.0);
+        assert!(log_normal_distribution(40.0).abs() < 1e-300);
         assert!(inverse_mills_ratio(f64::NAN).is_nan());
     }
 }

@@ -43,7 +43,7 @@ impl RegressionData {
 pub const SYNTHETIC_COUNT_ROWS: usize = 40;
 
 /// The coefficients that the counts were made with, the intercept first.
-const COEFFICIENTS: [f64; MAXIMUM_DIMENSION] = [-0.5, 0.8, -0.6, -1.0, 0.5, 0.3, -0.4, 0.2];
+const COEFFICIENTS: [f64; MAXIMUM_DIMENSION] = [0.0, 0.8, -0.6, 0.7, 0.5, 0.3, -0.4, 0.2];
 
 /// The seed of the rows.
 const SEED: u64 = 1898;
@@ -52,7 +52,7 @@ const SEED: u64 = 1898;
 ///
 /// Made for a posterior that is not Gaussian: counts are few, most of them 0 or 1; x1 and x2 are standard normal with
 /// correlation 0.9; x3 is 1 in one row of five, else 0; x4 to x7 are independent and standard normal. The mean of a count
-/// is exp(xᵀβ) with β = (−0.5, 0.8, −0.6, −1, 0.5, 0.3, −0.4, 0.2) whichever d is asked for, so that every model sees the
+/// is exp(xᵀβ) with β = (0, 0.8, −0.6, 0.7, 0.5, 0.3, −0.4, 0.2) whichever d is asked for, so that every model sees the
 /// same counts. Rows come from ChaCha8 with a fixed seed: per row the seven covariates, then a uniform number of which the
 /// count is the quantile.
 ///
