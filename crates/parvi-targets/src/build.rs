@@ -4,11 +4,12 @@ use std::any::Any;
 use std::path::Path;
 
 use crate::catalogue::{Dimensions, MAXIMUM_DIMENSION, Parameters, TargetInfo, target_info, unknown_target};
-use crate::logistic::DEFAULT_PRIOR_STANDARD_DEVIATION;
+use crate::regression::DEFAULT_PRIOR_STANDARD_DEVIATION;
+use crate::synthetic::synthetic_counts;
 use crate::wells::{WELLS_SMALL_ROWS, wells};
 use crate::{
-    Banana, CatalogueTarget, Funnel, Gaussian, GaussianMixture, LogisticRegression, RegressionData, Ring, StudentT,
-    TargetError,
+    Banana, CatalogueTarget, CountData, Cross, Funnel, Gaussian, GaussianMixture, Link, Logarithm, Logit, Probit,
+    Regression, RegressionData, RegressionTable, Response, Ring, Rosenbrock, Schools, StudentT, TargetError,
 };
 
 /// A target of the catalogue, whichever it is.
@@ -16,7 +17,7 @@ pub type BoxedTarget<const D: usize> = Box<dyn CatalogueTarget<D> + Send + Sync>
 
 /// The dimension of a target: `requested` if it exists there, else its only or its default dimension.
 ///
-/// For `logistic` the data file is read.
+/// Where a data file is given it is read, and its columns decide.
 ///
 /// # Errors
 /// [`TargetError::UnknownTarget`]; [`TargetError::ParameterNotAllowed`] and [`TargetError::ParameterMissing`];
@@ -33,11 +34,15 @@ pub fn dimension_of(name: &str, requested: Option<usize>, parameters: &Parameter
     if let Some(dimension) = requested.filter(|dimension| !(1..=MAXIMUM_DIMENSION).contains(dimension)) {
         return Err(not_allowed(dimension, info.dimensions.in_words()));
     }
-    let (only, allowed) = match info.dimensions {
+    let dimensions = match parameters.data {
+        Some(_) => Dimensions::FromData,
+        None => info.dimensions,
+    };
+    let (only, allowed) = match dimensions {
         Dimensions::Fixed(only) => (only, info.dimensions.in_words()),
         Dimensions::FromData => {
             let path = data_path(info, parameters)?;
-            let dimension = RegressionData::from_csv_file(path)?.dimension();
+            let dimension = columns_of(name, path)?.len();
             (
                 dimension,
                 format!("{dimension}, the number of columns of {}", path.display()),
@@ -71,12 +76,6 @@ pub fn dimension_of(name: &str, requested: Option<usize>, parameters: &Parameter
 /// As [`dimension_of`] for `requested` = D, and those of the target's constructor.
 pub fn build<const D: usize>(name: &str, parameters: &Parameters) -> Result<BoxedTarget<D>, TargetError> {
     dimension_of(name, Some(D), parameters)?;
-    let prior = parameters
-        .prior_standard_deviation
-        .unwrap_or(DEFAULT_PRIOR_STANDARD_DEVIATION);
-    let regression = |data| -> Result<BoxedTarget<D>, TargetError> {
-        Ok(Box::new(LogisticRegression::<D>::with_prior(name, data, prior)?))
-    };
     match name {
         "gaussian" => Ok(Box::new(Gaussian::<D>::autoregressive(
             parameters.correlation.unwrap_or(0.0),
@@ -89,14 +88,86 @@ pub fn build<const D: usize>(name: &str, parameters: &Parameters) -> Result<Boxe
         "student-t" => Ok(Box::new(StudentT::<D>::new(
             parameters.degrees_of_freedom.unwrap_or(5.0),
         )?)),
-        "wells" => regression(wells(D, None)?),
-        "wells-small" => regression(wells(D, Some(WELLS_SMALL_ROWS))?),
-        "logistic" => regression(RegressionData::from_csv_file(data_path(
-            target_info(name)?,
-            parameters,
-        )?)?),
+        "rosenbrock" => Ok(Box::new(Rosenbrock::<D>::new(
+            parameters.spread.unwrap_or(1.0),
+            parameters.width.unwrap_or(0.3),
+        )?)),
+        "scales" => Ok(Box::new(Gaussian::<D>::scales(parameters.correlation.unwrap_or(0.5))?)),
+        "cross" => Ok(Box::new(Cross::<D>::new(
+            parameters.spread.unwrap_or(2.0),
+            parameters.width.unwrap_or(0.2),
+        )?)),
+        "schools" => Ok(Box::new(Schools::<D>::new()?)),
+        "wells" => regression::<Logit, D>(name, wells(D, None)?, parameters),
+        "wells-small" => regression::<Logit, D>(name, wells(D, Some(WELLS_SMALL_ROWS))?, parameters),
+        "probit" => {
+            let data = file_or(parameters, || wells(D, Some(WELLS_SMALL_ROWS)))?;
+            regression::<Probit, D>(name, data, parameters)
+        }
+        "poisson" => {
+            let data = file_or(parameters, || synthetic_counts(D))?;
+            regression::<Logarithm, D>(name, data, parameters)
+        }
+        "logistic" => {
+            let path = data_path(target_info(name)?, parameters)?;
+            regression::<Logit, D>(name, RegressionData::from_csv_file(path)?, parameters)
+        }
         _ => in_dimension(build_planar(name, parameters)?),
     }
+}
+
+/// The names of a target's coordinates, where they have names of their own: the covariates of a regression, the parameters
+/// of a model. `None` where they are x₁, …, x_d.
+///
+/// # Errors
+/// As [`dimension_of`].
+pub fn coordinate_names(
+    name: &str,
+    requested: Option<usize>,
+    parameters: &Parameters,
+) -> Result<Option<Vec<String>>, TargetError> {
+    let dimension = dimension_of(name, requested, parameters)?;
+    Ok(match (&parameters.data, name) {
+        (Some(path), _) => Some(columns_of(name, path)?),
+        (None, "wells" | "wells-small" | "probit") => Some(wells(dimension, None)?.names().to_vec()),
+        (None, "poisson") => Some(synthetic_counts(dimension)?.names().to_vec()),
+        (None, "schools") => {
+            let effects = (1..=dimension - 2).map(|school| format!("η_{{{school}}}"));
+            Some(["μ", "log τ"].map(str::to_owned).into_iter().chain(effects).collect())
+        }
+        _ => None,
+    })
+}
+
+/// The columns of a data file, `intercept` first.
+fn columns_of(name: &str, path: &Path) -> Result<Vec<String>, TargetError> {
+    Ok(if name == "poisson" {
+        CountData::from_csv_file(path)?.names().to_vec()
+    } else {
+        RegressionData::from_csv_file(path)?.names().to_vec()
+    })
+}
+
+/// The data of the file that is given, or else the target's own.
+fn file_or<Y: Response>(
+    parameters: &Parameters,
+    own: impl FnOnce() -> Result<RegressionTable<Y>, TargetError>,
+) -> Result<RegressionTable<Y>, TargetError> {
+    match &parameters.data {
+        Some(path) => RegressionTable::from_csv_file(path),
+        None => own(),
+    }
+}
+
+fn regression<L: Link, const D: usize>(
+    name: &str,
+    data: RegressionTable<L::Response>,
+    parameters: &Parameters,
+) -> Result<BoxedTarget<D>, TargetError> {
+    let prior = parameters
+        .prior_standard_deviation
+        .unwrap_or(DEFAULT_PRIOR_STANDARD_DEVIATION);
+    Ok(Box::new(Regression::<L, D>::with_prior(name, data, prior)?))
 }
 
 /// The targets that exist in the plane only.

@@ -13,12 +13,14 @@ pub const MAXIMUM_DIMENSION: usize = 8;
 /// A value for a parameter that the target does not have is an error.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Parameters {
-    /// R of the Gaussian's covariance R^|i−j|.
+    /// R of the correlations R^|i−j| of the Gaussians.
     pub correlation: Option<f64>,
     /// b of the banana.
     pub curvature: Option<f64>,
-    /// σ of the banana, the ring and the mixtures of equal widths; w of the funnel.
+    /// σ of the banana, the ring, the Rosenbrock density and the mixtures of equal widths; w of the funnel and the cross.
     pub width: Option<f64>,
+    /// s of the Rosenbrock density and the cross.
+    pub spread: Option<f64>,
     /// r of the ring.
     pub radius: Option<f64>,
     /// ν of the Student t distribution.
@@ -36,6 +38,7 @@ impl Parameters {
             ("correlation", self.correlation),
             ("curvature", self.curvature),
             ("width", self.width),
+            ("spread", self.spread),
             ("radius", self.radius),
             ("degrees-of-freedom", self.degrees_of_freedom),
             ("prior-sd", self.prior_standard_deviation),
@@ -213,7 +216,7 @@ const fn closed(
     }
 }
 
-/// A regression.
+/// A regression on embedded data or a file.
 const fn regression(
     name: &'static str,
     dimensions: Dimensions,
@@ -239,7 +242,7 @@ const PRIOR: ParameterInfo = parameter(
 );
 const MIXTURE_WIDTH: ParameterInfo = parameter("width", "0.5", "standard deviation of each mode");
 
-static CATALOGUE: [TargetInfo; 11] = [
+static CATALOGUE: [TargetInfo; 17] = [
     closed(
         "gaussian",
         any_from(1),
@@ -296,6 +299,40 @@ static CATALOGUE: [TargetInfo; 11] = [
         &[parameter("degrees-of-freedom", "5", "degrees of freedom")],
         1,
     ),
+    closed(
+        "rosenbrock",
+        any_from(2),
+        "x1 ~ N(1, s^2), x2, x4, ... ~ N(x1^2, w^2), x3, x5, ... ~ N(the square of the one before, w^2)",
+        &[
+            parameter("spread", "1", "s, standard deviation of x1"),
+            parameter("width", "0.3", "w, standard deviation about the parabolas"),
+        ],
+        1,
+    ),
+    closed(
+        "scales",
+        any_from(2),
+        "Gaussian with standard deviations from 1e-3 to 1e3 in equal ratios and correlations R^|i-j|",
+        &[parameter("correlation", "0.5", "R, between -1 and 1")],
+        1,
+    ),
+    closed(
+        "cross",
+        any_from(2),
+        "one Gaussian arm along every axis, crossing at the origin",
+        &[
+            parameter("spread", "2", "standard deviation along an arm"),
+            parameter("width", "0.2", "standard deviation across it"),
+        ],
+        1,
+    ),
+    closed(
+        "schools",
+        any_from(3),
+        "the first d-2 of the eight schools: mean, log scale and standardised effects, not centred",
+        &[],
+        1,
+    ),
     regression(
         "wells",
         Dimensions::Range {
@@ -315,6 +352,36 @@ static CATALOGUE: [TargetInfo; 11] = [
         },
         "logistic regression: the first 40 households of wells, a skewed posterior",
         &[PRIOR],
+    ),
+    regression(
+        "probit",
+        Dimensions::Range {
+            minimum: 1,
+            maximum: WELLS_MAXIMUM_DIMENSION,
+            default: Some(5),
+        },
+        "probit regression on the rows of wells-small, or on a CSV file as for logistic",
+        &[
+            parameter(
+                "data",
+                "the rows of wells-small",
+                "a CSV file instead; it fixes the dimension",
+            ),
+            PRIOR,
+        ],
+    ),
+    regression(
+        "poisson",
+        any_from(1),
+        "Poisson regression with logarithmic link on 40 synthetic counts, or on a CSV file: the count first",
+        &[
+            parameter(
+                "data",
+                "the synthetic counts",
+                "a CSV file instead; it fixes the dimension",
+            ),
+            PRIOR,
+        ],
     ),
     regression(
         "logistic",

@@ -1,4 +1,4 @@
-//! Regression data from CSV files: a header, the 0/1 response in the first column, covariates in the others.
+//! Regression data from CSV files: a header, the response in the first column, covariates in the others.
 
 use std::fs::File;
 use std::io::Read;
@@ -6,10 +6,11 @@ use std::path::Path;
 
 use csv::StringRecord;
 
-use crate::{MAXIMUM_DIMENSION, RegressionData, TargetError};
+use crate::{MAXIMUM_DIMENSION, RegressionTable, Response, TargetError};
 
-impl RegressionData {
-    /// Reads a CSV file: a header line, the response (0 or 1) in the first column, covariates as they are in the others.
+impl<Y: Response> RegressionTable<Y> {
+    /// Reads a CSV file: a header line, the response (0 or 1, or a count) in the first column, covariates as they are in
+    /// the others.
     /// An intercept is added in front, so that d = number of columns. Blank lines are skipped, blanks around cells too.
     ///
     /// # Errors
@@ -144,17 +145,14 @@ impl Row<'_> {
         }
     }
 
-    /// The first column's 0 or 1.
-    fn response(&self) -> Result<bool, TargetError> {
-        let value = self.number(0)?;
-        if value == 0.0 || value == 1.0 {
-            return Ok(value == 1.0);
-        }
-        Err(TargetError::DataResponse {
+    /// The first column's 0 or 1, or count.
+    fn response<Y: Response>(&self) -> Result<Y, TargetError> {
+        Y::from_number(self.number(0)?).ok_or_else(|| TargetError::DataResponse {
             file: self.source.to_owned(),
             line: line_of(self.record),
             column: self.names[0].clone(),
             value: self.record.get(0).unwrap_or_default().to_owned(),
+            allowed: Y::ALLOWED,
         })
     }
 }

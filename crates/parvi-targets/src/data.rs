@@ -1,26 +1,28 @@
-//! Data of a logistic regression: a 0/1 response and a design matrix whose first column is the intercept.
+//! Data of a regression: a response and a design matrix whose first column is the intercept.
 
-use rand::rngs::ChaCha8Rng;
-use rand::{RngExt, SeedableRng};
-use rand_distr::{Distribution, StandardNormal};
-
-use crate::TargetError;
 use crate::error::finite;
+use crate::{Response, TargetError};
 
 /// The name of the intercept's column.
 const INTERCEPT: &str = "intercept";
 
-/// n rows of a 0/1 response y_i and d covariates x_i, the first of them the constant 1 of the intercept.
+/// n rows of a response y_i and d covariates x_i, the first of them the constant 1 of the intercept.
 #[derive(Clone, Debug, PartialEq)]
-pub struct RegressionData {
+pub struct RegressionTable<Y> {
     source: String,
     names: Vec<String>,
     /// n × d, row by row.
     covariates: Vec<f64>,
-    responses: Vec<bool>,
+    responses: Vec<Y>,
 }
 
-impl RegressionData {
+/// Responses 0 or 1, for a logistic or probit regression.
+pub type RegressionData = RegressionTable<bool>;
+
+/// Counts, for a Poisson regression.
+pub type CountData = RegressionTable<u32>;
+
+impl<Y: Response> RegressionTable<Y> {
     /// Data from memory; the intercept is put in front of the covariates of every row.
     ///
     /// `source` names the data in error messages, `names` the covariates (without the intercept); `rows` holds a response
@@ -28,7 +30,7 @@ impl RegressionData {
     ///
     /// # Errors
     /// [`TargetError::DataNoRows`]; [`TargetError::Length`] for a row of another length; [`TargetError::NotFinite`].
-    pub fn new(source: &str, names: &[&str], rows: &[(bool, Vec<f64>)]) -> Result<Self, TargetError> {
+    pub fn new(source: &str, names: &[&str], rows: &[(Y, Vec<f64>)]) -> Result<Self, TargetError> {
         let mut data = Self::empty(source, names.iter().map(|&name| name.to_owned()));
         for (index, (response, covariates)) in rows.iter().enumerate() {
             if covariates.len() != names.len() {
@@ -46,36 +48,6 @@ impl RegressionData {
         data.non_empty()
     }
 
-    /// `rows` rows of synthetic data: covariates x_ij ~ N(0, 1) behind the intercept, responses 1 with probability
-    /// 1 / (1 + exp(−x_iᵀ β)), β = `coefficients` with the intercept first. The same seed gives the same data.
-    ///
-    /// # Errors
-    /// [`TargetError::Empty`] without coefficients, [`TargetError::DataNoRows`] for `rows` = 0,
-    /// [`TargetError::NotFinite`] for a coefficient.
-    pub fn synthetic(coefficients: &[f64], rows: usize, seed: u64) -> Result<Self, TargetError> {
-        if coefficients.is_empty() {
-            return Err(TargetError::Empty {
-                field: "the list of coefficients".to_owned(),
-            });
-        }
-        for (index, &coefficient) in coefficients.iter().enumerate() {
-            finite(&format!("coefficient {index}"), coefficient)?;
-        }
-        let mut rng = ChaCha8Rng::seed_from_u64(seed);
-        let mut data = Self::empty(
-            "synthetic data",
-            (1..coefficients.len()).map(|index| format!("x{index}")),
-        );
-        let mut covariates = vec![0.0; coefficients.len() - 1];
-        for _ in 0..rows {
-            covariates.fill_with(|| StandardNormal.sample(&mut rng));
-            let slope: f64 = coefficients[1..].iter().zip(&covariates).map(|(b, x)| b * x).sum();
-            let probability = 1.0 / (1.0 + (-(coefficients[0] + slope)).exp());
-            data.push(rng.random::<f64>() < probability, &covariates);
-        }
-        data.non_empty()
-    }
-
     /// No rows yet; `names` without the intercept.
     pub(crate) fn empty(source: &str, names: impl Iterator<Item = String>) -> Self {
         let names = std::iter::once(INTERCEPT.to_owned()).chain(names).collect();
@@ -88,7 +60,7 @@ impl RegressionData {
     }
 
     /// Appends a row; `covariates` without the intercept, as many as there are names.
-    pub(crate) fn push(&mut self, response: bool, covariates: &[f64]) {
+    pub(crate) fn push(&mut self, response: Y, covariates: &[f64]) {
         debug_assert_eq!(covariates.len() + 1, self.names.len());
         self.responses.push(response);
         self.covariates.push(1.0);
@@ -125,7 +97,7 @@ impl RegressionData {
     }
 
     /// The responses y_i.
-    pub fn responses(&self) -> &[bool] {
+    pub fn responses(&self) -> &[Y] {
         &self.responses
     }
 

@@ -186,8 +186,8 @@ pub enum TargetError {
         /// The cell's text.
         value: String,
     },
-    /// The response of a logistic regression is neither 0 nor 1.
-    #[error("{file}, line {line}: the response '{column}' is '{value}', it must be 0 or 1")]
+    /// The response of a regression is not one that its model can have: 0 or 1, or a count.
+    #[error("{file}, line {line}: the response '{column}' is '{value}', it must be {allowed}")]
     DataResponse {
         /// The file.
         file: String,
@@ -197,6 +197,8 @@ pub enum TargetError {
         column: String,
         /// The cell's text.
         value: String,
+        /// What it may be, in words.
+        allowed: &'static str,
     },
     /// The file has a header and nothing else.
     #[error("{file} has no rows of data")]
@@ -279,6 +281,19 @@ pub(crate) fn positive(field: &str, value: f64) -> Result<f64, TargetError> {
             field: field.to_owned(),
             value,
             allowed: "a number above 0",
+        })
+    }
+}
+
+/// The error that a target which needs two coordinates was asked for in fewer.
+pub(crate) fn at_least_two(target: &str, dimension: usize) -> Result<(), TargetError> {
+    if dimension >= 2 {
+        Ok(())
+    } else {
+        Err(TargetError::DimensionNotAllowed {
+            target: target.to_owned(),
+            dimension,
+            allowed: "2 or more".to_owned(),
         })
     }
 }

@@ -3,7 +3,7 @@
 use mpm_tensor::Matrix;
 use rand::Rng;
 
-use crate::error::positive;
+use crate::error::{at_least_two, positive};
 use crate::gaussian::{normal_quantiles, standard_normal};
 use crate::special::HALF_LOG_TWO_PI;
 use crate::{CatalogueTarget, ExactDraws, Frame, Moments, Target, TargetError, UnitCubeTransport};
@@ -29,13 +29,7 @@ impl<const D: usize> Funnel<D> {
     /// [`TargetError::DimensionNotAllowed`] for D < 2; [`TargetError::NotFinite`] or [`TargetError::OutOfRange`] unless
     /// 0 < w ≤ 20 (beyond, the variance of the other coordinates approaches the largest number).
     pub fn new(width: f64) -> Result<Self, TargetError> {
-        if D < 2 {
-            return Err(TargetError::DimensionNotAllowed {
-                target: "funnel".to_owned(),
-                dimension: D,
-                allowed: "2 or more".to_owned(),
-            });
-        }
+        at_least_two("funnel", D)?;
         positive("width", width)?;
         if width > 20.0 {
             return Err(TargetError::OutOfRange {

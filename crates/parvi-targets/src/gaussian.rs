@@ -13,6 +13,7 @@ use crate::{CatalogueTarget, ExactDraws, Frame, Moments, Target, TargetError, Un
 /// With C = L Lᵀ everything is a triangular solve: z = L⁻¹ (x−μ), log p = −½|z|² + const, score = −L⁻ᵀ z.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gaussian<const D: usize> {
+    name: &'static str,
     frame: Frame<D>,
     covariance: Matrix<D>,
     log_normalisation: f64,
@@ -24,14 +25,19 @@ impl<const D: usize> Gaussian<D> {
     /// # Errors
     /// As [`Frame::new`]: not finite, not symmetric or not positive definite.
     pub fn new(mean: [f64; D], covariance: Matrix<D>) -> Result<Self, TargetError> {
+        Self::named("gaussian", mean, covariance)
+    }
+
+    /// As [`new`](Self::new), under another name of the catalogue.
+    pub(crate) fn named(name: &'static str, mean: [f64; D], covariance: Matrix<D>) -> Result<Self, TargetError> {
         let frame = Frame::new(mean, covariance)?;
-        Ok(Self::from_frame(frame, covariance))
+        Ok(Self::from_frame(name, frame, covariance))
     }
 
     /// N(0, I).
     pub fn standard() -> Self {
         let frame = Frame::identity();
-        Self::from_frame(frame, *frame.factor())
+        Self::from_frame("gaussian", frame, *frame.factor())
     }
 
     /// N(0, C) with C_ij = R^|i−j|, the covariance of a stationary first-order autoregression (R = `correlation`).
@@ -39,6 +45,11 @@ impl<const D: usize> Gaussian<D> {
     /// # Errors
     /// [`TargetError::NotFinite`], or [`TargetError::OutOfRange`] unless −1 < R < 1.
     pub fn autoregressive(correlation: f64) -> Result<Self, TargetError> {
+        Self::new([0.0; D], Self::autoregression(correlation)?)
+    }
+
+    /// The matrix R^|i−j|.
+    pub(crate) fn autoregression(correlation: f64) -> Result<Matrix<D>, TargetError> {
         finite("correlation", correlation)?;
         if correlation.abs() >= 1.0 {
             return Err(TargetError::OutOfRange {
@@ -47,18 +58,13 @@ impl<const D: usize> Gaussian<D> {
                 allowed: "a number between -1 and 1, both excluded",
             });
         }
-        let mut covariance = [[0.0; D]; D];
-        for i in 0..D {
-            for j in 0..D {
-                covariance[i][j] = correlation.powi(i.abs_diff(j) as i32);
-            }
-        }
-        Self::new([0.0; D], Matrix(covariance))
+        Ok(Matrix::from_fn(|i, j| correlation.powi(i.abs_diff(j) as i32)))
     }
 
-    fn from_frame(frame: Frame<D>, covariance: Matrix<D>) -> Self {
+    fn from_frame(name: &'static str, frame: Frame<D>, covariance: Matrix<D>) -> Self {
         let log_normalisation = -frame.log_determinant() - D as f64 * HALF_LOG_TWO_PI;
         Self {
+            name,
             frame,
             covariance,
             log_normalisation,
@@ -96,7 +102,7 @@ impl<const D: usize> UnitCubeTransport<D> for Gaussian<D> {
 
 impl<const D: usize> CatalogueTarget<D> for Gaussian<D> {
     fn name(&self) -> &str {
-        "gaussian"
+        self.name
     }
 
     fn frame(&self) -> Frame<D> {

@@ -1,13 +1,15 @@
-//! Does a logistic regression with flat priors have a proper posterior?
+//! Does a regression with flat priors have a proper posterior?
 //!
 //! A coefficient with a Gaussian prior is always identified; those with a flat one need linearly independent columns
-//! and responses that no combination of these columns separates (A. Albert, J. A. Anderson, *Biometrika* 71 (1984) 1–10).
+//! and responses that no combination of these columns separates: for a yes or no A. Albert, J. A. Anderson, *Biometrika*
+//! 71 (1984) 1–10; for counts a combination that is constant 0 where events occurred and negative somewhere else
+//! (J. M. C. Santos Silva, S. Tenreyro, *Economics Letters* 107 (2010) 310–312).
 
 use mpm_tensor::vector;
 
+use crate::generalised_linear::Posterior;
 use crate::laplace::Curved;
-use crate::logistic_posterior::{log_posterior, negative_hessian, score};
-use crate::{RegressionData, TargetError};
+use crate::{Curvature, Link, RegressionTable, Response, Target, TargetError};
 
 /// A column whose part outside of the span of the others is smaller than this fraction of its length depends on them.
 const DEPENDENCE: f64 = 1e-10;
@@ -16,8 +18,8 @@ const DEPENDENCE: f64 = 1e-10;
 const MAXIMUM_STEPS: usize = 100;
 
 /// The error that the columns with a flat prior (`flat[k]`) are linearly dependent, naming those involved.
-pub(crate) fn check_independence<const D: usize>(
-    data: &RegressionData,
+pub(crate) fn check_independence<Y: Response, const D: usize>(
+    data: &RegressionTable<Y>,
     rows: &[[f64; D]],
     flat: &[bool; D],
 ) -> Result<(), TargetError> {
@@ -56,36 +58,40 @@ pub(crate) fn check_independence<const D: usize>(
 
 /// The error that columns with a flat prior separate the responses.
 ///
-/// `signed_rows` are (2y_i − 1) x_i, `precision` the prior's. Newton's method is run from 0; where a mode exists its
-/// steps vanish, where the likelihood rises for ever each step moves some logit by about 1. Such a step is a direction
-/// of separation if it lowers no margin (2y_i − 1) x_iᵀ β and moves no coefficient with a proper prior.
-pub(crate) fn check_overlap<const D: usize>(
-    data: &RegressionData,
-    signed_rows: &[[f64; D]],
-    precision: &[f64; D],
+/// Newton's method is run from 0; where a mode exists its steps vanish, where the likelihood rises for ever each step moves
+/// some predictor by about 1. Such a step is a direction of separation if it takes no row's predictor where its likelihood
+/// falls ([`Response::free_side`]) and moves no coefficient with a proper prior.
+pub(crate) fn check_overlap<L: Link, const D: usize>(
+    data: &RegressionTable<L::Response>,
+    posterior: &Posterior<L, D>,
 ) -> Result<(), TargetError> {
     let scale: [f64; D] = std::array::from_fn(|k| {
-        signed_rows
+        posterior
+            .rows
             .iter()
             .fold(0.0_f64, |largest, row| largest.max(row[k].abs()))
     });
     let mut coefficients = [0.0; D];
     for _ in 0..MAXIMUM_STEPS {
-        let hessian = negative_hessian(signed_rows, precision, &coefficients);
-        let Ok(factor) = Curved::new(data.source(), &hessian) else {
+        let Ok(factor) = Curved::new(data.source(), &posterior.negative_hessian(&coefficients)) else {
             break;
         };
-        let step = factor.solve(&score(signed_rows, precision, &coefficients));
-        let margins = || signed_rows.iter().map(|row| vector::dot(row, &step));
-        let largest = margins().fold(0.0_f64, |largest, margin| largest.max(margin.abs()));
+        let step = factor.solve(&posterior.score(&coefficients));
+        let predictors = || posterior.rows.iter().map(|row| vector::dot(row, &step));
+        let largest = predictors().fold(0.0_f64, |largest, t| largest.max(t.abs()));
         if largest < 1e-6 {
             return Ok(());
         }
-        let lowest = margins().fold(f64::INFINITY, f64::min);
+        let sides = || data.responses().iter().map(|response| response.free_side());
+        let lowest = predictors()
+            .zip(sides())
+            .map(|(t, side)| side.map_or(-t.abs(), |side| side * t))
+            .fold(f64::INFINITY, f64::min);
         let moved: [bool; D] = std::array::from_fn(|k| (step[k] * scale[k]).abs() > 1e-5 * largest);
-        let only_flat = (0..D).all(|k| !moved[k] || precision[k] == 0.0);
-        // Early steps may look like a separation by chance; by a margin of 12 the rows it leaves alone have settled.
-        let far = signed_rows.iter().any(|row| vector::dot(row, &coefficients) > 12.0);
+        let only_flat = (0..D).all(|k| !moved[k] || posterior.precision[k] == 0.0);
+        // Early steps may look like a separation by chance; at a predictor of 12 the rows it leaves alone have settled.
+        let far = (posterior.rows.iter().zip(sides()))
+            .any(|(row, side)| side.is_some_and(|side| side * vector::dot(row, &coefficients) > 12.0));
         if far && only_flat && lowest > -1e-6 * largest {
             let columns = named(data, &moved);
             return Err(TargetError::DataSeparated {
@@ -94,12 +100,9 @@ pub(crate) fn check_overlap<const D: usize>(
             });
         }
         // The log posterior is concave: halve a step that overshoots.
-        let density = log_posterior(signed_rows, precision, &coefficients);
-        let raised = (0..60).map(|halvings| vector::add_scaled(&coefficients, 0.5_f64.powi(halvings), &step));
-        match raised
-            .into_iter()
-            .find(|trial| log_posterior(signed_rows, precision, trial) >= density)
-        {
+        let density = posterior.log_density(&coefficients);
+        let mut trials = (0..60).map(|halvings| vector::add_scaled(&coefficients, 0.5_f64.powi(halvings), &step));
+        match trials.find(|trial| posterior.log_density(trial) >= density) {
             Some(trial) => coefficients = trial,
             None => break,
         }
@@ -111,7 +114,7 @@ fn norm(x: &[f64]) -> f64 {
     x.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
-fn named<const D: usize>(data: &RegressionData, chosen: &[bool; D]) -> String {
+fn named<Y: Response, const D: usize>(data: &RegressionTable<Y>, chosen: &[bool; D]) -> String {
     let names: Vec<&str> = (0..D)
         .filter(|&k| chosen[k])
         .map(|k| data.names()[k].as_str())

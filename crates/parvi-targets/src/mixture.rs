@@ -3,7 +3,7 @@
 use mpm_tensor::Matrix;
 use rand::{Rng, RngExt};
 
-use crate::error::{finite, positive};
+use crate::error::{at_least_two, finite, positive};
 use crate::gaussian::{normal_quantiles, standard_normal};
 use crate::special::HALF_LOG_TWO_PI;
 use crate::{CatalogueTarget, ExactDraws, Frame, Mode, Moments, Target, TargetError, UnitCubeTransport};
@@ -78,16 +78,12 @@ impl<const D: usize> GaussianMixture<D> {
 
     /// `mixture-3`: modes at −4e₁, 4e₁, 5e₂ of widths 0.6, 0.4, 0.5 and masses 0.2, 0.5, 0.3.
     ///
+    /// Far apart: the distances are 11.1, 8.2 and 10.0 times √(w_a² + w_b²), and more than 10 times either width.
+    ///
     /// # Errors
     /// [`TargetError::DimensionNotAllowed`] for D < 2.
     pub fn three_far() -> Result<Self, TargetError> {
-        if D < 2 {
-            return Err(TargetError::DimensionNotAllowed {
-                target: "mixture-3".to_owned(),
-                dimension: D,
-                allowed: "2 or more".to_owned(),
-            });
-        }
+        at_least_two("mixture-3", D)?;
         let mode = |axis, position, width, mass| Mode {
             centre: on_axis(axis, position),
             width,

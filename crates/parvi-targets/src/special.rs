@@ -1,4 +1,4 @@
-//! Scalar functions the targets share: quantiles and a stable log(1 + eᵗ).
+//! Scalar functions the targets share: quantiles, a stable log(1 + eᵗ) and log cosh t.
 
 use statrs::function::erf::erfc_inv;
 use statrs::function::gamma::{gamma_lr, gamma_ur, ln_gamma};
@@ -22,6 +22,12 @@ pub fn normal_quantile(u: f64) -> f64 {
 /// log(1 + eᵗ) without overflow and without cancellation.
 pub(crate) fn log_one_plus_exp(t: f64) -> f64 {
     t.max(0.0) + (-t.abs()).exp().ln_1p()
+}
+
+/// log cosh t without overflow.
+pub(crate) fn log_cosh(t: f64) -> f64 {
+    let size = t.abs();
+    size + (-2.0 * size).exp().ln_1p() - std::f64::consts::LN_2
 }
 
 /// The root of an increasing function inside a bracket, by Newton steps with the function's derivative where they stay
@@ -117,5 +123,12 @@ mod tests {
         assert_eq!(log_one_plus_exp(1000.0), 1000.0);
         assert_eq!(log_one_plus_exp(-1000.0), 0.0);
         assert!((log_one_plus_exp(0.0) - std::f64::consts::LN_2).abs() < 1e-16);
+    }
+
+    #[test]
+    fn log_cosh_is_stable() {
+        assert_eq!(log_cosh(0.0), 0.0);
+        assert!((log_cosh(-1.3) - 1.3_f64.cosh().ln()).abs() < 1e-15);
+        assert!((log_cosh(1e300) / 1e300 - 1.0).abs() < 1e-15);
     }
 }

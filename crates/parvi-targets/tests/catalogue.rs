@@ -1,6 +1,8 @@
 //! The catalogue's entries against the targets they describe, and its errors.
 
-use parvi_targets::{Dimensions, Parameters, TargetError, build, catalogue, dimension_of, target_info};
+use parvi_targets::{
+    Dimensions, Parameters, TargetError, build, catalogue, coordinate_names, dimension_of, target_info,
+};
 
 /// Builds an entry in dimension D where it exists there, and compares what is said with what is so.
 fn check_in<const D: usize>() {
@@ -51,6 +53,7 @@ fn dimensions_are_resolved() {
     assert_eq!(dimension_of("banana", None, &none), Ok(2));
     assert_eq!(dimension_of("wells-small", None, &none), Ok(5));
     assert_eq!(dimension_of("wells-small", Some(3), &none), Ok(3));
+    assert_eq!(dimension_of("probit", None, &none), Ok(5));
     let message = |name, requested| dimension_of(name, requested, &none).unwrap_err().to_string();
     assert_eq!(message("gaussian", None), "target 'gaussian' needs a dimension: 1 to 8");
     assert_eq!(message("wells", None), "target 'wells' needs a dimension: 1 to 6");
@@ -70,6 +73,11 @@ fn dimensions_are_resolved() {
         message("funnel", Some(1)),
         "dimension 1 does not fit target 'funnel': 2 to 8"
     );
+    assert_eq!(
+        message("schools", Some(2)),
+        "dimension 2 does not fit target 'schools': 3 to 8"
+    );
+    assert_eq!(message("poisson", None), "target 'poisson' needs a dimension: 1 to 8");
     assert_eq!(message("ring", Some(3)), "dimension 3 does not fit target 'ring': 2");
     assert_eq!(
         message("logistic", Some(3)),
@@ -161,6 +169,48 @@ fn parameters_reach_their_target_and_no_other() {
             },
         ),
         (
+            "rosenbrock",
+            Parameters {
+                spread: Some(0.0),
+                ..Parameters::default()
+            },
+        ),
+        (
+            "rosenbrock",
+            Parameters {
+                width: Some(1e7),
+                ..Parameters::default()
+            },
+        ),
+        (
+            "scales",
+            Parameters {
+                correlation: Some(-1.0),
+                ..Parameters::default()
+            },
+        ),
+        (
+            "cross",
+            Parameters {
+                spread: Some(f64::NAN),
+                ..Parameters::default()
+            },
+        ),
+        (
+            "cross",
+            Parameters {
+                width: Some(1e-200),
+                ..Parameters::default()
+            },
+        ),
+        (
+            "probit",
+            Parameters {
+                prior_standard_deviation: Some(0.0),
+                ..Parameters::default()
+            },
+        ),
+        (
             "wells",
             Parameters {
                 prior_standard_deviation: Some(-1.0),
@@ -175,4 +225,15 @@ fn parameters_reach_their_target_and_no_other() {
             "{name}: {error}"
         );
     }
+}
+
+#[test]
+fn coordinates_have_names() {
+    let names = |name, dimension| coordinate_names(name, dimension, &Parameters::default()).unwrap();
+    assert_eq!(names("gaussian", Some(2)), None);
+    assert_eq!(names("wells", Some(2)).unwrap(), ["intercept", "distance/100"]);
+    assert_eq!(names("probit", None).unwrap().len(), 5);
+    assert_eq!(names("poisson", Some(3)).unwrap(), ["intercept", "x1", "x2"]);
+    assert_eq!(names("schools", Some(4)).unwrap(), ["μ", "log τ", "η_{1}", "η_{2}"]);
+    assert!(coordinate_names("schools", Some(9), &Parameters::default()).is_err());
 }

@@ -135,8 +135,9 @@ fn transported_points_have_the_moments<const D: usize>(target: &dyn CatalogueTar
         .map(|index| transport.transport(&sequence.point(index)))
         .collect();
     let weight = 1.0 / points.len() as f64;
-    // The heavy tails of the funnel and of Student's t converge slowly.
-    let heavy = matches!(target.name(), "funnel" | "student-t");
+    // Heavy tails converge slowly: those of the funnel, of Student's t, of the fourth powers of the Rosenbrock density, and
+    // of the cross in many dimensions, where few points lie in the arm along an axis (kurtosis 20 for D = 8).
+    let heavy = matches!(target.name(), "funnel" | "student-t" | "rosenbrock" | "cross");
     let tolerance = if heavy { 0.05 } else { 0.005 };
     for i in 0..D {
         let deviation = moments.covariance.0[i][i].sqrt();
@@ -303,6 +304,8 @@ fn mixtures() {
 #[test]
 fn funnel() {
     conforms::<2>("funnel");
+    conforms::<3>("funnel");
+    conforms::<4>("funnel");
     conforms::<6>("funnel");
 }
 
@@ -318,6 +321,71 @@ fn student_t() {
     let cauchy = build::<3>("student-t", &cauchy).unwrap();
     assert!(cauchy.moments().is_none());
     score_is_the_gradient(&*cauchy);
+}
+
+#[test]
+fn rosenbrock() {
+    conforms::<2>("rosenbrock");
+    conforms::<3>("rosenbrock");
+    conforms::<4>("rosenbrock");
+    conforms::<7>("rosenbrock");
+    conforms::<8>("rosenbrock");
+    // The plane's density with the constants of the literature.
+    let classic = Parameters {
+        spread: Some(10_f64.sqrt()),
+        width: Some(0.1_f64.sqrt()),
+        ..Parameters::default()
+    };
+    conforming(&*build::<2>("rosenbrock", &classic).unwrap());
+}
+
+#[test]
+fn scales() {
+    conforms::<2>("scales");
+    conforms::<4>("scales");
+    conforms::<8>("scales");
+    let uncorrelated = Parameters {
+        correlation: Some(0.0),
+        ..Parameters::default()
+    };
+    let target = build::<3>("scales", &uncorrelated).unwrap();
+    conforming(&*target);
+    let covariance = target.moments().unwrap().covariance.0;
+    for (axis, variance) in [1e-6, 1.0, 1e6].into_iter().enumerate() {
+        assert!((covariance[axis][axis] / variance - 1.0).abs() < 1e-14);
+    }
+}
+
+#[test]
+fn cross() {
+    conforms::<2>("cross");
+    conforms::<3>("cross");
+    conforms::<8>("cross");
+    let round = Parameters {
+        spread: Some(0.5),
+        width: Some(0.5),
+        ..Parameters::default()
+    };
+    conforming(&*build::<2>("cross", &round).unwrap());
+}
+
+#[test]
+fn schools() {
+    conforms::<3>("schools");
+    conforms::<4>("schools");
+    conforms::<8>("schools");
+}
+
+#[test]
+fn probit_and_poisson() {
+    conforms::<1>("probit");
+    conforms::<3>("probit");
+    conforms::<5>("probit");
+    conforms::<6>("probit");
+    conforms::<1>("poisson");
+    conforms::<2>("poisson");
+    conforms::<4>("poisson");
+    conforms::<8>("poisson");
 }
 
 #[test]
@@ -343,6 +411,9 @@ fn densities_of_the_plane_are_normalised() {
         "mixture-2",
         "mixture-3",
         "funnel",
+        "rosenbrock",
+        "scales",
+        "cross",
     ] {
         let target = target::<2>(name);
         let count = 2000;
@@ -362,7 +433,7 @@ fn densities_of_the_plane_are_normalised() {
             (mass - 1.0).abs()
                 < match name {
                     "funnel" => 2e-3,
-                    "banana" => 1e-5,
+                    "banana" | "rosenbrock" => 1e-5,
                     _ => 1e-6,
                 },
             "{name}: {mass}"
@@ -373,6 +444,54 @@ fn densities_of_the_plane_are_normalised() {
         .map(|k| line.log_density(&[1e-3 * (f64::from(k) + 0.5)]).exp())
         .sum();
     assert!((1e-3 * mass - 1.0).abs() < 1e-7);
+}
+
+/// Moments by quadrature against an importance sample, which knows the density only.
+#[test]
+fn moments_of_the_schools_follow_from_their_density() {
+    struct Hidden(BoxedTarget<4>);
+    impl parvi_targets::Target<4> for Hidden {
+        fn log_density(&self, x: &[f64; 4]) -> f64 {
+            self.0.log_density(x)
+        }
+        fn score(&self, x: &[f64; 4]) -> [f64; 4] {
+            self.0.score(x)
+        }
+    }
+    impl CatalogueTarget<4> for Hidden {
+        fn name(&self) -> &str {
+            "hidden"
+        }
+        fn frame(&self) -> parvi_targets::Frame<4> {
+            self.0.frame()
+        }
+        fn domain(&self) -> [[f64; 2]; 4] {
+            self.0.domain()
+        }
+    }
+    let schools = Hidden(target("schools"));
+    let options = ReferenceOptions {
+        points: 1 << 17,
+        degrees_of_freedom: 5.0,
+        ..ReferenceOptions::default()
+    };
+    let (found, known) = (
+        reference_moments(&schools, &options).unwrap(),
+        schools.0.moments().unwrap(),
+    );
+    for axis in 0..4 {
+        let deviation = known.covariance.0[axis][axis].sqrt();
+        let error = (found.moments.mean[axis] - known.mean[axis]).abs();
+        assert!(
+            error < 6.0 * found.mean_error[axis] && error < 5e-3 * deviation,
+            "mean {axis}: {error}"
+        );
+        let error = (found.moments.covariance.0[axis][axis].sqrt() - deviation).abs();
+        assert!(
+            error < 6.0 * found.standard_deviation_error[axis] && error < 1e-2 * deviation,
+            "deviation {axis}: {error}"
+        );
+    }
 }
 
 /// The importance sampler against moments known in closed form.
@@ -460,5 +579,10 @@ fn references_of_the_regressions_state_their_error() {
     check::<5>("wells");
     check::<6>("wells");
     check::<5>("wells-small");
+    check::<1>("probit");
+    check::<5>("probit");
+    check::<2>("poisson");
+    check::<4>("poisson");
+    check::<8>("poisson");
     assert_eq!(wells(5, None).unwrap().rows(), 3020);
 }

@@ -2,7 +2,10 @@
 
 use std::fs;
 
-use parvi_targets::{LogisticRegression, Parameters, RegressionData, TargetError, build, dimension_of};
+use parvi_targets::{
+    CountData, LogisticRegression, Parameters, PoissonRegression, ProbitRegression, RegressionData, TargetError, build,
+    dimension_of,
+};
 
 fn read(text: &str) -> Result<RegressionData, TargetError> {
     RegressionData::from_csv_reader(text.as_bytes(), "some.csv")
@@ -177,6 +180,94 @@ fn separated_responses_need_a_proper_prior() {
     assert!(matches!(
         posterior(far, [FLAT; 2]),
         Err(TargetError::DataSeparated { .. })
+    ));
+}
+
+#[test]
+fn counts_are_read_and_checked() {
+    let counts = |text: &str| CountData::from_csv_reader(text.as_bytes(), "some.csv");
+    let data = counts("events,age\n0,2\n 17,3\n1e3,4\n4294967295,1\n").unwrap();
+    assert_eq!(data.responses(), [0, 17, 1000, u32::MAX]);
+    for bad in ["-1", "0.5", "4294967296", "-0.5", "1e300"] {
+        let expected = format!(
+            "some.csv, line 3: the response 'events' is '{bad}', it must be a whole number from 0 to 4294967295"
+        );
+        let error = counts(&format!("events,age\n1,2\n{bad},3\n")).unwrap_err();
+        assert_eq!(error.to_string(), expected);
+    }
+    assert!(matches!(
+        counts("events\nnan\n"),
+        Err(TargetError::DataNotFinite { line: 2, .. })
+    ));
+}
+
+#[test]
+fn counts_need_events_or_a_proper_prior() {
+    let flat = |text: &str| {
+        let data = CountData::from_csv_reader(text.as_bytes(), "some.csv").unwrap();
+        PoissonRegression::<2>::with_prior("poisson", data, FLAT)
+    };
+    // Events at two values of the covariate fix both coefficients, whatever the size of the counts.
+    assert!(flat("n,a\n0,1\n2,2\n1,3\n0,0\n").is_ok());
+    assert!(flat("n,a\n0,1\n4000000000,2\n1000000,3\n0,0\n").is_ok());
+    // At a single value they do, if there are rows without events on either side of it.
+    assert!(flat("n,a\n0,1\n3,2\n0,3\n").is_ok());
+    // No events at all, none in a category, none below the only value with events.
+    for text in [
+        "n,a\n0,1\n0,2\n0,3\n",
+        "n,a\n0,1\n0,1\n2,0\n3,0\n",
+        "n,a\n0,1\n0,1.5\n2,2\n3,2\n",
+        "n,a\n0,3\n0,9\n2000000,2\n3,2\n",
+    ] {
+        assert!(
+            matches!(flat(text), Err(TargetError::DataSeparated { .. })),
+            "{text}: {:?}",
+            flat(text).map(|_| ())
+        );
+        let data = CountData::from_csv_reader(text.as_bytes(), "some.csv").unwrap();
+        assert!(PoissonRegression::<2>::with_prior("poisson", data, 10.0).is_ok());
+    }
+    assert!(matches!(
+        flat("n,a\n1,2\n0,2\n3,2\n"),
+        Err(TargetError::DataCollinear { .. })
+    ));
+}
+
+#[test]
+fn a_probit_regression_is_improper_where_a_logistic_one_is() {
+    let flat = |text| ProbitRegression::<2>::with_prior("probit", read(text).unwrap(), FLAT);
+    assert!(matches!(
+        flat("y,a\n0,1\n0,2\n1,3\n1,4\n"),
+        Err(TargetError::DataSeparated { .. })
+    ));
+    assert!(flat("y,a\n0,1\n1,2\n0,3\n1,4\n").is_ok());
+    // An outlier far in the wrong tail.
+    assert!(flat("y,a\n0,1\n1,2\n0,3\n1,4\n0,400\n").is_ok());
+}
+
+#[test]
+fn probit_and_poisson_read_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("trial.csv");
+    fs::write(&path, "y,a,b\n1,1,4\n0,2,1\n1,3,2\n0,5,3\n1,0,3\n").unwrap();
+    let parameters = Parameters {
+        data: Some(path.clone()),
+        ..Parameters::default()
+    };
+    for name in ["probit", "poisson"] {
+        assert_eq!(dimension_of(name, None, &parameters).unwrap(), 3);
+        assert_eq!(build::<3>(name, &parameters).unwrap().name(), name);
+        let error = dimension_of(name, Some(2), &parameters).unwrap_err();
+        assert!(
+            error.to_string().contains("3, the number of columns of"),
+            "{name}: {error}"
+        );
+    }
+    fs::write(&path, "y,a\n7,1\n").unwrap();
+    assert_eq!(dimension_of("poisson", None, &parameters).unwrap(), 2);
+    assert!(matches!(
+        dimension_of("probit", None, &parameters),
+        Err(TargetError::DataResponse { line: 2, .. })
     ));
 }
 

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use parvi_targets::{Parameters, RegressionData, TargetError, wells};
+use parvi_targets::{Parameters, TargetError};
 use serde::{Deserialize, Serialize};
 
 use super::Dimension;
@@ -13,7 +13,7 @@ use super::Dimension;
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
 #[command(next_help_heading = "Parameters of the target")]
 pub struct TargetParameters {
-    /// Correlation R of neighbouring axes, C_ij = R^|i-j| (gaussian)
+    /// Correlation R of neighbouring axes, R^|i-j| (gaussian, scales)
     #[arg(long, value_name = "R", allow_negative_numbers = true)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub correlation: Option<f64>,
@@ -21,10 +21,14 @@ pub struct TargetParameters {
     #[arg(long, value_name = "B", allow_negative_numbers = true)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub curvature: Option<f64>,
-    /// Width: standard deviation across the curve, the ring or a mode, of the funnel's mouth [banana, ring, mixture-*, funnel]
+    /// Width: standard deviation across the curve, the ring, an arm or a mode, of the funnel's mouth [banana, ring, mixture-*, funnel, rosenbrock, cross]
     #[arg(long, value_name = "SIGMA", allow_negative_numbers = true)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub width: Option<f64>,
+    /// Standard deviation along the curve or an arm (rosenbrock, cross)
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spread: Option<f64>,
     /// Radius of the ring (ring)
     #[arg(long, allow_negative_numbers = true)]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -33,11 +37,11 @@ pub struct TargetParameters {
     #[arg(long, value_name = "NU", allow_negative_numbers = true)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub degrees_of_freedom: Option<f64>,
-    /// Standard deviation of the Gaussian prior of each coefficient (wells, wells-small, logistic)
+    /// Standard deviation of the Gaussian prior of each coefficient (wells, wells-small, probit, poisson, logistic)
     #[arg(long, value_name = "SD", allow_negative_numbers = true)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub prior_sd: Option<f64>,
-    /// Data: a header, the 0/1 response first, then the covariates (logistic)
+    /// Data: a header, the 0/1 response (poisson: a count) first, then the covariates (logistic, probit, poisson)
     #[arg(long, value_name = "FILE.csv")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub data: Option<PathBuf>,
@@ -50,6 +54,7 @@ impl TargetParameters {
             correlation: self.correlation,
             curvature: self.curvature,
             width: self.width,
+            spread: self.spread,
             radius: self.radius,
             degrees_of_freedom: self.degrees_of_freedom,
             prior_standard_deviation: self.prior_sd,
@@ -115,17 +120,16 @@ impl TargetSpecification {
         )
     }
 
-    /// The coordinates' names: the covariates of a regression, else x₁ … x_d in the notation of the figures.
+    /// The coordinates' names: the covariates of a regression or the parameters of a model, else x₁ … x_d in the notation of
+    /// the figures.
     pub fn coordinate_names(&self) -> Vec<String> {
-        let dimension = self.dimension().unwrap_or(0);
-        let data = match (self.name.as_str(), &self.parameters.data) {
-            ("wells" | "wells-small", _) => wells(dimension, None).ok(),
-            (_, Some(path)) => RegressionData::from_csv_file(path).ok(),
-            _ => None,
-        };
-        match data {
-            Some(data) => data.names().to_vec(),
-            None => (1..=dimension).map(|axis| format!("x_{{{axis}}}")).collect(),
+        let dim = self.dim.map(Dimension::get);
+        match parvi_targets::coordinate_names(&self.name, dim, &self.parameters.to_catalogue()) {
+            Ok(Some(names)) => names,
+            _ => {
+                let dimension = self.dimension().unwrap_or(0);
+                (1..=dimension).map(|axis| format!("x_{{{axis}}}")).collect()
+            }
         }
     }
 
@@ -140,6 +144,7 @@ impl TargetSpecification {
             ("r", parameters.correlation),
             ("b", parameters.curvature),
             ("w", parameters.width),
+            ("s", parameters.spread),
             ("radius", parameters.radius),
             ("nu", parameters.degrees_of_freedom),
             ("sd", parameters.prior_sd),

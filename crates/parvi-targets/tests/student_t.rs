@@ -1,0 +1,67 @@
+//! Student's t with three degrees of freedom, whose fourth moments are infinite: distributions instead of moments.
+
+use parvi_targets::{CatalogueTarget, ExactDraws, SobolSequence, StudentT, Target, UnitCubeTransport};
+use rand::SeedableRng;
+use rand::rngs::ChaCha8Rng;
+use statrs::distribution::{ContinuousCDF, FisherSnedecor, StudentsT};
+
+/// The largest difference between the empirical distribution function of `values` and F.
+fn kolmogorov_distance(mut values: Vec<f64>, distribution: &impl ContinuousCDF<f64, f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    let count = values.len() as f64;
+    (values.iter().enumerate())
+        .map(|(rank, value)| (distribution.cdf(*value) - (rank as f64 + 0.5) / count).abs())
+        .fold(0.0, f64::max)
+}
+
+/// Every coordinate is t_ν, and |x|²/D has the F distribution with D and ν degrees of freedom.
+fn is_distributed_as_it_should<const D: usize>(nu: f64, points: &[[f64; D]], tolerance: f64) {
+    let marginal = StudentsT::new(0.0, 1.0, nu).unwrap();
+    for axis in 0..D {
+        let distance = kolmogorov_distance(points.iter().map(|x| x[axis]).collect(), &marginal);
+        assert!(distance < tolerance, "nu = {nu}, D = {D}, axis {axis}: {distance}");
+    }
+    let square = |x: &[f64; D]| x.iter().map(|x| x * x).sum::<f64>() / D as f64;
+    let radial = FisherSnedecor::new(D as f64, nu).unwrap();
+    let distance = kolmogorov_distance(points.iter().map(square).collect(), &radial);
+    assert!(distance < tolerance, "nu = {nu}, D = {D}, radius: {distance}");
+}
+
+fn draws_and_transport<const D: usize>(nu: f64) {
+    let target = StudentT::<D>::new(nu).unwrap();
+    let mut rng = ChaCha8Rng::seed_from_u64(8);
+    let count = 1 << 14;
+    let draws: Vec<[f64; D]> = (0..count).map(|_| target.draw(&mut rng)).collect();
+    // Kolmogorov's statistic √n·distance exceeds 2.2 once in 8,000 times.
+    is_distributed_as_it_should(nu, &draws, 2.2 / f64::from(count).sqrt());
+    let sequence = SobolSequence::scrambled(target.cube_dimension(), 2).unwrap();
+    let points: Vec<[f64; D]> = (0..count)
+        .map(|index| target.transport(&sequence.point(index as u32)))
+        .collect();
+    // Quasi-random points come closer, also in sets with a curved boundary: here by a factor of four.
+    is_distributed_as_it_should(nu, &points, 0.55 / f64::from(count).sqrt());
+}
+
+#[test]
+fn three_degrees_of_freedom() {
+    draws_and_transport::<1>(3.0);
+    draws_and_transport::<2>(3.0);
+    draws_and_transport::<4>(3.0);
+    draws_and_transport::<8>(3.0);
+    let target = StudentT::<2>::new(3.0).unwrap();
+    let moments = target.moments().unwrap();
+    assert_eq!(moments.mean, [0.0; 2]);
+    assert_eq!(moments.covariance.0, [[3.0, 0.0], [0.0, 3.0]]);
+    assert_eq!(target.frame(), parvi_targets::Frame::identity());
+    // p(x) = (1 + |x|²/3)^(−5/2) / 2π, score −5 x / (3 + |x|²).
+    assert!((target.log_density(&[0.0; 2]) + std::f64::consts::TAU.ln()).abs() < 1e-14);
+    let (density, score) = (target.log_density(&[1.0, -2.0]), target.score(&[1.0, -2.0]));
+    assert!((density + 2.5 * (8.0_f64 / 3.0).ln() + std::f64::consts::TAU.ln()).abs() < 1e-14);
+    assert_eq!(score, [-0.625, 1.25]);
+}
+
+#[test]
+fn other_degrees_of_freedom() {
+    draws_and_transport::<3>(1.0);
+    draws_and_transport::<3>(5.0);
+}
