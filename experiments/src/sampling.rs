@@ -27,6 +27,8 @@ pub struct Outcome {
     pub active_nodes: Option<usize>,
     /// Bytes held by particles and grid.
     pub storage_bytes: Option<usize>,
+    /// Divergent trajectories of a Markov chain.
+    pub divergences: Option<usize>,
     /// History.
     pub trace: Vec<TracePoint>,
     /// Time of the sampler alone, in seconds.
@@ -44,6 +46,7 @@ impl Outcome {
             spacing: None,
             active_nodes: None,
             storage_bytes: None,
+            divergences: None,
             trace: Vec::new(),
             wall_seconds,
         }
@@ -88,6 +91,7 @@ pub fn sample_target<const D: usize>(
         spacing: samples.spacing.filter(|value| value.is_finite()),
         active_nodes: samples.active_nodes,
         storage_bytes: samples.storage_bytes,
+        divergences: samples.divergences,
         trace: samples.trace,
         wall_seconds,
     })

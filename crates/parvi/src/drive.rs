@@ -112,6 +112,7 @@ where
         spacing: Some(spacing),
         active_nodes: Some(active_nodes),
         storage_bytes: Some(storage_bytes),
+        divergences: None,
         trace,
     })
 }
