@@ -29,6 +29,8 @@ pub struct Outcome {
     pub bodies: Option<usize>,
     /// Bytes held by particles and grid.
     pub storage_bytes: Option<usize>,
+    /// Divergent trajectories of a Markov chain.
+    pub divergences: Option<usize>,
     /// History.
     pub trace: Vec<TracePoint>,
     /// Time of the sampler alone, in seconds.
@@ -47,6 +49,7 @@ impl Outcome {
             active_nodes: None,
             bodies: None,
             storage_bytes: None,
+            divergences: None,
             trace: Vec::new(),
             wall_seconds,
         }
@@ -92,6 +95,7 @@ pub fn sample_target<const D: usize>(
         active_nodes: samples.active_nodes,
         bodies: samples.bodies,
         storage_bytes: samples.storage_bytes,
+        divergences: samples.divergences,
         trace: samples.trace,
         wall_seconds,
     })

@@ -96,6 +96,43 @@ fn flags_that_do_not_fit_the_method() {
 }
 
 #[test]
+fn flags_that_do_not_fit_the_baselines() {
+    let refused = |method: &str, parts: &[&str]| {
+        refused(&format!("--target banana --particles 64 --method {method}"), parts);
+    };
+    refused("iid --chains 2", &["--chains", "2", "iid"]);
+    refused("nuts --steps 100", &["--steps", "100", "nuts"]);
+    refused("nuts --pool-size 100", &["--pool-size", "100", "nuts"]);
+    refused("nuts --target-acceptance 1", &["--target-acceptance", "1", "below 1"]);
+    refused("nuts --thinning 0", &["--thinning", "0", "from 1"]);
+    refused("nuts --warm-up -1", &["--warm-up", "-1", "from 0"]);
+    refused("support-points --pool exact", &["--pool", "exact", "support-points"]);
+    refused("support-points --tolerance -1", &["--tolerance", "-1", "at least 0"]);
+    refused(
+        "support-points --start-mean 1",
+        &["--start-mean", "1", "support-points"],
+    );
+    refused("stein-thinning --pool-size 63", &["pool size", "63", "particles"]);
+    refused("stein-thinning --warm-up 50", &["--warm-up", "50", "pool `nuts`"]);
+    refused(
+        "stein-thinning --pool exact --start-sd 2",
+        &["--start-sd", "2", "pool `nuts`"],
+    );
+}
+
+#[test]
+fn a_method_that_the_build_lacks() {
+    let message = "built without nuts: rebuild with --features nuts";
+    if cfg!(not(feature = "nuts")) {
+        refused("--target banana --particles 64 --method nuts", &[message]);
+        refused(
+            "--target banana --particles 64 --method stein-thinning --pool nuts",
+            &[message],
+        );
+    }
+}
+
+#[test]
 fn flags_that_do_not_fit_the_target() {
     refused("--target banana --particles 64 --radius 2", &["radius", "2", "banana"]);
     refused("--target ring --particles 64 --prior-sd 2", &["prior-sd", "2", "ring"]);

@@ -77,8 +77,21 @@ fn standard_output_has_the_keys_of_the_contract() {
 #[test]
 fn the_same_seed_gives_the_same_file_on_any_number_of_threads() {
     let directory = tempfile::tempdir().unwrap();
-    for method in ["mpm", "paper-pic", "paper-apic", "svgd", "iid", "sobol"] {
-        let steps = if matches!(method, "iid" | "sobol") {
+    let mut methods = vec![
+        "mpm",
+        "paper-pic",
+        "paper-apic",
+        "svgd",
+        "iid",
+        "sobol",
+        "stein-thinning",
+        "support-points",
+    ];
+    if cfg!(feature = "nuts") {
+        methods.push("nuts");
+    }
+    for method in methods {
+        let steps = if matches!(method, "iid" | "sobol" | "nuts" | "stein-thinning") {
             ""
         } else {
             "--steps 8"

@@ -56,6 +56,7 @@ pub(crate) fn union<const D: usize>(mut parts: Vec<Samples<D>>) -> Samples<D> {
         .collect();
     Samples {
         weights: None,
+        divergences: None,
         steps: parts.iter().map(|part| part.steps).max().unwrap_or(0),
         score_evaluations: parts.iter().map(|part| part.score_evaluations).sum(),
         residual: root_mean_square(&|part| part.residual),

@@ -62,3 +62,23 @@ pub const PAPER_STEPS: usize = 200;
 
 /// Steps of Stein variational gradient descent.
 pub const SVGD_STEPS: usize = 500;
+
+/// Draws per chain that warm the No-U-Turn sampler up.
+pub const NUTS_WARM_UP: usize = 400;
+
+/// Chains of the No-U-Turn sampler.
+pub const NUTS_CHAINS: usize = 4;
+
+/// Acceptance that the No-U-Turn sampler aims at.
+pub const NUTS_TARGET_ACCEPTANCE: f64 = 0.8;
+
+/// Size of the sample that M points are condensed from: 50 M, but no more than 100,000 unless M is.
+pub fn pool_size(particles: usize) -> usize {
+    particles.saturating_mul(50).min(100_000).max(particles)
+}
+
+/// Iterations of support points, at most.
+pub const SUPPORT_POINTS_STEPS: usize = 200;
+
+/// Support points are at rest once none moves farther than this, in units of the sample's spread.
+pub const SUPPORT_POINTS_TOLERANCE: f64 = 1e-4;

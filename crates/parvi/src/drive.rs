@@ -113,6 +113,7 @@ where
         active_nodes: Some(active_nodes),
         bodies: Some(1),
         storage_bytes: Some(storage_bytes),
+        divergences: None,
         trace,
     })
 }

@@ -1,6 +1,7 @@
 //! Exact draws and scrambled Sobol points: the yardsticks.
 
 use parvi_targets::{CatalogueTarget, SobolSequence};
+use rand::rngs::ChaCha8Rng;
 
 use crate::drive::finite;
 use crate::{Run, SampleError, Samples};
@@ -14,13 +15,26 @@ pub fn independent_draws<const D: usize>(
     run: &Run,
 ) -> Result<Samples<D>, SampleError> {
     let count = run.checked_particles()?;
+    Ok(Samples {
+        positions: exact_draws("iid", target, &mut run.generator(0), count)?,
+        ..Samples::default()
+    })
+}
+
+/// `count` exact draws for a method that needs them, all finite.
+pub(crate) fn exact_draws<const D: usize>(
+    method: &'static str,
+    target: &dyn CatalogueTarget<D>,
+    generator: &mut ChaCha8Rng,
+    count: usize,
+) -> Result<Vec<[f64; D]>, SampleError> {
     let draws = target
         .exact_draws()
-        .ok_or_else(|| unsupported("iid", target.name(), "exact draws"))?;
-    let mut generator = run.generator(0);
-    of(std::iter::repeat_with(|| draws.draw(&mut generator))
-        .take(count)
-        .collect())
+        .ok_or_else(|| unsupported(method, target.name(), "exact draws"))?;
+    finite(
+        std::iter::repeat_with(|| draws.draw(generator)).take(count).collect(),
+        0,
+    )
 }
 
 /// The first M points of a scrambled Sobol sequence through the target's map from the unit cube.
@@ -37,7 +51,10 @@ pub fn sobol_points<const D: usize>(target: &dyn CatalogueTarget<D>, run: &Run) 
         sequence.write(index, &mut u);
         transport.transport(&u)
     };
-    of((0..count as u32).map(point).collect())
+    Ok(Samples {
+        positions: finite((0..count as u32).map(point).collect(), 0)?,
+        ..Samples::default()
+    })
 }
 
 fn unsupported(method: &'static str, target: &str, needs: &'static str) -> SampleError {
@@ -46,11 +63,4 @@ fn unsupported(method: &'static str, target: &str, needs: &'static str) -> Sampl
         target: target.to_string(),
         needs,
     }
-}
-
-fn of<const D: usize>(positions: Vec<[f64; D]>) -> Result<Samples<D>, SampleError> {
-    Ok(Samples {
-        positions: finite(positions, 0)?,
-        ..Samples::default()
-    })
 }

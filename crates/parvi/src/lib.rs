@@ -2,6 +2,7 @@
 
 mod basis_choice;
 mod bodies;
+mod condense;
 pub mod defaults;
 mod drive;
 mod exact;
@@ -10,19 +11,27 @@ mod kronecker;
 mod method;
 mod moment_correction;
 mod mpm;
+#[cfg(feature = "nuts")]
+mod nuts;
 mod paper;
+mod point_set_error;
 mod residual;
 mod rotation;
 mod run;
 mod start;
+mod stein_thinning;
 mod stiffness;
+mod support_points;
 mod survey;
 mod svgd;
 
 pub use exact::{independent_draws, sobol_points};
 pub use method::*;
+pub use point_set_error::PointSetError;
 pub use residual::{Residual, galerkin_stein_residual};
 pub use run::*;
+pub use stein_thinning::stein_thinning;
+pub use support_points::{SupportPoints, support_points};
 
 use parvi_targets::CatalogueTarget;
 
@@ -43,6 +52,9 @@ pub fn sample<const D: usize>(
         Method::Svgd(options) => options.sample(target, &frame, run, observer),
         Method::Iid => independent_draws(target, run),
         Method::Sobol => sobol_points(target, run),
+        Method::Nuts(options) => options.sample(target, &frame, run, observer),
+        Method::SteinThinning(options) => options.sample(target, run, observer),
+        Method::SupportPoints(options) => options.sample(target, run, observer),
     }
 }
 

@@ -4,6 +4,8 @@ use std::ops::ControlFlow;
 
 use mpm_core::MpmError;
 
+use crate::PointSetError;
+
 /// Size, seed and start of a run; the same for every method.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
@@ -79,6 +81,8 @@ pub struct Samples<const D: usize> {
     pub bodies: Option<usize>,
     /// Bytes held by particles and grid at the end of the run.
     pub storage_bytes: Option<usize>,
+    /// Trajectories of a Markov chain that left the level of energy, the warm-up's not counted; where the method has such.
+    pub divergences: Option<usize>,
     /// History, one entry every `trace_every` steps.
     pub trace: Vec<TracePoint>,
 }
@@ -191,6 +195,33 @@ pub enum SampleError {
     /// The elastic law refused its parameters.
     #[error(transparent)]
     Material(#[from] mpm_materials::ParameterError),
+    /// The log density is not finite where a Markov chain begins.
+    #[error("the log density of the target at the start x = {position:?} is {value}, which is not finite")]
+    StartNotFinite {
+        /// Where the chain was to begin.
+        position: Vec<f64>,
+        /// What the target returned.
+        value: f64,
+    },
+    /// A Markov chain could not begin or go on.
+    #[error("chain {chain}: {reason}")]
+    Chain {
+        /// Number of the chain, from 0.
+        chain: usize,
+        /// What the sampler said.
+        reason: String,
+    },
+    /// A sample could not be condensed into fewer points.
+    #[error(transparent)]
+    PointSet(#[from] PointSetError),
+    /// The method is not part of this build.
+    #[error("method `{method}`: built without {feature}: rebuild with --features {feature}")]
+    NotBuilt {
+        /// Method.
+        method: &'static str,
+        /// The cargo feature that it needs.
+        feature: &'static str,
+    },
     /// The observer stopped the run.
     #[error("interrupted after step {step}")]
     Interrupted {

@@ -79,6 +79,7 @@ fn pairs(arguments: &Arguments, outcome: &Outcome, peak_memory: Option<u64>) -> 
         ("active_nodes", outcome.active_nodes.map(|value| value.to_string())),
         ("bodies", outcome.bodies.map(|value| value.to_string())),
         ("storage_bytes", outcome.storage_bytes.map(|value| value.to_string())),
+        ("divergences", outcome.divergences.map(|value| value.to_string())),
         (PEAK_MEMORY_KEY, peak_memory.map(|value| value.to_string())),
     ];
     pairs.extend(optional.into_iter().filter_map(|(key, value)| Some((key, value?))));

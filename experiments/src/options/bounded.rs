@@ -16,6 +16,8 @@ pub struct Bounded<const LEAST: i64, const MOST: i64>(i64);
 pub type ParticleCount = Bounded<2, 100_000_000>;
 /// A number of steps.
 pub type StepCount = Bounded<1, 100_000_000>;
+/// A number of draws to throw away.
+pub type WarmUp = Bounded<0, 100_000_000>;
 /// A dimension d.
 pub type Dimension = Bounded<1, 8>;
 

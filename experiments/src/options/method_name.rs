@@ -22,17 +22,26 @@ pub enum MethodName {
     Iid,
     /// Scrambled Sobol points
     Sobol,
+    /// No-U-Turn sampler (with the cargo feature `nuts`)
+    Nuts,
+    /// The draws of a bigger sample with the least kernel Stein discrepancy
+    SteinThinning,
+    /// The points with the least energy distance to a bigger sample
+    SupportPoints,
 }
 
 impl MethodName {
     /// All methods.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 9] = [
         Self::Mpm,
         Self::PaperPic,
         Self::PaperApic,
         Self::Svgd,
         Self::Iid,
         Self::Sobol,
+        Self::Nuts,
+        Self::SteinThinning,
+        Self::SupportPoints,
     ];
 
     /// The name as typed.
@@ -44,12 +53,16 @@ impl MethodName {
             Self::Svgd => "svgd",
             Self::Iid => "iid",
             Self::Sobol => "sobol",
+            Self::Nuts => "nuts",
+            Self::SteinThinning => "stein-thinning",
+            Self::SupportPoints => "support-points",
         }
     }
 
-    /// Whether the method takes steps from a start; draws come at once.
+    /// Whether the method moves all particles by steps from a start, so that studies can vary their number. Draws come at once or one
+    /// after the other.
     pub fn iterates(self) -> bool {
-        !matches!(self, Self::Iid | Self::Sobol)
+        matches!(self, Self::Mpm | Self::PaperPic | Self::PaperApic | Self::Svgd)
     }
 }
 

@@ -6,14 +6,17 @@ use parvi::{
 };
 use serde::{Deserialize, Serialize};
 
-use super::{Basis, Correction, Draws, Limit, Material, MethodName, OptionError, Score, StepCount, Switch, Transfer};
+use super::{
+    Basis, Correction, Draws, Limit, Material, MethodName, OptionError, ParticleCount, PoolChoice, Score, StepCount,
+    Switch, Transfer, WarmUp,
+};
 
 /// Options of the methods; `None`: the method's own default.
 #[derive(Args, Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
 #[command(next_help_heading = "Options of the method")]
 pub struct MethodOptions {
-    /// Steps [mpm, paper-*, svgd]
+    /// Steps; support-points: at most [mpm, paper-*, svgd, support-points]
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
     pub steps: Option<StepCount>,
     /// Background basis [mpm, paper-*]
@@ -100,13 +103,34 @@ pub struct MethodOptions {
     /// Fixed kernel bandwidth instead of the median rule (svgd)
     #[arg(long, allow_negative_numbers = true)]
     pub bandwidth: Option<f64>,
-    /// Mean of every coordinate at the start, in units of the target's scale [mpm, paper-*, svgd]
+    /// Draws per chain that tune the sampler and are thrown away [nuts, stein-thinning with --pool nuts]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    pub warm_up: Option<WarmUp>,
+    /// Chains that share the draws out [nuts, stein-thinning with --pool nuts]
+    #[arg(long, value_name = "C", allow_negative_numbers = true)]
+    pub chains: Option<StepCount>,
+    /// Keep every K-th draw [nuts, stein-thinning with --pool nuts]
+    #[arg(long, value_name = "K", allow_negative_numbers = true)]
+    pub thinning: Option<StepCount>,
+    /// Acceptance that the step size is tuned to, between 0 and 1 [nuts, stein-thinning with --pool nuts]
+    #[arg(long, value_name = "A", allow_negative_numbers = true)]
+    pub target_acceptance: Option<f64>,
+    /// What the draws are chosen from (stein-thinning)
+    #[arg(long)]
+    pub pool: Option<PoolChoice>,
+    /// Size of the bigger sample, at least the number of particles [stein-thinning, support-points]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    pub pool_size: Option<ParticleCount>,
+    /// End when no point moves farther, in units of the sample's spread (support-points)
+    #[arg(long, value_name = "TOL", allow_negative_numbers = true)]
+    pub tolerance: Option<f64>,
+    /// Mean of every coordinate at the start, in units of the target's scale [mpm, paper-*, svgd, nuts]
     #[arg(long, value_name = "MEAN", allow_negative_numbers = true)]
     pub start_mean: Option<f64>,
-    /// Standard deviation of every coordinate at the start [mpm, paper-*, svgd]
+    /// Standard deviation of every coordinate at the start [mpm, paper-*, svgd, nuts]
     #[arg(long, value_name = "SD", allow_negative_numbers = true)]
     pub start_sd: Option<f64>,
-    /// How the particles are drawn from their initial law [mpm, paper-*, svgd]
+    /// How the particles are drawn from their initial law [mpm, paper-*, svgd, nuts]
     #[arg(long)]
     pub start_draws: Option<Draws>,
     /// Measure residual and energy every so many steps; set by the studies.
@@ -116,16 +140,29 @@ pub struct MethodOptions {
 }
 
 /// The methods that have an option.
-type Owners = &'static [MethodName];
+pub(super) type Owners = &'static [MethodName];
 const GAS: Owners = &[MethodName::Mpm];
 const PAPER: Owners = &[MethodName::PaperPic, MethodName::PaperApic];
 const GRID: Owners = &[MethodName::Mpm, MethodName::PaperPic, MethodName::PaperApic];
 const STEIN: Owners = &[MethodName::Svgd];
+const STEPPED: Owners = &[
+    MethodName::Mpm,
+    MethodName::PaperPic,
+    MethodName::PaperApic,
+    MethodName::Svgd,
+    MethodName::SupportPoints,
+];
+const CHAIN: Owners = &[MethodName::Nuts, MethodName::SteinThinning];
+const CHOICE: Owners = &[MethodName::SteinThinning];
+const CONDENSED: Owners = &[MethodName::SteinThinning, MethodName::SupportPoints];
+const REST: Owners = &[MethodName::SupportPoints];
 const STARTED: Owners = &[
     MethodName::Mpm,
     MethodName::PaperPic,
     MethodName::PaperApic,
     MethodName::Svgd,
+    MethodName::Nuts,
+    MethodName::SteinThinning,
 ];
 
 /// A range for numbers.
@@ -136,6 +173,7 @@ const FINITE: Range = (f64::is_finite, "a finite number");
 const SHARE: Range = (|x| (0.0..=1.0).contains(&x), "from 0 to 1");
 const RATIO: Range = (|x| x >= 1.0 && x.is_finite(), "a number of at least 1");
 const BELOW_ONE: Range = (|x| (0.0..1.0).contains(&x), "at least 0 and below 1");
+const BETWEEN: Range = (|x| x > 0.0 && x < 1.0, "above 0 and below 1");
 const POISSON: Range = (|x| x > -1.0 && x < 0.5, "above -1 and below 0.5");
 
 impl MethodOptions {
@@ -147,6 +185,7 @@ impl MethodOptions {
         self.check_fit(name)?;
         self.check_ranges()?;
         self.check_pairs()?;
+        self.check_pool(name)?;
         let steps = self.steps.map(StepCount::get);
         Ok(match name {
             MethodName::Mpm => Method::Mpm(self.mpm(steps)?),
@@ -163,6 +202,9 @@ impl MethodOptions {
             }
             MethodName::Iid => Method::Iid,
             MethodName::Sobol => Method::Sobol,
+            MethodName::Nuts => Method::Nuts(self.nuts()),
+            MethodName::SteinThinning => Method::SteinThinning(self.stein_thinning()),
+            MethodName::SupportPoints => Method::SupportPoints(self.support_points()),
         })
     }
 
@@ -271,12 +313,12 @@ impl MethodOptions {
     }
 
     /// The options that are set: name, value as typed, methods that have it.
-    fn given(&self) -> Vec<(&'static str, String, Owners)> {
+    pub(super) fn given(&self) -> Vec<(&'static str, String, Owners)> {
         fn text<T: ToString>(value: &Option<T>) -> Option<String> {
             value.as_ref().map(T::to_string)
         }
         let all = [
-            ("steps", text(&self.steps), STARTED),
+            ("steps", text(&self.steps), STEPPED),
             ("basis", text(&self.basis), GRID),
             ("spacing", text(&self.spacing), GRID),
             ("time-step", text(&self.time_step), GRID),
@@ -305,6 +347,13 @@ impl MethodOptions {
             ("courant", text(&self.courant), PAPER),
             ("step-size", text(&self.step_size), STEIN),
             ("bandwidth", text(&self.bandwidth), STEIN),
+            ("warm-up", text(&self.warm_up), CHAIN),
+            ("chains", text(&self.chains), CHAIN),
+            ("thinning", text(&self.thinning), CHAIN),
+            ("target-acceptance", text(&self.target_acceptance), CHAIN),
+            ("pool", text(&self.pool), CHOICE),
+            ("pool-size", text(&self.pool_size), CONDENSED),
+            ("tolerance", text(&self.tolerance), REST),
             ("start-mean", text(&self.start_mean), STARTED),
             ("start-sd", text(&self.start_sd), STARTED),
             ("start-draws", text(&self.start_draws), STARTED),
@@ -315,7 +364,7 @@ impl MethodOptions {
     }
 
     fn check_ranges(&self) -> Result<(), OptionError> {
-        let numbers: [(&str, Option<f64>, Range); 18] = [
+        let numbers: [(&str, Option<f64>, Range); 20] = [
             ("spacing", self.spacing, POSITIVE),
             ("time-step", self.time_step, POSITIVE),
             (
@@ -337,6 +386,8 @@ impl MethodOptions {
             ("courant", self.courant.and_then(Limit::value), POSITIVE),
             ("step-size", self.step_size, POSITIVE),
             ("bandwidth", self.bandwidth, POSITIVE),
+            ("target-acceptance", self.target_acceptance, BETWEEN),
+            ("tolerance", self.tolerance, NOT_NEGATIVE),
             ("start-sd", self.start_sd, POSITIVE),
         ];
         for (name, value, (holds, expected)) in numbers.into_iter().chain([("start-mean", self.start_mean, FINITE)]) {

@@ -1,5 +1,6 @@
 //! Options of targets and methods, with the same names on the command line and in configurations.
 
+mod baseline_options;
 mod bounded;
 mod limit;
 mod method_name;
@@ -9,11 +10,11 @@ mod option_error;
 mod option_values;
 mod target_specification;
 
-pub use bounded::{Bounded, Dimension, ParticleCount, StepCount};
+pub use bounded::{Bounded, Dimension, ParticleCount, StepCount, WarmUp};
 pub use limit::Limit;
 pub use method_name::MethodName;
 pub use method_options::MethodOptions;
 pub use method_specification::MethodSpecification;
 pub use option_error::OptionError;
-pub use option_values::{Basis, Correction, Draws, Material, Score, Switch, Transfer};
+pub use option_values::{Basis, Correction, Draws, Material, PoolChoice, Score, Switch, Transfer};
 pub use target_specification::{TargetParameters, TargetSpecification};

@@ -139,6 +139,16 @@ impl From<Material> for Elasticity {
     }
 }
 
+/// What Stein thinning chooses from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum PoolChoice {
+    /// Independent exact draws
+    Exact,
+    /// Draws of the No-U-Turn sampler
+    Nuts,
+}
+
 /// The word of a value, as it is typed.
 fn word(value: &impl ValueEnum, formatter: &mut Formatter<'_>) -> fmt::Result {
     match value.to_possible_value() {
@@ -184,6 +194,12 @@ impl Display for Score {
 }
 
 impl Display for Material {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        word(self, formatter)
+    }
+}
+
+impl Display for PoolChoice {
     fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
         word(self, formatter)
     }

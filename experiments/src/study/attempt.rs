@@ -37,7 +37,7 @@ pub enum Attempt<T> {
     Failed(Status, String),
 }
 
-/// Turns failures of the sampler into results; interruptions and mistakes in options stay errors.
+/// Turns failures of the sampler into results; interruptions, mistakes in options and methods that this build lacks stay errors.
 pub fn attempt<T>(result: Result<T, CommandError>) -> Result<Attempt<T>, CommandError> {
     let error = match result {
         Ok(value) => return Ok(Attempt::Finished(value)),
@@ -46,7 +46,9 @@ pub fn attempt<T>(result: Result<T, CommandError>) -> Result<Attempt<T>, Command
     let status = match &error {
         CommandError::NotFinite { .. } => Status::Diverged,
         CommandError::Sample(SampleError::Unsupported { .. }) => Status::Unsupported,
-        CommandError::Sample(SampleError::InvalidOption { .. } | SampleError::Interrupted { .. }) => return Err(error),
+        CommandError::Sample(
+            SampleError::InvalidOption { .. } | SampleError::NotBuilt { .. } | SampleError::Interrupted { .. },
+        ) => return Err(error),
         CommandError::Sample(_) => Status::Diverged,
         _ => return Err(error),
     };

@@ -11,7 +11,9 @@ use super::document::Document;
 use super::results::{self, single_line};
 use crate::CommandError;
 use crate::dispatch::{TargetTask, with_target};
-use crate::options::{Basis, Dimension, MethodName, MethodSpecification, StepCount, TargetSpecification};
+use crate::options::{
+    Basis, Dimension, MethodName, MethodSpecification, ParticleCount, StepCount, TargetSpecification,
+};
 use crate::output::Particles;
 use crate::progress::CaseObserver;
 use crate::sampling::{self, Outcome};
@@ -54,6 +56,9 @@ impl definition::Case for Case {
         let sampling = match self.method.name {
             MethodName::Iid | MethodName::Sobol => 0.0,
             MethodName::Svgd => steps.unwrap_or(500) as f64 * 3e-3 * count * count,
+            MethodName::Nuts => 10.0 * (count + 2e3),
+            MethodName::SteinThinning => 5e-3 * count * self.pool_size(),
+            MethodName::SupportPoints => steps.unwrap_or(100) as f64 * 2e-3 * count * self.pool_size(),
             _ => {
                 let dim = self.dim.get();
                 let nodes = match self.method.options.basis.unwrap_or(Basis::Lattice) {
@@ -66,6 +71,14 @@ impl definition::Case for Case {
             }
         };
         1e3 + 1e-3 * count * count + sampling
+    }
+}
+
+impl Case {
+    /// The size of the sample that the particles are condensed from.
+    fn pool_size(&self) -> f64 {
+        let size = self.method.options.pool_size.map(ParticleCount::get);
+        size.unwrap_or_else(|| parvi::defaults::pool_size(self.particles)) as f64
     }
 }
 

@@ -1,13 +1,19 @@
 //! The methods and their options.
 
 mod mpm_options;
+mod nuts_options;
 mod paper_options;
 mod schedule;
+mod stein_thinning_options;
+mod support_points_options;
 mod svgd_options;
 
 pub use mpm_options::{MomentCorrection, MpmOptions, ScoreLocation};
+pub use nuts_options::NutsOptions;
 pub use paper_options::{Annealing, Elasticity, Guards, PaperOptions};
 pub use schedule::{Settling, SpacingSchedule};
+pub use stein_thinning_options::{Pool, SteinThinningOptions};
+pub use support_points_options::SupportPointsOptions;
 pub use svgd_options::SvgdOptions;
 
 /// Background basis of the mechanics.
@@ -49,4 +55,10 @@ pub enum Method {
     Iid,
     /// Scrambled Sobol points through the target's map from the unit cube.
     Sobol,
+    /// The No-U-Turn sampler, a Markov chain; needs the cargo feature `nuts`.
+    Nuts(NutsOptions),
+    /// The M draws of a bigger sample with the least kernel Stein discrepancy, by a greedy choice.
+    SteinThinning(SteinThinningOptions),
+    /// The M points with the least energy distance to a bigger sample.
+    SupportPoints(SupportPointsOptions),
 }
