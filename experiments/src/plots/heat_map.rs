@@ -75,7 +75,12 @@ pub fn heat_map(plot: &HeatMapPlot) -> Result<String, PlotError> {
     let mut drawing = Drawing::new(&plot.title);
     let room = FIGURE_WIDTH - 2.0 * MARGIN;
     let mut top = MARGIN + draw_title(&mut drawing, (MARGIN, MARGIN), room, &plot.title);
-    top += draw_legend(&mut drawing, (left, top), FIGURE_WIDTH - left - MARGIN, &legend_entries()) + 6.0;
+    top += draw_legend(
+        &mut drawing,
+        (left, top),
+        FIGURE_WIDTH - left - MARGIN,
+        &legend_entries(),
+    ) + 6.0;
     let title_room = LABEL_SIZE + 5.0;
     for row in 0..rows {
         let lowest = row + 1 == rows;

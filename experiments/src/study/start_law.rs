@@ -21,7 +21,10 @@ impl StartLaw {
     pub fn check(&self, field: &str) -> Result<(), CommandError> {
         positive(&format!("{field}.standard-deviation"), &[self.standard_deviation])?;
         if !self.mean.is_finite() {
-            return Err(refusal(&format!("{field}.mean"), format!("{} must be finite", self.mean)));
+            return Err(refusal(
+                &format!("{field}.mean"),
+                format!("{} must be finite", self.mean),
+            ));
         }
         Ok(())
     }

@@ -1,6 +1,6 @@
 //! The configuration of the study `catalogue`.
 
-use parvi_targets::{Dimensions, catalogue};
+use parvi_targets::{Dimensions, TargetError, catalogue, target_info};
 use serde::Deserialize;
 
 use super::Case;
@@ -64,18 +64,18 @@ impl Catalogue {
                 dim,
                 parameters: parameters.clone(),
             };
-            let dimensions = parvi_targets::target_info(name)?.dimensions;
+            let dimensions = target_info(name).map_err(wrong_target)?.dimensions;
             let mut found: Vec<TargetSpecification> = Vec::new();
             if let Dimensions::Range { minimum, maximum, .. } = dimensions {
                 let inside = |dim: &&Dimension| (minimum..=maximum).contains(&dim.get());
                 found.extend(self.dims.iter().filter(inside).map(|&dim| here(Some(dim))));
             } else {
                 let only = here(None);
-                let dimension = only.dimension()?;
+                let dimension = only.dimension().map_err(wrong_target)?;
                 found.extend(self.dims.iter().any(|dim| dim.get() == dimension).then_some(only));
             }
             for target in &found {
-                target.dimension()?;
+                target.dimension().map_err(wrong_target)?;
             }
             targets.extend(found);
         }
@@ -131,6 +131,11 @@ impl Catalogue {
     pub fn judged(&self) -> Option<&MethodSpecification> {
         self.methods.first()
     }
+}
+
+/// The error of a target that the configuration names.
+fn wrong_target(error: TargetError) -> CommandError {
+    refusal("targets", error.to_string())
 }
 
 /// All targets but those whose data the user brings.

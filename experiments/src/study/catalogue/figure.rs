@@ -52,11 +52,14 @@ pub fn plot(study: &Catalogue, rows: &[Row]) -> Result<DotPlot, CommandError> {
             values,
         });
     }
-    plot.notes
-        .push(format!("Method {}: medians over the seeds, a marker per start.", judged.label()));
+    plot.notes.push(format!(
+        "Method {}: medians over the seeds, a marker per start.",
+        judged.label()
+    ));
     if missing > 0 {
-        plot.notes
-            .push(format!("Without a marker, because no run finished: {missing} pairs of target and start."));
+        plot.notes.push(format!(
+            "Without a marker, because no run finished: {missing} pairs of target and start."
+        ));
     }
     Ok(plot)
 }

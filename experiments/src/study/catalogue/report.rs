@@ -128,7 +128,10 @@ fn requirements(study: &Catalogue, judged: &str, verdicts: &[Verdict<'_>], docum
         let here: Vec<&Verdict<'_>> = verdicts.iter().filter(|verdict| verdict.requirement == class).collect();
         let mut line = vec![class.in_words().to_owned(), number(class.bound())];
         for start in &study.starts {
-            let from = here.iter().copied().filter(|verdict| is_from(verdict.row, Some(*start)));
+            let from = here
+                .iter()
+                .copied()
+                .filter(|verdict| is_from(verdict.row, Some(*start)));
             line.push(count(&from.collect::<Vec<_>>()));
         }
         line.push(count(&here));
@@ -156,7 +159,15 @@ fn start_table(
         header.push(format!("ED² {}", method.label()));
         header.push(format!("SW₂ {}", method.label()));
     }
-    let details = ["finished", "mean (sd)", "sd (relative)", "mode mass", "residual", "scores", "time (s)"];
+    let details = [
+        "finished",
+        "mean (sd)",
+        "sd (relative)",
+        "mode mass",
+        "residual",
+        "scores",
+        "time (s)",
+    ];
     header.extend(details.map(str::to_owned));
     let mut table = Vec::new();
     for target in targets {
@@ -197,7 +208,11 @@ fn misses(missed: &[&Verdict<'_>], document: &mut Document) {
     let line = |verdict: &&Verdict<'_>| {
         let row = verdict.row;
         let found = match ENERGY(row) {
-            Some(ratio) => format!("ED² {} of independent draws, at most {}", number(ratio), verdict.requirement.bound()),
+            Some(ratio) => format!(
+                "ED² {} of independent draws, at most {}",
+                number(ratio),
+                verdict.requirement.bound()
+            ),
             None => format!("{}: {}", row.status.as_str(), row.reason),
         };
         format!("- `{}`: {found}", row.case)
