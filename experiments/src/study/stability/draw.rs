@@ -172,7 +172,7 @@ pub fn draw(seed: u64, index: usize, places: &[Place]) -> Case {
         spacing_factor: spread(draws, SPACINGS),
         time_step_factor: spread(draws, TIME_STEPS),
         scale: spread(draws, SCALES),
-        turn: draws.random_bool(0.5).then_some(index as u64),
+        turn: draws.random_bool(0.5).then_some(draws.random()),
         particles: (spread(draws, PARTICLES).round() as usize).clamp(2, most),
         seed: draws.random(),
     }

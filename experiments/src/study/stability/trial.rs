@@ -106,14 +106,14 @@ impl Row {
             self.message = format!("a particle has the value {value}");
             return;
         }
-        let distances = samples.positions.iter().map(|x| vector::norm(&own.to_reference(x)));
-        let reach = distances.fold(0.0, f64::max);
         let root = (D as f64).sqrt();
         let (mean, sd) = (self.start_mean.unwrap_or(0.0), self.start_sd.unwrap_or(0.0));
         let start_reach = (mean * root + sd * (root + 4.0)) * stretch(own, frame);
-        self.reach = Some(reach);
+        let bound = ESCAPE * (start_reach + TARGET_REACH);
+        let distances = || samples.positions.iter().map(|x| vector::norm(&own.to_reference(x)));
+        self.reach = distances().reduce(f64::max);
         // An overflow of the distance is an escape as well.
-        self.escaped = !(reach <= ESCAPE * (start_reach + TARGET_REACH));
+        self.escaped = distances().any(|distance| distance.is_nan() || distance > bound);
         self.residual = samples.residual.filter(|value| value.is_finite());
     }
 
