@@ -3,9 +3,8 @@
 mod support;
 
 use std::collections::HashMap;
-use std::path::Path;
 
-use support::{assert_refused, assert_report, files, parvi, run_study, value};
+use support::{assert_report, parvi, refused, rows, run_study, value};
 
 const ACCURACY: &str = r#"
 kind = "accuracy"
@@ -53,23 +52,6 @@ particles = [64, 32, 16]
 method = { name = "mpm", options = { basis = "linear", steps = 20 } }
 series = [{ dim = 1, spacings = [0.8, 0.2, 0.4] }, { dim = 2, spacings = [0.5, 1.0] }]
 "#;
-
-/// Asserts that a study with one text replaced is refused before anything is written.
-fn refused(study: &str, from: &str, to: &str, parts: &[&str]) {
-    let root = tempfile::tempdir().unwrap();
-    let text = study.replacen(from, to, 1);
-    assert_ne!(text, study);
-    std::fs::write(root.path().join("study.toml"), text).unwrap();
-    let parts: Vec<&str> = parts.iter().copied().chain(["study.toml"]).collect();
-    assert_refused(&parvi(root.path(), "run study.toml --out out"), &parts);
-    assert_eq!(files(root.path()), ["study.toml"]);
-}
-
-/// The records of results.csv, by the names of the columns.
-fn rows(root: &Path) -> Vec<HashMap<String, String>> {
-    let mut reader = csv::Reader::from_path(root.join("out/results.csv")).unwrap();
-    reader.deserialize().map(|row| row.unwrap()).collect()
-}
 
 #[test]
 fn accuracy() {

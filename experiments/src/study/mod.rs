@@ -3,6 +3,7 @@
 mod accuracy;
 mod attempt;
 mod basis_comparison;
+mod catalogue;
 mod checks;
 mod configuration;
 mod covariance_spacing;
@@ -17,6 +18,9 @@ mod results;
 mod runner;
 mod scaling;
 mod spacing_particles;
+mod stability;
+mod start_law;
+mod target_reference;
 mod time_error;
 mod time_to_level;
 mod trace_file;
@@ -30,7 +34,7 @@ use directory::StudyDirectory;
 use crate::CommandError;
 
 /// All kinds.
-const KINDS: [&str; 8] = [
+const KINDS: [&str; 10] = [
     quickstart::Quickstart::KIND,
     scaling::Scaling::KIND,
     time_error::TimeError::KIND,
@@ -39,6 +43,8 @@ const KINDS: [&str; 8] = [
     time_to_level::TimeToLevel::KIND,
     basis_comparison::BasisComparison::KIND,
     spacing_particles::SpacingParticles::KIND,
+    catalogue::Catalogue::KIND,
+    stability::Stability::KIND,
 ];
 
 /// Runs the study that a configuration describes.
@@ -59,6 +65,8 @@ pub fn run(configuration: &Path, out: &Path) -> Result<(), CommandError> {
         spacing_particles::SpacingParticles::KIND => {
             runner::run::<spacing_particles::SpacingParticles>(&configuration, out)
         }
+        catalogue::Catalogue::KIND => runner::run::<catalogue::Catalogue>(&configuration, out),
+        stability::Stability::KIND => runner::run::<stability::Stability>(&configuration, out),
         _ => Err(configuration.unknown_kind(&KINDS)),
     }
 }
@@ -81,6 +89,8 @@ pub fn report(path: &Path) -> Result<(), CommandError> {
         spacing_particles::SpacingParticles::KIND => {
             runner::report::<spacing_particles::SpacingParticles>(&configuration, &directory)
         }
+        catalogue::Catalogue::KIND => runner::report::<catalogue::Catalogue>(&configuration, &directory),
+        stability::Stability::KIND => runner::report::<stability::Stability>(&configuration, &directory),
         _ => Err(configuration.unknown_kind(&KINDS)),
     }
 }

@@ -2,6 +2,7 @@
 
 #![allow(dead_code)]
 
+use std::collections::HashMap;
 use std::path::Path;
 use std::process::{Command, Output};
 
@@ -83,4 +84,21 @@ pub fn assert_report(root: &Path, figures: usize) -> String {
     assert!(report.contains("Provenance"));
     assert!(!report.contains("NaN"), "{report}");
     report
+}
+
+/// Asserts that a study with one text replaced is refused before anything is written.
+pub fn refused(study: &str, from: &str, to: &str, parts: &[&str]) {
+    let root = tempfile::tempdir().unwrap();
+    let text = study.replacen(from, to, 1);
+    assert_ne!(text, study);
+    std::fs::write(root.path().join("study.toml"), text).unwrap();
+    let parts: Vec<&str> = parts.iter().copied().chain(["study.toml"]).collect();
+    assert_refused(&parvi(root.path(), "run study.toml --out out"), &parts);
+    assert_eq!(files(root.path()), ["study.toml"]);
+}
+
+/// The records of results.csv, by the names of the columns.
+pub fn rows(root: &Path) -> Vec<HashMap<String, String>> {
+    let mut reader = csv::Reader::from_path(root.join("out/results.csv")).unwrap();
+    reader.deserialize().map(|row| row.unwrap()).collect()
 }

@@ -206,3 +206,70 @@ fn small_multiples_share_styles_and_legend() {
         Err(PlotError::Empty { .. })
     ));
 }
+
+#[test]
+fn dots_have_a_row_per_setting() {
+    let style = style::sequence_style;
+    let series = |label: &str, index: usize, values: &[f64]| DotSeries {
+        label: label.to_string(),
+        style: style(index),
+        values: values.to_vec(),
+    };
+    let row = |label: &str, bound: Option<f64>| DotRow {
+        label: label.to_string(),
+        bound,
+    };
+    let mut plot = DotPlot {
+        x_label: "ED^{2}".to_string(),
+        x_axis: AxisKind::Logarithmic,
+        rows: vec![row("ring", Some(0.3)), row("banana & co", None)],
+        series: vec![series("near", 0, &[0.1, 20.0]), series("far", 1, &[-1.0, f64::NAN])],
+        bound_label: "bound".to_string(),
+        notes: vec!["A note.".to_string()],
+        ..DotPlot::default()
+    };
+    let svg = dots(&plot).unwrap();
+    assert_well_formed(&svg);
+    for text in ["ring", "banana &amp; co", "near", "far", "bound", "A note."] {
+        assert!(svg.contains(text), "{text}");
+    }
+    // Two drawn values and two swatches in the legend.
+    assert_eq!(svg.matches("<circle").count(), 3);
+    plot.rows[0].bound = None;
+    assert!(!dots(&plot).unwrap().contains(">bound<"));
+    plot.series[0].values.pop();
+    assert!(matches!(dots(&plot), Err(PlotError::Size { .. })));
+    plot.series.remove(0);
+    assert!(matches!(dots(&plot), Err(PlotError::Empty { .. })));
+}
+
+#[test]
+fn heat_maps_state_the_share_of_every_cell() {
+    let panel = |shares: [Option<f64>; 4]| HeatPanel {
+        title: "guards off".to_string(),
+        shares: shares.to_vec(),
+    };
+    let mut plot = HeatMapPlot {
+        x_label: "time step".to_string(),
+        y_label: "spacing".to_string(),
+        x_edges: vec![0.1, 1.0, 10.0],
+        y_edges: vec![0.01, 0.1, 1.0],
+        axis: AxisKind::Logarithmic,
+        panels: vec![panel([Some(0.0), Some(0.37), None, Some(f64::NAN)]); 3],
+        ..HeatMapPlot::default()
+    };
+    let svg = heat_map(&plot).unwrap();
+    assert_well_formed(&svg);
+    assert_eq!((svg.matches(">37<").count(), svg.matches(">0<").count()), (3, 3));
+    for text in ["guards off", "time step", "spacing", "75 %"] {
+        assert!(svg.contains(text), "{text}");
+    }
+    plot.panels[0].shares.pop();
+    assert!(matches!(heat_map(&plot), Err(PlotError::Size { .. })));
+    plot.panels = vec![panel([None; 4])];
+    assert!(matches!(heat_map(&plot), Err(PlotError::Empty { .. })));
+    assert!(matches!(
+        heat_map(&HeatMapPlot::default()),
+        Err(PlotError::Empty { .. })
+    ));
+}

@@ -26,12 +26,19 @@ proptest! {
         let (x, y): (Vec<f64>, Vec<f64>) = values.iter().map(|v| (v.0, v.1)).unzip();
         let bars = values.iter().map(|v| (v.1, v.2)).collect();
         let series = LineSeries { label: "s".into(), x: x.clone(), y: y.clone(), bars };
+        let dot_series = DotSeries { label: "s".into(), style: style::sequence_style(0), values: x.clone() };
+        let dot_rows = y.iter().map(|y| DotRow { label: "r".into(), bound: Some(*y) }).collect();
+        let shares = y.iter().skip(1).map(|y| Some(*y)).collect();
+        let heat_panel = HeatPanel { title: "t".into(), shares };
+        let heat = HeatMapPlot { x_edges: x.clone(), y_edges: vec![1.0, 2.0], panels: vec![heat_panel], ..Default::default() };
         let scaling_series = ScalingSeries { label: "s".into(), x, y };
         let figures = [
             histogram_of(cloud, Reference::None),
             corner_of(cloud, Reference::Draws(PointCloud::equal(&points))),
             cloud_of(PointCloud::equal(&points), Reference::Draws(cloud)),
             line(&LinePlot { series: vec![series], ..LinePlot::default() }),
+            dots(&DotPlot { rows: dot_rows, series: vec![dot_series], ..DotPlot::default() }),
+            heat_map(&heat),
             scaling(&ScalingPlot { series: vec![scaling_series], ..ScalingPlot::default() }),
         ];
         for svg in figures.into_iter().flatten() {

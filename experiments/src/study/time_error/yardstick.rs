@@ -8,15 +8,8 @@
 
 use std::time::Instant;
 
-use parvi_metrics::{
-    Cloud, Directions, EnergyReference, GaussianEnergy, MetricError, ModeMasses, MomentError, SlicedReference,
-    Standardiser,
-};
-use parvi_targets::{
-    BoxedTarget, ImportanceSample, Moments, ReferenceOptions, SobolSequence, UnitCubeTransport, WeightedDraws,
-};
-use rand::rngs::ChaCha8Rng;
-use rand::{RngExt, SeedableRng};
+use parvi_metrics::{Cloud, Directions, GaussianEnergy, ModeMasses, MomentError, SlicedReference, Standardiser};
+use parvi_targets::{BoxedTarget, ImportanceSample, Moments, ReferenceOptions, WeightedDraws};
 
 use super::TimeError;
 use crate::CommandError;
@@ -24,6 +17,7 @@ use crate::dispatch::{TargetTask, with_target};
 use crate::options::TargetSpecification;
 use crate::output::Particles;
 use crate::sampling::Outcome;
+use crate::study::target_reference::{ReferenceEnergy, independent, quasi_random};
 
 /// Errors of particles.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,75 +66,6 @@ impl TargetTask for Build<'_> {
     }
 }
 
-/// The energy distance, exact or from reference points.
-enum Energy<const D: usize> {
-    Gaussian(GaussianEnergy<D>),
-    Points {
-        reference: EnergyReference<D>,
-        /// V − U of the reference's own term: U pairs distinct points only, V all.
-        pairs_with_themselves: f64,
-    },
-}
-
-impl<const D: usize> Energy<D> {
-    fn mean_distance(&self) -> f64 {
-        match self {
-            Self::Gaussian(energy) => energy.mean_distance(),
-            Self::Points {
-                reference,
-                pairs_with_themselves,
-            } => reference.mean_distance() + pairs_with_themselves,
-        }
-    }
-
-    fn squared(&self, cloud: &Cloud<'_, D>) -> Result<f64, MetricError> {
-        match self {
-            Self::Gaussian(energy) => energy.squared(cloud),
-            Self::Points {
-                reference,
-                pairs_with_themselves,
-            } => Ok(reference.squared(cloud)? - pairs_with_themselves),
-        }
-    }
-}
-
-/// Scrambled Sobol points through the target's map.
-fn quasi_random<const D: usize>(
-    transport: &dyn UnitCubeTransport<D>,
-    count: usize,
-    seed: u64,
-) -> Result<Vec<[f64; D]>, CommandError> {
-    let sequence = SobolSequence::scrambled(transport.cube_dimension(), seed)?;
-    let count = u32::try_from(count).unwrap_or(u32::MAX);
-    Ok((0..count)
-        .map(|index| transport.transport(&sequence.point(index)))
-        .collect())
-}
-
-/// Independent draws from weighted points, by inversion of their cumulative weights.
-fn independent<const D: usize>(sample: &WeightedDraws<D>, count: usize, seed: u64) -> Vec<[f64; D]> {
-    let mut total = 0.0;
-    let cumulative: Vec<f64> = sample
-        .weights
-        .iter()
-        .map(|weight| {
-            total += weight;
-            total
-        })
-        .collect();
-    let mut generator = ChaCha8Rng::seed_from_u64(seed);
-    let last = sample.points.len().saturating_sub(1);
-    (0..count)
-        .filter_map(|_| {
-            let goal = generator.random::<f64>() * total;
-            sample
-                .points
-                .get(cumulative.partition_point(|&sum| sum <= goal).min(last))
-                .copied()
-        })
-        .collect()
-}
-
 struct TargetYardstick<const D: usize> {
     target: BoxedTarget<D>,
     moments: Moments<D>,
@@ -148,7 +73,7 @@ struct TargetYardstick<const D: usize> {
     coordinates: Option<Standardiser<D>>,
     /// The importance sample of a target without exact draws.
     sample: Option<WeightedDraws<D>>,
-    energy: Energy<D>,
+    energy: ReferenceEnergy<D>,
     sliced: SlicedReference<D>,
 }
 
@@ -175,14 +100,9 @@ impl<const D: usize> TargetYardstick<D> {
         };
         let cloud = Cloud::new(&points)?;
         let energy = if target.name() == "gaussian" {
-            Energy::Gaussian(GaussianEnergy::new(moments.mean, &moments.covariance)?)
+            ReferenceEnergy::Gaussian(GaussianEnergy::new(moments.mean, &moments.covariance)?)
         } else {
-            let reference = EnergyReference::new(&cloud)?;
-            let pairs_with_themselves = -reference.mean_distance() / points.len() as f64;
-            Energy::Points {
-                reference,
-                pairs_with_themselves,
-            }
+            ReferenceEnergy::of_points(&cloud)?
         };
         let sliced = SlicedReference::new(&cloud, Directions::evenly_spread(study.directions.get())?);
         Ok(Self {

@@ -6,6 +6,7 @@ use super::Case;
 use crate::CommandError;
 use crate::options::{Bounded, Dimension, MethodSpecification, ParticleCount, StepCount};
 use crate::study::checks::{distinct, not_empty, positive, refusal, unset};
+use crate::study::start_law::StartLaw;
 
 /// A method and its rivals, from the same start to the same error.
 #[derive(Clone, Debug, Deserialize)]
@@ -35,16 +36,6 @@ pub struct TimeToLevel {
     pub rivals: Vec<MethodSpecification>,
 }
 
-/// N(mean · 1, standard-deviation² I).
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct StartLaw {
-    /// Mean of every coordinate, in the target's standard deviations.
-    pub mean: f64,
-    /// Standard deviation of every coordinate, in the target's.
-    pub standard_deviation: f64,
-}
-
 impl TimeToLevel {
     /// The cases: in every dimension the method first, then its rivals.
     pub fn all_cases(&self) -> Result<Vec<Case>, CommandError> {
@@ -54,10 +45,7 @@ impl TimeToLevel {
             return Err(refusal("steps", format!("{} before {} do not grow", pair[0], pair[1])));
         }
         positive("largest-ratio", &[self.largest_ratio])?;
-        positive("start.standard-deviation", &[self.start.standard_deviation])?;
-        if !self.start.mean.is_finite() {
-            return Err(refusal("start.mean", format!("{} must be finite", self.start.mean)));
-        }
+        self.start.check("start")?;
         self.check_method("method", &self.method)?;
         for rival in &self.rivals {
             self.check_method("rivals", rival)?;

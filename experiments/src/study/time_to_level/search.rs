@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use parvi::{Run, Start};
+use parvi::Run;
 use serde::{Deserialize, Serialize};
 
 use super::{Case, TimeToLevel};
@@ -114,11 +114,7 @@ pub fn search(
     observer: &mut CaseObserver,
 ) -> Result<(Ending, Vec<Trial>), CommandError> {
     let mut run = Run::new(case.particles, study.seed);
-    run.start = Start {
-        mean: study.start.mean,
-        standard_deviation: study.start.standard_deviation,
-        ..case.method.options.start()
-    };
+    run.start = study.start.start(case.method.options.start());
     let mut one = |steps: usize| -> Result<Trial, CommandError> {
         let method = case.method.method(Some(steps))?;
         let begin = std::time::Instant::now();

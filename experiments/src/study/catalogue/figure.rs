@@ -1,0 +1,65 @@
+//! The figure of the study `catalogue`: what the judged method reaches, target by target, from every start.
+
+use super::Catalogue;
+use super::report::{median, runs};
+use super::requirement::Requirement;
+use super::row::{ENERGY, Row};
+use crate::CommandError;
+use crate::plots::style::{MARKERS, PALETTE, SeriesStyle};
+use crate::plots::{AxisKind, DotPlot, DotRow, DotSeries};
+
+/// ED² relative to independent draws, a row per target, a marker per start.
+pub fn plot(study: &Catalogue, rows: &[Row]) -> Result<DotPlot, CommandError> {
+    let targets = study.all_targets()?;
+    let mut plot = DotPlot {
+        x_label: "ED^{2} relative to independent draws".to_owned(),
+        x_axis: AxisKind::Logarithmic,
+        bound_label: "requirement".to_owned(),
+        ..DotPlot::default()
+    };
+    for target in &targets {
+        plot.rows.push(DotRow {
+            label: target.label(),
+            bound: Some(Requirement::of(target)?.bound()),
+        });
+    }
+    let Some(judged) = study.judged() else {
+        return Ok(plot);
+    };
+    // Colours tell the means of the start apart, markers its standard deviations.
+    let place = |values: &mut Vec<f64>, value: f64| {
+        values.iter().position(|known| *known == value).unwrap_or_else(|| {
+            values.push(value);
+            values.len() - 1
+        })
+    };
+    let (mut means, mut deviations) = (Vec::new(), Vec::new());
+    let mut missing = 0;
+    for start in &study.starts {
+        let style = SeriesStyle {
+            color: PALETTE[place(&mut means, start.mean) % PALETTE.len()],
+            marker: MARKERS[place(&mut deviations, start.standard_deviation) % MARKERS.len()],
+        };
+        let value = |target: &DotRow| {
+            let here = runs(rows, &target.label, judged.label(), Some(*start));
+            median(&here, ENERGY).filter(|value| *value > 0.0).unwrap_or(f64::NAN)
+        };
+        let values: Vec<f64> = plot.rows.iter().map(value).collect();
+        missing += values.iter().filter(|value| value.is_nan()).count();
+        plot.series.push(DotSeries {
+            label: format!("N({}, {}²)", start.mean, start.standard_deviation),
+            style,
+            values,
+        });
+    }
+    plot.notes.push(format!(
+        "Method {}: medians over the seeds, a marker per start.",
+        judged.label()
+    ));
+    if missing > 0 {
+        plot.notes.push(format!(
+            "Without a marker, because no run finished: {missing} pairs of target and start."
+        ));
+    }
+    Ok(plot)
+}

@@ -1,0 +1,177 @@
+//! Running a random configuration in a frame that is wrong on purpose.
+
+use std::any::Any;
+use std::fmt::Debug;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::time::Instant;
+
+use mpm_tensor::{Matrix, Polar, vector};
+use parvi::{Method, Observer, Run, SampleError, Samples, defaults};
+use parvi_targets::{BoxedTarget, Frame, TargetError, normal_quantile};
+use rand::rngs::ChaCha8Rng;
+use rand::{RngExt, SeedableRng};
+
+use super::draw::Case;
+use super::row::{Ending, Row};
+use crate::CommandError;
+use crate::dispatch::TargetTask;
+use crate::study::results::single_line;
+
+/// Finite particles have escaped if one is this many times farther out than start and target could explain.
+const ESCAPE: f64 = 10.0;
+/// No target of the catalogue has particles in use farther out than this, in scales of its frame.
+const TARGET_REACH: f64 = 10.0;
+
+/// The work on one configuration.
+pub struct Trial<'a> {
+    /// The configuration.
+    pub case: &'a Case,
+    /// Watches the run; it may stop it.
+    pub observer: &'a mut dyn Observer,
+}
+
+impl TargetTask for Trial<'_> {
+    type Output = Row;
+
+    fn run<const D: usize>(self, target: BoxedTarget<D>) -> Result<Row, CommandError> {
+        let (case, observer) = (self.case, self.observer);
+        let mut row = Row::new(case);
+        let own = target.frame();
+        let frame = match wrong_frame(&own, case) {
+            Ok(frame) => frame,
+            Err(error) => {
+                row.refused(&error, None, &error);
+                return Ok(row);
+            }
+        };
+        let spacing = case.spacing_factor * defaults::spacing::<D>(case.basis.into(), case.particles);
+        let time_step = case.time_step_factor * defaults::time_step(spacing);
+        (row.spacing, row.time_step) = (Some(spacing), Some(time_step));
+        let mut options = case.options.clone();
+        (options.spacing, options.time_step) = (Some(spacing), Some(time_step));
+        let method = options.method(case.method)?;
+        let mut run = Run::new(case.particles, case.seed);
+        run.start = options.start();
+
+        let begin = Instant::now();
+        let result = catch_unwind(AssertUnwindSafe(|| match &method {
+            Method::Mpm(options) => options.sample(target.as_ref(), &frame, &run, observer),
+            Method::Paper(options) => options.sample(target.as_ref(), &frame, &run, observer),
+            other => parvi::sample(target.as_ref(), other, &run, observer),
+        }));
+        row.wall_seconds = begin.elapsed().as_secs_f64();
+        match result {
+            Ok(Ok(samples)) => row.ended(&own, &frame, &samples),
+            Ok(Err(error @ SampleError::Interrupted { .. })) => return Err(error.into()),
+            Ok(Err(error)) => row.failed(&error),
+            Err(payload) => {
+                row.ending = Ending::Panicked;
+                row.message = single_line(panic_message(payload.as_ref()));
+            }
+        }
+        Ok(row)
+    }
+}
+
+/// The target's frame, larger or smaller by the case's factor and turned: μ + (s Q L) z, by its covariance.
+fn wrong_frame<const D: usize>(own: &Frame<D>, case: &Case) -> Result<Frame<D>, TargetError> {
+    let turn = case.turn.map_or(Matrix::IDENTITY, turn);
+    let covariance = turn * own.covariance() * turn.transpose() * case.scale.powi(2);
+    Frame::new(*own.centre(), covariance.symmetric_part())
+}
+
+/// The Frobenius norm of L⁻¹ L': no z is longer in scales of `own` than this times its length in scales of `frame`.
+fn stretch<const D: usize>(own: &Frame<D>, frame: &Frame<D>) -> f64 {
+    let image = |axis: usize| {
+        let unit: [f64; D] = std::array::from_fn(|other| f64::from(u8::from(other == axis)));
+        vector::norm(&own.to_reference(&frame.to_target(&unit))).powi(2)
+    };
+    (0..D).map(image).sum::<f64>().sqrt()
+}
+
+/// A uniformly random rotation: the nearest one to a matrix of normal draws.
+fn turn<const D: usize>(seed: u64) -> Matrix<D> {
+    let mut generator = ChaCha8Rng::seed_from_u64(seed);
+    let draws = Matrix::from_fn(|_, _| normal_quantile(generator.random()));
+    Polar::new(&draws).map_or(Matrix::IDENTITY, |polar| polar.rotation)
+}
+
+impl Row {
+    /// Notes particles.
+    fn ended<const D: usize>(&mut self, own: &Frame<D>, frame: &Frame<D>, samples: &Samples<D>) {
+        let weights = samples.weights.iter().flatten();
+        let mut numbers = samples.positions.as_flattened().iter().chain(weights);
+        if let Some(value) = numbers.find(|value| !value.is_finite()) {
+            self.ending = Ending::NotFinite;
+            self.message = format!("a particle has the value {value}");
+            return;
+        }
+        let root = (D as f64).sqrt();
+        let (mean, sd) = (self.start_mean.unwrap_or(0.0), self.start_sd.unwrap_or(0.0));
+        let start_reach = (mean * root + sd * (root + 4.0)) * stretch(own, frame);
+        let bound = ESCAPE * (start_reach + TARGET_REACH);
+        let distances = || samples.positions.iter().map(|x| vector::norm(&own.to_reference(x)));
+        self.reach = distances().reduce(f64::max);
+        // An overflow of the distance is an escape as well.
+        self.escaped = distances().any(|distance| distance.is_nan() || distance > bound);
+        self.residual = samples.residual.filter(|value| value.is_finite());
+    }
+
+    /// Notes a typed error of the sampler.
+    fn failed(&mut self, error: &SampleError) {
+        match error {
+            SampleError::Mechanics { step, source } => self.refused(source, Some(*step), error),
+            SampleError::ScoreNotFinite { step, .. } | SampleError::Diverged { step, .. } => {
+                self.refused(error, Some(*step), error);
+            }
+            _ => self.refused(error, None, error),
+        }
+    }
+
+    fn refused(&mut self, kind: &impl Debug, step: Option<usize>, error: &impl ToString) {
+        self.ending = Ending::Refused;
+        self.reason = variant(kind);
+        self.failed_step = step;
+        self.message = single_line(error.to_string());
+    }
+}
+
+/// The name of an error's variant.
+fn variant(error: &impl Debug) -> String {
+    let text = format!("{error:?}");
+    text.chars()
+        .take_while(|character| character.is_alphanumeric())
+        .collect()
+}
+
+/// What a panic said.
+fn panic_message(payload: &(dyn Any + Send)) -> String {
+    let text = payload.downcast_ref::<&str>().map(|text| (*text).to_owned());
+    text.or_else(|| payload.downcast_ref::<String>().cloned())
+        .unwrap_or_else(|| "a panic without a message".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_turn_is_a_rotation() {
+        for seed in 0..20 {
+            let turn: Matrix<4> = turn(seed);
+            assert!((turn * turn.transpose() - Matrix::IDENTITY).maximum_norm() < 1e-14);
+            assert!((turn.determinant() - 1.0).abs() < 1e-13);
+        }
+    }
+
+    #[test]
+    fn errors_and_panics_have_names() {
+        let error = SampleError::Diverged {
+            step: 3,
+            reason: String::new(),
+        };
+        assert_eq!(variant(&error), "Diverged");
+        let payload = catch_unwind(|| std::panic::resume_unwind(Box::new("went wrong"))).unwrap_err();
+        assert_eq!(panic_message(payload.as_ref()), "went wrong");
+    }
+}
