@@ -12,7 +12,7 @@ use crate::kronecker::Kronecker;
 use crate::rotation::random_rotation;
 use crate::start::{Stream, check, positive, steps};
 use crate::stiffness::Stiffness;
-use crate::survey::Survey;
+use crate::survey::{Site, Survey};
 use crate::{MpmOptions, Observer, Run, SampleError, Samples, TransferChoice, defaults};
 
 /// One body, and what every layer of the dispatch hands on.
@@ -39,22 +39,43 @@ impl MpmOptions {
         run: &Run,
         observer: &mut dyn Observer,
     ) -> Result<Samples<D>, SampleError> {
-        let particles = run.checked_particles()?;
+        run.checked_particles()?;
         self.spacing_schedule.check()?;
         self.settling.check()?;
-        let mut start = run.start_positions()?;
+        let start = run.start_positions()?;
         let survey = if self.survey {
             Survey::new(target, frame, run, &start)?
         } else {
             Survey::skipped(frame)
         };
-        let bodies = apportion(particles, &survey.sites);
+        let start = survey.keeps_start.then_some(start);
+        let (sites, mut parts) = self.bodies(target, &survey.sites, run, start, observer)?;
+        let mut wasted = 0;
+        let clouds: Vec<&[[f64; D]]> = parts.iter().map(|part| part.positions.as_slice()).collect();
+        if sites.len() > 1 && Survey::pieces_are_connected(&sites, &clouds) {
+            wasted = parts.iter().map(|part| part.score_evaluations).sum();
+            (_, parts) = self.bodies(target, &[survey.whole], run, None, observer)?;
+        }
+        let mut samples = union(parts);
+        samples.score_evaluations += survey.evaluations + wasted;
+        Ok(samples)
+    }
+
+    /// A body for each site, of as many particles as its mass asks for, from `start` or N(0, I) of its frame.
+    fn bodies<const D: usize>(
+        &self,
+        target: &dyn Target<D>,
+        sites: &[Site<D>],
+        run: &Run,
+        mut start: Option<Vec<[f64; D]>>,
+        observer: &mut dyn Observer,
+    ) -> Result<(Vec<Site<D>>, Vec<Samples<D>>), SampleError> {
+        let bodies = apportion(run.particles, sites);
         let mut parts = Vec::with_capacity(bodies.len());
         for (number, &(site, count)) in bodies.iter().enumerate() {
-            let positions = if survey.keeps_start {
-                std::mem::take(&mut start)
-            } else {
-                run.standard_positions(count, number)?
+            let positions = match start.take() {
+                Some(positions) => positions,
+                None => run.standard_positions(count, number)?,
             };
             let default = defaults::spacing::<D>(self.basis, count) * defaults::tail_factor(site.tails);
             let job = Job {
@@ -72,9 +93,7 @@ impl MpmOptions {
             };
             parts.push(self.basis.with(positive("spacing", self.spacing, default)?, job)?);
         }
-        let mut samples = union(parts);
-        samples.score_evaluations += survey.evaluations;
-        Ok(samples)
+        Ok((bodies.into_iter().map(|(site, _)| site).collect(), parts))
     }
 }
 

@@ -3,7 +3,7 @@
 use mpm_tensor::Matrix;
 use parvi::{Method, MpmOptions, Run, Samples, Silent, Start, sample};
 use parvi_metrics::{Cloud, CloudMoments, ModeMasses};
-use parvi_targets::{CatalogueTarget, Frame, Gaussian, GaussianMixture, StudentT};
+use parvi_targets::{Banana, CatalogueTarget, Frame, Gaussian, GaussianMixture, StudentT};
 
 /// Starts in target scales: narrow, wide and far off.
 const STARTS: [(f64, f64); 5] = [(0.0, 0.1), (0.0, 10.0), (10.0, 0.1), (-10.0, 1.0), (10.0, 10.0)];
@@ -65,6 +65,27 @@ fn masses_of_separate_modes_are_right_from_any_start() {
     }
     check::<2>(0.01);
     check::<4>(0.02);
+}
+
+#[test]
+fn a_bent_target_is_one_piece_from_any_start() {
+    let target = Banana::new(1.0, 0.5).expect("a banana");
+    let truth = target.moments().expect("moments");
+    for start in STARTS {
+        let samples = from_start(&target, 1000, start);
+        assert_eq!(samples.bodies, Some(1), "{start:?}");
+        let moments = CloudMoments::new(&Cloud::new(&samples.positions).expect("finite")).expect("moments");
+        for axis in 0..2 {
+            let spread = truth.covariance.0[axis][axis].sqrt();
+            assert!(
+                (moments.mean[axis] - truth.mean[axis]).abs() < 0.1 * spread,
+                "{start:?}: {:?}",
+                moments.mean
+            );
+            let sd = moments.covariance.0[axis][axis].sqrt();
+            assert!((sd / spread - 1.0).abs() < 0.1, "{start:?}: {sd}");
+        }
+    }
 }
 
 #[test]

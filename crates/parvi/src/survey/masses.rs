@@ -1,12 +1,20 @@
 //! The masses of separated modes, by importance sampling from Gaussians fitted to each.
 
-use mpm_tensor::{Matrix, vector};
+use mpm_tensor::{Matrix, SymmetricEigen, vector};
 
 use super::density::Density;
 use super::gaussian_fit::GaussianFit;
 
 /// The proposals' standard deviations over those of the fits.
 const INFLATION: f64 = 1.25;
+
+/// What the importance sample says.
+pub(super) struct Masses<const D: usize> {
+    /// The mass of each piece; they sum to one.
+    pub values: Vec<f64>,
+    /// Mean and covariance of all pieces together.
+    pub whole: GaussianFit<D>,
+}
 
 /// The mass of the part of the target that is nearest to each of the fits (in its own metric).
 ///
@@ -16,7 +24,7 @@ pub(super) fn masses<const D: usize>(
     density: &mut Density<'_, D>,
     fits: &[GaussianFit<D>],
     nodes: &[[f64; D]],
-) -> Option<Vec<f64>> {
+) -> Option<Masses<D>> {
     let proposals: Vec<Proposal<D>> = fits.iter().map(Proposal::new).collect::<Option<_>>()?;
     let mut points = Vec::with_capacity(fits.len() * nodes.len());
     for fit in fits {
@@ -26,16 +34,18 @@ pub(super) fn masses<const D: usize>(
             let largest = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
             let mixture = largest + logs.iter().map(|l| (l - largest).exp()).sum::<f64>().ln();
             let nearest = (0..logs.len()).max_by(|&a, &b| logs[a].total_cmp(&logs[b]))?;
-            points.push((nearest, density.log_density(&z) - mixture));
+            points.push((nearest, density.log_density(&z) - mixture, z));
         }
     }
-    let largest = points.iter().map(|&(_, log)| log).fold(f64::NEG_INFINITY, f64::max);
+    let largest = points.iter().map(|&(_, log, _)| log).fold(f64::NEG_INFINITY, f64::max);
     let mut values = vec![0.0; fits.len()];
     let mut total = 0.0;
-    for &(nearest, log) in &points {
+    let mut mean = [0.0; D];
+    for (nearest, log, z) in &points {
         let weight = (log - largest).exp();
-        values[nearest] += weight;
+        values[*nearest] += weight;
         total += weight;
+        vector::accumulate(&mut mean, weight, z);
     }
     if !(total > 0.0 && total.is_finite()) {
         return None;
@@ -43,7 +53,16 @@ pub(super) fn masses<const D: usize>(
     for value in &mut values {
         *value /= total;
     }
-    Some(values)
+    let mean = vector::scale(&mean, 1.0 / total);
+    let covariance = points.iter().fold(Matrix::<D>::ZERO, |sum, (_, log, z)| {
+        let z = vector::subtract(z, &mean);
+        sum + Matrix::outer(&z, &z) * ((log - largest).exp() / total)
+    });
+    let root = SymmetricEigen::new(&covariance)?.map(|value| value.max(0.0).sqrt());
+    Some(Masses {
+        values,
+        whole: GaussianFit { mean, root },
+    })
 }
 
 struct Proposal<const D: usize> {
@@ -91,8 +110,10 @@ mod tests {
             .collect();
         let nodes = quasi_random_normal::<3>(512, 7).unwrap();
         let found = masses(&mut Density::new(&mixture, &frame), &fits, &nodes).unwrap();
-        for (mass, mode) in found.iter().zip(mixture.modes()) {
-            assert!((mass - mode.mass).abs() < 0.005, "{found:?}");
+        for (mass, mode) in found.values.iter().zip(mixture.modes()) {
+            assert!((mass - mode.mass).abs() < 0.005, "{:?}", found.values);
         }
+        let variance = (found.whole.root * found.whole.root.transpose()).0[0][0];
+        assert!((variance / mixture.moments().unwrap().covariance.0[0][0] - 1.0).abs() < 0.01);
     }
 }

@@ -38,6 +38,9 @@ const MASS_POINTS: usize = 512;
 /// Separate pieces lighter than this are left out.
 const SMALLEST_MASS: f64 = 1e-3;
 
+/// Pieces whose bodies exchange a larger share of their particles are one.
+const LARGEST_EXCHANGE: f64 = 0.02;
+
 /// A body is placed here.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Site<const D: usize> {
@@ -57,6 +60,11 @@ impl<const D: usize> Site<D> {
             tails: 1.0,
         }
     }
+
+    /// log N(x; the frame's centre and covariance), up to a constant.
+    pub fn log_density(&self, x: &[f64; D]) -> f64 {
+        -0.5 * vector::norm_squared(&self.frame.to_reference(x)) - self.frame.log_determinant()
+    }
 }
 
 /// What the survey found.
@@ -64,6 +72,8 @@ impl<const D: usize> Site<D> {
 pub(crate) struct Survey<const D: usize> {
     /// Where bodies are placed; one for a target in one piece.
     pub sites: Vec<Site<D>>,
+    /// The one place for a body if the pieces turn out to be connected.
+    pub whole: Site<D>,
     /// Whether the start that was asked for serves; else bodies begin as N(0, I) of their frame.
     pub keeps_start: bool,
     /// Evaluations it took.
@@ -75,6 +85,7 @@ impl<const D: usize> Survey<D> {
     pub fn skipped(frame: &Frame<D>) -> Self {
         Self {
             sites: vec![Site::new(*frame, 1.0)],
+            whole: Site::new(*frame, 1.0),
             keeps_start: true,
             evaluations: 0,
         }
@@ -94,11 +105,11 @@ impl<const D: usize> Survey<D> {
             survey.sites[0].tails = score.tails;
         } else {
             let seed = run.generator(Stream::Survey.of_body(0)).random();
-            if let Some(fits) = explore(&mut density, positions, seed)? {
-                survey.place(frame, &run.start, &fits);
+            if let Some(found) = explore(&mut density, positions, seed)? {
+                survey.place(frame, &run.start, &found);
             }
             let normal = run.standard_positions::<D>(look_count::<D>().min(positions.len()), 0)?;
-            for site in &mut survey.sites {
+            for site in survey.sites.iter_mut().chain([&mut survey.whole]) {
                 let mut density = Density::new(target, &site.frame);
                 site.tails = look(&mut density, &normal).map_or(1.0, |score| score.tails);
                 survey.evaluations += density.evaluations;
@@ -108,22 +119,33 @@ impl<const D: usize> Survey<D> {
         Ok(survey)
     }
 
-    /// Keep the given frame where a single fit bears it out; else take the frames of the fits.
-    fn place(&mut self, frame: &Frame<D>, start: &Start, fits: &[(GaussianFit<D>, f64)]) {
-        if let [(only, _)] = fits
-            && plausible(only)
-        {
-            self.keeps_start = sane(start);
-            return;
+    /// Keep the given frame where the fit to all pieces bears it out; a frame for each piece where there are several.
+    fn place(&mut self, frame: &Frame<D>, start: &Start, found: &Found<D>) {
+        let serves = plausible(&found.whole);
+        if !serves && let Some(frame) = frame_of(frame, &found.whole) {
+            self.whole.frame = frame;
         }
-        let sites: Vec<Site<D>> = fits
+        let sites: Vec<Site<D>> = found
+            .pieces
             .iter()
             .filter_map(|(fit, mass)| Some(Site::new(frame_of(frame, fit)?, *mass)))
             .collect();
-        if !sites.is_empty() {
-            self.keeps_start = false;
-            self.sites = sites;
-        }
+        self.keeps_start = serves && sites.len() < 2 && sane(start);
+        self.sites = if sites.len() < 2 { vec![self.whole] } else { sites };
+    }
+
+    /// Whether bodies that were placed on separate pieces have flowed into each other, so that there is one piece: `clouds` has the
+    /// particles of each site's body.
+    pub fn pieces_are_connected(sites: &[Site<D>], clouds: &[&[[f64; D]]]) -> bool {
+        let strangers = |(own, cloud): (usize, &&[[f64; D]])| {
+            let nearest = |x: &[f64; D]| {
+                (0..sites.len()).max_by(|&a, &b| sites[a].log_density(x).total_cmp(&sites[b].log_density(x)))
+            };
+            cloud.iter().filter(|x| nearest(x) != Some(own)).count()
+        };
+        let abroad: usize = clouds.iter().enumerate().map(strangers).sum();
+        let all: usize = clouds.iter().map(|cloud| cloud.len()).sum();
+        abroad as f64 > LARGEST_EXCHANGE * all as f64
     }
 }
 
@@ -140,12 +162,18 @@ fn plausible<const D: usize>(fit: &GaussianFit<D>) -> bool {
     vector::maximum_norm(&fit.mean) <= 3.0 && eigen.values.iter().all(|v| (0.01..=9.0).contains(v))
 }
 
+/// Gaussians for the pieces of a target, with their masses, and one for the whole.
+struct Found<const D: usize> {
+    pieces: Vec<(GaussianFit<D>, f64)>,
+    whole: GaussianFit<D>,
+}
+
 /// Scouts, their clusters, and a Gaussian with a mass for each; `None` where the target cannot be evaluated.
 fn explore<const D: usize>(
     density: &mut Density<'_, D>,
     positions: &[[f64; D]],
     seed: u64,
-) -> Result<Option<Vec<(GaussianFit<D>, f64)>>, SampleError> {
+) -> Result<Option<Found<D>>, SampleError> {
     let directions: Vec<[f64; D]> = quasi_random_normal(FIRST_SCOUTS + RINGS.len() * SCOUTS_PER_RING, seed)?;
     let nodes = quadrature_nodes::<D>(seed)?;
     let half = FIRST_SCOUTS / 2;
@@ -181,20 +209,26 @@ fn explore<const D: usize>(
         fits.extend(fit(density, summit.point, start, &nodes));
     }
     if fits.len() < 2 {
-        return Ok(fits.pop().map(|only| vec![(only, 1.0)]));
+        return Ok(fits.pop().map(|only| Found {
+            pieces: vec![(only, 1.0)],
+            whole: only,
+        }));
     }
     let points = quasi_random_normal(MASS_POINTS, seed.wrapping_add(1))?;
     let Some(found) = masses(density, &fits, &points) else {
         return Ok(None);
     };
-    let heavy: f64 = found.iter().filter(|&&mass| mass >= SMALLEST_MASS).sum();
-    Ok(Some(
-        fits.into_iter()
-            .zip(found)
-            .filter(|&(_, mass)| mass >= SMALLEST_MASS)
-            .map(|(fit, mass)| (fit, mass / heavy))
-            .collect(),
-    ))
+    let heavy: f64 = found.values.iter().filter(|&&mass| mass >= SMALLEST_MASS).sum();
+    let pieces = fits
+        .into_iter()
+        .zip(found.values)
+        .filter(|&(_, mass)| mass >= SMALLEST_MASS)
+        .map(|(fit, mass)| (fit, mass / heavy))
+        .collect();
+    Ok(Some(Found {
+        pieces,
+        whole: found.whole,
+    }))
 }
 
 /// A root of the inverse curvature at a summit, from differences of scores; directions that are not concave get the widest scale
