@@ -112,7 +112,7 @@ impl ScaleMarginal {
     /// The value of log τ below which the mass `u` lies; the error in u is below 1e-14.
     pub(crate) fn quantile(&self, u: f64) -> f64 {
         let goal = u * self.evidence();
-        let cell = self.cumulated.partition_point(|&below| below <= goal).clamp(1, CELLS) - 1;
+        let cell = self.cumulated.partition_point(|&below| below < goal).clamp(1, CELLS) - 1;
         let [low, high] = [cell, cell + 1].map(|cell| cell as f64 * CELL);
         let share = (goal - self.cumulated[cell]) / (self.cumulated[cell + 1] - self.cumulated[cell]);
         let excess = |place| self.cumulated[cell] + self.mass_between(low, place) - goal;
