@@ -31,10 +31,14 @@ use crate::{SumTarget, Target, TargetError};
 ///
 /// let data = RegressionData::synthetic(&[0.5, -1.0], 10_000, 1)?;
 /// let posterior = LogisticRegression::<2>::with_prior("synthetic", data, 10.0)?;
-/// let (centre, exact) = (*posterior.laplace().mode(), posterior.score(&[0.5, -0.9]));
-/// let target = MinibatchScore::new(posterior, 100, 7)?.with_control_variate(centre)?;
-/// let estimate = target.score(&[0.5, -0.9]);
-/// assert!((estimate[0] - exact[0]).abs() < 0.1 * exact[0].abs());
+/// let frame = *posterior.laplace().frame();
+/// let x = frame.to_target(&[1.0, -1.0]); // a standard deviation from the mode on either axis
+///
+/// let plain = MinibatchScore::new(&posterior, 100, 7)?;
+/// let controlled = MinibatchScore::new(&posterior, 100, 7)?.with_control_variate(*frame.centre())?;
+/// let exact = posterior.score(&x);
+/// let error = |estimate: [f64; 2]| (estimate[0] - exact[0]).hypot(estimate[1] - exact[1]);
+/// assert!(error(controlled.score(&x)) < 0.1 * error(plain.score(&x)));
 /// # Ok::<(), parvi_targets::TargetError>(())
 /// ```
 #[derive(Debug)]
