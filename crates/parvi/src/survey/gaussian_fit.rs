@@ -3,6 +3,8 @@
 use mpm_tensor::{Matrix, SymmetricEigen, vector};
 
 use super::density::{Density, Valued};
+use crate::SampleError;
+use crate::start::quasi_random_normal;
 
 /// A Gaussian N(mean, root rootᵀ).
 #[derive(Clone, Copy, Debug)]
@@ -90,12 +92,32 @@ fn objective<const D: usize>(values: &[Valued<D>], log_stretch: f64) -> f64 {
     -values.iter().map(|value| value.log_density).sum::<f64>() / values.len() as f64 - log_stretch
 }
 
+/// Points ±u with mean zero and covariance I.
+pub(super) fn quadrature_nodes<const D: usize>(seed: u64) -> Result<Vec<[f64; D]>, SampleError> {
+    let count = (2 * D).max(8);
+    let mut nodes: Vec<[f64; D]> = quasi_random_normal(count, seed.wrapping_add(2))?;
+    nodes.extend_from_within(..);
+    for u in &mut nodes[count..] {
+        *u = u.map(|c| -c);
+    }
+    let share = 1.0 / nodes.len() as f64;
+    let covariance = nodes
+        .iter()
+        .fold(Matrix::<D>::ZERO, |sum, u| sum + Matrix::outer(u, u) * share);
+    if let Some(eigen) = SymmetricEigen::new(&covariance) {
+        let whiten = eigen.map(|value| value.max(1e-9).sqrt().recip());
+        for u in &mut nodes {
+            *u = whiten.apply(u);
+        }
+    }
+    Ok(nodes)
+}
+
 #[cfg(test)]
 mod tests {
     use parvi_targets::{Frame, Gaussian, StudentT};
 
     use super::*;
-    use crate::survey::quadrature_nodes;
 
     #[test]
     fn a_gaussian_is_fitted_exactly_from_afar_and_in_any_units() {

@@ -3,40 +3,21 @@
 mod ascent;
 mod clusters;
 mod density;
+mod explore;
 mod gaussian_fit;
 mod linear_score;
 mod masses;
 
-use mpm_tensor::{Matrix, SymmetricEigen, vector};
+use mpm_tensor::{SymmetricEigen, vector};
 use parvi_targets::{Frame, Target};
 use rand::RngExt;
 
-use self::ascent::ascend;
-use self::clusters::clusters;
-use self::density::{Density, Valued};
-use self::gaussian_fit::{GaussianFit, fit};
+use self::density::Density;
+use self::explore::{Found, explore};
+use self::gaussian_fit::GaussianFit;
 use self::linear_score::{LinearScore, look, look_count};
-use self::masses::masses;
-use crate::start::{Stream, quasi_random_normal};
+use crate::start::Stream;
 use crate::{Run, SampleError, Start};
-
-/// Scouts of the first round, which begin where the run begins and around the frame.
-const FIRST_SCOUTS: usize = 16;
-
-/// Distances of the second round from the best summit, in standard deviations of its fit.
-const RINGS: [f64; 3] = [5.0, 12.0, 30.0];
-
-/// Scouts at each of these.
-const SCOUTS_PER_RING: usize = 8;
-
-/// Evaluations of one scout.
-const ASCENT: usize = 40;
-
-/// Points from which the masses of several modes are estimated, per mode.
-const MASS_POINTS: usize = 512;
-
-/// Separate pieces lighter than this are left out.
-const SMALLEST_MASS: f64 = 1e-3;
 
 /// Pieces whose bodies exchange a larger share of their particles are one.
 const LARGEST_EXCHANGE: f64 = 0.02;
@@ -160,127 +141,6 @@ fn plausible<const D: usize>(fit: &GaussianFit<D>) -> bool {
         return false;
     };
     vector::maximum_norm(&fit.mean) <= 3.0 && eigen.values.iter().all(|v| (0.01..=9.0).contains(v))
-}
-
-/// Gaussians for the pieces of a target, with their masses, and one for the whole.
-struct Found<const D: usize> {
-    pieces: Vec<(GaussianFit<D>, f64)>,
-    whole: GaussianFit<D>,
-}
-
-/// Scouts, their clusters, and a Gaussian with a mass for each; `None` where the target cannot be evaluated.
-fn explore<const D: usize>(
-    density: &mut Density<'_, D>,
-    positions: &[[f64; D]],
-    seed: u64,
-) -> Result<Option<Found<D>>, SampleError> {
-    let directions: Vec<[f64; D]> = quasi_random_normal(FIRST_SCOUTS + RINGS.len() * SCOUTS_PER_RING, seed)?;
-    let nodes = quadrature_nodes::<D>(seed)?;
-    let half = FIRST_SCOUTS / 2;
-    let from_start = positions.iter().take(half).copied();
-    let around_frame = directions[half..FIRST_SCOUTS].iter().map(|u| vector::scale(u, 2.0));
-    let mut summits: Vec<Valued<D>> = from_start
-        .chain(around_frame)
-        .filter_map(|start| ascend(density, &start, None, ASCENT))
-        .collect();
-    let Some(best) = summits
-        .iter()
-        .max_by(|a, b| a.log_density.total_cmp(&b.log_density))
-        .copied()
-    else {
-        return Ok(None);
-    };
-    let curvature = local_root(density, &best);
-    let Some(widest) = fit(density, best.point, curvature, &nodes) else {
-        return Ok(None);
-    };
-    let metric = widest.root * widest.root.transpose();
-    for (ring, scouts) in RINGS.iter().zip(directions[FIRST_SCOUTS..].chunks(SCOUTS_PER_RING)) {
-        for u in scouts {
-            let reach = ring / vector::norm(u).max(1e-9);
-            let start = vector::add_scaled(&widest.mean, reach, &widest.root.apply(u));
-            summits.extend(ascend(density, &start, Some(&metric), ASCENT));
-        }
-    }
-    let mut fits = Vec::new();
-    for cluster in clusters(density, summits) {
-        let summit = &cluster[0];
-        let start = local_root(density, summit);
-        fits.extend(fit(density, summit.point, start, &nodes));
-    }
-    if fits.len() < 2 {
-        return Ok(fits.pop().map(|only| Found {
-            pieces: vec![(only, 1.0)],
-            whole: only,
-        }));
-    }
-    let points = quasi_random_normal(MASS_POINTS, seed.wrapping_add(1))?;
-    let Some(found) = masses(density, &fits, &points) else {
-        return Ok(None);
-    };
-    let heavy: f64 = found.values.iter().filter(|&&mass| mass >= SMALLEST_MASS).sum();
-    let pieces = fits
-        .into_iter()
-        .zip(found.values)
-        .filter(|&(_, mass)| mass >= SMALLEST_MASS)
-        .map(|(fit, mass)| (fit, mass / heavy))
-        .collect();
-    Ok(Some(Found {
-        pieces,
-        whole: found.whole,
-    }))
-}
-
-/// A root of the inverse curvature at a summit, from differences of scores; directions that are not concave get the widest scale
-/// that the others have, or 1.
-fn local_root<const D: usize>(density: &mut Density<'_, D>, summit: &Valued<D>) -> Matrix<D> {
-    const STEP: f64 = 1e-4;
-    let mut hessian = Matrix::<D>::ZERO;
-    for axis in 0..D {
-        let mut ahead = summit.point;
-        let step = STEP * ahead[axis].abs().max(1.0);
-        ahead[axis] += step;
-        if let Some(value) = density.value(&ahead) {
-            let column = vector::scale(&vector::subtract(&summit.score, &value.score), 1.0 / step);
-            for (row, entry) in hessian.0.iter_mut().zip(column) {
-                row[axis] = entry;
-            }
-        }
-    }
-    match SymmetricEigen::new(&hessian.symmetric_part()) {
-        Some(eigen) => {
-            let least = eigen
-                .values
-                .iter()
-                .copied()
-                .filter(|&q| q > 0.0)
-                .fold(f64::INFINITY, f64::min);
-            let floor = if least.is_finite() { least } else { 1.0 };
-            eigen.map(|q| q.max(floor).sqrt().recip())
-        }
-        None => Matrix::IDENTITY,
-    }
-}
-
-/// Points ±u with mean zero and covariance I.
-fn quadrature_nodes<const D: usize>(seed: u64) -> Result<Vec<[f64; D]>, SampleError> {
-    let count = (2 * D).max(8);
-    let mut nodes: Vec<[f64; D]> = quasi_random_normal(count, seed.wrapping_add(2))?;
-    nodes.extend_from_within(..);
-    for u in &mut nodes[count..] {
-        *u = u.map(|c| -c);
-    }
-    let share = 1.0 / nodes.len() as f64;
-    let covariance = nodes
-        .iter()
-        .fold(Matrix::<D>::ZERO, |sum, u| sum + Matrix::outer(u, u) * share);
-    if let Some(eigen) = SymmetricEigen::new(&covariance) {
-        let whiten = eigen.map(|value| value.max(1e-9).sqrt().recip());
-        for u in &mut nodes {
-            *u = whiten.apply(u);
-        }
-    }
-    Ok(nodes)
 }
 
 /// The frame of a fit, in the target's coordinates; `None` if its covariance is singular to rounding.
