@@ -4,7 +4,7 @@ use super::data::{PlotError, check_size};
 use super::legend::{LegendEntry, Swatch, draw_legend, draw_notes, draw_title};
 use super::panel::{AxesParts, Panel, label_lines, label_room, x_axis_room, x_ticks, y_tick_room, y_ticks};
 use super::scale::{AxisKind, Scale};
-use super::style::{ESTIMATE, FIGURE_WIDTH, LABEL_SIZE, MARGIN};
+use super::style::{ESTIMATE, FIGURE_WIDTH, GRID, LABEL_SIZE, MARGIN};
 use super::svg::{Drawing, Rectangle};
 use super::text::{Anchor, TextStyle};
 
@@ -21,7 +21,7 @@ pub struct HeatPanel {
     /// The setting.
     pub title: String,
     /// The shares, from 0 to 1: column by column along the horizontal axis, row after row upwards. `None` or a value that is no
-    /// number: a cell without data, which stays empty.
+    /// number: a cell without data, which is grey.
     pub shares: Vec<Option<f64>>,
 }
 
@@ -128,22 +128,27 @@ fn drawable(share: &Option<f64>) -> bool {
     share.is_some_and(f64::is_finite)
 }
 
-/// The shade of some shares.
+/// The shade of some shares, and of cells without data.
 fn legend_entries() -> Vec<LegendEntry<'static>> {
-    [0.0, 0.25, 0.5, 0.75, 1.0]
+    let shade = |share: f64| LegendEntry {
+        swatch: Swatch::Area(FULL, share),
+        label: format!("{:.0} %", 100.0 * share),
+    };
+    let without_data = LegendEntry {
+        swatch: Swatch::Area(GRID, 1.0),
+        label: "no data".to_owned(),
+    };
+    [0.25, 0.5, 0.75, 1.0]
         .into_iter()
-        .map(|share: f64| LegendEntry {
-            swatch: Swatch::Area(FULL, share),
-            label: format!("{:.0} %", 100.0 * share),
-        })
+        .map(shade)
+        .chain([without_data])
         .collect()
 }
 
 /// The cells of a panel with their percentages.
 fn draw_cells(drawing: &mut Drawing, axes: &Panel, plot: &HeatMapPlot, panel: &HeatPanel) {
     let columns = plot.x_edges.len().saturating_sub(1);
-    for (index, share) in panel.shares.iter().enumerate().filter(|(_, share)| drawable(share)) {
-        let share = share.unwrap_or(0.0).clamp(0.0, 1.0);
+    for (index, share) in panel.shares.iter().enumerate() {
         let (column, row) = (index % columns, index / columns);
         let corner = |x: usize, y: usize| axes.point(plot.x_edges[x], plot.y_edges[y]);
         let (Some(low), Some(high)) = (corner(column, row), corner(column + 1, row + 1)) else {
@@ -155,6 +160,11 @@ fn draw_cells(drawing: &mut Drawing, axes: &Panel, plot: &HeatMapPlot, panel: &H
             width: high.0 - low.0,
             height: low.1 - high.1,
         };
+        let Some(share) = share.filter(|share| share.is_finite()) else {
+            drawing.filled_rectangle(area, GRID, 1.0);
+            continue;
+        };
+        let share = share.clamp(0.0, 1.0);
         drawing.filled_rectangle(area, FULL, share);
         let at = (0.5 * (low.0 + high.0), 0.5 * (low.1 + high.1) + 0.36 * CELL_TEXT);
         let text = format!("{:.0}", 100.0 * share);

@@ -261,7 +261,7 @@ fn heat_maps_state_the_share_of_every_cell() {
     let svg = heat_map(&plot).unwrap();
     assert_well_formed(&svg);
     assert_eq!((svg.matches(">37<").count(), svg.matches(">0<").count()), (3, 3));
-    for text in ["guards off", "time step", "spacing", "75 %"] {
+    for text in ["guards off", "time step", "spacing", "75 %", "no data"] {
         assert!(svg.contains(text), "{text}");
     }
     plot.panels[0].shares.pop();

@@ -57,9 +57,8 @@ pub fn plot(study: &Catalogue, rows: &[Row]) -> Result<DotPlot, CommandError> {
         judged.label()
     ));
     if missing > 0 {
-        plot.notes.push(format!(
-            "Without a marker, because no run finished: {missing} pairs of target and start."
-        ));
+        let note = format!("Pairs of target and start without a finished run, hence without a marker: {missing}.");
+        plot.notes.push(note);
     }
     Ok(plot)
 }

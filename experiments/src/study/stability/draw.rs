@@ -227,9 +227,9 @@ mod tests {
             assert!(case.basis == Basis::Lattice || case.dim <= LARGEST_TENSOR_DIMENSION);
             seen.insert(format!("{} {}", case.method, case.basis));
             seen.insert(format!("{} d{}", case.target.name, case.dim));
-            seen.insert(format!("{:?} {:?}", case.options.guards, case.options.material));
+            seen.insert(format!("paper {:?} {:?}", case.options.guards, case.options.material));
             seen.insert(format!(
-                "{:?} {:?}",
+                "mpm {:?} {:?}",
                 case.options.transfer, case.options.moment_correction
             ));
         }

@@ -43,8 +43,8 @@ pub fn plot(rows: &[Row]) -> HeatMapPlot {
         }
     };
     HeatMapPlot {
-        x_label: "time step relative to the default".to_owned(),
-        y_label: "spacing relative to the default".to_owned(),
+        x_label: "time step / default".to_owned(),
+        y_label: "spacing / default".to_owned(),
         axis: AxisKind::Logarithmic,
         panels: panels.into_iter().map(panel).collect(),
         notes: vec!["Percent of the runs that diverged, over all targets, frames, starts and elastic laws.".to_owned()],
