@@ -34,6 +34,29 @@ impl<'a, const D: usize> Density<'a, D> {
         if value.is_nan() { f64::NEG_INFINITY } else { value }
     }
 
+    /// log q and scores at all of `zs`, in one batch each; `None` where one is not finite.
+    pub fn values(&mut self, zs: &[[f64; D]]) -> Option<Vec<Valued<D>>> {
+        self.evaluations += zs.len() as u64;
+        let points: Vec<[f64; D]> = zs.iter().map(|z| self.frame.to_target(z)).collect();
+        let (mut log_densities, mut scores) = (vec![0.0; zs.len()], vec![[0.0; D]; zs.len()]);
+        self.target.log_densities(&points, &mut log_densities);
+        self.target.scores(&points, &mut scores);
+        let valued = zs
+            .iter()
+            .zip(log_densities)
+            .zip(&scores)
+            .map(|((z, log_density), score)| {
+                let score = self.frame.pull_back_score(score);
+                let finite = log_density.is_finite() && score.iter().all(|c| c.is_finite());
+                finite.then_some(Valued {
+                    point: *z,
+                    log_density,
+                    score,
+                })
+            });
+        valued.collect()
+    }
+
     /// log q and score at z, `None` where either is not finite.
     pub fn value(&mut self, z: &[f64; D]) -> Option<Valued<D>> {
         let log_density = self.log_density(z);

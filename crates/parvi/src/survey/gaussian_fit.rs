@@ -69,10 +69,8 @@ fn evaluate<const D: usize>(
     root: &Matrix<D>,
     nodes: &[[f64; D]],
 ) -> Option<Vec<Valued<D>>> {
-    nodes
-        .iter()
-        .map(|u| density.value(&vector::add(mean, &root.apply(u))))
-        .collect()
+    let points: Vec<[f64; D]> = nodes.iter().map(|u| vector::add(mean, &root.apply(u))).collect();
+    density.values(&points)
 }
 
 /// E\[s\] and −sym E\[s uᵀ\] of the scores pulled back by the root.

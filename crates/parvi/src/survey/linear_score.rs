@@ -12,11 +12,7 @@ pub(super) fn look_count<const D: usize>() -> usize {
 /// The regression over the first few of `positions`; `None` where log p or the score is not finite at one of them.
 pub(super) fn look<const D: usize>(density: &mut Density<'_, D>, positions: &[[f64; D]]) -> Option<LinearScore<D>> {
     let count = positions.len().min(look_count::<D>());
-    let values: Vec<Valued<D>> = positions[..count]
-        .iter()
-        .map(|z| density.value(z))
-        .collect::<Option<_>>()?;
-    LinearScore::of(&values)
+    LinearScore::of(&density.values(&positions[..count])?)
 }
 
 /// s ≈ s̄ − Q (z − z̄), and what it says about the target.

@@ -20,7 +20,7 @@ use crate::start::Stream;
 use crate::{Run, SampleError, Start};
 
 /// Pieces whose bodies exchange a larger share of their particles are one.
-const LARGEST_EXCHANGE: f64 = 0.02;
+const LARGEST_EXCHANGE: f64 = 0.1;
 
 /// A body is placed here.
 #[derive(Clone, Copy, Debug)]
@@ -86,25 +86,39 @@ impl<const D: usize> Survey<D> {
             survey.sites[0].tails = score.tails;
         } else {
             let seed = run.generator(Stream::Survey.of_body(0)).random();
-            if let Some(found) = explore(&mut density, positions, seed)? {
-                survey.place(frame, &run.start, &found);
-            }
             let normal = run.standard_positions::<D>(look_count::<D>().min(positions.len()), 0)?;
-            for site in survey.sites.iter_mut().chain([&mut survey.whole]) {
-                let mut density = Density::new(target, &site.frame);
-                site.tails = look(&mut density, &normal).map_or(1.0, |score| score.tails);
-                survey.evaluations += density.evaluations;
+            let mut evaluations = 0;
+            let mut look_in = |frame: &Frame<D>| {
+                let mut density = Density::new(target, frame);
+                let score = look(&mut density, &normal);
+                evaluations += density.evaluations;
+                score
+            };
+            let found = explore(&mut density, positions, seed)?;
+            let own = found.as_ref().and_then(|found| frame_of(frame, &found.whole));
+            let own_fits = own.as_ref().and_then(&mut look_in).is_some_and(|score| score.fits());
+            if let Some(found) = found {
+                survey.place(
+                    frame,
+                    &run.start,
+                    &found,
+                    own.filter(|_| !serves(&found.whole, own_fits)),
+                );
             }
+            for site in survey.sites.iter_mut().chain([&mut survey.whole]) {
+                site.tails = look_in(&site.frame).map_or(1.0, |score| score.tails);
+            }
+            survey.evaluations += evaluations;
         }
         survey.evaluations += density.evaluations;
         Ok(survey)
     }
 
-    /// Keep the given frame where the fit to all pieces bears it out; a frame for each piece where there are several.
-    fn place(&mut self, frame: &Frame<D>, start: &Start, found: &Found<D>) {
-        let serves = plausible(&found.whole);
-        if !serves && let Some(frame) = frame_of(frame, &found.whole) {
-            self.whole.frame = frame;
+    /// Bodies for the pieces found. `own` is the frame of the fit to all of them, where the given one does not serve.
+    fn place(&mut self, frame: &Frame<D>, start: &Start, found: &Found<D>, own: Option<Frame<D>>) {
+        let serves = own.is_none();
+        if let Some(own) = own {
+            self.whole.frame = own;
         }
         let sites: Vec<Site<D>> = found
             .pieces
@@ -135,12 +149,15 @@ fn sane(start: &Start) -> bool {
     start.mean.abs() <= 2.0 && (1.0 / 3.0..=3.0).contains(&start.standard_deviation)
 }
 
-/// Whether a fit lies within a frame and is not much narrower or wider.
-fn plausible<const D: usize>(fit: &GaussianFit<D>) -> bool {
+/// Whether the given frame serves a target with this fit in its coordinates: it lies within the frame, and is not much narrower unless
+/// the target is bent there. The nearest Gaussian to a bent target is narrow (KL(N ‖ p) keeps it inside of p) and says
+/// nothing against a wider frame; `gaussian`: the scores around the fit are those of a Gaussian.
+fn serves<const D: usize>(fit: &GaussianFit<D>, gaussian: bool) -> bool {
     let Some(eigen) = SymmetricEigen::new(&(fit.root * fit.root.transpose())) else {
         return false;
     };
-    vector::maximum_norm(&fit.mean) <= 3.0 && eigen.values.iter().all(|v| (0.01..=9.0).contains(v))
+    let inside = vector::maximum_norm(&fit.mean) <= 3.0 && eigen.values.iter().all(|&v| v <= 9.0);
+    inside && (!gaussian || eigen.values.iter().all(|&v| v >= 0.01))
 }
 
 /// The frame of a fit, in the target's coordinates; `None` if its covariance is singular to rounding.
