@@ -71,8 +71,12 @@ pub(super) fn explore<const D: usize>(
     let mut fits = Vec::new();
     for cluster in clusters(density, summits) {
         let summit = &cluster[0];
-        let start = local_root(density, summit);
-        fits.extend(fit(density, summit.point, start, &nodes));
+        if summit.point == best.point {
+            fits.push(widest);
+        } else {
+            let start = local_root(density, summit);
+            fits.extend(fit(density, summit.point, start, &nodes));
+        }
     }
     if fits.len() < 2 {
         return Ok(fits.pop().map(|only| Found {
