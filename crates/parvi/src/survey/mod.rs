@@ -105,8 +105,12 @@ impl<const D: usize> Survey<D> {
                     own.filter(|_| !serves(&found.whole, own_fits)),
                 );
             }
-            for site in survey.sites.iter_mut().chain([&mut survey.whole]) {
-                site.tails = look_in(&site.frame).map_or(1.0, |score| score.tails);
+            let mut tails = |site: &mut Site<D>| site.tails = look_in(&site.frame).map_or(1.0, |score| score.tails);
+            tails(&mut survey.whole);
+            if let [only] = &mut survey.sites[..] {
+                *only = survey.whole;
+            } else {
+                survey.sites.iter_mut().for_each(tails);
             }
             survey.evaluations += evaluations;
         }
