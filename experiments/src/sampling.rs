@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use parvi::{Method, Observer, Run, TracePoint};
+use parvi::{Certificate, Method, Observer, Run, TracePoint};
 use parvi_targets::{BoxedTarget, CatalogueTarget};
 
 use crate::CommandError;
@@ -31,6 +31,10 @@ pub struct Outcome {
     pub storage_bytes: Option<usize>,
     /// Divergent trajectories of a Markov chain.
     pub divergences: Option<usize>,
+    /// Scores that were not finite on the way and have been replaced.
+    pub scores_replaced: u64,
+    /// How good the particles are, as far as the method can tell.
+    pub certificate: Option<Certificate>,
     /// History.
     pub trace: Vec<TracePoint>,
     /// Time of the sampler alone, in seconds.
@@ -50,6 +54,8 @@ impl Outcome {
             bodies: None,
             storage_bytes: None,
             divergences: None,
+            scores_replaced: 0,
+            certificate: None,
             trace: Vec::new(),
             wall_seconds,
         }
@@ -96,6 +102,8 @@ pub fn sample_target<const D: usize>(
         bodies: samples.bodies,
         storage_bytes: samples.storage_bytes,
         divergences: samples.divergences,
+        scores_replaced: samples.scores_replaced,
+        certificate: samples.certificate,
         trace: samples.trace,
         wall_seconds,
     })

@@ -71,6 +71,45 @@ impl<const D: usize> Particles<D> {
         }
     }
 
+    /// Particles in any order: entry k of every field is of the particle that was created as number `identities[k]`.
+    ///
+    /// # Errors
+    /// [`MpmError::FieldLength`] unless all fields (but an empty `affine`) have one entry per particle;
+    /// [`MpmError::InvalidParameter`] for an identity that is out of range or given twice.
+    pub fn in_order(
+        positions: Vec<[f64; D]>,
+        velocities: Vec<[f64; D]>,
+        masses: Masses,
+        affine: Vec<Matrix<D>>,
+        identities: Vec<u32>,
+    ) -> Result<Self, MpmError> {
+        let mut seen = vec![false; identities.len()];
+        for &identity in &identities {
+            match seen.get_mut(identity as usize) {
+                Some(seen) if !*seen => *seen = true,
+                _ => {
+                    return Err(MpmError::InvalidParameter {
+                        field: "identities",
+                        value: f64::from(identity),
+                        expected: "each number below that of the particles once",
+                    });
+                }
+            }
+        }
+        let particles = Self {
+            positions,
+            velocities,
+            masses,
+            affine,
+            deformation_gradients: Vec::new(),
+            reference_volumes: Vec::new(),
+            identities,
+            scratch: Scratch::default(),
+        };
+        particles.check_lengths(false, false)?;
+        Ok(particles)
+    }
+
     /// Whether every field has one entry per particle; fields that a scene does not use may be empty.
     pub(crate) fn check_lengths(&self, affine: bool, deforms: bool) -> Result<(), MpmError> {
         let expected = self.identities.len();

@@ -1,6 +1,6 @@
 //! The affine map between a target's coordinates and coordinates of unit scale.
 
-use mpm_tensor::{Cholesky, Matrix};
+use mpm_tensor::{Cholesky, Matrix, vector};
 
 use crate::TargetError;
 use crate::error::{finite, positive};
@@ -33,6 +33,23 @@ impl<const D: usize> Frame<D> {
             centre,
             factor: cholesky_factor("the covariance", &covariance)?,
         })
+    }
+
+    /// The frame of the mean and the covariance of points with weights that sum to one (`None`: equal ones).
+    ///
+    /// # Errors
+    /// As [`new`](Self::new); also where the points lie in a plane.
+    pub fn of_points(points: &[[f64; D]], weights: Option<&[f64]>) -> Result<Self, TargetError> {
+        let weight = |p: usize| weights.map_or(1.0 / points.len() as f64, |weights| weights[p]);
+        let mut mean = [0.0; D];
+        for (p, x) in points.iter().enumerate() {
+            vector::accumulate(&mut mean, weight(p), x);
+        }
+        let covariance = points.iter().enumerate().fold(Matrix::<D>::ZERO, |sum, (p, x)| {
+            let x = vector::subtract(x, &mean);
+            sum + Matrix::outer(&x, &x) * weight(p)
+        });
+        Self::new(mean, covariance.symmetric_part())
     }
 
     /// The frame of a diagonal covariance, given by its standard deviations.

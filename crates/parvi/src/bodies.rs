@@ -1,7 +1,10 @@
-//! A target in several pieces: a body for each, of as many particles as its mass asks for.
+//! A target in several pieces: a body for each, of as many particles as its mass asks for, and what they are together.
 
 use std::ops::ControlFlow;
 
+use crate::certificate::{Certificate, Circumstances, Evidence};
+use crate::drive::Driven;
+use crate::extent::Extent;
 use crate::survey::Site;
 use crate::{Observer, Progress, Samples, TracePoint};
 
@@ -27,7 +30,7 @@ pub(crate) fn apportion<const D: usize>(particles: usize, sites: &[Site<D>]) -> 
 }
 
 /// All particles together. Energies and the square of the residual are means over the bodies, weighted by their particles.
-pub(crate) fn union<const D: usize>(mut parts: Vec<Samples<D>>) -> Samples<D> {
+fn union<const D: usize>(mut parts: Vec<Samples<D>>) -> Samples<D> {
     let bodies = parts.len();
     if bodies == 1
         && let Some(only) = parts.pop()
@@ -55,8 +58,6 @@ pub(crate) fn union<const D: usize>(mut parts: Vec<Samples<D>>) -> Samples<D> {
         })
         .collect();
     Samples {
-        weights: None,
-        divergences: None,
         steps: parts.iter().map(|part| part.steps).max().unwrap_or(0),
         score_evaluations: parts.iter().map(|part| part.score_evaluations).sum(),
         residual: root_mean_square(&|part| part.residual),
@@ -65,8 +66,60 @@ pub(crate) fn union<const D: usize>(mut parts: Vec<Samples<D>>) -> Samples<D> {
         bodies: Some(bodies),
         storage_bytes: parts.iter().map(|part| part.storage_bytes).max().flatten(),
         trace,
+        scores_replaced: parts.iter().map(|part| part.scores_replaced).sum(),
         positions: parts.into_iter().flat_map(|part| part.positions).collect(),
+        ..Samples::default()
     }
+}
+
+/// The particles of all bodies with their certificate. `mass_errors` are the standard errors of the bodies' masses; without them there is no
+/// certificate.
+pub(crate) fn judged<const D: usize>(bodies: Vec<Driven<D>>, mass_errors: Option<Vec<f64>>) -> Samples<D> {
+    let certificate = mass_errors.map(|mass_errors| {
+        let particles: usize = bodies.iter().map(|body| body.positions.len()).sum();
+        let evidence: Vec<_> = bodies
+            .iter()
+            .map(|body| {
+                let share = body.positions.len() as f64 / particles as f64;
+                let seen = &body.samples.positions;
+                (Evidence::new(&body.positions, &body.scores, seen, share), share)
+            })
+            .collect();
+        let share = |of: &dyn Fn(&Driven<D>) -> f64| {
+            bodies.iter().zip(&evidence).map(|(body, (_, share))| share * of(body)).sum::<f64>()
+        };
+        Certificate::of(
+            &evidence,
+            Circumstances {
+                particles,
+                residual: share(&|body| body.samples.residual.map_or(0.0, |ratio| ratio * ratio)).sqrt(),
+                drift: bodies.iter().map(|body| body.drift).fold(0.0, f64::max),
+                kinetic_energy: share(&|body| body.kinetic_energy),
+                mass_error: error_from_masses(&bodies, &mass_errors),
+            },
+        )
+    });
+    let mut samples = union(bodies.into_iter().map(|body| body.samples).collect());
+    samples.certificate = certificate;
+    samples
+}
+
+/// The standard error that those of the masses bring into a mean, in standard deviations: the largest over the axes of
+/// (Σ_k se_k² (m_k − m)²)^½ / σ; `None` for one body.
+fn error_from_masses<const D: usize>(bodies: &[Driven<D>], mass_errors: &[f64]) -> Option<f64> {
+    if bodies.len() < 2 {
+        return None;
+    }
+    let all: Vec<[f64; D]> = bodies.iter().flat_map(|body| body.samples.positions.iter().copied()).collect();
+    let whole = Extent::of(&all);
+    let mut square = [0.0; D];
+    for (body, error) in bodies.iter().zip(mass_errors) {
+        let own = Extent::of(&body.samples.positions);
+        for a in 0..D {
+            square[a] += (error * (own.mean[a] - whole.mean[a]) / whole.deviation[a]).powi(2);
+        }
+    }
+    Some(square.into_iter().fold(0.0, f64::max).sqrt())
 }
 
 /// Reports the steps of one body among several.

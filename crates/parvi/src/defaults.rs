@@ -10,6 +10,9 @@ pub fn steps(particles: usize) -> usize {
     if particles < 4096 { 97 } else { 147 }
 }
 
+/// Rounds of these steps, at most.
+pub const ROUNDS: usize = 3;
+
 /// Central spacing h for M particles in D dimensions.
 ///
 /// Lattice: 0.34 D^{1.3} (M / 512)^{−1/(D+5)}. Tensor products: (0.3 D − 0.17) (M / 512)^{−1/(D+5)}; hats resolve less than quadratic splines at the same

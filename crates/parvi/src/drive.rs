@@ -1,15 +1,19 @@
 //! The loop around the step, shared by the calibrated sampler and the paper's algorithms.
 
-use mpm_core::{Medium, Mpm, StepControl, Transfer, UniformBasis};
+use mpm_core::{Medium, Mpm, MpmError, StepControl, StepReport, Transfer, UniformBasis};
 use mpm_tensor::Matrix;
 use parvi_targets::Frame;
 
-use crate::framed_score::ScoreForce;
+use crate::checkpoint::Journal;
+use crate::extent::Extent;
+use crate::framed_score::{FramedScore, ScoreForce};
+use crate::guard::{Guard, Progressed, check_energy};
 use crate::moment_correction::correct_moments;
 use crate::residual::galerkin_stein_residual;
-use crate::{MomentCorrection, Observer, Progress, SampleError, Samples, TracePoint};
+use crate::{MomentCorrection, NonFiniteScores, Observer, Progress, SampleError, Samples, TracePoint};
 
 /// One step of a plan.
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct PlannedStep<const D: usize> {
     /// Where the basis has its origin, in coordinates of its unit cell.
     pub origin: [f64; D],
@@ -31,10 +35,27 @@ pub(crate) struct Plan<B, P> {
     pub certificate: B,
     /// The step with a number, from 1; asked for in order.
     pub step: P,
+    /// Times that steps which went wrong may be taken back.
+    pub retries: usize,
     /// The last move.
     pub moment_correction: MomentCorrection,
     /// Record the state every so many steps (0: never).
     pub trace_every: usize,
+}
+
+/// Particles at the end of their steps.
+#[derive(Clone, Debug)]
+pub(crate) struct Driven<const D: usize> {
+    /// The result.
+    pub samples: Samples<D>,
+    /// Positions in frame coordinates, in the same order.
+    pub positions: Vec<[f64; D]>,
+    /// Scores in frame coordinates at these.
+    pub scores: Vec<[f64; D]>,
+    /// What mean and spread changed by over the last tenth of the steps, in standard deviations.
+    pub drift: f64,
+    /// ½ Σ m |v|² (total mass 1).
+    pub kinetic_energy: f64,
 }
 
 /// Run `body` as planned; its particles are in frame coordinates, the result in the target's.
@@ -42,8 +63,9 @@ pub(crate) fn drive<B, T, M, P, const D: usize>(
     mut body: Mpm<D, B, T, M, ScoreForce<'_, D>>,
     frame: &Frame<D>,
     mut plan: Plan<B, P>,
+    journal: &mut Journal,
     observer: &mut dyn Observer,
-) -> Result<Samples<D>, SampleError>
+) -> Result<Driven<D>, SampleError>
 where
     B: UniformBasis<D>,
     T: Transfer<D>,
@@ -52,26 +74,49 @@ where
 {
     let (steps, mut certificate) = (plan.steps, plan.certificate);
     let spacing = certificate.spacing();
+    let late = steps - steps.div_ceil(10);
     let mut scores = vec![[0.0; D]; body.particles.len()];
-    let mut trace = Vec::new();
-    let (mut time, mut active_nodes, mut origin) = (0.0, 0, [0.0; D]);
-    for step in 1..=steps {
+    let mut trace: Vec<TracePoint> = Vec::new();
+    let mut guard = Guard::new(plan.retries);
+    let mut earlier = Extent::of(&body.particles.positions);
+    let (mut step, mut time, mut active_nodes, mut origin) = (1, 0.0, 0, [0.0; D]);
+    if let Some(state) = journal.moving()? {
+        for skipped in 1..state.step {
+            turn(&mut body.basis, &(plan.step)(skipped));
+        }
+        guard.resume(&state);
+        state.restore(&mut body);
+        let Progressed { evaluations, replaced, .. } = state.so_far;
+        (body.body_force.score.evaluations, body.body_force.score.replaced) = (evaluations, replaced);
+        (step, time, earlier) = (state.step, state.so_far.time, state.so_far.earlier);
+    }
+    while step <= steps {
         let failed = |error| SampleError::in_step(step, error);
-        let mut planned = (plan.step)(step);
-        if let Some(rotation) = &planned.rotation {
-            body.basis.turn(rotation);
+        let so_far = Progressed {
+            time,
+            evaluations: body.body_force.score.evaluations,
+            replaced: body.body_force.score.replaced,
+            earlier,
+        };
+        let state = guard.state(&body, step, so_far);
+        let mut planned = guard.plan(step, &mut plan.step);
+        planned.control.time_step *= guard.caution();
+        let report = match advance(&mut body, &planned, plan.retries > 0) {
+            Ok(report) => report,
+            Err(failure) => {
+                let Some(state) = guard.back().filter(|_| !failure.is_final(&body.body_force.score)) else {
+                    return Err(failure.into_error(step));
+                };
+                state.restore(&mut body);
+                (step, time) = (state.step, state.so_far.time);
+                trace.retain(|point| point.step < step);
+                continue;
+            }
+        };
+        if let Some(state) = guard.proved(state) {
+            journal.keep(state)?;
         }
         origin = planned.origin;
-        let point = body.basis.cell_point(&origin, planned.spacing);
-        body.basis.place(point, planned.spacing).map_err(failed)?;
-        body.body_force.alpha = planned.alpha;
-        if let Some(stiffness) = &body.body_force.stiffness {
-            planned.control.time_step = planned.control.time_step.min(stiffness.time_limit());
-        }
-        let report = body.step(&planned.control).map_err(failed)?;
-        if let Some(stiffness) = &mut body.body_force.stiffness {
-            stiffness.update(body.basis.schedule().order());
-        }
         time += report.time_step;
         active_nodes = report.active_nodes;
         if plan.trace_every > 0 && (step % plan.trace_every == 0 || step == 1) {
@@ -89,33 +134,105 @@ where
                 displacement: report.displacement,
             });
         }
+        if step == late {
+            earlier = Extent::of(&body.particles.positions);
+        }
         if observer.after_step(Progress { step, steps }).is_break() {
             return Err(SampleError::Interrupted { step });
         }
+        step += 1;
     }
 
     let failed = |error| SampleError::in_step(steps, error);
+    let drift = earlier.drift_to(&Extent::of(&body.particles.positions));
+    let kinetic_energy = body.particles.kinetic_energy();
     let storage_bytes = body.storage_bytes();
     let score = &mut body.body_force.score;
+    score.non_finite = NonFiniteScores::Report;
     let positions = &mut body.particles.positions;
     correct_moments(plan.moment_correction, positions, score, &mut scores).map_err(failed)?;
     away_from(&mut certificate, &origin, spacing).map_err(failed)?;
     let residual = galerkin_stein_residual(&mut certificate, positions, &scores).map_err(failed)?;
-    let score_evaluations = score.evaluations;
+    let (evaluations, replaced) = (score.evaluations, score.replaced);
     let in_order = body.particles.in_creation_order(&body.particles.positions);
-    Ok(Samples {
+    let samples = Samples {
         positions: finite(in_order.iter().map(|z| frame.to_target(z)).collect(), steps)?,
-        weights: None,
         steps,
-        score_evaluations,
+        score_evaluations: evaluations,
+        scores_replaced: replaced,
         residual: Some(residual.ratio()),
         spacing: Some(spacing),
         active_nodes: Some(active_nodes),
         bodies: Some(1),
         storage_bytes: Some(storage_bytes),
-        divergences: None,
         trace,
+        ..Samples::default()
+    };
+    Ok(Driven {
+        samples,
+        scores: body.particles.in_creation_order(&scores),
+        positions: in_order,
+        drift,
+        kinetic_energy,
     })
+}
+
+/// Why a step is taken back.
+enum Failure {
+    /// The mechanics refused it.
+    Refused(MpmError),
+    /// Its energy exploded.
+    Exploded(String),
+}
+
+impl Failure {
+    /// Whether the policy has it reported at once.
+    fn is_final<const D: usize>(&self, score: &FramedScore<'_, D>) -> bool {
+        let of_score = matches!(self, Self::Refused(MpmError::BodyForceNotFinite { .. }));
+        of_score && score.non_finite == NonFiniteScores::Report
+    }
+
+    fn into_error(self, step: usize) -> SampleError {
+        match self {
+            Self::Refused(error) => SampleError::in_step(step, error),
+            Self::Exploded(reason) => SampleError::Diverged { step, reason },
+        }
+    }
+}
+
+fn turn<const D: usize>(basis: &mut impl UniformBasis<D>, planned: &PlannedStep<D>) {
+    if let Some(rotation) = &planned.rotation {
+        basis.turn(rotation);
+    }
+}
+
+/// Turn and place the basis, and make the step.
+fn advance<B, T, M, const D: usize>(
+    body: &mut Mpm<D, B, T, M, ScoreForce<'_, D>>,
+    planned: &PlannedStep<D>,
+    guarded: bool,
+) -> Result<StepReport, Failure>
+where
+    B: UniformBasis<D>,
+    T: Transfer<D>,
+    M: Medium<D>,
+{
+    turn(&mut body.basis, planned);
+    let point = body.basis.cell_point(&planned.origin, planned.spacing);
+    body.basis.place(point, planned.spacing).map_err(Failure::Refused)?;
+    body.body_force.alpha = planned.alpha;
+    let mut control = planned.control;
+    if let Some(stiffness) = &body.body_force.stiffness {
+        control.time_step = control.time_step.min(stiffness.time_limit());
+    }
+    let report = body.step(&control).map_err(Failure::Refused)?;
+    if guarded {
+        check_energy(&body.particles, planned, &report).map_err(Failure::Exploded)?;
+    }
+    if let Some(stiffness) = &mut body.body_force.stiffness {
+        stiffness.update(body.basis.schedule().order());
+    }
+    Ok(report)
 }
 
 /// Put the certificate's basis where the particles were not moved: half a cell off the step's origin.
@@ -123,7 +240,7 @@ fn away_from<const D: usize>(
     certificate: &mut impl UniformBasis<D>,
     origin: &[f64; D],
     spacing: f64,
-) -> Result<(), mpm_core::MpmError> {
+) -> Result<(), MpmError> {
     let point = certificate.cell_point(&origin.map(|c| (c + 0.5).fract()), spacing);
     certificate.place(point, spacing)
 }

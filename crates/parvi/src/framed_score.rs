@@ -3,7 +3,7 @@
 use mpm_core::{BodyForce, ForceLocation, MpmError};
 use parvi_targets::{Frame, Target};
 
-use crate::ScoreLocation;
+use crate::{NonFiniteScores, ScoreLocation};
 use crate::stiffness::Stiffness;
 
 /// Scores of `target` pulled back to frame coordinates: x = μ + L z, s_z = Lᵀ ∇ log p(x).
@@ -12,6 +12,10 @@ pub(crate) struct FramedScore<'a, const D: usize> {
     pub frame: &'a Frame<D>,
     /// Points evaluated so far.
     pub evaluations: u64,
+    /// What is done about a score that is not finite.
+    pub non_finite: NonFiniteScores,
+    /// Scores that were not finite and have been replaced.
+    pub replaced: u64,
     points: Vec<[f64; D]>,
 }
 
@@ -21,11 +25,13 @@ impl<'a, const D: usize> FramedScore<'a, D> {
             target,
             frame,
             evaluations: 0,
+            non_finite: NonFiniteScores::Report,
+            replaced: 0,
             points: Vec::new(),
         }
     }
 
-    /// Scores at `zs`.
+    /// Scores at `zs`; one that is not finite is replaced or an error, as `non_finite` says.
     pub fn evaluate(&mut self, zs: &[[f64; D]], out: &mut [[f64; D]]) -> Result<(), MpmError> {
         self.points.clear();
         self.points.extend(zs.iter().map(|z| self.frame.to_target(z)));
@@ -33,6 +39,11 @@ impl<'a, const D: usize> FramedScore<'a, D> {
         self.evaluations += zs.len() as u64;
         for (index, score) in out.iter_mut().enumerate() {
             if !score.iter().all(|c| c.is_finite()) {
+                if self.non_finite == NonFiniteScores::PullBack {
+                    *score = zs[index].map(|c| -c);
+                    self.replaced += 1;
+                    continue;
+                }
                 return Err(MpmError::BodyForceNotFinite {
                     index,
                     position: self.points[index].to_vec(),

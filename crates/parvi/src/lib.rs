@@ -2,15 +2,20 @@
 
 mod basis_choice;
 mod bodies;
+pub mod certificate;
+mod checkpoint;
 mod condense;
 pub mod defaults;
 mod drive;
 mod exact;
+mod extent;
 mod framed_score;
+mod guard;
 mod kronecker;
 mod method;
 mod moment_correction;
 mod mpm;
+mod mpm_body;
 #[cfg(feature = "nuts")]
 mod nuts;
 mod paper;
@@ -25,6 +30,8 @@ mod support_points;
 mod survey;
 mod svgd;
 
+pub use certificate::{Certificate, Expectation, MomentEstimate, Outcome, expectation};
+pub use checkpoint::Checkpoint;
 pub use exact::{independent_draws, sobol_points};
 pub use method::*;
 pub use point_set_error::PointSetError;

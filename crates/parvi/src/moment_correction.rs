@@ -21,7 +21,7 @@ const CONTRACTION: f64 = 0.5;
 /// secant step along the same direction is tried instead; no step is kept that enlarges the defect.
 ///
 /// `scores` are overwritten with those at the final positions; at most three evaluations per particle for the mean, five for
-/// both.
+/// both. A move to where a score is not finite is not made.
 pub(crate) fn correct_moments<const D: usize>(
     correction: MomentCorrection,
     positions: &mut [[f64; D]],
@@ -43,13 +43,16 @@ pub(crate) fn correct_moments<const D: usize>(
             return Ok(());
         };
         full.apply(positions, &mut trial);
-        score.evaluate(&trial, &mut trial_scores)?;
+        if score.evaluate(&trial, &mut trial_scores).is_err() {
+            return Ok(());
+        }
         let after = moments_of(&trial, &trial_scores);
         let contracts = after.defect() <= CONTRACTION * before.defect();
         if !contracts {
             full.shortened(before.secant(&after)).apply(positions, &mut trial);
-            score.evaluate(&trial, &mut trial_scores)?;
-            if moments_of(&trial, &trial_scores).defect() >= before.defect() {
+            if score.evaluate(&trial, &mut trial_scores).is_err()
+                || moments_of(&trial, &trial_scores).defect() >= before.defect()
+            {
                 return Ok(());
             }
         }

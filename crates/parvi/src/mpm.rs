@@ -1,30 +1,22 @@
-//! The calibrated sampler: an isothermal gas under the score, on a basis that moves, turns and changes its spacing every step.
+//! The calibrated sampler: a survey of the target, a body on each of its pieces, more rounds for bodies that are still on their way, and a
+//! certificate.
 
-use mpm_core::{Apic, Flip, Mpm, MpmError, Particles, Pic, StepControl, Transfer, UniformBasis};
-use mpm_materials::IsothermalGas;
 use parvi_targets::{Frame, Target};
 
-use crate::basis_choice::OnBasis;
-use crate::bodies::{InTurn, apportion, union};
-use crate::drive::{Plan, PlannedStep, drive};
-use crate::framed_score::{FramedScore, ScoreForce};
-use crate::kronecker::Kronecker;
-use crate::rotation::random_rotation;
-use crate::start::{Stream, check, positive, steps};
-use crate::stiffness::Stiffness;
+use crate::bodies::{InTurn, apportion, judged};
+use crate::certificate::LARGEST_DRIFT;
+use crate::checkpoint::Journal;
+use crate::drive::Driven;
+use crate::extent::Extent;
+use crate::mpm_body::Body;
+use crate::start::{check, positive};
 use crate::survey::{Site, Survey};
-use crate::{MpmOptions, Observer, Run, SampleError, Samples, TransferChoice, defaults};
+use crate::{MpmOptions, Observer, Run, SampleError, Samples, defaults};
 
-/// One body, and what every layer of the dispatch hands on.
-struct Job<'a, const D: usize> {
-    options: &'a MpmOptions,
-    target: &'a dyn Target<D>,
-    frame: &'a Frame<D>,
-    run: &'a Run,
-    /// The body's number, for its own random choices.
-    body: usize,
+/// Where a body moves, and from where.
+struct Departure<const D: usize> {
+    site: Site<D>,
     positions: Vec<[f64; D]>,
-    observer: &'a mut dyn Observer,
 }
 
 impl MpmOptions {
@@ -42,144 +34,117 @@ impl MpmOptions {
         run.checked_particles()?;
         self.spacing_schedule.check()?;
         self.settling.check()?;
+        let rounds = self.checked_rounds()?;
         let start = run.start_positions()?;
+        let mut journal = Journal::open(self, target, frame, run)?;
         let survey = if self.survey {
             Survey::new(target, frame, run, &start)?
         } else {
             Survey::skipped(frame)
         };
-        let start = survey.keeps_start.then_some(start);
-        let (sites, mut parts) = self.bodies(target, &survey.sites, run, start, observer)?;
-        let mut wasted = 0;
-        let clouds: Vec<&[[f64; D]]> = parts.iter().map(|part| part.positions.as_slice()).collect();
+        let mut spent = survey.evaluations;
+        let mut departures = placed(&survey.sites, run, survey.keeps_start.then_some(start))?;
+        let mut bodies = self.move_bodies(target, &departures, 0, run, &mut journal, observer)?;
+        let clouds: Vec<&[[f64; D]]> = bodies.iter().map(|body| body.samples.positions.as_slice()).collect();
+        let sites: Vec<Site<D>> = departures.iter().map(|departure| departure.site).collect();
         if sites.len() > 1 && Survey::pieces_are_connected(&sites, &clouds) {
-            wasted = parts.iter().map(|part| part.score_evaluations).sum();
-            (_, parts) = self.bodies(target, &[survey.whole], run, None, observer)?;
+            spent += evaluations(&bodies);
+            departures = placed(&[survey.whole], run, None)?;
+            bodies = self.move_bodies(target, &departures, 0, run, &mut journal, observer)?;
         }
-        let mut samples = union(parts);
-        samples.score_evaluations += survey.evaluations + wasted;
+        let mut steps = 0;
+        for round in 1..rounds {
+            if bodies.iter().all(|body| body.drift <= LARGEST_DRIFT) {
+                break;
+            }
+            spent += evaluations(&bodies);
+            steps += bodies.iter().map(|body| body.samples.steps).max().unwrap_or(0);
+            let further = departures.iter().zip(bodies);
+            departures = further.map(|(departure, body)| departure.further(body)).collect();
+            bodies = self.move_bodies(target, &departures, round, run, &mut journal, observer)?;
+        }
+        let mass_errors = departures.iter().map(|departure| departure.site.mass_error).collect();
+        let mut samples = judged(bodies, self.certificate.then_some(mass_errors));
+        samples.score_evaluations += spent;
+        samples.steps += steps;
+        journal.close();
         Ok(samples)
     }
 
-    /// A body for each site, of as many particles as its mass asks for, from `start` or N(0, I) of its frame.
-    fn bodies<const D: usize>(
+    /// Move a body from each of the departures.
+    fn move_bodies<const D: usize>(
         &self,
         target: &dyn Target<D>,
-        sites: &[Site<D>],
+        departures: &[Departure<D>],
+        round: usize,
         run: &Run,
-        mut start: Option<Vec<[f64; D]>>,
+        journal: &mut Journal,
         observer: &mut dyn Observer,
-    ) -> Result<(Vec<Site<D>>, Vec<Samples<D>>), SampleError> {
-        let bodies = apportion(run.particles, sites);
-        let mut parts = Vec::with_capacity(bodies.len());
-        for (number, &(site, count)) in bodies.iter().enumerate() {
-            let positions = match start.take() {
-                Some(positions) => positions,
-                None => run.standard_positions(count, number)?,
-            };
-            let default = defaults::spacing::<D>(self.basis, count) * defaults::tail_factor(site.tails);
-            let job = Job {
+    ) -> Result<Vec<Driven<D>>, SampleError> {
+        let of = departures.len();
+        let one = |(number, departure): (usize, &Departure<D>)| {
+            if let Some(body) = journal.finished() {
+                return Ok(body);
+            }
+            let count = departure.positions.len();
+            let default = defaults::spacing::<D>(self.basis, count) * defaults::tail_factor(departure.site.tails);
+            let body = Body {
                 options: self,
                 target,
-                frame: &site.frame,
+                frame: &departure.site.frame,
                 run,
-                body: number,
-                positions,
-                observer: &mut InTurn {
-                    number,
-                    of: bodies.len(),
-                    observer: &mut *observer,
-                },
+                number: number + of * round,
+                positions: departure.positions.clone(),
+                journal,
+                observer: &mut InTurn { number, of, observer },
             };
-            parts.push(self.basis.with(positive("spacing", self.spacing, default)?, job)?);
+            let body = self.basis.with(positive("spacing", self.spacing, default)?, body)?;
+            journal.finish(&body)?;
+            Ok(body)
+        };
+        departures.iter().enumerate().map(one).collect()
+    }
+
+    /// Rounds, at most: one where the number of steps is given and that of rounds is not.
+    fn checked_rounds(&self) -> Result<usize, SampleError> {
+        let default = if self.steps.is_some() { 1 } else { defaults::ROUNDS };
+        let rounds = self.rounds.unwrap_or(default);
+        check("rounds", rounds as f64, rounds >= 1, "at least 1")?;
+        Ok(rounds)
+    }
+}
+
+/// A departure from each site, of as many particles as its mass asks for, from `start` (the only site's) or N(0, I) of its frame.
+fn placed<const D: usize>(
+    sites: &[Site<D>],
+    run: &Run,
+    mut start: Option<Vec<[f64; D]>>,
+) -> Result<Vec<Departure<D>>, SampleError> {
+    let departure = |(number, (site, count))| {
+        let positions = match start.take() {
+            Some(positions) => positions,
+            None => run.standard_positions(count, number)?,
+        };
+        Ok(Departure { site, positions })
+    };
+    apportion(run.particles, sites).into_iter().enumerate().map(departure).collect()
+}
+
+fn evaluations<const D: usize>(bodies: &[Driven<D>]) -> u64 {
+    bodies.iter().map(|body| body.samples.score_evaluations).sum()
+}
+
+impl<const D: usize> Departure<D> {
+    /// On from where the body has come, in a frame of the particles' own mean and covariance where they have outgrown the old one.
+    fn further(&self, body: Driven<D>) -> Self {
+        let mut site = self.site;
+        let mut positions = body.positions;
+        if Extent::of(&positions).outgrows_the_frame()
+            && let Ok(frame) = Frame::of_points(&body.samples.positions, None)
+        {
+            positions = body.samples.positions.iter().map(|x| frame.to_reference(x)).collect();
+            site.frame = frame;
         }
-        Ok((bodies.into_iter().map(|(site, _)| site).collect(), parts))
+        Self { site, positions }
     }
-}
-
-impl<const D: usize> OnBasis<D> for Job<'_, D> {
-    type Output = Samples<D>;
-
-    fn on<B: UniformBasis<D>>(self, make: impl Fn() -> Result<B, MpmError>) -> Result<Samples<D>, SampleError> {
-        match self.options.transfer {
-            TransferChoice::Pic => self.run(Pic, make),
-            TransferChoice::Apic => self.run(Apic, make),
-            TransferChoice::Flip(share) => {
-                check("FLIP share", share, (0.0..=1.0).contains(&share), "in [0, 1]")?;
-                self.run(Flip { share }, make)
-            }
-        }
-    }
-}
-
-impl<const D: usize> Job<'_, D> {
-    fn run<B: UniformBasis<D>, T: Transfer<D>>(
-        self,
-        transfer: T,
-        make: impl Fn() -> Result<B, MpmError>,
-    ) -> Result<Samples<D>, SampleError> {
-        let (options, run) = (self.options, self.run);
-        let failed = |error| SampleError::in_step(0, error);
-        let (basis, certificate) = (make().map_err(failed)?, make().map_err(failed)?);
-        let spacing = basis.spacing();
-        let steps = steps(options.steps, defaults::steps(run.particles))?;
-        let friction = options.friction.unwrap_or(defaults::FRICTION);
-        check(
-            "friction",
-            friction,
-            friction >= 0.0 && friction.is_finite(),
-            "at least 0 and finite",
-        )?;
-        let time_step = positive("time step", options.time_step, defaults::time_step(spacing))?;
-        let control = StepControl {
-            time_step,
-            courant: 1.0,
-            displacement: positive("displacement limit", Some(options.displacement_limit), 0.0)?,
-            friction,
-        };
-
-        let particles = Particles::at_rest(self.positions, 1.0);
-        let gas = IsothermalGas::new(1.0)?;
-        let mut generator = run.generator(Stream::Places.of_body(self.body));
-        let mut places = Kronecker::<D>::new(&mut generator);
-        let mut rotations = run.generator(Stream::Rotations.of_body(self.body));
-        let (schedule, settling) = (&options.spacing_schedule, &options.settling);
-        let plan = Plan {
-            steps,
-            certificate,
-            step: |step| {
-                let varies = options.shifts && settling.varies(step, steps);
-                let (origin, draw) = if varies { places.next_point() } else { ([0.0; D], 0.5) };
-                let factor = schedule.factor(step, steps, draw);
-                PlannedStep {
-                    origin,
-                    spacing: spacing * factor,
-                    rotation: (varies && options.rotation).then(|| random_rotation(&mut rotations)),
-                    alpha: 1.0,
-                    control: StepControl {
-                        time_step: time_step * time_factor(spacing, factor) * settling.factor(step, steps),
-                        ..control
-                    },
-                }
-            },
-            moment_correction: options.moment_correction,
-            trace_every: options.trace_every,
-        };
-        let force = ScoreForce {
-            score: FramedScore::new(self.target, self.frame),
-            alpha: 1.0,
-            location: options.score_location,
-            mass_weighted: true,
-            mass_floor: 0.0,
-            stiffness: Some(Stiffness::default()),
-        };
-        let body = Mpm::new(particles, basis, transfer, gas, force);
-        drive(body, self.frame, plan, self.observer)
-    }
-}
-
-/// Factor of Δt where the spacing is `factor` h: Δt follows a smaller spacing all the way, for the sake of the displacement limit, and
-/// a larger one by the rule for defaults.
-fn time_factor(spacing: f64, factor: f64) -> f64 {
-    (defaults::time_step(spacing * factor) / defaults::time_step(spacing)).min(factor)
 }

@@ -5,10 +5,12 @@ use mpm_materials::{ElasticModuli, LinearElastic, Material, NeoHookean};
 use parvi_targets::{Frame, Target};
 
 use crate::basis_choice::OnBasis;
+use crate::bodies::judged;
+use crate::checkpoint::Journal;
 use crate::drive::{Plan, PlannedStep, drive};
 use crate::framed_score::{FramedScore, ScoreForce};
 use crate::start::{check, positive, steps};
-use crate::{Annealing, Elasticity, MomentCorrection, Observer, PaperOptions, Run, SampleError, Samples, defaults};
+use crate::{Elasticity, MomentCorrection, Observer, PaperOptions, Run, SampleError, Samples, defaults};
 
 /// What every layer of the dispatch hands on.
 struct Job<'a, const D: usize> {
@@ -99,6 +101,7 @@ impl<const D: usize> Job<'_, D> {
                 alpha: alpha.at(step, steps),
                 control,
             },
+            retries: 0,
             moment_correction: MomentCorrection::Off,
             trace_every: options.trace_every,
         };
@@ -118,35 +121,8 @@ impl<const D: usize> Job<'_, D> {
             stiffness: None,
         };
         let medium = Elastic { material: job.material };
-        drive(
-            Mpm::new(particles, basis, transfer, medium, force),
-            job.frame,
-            plan,
-            self.observer,
-        )
-    }
-}
-
-impl Annealing {
-    /// The same schedule, if every α is positive and finite.
-    fn checked(self) -> Result<Self, SampleError> {
-        let (from, to) = match self {
-            Self::Constant(alpha) => (alpha, alpha),
-            Self::Geometric { from, to } => (from, to),
-        };
-        positive("alpha", Some(from), 0.0)?;
-        positive("alpha", Some(to), 0.0)?;
-        Ok(self)
-    }
-
-    /// α in step `step` of `steps`, counted from 1.
-    fn at(self, step: usize, steps: usize) -> f64 {
-        match self {
-            Self::Constant(alpha) => alpha,
-            Self::Geometric { from, to } => {
-                let progress = (step - 1) as f64 / (steps - 1).max(1) as f64;
-                from.powf(1.0 - progress) * to.powf(progress)
-            }
-        }
+        let body = Mpm::new(particles, basis, transfer, medium, force);
+        let driven = drive(body, job.frame, plan, &mut Journal::none(), self.observer)?;
+        Ok(judged(vec![driven], Some(vec![0.0])))
     }
 }

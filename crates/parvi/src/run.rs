@@ -1,10 +1,11 @@
 //! What every sampler takes and returns.
 
 use std::ops::ControlFlow;
+use std::path::PathBuf;
 
 use mpm_core::MpmError;
 
-use crate::PointSetError;
+use crate::{Certificate, PointSetError};
 
 /// Size, seed and start of a run; the same for every method.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,6 +72,8 @@ pub struct Samples<const D: usize> {
     pub steps: usize,
     /// Evaluations of the score at one point, in total.
     pub score_evaluations: u64,
+    /// Scores that were not finite on the way and have been replaced.
+    pub scores_replaced: u64,
     /// Galerkin–Stein residual relative to its value for i.i.d. draws (1 = as good as i.i.d.; smaller is better).
     pub residual: Option<f64>,
     /// Spacing h in the frame's units: the central one, where it varies; of several bodies the largest's.
@@ -83,6 +86,8 @@ pub struct Samples<const D: usize> {
     pub storage_bytes: Option<usize>,
     /// Trajectories of a Markov chain that left the level of energy, the warm-up's not counted; where the method has such.
     pub divergences: Option<usize>,
+    /// How good the particles are, as far as the method can tell.
+    pub certificate: Option<Certificate>,
     /// History, one entry every `trace_every` steps.
     pub trace: Vec<TracePoint>,
 }
@@ -214,6 +219,14 @@ pub enum SampleError {
     /// A sample could not be condensed into fewer points.
     #[error(transparent)]
     PointSet(#[from] PointSetError),
+    /// A checkpoint cannot be written, read or gone on from.
+    #[error("checkpoint {}: {reason}", path.display())]
+    Checkpoint {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
     /// The method is not part of this build.
     #[error("method `{method}`: built without {feature}: rebuild with --features {feature}")]
     NotBuilt {

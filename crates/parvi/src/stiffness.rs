@@ -12,11 +12,15 @@ const SAMPLE: usize = 1 << 12;
 /// In a well of curvature λ the body oscillates with the frequency √λ, and a Δt beyond 2/√λ would be unstable.
 #[derive(Clone, Debug)]
 pub(crate) struct Stiffness<const D: usize> {
-    estimate: f64,
-    stride: usize,
-    now: Vec<([f64; D], [f64; D])>,
-    before: Vec<([f64; D], [f64; D])>,
+    pub(crate) estimate: f64,
+    /// Every so many particles are looked at.
+    pub(crate) stride: usize,
+    pub(crate) now: Vec<Record<D>>,
+    pub(crate) before: Vec<Record<D>>,
 }
+
+/// Position and score of a particle.
+pub(crate) type Record<const D: usize> = ([f64; D], [f64; D]);
 
 impl<const D: usize> Default for Stiffness<D> {
     fn default() -> Self {

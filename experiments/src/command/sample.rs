@@ -62,7 +62,48 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let peak_memory = memory.peak_bytes();
     progress.clear();
     file.write(&outcome.particles)?;
+    warn(&outcome);
     console::print_pairs(&pairs(arguments, &outcome, peak_memory))
+}
+
+/// What a user should know before trusting the particles.
+fn warn(outcome: &Outcome) {
+    if outcome.scores_replaced > 0 {
+        console::notice(&format!(
+            "{} scores on the way were not finite; the particles were pulled back to where they are",
+            outcome.scores_replaced
+        ));
+    }
+    let Some(certificate) = &outcome.certificate else {
+        return;
+    };
+    if let Some(reason) = certificate.outcome.reason() {
+        console::notice(&format!("{}: {reason}", certificate.outcome.name()));
+    }
+    if let Some(error) = certificate.mass_error {
+        console::notice(&format!(
+            "the target has separate pieces: residual and scores are blind to their masses, which leave an error of {error:.3} standard \
+             deviations in a mean"
+        ));
+    }
+}
+
+/// What the certificate says.
+fn certificate_pairs(outcome: &Outcome) -> Vec<(&'static str, String)> {
+    let Some(certificate) = &outcome.certificate else {
+        return Vec::new();
+    };
+    let numbers = [
+        ("mean_error", certificate.mean_error()),
+        ("sd_error", certificate.standard_deviation_error()),
+        ("unexplained", certificate.unexplained()),
+        ("mass_error", certificate.mass_error),
+        ("drift", Some(certificate.drift)),
+    ];
+    let mut pairs = vec![("outcome", certificate.outcome.name().to_owned())];
+    pairs.extend(certificate.outcome.reason().map(|reason| ("reason", reason)));
+    pairs.extend(numbers.into_iter().filter_map(|(key, value)| Some((key, value?.to_string()))));
+    pairs
 }
 
 /// What standard output says; a key without a value is left out.
@@ -82,6 +123,7 @@ fn pairs(arguments: &Arguments, outcome: &Outcome, peak_memory: Option<u64>) -> 
         ("divergences", outcome.divergences.map(|value| value.to_string())),
         (PEAK_MEMORY_KEY, peak_memory.map(|value| value.to_string())),
     ];
+    pairs.extend(certificate_pairs(outcome));
     pairs.extend(optional.into_iter().filter_map(|(key, value)| Some((key, value?))));
     pairs.extend([
         ("target", arguments.target.clone()),

@@ -7,7 +7,7 @@ use parvi::{
 use serde::{Deserialize, Serialize};
 
 use super::{
-    Basis, Correction, Draws, Limit, Material, MethodName, OptionError, ParticleCount, PoolChoice, Score, StepCount,
+    Basis, Correction, Draws, Limit, Material, MethodName, NonFinite, OptionError, ParticleCount, PoolChoice, Score, StepCount,
     Switch, Transfer, WarmUp,
 };
 
@@ -67,6 +67,15 @@ pub struct MethodOptions {
     /// Friction, per unit of time (mpm)
     #[arg(long, value_name = "GAMMA", allow_negative_numbers = true)]
     pub friction: Option<f64>,
+    /// Rounds of the steps, at most, while the particles are still on their way [3, but 1 with --steps] (mpm)
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    pub rounds: Option<StepCount>,
+    /// What is done about a score that is not finite [pull-back] (mpm)
+    #[arg(long)]
+    pub non_finite: Option<NonFinite>,
+    /// Judge the particles at the end [on] (mpm)
+    #[arg(long)]
+    pub certificate: Option<Switch>,
     /// Elastic law [paper-*]
     #[arg(long)]
     pub material: Option<Material>,
@@ -76,13 +85,13 @@ pub struct MethodOptions {
     /// Poisson's ratio [paper-*]
     #[arg(long, value_name = "NU", allow_negative_numbers = true)]
     pub poissons_ratio: Option<f64>,
-    /// Constant factor before the force [paper-*]
+    /// Constant factor before the score [mpm, paper-*]
     #[arg(long, allow_negative_numbers = true)]
     pub alpha: Option<f64>,
-    /// Factor before the force in the first step, with --alpha-to [paper-*]
+    /// Factor before the score in the first step, with --alpha-to [mpm, paper-*]
     #[arg(long, value_name = "ALPHA", allow_negative_numbers = true)]
     pub alpha_from: Option<f64>,
-    /// Factor before the force in the last step, with --alpha-from [paper-*]
+    /// Factor before the score in the last step, mpm: when settling begins, with --alpha-from [mpm, paper-*]
     #[arg(long, value_name = "ALPHA", allow_negative_numbers = true)]
     pub alpha_to: Option<f64>,
     /// All guards at once; single guards can be set beside it [paper-*]
@@ -254,30 +263,37 @@ impl MethodOptions {
             moment_correction: self.moment_correction.map_or(default.moment_correction, Into::into),
             score_location: self.score.map_or(default.score_location, Into::into),
             displacement_limit,
+            rounds: self.rounds.map(StepCount::get).or(default.rounds),
+            non_finite_scores: self.non_finite.map_or(default.non_finite_scores, Into::into),
+            annealing: self.annealing().unwrap_or(default.annealing),
+            certificate: self.certificate.map_or(default.certificate, Switch::is_on),
             trace_every: self.trace_every,
         })
     }
 
     fn paper(&self, steps: Option<usize>, affine: bool) -> PaperOptions {
         let default = PaperOptions::default();
-        let annealing = match (self.alpha, self.alpha_from, self.alpha_to) {
-            (Some(alpha), _, _) => Annealing::Constant(alpha),
-            (None, Some(from), Some(to)) => Annealing::Geometric { from, to },
-            _ => default.annealing,
-        };
         PaperOptions {
             affine,
             basis: self.basis.map_or(default.basis, Into::into),
             elasticity: self.material.map_or(default.elasticity, Into::into),
             youngs_modulus: self.youngs_modulus.unwrap_or(default.youngs_modulus),
             poissons_ratio: self.poissons_ratio.unwrap_or(default.poissons_ratio),
-            annealing,
+            annealing: self.annealing().unwrap_or(default.annealing),
             score_location: self.score.map_or(default.score_location, Into::into),
             spacing: self.spacing.or(default.spacing),
             steps: steps.or(default.steps),
             time_step: self.time_step.or(default.time_step),
             guards: self.guards(),
             trace_every: self.trace_every,
+        }
+    }
+
+    fn annealing(&self) -> Option<Annealing> {
+        match (self.alpha, self.alpha_from, self.alpha_to) {
+            (Some(alpha), _, _) => Some(Annealing::Constant(alpha)),
+            (None, Some(from), Some(to)) => Some(Annealing::Geometric { from, to }),
+            _ => None,
         }
     }
 
@@ -335,12 +351,15 @@ impl MethodOptions {
             ("transfer", text(&self.transfer), GAS),
             ("flip-share", text(&self.flip_share), GAS),
             ("friction", text(&self.friction), GAS),
+            ("rounds", text(&self.rounds), GAS),
+            ("non-finite", text(&self.non_finite), GAS),
+            ("certificate", text(&self.certificate), GAS),
             ("material", text(&self.material), PAPER),
             ("youngs-modulus", text(&self.youngs_modulus), PAPER),
             ("poissons-ratio", text(&self.poissons_ratio), PAPER),
-            ("alpha", text(&self.alpha), PAPER),
-            ("alpha-from", text(&self.alpha_from), PAPER),
-            ("alpha-to", text(&self.alpha_to), PAPER),
+            ("alpha", text(&self.alpha), GRID),
+            ("alpha-from", text(&self.alpha_from), GRID),
+            ("alpha-to", text(&self.alpha_to), GRID),
             ("guards", text(&self.guards), PAPER),
             ("mass-floor", text(&self.mass_floor), PAPER),
             ("mass-weighted-force", text(&self.mass_weighted_force), PAPER),

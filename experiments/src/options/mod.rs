@@ -16,5 +16,5 @@ pub use method_name::MethodName;
 pub use method_options::MethodOptions;
 pub use method_specification::MethodSpecification;
 pub use option_error::OptionError;
-pub use option_values::{Basis, Correction, Draws, Material, PoolChoice, Score, Switch, Transfer};
+pub use option_values::{Basis, Correction, Draws, Material, NonFinite, PoolChoice, Score, Switch, Transfer};
 pub use target_specification::{TargetParameters, TargetSpecification};

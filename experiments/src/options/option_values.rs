@@ -3,7 +3,7 @@
 use std::fmt::{self, Display, Formatter};
 
 use clap::ValueEnum;
-use parvi::{BasisChoice, Elasticity, MomentCorrection, ScoreLocation, StartDraws};
+use parvi::{BasisChoice, Elasticity, MomentCorrection, NonFiniteScores, ScoreLocation, StartDraws};
 use serde::{Deserialize, Serialize};
 
 /// Background basis.
@@ -116,6 +116,28 @@ impl From<Score> for ScoreLocation {
         match score {
             Score::Particles => Self::Particles,
             Score::Nodes => Self::Nodes,
+        }
+    }
+}
+
+/// What is done about a particle whose score is not finite.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum NonFinite {
+    /// Pull the particle towards the centre of the frame
+    PullBack,
+    /// Take steps back and make them again with half of the time step
+    RejectStep,
+    /// End with an error
+    Report,
+}
+
+impl From<NonFinite> for NonFiniteScores {
+    fn from(policy: NonFinite) -> Self {
+        match policy {
+            NonFinite::PullBack => Self::PullBack,
+            NonFinite::RejectStep => Self::RejectStep,
+            NonFinite::Report => Self::Report,
         }
     }
 }

@@ -8,10 +8,10 @@ mod stein_thinning_options;
 mod support_points_options;
 mod svgd_options;
 
-pub use mpm_options::{MomentCorrection, MpmOptions, ScoreLocation};
+pub use mpm_options::{MomentCorrection, MpmOptions, NonFiniteScores, ScoreLocation};
 pub use nuts_options::NutsOptions;
-pub use paper_options::{Annealing, Elasticity, Guards, PaperOptions};
-pub use schedule::{Settling, SpacingSchedule};
+pub use paper_options::{Elasticity, Guards, PaperOptions};
+pub use schedule::{Annealing, Settling, SpacingSchedule};
 pub use stein_thinning_options::{Pool, SteinThinningOptions};
 pub use support_points_options::SupportPointsOptions;
 pub use svgd_options::SvgdOptions;

@@ -1,4 +1,5 @@
-use super::{BasisChoice, Settling, SpacingSchedule, TransferChoice};
+use crate::Checkpoint;
+use super::{Annealing, BasisChoice, Settling, SpacingSchedule, TransferChoice};
 
 /// Where the score is evaluated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -9,6 +10,19 @@ pub enum ScoreLocation {
     /// At the nodes, weighted by nodal mass (paper, Eq. 3); cheaper when nodes are few, but the particles'
     /// covariance shrinks by the variance of the kernel.
     Nodes,
+}
+
+/// What is done about a particle whose score is not finite.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum NonFiniteScores {
+    /// It is pulled towards the centre of the frame with the score of N(0, I) there, −z; the number of such replacements is in
+    /// [`Samples::scores_replaced`](crate::Samples::scores_replaced). A score that is not finite at the end is an error.
+    #[default]
+    PullBack,
+    /// Steps are taken back to the last good state and made again with half of Δt, a limited number of times; then it is an error.
+    RejectStep,
+    /// It is an error at once.
+    Report,
 }
 
 /// What the affine Stein correction puts right at the end of a run (docs/theory.md, Eq. 12).
@@ -40,6 +54,9 @@ pub struct MpmOptions {
     pub survey: bool,
     /// Steps in all, settling included; ≥ 1.
     pub steps: Option<usize>,
+    /// Rounds, at most; ≥ 1. A round is made of `steps`; another one follows while the particles are still on their way at its end, in a frame of
+    /// their own if they have outgrown the old one. `None`: 3, but one where `steps` are given.
+    pub rounds: Option<usize>,
     /// Time step Δt at the central spacing; > 0. It follows the spacing drawn, and is shortened where the target is stiff.
     pub time_step: Option<f64>,
     /// Friction γ ≥ 0 (v ← v e^{−γΔt}).
@@ -55,8 +72,16 @@ pub struct MpmOptions {
     pub moment_correction: MomentCorrection,
     /// Where the score is evaluated.
     pub score_location: ScoreLocation,
+    /// What is done about a particle whose score is not finite.
+    pub non_finite_scores: NonFiniteScores,
     /// Largest displacement per step in units of h; > 0.
     pub displacement_limit: f64,
+    /// Factor α of the score before settling begins (the paper's annealing); the stationary density is p^α for its last value.
+    pub annealing: Annealing,
+    /// Judge the particles at the end ([`Certificate`](crate::Certificate)).
+    pub certificate: bool,
+    /// Where the run leaves its state, and goes on from if it was stopped.
+    pub checkpoint: Option<Checkpoint>,
     /// Measure residual and energy every so many steps (0: only at the end).
     pub trace_every: usize,
 }
@@ -70,6 +95,7 @@ impl Default for MpmOptions {
             spacing: None,
             spacing_schedule: SpacingSchedule::default(),
             steps: None,
+            rounds: None,
             time_step: None,
             friction: None,
             shifts: true,
@@ -77,7 +103,11 @@ impl Default for MpmOptions {
             settling: Settling::default(),
             moment_correction: MomentCorrection::default(),
             score_location: ScoreLocation::default(),
+            non_finite_scores: NonFiniteScores::default(),
             displacement_limit: 0.5,
+            annealing: Annealing::Constant(1.0),
+            certificate: true,
+            checkpoint: None,
             trace_every: 0,
         }
     }

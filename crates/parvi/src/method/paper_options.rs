@@ -1,4 +1,4 @@
-use super::{BasisChoice, ScoreLocation};
+use super::{Annealing, BasisChoice, ScoreLocation};
 
 /// Elastic law of the paper's algorithms.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -7,20 +7,6 @@ pub enum Elasticity {
     Linear,
     /// Compressible Neo-Hookean solid.
     NeoHookean,
-}
-
-/// Factor α(t) before the external force.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Annealing {
-    /// The same in every step.
-    Constant(f64),
-    /// Geometric from the first value in the first step to the second in the last.
-    Geometric {
-        /// α in the first step.
-        from: f64,
-        /// α in the last step.
-        to: f64,
-    },
 }
 
 /// Guards that the paper's algorithms need to stay finite; each can be switched off.

@@ -30,8 +30,17 @@ const SMALLEST_MASS: f64 = 1e-3;
 
 /// Gaussians for the pieces of a target, with their masses, and one for the whole.
 pub(super) struct Found<const D: usize> {
-    pub pieces: Vec<(GaussianFit<D>, f64)>,
+    pub pieces: Vec<Piece<D>>,
     pub whole: GaussianFit<D>,
+}
+
+/// A separate piece of a target.
+pub(super) struct Piece<const D: usize> {
+    pub fit: GaussianFit<D>,
+    /// Its share of the target's mass.
+    pub mass: f64,
+    /// The standard error of that.
+    pub mass_error: f64,
 }
 
 /// Scouts, their clusters, and a Gaussian with a mass for each; `None` where the target cannot be evaluated.
@@ -80,7 +89,11 @@ pub(super) fn explore<const D: usize>(
     }
     if fits.len() < 2 {
         return Ok(fits.pop().map(|only| Found {
-            pieces: vec![(only, 1.0)],
+            pieces: vec![Piece {
+                fit: only,
+                mass: 1.0,
+                mass_error: 0.0,
+            }],
             whole: only,
         }));
     }
@@ -91,9 +104,13 @@ pub(super) fn explore<const D: usize>(
     let heavy: f64 = found.values.iter().filter(|&&mass| mass >= SMALLEST_MASS).sum();
     let pieces = fits
         .into_iter()
-        .zip(found.values)
-        .filter(|&(_, mass)| mass >= SMALLEST_MASS)
-        .map(|(fit, mass)| (fit, mass / heavy))
+        .zip(found.values.into_iter().zip(found.errors))
+        .filter(|&(_, (mass, _))| mass >= SMALLEST_MASS)
+        .map(|(fit, (mass, error))| Piece {
+            fit,
+            mass: mass / heavy,
+            mass_error: error / heavy,
+        })
         .collect();
     Ok(Some(Found {
         pieces,

@@ -12,6 +12,8 @@ const INFLATION: f64 = 1.25;
 pub(super) struct Masses<const D: usize> {
     /// The mass of each piece; they sum to one.
     pub values: Vec<f64>,
+    /// Their standard errors, as if the points were independent: (Σ_p ω_p² (1\[p nearest to k\] − mass_k)²)^½ with ω_p the normalised weights.
+    pub errors: Vec<f64>,
     /// Mean and covariance of all pieces together.
     pub whole: GaussianFit<D>,
 }
@@ -53,6 +55,14 @@ pub(super) fn masses<const D: usize>(
     for value in &mut values {
         *value /= total;
     }
+    let mut errors = vec![0.0; fits.len()];
+    for (nearest, log, _) in &points {
+        let weight = (log - largest).exp() / total;
+        for (k, error) in errors.iter_mut().enumerate() {
+            let inside = if k == *nearest { 1.0 } else { 0.0 };
+            *error += (weight * (inside - values[k])).powi(2);
+        }
+    }
     let mean = vector::scale(&mean, 1.0 / total);
     let covariance = points.iter().fold(Matrix::<D>::ZERO, |sum, (_, log, z)| {
         let z = vector::subtract(z, &mean);
@@ -61,6 +71,7 @@ pub(super) fn masses<const D: usize>(
     let root = SymmetricEigen::new(&covariance)?.map(|value| value.max(0.0).sqrt());
     Some(Masses {
         values,
+        errors: errors.into_iter().map(f64::sqrt).collect(),
         whole: GaussianFit { mean, root },
     })
 }

@@ -29,6 +29,8 @@ pub(crate) struct Site<const D: usize> {
     pub frame: Frame<D>,
     /// Its share of the total mass.
     pub mass: f64,
+    /// The standard error of it.
+    pub mass_error: f64,
     /// Inner over outer stiffness, at least 1: what the tails ask the spacing to be wider by.
     pub tails: f64,
 }
@@ -38,6 +40,7 @@ impl<const D: usize> Site<D> {
         Self {
             frame,
             mass,
+            mass_error: 0.0,
             tails: 1.0,
         }
     }
@@ -127,7 +130,13 @@ impl<const D: usize> Survey<D> {
         let sites: Vec<Site<D>> = found
             .pieces
             .iter()
-            .filter_map(|(fit, mass)| Some(Site::new(frame_of(frame, fit)?, *mass)))
+            .filter_map(|piece| {
+                let site = Site::new(frame_of(frame, &piece.fit)?, piece.mass);
+                Some(Site {
+                    mass_error: piece.mass_error,
+                    ..site
+                })
+            })
             .collect();
         self.keeps_start = serves && sites.len() < 2 && sane(start);
         self.sites = if sites.len() < 2 { vec![self.whole] } else { sites };

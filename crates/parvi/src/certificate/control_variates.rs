@@ -1,0 +1,253 @@
+//! Expectations with the part that the scores explain taken from the target instead of the particles.
+
+use faer::linalg::matmul::matmul;
+use faer::linalg::solvers::{Llt, Solve};
+use faer::{Accum, Mat, Par, Side};
+use parvi_targets::Frame;
+
+use super::stein_polynomials::{MAXIMUM_DEGREE, SteinPolynomials};
+
+/// Particles that coefficients are fitted to, at most.
+const FITTED: usize = 2048;
+
+/// Polynomials, at most.
+const LARGEST_COUNT: usize = 128;
+
+/// Particles per polynomial, at least.
+const PARTICLES_PER_POLYNOMIAL: usize = 8;
+
+/// Ridge of the normal equations, whose diagonal is one.
+const RIDGE: f64 = 1e-11;
+
+/// The expectation of a function over particles, and what the scores say about it.
+///
+/// With the regression f = c + Σ_a β_a A ψ_a + r over the particles and E_p\[A ψ_a\] = 0, the expectation under the target is
+/// E_p\[f\] = c + E_p\[r\]: where the polynomials explain f, c is it, whatever the particles are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Expectation {
+    /// The average of f over the particles.
+    pub average: f64,
+    /// c, the estimate of E_p\[f\] by the regression.
+    pub estimate: f64,
+    /// Standard deviation of f over the particles.
+    pub standard_deviation: f64,
+    /// Standard deviation of r, what the polynomials leave unexplained.
+    pub unexplained: f64,
+    /// Standard error of the average: ((c − average)² + sd(r)² / ESS)^½. The part that is not explained is taken to be no worse than from
+    /// independent draws.
+    pub standard_error: f64,
+}
+
+impl Expectation {
+    /// sd(r) / sd(f); 0 for a constant.
+    pub fn unexplained_share(&self) -> f64 {
+        if self.standard_deviation > 0.0 {
+            self.unexplained / self.standard_deviation
+        } else {
+            0.0
+        }
+    }
+}
+
+/// The regression's design, made once for any number of functions.
+///
+/// Source: A. Mira, R. Solgi, D. Imparato, Stat. Comput. 23 (2013) 653–662; the polynomials are those of [`SteinPolynomials`] in the particles'
+/// own standardised coordinates.
+pub(crate) struct ControlVariates<const D: usize> {
+    weights: Vec<f64>,
+    /// 1 / Σ w².
+    effective_size: f64,
+    /// Every `stride`-th particle is fitted to.
+    stride: usize,
+    /// √w (A ψ_a − mean) / sd, a row for each fitted particle, a column for each polynomial.
+    design: Mat<f64>,
+    factor: Llt<f64>,
+    /// Means of A ψ_a over all particles, in units of the columns' sd.
+    means: Vec<f64>,
+}
+
+impl<const D: usize> ControlVariates<D> {
+    /// The degrees that may be tried for this many particles, from below.
+    pub fn degrees(particles: usize) -> impl Iterator<Item = usize> {
+        let largest = (particles.min(FITTED) / PARTICLES_PER_POLYNOMIAL).min(LARGEST_COUNT);
+        [1, 2, 3, 4, 6, 8, 10, MAXIMUM_DEGREE]
+            .into_iter()
+            .filter(move |&degree| SteinPolynomials::<D>::count(degree) <= largest)
+    }
+
+    /// Of particles with their scores and weights (`None`: equal ones); `None` if the particles lie in a plane or a score is not finite.
+    pub fn new(positions: &[[f64; D]], scores: &[[f64; D]], weights: Option<&[f64]>, degree: usize) -> Option<Self> {
+        let weights = normalised(positions.len(), weights);
+        let frame = Frame::of_points(positions, Some(&weights)).ok()?;
+        let polynomials = SteinPolynomials::<D>::new(degree);
+        let (count, stride) = (polynomials.len(), positions.len().div_ceil(FITTED).max(1));
+        let mut raw = Mat::<f64>::zeros(positions.len().div_ceil(stride), count);
+        let mut means = vec![0.0; count];
+        for (p, (x, s)) in positions.iter().zip(scores).enumerate() {
+            polynomials.evaluate(&frame.to_reference(x), &frame.pull_back_score(s), |k, value| {
+                means[k] += weights[p] * value;
+                if p % stride == 0 {
+                    raw[(p / stride, k)] = value;
+                }
+            });
+        }
+        let fitted = fitted_weights(&weights, stride);
+        let spread: Vec<(f64, f64)> = (0..count)
+            .map(|k| mean_and_deviation(&fitted, |row| raw[(row, k)]))
+            .collect();
+        let design = Mat::from_fn(raw.nrows(), count, |row, k| {
+            let (mean, deviation) = spread[k];
+            fitted[row].sqrt() * (raw[(row, k)] - mean) / deviation
+        });
+        let mut gram = Mat::<f64>::zeros(count, count);
+        matmul(
+            gram.as_mut(),
+            Accum::Replace,
+            design.transpose(),
+            design.as_ref(),
+            1.0,
+            Par::Seq, // the same bits on any number of threads
+        );
+        for k in 0..count {
+            gram[(k, k)] += RIDGE;
+            means[k] /= spread[k].1;
+        }
+        Some(Self {
+            effective_size: weights.iter().map(|weight| weight * weight).sum::<f64>().recip(),
+            factor: gram.llt(Side::Lower).ok()?,
+            weights,
+            stride,
+            design,
+            means,
+        })
+    }
+
+    /// The expectation of the function with these values at the particles.
+    pub fn expectation(&self, values: &[f64]) -> Expectation {
+        let (average, standard_deviation) = mean_and_deviation(&self.weights, |p| values[p]);
+        let fitted = fitted_weights(&self.weights, self.stride);
+        let (centre, _) = mean_and_deviation(&fitted, |row| values[row * self.stride]);
+        let centred = Mat::from_fn(fitted.len(), 1, |row, _| {
+            fitted[row].sqrt() * (values[row * self.stride] - centre)
+        });
+        let coefficients = self.factor.solve(self.design.transpose() * &centred);
+        let residual = &centred - &self.design * &coefficients;
+        let explained: f64 = (0..self.means.len()).map(|k| coefficients[(k, 0)] * self.means[k]).sum();
+        let rows = fitted.len() as f64;
+        let degrees_of_freedom = (rows - self.means.len() as f64 - 1.0).max(1.0);
+        let unexplained = residual.norm_l2() * (rows / degrees_of_freedom).sqrt();
+        Expectation {
+            average,
+            estimate: average - explained,
+            standard_deviation,
+            unexplained,
+            standard_error: explained.hypot(unexplained / self.effective_size.sqrt()),
+        }
+    }
+}
+
+/// Weights that sum to one.
+fn normalised(count: usize, weights: Option<&[f64]>) -> Vec<f64> {
+    match weights {
+        None => vec![1.0 / count as f64; count],
+        Some(weights) => {
+            let total: f64 = weights.iter().sum();
+            weights.iter().map(|weight| weight / total).collect()
+        }
+    }
+}
+
+/// The weights of the particles that are fitted to, which sum to one again.
+fn fitted_weights(weights: &[f64], stride: usize) -> Vec<f64> {
+    let own: Vec<f64> = weights.iter().copied().step_by(stride).collect();
+    normalised(own.len(), Some(&own))
+}
+
+/// Mean and standard deviation of `value(k)` with weights that sum to one; a deviation of zero counts as the smallest number.
+fn mean_and_deviation(weights: &[f64], value: impl Fn(usize) -> f64) -> (f64, f64) {
+    let mean: f64 = weights.iter().enumerate().map(|(k, weight)| weight * value(k)).sum();
+    let square = |(k, weight): (usize, &f64)| weight * (value(k) - mean).powi(2);
+    let variance: f64 = weights.iter().enumerate().map(square).sum();
+    (mean, variance.sqrt().max(f64::MIN_POSITIVE))
+}
+
+#[cfg(test)]
+mod tests {
+    use mpm_tensor::Matrix;
+    use parvi_targets::{CatalogueTarget, Gaussian, StudentT, Target};
+    use rand::SeedableRng;
+    use rand::rngs::ChaCha8Rng;
+
+    use super::*;
+
+    fn draws<const D: usize>(target: &dyn CatalogueTarget<D>, count: usize) -> (Vec<[f64; D]>, Vec<[f64; D]>) {
+        let mut generator = ChaCha8Rng::seed_from_u64(7);
+        let exact = target.exact_draws().unwrap();
+        let positions: Vec<[f64; D]> = (0..count).map(|_| exact.draw(&mut generator)).collect();
+        let scores = positions.iter().map(|x| target.score(x)).collect();
+        (positions, scores)
+    }
+
+    #[test]
+    fn moments_of_a_gaussian_come_out_exact_from_any_particles() {
+        let covariance = Matrix([[2.0, 0.5], [0.5, 0.3]]);
+        let target = Gaussian::new([3.0, -1.0], covariance).unwrap();
+        let (mut positions, _) = draws(&target, 5000);
+        for x in &mut positions {
+            *x = [1.3 * x[0] + 0.7, x[1] - 0.2]; // off in place and width
+        }
+        let scores: Vec<[f64; 2]> = positions.iter().map(|x| target.score(x)).collect();
+        let regression = ControlVariates::new(&positions, &scores, None, 2).unwrap();
+        let first: Vec<f64> = positions.iter().map(|x| x[0]).collect();
+        let square: Vec<f64> = positions.iter().map(|x| x[0] * x[1]).collect();
+        assert!((regression.expectation(&first).estimate - 3.0).abs() < 1e-9);
+        assert!((regression.expectation(&square).estimate - (0.5 - 3.0)).abs() < 1e-8);
+        assert!(regression.expectation(&first).standard_error > 0.5);
+    }
+
+    #[test]
+    fn the_variance_of_a_heavy_tail_is_seen_beyond_the_particles() {
+        let target = StudentT::<2>::new(5.0).unwrap();
+        let (positions, _) = draws(&target, 2000);
+        let narrow: Vec<[f64; 2]> = positions.iter().map(|x| x.map(|c| c.clamp(-2.5, 2.5))).collect();
+        let scores: Vec<[f64; 2]> = narrow.iter().map(|x| target.score(x)).collect();
+        let regression = ControlVariates::new(&narrow, &scores, None, 4).unwrap();
+        let square: Vec<f64> = narrow.iter().map(|x| x[0] * x[0]).collect();
+        let found = regression.expectation(&square);
+        assert!((found.estimate / (5.0 / 3.0) - 1.0).abs() < 0.01, "{found:?}");
+        assert!(found.average < 1.5, "{found:?}");
+    }
+
+    #[test]
+    fn what_polynomials_do_not_explain_is_said() {
+        let target = Gaussian::<1>::standard();
+        let (positions, scores) = draws(&target, 1000);
+        let regression = ControlVariates::new(&positions, &scores, None, 4).unwrap();
+        let step: Vec<f64> = positions.iter().map(|x| f64::from(x[0] > 0.3)).collect();
+        let found = regression.expectation(&step);
+        assert!(found.unexplained_share() > 0.2);
+        assert!((found.average - 0.382).abs() < 4.0 * found.standard_error);
+    }
+
+    #[test]
+    fn weights_and_repeated_particles_are_the_same() {
+        let target = StudentT::<1>::new(5.0).unwrap();
+        let (positions, scores) = draws(&target, 60);
+        let weights: Vec<f64> = (0..60).map(|p| f64::from(1 + p % 3)).collect();
+        let repeat = |points: &[[f64; 1]]| -> Vec<[f64; 1]> {
+            (0..60).flat_map(|p| vec![points[p]; 1 + p % 3]).collect()
+        };
+        let weighted = ControlVariates::new(&positions, &scores, Some(&weights), 3).unwrap();
+        let repeated = ControlVariates::new(&repeat(&positions), &repeat(&scores), None, 3).unwrap();
+        let values: Vec<f64> = positions.iter().map(|x| x[0].sin()).collect();
+        let again: Vec<f64> = repeat(&positions).iter().map(|x| x[0].sin()).collect();
+        let (a, b) = (weighted.expectation(&values), repeated.expectation(&again));
+        assert!((a.average - b.average).abs() < 1e-12 && (a.estimate - b.estimate).abs() < 1e-9);
+    }
+
+    #[test]
+    fn particles_in_a_plane_have_no_regression() {
+        let flat = vec![[1.0, 2.0]; 50];
+        assert!(ControlVariates::new(&flat, &flat, None, 2).is_none());
+    }
+}

@@ -1,0 +1,150 @@
+//! What one body knows about its own accuracy, and what several know together.
+
+use mpm_tensor::vector;
+
+use super::control_variates::{ControlVariates, Expectation};
+
+/// Polynomials of a higher degree are tried as long as they leave more than this share of a coordinate or its square unexplained.
+const EXPLAINED: f64 = 0.1;
+
+/// Means and second moments about `centre` of one body's particles, in the user's coordinates.
+#[derive(Clone, Debug)]
+pub(crate) struct Evidence<const D: usize> {
+    /// Its share of all particles.
+    pub share: f64,
+    centre: [f64; D],
+    first: [Expectation; D],
+    second: [Expectation; D],
+    degree: usize,
+}
+
+impl<const D: usize> Evidence<D> {
+    /// From particles at `positions` (in the coordinates in which the scores are gradients), which the user sees at `seen`; `None` if there
+    /// is no regression.
+    pub fn new(positions: &[[f64; D]], scores: &[[f64; D]], seen: &[[f64; D]], share: f64) -> Option<Self> {
+        let mut centre = [0.0; D];
+        for x in seen {
+            vector::accumulate(&mut centre, 1.0 / seen.len() as f64, x);
+        }
+        let mut best: Option<(f64, Self)> = None;
+        for degree in ControlVariates::<D>::degrees(positions.len()) {
+            let Some(regression) = ControlVariates::new(positions, scores, None, degree) else {
+                break;
+            };
+            let of = |value: &dyn Fn(&[f64; D]) -> f64| {
+                let values: Vec<f64> = seen.iter().map(value).collect();
+                regression.expectation(&values)
+            };
+            let evidence = Self {
+                share,
+                centre,
+                first: std::array::from_fn(|a| of(&|x| x[a] - centre[a])),
+                second: std::array::from_fn(|a| of(&|x| (x[a] - centre[a]).powi(2))),
+                degree,
+            };
+            let unexplained = evidence.unexplained();
+            if best.as_ref().is_none_or(|(least, _)| unexplained < *least) {
+                best = Some((unexplained, evidence));
+            }
+            if unexplained <= EXPLAINED {
+                break;
+            }
+        }
+        best.map(|(_, evidence)| evidence)
+    }
+}
+
+impl<const D: usize> Evidence<D> {
+    /// The largest part of a coordinate, in standard deviations, or of a variance, relative to twice itself, that is unexplained.
+    fn unexplained(&self) -> f64 {
+        let of_axis = |a: usize| {
+            let variance = self.first[a].standard_deviation.powi(2);
+            self.first[a]
+                .unexplained_share()
+                .max(self.second[a].unexplained / (2.0 * variance))
+        };
+        (0..D).map(of_axis).fold(0.0, f64::max)
+    }
+
+    /// Degree of the polynomials.
+    pub fn degree(&self) -> usize {
+        self.degree
+    }
+}
+
+/// Mean and standard deviation of a coordinate, and what the scores say about them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MomentEstimate {
+    /// Mean of the particles.
+    pub mean: f64,
+    /// The target's mean by the scores.
+    pub mean_estimate: f64,
+    /// Standard error of `mean`: the difference between both, and what is unexplained as if from independent draws.
+    pub mean_standard_error: f64,
+    /// Standard deviation, in units of `standard_deviation`, of what the scores leave unexplained of the coordinate.
+    pub mean_unexplained: f64,
+    /// Standard deviation of the particles.
+    pub standard_deviation: f64,
+    /// The target's standard deviation by the scores.
+    pub standard_deviation_estimate: f64,
+    /// Standard error of `standard_deviation`, as that of the mean.
+    pub standard_deviation_standard_error: f64,
+    /// As `mean_unexplained`, of the squared distance from the mean over twice the variance.
+    pub standard_deviation_unexplained: f64,
+}
+
+impl MomentEstimate {
+    /// |m̂ − m| in standard deviations.
+    pub fn mean_error(&self) -> f64 {
+        (self.mean_estimate - self.mean).abs() / self.standard_deviation
+    }
+
+    /// The larger of what is unexplained of the coordinate and of its square.
+    pub fn unexplained(&self) -> f64 {
+        self.mean_unexplained.max(self.standard_deviation_unexplained)
+    }
+
+    /// |σ / σ̂ − 1|, infinite where the estimated variance is not positive.
+    pub fn standard_deviation_error(&self) -> f64 {
+        (self.standard_deviation / self.standard_deviation_estimate - 1.0).abs()
+    }
+}
+
+/// The moments of all bodies together, for every axis. With shares w_k, centres c_k and δ_k = c_k − m:
+/// m̂ = Σ w_k (c_k + ê_k), σ̂² = Σ w_k (q̂_k + 2 δ_k ê_k + δ_k²) − (m̂ − m)², ê and q̂ the bodies' estimates of E\[x − c\] and E\[(x − c)²\].
+pub(crate) fn moments<const D: usize>(bodies: &[Evidence<D>], particles: usize) -> Vec<MomentEstimate> {
+    let total: f64 = bodies.iter().map(|body| body.share).sum();
+    let sum = |of: &dyn Fn(&Evidence<D>) -> f64| -> f64 { bodies.iter().map(|body| body.share / total * of(body)).sum() };
+    let of_axis = |a: usize| {
+        let mean = sum(&|body| body.centre[a] + body.first[a].average);
+        let offset = |body: &Evidence<D>| body.centre[a] - mean;
+        let mean_estimate = mean + sum(&|body| body.first[a].estimate - body.first[a].average);
+        let square = |first: &dyn Fn(&Evidence<D>) -> (f64, f64)| {
+            sum(&|body| {
+                let (first, second) = first(body);
+                second + 2.0 * offset(body) * first + offset(body).powi(2)
+            })
+        };
+        let variance = square(&|body| (body.first[a].average, body.second[a].average));
+        let variance_estimate = square(&|body| (body.first[a].estimate, body.second[a].estimate));
+        let variance_estimate = variance_estimate - (mean_estimate - mean).powi(2);
+        let deviation = variance.sqrt();
+        let deviation_estimate = variance_estimate.max(0.0).sqrt();
+        let mean_unexplained = sum(&|body| body.first[a].unexplained) / deviation;
+        let of_variance = sum(&|body| body.second[a].unexplained + 2.0 * offset(body).abs() * body.first[a].unexplained);
+        let deviation_unexplained = of_variance / (2.0 * variance);
+        let rate = (particles as f64).sqrt().recip();
+        MomentEstimate {
+            mean,
+            mean_estimate,
+            mean_standard_error: (mean_estimate - mean).hypot(rate * mean_unexplained * deviation),
+            mean_unexplained,
+            standard_deviation: deviation,
+            standard_deviation_estimate: deviation_estimate,
+            standard_deviation_standard_error: (deviation_estimate - deviation)
+                .hypot(rate * deviation_unexplained * deviation),
+            standard_deviation_unexplained: deviation_unexplained,
+        }
+    };
+    (0..D).map(of_axis).collect()
+}

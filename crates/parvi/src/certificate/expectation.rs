@@ -1,0 +1,65 @@
+//! E\[f\] of a user's function, with its error.
+
+use parvi_targets::Target;
+
+use super::control_variates::ControlVariates;
+use super::Expectation;
+use crate::Samples;
+
+/// What of f may be unexplained before polynomials of a higher degree are tried.
+const EXPLAINED: f64 = 0.05;
+
+/// The expectation of `f` over the particles of any method, the target's own by the scores at the particles (one evaluation each), and
+/// an error estimate.
+///
+/// `None` if the particles are too few (fewer than 8 D) or lie in a plane, or where a score or a value is not finite. The scores know nothing of the
+/// masses of separate pieces: there the part between the pieces counts as unexplained.
+pub fn expectation<const D: usize>(
+    target: &dyn Target<D>,
+    samples: &Samples<D>,
+    f: impl Fn(&[f64; D]) -> f64,
+) -> Option<Expectation> {
+    let positions = &samples.positions;
+    let values: Vec<f64> = positions.iter().map(f).collect();
+    if values.iter().any(|value| !value.is_finite()) {
+        return None;
+    }
+    let mut scores = vec![[0.0; D]; positions.len()];
+    target.scores(positions, &mut scores);
+    let mut best: Option<Expectation> = None;
+    for degree in ControlVariates::<D>::degrees(positions.len()) {
+        let Some(regression) = ControlVariates::new(positions, &scores, samples.weights.as_deref(), degree) else {
+            break;
+        };
+        let found = regression.expectation(&values);
+        if best.is_none_or(|least| found.unexplained < least.unexplained) {
+            best = Some(found);
+        }
+        if found.unexplained_share() <= EXPLAINED {
+            break;
+        }
+    }
+    best
+}
+
+#[cfg(test)]
+mod tests {
+    use parvi_targets::Gaussian;
+
+    use super::*;
+    use crate::{MpmOptions, Run, Silent};
+
+    #[test]
+    fn an_expectation_is_within_its_error() {
+        let target = Gaussian::<2>::standard();
+        let frame = parvi_targets::Frame::identity();
+        let samples = MpmOptions::default().sample(&target, &frame, &Run::new(500, 3), &mut Silent).unwrap();
+        let square = expectation(&target, &samples, |x| x[0] * x[0]).unwrap();
+        assert!((square.estimate - 1.0).abs() < 1e-9, "{square:?}");
+        assert!((square.average - 1.0).abs() <= 1.01 * square.standard_error + 1e-9, "{square:?}");
+        let wave = expectation(&target, &samples, |x| (2.0 * x[0]).cos()).unwrap();
+        let exact = (-2f64).exp();
+        assert!((wave.average - exact).abs() <= 3.0 * wave.standard_error, "{wave:?}");
+        assert!(expectation(&target, &samples, |x| x[0].ln()).is_none());
+    }
+}

@@ -1,0 +1,192 @@
+//! Checkpoints: a run that was killed goes on to the same bits.
+
+mod saved;
+
+use std::fs::{self, File};
+use std::io::{BufReader, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use parvi_targets::{Frame, Target};
+use serde::{Deserialize, Serialize};
+
+use self::saved::{SavedBody, SavedState};
+use crate::drive::Driven;
+use crate::guard::State;
+use crate::{MpmOptions, Run, SampleError};
+
+/// Where a run of the calibrated sampler leaves its state.
+///
+/// If the file exists when a run of the same target, options and seed begins, the run goes on from it, and its particles are the same to the bit as those
+/// of a run that was never stopped. The file is replaced as a whole, so that a process killed at any moment leaves a good one, and
+/// removed when the run has succeeded. A score that depends on earlier calls (minibatches) is beyond it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Checkpoint {
+    /// The file.
+    pub path: PathBuf,
+    /// It is written every so many steps, rounded up to a multiple of 8; ≥ 1.
+    pub every: usize,
+}
+
+/// What the file holds. What leads to the bodies (survey, start) is computed again.
+#[derive(Serialize, Deserialize)]
+struct Saved {
+    /// What the run was asked for.
+    identity: String,
+    /// All bodies that have come to their end so far.
+    finished: Vec<SavedBody>,
+    /// The state of the one that moves.
+    moving: Option<SavedState>,
+}
+
+/// The states of a run on their way to and from its checkpoint; without one it does nothing.
+pub(crate) struct Journal {
+    checkpoint: Option<Checkpoint>,
+    saved: Saved,
+    /// Bodies that came to their end in this process or an earlier one and were asked for.
+    replayed: usize,
+}
+
+impl Journal {
+    /// No checkpoint.
+    pub fn none() -> Self {
+        Self {
+            checkpoint: None,
+            saved: Saved {
+                identity: String::new(),
+                finished: Vec::new(),
+                moving: None,
+            },
+            replayed: 0,
+        }
+    }
+
+    /// The journal of a run, with what an earlier process left in its file.
+    pub fn open<const D: usize>(
+        options: &MpmOptions,
+        target: &dyn Target<D>,
+        frame: &Frame<D>,
+        run: &Run,
+    ) -> Result<Self, SampleError> {
+        let Some(checkpoint) = &options.checkpoint else {
+            return Ok(Self::none());
+        };
+        if checkpoint.every == 0 || options.trace_every > 0 {
+            let (field, value, expected) = if checkpoint.every == 0 {
+                ("steps between checkpoints", 0.0, "at least 1")
+            } else {
+                ("steps between records of the history", options.trace_every as f64, "0 beside a checkpoint")
+            };
+            return Err(SampleError::InvalidOption { field, value, expected });
+        }
+        let identity = identity(options, target, frame, run);
+        let path = &checkpoint.path;
+        let saved = match File::open(path) {
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => Saved {
+                identity,
+                finished: Vec::new(),
+                moving: None,
+            },
+            Err(error) => return Err(refused(path, &error)),
+            Ok(file) => {
+                let saved: Saved = ciborium::from_reader(BufReader::new(file)).map_err(|error| refused(path, &error))?;
+                if saved.identity != identity {
+                    return Err(refused(path, &"it belongs to another run; remove it or name another file"));
+                }
+                saved
+            }
+        };
+        Ok(Self {
+            checkpoint: Some(checkpoint.clone()),
+            saved,
+            replayed: 0,
+        })
+    }
+
+    /// The next body of the run, if it came to its end before.
+    pub fn finished<const D: usize>(&mut self) -> Option<Driven<D>> {
+        let body = self.saved.finished.get(self.replayed)?;
+        self.replayed += 1;
+        Some(body.into())
+    }
+
+    /// The state that the next body of the run was left in.
+    pub fn moving<const D: usize>(&mut self) -> Result<Option<State<D>>, SampleError> {
+        let saved = self.saved.moving.take();
+        let state = saved.map(State::try_from).transpose();
+        state.map_err(|error| match &self.checkpoint {
+            Some(checkpoint) => refused(&checkpoint.path, &error),
+            None => SampleError::in_step(0, error),
+        })
+    }
+
+    /// A state from which the run can go on.
+    pub fn keep<const D: usize>(&mut self, state: &State<D>) -> Result<(), SampleError> {
+        match &self.checkpoint {
+            Some(checkpoint) if state.step > 1 && (state.step - 1) % checkpoint.every.next_multiple_of(8) == 0 => {
+                self.saved.moving = Some(state.into());
+                self.write()
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// A body has come to its end.
+    pub fn finish<const D: usize>(&mut self, body: &Driven<D>) -> Result<(), SampleError> {
+        if self.checkpoint.is_some() {
+            self.saved.moving = None;
+            self.saved.finished.push(body.into());
+            self.replayed += 1;
+            self.write()?;
+        }
+        Ok(())
+    }
+
+    /// The run has succeeded.
+    pub fn close(self) {
+        if let Some(checkpoint) = self.checkpoint {
+            // A file that stays is the finished run's own: the next run of the same kind replays it.
+            let _ = fs::remove_file(checkpoint.path);
+        }
+    }
+
+    /// Replace the file as a whole.
+    fn write(&self) -> Result<(), SampleError> {
+        let Some(Checkpoint { path, .. }) = &self.checkpoint else {
+            return Ok(());
+        };
+        let mut part = path.clone().into_os_string();
+        part.push(".part");
+        let part = PathBuf::from(part);
+        let mut writer = BufWriter::new(File::create(&part).map_err(|error| refused(&part, &error))?);
+        ciborium::into_writer(&self.saved, &mut writer).map_err(|error| refused(&part, &error))?;
+        writer
+            .flush()
+            .and_then(|()| writer.get_ref().sync_all())
+            .and_then(|()| fs::rename(&part, path))
+            .map_err(|error| refused(&part, &error))
+    }
+}
+
+fn refused(path: &Path, reason: &dyn std::fmt::Display) -> SampleError {
+    SampleError::Checkpoint {
+        path: path.to_owned(),
+        reason: reason.to_string(),
+    }
+}
+
+/// Everything that the particles depend on; the target by its log density at a few points.
+fn identity<const D: usize>(options: &MpmOptions, target: &dyn Target<D>, frame: &Frame<D>, run: &Run) -> String {
+    let options = MpmOptions {
+        checkpoint: None,
+        ..options.clone()
+    };
+    let probe = |offset: f64| {
+        let z = std::array::from_fn(|a| offset / (1.0 + a as f64));
+        target.log_density(&frame.to_target(&z)).to_bits()
+    };
+    format!(
+        "parvi {}, D = {D}, {options:?}, {run:?}, {frame:?}, log densities {:x?}",
+        env!("CARGO_PKG_VERSION"),
+        [0.0, 0.5, -1.0].map(probe)
+    )
+}

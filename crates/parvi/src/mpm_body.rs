@@ -1,0 +1,121 @@
+//! One body of the calibrated sampler: an isothermal gas under the score, on a basis that moves, turns and changes its spacing every step.
+
+use mpm_core::{Apic, Flip, Mpm, MpmError, Particles, Pic, StepControl, Transfer, UniformBasis};
+use mpm_materials::IsothermalGas;
+use parvi_targets::{Frame, Target};
+
+use crate::basis_choice::OnBasis;
+use crate::checkpoint::Journal;
+use crate::drive::{Driven, Plan, PlannedStep, drive};
+use crate::framed_score::{FramedScore, ScoreForce};
+use crate::guard::RETRIES;
+use crate::kronecker::Kronecker;
+use crate::rotation::random_rotation;
+use crate::start::{Stream, check, positive, steps};
+use crate::stiffness::Stiffness;
+use crate::{MpmOptions, Observer, Run, SampleError, TransferChoice, defaults};
+
+/// One body, and what every layer of the dispatch hands on.
+pub(crate) struct Body<'a, const D: usize> {
+    pub options: &'a MpmOptions,
+    pub target: &'a dyn Target<D>,
+    pub frame: &'a Frame<D>,
+    pub run: &'a Run,
+    /// The body's number, for its own random choices.
+    pub number: usize,
+    pub positions: Vec<[f64; D]>,
+    pub journal: &'a mut Journal,
+    pub observer: &'a mut dyn Observer,
+}
+
+impl<const D: usize> OnBasis<D> for Body<'_, D> {
+    type Output = Driven<D>;
+
+    fn on<B: UniformBasis<D>>(self, make: impl Fn() -> Result<B, MpmError>) -> Result<Driven<D>, SampleError> {
+        match self.options.transfer {
+            TransferChoice::Pic => self.run(Pic, make),
+            TransferChoice::Apic => self.run(Apic, make),
+            TransferChoice::Flip(share) => {
+                check("FLIP share", share, (0.0..=1.0).contains(&share), "in [0, 1]")?;
+                self.run(Flip { share }, make)
+            }
+        }
+    }
+}
+
+impl<const D: usize> Body<'_, D> {
+    fn run<B: UniformBasis<D>, T: Transfer<D>>(
+        self,
+        transfer: T,
+        make: impl Fn() -> Result<B, MpmError>,
+    ) -> Result<Driven<D>, SampleError> {
+        let (options, run) = (self.options, self.run);
+        let failed = |error| SampleError::in_step(0, error);
+        let (basis, certificate) = (make().map_err(failed)?, make().map_err(failed)?);
+        let spacing = basis.spacing();
+        let steps = steps(options.steps, defaults::steps(run.particles))?;
+        let friction = options.friction.unwrap_or(defaults::FRICTION);
+        check(
+            "friction",
+            friction,
+            friction >= 0.0 && friction.is_finite(),
+            "at least 0 and finite",
+        )?;
+        let time_step = positive("time step", options.time_step, defaults::time_step(spacing))?;
+        let control = StepControl {
+            time_step,
+            courant: 1.0,
+            displacement: positive("displacement limit", Some(options.displacement_limit), 0.0)?,
+            friction,
+        };
+        let alpha = options.annealing.checked()?;
+        let moving = options.settling.last_full_step(steps);
+
+        let particles = Particles::at_rest(self.positions, 1.0);
+        let gas = IsothermalGas::new(1.0)?;
+        let mut generator = run.generator(Stream::Places.of_body(self.number));
+        let mut places = Kronecker::<D>::new(&mut generator);
+        let mut rotations = run.generator(Stream::Rotations.of_body(self.number));
+        let (schedule, settling) = (&options.spacing_schedule, &options.settling);
+        let plan = Plan {
+            steps,
+            certificate,
+            step: |step| {
+                let varies = options.shifts && settling.varies(step, steps);
+                let (origin, draw) = if varies { places.next_point() } else { ([0.0; D], 0.5) };
+                let factor = schedule.factor(step, steps, draw);
+                PlannedStep {
+                    origin,
+                    spacing: spacing * factor,
+                    rotation: (varies && options.rotation).then(|| random_rotation(&mut rotations)),
+                    alpha: alpha.at(step.min(moving), moving),
+                    control: StepControl {
+                        time_step: time_step * time_factor(spacing, factor) * settling.factor(step, steps),
+                        ..control
+                    },
+                }
+            },
+            retries: RETRIES,
+            moment_correction: options.moment_correction,
+            trace_every: options.trace_every,
+        };
+        let mut score = FramedScore::new(self.target, self.frame);
+        score.non_finite = options.non_finite_scores;
+        let force = ScoreForce {
+            score,
+            alpha: 1.0,
+            location: options.score_location,
+            mass_weighted: true,
+            mass_floor: 0.0,
+            stiffness: Some(Stiffness::default()),
+        };
+        let body = Mpm::new(particles, basis, transfer, gas, force);
+        drive(body, self.frame, plan, self.journal, self.observer)
+    }
+}
+
+/// Factor of Δt where the spacing is `factor` h: Δt follows a smaller spacing all the way, for the sake of the displacement limit, and
+/// a larger one by the rule for defaults.
+fn time_factor(spacing: f64, factor: f64) -> f64 {
+    (defaults::time_step(spacing * factor) / defaults::time_step(spacing)).min(factor)
+}
