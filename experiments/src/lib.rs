@@ -6,6 +6,7 @@
 
 pub mod command;
 mod console;
+mod diagnostics;
 mod dispatch;
 mod error;
 mod interrupt;

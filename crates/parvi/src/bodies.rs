@@ -72,10 +72,17 @@ fn union<const D: usize>(mut parts: Vec<Samples<D>>) -> Samples<D> {
     }
 }
 
-/// The particles of all bodies with their certificate. `mass_errors` are the standard errors of the bodies' masses; without them there is no
-/// certificate.
-pub(crate) fn judged<const D: usize>(bodies: Vec<Driven<D>>, mass_errors: Option<Vec<f64>>) -> Samples<D> {
-    let certificate = mass_errors.map(|mass_errors| {
+/// What is known of a target besides its bodies.
+pub(crate) struct Knowledge {
+    /// The standard errors of the bodies' masses.
+    pub mass_errors: Vec<f64>,
+    /// Whether it was searched for separate pieces.
+    pub surveyed: bool,
+}
+
+/// The particles of all bodies, with a certificate if `knowledge` is given.
+pub(crate) fn judged<const D: usize>(bodies: Vec<Driven<D>>, knowledge: Option<Knowledge>) -> Samples<D> {
+    let certificate = knowledge.map(|knowledge| {
         let particles: usize = bodies.iter().map(|body| body.positions.len()).sum();
         let evidence: Vec<_> = bodies
             .iter()
@@ -86,7 +93,11 @@ pub(crate) fn judged<const D: usize>(bodies: Vec<Driven<D>>, mass_errors: Option
             })
             .collect();
         let share = |of: &dyn Fn(&Driven<D>) -> f64| {
-            bodies.iter().zip(&evidence).map(|(body, (_, share))| share * of(body)).sum::<f64>()
+            bodies
+                .iter()
+                .zip(&evidence)
+                .map(|(body, (_, share))| share * of(body))
+                .sum::<f64>()
         };
         Certificate::of(
             &evidence,
@@ -95,7 +106,8 @@ pub(crate) fn judged<const D: usize>(bodies: Vec<Driven<D>>, mass_errors: Option
                 residual: share(&|body| body.samples.residual.map_or(0.0, |ratio| ratio * ratio)).sqrt(),
                 drift: bodies.iter().map(|body| body.drift).fold(0.0, f64::max),
                 kinetic_energy: share(&|body| body.kinetic_energy),
-                mass_error: error_from_masses(&bodies, &mass_errors),
+                mass_error: error_from_masses(&bodies, &knowledge.mass_errors),
+                surveyed: knowledge.surveyed,
             },
         )
     });
@@ -110,7 +122,10 @@ fn error_from_masses<const D: usize>(bodies: &[Driven<D>], mass_errors: &[f64]) 
     if bodies.len() < 2 {
         return None;
     }
-    let all: Vec<[f64; D]> = bodies.iter().flat_map(|body| body.samples.positions.iter().copied()).collect();
+    let all: Vec<[f64; D]> = bodies
+        .iter()
+        .flat_map(|body| body.samples.positions.iter().copied())
+        .collect();
     let whole = Extent::of(&all);
     let mut square = [0.0; D];
     for (body, error) in bodies.iter().zip(mass_errors) {

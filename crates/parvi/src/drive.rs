@@ -86,7 +86,9 @@ where
         }
         guard.resume(&state);
         state.restore(&mut body);
-        let Progressed { evaluations, replaced, .. } = state.so_far;
+        let Progressed {
+            evaluations, replaced, ..
+        } = state.so_far;
         (body.body_force.score.evaluations, body.body_force.score.replaced) = (evaluations, replaced);
         (step, time, earlier) = (state.step, state.so_far.time, state.so_far.earlier);
     }

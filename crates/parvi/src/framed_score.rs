@@ -3,8 +3,8 @@
 use mpm_core::{BodyForce, ForceLocation, MpmError};
 use parvi_targets::{Frame, Target};
 
-use crate::{NonFiniteScores, ScoreLocation};
 use crate::stiffness::Stiffness;
+use crate::{NonFiniteScores, ScoreLocation};
 
 /// Scores of `target` pulled back to frame coordinates: x = μ + L z, s_z = Lᵀ ∇ log p(x).
 pub(crate) struct FramedScore<'a, const D: usize> {

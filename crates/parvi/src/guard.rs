@@ -151,6 +151,8 @@ pub(crate) fn check_energy<const D: usize>(
     if energy <= limit || limit.is_infinite() {
         Ok(())
     } else {
-        Err(format!("the kinetic energy is {energy:.3e}, and {limit:.3e} is the most that the displacement limit allows"))
+        Err(format!(
+            "the kinetic energy is {energy:.3e}, and {limit:.3e} is the most that the displacement limit allows"
+        ))
     }
 }

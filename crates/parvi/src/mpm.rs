@@ -3,7 +3,7 @@
 
 use parvi_targets::{Frame, Target};
 
-use crate::bodies::{InTurn, apportion, judged};
+use crate::bodies::{InTurn, Knowledge, apportion, judged};
 use crate::certificate::LARGEST_DRIFT;
 use crate::checkpoint::Journal;
 use crate::drive::Driven;
@@ -63,8 +63,11 @@ impl MpmOptions {
             departures = further.map(|(departure, body)| departure.further(body)).collect();
             bodies = self.move_bodies(target, &departures, round, run, &mut journal, observer)?;
         }
-        let mass_errors = departures.iter().map(|departure| departure.site.mass_error).collect();
-        let mut samples = judged(bodies, self.certificate.then_some(mass_errors));
+        let knowledge = self.certificate.then(|| Knowledge {
+            mass_errors: departures.iter().map(|departure| departure.site.mass_error).collect(),
+            surveyed: self.survey,
+        });
+        let mut samples = judged(bodies, knowledge);
         samples.score_evaluations += spent;
         samples.steps += steps;
         journal.close();
@@ -127,7 +130,11 @@ fn placed<const D: usize>(
         };
         Ok(Departure { site, positions })
     };
-    apportion(run.particles, sites).into_iter().enumerate().map(departure).collect()
+    apportion(run.particles, sites)
+        .into_iter()
+        .enumerate()
+        .map(departure)
+        .collect()
 }
 
 fn evaluations<const D: usize>(bodies: &[Driven<D>]) -> u64 {

@@ -5,7 +5,7 @@ use mpm_materials::{ElasticModuli, LinearElastic, Material, NeoHookean};
 use parvi_targets::{Frame, Target};
 
 use crate::basis_choice::OnBasis;
-use crate::bodies::judged;
+use crate::bodies::{Knowledge, judged};
 use crate::checkpoint::Journal;
 use crate::drive::{Plan, PlannedStep, drive};
 use crate::framed_score::{FramedScore, ScoreForce};
@@ -123,6 +123,12 @@ impl<const D: usize> Job<'_, D> {
         let medium = Elastic { material: job.material };
         let body = Mpm::new(particles, basis, transfer, medium, force);
         let driven = drive(body, job.frame, plan, &mut Journal::none(), self.observer)?;
-        Ok(judged(vec![driven], Some(vec![0.0])))
+        Ok(judged(
+            vec![driven],
+            Some(Knowledge {
+                mass_errors: vec![0.0],
+                surveyed: false,
+            }),
+        ))
     }
 }

@@ -6,9 +6,9 @@ use mpm_core::SplineGrid;
 use mpm_kernels::Quadratic;
 use mpm_tensor::vector;
 use parvi::{
-    BasisChoice, Guards, Method, MomentCorrection, MpmOptions, Observer, PaperOptions, Progress, Run, SampleError,
-    Samples, ScoreLocation, Settling, Silent, Start, StartDraws, SvgdOptions, TransferChoice, galerkin_stein_residual,
-    sample,
+    BasisChoice, Guards, Method, MomentCorrection, MpmOptions, NonFiniteScores, Observer, PaperOptions, Progress, Run,
+    SampleError, Samples, ScoreLocation, Settling, Silent, Start, StartDraws, SvgdOptions, TransferChoice,
+    galerkin_stein_residual, sample,
 };
 use parvi_metrics::{Cloud, CloudMoments, GaussianEnergy};
 use parvi_targets::{Banana, CatalogueTarget, Frame, Funnel, Gaussian, GaussianMixture, Ring, StudentT, Target};
@@ -278,8 +278,12 @@ impl Target<2> for Broken {
 #[test]
 fn a_score_that_is_not_a_number_is_an_error_with_its_place() {
     let frame = Frame::identity();
+    let reporting = MpmOptions {
+        non_finite_scores: NonFiniteScores::Report,
+        ..MpmOptions::default()
+    };
     let errors = [
-        MpmOptions::default()
+        reporting
             .sample(&Broken, &frame, &Run::new(200, 0), &mut Silent)
             .unwrap_err(),
         PaperOptions::default()

@@ -3,11 +3,14 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use parvi::Run;
+use parvi::{Checkpoint, Method, MpmOptions, Run};
 
+use crate::diagnostics::diagnose;
 use crate::machine::MemoryGauge;
-use crate::options::{Dimension, MethodName, MethodOptions, ParticleCount, TargetParameters, TargetSpecification};
-use crate::output::{ParticleFile, ParticleFormat};
+use crate::options::{
+    Dimension, MethodName, MethodOptions, OptionError, ParticleCount, StepCount, TargetParameters, TargetSpecification,
+};
+use crate::output::{AtomicFile, ParticleFile, ParticleFormat};
 use crate::progress::StepProgress;
 use crate::sampling::{self, Outcome};
 use crate::{CommandError, console, interrupt};
@@ -36,6 +39,21 @@ pub struct Arguments {
     /// File of the particles, .csv or .npy
     #[arg(long, value_name = "FILE.csv|.npy")]
     out: PathBuf,
+    /// File of diagnostics: moments with errors, quantiles, discrepancies
+    #[arg(long, value_name = "FILE.json")]
+    diagnostics: Option<PathBuf>,
+    /// File of the run's state; a run that was stopped goes on from it to the same bits (mpm)
+    #[arg(long, value_name = "FILE")]
+    checkpoint: Option<PathBuf>,
+    /// Write the checkpoint every so many steps
+    #[arg(
+        long,
+        value_name = "STEPS",
+        default_value = "32",
+        requires = "checkpoint",
+        allow_negative_numbers = true
+    )]
+    checkpoint_every: StepCount,
     #[command(flatten)]
     parameters: TargetParameters,
     #[command(flatten)]
@@ -44,7 +62,7 @@ pub struct Arguments {
 
 /// Samples and writes; nothing stands under the file's name unless all of it is finite.
 pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
-    let method = arguments.options.method(arguments.method)?;
+    let method = with_checkpoint(arguments.options.method(arguments.method)?, arguments)?;
     ParticleFormat::of(&arguments.out)?;
     let target = TargetSpecification {
         name: arguments.target.clone(),
@@ -55,15 +73,38 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     run.start = arguments.options.start();
     target.dimension()?;
     let file = ParticleFile::create(&arguments.out)?;
+    let diagnostics = arguments.diagnostics.as_ref().map(AtomicFile::create).transpose()?;
     interrupt::listen();
     let mut progress = StepProgress::new();
     let memory = MemoryGauge::begin();
     let outcome = sampling::sample(&target, &method, &run, &mut progress)?;
     let peak_memory = memory.peak_bytes();
     progress.clear();
+    if let Some(mut diagnostics) = diagnostics {
+        let content = diagnose(&target, &outcome)?;
+        diagnostics.fill(|writer| Ok(serde_json::to_writer_pretty(writer, &content)?))?;
+        diagnostics.commit()?;
+    }
     file.write(&outcome.particles)?;
     warn(&outcome);
     console::print_pairs(&pairs(arguments, &outcome, peak_memory))
+}
+
+/// The method with the checkpoint that was asked for.
+fn with_checkpoint(method: Method, arguments: &Arguments) -> Result<Method, CommandError> {
+    match (method, &arguments.checkpoint) {
+        (Method::Mpm(options), Some(path)) => Ok(Method::Mpm(MpmOptions {
+            checkpoint: Some(Checkpoint {
+                path: path.clone(),
+                every: arguments.checkpoint_every.get(),
+            }),
+            ..options
+        })),
+        (_, Some(path)) => {
+            Err(OptionError::misfit("checkpoint", &path.display().to_string(), arguments.method.as_str()).into())
+        }
+        (method, None) => Ok(method),
+    }
 }
 
 /// What a user should know before trusting the particles.
@@ -102,7 +143,11 @@ fn certificate_pairs(outcome: &Outcome) -> Vec<(&'static str, String)> {
     ];
     let mut pairs = vec![("outcome", certificate.outcome.name().to_owned())];
     pairs.extend(certificate.outcome.reason().map(|reason| ("reason", reason)));
-    pairs.extend(numbers.into_iter().filter_map(|(key, value)| Some((key, value?.to_string()))));
+    pairs.extend(
+        numbers
+            .into_iter()
+            .filter_map(|(key, value)| Some((key, value?.to_string()))),
+    );
     pairs
 }
 

@@ -7,8 +7,8 @@ use parvi::{
 use serde::{Deserialize, Serialize};
 
 use super::{
-    Basis, Correction, Draws, Limit, Material, MethodName, NonFinite, OptionError, ParticleCount, PoolChoice, Score, StepCount,
-    Switch, Transfer, WarmUp,
+    Basis, Correction, Draws, Limit, Material, MethodName, NonFinite, OptionError, ParticleCount, PoolChoice, Score,
+    StepCount, Switch, Transfer, WarmUp,
 };
 
 /// Options of the methods; `None`: the method's own default.
@@ -267,6 +267,7 @@ impl MethodOptions {
             non_finite_scores: self.non_finite.map_or(default.non_finite_scores, Into::into),
             annealing: self.annealing().unwrap_or(default.annealing),
             certificate: self.certificate.map_or(default.certificate, Switch::is_on),
+            checkpoint: default.checkpoint,
             trace_every: self.trace_every,
         })
     }

@@ -215,6 +215,12 @@ impl Display for Score {
     }
 }
 
+impl Display for NonFinite {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        word(self, formatter)
+    }
+}
+
 impl Display for Material {
     fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
         word(self, formatter)

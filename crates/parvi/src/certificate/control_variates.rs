@@ -132,7 +132,9 @@ impl<const D: usize> ControlVariates<D> {
         });
         let coefficients = self.factor.solve(self.design.transpose() * &centred);
         let residual = &centred - &self.design * &coefficients;
-        let explained: f64 = (0..self.means.len()).map(|k| coefficients[(k, 0)] * self.means[k]).sum();
+        let explained: f64 = (0..self.means.len())
+            .map(|k| coefficients[(k, 0)] * self.means[k])
+            .sum();
         let rows = fitted.len() as f64;
         let degrees_of_freedom = (rows - self.means.len() as f64 - 1.0).max(1.0);
         let unexplained = residual.norm_l2() * (rows / degrees_of_freedom).sqrt();
@@ -234,9 +236,8 @@ mod tests {
         let target = StudentT::<1>::new(5.0).unwrap();
         let (positions, scores) = draws(&target, 60);
         let weights: Vec<f64> = (0..60).map(|p| f64::from(1 + p % 3)).collect();
-        let repeat = |points: &[[f64; 1]]| -> Vec<[f64; 1]> {
-            (0..60).flat_map(|p| vec![points[p]; 1 + p % 3]).collect()
-        };
+        let repeat =
+            |points: &[[f64; 1]]| -> Vec<[f64; 1]> { (0..60).flat_map(|p| vec![points[p]; 1 + p % 3]).collect() };
         let weighted = ControlVariates::new(&positions, &scores, Some(&weights), 3).unwrap();
         let repeated = ControlVariates::new(&repeat(&positions), &repeat(&scores), None, 3).unwrap();
         let values: Vec<f64> = positions.iter().map(|x| x[0].sin()).collect();

@@ -7,6 +7,9 @@ use super::control_variates::{ControlVariates, Expectation};
 /// Polynomials of a higher degree are tried as long as they leave more than this share of a coordinate or its square unexplained.
 const EXPLAINED: f64 = 0.1;
 
+/// Degrees beyond this are taken only where they explain: else they say more about the gaps between particles than about the target.
+const MODEST_DEGREE: usize = 4;
+
 /// Means and second moments about `centre` of one body's particles, in the user's coordinates.
 #[derive(Clone, Debug)]
 pub(crate) struct Evidence<const D: usize> {
@@ -43,10 +46,12 @@ impl<const D: usize> Evidence<D> {
                 degree,
             };
             let unexplained = evidence.unexplained();
-            if best.as_ref().is_none_or(|(least, _)| unexplained < *least) {
+            let explains = unexplained <= EXPLAINED;
+            let better = best.as_ref().is_none_or(|(least, _)| unexplained < *least);
+            if explains || (better && degree <= MODEST_DEGREE) {
                 best = Some((unexplained, evidence));
             }
-            if unexplained <= EXPLAINED {
+            if explains {
                 break;
             }
         }
@@ -114,7 +119,8 @@ impl MomentEstimate {
 /// m̂ = Σ w_k (c_k + ê_k), σ̂² = Σ w_k (q̂_k + 2 δ_k ê_k + δ_k²) − (m̂ − m)², ê and q̂ the bodies' estimates of E\[x − c\] and E\[(x − c)²\].
 pub(crate) fn moments<const D: usize>(bodies: &[Evidence<D>], particles: usize) -> Vec<MomentEstimate> {
     let total: f64 = bodies.iter().map(|body| body.share).sum();
-    let sum = |of: &dyn Fn(&Evidence<D>) -> f64| -> f64 { bodies.iter().map(|body| body.share / total * of(body)).sum() };
+    let sum =
+        |of: &dyn Fn(&Evidence<D>) -> f64| -> f64 { bodies.iter().map(|body| body.share / total * of(body)).sum() };
     let of_axis = |a: usize| {
         let mean = sum(&|body| body.centre[a] + body.first[a].average);
         let offset = |body: &Evidence<D>| body.centre[a] - mean;
@@ -131,7 +137,8 @@ pub(crate) fn moments<const D: usize>(bodies: &[Evidence<D>], particles: usize) 
         let deviation = variance.sqrt();
         let deviation_estimate = variance_estimate.max(0.0).sqrt();
         let mean_unexplained = sum(&|body| body.first[a].unexplained) / deviation;
-        let of_variance = sum(&|body| body.second[a].unexplained + 2.0 * offset(body).abs() * body.first[a].unexplained);
+        let of_variance =
+            sum(&|body| body.second[a].unexplained + 2.0 * offset(body).abs() * body.first[a].unexplained);
         let deviation_unexplained = of_variance / (2.0 * variance);
         let rate = (particles as f64).sqrt().recip();
         MomentEstimate {

@@ -2,8 +2,8 @@
 
 use parvi_targets::Target;
 
-use super::control_variates::ControlVariates;
 use super::Expectation;
+use super::control_variates::ControlVariates;
 use crate::Samples;
 
 /// What of f may be unexplained before polynomials of a higher degree are tried.
@@ -53,10 +53,15 @@ mod tests {
     fn an_expectation_is_within_its_error() {
         let target = Gaussian::<2>::standard();
         let frame = parvi_targets::Frame::identity();
-        let samples = MpmOptions::default().sample(&target, &frame, &Run::new(500, 3), &mut Silent).unwrap();
+        let samples = MpmOptions::default()
+            .sample(&target, &frame, &Run::new(500, 3), &mut Silent)
+            .unwrap();
         let square = expectation(&target, &samples, |x| x[0] * x[0]).unwrap();
         assert!((square.estimate - 1.0).abs() < 1e-9, "{square:?}");
-        assert!((square.average - 1.0).abs() <= 1.01 * square.standard_error + 1e-9, "{square:?}");
+        assert!(
+            (square.average - 1.0).abs() <= 1.01 * square.standard_error + 1e-9,
+            "{square:?}"
+        );
         let wave = expectation(&target, &samples, |x| (2.0 * x[0]).cos()).unwrap();
         let exact = (-2f64).exp();
         assert!((wave.average - exact).abs() <= 3.0 * wave.standard_error, "{wave:?}");

@@ -7,16 +7,20 @@ mod outcome;
 mod stein_polynomials;
 
 pub use control_variates::Expectation;
-pub(crate) use evidence::{Evidence, moments};
 pub use evidence::MomentEstimate;
+pub(crate) use evidence::{Evidence, moments};
 pub use expectation::expectation;
 pub use outcome::{Doubt, Outcome};
 
-/// The largest estimated error of a mean (in standard deviations) or of a standard deviation (relative) of a run that is called converged.
-pub const LARGEST_ERROR: f64 = 0.05;
+/// The largest estimated error of a mean (in standard deviations) or of a standard deviation (relative) of a run that is called converged: with a
+/// fifth of what is unexplained on top.
+pub const LARGEST_ERROR: f64 = 0.09;
 
 /// The largest part of a coordinate, or of its square, that the scores may leave unexplained then.
 pub const LARGEST_UNEXPLAINED: f64 = 0.15;
+
+/// The largest standard error that the masses of separate pieces may bring into a mean then, in standard deviations.
+pub const LARGEST_MASS_ERROR: f64 = 0.05;
 
 /// The largest residual then, relative to independent draws.
 pub const LARGEST_RESIDUAL: f64 = 1.1;
@@ -54,13 +58,19 @@ pub(crate) struct Circumstances {
     pub drift: f64,
     pub kinetic_energy: f64,
     pub mass_error: Option<f64>,
+    /// Whether the target was searched for separate pieces.
+    pub surveyed: bool,
 }
 
 impl Certificate {
     /// The verdict on bodies, each with its evidence (`None`: it has none) and its share of the particles.
     pub(crate) fn of<const D: usize>(bodies: &[(Option<Evidence<D>>, f64)], circumstances: Circumstances) -> Self {
         let known: Vec<Evidence<D>> = bodies.iter().filter_map(|(evidence, _)| evidence.clone()).collect();
-        let unknown: f64 = bodies.iter().filter(|(evidence, _)| evidence.is_none()).map(|(_, share)| share).sum();
+        let unknown: f64 = bodies
+            .iter()
+            .filter(|(evidence, _)| evidence.is_none())
+            .map(|(_, share)| share)
+            .sum();
         let moments = if known.is_empty() {
             Vec::new()
         } else {
@@ -89,7 +99,10 @@ impl Certificate {
 
     /// The largest estimated relative error of a standard deviation.
     pub fn standard_deviation_error(&self) -> Option<f64> {
-        self.moments.iter().map(MomentEstimate::standard_deviation_error).reduce(f64::max)
+        self.moments
+            .iter()
+            .map(MomentEstimate::standard_deviation_error)
+            .reduce(f64::max)
     }
 }
 
@@ -106,23 +119,26 @@ fn verdict(moments: &[MomentEstimate], degenerate: bool, circumstances: &Circums
             .max_by(|(_, a), (_, b)| a.total_cmp(b))
             .filter(|&(_, value)| !(value <= limit))
     };
+    let cautious = |error: f64, moment: &MomentEstimate| error + 0.2 * moment.unexplained();
     let doubt = if degenerate {
         Some(Doubt::Degenerate)
-    } else if let Some((axis, error)) = worst(&MomentEstimate::mean_error, LARGEST_ERROR) {
-        Some(Doubt::Mean { axis, error })
-    } else if let Some((axis, error)) = worst(&MomentEstimate::standard_deviation_error, LARGEST_ERROR) {
-        Some(Doubt::StandardDeviation { axis, error })
     } else if let Some((axis, share)) = worst(&MomentEstimate::unexplained, LARGEST_UNEXPLAINED) {
         Some(Doubt::Unexplained { axis, share })
+    } else if let Some((axis, error)) = worst(&|moment| cautious(moment.mean_error(), moment), LARGEST_ERROR) {
+        Some(Doubt::Mean { axis, error })
+    } else if let Some((axis, error)) = worst(
+        &|moment| cautious(moment.standard_deviation_error(), moment),
+        LARGEST_ERROR,
+    ) {
+        Some(Doubt::StandardDeviation { axis, error })
     } else if !(circumstances.residual <= LARGEST_RESIDUAL) {
         Some(Doubt::Residual {
             ratio: circumstances.residual,
         })
+    } else if let Some(error) = circumstances.mass_error.filter(|&error| !(error <= LARGEST_MASS_ERROR)) {
+        Some(Doubt::Masses { error })
     } else {
-        circumstances
-            .mass_error
-            .filter(|&error| !(error <= LARGEST_ERROR))
-            .map(|error| Doubt::Masses { error })
+        (!circumstances.surveyed).then_some(Doubt::NotSurveyed)
     };
     doubt.map_or(Outcome::Converged, Outcome::Stalled)
 }

@@ -19,14 +19,14 @@ pub enum Outcome {
 /// What keeps particles at rest from being called converged. Axes count from 1.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Doubt {
-    /// The scores say that the mean is off.
+    /// The scores say that the mean may be off.
     Mean {
         /// Axis.
         axis: usize,
         /// By how much, in standard deviations.
         error: f64,
     },
-    /// The scores say that the standard deviation is off.
+    /// The scores say that the standard deviation may be off.
     StandardDeviation {
         /// Axis.
         axis: usize,
@@ -50,6 +50,8 @@ pub enum Doubt {
         /// Standard error that they bring into a mean, in standard deviations.
         error: f64,
     },
+    /// Nothing has looked for other pieces of the target, of which the particles would know nothing.
+    NotSurveyed,
     /// There are too few particles, or they lie in a plane.
     Degenerate,
 }
@@ -80,11 +82,11 @@ impl fmt::Display for Doubt {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Mean { axis, error } => {
-                write!(f, "the mean of x{axis} is off by {error:.3} standard deviations, say the scores")
+                write!(f, "the mean of x{axis} may be off by {error:.3} standard deviations")
             }
             Self::StandardDeviation { axis, error } => write!(
                 f,
-                "the standard deviation of x{axis} is off by {:.1} %, say the scores",
+                "the standard deviation of x{axis} may be off by {:.1} %",
                 100.0 * error
             ),
             Self::Unexplained { axis, share } => write!(
@@ -96,6 +98,7 @@ impl fmt::Display for Doubt {
                 f,
                 "the masses of separate pieces leave a standard error of {error:.3} standard deviations in a mean"
             ),
+            Self::NotSurveyed => write!(f, "without a survey nothing has looked for other pieces of the target"),
             Self::Degenerate => write!(f, "there are too few particles to judge by, or they lie in a plane"),
         }
     }

@@ -97,7 +97,10 @@ mod tests {
             let index = polynomials.indices[k];
             let psi: f64 = (0..3).map(|i| h(index[i], z[i])).product();
             let degree: u8 = index.iter().sum();
-            assert!((value + f64::from(degree) * psi).abs() < 1e-12 * psi.abs().max(1.0), "{index:?}");
+            assert!(
+                (value + f64::from(degree) * psi).abs() < 1e-12 * psi.abs().max(1.0),
+                "{index:?}"
+            );
         });
     }
 
@@ -115,7 +118,9 @@ mod tests {
                 values
             };
             let (base, first, second) = (at([0.0; 2]), at([1.0, 0.0]), at([0.0, 1.0]));
-            (0..base.len()).map(|k| [first[k] - base[k], second[k] - base[k]]).collect::<Vec<_>>()
+            (0..base.len())
+                .map(|k| [first[k] - base[k], second[k] - base[k]])
+                .collect::<Vec<_>>()
         };
         let flux = |x: f64, y: f64, axis: usize| -> Vec<f64> {
             gradient(x, y).iter().map(|g| density(x, y) * g[axis]).collect()

@@ -74,7 +74,11 @@ impl Journal {
             let (field, value, expected) = if checkpoint.every == 0 {
                 ("steps between checkpoints", 0.0, "at least 1")
             } else {
-                ("steps between records of the history", options.trace_every as f64, "0 beside a checkpoint")
+                (
+                    "steps between records of the history",
+                    options.trace_every as f64,
+                    "0 beside a checkpoint",
+                )
             };
             return Err(SampleError::InvalidOption { field, value, expected });
         }
@@ -88,9 +92,13 @@ impl Journal {
             },
             Err(error) => return Err(refused(path, &error)),
             Ok(file) => {
-                let saved: Saved = ciborium::from_reader(BufReader::new(file)).map_err(|error| refused(path, &error))?;
+                let saved: Saved =
+                    ciborium::from_reader(BufReader::new(file)).map_err(|error| refused(path, &error))?;
                 if saved.identity != identity {
-                    return Err(refused(path, &"it belongs to another run; remove it or name another file"));
+                    return Err(refused(
+                        path,
+                        &"it belongs to another run; remove it or name another file",
+                    ));
                 }
                 saved
             }

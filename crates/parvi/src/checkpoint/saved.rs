@@ -128,7 +128,10 @@ impl<const D: usize> TryFrom<SavedState> for State<D> {
 
     fn try_from(saved: SavedState) -> Result<Self, MpmError> {
         let affine = rows::<D>(&saved.affine);
-        let affine = affine.chunks_exact(D).map(|chunk| Matrix(std::array::from_fn(|i| chunk[i]))).collect();
+        let affine = affine
+            .chunks_exact(D)
+            .map(|chunk| Matrix(std::array::from_fn(|i| chunk[i])))
+            .collect();
         let earlier = rows::<D>(&saved.earlier);
         Ok(Self {
             step: saved.step,
@@ -165,7 +168,10 @@ fn flat<const D: usize>(records: &[Record<D>]) -> Vec<f64> {
 }
 
 fn records<const D: usize>(numbers: &[f64]) -> Vec<Record<D>> {
-    rows::<D>(numbers).chunks_exact(2).map(|pair| (pair[0], pair[1])).collect()
+    rows::<D>(numbers)
+        .chunks_exact(2)
+        .map(|pair| (pair[0], pair[1]))
+        .collect()
 }
 
 fn rows<const D: usize>(numbers: &[f64]) -> Vec<[f64; D]> {

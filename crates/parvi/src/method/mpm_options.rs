@@ -1,5 +1,5 @@
-use crate::Checkpoint;
 use super::{Annealing, BasisChoice, Settling, SpacingSchedule, TransferChoice};
+use crate::Checkpoint;
 
 /// Where the score is evaluated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -1,0 +1,295 @@
+//! What goes wrong on the way: scores that are not finite, energies that explode, processes that are killed, starts too far away.
+
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use parvi::certificate::Doubt;
+use parvi::{
+    Annealing, Checkpoint, MpmOptions, NonFiniteScores, Observer, Outcome, Progress, Run, SampleError, Samples, Silent,
+    Start, TransferChoice, expectation,
+};
+use parvi_targets::{Frame, Gaussian, GaussianMixture, Target};
+
+/// N(0, I) whose score is not a number beyond a wall.
+struct Walled;
+
+impl Target<2> for Walled {
+    fn log_density(&self, x: &[f64; 2]) -> f64 {
+        -0.5 * (x[0] * x[0] + x[1] * x[1])
+    }
+
+    fn score(&self, x: &[f64; 2]) -> [f64; 2] {
+        if x[0] > 3.0 { [f64::NAN; 2] } else { [-x[0], -x[1]] }
+    }
+}
+
+fn unsurveyed() -> MpmOptions {
+    MpmOptions {
+        survey: false,
+        ..MpmOptions::default()
+    }
+}
+
+fn from(mean: f64, standard_deviation: f64) -> Run {
+    let mut run = Run::new(300, 5);
+    run.start = Start {
+        mean,
+        standard_deviation,
+        ..Start::default()
+    };
+    run
+}
+
+fn sample(options: &MpmOptions, target: &dyn Target<2>, run: &Run) -> Result<Samples<2>, SampleError> {
+    options.sample(target, &Frame::identity(), run, &mut Silent)
+}
+
+#[test]
+fn a_particle_without_a_score_is_pulled_back() {
+    let samples = sample(&unsurveyed(), &Walled, &from(1.0, 1.5)).expect("particles");
+    assert!(samples.scores_replaced > 0);
+    assert!(samples.positions.iter().all(|x| x[0] <= 3.0));
+    let mean = samples.positions.iter().map(|x| x[0]).sum::<f64>() / 300.0;
+    assert!(mean.abs() < 0.02, "{mean}");
+}
+
+#[test]
+fn a_particle_without_a_score_is_reported_where_that_is_asked_for() {
+    let options = MpmOptions {
+        non_finite_scores: NonFiniteScores::Report,
+        ..unsurveyed()
+    };
+    let error = sample(&options, &Walled, &from(1.0, 1.5)).expect_err("a wall in the way");
+    assert!(matches!(error, SampleError::ScoreNotFinite { step: 1, .. }), "{error}");
+    // There is no good state to go back to.
+    let options = MpmOptions {
+        non_finite_scores: NonFiniteScores::RejectStep,
+        ..unsurveyed()
+    };
+    assert!(matches!(
+        sample(&options, &Walled, &from(1.0, 1.5)),
+        Err(SampleError::ScoreNotFinite { step: 1, .. })
+    ));
+}
+
+/// N(0, I) whose score is not a number in one call.
+struct Hiccup(AtomicUsize);
+
+impl Target<2> for Hiccup {
+    fn log_density(&self, x: &[f64; 2]) -> f64 {
+        -0.5 * (x[0] * x[0] + x[1] * x[1])
+    }
+
+    fn score(&self, x: &[f64; 2]) -> [f64; 2] {
+        x.map(|c| -c)
+    }
+
+    fn scores(&self, xs: &[[f64; 2]], out: &mut [[f64; 2]]) {
+        let call = self.0.fetch_add(1, Ordering::Relaxed);
+        for (x, score) in xs.iter().zip(out) {
+            *score = if call == 20 { [f64::INFINITY; 2] } else { self.score(x) };
+        }
+    }
+}
+
+#[test]
+fn rejected_steps_are_made_again() {
+    let options = MpmOptions {
+        non_finite_scores: NonFiniteScores::RejectStep,
+        ..unsurveyed()
+    };
+    let target = Hiccup(AtomicUsize::new(0));
+    let samples = sample(&options, &target, &from(0.0, 1.0)).expect("particles");
+    assert_eq!(samples.steps, 97);
+    assert!(samples.score_evaluations > 97 * 300, "steps 17 to 21 were made twice");
+    assert!(samples.residual.is_some_and(|residual| residual < 0.8));
+}
+
+#[test]
+fn an_energy_that_explodes_is_taken_back() {
+    // FLIP keeps what it cannot resolve; with steps far too long it has nowhere to put it.
+    let options = MpmOptions {
+        transfer: TransferChoice::Flip(1.0),
+        time_step: Some(20.0),
+        friction: Some(0.0),
+        ..unsurveyed()
+    };
+    match sample(&options, &Gaussian::<2>::standard(), &from(0.0, 1.0)) {
+        Ok(samples) => assert!(samples.positions.as_flattened().iter().all(|c| c.abs() < 1e3)),
+        Err(error) => assert!(matches!(error, SampleError::Diverged { .. }), "{error}"),
+    }
+}
+
+#[test]
+fn particles_on_their_way_get_more_rounds() {
+    let target = Gaussian::<2>::standard();
+    let far = from(400.0, 0.1);
+    let one = MpmOptions {
+        rounds: Some(1),
+        ..unsurveyed()
+    };
+    let stopped = sample(&one, &target, &far)
+        .expect("particles")
+        .certificate
+        .expect("a certificate");
+    assert!(
+        matches!(stopped.outcome, Outcome::BudgetExhausted { .. }),
+        "{:?}",
+        stopped.outcome
+    );
+    let more = sample(&unsurveyed(), &target, &far).expect("particles");
+    assert!(more.steps > 97);
+    assert!(more.certificate.expect("a certificate").drift < stopped.drift);
+}
+
+#[test]
+fn convergence_is_claimed_with_a_survey_only() {
+    let target = Gaussian::<2>::standard();
+    let run = from(0.0, 1.0);
+    let surveyed = sample(&MpmOptions::default(), &target, &run).expect("particles");
+    let certificate = surveyed.certificate.as_ref().expect("a certificate");
+    assert_eq!(certificate.outcome, Outcome::Converged);
+    assert!(certificate.mean_error().is_some_and(|error| error < 1e-6));
+    let square = expectation(&target, &surveyed, |x| x[0] * x[0]).expect("an expectation");
+    assert!((square.estimate - 1.0).abs() < 1e-9);
+    let blind = sample(&unsurveyed(), &target, &run)
+        .expect("particles")
+        .certificate
+        .expect("a certificate");
+    assert_eq!(blind.outcome, Outcome::Stalled(Doubt::NotSurveyed));
+}
+
+#[test]
+fn one_mode_of_two_is_not_called_converged() {
+    let target = GaussianMixture::<2>::two_unequal(0.5).expect("a mixture");
+    let certificate = sample(&unsurveyed(), &target, &from(1.5, 0.3))
+        .expect("particles")
+        .certificate;
+    assert_ne!(certificate.expect("a certificate").outcome, Outcome::Converged);
+}
+
+#[test]
+fn annealing_ends_at_the_target() {
+    let options = MpmOptions {
+        annealing: Annealing::Geometric { from: 0.1, to: 1.0 },
+        ..MpmOptions::default()
+    };
+    let samples = sample(&options, &Gaussian::<2>::standard(), &from(0.0, 1.0)).expect("particles");
+    assert_eq!(samples.certificate.expect("a certificate").outcome, Outcome::Converged);
+    let options = MpmOptions {
+        annealing: Annealing::Constant(-1.0),
+        ..MpmOptions::default()
+    };
+    assert!(matches!(
+        sample(&options, &Gaussian::<2>::standard(), &from(0.0, 1.0)),
+        Err(SampleError::InvalidOption { field: "alpha", .. })
+    ));
+}
+
+/// Stops after so many steps in all.
+struct Killer(usize);
+
+impl Observer for Killer {
+    fn after_step(&mut self, _: Progress) -> ControlFlow<()> {
+        self.0 -= 1;
+        if self.0 == 0 {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    }
+}
+
+fn in_a_directory(every: usize) -> (tempfile::TempDir, MpmOptions) {
+    let directory = tempfile::tempdir().expect("a directory");
+    let options = MpmOptions {
+        checkpoint: Some(Checkpoint {
+            path: directory.path().join("run.checkpoint"),
+            every,
+        }),
+        ..MpmOptions::default()
+    };
+    (directory, options)
+}
+
+#[test]
+fn a_run_that_was_stopped_anywhere_ends_with_the_same_bits() {
+    let target = GaussianMixture::<2>::two_unequal(0.5).expect("a mixture");
+    let run = from(0.0, 1.0);
+    for transfer in [TransferChoice::Pic, TransferChoice::Apic] {
+        let whole = MpmOptions {
+            transfer,
+            ..MpmOptions::default()
+        };
+        let expected = sample(&whole, &target, &run).expect("particles");
+        for stops in [vec![5], vec![30], vec![90, 7, 60], vec![150], vec![110, 1, 1, 40]] {
+            let (_directory, options) = in_a_directory(8);
+            let options = MpmOptions { transfer, ..options };
+            for &stop in &stops {
+                let stopped = options.sample(&target, &Frame::identity(), &run, &mut Killer(stop));
+                assert!(matches!(stopped, Err(SampleError::Interrupted { .. })), "{stops:?}");
+            }
+            let resumed = sample(&options, &target, &run).expect("particles");
+            assert_eq!(resumed.positions, expected.positions, "{stops:?}");
+            assert_eq!(resumed.score_evaluations, expected.score_evaluations, "{stops:?}");
+            assert_eq!(resumed.certificate, expected.certificate, "{stops:?}");
+            let path = &options.checkpoint.as_ref().expect("a checkpoint").path;
+            assert!(!path.exists(), "a run that succeeded leaves no checkpoint");
+        }
+    }
+}
+
+#[test]
+fn a_checkpoint_of_another_run_is_refused() {
+    let target = Gaussian::<2>::standard();
+    let (_directory, options) = in_a_directory(8);
+    let run = from(0.0, 1.0);
+    assert!(
+        options
+            .sample(&target, &Frame::identity(), &run, &mut Killer(30))
+            .is_err()
+    );
+    let path = options.checkpoint.clone().expect("a checkpoint").path;
+    assert!(path.exists());
+    let mut other = run.clone();
+    other.seed += 1;
+    let error = sample(&options, &target, &other).expect_err("another seed");
+    assert!(error.to_string().contains("another run"), "{error}");
+    assert!(path.exists(), "nothing is lost");
+    assert!(
+        sample(
+            &options,
+            &Gaussian::<2>::new([0.1, 0.0], mpm_tensor::Matrix::IDENTITY).expect("a Gaussian"),
+            &run
+        )
+        .is_err()
+    );
+    std::fs::write(&path, b"not a checkpoint").expect("written");
+    assert!(matches!(
+        sample(&options, &target, &run),
+        Err(SampleError::Checkpoint { .. })
+    ));
+}
+
+#[test]
+fn checkpoint_options_out_of_range_are_named() {
+    let (_directory, options) = in_a_directory(0);
+    assert!(matches!(
+        sample(&options, &Gaussian::<2>::standard(), &from(0.0, 1.0)),
+        Err(SampleError::InvalidOption {
+            field: "steps between checkpoints",
+            ..
+        })
+    ));
+    let nowhere = MpmOptions {
+        checkpoint: Some(Checkpoint {
+            path: "/nonexistent/directory/run.checkpoint".into(),
+            every: 8,
+        }),
+        ..MpmOptions::default()
+    };
+    assert!(matches!(
+        sample(&nowhere, &Gaussian::<2>::standard(), &from(0.0, 1.0)),
+        Err(SampleError::Checkpoint { .. })
+    ));
+}
