@@ -19,6 +19,8 @@ pub struct Outcome {
     pub steps: usize,
     /// Evaluations of the score at one point.
     pub score_evaluations: u64,
+    /// What the sampler says of its own particles, e.g. `converged`; `None` where it says nothing.
+    pub outcome: Option<String>,
     /// Residual relative to i.i.d. draws.
     pub residual: Option<f64>,
     /// Grid spacing in frame units.
@@ -44,6 +46,7 @@ impl Outcome {
             particles,
             steps: 0,
             score_evaluations: 0,
+            outcome: None,
             residual: None,
             spacing: None,
             active_nodes: None,
@@ -90,6 +93,7 @@ pub fn sample_target<const D: usize>(
         particles,
         steps: samples.steps,
         score_evaluations: samples.score_evaluations,
+        outcome: None,
         residual: samples.residual.filter(|value| value.is_finite()),
         spacing: samples.spacing.filter(|value| value.is_finite()),
         active_nodes: samples.active_nodes,
