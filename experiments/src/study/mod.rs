@@ -22,6 +22,7 @@ mod stability;
 mod start_law;
 mod table_file;
 mod time_error;
+mod time_to_equal_error;
 mod time_to_level;
 mod trace_row;
 mod yardstick;
@@ -58,7 +59,7 @@ impl Kind {
 }
 
 /// All kinds.
-static KINDS: [Kind; 10] = [
+static KINDS: [Kind; 11] = [
     Kind::of::<quickstart::Quickstart>(),
     Kind::of::<scaling::Scaling>(),
     Kind::of::<time_error::TimeError>(),
@@ -69,6 +70,7 @@ static KINDS: [Kind; 10] = [
     Kind::of::<spacing_particles::SpacingParticles>(),
     Kind::of::<catalogue::Catalogue>(),
     Kind::of::<stability::Stability>(),
+    Kind::of::<time_to_equal_error::TimeToEqualError>(),
 ];
 
 /// Runs the study that a configuration describes.
