@@ -54,10 +54,13 @@ fn catalogue() {
         "funnel, Student t, mixtures",
         "## From N(3, 0.5²)",
         "gaussian-d2-r0.9",
-        "What runs say of themselves",
+        "## Claims",
+        "No run says anything of itself.",
     ] {
         assert!(report.contains(text), "{text} is missing in {report}");
     }
+    assert_eq!(value(&output, "claimed").unwrap(), "0");
+    assert_eq!(value(&output, "false_claims").unwrap(), "0");
     assert!(!rows.iter().any(|row| row["target"].starts_with("banana-d")));
     for row in rows.iter().filter(|row| row["status"] == "finished") {
         let ratio = number(row, "energy_distance_squared") / number(row, "energy_level");

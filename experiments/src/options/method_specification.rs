@@ -1,9 +1,9 @@
 //! A method with its options, as a configuration states it.
 
-use parvi::Method;
+use parvi::{Method, SampleError};
 use serde::{Deserialize, Serialize};
 
-use super::{MethodName, MethodOptions, OptionError};
+use super::{MethodName, MethodOptions, OptionError, PoolChoice};
 
 /// `{ name = "mpm", options = { spacing = 0.5 } }`; options that do not fit the method are refused while reading.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -54,6 +54,21 @@ impl MethodSpecification {
     /// The name in tables and figures.
     pub fn label(&self) -> &str {
         self.label.as_deref().unwrap_or(self.name.as_str())
+    }
+
+    /// Refuses a method that this build lacks, before anything is run.
+    ///
+    /// # Errors
+    /// [`SampleError::NotBuilt`].
+    pub fn check_built(&self) -> Result<(), SampleError> {
+        let needs_nuts = self.name == MethodName::Nuts || self.options.pool == Some(PoolChoice::Nuts);
+        if needs_nuts && cfg!(not(feature = "nuts")) {
+            return Err(SampleError::NotBuilt {
+                method: "nuts",
+                feature: "nuts",
+            });
+        }
+        Ok(())
     }
 
     /// The method for the sampler, with another number of steps where one is given and the method takes steps.

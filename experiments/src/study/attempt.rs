@@ -37,6 +37,24 @@ pub enum Attempt<T> {
     Failed(Status, String),
 }
 
+impl<T> Attempt<T> {
+    /// The same with another result.
+    pub fn map<U>(self, change: impl FnOnce(T) -> U) -> Attempt<U> {
+        match self {
+            Self::Finished(value) => Attempt::Finished(change(value)),
+            Self::Failed(status, reason) => Attempt::Failed(status, reason),
+        }
+    }
+
+    /// The result, if there is one.
+    pub fn finished(self) -> Option<T> {
+        match self {
+            Self::Finished(value) => Some(value),
+            Self::Failed(..) => None,
+        }
+    }
+}
+
 /// Turns failures of the sampler into results; interruptions, mistakes in options and methods that this build lacks stay errors.
 pub fn attempt<T>(result: Result<T, CommandError>) -> Result<Attempt<T>, CommandError> {
     let error = match result {

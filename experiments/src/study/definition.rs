@@ -6,12 +6,18 @@ use super::directory::StudyDirectory;
 use super::document::Document;
 use super::results::Row;
 use crate::CommandError;
+use crate::options::MethodSpecification;
 use crate::progress::CaseObserver;
 
 /// One piece of work of a study.
 pub trait Case: Sync {
     /// A name made of the case's content, the same in every run; it stands in results.csv and in file names.
     fn id(&self) -> String;
+
+    /// The method that it runs, where this build may lack it.
+    fn method(&self) -> Option<&MethodSpecification> {
+        None
+    }
 
     /// What the case is expected to cost relative to others; for the progress bar.
     fn cost(&self) -> f64 {

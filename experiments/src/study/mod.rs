@@ -20,10 +20,12 @@ mod scaling;
 mod spacing_particles;
 mod stability;
 mod start_law;
-mod target_reference;
+mod table_file;
 mod time_error;
+mod time_to_equal_error;
 mod time_to_level;
-mod trace_file;
+mod trace_row;
+mod yardstick;
 
 use std::path::Path;
 
@@ -33,64 +35,52 @@ use directory::StudyDirectory;
 
 use crate::CommandError;
 
+/// What can be done with a configuration of one kind.
+struct Kind {
+    name: &'static str,
+    run: fn(&Configuration, &Path) -> Result<(), CommandError>,
+    report: fn(&Configuration, &StudyDirectory) -> Result<(), CommandError>,
+}
+
+impl Kind {
+    const fn of<S: Study>() -> Self {
+        Self {
+            name: S::KIND,
+            run: runner::run::<S>,
+            report: runner::report::<S>,
+        }
+    }
+
+    /// The kind of a configuration.
+    fn find(configuration: &Configuration) -> Result<&'static Self, CommandError> {
+        let known = KINDS.iter().find(|kind| kind.name == configuration.kind());
+        known.ok_or_else(|| configuration.unknown_kind(&KINDS.each_ref().map(|kind| kind.name)))
+    }
+}
+
 /// All kinds.
-const KINDS: [&str; 10] = [
-    quickstart::Quickstart::KIND,
-    scaling::Scaling::KIND,
-    time_error::TimeError::KIND,
-    covariance_spacing::CovarianceSpacing::KIND,
-    accuracy::Accuracy::KIND,
-    time_to_level::TimeToLevel::KIND,
-    basis_comparison::BasisComparison::KIND,
-    spacing_particles::SpacingParticles::KIND,
-    catalogue::Catalogue::KIND,
-    stability::Stability::KIND,
+static KINDS: [Kind; 11] = [
+    Kind::of::<quickstart::Quickstart>(),
+    Kind::of::<scaling::Scaling>(),
+    Kind::of::<time_error::TimeError>(),
+    Kind::of::<covariance_spacing::CovarianceSpacing>(),
+    Kind::of::<accuracy::Accuracy>(),
+    Kind::of::<time_to_level::TimeToLevel>(),
+    Kind::of::<basis_comparison::BasisComparison>(),
+    Kind::of::<spacing_particles::SpacingParticles>(),
+    Kind::of::<catalogue::Catalogue>(),
+    Kind::of::<stability::Stability>(),
+    Kind::of::<time_to_equal_error::TimeToEqualError>(),
 ];
 
 /// Runs the study that a configuration describes.
 pub fn run(configuration: &Path, out: &Path) -> Result<(), CommandError> {
     let configuration = Configuration::read(configuration)?;
-    match configuration.kind() {
-        quickstart::Quickstart::KIND => runner::run::<quickstart::Quickstart>(&configuration, out),
-        scaling::Scaling::KIND => runner::run::<scaling::Scaling>(&configuration, out),
-        time_error::TimeError::KIND => runner::run::<time_error::TimeError>(&configuration, out),
-        covariance_spacing::CovarianceSpacing::KIND => {
-            runner::run::<covariance_spacing::CovarianceSpacing>(&configuration, out)
-        }
-        accuracy::Accuracy::KIND => runner::run::<accuracy::Accuracy>(&configuration, out),
-        time_to_level::TimeToLevel::KIND => runner::run::<time_to_level::TimeToLevel>(&configuration, out),
-        basis_comparison::BasisComparison::KIND => {
-            runner::run::<basis_comparison::BasisComparison>(&configuration, out)
-        }
-        spacing_particles::SpacingParticles::KIND => {
-            runner::run::<spacing_particles::SpacingParticles>(&configuration, out)
-        }
-        catalogue::Catalogue::KIND => runner::run::<catalogue::Catalogue>(&configuration, out),
-        stability::Stability::KIND => runner::run::<stability::Stability>(&configuration, out),
-        _ => Err(configuration.unknown_kind(&KINDS)),
-    }
+    (Kind::find(&configuration)?.run)(&configuration, out)
 }
 
 /// Writes the report of a directory again.
 pub fn report(path: &Path) -> Result<(), CommandError> {
     let (directory, configuration) = StudyDirectory::existing(path)?;
-    match configuration.kind() {
-        quickstart::Quickstart::KIND => runner::report::<quickstart::Quickstart>(&configuration, &directory),
-        scaling::Scaling::KIND => runner::report::<scaling::Scaling>(&configuration, &directory),
-        time_error::TimeError::KIND => runner::report::<time_error::TimeError>(&configuration, &directory),
-        covariance_spacing::CovarianceSpacing::KIND => {
-            runner::report::<covariance_spacing::CovarianceSpacing>(&configuration, &directory)
-        }
-        accuracy::Accuracy::KIND => runner::report::<accuracy::Accuracy>(&configuration, &directory),
-        time_to_level::TimeToLevel::KIND => runner::report::<time_to_level::TimeToLevel>(&configuration, &directory),
-        basis_comparison::BasisComparison::KIND => {
-            runner::report::<basis_comparison::BasisComparison>(&configuration, &directory)
-        }
-        spacing_particles::SpacingParticles::KIND => {
-            runner::report::<spacing_particles::SpacingParticles>(&configuration, &directory)
-        }
-        catalogue::Catalogue::KIND => runner::report::<catalogue::Catalogue>(&configuration, &directory),
-        stability::Stability::KIND => runner::report::<stability::Stability>(&configuration, &directory),
-        _ => Err(configuration.unknown_kind(&KINDS)),
-    }
+    (Kind::find(&configuration)?.report)(&configuration, &directory)
 }

@@ -15,6 +15,9 @@ use crate::{CommandError, console, interrupt};
 pub fn run<S: Study>(configuration: &Configuration, out: &std::path::Path) -> Result<(), CommandError> {
     let study: S = configuration.parse()?;
     let cases = study.cases().map_err(|error| in_file(error, configuration))?;
+    for method in cases.iter().filter_map(Case::method) {
+        method.check_built()?;
+    }
     let directory = StudyDirectory::claim(out, configuration)?;
     in_threads(study.threads(), || {
         let mut results = ResultsFile::<S::Row>::open(&directory.results())?;

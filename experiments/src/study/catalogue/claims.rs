@@ -1,8 +1,14 @@
 //! What runs say of themselves, beside what is measured.
 
-use super::row::Row;
-use crate::study::attempt::Status;
+use super::row::{Quantity, Row};
 use crate::study::document::{Document, MISSING, number};
+
+/// The outcome that is a claim: the particles stand for the target.
+const CLAIM: &str = "converged";
+/// The claim holds where no mean is farther off than this, in standard deviations of the target …
+const LARGEST_MEAN_ERROR: f64 = 0.1;
+/// … and no standard deviation by more than this part of it.
+const LARGEST_DEVIATION_ERROR: f64 = 0.1;
 
 /// The largest of the values, and the case it belongs to.
 pub fn worst<'a>(rows: &[&'a Row], quantity: impl Fn(&Row) -> Option<f64>) -> Option<(f64, &'a str)> {
@@ -11,46 +17,238 @@ pub fn worst<'a>(rows: &[&'a Row], quantity: impl Fn(&Row) -> Option<f64>) -> Op
         .max_by(|left, right| left.0.total_cmp(&right.0))
 }
 
-/// A table of outcomes as the sampler states them, with the worst errors among the runs that state each. Runs that state none
-/// are a line of their own.
-pub fn claims(method: &str, rows: &[Row], document: &mut Document) {
-    document.heading("What runs say of themselves");
-    document.paragraph(format!(
-        "Finished runs of {method} by the outcome that the sampler states ({MISSING}: none), with the largest errors among \
-         them: an outcome `converged` is a claim, and the errors beside it are what it is worth.",
-    ));
-    let finished: Vec<&Row> = rows
-        .iter()
-        .filter(|row| row.status == Status::Finished && row.method == method)
-        .collect();
-    let mut outcomes: Vec<Option<&str>> = finished.iter().map(|row| row.outcome.as_deref()).collect();
-    outcomes.sort_unstable();
-    outcomes.dedup();
-    let header = [
-        "outcome",
-        "runs",
-        "worst mean (sd)",
-        "worst sd (relative)",
-        "worst mode mass",
-        "worst case",
-    ];
-    let line = |outcome: &Option<&str>| {
-        let here: Vec<&Row> = finished
-            .iter()
-            .copied()
-            .filter(|row| row.outcome.as_deref() == *outcome)
-            .collect();
-        let cell = |found: Option<(f64, &str)>| found.map_or(MISSING.to_owned(), |(value, _)| number(value));
-        let larger = |row: &Row| Some(row.mean_error?.max(row.deviation_error?));
+/// The runs of a method, by what they claim and what is measured.
+pub struct Claims<'a> {
+    runs: Vec<&'a Row>,
+}
+
+impl<'a> Claims<'a> {
+    /// Of the runs of one method.
+    pub fn new(method: &str, rows: &'a [Row]) -> Self {
+        Self {
+            runs: rows.iter().filter(|row| row.method == method).collect(),
+        }
+    }
+
+    /// Of the runs on one target among these.
+    fn on(&self, target: &str) -> Self {
+        Self {
+            runs: self.runs.iter().copied().filter(|row| row.target == target).collect(),
+        }
+    }
+
+    /// Runs that claim to have converged.
+    pub fn claimed(&self) -> Vec<&'a Row> {
+        self.having(claims)
+    }
+
+    /// Claims beyond the bounds; particles that could not be measured are beyond any bound.
+    pub fn false_claims(&self) -> Vec<&'a Row> {
+        self.having(|row| claims(row) && !is_within(row))
+    }
+
+    /// Runs within the bounds that do not claim it.
+    pub fn unclaimed(&self) -> Vec<&'a Row> {
+        self.having(|row| !claims(row) && is_within(row))
+    }
+
+    fn having(&self, property: impl Fn(&Row) -> bool) -> Vec<&'a Row> {
+        self.runs.iter().copied().filter(|row| property(row)).collect()
+    }
+
+    /// How often the claim is made, what it is worth, and every claim that is false.
+    pub fn write(&self, targets: &[String], document: &mut Document) {
+        document.heading("Claims");
+        if self.runs.iter().all(|row| row.outcome.is_none()) {
+            document.paragraph("No run says anything of itself.");
+            return;
+        }
+        let within = format!(
+            "every mean within {LARGEST_MEAN_ERROR} standard deviations and every standard deviation within {} %",
+            100.0 * LARGEST_DEVIATION_ERROR
+        );
+        document.paragraph(format!(
+            "A run that says `{CLAIM}` claims {within}. The largest errors are those among such runs; the last column counts \
+             the runs that are within these bounds without a claim.",
+        ));
+        let header = [
+            "target",
+            "runs",
+            "claimed",
+            "share",
+            "worst mean (sd)",
+            "worst sd (relative)",
+            "false claims",
+            "within, not claimed",
+        ];
+        let mut table: Vec<Vec<String>> = targets.iter().map(|target| self.on(target).line(target)).collect();
+        table.push(self.line("all"));
+        document.table(&header, &table);
+        let false_claims = self.false_claims();
+        if false_claims.is_empty() {
+            document.paragraph("No claim is false.");
+        } else {
+            let lines: Vec<String> = false_claims.iter().map(|row| false_claim(row)).collect();
+            document.paragraph(format!("Claims that are false:\n\n{}", lines.join("\n")));
+        }
+        self.write_outcomes(document);
+    }
+
+    fn line(&self, name: &str) -> Vec<String> {
+        let claimed = self.claimed();
+        let share = match self.runs.len() {
+            0 => MISSING.to_owned(),
+            runs => format!("{:.0} %", 100.0 * claimed.len() as f64 / runs as f64),
+        };
         vec![
-            outcome.unwrap_or(MISSING).to_owned(),
-            here.len().to_string(),
-            cell(worst(&here, |row| row.mean_error)),
-            cell(worst(&here, |row| row.deviation_error)),
-            cell(worst(&here, |row| row.mass_error)),
-            worst(&here, larger).map_or(MISSING.to_owned(), |(_, case)| format!("`{case}`")),
+            name.to_owned(),
+            self.runs.len().to_string(),
+            claimed.len().to_string(),
+            share,
+            largest(&claimed, |row| row.mean_error),
+            largest(&claimed, |row| row.deviation_error),
+            self.false_claims().len().to_string(),
+            self.unclaimed().len().to_string(),
         ]
-    };
-    let table: Vec<Vec<String>> = outcomes.iter().map(line).collect();
-    document.table(&header, &table);
+    }
+
+    /// A line per outcome, with the largest errors among the runs that state it.
+    fn write_outcomes(&self, document: &mut Document) {
+        document.paragraph(format!(
+            "All outcomes that are stated ({MISSING}: none), with the largest errors beside them:"
+        ));
+        let mut outcomes: Vec<Option<&str>> = self.runs.iter().map(|row| row.outcome.as_deref()).collect();
+        outcomes.sort_unstable();
+        outcomes.dedup();
+        let header = [
+            "outcome",
+            "runs",
+            "worst mean (sd)",
+            "worst sd (relative)",
+            "worst mode mass",
+            "worst case",
+        ];
+        let line = |outcome: &Option<&str>| {
+            let here = self.having(|row| row.outcome.as_deref() == *outcome);
+            let larger = |row: &Row| Some(row.mean_error?.max(row.deviation_error?));
+            vec![
+                outcome.unwrap_or(MISSING).to_owned(),
+                here.len().to_string(),
+                largest(&here, |row| row.mean_error),
+                largest(&here, |row| row.deviation_error),
+                largest(&here, |row| row.mass_error),
+                worst(&here, larger).map_or(MISSING.to_owned(), |(_, case)| format!("`{case}`")),
+            ]
+        };
+        let table: Vec<Vec<String>> = outcomes.iter().map(line).collect();
+        document.table(&header, &table);
+    }
+}
+
+fn claims(row: &Row) -> bool {
+    row.outcome.as_deref() == Some(CLAIM)
+}
+
+fn is_within(row: &Row) -> bool {
+    row.mean_error.is_some_and(|error| error <= LARGEST_MEAN_ERROR)
+        && row
+            .deviation_error
+            .is_some_and(|error| error <= LARGEST_DEVIATION_ERROR)
+}
+
+fn largest(rows: &[&Row], quantity: Quantity) -> String {
+    worst(rows, quantity).map_or(MISSING.to_owned(), |(value, _)| number(value))
+}
+
+fn false_claim(row: &Row) -> String {
+    match row.mean_error.zip(row.deviation_error) {
+        Some((mean, deviation)) => format!(
+            "- `{}`: a mean is off by {} standard deviations, a standard deviation by {} %",
+            row.case,
+            number(mean),
+            number(100.0 * deviation),
+        ),
+        None => format!("- `{}`: {}: {}", row.case, row.status.as_str(), row.reason),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A run on `target` that states `outcome` with the errors of a mean and of a standard deviation.
+    fn run(case: &str, target: &str, outcome: Option<&str>, errors: Option<(f64, f64)>) -> Row {
+        Row {
+            case: case.to_owned(),
+            target: target.to_owned(),
+            outcome: outcome.map(str::to_owned),
+            mean_error: errors.map(|errors| errors.0),
+            deviation_error: errors.map(|errors| errors.1),
+            ..Row::example("mpm")
+        }
+    }
+
+    fn rows() -> Vec<Row> {
+        vec![
+            run("a", "ring", Some("converged"), Some((0.1, 0.02))),
+            run("b", "ring", Some("converged"), Some((0.01, 0.1001))),
+            run("c", "ring", Some("stalled"), Some((0.01, 0.01))),
+            run("d", "funnel", Some("budget exhausted"), Some((3.0, 0.5))),
+            run("e", "funnel", Some("converged"), None),
+            run("f", "funnel", None, Some((0.0, 0.0))),
+            Row {
+                case: "g".to_owned(),
+                outcome: Some("converged".to_owned()),
+                ..Row::example("svgd")
+            },
+        ]
+    }
+
+    fn cases(rows: Vec<&Row>) -> Vec<&str> {
+        rows.into_iter().map(|row| row.case.as_str()).collect()
+    }
+
+    #[test]
+    fn claims_are_held_against_the_bounds() {
+        let rows = rows();
+        let claims = Claims::new("mpm", &rows);
+        assert_eq!(cases(claims.claimed()), ["a", "b", "e"]);
+        assert_eq!(cases(claims.false_claims()), ["b", "e"]);
+        assert_eq!(cases(claims.unclaimed()), ["c", "f"]);
+    }
+
+    #[test]
+    fn the_page_names_every_false_claim() {
+        let rows = rows();
+        let mut document = Document::default();
+        Claims::new("mpm", &rows).write(&["ring".to_owned(), "funnel".to_owned()], &mut document);
+        for line in [
+            "| ring | 3 | 2 | 67 % | 0.100 | 0.100 | 1 | 1 |",
+            "| funnel | 3 | 1 | 33 % | – | – | 1 | 1 |",
+            "| all | 6 | 3 | 50 % | 0.100 | 0.100 | 2 | 2 |",
+            "- `b`: a mean is off by 0.0100 standard deviations, a standard deviation by 10.0 %",
+            "- `e`: finished: ",
+            "| stalled | 1 | 0.0100 | 0.0100 | – | `c` |",
+            "| budget exhausted | 1 | 3.00 | 0.500 | – | `d` |",
+        ] {
+            assert!(
+                document.as_str().contains(line),
+                "{line} is missing in {}",
+                document.as_str()
+            );
+        }
+        assert!(!document.as_str().contains("`g`"));
+    }
+
+    #[test]
+    fn silence_is_no_claim() {
+        let rows = [run("a", "ring", None, Some((0.0, 0.0)))];
+        let mut document = Document::default();
+        Claims::new("mpm", &rows).write(&["ring".to_owned()], &mut document);
+        assert!(document.as_str().contains("No run says anything"));
+        let rows = [run("a", "ring", Some("converged"), Some((0.0, 0.0)))];
+        let mut document = Document::default();
+        Claims::new("mpm", &rows).write(&["ring".to_owned()], &mut document);
+        assert!(document.as_str().contains("No claim is false."));
+    }
 }

@@ -8,6 +8,7 @@ use crate::CommandError;
 use crate::options::{Bounded, Dimension, MethodSpecification, ParticleCount, TargetParameters, TargetSpecification};
 use crate::study::checks::{distinct, not_empty, refusal, unset};
 use crate::study::start_law::StartLaw;
+use crate::study::yardstick::{Coordinates, IndependentSets, YardstickOptions};
 
 /// All methods on all targets from all starts.
 #[derive(Clone, Debug, Deserialize)]
@@ -105,7 +106,7 @@ impl Catalogue {
             return Err(refusal("targets", "none of them has one of the dimensions in `dims`"));
         }
         let mut cases = Vec::new();
-        for (target_index, target) in targets.iter().enumerate() {
+        for target in &targets {
             for method in &self.methods {
                 let starts: Vec<Option<StartLaw>> = match method.name.iterates() {
                     true => self.starts.iter().copied().map(Some).collect(),
@@ -113,7 +114,6 @@ impl Catalogue {
                 };
                 for start in starts {
                     cases.extend(self.seeds.iter().map(|&seed| Case {
-                        target_index,
                         target: target.clone(),
                         method: method.clone(),
                         start,
@@ -125,6 +125,20 @@ impl Catalogue {
         }
         distinct("targets, dims, methods, starts or seeds", &cases)?;
         Ok(cases)
+    }
+
+    /// The level of the sliced Wasserstein distance is that of as many draws as there are particles.
+    pub fn yardstick(&self) -> YardstickOptions {
+        YardstickOptions {
+            points: self.reference_points.get(),
+            seed: self.reference_seed,
+            directions: self.directions.get(),
+            coordinates: Coordinates::Standardised,
+            independent_sets: Some(IndependentSets {
+                count: self.draws.get(),
+                size: self.particles.get(),
+            }),
+        }
     }
 
     /// The method that the requirements are for.

@@ -10,28 +10,24 @@ mod figure;
 mod report;
 mod requirement;
 mod row;
-mod yardstick;
 
-use parvi::{Method, Run};
+use parvi::Run;
 
 pub use configuration::Catalogue;
 use row::Row;
-use yardstick::Yardstick;
 
-use super::attempt::{Attempt, Status, attempt};
+use super::attempt::Attempt;
 use super::definition::{self, Report, Study};
 use super::directory::StudyDirectory;
-use super::results::single_line;
 use super::start_law::StartLaw;
+use super::yardstick::{CurrentYardstick, Yardstick, measured_run};
 use crate::CommandError;
 use crate::options::{Bounded, MethodSpecification, TargetSpecification};
 use crate::progress::CaseObserver;
-use crate::sampling::{self, Outcome};
 
 /// One run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Case {
-    target_index: usize,
     target: TargetSpecification,
     method: MethodSpecification,
     /// `None` for draws, which have no start.
@@ -49,6 +45,10 @@ impl definition::Case for Case {
         format!("{target}-{method}-m{}{start}-s{}", self.particles, self.seed)
     }
 
+    fn method(&self) -> Option<&MethodSpecification> {
+        Some(&self.method)
+    }
+
     fn cost(&self) -> f64 {
         // Milliseconds, roughly: the distance to the reference and the run; the many rows of `wells` are dear.
         let run = match self.target.name.as_str() {
@@ -59,16 +59,10 @@ impl definition::Case for Case {
     }
 }
 
-/// The reference of the target at hand.
-#[derive(Default)]
-pub struct Shared {
-    current: Option<(usize, Box<dyn Yardstick>)>,
-}
-
 impl Study for Catalogue {
     type Case = Case;
     type Row = Row;
-    type Shared = Shared;
+    type Shared = CurrentYardstick;
 
     const KIND: &'static str = "catalogue";
 
@@ -87,17 +81,11 @@ impl Study for Catalogue {
     fn run(
         &self,
         case: &Case,
-        shared: &mut Shared,
+        yardstick: &mut CurrentYardstick,
         _directory: &StudyDirectory,
         observer: &mut CaseObserver,
     ) -> Result<Row, CommandError> {
-        let yardstick = match shared.current.take() {
-            Some((index, yardstick)) if index == case.target_index => yardstick,
-            _ => yardstick::build(&case.target, self)?,
-        };
-        let row = run_case(case, yardstick.as_ref(), observer);
-        shared.current = Some((case.target_index, yardstick));
-        row
+        run_case(case, yardstick.of(&case.target, &self.yardstick())?, observer)
     }
 
     fn report(&self, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
@@ -107,34 +95,18 @@ impl Study for Catalogue {
 
 fn run_case(case: &Case, yardstick: &dyn Yardstick, observer: &mut CaseObserver) -> Result<Row, CommandError> {
     let mut row = Row::new(case, yardstick)?;
-    let outcome = match sample(case, yardstick, observer)? {
-        Attempt::Finished(outcome) => outcome,
-        Attempt::Failed(status, reason) => {
-            (row.status, row.reason) = (status, reason);
-            return Ok(row);
-        }
-    };
-    row.take(&outcome);
-    // A cloud so far out that a distance overflows has diverged as well.
-    match yardstick.measure(&outcome.particles) {
-        Ok(errors) => row.measured(&errors),
-        Err(CommandError::Metric(error)) => (row.status, row.reason) = (Status::Diverged, single_line(error)),
-        Err(error) => return Err(error),
-    }
-    Ok(row)
-}
-
-fn sample(
-    case: &Case,
-    yardstick: &dyn Yardstick,
-    observer: &mut CaseObserver,
-) -> Result<Attempt<Outcome>, CommandError> {
-    let method = case.method.method(None)?;
-    if method == Method::Iid && !yardstick.has_exact_draws() {
-        return Ok(Attempt::Finished(yardstick.resample(case.particles, case.seed)));
-    }
     let mut run = Run::new(case.particles, case.seed);
     let start = case.method.options.start();
     run.start = case.start.map_or(start, |law| law.start(start));
-    attempt(sampling::sample(&case.target, &method, &run, observer))
+    match measured_run(&case.target, &case.method.method(None)?, &run, yardstick, observer)? {
+        Attempt::Finished(finished) => {
+            row.take(&finished.outcome);
+            match finished.errors {
+                Attempt::Finished(errors) => row.measured(&errors),
+                Attempt::Failed(status, reason) => (row.status, row.reason) = (status, reason),
+            }
+        }
+        Attempt::Failed(status, reason) => (row.status, row.reason) = (status, reason),
+    }
+    Ok(row)
 }

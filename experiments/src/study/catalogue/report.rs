@@ -1,7 +1,7 @@
 //! The report of the study `catalogue`.
 
 use super::Catalogue;
-use super::claims::{claims, worst};
+use super::claims::{Claims, worst};
 use super::figure::plot;
 use super::requirement::Requirement;
 use super::row::{ENERGY, Quantity, Row, SLICED};
@@ -41,7 +41,9 @@ pub fn report(study: &Catalogue, rows: &[Row], directory: &StudyDirectory) -> Re
         document.heading(&format!("From N({}, {}²)", start.mean, start.standard_deviation));
         start_table(study, &targets, rows, *start, &mut document)?;
     }
-    claims(judged, rows, &mut document);
+    let claims = Claims::new(judged, rows);
+    let labels: Vec<String> = targets.iter().map(TargetSpecification::label).collect();
+    claims.write(&labels, &mut document);
     let missed: Vec<&Verdict<'_>> = verdicts.iter().filter(|verdict| !verdict.met()).collect();
     misses(&missed, &mut document);
     others(judged, rows, &mut document);
@@ -51,6 +53,8 @@ pub fn report(study: &Catalogue, rows: &[Row], directory: &StudyDirectory) -> Re
         ("cases", rows.len().to_string()),
         ("judged", verdicts.len().to_string()),
         ("missed", missed.len().to_string()),
+        ("claimed", claims.claimed().len().to_string()),
+        ("false_claims", claims.false_claims().len().to_string()),
     ];
     Ok(Report { document, summary })
 }

@@ -3,10 +3,10 @@
 use serde::{Deserialize, Serialize};
 
 use super::Case;
-use super::yardstick::{Errors, Yardstick};
 use crate::CommandError;
 use crate::sampling::Outcome;
 use crate::study::attempt::Status;
+use crate::study::yardstick::{Errors, Yardstick};
 use crate::study::{definition, results};
 
 /// What a run gave. Columns that begin with `wall` depend on the machine; the others only on the seed.
@@ -41,7 +41,7 @@ pub struct Row {
     /// Sliced Wasserstein distance of order 2 in standardised coordinates.
     pub sliced_wasserstein: Option<f64>,
     /// The median of the same over sets of M independent draws.
-    pub sliced_level: f64,
+    pub sliced_level: Option<f64>,
     /// Largest error of a mean in standard deviations.
     pub mean_error: Option<f64>,
     /// Largest relative error of a standard deviation.
@@ -69,7 +69,7 @@ pub type Quantity = fn(&Row) -> Option<f64>;
 /// ED² relative to independent draws.
 pub const ENERGY: Quantity = |row| Some(row.energy_distance_squared? / row.energy_level);
 /// SW₂ relative to independent draws.
-pub const SLICED: Quantity = |row| Some(row.sliced_wasserstein? / row.sliced_level);
+pub const SLICED: Quantity = |row| Some(row.sliced_wasserstein? / row.sliced_level?);
 
 impl Row {
     /// A row of a run that has not begun.
@@ -102,6 +102,8 @@ impl Row {
 
     /// Notes what the sampler says.
     pub fn take(&mut self, outcome: &Outcome) {
+        let certificate = outcome.certificate.as_ref();
+        self.outcome = certificate.map(|certificate| certificate.outcome.name().to_owned());
         self.residual = outcome.residual;
         self.steps = Some(outcome.steps);
         self.score_evaluations = Some(outcome.score_evaluations);
@@ -115,5 +117,36 @@ impl Row {
         self.mean_error = Some(errors.mean);
         self.deviation_error = Some(errors.deviation);
         self.mass_error = errors.mass;
+    }
+}
+
+#[cfg(test)]
+impl Row {
+    /// A finished run of a method of which nothing else is known.
+    pub fn example(method: &str) -> Self {
+        Self {
+            case: String::new(),
+            status: Status::Finished,
+            reason: String::new(),
+            outcome: None,
+            target: String::new(),
+            dim: 1,
+            method: method.to_owned(),
+            start_mean: None,
+            start_sd: None,
+            particles: 2,
+            seed: 0,
+            energy_distance_squared: None,
+            energy_level: 1.0,
+            sliced_wasserstein: None,
+            sliced_level: None,
+            mean_error: None,
+            deviation_error: None,
+            mass_error: None,
+            residual: None,
+            steps: None,
+            score_evaluations: None,
+            wall_seconds: None,
+        }
     }
 }

@@ -14,7 +14,8 @@ use crate::plots::{
 use crate::statistics::DensityGrid;
 use crate::study::directory::StudyDirectory;
 use crate::study::document::Document;
-use crate::study::trace_file::{self, TraceRow};
+use crate::study::table_file;
+use crate::study::trace_row::TraceRow;
 
 /// Corner plot and marginals of the posterior over the reference draws.
 pub fn posterior(
@@ -97,7 +98,7 @@ pub fn traces(study: &Quickstart, directory: &StudyDirectory, document: &mut Doc
     for (case, part) in [(Case::Posterior, &study.posterior), (Case::Picture, &study.picture)] {
         let path = case.trace_file(directory);
         if path.exists() {
-            runs.push((part, trace_file::read(&path)?));
+            runs.push((part, table_file::read(&path)?));
         }
     }
     let plot = TracePlot {

@@ -18,7 +18,8 @@ use reference::ReferenceTask;
 use super::attempt::{Attempt, Status, attempt};
 use super::definition::{self, Report, Study};
 use super::directory::StudyDirectory;
-use super::{results, trace_file};
+use super::trace_row::TraceRow;
+use super::{results, table_file};
 use crate::CommandError;
 use crate::dispatch::with_target;
 use crate::options::Bounded;
@@ -204,7 +205,7 @@ impl Quickstart {
             Attempt::Failed(status, reason) => (row.status, row.reason) = (status, reason),
             Attempt::Finished(outcome) => {
                 ParticleFile::create(case.particles_file(directory))?.write(&outcome.particles)?;
-                trace_file::write(&outcome.trace, &case.trace_file(directory))?;
+                table_file::write(outcome.trace.iter().map(TraceRow::from), &case.trace_file(directory))?;
                 row.steps = Some(outcome.steps);
                 row.score_evaluations = Some(outcome.score_evaluations);
                 row.residual = outcome.residual;

@@ -1,13 +1,12 @@
 //! The configuration of the study `time-error`.
 
-use std::collections::HashSet;
-
 use serde::Deserialize;
 
 use super::Case;
 use crate::CommandError;
 use crate::options::{Bounded, MethodSpecification, ParticleCount, StepCount, TargetSpecification};
-use crate::study::definition;
+use crate::study::checks::{distinct, not_empty};
+use crate::study::yardstick::{Coordinates, YardstickOptions};
 
 /// All methods on all targets.
 #[derive(Clone, Debug, Deserialize)]
@@ -21,8 +20,8 @@ pub struct TimeError {
     pub threads: Option<Bounded<1, 1024>>,
     /// M.
     pub particles: ParticleCount,
-    /// Numbers of steps for methods that take steps, unless their own options fix them.
-    pub steps: Vec<StepCount>,
+    /// Numbers of steps for methods that take steps, unless their own options fix them; absent: each takes its own default.
+    pub steps: Option<Vec<StepCount>>,
     /// Quasi-random points that stand for a target; a power of two keeps their balance.
     pub reference_points: Bounded<1000, 1_000_000>,
     /// Seed of the reference points.
@@ -38,54 +37,52 @@ pub struct TimeError {
 impl TimeError {
     /// The cases, target by target, so that a target's reference is made once.
     pub fn all_cases(&self) -> Result<Vec<Case>, CommandError> {
-        let refuse = |field: &str, message: &str| {
-            Err(CommandError::ConfigField {
-                file: String::new(),
-                field: field.to_owned(),
-                message: message.to_owned(),
-            })
-        };
-        if self.seeds.is_empty() {
-            return refuse("seeds", "is empty");
-        }
-        if self.steps.is_empty() {
-            return refuse("steps", "is empty");
+        not_empty("seeds", &self.seeds)?;
+        if let Some(steps) = &self.steps {
+            not_empty("steps", steps)?;
         }
         let mut cases = Vec::new();
-        let mut ids = HashSet::new();
-        for (target_index, target) in self.targets.iter().enumerate() {
+        for target in &self.targets {
             for method in &self.methods {
                 for steps in self.sweep(method) {
                     for &seed in &self.seeds {
                         let (target, method) = (target.clone(), method.clone());
                         let particles = self.particles.get();
-                        let case = Case {
-                            target_index,
+                        cases.push(Case {
                             target,
                             method,
                             particles,
                             steps,
                             seed,
-                        };
-                        if !ids.insert(definition::Case::id(&case)) {
-                            return refuse("methods", &format!("two cases are `{}`", definition::Case::id(&case)));
-                        }
-                        cases.push(case);
+                        });
                     }
                 }
             }
         }
+        distinct("targets, methods, steps or seeds", &cases)?;
         Ok(cases)
     }
 
-    /// The numbers of steps of one method; `None` for draws.
+    /// Levels of independent draws are taken from the runs of `iid`.
+    pub fn yardstick(&self) -> YardstickOptions {
+        YardstickOptions {
+            points: self.reference_points.get(),
+            seed: self.reference_seed,
+            directions: self.directions.get(),
+            coordinates: Coordinates::Own,
+            independent_sets: None,
+        }
+    }
+
+    /// The numbers of steps of one method; `None`: its own, or draws.
     fn sweep(&self, method: &MethodSpecification) -> Vec<Option<usize>> {
         if !method.name.iterates() {
             return vec![None];
         }
-        match method.options.steps {
-            Some(steps) => vec![Some(steps.get())],
-            None => self.steps.iter().map(|steps| Some(steps.get())).collect(),
+        match (method.options.steps, &self.steps) {
+            (Some(steps), _) => vec![Some(steps.get())],
+            (None, Some(steps)) => steps.iter().map(|steps| Some(steps.get())).collect(),
+            (None, None) => vec![None],
         }
     }
 }

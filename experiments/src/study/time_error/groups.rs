@@ -6,7 +6,7 @@ use crate::study::attempt::Status;
 
 /// The runs of one method on one target with one number of steps, one per seed.
 pub struct Setting<'a> {
-    /// Steps; `None` for draws.
+    /// Steps; `None`: the method's own, or draws.
     pub steps: Option<usize>,
     /// The runs.
     pub runs: Vec<&'a Row>,

@@ -6,27 +6,24 @@
 mod configuration;
 mod groups;
 mod report;
-mod yardstick;
 
-use parvi::{Method, Run};
+use parvi::Run;
 use serde::{Deserialize, Serialize};
 
 pub use configuration::TimeError;
-use yardstick::Yardstick;
 
-use super::attempt::{Attempt, Status, attempt};
+use super::attempt::{Attempt, Status};
 use super::definition::{self, Report, Study};
 use super::directory::StudyDirectory;
 use super::results;
+use super::yardstick::{CurrentYardstick, Yardstick, measured_run};
 use crate::CommandError;
 use crate::options::{Bounded, MethodName, MethodSpecification, TargetSpecification};
 use crate::progress::CaseObserver;
-use crate::sampling::{self, Outcome};
 
 /// One run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Case {
-    target_index: usize,
     target: TargetSpecification,
     method: MethodSpecification,
     particles: usize,
@@ -44,6 +41,10 @@ impl definition::Case for Case {
             self.particles,
             self.seed
         )
+    }
+
+    fn method(&self) -> Option<&MethodSpecification> {
+        Some(&self.method)
     }
 
     fn cost(&self) -> f64 {
@@ -91,16 +92,10 @@ impl results::Row for Row {
     }
 }
 
-/// The reference of the target at hand.
-#[derive(Default)]
-pub struct Shared {
-    current: Option<(usize, Box<dyn Yardstick>)>,
-}
-
 impl Study for TimeError {
     type Case = Case;
     type Row = Row;
-    type Shared = Shared;
+    type Shared = CurrentYardstick;
 
     const KIND: &'static str = "time-error";
 
@@ -119,17 +114,11 @@ impl Study for TimeError {
     fn run(
         &self,
         case: &Case,
-        shared: &mut Shared,
+        yardstick: &mut CurrentYardstick,
         _directory: &StudyDirectory,
         observer: &mut CaseObserver,
     ) -> Result<Row, CommandError> {
-        let yardstick = match shared.current.take() {
-            Some((index, yardstick)) if index == case.target_index => yardstick,
-            _ => yardstick::build(&case.target, self)?,
-        };
-        let row = run_case(case, yardstick.as_ref(), observer);
-        shared.current = Some((case.target_index, yardstick));
-        row
+        run_case(case, yardstick.of(&case.target, &self.yardstick())?, observer)
     }
 
     fn report(&self, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
@@ -158,49 +147,31 @@ fn run_case(case: &Case, yardstick: &dyn Yardstick, observer: &mut CaseObserver)
         mass_error: None,
         residual: None,
     };
-    let outcome = match sample(case, yardstick, observer)? {
-        Attempt::Finished((outcome, note)) => {
-            row.note = note.to_owned();
-            outcome
-        }
+    let mut run = Run::new(case.particles, case.seed);
+    run.start = case.method.options.start();
+    let method = case.method.method(case.steps)?;
+    let finished = match measured_run(&case.target, &method, &run, yardstick, observer)? {
+        Attempt::Finished(finished) => finished,
         Attempt::Failed(status, reason) => {
             (row.status, row.note) = (status, reason);
             return Ok(row);
         }
     };
-
-    row.score_evaluations = Some(outcome.score_evaluations);
-    row.wall_seconds = Some(outcome.wall_seconds);
-    row.residual = outcome.residual;
-    // A cloud so far out that a distance overflows has diverged as well.
-    match yardstick.measure(&outcome.particles) {
-        Ok(errors) => {
+    if finished.from_importance_sample {
+        row.note = "drawn from the importance sample".to_owned();
+    }
+    row.score_evaluations = Some(finished.outcome.score_evaluations);
+    row.wall_seconds = Some(finished.outcome.wall_seconds);
+    row.residual = finished.outcome.residual;
+    match finished.errors {
+        Attempt::Finished(errors) => {
             row.energy_distance_squared = Some(errors.energy_distance_squared);
             row.sliced_wasserstein = Some(errors.sliced_wasserstein);
             row.mean_error = Some(errors.mean);
             row.deviation_error = Some(errors.deviation);
             row.mass_error = errors.mass;
         }
-        Err(CommandError::Metric(error)) => {
-            (row.status, row.note) = (Status::Diverged, results::single_line(error));
-        }
-        Err(error) => return Err(error),
+        Attempt::Failed(status, reason) => (row.status, row.note) = (status, reason),
     }
     Ok(row)
-}
-
-/// The particles of a case and a note on them.
-fn sample(
-    case: &Case,
-    yardstick: &dyn Yardstick,
-    observer: &mut CaseObserver,
-) -> Result<Attempt<(Outcome, &'static str)>, CommandError> {
-    let method = case.method.method(case.steps)?;
-    if method == Method::Iid && !yardstick.has_exact_draws() {
-        let outcome = yardstick.resample(case.particles, case.seed)?;
-        return Ok(Attempt::Finished((outcome, "drawn from the importance sample")));
-    }
-    let mut run = Run::new(case.particles, case.seed);
-    run.start = case.method.options.start();
-    attempt(sampling::sample(&case.target, &method, &run, observer).map(|outcome| (outcome, "")))
 }

@@ -35,7 +35,9 @@ pub fn report(study: &TimeError, rows: &[Row], directory: &StudyDirectory) -> Re
     for target in targets(study) {
         target_table(study, rows, &target, &mut document);
     }
-    paper_part(study, rows, &mut document);
+    if study.methods.iter().any(|method| is_paper(method.name)) {
+        paper_part(study, rows, &mut document);
+    }
 
     let count = |status: Status| rows.iter().filter(|row| row.status == status).count().to_string();
     let summary = vec![
@@ -45,6 +47,10 @@ pub fn report(study: &TimeError, rows: &[Row], directory: &StudyDirectory) -> Re
         ("unsupported", count(Status::Unsupported)),
     ];
     Ok(Report { document, summary })
+}
+
+fn is_paper(name: MethodName) -> bool {
+    matches!(name, MethodName::PaperPic | MethodName::PaperApic)
 }
 
 fn targets(study: &TimeError) -> Vec<String> {
@@ -193,7 +199,6 @@ fn paper_part(study: &TimeError, rows: &[Row], document: &mut Document) {
         "last mean (sd)",
         "last sd (relative)",
     ];
-    let is_paper = |name: MethodName| matches!(name, MethodName::PaperPic | MethodName::PaperApic);
     let mut table = Vec::new();
     let mut failures: Vec<String> = Vec::new();
     for target in targets(study) {

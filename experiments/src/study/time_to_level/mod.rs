@@ -18,7 +18,7 @@ use search::Ending;
 use super::definition::{self, Report, Study};
 use super::directory::StudyDirectory;
 use super::gaussian_runs::energy_level;
-use super::results;
+use super::{results, table_file};
 use crate::CommandError;
 use crate::options::{Bounded, Dimension, MethodSpecification};
 use crate::progress::CaseObserver;
@@ -122,7 +122,7 @@ impl Study for TimeToLevel {
             Some(self.largest_ratio * self.clock(case.dim, clock, directory)?)
         };
         let (ending, trials) = search::search(self, case, level, budget, observer)?;
-        search::write(&trials, &case.trials_file(directory))?;
+        table_file::write(&trials, &case.trials_file(directory))?;
         let [least, median, most] = search::seconds(&trials)?;
         if sets_the_clock {
             clock.seconds.push((case.dim, median));
@@ -160,7 +160,7 @@ impl TimeToLevel {
             .all_cases()?
             .into_iter()
             .find(|case| case.dim == dim && case.index == 0);
-        let trials = first.map_or(Ok(Vec::new()), |case| search::read(&case.trials_file(directory)))?;
+        let trials = first.map_or(Ok(Vec::new()), |case| table_file::read(&case.trials_file(directory)))?;
         Ok(search::seconds(&trials)?[1])
     }
 }

@@ -1,6 +1,6 @@
 //! The report of the study `time-to-level`.
 
-use super::search::{self, Ending, Trial};
+use super::search::{Ending, Trial};
 use super::{Case, Row, TimeToLevel};
 use crate::CommandError;
 use crate::plots::{AxisKind, LineSeries, MultiplesPanel, MultiplesPlot, ReferenceLevel, multiples};
@@ -8,6 +8,7 @@ use crate::statistics::summarize;
 use crate::study::definition::{self, Report};
 use crate::study::directory::StudyDirectory;
 use crate::study::document::{Document, MISSING, number, optional_number};
+use crate::study::table_file;
 
 /// Tables and figure.
 pub fn report(study: &TimeToLevel, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
@@ -173,7 +174,7 @@ fn plot(study: &TimeToLevel, rows: &[Row], directory: &StudyDirectory) -> Result
             continue;
         };
         let title = format!("d = {}", case.dim);
-        let line = line(&case, row, &search::read(&case.trials_file(directory))?)?;
+        let line = line(&case, row, &table_file::read(&case.trials_file(directory))?)?;
         match panels.last_mut().filter(|panel| panel.title == title) {
             Some(panel) => panel.series.push(line),
             None => panels.push(MultiplesPanel {

@@ -1,13 +1,10 @@
 //! The search for the number of steps that reaches the level, within a budget of time.
 
-use std::path::Path;
-
 use parvi::Run;
 use serde::{Deserialize, Serialize};
 
 use super::{Case, TimeToLevel};
 use crate::CommandError;
-use crate::output::AtomicFile;
 use crate::progress::CaseObserver;
 use crate::statistics::weighted_quantile;
 use crate::study::attempt::Attempt;
@@ -145,30 +142,6 @@ pub fn search(
         }
     }
     Ok((ending, trials))
-}
-
-/// Writes the runs of a search.
-pub fn write(trials: &[Trial], path: &Path) -> Result<(), CommandError> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for trial in trials {
-        writer
-            .serialize(trial)
-            .map_err(|error| CommandError::file("write", path, std::io::Error::other(error)))?;
-    }
-    let text = writer
-        .into_inner()
-        .map_err(|error| CommandError::file("write", path, error.into_error()))?;
-    AtomicFile::write(path, text)
-}
-
-/// Reads what [`write`] wrote.
-pub fn read(path: &Path) -> Result<Vec<Trial>, CommandError> {
-    let unreadable = |error: csv::Error| CommandError::ResultsUnreadable {
-        file: path.display().to_string(),
-        message: error.to_string(),
-    };
-    let mut reader = csv::Reader::from_path(path).map_err(unreadable)?;
-    reader.deserialize().collect::<Result<_, _>>().map_err(unreadable)
 }
 
 #[cfg(test)]

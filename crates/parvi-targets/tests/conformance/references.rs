@@ -1,0 +1,146 @@
+//! Reference moments and the errors that they state.
+
+use parvi_targets::{BoxedTarget, CatalogueTarget, Moments, ReferenceOptions, reference_moments, wells};
+
+use super::target;
+
+/// Moments by quadrature against an importance sample, which knows the density only.
+#[test]
+fn moments_of_the_schools_follow_from_their_density() {
+    struct Hidden(BoxedTarget<4>);
+    impl parvi_targets::Target<4> for Hidden {
+        fn log_density(&self, x: &[f64; 4]) -> f64 {
+            self.0.log_density(x)
+        }
+        fn score(&self, x: &[f64; 4]) -> [f64; 4] {
+            self.0.score(x)
+        }
+    }
+    impl CatalogueTarget<4> for Hidden {
+        fn name(&self) -> &str {
+            "hidden"
+        }
+        fn frame(&self) -> parvi_targets::Frame<4> {
+            self.0.frame()
+        }
+        fn domain(&self) -> [[f64; 2]; 4] {
+            self.0.domain()
+        }
+    }
+    let schools = Hidden(target("schools"));
+    let options = ReferenceOptions {
+        points: 1 << 17,
+        degrees_of_freedom: 5.0,
+        ..ReferenceOptions::default()
+    };
+    let (found, known) = (
+        reference_moments(&schools, &options).unwrap(),
+        schools.0.moments().unwrap(),
+    );
+    for axis in 0..4 {
+        let deviation = known.covariance.0[axis][axis].sqrt();
+        let error = (found.moments.mean[axis] - known.mean[axis]).abs();
+        assert!(
+            error < 6.0 * found.mean_error[axis] && error < 5e-3 * deviation,
+            "mean {axis}: {error}"
+        );
+        let error = (found.moments.covariance.0[axis][axis].sqrt() - deviation).abs();
+        assert!(
+            error < 6.0 * found.standard_deviation_error[axis] && error < 1e-2 * deviation,
+            "deviation {axis}: {error}"
+        );
+    }
+}
+
+/// The importance sampler against moments known in closed form.
+#[test]
+fn importance_sampling_finds_known_moments() {
+    struct Hidden(parvi_targets::StudentT<3>);
+    impl parvi_targets::Target<3> for Hidden {
+        fn log_density(&self, x: &[f64; 3]) -> f64 {
+            self.0.log_density(x)
+        }
+        fn score(&self, x: &[f64; 3]) -> [f64; 3] {
+            self.0.score(x)
+        }
+    }
+    impl CatalogueTarget<3> for Hidden {
+        fn name(&self) -> &str {
+            "hidden"
+        }
+        fn frame(&self) -> parvi_targets::Frame<3> {
+            parvi_targets::Frame::from_scales([0.3; 3], [1.3; 3]).unwrap()
+        }
+        fn domain(&self) -> [[f64; 2]; 3] {
+            self.0.domain()
+        }
+    }
+    let hidden = Hidden(parvi_targets::StudentT::new(12.0).unwrap());
+    let options = ReferenceOptions {
+        points: 1 << 16,
+        ..ReferenceOptions::default()
+    };
+    let found = reference_moments(&hidden, &options).unwrap();
+    assert!(found.effective_sample_size > 0.8 * f64::from(1 << 16));
+    for axis in 0..3 {
+        let deviation = found.moments.covariance.0[axis][axis].sqrt();
+        assert!(found.moments.mean[axis].abs() < 6.0 * found.mean_error[axis]);
+        assert!((deviation - 1.2_f64.sqrt()).abs() < 6.0 * found.standard_deviation_error[axis]);
+        assert!(found.mean_error[axis] < 1e-3 && found.standard_deviation_error[axis] < 1e-3);
+    }
+    // In closed form there is no error.
+    let known = reference_moments(&hidden.0, &options).unwrap();
+    assert_eq!(known.mean_error, [0.0; 3]);
+    assert_eq!(Some(known.moments), hidden.0.moments());
+}
+
+#[test]
+fn references_of_the_regressions_state_their_error() {
+    fn check<const D: usize>(name: &str) {
+        let target = target::<D>(name);
+        let run = |seed, points| {
+            let options = ReferenceOptions {
+                points,
+                seed,
+                ..ReferenceOptions::default()
+            };
+            reference_moments(&*target, &options).unwrap()
+        };
+        let (one, two) = (run(1, 1 << 15), run(2, 1 << 15));
+        let deviations =
+            |moments: &Moments<D>| -> [f64; D] { std::array::from_fn(|k| moments.covariance.0[k][k].sqrt()) };
+        for axis in 0..D {
+            let deviation = deviations(&one.moments)[axis];
+            let combined = one.mean_error[axis].hypot(two.mean_error[axis]);
+            let difference = (one.moments.mean[axis] - two.moments.mean[axis]).abs();
+            assert!(
+                difference < 6.0 * combined,
+                "{name} {axis}: {difference} for {combined}"
+            );
+            assert!(
+                combined < 4e-3 * deviation,
+                "{name} {axis}: error {}",
+                combined / deviation
+            );
+            let difference = (deviation - deviations(&two.moments)[axis]).abs();
+            let combined = one.standard_deviation_error[axis].hypot(two.standard_deviation_error[axis]);
+            assert!(
+                difference < 6.0 * combined && combined < 8e-3 * deviation,
+                "{name} {axis}"
+            );
+        }
+        let share = one.effective_sample_size / f64::from(1 << 15);
+        assert!(share > 0.5, "{name}: effective share {share}");
+    }
+    check::<1>("wells");
+    check::<3>("wells");
+    check::<5>("wells");
+    check::<6>("wells");
+    check::<5>("wells-small");
+    check::<1>("probit");
+    check::<5>("probit");
+    check::<2>("poisson");
+    check::<4>("poisson");
+    check::<8>("poisson");
+    assert_eq!(wells(5, None).unwrap().rows(), 3020);
+}
