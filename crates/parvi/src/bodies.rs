@@ -8,13 +8,17 @@ use crate::extent::Extent;
 use crate::survey::Site;
 use crate::{Observer, Progress, Samples, TracePoint};
 
-/// Particles for each site by the largest remainder of M times its mass; sites with fewer than two are left out.
-pub(crate) fn apportion<const D: usize>(particles: usize, sites: &[Site<D>]) -> Vec<(Site<D>, usize)> {
+/// Particles for each site by the largest remainder of M times its mass, or `evenly` many for all; sites with fewer than two are left out.
+pub(crate) fn apportion<const D: usize>(particles: usize, sites: &[Site<D>], evenly: bool) -> Vec<(Site<D>, usize)> {
     let mut sites = sites.to_vec();
     sites.sort_by(|a, b| b.mass.total_cmp(&a.mass));
+    let claim = |site: &Site<D>| if evenly { 1.0 } else { site.mass };
     loop {
-        let total: f64 = sites.iter().map(|site| site.mass).sum();
-        let quotas: Vec<f64> = sites.iter().map(|site| particles as f64 * site.mass / total).collect();
+        let total: f64 = sites.iter().map(claim).sum();
+        let quotas: Vec<f64> = sites
+            .iter()
+            .map(|site| particles as f64 * claim(site) / total)
+            .collect();
         let mut counts: Vec<usize> = quotas.iter().map(|quota| *quota as usize).collect();
         let mut order: Vec<usize> = (0..sites.len()).collect();
         order.sort_by(|&a, &b| quotas[b].fract().total_cmp(&quotas[a].fract()));
@@ -29,18 +33,17 @@ pub(crate) fn apportion<const D: usize>(particles: usize, sites: &[Site<D>]) -> 
     }
 }
 
-/// All particles together. Energies and the square of the residual are means over the bodies, weighted by their particles.
-fn union<const D: usize>(mut parts: Vec<Samples<D>>) -> Samples<D> {
+/// All particles together. Energies and the square of the residual are means over the bodies, weighted by their shares.
+fn union<const D: usize>(mut parts: Vec<Samples<D>>, shares: &[f64]) -> Samples<D> {
     let bodies = parts.len();
     if bodies == 1
         && let Some(only) = parts.pop()
     {
         return only;
     }
-    let total: usize = parts.iter().map(|part| part.positions.len()).sum();
-    let share = |part: &Samples<D>| part.positions.len() as f64 / total as f64;
     let mean = |of: &dyn Fn(&Samples<D>) -> Option<f64>| -> Option<f64> {
-        parts.iter().map(|part| of(part).map(|value| share(part) * value)).sum()
+        let parts = parts.iter().zip(shares);
+        parts.map(|(part, share)| of(part).map(|value| share * value)).sum()
     };
     let root_mean_square =
         |of: &dyn Fn(&Samples<D>) -> Option<f64>| mean(&|part| of(part).map(|value| value * value)).map(f64::sqrt);
@@ -74,67 +77,84 @@ fn union<const D: usize>(mut parts: Vec<Samples<D>>) -> Samples<D> {
 
 /// What is known of a target besides its bodies.
 pub(crate) struct Knowledge {
-    /// The standard errors of the bodies' masses.
+    /// The bodies' masses, where their particles are weighted; else a body weighs what its share of the particles is.
+    pub masses: Option<Vec<f64>>,
+    /// The standard errors of the masses.
     pub mass_errors: Vec<f64>,
+    /// Whether a certificate is asked for.
+    pub certificate: bool,
     /// Whether it was searched for separate pieces.
     pub surveyed: bool,
 }
 
-/// The particles of all bodies, with a certificate if `knowledge` is given.
-pub(crate) fn judged<const D: usize>(bodies: Vec<Driven<D>>, knowledge: Option<Knowledge>) -> Samples<D> {
-    let certificate = knowledge.map(|knowledge| {
-        let particles: usize = bodies.iter().map(|body| body.positions.len()).sum();
+/// The particles of all bodies, with weights and a certificate as far as they are asked for.
+pub(crate) fn judged<const D: usize>(bodies: Vec<Driven<D>>, knowledge: &Knowledge) -> Samples<D> {
+    let counts: Vec<usize> = bodies.iter().map(|body| body.positions.len()).collect();
+    let particles: usize = counts.iter().sum();
+    let shares: Vec<f64> = match &knowledge.masses {
+        Some(masses) => masses.iter().map(|mass| mass / masses.iter().sum::<f64>()).collect(),
+        None => counts.iter().map(|&count| count as f64 / particles as f64).collect(),
+    };
+    let certificate = knowledge.certificate.then(|| {
         let evidence: Vec<_> = bodies
             .iter()
-            .map(|body| {
-                let share = body.positions.len() as f64 / particles as f64;
+            .zip(&shares)
+            .map(|(body, &share)| {
                 let seen = &body.samples.positions;
                 (Evidence::new(&body.positions, &body.scores, seen, share), share)
             })
             .collect();
-        let share = |of: &dyn Fn(&Driven<D>) -> f64| {
+        let mean = |of: &dyn Fn(&Driven<D>) -> f64| {
             bodies
                 .iter()
-                .zip(&evidence)
-                .map(|(body, (_, share))| share * of(body))
+                .zip(&shares)
+                .map(|(body, share)| share * of(body))
                 .sum::<f64>()
         };
-        Certificate::of(
-            &evidence,
-            Circumstances {
-                particles,
-                residual: share(&|body| body.samples.residual.map_or(0.0, |ratio| ratio * ratio)).sqrt(),
-                drift: bodies.iter().map(|body| body.drift).fold(0.0, f64::max),
-                kinetic_energy: share(&|body| body.kinetic_energy),
-                mass_error: error_from_masses(&bodies, &knowledge.mass_errors),
-                surveyed: knowledge.surveyed,
-            },
-        )
+        let circumstances = Circumstances {
+            particles,
+            residual: mean(&|body| body.samples.residual.map_or(0.0, |ratio| ratio * ratio)).sqrt(),
+            drift: bodies.iter().map(|body| body.drift).fold(0.0, f64::max),
+            kinetic_energy: mean(&|body| body.kinetic_energy),
+            mass_error: error_from_masses(&bodies, &shares, &knowledge.mass_errors),
+            surveyed: knowledge.surveyed,
+        };
+        Certificate::of(&evidence, circumstances)
     });
-    let mut samples = union(bodies.into_iter().map(|body| body.samples).collect());
+    let mut samples = union(bodies.into_iter().map(|body| body.samples).collect(), &shares);
+    if knowledge.masses.is_some() && counts.len() > 1 {
+        let each = counts.iter().zip(&shares);
+        samples.weights = Some(
+            each.flat_map(|(&count, share)| vec![share / count as f64; count])
+                .collect(),
+        );
+    }
     samples.certificate = certificate;
     samples
 }
 
 /// The standard error that those of the masses bring into a mean, in standard deviations: the largest over the axes of
 /// (Σ_k se_k² (m_k − m)²)^½ / σ; `None` for one body.
-fn error_from_masses<const D: usize>(bodies: &[Driven<D>], mass_errors: &[f64]) -> Option<f64> {
+fn error_from_masses<const D: usize>(bodies: &[Driven<D>], shares: &[f64], mass_errors: &[f64]) -> Option<f64> {
     if bodies.len() < 2 {
         return None;
     }
-    let all: Vec<[f64; D]> = bodies
-        .iter()
-        .flat_map(|body| body.samples.positions.iter().copied())
-        .collect();
-    let whole = Extent::of(&all);
-    let mut square = [0.0; D];
-    for (body, error) in bodies.iter().zip(mass_errors) {
-        let own = Extent::of(&body.samples.positions);
-        for a in 0..D {
-            square[a] += (error * (own.mean[a] - whole.mean[a]) / whole.deviation[a]).powi(2);
+    let extents: Vec<Extent<D>> = bodies.iter().map(|body| Extent::of(&body.samples.positions)).collect();
+    let of_axis = |a: usize| {
+        let mean: f64 = extents
+            .iter()
+            .zip(shares)
+            .map(|(body, share)| share * body.mean[a])
+            .sum();
+        let (mut variance, mut square) = (0.0, 0.0);
+        for ((body, share), error) in extents.iter().zip(shares).zip(mass_errors) {
+            let offset = body.mean[a] - mean;
+            variance += share * (body.deviation[a].powi(2) + offset * offset);
+            square += (error * offset).powi(2);
         }
-    }
-    Some(square.into_iter().fold(0.0, f64::max).sqrt())
+        (square / variance).sqrt()
+    };
+    Some((0..D).map(of_axis).fold(0.0, f64::max))
 }
 
 /// Reports the steps of one body among several.
@@ -166,7 +186,7 @@ mod tests {
     #[test]
     fn particles_follow_the_masses_to_the_last_one() {
         for particles in [2, 3, 7, 100, 1001] {
-            let shared = apportion(particles, &sites(&[0.2, 0.5, 0.3]));
+            let shared = apportion(particles, &sites(&[0.2, 0.5, 0.3]), false);
             let counts: Vec<usize> = shared.iter().map(|&(_, count)| count).collect();
             assert_eq!(counts.iter().sum::<usize>(), particles, "{counts:?}");
             assert!(counts.iter().all(|&count| count >= 2), "{counts:?}");
@@ -174,6 +194,8 @@ mod tests {
                 for (site, count) in shared {
                     assert!((count as f64 - particles as f64 * site.mass).abs() < 1.0);
                 }
+                let even = apportion(particles, &sites(&[0.2, 0.5, 0.3]), true);
+                assert!(even.iter().all(|&(_, count)| (3 * count).abs_diff(particles) < 3));
             }
         }
     }

@@ -43,13 +43,13 @@ impl MpmOptions {
             Survey::skipped(frame)
         };
         let mut spent = survey.evaluations;
-        let mut departures = placed(&survey.sites, run, survey.keeps_start.then_some(start))?;
+        let mut departures = self.placed(&survey.sites, run, survey.keeps_start.then_some(start))?;
         let mut bodies = self.move_bodies(target, &departures, 0, run, &mut journal, observer)?;
         let clouds: Vec<&[[f64; D]]> = bodies.iter().map(|body| body.samples.positions.as_slice()).collect();
         let sites: Vec<Site<D>> = departures.iter().map(|departure| departure.site).collect();
         if sites.len() > 1 && Survey::pieces_are_connected(&sites, &clouds) {
             spent += evaluations(&bodies);
-            departures = placed(&[survey.whole], run, None)?;
+            departures = self.placed(&[survey.whole], run, None)?;
             bodies = self.move_bodies(target, &departures, 0, run, &mut journal, observer)?;
         }
         let mut steps = 0;
@@ -63,11 +63,14 @@ impl MpmOptions {
             departures = further.map(|(departure, body)| departure.further(body)).collect();
             bodies = self.move_bodies(target, &departures, round, run, &mut journal, observer)?;
         }
-        let knowledge = self.certificate.then(|| Knowledge {
-            mass_errors: departures.iter().map(|departure| departure.site.mass_error).collect(),
+        let of_sites = |of: fn(&Site<D>) -> f64| departures.iter().map(|departure| of(&departure.site)).collect();
+        let knowledge = Knowledge {
+            masses: self.weighted.then(|| of_sites(|site| site.mass)),
+            mass_errors: of_sites(|site| site.mass_error),
+            certificate: self.certificate,
             surveyed: self.survey,
-        });
-        let mut samples = judged(bodies, knowledge);
+        };
+        let mut samples = judged(bodies, &knowledge);
         samples.score_evaluations += spent;
         samples.steps += steps;
         journal.close();
@@ -108,6 +111,27 @@ impl MpmOptions {
         departures.iter().enumerate().map(one).collect()
     }
 
+    /// A departure from each site, of as many particles as its mass asks for (weighted: of equally many), from `start` (the only site's) or N(0, I) of its frame.
+    fn placed<const D: usize>(
+        &self,
+        sites: &[Site<D>],
+        run: &Run,
+        mut start: Option<Vec<[f64; D]>>,
+    ) -> Result<Vec<Departure<D>>, SampleError> {
+        let departure = |(number, (site, count))| {
+            let positions = match start.take() {
+                Some(positions) => positions,
+                None => run.standard_positions(count, number)?,
+            };
+            Ok(Departure { site, positions })
+        };
+        apportion(run.particles, sites, self.weighted)
+            .into_iter()
+            .enumerate()
+            .map(departure)
+            .collect()
+    }
+
     /// Rounds, at most: one where the number of steps is given and that of rounds is not.
     fn checked_rounds(&self) -> Result<usize, SampleError> {
         let default = if self.steps.is_some() { 1 } else { defaults::ROUNDS };
@@ -115,26 +139,6 @@ impl MpmOptions {
         check("rounds", rounds as f64, rounds >= 1, "at least 1")?;
         Ok(rounds)
     }
-}
-
-/// A departure from each site, of as many particles as its mass asks for, from `start` (the only site's) or N(0, I) of its frame.
-fn placed<const D: usize>(
-    sites: &[Site<D>],
-    run: &Run,
-    mut start: Option<Vec<[f64; D]>>,
-) -> Result<Vec<Departure<D>>, SampleError> {
-    let departure = |(number, (site, count))| {
-        let positions = match start.take() {
-            Some(positions) => positions,
-            None => run.standard_positions(count, number)?,
-        };
-        Ok(Departure { site, positions })
-    };
-    apportion(run.particles, sites)
-        .into_iter()
-        .enumerate()
-        .map(departure)
-        .collect()
 }
 
 fn evaluations<const D: usize>(bodies: &[Driven<D>]) -> u64 {

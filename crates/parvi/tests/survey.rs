@@ -118,3 +118,30 @@ fn without_a_survey_one_body_moves_from_the_start_as_given() {
     assert_eq!(samples.bodies, Some(1));
     assert!(samples.score_evaluations <= 100 * 300);
 }
+
+#[test]
+fn weighted_pieces_have_equally_many_particles() {
+    let target = GaussianMixture::<2>::three_far().expect("a mixture");
+    let options = MpmOptions {
+        weighted: true,
+        ..MpmOptions::default()
+    };
+    let samples = options
+        .sample(&target, &target.frame(), &Run::new(900, 2), &mut Silent)
+        .expect("particles");
+    let weights = samples.weights.expect("weights");
+    assert!((weights.iter().sum::<f64>() - 1.0).abs() < 1e-12);
+    for mode in target.modes() {
+        let near = |x: &&[f64; 2]| (x[0] - mode.centre[0]).hypot(x[1] - mode.centre[1]) < 3.0;
+        let count = samples.positions.iter().filter(near).count();
+        let mass: f64 = samples
+            .positions
+            .iter()
+            .zip(&weights)
+            .filter(|(x, _)| near(x))
+            .map(|(_, w)| w)
+            .sum();
+        assert!(count.abs_diff(300) < 10, "{count}");
+        assert!((mass - mode.mass).abs() < 0.01, "{mass} for {}", mode.mass);
+    }
+}

@@ -70,6 +70,9 @@ pub struct MethodOptions {
     /// Rounds of the steps, at most, while the particles are still on their way [3, but 1 with --steps] (mpm)
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub rounds: Option<StepCount>,
+    /// Equally many particles for each separate piece of the target, with weights [off] (mpm)
+    #[arg(long)]
+    pub weighted: Option<Switch>,
     /// What is done about a score that is not finite [pull-back] (mpm)
     #[arg(long)]
     pub non_finite: Option<NonFinite>,
@@ -268,6 +271,7 @@ impl MethodOptions {
             annealing: self.annealing().unwrap_or(default.annealing),
             certificate: self.certificate.map_or(default.certificate, Switch::is_on),
             checkpoint: default.checkpoint,
+            weighted: self.weighted.map_or(default.weighted, Switch::is_on),
             trace_every: self.trace_every,
         })
     }
@@ -353,6 +357,7 @@ impl MethodOptions {
             ("flip-share", text(&self.flip_share), GAS),
             ("friction", text(&self.friction), GAS),
             ("rounds", text(&self.rounds), GAS),
+            ("weighted", text(&self.weighted), GAS),
             ("non-finite", text(&self.non_finite), GAS),
             ("certificate", text(&self.certificate), GAS),
             ("material", text(&self.material), PAPER),

@@ -82,6 +82,9 @@ pub struct MpmOptions {
     pub certificate: bool,
     /// Where the run leaves its state, and goes on from if it was stopped.
     pub checkpoint: Option<Checkpoint>,
+    /// Give separate pieces of the target equally many particles, with weights for their masses, instead of equal weights: light pieces are
+    /// better resolved then, and the effective sample size is smaller.
+    pub weighted: bool,
     /// Measure residual and energy every so many steps (0: only at the end).
     pub trace_every: usize,
 }
@@ -108,6 +111,7 @@ impl Default for MpmOptions {
             annealing: Annealing::Constant(1.0),
             certificate: true,
             checkpoint: None,
+            weighted: false,
             trace_every: 0,
         }
     }
