@@ -60,7 +60,7 @@ fn standard_output_has_the_keys_of_the_contract() {
         "sample --target gaussian --dim 2 --particles 200 --steps 5 --out x.csv",
     );
     assert!(output.status.success(), "{}", stderr(&output));
-    insta::assert_snapshot!(keys(&stdout(&output)).join(" "), @"method steps score_evaluations wall_seconds residual spacing active_nodes bodies storage_bytes peak_memory_bytes target dim particles seed");
+    insta::assert_snapshot!(keys(&stdout(&output)).join(" "), @"method steps score_evaluations wall_seconds residual spacing active_nodes bodies storage_bytes peak_memory_bytes outcome mean_error sd_error unexplained drift target dim particles seed");
     assert_eq!(value(&output, "method").unwrap(), "mpm");
     assert_eq!(value(&output, "steps").unwrap(), "5");
     assert!(value(&output, "spacing").unwrap().parse::<f64>().unwrap() > 0.0);

@@ -168,8 +168,8 @@ fn pairs(arguments: &Arguments, outcome: &Outcome, peak_memory: Option<u64>) -> 
         ("divergences", outcome.divergences.map(|value| value.to_string())),
         (PEAK_MEMORY_KEY, peak_memory.map(|value| value.to_string())),
     ];
-    pairs.extend(certificate_pairs(outcome));
     pairs.extend(optional.into_iter().filter_map(|(key, value)| Some((key, value?))));
+    pairs.extend(certificate_pairs(outcome));
     pairs.extend([
         ("target", arguments.target.clone()),
         ("dim", outcome.particles.dimension().to_string()),
