@@ -8,6 +8,7 @@ mod drive;
 mod exact;
 mod framed_score;
 mod kronecker;
+mod mapped_target;
 mod method;
 mod moment_correction;
 mod mpm;
@@ -24,6 +25,7 @@ mod stiffness;
 mod support_points;
 mod survey;
 mod svgd;
+mod triangular_map;
 
 pub use exact::{independent_draws, sobol_points};
 pub use method::*;

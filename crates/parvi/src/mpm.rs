@@ -54,7 +54,7 @@ impl MpmOptions {
         let clouds: Vec<&[[f64; D]]> = parts.iter().map(|part| part.positions.as_slice()).collect();
         if sites.len() > 1 && Survey::pieces_are_connected(&sites, &clouds) {
             wasted = parts.iter().map(|part| part.score_evaluations).sum();
-            (_, parts) = self.bodies(target, &[survey.whole], run, None, observer)?;
+            (_, parts) = self.bodies(target, std::slice::from_ref(&survey.whole), run, None, observer)?;
         }
         let mut samples = union(parts);
         samples.score_evaluations += survey.evaluations + wasted;
@@ -72,26 +72,35 @@ impl MpmOptions {
     ) -> Result<(Vec<Site<D>>, Vec<Samples<D>>), SampleError> {
         let bodies = apportion(run.particles, sites);
         let mut parts = Vec::with_capacity(bodies.len());
-        for (number, &(site, count)) in bodies.iter().enumerate() {
+        for (number, (site, count)) in bodies.iter().enumerate() {
             let positions = match start.take() {
                 Some(positions) => positions,
-                None => run.standard_positions(count, number)?,
+                None => run.standard_positions(*count, number)?,
             };
-            let default = defaults::spacing::<D>(self.basis, count) * defaults::tail_factor(site.tails);
-            let job = Job {
-                options: self,
-                target,
-                frame: &site.frame,
-                run,
-                body: number,
-                positions,
-                observer: &mut InTurn {
-                    number,
-                    of: bodies.len(),
-                    observer: &mut *observer,
-                },
-            };
-            parts.push(self.basis.with(positive("spacing", self.spacing, default)?, job)?);
+            let default = defaults::spacing::<D>(self.basis, *count) * defaults::tail_factor(site.tails);
+            let spacing = positive("spacing", self.spacing, default)?;
+            let mut part = site.within(target, |target, frame| {
+                let job = Job {
+                    options: self,
+                    target,
+                    frame,
+                    run,
+                    body: number,
+                    positions,
+                    observer: &mut InTurn {
+                        number,
+                        of: bodies.len(),
+                        observer: &mut *observer,
+                    },
+                };
+                self.basis.with(spacing, job)
+            });
+            if let Some(map) = &site.map {
+                part = part
+                    .map_err(|error| map.explained(error))
+                    .and_then(|part| map.samples(part));
+            }
+            parts.push(part?);
         }
         Ok((bodies.into_iter().map(|(site, _)| site).collect(), parts))
     }
