@@ -187,7 +187,7 @@ mod tests {
     fn particles_follow_the_masses_to_the_last_one() {
         for particles in [2, 3, 7, 100, 1001] {
             let shared = apportion(particles, &sites(&[0.2, 0.5, 0.3]), false);
-            let counts: Vec<usize> = shared.iter().map(|&(_, count)| count).collect();
+            let counts: Vec<usize> = shared.iter().map(|(_, count)| *count).collect();
             assert_eq!(counts.iter().sum::<usize>(), particles, "{counts:?}");
             assert!(counts.iter().all(|&count| count >= 2), "{counts:?}");
             if particles >= 7 {

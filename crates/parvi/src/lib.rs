@@ -12,6 +12,7 @@ mod extent;
 mod framed_score;
 mod guard;
 mod kronecker;
+mod mapped_target;
 mod method;
 mod moment_correction;
 mod mpm;
@@ -29,6 +30,7 @@ mod stiffness;
 mod support_points;
 mod survey;
 mod svgd;
+mod triangular_map;
 
 pub use certificate::{Certificate, Expectation, MomentEstimate, Outcome, expectation};
 pub use checkpoint::Checkpoint;

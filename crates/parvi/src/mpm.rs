@@ -46,10 +46,10 @@ impl MpmOptions {
         let mut departures = self.placed(&survey.sites, run, survey.keeps_start.then_some(start))?;
         let mut bodies = self.move_bodies(target, &departures, 0, run, &mut journal, observer)?;
         let clouds: Vec<&[[f64; D]]> = bodies.iter().map(|body| body.samples.positions.as_slice()).collect();
-        let sites: Vec<Site<D>> = departures.iter().map(|departure| departure.site).collect();
+        let sites: Vec<Site<D>> = departures.iter().map(|departure| departure.site.clone()).collect();
         if sites.len() > 1 && Survey::pieces_are_connected(&sites, &clouds) {
             spent += evaluations(&bodies);
-            departures = self.placed(&[survey.whole], run, None)?;
+            departures = self.placed(std::slice::from_ref(&survey.whole), run, None)?;
             bodies = self.move_bodies(target, &departures, 0, run, &mut journal, observer)?;
         }
         let mut steps = 0;
@@ -92,19 +92,26 @@ impl MpmOptions {
             if let Some(body) = journal.finished() {
                 return Ok(body);
             }
-            let count = departure.positions.len();
-            let default = defaults::spacing::<D>(self.basis, count) * defaults::tail_factor(departure.site.tails);
-            let body = Body {
-                options: self,
-                target,
-                frame: &departure.site.frame,
-                run,
-                number: number + of * round,
-                positions: departure.positions.clone(),
-                journal,
-                observer: &mut InTurn { number, of, observer },
+            let (site, count) = (&departure.site, departure.positions.len());
+            let default = defaults::spacing::<D>(self.basis, count) * defaults::tail_factor(site.tails);
+            let spacing = positive("spacing", self.spacing, default)?;
+            let moved = site.within(target, |target, frame| {
+                let body = Body {
+                    options: self,
+                    target,
+                    frame,
+                    run,
+                    number: number + of * round,
+                    positions: departure.positions.clone(),
+                    journal,
+                    observer: &mut InTurn { number, of, observer },
+                };
+                self.basis.with(spacing, body)
+            });
+            let body = match &site.map {
+                Some(map) => map.driven(moved.map_err(|error| map.explained(error))?)?,
+                None => moved?,
             };
-            let body = self.basis.with(positive("spacing", self.spacing, default)?, body)?;
             journal.finish(&body)?;
             Ok(body)
         };
@@ -148,9 +155,10 @@ fn evaluations<const D: usize>(bodies: &[Driven<D>]) -> u64 {
 impl<const D: usize> Departure<D> {
     /// On from where the body has come, in a frame of the particles' own mean and covariance where they have outgrown the old one.
     fn further(&self, body: Driven<D>) -> Self {
-        let mut site = self.site;
+        let mut site = self.site.clone();
         let mut positions = body.positions;
-        if Extent::of(&positions).outgrows_the_frame()
+        if site.map.is_none()
+            && Extent::of(&positions).outgrows_the_frame()
             && let Ok(frame) = Frame::of_points(&body.samples.positions, None)
         {
             positions = body.samples.positions.iter().map(|x| frame.to_reference(x)).collect();

@@ -28,6 +28,14 @@ const MASS_POINTS: usize = 512;
 /// Separate pieces lighter than this are left out.
 const SMALLEST_MASS: f64 = 1e-3;
 
+/// Where scouts came to rest, and the Gaussian at the highest of these summits.
+pub(super) struct Scouted<const D: usize> {
+    pub summits: Vec<Valued<D>>,
+    pub best: Valued<D>,
+    pub fit: GaussianFit<D>,
+    nodes: Vec<[f64; D]>,
+}
+
 /// Gaussians for the pieces of a target, with their masses, and one for the whole.
 pub(super) struct Found<const D: usize> {
     pub pieces: Vec<Piece<D>>,
@@ -43,12 +51,12 @@ pub(super) struct Piece<const D: usize> {
     pub mass_error: f64,
 }
 
-/// Scouts, their clusters, and a Gaussian with a mass for each; `None` where the target cannot be evaluated.
-pub(super) fn explore<const D: usize>(
+/// Two rounds of scouts; `None` where the target cannot be evaluated.
+pub(super) fn scout<const D: usize>(
     density: &mut Density<'_, D>,
     positions: &[[f64; D]],
     seed: u64,
-) -> Result<Option<Found<D>>, SampleError> {
+) -> Result<Option<Scouted<D>>, SampleError> {
     let directions: Vec<[f64; D]> = quasi_random_normal(FIRST_SCOUTS + RINGS.len() * SCOUTS_PER_RING, seed)?;
     let nodes = quadrature_nodes::<D>(seed)?;
     let half = FIRST_SCOUTS / 2;
@@ -66,25 +74,39 @@ pub(super) fn explore<const D: usize>(
         return Ok(None);
     };
     let curvature = local_root(density, &best);
-    let Some(widest) = fit(density, best.point, curvature, &nodes) else {
+    let Some(fit) = fit(density, best.point, curvature, &nodes) else {
         return Ok(None);
     };
-    let metric = widest.root * widest.root.transpose();
+    let metric = fit.root * fit.root.transpose();
     for (ring, scouts) in RINGS.iter().zip(directions[FIRST_SCOUTS..].chunks(SCOUTS_PER_RING)) {
         for u in scouts {
             let reach = ring / vector::norm(u).max(1e-9);
-            let start = vector::add_scaled(&widest.mean, reach, &widest.root.apply(u));
+            let start = vector::add_scaled(&fit.mean, reach, &fit.root.apply(u));
             summits.extend(ascend(density, &start, Some(&metric), ASCENT));
         }
     }
+    Ok(Some(Scouted {
+        summits,
+        best,
+        fit,
+        nodes,
+    }))
+}
+
+/// The summits' clusters, and a Gaussian with a mass for each; `None` where the target cannot be evaluated.
+pub(super) fn pieces<const D: usize>(
+    density: &mut Density<'_, D>,
+    scouted: Scouted<D>,
+    seed: u64,
+) -> Result<Option<Found<D>>, SampleError> {
     let mut fits = Vec::new();
-    for cluster in clusters(density, summits) {
+    for cluster in clusters(density, scouted.summits) {
         let summit = &cluster[0];
-        if summit.point == best.point {
-            fits.push(widest);
+        if summit.point == scouted.best.point {
+            fits.push(scouted.fit);
         } else {
             let start = local_root(density, summit);
-            fits.extend(fit(density, summit.point, start, &nodes));
+            fits.extend(fit(density, summit.point, start, &scouted.nodes));
         }
     }
     if fits.len() < 2 {

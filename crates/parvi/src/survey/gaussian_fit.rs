@@ -90,10 +90,14 @@ fn objective<const D: usize>(values: &[Valued<D>], log_stretch: f64) -> f64 {
     -values.iter().map(|value| value.log_density).sum::<f64>() / values.len() as f64 - log_stretch
 }
 
-/// Points ±u with mean zero and covariance I.
+/// The nodes of the fit.
 pub(super) fn quadrature_nodes<const D: usize>(seed: u64) -> Result<Vec<[f64; D]>, SampleError> {
-    let count = (2 * D).max(8);
-    let mut nodes: Vec<[f64; D]> = quasi_random_normal(count, seed.wrapping_add(2))?;
+    balanced_nodes((2 * D).max(8), seed.wrapping_add(2))
+}
+
+/// `count` pairs of points ±u with mean zero and covariance I.
+pub(super) fn balanced_nodes<const D: usize>(count: usize, seed: u64) -> Result<Vec<[f64; D]>, SampleError> {
+    let mut nodes: Vec<[f64; D]> = quasi_random_normal(count, seed)?;
     nodes.extend_from_within(..);
     for u in &mut nodes[count..] {
         *u = u.map(|c| -c);

@@ -1,32 +1,42 @@
 //! Before the body moves: where the target is, how wide, and of how many separate pieces.
 
 mod ascent;
+mod axis_orders;
 mod clusters;
+mod conditional_fit;
 mod density;
 mod explore;
 mod gaussian_fit;
 mod linear_score;
+mod map_choice;
+mod map_fit;
 mod masses;
+mod symmetric_solve;
 
 use mpm_tensor::{SymmetricEigen, vector};
 use parvi_targets::{Frame, Target};
 use rand::RngExt;
 
 use self::density::Density;
-use self::explore::{Found, explore};
+use self::explore::{Found, pieces, scout};
 use self::gaussian_fit::GaussianFit;
 use self::linear_score::{LinearScore, look, look_count};
+use self::map_choice::choose;
+use crate::mapped_target::MappedTarget;
 use crate::start::Stream;
+use crate::triangular_map::TriangularMap;
 use crate::{Run, SampleError, Start};
 
 /// Pieces whose bodies exchange a larger share of their particles are one.
 const LARGEST_EXCHANGE: f64 = 0.1;
 
 /// A body is placed here.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Site<const D: usize> {
     /// The coordinates in which it moves.
     pub frame: Frame<D>,
+    /// If there is one, it takes the place of the frame.
+    pub map: Option<TriangularMap<D>>,
     /// Its share of the total mass.
     pub mass: f64,
     /// The standard error of it.
@@ -39,9 +49,18 @@ impl<const D: usize> Site<D> {
     pub fn new(frame: Frame<D>, mass: f64) -> Self {
         Self {
             frame,
+            map: None,
             mass,
             mass_error: 0.0,
             tails: 1.0,
+        }
+    }
+
+    /// `act` on the target and the frame of the body's coordinates: where there is a map, the target is seen through it.
+    pub fn within<R>(&self, target: &dyn Target<D>, act: impl FnOnce(&dyn Target<D>, &Frame<D>) -> R) -> R {
+        match &self.map {
+            Some(map) => act(&MappedTarget { target, map }, &Frame::identity()),
+            None => act(target, &self.frame),
         }
     }
 
@@ -91,27 +110,31 @@ impl<const D: usize> Survey<D> {
             let seed = run.generator(Stream::Survey.of_body(0)).random();
             let normal = run.standard_positions::<D>(look_count::<D>().min(positions.len()), 0)?;
             let mut evaluations = 0;
-            let mut look_in = |frame: &Frame<D>| {
-                let mut density = Density::new(target, frame);
-                let score = look(&mut density, &normal);
-                evaluations += density.evaluations;
-                score
+            let mut look_in = |site: &Site<D>| {
+                site.within(target, |target, frame| {
+                    let mut density = Density::new(target, frame);
+                    let score = look(&mut density, &normal);
+                    evaluations += density.evaluations;
+                    score
+                })
             };
-            let found = explore(&mut density, positions, seed)?;
-            let own = found.as_ref().and_then(|found| frame_of(frame, &found.whole));
-            let own_fits = own.as_ref().and_then(&mut look_in).is_some_and(|score| score.fits());
-            if let Some(found) = found {
-                survey.place(
-                    frame,
-                    &run.start,
-                    &found,
-                    own.filter(|_| !serves(&found.whole, own_fits)),
-                );
+            if let Some(scouted) = scout(&mut density, positions, seed)? {
+                let (map, spent) = choose(target, frame, &scouted, seed)?;
+                survey.evaluations += spent;
+                if map.is_some() {
+                    survey.whole.map = map;
+                    survey.keeps_start = false;
+                } else if let Some(found) = pieces(&mut density, scouted, seed)? {
+                    let own = frame_of(frame, &found.whole).map(|own| Site::new(own, 1.0));
+                    let own_fits = own.as_ref().and_then(&mut look_in).is_some_and(|score| score.fits());
+                    let own = own.filter(|_| !serves(&found.whole, own_fits));
+                    survey.place(frame, &run.start, &found, own);
+                }
             }
-            let mut tails = |site: &mut Site<D>| site.tails = look_in(&site.frame).map_or(1.0, |score| score.tails);
+            let mut tails = |site: &mut Site<D>| site.tails = look_in(site).map_or(1.0, |score| score.tails);
             tails(&mut survey.whole);
             if let [only] = &mut survey.sites[..] {
-                *only = survey.whole;
+                only.clone_from(&survey.whole);
             } else {
                 survey.sites.iter_mut().for_each(tails);
             }
@@ -121,11 +144,11 @@ impl<const D: usize> Survey<D> {
         Ok(survey)
     }
 
-    /// Bodies for the pieces found. `own` is the frame of the fit to all of them, where the given one does not serve.
-    fn place(&mut self, frame: &Frame<D>, start: &Start, found: &Found<D>, own: Option<Frame<D>>) {
+    /// Bodies for the pieces found. `own` is the site of the fit to all of them, where the given one does not serve.
+    fn place(&mut self, frame: &Frame<D>, start: &Start, found: &Found<D>, own: Option<Site<D>>) {
         let serves = own.is_none();
         if let Some(own) = own {
-            self.whole.frame = own;
+            self.whole = own;
         }
         let sites: Vec<Site<D>> = found
             .pieces
@@ -139,7 +162,11 @@ impl<const D: usize> Survey<D> {
             })
             .collect();
         self.keeps_start = serves && sites.len() < 2 && sane(start);
-        self.sites = if sites.len() < 2 { vec![self.whole] } else { sites };
+        self.sites = if sites.len() < 2 {
+            vec![self.whole.clone()]
+        } else {
+            sites
+        };
     }
 
     /// Whether bodies that were placed on separate pieces have flowed into each other, so that there is one piece: `clouds` has the
