@@ -102,3 +102,38 @@ impl Regression {
         solve(&mut self.matrix, &self.right_hand_side)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use mpm_tensor::{Matrix, vector};
+    use parvi_targets::{Banana, Frame, StudentT, Target};
+
+    use super::*;
+    use crate::survey::gaussian_fit::balanced_nodes;
+
+    fn fitted(target: &dyn Target<2>, centre: [f64; 2], variance: f64) -> Option<TriangularMap<2>> {
+        let frame = Frame::identity();
+        let nodes = balanced_nodes::<2>(32, 1).unwrap();
+        let start = TriangularMap::gaussian(&centre, &(Matrix::IDENTITY * variance), [0, 1]).unwrap();
+        conditional_fit(&mut Density::new(target, &frame), &start, &nodes)
+    }
+
+    #[test]
+    fn a_banana_is_read_off_its_scores_from_beside_it() {
+        let map = fitted(&Banana::new(2.0, 0.2).unwrap(), [1.5, -1.0], 0.01).unwrap();
+        for z in [[0.0, 0.0], [1.0, -2.0], [-2.5, 0.4]] {
+            // x₁ = z₁, x₂ = 2 (x₁² − 1) + 0.2 z₂.
+            let wanted = [z[0], 2.0 * (z[0] * z[0] - 1.0) + 0.2 * z[1]];
+            assert!(
+                vector::distance(&map.image(&z).x, &wanted) < 1e-3,
+                "{:?} {wanted:?}",
+                map.image(&z).x
+            );
+        }
+    }
+
+    #[test]
+    fn a_convex_stretch_gives_no_map() {
+        assert!(fitted(&StudentT::new(3.0).unwrap(), [30.0, 30.0], 0.01).is_none());
+    }
+}

@@ -216,7 +216,7 @@ mod tests {
 
     #[test]
     fn a_density_that_a_map_represents_is_approached() {
-        let (start, end) = descended(&Funnel::<2>::new(1.0).unwrap());
+        let (start, end) = descended(&Funnel::<2>::new(1.5).unwrap());
         assert!(start.fisher_divergence() > 0.3, "{}", start.fisher_divergence());
         assert!(end.fisher_divergence() < 0.01, "{}", end.fisher_divergence());
     }
