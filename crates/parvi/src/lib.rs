@@ -21,6 +21,7 @@ mod mpm_body;
 mod nuts;
 mod paper;
 mod point_set_error;
+mod refinement;
 mod residual;
 mod rotation;
 mod run;

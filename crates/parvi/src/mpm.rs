@@ -9,6 +9,7 @@ use crate::checkpoint::Journal;
 use crate::drive::Driven;
 use crate::extent::Extent;
 use crate::mpm_body::Body;
+use crate::refinement::{FINER, is_rough, squared_stein_discrepancy};
 use crate::start::{check, positive};
 use crate::survey::{Site, Survey};
 use crate::{MpmOptions, Observer, Run, SampleError, Samples, defaults};
@@ -17,6 +18,8 @@ use crate::{MpmOptions, Observer, Run, SampleError, Samples, defaults};
 struct Departure<const D: usize> {
     site: Site<D>,
     positions: Vec<[f64; D]>,
+    /// Its spacing over the default one.
+    fineness: f64,
 }
 
 impl MpmOptions {
@@ -52,16 +55,33 @@ impl MpmOptions {
             departures = self.placed(std::slice::from_ref(&survey.whole), run, None)?;
             bodies = self.move_bodies(target, &departures, 0, run, &mut journal, observer)?;
         }
+        let mut rounds = 1..rounds;
         let mut steps = 0;
-        for round in 1..rounds {
-            if bodies.iter().all(|body| body.drift <= LARGEST_DRIFT) {
+        while bodies.iter().any(|body| body.drift > LARGEST_DRIFT)
+            && let Some(round) = rounds.next()
+        {
+            spent += evaluations(&bodies);
+            steps += longest(&bodies);
+            let further = departures.iter().zip(bodies);
+            departures = further.map(|(departure, body)| departure.further(body, 1.0)).collect();
+            bodies = self.move_bodies(target, &departures, round, run, &mut journal, observer)?;
+        }
+        while let ([departure], [body]) = (&departures[..], &bodies[..])
+            && self.spacing.is_none()
+            && is_rough(&body.scores)
+            && let Some(round) = rounds.next()
+        {
+            let finer = vec![departure.further(body.clone(), FINER)];
+            let moved = self.move_bodies(target, &finer, round, run, &mut journal, observer)?;
+            let gains = discrepancy(&moved) < discrepancy(&bodies);
+            let (taken, left) = if gains { (moved, bodies) } else { (bodies, moved) };
+            spent += evaluations(&left);
+            steps += longest(&left);
+            bodies = taken;
+            if !gains {
                 break;
             }
-            spent += evaluations(&bodies);
-            steps += bodies.iter().map(|body| body.samples.steps).max().unwrap_or(0);
-            let further = departures.iter().zip(bodies);
-            departures = further.map(|(departure, body)| departure.further(body)).collect();
-            bodies = self.move_bodies(target, &departures, round, run, &mut journal, observer)?;
+            departures = finer;
         }
         let of_sites = |of: fn(&Site<D>) -> f64| departures.iter().map(|departure| of(&departure.site)).collect();
         let knowledge = Knowledge {
@@ -93,7 +113,8 @@ impl MpmOptions {
                 return Ok(body);
             }
             let (site, count) = (&departure.site, departure.positions.len());
-            let default = defaults::spacing::<D>(self.basis, count) * defaults::tail_factor(site.tails);
+            let default =
+                defaults::spacing::<D>(self.basis, count) * defaults::tail_factor(site.tails) * departure.fineness;
             let spacing = positive("spacing", self.spacing, default)?;
             let moved = site.within(target, |target, frame| {
                 let body = Body {
@@ -130,7 +151,11 @@ impl MpmOptions {
                 Some(positions) => positions,
                 None => run.standard_positions(count, number)?,
             };
-            Ok(Departure { site, positions })
+            Ok(Departure {
+                site,
+                positions,
+                fineness: 1.0,
+            })
         };
         apportion(run.particles, sites, self.weighted)
             .into_iter()
@@ -152,9 +177,21 @@ fn evaluations<const D: usize>(bodies: &[Driven<D>]) -> u64 {
     bodies.iter().map(|body| body.samples.score_evaluations).sum()
 }
 
+/// The squared kernel Stein discrepancies of all bodies, in the coordinates in which they moved.
+fn discrepancy<const D: usize>(bodies: &[Driven<D>]) -> f64 {
+    let of = |body: &Driven<D>| squared_stein_discrepancy(&body.positions, &body.scores);
+    bodies.iter().map(of).sum()
+}
+
+/// Steps of the body that made most.
+fn longest<const D: usize>(bodies: &[Driven<D>]) -> usize {
+    bodies.iter().map(|body| body.samples.steps).max().unwrap_or(0)
+}
+
 impl<const D: usize> Departure<D> {
-    /// On from where the body has come, in a frame of the particles' own mean and covariance where they have outgrown the old one.
-    fn further(&self, body: Driven<D>) -> Self {
+    /// On from where the body has come, in a frame of the particles' own mean and covariance where they have outgrown the old one, and at a
+    /// spacing that is finer by a factor.
+    fn further(&self, body: Driven<D>, finer: f64) -> Self {
         let mut site = self.site.clone();
         let mut positions = body.positions;
         if site.map.is_none()
@@ -164,6 +201,10 @@ impl<const D: usize> Departure<D> {
             positions = body.samples.positions.iter().map(|x| frame.to_reference(x)).collect();
             site.frame = frame;
         }
-        Self { site, positions }
+        Self {
+            site,
+            positions,
+            fineness: self.fineness * finer,
+        }
     }
 }

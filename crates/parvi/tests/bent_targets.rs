@@ -2,7 +2,7 @@
 
 use parvi::{Method, MpmOptions, Run, Samples, Silent, Start, sample};
 use parvi_metrics::{Cloud, CloudMoments, EnergyReference, Standardiser, mean_pair_distance};
-use parvi_targets::{Banana, CatalogueTarget, Funnel, Moments, Ring, Rosenbrock};
+use parvi_targets::{Banana, CatalogueTarget, Cross, Funnel, Moments, Ring, Rosenbrock};
 use rand::SeedableRng;
 use rand::rngs::ChaCha8Rng;
 
@@ -94,4 +94,13 @@ fn a_ring_keeps_its_affine_frame() {
         let found = moments(&samples.positions);
         assert!(found.mean.iter().all(|c| c.abs() < 0.05), "{start:?}: {:?}", found.mean);
     }
+}
+
+#[test]
+fn a_cross_is_moved_on_at_a_finer_spacing() {
+    let target = Cross::<3>::new(2.0, 0.2).expect("scales");
+    let samples = from_start(&target, (0.0, 1.0));
+    assert!(samples.steps > 97, "{}", samples.steps);
+    let reached = energy_ratio(&target, &samples.positions);
+    assert!(reached < 0.5, "{reached}");
 }

@@ -54,8 +54,9 @@ pub struct MpmOptions {
     pub survey: bool,
     /// Steps in all, settling included; ≥ 1.
     pub steps: Option<usize>,
-    /// Rounds, at most; ≥ 1. A round is made of `steps`; another one follows while the particles are still on their way at its end, in a frame of
-    /// their own if they have outgrown the old one. `None`: 3, but one where `steps` are given.
+    /// Rounds, at most; ≥ 1. A round is made of `steps`; another one follows while the particles are still on their way at its end, in a frame
+    /// of their own if they have outgrown the old one, and at half of the spacing where the target is rough (docs/theory.md, §14). `None`: 3, but
+    /// one where `steps` are given.
     pub rounds: Option<usize>,
     /// Time step Δt at the central spacing; > 0. It follows the spacing drawn, and is shortened where the target is stiff.
     pub time_step: Option<f64>,
