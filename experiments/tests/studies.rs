@@ -95,6 +95,29 @@ fn time_error() {
     assert!(report.contains("The paper's algorithms"));
 }
 
+/// Without a list of steps every method takes its own number, once per seed.
+#[test]
+fn quality_bar() {
+    let (root, output) = run_study(
+        r#"
+        kind = "time-error"
+        seeds = [0, 1]
+        particles = 40
+        reference-points = 1000
+        reference-seed = 1
+        directions = 8
+        targets = [{ name = "gaussian", dim = 2 }]
+        methods = [{ name = "mpm" }, { name = "stein-thinning" }, { name = "support-points" }, { name = "iid" }]
+        "#,
+    );
+    let report = assert_report(root.path(), 4);
+    assert_eq!(value(&output, "finished").unwrap(), "8");
+    for method in ["mpm", "stein-thinning", "support-points", "iid"] {
+        assert!(report.contains(&format!("| {method} | – | 2/2 |")), "{report}");
+    }
+    assert!(!report.contains("The paper's algorithms"));
+}
+
 #[test]
 fn committed_configurations_can_be_read() {
     // An output directory that cannot be made: configurations are read first, so its name is in the message.

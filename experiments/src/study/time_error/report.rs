@@ -31,7 +31,10 @@ pub fn report(study: &TimeError, rows: &[Row], directory: &StudyDirectory) -> Re
         study.directions,
     ));
     figures(study, rows, directory, &mut document)?;
-    document.heading("Errors at the largest number of steps");
+    document.heading(match study.steps {
+        Some(_) => "Errors at the largest number of steps",
+        None => "Errors",
+    });
     for target in targets(study) {
         target_table(study, rows, &target, &mut document);
     }
@@ -65,7 +68,7 @@ fn figures(
 ) -> Result<(), CommandError> {
     document.heading("Figures");
     let errors = [
-        ("energy", "ED²", "squared energy distance ED²", ENERGY),
+        ("energy", "ED²", "ED²", ENERGY),
         ("sliced", "SW₂", "sliced Wasserstein SW_{2}", SLICED),
     ];
     let costs = [

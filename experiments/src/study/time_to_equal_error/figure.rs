@@ -26,7 +26,7 @@ pub fn plot(study: &TimeToEqualError, rows: &[Row], directory: &StudyDirectory) 
     }
     Ok(TimeErrorPlot {
         x_label: "wall time (s)".to_owned(),
-        y_label: "squared energy distance ED²".to_owned(),
+        y_label: "ED²".to_owned(),
         spread: Spread::Extremes,
         panels,
         ..TimeErrorPlot::default()
