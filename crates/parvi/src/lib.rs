@@ -20,6 +20,7 @@ mod mpm_body;
 #[cfg(feature = "nuts")]
 mod nuts;
 mod paper;
+mod piece;
 mod point_set_error;
 mod refinement;
 mod residual;

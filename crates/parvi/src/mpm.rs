@@ -9,6 +9,7 @@ use crate::checkpoint::Journal;
 use crate::drive::Driven;
 use crate::extent::Extent;
 use crate::mpm_body::Body;
+use crate::piece::Piece;
 use crate::refinement::{FINER, is_rough, squared_stein_discrepancy};
 use crate::start::{check, positive};
 use crate::survey::{Site, Survey};
@@ -47,14 +48,8 @@ impl MpmOptions {
         };
         let mut spent = survey.evaluations;
         let mut departures = self.placed(&survey.sites, run, survey.keeps_start.then_some(start))?;
-        let mut bodies = self.move_bodies(target, &departures, 0, run, &mut journal, observer)?;
-        let clouds: Vec<&[[f64; D]]> = bodies.iter().map(|body| body.samples.positions.as_slice()).collect();
         let sites: Vec<Site<D>> = departures.iter().map(|departure| departure.site.clone()).collect();
-        if sites.len() > 1 && Survey::pieces_are_connected(&sites, &clouds) {
-            spent += evaluations(&bodies);
-            departures = self.placed(std::slice::from_ref(&survey.whole), run, None)?;
-            bodies = self.move_bodies(target, &departures, 0, run, &mut journal, observer)?;
-        }
+        let mut bodies = self.move_bodies(target, &sites, &departures, 0, run, &mut journal, observer)?;
         let mut rounds = 1..rounds;
         let mut steps = 0;
         while bodies.iter().any(|body| body.drift > LARGEST_DRIFT)
@@ -64,7 +59,7 @@ impl MpmOptions {
             steps += longest(&bodies);
             let further = departures.iter().zip(bodies);
             departures = further.map(|(departure, body)| departure.further(body, 1.0)).collect();
-            bodies = self.move_bodies(target, &departures, round, run, &mut journal, observer)?;
+            bodies = self.move_bodies(target, &sites, &departures, round, run, &mut journal, observer)?;
         }
         while let ([departure], [body]) = (&departures[..], &bodies[..])
             && self.spacing.is_none()
@@ -72,7 +67,7 @@ impl MpmOptions {
             && let Some(round) = rounds.next()
         {
             let finer = vec![departure.further(body.clone(), FINER)];
-            let moved = self.move_bodies(target, &finer, round, run, &mut journal, observer)?;
+            let moved = self.move_bodies(target, &sites, &finer, round, run, &mut journal, observer)?;
             let gains = discrepancy(&moved) < discrepancy(&bodies);
             let (taken, left) = if gains { (moved, bodies) } else { (bodies, moved) };
             spent += evaluations(&left);
@@ -97,10 +92,11 @@ impl MpmOptions {
         Ok(samples)
     }
 
-    /// Move a body from each of the departures.
+    /// Move a body from each of the departures, on its piece of the target where there are several `sites`.
     fn move_bodies<const D: usize>(
         &self,
         target: &dyn Target<D>,
+        sites: &[Site<D>],
         departures: &[Departure<D>],
         round: usize,
         run: &Run,
@@ -116,6 +112,12 @@ impl MpmOptions {
             let default =
                 defaults::spacing::<D>(self.basis, count) * defaults::tail_factor(site.tails) * departure.fineness;
             let spacing = positive("spacing", self.spacing, default)?;
+            let piece = Piece {
+                target,
+                sites,
+                own: number,
+            };
+            let target: &dyn Target<D> = if of > 1 { &piece } else { target };
             let moved = site.within(target, |target, frame| {
                 let body = Body {
                     options: self,

@@ -27,8 +27,8 @@ use crate::start::Stream;
 use crate::triangular_map::TriangularMap;
 use crate::{Run, SampleError, Start};
 
-/// Pieces whose bodies exchange a larger share of their particles are one.
-const LARGEST_EXCHANGE: f64 = 0.1;
+/// Pieces whose masses have a larger standard error are not told apart.
+const LARGEST_MASS_ERROR: f64 = 0.05;
 
 /// A body is placed here.
 #[derive(Clone, Debug)]
@@ -63,11 +63,6 @@ impl<const D: usize> Site<D> {
             None => act(target, &self.frame),
         }
     }
-
-    /// log N(x; the frame's centre and covariance), up to a constant.
-    pub fn log_density(&self, x: &[f64; D]) -> f64 {
-        -0.5 * vector::norm_squared(&self.frame.to_reference(x)) - self.frame.log_determinant()
-    }
 }
 
 /// What the survey found.
@@ -75,7 +70,7 @@ impl<const D: usize> Site<D> {
 pub(crate) struct Survey<const D: usize> {
     /// Where bodies are placed; one for a target in one piece.
     pub sites: Vec<Site<D>>,
-    /// The one place for a body if the pieces turn out to be connected.
+    /// The one place for a body that takes all pieces.
     pub whole: Site<D>,
     /// Whether the start that was asked for serves; else bodies begin as N(0, I) of their frame.
     pub keeps_start: bool,
@@ -161,26 +156,9 @@ impl<const D: usize> Survey<D> {
                 })
             })
             .collect();
-        self.keeps_start = serves && sites.len() < 2 && sane(start);
-        self.sites = if sites.len() < 2 {
-            vec![self.whole.clone()]
-        } else {
-            sites
-        };
-    }
-
-    /// Whether bodies that were placed on separate pieces have flowed into each other, so that there is one piece: `clouds` has the
-    /// particles of each site's body.
-    pub fn pieces_are_connected(sites: &[Site<D>], clouds: &[&[[f64; D]]]) -> bool {
-        let strangers = |(own, cloud): (usize, &&[[f64; D]])| {
-            let nearest = |x: &[f64; D]| {
-                (0..sites.len()).max_by(|&a, &b| sites[a].log_density(x).total_cmp(&sites[b].log_density(x)))
-            };
-            cloud.iter().filter(|x| nearest(x) != Some(own)).count()
-        };
-        let abroad: usize = clouds.iter().enumerate().map(strangers).sum();
-        let all: usize = clouds.iter().map(|cloud| cloud.len()).sum();
-        abroad as f64 > LARGEST_EXCHANGE * all as f64
+        let apart = sites.len() > 1 && sites.iter().all(|site| site.mass_error <= LARGEST_MASS_ERROR);
+        self.keeps_start = serves && !apart && sane(start);
+        self.sites = if apart { sites } else { vec![self.whole.clone()] };
     }
 }
 
