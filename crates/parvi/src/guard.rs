@@ -11,7 +11,7 @@ use crate::framed_score::ScoreForce;
 use crate::stiffness::Stiffness;
 
 /// Steps between two states that are kept.
-const INTERVAL: usize = 8;
+pub(crate) const INTERVAL: usize = 8;
 
 /// Times that a run of the calibrated sampler may go back.
 pub(crate) const RETRIES: usize = 12;

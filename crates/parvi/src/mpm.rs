@@ -23,6 +23,15 @@ struct Departure<const D: usize> {
     fineness: f64,
 }
 
+/// What all bodies of a run share.
+struct Common<'a, const D: usize> {
+    options: &'a MpmOptions,
+    target: &'a dyn Target<D>,
+    run: &'a Run,
+    /// The sites whose shares the pieces of the target are.
+    sites: Vec<Site<D>>,
+}
+
 impl MpmOptions {
     /// Sample `target`; `frame` is what is known of its place and scales, and the unit of the run's start law.
     ///
@@ -48,8 +57,13 @@ impl MpmOptions {
         };
         let mut spent = survey.evaluations;
         let mut departures = self.placed(&survey.sites, run, survey.keeps_start.then_some(start))?;
-        let sites: Vec<Site<D>> = departures.iter().map(|departure| departure.site.clone()).collect();
-        let mut bodies = self.move_bodies(target, &sites, &departures, 0, run, &mut journal, observer)?;
+        let common = Common {
+            options: self,
+            target,
+            run,
+            sites: departures.iter().map(|departure| departure.site.clone()).collect(),
+        };
+        let mut bodies = common.move_bodies(&departures, 0, &mut journal, observer)?;
         let mut rounds = 1..rounds;
         let mut steps = 0;
         while bodies.iter().any(|body| body.drift > LARGEST_DRIFT)
@@ -59,7 +73,7 @@ impl MpmOptions {
             steps += longest(&bodies);
             let further = departures.iter().zip(bodies);
             departures = further.map(|(departure, body)| departure.further(body, 1.0)).collect();
-            bodies = self.move_bodies(target, &sites, &departures, round, run, &mut journal, observer)?;
+            bodies = common.move_bodies(&departures, round, &mut journal, observer)?;
         }
         while let ([departure], [body]) = (&departures[..], &bodies[..])
             && self.spacing.is_none()
@@ -67,7 +81,7 @@ impl MpmOptions {
             && let Some(round) = rounds.next()
         {
             let finer = vec![departure.further(body.clone(), FINER)];
-            let moved = self.move_bodies(target, &sites, &finer, round, run, &mut journal, observer)?;
+            let moved = common.move_bodies(&finer, round, &mut journal, observer)?;
             let gains = discrepancy(&moved) < discrepancy(&bodies);
             let (taken, left) = if gains { (moved, bodies) } else { (bodies, moved) };
             spent += evaluations(&left);
@@ -90,55 +104,6 @@ impl MpmOptions {
         samples.steps += steps;
         journal.close();
         Ok(samples)
-    }
-
-    /// Move a body from each of the departures, on its piece of the target where there are several `sites`.
-    fn move_bodies<const D: usize>(
-        &self,
-        target: &dyn Target<D>,
-        sites: &[Site<D>],
-        departures: &[Departure<D>],
-        round: usize,
-        run: &Run,
-        journal: &mut Journal,
-        observer: &mut dyn Observer,
-    ) -> Result<Vec<Driven<D>>, SampleError> {
-        let of = departures.len();
-        let one = |(number, departure): (usize, &Departure<D>)| {
-            if let Some(body) = journal.finished() {
-                return Ok(body);
-            }
-            let (site, count) = (&departure.site, departure.positions.len());
-            let default =
-                defaults::spacing::<D>(self.basis, count) * defaults::tail_factor(site.tails) * departure.fineness;
-            let spacing = positive("spacing", self.spacing, default)?;
-            let piece = Piece {
-                target,
-                sites,
-                own: number,
-            };
-            let target: &dyn Target<D> = if of > 1 { &piece } else { target };
-            let moved = site.within(target, |target, frame| {
-                let body = Body {
-                    options: self,
-                    target,
-                    frame,
-                    run,
-                    number: number + of * round,
-                    positions: departure.positions.clone(),
-                    journal,
-                    observer: &mut InTurn { number, of, observer },
-                };
-                self.basis.with(spacing, body)
-            });
-            let body = match &site.map {
-                Some(map) => map.driven(moved.map_err(|error| map.explained(error))?)?,
-                None => moved?,
-            };
-            journal.finish(&body)?;
-            Ok(body)
-        };
-        departures.iter().enumerate().map(one).collect()
     }
 
     /// A departure from each site, of as many particles as its mass asks for (weighted: of equally many), from `start` (the only site's) or N(0, I) of its frame.
@@ -172,6 +137,60 @@ impl MpmOptions {
         let rounds = self.rounds.unwrap_or(default);
         check("rounds", rounds as f64, rounds >= 1, "at least 1")?;
         Ok(rounds)
+    }
+}
+
+impl<const D: usize> Common<'_, D> {
+    /// Move a body from each of the departures, on its piece of the target where there are several sites.
+    fn move_bodies(
+        &self,
+        departures: &[Departure<D>],
+        round: usize,
+        journal: &mut Journal,
+        observer: &mut dyn Observer,
+    ) -> Result<Vec<Driven<D>>, SampleError> {
+        let Self {
+            options,
+            target,
+            run,
+            sites,
+        } = self;
+        let of = departures.len();
+        let one = |(number, departure): (usize, &Departure<D>)| {
+            if let Some(body) = journal.finished() {
+                return Ok(body);
+            }
+            let (site, count) = (&departure.site, departure.positions.len());
+            let default =
+                defaults::spacing::<D>(options.basis, count) * defaults::tail_factor(site.tails) * departure.fineness;
+            let spacing = positive("spacing", options.spacing, default)?;
+            let piece = Piece {
+                target: *target,
+                sites,
+                own: number,
+            };
+            let target: &dyn Target<D> = if of > 1 { &piece } else { *target };
+            let moved = site.within(target, |target, frame| {
+                let body = Body {
+                    options,
+                    target,
+                    frame,
+                    run,
+                    number: number + of * round,
+                    positions: departure.positions.clone(),
+                    journal,
+                    observer: &mut InTurn { number, of, observer },
+                };
+                options.basis.with(spacing, body)
+            });
+            let body = match &site.map {
+                Some(map) => map.driven(moved.map_err(|error| map.explained(error))?)?,
+                None => moved?,
+            };
+            journal.finish(&body)?;
+            Ok(body)
+        };
+        departures.iter().enumerate().map(one).collect()
     }
 }
 

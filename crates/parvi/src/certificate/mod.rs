@@ -109,7 +109,7 @@ impl Certificate {
 /// The first doubt, or none.
 fn verdict(moments: &[MomentEstimate], degenerate: bool, circumstances: &Circumstances) -> Outcome {
     let drift = circumstances.drift;
-    if !(drift <= LARGEST_DRIFT) {
+    if exceeds(drift, LARGEST_DRIFT) {
         return Outcome::BudgetExhausted { drift };
     }
     let axes = || moments.iter().enumerate().map(|(a, moment)| (a + 1, moment));
@@ -117,7 +117,7 @@ fn verdict(moments: &[MomentEstimate], degenerate: bool, circumstances: &Circums
         axes()
             .map(|(axis, moment)| (axis, of(moment)))
             .max_by(|(_, a), (_, b)| a.total_cmp(b))
-            .filter(|&(_, value)| !(value <= limit))
+            .filter(|&(_, value)| exceeds(value, limit))
     };
     let cautious = |error: f64, moment: &MomentEstimate| error + 0.2 * moment.unexplained();
     let doubt = if degenerate {
@@ -131,14 +131,22 @@ fn verdict(moments: &[MomentEstimate], degenerate: bool, circumstances: &Circums
         LARGEST_ERROR,
     ) {
         Some(Doubt::StandardDeviation { axis, error })
-    } else if !(circumstances.residual <= LARGEST_RESIDUAL) {
+    } else if exceeds(circumstances.residual, LARGEST_RESIDUAL) {
         Some(Doubt::Residual {
             ratio: circumstances.residual,
         })
-    } else if let Some(error) = circumstances.mass_error.filter(|&error| !(error <= LARGEST_MASS_ERROR)) {
+    } else if let Some(error) = circumstances
+        .mass_error
+        .filter(|&error| exceeds(error, LARGEST_MASS_ERROR))
+    {
         Some(Doubt::Masses { error })
     } else {
         (!circumstances.surveyed).then_some(Doubt::NotSurveyed)
     };
     doubt.map_or(Outcome::Converged, Outcome::Stalled)
+}
+
+/// Whether a value is above its limit, or none.
+fn exceeds(value: f64, limit: f64) -> bool {
+    value.is_nan() || value > limit
 }

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use self::saved::{SavedBody, SavedState};
 use crate::drive::Driven;
-use crate::guard::State;
+use crate::guard::{INTERVAL, State};
 use crate::{MpmOptions, Run, SampleError};
 
 /// Where a run of the calibrated sampler leaves its state.
@@ -129,13 +129,18 @@ impl Journal {
 
     /// A state from which the run can go on.
     pub fn keep<const D: usize>(&mut self, state: &State<D>) -> Result<(), SampleError> {
-        match &self.checkpoint {
-            Some(checkpoint) if state.step > 1 && (state.step - 1) % checkpoint.every.next_multiple_of(8) == 0 => {
-                self.saved.moving = Some(state.into());
-                self.write()
-            }
-            _ => Ok(()),
+        let Some(checkpoint) = &self.checkpoint else {
+            return Ok(());
+        };
+        let every = checkpoint
+            .every
+            .checked_next_multiple_of(INTERVAL)
+            .unwrap_or(checkpoint.every);
+        if state.step > 1 && (state.step - 1).is_multiple_of(every) {
+            self.saved.moving = Some(state.into());
+            self.write()?;
         }
+        Ok(())
     }
 
     /// A body has come to its end.
