@@ -112,6 +112,7 @@ fn without_a_survey_one_body_moves_from_the_start_as_given() {
     let target = GaussianMixture::<2>::three_far().expect("a mixture");
     let options = MpmOptions {
         survey: false,
+        rounds: Some(1),
         ..MpmOptions::default()
     };
     let samples = sample(&target, &Method::Mpm(options), &Run::new(300, 1), &mut Silent).expect("particles");
