@@ -55,17 +55,18 @@ fn catalogue() {
         "## From N(3, 0.5²)",
         "gaussian-d2-r0.9",
         "## Claims",
-        "No run says anything of itself.",
     ] {
         assert!(report.contains(text), "{text} is missing in {report}");
     }
-    assert_eq!(value(&output, "claimed").unwrap(), "0");
+    let claimed: usize = value(&output, "claimed").unwrap().parse().unwrap();
+    assert!(claimed > 0, "{report}");
     assert_eq!(value(&output, "false_claims").unwrap(), "0");
     assert!(!rows.iter().any(|row| row["target"].starts_with("banana-d")));
     for row in rows.iter().filter(|row| row["status"] == "finished") {
         let ratio = number(row, "energy_distance_squared") / number(row, "energy_level");
         assert!(ratio > -0.05 && ratio.is_finite(), "{row:?}");
-        assert_eq!(row["outcome"], "");
+        let judges_itself = row["method"] == "mpm" || row["method"].starts_with("paper");
+        assert_eq!(row["outcome"].is_empty(), !judges_itself, "{row:?}");
         assert_eq!(row["mass_error"].is_empty(), !row["target"].starts_with("mixture"));
         if row["method"] == "iid" {
             assert!(ratio < 8.0, "{row:?}");
