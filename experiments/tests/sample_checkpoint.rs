@@ -72,6 +72,23 @@ fn what_does_not_fit_a_checkpoint_is_refused() {
     refuse("--checkpoint state --method svgd", &["checkpoint", "svgd"]);
     refuse("--checkpoint missing/state", &["missing/state", "No such file"]);
     std::fs::write(directory.path().join("state"), "something else").unwrap();
-    refuse("--checkpoint state", &["checkpoint", "state"]);
+    refuse("--checkpoint state", &["checkpoint", "state", "damaged"]);
     assert_eq!(files(directory.path()), ["state"]);
+}
+
+#[test]
+fn one_file_in_two_roles_is_refused_and_kept() {
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(directory.path().join("data.csv"), "y,a\n0,1\n1,2\n1,0\n0,3\n").unwrap();
+    let before = std::fs::read(directory.path().join("data.csv")).unwrap();
+    let line = "sample --target logistic --data data.csv --particles 20";
+    for (files, parts) in [
+        ("--out ./data.csv", ["data", "--out"]),
+        ("--out x.csv --diagnostics x.csv", ["diagnostics", "--out"]),
+        ("--out x.csv --checkpoint data.csv", ["data", "--checkpoint"]),
+    ] {
+        assert_refused(&parvi(directory.path(), &format!("{line} {files}")), &parts);
+    }
+    assert_eq!(std::fs::read(directory.path().join("data.csv")).unwrap(), before);
+    assert_eq!(files(directory.path()), ["data.csv"]);
 }

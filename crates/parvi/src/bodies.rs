@@ -81,6 +81,10 @@ pub(crate) struct Knowledge {
     pub masses: Option<Vec<f64>>,
     /// The standard errors of the masses.
     pub mass_errors: Vec<f64>,
+    /// The mass of sites that are left out.
+    pub mass_left_out: f64,
+    /// The power of the target that the particles stand for.
+    pub alpha: f64,
     /// Whether a certificate is asked for.
     pub certificate: bool,
     /// Whether it was searched for separate pieces.
@@ -101,7 +105,7 @@ pub(crate) fn judged<const D: usize>(bodies: Vec<Driven<D>>, knowledge: &Knowled
             .zip(&shares)
             .map(|(body, &share)| {
                 let seen = &body.samples.positions;
-                (Evidence::new(&body.positions, &body.scores, seen, share), share)
+                Evidence::new(&body.positions, &body.scores, seen, share)
             })
             .collect();
         let mean = |of: &dyn Fn(&Driven<D>) -> f64| {
@@ -117,7 +121,9 @@ pub(crate) fn judged<const D: usize>(bodies: Vec<Driven<D>>, knowledge: &Knowled
             drift: bodies.iter().map(|body| body.drift).fold(0.0, f64::max),
             kinetic_energy: mean(&|body| body.kinetic_energy),
             mass_error: error_from_masses(&bodies, &shares, &knowledge.mass_errors),
+            mass_left_out: knowledge.mass_left_out,
             surveyed: knowledge.surveyed,
+            alpha: knowledge.alpha,
         };
         Certificate::of(&evidence, circumstances)
     });

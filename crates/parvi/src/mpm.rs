@@ -96,6 +96,9 @@ impl MpmOptions {
         let knowledge = Knowledge {
             masses: self.weighted.then(|| of_sites(|site| site.mass)),
             mass_errors: of_sites(|site| site.mass_error),
+            mass_left_out: survey.sites.iter().map(|site| site.mass).sum::<f64>()
+                - departures.iter().map(|departure| departure.site.mass).sum::<f64>(),
+            alpha: self.annealing.last(),
             certificate: self.certificate,
             surveyed: self.survey,
         };

@@ -126,6 +126,8 @@ impl<const D: usize> Job<'_, D> {
         let knowledge = Knowledge {
             masses: None,
             mass_errors: vec![0.0],
+            mass_left_out: 0.0,
+            alpha: alpha.last(),
             certificate: true,
             surveyed: false,
         };

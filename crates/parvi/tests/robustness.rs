@@ -8,7 +8,7 @@ use parvi::{
     Annealing, Checkpoint, MpmOptions, NonFiniteScores, Observer, Outcome, Progress, Run, SampleError, Samples, Silent,
     Start, TransferChoice, expectation,
 };
-use parvi_targets::{Frame, Gaussian, GaussianMixture, Target};
+use parvi_targets::{CatalogueTarget, Frame, Gaussian, GaussianMixture, Target};
 
 /// N(0, I) whose score is not a number beyond a wall.
 struct Walled;
@@ -292,4 +292,35 @@ fn checkpoint_options_out_of_range_are_named() {
         sample(&nowhere, &Gaussian::<2>::standard(), &from(0.0, 1.0)),
         Err(SampleError::Checkpoint { .. })
     ));
+}
+
+#[test]
+fn few_particles_on_many_pieces_are_described_as_they_are() {
+    let target = GaussianMixture::<2>::three_far().expect("a mixture");
+    for count in [3, 20] {
+        let samples = MpmOptions::default()
+            .sample(&target, &target.frame(), &Run::new(count, 2), &mut Silent)
+            .expect("particles");
+        let certificate = samples.certificate.expect("a certificate");
+        assert_ne!(certificate.outcome, Outcome::Converged);
+        assert_eq!(certificate.mass_left_out > 0.1, count == 3);
+        for axis in 0..2 {
+            let mean = samples.positions.iter().map(|x| x[axis]).sum::<f64>() / count as f64;
+            assert!((certificate.moments[axis].mean - mean).abs() < 1e-9);
+        }
+    }
+}
+
+#[test]
+fn a_tempered_target_is_not_called_converged() {
+    let options = MpmOptions {
+        annealing: Annealing::Constant(0.5),
+        ..MpmOptions::default()
+    };
+    let samples = sample(&options, &Gaussian::<2>::standard(), &from(0.0, 1.0)).expect("particles");
+    let outcome = samples.certificate.expect("a certificate").outcome;
+    assert!(
+        matches!(outcome, Outcome::Stalled(Doubt::Tempered { .. })),
+        "{outcome:?}"
+    );
 }

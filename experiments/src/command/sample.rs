@@ -1,6 +1,6 @@
 //! `parvi sample`: particles of one target by one method, into one file.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use parvi::{Checkpoint, Method, MpmOptions, Run};
@@ -64,6 +64,7 @@ pub struct Arguments {
 pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let method = with_checkpoint(arguments.options.method(arguments.method)?, arguments)?;
     ParticleFormat::of(&arguments.out)?;
+    check_files(arguments)?;
     let target = TargetSpecification {
         name: arguments.target.clone(),
         dim: arguments.dim,
@@ -88,6 +89,41 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     file.write(&outcome.particles)?;
     warn(&outcome);
     console::print_pairs(&pairs(arguments, &outcome, peak_memory))
+}
+
+/// Refuses one file in two roles.
+fn check_files(arguments: &Arguments) -> Result<(), CommandError> {
+    let files = [
+        ("out", Some(&arguments.out)),
+        ("diagnostics", arguments.diagnostics.as_ref()),
+        ("checkpoint", arguments.checkpoint.as_ref()),
+        ("data", arguments.parameters.data.as_ref()),
+    ];
+    let given: Vec<_> = files
+        .into_iter()
+        .filter_map(|(name, path)| Some((name, path?, place(path?))))
+        .collect();
+    for (k, (name, path, own)) in given.iter().enumerate() {
+        if let Some((other, ..)) = given[..k].iter().find(|(.., place)| place == own) {
+            return Err(OptionError {
+                name: (*name).to_owned(),
+                reason: format!("{} is the file of --{other}", path.display()),
+            }
+            .into());
+        }
+    }
+    Ok(())
+}
+
+/// A path in the one form that two spellings of it share, whether or not its file exists.
+fn place(path: &Path) -> PathBuf {
+    let directory = path.parent().filter(|parent| !parent.as_os_str().is_empty());
+    let directory = directory.unwrap_or(Path::new(".")).canonicalize();
+    match (path.canonicalize(), directory, path.file_name()) {
+        (Ok(whole), _, _) => whole,
+        (_, Ok(directory), Some(name)) => directory.join(name),
+        _ => path.to_owned(),
+    }
 }
 
 /// The method with the checkpoint that was asked for.
@@ -120,6 +156,12 @@ fn warn(outcome: &Outcome) {
     };
     if let Some(reason) = certificate.outcome.reason() {
         console::notice(&format!("{}: {reason}", certificate.outcome.name()));
+    }
+    if certificate.mass_left_out > 0.0 {
+        console::notice(&format!(
+            "there are too few particles for pieces of the target with a mass of {:.3}, which are left out",
+            certificate.mass_left_out
+        ));
     }
     if let Some(error) = certificate.mass_error {
         console::notice(&format!(

@@ -39,6 +39,19 @@ pub struct Expectation {
 }
 
 impl Expectation {
+    /// Of equally weighted values about which no scores are known.
+    pub(crate) fn without_scores(values: &[f64]) -> Self {
+        let weights = normalised(values.len(), None);
+        let (average, standard_deviation) = mean_and_deviation(&weights, |p| values[p]);
+        Self {
+            average,
+            estimate: average,
+            standard_deviation,
+            unexplained: standard_deviation,
+            standard_error: standard_deviation / (values.len() as f64).sqrt(),
+        }
+    }
+
     /// sd(r) / sd(f); 0 for a constant.
     pub fn unexplained_share(&self) -> f64 {
         if self.standard_deviation > 0.0 {

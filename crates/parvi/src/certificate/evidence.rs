@@ -22,9 +22,9 @@ pub(crate) struct Evidence<const D: usize> {
 }
 
 impl<const D: usize> Evidence<D> {
-    /// From particles at `positions` (in the coordinates in which the scores are gradients), which the user sees at `seen`; `None` if there
-    /// is no regression.
-    pub fn new(positions: &[[f64; D]], scores: &[[f64; D]], seen: &[[f64; D]], share: f64) -> Option<Self> {
+    /// From particles at `positions` (in the coordinates in which the scores are gradients), which the user sees at `seen`. Where there is no
+    /// regression, the estimates are the averages and nothing is explained.
+    pub fn new(positions: &[[f64; D]], scores: &[[f64; D]], seen: &[[f64; D]], share: f64) -> Self {
         let mut centre = [0.0; D];
         for x in seen {
             vector::accumulate(&mut centre, 1.0 / seen.len() as f64, x);
@@ -55,7 +55,22 @@ impl<const D: usize> Evidence<D> {
                 break;
             }
         }
-        best.map(|(_, evidence)| evidence)
+        best.map_or_else(|| Self::blind(seen, centre, share), |(_, evidence)| evidence)
+    }
+
+    /// What is known without scores.
+    fn blind(seen: &[[f64; D]], centre: [f64; D], share: f64) -> Self {
+        let of = |value: &dyn Fn(&[f64; D]) -> f64| {
+            let values: Vec<f64> = seen.iter().map(value).collect();
+            Expectation::without_scores(&values)
+        };
+        Self {
+            share,
+            centre,
+            first: std::array::from_fn(|a| of(&|x| x[a] - centre[a])),
+            second: std::array::from_fn(|a| of(&|x| (x[a] - centre[a]).powi(2))),
+            degree: 0,
+        }
     }
 }
 

@@ -28,8 +28,8 @@ pub const LARGEST_RESIDUAL: f64 = 1.1;
 /// The largest drift over the last tenth of the steps of particles at rest, in standard deviations.
 pub const LARGEST_DRIFT: f64 = 0.02;
 
-/// Pieces lighter than this may go without evidence of their own.
-const NEGLIGIBLE_SHARE: f64 = 0.02;
+/// The largest mass of pieces that have no particles at all then.
+pub const LARGEST_MASS_LEFT_OUT: f64 = 0.01;
 
 /// How good the particles are, as far as the scores can tell (docs/theory.md, §13).
 #[derive(Clone, Debug, PartialEq)]
@@ -47,6 +47,8 @@ pub struct Certificate {
     /// Standard error that the masses of separate pieces bring into a mean, in standard deviations: the largest; `None` for one piece. The
     /// residual and the scores are blind to these masses.
     pub mass_error: Option<f64>,
+    /// The mass of pieces that are known but have no particles, since there were too few.
+    pub mass_left_out: f64,
 }
 
 /// What the verdict is drawn from, besides the bodies' evidence.
@@ -58,32 +60,26 @@ pub(crate) struct Circumstances {
     pub drift: f64,
     pub kinetic_energy: f64,
     pub mass_error: Option<f64>,
+    /// The mass of pieces that are known but have no particles, since there were too few.
+    pub mass_left_out: f64,
     /// Whether the target was searched for separate pieces.
     pub surveyed: bool,
+    /// The power of p that the particles stand for.
+    pub alpha: f64,
 }
 
 impl Certificate {
-    /// The verdict on bodies, each with its evidence (`None`: it has none) and its share of the particles.
-    pub(crate) fn of<const D: usize>(bodies: &[(Option<Evidence<D>>, f64)], circumstances: Circumstances) -> Self {
-        let known: Vec<Evidence<D>> = bodies.iter().filter_map(|(evidence, _)| evidence.clone()).collect();
-        let unknown: f64 = bodies
-            .iter()
-            .filter(|(evidence, _)| evidence.is_none())
-            .map(|(_, share)| share)
-            .sum();
-        let moments = if known.is_empty() {
-            Vec::new()
-        } else {
-            moments(&known, circumstances.particles)
-        };
-        let degenerate = moments.is_empty() || unknown > NEGLIGIBLE_SHARE;
+    /// The verdict on bodies with this evidence.
+    pub(crate) fn of<const D: usize>(bodies: &[Evidence<D>], circumstances: Circumstances) -> Self {
+        let moments = moments(bodies, circumstances.particles);
         Self {
-            outcome: verdict(&moments, degenerate, &circumstances),
+            outcome: verdict(&moments, &circumstances),
             moments,
-            degree: known.iter().map(Evidence::degree).max().unwrap_or(0),
+            degree: bodies.iter().map(Evidence::degree).max().unwrap_or(0),
             drift: circumstances.drift,
             kinetic_energy: circumstances.kinetic_energy,
             mass_error: circumstances.mass_error,
+            mass_left_out: circumstances.mass_left_out,
         }
     }
 
@@ -107,7 +103,7 @@ impl Certificate {
 }
 
 /// The first doubt, or none.
-fn verdict(moments: &[MomentEstimate], degenerate: bool, circumstances: &Circumstances) -> Outcome {
+fn verdict(moments: &[MomentEstimate], circumstances: &Circumstances) -> Outcome {
     let drift = circumstances.drift;
     if exceeds(drift, LARGEST_DRIFT) {
         return Outcome::BudgetExhausted { drift };
@@ -120,8 +116,14 @@ fn verdict(moments: &[MomentEstimate], degenerate: bool, circumstances: &Circums
             .filter(|&(_, value)| exceeds(value, limit))
     };
     let cautious = |error: f64, moment: &MomentEstimate| error + 0.2 * moment.unexplained();
-    let doubt = if degenerate {
-        Some(Doubt::Degenerate)
+    let doubt = if circumstances.alpha != 1.0 {
+        Some(Doubt::Tempered {
+            alpha: circumstances.alpha,
+        })
+    } else if exceeds(circumstances.mass_left_out, LARGEST_MASS_LEFT_OUT) {
+        Some(Doubt::LeftOut {
+            mass: circumstances.mass_left_out,
+        })
     } else if let Some((axis, share)) = worst(&MomentEstimate::unexplained, LARGEST_UNEXPLAINED) {
         Some(Doubt::Unexplained { axis, share })
     } else if let Some((axis, error)) = worst(&|moment| cautious(moment.mean_error(), moment), LARGEST_ERROR) {

@@ -52,8 +52,16 @@ pub enum Doubt {
     },
     /// Nothing has looked for other pieces of the target, of which the particles would know nothing.
     NotSurveyed,
-    /// There are too few particles, or they lie in a plane.
-    Degenerate,
+    /// Pieces of the target have no particles, since there are too few.
+    LeftOut {
+        /// The mass of these pieces.
+        mass: f64,
+    },
+    /// The particles stand for p^α, and the scores judge p.
+    Tempered {
+        /// α of the last steps.
+        alpha: f64,
+    },
 }
 
 impl Outcome {
@@ -99,7 +107,14 @@ impl fmt::Display for Doubt {
                 "the masses of separate pieces leave a standard error of {error:.3} standard deviations in a mean"
             ),
             Self::NotSurveyed => write!(f, "without a survey nothing has looked for other pieces of the target"),
-            Self::Degenerate => write!(f, "there are too few particles to judge by, or they lie in a plane"),
+            Self::LeftOut { mass } => write!(
+                f,
+                "pieces of the target with a mass of {mass:.3} have no particles, since there are too few"
+            ),
+            Self::Tempered { alpha } => write!(
+                f,
+                "the particles stand for the density to the power of {alpha}, and the scores judge the density itself"
+            ),
         }
     }
 }

@@ -3,7 +3,7 @@
 mod saved;
 
 use std::fs::{self, File};
-use std::io::{BufReader, BufWriter, Write};
+use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
 use parvi_targets::{Frame, Target};
@@ -92,8 +92,7 @@ impl Journal {
             },
             Err(error) => return Err(refused(path, &error)),
             Ok(file) => {
-                let saved: Saved =
-                    ciborium::from_reader(BufReader::new(file)).map_err(|error| refused(path, &error))?;
+                let saved = read(file).map_err(|reason| refused(path, &reason))?;
                 if saved.identity != identity {
                     return Err(refused(
                         path,
@@ -170,14 +169,44 @@ impl Journal {
         let mut part = path.clone().into_os_string();
         part.push(".part");
         let part = PathBuf::from(part);
-        let mut writer = BufWriter::new(File::create(&part).map_err(|error| refused(&part, &error))?);
-        ciborium::into_writer(&self.saved, &mut writer).map_err(|error| refused(&part, &error))?;
-        writer
-            .flush()
-            .and_then(|()| writer.get_ref().sync_all())
-            .and_then(|()| fs::rename(&part, path))
-            .map_err(|error| refused(&part, &error))
+        let mut content = Vec::new();
+        ciborium::into_writer(&self.saved, &mut content).map_err(|error| refused(path, &error))?;
+        let replaced = File::create(&part).and_then(|mut file| {
+            file.write_all(MAGIC)?;
+            file.write_all(&checksum(&content).to_le_bytes())?;
+            file.write_all(&content)?;
+            file.sync_all()?;
+            fs::rename(&part, path)
+        });
+        replaced.map_err(|error| {
+            let _ = fs::remove_file(&part);
+            refused(path, &error)
+        })
     }
+}
+
+/// What a checkpoint begins with; its checksum and content follow.
+const MAGIC: &[u8] = b"parvi checkpoint 1\n";
+
+/// The content of a file, if it is a whole one.
+fn read(mut file: File) -> Result<Saved, String> {
+    let mut bytes = Vec::new();
+    file.read_to_end(&mut bytes).map_err(|error| error.to_string())?;
+    let damaged = || "it is damaged or no checkpoint; remove it or name another file".to_owned();
+    let rest = bytes.strip_prefix(MAGIC).ok_or_else(damaged)?;
+    let (sum, content) = rest.split_first_chunk().ok_or_else(damaged)?;
+    if u64::from_le_bytes(*sum) != checksum(content) {
+        return Err(damaged());
+    }
+    ciborium::from_reader(content).map_err(|_| damaged())
+}
+
+/// FNV-1a (G. Fowler, L. C. Noll, K.-P. Vo), 64 bits.
+fn checksum(content: &[u8]) -> u64 {
+    let start = 0xcbf2_9ce4_8422_2325;
+    content.iter().fold(start, |hash, &byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    })
 }
 
 fn refused(path: &Path, reason: &dyn std::fmt::Display) -> SampleError {

@@ -128,6 +128,13 @@ impl Annealing {
         Ok(self)
     }
 
+    /// α of the last steps.
+    pub(crate) fn last(self) -> f64 {
+        match self {
+            Self::Constant(alpha) | Self::Geometric { to: alpha, .. } => alpha,
+        }
+    }
+
     /// α in step `step` of `steps`, counted from 1.
     pub(crate) fn at(self, step: usize, steps: usize) -> f64 {
         match self {
