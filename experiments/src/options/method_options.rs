@@ -67,16 +67,16 @@ pub struct MethodOptions {
     /// Friction, per unit of time (mpm)
     #[arg(long, value_name = "GAMMA", allow_negative_numbers = true)]
     pub friction: Option<f64>,
-    /// Rounds of the steps, at most, while the particles are still on their way [3, but 1 with --steps] (mpm)
+    /// Rounds of the steps, at most, while the particles are still on their way; 3, but 1 with --steps (mpm)
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub rounds: Option<StepCount>,
-    /// Equally many particles for each separate piece of the target, with weights [off] (mpm)
+    /// Equally many particles for each separate piece of the target, with weights; off unless given (mpm)
     #[arg(long)]
     pub weighted: Option<Switch>,
-    /// What is done about a score that is not finite [pull-back] (mpm)
+    /// What is done about a score that is not finite; pull-back unless given (mpm)
     #[arg(long)]
     pub non_finite: Option<NonFinite>,
-    /// Judge the particles at the end [on] (mpm)
+    /// Judge the particles at the end; on unless given (mpm)
     #[arg(long)]
     pub certificate: Option<Switch>,
     /// Elastic law [paper-*]
