@@ -16,6 +16,9 @@ const LARGEST_COUNT: usize = 128;
 /// Particles per polynomial, at least.
 const PARTICLES_PER_POLYNOMIAL: usize = 8;
 
+/// Degrees beyond this are taken only where they explain: else they say more about the gaps between particles than about the target.
+const MODEST_DEGREE: usize = 4;
+
 /// Ridge of the normal equations, whose diagonal is one.
 const RIDGE: f64 = 1e-11;
 
@@ -80,8 +83,33 @@ pub(crate) struct ControlVariates<const D: usize> {
 }
 
 impl<const D: usize> ControlVariates<D> {
+    /// What `judge` makes of the regression of the lowest degree that leaves at most `enough` unexplained, which is the first thing that it returns;
+    /// else of the modest degree that leaves least. `None` if there is no regression.
+    pub fn explaining<T>(
+        positions: &[[f64; D]],
+        scores: &[[f64; D]],
+        weights: Option<&[f64]>,
+        enough: f64,
+        judge: impl Fn(&Self, usize) -> (f64, T),
+    ) -> Option<T> {
+        let mut best: Option<(f64, T)> = None;
+        for degree in Self::degrees(positions.len()) {
+            let Some(regression) = Self::new(positions, scores, weights, degree) else {
+                break;
+            };
+            let (unexplained, judged) = judge(&regression, degree);
+            if unexplained <= enough {
+                return Some(judged);
+            }
+            if degree <= MODEST_DEGREE && best.as_ref().is_none_or(|(least, _)| unexplained < *least) {
+                best = Some((unexplained, judged));
+            }
+        }
+        best.map(|(_, judged)| judged)
+    }
+
     /// The degrees that may be tried for this many particles, from below.
-    pub fn degrees(particles: usize) -> impl Iterator<Item = usize> {
+    fn degrees(particles: usize) -> impl Iterator<Item = usize> {
         let largest = (particles.min(FITTED) / PARTICLES_PER_POLYNOMIAL).min(LARGEST_COUNT);
         [1, 2, 3, 4, 6, 8, 10, MAXIMUM_DEGREE]
             .into_iter()

@@ -7,9 +7,6 @@ use super::control_variates::{ControlVariates, Expectation};
 /// Polynomials of a higher degree are tried as long as they leave more than this share of a coordinate or its square unexplained.
 const EXPLAINED: f64 = 0.1;
 
-/// Degrees beyond this are taken only where they explain: else they say more about the gaps between particles than about the target.
-const MODEST_DEGREE: usize = 4;
-
 /// Means and second moments about `centre` of one body's particles, in the user's coordinates.
 #[derive(Clone, Debug)]
 pub(crate) struct Evidence<const D: usize> {
@@ -29,52 +26,26 @@ impl<const D: usize> Evidence<D> {
         for x in seen {
             vector::accumulate(&mut centre, 1.0 / seen.len() as f64, x);
         }
-        let mut best: Option<(f64, Self)> = None;
-        for degree in ControlVariates::<D>::degrees(positions.len()) {
-            let Some(regression) = ControlVariates::new(positions, scores, None, degree) else {
-                break;
-            };
+        let judged = |expectation: &dyn Fn(&[f64]) -> Expectation, degree| {
             let of = |value: &dyn Fn(&[f64; D]) -> f64| {
                 let values: Vec<f64> = seen.iter().map(value).collect();
-                regression.expectation(&values)
+                expectation(&values)
             };
-            let evidence = Self {
+            Self {
                 share,
                 centre,
                 first: std::array::from_fn(|a| of(&|x| x[a] - centre[a])),
                 second: std::array::from_fn(|a| of(&|x| (x[a] - centre[a]).powi(2))),
                 degree,
-            };
-            let unexplained = evidence.unexplained();
-            let explains = unexplained <= EXPLAINED;
-            let better = best.as_ref().is_none_or(|(least, _)| unexplained < *least);
-            if explains || (better && degree <= MODEST_DEGREE) {
-                best = Some((unexplained, evidence));
             }
-            if explains {
-                break;
-            }
-        }
-        best.map_or_else(|| Self::blind(seen, centre, share), |(_, evidence)| evidence)
-    }
-
-    /// What is known without scores.
-    fn blind(seen: &[[f64; D]], centre: [f64; D], share: f64) -> Self {
-        let of = |value: &dyn Fn(&[f64; D]) -> f64| {
-            let values: Vec<f64> = seen.iter().map(value).collect();
-            Expectation::without_scores(&values)
         };
-        Self {
-            share,
-            centre,
-            first: std::array::from_fn(|a| of(&|x| x[a] - centre[a])),
-            second: std::array::from_fn(|a| of(&|x| (x[a] - centre[a]).powi(2))),
-            degree: 0,
-        }
+        let found = ControlVariates::explaining(positions, scores, None, EXPLAINED, |regression, degree| {
+            let evidence = judged(&|values| regression.expectation(values), degree);
+            (evidence.unexplained(), evidence)
+        });
+        found.unwrap_or_else(|| judged(&Expectation::without_scores, 0))
     }
-}
 
-impl<const D: usize> Evidence<D> {
     /// The largest part of a coordinate, in standard deviations, or of a variance, relative to twice itself, that is unexplained.
     fn unexplained(&self) -> f64 {
         let of_axis = |a: usize| {

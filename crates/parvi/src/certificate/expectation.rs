@@ -26,20 +26,11 @@ pub fn expectation<const D: usize>(
     }
     let mut scores = vec![[0.0; D]; positions.len()];
     target.scores(positions, &mut scores);
-    let mut best: Option<Expectation> = None;
-    for degree in ControlVariates::<D>::degrees(positions.len()) {
-        let Some(regression) = ControlVariates::new(positions, &scores, samples.weights.as_deref(), degree) else {
-            break;
-        };
+    let weights = samples.weights.as_deref();
+    ControlVariates::explaining(positions, &scores, weights, EXPLAINED, |regression, _| {
         let found = regression.expectation(&values);
-        if best.is_none_or(|least| found.unexplained < least.unexplained) {
-            best = Some(found);
-        }
-        if found.unexplained_share() <= EXPLAINED {
-            break;
-        }
-    }
-    best
+        (found.unexplained_share(), found)
+    })
 }
 
 #[cfg(test)]
