@@ -3,6 +3,8 @@
 use mpm_tensor::vector;
 use rayon::prelude::*;
 
+use crate::stein_thinning::{Candidate, SteinKernel};
+
 /// A target is rough where E|s|²/D, the mean curvature of −log p by Stein's identity, exceeds this; it is 1 for N(0, I).
 const ROUGH: f64 = 3.0;
 
@@ -18,32 +20,20 @@ pub(crate) fn is_rough<const D: usize>(scores: &[[f64; D]]) -> bool {
     scores.len() <= LARGEST_COUNT && square > ROUGH * (D * scores.len()) as f64
 }
 
-/// The squared kernel Stein discrepancy of equally weighted particles (V-statistic) with the inverse multiquadric k = q^{−1/2},
-/// q = 1 + |x − y|²: the mean over all pairs of
-///
-/// u(x, y) = k \[s_x·s_y + ((s_x − s_y)·(x − y) + D − 3 |x − y|²/q) / q\].
+/// The squared kernel Stein discrepancy of equally weighted particles (V-statistic): the mean of the Stein kernel of the inverse multiquadric,
+/// with Γ = I, over all pairs.
 ///
 /// Source: J. Gorham, L. Mackey, *Measuring sample quality with kernels*, ICML 2017, §3–4.
 pub(crate) fn squared_stein_discrepancy<const D: usize>(positions: &[[f64; D]], scores: &[[f64; D]]) -> f64 {
+    let kernel = SteinKernel::isotropic::<D>();
+    let pairs = positions.iter().zip(scores);
+    let points: Vec<Candidate<D>> = pairs.map(|(x, s)| Candidate::isotropic(x, s)).collect();
     let row = |p: usize| -> f64 {
-        let pairs = positions.iter().zip(scores).take(p + 1);
-        let sum: f64 = pairs.map(|(y, t)| stein_kernel(&positions[p], &scores[p], y, t)).sum();
-        2.0 * sum - stein_kernel(&positions[p], &scores[p], &positions[p], &scores[p])
+        let below: f64 = points[..p].iter().map(|other| kernel.value(&points[p], other)).sum();
+        2.0 * below + kernel.value(&points[p], &points[p])
     };
-    let rows: Vec<f64> = (0..positions.len()).into_par_iter().map(row).collect();
-    rows.iter().sum::<f64>() / (positions.len() as f64).powi(2)
-}
-
-fn stein_kernel<const D: usize>(x: &[f64; D], s: &[f64; D], y: &[f64; D], t: &[f64; D]) -> f64 {
-    let (mut square, mut product, mut mixed) = (0.0, 0.0, D as f64);
-    for a in 0..D {
-        let apart = x[a] - y[a];
-        square += apart * apart;
-        product += s[a] * t[a];
-        mixed += (s[a] - t[a]) * apart;
-    }
-    let inverse = 1.0 / (1.0 + square);
-    inverse.sqrt() * (product + inverse * (mixed - 3.0 * square * inverse))
+    let rows: Vec<f64> = (0..points.len()).into_par_iter().map(row).collect();
+    rows.iter().sum::<f64>() / (points.len() as f64).powi(2)
 }
 
 #[cfg(test)]

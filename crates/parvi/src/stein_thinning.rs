@@ -84,7 +84,7 @@ impl<const D: usize> GreedyChoice<D> {
 
 /// A draw in coordinates of unit variances.
 #[derive(Clone, Copy)]
-struct Candidate<const D: usize> {
+pub(crate) struct Candidate<const D: usize> {
     /// L⁻¹ z with L Lᵀ = Γ.
     whitened: [f64; D],
     /// Γ⁻¹ z.
@@ -93,17 +93,33 @@ struct Candidate<const D: usize> {
     score: [f64; D],
 }
 
+impl<const D: usize> Candidate<D> {
+    /// For Γ = I.
+    pub(crate) fn isotropic(x: &[f64; D], score: &[f64; D]) -> Self {
+        Self {
+            whitened: *x,
+            weighted: *x,
+            score: *score,
+        }
+    }
+}
+
 /// The Stein kernel of the preconditioned inverse multiquadric.
 #[derive(Clone, Copy)]
-struct SteinKernel {
+pub(crate) struct SteinKernel {
     /// tr Γ⁻¹.
     trace: f64,
 }
 
 impl SteinKernel {
+    /// The one with Γ = I.
+    pub(crate) fn isotropic<const D: usize>() -> Self {
+        Self { trace: D as f64 }
+    }
+
     /// k₀ = −3 |Γ⁻¹ r|² q^{−5/2} + (tr Γ⁻¹ + (s_x − s_y)·Γ⁻¹ r) q^{−3/2} + s_x·s_y q^{−1/2}, r = x − y, q = 1 + rᵀ Γ⁻¹ r.
     #[inline]
-    fn value<const D: usize>(&self, x: &Candidate<D>, y: &Candidate<D>) -> f64 {
+    pub(crate) fn value<const D: usize>(&self, x: &Candidate<D>, y: &Candidate<D>) -> f64 {
         let (mut square, mut weighted_square, mut mixed, mut product) = (0.0, 0.0, self.trace, 0.0);
         for a in 0..D {
             let apart = x.whitened[a] - y.whitened[a];
