@@ -6,12 +6,16 @@ use crate::error::positive;
 /// Lamé's parameters λ and μ of an isotropic elastic solid, in units of stress.
 ///
 /// From Young's modulus E and Poisson's ratio ν by μ = E / 2(1+ν), λ = Eν / ((1+ν)(1−2ν)), the relations of three
-/// dimensions (and of plane strain in two). The law in D dimensions uses λ and μ as they are, as in the ParVI paper, so E
-/// and ν keep their measured meaning for D = 3 only.
+/// dimensions (and of plane strain in two). The law in D dimensions uses λ and μ as they are, as in the ParVI paper, so
+/// E and ν keep their measured meaning for D = 3 only.
+///
+/// A bar (D = 1) whose stress is E times its strain has λ + 2μ = E: take ν = 0, where λ = 0 and μ = E/2, and
+/// [`LinearElastic`](crate::LinearElastic) is P = E (F − 1). Any other ν adds the stiffness of sides held in place
+/// (uniaxial strain).
 ///
 /// E > 0 and −1 < ν < 1/2 are required, that is μ > 0 and λ > −2μ/3. Then waves of small amplitude are stable in any D
-/// (μ > 0, λ + 2μ > 0). In D > 3 dimensions the bulk modulus λ + 2μ/D is positive only for ν > −1/(D−2); below, a uniform
-/// expansion releases energy. ν ≥ 0 is safe everywhere.
+/// (μ > 0, λ + 2μ > 0). In D > 3 dimensions the bulk modulus λ + 2μ/D is positive only for ν > −1/(D−2); below, a
+/// uniform expansion releases energy. ν ≥ 0 is safe everywhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ElasticModuli {
     first_lame_parameter: f64,

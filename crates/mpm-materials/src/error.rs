@@ -39,6 +39,50 @@ pub enum ParameterError {
         /// ρ₀ as given.
         value: f64,
     },
+    /// The peak yield stress κ_p must be positive and finite.
+    #[error("the peak yield stress must be positive and finite, not {value}")]
+    PeakYieldStress {
+        /// κ_p as given.
+        value: f64,
+    },
+    /// The residual yield stress κ_r must lie between zero and the peak.
+    #[error("the residual yield stress must lie between 0 and the peak {peak}, not {value}")]
+    ResidualYieldStress {
+        /// κ_r as given.
+        value: f64,
+        /// κ_p.
+        peak: f64,
+    },
+    /// The rate of softening η must be finite and not negative.
+    #[error("the rate of softening must be finite and at least 0, not {value}")]
+    SofteningRate {
+        /// η as given.
+        value: f64,
+    },
+    /// The friction angle φ must lie strictly between 0 and π/2.
+    #[error("the friction angle must lie strictly between 0 and pi/2 (radians), not {value}")]
+    FrictionAngle {
+        /// φ as given, in radians.
+        value: f64,
+    },
+    /// The cohesion c must be finite and not negative.
+    #[error("the cohesion must be finite and at least 0, not {value}")]
+    Cohesion {
+        /// c as given.
+        value: f64,
+    },
+    /// The speed of sound c at rest must be positive and finite, and so must ρ₀ c².
+    #[error("the speed of sound must be positive and finite, also its square times the density, not {value}")]
+    SoundSpeed {
+        /// c as given.
+        value: f64,
+    },
+    /// The viscosity μ_v must be finite and not negative.
+    #[error("the viscosity must be finite and at least 0, not {value}")]
+    Viscosity {
+        /// μ_v as given.
+        value: f64,
+    },
 }
 
 /// A deformation gradient for which a material has no stress.
@@ -60,6 +104,15 @@ pub enum DeformationError {
         /// J = det F.
         volume_ratio: f64,
     },
+}
+
+/// `Ok` for a finite value that is not negative, the error made of it otherwise.
+pub(crate) fn not_negative(value: f64, error: impl FnOnce(f64) -> ParameterError) -> Result<f64, ParameterError> {
+    if value >= 0.0 && value.is_finite() {
+        Ok(value)
+    } else {
+        Err(error(value))
+    }
 }
 
 /// `Ok` for a positive finite value, the error made of it otherwise.

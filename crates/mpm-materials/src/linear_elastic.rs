@@ -90,4 +90,13 @@ mod tests {
         let half_turn = Matrix::diagonal(&[-1.0, -1.0, 1.0]);
         assert_eq!(material().energy_density(&half_turn), 8.0 * 2.0 + 8.0 * 3.0);
     }
+
+    #[test]
+    fn a_bar_without_poisson_ratio_follows_hooke() {
+        let bar = LinearElastic::new(ElasticModuli::new(7.0, 0.0).expect("in range"));
+        let F = Matrix([[1.25]]);
+        assert_eq!(bar.first_piola_kirchhoff(&F), Matrix([[7.0 * 0.25]]));
+        assert_eq!(bar.energy_density(&F), 3.5 * 0.0625);
+        assert_eq!(bar.wave_speed(&Matrix([[1.0]]), 7.0), 1.0);
+    }
 }

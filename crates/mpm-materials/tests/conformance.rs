@@ -1,9 +1,13 @@
 //! What every material must satisfy, D = 1…4, through `&dyn Material<D>`.
 #![allow(non_snake_case)]
 
-use mpm_materials::{ElasticModuli, IsothermalGas, LinearElastic, Material, NeoHookean};
-use mpm_tensor::{Matrix, Polar, vector};
+use mpm_materials::{ElasticModuli, FixedCorotated, Hencky, IsothermalGas, LinearElastic, Material, NeoHookean};
+use mpm_tensor::Matrix;
 use proptest::prelude::*;
+
+mod common;
+
+use common::{Sample, derivative_of, rotation, sample, stiffness_of};
 
 /// A material and what its documentation promises.
 struct Member<'a, const D: usize> {
@@ -15,48 +19,6 @@ struct Member<'a, const D: usize> {
     stress_free_at_rest: bool,
 }
 
-/// A random state: moduli, deformation, rotation and two directions, for any D ≤ 4.
-#[derive(Clone, Debug)]
-struct Sample {
-    young_modulus: f64,
-    poisson_ratio: f64,
-    reference_density: f64,
-    numbers: Vec<f64>,
-}
-
-fn sample() -> impl Strategy<Value = Sample> {
-    let numbers = prop::collection::vec(-1.0..1.0, 48);
-    (0.1..10.0, -0.2..0.45, 0.2..5.0, numbers).prop_map(|(young_modulus, poisson_ratio, reference_density, numbers)| {
-        Sample {
-            young_modulus,
-            poisson_ratio,
-            reference_density,
-            numbers,
-        }
-    })
-}
-
-impl Sample {
-    fn block<const D: usize>(&self, index: usize) -> Matrix<D> {
-        Matrix::from_fn(|i, j| self.numbers[16 * index + D * i + j])
-    }
-
-    /// A stretch with principal values in [0.4, 1.6] after a rotation.
-    fn deformation<const D: usize>(&self) -> Matrix<D> {
-        let perturbation = self.block::<D>(0).symmetric_part() * (0.6 / D as f64);
-        rotation(&self.block(1)) * (Matrix::IDENTITY + perturbation)
-    }
-
-    fn direction<const D: usize>(&self, index: usize) -> [f64; D] {
-        let v: [f64; D] = std::array::from_fn(|i| self.numbers[32 + D * index + i] + 1e-3);
-        vector::scale(&v, 1.0 / vector::norm(&v))
-    }
-}
-
-fn rotation<const D: usize>(matrix: &Matrix<D>) -> Matrix<D> {
-    Polar::new(matrix).expect("finite entries").rotation
-}
-
 /// Runs `check` on every member.
 fn for_each_member<const D: usize>(
     sample: &Sample,
@@ -66,7 +28,9 @@ fn for_each_member<const D: usize>(
     let gas = IsothermalGas::new(sample.young_modulus).expect("positive");
     let gas = gas.with_reference_density(sample.reference_density).expect("positive");
     let (linear, neo_hookean) = (LinearElastic::new(moduli), NeoHookean::new(moduli));
-    let members: [Member<D>; 3] = [
+    let fixed_corotated = FixedCorotated::new(moduli);
+    let hencky = Hencky::new(moduli);
+    let members: [Member<D>; 5] = [
         Member {
             name: "linear elastic",
             material: &linear,
@@ -76,6 +40,18 @@ fn for_each_member<const D: usize>(
         Member {
             name: "Neo-Hookean",
             material: &neo_hookean,
+            objective: true,
+            stress_free_at_rest: true,
+        },
+        Member {
+            name: "fixed corotated",
+            material: &fixed_corotated,
+            objective: true,
+            stress_free_at_rest: true,
+        },
+        Member {
+            name: "Hencky",
+            material: &hencky,
             objective: true,
             stress_free_at_rest: true,
         },
@@ -101,19 +77,9 @@ fn stress_is_the_derivative_of_energy<const D: usize>(
     member: &Member<D>,
     sample: &Sample,
 ) -> Result<(), TestCaseError> {
-    const STEP: f64 = 1e-3;
     let F = sample.deformation::<D>();
     let scale = stress_scale(member, sample);
-    let energy = |i: usize, j: usize, step: f64| {
-        let mut moved = F;
-        moved.0[i][j] += step;
-        member.material.energy_density(&moved)
-    };
-    let differences = Matrix::from_fn(|i, j| {
-        let near = energy(i, j, STEP) - energy(i, j, -STEP);
-        let far = energy(i, j, 2.0 * STEP) - energy(i, j, -2.0 * STEP);
-        (8.0 * near - far) / (12.0 * STEP)
-    });
+    let differences = derivative_of(|F| member.material.energy_density(F), &F);
     let P = member.material.first_piola_kirchhoff(&F);
     let error = (P - differences).frobenius_norm();
     prop_assert!(error < 1e-9 * scale, "{}, D = {D}: dψ/dF off by {error:e}", member.name);
@@ -172,17 +138,10 @@ fn wave_speed_bounds_the_acoustic_tensor<const D: usize>(
     member: &Member<D>,
     sample: &Sample,
 ) -> Result<(), TestCaseError> {
-    const STEP: f64 = 1e-3;
     let density = sample.reference_density;
     let scale = stress_scale(member, sample);
-    let stiffness = |F: &Matrix<D>, a: &[f64; D], n: &[f64; D]| {
-        let energy = |step: f64| {
-            member
-                .material
-                .energy_density(&((Matrix::IDENTITY + Matrix::outer(a, n) * step) * *F))
-        };
-        (energy(STEP) - 2.0 * energy(0.0) + energy(-STEP)) / (STEP * STEP)
-    };
+    let stiffness =
+        |F: &Matrix<D>, a: &[f64; D], n: &[f64; D]| stiffness_of(|F| member.material.energy_density(F), F, a, n);
     let (a, n) = (sample.direction(0), sample.direction(1));
     let F = sample.deformation::<D>();
     let speed = member.material.wave_speed(&F, density);

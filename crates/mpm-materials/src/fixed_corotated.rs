@@ -1,0 +1,131 @@
+//! The fixed corotated solid.
+
+use mpm_tensor::{Matrix, Polar};
+
+use crate::material::{check_volume_ratio, inverse_transpose};
+use crate::stretch::{largest_squared_stretch, squared_stretch_range};
+use crate::{DeformationError, ElasticModuli, Material};
+
+/// The fixed corotated solid, ψ = μ ‖F − R‖² + λ/2 (J − 1)² with the rotation R of F = R S and J = det F.
+///
+/// P = 2μ (F − R) + λ (J − 1) J F⁻ᵀ and τ = 2μ (F − R) Fᵀ + λ (J − 1) J I, which needs no inverse. Objective and
+/// isotropic; ψ = 0 and τ = 0 at rest. Softer in compression than [`NeoHookean`](crate::NeoHookean): ψ stays finite as
+/// J → 0.
+///
+/// **Defined for J > 0 only**, as in the other laws: [`Material::check`] fails with J otherwise, and the unchecked
+/// methods return NaN. (ψ itself has a continuation to inverted elements, which the source uses.)
+///
+/// Source: Stomakhin, Howes, Schroeder & Teran, *Energetically consistent invertible elasticity*, SCA 2012; in the
+/// material point method Stomakhin et al., *A material point method for snow simulation*, 2013, Eq. 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FixedCorotated {
+    /// λ and μ.
+    pub moduli: ElasticModuli,
+}
+
+impl FixedCorotated {
+    /// The material with these moduli.
+    pub fn new(moduli: ElasticModuli) -> Self {
+        Self { moduli }
+    }
+}
+
+/// F − R and J; NaN unless F is finite and J > 0.
+#[allow(non_snake_case)]
+#[inline]
+fn corotated_strain<const D: usize>(F: &Matrix<D>) -> (Matrix<D>, f64) {
+    let J = F.determinant();
+    match Polar::new(F) {
+        Some(polar) if J > 0.0 && J < f64::INFINITY => (*F - polar.rotation, J),
+        _ => (Matrix([[f64::NAN; D]; D]), f64::NAN),
+    }
+}
+
+#[allow(non_snake_case)]
+impl<const D: usize> Material<D> for FixedCorotated {
+    #[inline]
+    fn energy_density(&self, F: &Matrix<D>) -> f64 {
+        let (strain, J) = corotated_strain(F);
+        self.moduli.shear_modulus() * strain.contract(&strain)
+            + 0.5 * self.moduli.first_lame_parameter() * (J - 1.0) * (J - 1.0)
+    }
+
+    #[inline]
+    fn kirchhoff_stress(&self, F: &Matrix<D>) -> Matrix<D> {
+        let (strain, J) = corotated_strain(F);
+        // Symmetric in exact arithmetic: F Fᵀ less the left stretch.
+        let mut stress = (strain * F.transpose()).symmetric_part() * (2.0 * self.moduli.shear_modulus());
+        let pressure = self.moduli.first_lame_parameter() * (J - 1.0) * J;
+        for i in 0..D {
+            stress.0[i][i] += pressure;
+        }
+        stress
+    }
+
+    fn first_piola_kirchhoff(&self, F: &Matrix<D>) -> Matrix<D> {
+        let (strain, J) = corotated_strain(F);
+        let pressure = self.moduli.first_lame_parameter() * (J - 1.0) * J;
+        strain * (2.0 * self.moduli.shear_modulus()) + inverse_transpose(F) * pressure
+    }
+
+    /// ρ₀ c² = 2μ Λ² + λ J² for λ ≥ 0, with a bound of the largest stretch Λ of F.
+    ///
+    /// Along a nᵀ, in principal axes with stretches λ_i, the second derivative of ψ is
+    ///
+    /// 2μ Σ_i λ_i² n_i² − 2μ Σ_{i<j} (λ_j a_i n_j − λ_i a_j n_i)² / (λ_i + λ_j) + λ J² (a · n)².
+    ///
+    /// For λ < 0 the second sum must not be dropped, or the bound is above the speed at rest. It is at least ‖m‖²
+    /// sin²∠(a, m) / 2Λ with m_i = λ_i n_i, and by Kantorovich's inequality sin ∠(n, m) ≤ δ = (Λ − ℓ)/(Λ + ℓ) with the
+    /// smallest stretch ℓ, which leaves ρ₀ c² ≤ 2μ Λ² + min(0, 2kδ + max(λ J², −k)), k = μ ℓ²/Λ.
+    #[inline]
+    fn wave_speed(&self, F: &Matrix<D>, reference_density: f64) -> f64 {
+        let (lambda, mu) = (self.moduli.first_lame_parameter(), self.moduli.shear_modulus());
+        let J = F.determinant();
+        // Not finite where the law has no stress.
+        let J = if J > 0.0 && J < f64::INFINITY { J } else { f64::NAN };
+        let volumetric = lambda * J * J;
+        if lambda >= 0.0 {
+            return ((2.0 * mu * largest_squared_stretch(F) + volumetric) / reference_density).sqrt();
+        }
+        let (smallest, largest) = squared_stretch_range(F);
+        let k = mu * smallest / largest.sqrt();
+        let delta = (largest.sqrt() - smallest.sqrt()) / (largest.sqrt() + smallest.sqrt());
+        let correction = 2.0 * k * delta + if volumetric < -k { -k } else { volumetric };
+        let correction = if correction > 0.0 { 0.0 } else { correction };
+        ((2.0 * mu * largest + correction) / reference_density).sqrt()
+    }
+
+    fn check(&self, F: &Matrix<D>) -> Result<(), DeformationError> {
+        check_volume_ratio(F).map(|_| ())
+    }
+}
+
+#[cfg(test)]
+#[allow(non_snake_case)]
+mod tests {
+    use super::*;
+
+    fn material() -> FixedCorotated {
+        FixedCorotated::new(ElasticModuli::from_lame(3.0, 2.0).expect("in range"))
+    }
+
+    #[test]
+    fn a_turned_uniaxial_stretch_gives_the_hand_calculation() {
+        let quarter_turn = Matrix([[0.0, -1.0], [1.0, 0.0]]);
+        let F = quarter_turn * Matrix::diagonal(&[2.0, 1.0]);
+        assert!((material().energy_density(&F) - (2.0 + 1.5)).abs() < 1e-15);
+        // Principal stresses 2μ·1·2 + λ·1·2 = 14 and 6; the first axis has become the second.
+        let stress = material().kirchhoff_stress(&F);
+        assert!((stress - Matrix::diagonal(&[6.0, 14.0])).frobenius_norm() < 1e-14);
+    }
+
+    #[test]
+    fn an_inverted_element_is_an_error_with_its_volume_ratio() {
+        let F = Matrix::diagonal(&[1.0, -0.5, 1.0]);
+        let error = material().checked_kirchhoff_stress(&F).expect_err("inverted");
+        assert_eq!(error, DeformationError::VolumeRatio { volume_ratio: -0.5 });
+        assert!(material().kirchhoff_stress(&F).trace().is_nan());
+        assert!(material().first_piola_kirchhoff(&F).trace().is_nan());
+        assert!(material().energy_density(&F).is_nan() && material().wave_speed(&F, 1.0).is_nan());
+    }
+}

@@ -1,0 +1,110 @@
+//! The interface of every law a particle can follow, with memory and rate dependence or without.
+
+use mpm_tensor::Matrix;
+
+use crate::{DeformationError, Material};
+
+/// A constitutive law that may remember (internal variables) and may depend on the rate of deformation.
+///
+/// A step takes the deformation gradient Fⁿ of a particle to the trial F = (I + Δt L) Fⁿ, L the velocity gradient,
+/// hands it to [`advance`](Self::advance), which returns the part of it that the law stores, and asks for the stress
+/// there. For a plastic law this part is the elastic deformation Fᵉ of F = Fᵉ Fᵖ (return mapping; Simo & Hughes,
+/// *Computational Inelasticity*, ch. 9). Symbols and units as in [`Material`].
+///
+/// Every [`Material`] is a law without memory: `State` is `()`, `advance` the identity. The methods of both traits have
+/// the same names, so import the one that is meant.
+#[allow(non_snake_case)]
+pub trait Law<const D: usize>: Sync {
+    /// Internal variables of one particle beside F; the default is the virgin material. `()` for hyperelastic laws.
+    type State: Copy + Send + Sync + Default + PartialEq + std::fmt::Debug;
+
+    /// Whether the stress reads the velocity gradient L (viscosity). Without, L is neither stored nor computed for it.
+    fn rate_dependent(&self) -> bool {
+        false
+    }
+
+    /// Takes a trial F to an admissible one and updates the state: the return mapping. The identity for hyperelastic
+    /// laws.
+    ///
+    /// An F for which [`check`](Self::check) fails is returned as it is, and the state is kept, so that the check that
+    /// follows finds the fault.
+    fn advance(&self, trial: &Matrix<D>, state: &mut Self::State) -> Matrix<D>;
+
+    /// ψ, the stored energy per reference volume. Not finite where [`check`](Self::check) fails.
+    fn energy_density(&self, F: &Matrix<D>, state: &Self::State) -> f64;
+
+    /// τ, the Kirchhoff stress at an admissible F. `velocity_gradient` is L (1/time); it is not read, and may be zero,
+    /// unless the law is [`rate_dependent`](Self::rate_dependent). Not finite where [`check`](Self::check) fails.
+    fn kirchhoff_stress(&self, F: &Matrix<D>, state: &Self::State, velocity_gradient: &Matrix<D>) -> Matrix<D>;
+
+    /// An upper bound of the speed of small elastic waves on the deformed state, as [`Material::wave_speed`]. Plastic
+    /// flow only makes them slower; viscosity is not in it.
+    fn wave_speed(&self, F: &Matrix<D>, state: &Self::State, reference_density: f64) -> f64;
+
+    /// Whether the law has a stress at F.
+    ///
+    /// # Errors
+    ///
+    /// [`DeformationError`] with the entry, or with the volume ratio where the law needs det F > 0.
+    fn check(&self, F: &Matrix<D>) -> Result<(), DeformationError>;
+
+    /// The current volume per reference volume of a particle: det F, unless the state carries a part of it.
+    #[inline]
+    fn volume_ratio(&self, F: &Matrix<D>, _state: &Self::State) -> f64 {
+        F.determinant()
+    }
+}
+
+#[allow(non_snake_case)]
+impl<const D: usize, M: Material<D> + ?Sized> Law<D> for M {
+    type State = ();
+
+    #[inline(always)]
+    fn advance(&self, trial: &Matrix<D>, _state: &mut ()) -> Matrix<D> {
+        *trial
+    }
+
+    #[inline(always)]
+    fn energy_density(&self, F: &Matrix<D>, _state: &()) -> f64 {
+        Material::energy_density(self, F)
+    }
+
+    #[inline(always)]
+    fn kirchhoff_stress(&self, F: &Matrix<D>, _state: &(), _velocity_gradient: &Matrix<D>) -> Matrix<D> {
+        Material::kirchhoff_stress(self, F)
+    }
+
+    #[inline(always)]
+    fn wave_speed(&self, F: &Matrix<D>, _state: &(), reference_density: f64) -> f64 {
+        Material::wave_speed(self, F, reference_density)
+    }
+
+    #[inline]
+    fn check(&self, F: &Matrix<D>) -> Result<(), DeformationError> {
+        Material::check(self, F)
+    }
+}
+
+#[cfg(test)]
+#[allow(non_snake_case)]
+mod tests {
+    use super::*;
+    use crate::{ElasticModuli, NeoHookean};
+
+    #[test]
+    fn a_material_is_a_law_without_memory_also_behind_a_reference() {
+        fn stress<L: Law<2, State = ()> + ?Sized>(law: &L, trial: &Matrix<2>) -> Matrix<2> {
+            let F = law.advance(trial, &mut ());
+            assert_eq!((F, law.rate_dependent()), (*trial, false));
+            assert_eq!(law.volume_ratio(&F, &()), F.determinant());
+            law.kirchhoff_stress(&F, &(), &Matrix::ZERO)
+        }
+        let rubber = NeoHookean::new(ElasticModuli::from_lame(3.0, 2.0).expect("in range"));
+        let object: &dyn Material<2> = &rubber;
+        let F = Matrix([[1.2, 0.3], [0.1, 0.9]]);
+        let expected = Material::kirchhoff_stress(&rubber, &F);
+        assert_eq!(stress(&rubber, &F), expected);
+        assert_eq!(stress(object, &F), expected);
+        assert_eq!(stress(&object, &F), expected);
+    }
+}
