@@ -4,7 +4,8 @@
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group};
 use mpm_core::{
-    BodyForce, ForceLocation, Mpm, MpmError, Particles, Pic, SimplexLattice, SplineGrid, StepControl, UniformBasis,
+    BodyForce, ForceLocation, Mpm, MpmError, Particles, Pic, SimplexLattice, Sites, SplineGrid, StepControl,
+    UniformBasis,
 };
 use mpm_kernels::{Cubic, Linear, Quadratic};
 use mpm_materials::IsothermalGas;
@@ -20,9 +21,9 @@ impl<const D: usize> BodyForce<D> for Well {
     fn location(&self) -> ForceLocation {
         ForceLocation::Particles
     }
-    fn at_particles(&mut self, xs: &[[f64; D]], out: &mut [[f64; D]]) -> Result<(), MpmError> {
+    fn at_particles(&mut self, sites: &Sites<D>, out: &mut [[f64; D]]) -> Result<(), MpmError> {
         let chunk = 4096;
-        (xs.par_chunks(chunk), out.par_chunks_mut(chunk))
+        (sites.positions.par_chunks(chunk), out.par_chunks_mut(chunk))
             .into_par_iter()
             .for_each(|(xs, out)| {
                 for (x, g) in xs.iter().zip(out) {

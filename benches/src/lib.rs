@@ -1,1 +1,4 @@
-//! Criterion benchmarks live in `benches/benches`.
+//! Scenes that benchmarks share. Criterion benchmarks live in `benches/benches`, plain ones in `benches/src/bin`: these are built
+//! without parvi and criterion, in seconds.
+
+pub mod elastic_block;

@@ -1,7 +1,8 @@
 //! The one seam: where a particle sits → which nodes, with which weight and gradient.
 
-use mpm_kernels::{Deposit, Entry};
+use mpm_kernels::{Columns, Deposit, Entry, Interpolated, NodeField, NodeSink, Wanted};
 use mpm_tensor::Matrix;
+use mpm_tensor::vector::multiply_add;
 
 use crate::{MpmError, Schedule};
 
@@ -13,7 +14,11 @@ use crate::{MpmError, Schedule};
 ///
 /// Whatever an implementation gets wrong leads to wrong results or a panic, not to a data race.
 pub trait Basis<const D: usize>: Sync {
-    /// Lay out the particles by cell: afterwards `schedule().order()` and the cells are those of these positions.
+    /// Whether every particle is a cell of its own, so that collecting the nodes of a cell is of no use.
+    const LONE_PARTICLES: bool = false;
+
+    /// Lay out the particles by cell: afterwards `schedule().order()` and the cells are those of these positions. Particles that are
+    /// nearly in the order of the cells may stay in their own.
     ///
     /// # Errors
     /// [`MpmError::PositionOutOfRange`], [`MpmError::TooManyNodes`]. The basis is then of no use until it has been sorted and
@@ -47,6 +52,11 @@ pub trait Basis<const D: usize>: Sync {
 
     /// Positions of all active nodes, in the order of their numbers.
     fn node_positions(&self, out: &mut Vec<[f64; D]>);
+
+    /// Number of the active node at `position`, where the basis can tell.
+    fn node_number(&self, _position: &[f64; D]) -> Option<u32> {
+        None
+    }
 
     /// Length h over which the basis resolves a field.
     fn spacing(&self) -> f64;
@@ -83,12 +93,77 @@ pub trait Basis<const D: usize>: Sync {
         });
     }
 
+    /// Add to the nodes of the stencil of a particle, which count as in [`for_each_node`](Self::for_each_node),
+    /// w_ip `value` + A w_ip D_p⁻¹ (x_i − x_p) + S ∇w_ip, where A = `affine` and S = `flux` act on the vector alone and
+    /// D_p⁻¹ is that of [`affine_direction`](Self::affine_direction).
+    #[inline(always)]
+    fn deposit<A: Columns<D>, S: Columns<D>>(
+        &self,
+        particle: usize,
+        x: &[f64; D],
+        value: &Deposit<D>,
+        affine: &A,
+        flux: &S,
+        sink: &mut impl NodeSink<D>,
+    ) {
+        if let (Some(0.0), Some(scale)) = (affine.isotropic(), flux.isotropic()) {
+            self.for_each_deposit(particle, x, value, scale, |index, _, deposit| {
+                sink.add(index, deposit);
+            });
+            return;
+        }
+        self.for_each_node(particle, x, |index, entry| {
+            let direction = self.affine_direction(particle, x, entry);
+            let mut sum = value.combine(entry.weight, &Deposit::ZERO, 0.0);
+            for a in 0..D {
+                let columns = [(affine.column(a), direction[a]), (flux.column(a), entry.gradient[a])];
+                for (column, scale) in columns {
+                    if let Some(column) = column {
+                        add_scaled(&mut sum.vector, scale, &column);
+                    }
+                }
+            }
+            sink.add(index, &sum);
+        });
+    }
+
+    /// Σ_i w_ip v_i and what is `wanted` beside it; `nodes` has v_i at i, i counting as in
+    /// [`for_each_node`](Self::for_each_node).
+    #[inline(always)]
+    fn interpolate(&self, particle: usize, x: &[f64; D], wanted: Wanted, nodes: &impl NodeField<D>) -> Interpolated<D> {
+        let mut sum = Interpolated::ZERO;
+        if wanted == Wanted::default() {
+            let value = &mut sum.value;
+            self.for_each_node(particle, x, |index, entry| {
+                add_scaled(value, entry.weight, &nodes.vector(index));
+            });
+            return sum;
+        }
+        self.for_each_node(particle, x, |index, entry| {
+            let direction = if wanted.least_squares {
+                self.affine_direction(particle, x, entry)
+            } else {
+                entry.gradient
+            };
+            sum.add(wanted, entry, &direction, &nodes.vector(index));
+        });
+        sum
+    }
+
     /// w_ip D_p⁻¹ (x_i − x_p), by which APIC sends the affine part of a particle's velocity to node i, with
     /// D_p = Σ_i w_ip (x_i − x_p)(x_i − x_p)ᵀ; equals ∇w_ip for piecewise linear bases (Jiang et al. 2015, §5.3).
-    fn affine_direction(&self, entry: &Entry<D>) -> [f64; D];
+    fn affine_direction(&self, particle: usize, x: &[f64; D], entry: &Entry<D>) -> [f64; D];
 
     /// Bytes held.
     fn storage_bytes(&self) -> usize;
+}
+
+/// `sum` ← `sum` + `scale` `vector`.
+#[inline(always)]
+fn add_scaled<const D: usize>(sum: &mut [f64; D], scale: f64, vector: &[f64; D]) {
+    for a in 0..D {
+        sum[a] = multiply_add(scale, vector[a], sum[a]);
+    }
 }
 
 /// A basis on a lattice without end, which can be moved and scaled.

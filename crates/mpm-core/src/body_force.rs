@@ -13,6 +13,19 @@ pub enum ForceLocation {
     Nodes,
 }
 
+/// The particles as a body force sees them, at the start of a step and in the present order.
+#[derive(Clone, Copy, Debug)]
+pub struct Sites<'a, const D: usize> {
+    /// x_p.
+    pub positions: &'a [[f64; D]],
+    /// v_p.
+    pub velocities: &'a [[f64; D]],
+    /// Numbers of the particles in the order of creation, by which loads and reference positions are looked up.
+    pub identities: &'a [u32],
+    /// Time since the body was made.
+    pub time: f64,
+}
+
 /// An external force. What a force does not use is neither stored nor computed.
 ///
 /// The location is a value and not a type: the step looks at it once per particle, and a force
@@ -21,13 +34,13 @@ pub trait BodyForce<const D: usize>: Sync {
     /// Where the force acts. The step asks several times and counts on one answer.
     fn location(&self) -> ForceLocation;
 
-    /// Force per unit mass at every particle, in the order of `positions`. Every entry of `accelerations` has to be set: it
+    /// Force per unit mass at every particle, in the order of `sites`. Every entry of `accelerations` has to be set: it
     /// holds a value of an earlier step.
     ///
     /// # Errors
     /// [`MpmError::BodyForceNotFinite`] with the index of a point where the force is not finite. An implementation may leave
     /// this to the step, which finds such a force before it moves a particle.
-    fn at_particles(&mut self, _positions: &[[f64; D]], _accelerations: &mut [[f64; D]]) -> Result<(), MpmError> {
+    fn at_particles(&mut self, _sites: &Sites<D>, _accelerations: &mut [[f64; D]]) -> Result<(), MpmError> {
         Ok(())
     }
 

@@ -1,13 +1,14 @@
 //! What made a nodal velocity something other than a number; looked for only once it has happened.
 
-use crate::{Basis, BodyForce, ForceLocation, GridNode, Medium, Mpm, MpmError, Transfer};
+use crate::{Basis, BodyForce, Boundary, ForceLocation, GridNode, Medium, Mpm, MpmError, Transfer};
 
-impl<const D: usize, B, T, M, F> Mpm<D, B, T, M, F>
+impl<const D: usize, B, T, M, F, C> Mpm<D, B, T, M, F, C>
 where
     B: Basis<D>,
     T: Transfer<D>,
     M: Medium<D>,
     F: BodyForce<D>,
+    C: Boundary<D>,
 {
     /// The first force at a particle, else the first force at a node, else the first nodal velocity that is not finite.
     pub(crate) fn what_is_not_finite(&mut self) -> MpmError {

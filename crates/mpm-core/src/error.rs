@@ -15,6 +15,18 @@ pub enum MpmError {
         /// Spacing of the grid.
         spacing: f64,
     },
+    /// A particle has left the box it was given.
+    #[error("particle {particle} is at {position:?}, outside the domain from {lower:?} to {upper:?}")]
+    OutsideDomain {
+        /// As in [`PositionOutOfRange`](Self::PositionOutOfRange).
+        particle: usize,
+        /// Its position.
+        position: Vec<f64>,
+        /// Lower corner of the domain.
+        lower: Vec<f64>,
+        /// Upper corner of the domain.
+        upper: Vec<f64>,
+    },
     /// A particle is deformed so that the material has no stress, for example turned inside out.
     #[error("particle {particle}: {source}")]
     Deformation {

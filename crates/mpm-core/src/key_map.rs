@@ -71,6 +71,13 @@ impl<K: Key> KeyMap<K> {
             .get()
     }
 
+    /// The number of a key that has one.
+    #[inline]
+    pub fn find(&self, key: K) -> Option<u32> {
+        let found = self.table.find(key.hash(), |&number| self.keys[number as usize] == key);
+        found.copied()
+    }
+
     /// Keys by number.
     pub fn keys(&self) -> &[K] {
         &self.keys

@@ -2,31 +2,40 @@
 
 mod basis;
 mod body_force;
+mod boundary;
 mod control;
 mod counting_sort;
 mod diagnosis;
 mod error;
 mod grid;
+mod grid_to_particles;
 mod key_map;
 mod largest;
 mod lattice;
 mod medium;
 mod mpm;
 mod particles;
+mod particles_to_grid;
 mod schedule;
 mod step;
+mod stress_update;
 mod transfer;
+mod volume_averaging;
 
 pub use basis::{Basis, UniformBasis};
-pub use body_force::{BodyForce, ForceLocation, NoBodyForce};
+pub use body_force::{BodyForce, ForceLocation, NoBodyForce, Sites};
+pub use boundary::{
+    Boundaries, Boundary, Contact, GridMotion, HalfSpace, NoBoundary, Obstacle, Side, SignedDistance, Sphere, Wall,
+};
 pub use control::{StepControl, StepReport};
 pub use error::MpmError;
 pub use grid::SplineGrid;
 pub use lattice::SimplexLattice;
-pub use medium::{Elastic, Medium, StressImpulse};
+pub use medium::{Continuum, Medium, StressImpulse};
 pub use mpm::Mpm;
 pub use particles::{Masses, Particles};
 pub use schedule::{Part, Schedule};
+pub use stress_update::StressUpdate;
 pub use transfer::{
-    Apic, Divide, Flip, FlipNode, GridNode, NodeSums, Pic, StencilNodes, Sum, Transfer, VelocityNode, gather,
+    Apic, Divide, Flip, FlipNode, GridNode, Mls, NodeSums, Pic, StencilNodes, Sum, Transfer, VelocityNode, gather,
 };

@@ -2,13 +2,14 @@
 
 use mpm_tensor::Matrix;
 
-use crate::{Basis, BodyForce, Medium, NodeSums, Particles, Transfer};
+use crate::volume_averaging::NodeVolume;
+use crate::{Basis, BodyForce, Boundary, Medium, NoBoundary, NodeSums, Particles, StressUpdate, Transfer};
 
 /// A body of particles on a basis: what moves (`particles`), where (`basis`), how velocities travel (`transfer`), what it
-/// is made of (`medium`) and what pulls at it (`body_force`).
-pub struct Mpm<const D: usize, B, T: Transfer<D>, M, F> {
+/// is made of (`medium`), what pulls at it (`body_force`) and what it runs against (`boundary`).
+pub struct Mpm<const D: usize, B, T: Transfer<D>, M: Medium<D>, F, C = NoBoundary> {
     /// State of the particles, in schedule order after a step.
-    pub particles: Particles<D>,
+    pub particles: Particles<D, M::State>,
     /// Background discretisation.
     pub basis: B,
     /// Velocity transfer.
@@ -17,6 +18,14 @@ pub struct Mpm<const D: usize, B, T: Transfer<D>, M, F> {
     pub medium: M,
     /// External force.
     pub body_force: F,
+    /// Conditions on the velocities of the nodes.
+    pub boundary: C,
+    /// When in a step the particles deform.
+    pub stress_update: StressUpdate,
+    /// Whether volume ratios are averaged over the nodes (F̄), against volumetric locking.
+    pub volume_averaging: bool,
+    /// Time since the body was made; every step adds its Δt.
+    pub time: f64,
     /// Nodal masses and velocities, in the order of the basis' numbers.
     pub(crate) nodes: NodeSums<T::Node>,
     /// Body force per unit mass at the particles; empty where it acts at nodes.
@@ -24,6 +33,8 @@ pub struct Mpm<const D: usize, B, T: Transfer<D>, M, F> {
     /// Positions of the nodes and force at them; empty where it acts at particles.
     pub(crate) node_positions: Vec<[f64; D]>,
     pub(crate) node_forces: Vec<[f64; D]>,
+    /// Volumes around the nodes; empty without volume averaging.
+    pub(crate) node_volumes: NodeSums<NodeVolume>,
 }
 
 impl<const D: usize, B, T, M, F> Mpm<D, B, T, M, F>
@@ -33,11 +44,14 @@ where
     M: Medium<D>,
     F: BodyForce<D>,
 {
-    /// A body. The affine moments B_p = 0 are added to the particles where the transfer needs them; F_p and V⁰_p, where the
-    /// medium needs them, come from [`Particles::with_elastic_state`].
-    pub fn new(mut particles: Particles<D>, basis: B, transfer: T, medium: M, body_force: F) -> Self {
+    /// A body in free space, at time 0. The affine moments B_p = 0 are added to the particles where the transfer needs them; F_p and V⁰_p, where the
+    /// medium needs them, come from [`Particles::with_elastic_state`] and [`Particles::with_states`].
+    pub fn new(mut particles: Particles<D, M::State>, basis: B, transfer: T, medium: M, body_force: F) -> Self {
         if T::AFFINE {
             particles.affine.resize(particles.len(), Matrix::ZERO);
+        }
+        if medium.rate_dependent() {
+            particles.velocity_gradients.resize(particles.len(), Matrix::ZERO);
         }
         Self {
             particles,
@@ -45,10 +59,44 @@ where
             transfer,
             medium,
             body_force,
+            boundary: NoBoundary,
+            stress_update: StressUpdate::default(),
+            volume_averaging: false,
+            time: 0.0,
             nodes: NodeSums::default(),
             accelerations: Vec::new(),
             node_positions: Vec::new(),
             node_forces: Vec::new(),
+            node_volumes: NodeSums::default(),
+        }
+    }
+}
+
+impl<const D: usize, B, T, M, F, C> Mpm<D, B, T, M, F, C>
+where
+    B: Basis<D>,
+    T: Transfer<D>,
+    M: Medium<D>,
+    F: BodyForce<D>,
+    C: Boundary<D>,
+{
+    /// The same body with a boundary.
+    pub fn with_boundary<N: Boundary<D>>(self, boundary: N) -> Mpm<D, B, T, M, F, N> {
+        Mpm {
+            boundary,
+            particles: self.particles,
+            basis: self.basis,
+            transfer: self.transfer,
+            medium: self.medium,
+            body_force: self.body_force,
+            stress_update: self.stress_update,
+            volume_averaging: self.volume_averaging,
+            time: self.time,
+            nodes: self.nodes,
+            accelerations: self.accelerations,
+            node_positions: self.node_positions,
+            node_forces: self.node_forces,
+            node_volumes: self.node_volumes,
         }
     }
 
@@ -58,6 +106,7 @@ where
         self.particles.storage_bytes()
             + self.basis.storage_bytes()
             + self.nodes.storage_bytes()
+            + self.node_volumes.storage_bytes()
             + vectors * size_of::<[f64; D]>()
     }
 }

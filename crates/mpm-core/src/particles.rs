@@ -26,9 +26,10 @@ impl Masses {
     }
 }
 
-/// State of M particles. Positions and velocities always exist; the other fields only where a scene needs them.
+/// State of M particles. Positions and velocities always exist; the other fields only where a scene needs them. `S` are the
+/// internal variables of a material with memory.
 #[derive(Clone, Debug)]
-pub struct Particles<const D: usize> {
+pub struct Particles<const D: usize, S = ()> {
     /// x_p.
     pub positions: Vec<[f64; D]>,
     /// v_p.
@@ -41,18 +42,35 @@ pub struct Particles<const D: usize> {
     pub deformation_gradients: Vec<Matrix<D>>,
     /// V⁰_p, reference volume; empty for media without elasticity.
     pub reference_volumes: Vec<f64>,
+    /// Internal variables of the material; empty for media without elasticity.
+    pub states: Vec<S>,
+    /// L_p = ∇v at the particle; empty unless the stress depends on it.
+    pub velocity_gradients: Vec<Matrix<D>>,
     /// Number of the particle in the order of creation.
     identities: Vec<u32>,
-    scratch: Scratch<D>,
+    scratch: Scratch<D, S>,
 }
 
 /// Buffers for the reordering, kept between steps.
-#[derive(Clone, Debug, Default)]
-struct Scratch<const D: usize> {
+#[derive(Clone, Debug)]
+struct Scratch<const D: usize, S> {
     vectors: Vec<[f64; D]>,
     matrices: Vec<Matrix<D>>,
     scalars: Vec<f64>,
     indices: Vec<u32>,
+    states: Vec<S>,
+}
+
+impl<const D: usize, S> Default for Scratch<D, S> {
+    fn default() -> Self {
+        Self {
+            vectors: Vec::new(),
+            matrices: Vec::new(),
+            scalars: Vec::new(),
+            indices: Vec::new(),
+            states: Vec::new(),
+        }
+    }
 }
 
 impl<const D: usize> Particles<D> {
@@ -65,6 +83,8 @@ impl<const D: usize> Particles<D> {
             affine: Vec::new(),
             deformation_gradients: Vec::new(),
             reference_volumes: Vec::new(),
+            states: Vec::new(),
+            velocity_gradients: Vec::new(),
             identities: (0..count as u32).collect(),
             scratch: Scratch::default(),
             positions,
@@ -103,15 +123,45 @@ impl<const D: usize> Particles<D> {
             affine,
             deformation_gradients: Vec::new(),
             reference_volumes: Vec::new(),
+            states: Vec::new(),
+            velocity_gradients: Vec::new(),
             identities,
             scratch: Scratch::default(),
         };
-        particles.check_lengths(false, false)?;
+        particles.check_lengths(false, false, false)?;
         Ok(particles)
     }
 
+    /// Add the field F_p = I and the reference volumes V⁰_p, one per particle in the present order, for a material without
+    /// memory.
+    pub fn with_elastic_state(mut self, reference_volumes: Vec<f64>) -> Self {
+        self.deformation_gradients = vec![Matrix::IDENTITY; self.len()];
+        self.reference_volumes = reference_volumes;
+        self.states = vec![(); self.len()];
+        self
+    }
+
+    /// As [`with_elastic_state`](Self::with_elastic_state), for a material with the internal variables `states`, one per particle in the
+    /// present order.
+    pub fn with_states<S>(self, reference_volumes: Vec<f64>, states: Vec<S>) -> Particles<D, S> {
+        Particles {
+            deformation_gradients: vec![Matrix::IDENTITY; self.len()],
+            reference_volumes,
+            states,
+            positions: self.positions,
+            velocities: self.velocities,
+            masses: self.masses,
+            affine: self.affine,
+            velocity_gradients: self.velocity_gradients,
+            identities: self.identities,
+            scratch: Scratch::default(),
+        }
+    }
+}
+
+impl<const D: usize, S: Copy + Send + Sync> Particles<D, S> {
     /// Whether every field has one entry per particle; fields that a scene does not use may be empty.
-    pub(crate) fn check_lengths(&self, affine: bool, deforms: bool) -> Result<(), MpmError> {
+    pub(crate) fn check_lengths(&self, affine: bool, deforms: bool, rates: bool) -> Result<(), MpmError> {
         let expected = self.identities.len();
         let masses = match &self.masses {
             Masses::Equal(_) => expected,
@@ -124,6 +174,8 @@ impl<const D: usize> Particles<D> {
             ("affine", self.affine.len(), affine),
             ("deformation_gradients", self.deformation_gradients.len(), deforms),
             ("reference_volumes", self.reference_volumes.len(), deforms),
+            ("states", self.states.len(), deforms),
+            ("velocity_gradients", self.velocity_gradients.len(), rates),
         ];
         for (field, length, used) in fields {
             if length != expected && (used || length > 0) {
@@ -137,13 +189,6 @@ impl<const D: usize> Particles<D> {
         Ok(())
     }
 
-    /// Add the field F_p = I and the reference volumes V⁰_p, one per particle in the present order.
-    pub fn with_elastic_state(mut self, reference_volumes: Vec<f64>) -> Self {
-        self.deformation_gradients = vec![Matrix::IDENTITY; self.len()];
-        self.reference_volumes = reference_volumes;
-        self
-    }
-
     /// Number of particles M.
     pub fn len(&self) -> usize {
         self.positions.len()
@@ -152,6 +197,11 @@ impl<const D: usize> Particles<D> {
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.positions.is_empty()
+    }
+
+    /// Numbers of the particles in the order of creation, in the present order.
+    pub fn identities(&self) -> &[u32] {
+        &self.identities
     }
 
     /// Number, in the order of creation, of the particle that stands at `index` < [`len`](Self::len).
@@ -171,6 +221,17 @@ impl<const D: usize> Particles<D> {
                 particle: created(particle),
                 position,
                 spacing,
+            },
+            MpmError::OutsideDomain {
+                particle,
+                position,
+                lower,
+                upper,
+            } => MpmError::OutsideDomain {
+                particle: created(particle),
+                position,
+                lower,
+                upper,
             },
             MpmError::Deformation { particle, source } => MpmError::Deformation {
                 particle: created(particle),
@@ -212,7 +273,9 @@ impl<const D: usize> Particles<D> {
         permute(&mut self.velocities, &mut s.vectors, order);
         permute(&mut self.affine, &mut s.matrices, order);
         permute(&mut self.deformation_gradients, &mut s.matrices, order);
+        permute(&mut self.velocity_gradients, &mut s.matrices, order);
         permute(&mut self.reference_volumes, &mut s.scalars, order);
+        permute(&mut self.states, &mut s.states, order);
         permute(&mut self.identities, &mut s.indices, order);
         if let Masses::Each(masses) = &mut self.masses {
             permute(masses, &mut s.scalars, order);
@@ -222,7 +285,8 @@ impl<const D: usize> Particles<D> {
     /// Largest speed max_p |v_p|; NaN if a velocity is.
     pub fn largest_speed(&self) -> f64 {
         let square = |v: &[f64; D]| v.iter().map(|c| c * c).sum::<f64>();
-        self.velocities.iter().map(square).fold(0.0, larger_or_nan).sqrt()
+        let squares = self.velocities.par_iter().with_min_len(4096).map(square);
+        squares.reduce(|| 0.0, larger_or_nan).sqrt()
     }
 
     /// ½ Σ m_p |v_p|², without the affine part of the velocity.
@@ -244,7 +308,11 @@ impl<const D: usize> Particles<D> {
             };
         vector * (self.positions.capacity() + self.velocities.capacity() + self.scratch.vectors.capacity())
             + matrix
-                * (self.affine.capacity() + self.deformation_gradients.capacity() + self.scratch.matrices.capacity())
+                * (self.affine.capacity()
+                    + self.deformation_gradients.capacity()
+                    + self.velocity_gradients.capacity()
+                    + self.scratch.matrices.capacity())
+            + size_of::<S>() * (self.states.len() + self.scratch.states.len())
             + 8 * scalars
             + 4 * (self.identities.capacity() + self.scratch.indices.capacity())
     }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-/// Particles are sorted by cell; stretches of cells form parts, each with the range of nodes that its cells touch. Parts
+/// Particles that follow each other in one cell of the basis are a cell here; stretches of cells form parts, each with the range of nodes that its cells touch. Parts
 /// add to nodes of their own side by side, and their sums are added in the order of the parts, so that the sum at every
 /// node is the same on any number of threads.
 #[derive(Clone, Debug, Default)]

@@ -1,5 +1,7 @@
 //! One-dimensional B-spline kernels (MPM-ParVI paper, Eqs. 33–35; Steffen, Kirby & Berzins 2008).
 
+use crate::lanes::Lanes;
+
 /// A cardinal B-spline N(r), r = x/h, that touches `W` grid nodes per axis from any position.
 ///
 /// Σ_i N(u − i) = 1 for every u (partition of unity) and Σ_i i N(u − i) = u (linear reproduction).
@@ -13,14 +15,36 @@ pub trait Spline<const W: usize>: Copy + Default + Send + Sync + 'static {
     /// dN/dr.
     fn derivative(r: f64) -> f64;
 
-    /// D_p = `moment` · h² · I is Σ_i w_ip (x_i − x_p)(x_i − x_p)ᵀ, where that is the same for every position.
-    ///
-    /// `None` for hat functions, whose second moment vanishes at the nodes (Jiang et al. 2015, §5.3).
-    const SECOND_MOMENT: Option<f64>;
+    /// D_p = Σ_i w_ip (x_i − x_p)(x_i − x_p)ᵀ.
+    const SECOND_MOMENT: SecondMoment;
 
-    /// All nodes touched from the grid coordinate `u` = x/h, |u| < 2⁵¹, with values and derivatives. Beyond, and for NaN, the
-    /// row is without meaning.
-    fn row(u: f64) -> Row<W>;
+    /// All nodes touched from four grid coordinates u = x/h side by side, |u| < 2⁵¹, with values and derivatives. Beyond, and for NaN,
+    /// the rows are without meaning.
+    fn rows(u: Lanes) -> Rows<W>;
+
+    /// [`rows`](Self::rows) of one coordinate.
+    #[inline(always)]
+    fn row(u: f64) -> Row<W> {
+        let rows = Self::rows(Lanes::splat(u));
+        let first = |lanes: Lanes| lanes.to_array()[0];
+        Row {
+            base: first(rows.base) as i64,
+            weights: rows.weights.map(first),
+            derivatives: rows.derivatives.map(first),
+        }
+    }
+}
+
+/// The second moment D_p of a tensor product of kernels, on which the affine part of a velocity is spread.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SecondMoment {
+    /// D_p is this number times h² I, at every position.
+    Constant(f64),
+    /// D_p vanishes somewhere, as that of hat functions does at the nodes; ∇w_ip stands for w_ip D_p⁻¹ (x_i − x_p), which it
+    /// equals elsewhere (Jiang et al. 2015, §5.3).
+    Gradient,
+    /// D_p = diag(m_1, …, m_D) depends on the position and is positive definite.
+    Varies,
 }
 
 /// The `W` nodes base, base + 1, … touched from one coordinate.
@@ -34,12 +58,23 @@ pub struct Row<const W: usize> {
     pub derivatives: [f64; W],
 }
 
+/// As [`Row`], for four coordinates side by side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rows<const W: usize> {
+    /// Index of the first node.
+    pub base: Lanes,
+    /// N(u − base − j).
+    pub weights: [Lanes; W],
+    /// dN/du (u − base − j).
+    pub derivatives: [Lanes; W],
+}
+
 /// The integer nearest to u, ties to even; exact for |u| < 2⁵¹.
 ///
 /// Adding 1.5 · 2⁵² leaves no bits for a fraction. Two additions: `f64::floor` is a function call on baseline x86-64, and a
 /// conversion to an integer and back has three times the latency, on which every weight waits.
 #[inline(always)]
-fn round(u: f64) -> f64 {
+pub(crate) fn round(u: Lanes) -> Lanes {
     const SHIFT: f64 = 6_755_399_441_055_744.0;
     (u + SHIFT) - SHIFT
 }
@@ -50,7 +85,7 @@ pub struct Linear;
 
 impl Spline<2> for Linear {
     const NAME: &'static str = "linear";
-    const SECOND_MOMENT: Option<f64> = None;
+    const SECOND_MOMENT: SecondMoment = SecondMoment::Gradient;
 
     fn value(r: f64) -> f64 {
         (1.0 - r.abs()).max(0.0)
@@ -61,13 +96,13 @@ impl Spline<2> for Linear {
     }
 
     #[inline(always)]
-    fn row(u: f64) -> Row<2> {
+    fn rows(u: Lanes) -> Rows<2> {
         let base = round(u - 0.5);
         let f = u - base;
-        Row {
-            base: base as i64,
+        Rows {
+            base,
             weights: [1.0 - f, f],
-            derivatives: [-1.0, 1.0],
+            derivatives: [Lanes::splat(-1.0), Lanes::splat(1.0)],
         }
     }
 }
@@ -78,7 +113,7 @@ pub struct Quadratic;
 
 impl Spline<3> for Quadratic {
     const NAME: &'static str = "quadratic";
-    const SECOND_MOMENT: Option<f64> = Some(0.25);
+    const SECOND_MOMENT: SecondMoment = SecondMoment::Constant(0.25);
 
     fn value(r: f64) -> f64 {
         let r = r.abs();
@@ -103,13 +138,13 @@ impl Spline<3> for Quadratic {
     }
 
     #[inline(always)]
-    fn row(u: f64) -> Row<3> {
+    fn rows(u: Lanes) -> Rows<3> {
         let base = round(u) - 1.0;
         let f = u - base; // in [½, 3/2]: distance to the first node
         let (left, right) = (1.5 - f, f - 0.5);
         let centre = f - 1.0;
-        Row {
-            base: base as i64,
+        Rows {
+            base,
             weights: [0.5 * left * left, 0.75 - centre * centre, 0.5 * right * right],
             derivatives: [-left, -2.0 * centre, right],
         }
@@ -122,7 +157,7 @@ pub struct Cubic;
 
 impl Spline<4> for Cubic {
     const NAME: &'static str = "cubic";
-    const SECOND_MOMENT: Option<f64> = Some(1.0 / 3.0);
+    const SECOND_MOMENT: SecondMoment = SecondMoment::Constant(1.0 / 3.0);
 
     fn value(r: f64) -> f64 {
         let r = r.abs();
@@ -147,15 +182,17 @@ impl Spline<4> for Cubic {
     }
 
     #[inline(always)]
-    fn row(u: f64) -> Row<4> {
+    fn rows(u: Lanes) -> Rows<4> {
         let base = round(u - 0.5) - 1.0;
         let f = u - base; // in [1, 2]: distance to the first node
         let (a, b, c, d) = (2.0 - f, f - 1.0, 2.0 - f, f - 1.0);
-        let inner = |r: f64| (0.5 * r - 1.0) * r * r + 2.0 / 3.0;
-        let slope = |r: f64| (1.5 * r - 2.0) * r;
-        Row {
-            base: base as i64,
-            weights: [a * a * a / 6.0, inner(b), inner(c), d * d * d / 6.0],
+        let inner = |r: Lanes| (0.5 * r - 1.0) * r * r + 2.0 / 3.0;
+        let slope = |r: Lanes| (1.5 * r - 2.0) * r;
+        let (first, third, last) = (a * a * a / 6.0, inner(c), d * d * d / 6.0);
+        // The second is what the others leave: four rounded polynomials would lose mass and momentum step by step.
+        Rows {
+            base,
+            weights: [first, 1.0 - (first + third + last), third, last],
             derivatives: [-0.5 * a * a, slope(b), -slope(c), 0.5 * d * d],
         }
     }

@@ -1,6 +1,9 @@
 //! Tensor-product stencils: Wᴰ nodes from D rows of one-dimensional weights.
 
-use crate::{Deposit, Spline};
+use crate::axis_group::AxisGroup;
+use crate::lanes::{LANES, Lanes};
+use crate::walk::for_each_product;
+use crate::{Deposit, SecondMoment, Spline};
 
 /// The nodes {origin + h i : i ∈ ℤᴰ}.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,9 +39,42 @@ impl<const D: usize> UniformGrid<D> {
         (x[axis] - self.origin[axis]) * self.inverse_spacing
     }
 
+    /// The [`coordinate`](Self::coordinate)s of the four axes from `first` on, 0 where there are none.
+    #[inline(always)]
+    pub fn coordinates(&self, x: &[f64; D], first: usize) -> Lanes {
+        let axis = |lane: usize| {
+            if first + lane < D {
+                self.coordinate(x, first + lane)
+            } else {
+                0.0
+            }
+        };
+        Lanes::new([axis(0), axis(1), axis(2), axis(3)])
+    }
+
+    /// Index of the first node per axis that `x` touches with kernel `S`; `None` where a coordinate is not a number or beyond ±2³⁰.
+    #[inline(always)]
+    pub fn first_node<S: Spline<W>, const W: usize>(&self, x: &[f64; D]) -> Option<[i32; D]> {
+        const LIMIT: f64 = (1u64 << 30) as f64;
+        const TO_BITS: f64 = 6_755_399_441_055_744.0; // 1.5 · 2⁵²: the integer stands in the low bits of the sum
+        let mut node = [0; D];
+        let mut inside = true;
+        let mut first = 0;
+        while first < D {
+            let u = self.coordinates(x, first);
+            let (distances, bits) = (u.abs().to_array(), (S::rows(u).base + TO_BITS).to_array());
+            for a in first..D.min(first + LANES) {
+                inside &= distances[a % LANES] < LIMIT;
+                node[a] = bits[a % LANES].to_bits() as i32;
+            }
+            first += LANES;
+        }
+        inside.then_some(node)
+    }
+
     /// Position of the node with index i.
-    pub fn node_position(&self, node: &[i64; D]) -> [f64; D] {
-        std::array::from_fn(|a| self.origin[a] + self.spacing * node[a] as f64)
+    pub fn node_position(&self, node: &[i32; D]) -> [f64; D] {
+        std::array::from_fn(|a| self.origin[a] + self.spacing * f64::from(node[a]))
     }
 }
 
@@ -57,11 +93,40 @@ pub struct Entry<const D: usize> {
 /// w_ip = Π_a N(u_a − i_a), ∂w_ip/∂x_a = N′(u_a − i_a)/h Π_{b≠a} N(u_b − i_b), u = (x − origin)/h.
 #[derive(Clone, Copy, Debug)]
 pub struct Stencil<const W: usize, const D: usize> {
-    /// First node per axis.
-    pub base: [i64; D],
-    weights: [[f64; W]; D],
-    derivatives: [[f64; W]; D],
-    offsets: [[f64; W]; D],
+    pub(crate) axes: [Axis<W>; D],
+    /// Whether the gradient stands for w_ip D_p⁻¹ (x_i − x_p).
+    gradient_directions: bool,
+}
+
+/// What a stencil knows along one axis, for the `W` nodes of a row.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Axis<const W: usize> {
+    /// First node.
+    base: f64,
+    /// N.
+    pub weights: [f64; W],
+    /// N′ / h.
+    pub derivatives: [f64; W],
+    /// r = x_i − x_p along the axis.
+    pub offsets: [f64; W],
+    /// N r.
+    pub first_moments: [f64; W],
+    /// N r / m; N′ / h for [`SecondMoment::Gradient`].
+    pub directions: [f64; W],
+    /// m = Σ N r².
+    second_moment: f64,
+}
+
+impl<const W: usize> Axis<W> {
+    const NONE: Self = Self {
+        base: 0.0,
+        weights: [0.0; W],
+        derivatives: [0.0; W],
+        offsets: [0.0; W],
+        first_moments: [0.0; W],
+        directions: [0.0; W],
+        second_moment: 0.0,
+    };
 }
 
 impl<const W: usize, const D: usize> Stencil<W, D> {
@@ -71,37 +136,57 @@ impl<const W: usize, const D: usize> Stencil<W, D> {
     /// The stencil of position `x` on `grid`.
     #[inline(always)]
     pub fn new<S: Spline<W>>(x: &[f64; D], grid: &UniformGrid<D>) -> Self {
-        let mut stencil = Self {
-            base: [0; D],
-            weights: [[0.0; W]; D],
-            derivatives: [[0.0; W]; D],
-            offsets: [[0.0; W]; D],
-        };
-        for a in 0..D {
-            let u = grid.coordinate(x, a);
-            let row = S::row(u);
-            stencil.base[a] = row.base;
-            stencil.weights[a] = row.weights;
-            for j in 0..W {
-                stencil.derivatives[a][j] = row.derivatives[j] * grid.inverse_spacing;
-                stencil.offsets[a][j] = (row.base.wrapping_add(j as i64) as f64 - u) * grid.spacing;
+        let mut axes = [Axis::NONE; D];
+        let mut first = 0;
+        while first < D {
+            let group = AxisGroup::new::<S>(grid.coordinates(x, first), grid.spacing, grid.inverse_spacing);
+            for a in first..D.min(first + LANES) {
+                let of = |lanes: Lanes| lanes.to_array()[a % LANES];
+                axes[a] = Axis {
+                    base: of(group.base),
+                    weights: std::array::from_fn(|j| of(group.weights[j])),
+                    derivatives: std::array::from_fn(|j| of(group.derivatives[j])),
+                    offsets: std::array::from_fn(|j| of(group.offsets[j])),
+                    first_moments: std::array::from_fn(|j| of(group.first_moments[j])),
+                    directions: std::array::from_fn(|j| of(group.directions[j])),
+                    second_moment: of(group.second_moments),
+                };
             }
+            first += LANES;
         }
-        stencil
+        Self {
+            axes,
+            gradient_directions: S::SECOND_MOMENT == SecondMoment::Gradient,
+        }
+    }
+
+    /// First node per axis.
+    #[inline(always)]
+    pub fn base(&self) -> [i64; D] {
+        std::array::from_fn(|a| self.axes[a].base as i64)
+    }
+
+    /// The diagonal of D_p = Σ_i w_ip (x_i − x_p)(x_i − x_p)ᵀ; `None` for [`SecondMoment::Gradient`].
+    #[inline(always)]
+    pub fn second_moments(&self) -> Option<[f64; D]> {
+        if self.gradient_directions {
+            return None;
+        }
+        Some(std::array::from_fn(|a| self.axes[a].second_moment))
     }
 
     /// Visit all Wᴰ nodes, the last axis fastest; the first argument counts from 0.
     #[inline(always)]
-    pub fn for_each(&self, mut visit: impl FnMut(usize, &Entry<D>)) {
+    pub fn for_each(&self, visit: impl FnMut(usize, &Entry<D>)) {
         let extend = |a: usize, j: usize, before: &Entry<D>| {
-            let (w, dw) = (self.weights[a][j], self.derivatives[a][j]);
+            let (w, dw) = (self.axes[a].weights[j], self.axes[a].derivatives[j]);
             let mut entry = *before;
             for b in 0..a {
                 entry.gradient[b] = before.gradient[b] * w;
             }
             entry.gradient[a] = before.weight * dw;
             entry.weight = before.weight * w;
-            entry.offset[a] = self.offsets[a][j];
+            entry.offset[a] = self.axes[a].offsets[j];
             entry
         };
         let one = Entry {
@@ -109,7 +194,7 @@ impl<const W: usize, const D: usize> Stencil<W, D> {
             gradient: [0.0; D],
             offset: [0.0; D],
         };
-        walk::<W, D, _>(one, extend, &mut visit);
+        for_each_product::<W, D, _>(one, extend, visit);
     }
 
     /// Visit all Wᴰ nodes with their weight and w_ip `value` + `scale` (0, ∇w_ip), at D + 1 products per node:
@@ -117,10 +202,10 @@ impl<const W: usize, const D: usize> Stencil<W, D> {
     #[inline(always)]
     pub fn for_each_deposit(&self, value: &Deposit<D>, scale: f64, mut visit: impl FnMut(usize, f64, &Deposit<D>)) {
         let own: [[f64; W]; D] = std::array::from_fn(|a| {
-            std::array::from_fn(|j| self.weights[a][j] * value.vector[a] + self.derivatives[a][j] * scale)
+            std::array::from_fn(|j| self.axes[a].weights[j] * value.vector[a] + self.axes[a].derivatives[j] * scale)
         });
         let extend = |a: usize, j: usize, before: &(f64, [f64; D])| {
-            let w = self.weights[a][j];
+            let w = self.axes[a].weights[j];
             let mut flux = before.1;
             for b in 0..a {
                 flux[b] = before.1[b] * w;
@@ -128,75 +213,9 @@ impl<const W: usize, const D: usize> Stencil<W, D> {
             flux[a] = before.0 * own[a][j];
             (before.0 * w, flux)
         };
-        walk::<W, D, _>((1.0, [0.0; D]), extend, &mut |index, &(weight, vector)| {
+        for_each_product::<W, D, _>((1.0, [0.0; D]), extend, |index, &(weight, vector)| {
             let scalar = weight * value.scalar;
             visit(index, weight, &Deposit { scalar, vector });
         });
-    }
-}
-
-/// Visit all products of one factor per axis, the last axis fastest: `extend(a, j, P)` is the product over the axes
-/// before a, taken over to axis a with factor j.
-///
-/// The inner loops have a constant length, so that they unroll; products over the outer axes are carried along and
-/// renewed only from the first digit that changed.
-#[inline(always)]
-fn walk<const W: usize, const D: usize, P: Copy>(
-    one: P,
-    extend: impl Fn(usize, usize, &P) -> P,
-    visit: &mut impl FnMut(usize, &P),
-) {
-    match D {
-        1 => {
-            for j in 0..W {
-                visit(j, &extend(0, j, &one));
-            }
-        }
-        2 => {
-            for i in 0..W {
-                let row = extend(0, i, &one);
-                for j in 0..W {
-                    visit(i * W + j, &extend(1, j, &row));
-                }
-            }
-        }
-        3 => {
-            for i in 0..W {
-                let plane = extend(0, i, &one);
-                for j in 0..W {
-                    let row = extend(1, j, &plane);
-                    for k in 0..W {
-                        visit((i * W + j) * W + k, &extend(2, k, &row));
-                    }
-                }
-            }
-        }
-        _ => {
-            let mut digit = [0usize; D];
-            let mut products = [one; D];
-            let (mut changed, mut index) = (0, 0);
-            loop {
-                for a in changed..D - 2 {
-                    products[a + 1] = extend(a, digit[a], &products[a]);
-                }
-                for j in 0..W {
-                    let row = extend(D - 2, j, &products[D - 2]);
-                    for k in 0..W {
-                        visit(index + k, &extend(D - 1, k, &row));
-                    }
-                    index += W;
-                }
-                if index == W.pow(D as u32) {
-                    return;
-                }
-                changed = D - 3;
-                digit[changed] += 1;
-                while digit[changed] == W {
-                    digit[changed] = 0;
-                    changed -= 1;
-                    digit[changed] += 1;
-                }
-            }
-        }
     }
 }

@@ -1,5 +1,5 @@
 //! What every kernel and every stencil must do.
-use mpm_kernels::{Cubic, Deposit, Linear, Quadratic, Spline, Stencil, UniformGrid};
+use mpm_kernels::{Cubic, Deposit, Gimp, Linear, Quadratic, SecondMoment, Spline, Stencil, UniformGrid};
 use mpm_tensor::vector::maximum_norm;
 use proptest::prelude::*;
 
@@ -31,7 +31,7 @@ fn kernel_conforms<const W: usize, S: Spline<W>>(u: f64) {
             );
         }
     }
-    if let Some(moment) = S::SECOND_MOMENT {
+    if let SecondMoment::Constant(moment) = S::SECOND_MOMENT {
         let second: f64 = (0..W)
             .map(|j| row.weights[j] * (u - (row.base + j as i64) as f64).powi(2))
             .sum();
@@ -53,7 +53,8 @@ fn stencil_conforms<const W: usize, const D: usize, S: Spline<W>>(x: [f64; D], o
             digits[a] = rest % W;
             rest /= W;
         }
-        let r: [f64; D] = std::array::from_fn(|a| (x[a] - origin[a]) / h - (stencil.base[a] + digits[a] as i64) as f64);
+        let r: [f64; D] =
+            std::array::from_fn(|a| (x[a] - origin[a]) / h - (stencil.base()[a] + digits[a] as i64) as f64);
         let weight: f64 = r.iter().map(|&r| S::value(r)).product();
         assert!((entry.weight - weight).abs() < 1e-12);
         for a in 0..D {
@@ -113,6 +114,9 @@ proptest! {
         kernel_conforms::<2, Linear>(u);
         kernel_conforms::<3, Quadratic>(u);
         kernel_conforms::<4, Cubic>(u);
+        kernel_conforms::<3, Gimp<1>>(u);
+        kernel_conforms::<3, Gimp<2>>(u);
+        kernel_conforms::<3, Gimp<5>>(u);
     }
 
     #[test]
@@ -121,6 +125,7 @@ proptest! {
         stencil_conforms::<3, 1, Quadratic>([x[0]], [o[0]], h);
         stencil_conforms::<3, 2, Quadratic>([x[0], x[1]], [o[0], o[1]], h);
         stencil_conforms::<4, 3, Cubic>([x[0], x[1], x[2]], [o[0], o[1], o[2]], h);
+        stencil_conforms::<3, 3, Gimp<2>>([x[0], x[1], x[2]], [o[0], o[1], o[2]], h);
         stencil_conforms::<2, 4, Linear>(x, o, h);
         stencil_conforms::<3, 4, Quadratic>(x, o, h);
         let (x, o) = ([x[0], x[1], x[2], x[3], 0.3 * x[0], -x[1]], [o[0], o[1], o[2], o[3], o[0], o[1]]);
@@ -148,7 +153,40 @@ fn nodes_and_half_way_points_are_no_exception() {
         kernel_conforms::<2, Linear>(u);
         kernel_conforms::<3, Quadratic>(u);
         kernel_conforms::<4, Cubic>(u);
+        kernel_conforms::<3, Gimp<2>>(u);
     }
+}
+
+#[test]
+fn one_particle_per_axis_and_cell_makes_gimp_the_quadratic_spline() {
+    for k in -400..400 {
+        let r = 0.005 * f64::from(k) + 1e-4;
+        assert!((Gimp::<1>::value(r) - Quadratic::value(r)).abs() < 1e-15);
+        assert!((Gimp::<1>::derivative(r) - Quadratic::derivative(r)).abs() < 1e-15);
+        let (ours, theirs) = (Gimp::<1>::row(r), Quadratic::row(r));
+        assert_eq!(ours.base, theirs.base);
+        for j in 0..3 {
+            assert!((ours.weights[j] - theirs.weights[j]).abs() < 1e-15);
+            assert!((ours.derivatives[j] - theirs.derivatives[j]).abs() < 1e-15);
+        }
+    }
+}
+
+/// The definition: the mean of the hat over a particle, by the midpoint rule.
+#[test]
+fn gimp_is_the_mean_of_the_hat_over_a_particle() {
+    fn check<const N: usize>() {
+        let points = 20_000;
+        for k in -40..40 {
+            let r = 0.04 * f64::from(k) + 0.003;
+            let place = |i: i32| r + ((f64::from(i) + 0.5) / f64::from(points) - 0.5) / N as f64;
+            let mean = (0..points).map(|i| Linear::value(place(i))).sum::<f64>() / f64::from(points);
+            assert!((Gimp::<N>::value(r) - mean).abs() < 1e-8, "{N}, {r}: {mean}");
+        }
+    }
+    check::<1>();
+    check::<2>();
+    check::<3>();
 }
 
 #[test]

@@ -69,7 +69,7 @@ pub(crate) fn drive<B, T, M, P, const D: usize>(
 where
     B: UniformBasis<D>,
     T: Transfer<D>,
-    M: Medium<D>,
+    M: Medium<D, State = ()>,
     P: FnMut(usize) -> PlannedStep<D>,
 {
     let (steps, mut certificate) = (plan.steps, plan.certificate);
@@ -217,7 +217,7 @@ fn advance<B, T, M, const D: usize>(
 where
     B: UniformBasis<D>,
     T: Transfer<D>,
-    M: Medium<D>,
+    M: Medium<D, State = ()>,
 {
     turn(&mut body.basis, planned);
     let point = body.basis.cell_point(&planned.origin, planned.spacing);

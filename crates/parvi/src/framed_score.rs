@@ -1,6 +1,6 @@
 //! The score as a body force in the coordinates of the frame.
 
-use mpm_core::{BodyForce, ForceLocation, MpmError};
+use mpm_core::{BodyForce, ForceLocation, MpmError, Sites};
 use parvi_targets::{Frame, Target};
 
 use crate::stiffness::Stiffness;
@@ -89,10 +89,10 @@ impl<const D: usize> BodyForce<D> for ScoreForce<'_, D> {
         }
     }
 
-    fn at_particles(&mut self, positions: &[[f64; D]], accelerations: &mut [[f64; D]]) -> Result<(), MpmError> {
-        self.score.evaluate(positions, accelerations)?;
+    fn at_particles(&mut self, sites: &Sites<D>, accelerations: &mut [[f64; D]]) -> Result<(), MpmError> {
+        self.score.evaluate(sites.positions, accelerations)?;
         if let Some(stiffness) = &mut self.stiffness {
-            stiffness.record(positions, accelerations);
+            stiffness.record(sites.positions, accelerations);
         }
         if self.alpha != 1.0 {
             for acceleration in accelerations {

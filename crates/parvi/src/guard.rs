@@ -3,7 +3,7 @@
 
 use std::collections::VecDeque;
 
-use mpm_core::{Mpm, Particles, StepReport, Transfer};
+use mpm_core::{Medium, Mpm, Particles, StepReport, Transfer};
 
 use crate::drive::PlannedStep;
 use crate::extent::Extent;
@@ -47,7 +47,7 @@ pub(crate) struct Progressed<const D: usize> {
 }
 
 impl<const D: usize> State<D> {
-    pub fn restore<B, T: Transfer<D>, M>(&self, body: &mut Mpm<D, B, T, M, ScoreForce<'_, D>>) {
+    pub fn restore<B, T: Transfer<D>, M: Medium<D, State = ()>>(&self, body: &mut Mpm<D, B, T, M, ScoreForce<'_, D>>) {
         body.particles.clone_from(&self.particles);
         body.body_force.stiffness.clone_from(&self.stiffness);
     }
@@ -85,7 +85,7 @@ impl<const D: usize> Guard<D> {
     }
 
     /// The state before this step, if it is one to be kept.
-    pub fn state<B, T: Transfer<D>, M>(
+    pub fn state<B, T: Transfer<D>, M: Medium<D, State = ()>>(
         &self,
         body: &Mpm<D, B, T, M, ScoreForce<'_, D>>,
         step: usize,

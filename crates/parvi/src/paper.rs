@@ -1,6 +1,6 @@
 //! Algorithms 1 (PIC) and 2 (APIC) of the MPM-ParVI paper: an elastic body under the score.
 
-use mpm_core::{Apic, Elastic, Mpm, MpmError, Particles, Pic, StepControl, Transfer, UniformBasis};
+use mpm_core::{Apic, Continuum, Mpm, MpmError, Particles, Pic, StepControl, Transfer, UniformBasis};
 use mpm_materials::{ElasticModuli, LinearElastic, Material, NeoHookean};
 use parvi_targets::{Frame, Target};
 
@@ -120,7 +120,7 @@ impl<const D: usize> Job<'_, D> {
             mass_floor: floor / job.run.particles as f64,
             stiffness: None,
         };
-        let medium = Elastic { material: job.material };
+        let medium = Continuum { law: job.material };
         let body = Mpm::new(particles, basis, transfer, medium, force);
         let driven = drive(body, job.frame, plan, &mut Journal::none(), self.observer)?;
         let knowledge = Knowledge {

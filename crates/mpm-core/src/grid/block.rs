@@ -15,24 +15,24 @@ pub const fn edge_bits<const D: usize>() -> [u32; D] {
 
 /// Block coordinates of a node and its place (0…63) inside the block, the last axis fastest.
 #[inline(always)]
-pub fn locate<const D: usize>(node: &[i64; D]) -> ([i32; D], u32) {
+pub fn locate<const D: usize>(node: &[i32; D]) -> ([i32; D], u32) {
     let bits = const { edge_bits::<D>() };
     let mut block = [0; D];
     let mut local = 0;
     for a in 0..D {
-        block[a] = (node[a] >> bits[a]) as i32;
+        block[a] = node[a] >> bits[a];
         local = (local << bits[a]) | (node[a] & ((1 << bits[a]) - 1)) as u32;
     }
     (block, local)
 }
 
 /// Node coordinates of a place in a block; the inverse of [`locate`].
-pub fn node_at<const D: usize>(block: &[i32; D], local: u32) -> [i64; D] {
+pub fn node_at<const D: usize>(block: &[i32; D], local: u32) -> [i32; D] {
     let bits = const { edge_bits::<D>() };
     let mut node = [0; D];
     let mut rest = local;
     for a in (0..D).rev() {
-        node[a] = (i64::from(block[a]) << bits[a]) | i64::from(rest & ((1 << bits[a]) - 1));
+        node[a] = (block[a] << bits[a]) | (rest & ((1 << bits[a]) - 1)) as i32;
         rest >>= bits[a];
     }
     node
@@ -70,7 +70,7 @@ mod tests {
         let bits = edge_bits::<D>();
         assert_eq!(bits.iter().sum::<u32>(), 6, "a block of dimension {D} has 64 nodes");
         for shift in [-1000, -7, 0, 123_456_789] {
-            let node: [i64; D] = std::array::from_fn(|a| shift + 3 * a as i64);
+            let node: [i32; D] = std::array::from_fn(|a| shift + 3 * a as i32);
             let (block, local) = locate(&node);
             assert!(local < 64);
             assert_eq!(node_at(&block, local), node);

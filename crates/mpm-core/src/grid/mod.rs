@@ -1,15 +1,22 @@
 //! Uniform B-spline grid, stored as a hashed set of blocks of 64 nodes: memory follows the active nodes, time does not
 //! depend on the number of nodes per axis.
 
+mod activate;
 mod block;
-mod rebuild;
+mod halo;
+mod locate;
+mod lookup;
+mod sort;
 mod template;
 
 use std::marker::PhantomData;
 
-use mpm_kernels::{Deposit, Entry, Spline, Stencil, UniformGrid};
+use mpm_kernels::{Columns, Deposit, Entry, Interpolated, NodeField, NodeSink, Spline, Stencil, UniformGrid, Wanted};
 
-use self::block::{node_at, slot_count};
+use self::block::{locate, node_at, slot_count};
+use self::halo::Halo;
+use self::locate::ChunkRuns;
+use self::lookup::NodeBlock;
 use self::template::Template;
 use crate::basis::check_placement;
 use crate::key_map::KeyMap;
@@ -20,35 +27,39 @@ use crate::{Basis, MpmError, Schedule, UniformBasis};
 pub struct SplineGrid<S, const W: usize, const D: usize> {
     kernel: PhantomData<S>,
     nodes: UniformGrid<D>,
+    /// Where particles may be.
+    limits: Option<([f64; D], [f64; D])>,
     template: Template<D>,
+    halo: Halo,
     /// Blocks that hold particles (the base of their stencil).
     particle_blocks: KeyMap<[i32; D]>,
     /// Blocks that hold active nodes.
     node_blocks: KeyMap<[i32; D]>,
-    /// Which of a block's 64 nodes are active.
-    masks: Vec<u64>,
-    /// Number of the first active node of every block, and their count at the end.
-    first_nodes: Vec<u32>,
+    /// Active nodes of every one of them.
+    blocks: Vec<NodeBlock>,
+    node_count: usize,
     /// For every particle block, in lexicographic order, and slot of the template: number of the node block.
     neighbours: Vec<u32>,
-    /// For every particle block, in lexicographic order: numbers of its first cell, and of cells at the end.
-    block_cells: Vec<u32>,
-    /// Place in its block, for every cell.
-    cell_places: Vec<u8>,
-    /// Rank of its block, for every cell.
-    cell_blocks: Vec<u32>,
+    /// For every particle block, in lexicographic order, and place in the halo: number of the node; without meaning where
+    /// it is not active. Empty without halos.
+    halo_numbers: Vec<u32>,
+    /// For every particle block, in lexicographic order: its number, and which of its 64 places hold particles.
+    sorted_blocks: Vec<u32>,
+    occupied: Vec<u64>,
+    /// (rank of its block << 6) | place, for every cell.
+    cell_keys: Vec<u32>,
     schedule: Schedule,
-    scratch: Scratch,
+    scratch: Scratch<D>,
 }
 
 /// Buffers of the rebuild, kept between steps.
-#[derive(Clone, Debug, Default)]
-struct Scratch {
-    /// (block number << 6) | place, for every particle.
-    keys: Vec<u32>,
-    /// Blocks in lexicographic order, and each block's rank in it.
-    sorted_blocks: Vec<u32>,
+#[derive(Clone, Debug)]
+struct Scratch<const D: usize> {
+    chunks: Vec<ChunkRuns<D>>,
+    /// Each block's rank.
     ranks: Vec<u32>,
+    /// (block rank << 6) | place, for every particle; empty where particles stay in their order.
+    keys: Vec<u32>,
     /// First particle per (rank, place).
     bin_starts: Vec<u32>,
     cursors: Vec<u32>,
@@ -69,20 +80,45 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
         let mut grid = Self {
             kernel: PhantomData,
             nodes: UniformGrid::new(origin, h),
+            limits: None,
             template: Template::new(W),
+            halo: Halo::new::<D>(W),
             particle_blocks: KeyMap::default(),
             node_blocks: KeyMap::default(),
-            masks: Vec::new(),
-            first_nodes: Vec::new(),
+            blocks: Vec::new(),
+            node_count: 0,
             neighbours: Vec::new(),
-            block_cells: Vec::new(),
-            cell_places: Vec::new(),
-            cell_blocks: Vec::new(),
+            halo_numbers: Vec::new(),
+            sorted_blocks: Vec::new(),
+            occupied: Vec::new(),
+            cell_keys: Vec::new(),
             schedule: Schedule::default(),
-            scratch: Scratch::default(),
+            scratch: Scratch {
+                chunks: Vec::new(),
+                ranks: Vec::new(),
+                keys: Vec::new(),
+                bin_starts: Vec::new(),
+                cursors: Vec::new(),
+            },
         };
         grid.place(origin, h)?;
         Ok(grid)
+    }
+
+    /// The same grid, which refuses particles outside the box from `lower` to `upper`.
+    ///
+    /// # Errors
+    /// [`MpmError::InvalidParameter`] unless the box is longer than nothing along every axis.
+    pub fn with_limits(mut self, lower: [f64; D], upper: [f64; D]) -> Result<Self, MpmError> {
+        for a in 0..D {
+            let value = upper[a] - lower[a];
+            if value.is_nan() || value <= 0.0 {
+                let (field, expected) = ("upper limit - lower limit", "positive");
+                return Err(MpmError::InvalidParameter { field, value, expected });
+            }
+        }
+        self.limits = Some((lower, upper));
+        Ok(self)
     }
 }
 
@@ -100,9 +136,15 @@ impl<S: Spline<W>, const W: usize, const D: usize> UniformBasis<D> for SplineGri
 
 impl<S: Spline<W>, const W: usize, const D: usize> Basis<D> for SplineGrid<S, W, D> {
     fn sort(&mut self, positions: &[[f64; D]]) -> Result<(), MpmError> {
-        self.schedule.clear();
-        self.locate_particles(positions)?;
-        self.sort_particles();
+        if let Err(error) = self.locate_particles(positions) {
+            self.schedule.clear();
+            return Err(error);
+        }
+        if self.is_nearly_sorted() {
+            self.keep_order();
+        } else {
+            self.sort_particles();
+        }
         Ok(())
     }
 
@@ -117,20 +159,29 @@ impl<S: Spline<W>, const W: usize, const D: usize> Basis<D> for SplineGrid<S, W,
     }
 
     fn node_count(&self) -> usize {
-        self.first_nodes.last().map_or(0, |&count| count as usize)
+        self.node_count
     }
 
     fn node_positions(&self, out: &mut Vec<[f64; D]>) {
         out.clear();
         out.reserve(self.node_count());
-        for (block, &mask) in self.node_blocks.keys().iter().zip(&self.masks) {
-            let mut rest = mask;
+        for (block, active) in self.node_blocks.keys().iter().zip(&self.blocks) {
+            let mut rest = active.mask;
             while rest != 0 {
                 let node = node_at(block, rest.trailing_zeros());
                 out.push(self.nodes.node_position(&node));
                 rest &= rest - 1;
             }
         }
+    }
+
+    fn node_number(&self, position: &[f64; D]) -> Option<u32> {
+        let u: [f64; D] = std::array::from_fn(|a| self.nodes.coordinate(position, a));
+        let node = u.map(|u| u.round() as i32);
+        let on_node = (0..D).all(|a| (u[a] - f64::from(node[a])).abs() < 1e-6);
+        let (block, place) = locate(&node);
+        let block = self.blocks[on_node.then(|| self.node_blocks.find(block))?? as usize];
+        (block.mask >> place & 1 != 0).then(|| block.number(place as u8))
     }
 
     fn spacing(&self) -> f64 {
@@ -143,23 +194,7 @@ impl<S: Spline<W>, const W: usize, const D: usize> Basis<D> for SplineGrid<S, W,
 
     #[inline]
     fn cell_nodes<'a>(&'a self, cell: usize, scratch: &'a mut Vec<u32>) -> &'a [u32] {
-        let slots = self.template.neighbours.len();
-        let row = &self.neighbours[self.cell_blocks[cell] as usize * slots..][..slots];
-        scratch.clear();
-        scratch.extend(
-            self.template
-                .nodes(u32::from(self.cell_places[cell]))
-                .iter()
-                .map(|&(slot, place)| {
-                    let block = row[slot as usize] as usize;
-                    let before = match self.masks[block] {
-                        u64::MAX => u32::from(place),
-                        mask => (mask & ((1u64 << place) - 1)).count_ones(),
-                    };
-                    self.first_nodes[block] + before
-                }),
-        );
-        scratch
+        self.look_up(cell, scratch)
     }
 
     #[inline(always)]
@@ -180,34 +215,50 @@ impl<S: Spline<W>, const W: usize, const D: usize> Basis<D> for SplineGrid<S, W,
     }
 
     #[inline(always)]
-    fn affine_direction(&self, entry: &Entry<D>) -> [f64; D] {
-        match S::SECOND_MOMENT {
+    fn deposit<A: Columns<D>, F: Columns<D>>(
+        &self,
+        _: usize,
+        x: &[f64; D],
+        value: &Deposit<D>,
+        affine: &A,
+        flux: &F,
+        sink: &mut impl NodeSink<D>,
+    ) {
+        Stencil::<W, D>::new::<S>(x, &self.nodes).deposit(value, affine, flux, sink);
+    }
+
+    #[inline(always)]
+    fn interpolate(&self, _: usize, x: &[f64; D], wanted: Wanted, nodes: &impl NodeField<D>) -> Interpolated<D> {
+        Stencil::<W, D>::new::<S>(x, &self.nodes).interpolate(wanted, nodes)
+    }
+
+    #[inline(always)]
+    fn affine_direction(&self, _: usize, x: &[f64; D], entry: &Entry<D>) -> [f64; D] {
+        match Stencil::<W, D>::new::<S>(x, &self.nodes).second_moments() {
             None => entry.gradient,
-            Some(moment) => {
-                let scale = entry.weight / (moment * self.nodes.spacing() * self.nodes.spacing());
-                entry.offset.map(|c| c * scale)
-            }
+            Some(moments) => std::array::from_fn(|a| entry.weight * entry.offset[a] / moments[a]),
         }
     }
 
     fn storage_bytes(&self) -> usize {
         let s = &self.scratch;
         let words = [
-            &self.first_nodes,
             &self.neighbours,
-            &self.block_cells,
-            &self.cell_blocks,
+            &self.halo_numbers,
+            &self.sorted_blocks,
+            &self.cell_keys,
             &s.keys,
-            &s.sorted_blocks,
             &s.ranks,
             &s.bin_starts,
             &s.cursors,
         ];
         self.template.storage_bytes()
+            + self.halo.storage_bytes()
             + self.particle_blocks.storage_bytes()
             + self.node_blocks.storage_bytes()
-            + self.masks.capacity() * 8
-            + self.cell_places.capacity()
+            + self.blocks.capacity() * size_of::<NodeBlock>()
+            + self.occupied.capacity() * 8
+            + s.chunks.iter().map(ChunkRuns::storage_bytes).sum::<usize>()
             + words.iter().map(|v| v.capacity() * 4).sum::<usize>()
             + self.schedule.storage_bytes()
     }

@@ -9,9 +9,21 @@ pub struct Template<const D: usize> {
     pub neighbours: Vec<[i32; D]>,
     /// For each cell: (slot, mask) of every block it touches.
     touched: Vec<Vec<(u16, u64)>>,
-    /// For each cell: (slot, place in the block) of its widthᴰ nodes.
-    nodes: Vec<(u16, u16)>,
-    size: usize,
+    /// The segments of all cells, and the number of the first one of every cell.
+    segments: Vec<Segment>,
+    segment_starts: Vec<u32>,
+}
+
+/// Nodes that follow each other along the last axis in one block, at most `width` of them. All are active where a particle is, so
+/// their numbers follow each other too.
+#[derive(Clone, Copy, Debug)]
+pub struct Segment {
+    /// Slot of the block.
+    pub slot: u16,
+    /// Place of the first node in the block.
+    pub place: u8,
+    /// Number of nodes.
+    pub count: u8,
 }
 
 impl<const D: usize> Template<D> {
@@ -23,26 +35,34 @@ impl<const D: usize> Template<D> {
             .collect();
         let size = width.pow(D as u32);
         let mut touched = Vec::with_capacity(64);
-        let mut nodes = Vec::with_capacity(64 * size);
+        let (mut segments, mut segment_starts) = (Vec::<Segment>::new(), vec![0]);
         for cell in 0..64 {
             let base = node_at(&[0; D], cell);
             let mut masks = vec![0u64; slots];
             for index in 0..size {
                 let step = digits(index, &[width; D]);
-                let node: [i64; D] = std::array::from_fn(|a| base[a] + step[a] as i64);
+                let node: [i32; D] = std::array::from_fn(|a| base[a] + step[a] as i32);
                 let (block, local) = locate(&node);
                 let slot = (0..D).fold(0, |slot, a| slot * reach[a] + block[a] as usize);
                 masks[slot] |= 1 << local;
-                nodes.push((slot as u16, local as u16));
+                match segments.last_mut() {
+                    Some(last) if index % width > 0 && usize::from(last.slot) == slot => last.count += 1,
+                    _ => segments.push(Segment {
+                        slot: slot as u16,
+                        place: local as u8,
+                        count: 1,
+                    }),
+                }
             }
             let present = masks.into_iter().enumerate().filter(|&(_, mask)| mask != 0);
+            segment_starts.push(segments.len() as u32);
             touched.push(present.map(|(slot, mask)| (slot as u16, mask)).collect());
         }
         Self {
             neighbours,
             touched,
-            nodes,
-            size,
+            segments,
+            segment_starts,
         }
     }
 
@@ -52,21 +72,23 @@ impl<const D: usize> Template<D> {
         &self.touched[cell as usize]
     }
 
-    /// (slot, place) of the nodes of a stencil with its base in `cell`, the last axis fastest.
+    /// The nodes of a stencil with its base in `cell`, the last axis fastest.
     #[inline]
-    pub fn nodes(&self, cell: u32) -> &[(u16, u16)] {
-        &self.nodes[cell as usize * self.size..][..self.size]
+    pub fn segments(&self, cell: u32) -> &[Segment] {
+        let [start, end] = [cell, cell + 1].map(|cell| self.segment_starts[cell as usize] as usize);
+        &self.segments[start..end]
     }
 
     pub fn storage_bytes(&self) -> usize {
         self.neighbours.capacity() * size_of::<[i32; D]>()
-            + self.nodes.capacity() * 4
+            + self.segments.capacity() * size_of::<Segment>()
+            + self.segment_starts.capacity() * 4
             + self.touched.iter().map(|t| t.capacity() * 16).sum::<usize>()
     }
 }
 
 /// Digits of `number` in the mixed radix `radix`, the last fastest.
-fn digits<const D: usize>(number: usize, radix: &[usize; D]) -> [usize; D] {
+pub(super) fn digits<const D: usize>(number: usize, radix: &[usize; D]) -> [usize; D] {
     let mut rest = number;
     let mut digits = [0; D];
     for a in (0..D).rev() {

@@ -106,6 +106,8 @@ impl<const D: usize> SimplexLattice<D> {
 }
 
 impl<const D: usize> Basis<D> for SimplexLattice<D> {
+    const LONE_PARTICLES: bool = true;
+
     fn sort(&mut self, positions: &[[f64; D]]) -> Result<(), MpmError> {
         let result = self.measure(positions);
         if result.is_err() {
@@ -173,7 +175,7 @@ impl<const D: usize> Basis<D> for SimplexLattice<D> {
 
     /// Hats are piecewise linear: ∇w_ip, also where D_p is singular (docs/theory.md, Eq. 23).
     #[inline(always)]
-    fn affine_direction(&self, entry: &Entry<D>) -> [f64; D] {
+    fn affine_direction(&self, _: usize, _: &[f64; D], entry: &Entry<D>) -> [f64; D] {
         entry.gradient
     }
 

@@ -6,6 +6,7 @@ use crate::{MpmError, Particles};
 /// P = κρ, so V_p P_p = κ m_p: the internal force κ Σ_p m_p ∇w_ip needs neither F nor J.
 impl<const D: usize> Medium<D> for IsothermalGas {
     type Impulse = f64;
+    type State = ();
     const DEFORMS: bool = false;
 
     #[inline(always)]

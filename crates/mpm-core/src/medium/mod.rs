@@ -1,63 +1,32 @@
 //! What the particles are made of: the stress impulse of a step, and whether it needs a deformation gradient.
 
-mod elastic;
+mod continuum;
 mod gas;
 
-use mpm_kernels::Deposit;
+use mpm_kernels::Columns;
 use mpm_tensor::Matrix;
 
-pub use elastic::Elastic;
+pub use continuum::Continuum;
 
-use crate::{Basis, MpmError, Particles};
+use crate::{MpmError, Particles};
 
 /// Impulses per node that are linear in ∇w_ip: a pressure (`f64`) or a full stress (`Matrix<D>`).
-pub trait StressImpulse<const D: usize>: Copy + Send + Sync {
-    /// The impulse at a node with shape-function gradient ∇w_ip.
-    fn at(&self, gradient: &[f64; D]) -> [f64; D];
-
-    /// Visit the stencil of a particle at `x` with weight and w_ip `value` + (0, [`at`](Self::at)(∇w_ip)).
-    #[inline(always)]
-    fn for_each_deposit<B: Basis<D>>(
-        &self,
-        basis: &B,
-        particle: usize,
-        x: &[f64; D],
-        value: &Deposit<D>,
-        mut visit: impl FnMut(usize, f64, &Deposit<D>),
-    ) {
-        basis.for_each_node(particle, x, |index, entry| {
-            let stress = Deposit {
-                scalar: 0.0,
-                vector: self.at(&entry.gradient),
-            };
-            visit(index, entry.weight, &value.combine(entry.weight, &stress, 1.0));
-        });
-    }
+pub trait StressImpulse<const D: usize>: Columns<D> + Send + Sync {
+    /// As a full stress.
+    fn matrix(&self) -> Matrix<D>;
 }
 
 impl<const D: usize> StressImpulse<D> for f64 {
     #[inline(always)]
-    fn at(&self, gradient: &[f64; D]) -> [f64; D] {
-        gradient.map(|c| self * c)
-    }
-
-    #[inline(always)]
-    fn for_each_deposit<B: Basis<D>>(
-        &self,
-        basis: &B,
-        particle: usize,
-        x: &[f64; D],
-        value: &Deposit<D>,
-        visit: impl FnMut(usize, f64, &Deposit<D>),
-    ) {
-        basis.for_each_deposit(particle, x, value, *self, visit);
+    fn matrix(&self) -> Matrix<D> {
+        Matrix::IDENTITY * *self
     }
 }
 
 impl<const D: usize> StressImpulse<D> for Matrix<D> {
     #[inline(always)]
-    fn at(&self, gradient: &[f64; D]) -> [f64; D] {
-        self.apply(gradient)
+    fn matrix(&self) -> Matrix<D> {
+        *self
     }
 }
 
@@ -66,11 +35,32 @@ pub trait Medium<const D: usize>: Sync {
     /// −Δt V⁰_p τ_p, as a scalar where the stress is a pressure.
     type Impulse: StressImpulse<D>;
 
+    /// Internal variables of a particle, kept in [`Particles::states`]; `()` for a medium without memory.
+    type State: Copy + Send + Sync;
+
     /// Whether the medium reads F_p; without it F_p is neither stored nor updated.
     const DEFORMS: bool;
 
+    /// Whether the stress reads the velocity gradient; without, it is not stored.
+    fn rate_dependent(&self) -> bool {
+        false
+    }
+
     /// −Δt V⁰_p τ_p of one particle.
-    fn impulse(&self, particles: &Particles<D>, particle: usize, time_step: f64) -> Self::Impulse;
+    fn impulse(&self, particles: &Particles<D, Self::State>, particle: usize, time_step: f64) -> Self::Impulse;
+
+    /// Takes the trial (I + Δt L_p) F_p to a deformation gradient that the medium admits, and updates the internal variables;
+    /// the trial itself for a medium without memory.
+    #[inline(always)]
+    fn advance(&self, trial: &Matrix<D>, _state: &mut Self::State) -> Matrix<D> {
+        *trial
+    }
+
+    /// J, the present volume of a particle over its reference volume.
+    #[inline(always)]
+    fn volume_ratio(&self, deformation_gradient: &Matrix<D>, _state: &Self::State) -> f64 {
+        deformation_gradient.determinant()
+    }
 
     /// Largest wave speed in the medium's present state, for the CFL condition. Asked once at the start of every step, it
     /// is also where a medium refuses a state.
@@ -78,5 +68,5 @@ pub trait Medium<const D: usize>: Sync {
     /// # Errors
     /// [`MpmError::Deformation`] for the first particle that has no stress, [`MpmError::WaveSpeed`] for the first one with
     /// mass and reference volume that give no wave speed.
-    fn wave_speed(&self, particles: &Particles<D>) -> Result<f64, MpmError>;
+    fn wave_speed(&self, particles: &Particles<D, Self::State>) -> Result<f64, MpmError>;
 }

@@ -59,14 +59,14 @@ impl<const D: usize> GridNode<D> for FlipNode<D> {
     fn add(&mut self, deposit: &Deposit<D>) {
         self.mass += deposit.scalar;
         for a in 0..D {
-            self.velocity[a] += deposit.vector[a];
+            self.previous[a] += deposit.vector[a];
         }
     }
 
     #[inline(always)]
-    fn add_momentum(&mut self, momentum: &[f64; D]) {
+    fn add_impulse(&mut self, impulse: &[f64; D]) {
         for a in 0..D {
-            self.previous[a] += momentum[a];
+            self.velocity[a] += impulse[a];
         }
     }
 
@@ -91,6 +91,11 @@ impl<const D: usize> GridNode<D> for FlipNode<D> {
     #[inline(always)]
     fn velocity(&self) -> &[f64; D] {
         &self.velocity
+    }
+
+    #[inline(always)]
+    fn velocity_mut(&mut self) -> &mut [f64; D] {
+        &mut self.velocity
     }
 
     #[inline(always)]

@@ -30,14 +30,31 @@ pub fn gather<const D: usize, B, V>(
     B: Basis<D>,
     V: Divide,
 {
-    gather_cells(basis, 0..basis.schedule().cell_count(), data, update);
+    gather_cells(basis, data, move |data, particles, cell_nodes, first, _: &mut ()| {
+        for p in particles {
+            update(data, p - first, p, cell_nodes);
+        }
+    });
 }
 
-fn gather_cells<const D: usize, B, V>(
+/// Call `update(data, particles, cell_nodes, first, memory)` for every cell: `data` begins with particle `first`, and `memory` is
+/// what the cells before have left.
+pub(crate) fn gather_cells<const D: usize, B, V, S: Default>(
+    basis: &B,
+    data: V,
+    update: impl Fn(&mut V, Range<usize>, &[u32], usize, &mut S) + Sync + Send + Copy,
+) where
+    B: Basis<D>,
+    V: Divide,
+{
+    gather_stretch(basis, 0..basis.schedule().cell_count(), data, update);
+}
+
+fn gather_stretch<const D: usize, B, V, S: Default>(
     basis: &B,
     cells: Range<usize>,
     mut data: V,
-    update: impl Fn(&mut V, usize, usize, &[u32]) + Sync + Send + Copy,
+    update: impl Fn(&mut V, Range<usize>, &[u32], usize, &mut S) + Sync + Send + Copy,
 ) where
     B: Basis<D>,
     V: Divide,
@@ -52,16 +69,14 @@ fn gather_cells<const D: usize, B, V>(
         let middle = cells.start + cells.len() / 2;
         let (left, right) = data.divide(schedule.cell(middle).start - particles.start);
         rayon::join(
-            || gather_cells(basis, cells.start..middle, left, update),
-            || gather_cells(basis, middle..cells.end, right, update),
+            || gather_stretch(basis, cells.start..middle, left, update),
+            || gather_stretch(basis, middle..cells.end, right, update),
         );
         return;
     }
-    let mut scratch = Vec::new();
+    let (mut scratch, mut memory) = (Vec::new(), S::default());
     for cell in cells {
         let cell_nodes = &basis.cell_nodes(cell, &mut scratch)[..basis.stencil_size()]; // no check per node
-        for particle in schedule.cell(cell) {
-            update(&mut data, particle - particles.start, particle, cell_nodes);
-        }
+        update(&mut data, schedule.cell(cell), cell_nodes, particles.start, &mut memory);
     }
 }

@@ -1,28 +1,35 @@
 //! How mass and momentum travel between particles and nodes: PIC, APIC, FLIP blend.
 
 mod apic;
+mod cell_field;
 mod flip;
 mod gather;
+mod mls;
 mod moving;
 mod pic;
 mod scatter;
+mod tile;
 
-use mpm_kernels::Deposit;
+use mpm_kernels::{Deposit, Packed};
 
 pub use apic::Apic;
+pub(crate) use cell_field::{CellField, Changes, Numbered, Velocities};
 pub use flip::{Flip, FlipNode};
+pub(crate) use gather::gather_cells;
 pub use gather::{Divide, gather};
+pub use mls::Mls;
 pub(crate) use moving::Moving;
 pub use pic::{Pic, VelocityNode};
 pub use scatter::{NodeSums, StencilNodes, Sum};
+pub(crate) use tile::Tile;
 
 /// What a node accumulates and later carries: mass and momentum first, velocity after [`advance`](Self::advance).
 pub trait GridNode<const D: usize>: Sum {
-    /// Add mass (the scalar) and the impulse of forces (the vector).
+    /// Add mass (the scalar) and momentum (the vector).
     fn add(&mut self, deposit: &Deposit<D>);
 
-    /// Add momentum.
-    fn add_momentum(&mut self, momentum: &[f64; D]);
+    /// Add the impulse of forces.
+    fn add_impulse(&mut self, impulse: &[f64; D]);
 
     /// m_i.
     fn mass(&self) -> f64;
@@ -37,6 +44,15 @@ pub trait GridNode<const D: usize>: Sum {
     /// v_i after [`advance`](Self::advance).
     fn velocity(&self) -> &[f64; D];
 
+    /// v_i after [`advance`](Self::advance) as the vector; the scalar has no meaning.
+    #[inline(always)]
+    fn packed_velocity<const G: usize>(&self) -> Packed<G> {
+        Packed::new(0.0, self.velocity())
+    }
+
+    /// v_i after [`advance`](Self::advance), for a boundary to change. v_iⁿ stays, so that an incremental transfer sees the reaction.
+    fn velocity_mut(&mut self) -> &mut [f64; D];
+
     /// v_iⁿ⁺¹ − damping v_iⁿ, where the transfer keeps v_iⁿ.
     fn change(&self, damping: f64) -> [f64; D];
 }
@@ -48,6 +64,9 @@ pub trait Transfer<const D: usize>: Copy + Send + Sync {
 
     /// Whether particles carry the affine moment B_p.
     const AFFINE: bool;
+
+    /// Whether the velocity gradient is C_p = B_p D_p⁻¹, and the stress acts by w_ip D_p⁻¹ (x_i − x_p) in the place of ∇w_ip; only with `AFFINE`.
+    const MOVING_LEAST_SQUARES: bool = false;
 
     /// Whether nodes keep v_iⁿ beside v_iⁿ⁺¹ ([`GridNode::change`]); otherwise impulse and momentum may be added as one.
     const INCREMENTAL: bool;

@@ -1,4 +1,4 @@
-use mpm_kernels::Deposit;
+use mpm_kernels::{Deposit, Packed};
 
 use super::{GridNode, Sum, Transfer, shorten};
 
@@ -37,9 +37,9 @@ impl<const D: usize> GridNode<D> for VelocityNode<D> {
     }
 
     #[inline(always)]
-    fn add_momentum(&mut self, momentum: &[f64; D]) {
+    fn add_impulse(&mut self, impulse: &[f64; D]) {
         for a in 0..D {
-            self.0.vector[a] += momentum[a];
+            self.0.vector[a] += impulse[a];
         }
     }
 
@@ -65,6 +65,16 @@ impl<const D: usize> GridNode<D> for VelocityNode<D> {
     #[inline(always)]
     fn velocity(&self) -> &[f64; D] {
         &self.0.vector
+    }
+
+    #[inline(always)]
+    fn velocity_mut(&mut self) -> &mut [f64; D] {
+        &mut self.0.vector
+    }
+
+    #[inline(always)]
+    fn packed_velocity<const G: usize>(&self) -> Packed<G> {
+        Packed::new(self.0.scalar, &self.0.vector)
     }
 
     #[inline(always)]

@@ -1,7 +1,11 @@
 //! Particles → nodes: every particle adds to the nodes of its stencil, in an order that no thread count changes.
 
+use std::ops::Range;
+
+use mpm_kernels::Lanes;
 use rayon::prelude::*;
 
+use super::{GridNode, Tile};
 use crate::Basis;
 
 /// Sums that several parts of the particles contribute to.
@@ -48,25 +52,56 @@ impl<N: Sum> NodeSums<N> {
         positions: &[[f64; D]],
         deposit: impl Fn(usize, &[f64; D], &mut StencilNodes<N>) + Sync + Copy,
     ) {
+        self.scatter_cells(basis, move |particles, stencil, _| {
+            for particle in particles {
+                deposit(particle, &positions[particle], stencil);
+            }
+        });
+    }
+
+    /// As [`scatter`](Self::scatter), for sums with lanes: `deposit(p, x_p, tile)` adds to a tile, which is added to the nodes
+    /// once per cell. Bases with lone particles have no use for tiles; there the tile is the nodes themselves.
+    pub(crate) fn scatter_packed<const D: usize, B: Basis<D>>(
+        &mut self,
+        basis: &B,
+        positions: &[[f64; D]],
+        with_impulses: bool,
+        deposit: impl Fn(usize, &[f64; D], &mut Tile<B, N, D>) + Sync + Copy,
+    ) where
+        N: GridNode<D>,
+    {
+        self.scatter_cells(basis, move |particles, stencil, lanes| {
+            let mut tile = Tile::new(basis, stencil, lanes, with_impulses);
+            for particle in particles {
+                deposit(particle, &positions[particle], &mut tile);
+            }
+            tile.close();
+        });
+    }
+
+    /// Start from zero and call `add(particles, stencil, memory)` for every cell.
+    fn scatter_cells<const D: usize, B: Basis<D>>(
+        &mut self,
+        basis: &B,
+        add: impl Fn(Range<usize>, &mut StencilNodes<N>, &mut Vec<Lanes>) + Sync + Copy,
+    ) {
         self.nodes.clear();
         self.nodes.resize(basis.node_count(), N::default());
         let schedule = basis.schedule();
-        let add_up = |cells: std::ops::Range<usize>, first: usize, nodes: &mut [N]| {
-            let mut scratch = Vec::new();
+        let add_up = |cells: Range<usize>, first: usize, nodes: &mut [N]| {
+            let (mut scratch, mut lanes) = (Vec::new(), Vec::new());
             #[expect(
                 clippy::redundant_locals,
                 reason = "a copy of its own, so that what it captured may stay in registers"
             )]
-            let deposit = deposit;
+            let add = add;
             for cell in cells {
                 let mut stencil = StencilNodes {
                     numbers: &basis.cell_nodes(cell, &mut scratch)[..basis.stencil_size()],
                     first,
                     nodes,
                 };
-                for particle in schedule.cell(cell) {
-                    deposit(particle, &positions[particle], &mut stencil);
-                }
+                add(schedule.cell(cell), &mut stencil, &mut lanes);
             }
         };
         if let [part] = schedule.parts() {

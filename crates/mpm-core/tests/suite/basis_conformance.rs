@@ -9,6 +9,7 @@ use rand::RngExt;
 
 use crate::basis_gradients::gradients_are_derivatives;
 use crate::basis_layout::layout_is_sound;
+use crate::basis_transfers::transfers_are_sums;
 use crate::scenes::{dot, generator, norm, normal, stencil};
 
 /// Random clouds on a randomly placed basis, each on a basis that was in use before.
@@ -65,6 +66,9 @@ fn stencils_are_right<const D: usize, B: Basis<D>>(basis: &B, sorted: &[[f64; D]
         }
         for place in schedule.cell(cell) {
             stencil_is_right(basis, place, &sorted[place], cell_nodes, &node_positions, what);
+            if place % 16 == 0 {
+                transfers_are_sums(basis, place, &sorted[place], what);
+            }
         }
     }
     assert!(
@@ -126,7 +130,7 @@ fn stencil_is_right<const D: usize, B: Basis<D>>(
 
     // w D⁻¹ (x_i − x) times D, so that no inverse is taken where D is singular.
     basis.for_each_node(particle, x, |_, entry| {
-        let direction = second_moment.apply(&basis.affine_direction(entry));
+        let direction = second_moment.apply(&basis.affine_direction(particle, x, entry));
         for a in 0..D {
             let expected = entry.weight * entry.offset[a];
             assert!((direction[a] - expected).abs() < 1e-12 * h, "{what}: affine direction");

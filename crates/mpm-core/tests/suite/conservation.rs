@@ -1,7 +1,7 @@
 //! Mass, momentum and, with APIC, angular momentum.
 
 use mpm_core::{
-    Apic, Basis, Flip, Masses, Medium, Mpm, NodeSums, Particles, Pic, SimplexLattice, SplineGrid, Transfer,
+    Apic, Basis, Flip, Masses, Medium, Mls, Mpm, NodeSums, Particles, Pic, SimplexLattice, SplineGrid, Transfer,
 };
 use mpm_kernels::{Cubic, Linear, Quadratic, Spline};
 use mpm_materials::IsothermalGas;
@@ -38,7 +38,7 @@ fn cloud<const D: usize>(seed: u64, count: usize) -> Particles<D> {
 }
 
 /// A few steps without external force; what must be conserved is.
-fn conserves<B: Basis<D>, T: Transfer<D>, M: Medium<D>, const D: usize>(
+fn conserves<B: Basis<D>, T: Transfer<D>, M: Medium<D, State = ()>, const D: usize>(
     seed: u64,
     name: &str,
     basis: B,
@@ -80,6 +80,8 @@ fn every_transfer<B: Basis<D>, const D: usize>(seed: u64, name: &str, make: impl
     conserves(seed, name, make(), Flip { share: 0.95 }, solid);
     conserves(seed, name, make(), Apic, gas);
     conserves(seed, name, make(), Apic, solid);
+    conserves(seed, name, make(), Mls, gas);
+    conserves(seed, name, make(), Mls, solid);
 }
 
 fn on_splines<S: Spline<W>, const W: usize, const D: usize>(seed: u64, h: f64) {

@@ -9,7 +9,7 @@ use crate::scenes::{Pull, bits, free, gaussian_cloud, matrix_bits, neo_hookean};
 const STEPS: usize = 20;
 
 /// All state after the steps, as bits.
-fn run<B: UniformBasis<D>, T: Transfer<D>, M: Medium<D>, const D: usize>(
+fn run<B: UniformBasis<D>, T: Transfer<D>, M: Medium<D, State = ()>, const D: usize>(
     count: usize,
     basis: B,
     transfer: T,

@@ -1,7 +1,7 @@
 //! States that the step refuses: what it says, and that the particles stay as they were.
 
 use mpm_core::{
-    Basis, BodyForce, ForceLocation, Masses, Medium, Mpm, MpmError, Particles, Pic, SimplexLattice, SplineGrid,
+    Basis, BodyForce, ForceLocation, Masses, Medium, Mpm, MpmError, Particles, Pic, SimplexLattice, Sites, SplineGrid,
     Transfer, UniformBasis,
 };
 use mpm_kernels::{Linear, Quadratic};
@@ -31,7 +31,7 @@ fn state(particles: &Particles<2>) -> Vec<u64> {
 }
 
 /// The error of a step, after which nothing has moved.
-fn refused<T: Transfer<2>, M: Medium<2>, F: BodyForce<2>>(
+fn refused<T: Transfer<2>, M: Medium<2, State = ()>, F: BodyForce<2>>(
     mpm: &mut Mpm<2, SplineGrid<Quadratic, 3, 2>, T, M, F>,
 ) -> MpmError {
     let before = state(&mpm.particles);
@@ -111,9 +111,9 @@ impl BodyForce<2> for Reporting {
         ForceLocation::Particles
     }
 
-    fn at_particles(&mut self, positions: &[[f64; 2]], _: &mut [[f64; 2]]) -> Result<(), MpmError> {
+    fn at_particles(&mut self, sites: &Sites<2>, _: &mut [[f64; 2]]) -> Result<(), MpmError> {
         let wanted = gaussian_cloud::<2>(COUNT, 21)[8];
-        let index = positions.iter().position(|x| *x == wanted).unwrap();
+        let index = sites.positions.iter().position(|x| *x == wanted).unwrap();
         Err(MpmError::BodyForceNotFinite {
             index,
             position: wanted.to_vec(),

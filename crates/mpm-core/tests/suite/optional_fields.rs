@@ -7,7 +7,11 @@ use mpm_materials::IsothermalGas;
 use crate::scenes::{Pull, free, gaussian_cloud, neo_hookean};
 
 /// Capacities of the fields B, F, V⁰ after a few steps, and the bytes per particle beside the basis.
-fn after_steps<T: Transfer<3>, M: Medium<3>>(transfer: T, medium: M, force: Pull<3>) -> ([usize; 3], usize) {
+fn after_steps<T: Transfer<3>, M: Medium<3, State = ()>>(
+    transfer: T,
+    medium: M,
+    force: Pull<3>,
+) -> ([usize; 3], usize) {
     let mut particles = Particles::at_rest(gaussian_cloud(1000, 1), 1.0);
     if M::DEFORMS {
         particles = particles.with_elastic_state(vec![0.1; 1000]);
@@ -54,7 +58,7 @@ fn a_body_force_is_asked_only_where_it_acts() {
         fn location(&self) -> ForceLocation {
             ForceLocation::Nodes
         }
-        fn at_particles(&mut self, _: &[[f64; 3]], _: &mut [[f64; 3]]) -> Result<(), mpm_core::MpmError> {
+        fn at_particles(&mut self, _: &mpm_core::Sites<3>, _: &mut [[f64; 3]]) -> Result<(), mpm_core::MpmError> {
             self.particles += 1;
             Ok(())
         }

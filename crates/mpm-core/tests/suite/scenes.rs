@@ -1,6 +1,6 @@
 //! Clouds, forces and controls that the themes share, and the list of bases.
 
-use mpm_core::{Basis, BodyForce, Elastic, ForceLocation, MpmError, StepControl};
+use mpm_core::{Basis, BodyForce, Continuum, ForceLocation, MpmError, Sites, StepControl};
 use mpm_materials::{ElasticModuli, Material, NeoHookean};
 use mpm_tensor::Matrix;
 use rand::{RngExt, SeedableRng, rngs::ChaCha8Rng};
@@ -11,11 +11,12 @@ use rand_distr::{Distribution, StandardNormal};
 macro_rules! every_basis {
     ($check:ident, $dimension:literal) => {{
         use mpm_core::{SimplexLattice, SplineGrid, UniformBasis};
-        use mpm_kernels::{Cubic, Linear, Quadratic};
+        use mpm_kernels::{Cubic, Gimp, Linear, Quadratic};
         $check::<$dimension, _>("linear", |o, h| SplineGrid::<Linear, 2, $dimension>::new(o, h).unwrap());
         $check::<$dimension, _>("quadratic", |o, h| {
             SplineGrid::<Quadratic, 3, $dimension>::new(o, h).unwrap()
         });
+        $check::<$dimension, _>("GIMP", |o, h| SplineGrid::<Gimp<2>, 3, $dimension>::new(o, h).unwrap());
         $check::<$dimension, _>("turned lattice", |o, h| {
             let mut lattice = SimplexLattice::<$dimension>::permutohedral(o, h).unwrap();
             lattice.turn(&$crate::scenes::reflection());
@@ -64,12 +65,12 @@ pub fn free(time_step: f64) -> StepControl {
 }
 
 /// The elastic law that the themes share; behind a reference, so that the step is compiled once for all laws.
-pub type Solid<const D: usize> = Elastic<&'static dyn Material<D>>;
+pub type Solid<const D: usize> = Continuum<&'static dyn Material<D>>;
 
 /// A solid of the given law.
 pub fn solid<const D: usize>(law: impl Material<D> + 'static) -> Solid<D> {
-    Elastic {
-        material: Box::leak(Box::new(law)),
+    Continuum {
+        law: Box::leak(Box::new(law)),
     }
 }
 
@@ -122,8 +123,8 @@ impl<const D: usize> BodyForce<D> for Pull<'_, D> {
         self.location
     }
 
-    fn at_particles(&mut self, positions: &[[f64; D]], accelerations: &mut [[f64; D]]) -> Result<(), MpmError> {
-        for (x, acceleration) in positions.iter().zip(accelerations) {
+    fn at_particles(&mut self, sites: &Sites<D>, accelerations: &mut [[f64; D]]) -> Result<(), MpmError> {
+        for (x, acceleration) in sites.positions.iter().zip(accelerations) {
             *acceleration = (self.value)(x, 1.0);
         }
         Ok(())

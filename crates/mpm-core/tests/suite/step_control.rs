@@ -80,7 +80,7 @@ fn speeds_that_leave_no_time_step_are_an_error() {
     }
 }
 
-fn time_step<M: Medium<1>>(particles: Particles<1>, medium: M, control: &StepControl) -> f64 {
+fn time_step<M: Medium<1, State = ()>>(particles: Particles<1>, medium: M, control: &StepControl) -> f64 {
     let grid = SplineGrid::<Quadratic, 3, 1>::new([0.0], 0.5).unwrap();
     let mut mpm = Mpm::new(particles, grid, Pic, medium, Pull::none());
     mpm.step(control).unwrap().time_step

@@ -43,7 +43,7 @@ fn body<const D: usize>(seed: u64) -> Vec<NaiveParticle<D>> {
 }
 
 /// Compare `STEPS` steps; the grid moves after every one.
-fn agree<S: Spline<W>, T: Transfer<D>, M: Medium<D>, const W: usize, const D: usize>(
+fn agree<S: Spline<W>, T: Transfer<D>, M: Medium<D, State = ()>, const W: usize, const D: usize>(
     (kernel, velocity, law, force): (Kernel, Velocity, Law, Force<D>),
     (transfer, medium): (T, M),
     (friction, displacement): (f64, f64),
@@ -105,7 +105,7 @@ fn agree<S: Spline<W>, T: Transfer<D>, M: Medium<D>, const W: usize, const D: us
     }
 }
 
-fn every_force<S: Spline<W>, T: Transfer<D>, M: Medium<D> + Copy, const W: usize, const D: usize>(
+fn every_force<S: Spline<W>, T: Transfer<D>, M: Medium<D, State = ()> + Copy, const W: usize, const D: usize>(
     (kernel, velocity, law): (Kernel, Velocity, Law),
     ours: (T, M),
 ) {

@@ -1,0 +1,68 @@
+//! Median time per particle-step of an elastic block:
+//! `RAYON_NUM_THREADS=1 cargo run --release -p parvi-benches --bin time_mechanics -- [apic|mls|pic|flip] [sorted|shuffled] [cells] [warm-up steps] [steps]`.
+
+#![allow(clippy::print_stdout)]
+
+use std::time::Instant;
+
+use mpm_core::{Apic, Basis, Flip, Mls, Pic, Transfer};
+use parvi_benches::elastic_block::{Order, block, control};
+
+/// Processor time of the process in nanoseconds, which other processes disturb less; 0 where the system does not tell.
+fn processor_time() -> f64 {
+    let Ok(tasks) = std::fs::read_dir("/proc/self/task") else {
+        return 0.0;
+    };
+    let of_task = |path: std::path::PathBuf| std::fs::read_to_string(path.join("schedstat")).ok();
+    let times = tasks.filter_map(|task| of_task(task.ok()?.path()));
+    times
+        .filter_map(|text| text.split(' ').next()?.parse::<f64>().ok())
+        .sum()
+}
+
+fn time<T: Transfer<3>>(transfer: T, order: Order, [cells, warm_up, steps]: [usize; 3]) {
+    let mut mpm = block(cells, order, transfer);
+    let particles = mpm.particles.len() as f64;
+    let (mut wall, mut processor, mut sorts, mut runs) = (Vec::new(), Vec::new(), 0, 0);
+    for step in 0..warm_up + steps {
+        let (start, processor_start) = (Instant::now(), processor_time());
+        mpm.step(&control()).expect("a sound state");
+        if step >= warm_up {
+            wall.push(start.elapsed().as_nanos() as f64 / particles);
+            processor.push((processor_time() - processor_start) / particles);
+            sorts += usize::from(!mpm.basis.schedule().keeps_order());
+            runs += mpm.basis.schedule().cell_count();
+        }
+    }
+    let mean = wall.iter().sum::<f64>() / steps as f64;
+    let middle = |times: &mut Vec<f64>| {
+        times.sort_by(f64::total_cmp);
+        times[times.len() / 2]
+    };
+    println!(
+        "{order:?}, {cells}^3 cells: median {:.1} mean {mean:.1} least {:.1} ns per particle-step, processor {:.1}; {sorts} sorts in {steps} steps, {:.3} cells per particle",
+        middle(&mut wall),
+        wall[0],
+        middle(&mut processor),
+        runs as f64 / particles / steps as f64,
+    );
+}
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let word = |index: usize, default: &str| arguments.get(index).cloned().unwrap_or(default.to_owned());
+    let number = |index: usize, default: &str| word(index, default).parse().expect("a number");
+    let order = match word(1, "sorted").as_str() {
+        "sorted" => Order::Sorted,
+        "shuffled" => Order::Shuffled,
+        other => panic!("{other} is no order"),
+    };
+    let sizes = [number(2, "50"), number(3, "10"), number(4, "20")];
+    match word(0, "apic").as_str() {
+        "apic" => time(Apic, order, sizes),
+        "mls" => time(Mls, order, sizes),
+        "pic" => time(Pic, order, sizes),
+        "flip" => time(Flip { share: 0.95 }, order, sizes),
+        other => panic!("{other} is no transfer"),
+    }
+}

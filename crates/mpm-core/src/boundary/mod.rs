@@ -1,0 +1,82 @@
+//! What the velocities of the nodes obey beside the balance of momentum: walls and obstacles.
+
+mod contact;
+mod mirror;
+mod obstacle;
+mod signed_distance;
+mod wall;
+
+pub use contact::Contact;
+pub use obstacle::Obstacle;
+pub use signed_distance::{HalfSpace, SignedDistance, Sphere};
+pub use wall::{Side, Wall};
+
+use crate::{Basis, GridNode};
+
+/// The grid when a boundary is asked: after forces, before particles move.
+#[derive(Clone, Copy, Debug)]
+pub struct GridMotion<'a, const D: usize> {
+    /// Positions of the nodes, by number.
+    pub positions: &'a [[f64; D]],
+    /// Time at the start of the step.
+    pub time: f64,
+    /// Δt.
+    pub time_step: f64,
+}
+
+/// Conditions on the velocities of the nodes.
+pub trait Boundary<const D: usize>: Sync {
+    /// Whether there are any; without, not even the positions of the nodes are computed.
+    const PRESENT: bool = true;
+
+    /// Change the velocities ([`GridNode::velocity_mut`]) of nodes. What the nodes get goes back to the particles, so the
+    /// momentum that is taken is the reaction of the boundary.
+    fn constrain<B: Basis<D>, N: GridNode<D>>(&mut self, basis: &B, motion: &GridMotion<D>, nodes: &mut [N]);
+}
+
+/// No boundary: a body in free space.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct NoBoundary;
+
+impl<const D: usize> Boundary<D> for NoBoundary {
+    const PRESENT: bool = false;
+
+    fn constrain<B: Basis<D>, N: GridNode<D>>(&mut self, _: &B, _: &GridMotion<D>, _: &mut [N]) {}
+}
+
+/// Walls and obstacles, applied in this order.
+#[derive(Default)]
+pub struct Boundaries<const D: usize> {
+    /// Plane walls across an axis.
+    pub walls: Vec<Wall<D>>,
+    /// Rigid bodies.
+    pub obstacles: Vec<Obstacle<D>>,
+    /// Masses that mirrored nodes have together.
+    masses: Vec<f64>,
+}
+
+impl<const D: usize> Boundaries<D> {
+    /// These walls and obstacles.
+    pub fn new(walls: Vec<Wall<D>>, obstacles: Vec<Obstacle<D>>) -> Self {
+        Self {
+            walls,
+            obstacles,
+            masses: Vec::new(),
+        }
+    }
+}
+
+impl<const D: usize> Boundary<D> for Boundaries<D> {
+    fn constrain<B: Basis<D>, N: GridNode<D>>(&mut self, basis: &B, motion: &GridMotion<D>, nodes: &mut [N]) {
+        if !self.walls.is_empty() {
+            self.masses.clear();
+            self.masses.extend(nodes.iter().map(GridNode::mass));
+        }
+        for wall in &self.walls {
+            wall.constrain(basis, motion.positions, &mut self.masses, nodes);
+        }
+        for obstacle in &self.obstacles {
+            obstacle.constrain(motion.positions, nodes);
+        }
+    }
+}

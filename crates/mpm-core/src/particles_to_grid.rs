@@ -1,0 +1,85 @@
+//! Particles → grid: mass, momentum and the impulse of the stress.
+
+use mpm_kernels::Deposit;
+
+use crate::transfer::{GridNode, Tile, Transfer};
+use crate::{Basis, BodyForce, Boundary, ForceLocation, Medium, Mpm, StressImpulse};
+
+impl<const D: usize, B, T, M, F, C> Mpm<D, B, T, M, F, C>
+where
+    B: Basis<D>,
+    T: Transfer<D>,
+    M: Medium<D>,
+    F: BodyForce<D>,
+    C: Boundary<D>,
+{
+    /// P2G: m_i = Σ_p w_ip m_p; m_i v_i = Σ_p w_ip m_p [v_p + B_p D_p⁻¹ (x_i − x_p)] + Δt Σ_p (w_ip m_p g_p − V⁰_p τ_p ∇w_ip).
+    ///
+    /// Moving least squares have w_ip D_p⁻¹ (x_i − x_p) in the place of ∇w_ip.
+    pub(crate) fn particles_to_grid(&mut self, dt: f64) {
+        let (particles, medium, basis) = (&self.particles, &self.medium, &self.basis);
+        let (velocities, accelerations) = (&particles.velocities[..], &self.accelerations[..]);
+        let pulled = self.body_force.location() == ForceLocation::Particles;
+        let deposit = move |p: usize, x: &[f64; D], tile: &mut Tile<B, T::Node, D>| {
+            let mass = particles.masses.get(p);
+            let mut impulse = [0.0; D];
+            if pulled {
+                impulse = accelerations[p].map(|g| dt * mass * g);
+            }
+            let stress = medium.impulse(particles, p, dt);
+            let mut value = Deposit {
+                scalar: mass,
+                vector: velocities[p].map(|v| mass * v),
+            };
+            if T::INCREMENTAL {
+                let force = Deposit {
+                    scalar: 0.0,
+                    vector: impulse,
+                };
+                basis.deposit(p, x, &value, &(), &(), &mut tile.sums());
+                basis.deposit(p, x, &force, &(), &stress, &mut tile.impulses());
+                return;
+            }
+            for a in 0..D {
+                value.vector[a] += impulse[a];
+            }
+            if T::MOVING_LEAST_SQUARES {
+                let affine = particles.affine[p] * mass + stress.matrix();
+                basis.deposit(p, x, &value, &affine, &(), &mut tile.sums());
+            } else if T::AFFINE {
+                let affine = particles.affine[p] * mass;
+                basis.deposit(p, x, &value, &affine, &stress, &mut tile.sums());
+            } else {
+                basis.deposit(p, x, &value, &(), &stress, &mut tile.sums());
+            }
+        };
+        self.nodes
+            .scatter_packed(basis, &particles.positions, T::INCREMENTAL, deposit);
+    }
+
+    /// The velocities of the nodes without any force: mass and momentum alone, then the boundary.
+    pub(crate) fn momentum_to_grid(&mut self, dt: f64) {
+        if !M::DEFORMS {
+            return; // nothing deforms with them
+        }
+        let (particles, basis) = (&self.particles, &self.basis);
+        let deposit = move |p: usize, x: &[f64; D], tile: &mut Tile<B, T::Node, D>| {
+            let mass = particles.masses.get(p);
+            let value = Deposit {
+                scalar: mass,
+                vector: particles.velocities[p].map(|v| mass * v),
+            };
+            if T::AFFINE {
+                let affine = particles.affine[p] * mass;
+                basis.deposit(p, x, &value, &affine, &(), &mut tile.sums());
+            } else {
+                basis.deposit(p, x, &value, &(), &(), &mut tile.sums());
+            }
+        };
+        self.nodes.scatter_packed(basis, &particles.positions, false, deposit);
+        for node in self.nodes.as_mut_slice() {
+            node.advance(&[0.0; D], 1.0, f64::INFINITY);
+        }
+        self.constrain_grid(dt);
+    }
+}

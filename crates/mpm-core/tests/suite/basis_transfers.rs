@@ -1,0 +1,103 @@
+//! Conformance of a basis, part: deposits and interpolations against its entries.
+
+use mpm_core::Basis;
+use mpm_kernels::{Deposit, NodeField, NodeSink, Packed, Wanted};
+use mpm_tensor::Matrix;
+
+/// One sum, or one vector, per node of a stencil.
+struct Nodes<const D: usize>(Vec<Deposit<D>>);
+
+impl<const D: usize> NodeSink<D> for Nodes<D> {
+    fn add(&mut self, index: usize, deposit: &Deposit<D>) {
+        self.0[index].add(deposit);
+    }
+
+    fn update<const G: usize>(&mut self, index: usize, add: impl FnOnce(&Packed<G>) -> Packed<G>) {
+        let before = &self.0[index];
+        self.0[index] = add(&Packed::new(before.scalar, &before.vector)).deposit();
+    }
+}
+
+impl<const D: usize> NodeField<D> for Nodes<D> {
+    fn vector(&self, index: usize) -> [f64; D] {
+        self.0[index].vector
+    }
+
+    fn packed<const G: usize>(&self, index: usize) -> Packed<G> {
+        Packed::new(0.0, &self.0[index].vector)
+    }
+}
+
+/// What a particle at `x` sends to its nodes and reads from them.
+pub fn transfers_are_sums<const D: usize, B: Basis<D>>(basis: &B, particle: usize, x: &[f64; D], what: &str) {
+    let h = basis.spacing();
+    let vector = |i: usize| std::array::from_fn(|a| ((7 * i + 3 * a) % 11) as f64 - 5.0);
+    let field: Vec<Deposit<D>> = (0..basis.stencil_size())
+        .map(|i| Deposit {
+            scalar: 0.0,
+            vector: vector(i),
+        })
+        .collect();
+    let affine = Matrix::from_fn(|a, b| 0.3 * h * (a as f64 - 1.5 * b as f64));
+    let flux = Matrix::from_fn(|a, b| h * (0.2 + a as f64 * 0.7 - b as f64));
+    let value = field[0];
+    let (mut sent, mut pressed) = (vec![Deposit::ZERO; field.len()], vec![Deposit::ZERO; field.len()]);
+    let (mut mean, mut size) = ([0.0; D], 1.0f64);
+    let (mut slope, mut least_squares, mut moment) = (Matrix::ZERO, Matrix::ZERO, Matrix::ZERO);
+    basis.for_each_node(particle, x, |i, entry| {
+        let direction = basis.affine_direction(particle, x, entry);
+        let gradient = |scale: f64, map: &Matrix<D>, v: &[f64; D]| Deposit {
+            scalar: 0.0,
+            vector: map.apply(v).map(|c| scale * c),
+        };
+        sent[i] = value.combine(entry.weight, &gradient(1.0, &affine, &direction), 1.0);
+        sent[i].add(&gradient(1.0, &flux, &entry.gradient));
+        pressed[i] = value.combine(
+            entry.weight,
+            &gradient(0.7 * h, &Matrix::IDENTITY, &entry.gradient),
+            1.0,
+        );
+        size = size.max(h * direction.iter().fold(0.0, |most: f64, c| most.max(c.abs())));
+        for a in 0..D {
+            mean[a] += entry.weight * field[i].vector[a];
+        }
+        slope += Matrix::outer(&field[i].vector, &entry.gradient);
+        least_squares += Matrix::outer(&field[i].vector, &direction);
+        moment += Matrix::outer(&field[i].vector, &entry.offset) * entry.weight;
+    });
+    let close = |found: &[Deposit<D>], expected: &[Deposit<D>]| {
+        for (found, expected) in found.iter().zip(expected) {
+            let error = found.minus(expected);
+            let largest = error
+                .vector
+                .iter()
+                .fold(error.scalar.abs(), |most, c| most.max(c.abs()));
+            assert!(largest < 1e-11 * size, "{what}: deposit {found:?} for {expected:?}");
+        }
+    };
+    let mut nodes = Nodes(vec![Deposit::ZERO; field.len()]);
+    basis.deposit(particle, x, &value, &affine, &flux, &mut nodes);
+    close(&nodes.0, &sent);
+    nodes.0.fill(Deposit::ZERO);
+    basis.deposit(particle, x, &value, &(), &(0.7 * h), &mut nodes);
+    close(&nodes.0, &pressed);
+
+    let field = Nodes(field);
+    for bits in 0..8 {
+        let wanted = Wanted {
+            gradient: bits & 1 != 0,
+            least_squares: bits & 2 != 0,
+            moment: bits & 4 != 0,
+        };
+        let seen = basis.interpolate(particle, x, wanted, &field);
+        let gradient = if wanted.least_squares { least_squares } else { slope };
+        let gradient = if wanted.gradient { gradient } else { Matrix::ZERO };
+        let moment = if wanted.moment { moment } else { Matrix::ZERO };
+        assert!((0..D).all(|a| (seen.value[a] - mean[a]).abs() < 1e-12), "{what}: value");
+        assert!(
+            (seen.gradient - gradient).maximum_norm() < 1e-11 * size / h,
+            "{what}: {wanted:?}"
+        );
+        assert!((seen.moment - moment).maximum_norm() < 1e-11 * h, "{what}: {wanted:?}");
+    }
+}

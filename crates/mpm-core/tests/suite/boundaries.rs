@@ -1,0 +1,216 @@
+//! Walls and obstacles: what the nodes' velocities obey, and what is conserved all the same.
+
+use mpm_core::{
+    Apic, Basis, Boundaries, Boundary, Contact, GridMotion, GridNode, HalfSpace, Mpm, MpmError, Obstacle, Particles,
+    Side, Sphere, SplineGrid, VelocityNode, Wall,
+};
+use mpm_kernels::{Cubic, Deposit, Linear, Quadratic, Spline};
+use rand::RngExt;
+
+use crate::scenes::{Pull, free, generator, neo_hookean, normal, uniform_cloud};
+
+const H: f64 = 0.25;
+
+/// A grid with 2000 particles in the unit square, nodes with masses and velocities, and the boundary applied to them.
+struct Constrained<B> {
+    basis: B,
+    positions: Vec<[f64; 2]>,
+    before: Vec<VelocityNode<2>>,
+    after: Vec<VelocityNode<2>>,
+}
+
+fn constrained<S: Spline<W>, const W: usize>(boundaries: Boundaries<2>) -> Constrained<SplineGrid<S, W, 2>> {
+    let mut basis = SplineGrid::<S, W, 2>::new([0.0; 2], H).unwrap();
+    basis.rebuild(&uniform_cloud::<2>(2000, 1.0, 5)).unwrap();
+    let mut random = generator(6);
+    let node = |_| {
+        let (scalar, velocity) = (random.random::<f64>() + 0.1, normal::<2>(&mut random));
+        let mut node = VelocityNode::default();
+        node.add(&Deposit {
+            scalar,
+            vector: velocity.map(|v| scalar * v),
+        });
+        node.advance(&[0.0; 2], 1.0, f64::INFINITY);
+        node
+    };
+    let before: Vec<VelocityNode<2>> = (0..basis.node_count()).map(node).collect();
+    let (mut positions, mut after) = (Vec::new(), before.clone());
+    basis.node_positions(&mut positions);
+    let motion = GridMotion {
+        positions: &positions,
+        time: 0.0,
+        time_step: 0.1,
+    };
+    let mut boundaries = boundaries;
+    boundaries.constrain(&basis, &motion, &mut after);
+    Constrained {
+        basis,
+        positions,
+        before,
+        after,
+    }
+}
+
+impl<B: Basis<2>> Constrained<B> {
+    /// The interpolated velocity at a point of the domain.
+    fn velocity(&mut self, x: [f64; 2]) -> [f64; 2] {
+        let mut sum = [0.0; 2];
+        let (mut rows, mut total) = (Vec::new(), 0.0);
+        for (x_i, node) in self.positions.iter().zip(&self.after) {
+            rows.push((*x_i, *node.velocity()));
+        }
+        // One particle's stencil on the same grid, matched by position.
+        let mut basis = SplineGrid::<Quadratic, 3, 2>::new([0.0; 2], H).unwrap();
+        basis.rebuild(&[x]).unwrap();
+        basis.for_each_node(0, &x, |_, entry| {
+            let at: [f64; 2] = std::array::from_fn(|a| x[a] + entry.offset[a]);
+            let found = rows.iter().find(|(p, _)| (0..2).all(|a| (p[a] - at[a]).abs() < 1e-9));
+            if let Some((_, v)) = found {
+                total += entry.weight;
+                for a in 0..2 {
+                    sum[a] += entry.weight * v[a];
+                }
+            }
+        });
+        assert!((total - 1.0).abs() < 1e-12, "all nodes around {x:?} are active");
+        sum
+    }
+
+    fn momentum(nodes: &[VelocityNode<2>], axis: usize) -> f64 {
+        nodes.iter().map(|node| node.mass() * node.velocity()[axis]).sum()
+    }
+}
+
+fn wall(axis: usize, side: Side, contact: Contact, velocity: [f64; 2]) -> Wall<2> {
+    Wall {
+        axis,
+        side,
+        position: if side == Side::Lower { 0.0 } else { 1.0 },
+        contact,
+        velocity,
+    }
+}
+
+fn box_of(contact: Contact) -> Boundaries<2> {
+    let sides = [(0, Side::Lower), (0, Side::Upper), (1, Side::Lower), (1, Side::Upper)];
+    let walls = sides.map(|(axis, side)| wall(axis, side, contact, [0.0; 2]));
+    Boundaries::new(walls.to_vec(), Vec::new())
+}
+
+#[test]
+fn nothing_moves_on_a_wall_that_sticks_or_through_one_that_slips() {
+    let mut stuck = constrained::<Quadratic, 3>(box_of(Contact::Stick));
+    let mut sliding = constrained::<Quadratic, 3>(box_of(Contact::Slip));
+    for s in [0.0, 0.13, 0.5, 0.77, 1.0] {
+        for (x, axis) in [([0.0, s], 0), ([1.0, s], 0), ([s, 0.0], 1), ([s, 1.0], 1)] {
+            let v = stuck.velocity(x);
+            assert!(v.iter().all(|c| c.abs() < 1e-12), "stick at {x:?}: {v:?}");
+            assert!(sliding.velocity(x)[axis].abs() < 1e-12, "slip at {x:?}");
+        }
+    }
+    assert!(sliding.velocity([0.0, 0.5])[1].abs() > 1e-3, "it slides");
+}
+
+#[test]
+fn a_wall_that_moves_takes_the_material_along() {
+    let moving = wall(0, Side::Lower, Contact::Stick, [0.4, -0.3]);
+    let mut field = constrained::<Quadratic, 3>(Boundaries::new(vec![moving], Vec::new()));
+    let v = field.velocity([0.0, 0.5]);
+    assert!((v[0] - 0.4).abs() < 1e-12 && (v[1] + 0.3).abs() < 1e-12);
+}
+
+/// Mirrored pairs exchange momentum along the wall, and lose none of it.
+fn keeps_tangential_momentum<S: Spline<W>, const W: usize>() {
+    let slip = wall(0, Side::Lower, Contact::Slip, [0.0; 2]);
+    let field = constrained::<S, W>(Boundaries::new(vec![slip], Vec::new()));
+    let along = |nodes: &[VelocityNode<2>]| Constrained::<SplineGrid<S, W, 2>>::momentum(nodes, 1);
+    assert!(
+        (along(&field.after) - along(&field.before)).abs() < 1e-12,
+        "{}",
+        S::NAME
+    );
+    assert!(field.basis.node_number(&[0.0, 0.5]).is_some());
+}
+
+#[test]
+fn sliding_walls_keep_the_momentum_along_them() {
+    keeps_tangential_momentum::<Linear, 2>();
+    keeps_tangential_momentum::<Quadratic, 3>();
+    keeps_tangential_momentum::<Cubic, 4>();
+}
+
+#[test]
+fn mirroring_is_a_projection() {
+    let once = constrained::<Cubic, 4>(box_of(Contact::Stick));
+    let mut twice = once.after.clone();
+    let motion = GridMotion {
+        positions: &once.positions,
+        time: 0.0,
+        time_step: 0.1,
+    };
+    box_of(Contact::Stick).constrain(&once.basis, &motion, &mut twice);
+    for (first, second) in once.after.iter().zip(&twice) {
+        for a in 0..2 {
+            assert!((first.velocity()[a] - second.velocity()[a]).abs() < 1e-12);
+        }
+    }
+}
+
+#[test]
+fn a_wall_between_nodes_and_a_half_space_act_alike() {
+    let wall = Wall {
+        position: 0.1,
+        ..wall(0, Side::Lower, Contact::Separate { friction: 0.3 }, [0.0; 2])
+    };
+    let half_space = Obstacle {
+        shape: Box::new(HalfSpace {
+            point: [0.1, 7.0],
+            normal: [1.0, 0.0],
+        }),
+        contact: Contact::Separate { friction: 0.3 },
+        velocity: [0.0; 2],
+    };
+    let first = constrained::<Quadratic, 3>(Boundaries::new(vec![wall], Vec::new()));
+    let second = constrained::<Quadratic, 3>(Boundaries::new(Vec::new(), vec![half_space]));
+    assert!(first.after == second.after && first.after != first.before);
+}
+
+#[test]
+fn a_body_comes_to_rest_on_a_sphere_and_not_inside() {
+    let ball = Obstacle {
+        shape: Box::new(Sphere {
+            centre: [0.5, 0.0],
+            radius: 0.4,
+        }),
+        contact: Contact::Separate { friction: 0.2 },
+        velocity: [0.0; 2],
+    };
+    let positions: Vec<[f64; 2]> = uniform_cloud::<2>(200, 0.4, 8)
+        .iter()
+        .map(|x| [x[0] + 0.3, x[1] + 0.45])
+        .collect();
+    let particles = Particles::at_rest(positions, 0.16).with_elastic_state(vec![0.0008; 200]);
+    let grid = SplineGrid::<Quadratic, 3, 2>::new([0.0; 2], 0.05).unwrap();
+    let down = Pull::at_particles(|_| [0.0, -1.0]);
+    let mut body = Mpm::new(particles, grid, Apic, neo_hookean(500.0), down)
+        .with_boundary(Boundaries::new(Vec::new(), vec![ball]));
+    for _ in 0..200 {
+        body.step(&free(5e-4)).unwrap();
+    }
+    let depth = |x: &[f64; 2]| 0.4 - ((x[0] - 0.5).powi(2) + x[1].powi(2)).sqrt();
+    let deepest = body.particles.positions.iter().map(depth).fold(f64::MIN, f64::max);
+    assert!(deepest < 0.05, "a particle is {deepest} inside");
+}
+
+#[test]
+fn a_particle_that_leaves_its_box_is_named() {
+    let particles = Particles::at_rest(vec![[0.5, 0.5], [0.5, 0.9]], 1.0);
+    let grid = SplineGrid::<Linear, 2, 2>::new([0.0; 2], 0.1).unwrap();
+    let grid = grid.with_limits([0.0; 2], [1.0, 0.8]).unwrap();
+    let gas = mpm_materials::IsothermalGas::CALIBRATED;
+    let mut body = Mpm::new(particles, grid, mpm_core::Pic, gas, Pull::none());
+    let error = body.step(&free(0.1)).unwrap_err();
+    assert!(matches!(&error, MpmError::OutsideDomain { particle: 1, .. }), "{error}");
+    let empty = SplineGrid::<Linear, 2, 2>::new([0.0; 2], 0.1).unwrap();
+    assert!(empty.with_limits([0.0; 2], [1.0, 0.0]).is_err());
+}

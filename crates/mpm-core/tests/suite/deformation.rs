@@ -1,0 +1,204 @@
+//! When and how particles deform: the orders of a step, averaged volume ratios, moving least squares, materials with memory.
+
+use mpm_core::{Apic, Basis, Continuum, Flip, Mls, Mpm, Particles, Pic, SplineGrid, StressUpdate, Transfer};
+use mpm_kernels::{Cubic, Linear, Quadratic, SecondMoment, Spline};
+use mpm_materials::{DeformationError, ElasticModuli, Law, NeoHookean};
+use mpm_tensor::Matrix;
+
+use crate::scenes::{Pull, Solid, bits, free, neo_hookean, uniform_cloud};
+
+const COUNT: usize = 300;
+
+fn body<S: Spline<W>, T: Transfer<2>, const W: usize>(
+    transfer: T,
+) -> Mpm<2, SplineGrid<S, W, 2>, T, Solid<2>, Pull<'static, 2>> {
+    let mut particles = Particles::at_rest(uniform_cloud::<2>(COUNT, 1.0, 11), 1.0);
+    particles.velocities = particles.positions.iter().map(|x| [0.3 * x[1], x[0] * x[0]]).collect();
+    let particles = particles.with_elastic_state(vec![1.0 / COUNT as f64; COUNT]);
+    let grid = SplineGrid::new([0.0; 2], 0.2).unwrap();
+    Mpm::new(particles, grid, transfer, neo_hookean(20.0), Pull::none())
+}
+
+/// Where the particles are at time 0.04.
+fn after<T: Transfer<2>>(transfer: T, order: StressUpdate, averaging: bool, steps: usize) -> Vec<[f64; 2]> {
+    let mut body = body::<Quadratic, T, 3>(transfer);
+    body.stress_update = order;
+    body.volume_averaging = averaging;
+    for _ in 0..steps {
+        body.step(&free(0.04 / steps as f64)).unwrap();
+    }
+    assert!((body.time - 0.04).abs() < 1e-12);
+    body.particles.in_creation_order(&body.particles.positions)
+}
+
+fn distance(a: &[[f64; 2]], b: &[[f64; 2]]) -> f64 {
+    a.iter()
+        .zip(b)
+        .map(|(a, b)| (a[0] - b[0]).hypot(a[1] - b[1]))
+        .fold(0.0, f64::max)
+}
+
+#[test]
+fn the_orders_of_a_step_differ_by_the_time_step() {
+    for averaging in [false, true] {
+        let reference = after(Flip { share: 1.0 }, StressUpdate::Last, averaging, 512);
+        for order in [StressUpdate::First, StressUpdate::Last, StressUpdate::ModifiedLast] {
+            let coarse = distance(&after(Flip { share: 1.0 }, order, averaging, 8), &reference);
+            let fine = distance(&after(Flip { share: 1.0 }, order, averaging, 32), &reference);
+            assert!(coarse > 1e-9 && fine < 0.35 * coarse, "{order:?}: {coarse} then {fine}");
+        }
+    }
+}
+
+/// J̄ by sums over all pairs of particles and nodes.
+#[test]
+fn averaged_volume_ratios_are_those_of_the_formula() {
+    let mut averaged = body::<Quadratic, Pic, 3>(Pic);
+    let mut plain = body::<Quadratic, Pic, 3>(Pic);
+    averaged.volume_averaging = true;
+    averaged.step(&free(0.01)).unwrap();
+    plain.step(&free(0.01)).unwrap();
+    let start = uniform_cloud::<2>(COUNT, 1.0, 11);
+    let trial = plain
+        .particles
+        .in_creation_order(&plain.particles.deformation_gradients);
+    let weight = |x: &[f64; 2], i: i32, j: i32| {
+        Quadratic::value(x[0] / 0.2 - f64::from(i)) * Quadratic::value(x[1] / 0.2 - f64::from(j))
+    };
+    let result = averaged
+        .particles
+        .in_creation_order(&averaged.particles.deformation_gradients);
+    for p in 0..COUNT {
+        let mut mean = 0.0;
+        for i in -2..8 {
+            for j in -2..8 {
+                let (mut present, mut reference) = (0.0, 0.0);
+                for q in 0..COUNT {
+                    let w = weight(&start[q], i, j);
+                    reference += w;
+                    present += w * trial[q].determinant();
+                }
+                if reference > 0.0 {
+                    mean += weight(&start[p], i, j) * present / reference;
+                }
+            }
+        }
+        let expected = trial[p] * (mean / trial[p].determinant()).sqrt();
+        assert!((result[p] - expected).frobenius_norm() < 1e-13);
+        assert!((result[p].determinant() - mean).abs() < 1e-13);
+    }
+}
+
+/// On hat functions C_p is the gradient of the velocity, so that both transfers are one.
+#[test]
+fn moving_least_squares_on_hats_are_apic() {
+    let mut apic = body::<Linear, Apic, 2>(Apic);
+    let mut mls = body::<Linear, Mls, 2>(Mls);
+    for _ in 0..10 {
+        apic.step(&free(0.002)).unwrap();
+        mls.step(&free(0.002)).unwrap();
+    }
+    assert!(distance(&apic.particles.positions, &mls.particles.positions) < 1e-14);
+}
+
+/// F_p of a linear field of velocities is exact with either gradient.
+fn linear_field<S: Spline<W>, T: Transfer<2>, const W: usize>(transfer: T, tolerance: f64) {
+    let gradient = Matrix([[0.1, 0.4], [-0.2, 0.3]]);
+    let mut body = body::<S, T, W>(transfer);
+    body.particles.velocities = body.particles.positions.iter().map(|x| gradient.apply(x)).collect();
+    let SecondMoment::Constant(moment) = S::SECOND_MOMENT else {
+        panic!("{} has no second moment for all positions", S::NAME);
+    };
+    let moment = moment * 0.04;
+    body.particles.affine.fill(gradient * moment);
+    body.step(&free(0.01)).unwrap();
+    for deformation in &body.particles.deformation_gradients {
+        let error = *deformation - (Matrix::IDENTITY + gradient * 0.01);
+        assert!(error.frobenius_norm() < tolerance, "{} off by {error:?}", S::NAME);
+    }
+}
+
+#[test]
+fn a_linear_field_deforms_all_particles_alike() {
+    linear_field::<Quadratic, Apic, 3>(Apic, 1e-15);
+    linear_field::<Quadratic, Mls, 3>(Mls, 1e-15);
+    linear_field::<Cubic, Mls, 4>(Mls, 1e-15);
+}
+
+/// Remembers how often it was asked to admit a deformation, and resists the rate of volume change.
+struct Remembering(NeoHookean);
+
+#[allow(non_snake_case)]
+impl Law<2> for Remembering {
+    type State = (u32, f64);
+
+    fn rate_dependent(&self) -> bool {
+        true
+    }
+
+    fn advance(&self, trial: &Matrix<2>, state: &mut (u32, f64)) -> Matrix<2> {
+        state.0 += 1;
+        *trial
+    }
+
+    fn energy_density(&self, F: &Matrix<2>, _: &(u32, f64)) -> f64 {
+        Law::energy_density(&self.0, F, &())
+    }
+
+    fn kirchhoff_stress(&self, F: &Matrix<2>, state: &(u32, f64), velocity_gradient: &Matrix<2>) -> Matrix<2> {
+        let elastic = Law::kirchhoff_stress(&self.0, F, &(), velocity_gradient);
+        elastic + Matrix::IDENTITY * (state.1 * velocity_gradient.trace())
+    }
+
+    fn wave_speed(&self, F: &Matrix<2>, _: &(u32, f64), reference_density: f64) -> f64 {
+        Law::wave_speed(&self.0, F, &(), reference_density)
+    }
+
+    fn check(&self, F: &Matrix<2>) -> Result<(), DeformationError> {
+        Law::check(&self.0, F)
+    }
+}
+
+fn remembering(viscosity: f64, order: StressUpdate, averaging: bool) -> Particles<2, (u32, f64)> {
+    let mut particles = Particles::at_rest(uniform_cloud::<2>(COUNT, 1.0, 11), 1.0);
+    particles.velocities = particles.positions.iter().map(|x| [2.0 * x[0], 2.0 * x[1]]).collect();
+    let states = (0..COUNT).map(|_| (0, viscosity)).collect();
+    let particles = particles.with_states(vec![1.0 / COUNT as f64; COUNT], states);
+    let law = Remembering(NeoHookean::new(ElasticModuli::new(20.0, 0.3).unwrap()));
+    let grid = SplineGrid::<Quadratic, 3, 2>::new([0.0; 2], 0.2).unwrap();
+    let mut body = Mpm::new(particles, grid, Apic, Continuum { law }, Pull::none());
+    body.stress_update = order;
+    body.volume_averaging = averaging;
+    for _ in 0..5 {
+        body.step(&free(0.002)).unwrap();
+    }
+    body.particles
+}
+
+#[test]
+fn a_material_remembers_and_feels_the_rate_of_deformation() {
+    for order in [StressUpdate::First, StressUpdate::Last, StressUpdate::ModifiedLast] {
+        for averaging in [false, true] {
+            let thin = remembering(0.0, order, averaging);
+            let thick = remembering(0.5, order, averaging);
+            assert!(thin.states.iter().all(|state| state.0 == 5), "once per step, {order:?}");
+            assert_eq!(thin.velocity_gradients.len(), COUNT);
+            let volume = |p: &Particles<2, _>| p.deformation_gradients.iter().map(Matrix::determinant).sum::<f64>();
+            assert!(volume(&thick) < volume(&thin), "viscosity resists expansion, {order:?}");
+        }
+    }
+}
+
+#[test]
+fn states_travel_with_their_particles() {
+    let positions = uniform_cloud::<2>(COUNT, 1.0, 11);
+    let states: Vec<(u32, f64)> = positions.iter().map(|x| (0, x[0])).collect();
+    let particles = Particles::at_rest(positions.clone(), 1.0).with_states(vec![1.0 / COUNT as f64; COUNT], states);
+    let law = Remembering(NeoHookean::new(ElasticModuli::new(20.0, 0.3).unwrap()));
+    let grid = SplineGrid::<Quadratic, 3, 2>::new([0.0; 2], 0.2).unwrap();
+    let mut body = Mpm::new(particles, grid, Apic, Continuum { law }, Pull::none());
+    body.step(&free(0.001)).unwrap();
+    let sorted = body.particles.in_creation_order(&body.particles.states);
+    assert!(sorted.iter().zip(&positions).all(|(state, x)| state.1 == x[0]));
+    assert!(bits(&body.particles.positions) != bits(&positions) && body.basis.node_count() > 0);
+}

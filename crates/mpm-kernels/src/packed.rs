@@ -1,0 +1,106 @@
+//! Scalar and vector in lanes: by hand, because the compiler turns sums of four components into one instruction only now and then.
+
+use crate::Deposit;
+use crate::lanes::{LANES, Lanes};
+
+/// A [`Deposit`] whose components lie in `G` groups of four lanes, one instruction for each group; see [`groups_of`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Packed<const G: usize>([Lanes; G]);
+
+/// Groups of lanes that a scalar and a vector of `dimension` components fill.
+pub const fn groups_of(dimension: usize) -> usize {
+    dimension / LANES + 1
+}
+
+impl<const G: usize> Packed<G> {
+    /// Nothing.
+    pub const ZERO: Self = Self([Lanes::ZERO; G]);
+
+    /// The components `scalar` and `vector`; those that there is no lane for are lost.
+    #[inline(always)]
+    pub fn new<const D: usize>(scalar: f64, vector: &[f64; D]) -> Self {
+        let mut packed = Self::ZERO;
+        for group in 0..G {
+            let component = |lane: usize| match LANES * group + lane {
+                0 => scalar,
+                a if a <= D => vector[a - 1],
+                _ => 0.0,
+            };
+            packed.0[group] = Lanes::new([component(0), component(1), component(2), component(3)]);
+        }
+        packed
+    }
+
+    /// The same components.
+    #[inline(always)]
+    pub fn deposit<const D: usize>(&self) -> Deposit<D> {
+        let mut deposit = Deposit::ZERO;
+        for group in 0..G {
+            let lanes = self.0[group].to_array();
+            for lane in 0..LANES {
+                match LANES * group + lane {
+                    0 => deposit.scalar = lanes[0],
+                    a if a <= D => deposit.vector[a - 1] = lanes[lane],
+                    _ => {}
+                }
+            }
+        }
+        deposit
+    }
+
+    /// `self` + `deposit`.
+    #[inline(always)]
+    pub fn plus_deposit<const D: usize>(&self, deposit: &Deposit<D>) -> Self {
+        self.plus(Lanes::splat(1.0), &Self::new(deposit.scalar, &deposit.vector))
+    }
+
+    /// From the first `G` entries.
+    #[inline(always)]
+    pub fn read(from: &[Lanes]) -> Self {
+        Self(std::array::from_fn(|group| from[group]))
+    }
+
+    /// To the first `G` entries.
+    #[inline(always)]
+    pub fn write(&self, to: &mut [Lanes]) {
+        to[..G].copy_from_slice(&self.0);
+    }
+
+    /// `weight` `self`, all lanes of `weight` being the same.
+    #[inline(always)]
+    pub fn times(&self, weight: Lanes) -> Self {
+        let mut product = *self;
+        for group in 0..G {
+            product.0[group] = self.0[group] * weight;
+        }
+        product
+    }
+
+    /// `self` + `weight` `other`, rounded once where the machine can; all lanes of `weight` being the same.
+    #[inline(always)]
+    pub fn plus(&self, weight: Lanes, other: &Self) -> Self {
+        let mut sum = *self;
+        for group in 0..G {
+            sum.0[group] = other.0[group].mul_add(weight, self.0[group]);
+        }
+        sum
+    }
+}
+
+/// Sums at the nodes of a stencil that a particle adds to, by place in the stencil.
+pub trait NodeSink<const D: usize> {
+    /// Add to a node.
+    fn add(&mut self, index: usize, deposit: &Deposit<D>);
+
+    /// Let `add` add to what it is given, and add what that has become more by.
+    fn update<const G: usize>(&mut self, index: usize, add: impl FnOnce(&Packed<G>) -> Packed<G>);
+}
+
+/// A vector field at the nodes of a stencil, by place in the stencil.
+pub trait NodeField<const D: usize> {
+    /// The vector at a node.
+    fn vector(&self, index: usize) -> [f64; D];
+
+    /// The same as the vector of a deposit, whose scalar has no meaning.
+    fn packed<const G: usize>(&self, index: usize) -> Packed<G>;
+}
