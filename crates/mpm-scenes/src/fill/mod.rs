@@ -1,0 +1,44 @@
+//! Particles in a shape.
+
+mod poisson_disk;
+mod regular;
+mod rings;
+
+pub use poisson_disk::poisson_disk;
+pub use regular::regular;
+pub use rings::rings;
+
+use crate::SceneFault;
+
+/// The particles of one body at rest: positions and reference volumes.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Filling<const D: usize> {
+    /// X_p.
+    pub positions: Vec<[f64; D]>,
+    /// V⁰_p, the same for all particles of a filling.
+    pub volume: f64,
+}
+
+/// Points of a lattice that are looked at, at most.
+const MOST_POINTS: f64 = 5e8;
+
+/// Whole numbers of steps that cover the sides of a box, unless there are too many of them.
+fn counts<const D: usize>(sides: &[f64; D], step: f64) -> Result<[u64; D], SceneFault> {
+    let counts = sides.map(|side| (side / step).ceil().max(0.0));
+    let product: f64 = counts.iter().product();
+    if product <= MOST_POINTS {
+        return Ok(counts.map(|count| count as u64));
+    }
+    let expected = format!("so wide that no body has more than {MOST_POINTS} points");
+    Err(SceneFault::value("grid.spacing / particles_per_axis", step, expected))
+}
+
+/// The place in a box of `counts` cells that has this number; the last axis varies fastest.
+fn place<const D: usize>(counts: &[u64; D], mut number: u64) -> [u64; D] {
+    let mut place = [0; D];
+    for a in (0..D).rev() {
+        place[a] = number % counts[a].max(1);
+        number /= counts[a].max(1);
+    }
+    place
+}

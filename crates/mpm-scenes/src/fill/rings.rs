@@ -1,0 +1,128 @@
+use std::f64::consts::PI;
+
+use super::{Filling, counts};
+use crate::SceneFault;
+use crate::shape::{Bounds, Shape};
+
+/// Rings of particles in a disk or an annulus, about `step` wide and with particles about as far apart; V⁰ is the same for all and adds up to the
+/// area of the shape.
+///
+/// Ring k holds n_k = round(2π r_k / step) particles and reaches from r_{k−1} to r_k with π (r_k² − r_{k−1}²) = n_k V⁰; they sit
+/// at the radius that halves its area. Neighbouring rings are turned against each other by the golden ratio. Edges have no stairs, at which free
+/// surfaces lose the second order (docs/results/mechanics).
+///
+/// # Errors
+/// [`SceneFault::Value`] for other dimensions than 2 and other shapes, and for a step too short to be counted.
+pub fn rings<const D: usize>(
+    field: &str,
+    shape: &dyn Shape<D>,
+    step: f64,
+    room: &Bounds<D>,
+) -> Result<Filling<D>, SceneFault> {
+    let other = |what: &str| SceneFault::value(format!("{field}.fill"), "rings", format!("another filling for {what}"));
+    let bounds = shape.bounds().finite_within(room);
+    let sides: [f64; D] = std::array::from_fn(|a| bounds.upper[a] - bounds.lower[a]);
+    let centre: [f64; D] = std::array::from_fn(|a| 0.5 * (bounds.lower[a] + bounds.upper[a]));
+    counts(&sides, step)?;
+    let outer = match sides.get(..2) {
+        Some(&[width, height]) if D == 2 && (width - height).abs() <= 1e-9 * width => 0.5 * width,
+        _ => return Err(other("what is no disk or annulus")),
+    };
+    let inner = shape.distance(&centre).max(0.0);
+    if outer.is_nan() || outer <= inner {
+        return Err(other("an empty shape"));
+    }
+    let on_edge = |radius: f64, direction: u32| {
+        let (sin, cos) = (PI * f64::from(direction) / 8.0).sin_cos();
+        let x = std::array::from_fn(|a| centre[a] + radius * [cos, sin].get(a).unwrap_or(&0.0));
+        shape.distance(&x).abs() <= 1e-9 * outer
+    };
+    let edges = [outer, inner].into_iter().filter(|&radius| radius > 0.0);
+    if !edges
+        .into_iter()
+        .all(|radius| (0..16).all(|direction| on_edge(radius, direction)))
+    {
+        return Err(other("what is no disk or annulus"));
+    }
+    let thickness = outer - inner;
+    let number = (thickness / step).round().max(1.0) as u32;
+    let sizes: Vec<f64> = (0..number)
+        .map(|k| 2.0 * PI * (inner + (f64::from(k) + 0.5) * thickness / f64::from(number)))
+        .map(|length| (length / step).round().max(1.0))
+        .collect();
+    let volume = PI * (outer * outer - inner * inner) / sizes.iter().sum::<f64>();
+    let mut positions = Vec::new();
+    let mut square = inner * inner;
+    for (k, &size) in sizes.iter().enumerate() {
+        let area = size * volume / PI;
+        let radius = (square + 0.5 * area).sqrt();
+        square += area;
+        for j in 0..size as u32 {
+            let angle = 2.0 * PI * ((f64::from(j) + 0.5) / size + k as f64 * GOLDEN);
+            let offset = [radius * angle.cos(), radius * angle.sin()];
+            positions.push(std::array::from_fn(|a| centre[a] + offset.get(a).unwrap_or(&0.0)));
+        }
+    }
+    Ok(Filling { positions, volume })
+}
+
+/// The fractional part of the golden ratio.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::{Ball, Cuboid, Difference};
+
+    fn ball(radius: f64) -> Ball<2> {
+        Ball {
+            centre: [0.3, -0.2],
+            radius,
+        }
+    }
+
+    #[test]
+    fn volumes_add_up_to_the_area_and_the_centre_is_that_of_the_shape() {
+        let annulus = Difference {
+            from: Box::new(ball(1.25)),
+            remove: vec![Box::new(ball(0.75))],
+        };
+        let disk = ball(0.2);
+        let shapes: [(&dyn Shape<2>, f64); 2] = [(&annulus, 1.25f64.powi(2) - 0.75f64.powi(2)), (&disk, 0.04)];
+        for (shape, square) in shapes {
+            let filling = rings("bodies.a", shape, 0.03, &Bounds::EVERYWHERE).expect("round");
+            let count = filling.positions.len() as f64;
+            assert!((count * filling.volume - PI * square).abs() < 1e-12);
+            assert!((filling.volume / (0.03 * 0.03) - 1.0).abs() < 0.1, "{}", filling.volume);
+            for (a, middle) in [0.3, -0.2].into_iter().enumerate() {
+                let mean = filling.positions.iter().map(|x| x[a]).sum::<f64>() / count;
+                assert!((mean - middle).abs() < 1e-12);
+            }
+            // The polar moment ∫ r² dA = π/2 (R⁴ − r⁴), to second order in the step.
+            let moment = filling
+                .positions
+                .iter()
+                .map(|x| (x[0] - 0.3).powi(2) + (x[1] + 0.2).powi(2));
+            let exact = if square > 0.5 {
+                1.25f64.powi(4) - 0.75f64.powi(4)
+            } else {
+                0.2f64.powi(4)
+            };
+            assert!((moment.sum::<f64>() * filling.volume / (0.5 * PI * exact) - 1.0).abs() < 0.02);
+        }
+    }
+
+    #[test]
+    fn only_round_shapes_have_rings() {
+        let square = Cuboid {
+            lower: [0.0, 0.0],
+            upper: [1.0, 1.0],
+        };
+        assert!(rings("bodies.a", &square, 0.1, &Bounds::EVERYWHERE).is_err());
+        let space = Ball {
+            centre: [0.0; 3],
+            radius: 1.0,
+        };
+        assert!(rings("bodies.a", &space, 0.1, &Bounds::EVERYWHERE).is_err());
+    }
+}

@@ -1,0 +1,28 @@
+#![doc = include_str!("../README.md")]
+
+mod error;
+pub mod fill;
+pub mod law;
+pub mod loads;
+mod manufactured;
+pub mod output;
+mod population;
+pub mod reference;
+mod run;
+pub mod scene;
+mod series;
+pub mod shape;
+mod snapshot;
+mod validation_row;
+mod values;
+mod velocity;
+
+pub use error::{SceneError, SceneFault};
+pub use law::{LawState, Laws};
+pub use manufactured::ManufacturedSolution;
+pub use population::Population;
+pub use run::{Observer, Outcome, Progress, SimulationError, Summary, simulate};
+pub use scene::Scene;
+pub use series::Series;
+pub use snapshot::Snapshot;
+pub use validation_row::ValidationRow;

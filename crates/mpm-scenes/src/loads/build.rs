@@ -1,0 +1,116 @@
+//! From the tables of a scene to its forces.
+
+use super::{Barrier, DirectLoad, Loads};
+use crate::population::Population;
+use crate::scene::{BarrierTable, LoadTable, Scene, ShapeTable};
+use crate::values::vector;
+use crate::{SceneFault, reference, shape};
+
+impl<const D: usize> Loads<D> {
+    /// The forces of a scene on its particles.
+    ///
+    /// # Errors
+    /// [`SceneFault::Value`] for a load whose region holds no particle, and for tables that [`Scene::read`] refuses.
+    pub fn of(scene: &Scene, particles: &Population<D>) -> Result<Self, SceneFault> {
+        let mut loads = Self::default();
+        if !scene.gravity.is_empty() {
+            loads.gravity = Some(vector("gravity", &scene.gravity)?);
+        }
+        for (index, table) in scene.loads.iter().enumerate() {
+            let field = |key: &str| format!("loads[{index}].{key}");
+            match table {
+                LoadTable::PointForce {
+                    region,
+                    body,
+                    force,
+                    ramp,
+                } => {
+                    let force = vector::<D>(&field("force"), force)?;
+                    let chosen = within(scene, particles, &field("region"), region, body.as_ref())?;
+                    let mass: f64 = chosen.iter().map(|&p| particles.masses[p]).sum();
+                    loads
+                        .direct
+                        .push(direct(particles, &chosen, *ramp, |_| force.map(|c| c / mass)));
+                }
+                LoadTable::Traction {
+                    region,
+                    body,
+                    traction,
+                    thickness,
+                    ramp,
+                } => {
+                    let traction = vector::<D>(&field("traction"), traction)?;
+                    let chosen = within(scene, particles, &field("region"), region, body.as_ref())?;
+                    loads.direct.push(direct(particles, &chosen, *ramp, |p| {
+                        let scale = particles.volumes[p] / (thickness * particles.masses[p]);
+                        traction.map(|c| scale * c)
+                    }));
+                }
+                LoadTable::Manufactured { solution } => {
+                    loads.manufactured.push(reference::manufactured(solution, scene)?);
+                    loads.reference_positions.clone_from(&particles.positions);
+                }
+            }
+        }
+        if let Some(table) = &scene.barrier {
+            loads.barrier = Some(barrier(table, scene.grid.spacing)?);
+            loads.masses.clone_from(&particles.masses);
+            let power = (D as f64 - 1.0) / D as f64;
+            loads.areas = particles.volumes.iter().map(|volume| volume.powf(power)).collect();
+        }
+        Ok(loads)
+    }
+}
+
+/// The particles that a region of the reference configuration holds, of one body or of all.
+///
+/// # Errors
+/// [`SceneFault::Value`] if there are none.
+pub(crate) fn within<const D: usize>(
+    scene: &Scene,
+    particles: &Population<D>,
+    field: &str,
+    region: &ShapeTable,
+    body: Option<&String>,
+) -> Result<Vec<usize>, SceneFault> {
+    let shape = shape::build::<D>(field, region)?;
+    let body = body.and_then(|name| scene.bodies.iter().position(|body| body.name == *name));
+    let of_body = |p: usize| body.is_none_or(|body| particles.bodies[p] as usize == body);
+    let all = particles.positions.iter().enumerate();
+    let chosen = all
+        .filter(|&(p, x)| of_body(p) && shape.distance(x) <= 0.0)
+        .map(|(p, _)| p);
+    let chosen: Vec<usize> = chosen.collect();
+    if chosen.is_empty() {
+        return Err(SceneFault::value(field, region, "a region with particles in it"));
+    }
+    Ok(chosen)
+}
+
+fn direct<const D: usize>(
+    particles: &Population<D>,
+    chosen: &[usize],
+    ramp: f64,
+    acceleration: impl Fn(usize) -> [f64; D],
+) -> DirectLoad<D> {
+    let mut accelerations = vec![[0.0; D]; particles.positions.len()];
+    for &p in chosen {
+        accelerations[p] = acceleration(p);
+    }
+    DirectLoad { accelerations, ramp }
+}
+
+/// With a Courant number of at most 1 no particle goes farther than one spacing in a step.
+fn barrier<const D: usize>(table: &BarrierTable, spacing: f64) -> Result<Barrier<D>, SceneFault> {
+    let shapes = table.shapes.iter().enumerate();
+    Ok(Barrier {
+        shapes: shapes
+            .map(|(index, table)| shape::build(&format!("barrier.shapes[{index}]"), table))
+            .collect::<Result<_, _>>()?,
+        stiffness: table.stiffness,
+        gap: table.gap,
+        friction: table.friction,
+        friction_speed: table.friction_speed.unwrap_or(f64::INFINITY),
+        reach: spacing,
+    })
+}

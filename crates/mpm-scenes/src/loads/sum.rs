@@ -1,0 +1,122 @@
+use mpm_core::{BodyForce, ForceLocation, MpmError, Particles, Sites};
+use mpm_tensor::vector;
+use rayon::prelude::*;
+
+use super::{Barrier, DirectLoad, Penetration};
+use crate::{LawState, ManufacturedSolution};
+
+/// The sum of all forces on particles, per unit mass.
+#[derive(Default)]
+pub struct Loads<const D: usize> {
+    /// Acceleration of all particles; zero for none.
+    pub gravity: Option<[f64; D]>,
+    /// Loads on some.
+    pub direct: Vec<DirectLoad<D>>,
+    /// Body forces of manufactured solutions.
+    pub manufactured: Vec<Box<dyn ManufacturedSolution>>,
+    /// Contact with rigid shapes.
+    pub barrier: Option<Barrier<D>>,
+    /// Reference positions X_p by the particle's number; empty without manufactured solutions.
+    pub reference_positions: Vec<[f64; D]>,
+    /// m_p by the particle's number; empty without a barrier.
+    pub masses: Vec<f64>,
+    /// Contact areas A_p by the particle's number; empty without a barrier.
+    pub areas: Vec<f64>,
+}
+
+/// Particles of one piece of work.
+const PIECE: usize = 1 << 10;
+
+impl<const D: usize> Loads<D> {
+    /// The acceleration of a particle.
+    fn acceleration(&self, identity: usize, x: &[f64; D], velocity: &[f64; D], time: f64) -> [f64; D] {
+        let mut sum = self.gravity.unwrap_or([0.0; D]);
+        for load in &self.direct {
+            if let Some(acceleration) = load.accelerations.get(identity) {
+                vector::accumulate(&mut sum, load.share(time), acceleration);
+            }
+        }
+        for solution in &self.manufactured {
+            let mut acceleration = [0.0; D];
+            if let Some(reference) = self.reference_positions.get(identity) {
+                solution.body_force(reference, time, &mut acceleration);
+            }
+            vector::accumulate(&mut sum, 1.0, &acceleration);
+        }
+        if let (Some(barrier), Some(area), Some(mass)) =
+            (&self.barrier, self.areas.get(identity), self.masses.get(identity))
+        {
+            vector::accumulate(&mut sum, area / mass, &barrier.traction(x, velocity));
+        }
+        sum
+    }
+
+    /// The longest time step that the barrier allows; infinite without one.
+    ///
+    /// # Errors
+    /// [`Penetration`] of the first particle that has reached a rigid shape.
+    pub fn longest_step(&self, particles: &Particles<D, LawState>) -> Result<f64, Penetration> {
+        let Some(barrier) = &self.barrier else {
+            return Ok(f64::INFINITY);
+        };
+        let longest = (0..particles.len()).into_par_iter().with_min_len(PIECE).map(|index| {
+            let identity = particles.identity(index);
+            let (x, v) = (&particles.positions[index], &particles.velocities[index]);
+            let (mass, area) = (self.masses.get(identity).copied(), self.areas.get(identity).copied());
+            let step = barrier.longest_step(x, v, mass.unwrap_or(1.0), area.unwrap_or(1.0));
+            step.map_err(|distance| Penetration { index, distance })
+        });
+        // The first of the particles is at fault, on any number of threads.
+        longest.reduce(
+            || Ok(f64::INFINITY),
+            |a, b| match (a, b) {
+                (Ok(a), Ok(b)) => Ok(a.min(b)),
+                (Err(a), Err(b)) => Err(if a.index < b.index { a } else { b }),
+                (Err(error), _) | (_, Err(error)) => Err(error),
+            },
+        )
+    }
+
+    /// Σ_p A_p b(g_p); 0 without a barrier.
+    pub fn barrier_energy(&self, particles: &Particles<D, LawState>) -> f64 {
+        let Some(barrier) = &self.barrier else { return 0.0 };
+        let each = particles.positions.iter().enumerate();
+        each.map(|(index, x)| {
+            let area = self.areas.get(particles.identity(index)).copied().unwrap_or(0.0);
+            area * barrier.energy_at(x)
+        })
+        .sum()
+    }
+
+    /// −Σ_p m_p g · x_p, with its zero at the origin.
+    pub fn gravity_energy(&self, particles: &Particles<D, LawState>) -> f64 {
+        let Some(gravity) = &self.gravity else { return 0.0 };
+        let each = particles.positions.iter().enumerate();
+        each.map(|(p, x)| -particles.masses.get(p) * vector::dot(gravity, x))
+            .sum()
+    }
+}
+
+impl<const D: usize> BodyForce<D> for Loads<D> {
+    fn location(&self) -> ForceLocation {
+        let some = self.gravity.is_some()
+            || !self.direct.is_empty()
+            || !self.manufactured.is_empty()
+            || self.barrier.is_some();
+        if some {
+            ForceLocation::Particles
+        } else {
+            ForceLocation::Nowhere
+        }
+    }
+
+    fn at_particles(&mut self, sites: &Sites<D>, accelerations: &mut [[f64; D]]) -> Result<(), MpmError> {
+        let own = &*self;
+        let places = sites.positions.par_iter().zip(sites.velocities).zip(sites.identities);
+        let each = accelerations.par_iter_mut().zip(places).with_min_len(PIECE);
+        each.for_each(|(acceleration, ((x, v), &identity))| {
+            *acceleration = own.acceleration(identity as usize, x, v, sites.time);
+        });
+        Ok(())
+    }
+}

@@ -1,0 +1,114 @@
+use std::fs::{File, OpenOptions};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use super::{names, number, write_whole};
+use crate::{Series, SimulationError};
+
+/// The time series in memory and, row by row, in `series.csv`.
+#[derive(Debug)]
+pub struct SeriesFile {
+    series: Series,
+    path: PathBuf,
+    file: File,
+}
+
+impl SeriesFile {
+    /// Begins a series; replaces an earlier file.
+    ///
+    /// # Errors
+    /// [`SimulationError::File`].
+    pub fn create(directory: &Path, columns: Vec<String>) -> Result<Self, SimulationError> {
+        Self::with(directory.join(names::SERIES), Series::new(columns))
+    }
+
+    /// Goes on with the first `rows` rows of the file that an earlier process left.
+    ///
+    /// # Errors
+    /// [`SimulationError::File`], also for a file with other columns or fewer rows.
+    pub fn resume(directory: &Path, columns: Vec<String>, rows: usize) -> Result<Self, SimulationError> {
+        let path = directory.join(names::SERIES);
+        let mut series = read_series(directory)?;
+        if series.columns() != columns || series.rows().len() < rows {
+            let reason = "it is not the series of the checkpoint; remove the checkpoint to begin again";
+            return Err(SimulationError::file(&path, std::io::Error::other(reason)));
+        }
+        series.truncate(rows);
+        Self::with(path, series)
+    }
+
+    fn with(path: PathBuf, series: Series) -> Result<Self, SimulationError> {
+        let mut text = series.columns().join(",") + "\n";
+        for row in series.rows() {
+            text += &line(row);
+        }
+        write_whole(&path, text.as_bytes())?;
+        let file = OpenOptions::new().append(true).open(&path);
+        let file = file.map_err(|error| SimulationError::file(&path, error))?;
+        Ok(Self { series, path, file })
+    }
+
+    /// Adds a row.
+    ///
+    /// # Errors
+    /// [`SimulationError::File`].
+    pub fn push(&mut self, row: Vec<f64>) -> Result<(), SimulationError> {
+        let written = self.file.write_all(line(&row).as_bytes());
+        written.map_err(|error| SimulationError::file(&self.path, error))?;
+        self.series.push(row);
+        Ok(())
+    }
+
+    /// The series so far.
+    pub fn series(&self) -> &Series {
+        &self.series
+    }
+}
+
+fn line(row: &[f64]) -> String {
+    let numbers: Vec<String> = row.iter().map(|&value| number(value)).collect();
+    numbers.join(",") + "\n"
+}
+
+/// The series of a run's directory, without a last row that is not whole.
+///
+/// # Errors
+/// [`SimulationError::File`].
+pub fn read_series(directory: &Path) -> Result<Series, SimulationError> {
+    let path = directory.join(names::SERIES);
+    let text = std::fs::read_to_string(&path).map_err(|error| SimulationError::file(&path, error))?;
+    let mut lines = text.lines();
+    let columns = lines.next().unwrap_or("").split(',').map(str::to_owned).collect();
+    let mut series = Series::new(columns);
+    for line in lines {
+        let row: Result<Vec<f64>, _> = line.split(',').map(str::parse).collect();
+        if !row.is_ok_and(|row| series.push(row)) {
+            break;
+        }
+    }
+    Ok(series)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_resumed_series_has_the_rows_of_the_checkpoint_to_the_bit() {
+        let directory = tempfile::tempdir().expect("a directory");
+        let columns = || vec!["time".to_owned(), "a".to_owned()];
+        let mut file = SeriesFile::create(directory.path(), columns()).expect("writable");
+        let rows = [[0.0, 0.1 + 0.2], [1e-300, f64::NAN], [0.5, -0.0], [1.0, 1e300]];
+        for row in rows {
+            file.push(row.to_vec()).expect("writable");
+        }
+        let path = directory.path().join(names::SERIES);
+        let whole = std::fs::read_to_string(&path).expect("there");
+        std::fs::write(&path, whole.clone() + "1.5,0.").expect("writable");
+        let mut resumed = SeriesFile::resume(directory.path(), columns(), 3).expect("three rows");
+        resumed.push(rows[3].to_vec()).expect("writable");
+        assert_eq!(std::fs::read_to_string(&path).expect("there"), whole);
+        assert!(SeriesFile::resume(directory.path(), columns(), 9).is_err());
+        assert!(SeriesFile::resume(directory.path(), vec!["time".to_owned()], 1).is_err());
+    }
+}

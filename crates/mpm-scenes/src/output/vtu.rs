@@ -1,0 +1,202 @@
+//! Frames as VTK XML unstructured grids with raw appended data, the binary form that ParaView reads fastest.
+
+use crate::Snapshot;
+
+/// A `.vtu` file of a snapshot: one vertex per particle, positions padded with zeros to three coordinates.
+///
+/// Arrays at the points: `displacement`, `velocity` (three components), `stress` (Cauchy, nine), `pressure` (−tr σ / D), `volume_ratio` (J), `mass`, `volume`
+/// (current, J V⁰), `body`, `material`, `particle` (number in the order of creation) and the internal variables of the laws.
+///
+/// Format: VTK XML, version 1.0, little endian; every array is a 64-bit count of bytes followed by the bytes
+/// (<https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html>).
+pub fn vtu(snapshot: &Snapshot) -> Vec<u8> {
+    let count = snapshot.len();
+    let mut appended = Appended::default();
+    let points = appended.floats("position", 3, &padded(snapshot, &snapshot.positions));
+    let connectivity = appended.integers("connectivity", (0..count).map(|p| p as i64));
+    let offsets = appended.integers("offsets", (1..=count).map(|p| p as i64));
+    let types = appended.array("UInt8", "types", 1, vec![1; count]);
+    let data = point_data(snapshot, &mut appended);
+    let header = format!(
+        "<?xml version=\"1.0\"?>\n\
+         <VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n\
+         <UnstructuredGrid>\n\
+         <FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{:?}</DataArray>\n</FieldData>\n\
+         <Piece NumberOfPoints=\"{count}\" NumberOfCells=\"{count}\">\n\
+         <Points>\n{points}</Points>\n\
+         <Cells>\n{connectivity}{offsets}{types}</Cells>\n\
+         <PointData Vectors=\"velocity\" Tensors=\"stress\">\n{data}</PointData>\n\
+         </Piece>\n</UnstructuredGrid>\n\
+         <AppendedData encoding=\"raw\">\n_",
+        snapshot.time
+    );
+    let mut file = header.into_bytes();
+    file.extend(appended.bytes);
+    file.extend(b"\n</AppendedData>\n</VTKFile>\n");
+    file
+}
+
+fn point_data(snapshot: &Snapshot, appended: &mut Appended) -> String {
+    let dimension = snapshot.dimension;
+    let moved = snapshot.positions.iter().zip(&snapshot.reference_positions);
+    let displacements: Vec<f64> = moved.map(|(x, start)| x - start).collect();
+    let stresses = snapshot.stresses.chunks_exact((dimension * dimension).max(1));
+    let trace = |stress: &[f64]| {
+        (0..dimension)
+            .filter_map(|a| stress.get(a * (dimension + 1)))
+            .sum::<f64>()
+    };
+    let pressures: Vec<f64> = stresses
+        .clone()
+        .map(|stress| -trace(stress) / dimension as f64)
+        .collect();
+    let volumes: Vec<f64> = snapshot
+        .reference_volumes
+        .iter()
+        .zip(&snapshot.volume_ratios)
+        .map(|(v, j)| v * j)
+        .collect();
+    let tensors: Vec<f64> = stresses.flat_map(|stress| padded_tensor(stress, dimension)).collect();
+    let mut text = appended.floats("displacement", 3, &padded(snapshot, &displacements));
+    text += &appended.floats("velocity", 3, &padded(snapshot, &snapshot.velocities));
+    text += &appended.floats("stress", 9, &tensors);
+    text += &appended.floats("pressure", 1, &pressures);
+    text += &appended.floats("volume_ratio", 1, &snapshot.volume_ratios);
+    text += &appended.floats("mass", 1, &snapshot.masses);
+    text += &appended.floats("volume", 1, &volumes);
+    text += &appended.integers("body", snapshot.bodies.iter().map(|&body| i64::from(body)));
+    text += &appended.integers(
+        "material",
+        snapshot.materials.iter().map(|&material| i64::from(material)),
+    );
+    text += &appended.integers("particle", (0..snapshot.len()).map(|p| p as i64));
+    for (name, values) in &snapshot.internal_variables {
+        text += &appended.floats(name, 1, values);
+    }
+    text
+}
+
+/// Vectors with zeros behind them up to three entries.
+fn padded(snapshot: &Snapshot, list: &[f64]) -> Vec<f64> {
+    let vectors = list.chunks_exact(snapshot.dimension.max(1));
+    vectors
+        .flat_map(|v| (0..3).map(|a| v.get(a).copied().unwrap_or(0.0)))
+        .collect()
+}
+
+/// A tensor of `dimension`² entries as one of nine.
+fn padded_tensor(tensor: &[f64], dimension: usize) -> [f64; 9] {
+    std::array::from_fn(|k| {
+        let (i, j) = (k / 3, k % 3);
+        let inside = i < dimension && j < dimension;
+        if inside {
+            tensor.get(i * dimension + j).copied().unwrap_or(0.0)
+        } else {
+            0.0
+        }
+    })
+}
+
+/// The block of data behind the text, and where each array begins in it.
+#[derive(Default)]
+struct Appended {
+    bytes: Vec<u8>,
+}
+
+impl Appended {
+    /// Adds an array; returns the element that describes it.
+    fn array(&mut self, kind: &str, name: &str, components: usize, content: Vec<u8>) -> String {
+        let offset = self.bytes.len();
+        self.bytes.extend((content.len() as u64).to_le_bytes());
+        self.bytes.extend(content);
+        format!(
+            "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"appended\" offset=\"{offset}\"/>\n"
+        )
+    }
+
+    fn floats(&mut self, name: &str, components: usize, values: &[f64]) -> String {
+        let content = values.iter().flat_map(|value| value.to_le_bytes()).collect();
+        self.array("Float64", name, components, content)
+    }
+
+    fn integers(&mut self, name: &str, values: impl Iterator<Item = i64>) -> String {
+        self.array("Int64", name, 1, values.flat_map(i64::to_le_bytes).collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn snapshot() -> Snapshot {
+        Snapshot {
+            dimension: 2,
+            time: 0.25,
+            reference_positions: vec![0.0, 1.0, 2.0, 3.0],
+            positions: vec![0.5, 1.0, 2.0, 3.5],
+            velocities: vec![1.0, -1.0, 0.0, 2.0],
+            stresses: vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0],
+            deformation_gradients: vec![1.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 2.0],
+            volume_ratios: vec![1.0, 2.0],
+            masses: vec![0.5, 0.75],
+            reference_volumes: vec![0.25, 0.5],
+            bodies: vec![0, 1],
+            materials: vec![1, 0],
+            internal_variables: vec![("plastic_strain".into(), vec![0.0, 0.125])],
+        }
+    }
+
+    /// The bytes of an array by its name, found as a reader finds them: offset, count of bytes, bytes.
+    fn array<'a>(file: &'a [u8], name: &str) -> &'a [u8] {
+        let marker = b"<AppendedData encoding=\"raw\">\n_";
+        let begin = file
+            .windows(marker.len())
+            .position(|window| window == marker)
+            .expect("a block")
+            + marker.len();
+        let text = std::str::from_utf8(&file[..begin]).expect("text");
+        let element = text
+            .lines()
+            .find(|line| line.contains(&format!("Name=\"{name}\"")))
+            .expect("the array");
+        let offset = element
+            .split_once("offset=\"")
+            .and_then(|(_, rest)| rest.split_once('"'))
+            .expect("an offset")
+            .0;
+        let data = &file[begin + offset.parse::<usize>().expect("a number")..];
+        let length = u64::from_le_bytes(data[..8].try_into().expect("eight bytes")) as usize;
+        &data[8..8 + length]
+    }
+
+    fn floats(file: &[u8], name: &str) -> Vec<f64> {
+        let words = array(file, name).chunks_exact(8);
+        words
+            .map(|word| f64::from_le_bytes(word.try_into().expect("eight bytes")))
+            .collect()
+    }
+
+    #[test]
+    fn arrays_are_found_by_their_offsets() {
+        let file = vtu(&snapshot());
+        assert_eq!(floats(&file, "position"), [0.5, 1.0, 0.0, 2.0, 3.5, 0.0]);
+        assert_eq!(floats(&file, "displacement"), [0.5, 0.0, 0.0, 0.0, 0.5, 0.0]);
+        assert_eq!(
+            floats(&file, "stress")[..9],
+            [1.0, 2.0, 0.0, 3.0, 4.0, 0.0, 0.0, 0.0, 0.0]
+        );
+        assert_eq!(floats(&file, "pressure"), [-2.5, -6.5]);
+        assert_eq!(floats(&file, "volume"), [0.25, 1.0]);
+        assert_eq!(floats(&file, "plastic_strain"), [0.0, 0.125]);
+        assert_eq!(array(&file, "types"), [1, 1]);
+        assert_eq!(
+            array(&file, "offsets"),
+            [1i64.to_le_bytes(), 2i64.to_le_bytes()].as_flattened()
+        );
+        assert_eq!(
+            array(&file, "material"),
+            [1i64.to_le_bytes(), 0i64.to_le_bytes()].as_flattened()
+        );
+        assert!(file.ends_with(b"\n</AppendedData>\n</VTKFile>\n"));
+    }
+}

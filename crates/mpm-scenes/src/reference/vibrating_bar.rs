@@ -1,0 +1,158 @@
+//! A bar that vibrates in its first mode, one end held (Sulsky, Chen & Schreyer 1994; de Vaucorbeil et al. 2020, §5.1).
+
+use std::f64::consts::PI;
+
+use super::curve::Curve;
+use super::parts::{Rows, Run, sides, solid};
+use crate::ValidationRow;
+use crate::scene::{VelocityField, VelocityTable};
+
+/// A bar 0 ≤ X ≤ L with u(0, t) = 0, no traction at X = L and P = E (F − 1), for which the equation of motion
+/// ρ ü = E u'' is linear at any amplitude.
+///
+/// With v(X, 0) = v₀ sin β₁X, β₁ = π / 2L, its motion is u = v₀/ω₁ sin ω₁t sin β₁X, ω₁ = β₁ √(E/ρ).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VibratingBar {
+    /// L.
+    pub length: f64,
+    /// E.
+    pub young_modulus: f64,
+    /// ρ.
+    pub density: f64,
+    /// v₀.
+    pub speed: f64,
+}
+
+impl VibratingBar {
+    /// E = 100, L = 25, ρ = 1: a period of 10.
+    pub fn with_speed(speed: f64) -> Self {
+        Self {
+            length: 25.0,
+            young_modulus: 100.0,
+            density: 1.0,
+            speed,
+        }
+    }
+
+    /// β₁ = π / 2L.
+    pub fn wave_number(&self) -> f64 {
+        PI / (2.0 * self.length)
+    }
+
+    /// ω₁ = β₁ √(E/ρ).
+    pub fn angular_frequency(&self) -> f64 {
+        self.wave_number() * (self.young_modulus / self.density).sqrt()
+    }
+
+    /// 2π / ω₁.
+    pub fn period(&self) -> f64 {
+        2.0 * PI / self.angular_frequency()
+    }
+
+    /// v(X, 0) = v₀ sin β₁X.
+    pub fn initial_velocity(&self, x: f64) -> f64 {
+        self.speed * (self.wave_number() * x).sin()
+    }
+
+    /// u(X, t) = v₀/ω₁ sin ω₁t sin β₁X.
+    pub fn displacement(&self, x: f64, time: f64) -> f64 {
+        let omega = self.angular_frequency();
+        self.speed / omega * (omega * time).sin() * (self.wave_number() * x).sin()
+    }
+
+    /// Amplitude of the centre of mass, v₀ / (β₁ L ω₁).
+    pub fn amplitude(&self) -> f64 {
+        self.speed / (self.wave_number() * self.length * self.angular_frequency())
+    }
+
+    /// x_CM(t) = L/2 + v₀ / (β₁ L ω₁) sin ω₁t.
+    pub fn centre_of_mass(&self, time: f64) -> f64 {
+        0.5 * self.length + self.amplitude() * (self.angular_frequency() * time).sin()
+    }
+
+    /// Root mean square error of a measured centre of mass over the first period, over the [amplitude](Self::amplitude).
+    pub fn relative_error(&self, centre: &Curve) -> f64 {
+        let end = self.period() * (1.0 + 1e-9);
+        centre.rms_difference(end, |t| self.centre_of_mass(t)) / self.amplitude()
+    }
+
+    /// The error may be 0.5 %.
+    pub fn check(&self, centre: &Curve) -> ValidationRow {
+        ValidationRow::at_most(
+            "error of the centre of mass / amplitude",
+            self.relative_error(centre),
+            0.005,
+        )
+    }
+}
+
+/// The bar of a scene: its only body a box from 0, its velocity a sine.
+fn of_scene(run: &Run) -> Result<VibratingBar, crate::SceneFault> {
+    let (material, _) = solid(run.scene)?;
+    let speed = match run.scene.bodies.first().and_then(|body| body.velocity.as_ref()) {
+        Some(VelocityTable::Field(VelocityField::Sine { amplitude, .. })) => amplitude.first().copied(),
+        _ => None,
+    };
+    Ok(VibratingBar {
+        length: sides(run.scene)?.first().copied().unwrap_or(f64::NAN),
+        young_modulus: material.young_modulus,
+        density: material.density,
+        speed: speed.unwrap_or(f64::NAN),
+    })
+}
+
+/// The error of the centre of mass over the first period.
+///
+/// # Errors
+/// [`SceneFault::Value`](crate::SceneFault::Value) for a scene that is no bar.
+pub(super) fn validate(run: &Run) -> Rows {
+    Ok(vec![of_scene(run)?.check(&run.curve("centre_x")?)])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_period_is_ten_seconds() {
+        assert!((VibratingBar::with_speed(0.1).period() - 10.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_displacement_solves_the_wave_equation_and_the_ends() {
+        let bar = VibratingBar::with_speed(0.75);
+        let step = 1e-3;
+        let second = |f: &dyn Fn(f64) -> f64| (f(step) - 2.0 * f(0.0) + f(-step)) / (step * step);
+        for (x, t) in [(3.0, 0.7), (12.0, 4.1), (24.0, 9.0)] {
+            let acceleration = second(&|dt| bar.displacement(x, t + dt));
+            let curvature = second(&|dx| bar.displacement(x + dx, t));
+            assert!((bar.density * acceleration - bar.young_modulus * curvature).abs() < 1e-6);
+            assert_eq!(bar.displacement(0.0, t), 0.0);
+            let end = bar.displacement(bar.length + step, t) - bar.displacement(bar.length - step, t);
+            assert!((end / (2.0 * step)).abs() < 1e-12);
+        }
+        let rate = (bar.displacement(7.0, step) - bar.displacement(7.0, -step)) / (2.0 * step);
+        assert!((rate - bar.initial_velocity(7.0)).abs() < 1e-6);
+    }
+
+    #[test]
+    fn the_centre_of_mass_is_the_mean_position() {
+        let bar = VibratingBar::with_speed(0.75);
+        let count = 10_000;
+        let time = 1.3;
+        let positions = (0..count).map(|k| (f64::from(k) + 0.5) / f64::from(count) * bar.length);
+        let mean = positions.map(|x| x + bar.displacement(x, time)).sum::<f64>() / f64::from(count);
+        assert!((mean - bar.centre_of_mass(time)).abs() < 1e-8);
+    }
+
+    #[test]
+    fn the_error_of_a_resting_bar_is_one_over_root_two() {
+        let bar = VibratingBar::with_speed(0.1);
+        let mut rest = Curve::default();
+        for k in 1..=1000 {
+            rest.push(0.01 * f64::from(k), 0.5 * bar.length);
+        }
+        assert!((bar.relative_error(&rest) - 0.5f64.sqrt()).abs() < 1e-6);
+        assert!(!bar.check(&rest).passes());
+    }
+}

@@ -1,0 +1,126 @@
+//! Walls, obstacles and held regions of a scene as boundaries of the step.
+
+use std::sync::Arc;
+
+use mpm_core::{Boundaries, Contact, Obstacle, Side, SignedDistance, Wall};
+use mpm_tensor::vector as algebra;
+
+use crate::SceneFault;
+use crate::population::domain;
+use crate::scene::{self, Scene, WallCondition};
+use crate::shape::{self, Shape};
+use crate::values::vector;
+
+/// A shape that has been moved from where the scene puts it.
+struct Placed<const D: usize> {
+    shape: Arc<dyn Shape<D>>,
+    offset: [f64; D],
+}
+
+impl<const D: usize> SignedDistance<D> for Placed<D> {
+    fn distance(&self, x: &[f64; D]) -> f64 {
+        self.shape.distance(&algebra::subtract(x, &self.offset))
+    }
+
+    fn normal(&self, x: &[f64; D]) -> [f64; D] {
+        self.shape.normal(&algebra::subtract(x, &self.offset))
+    }
+}
+
+/// Obstacles that move: their number among the obstacles and their shape at t = 0.
+pub(super) struct MovingObstacles<const D: usize>(Vec<(usize, Arc<dyn Shape<D>>)>);
+
+impl<const D: usize> MovingObstacles<D> {
+    /// Puts every moving obstacle where it is at this time.
+    pub fn place(&self, boundaries: &mut Boundaries<D>, time: f64) {
+        for (number, shape) in &self.0 {
+            if let Some(obstacle) = boundaries.obstacles.get_mut(*number) {
+                obstacle.shape = Box::new(Placed {
+                    shape: Arc::clone(shape),
+                    offset: algebra::scale(&obstacle.velocity, time),
+                });
+            }
+        }
+    }
+}
+
+/// The boundaries of a scene.
+///
+/// # Errors
+/// [`SceneFault::Value`] for tables that [`Scene::read`] refuses.
+pub(super) fn build<const D: usize>(scene: &Scene) -> Result<(Boundaries<D>, MovingObstacles<D>), SceneFault> {
+    let walls = scene
+        .walls
+        .iter()
+        .enumerate()
+        .map(|(index, table)| wall(scene, index, table));
+    let (mut obstacles, mut moving) = (Vec::new(), Vec::new());
+    for (index, table) in scene.obstacles.iter().enumerate() {
+        let field = format!("obstacles[{index}]");
+        let shape: Arc<dyn Shape<D>> = Arc::from(shape::build::<D>(&format!("{field}.shape"), &table.shape)?);
+        let velocity = velocity(&format!("{field}.velocity"), table.velocity.as_ref())?;
+        if table.moves && velocity != [0.0; D] {
+            moving.push((obstacles.len(), Arc::clone(&shape)));
+        }
+        let contact = match table.contact {
+            scene::Contact::Stick => Contact::Stick,
+            scene::Contact::Slip => Contact::Slip,
+            scene::Contact::Separate => Contact::Separate {
+                friction: table.friction.unwrap_or(0.0),
+            },
+        };
+        obstacles.push(obstacle(shape, contact, velocity));
+    }
+    for (index, table) in scene.held.iter().enumerate() {
+        let field = format!("held[{index}]");
+        let shape = Arc::from(shape::build::<D>(&format!("{field}.shape"), &table.shape)?);
+        let velocity = velocity(&format!("{field}.velocity"), table.velocity.as_ref())?;
+        obstacles.push(obstacle(shape, Contact::Stick, velocity));
+    }
+    let boundaries = Boundaries::new(walls.collect::<Result<_, _>>()?, obstacles);
+    Ok((boundaries, MovingObstacles(moving)))
+}
+
+fn obstacle<const D: usize>(shape: Arc<dyn Shape<D>>, contact: Contact, velocity: [f64; D]) -> Obstacle<D> {
+    Obstacle {
+        shape: Box::new(Placed {
+            shape,
+            offset: [0.0; D],
+        }),
+        contact,
+        velocity,
+    }
+}
+
+fn velocity<const D: usize>(field: &str, list: Option<&Vec<f64>>) -> Result<[f64; D], SceneFault> {
+    list.map_or(Ok([0.0; D]), |list| vector(field, list))
+}
+
+fn wall<const D: usize>(scene: &Scene, index: usize, table: &scene::WallTable) -> Result<Wall<D>, SceneFault> {
+    let domain = domain::<D>(scene)?;
+    let axis = table.axis.index();
+    let (side, border) = match table.side {
+        scene::Side::Lower => (Side::Lower, domain.lower.get(axis)),
+        scene::Side::Upper => (Side::Upper, domain.upper.get(axis)),
+    };
+    let Some(&border) = border else {
+        return Err(SceneFault::value(
+            format!("walls[{index}].axis"),
+            table.axis,
+            "an axis of the scene",
+        ));
+    };
+    Ok(Wall {
+        axis,
+        side,
+        position: table.position.unwrap_or(border),
+        contact: match table.condition {
+            WallCondition::Fixed | WallCondition::Prescribed => Contact::Stick,
+            WallCondition::Slip => Contact::Slip,
+            WallCondition::Friction => Contact::Separate {
+                friction: table.friction.unwrap_or(0.0),
+            },
+        },
+        velocity: velocity(&format!("walls[{index}].velocity"), table.velocity.as_ref())?,
+    })
+}

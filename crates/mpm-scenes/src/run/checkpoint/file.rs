@@ -1,0 +1,58 @@
+//! The file: a magic line, a checksum, CBOR.
+
+use std::path::Path;
+
+use super::Saved;
+use crate::SimulationError;
+use crate::output::write_whole;
+
+/// What a checkpoint begins with; its checksum and content follow.
+const MAGIC: &[u8] = b"mpm-scenes checkpoint 1\n";
+
+/// Replaces the file as a whole.
+///
+/// # Errors
+/// [`SimulationError::File`], [`SimulationError::Checkpoint`].
+pub fn write(path: &Path, saved: &Saved) -> Result<(), SimulationError> {
+    let mut content = Vec::new();
+    ciborium::into_writer(saved, &mut content).map_err(|error| refused(path, error.to_string()))?;
+    let bytes = [MAGIC, &checksum(&content).to_le_bytes(), &content].concat();
+    write_whole(path, &bytes)
+}
+
+/// The content of a file, if there is one.
+///
+/// # Errors
+/// [`SimulationError::Checkpoint`] for one that is damaged, [`SimulationError::File`] for one that cannot be read.
+pub fn read(path: &Path) -> Result<Option<Saved>, SimulationError> {
+    let bytes = match std::fs::read(path) {
+        Ok(bytes) => bytes,
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+        Err(error) => return Err(SimulationError::file(path, error)),
+    };
+    let content = bytes.strip_prefix(MAGIC).and_then(|rest| rest.split_first_chunk());
+    let whole = content.filter(|(sum, content)| u64::from_le_bytes(**sum) == checksum(content));
+    let saved = whole.and_then(|(_, content)| ciborium::from_reader(content).ok());
+    let damaged = || {
+        refused(
+            path,
+            "it is damaged or no checkpoint; remove it to begin again".to_owned(),
+        )
+    };
+    saved.map(Some).ok_or_else(damaged)
+}
+
+/// FNV-1a (G. Fowler, L. C. Noll, K.-P. Vo), 64 bits.
+fn checksum(content: &[u8]) -> u64 {
+    let start = 0xcbf2_9ce4_8422_2325;
+    content.iter().fold(start, |hash, &byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    })
+}
+
+pub fn refused(path: &Path, reason: String) -> SimulationError {
+    SimulationError::Checkpoint {
+        path: path.to_owned(),
+        reason,
+    }
+}

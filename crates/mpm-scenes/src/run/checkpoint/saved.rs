@@ -1,0 +1,93 @@
+//! A run on its way as plain numbers.
+
+use mpm_core::{Masses, MpmError, Particles};
+use mpm_tensor::Matrix;
+use serde::{Deserialize, Serialize};
+
+use crate::law::{LawState, Laws, MEMORY_SIZE};
+
+/// All that a run needs to go on. Scene, bodies and forces are built again.
+#[derive(Serialize, Deserialize)]
+pub(in crate::run) struct Saved {
+    /// The program's version and the scene's text.
+    pub identity: String,
+    /// Steps taken.
+    pub step: u64,
+    /// Time reached.
+    pub time: f64,
+    /// The last Δt that no event had cut short.
+    pub free_step: f64,
+    /// Rows of the series.
+    pub rows: usize,
+    positions: Vec<f64>,
+    velocities: Vec<f64>,
+    masses: Vec<f64>,
+    affine: Vec<f64>,
+    deformation_gradients: Vec<f64>,
+    velocity_gradients: Vec<f64>,
+    reference_volumes: Vec<f64>,
+    laws: Vec<u32>,
+    memories: Vec<[f64; MEMORY_SIZE]>,
+    identities: Vec<u32>,
+}
+
+/// What a checkpoint holds beside the particles.
+pub(in crate::run) struct Place {
+    pub identity: String,
+    pub step: u64,
+    pub time: f64,
+    pub free_step: f64,
+    pub rows: usize,
+}
+
+impl Saved {
+    /// The particles in their present order.
+    pub fn new<const D: usize>(place: Place, particles: &Particles<D, LawState>) -> Self {
+        Self {
+            identity: place.identity,
+            step: place.step,
+            time: place.time,
+            free_step: place.free_step,
+            rows: place.rows,
+            positions: particles.positions.as_flattened().to_vec(),
+            velocities: particles.velocities.as_flattened().to_vec(),
+            masses: (0..particles.len()).map(|p| particles.masses.get(p)).collect(),
+            affine: numbers(&particles.affine),
+            deformation_gradients: numbers(&particles.deformation_gradients),
+            velocity_gradients: numbers(&particles.velocity_gradients),
+            reference_volumes: particles.reference_volumes.clone(),
+            laws: particles.states.iter().map(|state| state.law).collect(),
+            memories: particles.states.iter().map(|state| state.memory.numbers()).collect(),
+            identities: particles.identities().to_vec(),
+        }
+    }
+
+    /// The particles again, to the bit.
+    ///
+    /// # Errors
+    /// [`MpmError`] for lists that do not fit together.
+    pub fn particles<const D: usize>(self, laws: &Laws) -> Result<Particles<D, LawState>, MpmError> {
+        let particles = Particles::in_order(
+            self.positions.as_chunks().0.to_vec(),
+            self.velocities.as_chunks().0.to_vec(),
+            Masses::Each(self.masses),
+            matrices(&self.affine),
+            self.identities,
+        )?;
+        let states = self.laws.iter().zip(&self.memories);
+        let states = states.map(|(&law, memory)| laws.recall(law, memory)).collect();
+        let mut particles = particles.with_states(self.reference_volumes, states);
+        particles.deformation_gradients = matrices(&self.deformation_gradients);
+        particles.velocity_gradients = matrices(&self.velocity_gradients);
+        Ok(particles)
+    }
+}
+
+fn numbers<const D: usize>(matrices: &[Matrix<D>]) -> Vec<f64> {
+    matrices.iter().flat_map(|matrix| matrix.0).flatten().collect()
+}
+
+fn matrices<const D: usize>(numbers: &[f64]) -> Vec<Matrix<D>> {
+    let rows: &[[f64; D]] = numbers.as_chunks().0;
+    rows.as_chunks::<D>().0.iter().map(|&rows| Matrix(rows)).collect()
+}

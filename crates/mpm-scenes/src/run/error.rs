@@ -1,0 +1,82 @@
+use std::path::{Path, PathBuf};
+
+use mpm_core::MpmError;
+
+use crate::SceneError;
+
+/// Why a run ended before its time. What it had written stays: frames, series and the last checkpoint.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SimulationError {
+    /// The scene cannot be run.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// A file cannot be written or read.
+    #[error("{}: {source}", path.display())]
+    File {
+        /// The file or directory.
+        path: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// The checkpoint is damaged, or of another scene.
+    #[error("{}: {reason}", path.display())]
+    Checkpoint {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        reason: String,
+    },
+    /// The mechanics refused a step, for example because a particle was turned inside out or left the domain.
+    #[error("step {step} at t = {time}: {source}")]
+    Step {
+        /// Number of the step that failed, counted from 1.
+        step: u64,
+        /// Time at its start.
+        time: f64,
+        /// The particle at fault in the order of creation, where there is one.
+        particle: Option<usize>,
+        /// What the mechanics say.
+        source: MpmError,
+    },
+    /// A particle has passed the surface of a rigid shape that a barrier should keep it from.
+    #[error(
+        "step {step} at t = {time}: particle {particle} is at distance {distance} from a rigid shape of the barrier"
+    )]
+    Penetration {
+        /// Number of the step that failed, counted from 1.
+        step: u64,
+        /// Time at its start.
+        time: f64,
+        /// The particle in the order of creation.
+        particle: usize,
+        /// Its distance, ≤ 0.
+        distance: f64,
+    },
+}
+
+impl SimulationError {
+    pub(crate) fn file(path: &Path, source: impl Into<std::io::Error>) -> Self {
+        Self::File {
+            path: path.to_owned(),
+            source: source.into(),
+        }
+    }
+
+    pub(super) fn step(step: u64, time: f64, source: MpmError) -> Self {
+        let particle = match &source {
+            MpmError::PositionOutOfRange { particle, .. }
+            | MpmError::OutsideDomain { particle, .. }
+            | MpmError::Deformation { particle, .. }
+            | MpmError::WaveSpeed { particle, .. } => Some(*particle),
+            MpmError::BodyForceNotFinite { index, .. } => Some(*index),
+            _ => None,
+        };
+        Self::Step {
+            step,
+            time,
+            particle,
+            source,
+        }
+    }
+}

@@ -1,0 +1,159 @@
+//! A row of the time series.
+
+use mpm_core::Particles;
+use mpm_materials::Law;
+use mpm_tensor::{Matrix, vector};
+
+use super::motion::Motion;
+use super::probe::Probe;
+use crate::law::LawState;
+
+/// Names of the axes.
+pub(super) const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// Axes a, b of x_a v_b − x_b v_a, for every component of the angular momentum.
+fn rotations<const D: usize>() -> &'static [(usize, usize)] {
+    match D {
+        2 => &[(0, 1)],
+        3 => &[(1, 2), (2, 0), (0, 1)],
+        _ => &[],
+    }
+}
+
+fn axis_names<const D: usize>(name: &str) -> impl Iterator<Item = String> {
+    AXES.iter().take(D).map(move |axis| format!("{name}_{axis}"))
+}
+
+/// The names of the columns, as [`Series`](crate::Series) lists them.
+pub(super) fn columns<const D: usize>(motion: &dyn Motion<D>, probes: &[Probe<D>]) -> Vec<String> {
+    let mut columns = vec!["time".to_owned()];
+    columns.extend(axis_names::<D>("centre"));
+    columns.push("kinetic_energy".to_owned());
+    if is_affine(motion) {
+        columns.push("affine_energy".to_owned());
+    }
+    columns.extend(["strain_energy", "potential_energy"].map(str::to_owned));
+    if motion.loads().barrier.is_some() {
+        columns.push("barrier_energy".to_owned());
+    }
+    columns.extend(axis_names::<D>("momentum"));
+    match D {
+        2 => columns.push("angular_momentum".to_owned()),
+        3 => columns.extend(axis_names::<D>("angular_momentum")),
+        _ => {}
+    }
+    for axis in AXES.iter().take(D) {
+        columns.extend([format!("lower_{axis}"), format!("upper_{axis}")]);
+    }
+    for probe in probes {
+        columns.extend(probe.columns());
+    }
+    columns
+}
+
+/// The values of the columns now.
+pub(super) fn row<const D: usize>(motion: &dyn Motion<D>, probes: &[Probe<D>]) -> Vec<f64> {
+    let (particles, loads) = (motion.particles(), motion.loads());
+    let sums = Sums::of(particles);
+    let mut row = vec![motion.time()];
+    row.extend(sums.moment.map(|c| c / sums.mass));
+    row.push(particles.kinetic_energy());
+    if is_affine(motion) {
+        row.push(affine_energy(motion));
+    }
+    row.push(strain_energy(motion));
+    row.push(loads.gravity_energy(particles));
+    if loads.barrier.is_some() {
+        row.push(loads.barrier_energy(particles));
+    }
+    row.extend(sums.momentum);
+    row.extend(rotations::<D>().iter().map(|&pair| angular_momentum(particles, pair)));
+    for a in 0..D {
+        row.extend([sums.lower[a], sums.upper[a]]);
+    }
+    let places = places(particles);
+    for probe in probes {
+        row.extend(probe.measure(motion, &places));
+    }
+    row
+}
+
+/// Place of every particle in the present order, by its number.
+fn places<const D: usize>(particles: &Particles<D, LawState>) -> Vec<usize> {
+    let order: Vec<usize> = (0..particles.len()).collect();
+    particles.in_creation_order(&order)
+}
+
+fn is_affine<const D: usize>(motion: &dyn Motion<D>) -> bool {
+    motion.second_moments(&[0.0; D]).is_some()
+}
+
+/// Σ m, Σ m x, Σ m v and the bounding box.
+struct Sums<const D: usize> {
+    mass: f64,
+    moment: [f64; D],
+    momentum: [f64; D],
+    lower: [f64; D],
+    upper: [f64; D],
+}
+
+impl<const D: usize> Sums<D> {
+    fn of(particles: &Particles<D, LawState>) -> Self {
+        let mut sums = Self {
+            mass: 0.0,
+            moment: [0.0; D],
+            momentum: [0.0; D],
+            lower: [f64::INFINITY; D],
+            upper: [f64::NEG_INFINITY; D],
+        };
+        for (p, (x, v)) in particles.positions.iter().zip(&particles.velocities).enumerate() {
+            let mass = particles.masses.get(p);
+            sums.mass += mass;
+            vector::accumulate(&mut sums.moment, mass, x);
+            vector::accumulate(&mut sums.momentum, mass, v);
+            for a in 0..D {
+                sums.lower[a] = sums.lower[a].min(x[a]);
+                sums.upper[a] = sums.upper[a].max(x[a]);
+            }
+        }
+        sums
+    }
+}
+
+/// ½ Σ m_p Σ_ab B_ab² / (D_p)_bb, the kinetic energy of the affine motion around the particles (Jiang et al. 2015, §5.3).
+fn affine_energy<const D: usize>(motion: &dyn Motion<D>) -> f64 {
+    let particles = motion.particles();
+    let each = particles.affine.iter().zip(&particles.positions).enumerate();
+    let energy = each.map(|(p, (Matrix(rows), x))| {
+        let moments = motion.second_moments(x).unwrap_or([1.0; D]);
+        let squares = rows.iter().flat_map(|row| row.iter().zip(&moments));
+        // Along an axis on which the particle is a node there is no moment, and B is zero.
+        let terms = squares
+            .filter(|&(_, &moment)| moment > 0.0)
+            .map(|(b, moment)| b * b / moment);
+        particles.masses.get(p) * terms.sum::<f64>()
+    });
+    0.5 * energy.sum::<f64>()
+}
+
+/// Σ V⁰_p ψ_p.
+fn strain_energy<const D: usize>(motion: &dyn Motion<D>) -> f64 {
+    let (particles, laws) = (motion.particles(), motion.laws());
+    let fields = particles.deformation_gradients.iter().zip(&particles.states);
+    let each = fields.zip(&particles.reference_volumes);
+    each.map(|((deformation, state), volume)| volume * laws.energy_density(deformation, state))
+        .sum()
+}
+
+/// Σ m_p (x_a v_b − x_b v_a + B_ba − B_ab), about the origin; the affine part where there is one (Jiang et al. 2015, §5.3.1).
+fn angular_momentum<const D: usize>(particles: &Particles<D, LawState>, (a, b): (usize, usize)) -> f64 {
+    let each = particles.positions.iter().zip(&particles.velocities).enumerate();
+    each.map(|(p, (x, v))| {
+        let affine = particles
+            .affine
+            .get(p)
+            .map_or(0.0, |matrix| matrix.0[b][a] - matrix.0[a][b]);
+        particles.masses.get(p) * (x[a] * v[b] - x[b] * v[a] + affine)
+    })
+    .sum()
+}

@@ -1,0 +1,21 @@
+//! From a scene to its files: dispatch, the loop over steps, measurements, checkpoints.
+
+mod basis;
+mod boundary;
+mod checkpoint;
+mod dispatch;
+mod driver;
+mod error;
+mod measure;
+mod motion;
+mod observer;
+mod probe;
+mod schedule;
+mod simulate;
+mod snapshot;
+mod summary;
+
+pub use error::SimulationError;
+pub use observer::{Observer, Progress};
+pub use simulate::simulate;
+pub use summary::{Outcome, Summary};

@@ -1,0 +1,99 @@
+//! Probes: means over chosen particles.
+
+use mpm_materials::Law;
+use mpm_tensor::{Matrix, vector as algebra};
+
+use super::measure::AXES;
+use super::motion::Motion;
+use crate::SceneFault;
+use crate::loads::within;
+use crate::population::Population;
+use crate::scene::{ProbeTable, Scene};
+use crate::values::vector;
+
+/// Some particles whose mean displacement, velocity and Cauchy stress is followed, weighted by mass.
+pub(super) struct Probe<const D: usize> {
+    name: String,
+    /// Numbers of the particles, and where they were at t = 0.
+    particles: Vec<(usize, [f64; D])>,
+}
+
+impl<const D: usize> Probe<D> {
+    /// The probe of a table.
+    ///
+    /// # Errors
+    /// [`SceneFault::Value`] for a region or a body without particles.
+    pub fn build(scene: &Scene, index: usize, table: &ProbeTable, all: &Population<D>) -> Result<Self, SceneFault> {
+        let chosen = match (&table.region, &table.at) {
+            (Some(region), _) => within(
+                scene,
+                all,
+                &format!("probes[{index}].region"),
+                region,
+                table.body.as_ref(),
+            )?,
+            (None, at) => {
+                let point = vector::<D>(&format!("probes[{index}].at"), at.as_deref().unwrap_or(&[]))?;
+                vec![nearest(scene, all, &point, table.body.as_ref())]
+            }
+        };
+        let particles = chosen.into_iter().map(|p| (p, all.positions[p])).collect();
+        Ok(Self {
+            name: table.name.clone(),
+            particles,
+        })
+    }
+
+    /// The names of its columns.
+    pub fn columns(&self) -> Vec<String> {
+        let axes = &AXES[..D];
+        let vectors = ["displacement", "velocity"].into_iter();
+        let mut columns: Vec<String> = vectors
+            .flat_map(|field| axes.iter().map(move |axis| format!("{}_{field}_{axis}", self.name)))
+            .collect();
+        for (a, b) in upper_triangle::<D>() {
+            columns.push(format!("{}_stress_{}{}", self.name, axes[a], axes[b]));
+        }
+        columns
+    }
+
+    /// The values of its columns, given where every particle stands in the present order.
+    pub fn measure(&self, motion: &dyn Motion<D>, places: &[usize]) -> Vec<f64> {
+        let (particles, laws) = (motion.particles(), motion.laws());
+        let (mut total, mut displacement, mut velocity) = (0.0, [0.0; D], [0.0; D]);
+        let mut stress = Matrix::<D>::ZERO;
+        for &(number, start) in &self.particles {
+            let p = places[number];
+            let mass = particles.masses.get(p);
+            total += mass;
+            algebra::accumulate(
+                &mut displacement,
+                mass,
+                &algebra::subtract(&particles.positions[p], &start),
+            );
+            algebra::accumulate(&mut velocity, mass, &particles.velocities[p]);
+            let (deformation, state) = (&particles.deformation_gradients[p], &particles.states[p]);
+            let rate = particles.velocity_gradients.get(p).unwrap_or(&Matrix::ZERO);
+            let ratio = laws.volume_ratio(deformation, state);
+            stress += laws.kirchhoff_stress(deformation, state, rate) * (mass / ratio);
+        }
+        let mut values = Vec::new();
+        values.extend(displacement.map(|c| c / total));
+        values.extend(velocity.map(|c| c / total));
+        values.extend(upper_triangle::<D>().map(|(a, b)| stress.0[a][b] / total));
+        values
+    }
+}
+
+/// Pairs a ≤ b of axes.
+fn upper_triangle<const D: usize>() -> impl Iterator<Item = (usize, usize)> {
+    (0..D).flat_map(|a| (a..D).map(move |b| (a, b)))
+}
+
+/// The particle of a body (or of all) that is nearest to a point at t = 0; every body has some.
+fn nearest<const D: usize>(scene: &Scene, all: &Population<D>, point: &[f64; D], body: Option<&String>) -> usize {
+    let body = body.and_then(|name| scene.bodies.iter().position(|body| body.name == *name));
+    let chosen = (0..all.positions.len()).filter(|&p| body.is_none_or(|body| all.bodies[p] as usize == body));
+    let distance = |p: usize| algebra::distance_squared(&all.positions[p], point);
+    chosen.min_by(|&p, &q| distance(p).total_cmp(&distance(q))).unwrap_or(0)
+}

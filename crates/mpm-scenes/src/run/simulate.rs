@@ -1,0 +1,40 @@
+use std::fs;
+use std::path::Path;
+
+use super::boundary;
+use super::driver::Driver;
+use super::{Observer, SimulationError, Summary, dispatch};
+use crate::output::{names, write_whole};
+use crate::population::Population;
+use crate::{Scene, SceneFault};
+
+/// Runs a scene and writes its files into the directory `out`, which is made if it does not exist.
+///
+/// If the directory holds a checkpoint of the same scene, the run goes on from it and ends with the same files, to the bit, as one that was never stopped.
+/// Files: `scene.toml`, `series.csv`, `particles_000000.vtu` …, `particles.pvd`, `checkpoint.cbor`, and `validation.csv` where the scene has a reference.
+///
+/// # Errors
+/// [`SimulationError`]; what was written up to then stays.
+pub fn simulate(scene: &Scene, out: &Path, observer: &mut dyn Observer) -> Result<Summary, SimulationError> {
+    match scene.dimension {
+        1 => simulate_in::<1>(scene, out, observer),
+        2 => simulate_in::<2>(scene, out, observer),
+        3 => simulate_in::<3>(scene, out, observer),
+        other => Err(scene.error(SceneFault::value("dimension", other, "1, 2 or 3")).into()),
+    }
+}
+
+fn simulate_in<const D: usize>(
+    scene: &Scene,
+    out: &Path,
+    observer: &mut dyn Observer,
+) -> Result<Summary, SimulationError> {
+    let refused = |fault| scene.error(fault);
+    let population = Population::<D>::fill(scene).map_err(refused)?;
+    let (boundaries, moving) = boundary::build::<D>(scene).map_err(refused)?;
+    let motion = dispatch::build(scene, &population, boundaries).map_err(refused)?;
+    fs::create_dir_all(out).map_err(|error| SimulationError::file(out, error))?;
+    let driver = Driver::begin(scene, out, population, motion, moving)?;
+    write_whole(&out.join(names::SCENE), scene.text.as_bytes())?;
+    driver.run(observer)
+}

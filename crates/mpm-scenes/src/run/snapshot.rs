@@ -1,0 +1,68 @@
+//! The particles of a body as a snapshot.
+
+use mpm_materials::Law;
+use mpm_tensor::Matrix;
+
+use super::motion::Motion;
+use crate::Snapshot;
+use crate::law::{INTERNAL_VARIABLES, Memory};
+use crate::population::Population;
+
+/// All particles of a body in the order of creation.
+pub(super) fn snapshot<const D: usize>(motion: &dyn Motion<D>, start: &Population<D>) -> Snapshot {
+    let (particles, laws) = (motion.particles(), motion.laws());
+    let flat = |field: &[[f64; D]]| particles.in_creation_order(field).as_flattened().to_vec();
+    let tensors = |field: &[Matrix<D>]| {
+        let sorted = particles.in_creation_order(field);
+        sorted
+            .iter()
+            .flat_map(|matrix| matrix.0.into_iter().flatten())
+            .collect::<Vec<f64>>()
+    };
+    let ratios: Vec<f64> = pairs(motion)
+        .map(|(deformation, state)| laws.volume_ratio(deformation, state))
+        .collect();
+    let stresses: Vec<Matrix<D>> = pairs(motion)
+        .zip(&ratios)
+        .enumerate()
+        .map(|(p, ((deformation, state), ratio))| {
+            let rate = particles.velocity_gradients.get(p).unwrap_or(&Matrix::ZERO);
+            laws.kirchhoff_stress(deformation, state, rate) * (1.0 / ratio)
+        })
+        .collect();
+    let memories: Vec<Memory> = particles
+        .in_creation_order(&particles.states)
+        .iter()
+        .map(|state| state.memory)
+        .collect();
+    let variable = |name: &&str| {
+        let values: Option<Vec<f64>> = memories.iter().any(|memory| memory.variable(name).is_some()).then(|| {
+            memories
+                .iter()
+                .map(|memory| memory.variable(name).unwrap_or(0.0))
+                .collect()
+        });
+        values.map(|values| ((*name).to_owned(), values))
+    };
+    Snapshot {
+        dimension: D,
+        time: motion.time(),
+        reference_positions: start.positions.as_flattened().to_vec(),
+        positions: flat(&particles.positions),
+        velocities: flat(&particles.velocities),
+        stresses: tensors(&stresses),
+        deformation_gradients: tensors(&particles.deformation_gradients),
+        volume_ratios: particles.in_creation_order(&ratios),
+        masses: start.masses.clone(),
+        reference_volumes: start.volumes.clone(),
+        bodies: start.bodies.clone(),
+        materials: start.materials.clone(),
+        internal_variables: INTERNAL_VARIABLES.iter().filter_map(variable).collect(),
+    }
+}
+
+/// F and state of every particle in the present order.
+fn pairs<const D: usize>(motion: &dyn Motion<D>) -> impl Iterator<Item = (&Matrix<D>, &crate::law::LawState)> {
+    let particles = motion.particles();
+    particles.deformation_gradients.iter().zip(&particles.states)
+}

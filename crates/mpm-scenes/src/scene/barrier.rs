@@ -1,0 +1,23 @@
+//! `[barrier]`.
+
+use serde::Deserialize;
+
+use super::ShapeTable;
+
+/// `[barrier]`: contact with rigid shapes by the energy b(g) = −k (g − ĝ)² ln(g / ĝ) per area at distances g < ĝ.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BarrierTable {
+    /// The rigid shapes.
+    pub shapes: Vec<ShapeTable>,
+    /// k, a stress per length.
+    pub stiffness: f64,
+    /// ĝ, the distance below which the barrier pushes.
+    pub gap: f64,
+    /// Coefficient of friction μ. Default 0.
+    #[serde(default)]
+    pub friction: f64,
+    /// Sliding speed below which friction is proportional to the speed. Needed
+    /// where there is friction.
+    pub friction_speed: Option<f64>,
+}

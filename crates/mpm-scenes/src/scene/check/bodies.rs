@@ -1,0 +1,69 @@
+//! Materials and bodies.
+
+use crate::scene::{BasisName, Scene};
+use crate::{SceneFault, law, shape, velocity};
+
+/// Particles per axis of a cell, at most, and with the basis `gimp`, which is compiled for each number.
+const MOST_PER_AXIS: u32 = 16;
+const MOST_PER_AXIS_GIMP: u32 = 4;
+
+impl Scene {
+    pub(super) fn check_bodies<const D: usize>(&self) -> Result<(), SceneFault> {
+        for (name, table) in &self.materials {
+            law::build(&format!("materials.{name}"), table)?;
+        }
+        if self.bodies.is_empty() {
+            return Err(SceneFault::value("bodies", [0; 0], "at least one body"));
+        }
+        for (index, body) in self.bodies.iter().enumerate() {
+            let twice = self.bodies[..index].iter().any(|other| other.name == body.name);
+            if body.name.is_empty() || twice {
+                return Err(SceneFault::value(
+                    format!("bodies[{index}].name"),
+                    &body.name,
+                    "a name of its own",
+                ));
+            }
+            let field = |key: &str| format!("bodies.{}.{key}", body.name);
+            shape::build::<D>(&field("shape"), &body.shape)?;
+            if !self.materials.contains_key(&body.material) {
+                let names: Vec<&String> = self.materials.keys().collect();
+                return Err(SceneFault::value(
+                    field("material"),
+                    &body.material,
+                    format!("one of {names:?}"),
+                ));
+            }
+            self.check_particles_per_axis(&field("particles_per_axis"), body.particles_per_axis)?;
+            velocity::build::<D>(&field("velocity"), body.velocity.as_ref(), self)?;
+        }
+        Ok(())
+    }
+
+    fn check_particles_per_axis(&self, field: &str, count: u32) -> Result<(), SceneFault> {
+        let gimp = self.grid.basis == BasisName::Gimp;
+        let most = if gimp { MOST_PER_AXIS_GIMP } else { MOST_PER_AXIS };
+        if !(1..=most).contains(&count) {
+            return Err(SceneFault::value(field, count, format!("between 1 and {most}")));
+        }
+        if gimp && self.bodies.iter().any(|body| body.particles_per_axis != count) {
+            return Err(SceneFault::value(
+                field,
+                count,
+                "the same for all bodies with grid.basis = \"gimp\"",
+            ));
+        }
+        Ok(())
+    }
+
+    /// Whether a body that is referred to exists.
+    pub(super) fn check_body_name(&self, field: String, name: Option<&String>) -> Result<(), SceneFault> {
+        match name {
+            Some(name) if self.bodies.iter().all(|body| body.name != *name) => {
+                let names: Vec<&String> = self.bodies.iter().map(|body| &body.name).collect();
+                Err(SceneFault::value(field, name, format!("one of {names:?}")))
+            }
+            _ => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! Walls, obstacles and held regions.
+
+use crate::scene::{Contact, Scene, WallCondition};
+use crate::values::{not_negative, vector, within};
+use crate::{SceneFault, shape};
+
+impl Scene {
+    pub(super) fn check_boundaries<const D: usize>(&self) -> Result<(), SceneFault> {
+        for (index, wall) in self.walls.iter().enumerate() {
+            let field = |key: &str| format!("walls[{index}].{key}");
+            if wall.axis.index() >= D {
+                return Err(SceneFault::value(
+                    field("axis"),
+                    wall.axis,
+                    format!("one of the {D} axes of the scene"),
+                ));
+            }
+            if let Some(position) = wall.position {
+                within(&field("position"), position, position.is_finite(), "finite")?;
+            }
+            let prescribed = wall.condition == WallCondition::Prescribed;
+            check_presence(
+                field("velocity"),
+                wall.velocity.as_ref(),
+                prescribed,
+                "condition = \"prescribed\"",
+            )?;
+            let rough = wall.condition == WallCondition::Friction;
+            check_presence(
+                field("friction"),
+                wall.friction.as_ref(),
+                rough,
+                "condition = \"friction\"",
+            )?;
+            check_motion::<D>(&field, wall.velocity.as_ref(), wall.friction)?;
+        }
+        for (index, obstacle) in self.obstacles.iter().enumerate() {
+            let field = |key: &str| format!("obstacles[{index}].{key}");
+            shape::build::<D>(&field("shape"), &obstacle.shape)?;
+            if obstacle.contact != Contact::Separate {
+                check_presence(
+                    field("friction"),
+                    obstacle.friction.as_ref(),
+                    false,
+                    "contact = \"separate\"",
+                )?;
+            }
+            check_motion::<D>(&field, obstacle.velocity.as_ref(), obstacle.friction)?;
+        }
+        for (index, held) in self.held.iter().enumerate() {
+            let field = |key: &str| format!("held[{index}].{key}");
+            shape::build::<D>(&field("shape"), &held.shape)?;
+            check_motion::<D>(&field, held.velocity.as_ref(), None)?;
+        }
+        Ok(())
+    }
+}
+
+/// A value that belongs to one condition: there with it, left out without it.
+fn check_presence<T: std::fmt::Debug>(
+    field: String,
+    value: Option<&T>,
+    wanted: bool,
+    condition: &str,
+) -> Result<(), SceneFault> {
+    match (value, wanted) {
+        (None, true) => Err(SceneFault::value(field, (), format!("given with {condition}"))),
+        (Some(value), false) => Err(SceneFault::value(field, value, format!("left out unless {condition}"))),
+        _ => Ok(()),
+    }
+}
+
+fn check_motion<const D: usize>(
+    field: &dyn Fn(&str) -> String,
+    velocity: Option<&Vec<f64>>,
+    friction: Option<f64>,
+) -> Result<(), SceneFault> {
+    if let Some(velocity) = velocity {
+        vector::<D>(&field("velocity"), velocity)?;
+    }
+    if let Some(friction) = friction {
+        not_negative(&field("friction"), friction)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,83 @@
+//! What a document may say: ranges of numbers, lengths of vectors, names that exist.
+
+mod bodies;
+mod boundaries;
+mod forces;
+mod outputs;
+
+use super::{BasisName, Scene, TransferKind};
+use crate::SceneFault;
+use crate::values::{not_negative, positive, vector, within};
+
+impl Scene {
+    /// Whether every value is in its range and fits the others.
+    ///
+    /// # Errors
+    /// [`SceneFault::Value`] with the first that is not.
+    pub(super) fn check(&self) -> Result<(), SceneFault> {
+        match self.dimension {
+            1 => self.check_in::<1>(),
+            2 => self.check_in::<2>(),
+            3 => self.check_in::<3>(),
+            other => Err(SceneFault::value("dimension", other, "1, 2 or 3")),
+        }
+    }
+
+    fn check_in<const D: usize>(&self) -> Result<(), SceneFault> {
+        if !self.gravity.is_empty() {
+            vector::<D>("gravity", &self.gravity)?;
+        }
+        let lower = vector::<D>("domain.lower", &self.domain.lower)?;
+        let upper = vector::<D>("domain.upper", &self.domain.upper)?;
+        if !(0..D).all(|a| lower[a] < upper[a]) {
+            return Err(SceneFault::value(
+                "domain.upper",
+                upper,
+                format!("above domain.lower = {lower:?}"),
+            ));
+        }
+        positive("grid.spacing", self.grid.spacing)?;
+        self.check_transfer()?;
+        self.check_time()?;
+        self.check_bodies::<D>()?;
+        self.check_boundaries::<D>()?;
+        self.check_forces::<D>()?;
+        self.check_outputs::<D>()
+    }
+
+    fn check_transfer(&self) -> Result<(), SceneFault> {
+        if let Some(share) = self.transfer.flip_share {
+            if self.transfer.kind != TransferKind::Flip {
+                let expected = "left out unless transfer.kind = \"flip\"";
+                return Err(SceneFault::value("transfer.flip_share", share, expected));
+            }
+            within(
+                "transfer.flip_share",
+                share,
+                (0.0..=1.0).contains(&share),
+                "between 0 and 1",
+            )?;
+        }
+        let affine = matches!(self.transfer.kind, TransferKind::Apic | TransferKind::Mls);
+        if self.grid.basis == BasisName::Gimp && affine {
+            let expected = "\"pic\" or \"flip\" with grid.basis = \"gimp\"";
+            return Err(SceneFault::value("transfer.kind", self.transfer.kind, expected));
+        }
+        Ok(())
+    }
+
+    fn check_time(&self) -> Result<(), SceneFault> {
+        let time = &self.time;
+        positive("time.end", time.end)?;
+        if let Some(step) = time.step {
+            positive("time.step", step)?;
+        }
+        within(
+            "time.courant",
+            time.courant,
+            time.courant > 0.0 && time.courant <= 1.0,
+            "above 0 and at most 1",
+        )?;
+        not_negative("time.damping", time.damping).map(|_| ())
+    }
+}

@@ -1,0 +1,65 @@
+//! `[domain]`, `[grid]` and `[transfer]`.
+
+use serde::Deserialize;
+
+/// `[domain]`: the box that no particle may leave.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DomainTable {
+    /// Its lowest corner.
+    pub lower: Vec<f64>,
+    /// Its highest corner.
+    pub upper: Vec<f64>,
+}
+
+/// `[grid]`: the background grid, with a node at `domain.lower`.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GridTable {
+    /// Distance h between nodes.
+    pub spacing: f64,
+    /// The shape functions.
+    #[serde(default)]
+    pub basis: BasisName,
+}
+
+/// `grid.basis`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum BasisName {
+    /// Hat functions: 2ᴰ nodes per particle.
+    Linear,
+    /// Quadratic B-splines: 3ᴰ nodes.
+    #[default]
+    Quadratic,
+    /// Cubic B-splines: 4ᴰ nodes.
+    Cubic,
+    /// Hat functions averaged over the particle's box (generalised interpolation, uGIMP): 3ᴰ nodes. The box is as wide as the
+    /// distance between particles; with PIC and FLIP only.
+    Gimp,
+}
+
+/// `[transfer]`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TransferTable {
+    /// Which one.
+    pub kind: TransferKind,
+    /// Share of FLIP in [0, 1], the rest is PIC; with `kind = "flip"` only. Default 0.99.
+    pub flip_share: Option<f64>,
+}
+
+/// `transfer.kind`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum TransferKind {
+    /// Particle in cell.
+    Pic,
+    /// FLIP blended with PIC.
+    Flip,
+    /// Affine particle in cell.
+    #[default]
+    Apic,
+    /// Moving least squares: affine, with its own stress force.
+    Mls,
+}

@@ -1,0 +1,88 @@
+//! The document: what a scene file says, one table per file.
+
+mod barrier;
+mod body;
+mod boundary;
+mod check;
+mod discretisation;
+mod load;
+mod material;
+mod output;
+mod read;
+mod region;
+mod time;
+mod velocity;
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use serde::Deserialize;
+
+pub use barrier::BarrierTable;
+pub use body::{BodyTable, FillKind};
+pub use boundary::{AxisName, Contact, HeldTable, ObstacleTable, Side, WallCondition, WallTable};
+pub use discretisation::{BasisName, DomainTable, GridTable, TransferKind, TransferTable};
+pub use load::LoadTable;
+pub use material::{FluidTable, GasTable, MaterialTable, MetalTable, SandTable, SolidTable};
+pub use output::{OutputTable, ProbeTable, ValidationTable};
+pub use region::ShapeTable;
+pub use time::{StressUpdateName, TimeTable};
+pub use velocity::{VelocityField, VelocityTable};
+
+/// A scene: the bodies, what holds and pulls them, how the motion is computed and what is written of it.
+///
+/// Lengths, masses and times are in any consistent units. Every list that stands for a vector has `dimension` entries.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// What the scene is called.
+    pub title: String,
+    /// Number of axes: 1, 2 or 3.
+    pub dimension: usize,
+    /// Acceleration of gravity; none if empty.
+    #[serde(default)]
+    pub gravity: Vec<f64>,
+    /// Averaging of volume ratios over cells (F-bar), against locking of nearly incompressible materials.
+    #[serde(default)]
+    pub volume_averaging: bool,
+    /// Where particles may be.
+    pub domain: DomainTable,
+    /// The background grid.
+    pub grid: GridTable,
+    /// How velocities travel between particles and grid.
+    #[serde(default)]
+    pub transfer: TransferTable,
+    /// How long the motion lasts, and the time step.
+    pub time: TimeTable,
+    /// The materials by name.
+    pub materials: BTreeMap<String, MaterialTable>,
+    /// The bodies.
+    pub bodies: Vec<BodyTable>,
+    /// Walls on planes of the grid.
+    #[serde(default)]
+    pub walls: Vec<WallTable>,
+    /// Rigid obstacles of any shape.
+    #[serde(default)]
+    pub obstacles: Vec<ObstacleTable>,
+    /// Regions of the grid with a prescribed velocity.
+    #[serde(default)]
+    pub held: Vec<HeldTable>,
+    /// Forces on particles.
+    #[serde(default)]
+    pub loads: Vec<LoadTable>,
+    /// Contact with rigid shapes by a barrier energy.
+    pub barrier: Option<BarrierTable>,
+    /// What is written, and when.
+    pub output: OutputTable,
+    /// Places whose motion is a part of the series.
+    #[serde(default)]
+    pub probes: Vec<ProbeTable>,
+    /// What the run is compared with.
+    pub validation: Option<ValidationTable>,
+    /// The file that the scene was read from.
+    #[serde(skip)]
+    pub file: PathBuf,
+    /// Its text.
+    #[serde(skip)]
+    pub text: String,
+}

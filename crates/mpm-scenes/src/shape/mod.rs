@@ -1,0 +1,64 @@
+//! Shapes by their signed distance, one per file.
+
+mod ball;
+mod bounds;
+mod build;
+mod capsule;
+mod combination;
+mod cuboid;
+mod half_space;
+mod polygon;
+
+pub use ball::Ball;
+pub use bounds::Bounds;
+pub use build::build;
+pub use capsule::Capsule;
+pub use combination::{Difference, Intersection, Union};
+pub use cuboid::Cuboid;
+pub use half_space::HalfSpace;
+pub use polygon::Polygon;
+
+/// A set of points of space, given by the distance to its surface.
+pub trait Shape<const D: usize>: std::fmt::Debug + Send + Sync {
+    /// Distance to the surface, negative inside. Combinations may give less than the distance, never the wrong sign.
+    fn distance(&self, x: &[f64; D]) -> f64;
+
+    /// A box that holds all of the shape; infinite where the shape is.
+    fn bounds(&self) -> Bounds<D>;
+
+    /// Volume (length, area), where it is known in closed form.
+    fn volume(&self) -> Option<f64>;
+
+    /// The unit vector along which the distance grows, away from the shape: ∇d / |∇d|, by central differences unless a shape knows better. Zero
+    /// where there is none, as in the centre of a ball.
+    fn normal(&self, x: &[f64; D]) -> [f64; D] {
+        let step = 1e-6 * x.iter().fold(1e-3, |largest: f64, c| largest.max(c.abs()));
+        unit(std::array::from_fn(|a| {
+            let (mut above, mut below) = (*x, *x);
+            above[a] += step;
+            below[a] -= step;
+            self.distance(&above) - self.distance(&below)
+        }))
+    }
+}
+
+/// v / |v|; zero for the zero vector.
+pub(crate) fn unit<const D: usize>(v: [f64; D]) -> [f64; D] {
+    let length = mpm_tensor::vector::norm(&v);
+    if length > 0.0 { v.map(|c| c / length) } else { [0.0; D] }
+}
+
+/// Volume of the ball of radius r in n dimensions, n ≤ 3; NaN beyond.
+pub(crate) fn ball_volume(dimension: usize, radius: f64) -> f64 {
+    use std::f64::consts::PI;
+    match dimension {
+        0 => 1.0,
+        1 => 2.0 * radius,
+        2 => PI * radius * radius,
+        3 => 4.0 / 3.0 * PI * radius.powi(3),
+        _ => f64::NAN,
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,117 @@
+use proptest::prelude::*;
+
+use super::*;
+
+fn shapes() -> Vec<Box<dyn Shape<2>>> {
+    let square = || Cuboid {
+        lower: [-1.0, -0.5],
+        upper: [0.5, 1.0],
+    };
+    let ball = || Ball {
+        centre: [0.3, 0.2],
+        radius: 0.6,
+    };
+    vec![
+        Box::new(square()),
+        Box::new(ball()),
+        Box::new(Capsule {
+            start: [-0.5, -0.5],
+            end: [0.7, 0.1],
+            radius: 0.25,
+        }),
+        Box::new(Polygon {
+            corners: vec![[-1.0, -1.0], [1.0, -0.8], [0.2, 0.0], [0.9, 1.0], [-0.7, 0.6]],
+        }),
+        Box::new(HalfSpace {
+            point: [0.1, 0.1],
+            normal: [0.6, 0.8],
+        }),
+        Box::new(Union(vec![Box::new(square()), Box::new(ball())])),
+        Box::new(Intersection(vec![Box::new(square()), Box::new(ball())])),
+        Box::new(Difference {
+            from: Box::new(square()),
+            remove: vec![Box::new(ball())],
+        }),
+    ]
+}
+
+proptest! {
+    /// |d(x) − d(y)| ≤ |x − y|, with which no surface point can be nearer than |d|.
+    #[test]
+    fn distances_never_grow_faster_than_the_way(x in [-2.0..2.0, -2.0..2.0], y in [-2.0..2.0, -2.0..2.0]) {
+        for shape in shapes() {
+            let change = (shape.distance(&x) - shape.distance(&y)).abs();
+            prop_assert!(change <= mpm_tensor::vector::distance(&x, &y) + 1e-12, "{shape:?}");
+            prop_assert!(shape.distance(&x) > 0.0 || shape.bounds().contains(&x), "{shape:?}");
+        }
+    }
+
+    /// Of convex shapes, whose outsides have no ridges.
+    #[test]
+    fn normals_point_to_larger_distances(x in [-2.0..2.0, -2.0..2.0]) {
+        for index in [0, 1, 2, 4] {
+            let shape = &shapes()[index];
+            let n = shape.normal(&x);
+            prop_assert!((mpm_tensor::vector::norm(&n) - 1.0).abs() < 1e-12);
+            let further = std::array::from_fn(|a| x[a] + 1e-4 * n[a]);
+            prop_assert!(shape.distance(&further) > shape.distance(&x), "{shape:?} at {x:?}");
+        }
+    }
+}
+
+#[test]
+fn volumes_agree_with_counting_points() {
+    for shape in shapes() {
+        let Some(volume) = shape.volume() else { continue };
+        let count = (0..400 * 400)
+            .filter(|k| {
+                shape.distance(&[
+                    -2.0 + 0.01 * (f64::from(k % 400) + 0.5),
+                    -2.0 + 0.01 * (f64::from(k / 400) + 0.5),
+                ]) < 0.0
+            })
+            .count();
+        assert!(
+            (count as f64 * 1e-4 - volume).abs() < 5e-3 * volume,
+            "{shape:?}: {volume}"
+        );
+    }
+    assert!((ball_volume(3, 2.0) - 33.510321638291124).abs() < 1e-13);
+}
+
+#[test]
+fn normals_of_combinations_are_those_of_the_surface_at_hand() {
+    let ring = Difference {
+        from: Box::new(Ball {
+            centre: [0.0, 0.0],
+            radius: 2.0,
+        }),
+        remove: vec![Box::new(Ball {
+            centre: [0.0, 0.0],
+            radius: 1.0,
+        })],
+    };
+    assert_eq!(ring.normal(&[1.1, 0.0]), [-1.0, 0.0]);
+    assert_eq!(ring.normal(&[0.0, 1.9]), [0.0, 1.0]);
+    let [.., union, intersection, _] = &shapes()[..] else {
+        panic!("eight shapes")
+    };
+    assert_eq!(union.normal(&[2.3, 0.2]), [1.0, 0.0]);
+    assert!((intersection.normal(&[-1.5, 0.2])[0] + 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn distances_follow_the_hand_calculation() {
+    let square = Cuboid {
+        lower: [0.0, 0.0],
+        upper: [2.0, 1.0],
+    };
+    assert_eq!(square.distance(&[5.0, 5.0]), 5.0);
+    assert_eq!(square.distance(&[1.0, 0.75]), -0.25);
+    let triangle = Polygon {
+        corners: vec![[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]],
+    };
+    assert_eq!(Shape::<2>::distance(&triangle, &[-1.0, 1.0]), 1.0);
+    assert!((Shape::<2>::distance(&triangle, &[1.0, 1.0]) + 1.0).abs() < 1e-15);
+    assert_eq!(Shape::<2>::volume(&triangle), Some(6.0));
+}

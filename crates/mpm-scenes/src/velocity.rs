@@ -1,0 +1,129 @@
+//! Initial velocities.
+
+use mpm_tensor::{Matrix, vector as algebra};
+
+use crate::scene::{Scene, VelocityField, VelocityTable};
+use crate::values::{vector, within};
+use crate::{ManufacturedSolution, SceneFault, reference};
+
+/// A velocity as a function of the reference position.
+pub(crate) enum InitialVelocity<const D: usize> {
+    Uniform([f64; D]),
+    Sine {
+        amplitude: [f64; D],
+        wave_vector: [f64; D],
+        phase: f64,
+    },
+    Linear {
+        centre: [f64; D],
+        gradient: Matrix<D>,
+    },
+    Manufactured(Box<dyn ManufacturedSolution>),
+}
+
+impl<const D: usize> InitialVelocity<D> {
+    /// v(X).
+    pub fn at(&self, x: &[f64; D]) -> [f64; D] {
+        match self {
+            Self::Uniform(velocity) => *velocity,
+            Self::Sine {
+                amplitude,
+                wave_vector,
+                phase,
+            } => algebra::scale(amplitude, (algebra::dot(wave_vector, x) + phase).sin()),
+            Self::Linear { centre, gradient } => gradient.apply(&algebra::subtract(x, centre)),
+            Self::Manufactured(solution) => {
+                let mut velocity = [0.0; D];
+                solution.velocity(x, 0.0, &mut velocity);
+                velocity
+            }
+        }
+    }
+}
+
+/// The velocity that a table describes, rest without one.
+///
+/// # Errors
+/// [`SceneFault::Value`] for vectors of the wrong length and solutions that do not exist.
+pub(crate) fn build<const D: usize>(
+    field: &str,
+    table: Option<&VelocityTable>,
+    scene: &Scene,
+) -> Result<InitialVelocity<D>, SceneFault> {
+    let vector_of = |key: &str, list: &[f64]| vector::<D>(&format!("{field}.{key}"), list);
+    let table = match table {
+        None => return Ok(InitialVelocity::Uniform([0.0; D])),
+        Some(VelocityTable::Uniform(list)) => return Ok(InitialVelocity::Uniform(vector(field, list)?)),
+        Some(VelocityTable::Field(table)) => table,
+    };
+    Ok(match table {
+        VelocityField::Sine {
+            amplitude,
+            wave_vector,
+            phase,
+        } => InitialVelocity::Sine {
+            amplitude: vector_of("amplitude", amplitude)?,
+            wave_vector: vector_of("wave_vector", wave_vector)?,
+            phase: within(&format!("{field}.phase"), *phase, phase.is_finite(), "finite")?,
+        },
+        VelocityField::Rotation { centre, rate } => InitialVelocity::Linear {
+            centre: vector_of("centre", centre)?,
+            gradient: spin(&format!("{field}.rate"), rate)?,
+        },
+        VelocityField::Linear { centre, gradient } => {
+            let mut rows = [[0.0; D]; D];
+            if gradient.len() != D {
+                return Err(SceneFault::value(
+                    format!("{field}.gradient"),
+                    gradient,
+                    format!("{D} rows"),
+                ));
+            }
+            for (row, list) in rows.iter_mut().zip(gradient) {
+                *row = vector_of("gradient", list)?;
+            }
+            InitialVelocity::Linear {
+                centre: vector_of("centre", centre)?,
+                gradient: Matrix(rows),
+            }
+        }
+        VelocityField::Manufactured { solution } => {
+            InitialVelocity::Manufactured(reference::manufactured(solution, scene)?)
+        }
+    })
+}
+
+/// The matrix of v = ω × x: ω is one number in the plane and three in space.
+fn spin<const D: usize>(field: &str, rate: &[f64]) -> Result<Matrix<D>, SceneFault> {
+    let mut matrix = Matrix::<D>::ZERO;
+    let omega = match (D, rate.len()) {
+        (2, 1) => [0.0, 0.0, vector::<1>(field, rate)?[0]],
+        (3, 3) => vector::<3>(field, rate)?,
+        _ => {
+            let expected = "one number in two dimensions, three in three";
+            return Err(SceneFault::value(field, rate, expected));
+        }
+    };
+    for (i, j, value) in [(1, 0, omega[2]), (2, 1, omega[0]), (0, 2, omega[1])] {
+        if i < D && j < D {
+            matrix.0[i][j] = value;
+            matrix.0[j][i] = -value;
+        }
+    }
+    Ok(matrix)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rotations_follow_the_cross_product() {
+        let matrix = spin::<3>("rate", &[1.0, 2.0, 3.0]).expect("three numbers");
+        // (1, 2, 3) × (4, 5, 6) = (-3, 6, -3).
+        assert_eq!(matrix.apply(&[4.0, 5.0, 6.0]), [-3.0, 6.0, -3.0]);
+        let matrix = spin::<2>("rate", &[2.0]).expect("one number");
+        assert_eq!(matrix.apply(&[1.0, 3.0]), [-6.0, 2.0]);
+        assert!(spin::<1>("rate", &[2.0]).is_err());
+    }
+}

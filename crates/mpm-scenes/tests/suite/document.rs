@@ -1,0 +1,21 @@
+//! What a good document says.
+
+use mpm_scenes::scene::{BasisName, TransferKind, VelocityTable};
+
+use super::scenes::{BAR, BLOCK, CUBE, scene};
+
+#[test]
+fn good_scenes_are_read_with_their_defaults() {
+    let bar = scene(BAR);
+    assert_eq!(
+        (bar.dimension, bar.grid.basis, bar.transfer.kind),
+        (1, BasisName::Quadratic, TransferKind::Flip)
+    );
+    assert_eq!((bar.bodies[0].particles_per_axis, bar.time.damping), (2, 0.0));
+    assert!(matches!(bar.bodies[0].velocity, Some(VelocityTable::Field(_))));
+    assert_eq!(
+        scene(BLOCK).bodies[0].velocity,
+        Some(VelocityTable::Uniform(vec![1.0, 0.0]))
+    );
+    assert_eq!(scene(CUBE).time.courant, 0.3);
+}

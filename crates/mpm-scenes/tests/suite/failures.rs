@@ -1,0 +1,39 @@
+//! A run that fails keeps what it wrote and says where it failed.
+
+use mpm_scenes::{SimulationError, simulate};
+
+use super::scenes::{BAR, BLOCK, scene};
+
+#[test]
+fn a_particle_turned_inside_out_is_named_with_its_step() {
+    // A hammer that is ten times faster than the waves, which the Courant condition knows nothing of.
+    let hammer = "[[obstacles]]\nshape = { kind = \"sphere\", centre = [16.0], radius = 1.0 }\ncontact = \"stick\"\nvelocity = [-100.0]\n";
+    let text = BAR.replace("linear-elastic", "neo-hookean") + hammer;
+    let directory = tempfile::tempdir().expect("a directory");
+    let error = simulate(&scene(&text), directory.path(), &mut ()).expect_err("inverted");
+    let SimulationError::Step { step, particle, .. } = &error else {
+        panic!("{error}")
+    };
+    assert!(*step > 1 && particle.is_some(), "{error}");
+    let message = error.to_string();
+    assert!(message.contains("volume ratio"), "{message}");
+    assert!(directory.path().join("particles_000000.vtu").exists());
+    let series = std::fs::read_to_string(directory.path().join("series.csv")).expect("written");
+    assert!(series.lines().count() >= 2);
+}
+
+#[test]
+fn a_particle_that_leaves_the_domain_is_named_and_frames_stay() {
+    let text = BLOCK.replace("velocity = [1.0, 0.0]", "velocity = [-6.0, 0.0]");
+    let directory = tempfile::tempdir().expect("a directory");
+    let error = simulate(&scene(&text), directory.path(), &mut ()).expect_err("outside");
+    let SimulationError::Step {
+        step, time, particle, ..
+    } = &error
+    else {
+        panic!("{error}")
+    };
+    assert!(*step > 1 && *time > 0.05 && particle.is_some(), "{error}");
+    assert!(error.to_string().contains("outside the domain"), "{error}");
+    assert!(directory.path().join("particles_000001.vtu").exists());
+}

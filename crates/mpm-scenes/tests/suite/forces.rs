@@ -1,0 +1,111 @@
+//! Loads and moving obstacles against what a bar does exactly.
+
+use mpm_scenes::output::read_series;
+use mpm_scenes::{Series, simulate};
+
+use super::scenes::{BAR, scene};
+
+/// The series of the bar's scene with some texts replaced and others added at the end.
+fn series(replaced: &[(&str, &str)], added: &str) -> Series {
+    let mut text = BAR.to_owned();
+    for (from, to) in replaced {
+        assert!(text.contains(from), "{from}");
+        text = text.replacen(from, to, 1);
+    }
+    let directory = tempfile::tempdir().expect("a directory");
+    simulate(&scene(&(text + added)), directory.path(), &mut ()).expect("runs");
+    read_series(directory.path()).expect("written")
+}
+
+const SWING: &str = "velocity = { kind = \"sine\", amplitude = [0.1], wave_vector = [0.15707963267948966] }\n";
+const WALL: &str = "[[walls]]\naxis = \"x\"\nside = \"lower\"\ncondition = \"fixed\"\n";
+
+/// A piston of speed v that begins to move under a bar at rest sends a wave of pressure ρ c v through it: the momentum grows by ρ c v
+/// per time up to t = 2 L / c, not later than the wave needs for a cell, and the bar's end follows the piston.
+#[test]
+fn a_moving_obstacle_pushes_with_the_pressure_of_its_wave() {
+    let piston = "[[obstacles]]\nshape = { kind = \"half-space\", point = [0.0], normal = [1.0] }\ncontact = \"separate\"\nvelocity = [0.2]\n";
+    let pushed = series(&[(SWING, ""), (WALL, "")], piston);
+    let column = |name| pushed.column(name).expect("a column");
+    let (time, momentum, lower) = (column("time"), column("momentum_x"), column("lower_x"));
+    let rate = (momentum[15] - momentum[5]) / (time[15] - time[5]);
+    assert!((rate / (10.0 * 0.2) - 1.0).abs() < 0.02, "{rate}");
+    let delay = time[15] - momentum[15] / (10.0 * 0.2);
+    assert!(delay > 0.0 && delay < 1.0 / 10.0, "{delay}");
+    for k in [5, 10, 15] {
+        assert!(
+            (lower[k] - 0.25 - 0.2 * time[k]).abs() < 0.02,
+            "t = {}: {}",
+            time[k],
+            lower[k]
+        );
+    }
+}
+
+/// A bar at rest under a tension t on its end is t L / E longer; the layer that t is spread over takes half its length off.
+#[test]
+fn a_traction_stretches_by_its_stress_over_the_modulus() {
+    let load = "[[loads]]\nkind = \"traction\"\nregion = { kind = \"box\", lower = [9.0], upper = [10.0] }\ntraction = [1.0]\nthickness = 1.0\nramp = 5.0\n";
+    let relaxed = [
+        (SWING, ""),
+        ("end = 2.0", "end = 40.0\ndamping = 1.0"),
+        ("series_interval = 0.1", ""),
+        ("spacing = 1.0", "spacing = 0.5"),
+    ];
+    let stretched = series(&relaxed, load);
+    let last = |name| {
+        stretched
+            .column(name)
+            .and_then(|values| values.last().copied())
+            .expect("a column")
+    };
+    // The outermost particle's middle is at 9.875: the integral of the tension, 1 up to 9 and then falling to 0 at 10, over E = 100.
+    let expected = (9.0 + 0.875 * (1.0 + 0.125) / 2.0) / 100.0;
+    assert!(
+        (last("tip_displacement_x") / expected - 1.0).abs() < 1e-3,
+        "{}",
+        last("tip_displacement_x")
+    );
+    assert!(last("kinetic_energy") < 1e-6 * last("strain_energy"));
+}
+
+/// A disk that a barrier throws back has no more energy than before, whatever it hits it with.
+#[test]
+fn a_bounce_on_a_barrier_adds_no_energy() {
+    for (speed, transfer) in [(0.5, "apic"), (2.0, "apic"), (2.0, "flip")] {
+        let text = format!(
+            r#"
+title = "bounce"
+dimension = 2
+domain = {{ lower = [0.0, 0.0], upper = [2.0, 2.0] }}
+grid = {{ spacing = 0.1 }}
+transfer = {{ kind = "{transfer}" }}
+time = {{ end = {end} }}
+materials.rubber = {{ law = "neo-hookean", density = 1000.0, young_modulus = 1e5, poisson_ratio = 0.3 }}
+output = {{ interval = 1.0, series_interval = 0.005 }}
+barrier = {{ shapes = [{{ kind = "half-space", point = [0.0, 0.5], normal = [0.0, 1.0] }}], stiffness = 1e8, gap = 0.02 }}
+
+[[bodies]]
+name = "disk"
+shape = {{ kind = "sphere", centre = [1.0, 0.95], radius = 0.4 }}
+material = "rubber"
+velocity = [0.0, -{speed}]
+"#,
+            end = 0.5 / speed
+        );
+        let directory = tempfile::tempdir().expect("a directory");
+        simulate(&scene(&text), directory.path(), &mut ()).expect("runs");
+        let series = read_series(directory.path()).expect("written");
+        let names = ["kinetic_energy", "affine_energy", "strain_energy", "barrier_energy"];
+        let energies: Vec<Vec<f64>> = names.iter().filter_map(|name| series.column(name)).collect();
+        let total = |k: usize| energies.iter().map(|energy| energy[k]).sum::<f64>();
+        let largest = (0..energies[0].len()).map(total).fold(0.0, f64::max);
+        assert!(
+            largest < 1.01 * total(0),
+            "{speed}, {transfer}: {largest} from {}",
+            total(0)
+        );
+        let last = series.column("momentum_y").and_then(|values| values.last().copied());
+        assert!(last.is_some_and(|momentum| momentum > 0.0), "{last:?}");
+    }
+}

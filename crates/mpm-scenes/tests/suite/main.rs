@@ -1,0 +1,9 @@
+//! Scenes as a user writes them: what is refused, what is written, and that a run can be stopped anywhere.
+
+mod bad_scenes;
+mod document;
+mod failures;
+mod forces;
+mod resume;
+mod runs;
+mod scenes;

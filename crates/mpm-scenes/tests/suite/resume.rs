@@ -1,0 +1,104 @@
+//! A run that was stopped goes on to the same bits.
+
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+use std::path::Path;
+
+use mpm_scenes::{Outcome, Progress, simulate};
+
+use super::scenes::{BAR, BLOCK, CUBE, HEAPS, scene};
+
+/// All files of a directory.
+fn files(directory: &Path) -> BTreeMap<String, Vec<u8>> {
+    let entries = std::fs::read_dir(directory)
+        .expect("there")
+        .map(|entry| entry.expect("readable").path());
+    let name = |path: &Path| path.file_name().expect("a name").to_string_lossy().into_owned();
+    entries
+        .map(|path| (name(&path), std::fs::read(&path).expect("readable")))
+        .collect()
+}
+
+#[test]
+fn a_stopped_run_ends_with_the_files_of_one_that_was_not() {
+    for text in [BAR, BLOCK, HEAPS, CUBE] {
+        let scene = scene(text);
+        let (whole, parts) = (
+            tempfile::tempdir().expect("a directory"),
+            tempfile::tempdir().expect("a directory"),
+        );
+        let summary = simulate(&scene, whole.path(), &mut ()).expect("runs");
+        // Stopped after every so many steps, wherever that is between two events.
+        let every = summary.steps / 4 + 1;
+        let mut stops = 0;
+        let resumed = loop {
+            let stop = &mut |progress: Progress| {
+                if progress.step.is_multiple_of(every) {
+                    ControlFlow::Break(())
+                } else {
+                    ControlFlow::Continue(())
+                }
+            };
+            let part = simulate(&scene, parts.path(), stop).expect("runs");
+            if part.outcome == Outcome::Finished {
+                break part;
+            }
+            stops += 1;
+        };
+        assert_eq!((stops, resumed.steps), ((summary.steps - 1) / every, summary.steps));
+        assert!(resumed.resumed_at.is_some() && resumed.steps_here < summary.steps);
+        let (whole, parts) = (files(whole.path()), files(parts.path()));
+        assert!(whole.keys().eq(parts.keys()));
+        for (name, content) in &whole {
+            assert!(parts[name] == *content, "{}: {name} differs", scene.title);
+        }
+    }
+}
+
+#[test]
+fn a_run_that_was_killed_goes_on_from_its_last_checkpoint() {
+    let scene = scene(BLOCK);
+    let (whole, killed) = (
+        tempfile::tempdir().expect("a directory"),
+        tempfile::tempdir().expect("a directory"),
+    );
+    simulate(&scene, whole.path(), &mut ()).expect("runs");
+    // What a process killed between two checkpoints leaves: a checkpoint older than series and frames.
+    let mut old = None;
+    let checkpoint = killed.path().join("checkpoint.cbor");
+    let stop = &mut |progress: Progress| {
+        if old.is_none() && progress.time > 0.05 {
+            old = std::fs::read(&checkpoint).ok();
+        }
+        if progress.time > 0.16 {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    };
+    simulate(&scene, killed.path(), stop).expect("runs");
+    std::fs::write(&checkpoint, old.expect("one at t = 0.04")).expect("writable");
+    let summary = simulate(&scene, killed.path(), &mut ()).expect("runs");
+    assert_eq!(summary.resumed_at, Some(0.04));
+    assert!(files(whole.path()) == files(killed.path()));
+}
+
+#[test]
+fn checkpoints_of_other_scenes_and_damaged_ones_are_refused() {
+    let directory = tempfile::tempdir().expect("a directory");
+    simulate(&scene(BAR), directory.path(), &mut ()).expect("runs");
+    let other = BAR.replace("courant = 0.2", "courant = 0.25");
+    let message = simulate(&scene(&other), directory.path(), &mut ())
+        .expect_err("another scene")
+        .to_string();
+    assert!(message.contains("another scene"), "{message}");
+    let path = directory.path().join("checkpoint.cbor");
+    let mut bytes = std::fs::read(&path).expect("there");
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    std::fs::write(&path, bytes).expect("writable");
+    let message = simulate(&scene(BAR), directory.path(), &mut ())
+        .expect_err("damaged")
+        .to_string();
+    assert!(message.contains("damaged"), "{message}");
+}
