@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use mpm_scenes::{SceneError, SimulationError};
 use parvi::SampleError;
 use parvi_metrics::MetricError;
 use parvi_targets::TargetError;
@@ -21,6 +22,12 @@ pub enum CommandError {
     /// A sampler gave no particles.
     #[error(transparent)]
     Sample(#[from] SampleError),
+    /// A scene cannot be run.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// A simulation ended before its time.
+    #[error(transparent)]
+    Simulation(#[from] SimulationError),
     /// A metric refused its input.
     #[error(transparent)]
     Metric(#[from] MetricError),

@@ -3,6 +3,7 @@
 mod report;
 mod run;
 pub(crate) mod sample;
+mod simulate;
 mod targets;
 
 use std::process::ExitCode;
@@ -27,6 +28,8 @@ enum Command {
     Sample(Box<sample::Arguments>),
     /// Run a study; resumes if the directory holds a part of it
     Run(run::Arguments),
+    /// Simulate a scene of the material point method; resumes if the directory holds a part of it
+    Simulate(simulate::Arguments),
     /// Write tables and plots of a study again from its raw results
     Report(report::Arguments),
 }
@@ -46,6 +49,7 @@ pub fn main() -> ExitCode {
         Command::Targets(arguments) => targets::execute(&arguments),
         Command::Sample(arguments) => sample::execute(&arguments),
         Command::Run(arguments) => run::execute(&arguments),
+        Command::Simulate(arguments) => simulate::execute(&arguments),
         Command::Report(arguments) => report::execute(&arguments),
     };
     match result {

@@ -1,0 +1,142 @@
+//! Figures of a run's time series, one file per group of columns.
+
+use std::path::Path;
+
+use mpm_scenes::Series;
+use mpm_scenes::output::read_series;
+
+use crate::CommandError;
+use crate::output::AtomicFile;
+use crate::plots::{AxisKind, TracePanel, TracePlot, TraceSeries, trace};
+
+/// Columns that share a panel, by what their names begin with; the rest of a name is the line's label.
+struct Panel {
+    prefix: String,
+    y_label: String,
+}
+
+/// Draws the series of a directory; nothing where there is none.
+pub fn draw(directory: &Path, title: &str) -> Result<(), CommandError> {
+    if !directory.join(mpm_scenes::output::names::SERIES).exists() {
+        return Ok(());
+    }
+    let series = read_series(directory)?;
+    for (name, panels) in groups(&series) {
+        let plot = TracePlot {
+            title: format!("{title}: {}", name.replace('_', " ")),
+            x_label: "time".to_owned(),
+            panels: panels.iter().filter_map(|panel| drawn(&series, panel)).collect(),
+        };
+        AtomicFile::write(directory.join(format!("series_{name}.svg")), trace(&plot)?)?;
+    }
+    Ok(())
+}
+
+/// Files and their panels.
+fn groups(series: &Series) -> Vec<(String, Vec<Panel>)> {
+    let panel = |prefix: &str, y_label: &str| Panel {
+        prefix: prefix.to_owned(),
+        y_label: y_label.to_owned(),
+    };
+    let mut groups = vec![
+        ("centre_of_mass".to_owned(), vec![panel("centre_", "centre of mass")]),
+        ("energies".to_owned(), vec![panel("", "energy")]),
+        (
+            "momenta".to_owned(),
+            vec![
+                panel("momentum_", "momentum"),
+                panel("angular_momentum", "angular momentum"),
+            ],
+        ),
+        (
+            "extent".to_owned(),
+            vec![panel("lower_", "lowest position"), panel("upper_", "highest position")],
+        ),
+    ];
+    for probe in probes(series) {
+        let fields = ["displacement", "velocity", "stress"];
+        let panels = fields.map(|field| panel(&format!("{probe}_{field}_"), field));
+        groups.push((format!("probe_{probe}"), panels.into()));
+    }
+    groups
+}
+
+/// Names of the probes: columns that end with the first component of a displacement.
+fn probes(series: &Series) -> impl Iterator<Item = &str> {
+    series
+        .columns()
+        .iter()
+        .filter_map(|column| column.strip_suffix("_displacement_x"))
+}
+
+/// The lines of a panel; `None` without any.
+fn drawn(series: &Series, panel: &Panel) -> Option<TracePanel> {
+    let times = series.column("time")?;
+    let mut lines: Vec<TraceSeries> = Vec::new();
+    for column in series.columns() {
+        let label = if panel.prefix.is_empty() {
+            column.strip_suffix("_energy")
+        } else {
+            column.strip_prefix(panel.prefix.as_str())
+        };
+        let Some(label) = label else { continue };
+        lines.push(TraceSeries {
+            label: label.trim_start_matches('_').to_owned(),
+            step: times.clone(),
+            value: series.column(column)?,
+        });
+    }
+    if panel.prefix.is_empty() && !lines.is_empty() {
+        let sum = |k: usize| lines.iter().filter_map(|line| line.value.get(k)).sum();
+        let value = (0..times.len()).map(sum).collect();
+        lines.push(TraceSeries {
+            label: "total".to_owned(),
+            step: times,
+            value,
+        });
+    }
+    (!lines.is_empty()).then(|| TracePanel {
+        y_label: panel.y_label.clone(),
+        y_axis: AxisKind::Linear,
+        series: lines,
+        levels: Vec::new(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_group_of_columns_has_a_figure() {
+        let columns = [
+            "time",
+            "centre_x",
+            "kinetic_energy",
+            "strain_energy",
+            "momentum_x",
+            "angular_momentum",
+            "lower_x",
+            "upper_x",
+            "tip_displacement_x",
+            "tip_velocity_x",
+            "tip_stress_xx",
+        ];
+        let directory = tempfile::tempdir().unwrap();
+        let rows = ["0.0,0,1,2,3,4,5,6,7,8,9", "1.0,1,2,3,4,5,6,7,8,9,10"];
+        let text = format!("{}\n{}\n", columns.join(","), rows.join("\n"));
+        std::fs::write(directory.path().join("series.csv"), text).unwrap();
+        draw(directory.path(), "bar").unwrap();
+        for name in ["centre_of_mass", "energies", "momenta", "extent", "probe_tip"] {
+            let figure = std::fs::read_to_string(directory.path().join(format!("series_{name}.svg"))).unwrap();
+            assert!(figure.contains("bar: ") && figure.contains("</svg>"), "{name}");
+        }
+        let energies = std::fs::read_to_string(directory.path().join("series_energies.svg")).unwrap();
+        assert!(
+            ["kinetic", "strain", "total"]
+                .iter()
+                .all(|label| energies.contains(label))
+        );
+        assert!(draw(&directory.path().join("none"), "").is_ok());
+    }
+}

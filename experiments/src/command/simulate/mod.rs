@@ -1,0 +1,83 @@
+//! `parvi simulate`: a scene of the material point method from its file.
+
+mod figures;
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use clap::Args;
+use mpm_scenes::{Outcome, Scene, Summary, ValidationRow};
+
+use crate::progress::SimulationProgress;
+use crate::{CommandError, console, interrupt};
+
+/// What to simulate and where.
+#[derive(Args)]
+pub struct Arguments {
+    /// The scene
+    #[arg(value_name = "SCENE.toml")]
+    scene: PathBuf,
+    /// Directory of the files; a part of the same run in it is continued
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+}
+
+/// Runs the scene, draws its series and says what came out.
+pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
+    let scene = Scene::read(&arguments.scene)?;
+    interrupt::listen();
+    let mut progress = SimulationProgress::new(scene.time.end);
+    let start = Instant::now();
+    let result = mpm_scenes::simulate(&scene, &arguments.out, &mut progress);
+    let seconds = start.elapsed().as_secs_f64();
+    progress.clear();
+    // A run that failed has a series too, which may show why; its own error is the one to report.
+    let drawn = figures::draw(&arguments.out, &scene.title);
+    let summary = result?;
+    drawn?;
+    warn(&summary.validation);
+    console::print_pairs(&pairs(arguments, &summary, seconds))?;
+    match summary.outcome {
+        Outcome::Finished => Ok(()),
+        Outcome::Interrupted => Err(CommandError::Interrupted {
+            hint: "; the same line started again goes on".to_owned(),
+        }),
+    }
+}
+
+/// The comparisons that failed.
+fn warn(validation: &[ValidationRow]) {
+    for row in validation.iter().filter(|row| !row.passes()) {
+        console::notice(&format!(
+            "{}: {} differs from {} by more than {}",
+            row.quantity, row.measured, row.reference, row.tolerance
+        ));
+    }
+}
+
+/// What standard output says; a key without a value is left out.
+fn pairs(arguments: &Arguments, summary: &Summary, seconds: f64) -> Vec<(&'static str, String)> {
+    let work = summary.particles as f64 * summary.steps_here as f64;
+    let mut pairs = vec![
+        ("scene", arguments.scene.display().to_string()),
+        ("steps", summary.steps.to_string()),
+        ("time", summary.time.to_string()),
+        ("particles", summary.particles.to_string()),
+        ("wall_seconds", format!("{seconds:.6}")),
+    ];
+    if work > 0.0 {
+        pairs.push(("nanoseconds_per_particle_step", format!("{:.1}", 1e9 * seconds / work)));
+    }
+    if let Some(time) = summary.resumed_at {
+        pairs.push(("resumed_at", time.to_string()));
+    }
+    pairs.push(("outcome", summary.outcome.name().to_owned()));
+    let (rows, passed) = (
+        &summary.validation,
+        summary.validation.iter().all(ValidationRow::passes),
+    );
+    if !rows.is_empty() {
+        pairs.push(("validation", if passed { "passed" } else { "failed" }.to_owned()));
+    }
+    pairs
+}

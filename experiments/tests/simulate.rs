@@ -1,0 +1,82 @@
+//! `parvi simulate`: files, lines, refusals, going on after Ctrl-C.
+
+mod support;
+
+use support::{assert_refused, files, parvi, stderr, stdout, value};
+
+const SCENE: &str = r#"
+title = "falling block"
+dimension = 2
+gravity = [0.0, -1.0]
+domain = { lower = [0.0, 0.0], upper = [2.0, 2.0] }
+grid = { spacing = 0.25 }
+time = { end = 0.5 }
+materials.rubber = { law = "neo-hookean", density = 1.0, young_modulus = 10.0, poisson_ratio = 0.3 }
+output = { interval = 0.25, series_interval = 0.05 }
+
+[[bodies]]
+name = "block"
+shape = { kind = "box", lower = [0.5, 1.0], upper = [1.0, 1.5] }
+material = "rubber"
+
+[[probes]]
+name = "corner"
+at = [1.0, 1.0]
+"#;
+
+#[test]
+fn a_scene_leaves_frames_series_and_figures() {
+    let root = tempfile::tempdir().unwrap();
+    std::fs::write(root.path().join("scene.toml"), SCENE).unwrap();
+    let output = parvi(root.path(), "simulate scene.toml --out out");
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert_eq!(value(&output, "outcome").as_deref(), Some("finished"));
+    assert_eq!(value(&output, "time").as_deref(), Some("0.5"));
+    assert_eq!(value(&output, "particles").as_deref(), Some("16"));
+    for key in ["scene", "steps", "wall_seconds", "nanoseconds_per_particle_step"] {
+        assert!(value(&output, key).is_some(), "{key} is missing in {}", stdout(&output));
+    }
+    assert_eq!(
+        files(&root.path().join("out")),
+        [
+            "checkpoint.cbor",
+            "particles.pvd",
+            "particles_000000.vtu",
+            "particles_000001.vtu",
+            "particles_000002.vtu",
+            "scene.toml",
+            "series.csv",
+            "series_centre_of_mass.svg",
+            "series_energies.svg",
+            "series_extent.svg",
+            "series_momenta.svg",
+            "series_probe_corner.svg",
+        ]
+    );
+    // A finished run is not run again.
+    let again = parvi(root.path(), "simulate scene.toml --out out");
+    assert_eq!(value(&again, "resumed_at").as_deref(), Some("0.5"));
+    assert_eq!(value(&again, "steps"), value(&output, "steps"));
+}
+
+#[test]
+fn bad_scenes_are_refused_with_file_field_and_value() {
+    let root = tempfile::tempdir().unwrap();
+    let cases = [
+        ("spacing = 0.25", "spacings = 0.25", "unknown field `spacings`"),
+        (
+            "poisson_ratio = 0.3",
+            "poisson_ratio = 0.5",
+            "materials.rubber.poisson_ratio = 0.5",
+        ),
+        ("end = 0.5", "end = 0.5, step = 1.0", "time.step = 1"),
+    ];
+    for (from, to, part) in cases {
+        std::fs::write(root.path().join("bad.toml"), SCENE.replace(from, to)).unwrap();
+        assert_refused(&parvi(root.path(), "simulate bad.toml --out out"), &["bad.toml", part]);
+    }
+    assert_refused(
+        &parvi(root.path(), "simulate none.toml --out out"),
+        &["none.toml: cannot be read"],
+    );
+}
