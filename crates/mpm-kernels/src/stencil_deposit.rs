@@ -20,7 +20,7 @@ impl<const W: usize, const D: usize> Stencil<W, D> {
         flux: &S,
         sink: &mut impl NodeSink<D>,
     ) {
-        match groups_of(D) {
+        match const { groups_of(D) } {
             1 => self.deposit_in::<1, A, S>(value, affine, flux, sink),
             2 => self.deposit_in::<2, A, S>(value, affine, flux, sink),
             3 => self.deposit_in::<3, A, S>(value, affine, flux, sink),

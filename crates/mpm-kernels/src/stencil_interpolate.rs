@@ -66,7 +66,7 @@ impl<const W: usize, const D: usize> Stencil<W, D> {
     /// become Σ N (…) each, and Σ N′ and Σ N r of the first; and so on.
     #[inline(always)]
     pub fn interpolate(&self, wanted: Wanted, nodes: &impl NodeField<D>) -> Interpolated<D> {
-        match groups_of(D) {
+        match const { groups_of(D) } {
             1 => self.interpolate_in::<1>(wanted, nodes),
             2 => self.interpolate_in::<2>(wanted, nodes),
             3 => self.interpolate_in::<3>(wanted, nodes),

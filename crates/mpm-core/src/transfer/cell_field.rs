@@ -88,7 +88,7 @@ impl CellField {
     /// Collect the field at all nodes of a cell.
     #[inline(always)]
     pub fn collect<const D: usize>(&mut self, numbers: &[u32], field: impl GridField<D>) {
-        match groups_of(D) {
+        match const { groups_of(D) } {
             1 => self.collect_in::<1, D>(numbers, field),
             2 => self.collect_in::<2, D>(numbers, field),
             3 => self.collect_in::<3, D>(numbers, field),

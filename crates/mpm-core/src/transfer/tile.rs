@@ -71,7 +71,7 @@ impl<'a, 'b, B: Basis<D>, N: GridNode<D>, const D: usize> Tile<'a, 'b, B, N, D> 
             impulses,
             ..
         } = self;
-        match groups_of(D) {
+        match const { groups_of(D) } {
             1 => close::<1, D, N>(stencil, sums, impulses),
             2 => close::<2, D, N>(stencil, sums, impulses),
             3 => close::<3, D, N>(stencil, sums, impulses),
@@ -108,7 +108,7 @@ impl<B: Basis<D>, N: GridNode<D>, const D: usize, const IMPULSES: bool> NodeSink
     #[inline(always)]
     fn add(&mut self, index: usize, deposit: &Deposit<D>) {
         if !B::LONE_PARTICLES {
-            match groups_of(D) {
+            match const { groups_of(D) } {
                 1 => self.update(index, |sum: &Packed<1>| sum.plus_deposit(deposit)),
                 2 => self.update(index, |sum: &Packed<2>| sum.plus_deposit(deposit)),
                 3 => self.update(index, |sum: &Packed<3>| sum.plus_deposit(deposit)),
