@@ -4,6 +4,7 @@ mod basis_choice;
 mod bodies;
 pub mod certificate;
 mod checkpoint;
+mod compiled;
 mod condense;
 pub mod defaults;
 mod drive;

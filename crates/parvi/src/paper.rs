@@ -7,14 +7,15 @@ use parvi_targets::{Frame, Target};
 use crate::basis_choice::OnBasis;
 use crate::bodies::{Knowledge, judged};
 use crate::checkpoint::Journal;
+use crate::compiled::Movers;
 use crate::drive::{Plan, PlannedStep, drive};
 use crate::framed_score::{FramedScore, ScoreForce};
 use crate::start::{check, positive, steps};
 use crate::{Elasticity, MomentCorrection, Observer, PaperOptions, Run, SampleError, Samples, defaults};
 
 /// What every layer of the dispatch hands on.
-struct Job<'a, const D: usize> {
-    options: &'a PaperOptions,
+pub(crate) struct Job<'a, const D: usize> {
+    pub options: &'a PaperOptions,
     target: &'a dyn Target<D>,
     frame: &'a Frame<D>,
     run: &'a Run,
@@ -52,7 +53,7 @@ impl PaperOptions {
             },
             observer,
         };
-        self.basis.with(spacing, job)
+        (Movers::of().elastic)(job, spacing)
     }
 }
 
