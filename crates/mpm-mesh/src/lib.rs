@@ -4,6 +4,7 @@ mod adjacency;
 mod boundary;
 mod edge_lengths;
 mod error;
+pub mod generate;
 mod mesh;
 mod quality;
 mod rings;
