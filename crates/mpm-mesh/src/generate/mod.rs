@@ -8,9 +8,11 @@ mod error;
 mod layer;
 mod plane;
 mod segments;
+mod space;
 
 pub use self::error::GenerationError;
 pub use self::layer::{OuterLayer, with_outer_layer};
 use self::plane::Triangulation;
 pub use self::plane::{EdgeTarget, disk, outlines, polygon, rectangle, wavy_channel};
 pub use self::segments::{cyclic_sizes, segments};
+pub use self::space::{ball, cuboid, slope};

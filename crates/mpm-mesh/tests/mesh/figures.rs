@@ -72,3 +72,20 @@ fn figures_layer() {
     let (whole, _) = with_outer_layer(&crate::samples::unit::<1>()).unwrap();
     show("segment", &whole, 1.0);
 }
+#[test]
+fn figures_3d() {
+    use mpm_mesh::generate::{ball, cuboid, slope, with_outer_layer};
+    for (name, mesh, length) in [
+        ("cuboid", cuboid([0.0; 3], [1.0, 1.0, 2.0], 0.25).unwrap(), 0.25),
+        ("slope", slope(5.0, 10.0, 15.0, 2.0, 1.0).unwrap(), 1.0),
+        ("slope", slope(5.0, 10.0, 15.0, 2.0, 0.5).unwrap(), 0.5),
+        ("ball", ball([0.0; 3], 1.0, 1.0).unwrap(), 1.0),
+        ("ball", ball([0.0; 3], 1.0, 0.5).unwrap(), 0.5),
+        ("ball", ball([0.0; 3], 1.0, 0.25).unwrap(), 0.25),
+        ("ball", ball([0.0; 3], 1.0, 0.1).unwrap(), 0.1),
+    ] {
+        show(name, &mesh, length);
+        let (whole, _) = with_outer_layer(&mesh).unwrap();
+        show("   ...with layer", &whole, length);
+    }
+}
