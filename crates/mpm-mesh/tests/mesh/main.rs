@@ -2,6 +2,9 @@
 
 mod conformance;
 mod figures;
+mod layers;
+mod parameters;
+mod random;
 mod refused;
 mod rings;
 mod samples;
