@@ -76,7 +76,7 @@ fn same_geometry<const D: usize>(mesh: &SimplexMesh<D>, seed: u64) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(48))]
+    #![proptest_config(ProptestConfig::with_cases(24))]
 
     #[test]
     fn polygons_are_filled(corners in polygons(), length in 0.1..0.4f64, angle in -4.0..4.0f64) {
