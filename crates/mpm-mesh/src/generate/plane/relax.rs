@@ -1,5 +1,7 @@
 //! Moves points until triangles are near to equilateral.
 
+use std::collections::HashSet;
+
 use mpm_tensor::vector::distance;
 
 use super::delaunay::Triangulation;
@@ -8,10 +10,13 @@ use crate::adjacency::Lists;
 use crate::generate::GenerationError;
 
 /// Rounds of triangulating and moving; ours. After them little changes.
-const ROUNDS: usize = 16;
+const ROUNDS: usize = 10;
+
+/// Moves of every point in a round.
+const SWEEPS: usize = 3;
 
 /// Rounds, from the first, in which points come and go; the others only move them.
-const CHANGES: usize = 10;
+const CHANGES: usize = 7;
 
 /// No inner edge is to be longer than this many target lengths; as many rounds again are made until it is so.
 const LIMIT: f64 = 1.5;
@@ -37,8 +42,10 @@ pub fn relax(points: &mut Vec<[f64; 2]>, outline: &Outline, length: f64) -> Resu
             return Ok(triangles);
         }
         let stars = stars(points.len(), &triangles);
-        for vertex in fixed..points.len() {
-            to_mean_of_neighbours(points, &triangles, stars.get(vertex), vertex as u32, length);
+        for _ in 0..SWEEPS {
+            for vertex in fixed..points.len() {
+                to_mean_of_neighbours(points, &triangles, stars.get(vertex), vertex as u32, length);
+            }
         }
         if round < CHANGES || too_long {
             change(points, fixed, &edges);
@@ -54,20 +61,18 @@ struct Edge {
     ratio: f64,
 }
 
-/// The edges of triangles that are not part of the outline, the longest first.
+/// The edges of triangles that are not part of the outline and are long or short, the longest first.
 fn inner_edges(points: &[[f64; 2]], triangles: &[[u32; 3]], outline: &Outline, length: f64) -> Vec<Edge> {
     let sides = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
     // An inner edge belongs to two triangles, which pass it in opposite directions.
     let once = sides.map(|ends| ends.map(|v| v as usize)).filter(|[a, b]| a < b);
-    let mut outer: Vec<[usize; 2]> = outline.edges.iter().map(|&[a, b]| [a.min(b), a.max(b)]).collect();
-    outer.sort_unstable();
-    let inner = once.filter(|ends| outer.binary_search(ends).is_err());
-    let ratio = |[a, b]: [usize; 2]| distance(&points[a], &points[b]) / length;
-    let mut edges: Vec<Edge> = inner
-        .map(|ends| Edge {
-            ends,
-            ratio: ratio(ends),
-        })
+    let edges = once.map(|ends| Edge {
+        ends,
+        ratio: distance(&points[ends[0]], &points[ends[1]]) / length,
+    });
+    let outer: HashSet<[usize; 2]> = outline.edges.iter().map(|&[a, b]| [a.min(b), a.max(b)]).collect();
+    let mut edges: Vec<Edge> = edges
+        .filter(|edge| !(SHORT..=LONG).contains(&edge.ratio) && !outer.contains(&edge.ends))
         .collect();
     edges.sort_by(|a, b| b.ratio.total_cmp(&a.ratio).then(a.ends.cmp(&b.ends)));
     edges
