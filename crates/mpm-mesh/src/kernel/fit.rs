@@ -31,6 +31,14 @@ pub(crate) struct Fit<const D: usize> {
 }
 
 impl<const D: usize> Fit<D> {
+    /// No weights.
+    pub const NOTHING: Self = Self {
+        level: 0.0,
+        slope: [0.0; D],
+        curvature: Matrix::ZERO,
+        inverse_spread: None,
+    };
+
     /// Weight, gradient and offset of a node at offset r with sample weight d′.
     #[inline(always)]
     pub fn entry(&self, sample: f64, offset: [f64; D]) -> Entry<D> {
@@ -96,13 +104,7 @@ impl<const D: usize> RingLanes<D> {
 
     /// D_p⁻¹, once the weights are known.
     #[inline(always)]
-    fn inverse_spread(
-        &self,
-        point: &[Lanes; D],
-        level: f64,
-        slope: &[f64; D],
-        samples: &[f64],
-    ) -> Option<Matrix<D>> {
+    fn inverse_spread(&self, point: &[Lanes; D], level: f64, slope: &[f64; D], samples: &[f64]) -> Option<Matrix<D>> {
         let slope = slope.map(Lanes::splat);
         let (mut second, mut sizes) = ([[Lanes::ZERO; D]; D], [Lanes::ZERO; D]);
         for (group, samples) in self.groups.iter().zip(samples.chunks_exact(LANES)) {

@@ -1,16 +1,13 @@
 //! Which cell a point is in.
 
 mod buckets;
-mod facets;
 mod nearest;
 
-use mpm_tensor::Matrix;
-use mpm_tensor::vector::{accumulate, subtract};
+use mpm_tensor::vector::{maximum_norm, norm};
 
 use self::buckets::Buckets;
-use self::facets::{NO_CELL, facet_neighbours};
 pub use self::nearest::NearestPoint;
-use crate::{MeshError, SimplexMesh};
+use crate::{Frame, NO_CELL, SimplexMesh};
 
 /// Facets that a walk crosses before it is given up for the buckets.
 const LONGEST_WALK: usize = 16;
@@ -22,19 +19,11 @@ const LONGEST_WALK: usize = 16;
 /// and vertices the lowest of the cells there.
 #[derive(Clone, Debug)]
 pub struct CellSearch<const D: usize> {
-    cells: Vec<Frame<D>>,
-    /// Neighbour across the facet opposite to vertex n of cell c at c (D + 1) + n.
-    neighbours: Vec<u32>,
+    mesh: SimplexMesh<D>,
+    frames: Vec<Frame<D>>,
     buckets: Buckets<D>,
     /// Barycentric coordinates this close to zero are zero.
     tolerance: f64,
-}
-
-/// x ↦ barycentric coordinates b_1, …, b_D of a cell; b_0 is what they leave of one.
-#[derive(Clone, Copy, Debug)]
-struct Frame<const D: usize> {
-    origin: [f64; D],
-    inverse: Matrix<D>,
 }
 
 /// A point in its cell.
@@ -62,46 +51,31 @@ fn smallest<const D: usize>(barycentric: &[f64; D]) -> (f64, usize) {
     (least, vertex)
 }
 
-impl<const D: usize> Frame<D> {
-    #[inline(always)]
-    fn barycentric(&self, x: &[f64; D]) -> [f64; D] {
-        self.inverse.apply(&subtract(x, &self.origin))
-    }
-}
-
 impl<const D: usize> CellSearch<D> {
-    /// The search structure of a mesh.
-    ///
-    /// # Errors
-    /// [`MeshError::Degenerate`] for a cell without volume.
-    pub fn new(mesh: &SimplexMesh<D>) -> Result<Self, MeshError> {
-        let mut cells = Vec::with_capacity(mesh.cell_count());
-        let (mut steepest, mut farthest) = (0.0, 0.0);
-        for (number, cell) in mesh.cells().enumerate() {
-            let origin = mesh.vertices()[cell[0] as usize];
-            let edge = |n: usize| subtract(&mesh.vertices()[cell[n + 1] as usize], &origin);
-            let edges: [[f64; D]; D] = std::array::from_fn(edge);
-            let inverse = Matrix(edges).transpose().inverse();
-            let Some(inverse) = inverse else {
-                return Err(MeshError::Degenerate { cell: number });
-            };
-            steepest = f64::max(steepest, inverse.maximum_norm());
-            farthest = origin.iter().fold(farthest, |most: f64, c| most.max(c.abs()));
-            cells.push(Frame { origin, inverse });
-        }
-        Ok(Self {
-            cells,
-            neighbours: facet_neighbours(mesh),
-            buckets: Buckets::new(mesh),
+    /// The search structure of a mesh, which it keeps.
+    pub fn new(mesh: SimplexMesh<D>) -> Self {
+        let frames: Vec<_> = (0..mesh.cell_count()).map(|cell| mesh.frame(cell)).collect();
+        let gradients = frames.iter().flat_map(|frame| (0..=D).map(|k| frame.gradient(k)));
+        let steepest = gradients.map(|gradient| norm(&gradient)).fold(0.0, f64::max);
+        let farthest = mesh.vertices().iter().map(maximum_norm).fold(0.0, f64::max);
+        Self {
+            buckets: Buckets::new(&mesh),
             // What the rounding of coordinates does to a barycentric coordinate, with a margin.
             tolerance: 16.0 * D as f64 * f64::EPSILON * (1.0 + farthest * steepest),
-        })
+            frames,
+            mesh,
+        }
+    }
+
+    /// The mesh.
+    pub fn mesh(&self) -> &SimplexMesh<D> {
+        &self.mesh
     }
 
     /// Barycentric coordinates b_1, …, b_D of `x` in a cell, wherever `x` is.
     #[inline(always)]
     pub fn barycentric(&self, cell: u32, x: &[f64; D]) -> [f64; D] {
-        self.cells[cell as usize].barycentric(x)
+        self.frames[cell as usize].coordinates(x)
     }
 
     /// The cell that `x` is in, `near` being a cell to look from. `None` outside the mesh, and for what is not a number.
@@ -109,10 +83,10 @@ impl<const D: usize> CellSearch<D> {
     pub fn locate(&self, x: &[f64; D], near: Option<u32>) -> Option<Located<D>> {
         let mut cell = near.unwrap_or(NO_CELL);
         for _ in 0..LONGEST_WALK {
-            let Some(frame) = self.cells.get(cell as usize) else {
+            let Some(frame) = self.frames.get(cell as usize) else {
                 break;
             };
-            let barycentric = frame.barycentric(x);
+            let barycentric = frame.coordinates(x);
             let (least, vertex) = smallest(&barycentric);
             if least > self.tolerance {
                 return Some(Located { cell, barycentric });
@@ -120,7 +94,7 @@ impl<const D: usize> CellSearch<D> {
             if least >= -self.tolerance {
                 break; // on the boundary of a cell, where the lowest number decides
             }
-            cell = self.neighbours[cell as usize * (D + 1) + vertex];
+            cell = self.mesh.neighbours(cell as usize)[vertex];
         }
         self.look_up(x)
     }
@@ -146,7 +120,7 @@ impl<const D: usize> CellSearch<D> {
     /// The cell that `x` is in by looking at all of them: what [`locate`](Self::locate) is tested against.
     pub fn locate_by_brute_force(&self, x: &[f64; D]) -> Option<u32> {
         let least = |cell: u32| smallest(&self.barycentric(cell, x)).0;
-        let mut all = 0..self.cells.len() as u32;
+        let mut all = 0..self.frames.len() as u32;
         let inside = all.clone().find(|&cell| least(cell) > self.tolerance);
         inside.or_else(|| all.find(|&cell| least(cell) >= -self.tolerance))
     }
@@ -156,28 +130,8 @@ impl<const D: usize> CellSearch<D> {
         smallest(barycentric).0 >= -self.tolerance
     }
 
-    /// The neighbours of a cell, across the facet opposite to each of its vertices; `None` at the boundary of the mesh.
-    pub fn neighbours(&self, cell: u32) -> impl Iterator<Item = Option<u32>> {
-        let row = &self.neighbours[cell as usize * (D + 1)..][..D + 1];
-        row.iter().map(|&cell| (cell != NO_CELL).then_some(cell))
-    }
-
-    /// Bytes held.
+    /// Bytes held beside the mesh.
     pub fn storage_bytes(&self) -> usize {
-        self.cells.capacity() * size_of::<Frame<D>>()
-            + self.neighbours.capacity() * 4
-            + self.buckets.storage_bytes()
+        self.frames.capacity() * size_of::<Frame<D>>() + self.buckets.storage_bytes()
     }
-}
-
-/// Σ_n b_n x_n over the vertices of a cell.
-pub(crate) fn point_at<const D: usize>(mesh: &SimplexMesh<D>, cell: u32, barycentric: &[f64; D]) -> [f64; D] {
-    let vertices = mesh.cell(cell as usize);
-    let origin = mesh.vertices()[vertices[0] as usize];
-    let mut x = origin;
-    for n in 0..D {
-        let edge = subtract(&mesh.vertices()[vertices[n + 1] as usize], &origin);
-        accumulate(&mut x, barycentric[n], &edge);
-    }
-    x
 }
