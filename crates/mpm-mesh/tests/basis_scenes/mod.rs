@@ -91,7 +91,15 @@ pub fn naive_weights<const D: usize>(
         members.iter().map(entry).chain([right]).collect()
     };
     let barycentric = solve((0..=D).map(corner_rows).collect());
-    let joined = |a: u32, b: u32| a == b || mesh.cells().any(|cell| cell.contains(&a) && cell.contains(&b));
+    let reached: Vec<u32> = mesh
+        .cells()
+        .filter(|cell| members.iter().any(|n| cell.contains(n)))
+        .flatten()
+        .copied()
+        .collect();
+    let joined = |a: u32, b: u32| {
+        reached.contains(&b) && (a == b || mesh.cells().any(|cell| cell.contains(&a) && cell.contains(&b)))
+    };
     let sample = |i: u32| {
         let r = distance(vertex(i), x) / h;
         let spline = match r {
