@@ -14,15 +14,7 @@ const HALF: f64 = 0.32;
 
 /// The unit square in triangles with edges of about `length`.
 pub fn square(length: f64) -> SimplexMesh<2> {
-    rectangle(
-        [0.0; 2],
-        [1.0; 2],
-        &EdgeTarget {
-            length,
-            angle: 0.0,
-        },
-    )
-    .expect("a square")
+    rectangle([0.0; 2], [1.0; 2], &EdgeTarget { length, angle: 0.0 }).expect("a square")
 }
 
 /// The unit cube in tetrahedra with edges of about `length`.

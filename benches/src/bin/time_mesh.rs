@@ -15,9 +15,9 @@ fn least_and_middle(mut times: Vec<f64>) -> (f64, f64) {
     (times[0], times[times.len() / 2])
 }
 
-/// Particles that have moved by three tenths of an edge, in changing directions, from the cells where they were.
+/// Particles that have moved by three tenths of the shortest edge, in changing directions, from the cells where they were.
 fn search<const D: usize>(body: &MeshBlock<D>) {
-    let (basis, h) = (&body.basis, body.basis.kernel_width());
+    let (basis, h) = (&body.basis, body.basis.spacing());
     let step = 0.3 * h / (D as f64).sqrt();
     let sign = |k: usize| if k.is_multiple_of(2) { step } else { -step };
     let moved = body.particles.positions.iter().enumerate();
@@ -41,6 +41,29 @@ fn search<const D: usize>(body: &MeshBlock<D>) {
     println!(
         "search: unmoved median {:.1} least {:.1}, moved by 0.3 h median {:.1} least {:.1} ns per particle ({sum})",
         rested.1, rested.0, went.1, went.0
+    );
+}
+
+/// The two halves of the rebuild, particles where a step has left them.
+fn rebuild<const D: usize>(body: &mut MeshBlock<D>, control: &StepControl) {
+    let count = body.particles.len() as f64;
+    let (mut sort, mut activate) = (Vec::new(), Vec::new());
+    for _ in 0..20 {
+        body.step(control).expect("a sound state");
+        let mut basis = body.basis.clone();
+        let start = processor_time();
+        basis.sort(&body.particles.positions).expect("inside");
+        let middle = processor_time();
+        if basis.schedule().keeps_order() {
+            basis.activate(&body.particles.positions).expect("few nodes");
+            activate.push((processor_time() - middle) / count);
+        }
+        sort.push((middle - start) / count);
+    }
+    let (sort, activate) = (least_and_middle(sort), least_and_middle(activate));
+    println!(
+        "rebuild: cells and order median {:.1} least {:.1}, nodes and weights median {:.1} least {:.1} ns per particle",
+        sort.1, sort.0, activate.1, activate.0
     );
 }
 
@@ -76,6 +99,7 @@ fn time<const D: usize>(mesh: &SimplexMesh<D>, per_cell: usize, steps: usize) {
         body.basis.stencil_size(),
     );
     search(&body);
+    rebuild(&mut body, &control);
 }
 
 fn main() {
