@@ -70,7 +70,14 @@ fn stencils_are_right<const D: usize>(basis: &MeshBasis<D>, sorted: &[[f64; D]],
         touched.iter().all(|&touched| touched),
         "{what}: an active node that no cell touches"
     );
-    assert!(h > 0.0);
+    for (number, x) in node_positions.iter().enumerate() {
+        assert_eq!(basis.node_number(x), Some(number as u32), "{what}");
+        assert_eq!(basis.node_number(&x.map(|c| c + 1e-3 * h)), None);
+    }
+    let idle = |vertex: &u32| !basis.active_vertices().contains(vertex);
+    for vertex in (0..basis.mesh().vertices().len() as u32).filter(idle) {
+        assert_eq!(basis.node_number(&basis.mesh().vertices()[vertex as usize]), None);
+    }
 }
 
 /// Σ direction = 0 and Σ direction rᵀ = I; direction = w D⁻¹ r wherever D is well away from singular.

@@ -8,8 +8,12 @@ use crate::basis_scenes::cube;
 use crate::conservation::momenta;
 use crate::{control, solid};
 
+/// Steps here, and those of the paper.
+const STEPS: usize = 4000;
+const ALL_STEPS: usize = 1_000_000;
+
 /// A square of side 0.2 in the middle of the unit square, 20 × 20 particles, E = 10⁴, ν = 0.3, ρ = 1, the halves with velocities (0, ±1),
-/// edges of 0.01, APIC, Δt = 10⁻⁵.
+/// edges of 0.01, APIC, Δt = 10⁻⁵. Over all steps the paper has 10⁻¹⁰ and 10⁻⁷.
 #[test]
 fn momentum_drifts_no_more_than_rounding() {
     let positions: Vec<[f64; 2]> = (0..400)
@@ -23,26 +27,16 @@ fn momentum_drifts_no_more_than_rounding() {
     let law = NeoHookean::new(ElasticModuli::new(1e4, 0.3).unwrap());
     let mut body = Mpm::new(particles, basis, Apic, solid(law), NoBodyForce);
     let (linear, angular) = momenta(&body.particles);
-    let steps: usize = std::env::var("STEPS").map_or(5000, |s| s.parse().unwrap());
+    let share = STEPS as f64 / ALL_STEPS as f64; // rounding grows no faster than the number of steps
     let (mut largest, mut largest_angular) = (0.0, 0.0);
-    for step in 0..steps {
-        body.step(&control(1e-5))
-            .unwrap_or_else(|error| panic!("step {step}: {error}"));
+    for _ in 0..STEPS {
+        body.step(&control(1e-5)).unwrap();
         let (now, turning) = momenta(&body.particles);
         largest = (0..2)
             .map(|a| (now[a] - linear[a]).abs() / 0.04)
             .fold(largest, f64::max);
         largest_angular = f64::max(largest_angular, (turning.0[0][1] / angular.0[0][1] - 1.0).abs());
-        if step % (steps / 20).max(1) == 0 {
-            let speed = body
-                .particles
-                .velocities
-                .iter()
-                .flatten()
-                .fold(0.0, |m: f64, c| m.max(c.abs()));
-            println!("{step}: {largest:e} {largest_angular:e} speed {speed}");
-        }
     }
-    assert!(largest < 1e-10, "{largest:e}");
-    assert!(largest_angular < 1e-7, "{largest_angular:e}");
+    println!("linear {largest:e} of the momentum of both halves, angular {largest_angular:e} of the whole");
+    assert!(largest < 1e-10 * share && largest_angular < 1e-7 * share);
 }
