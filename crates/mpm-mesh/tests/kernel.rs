@@ -3,6 +3,7 @@
 mod basis_scenes;
 
 use basis_scenes::{cloud, cube, generator, line, naive_weights};
+use mpm_mesh::generate::{EdgeTarget, ball, cuboid, disk, rectangle, with_outer_layer};
 use mpm_mesh::{MeshBasis, NO_CELL, SampleWeight, SimplexMesh, WeightAt};
 use mpm_tensor::Matrix;
 use proptest::prelude::*;
@@ -106,6 +107,11 @@ fn unstructured_meshes_have_continuous_weights_and_gradients_with_the_adjacency_
     }
     check(cube::<2>(6, 0.3, 0.25, 3));
     check(cube::<3>(4, 2.0, 0.15, 4));
+    let target = EdgeTarget {
+        length: 0.25,
+        angle: 0.4,
+    };
+    check(disk([0.5; 2], 1.0, &target).unwrap());
 }
 
 #[test]
@@ -169,33 +175,56 @@ proptest! {
     }
 }
 
-/// The smallest weight over the cells whose vertices are all inside, and over the others.
-fn smallest_weights<const D: usize>(mesh: &SimplexMesh<D>, divisions: usize) -> (f64, f64) {
+/// The smallest weight over the cells without a vertex on the boundary, and over the others.
+fn smallest_weights<const D: usize>(mesh: &SimplexMesh<D>, divisions: usize) -> [f64; 2] {
     let basis = MeshBasis::new(mesh).unwrap();
     let on_boundary = basis.mesh().on_boundary();
-    let (mut inside, mut at_boundary) = (f64::INFINITY, f64::INFINITY);
+    let mut smallest = [f64::INFINITY; 2];
     for (number, cell) in basis.mesh().cells().enumerate() {
         let least = basis.minimum_weight(number as u32, divisions);
-        if cell.iter().any(|&vertex| on_boundary[vertex as usize]) {
-            at_boundary = at_boundary.min(least);
-        } else {
-            inside = inside.min(least);
-        }
+        let kind = usize::from(cell.iter().any(|&vertex| on_boundary[vertex as usize]));
+        smallest[kind] = smallest[kind].min(least);
     }
-    (inside, at_boundary)
+    smallest
 }
 
 #[test]
 fn inner_weights_are_hardly_negative() {
+    let target = EdgeTarget {
+        length: 0.1,
+        angle: 0.4,
+    };
+    let disk = disk([0.0; 2], 1.0, &target).unwrap();
+    let box_of_tetrahedra = cuboid([0.0; 3], [1.0; 3], 0.2).unwrap();
     let report = [
-        ("uniform, D = 1", smallest_weights(&cube::<1>(12, 1.0, 0.0, 0), 20)),
-        ("R = 1.5, D = 1", smallest_weights(&graded(1.5), 20)),
-        ("diagonals, D = 2", smallest_weights(&cube::<2>(8, 1.0, 0.0, 0), 8)),
-        ("jittered, D = 2", smallest_weights(&cube::<2>(10, 1.0, 0.15, 1), 8)),
-        ("Kuhn, D = 3", smallest_weights(&cube::<3>(5, 1.0, 0.0, 0), 5)),
+        ("uniform segments", smallest_weights(&cube::<1>(12, 1.0, 0.0, 0), 20)),
+        ("segments, R = 1.5", smallest_weights(&graded(1.5), 20)),
+        ("diagonals", smallest_weights(&cube::<2>(8, 1.0, 0.0, 0), 8)),
+        (
+            "diagonals, nodes moved",
+            smallest_weights(&cube::<2>(10, 1.0, 0.15, 1), 8),
+        ),
+        (
+            "rectangle",
+            smallest_weights(&rectangle([0.0; 2], [1.0, 2.0], &target).unwrap(), 8),
+        ),
+        ("disk", smallest_weights(&disk, 8)),
+        (
+            "disk and layer",
+            smallest_weights(&with_outer_layer(&disk).unwrap().0, 8),
+        ),
+        ("Kuhn", smallest_weights(&cube::<3>(5, 1.0, 0.0, 0), 5)),
+        ("cuboid", smallest_weights(&box_of_tetrahedra, 5)),
+        (
+            "cuboid and layer",
+            smallest_weights(&with_outer_layer(&box_of_tetrahedra).unwrap().0, 5),
+        ),
+        ("ball", smallest_weights(&ball([0.0; 3], 1.0, 0.35).unwrap(), 5)),
     ];
-    println!("{report:#?}");
-    for (name, (inside, _)) in report {
+    for (name, [inside, at_boundary]) in report {
+        println!("{name}: {inside:.5} inside, {at_boundary:.5} at the boundary");
+    }
+    for (name, [inside, _]) in report {
         assert!(inside > -0.01, "{name}: {inside}");
     }
 }
