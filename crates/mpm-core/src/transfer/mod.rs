@@ -34,8 +34,8 @@ pub trait GridNode<const D: usize>: Sum {
     /// m_i.
     fn mass(&self) -> f64;
 
-    /// Turn momentum into velocity: v_i = damping (v_iⁿ + Δt f_i / m_i), shortened to `speed_limit`; 0 where m_i is below the normal
-    /// numbers.
+    /// Turn momentum into velocity: v_i = damping (v_iⁿ + Δt f_i / m_i), shortened to `speed_limit`; 0 where |m_i| is below the normal
+    /// numbers. Where weights are negative a mass may be, and its quotient is a velocity like any other: dropping it would lose momentum.
     ///
     /// `impulse` is Δt times a force at the node itself. Returns the squared speed before shortening: infinite where the
     /// square overflows, NaN where the velocity itself is not finite.
@@ -109,7 +109,31 @@ fn shorten_huge<const D: usize>(vector: &mut [f64; D], limit: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::shorten;
+    use super::{FlipNode, GridNode, VelocityNode, shorten};
+    use mpm_kernels::Deposit;
+
+    fn velocity_of<N: GridNode<2>>(mass: f64, momentum: [f64; 2]) -> [f64; 2] {
+        let mut node = N::default();
+        node.add(&Deposit {
+            scalar: mass,
+            vector: momentum,
+        });
+        node.advance(&[0.0; 2], 1.0, f64::INFINITY);
+        *node.velocity()
+    }
+
+    #[test]
+    fn momentum_over_mass_is_the_velocity_whatever_the_sign() {
+        for (mass, expected) in [
+            (0.5, [2.0, -4.0]),
+            (-0.5, [-2.0, 4.0]),
+            (0.0, [0.0; 2]),
+            (-1e-310, [0.0; 2]),
+        ] {
+            assert_eq!(velocity_of::<VelocityNode<2>>(mass, [1.0, -2.0]), expected);
+            assert_eq!(velocity_of::<FlipNode<2>>(mass, [1.0, -2.0]), expected);
+        }
+    }
 
     #[test]
     fn a_vector_is_shortened_to_the_limit_and_keeps_its_direction() {

@@ -43,6 +43,12 @@ impl<const D: usize> Frame<D> {
         1.0 - self.gradients.0.iter().map(|row| dot(row, &offset)).sum::<f64>()
     }
 
+    /// λ_1(x), …, λ_D(x); λ_0(x) is what they leave of one.
+    #[inline(always)]
+    pub fn coordinates(&self, x: &[f64; D]) -> [f64; D] {
+        self.gradients.apply(&subtract(x, &self.origin))
+    }
+
     /// The least of the λ_k(x): not negative inside the cell, zero on its boundary.
     pub fn least_coordinate(&self, x: &[f64; D]) -> f64 {
         let offset = subtract(x, &self.origin);
