@@ -6,7 +6,7 @@ use mpm_tensor::vector::multiply_add;
 
 use crate::{MpmError, Schedule};
 
-/// A background discretisation: shape functions w_i that sum to one.
+/// A background discretisation: shape functions w_i that sum to one. They may be negative.
 ///
 /// The step is written once over this trait; a uniform B-spline grid, a simplex lattice and an unstructured mesh are
 /// implementations. A basis groups particles into *cells*, in which all particles touch the same nodes, so that node
@@ -61,10 +61,18 @@ pub trait Basis<const D: usize>: Sync {
     /// Length h over which the basis resolves a field.
     fn spacing(&self) -> f64;
 
-    /// Nodes that one particle touches, the same for all; nodes on which its weight and gradient vanish count too.
+    /// Nodes that one particle touches, at most; nodes on which its weight and gradient vanish count too. Work is estimated with
+    /// it.
     fn stencil_size(&self) -> usize;
 
-    /// The [`stencil_size`](Self::stencil_size) node numbers that the particles of `cell` touch, in the order of
+    /// Nodes that the particles of `cell` touch: [`stencil_size`](Self::stencil_size) in all cells, unless a basis says
+    /// otherwise.
+    #[inline(always)]
+    fn cell_stencil_size(&self, _cell: usize) -> usize {
+        self.stencil_size()
+    }
+
+    /// The [`cell_stencil_size`](Self::cell_stencil_size) node numbers that the particles of `cell` touch, in the order of
     /// [`for_each_node`](Self::for_each_node); written to `scratch` where they are not stored.
     fn cell_nodes<'a>(&'a self, cell: usize, scratch: &'a mut Vec<u32>) -> &'a [u32];
 

@@ -27,6 +27,14 @@ pub enum MpmError {
         /// Upper corner of the domain.
         upper: Vec<f64>,
     },
+    /// A particle is in no cell of the mesh.
+    #[error("particle {particle} is at {position:?}, in no cell of the mesh")]
+    OutsideMesh {
+        /// As in [`PositionOutOfRange`](Self::PositionOutOfRange).
+        particle: usize,
+        /// Its position.
+        position: Vec<f64>,
+    },
     /// A particle is deformed so that the material has no stress, for example turned inside out.
     #[error("particle {particle}: {source}")]
     Deformation {

@@ -77,7 +77,7 @@ where
                     least_squares: T::MOVING_LEAST_SQUARES,
                     moment: MOVE && T::AFFINE,
                 };
-                let size = basis.stencil_size();
+                let size = numbers.len();
                 let [velocities, changes] = fields;
                 if !B::LONE_PARTICLES {
                     velocities.collect(numbers, velocity);

@@ -3,6 +3,7 @@
 mod basis;
 mod body_force;
 mod boundary;
+mod cell_sort;
 mod control;
 mod counting_sort;
 mod diagnosis;
@@ -27,6 +28,7 @@ pub use body_force::{BodyForce, ForceLocation, NoBodyForce, Sites};
 pub use boundary::{
     Boundaries, Boundary, Contact, GridMotion, HalfSpace, NoBoundary, Obstacle, Side, SignedDistance, Sphere, Wall,
 };
+pub use cell_sort::CellSort;
 pub use control::{StepControl, StepReport};
 pub use error::MpmError;
 pub use grid::SplineGrid;

@@ -233,6 +233,10 @@ impl<const D: usize, S: Copy + Send + Sync> Particles<D, S> {
                 lower,
                 upper,
             },
+            MpmError::OutsideMesh { particle, position } => MpmError::OutsideMesh {
+                particle: created(particle),
+                position,
+            },
             MpmError::Deformation { particle, source } => MpmError::Deformation {
                 particle: created(particle),
                 source,

@@ -124,7 +124,8 @@ impl Schedule {
         self.keeps_order = false;
     }
 
-    pub(crate) fn storage_bytes(&self) -> usize {
+    /// Bytes held.
+    pub fn storage_bytes(&self) -> usize {
         (self.order.capacity() + self.cell_starts.capacity()) * 4 + self.parts.capacity() * size_of::<Part>()
     }
 }

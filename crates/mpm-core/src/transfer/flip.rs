@@ -77,7 +77,7 @@ impl<const D: usize> GridNode<D> for FlipNode<D> {
 
     #[inline(always)]
     fn advance(&mut self, impulse: &[f64; D], damping: f64, speed_limit: f64) -> f64 {
-        if self.mass < f64::MIN_POSITIVE {
+        if self.mass.abs() < f64::MIN_POSITIVE {
             *self = Self::default();
             return 0.0;
         }

@@ -76,7 +76,7 @@ fn gather_stretch<const D: usize, B, V, S: Default>(
     }
     let (mut scratch, mut memory) = (Vec::new(), S::default());
     for cell in cells {
-        let cell_nodes = &basis.cell_nodes(cell, &mut scratch)[..basis.stencil_size()]; // no check per node
+        let cell_nodes = &basis.cell_nodes(cell, &mut scratch)[..basis.cell_stencil_size(cell)]; // no check per node
         update(&mut data, schedule.cell(cell), cell_nodes, particles.start, &mut memory);
     }
 }

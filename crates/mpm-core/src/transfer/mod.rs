@@ -34,8 +34,8 @@ pub trait GridNode<const D: usize>: Sum {
     /// m_i.
     fn mass(&self) -> f64;
 
-    /// Turn momentum into velocity: v_i = damping (v_iⁿ + Δt f_i / m_i), shortened to `speed_limit`; 0 where m_i is below the normal
-    /// numbers.
+    /// Turn momentum into velocity: v_i = damping (v_iⁿ + Δt f_i / m_i), shortened to `speed_limit`; 0 where |m_i| is below the normal
+    /// numbers. Where weights are negative a mass may be, and its quotient is a velocity like any other: dropping it would lose momentum.
     ///
     /// `impulse` is Δt times a force at the node itself. Returns the squared speed before shortening: infinite where the
     /// square overflows, NaN where the velocity itself is not finite.

@@ -51,7 +51,7 @@ impl<const D: usize> GridNode<D> for VelocityNode<D> {
     #[inline(always)]
     fn advance(&mut self, impulse: &[f64; D], damping: f64, speed_limit: f64) -> f64 {
         let Deposit { scalar: mass, vector } = &mut self.0;
-        if *mass < f64::MIN_POSITIVE {
+        if mass.abs() < f64::MIN_POSITIVE {
             *vector = [0.0; D];
             return 0.0;
         }

@@ -71,7 +71,7 @@ impl<N: Sum> NodeSums<N> {
         N: GridNode<D>,
     {
         self.scatter_cells(basis, move |particles, stencil, lanes| {
-            let mut tile = Tile::new(basis, stencil, lanes, with_impulses);
+            let mut tile = Tile::<B, N, D>::new(stencil, lanes, with_impulses);
             for particle in particles {
                 deposit(particle, &positions[particle], &mut tile);
             }
@@ -97,7 +97,7 @@ impl<N: Sum> NodeSums<N> {
             let add = add;
             for cell in cells {
                 let mut stencil = StencilNodes {
-                    numbers: &basis.cell_nodes(cell, &mut scratch)[..basis.stencil_size()],
+                    numbers: &basis.cell_nodes(cell, &mut scratch)[..basis.cell_stencil_size(cell)],
                     first,
                     nodes,
                 };
@@ -146,7 +146,7 @@ impl<N: Sum> NodeSums<N> {
 
 /// The nodes of one cell's stencils.
 pub struct StencilNodes<'a, N> {
-    numbers: &'a [u32],
+    pub(super) numbers: &'a [u32],
     /// Number of the first of `nodes`.
     first: usize,
     nodes: &'a mut [N],

@@ -20,15 +20,10 @@ pub(crate) struct Tile<'a, 'b, B, N, const D: usize> {
 impl<'a, 'b, B: Basis<D>, N: GridNode<D>, const D: usize> Tile<'a, 'b, B, N, D> {
     /// Nothing yet. `lanes` is memory to work in.
     #[inline(always)]
-    pub fn new(
-        basis: &B,
-        stencil: &'a mut StencilNodes<'b, N>,
-        lanes: &'a mut Vec<Lanes>,
-        with_impulses: bool,
-    ) -> Self {
+    pub fn new(stencil: &'a mut StencilNodes<'b, N>, lanes: &'a mut Vec<Lanes>, with_impulses: bool) -> Self {
         let (mut sums, mut impulses) = (&mut [][..], &mut [][..]);
         if !B::LONE_PARTICLES {
-            let size = basis.stencil_size() * groups_of(D);
+            let size = stencil.numbers.len() * groups_of(D);
             let both = if with_impulses { 2 * size } else { size };
             lanes.clear();
             lanes.resize(both, Lanes::ZERO);

@@ -1,0 +1,58 @@
+//! The rebuild, phases 3 and 4: active nodes and parts.
+
+use super::MeshBasis;
+
+/// Vertices that are looked at together when numbers are given.
+const STRETCH: usize = 32;
+
+impl<const D: usize> MeshBasis<D> {
+    /// Phase 3 (activate): number the vertices that particles touch, in the order of the vertices, and write down those of every cell.
+    pub(super) fn number_nodes(&mut self) {
+        let vertex_count = self.mesh().vertices().len();
+        self.marks.clear();
+        self.marks.resize(vertex_count.next_multiple_of(STRETCH), 0);
+        self.numbers.resize(vertex_count, 0);
+        let occupied = (0..self.schedule.cell_count()).map(|cell| self.particle_cells[self.schedule.cell(cell).start]);
+        for cell in occupied.clone() {
+            for &vertex in self.stencils.ring(cell) {
+                self.marks[vertex as usize] = 1;
+            }
+        }
+        self.active.clear();
+        for (stretch, marks) in self.marks.chunks_exact(STRETCH).enumerate() {
+            if marks.iter().fold(0, |any, mark| any | mark) == 0 {
+                continue;
+            }
+            for place in (0..STRETCH).filter(|&place| marks[place] != 0) {
+                let vertex = stretch * STRETCH + place;
+                self.numbers[vertex] = self.active.len() as u32;
+                self.active.push(vertex as u32);
+            }
+        }
+        self.cell_nodes.clear();
+        self.cell_node_starts.clear();
+        self.cell_node_starts.push(0);
+        for cell in occupied {
+            let ring = self.stencils.ring(cell).iter();
+            self.cell_nodes
+                .extend(ring.map(|&vertex| self.numbers[vertex as usize]));
+            self.cell_node_starts.push(self.cell_nodes.len());
+        }
+    }
+
+    /// Phase 4 (activate): cut the cells into parts. The nodes of a cell are in ascending order.
+    pub(super) fn divide_cells(&mut self) {
+        let (size, count) = (self.stencils.largest(), self.active.len());
+        self.schedule.cut(size);
+        let (nodes, starts) = (&self.cell_nodes, &self.cell_node_starts);
+        for part in self.schedule.parts_mut() {
+            let (mut low, mut high) = (u32::MAX, 0);
+            for cell in part.cells.clone() {
+                let (first, last) = (nodes[starts[cell]], nodes[starts[cell + 1] - 1]);
+                (low, high) = (low.min(first), high.max(last));
+            }
+            part.nodes = low as usize..high as usize + 1;
+        }
+        self.schedule.join(count);
+    }
+}

@@ -1,0 +1,256 @@
+//! The basis of UMLS-MPM.
+
+mod activate;
+mod curve;
+mod locate;
+mod stencils;
+mod transfers;
+mod weights;
+
+use mpm_core::{Basis, CellSort, MpmError, Schedule};
+use mpm_kernels::{Columns, Deposit, Entry, Interpolated, NodeField, NodeSink, Wanted};
+use mpm_tensor::vector::subtract;
+
+use self::curve::AlongCurve;
+use self::stencils::Stencils;
+pub use self::weights::WeightAt;
+use crate::kernel::Fit;
+use crate::{CellSearch, MeshError, SampleWeight, SimplexMesh};
+
+/// What becomes of a particle that is in no cell.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Outside {
+    /// The step is refused with [`MpmError::OutsideMesh`].
+    #[default]
+    Refuse,
+    /// Up to a distance of `reach` from the mesh, a particle has the nodes of the nearest cell: b is that of the nearest point, offsets are its own, so that
+    /// linear fields are still reproduced and momentum is conserved. Weights grow negative with the distance. Beyond, as
+    /// [`Refuse`](Self::Refuse). For particles that overshoot a wall by a step.
+    Extrapolate {
+        /// The largest distance; length.
+        reach: f64,
+    },
+}
+
+/// UMLS-MPM (Cao, Zhao, Li & Jiang 2024, doi 10.1007/s00466-024-02524-x): a particle's nodes are the first ring of its cell, its
+/// weights and gradients those of a moving least squares fit with sample weights [`SampleWeight::Continuous`].
+///
+/// With r_i = x_i − x_p, P_i = \[1, r_i\] and M_p = Σ_i d′_pi P_i P_iᵀ: (w_ip, g_ip) = d′_pi M_p⁻¹ P_i. So Σ w = 1, Σ w r = 0, Σ g = 0 and
+/// Σ g rᵀ = I. The gradient g is *diffuse*: not ∇ of w. Both are continuous. Weights may be negative: by less than a hundredth inside usual
+/// meshes, and by more in cells at the boundary, so a mesh should have a layer of cells around what particles reach.
+#[derive(Clone, Debug)]
+pub struct MeshBasis<const D: usize> {
+    search: CellSearch<D>,
+    stencils: Stencils,
+    /// Numbers of the cells and vertices in the mesh that the basis was made of.
+    given_cells: Vec<u32>,
+    given_vertices: Vec<u32>,
+    weight: SampleWeight,
+    outside: Outside,
+    longest_edge: f64,
+    shortest_edge: f64,
+    /// Cells of the particles in schedule order.
+    particle_cells: Vec<u32>,
+    particles: Vec<ParticleFit<D>>,
+    /// d′_pi of all particles.
+    samples: Vec<f64>,
+    /// Number by vertex; of no meaning where a vertex is not active.
+    numbers: Vec<u32>,
+    /// Vertex by number, ascending.
+    active: Vec<u32>,
+    /// Node numbers of the cells of the schedule, one cell after the other, and where those of a cell begin.
+    cell_nodes: Vec<u32>,
+    cell_node_starts: Vec<usize>,
+    schedule: Schedule,
+    cell_sort: CellSort,
+    marks: Vec<u8>,
+}
+
+/// What is kept of a particle from the activation on.
+#[derive(Clone, Copy, Debug)]
+struct ParticleFit<const D: usize> {
+    fit: Fit<D>,
+    cell: u32,
+    /// Where its d′ begin, in groups.
+    samples: u32,
+}
+
+impl<const D: usize> MeshBasis<D> {
+    /// A basis on a mesh, whose cells and vertices it renumbers along a curve in space ([`mesh`](Self::mesh)).
+    ///
+    /// # Errors
+    /// [`MeshError`], where the renumbered mesh is refused; that of a valid mesh is not.
+    pub fn new(mesh: &SimplexMesh<D>) -> Result<Self, MeshError> {
+        const { assert!(D <= 3, "a mass and a vector have to fit into four lanes") }
+        let AlongCurve { mesh, cells, vertices } = AlongCurve::new(mesh)?;
+        let lengths = mesh.edge_lengths();
+        Ok(Self {
+            stencils: Stencils::new(&mesh),
+            search: CellSearch::new(mesh),
+            given_cells: cells,
+            given_vertices: vertices,
+            weight: SampleWeight::default(),
+            outside: Outside::default(),
+            longest_edge: lengths.longest,
+            shortest_edge: lengths.shortest,
+            particle_cells: Vec::new(),
+            particles: Vec::new(),
+            samples: Vec::new(),
+            numbers: Vec::new(),
+            active: Vec::new(),
+            cell_nodes: Vec::new(),
+            cell_node_starts: Vec::new(),
+            schedule: Schedule::default(),
+            cell_sort: CellSort::default(),
+            marks: Vec::new(),
+        })
+    }
+
+    /// The same basis with other sample weights.
+    pub fn with_sample_weight(mut self, weight: SampleWeight) -> Self {
+        self.weight = weight;
+        self
+    }
+
+    /// The same basis with another rule for particles outside the mesh.
+    pub fn with_outside(mut self, outside: Outside) -> Self {
+        self.outside = outside;
+        self
+    }
+
+    /// The mesh in the numbering of the basis.
+    pub fn mesh(&self) -> &SimplexMesh<D> {
+        self.search.mesh()
+    }
+
+    /// The search for cells, in the numbering of the basis.
+    pub fn search(&self) -> &CellSearch<D> {
+        &self.search
+    }
+
+    /// The number that a cell of the basis had in the mesh that it was made of; the cell itself where there is none such.
+    pub fn given_cell(&self, cell: u32) -> u32 {
+        self.given_cells.get(cell as usize).copied().unwrap_or(cell)
+    }
+
+    /// As [`given_cell`](Self::given_cell), for a vertex.
+    pub fn given_vertex(&self, vertex: u32) -> u32 {
+        self.given_vertices.get(vertex as usize).copied().unwrap_or(vertex)
+    }
+
+    /// Vertices, in the numbering of the basis, of the active nodes in the order of their numbers.
+    pub fn active_vertices(&self) -> &[u32] {
+        &self.active
+    }
+
+    /// Cells, in the numbering of the basis, that the particles are in, in schedule order.
+    pub fn particle_cells(&self) -> &[u32] {
+        &self.particle_cells
+    }
+
+    /// h of the sample weights: the longest edge.
+    pub fn kernel_width(&self) -> f64 {
+        self.longest_edge
+    }
+}
+
+impl<const D: usize> Basis<D> for MeshBasis<D> {
+    fn sort(&mut self, positions: &[[f64; D]]) -> Result<(), MpmError> {
+        let result = self.locate_particles(positions);
+        match result {
+            Ok(()) => self.sort_particles(),
+            Err(_) => self.schedule = Schedule::default(),
+        }
+        result
+    }
+
+    fn activate(&mut self, sorted: &[[f64; D]]) -> Result<(), MpmError> {
+        self.number_nodes();
+        self.divide_cells();
+        self.fit_particles(sorted)
+    }
+
+    fn schedule(&self) -> &Schedule {
+        &self.schedule
+    }
+
+    fn node_count(&self) -> usize {
+        self.active.len()
+    }
+
+    fn node_positions(&self, out: &mut Vec<[f64; D]>) {
+        let vertices = self.mesh().vertices();
+        out.clear();
+        out.extend(self.active.iter().map(|&vertex| vertices[vertex as usize]));
+    }
+
+    /// The shortest edge: a wave must not cross a cell in one step.
+    fn spacing(&self) -> f64 {
+        self.shortest_edge
+    }
+
+    fn stencil_size(&self) -> usize {
+        self.stencils.largest()
+    }
+
+    #[inline(always)]
+    fn cell_stencil_size(&self, cell: usize) -> usize {
+        self.cell_node_starts[cell + 1] - self.cell_node_starts[cell]
+    }
+
+    #[inline(always)]
+    fn cell_nodes<'a>(&'a self, cell: usize, _: &'a mut Vec<u32>) -> &'a [u32] {
+        &self.cell_nodes[self.cell_node_starts[cell]..self.cell_node_starts[cell + 1]]
+    }
+
+    #[inline(always)]
+    fn for_each_node(&self, particle: usize, x: &[f64; D], mut visit: impl FnMut(usize, &Entry<D>)) {
+        let fit = &self.particles[particle].fit;
+        self.for_each_sample(particle, |index, sample, node| {
+            visit(index, &fit.entry(sample, subtract(node, x)));
+        });
+    }
+
+    #[inline(always)]
+    fn deposit<A: Columns<D>, S: Columns<D>>(
+        &self,
+        particle: usize,
+        x: &[f64; D],
+        value: &Deposit<D>,
+        affine: &A,
+        flux: &S,
+        sink: &mut impl NodeSink<D>,
+    ) {
+        self.deposit_in_lanes(particle, x, value, affine, flux, sink);
+    }
+
+    #[inline(always)]
+    fn interpolate(&self, particle: usize, x: &[f64; D], wanted: Wanted, nodes: &impl NodeField<D>) -> Interpolated<D> {
+        self.interpolate_in_lanes(particle, x, wanted, nodes)
+    }
+
+    #[inline(always)]
+    fn affine_direction(&self, particle: usize, _: &[f64; D], entry: &Entry<D>) -> [f64; D] {
+        self.particles[particle].fit.direction(entry)
+    }
+
+    /// The mesh itself is not counted.
+    fn storage_bytes(&self) -> usize {
+        let words = [
+            &self.given_cells,
+            &self.given_vertices,
+            &self.particle_cells,
+            &self.numbers,
+            &self.active,
+            &self.cell_nodes,
+        ];
+        self.search.storage_bytes()
+            + self.stencils.storage_bytes()
+            + self.schedule.storage_bytes()
+            + self.cell_sort.storage_bytes()
+            + words.iter().map(|v| v.capacity() * 4).sum::<usize>()
+            + self.particles.capacity() * size_of::<ParticleFit<D>>()
+            + (self.samples.capacity() + self.cell_node_starts.capacity()) * 8
+            + self.marks.capacity()
+    }
+}

@@ -1,0 +1,167 @@
+//! The rebuild, phase 5: the fit of every particle; and weights at any point, to look at them.
+
+use mpm_core::MpmError;
+use mpm_kernels::{Entry, LANES};
+use mpm_tensor::vector::subtract;
+use rayon::prelude::*;
+
+use super::{MeshBasis, ParticleFit};
+use crate::kernel::{Fit, RingLanes};
+use crate::{Located, NO_CELL};
+
+/// Weight and gradient of a node at a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WeightAt<const D: usize> {
+    /// The node: a vertex in the numbering of the basis.
+    pub vertex: u32,
+    /// Its weight, diffuse gradient and offset.
+    pub entry: Entry<D>,
+}
+
+impl<const D: usize> MeshBasis<D> {
+    /// Phase 5 (activate): where d′ of every particle are stored, and all fits.
+    pub(super) fn fit_particles(&mut self, sorted: &[[f64; D]]) -> Result<(), MpmError> {
+        let mut particles = std::mem::take(&mut self.particles);
+        let mut samples = std::mem::take(&mut self.samples);
+        let nothing = ParticleFit {
+            fit: Fit::NOTHING,
+            cell: NO_CELL,
+            samples: 0,
+        };
+        particles.resize(sorted.len(), nothing);
+        let mut groups = 0;
+        let schedule = &self.schedule;
+        let mut shares = Vec::with_capacity(schedule.parts().len());
+        let mut rest = particles.as_mut_slice();
+        for part in schedule.parts() {
+            let first = groups;
+            for cell in part.cells.clone() {
+                groups += self.groups_of(cell) * schedule.cell(cell).len();
+            }
+            let (own, others) = rest.split_at_mut(schedule.particles(&part.cells).len());
+            rest = others;
+            shares.push((part, own, first..groups));
+        }
+        if groups > u32::MAX as usize {
+            let nodes = groups as u64;
+            return Err(MpmError::TooManyNodes { nodes });
+        }
+        samples.resize(groups * LANES, 0.0);
+        let mut rest = samples.as_mut_slice();
+        let mut work = Vec::with_capacity(shares.len());
+        for (part, particles, groups) in shares {
+            let (own, others) = rest.split_at_mut(groups.len() * LANES);
+            rest = others;
+            work.push((part, particles, own, groups.start));
+        }
+        work.into_par_iter()
+            .for_each(|(part, mut particles, mut samples, mut first)| {
+                let mut lanes = RingLanes::default();
+                for cell in part.cells.clone() {
+                    let range = schedule.cell(cell);
+                    let (own, others) = std::mem::take(&mut particles).split_at_mut(range.len());
+                    let length = self.groups_of(cell) * LANES;
+                    let (own_samples, other_samples) = std::mem::take(&mut samples).split_at_mut(length * range.len());
+                    (particles, samples) = (others, other_samples);
+                    let mesh_cell = self.particle_cells[range.start];
+                    self.collect(mesh_cell, &mut lanes);
+                    let each = own
+                        .iter_mut()
+                        .zip(own_samples.chunks_exact_mut(length))
+                        .zip(&sorted[range]);
+                    for ((particle, samples), x) in each {
+                        let fit = self.fit(mesh_cell, x, &lanes, samples);
+                        *particle = ParticleFit {
+                            fit,
+                            cell: mesh_cell,
+                            samples: first as u32,
+                        };
+                        first += length / LANES;
+                    }
+                }
+            });
+        (self.particles, self.samples) = (particles, samples);
+        Ok(())
+    }
+
+    /// Groups of lanes that d′ of a particle fill, by cell of the schedule.
+    #[inline(always)]
+    fn groups_of(&self, cell: usize) -> usize {
+        (self.cell_node_starts[cell + 1] - self.cell_node_starts[cell]).div_ceil(LANES)
+    }
+
+    #[inline(always)]
+    fn collect(&self, cell: u32, lanes: &mut RingLanes<D>) {
+        let (ring, joined) = (self.stencils.ring(cell), self.stencils.joined(cell));
+        lanes.collect(self.mesh().vertices(), ring, joined, self.weight);
+    }
+
+    /// The fit at `x` with the ring of a cell; where `x` is outside of it, with b of the nearest point.
+    #[inline(always)]
+    fn fit(&self, cell: u32, x: &[f64; D], lanes: &RingLanes<D>, samples: &mut [f64]) -> Fit<D> {
+        let mut barycentric = self.search.barycentric(cell, x);
+        if !self.search.is_inside(&barycentric) {
+            barycentric = self.search.nearest_in_cell(cell, x).located.barycentric;
+        }
+        lanes.fit(x, &barycentric, 1.0 / self.longest_edge, samples)
+    }
+
+    /// Visit place in the ring, d′ and position of the nodes of a particle.
+    #[inline(always)]
+    pub(super) fn for_each_sample(&self, particle: usize, mut visit: impl FnMut(usize, f64, &[f64; D])) {
+        let ParticleFit { cell, samples, .. } = self.particles[particle];
+        let (ring, vertices) = (self.stencils.ring(cell), self.mesh().vertices());
+        let samples = &self.samples[samples as usize * LANES..][..ring.len()];
+        for (index, (&vertex, &sample)) in ring.iter().zip(samples).enumerate() {
+            visit(index, sample, &vertices[vertex as usize]);
+        }
+    }
+
+    /// All weights at a point, which need not be that of a particle; `None` outside the mesh.
+    pub fn weights_at(&self, x: &[f64; D]) -> Option<Vec<WeightAt<D>>> {
+        let Located { cell, .. } = self.search.locate(x, None)?;
+        Some(self.weights_from(cell, x))
+    }
+
+    /// All weights that a particle at `x` has if it is taken to be in `cell`, in the numbering of the basis: on a face, the limits from either
+    /// side.
+    pub fn weights_from(&self, cell: u32, x: &[f64; D]) -> Vec<WeightAt<D>> {
+        let (ring, mut lanes) = (self.stencils.ring(cell), RingLanes::default());
+        self.collect(cell, &mut lanes);
+        let mut samples = vec![0.0; ring.len().next_multiple_of(LANES)];
+        let fit = self.fit(cell, x, &lanes, &mut samples);
+        let entry = |(&vertex, &sample)| {
+            let node = &self.mesh().vertices()[vertex as usize];
+            let entry = fit.entry(sample, subtract(node, x));
+            WeightAt { vertex, entry }
+        };
+        ring.iter().zip(&samples).map(entry).collect()
+    }
+
+    /// Smallest weight in a cell, in the numbering of the basis, over the points with barycentric coordinates k / `divisions`, k whole; negative weights are
+    /// small inside a mesh of usual shape and larger at its boundary.
+    pub fn minimum_weight(&self, cell: u32, divisions: usize) -> f64 {
+        let vertices = self.mesh().cell(cell as usize);
+        let mut least = f64::INFINITY;
+        let mut shares = vec![0; D + 1];
+        shares[0] = divisions;
+        loop {
+            let x: [f64; D] = std::array::from_fn(|a| {
+                let corner = |n: usize| self.mesh().vertices()[vertices[n] as usize][a];
+                let sum: f64 = (0..=D).map(|n| shares[n] as f64 * corner(n)).sum();
+                sum / divisions.max(1) as f64
+            });
+            let weights = self.weights_from(cell, &x);
+            least = weights.iter().map(|weight| weight.entry.weight).fold(least, f64::min);
+            // The next composition of `divisions`: what the first share with something left gives away moves on by one.
+            let Some(n) = (0..D).find(|&n| shares[n] > 0) else {
+                return least;
+            };
+            shares[n + 1] += 1;
+            shares[0] = shares[n] - 1;
+            if n > 0 {
+                shares[n] = 0;
+            }
+        }
+    }
+}

@@ -1,0 +1,20 @@
+//! Shape functions of UMLS-MPM: moving least squares over the first ring of a particle's cell.
+
+mod definite;
+mod fit;
+mod ring_lanes;
+mod spline;
+
+pub(crate) use fit::Fit;
+pub(crate) use ring_lanes::RingLanes;
+
+/// How the nodes of a first ring are weighted in the least squares fit of a particle (Cao et al. 2024, §2.3).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum SampleWeight {
+    /// d′_pi = η_pi N₂(‖x_i − x_p‖ / h) with η_pi = Σ_{n ∈ N⁰_p} b_pn A_in: a node that only some vertices of the cell are joined
+    /// to counts the less, the closer the particle is to the others. Weights and gradients are continuous across faces.
+    #[default]
+    Continuous,
+    /// d′_pi = N₂(‖x_i − x_p‖ / h). The ring changes from cell to cell and the weights jump: a control, for tests and figures.
+    DistanceAlone,
+}

@@ -1,0 +1,33 @@
+//! The quadratic B-spline N₂ of a distance.
+
+use mpm_kernels::Lanes;
+
+/// N₂(r) = ¾ − r² for r < ½, ½ (3/2 − r)² for r < 3/2 and zero beyond, r² = `square`.
+///
+/// Without a case: N₂(r) = ½ max(3/2 − r, 0)² − (3/2) max(½ − r, 0)².
+#[inline(always)]
+pub(super) fn quadratic(square: Lanes) -> Lanes {
+    let r = square.sqrt();
+    let outer = (Lanes::splat(1.5) - r).fast_max(Lanes::ZERO);
+    let inner = (Lanes::splat(0.5) - r).fast_max(Lanes::ZERO);
+    (outer * outer).mul_add(Lanes::splat(0.5), inner * inner * Lanes::splat(-1.5))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn is_the_spline_of_its_pieces() {
+        for k in 0..200 {
+            let r = 0.01 * f64::from(k);
+            let expected = match r {
+                r if r < 0.5 => 0.75 - r * r,
+                r if r < 1.5 => 0.5 * (1.5 - r) * (1.5 - r),
+                _ => 0.0,
+            };
+            let found = quadratic(Lanes::splat(r * r)).to_array()[2];
+            assert!((found - expected).abs() < 4e-16, "N({r}) = {found}, not {expected}");
+        }
+    }
+}

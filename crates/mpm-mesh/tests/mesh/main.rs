@@ -1,0 +1,6 @@
+//! Meshes: what is refused, what is generated, read and written.
+
+mod conformance;
+mod refused;
+mod rings;
+mod samples;
