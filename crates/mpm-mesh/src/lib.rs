@@ -5,6 +5,7 @@ mod basis;
 mod boundary;
 mod edge_lengths;
 mod error;
+pub mod generate;
 mod kernel;
 mod mesh;
 mod quality;

@@ -8,6 +8,7 @@ mod validity;
 
 pub use self::facets::NO_CELL;
 pub use self::frame::Frame;
+pub(crate) use self::frame::signed_volume;
 
 use crate::MeshError;
 
@@ -97,7 +98,7 @@ impl<const D: usize> SimplexMesh<D> {
 
     /// Volume of a cell (length, area), det(x₁ − x₀, …, x_D − x₀) / D!; positive.
     pub fn volume(&self, cell: usize) -> f64 {
-        frame::signed_volume(&self.vertices, self.cell(cell))
+        signed_volume(&self.vertices, self.cell(cell))
     }
 
     /// The barycentric coordinates of a cell and their gradients.

@@ -1,0 +1,18 @@
+//! Meshes of simple domains, near-regular and the same in every run.
+//!
+//! * one dimension: [`segments`];
+//! * two: [`polygon`], [`outlines`], [`rectangle`], [`disk`], [`wavy_channel`], whose cells are near to equilateral triangles;
+//! * three: [`cuboid`], [`slope`], [`ball`], cut from lattices.
+
+mod error;
+mod layer;
+mod plane;
+mod segments;
+mod space;
+
+pub use self::error::GenerationError;
+pub use self::layer::{OuterLayer, with_outer_layer};
+use self::plane::Triangulation;
+pub use self::plane::{EdgeTarget, disk, outlines, polygon, rectangle, wavy_channel};
+pub use self::segments::{cyclic_sizes, segments};
+pub use self::space::{ball, cuboid, slope};

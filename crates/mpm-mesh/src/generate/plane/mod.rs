@@ -1,0 +1,53 @@
+//! Triangles that are near to equilateral, in domains bounded by polygons.
+
+mod delaunay;
+mod lattice;
+mod outline;
+mod relax;
+mod shapes;
+
+pub(super) use self::delaunay::Triangulation;
+pub(super) use self::outline::{encloses, squared_distance_to_segment};
+pub use self::shapes::{disk, polygon, rectangle, wavy_channel};
+
+use self::outline::Outline;
+use super::GenerationError;
+use crate::SimplexMesh;
+
+/// How long edges should be, and along which direction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EdgeTarget {
+    /// The target length h.
+    pub length: f64,
+    /// Angle in radians from the x-axis to a direction of edges inside the domain.
+    pub angle: f64,
+}
+
+/// A mesh of the domain between closed polygons: a point is inside if it lies within an odd number of them. Each may go round
+/// either way; none may cross or touch itself or another.
+///
+/// Edges of the polygons are divided into equal parts, of at most 1.2 h and more than 0.6 h where the edge is as long; inside
+/// there are the points of the lattice of equilateral triangles of edge h with one point at the first corner, as long as they keep 0.6 h from
+/// the boundary; constrained Delaunay triangulation joins them. Rounds of relaxation follow: points move to the mean of
+/// their neighbours, edges that stay longer than 1.35 h get a point in the middle, one end of edges shorter than 0.6 h is dropped, and the
+/// triangulation is made anew. All of this is ours. Delaunay refinement, the common way, stops at angles of 20° to 30°.
+///
+/// Corners of the polygons are kept, so an edge shorter than h or a narrow angle there shows in the cells around.
+///
+/// # Errors
+/// [`GenerationError`], if the outlines bound no domain or the target is not positive.
+pub fn outlines(outlines: &[Vec<[f64; 2]>], target: &EdgeTarget) -> Result<SimplexMesh<2>, GenerationError> {
+    GenerationError::check_positive("length", target.length)?;
+    if !target.angle.is_finite() {
+        return Err(GenerationError::InvalidParameter {
+            name: "angle",
+            value: target.angle,
+            requirement: "finite",
+        });
+    }
+    let outline = Outline::new(outlines, target.length)?;
+    let mut points = outline.points.clone();
+    points.extend(lattice::points_inside(&outline, target));
+    let cells = relax::relax(&mut points, &outline, target.length)?;
+    Ok(SimplexMesh::from_used(&points, cells.as_flattened())?)
+}

@@ -1,0 +1,103 @@
+//! Moves points until triangles are near to equilateral.
+
+use mpm_tensor::vector::distance;
+
+use super::delaunay::Triangulation;
+use super::outline::Outline;
+use crate::adjacency::Lists;
+use crate::generate::GenerationError;
+
+/// Rounds of triangulating and moving; ours. After a few more nothing changes to speak of.
+const ROUNDS: usize = 16;
+
+/// Rounds, from the first, in which points come and go; the others only move them.
+const CHANGES: usize = 10;
+
+/// Edges longer than this many target lengths are divided.
+const LONG: f64 = 1.35;
+
+/// One end of edges shorter than this many target lengths is dropped.
+const SHORT: f64 = 0.6;
+
+/// A move is refused if it brings a triangle below this share of the area of the equilateral one.
+const LEAST_AREA: f64 = 0.1;
+
+/// The triangles inside the outline; points after those of the outline move, come and go.
+pub fn relax(points: &mut Vec<[f64; 2]>, outline: &Outline, length: f64) -> Result<Vec<[u32; 3]>, GenerationError> {
+    let fixed = outline.points.len();
+    for round in 0..ROUNDS {
+        let triangles = Triangulation::new(points, &outline.edges)?.inside;
+        let stars = stars(points.len(), &triangles);
+        for vertex in fixed..points.len() {
+            to_mean_of_neighbours(points, &triangles, stars.get(vertex), vertex as u32, length);
+        }
+        if round < CHANGES {
+            change(points, fixed, &triangles, length);
+        }
+    }
+    Ok(Triangulation::new(points, &outline.edges)?.inside)
+}
+
+/// For each vertex the triangles that it belongs to.
+fn stars(count: usize, triangles: &[[u32; 3]]) -> Lists {
+    let numbered = (0u32..).zip(triangles);
+    let pairs = numbered.flat_map(|(number, triangle)| triangle.iter().map(move |&v| (v as usize, number)));
+    Lists::from_pairs(count, pairs)
+}
+
+fn to_mean_of_neighbours(points: &mut [[f64; 2]], triangles: &[[u32; 3]], star: &[u32], vertex: u32, length: f64) {
+    let (mut sum, mut count) = ([0.0; 2], 0.0);
+    for &triangle in star {
+        for &other in &triangles[triangle as usize] {
+            // An inner vertex has every neighbour in two of its triangles.
+            if other != vertex {
+                sum = [0, 1].map(|axis| sum[axis] + points[other as usize][axis]);
+                count += 1.0;
+            }
+        }
+    }
+    if count == 0.0 {
+        return;
+    }
+    let before = std::mem::replace(&mut points[vertex as usize], sum.map(|x| x / count));
+    let least = LEAST_AREA * 0.1875f64.sqrt() * length * length;
+    let fits = star.iter().all(|&k| area(points, &triangles[k as usize]) > least);
+    if !fits {
+        points[vertex as usize] = before;
+    }
+}
+
+/// Signed area of a triangle.
+fn area(points: &[[f64; 2]], triangle: &[u32; 3]) -> f64 {
+    let [a, b, c] = triangle.map(|v| points[v as usize]);
+    0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
+}
+
+/// Divides long edges and drops ends of short ones, each vertex touched once at most.
+fn change(points: &mut Vec<[f64; 2]>, fixed: usize, triangles: &[[u32; 3]], length: f64) {
+    let mut edges: Vec<(u32, u32)> = (triangles.iter())
+        .flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)])
+        .filter(|&(a, b)| a < b && b as usize >= fixed)
+        .collect();
+    // Every edge once: an inner one is seen from both sides, one with a < b, since its triangles turn the same way.
+    let long = |&(a, b): &(u32, u32)| distance(&points[a as usize], &points[b as usize]) / length;
+    edges.sort_by(|a, b| long(b).total_cmp(&long(a)).then(a.cmp(b)));
+    let mut touched = vec![false; points.len()];
+    let (mut dropped, mut added) = (vec![false; points.len()], Vec::new());
+    for &(a, b) in &edges {
+        let ratio = long(&(a, b));
+        let (a, b) = (a as usize, b as usize);
+        if touched[a] || touched[b] || (SHORT..=LONG).contains(&ratio) {
+            continue;
+        }
+        (touched[a], touched[b]) = (true, true);
+        if ratio > LONG {
+            added.push([0, 1].map(|axis| 0.5 * (points[a][axis] + points[b][axis])));
+        } else {
+            dropped[b] = true;
+        }
+    }
+    let mut kept = dropped.iter().map(|&dropped| !dropped);
+    points.retain(|_| kept.next().unwrap_or(true));
+    points.extend(added);
+}

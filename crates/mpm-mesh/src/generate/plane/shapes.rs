@@ -1,0 +1,90 @@
+//! Domains with a name.
+
+use std::f64::consts::{PI, TAU};
+
+use super::{EdgeTarget, outlines};
+use crate::SimplexMesh;
+use crate::generate::GenerationError;
+
+/// A mesh of a simple polygon; see [`outlines`].
+///
+/// # Errors
+/// As [`outlines`].
+pub fn polygon(corners: &[[f64; 2]], target: &EdgeTarget) -> Result<SimplexMesh<2>, GenerationError> {
+    outlines(&[corners.to_vec()], target)
+}
+
+/// A mesh of the rectangle between two corners; see [`outlines`].
+///
+/// # Errors
+/// [`GenerationError::InvalidParameter`] unless `lower` is less than `upper` along both axes; as [`outlines`].
+pub fn rectangle(lower: [f64; 2], upper: [f64; 2], target: &EdgeTarget) -> Result<SimplexMesh<2>, GenerationError> {
+    GenerationError::check_positive("width", upper[0] - lower[0])?;
+    GenerationError::check_positive("height", upper[1] - lower[1])?;
+    polygon(&[lower, [upper[0], lower[1]], upper, [lower[0], upper[1]]], target)
+}
+
+/// A mesh of the regular polygon inscribed in a circle whose sides are nearest to the target, of at least six; see
+/// [`outlines`].
+///
+/// # Errors
+/// [`GenerationError::InvalidParameter`] unless the radius is positive; as [`outlines`].
+pub fn disk(centre: [f64; 2], radius: f64, target: &EdgeTarget) -> Result<SimplexMesh<2>, GenerationError> {
+    GenerationError::check_positive("radius", radius)?;
+    GenerationError::check_positive("length", target.length)?;
+    let sides = (TAU * radius / target.length).round().max(6.0);
+    GenerationError::check_count(target.length, sides)?;
+    let corners: Vec<[f64; 2]> = (0..sides as usize)
+        .map(|k| {
+            let (sine, cosine) = (TAU * k as f64 / sides).sin_cos();
+            [centre[0] + radius * cosine, centre[1] + radius * sine]
+        })
+        .collect();
+    polygon(&corners, target)
+}
+
+/// A mesh of the wavy channel of Cao et al. (2024), §3.4: 0 ≤ y ≤ `height`, of width 2, with the left wall at
+/// x = sin(π y / 5) sin(π y / 20) for 0 < y ≤ 20 and x = 0 above, the right one at x + 2. The walls are polygons with corners at equal
+/// distances along the curve.
+///
+/// # Errors
+/// [`GenerationError::InvalidParameter`] unless the height is positive; as [`outlines`].
+pub fn wavy_channel(height: f64, target: &EdgeTarget) -> Result<SimplexMesh<2>, GenerationError> {
+    GenerationError::check_positive("height", height)?;
+    GenerationError::check_positive("length", target.length)?;
+    GenerationError::check_count(target.length, height / target.length)?;
+    let left = wall(height, target.length);
+    let right = left.iter().rev().map(|&[x, y]| [x + 2.0, y]);
+    polygon(&left.iter().copied().chain(right).collect::<Vec<_>>(), target)
+}
+
+/// Points on the left wall from y = 0 to `height`, about `length` apart along it.
+fn wall(height: f64, length: f64) -> Vec<[f64; 2]> {
+    let x = |y: f64| {
+        if y <= 20.0 {
+            (PI * y / 5.0).sin() * (PI * y / 20.0).sin()
+        } else {
+            0.0
+        }
+    };
+    // The curve in steps small against its wave length and the cells; lengths along it are sums of theirs.
+    let steps = (height / length.min(1.0) * 64.0).ceil();
+    let mut lengths = vec![0.0];
+    let point = |k: usize| [x(height * k as f64 / steps), height * k as f64 / steps];
+    for k in 0..steps as usize {
+        let step = mpm_tensor::vector::distance(&point(k), &point(k + 1));
+        lengths.push(lengths[k] + step);
+    }
+    let total = lengths[lengths.len() - 1];
+    let parts = (total / length).round().max(1.0);
+    let corners = (0..=parts as usize).map(|part| {
+        let place = total * part as f64 / parts;
+        let next = lengths
+            .partition_point(|&along| along < place)
+            .clamp(1, lengths.len() - 1);
+        let share = (place - lengths[next - 1]) / (lengths[next] - lengths[next - 1]);
+        let y = height * ((next - 1) as f64 + share.clamp(0.0, 1.0)) / steps;
+        [x(y), y]
+    });
+    corners.collect()
+}
