@@ -20,6 +20,7 @@ mod mpm;
 mod mpm_body;
 #[cfg(feature = "nuts")]
 mod nuts;
+mod on_mesh;
 mod paper;
 mod piece;
 mod point_set_error;

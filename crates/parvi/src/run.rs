@@ -216,6 +216,9 @@ pub enum SampleError {
         /// What the sampler said.
         reason: String,
     },
+    /// The mesh to sample on cannot be used.
+    #[error("mesh: {0}")]
+    Mesh(String),
     /// A sample could not be condensed into fewer points.
     #[error(transparent)]
     PointSet(#[from] PointSetError),

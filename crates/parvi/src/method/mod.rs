@@ -1,5 +1,6 @@
 //! The methods and their options.
 
+mod mesh_options;
 mod mpm_options;
 mod nuts_options;
 mod paper_options;
@@ -8,6 +9,7 @@ mod stein_thinning_options;
 mod support_points_options;
 mod svgd_options;
 
+pub use mesh_options::MeshOptions;
 pub use mpm_options::{MomentCorrection, MpmOptions, NonFiniteScores, ScoreLocation};
 pub use nuts_options::NutsOptions;
 pub use paper_options::{Elasticity, Guards, PaperOptions};
