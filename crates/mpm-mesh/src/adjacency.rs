@@ -75,6 +75,38 @@ impl Lists {
     }
 }
 
+/// Collects numbers that may repeat.
+pub(crate) struct Union {
+    /// For each number the last collection that it was in.
+    seen: Vec<u32>,
+    collection: u32,
+    numbers: Vec<u32>,
+}
+
+impl Union {
+    /// For numbers below `bound`, up to 2³² − 1 times.
+    pub fn new(bound: usize) -> Self {
+        Self {
+            seen: vec![0; bound],
+            collection: 0,
+            numbers: Vec::new(),
+        }
+    }
+
+    /// The numbers, each once, in ascending order.
+    pub fn of(&mut self, numbers: impl Iterator<Item = u32>) -> &[u32] {
+        self.collection += 1;
+        self.numbers.clear();
+        for number in numbers {
+            if std::mem::replace(&mut self.seen[number as usize], self.collection) != self.collection {
+                self.numbers.push(number);
+            }
+        }
+        self.numbers.sort_unstable();
+        &self.numbers
+    }
+}
+
 impl<const D: usize> SimplexMesh<D> {
     /// For each vertex the cells that it belongs to, in ascending order.
     pub fn vertex_cells(&self) -> Lists {
@@ -87,14 +119,10 @@ impl<const D: usize> SimplexMesh<D> {
     pub fn vertex_neighbours(&self) -> Lists {
         let cells = self.vertex_cells();
         let mut lists = Lists::default();
-        let mut joined = Vec::new();
+        let mut union = Union::new(self.vertices().len());
         for (vertex, cells) in (0u32..).zip(cells.iter()) {
-            joined.clear();
-            joined.extend(cells.iter().flat_map(|&cell| self.cell(cell as usize)));
-            joined.sort_unstable();
-            joined.dedup();
-            joined.retain(|&other| other != vertex);
-            lists.push(&joined);
+            let members = cells.iter().flat_map(|&cell| self.cell(cell as usize)).copied();
+            lists.push(union.of(members.filter(|&other| other != vertex)));
         }
         lists
     }

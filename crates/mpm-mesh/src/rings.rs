@@ -1,7 +1,7 @@
 //! The vertices that a particle of a cell interacts with.
 
 use crate::SimplexMesh;
-use crate::adjacency::Lists;
+use crate::adjacency::{Lists, Union};
 
 /// The first ring of every cell: N¹ = its vertices and all vertices that an edge joins to one of them, in ascending order.
 ///
@@ -13,20 +13,17 @@ pub struct Rings {
 }
 
 impl Rings {
-    /// The first rings of a mesh. A ring has about 13 vertices in two dimensions, 50 in three.
+    /// The first rings of a mesh. A ring has 12 vertices in a lattice of equilateral triangles, about 31 in a body-centred one.
     pub fn new<const D: usize>(mesh: &SimplexMesh<D>) -> Self {
         let joined = mesh.vertex_neighbours();
         let mut lists = Lists::default();
-        let (mut largest, mut ring) = (0, Vec::new());
+        let mut largest = 0;
+        let mut union = Union::new(mesh.vertices().len());
         for cell in mesh.cells() {
-            ring.clear();
-            ring.extend_from_slice(cell);
-            cell.iter()
-                .for_each(|&v| ring.extend_from_slice(joined.get(v as usize)));
-            ring.sort_unstable();
-            ring.dedup();
+            let around = cell.iter().flat_map(|&vertex| joined.get(vertex as usize));
+            let ring = union.of(cell.iter().chain(around).copied());
             largest = largest.max(ring.len());
-            lists.push(&ring);
+            lists.push(ring);
         }
         Self { lists, largest }
     }

@@ -9,13 +9,16 @@ mod weights;
 
 use mpm_core::{Basis, CellSort, MpmError, Schedule};
 use mpm_kernels::{Columns, Deposit, Entry, Interpolated, NodeField, NodeSink, Wanted};
-use mpm_tensor::vector::subtract;
+use mpm_tensor::vector::{distance, subtract};
 
 use self::curve::AlongCurve;
 use self::stencils::Stencils;
 pub use self::weights::WeightAt;
 use crate::kernel::Fit;
 use crate::{CellSearch, MeshError, SampleWeight, SimplexMesh};
+
+/// A point this close to a vertex, in shortest edges, is at the vertex.
+const ON_THE_NODE: f64 = 1e-6;
 
 /// What becomes of a particle that is in no cell.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -63,6 +66,7 @@ pub struct MeshBasis<const D: usize> {
     cell_node_starts: Vec<usize>,
     schedule: Schedule,
     cell_sort: CellSort,
+    /// Whether a vertex is active.
     marks: Vec<u8>,
 }
 
@@ -182,6 +186,14 @@ impl<const D: usize> Basis<D> for MeshBasis<D> {
         let vertices = self.mesh().vertices();
         out.clear();
         out.extend(self.active.iter().map(|&vertex| vertices[vertex as usize]));
+    }
+
+    fn node_number(&self, position: &[f64; D]) -> Option<u32> {
+        let cell = self.search.locate(position, None)?.cell;
+        let close = ON_THE_NODE * self.shortest_edge;
+        let at = |&&vertex: &&u32| distance(&self.mesh().vertices()[vertex as usize], position) < close;
+        let vertex = *self.mesh().cell(cell as usize).iter().find(at)? as usize;
+        (self.marks.get(vertex) == Some(&1)).then(|| self.numbers[vertex])
     }
 
     /// The shortest edge: a wave must not cross a cell in one step.
