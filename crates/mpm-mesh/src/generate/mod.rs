@@ -2,11 +2,12 @@
 //!
 //! * one dimension: [`segments`];
 //! * two: [`polygon`], [`outlines`], [`rectangle`], [`disk`], [`wavy_channel`], whose cells are near to equilateral triangles;
-//! * three: [`cuboid`], [`slope`], [`ball`], cut from lattices.
+//! * three: [`cuboid`] and [`ball`], cut from lattices, [`extruded`] and [`slope`] from prisms.
 
 mod error;
 mod layer;
 mod plane;
+mod prism;
 mod segments;
 mod space;
 
@@ -15,4 +16,4 @@ pub use self::layer::{OuterLayer, with_outer_layer};
 use self::plane::Triangulation;
 pub use self::plane::{EdgeTarget, disk, outlines, polygon, rectangle, wavy_channel};
 pub use self::segments::{cyclic_sizes, segments};
-pub use self::space::{ball, cuboid, slope};
+pub use self::space::{ball, cuboid, extruded, slope};

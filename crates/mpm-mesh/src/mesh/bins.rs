@@ -23,7 +23,11 @@ impl<const D: usize> Bins<D> {
         // Relative to the longest, so that the product of the extents neither overflows nor vanishes.
         let measure: f64 = extents.iter().map(|extent| (extent / longest).max(1e-9)).product();
         let width = longest * (measure / positions.len() as f64).powf(1.0 / D as f64);
-        let counts = extents.map(|extent| ((extent / width) as usize).clamp(1, positions.len()));
+        let mut counts = extents.map(|extent| ((extent / width) as usize).clamp(1, positions.len()));
+        // A mesh far thinner than it is long would have more bins than vertices.
+        while counts.iter().map(|&count| count as f64).product::<f64>() > 4.0 * positions.len() as f64 {
+            counts = counts.map(|count| count.div_ceil(2));
+        }
         let density = std::array::from_fn(|axis| {
             let density = counts[axis] as f64 / extents[axis];
             if density.is_finite() { density } else { 0.0 }

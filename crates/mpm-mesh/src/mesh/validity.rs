@@ -14,7 +14,7 @@ pub fn check<const D: usize>(vertices: &[[f64; D]], cells: &[u32]) -> Result<(),
     if !(1..=3).contains(&D) {
         return Err(MeshError::UnsupportedDimension { dimension: D });
     }
-    for (what, count) in [("vertices", vertices.len()), ("cells", cells.len())] {
+    for (what, count) in [("vertices", vertices.len()), ("cells", cells.len().div_ceil(D + 1))] {
         if count == 0 {
             return Err(MeshError::Empty { what });
         }

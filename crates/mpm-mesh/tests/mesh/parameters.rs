@@ -40,6 +40,9 @@ fn numbers_out_of_range() {
     );
     assert_eq!(parameter(generate::cuboid([0.0; 3], [1.0; 3], -0.1)), "length");
     assert_eq!(parameter(generate::slope(1.0, 1.0, 1.0, 0.0, 0.1)), "width");
+    let base = generate::polygon(&square, &TARGET).expect("a mesh");
+    assert_eq!(parameter(generate::extruded(&base, -1.0, 0.1)), "width");
+    assert_eq!(parameter(generate::extruded(&base, 1.0, f64::INFINITY)), "length");
     assert_eq!(parameter(generate::ball([0.0; 3], 0.0, 0.1)), "radius");
 }
 

@@ -162,12 +162,19 @@ pub fn channel(length: f64) -> Sample<2> {
 pub fn three_dimensional() -> Vec<Sample<3>> {
     let cuboid = generate::cuboid([0.0, 1.0, -1.0], [1.0, 1.5, 0.2], 0.25).expect("a box");
     let slope = generate::slope(5.0, 10.0, 15.0, 2.0, 1.5).expect("a slope");
+    let target = EdgeTarget {
+        length: 0.4,
+        angle: 0.2,
+    };
+    let ell = generate::polygon(&ELL, &target).expect("a polygon");
+    let thick = generate::extruded(&ell, 0.5, 0.3).expect("a prism");
     let ball = generate::ball([1.0, 2.0, 3.0], 0.5, 0.13).expect("a ball");
     let ball_volume = ball.boundary().iter().map(|facet| cone(&ball, &facet.vertices)).sum();
     vec![
         sample("unit", unit(), 1.0 / 6.0, 1),
         sample("cuboid", cuboid, 0.6, 1),
         sample("slope", slope, 125.0, 1),
+        sample("thick ell", thick, 1.5, 1),
         sample("ball", ball, ball_volume, 1),
         sample("corner", cubes([2; 3], |cube| cube != [1; 3]), 7.0, 1),
         sample("ring", cubes([3, 3, 1], |cube| cube != [1, 1, 0]), 8.0, 0),

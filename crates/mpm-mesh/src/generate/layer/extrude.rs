@@ -4,6 +4,7 @@ use mpm_tensor::vector::{accumulate, add_scaled, distance, dot, norm, scale};
 
 use super::joined;
 use crate::generate::GenerationError;
+use crate::generate::prism::prism_cells;
 use crate::mesh::signed_volume;
 use crate::{BoundaryFacet, MeshError, SimplexMesh};
 
@@ -155,19 +156,10 @@ impl<const D: usize> Prism<D> {
         }
     }
 
-    /// The D cells (s₀ … s_j, s′_j … s′_{D−1}), s′ being the copy of s: of the two diagonals of a side each prism takes the
-    /// one from the smaller number inside to the larger outside, so those of neighbours agree.
+    /// Its cells, copies being numbered from `first_copy` on in the order of their stems.
     fn cells(&self, first_copy: usize) -> Vec<u32> {
-        let mut cells = Vec::with_capacity(D * (D + 1));
-        for j in 0..D {
-            let start = cells.len();
-            cells.extend(&self.vertices[..=j]);
-            cells.extend(self.stems[j..].iter().map(|&stem| (first_copy + stem) as u32));
-            if self.positive != (D - 1 - j).is_multiple_of(2) {
-                cells.swap(start, start + 1);
-            }
-        }
-        cells
+        let copy = self.stems.map(|stem| (first_copy + stem) as u32);
+        prism_cells(&self.vertices, &copy, self.positive)
     }
 }
 
@@ -185,17 +177,16 @@ fn unfold<const D: usize>(
             let corners: Vec<[f64; D]> = own
                 .chain(prism.stems.iter().map(|&stem| stems[stem].end(mesh)))
                 .collect();
-            let local = Prism {
-                stems: std::array::from_fn(|k| k),
-                vertices: std::array::from_fn(|k| k as u32),
-                ..*prism
-            };
             let heights = prism
                 .stems
                 .iter()
                 .map(|&s| dot(&stems[s].offset, &prism.normal) * stems[s].share);
             let least = LEAST_VOLUME * prism.area * heights.fold(f64::INFINITY, f64::min) / D as f64;
-            let cells = local.cells(D);
+            let (below, above) = (
+                std::array::from_fn(|k| k as u32),
+                std::array::from_fn(|k| (D + k) as u32),
+            );
+            let cells = prism_cells::<D>(&below, &above, prism.positive);
             if cells
                 .chunks_exact(D + 1)
                 .any(|cell| signed_volume(&corners, cell) < least)

@@ -36,18 +36,23 @@ pub fn surrounded<const D: usize>(mesh: &SimplexMesh<D>) -> Result<SimplexMesh<D
         .collect();
     let candidates = candidates(&boundary, &edges, &points);
     let segments: Vec<[[f64; 2]; 2]> = edges.iter().map(|ends| ends.map(|end| points[end])).collect();
-    let kept = choose(candidates, &segments);
-    points.extend(&kept);
-    let first_vertex = mesh.vertices().len();
-    let number = |point: u32| {
-        let inner = numbers.get(point as usize).copied();
-        inner.unwrap_or((first_vertex + point as usize - numbers.len()) as u32)
-    };
+    points.extend(choose(candidates, &segments));
     let triangles = Triangulation::new(&points, &edges)?.outside.into_iter();
-    let touching = triangles.filter(|triangle| (triangle[0] as usize) < numbers.len());
-    let cells: Vec<u32> = touching.flat_map(|triangle| triangle.map(number)).collect();
-    let vertices: Vec<[f64; D]> = kept.iter().map(|p| std::array::from_fn(|axis| p[axis % 2])).collect();
-    joined(mesh, &vertices, &cells)
+    let touching: Vec<[u32; 3]> = triangles
+        .filter(|triangle| (triangle[0] as usize) < numbers.len())
+        .collect();
+    // Where the boundary winds, a point may be shut off from it by others.
+    let mut used: Vec<u32> = touching.as_flattened().to_vec();
+    used.retain(|&point| point as usize >= numbers.len());
+    used.sort_unstable();
+    used.dedup();
+    let number = |&point: &u32| match numbers.get(point as usize) {
+        Some(&inner) => inner,
+        None => (mesh.vertices().len() + used.partition_point(|&other| other < point)) as u32,
+    };
+    let cells: Vec<u32> = touching.as_flattened().iter().map(number).collect();
+    let position = |&point: &u32| std::array::from_fn(|axis| points[point as usize][axis % 2]);
+    joined(mesh, &used.iter().map(position).collect::<Vec<_>>(), &cells)
 }
 
 /// Above every edge a point, and at every convex corner more of them.

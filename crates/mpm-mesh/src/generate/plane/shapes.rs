@@ -2,6 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
+use mpm_tensor::vector::distance;
+
 use super::{EdgeTarget, outlines};
 use crate::SimplexMesh;
 use crate::generate::GenerationError;
@@ -52,7 +54,8 @@ pub fn disk(centre: [f64; 2], radius: f64, target: &EdgeTarget) -> Result<Simple
 pub fn wavy_channel(height: f64, target: &EdgeTarget) -> Result<SimplexMesh<2>, GenerationError> {
     GenerationError::check_positive("height", height)?;
     GenerationError::check_positive("length", target.length)?;
-    GenerationError::check_count(target.length, height / target.length)?;
+    // Two triangles per vertex, on an area of 2 · height.
+    GenerationError::check_count(target.length, 4.0 * height / target.length.powi(2))?;
     let left = wall(height, target.length);
     let right = left.iter().rev().map(|&[x, y]| [x + 2.0, y]);
     polygon(&left.iter().copied().chain(right).collect::<Vec<_>>(), target)
@@ -68,22 +71,25 @@ fn wall(height: f64, length: f64) -> Vec<[f64; 2]> {
         }
     };
     // The curve in steps small against its wave length and the cells; lengths along it are sums of theirs.
-    let steps = (height / length.min(1.0) * 64.0).ceil();
+    let top = height.min(20.0);
+    let steps = (top / length.min(1.0) * 64.0).ceil();
     let mut lengths = vec![0.0];
-    let point = |k: usize| [x(height * k as f64 / steps), height * k as f64 / steps];
+    let point = |k: usize| [x(top * k as f64 / steps), top * k as f64 / steps];
     for k in 0..steps as usize {
-        let step = mpm_tensor::vector::distance(&point(k), &point(k + 1));
-        lengths.push(lengths[k] + step);
+        lengths.push(lengths[k] + distance(&point(k), &point(k + 1)));
     }
-    let total = lengths[lengths.len() - 1];
+    let curved = lengths[lengths.len() - 1];
+    let total = curved + (height - top);
     let parts = (total / length).round().max(1.0);
     let corners = (0..=parts as usize).map(|part| {
         let place = total * part as f64 / parts;
-        let next = lengths
-            .partition_point(|&along| along < place)
-            .clamp(1, lengths.len() - 1);
+        if place >= curved {
+            let y = (top + (place - curved)).min(height);
+            return [x(y), y];
+        }
+        let next = lengths.partition_point(|&along| along <= place);
         let share = (place - lengths[next - 1]) / (lengths[next] - lengths[next - 1]);
-        let y = height * ((next - 1) as f64 + share.clamp(0.0, 1.0)) / steps;
+        let y = top * ((next - 1) as f64 + share) / steps;
         [x(y), y]
     });
     corners.collect()
