@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use mpm_core::MpmError;
+use mpm_mesh::MeshError;
 
 use crate::{Certificate, PointSetError};
 
@@ -218,7 +219,15 @@ pub enum SampleError {
     },
     /// The mesh to sample on cannot be used.
     #[error("mesh: {0}")]
-    Mesh(String),
+    Mesh(#[from] MeshError),
+    /// The file of a mesh cannot be read.
+    #[error("mesh {}: {reason}", path.display())]
+    MeshFile {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
     /// A sample could not be condensed into fewer points.
     #[error(transparent)]
     PointSet(#[from] PointSetError),

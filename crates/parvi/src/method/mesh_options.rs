@@ -1,4 +1,15 @@
+use std::path::PathBuf;
+
 use super::{NonFiniteScores, Settling};
+
+/// The calibrated sampler on the mesh of a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OnMesh {
+    /// A .msh file of Gmsh.
+    pub file: PathBuf,
+    /// How it is sampled.
+    pub options: MeshOptions,
+}
 
 /// Options of the calibrated sampler on the hat functions of a mesh; `None` means: chosen by the rule beside.
 #[derive(Clone, Debug, PartialEq)]

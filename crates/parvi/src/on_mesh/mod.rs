@@ -6,7 +6,7 @@ mod wall;
 
 use mpm_core::{Basis, Mpm, Particles, Pic, StepControl};
 use mpm_materials::IsothermalGas;
-use mpm_mesh::{MeshError, SimplexMesh};
+use mpm_mesh::{MeshError, SimplexMesh, read_msh};
 use mpm_tensor::vector;
 use parvi_targets::{Frame, Target};
 use rand::{Rng, RngExt};
@@ -19,11 +19,37 @@ use crate::residual::galerkin_stein_residual_at;
 use crate::start::{Stream, check, positive, steps};
 use crate::stiffness::Stiffness;
 use crate::{
-    MeshOptions, NonFiniteScores, Observer, Progress, Run, SampleError, Samples, ScoreLocation, TracePoint, defaults,
+    MeshOptions, NonFiniteScores, Observer, OnMesh, Progress, Run, SampleError, Samples, ScoreLocation, TracePoint,
+    defaults,
 };
 
 /// Copies of the mesh with moved vertices; the last one serves the residual alone.
 const COPIES: usize = 16;
+
+impl OnMesh {
+    /// As [`MeshOptions::sample`], on the mesh of the file.
+    ///
+    /// # Errors
+    /// [`SampleError::MeshFile`] for a file that is no mesh of this dimension, and in other dimensions than 2 and 3.
+    pub fn sample<const D: usize>(
+        &self,
+        target: &dyn Target<D>,
+        run: &Run,
+        observer: &mut dyn Observer,
+    ) -> Result<Samples<D>, SampleError> {
+        let refused = |reason: String| SampleError::MeshFile {
+            path: self.file.clone(),
+            reason,
+        };
+        if const { D == 2 || D == 3 } {
+            let bytes = std::fs::read(&self.file).map_err(|error| refused(error.to_string()))?;
+            let mesh = read_msh::<D>(&bytes).map_err(|error| refused(error.to_string()))?;
+            self.options.sample(target, &mesh, run, observer)
+        } else {
+            Err(refused(format!("a mesh has 2 or 3 dimensions, the target has {D}")))
+        }
+    }
+}
 
 impl MeshOptions {
     /// Sample the density of `target` within `mesh`: p(x) on the mesh, zero outside. The run's start law is not used: particles begin evenly spread over the mesh.
@@ -42,11 +68,10 @@ impl MeshOptions {
         self.settling.check()?;
         let count = run.checked_particles()?;
         let frame = frame_of(mesh);
-        let refused = |error: MeshError| SampleError::Mesh(error.to_string());
-        let mesh = in_frame(mesh, &frame).map_err(refused)?;
+        let mesh = in_frame(mesh, &frame)?;
         let mut generator = run.generator(Stream::Places.of_body(0));
         let copies = if self.shifts { COPIES } else { 1 };
-        let meshes = Meshes::new(&mesh, copies, &mut generator).map_err(refused)?;
+        let meshes = Meshes::new(&mesh, copies, &mut generator)?;
         let wall = SmoothWall::around(&mesh);
         let inner: Vec<bool> = wall.marks(mesh.vertices().len()).into_iter().map(|on| !on).collect();
 
