@@ -27,7 +27,17 @@ fn edges(length: f64) -> EdgeTarget {
 }
 
 fn sampled<const D: usize>(target: &dyn Target<D>, mesh: &SimplexMesh<D>, count: usize, seed: u64) -> Samples<D> {
-    let samples = MeshOptions::default().sample(target, mesh, &Run::new(count, seed), &mut Silent);
+    sampled_with(&MeshOptions::default(), target, mesh, count, seed)
+}
+
+fn sampled_with<const D: usize>(
+    options: &MeshOptions,
+    target: &dyn Target<D>,
+    mesh: &SimplexMesh<D>,
+    count: usize,
+    seed: u64,
+) -> Samples<D> {
+    let samples = options.sample(target, mesh, &Run::new(count, seed), &mut Silent);
     let samples = samples.expect("a run that ends well");
     let search = CellSearch::new(mesh.clone());
     let outside = |x: &&[f64; D]| search.nearest(x, f64::INFINITY).is_none_or(|near| near.distance > 1e-9);
@@ -70,6 +80,22 @@ fn densities_on_a_disk_are_far_better_than_independent_draws() {
 }
 
 #[test]
+fn moved_meshes_see_more() {
+    let mesh = disk([0.0; 2], 1.0, &edges(0.2)).expect("a mesh");
+    let reference = draws::<2>(&Uniform, 0.0, 20_000);
+    let energy = |shifts: bool| {
+        let options = MeshOptions {
+            shifts,
+            ..MeshOptions::default()
+        };
+        let of_seed = |seed| relative_energy(&sampled_with(&options, &Uniform, &mesh, 1000, seed), &reference);
+        (0..4).map(of_seed).sum::<f64>() / 4.0
+    };
+    let (moved, at_rest) = (energy(true), energy(false));
+    assert!(moved < 0.67 * at_rest, "{moved}, {at_rest}");
+}
+
+#[test]
 fn a_density_in_a_ball_is_better_than_independent_draws() {
     let mesh = ball([0.0; 3], 1.0, 0.35).expect("a mesh");
     let gaussian = Gaussian::<3>::new([0.0, 0.3, 0.2], Matrix::IDENTITY * 0.25).expect("a covariance");
@@ -85,8 +111,16 @@ fn the_wavy_channel_is_filled_evenly() {
     let samples = sampled(&Uniform, &mesh, 1000, 5);
     let total = mesh.total_volume();
     for axis in 0..2 {
-        let of_cell = |k: usize| mesh.cell(k).iter().map(|&v| mesh.vertices()[v as usize][axis]).sum::<f64>() / 3.0;
-        let centroid: f64 = (0..mesh.cell_count()).map(|k| mesh.volume(k) / total * of_cell(k)).sum();
+        let of_cell = |k: usize| {
+            mesh.cell(k)
+                .iter()
+                .map(|&v| mesh.vertices()[v as usize][axis])
+                .sum::<f64>()
+                / 3.0
+        };
+        let centroid: f64 = (0..mesh.cell_count())
+            .map(|k| mesh.volume(k) / total * of_cell(k))
+            .sum();
         let mean: f64 = samples.positions.iter().map(|x| x[axis]).sum::<f64>() / 1000.0;
         let tolerance = [0.01, 0.05][axis];
         assert!((mean - centroid).abs() < tolerance, "axis {axis}: {mean}, {centroid}");
@@ -99,7 +133,12 @@ fn the_same_seed_gives_the_same_bits_on_any_number_of_threads() {
     let bits = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         let samples = pool.expect("a pool").install(|| sampled(&Uniform, &mesh, 20_000, 3));
-        samples.positions.into_flattened().into_iter().map(f64::to_bits).collect::<Vec<_>>()
+        samples
+            .positions
+            .into_flattened()
+            .into_iter()
+            .map(f64::to_bits)
+            .collect::<Vec<_>>()
     };
     assert_eq!(bits(1), bits(3));
 }
@@ -109,7 +148,7 @@ fn what_cannot_be_sampled_is_refused() {
     let directory = tempfile::tempdir().expect("a directory");
     let file = directory.path().join("disk.msh");
     let mesh = disk([0.0; 2], 1.0, &edges(0.5)).expect("a mesh");
-    std::fs::write(&file, write_msh(&mesh, MshFormat::Text4)).expect("a file");
+    std::fs::write(&file, write_msh(&mesh, MshFormat::Text41)).expect("a file");
     let on = |file: &std::path::Path| OnMesh {
         file: file.to_owned(),
         options: MeshOptions::default(),
@@ -118,7 +157,9 @@ fn what_cannot_be_sampled_is_refused() {
     let plane = Gaussian::<2>::standard();
     assert!(on(&file).sample(&plane, &run, &mut Silent).is_ok());
     let refused = [
-        on(&directory.path().join("none.msh")).sample(&plane, &run, &mut Silent).err(),
+        on(&directory.path().join("none.msh"))
+            .sample(&plane, &run, &mut Silent)
+            .err(),
         on(&file).sample(&Gaussian::<3>::standard(), &run, &mut Silent).err(),
         on(&file).sample(&Gaussian::<5>::standard(), &run, &mut Silent).err(),
     ];
@@ -130,5 +171,8 @@ fn what_cannot_be_sampled_is_refused() {
         ..MeshOptions::default()
     };
     let error = options.sample(&plane, &mesh, &run, &mut Silent).err();
-    assert!(matches!(error, Some(SampleError::InvalidOption { field: "time step", .. })));
+    assert!(matches!(
+        error,
+        Some(SampleError::InvalidOption { field: "time step", .. })
+    ));
 }

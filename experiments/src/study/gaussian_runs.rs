@@ -272,6 +272,9 @@ impl TargetTask for DefaultSpacing {
     type Output = f64;
 
     fn run<const D: usize>(self, _target: BoxedTarget<D>) -> Result<f64, CommandError> {
-        Ok(parvi::defaults::spacing::<D>(self.basis.uniform().unwrap_or_default(), self.particles))
+        Ok(parvi::defaults::spacing::<D>(
+            self.basis.uniform().unwrap_or_default(),
+            self.particles,
+        ))
     }
 }
