@@ -15,24 +15,15 @@ pub trait TargetTask {
 }
 
 /// Builds the target and hands it to the task in its own dimension.
-///
-/// Every dimension compiles all samplers again. The unit tests of this crate sample nothing, so they are built without the
-/// higher ones, which saves minutes; the tests in `tests/` run the whole command.
 pub fn with_target<T: TargetTask>(specification: &TargetSpecification, task: T) -> Result<T::Output, CommandError> {
     match specification.dimension()? {
         1 => build::<1, T>(specification, task),
         2 => build::<2, T>(specification, task),
-        #[cfg(not(test))]
         3 => build::<3, T>(specification, task),
-        #[cfg(not(test))]
         4 => build::<4, T>(specification, task),
-        #[cfg(not(test))]
         5 => build::<5, T>(specification, task),
-        #[cfg(not(test))]
         6 => build::<6, T>(specification, task),
-        #[cfg(not(test))]
         7 => build::<7, T>(specification, task),
-        #[cfg(not(test))]
         8 => build::<8, T>(specification, task),
         dimension => Err(CommandError::Target(TargetError::DimensionNotAllowed {
             target: specification.name.clone(),

@@ -54,6 +54,25 @@ fn sizes_out_of_range() {
 }
 
 #[test]
+fn meshes_that_do_not_fit() {
+    let mesh = concat!(env!("CARGO_MANIFEST_DIR"), "/meshes/disk.msh");
+    let on = |flags: &str, parts: &[&str]| refused(&format!("--particles 64 --mesh {mesh} {flags}"), parts);
+    on("--target gaussian --dim 2", &["--mesh", "needs the basis `mesh`"]);
+    on("--target gaussian --dim 3 --basis mesh", &["disk.msh"]);
+    on(
+        "--target gaussian --dim 5 --basis mesh",
+        &["disk.msh", "2 or 3 dimensions", "5"],
+    );
+    on("--target ring --basis mesh --spacing 0.3", &["--spacing", "0.3"]);
+    on("--target ring --basis mesh --method paper-pic", &["--mesh"]);
+    refused("--target ring --particles 64 --basis mesh", &["--basis", "--mesh"]);
+    refused(
+        "--target ring --particles 64 --basis mesh --mesh none.msh",
+        &["none.msh"],
+    );
+}
+
+#[test]
 fn unknown_names() {
     refused("--target doughnut --particles 64", &["doughnut", "ring"]);
     refused(

@@ -31,6 +31,27 @@ fn particles_have_a_header_and_one_row_each() {
 }
 
 #[test]
+fn a_density_on_a_mesh_stays_in_it() {
+    let directory = tempfile::tempdir().unwrap();
+    let mesh = concat!(env!("CARGO_MANIFEST_DIR"), "/meshes/disk.msh");
+    let line =
+        format!("sample --target gaussian --dim 2 --particles 300 --seed 1 --basis mesh --mesh {mesh} --out x.csv");
+    let output = parvi(directory.path(), &line);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let text = std::fs::read_to_string(directory.path().join("x.csv")).unwrap();
+    let squares = text.lines().skip(1).map(|row| {
+        let numbers = row.split(',').map(|cell| cell.parse::<f64>().unwrap());
+        numbers.map(|c| c * c).sum::<f64>()
+    });
+    let squares: Vec<f64> = squares.collect();
+    assert!(squares.iter().all(|&square| square < 1.0 + 1e-9));
+    // E r² of N(0, I) within the unit disk is 2 − 1 / (√e − 1); the polygon of the mesh is a little smaller.
+    let mean = squares.iter().sum::<f64>() / 300.0;
+    let exact = 2.0 - 1.0 / (0.5f64.exp() - 1.0);
+    assert!((mean / exact - 1.0).abs() < 0.03, "{mean}, {exact}");
+}
+
+#[test]
 fn both_formats_hold_the_same_numbers() {
     let directory = tempfile::tempdir().unwrap();
     for name in ["x.csv", "x.npy"] {

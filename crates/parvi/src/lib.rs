@@ -20,6 +20,7 @@ mod mpm;
 mod mpm_body;
 #[cfg(feature = "nuts")]
 mod nuts;
+mod on_mesh;
 mod paper;
 mod piece;
 mod point_set_error;
@@ -60,6 +61,7 @@ pub fn sample<const D: usize>(
     let frame = target.frame();
     match method {
         Method::Mpm(options) => options.sample(target, &frame, run, observer),
+        Method::OnMesh(on_mesh) => on_mesh.sample(target, run, observer),
         Method::Paper(options) => options.sample(target, &frame, run, observer),
         Method::Svgd(options) => options.sample(target, &frame, run, observer),
         Method::Iid => independent_draws(target, run),

@@ -46,6 +46,17 @@ pub fn galerkin_stein_residual<const D: usize, B: Basis<D>>(
     positions: &[[f64; D]],
     scores: &[[f64; D]],
 ) -> Result<Residual, MpmError> {
+    galerkin_stein_residual_at(basis, positions, scores, |_| true)
+}
+
+/// As [`galerkin_stein_residual`], of the nodes whose numbers `counts`: on a bounded domain those whose functions vanish on its boundary, as Stein's identity has a boundary term for
+/// the others.
+pub(crate) fn galerkin_stein_residual_at<const D: usize, B: Basis<D>>(
+    basis: &mut B,
+    positions: &[[f64; D]],
+    scores: &[[f64; D]],
+    counts: impl Fn(usize) -> bool,
+) -> Result<Residual, MpmError> {
     let sorted = basis.rebuild(positions)?;
     let order = basis.schedule().order();
     let mass = 1.0 / positions.len() as f64;
@@ -63,7 +74,12 @@ pub fn galerkin_stein_residual<const D: usize, B: Basis<D>>(
         });
     });
     let (mut square, mut expected) = (0.0, 0.0);
-    for node in nodes.as_slice() {
+    for (_, node) in nodes
+        .as_slice()
+        .iter()
+        .enumerate()
+        .filter(|&(number, _)| counts(number))
+    {
         let scale = 1.0 / (node.sum.scalar + 0.1 * mass);
         square += scale * norm_squared(&node.sum.vector);
         expected += scale * node.variance;

@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use mpm_core::MpmError;
+use mpm_mesh::MeshError;
 
 use crate::{Certificate, PointSetError};
 
@@ -214,6 +215,17 @@ pub enum SampleError {
         /// Number of the chain, from 0.
         chain: usize,
         /// What the sampler said.
+        reason: String,
+    },
+    /// The mesh to sample on cannot be used.
+    #[error("mesh: {0}")]
+    Mesh(#[from] MeshError),
+    /// The file of a mesh cannot be read.
+    #[error("mesh {}: {reason}", path.display())]
+    MeshFile {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
         reason: String,
     },
     /// A sample could not be condensed into fewer points.

@@ -1,8 +1,11 @@
 //! The options of all methods, and which of them belong to which method.
 
+use std::path::PathBuf;
+
 use clap::Args;
 use parvi::{
-    Annealing, Guards, Method, MpmOptions, PaperOptions, Settling, SpacingSchedule, Start, SvgdOptions, TransferChoice,
+    Annealing, Guards, MeshOptions, Method, MpmOptions, OnMesh, PaperOptions, Settling, SpacingSchedule, Start,
+    SvgdOptions, TransferChoice,
 };
 use serde::{Deserialize, Serialize};
 
@@ -22,6 +25,9 @@ pub struct MethodOptions {
     /// Background basis [mpm, paper-*]
     #[arg(long)]
     pub basis: Option<Basis>,
+    /// Mesh of the domain that the density is kept to, a .msh file of Gmsh; with --basis mesh (mpm)
+    #[arg(long, value_name = "FILE.msh")]
+    pub mesh: Option<PathBuf>,
     /// Grid spacing in units of the target's scale [mpm, paper-*]
     #[arg(long, value_name = "H", allow_negative_numbers = true)]
     pub spacing: Option<f64>,
@@ -167,6 +173,19 @@ const STEPPED: Owners = &[
 const CHAIN: Owners = &[MethodName::Nuts, MethodName::SteinThinning];
 const CHOICE: Owners = &[MethodName::SteinThinning];
 const CONDENSED: Owners = &[MethodName::SteinThinning, MethodName::SupportPoints];
+/// What the sampler on a mesh knows.
+const ON_MESH: [&str; 10] = [
+    "basis",
+    "mesh",
+    "steps",
+    "time-step",
+    "friction",
+    "shifts",
+    "settling",
+    "settling-shifts",
+    "non-finite",
+    "displacement-limit",
+];
 const REST: Owners = &[MethodName::SupportPoints];
 const STARTED: Owners = &[
     MethodName::Mpm,
@@ -200,7 +219,11 @@ impl MethodOptions {
         self.check_pool(name)?;
         let steps = self.steps.map(StepCount::get);
         Ok(match name {
+            MethodName::Mpm if self.basis == Some(Basis::Mesh) => Method::OnMesh(self.on_mesh(steps)?),
             MethodName::Mpm => Method::Mpm(self.mpm(steps)?),
+            MethodName::PaperPic | MethodName::PaperApic if self.basis == Some(Basis::Mesh) => {
+                return Err(OptionError::misfit("basis", "mesh", name.as_str()));
+            }
             MethodName::PaperPic => Method::Paper(self.paper(steps, false)),
             MethodName::PaperApic => Method::Paper(self.paper(steps, true)),
             MethodName::Svgd => {
@@ -238,13 +261,9 @@ impl MethodOptions {
             Some(Transfer::Apic) => TransferChoice::Apic,
             Some(Transfer::Flip) => TransferChoice::Flip(self.flip_share.unwrap_or(0.95)),
         };
-        let displacement_limit = match self.displacement_limit {
-            None => default.displacement_limit,
-            Some(Limit::At(limit)) => limit,
-            Some(Limit::Off) => return Err(OptionError::misfit("displacement-limit", "off", "mpm")),
-        };
+        let displacement_limit = self.displacement_limit_of_gas(default.displacement_limit)?;
         Ok(MpmOptions {
-            basis: self.basis.map_or(default.basis, Into::into),
+            basis: self.basis.and_then(Basis::uniform).unwrap_or(default.basis),
             transfer,
             spacing: self.spacing.or(default.spacing),
             steps: steps.or(default.steps),
@@ -258,11 +277,7 @@ impl MethodOptions {
                 coarse_start: self.coarse_start.unwrap_or(default.spacing_schedule.coarse_start),
                 ..default.spacing_schedule
             },
-            settling: Settling {
-                share: self.settling.unwrap_or(default.settling.share),
-                shifts: self.settling_shifts.map_or(default.settling.shifts, Switch::is_on),
-                ..default.settling
-            },
+            settling: self.settling(default.settling),
             moment_correction: self.moment_correction.map_or(default.moment_correction, Into::into),
             score_location: self.score.map_or(default.score_location, Into::into),
             displacement_limit,
@@ -276,11 +291,52 @@ impl MethodOptions {
         })
     }
 
+    fn on_mesh(&self, steps: Option<usize>) -> Result<OnMesh, OptionError> {
+        let default = MeshOptions::default();
+        let Some(file) = self.mesh.clone() else {
+            return Err(OptionError {
+                name: "basis".to_owned(),
+                reason: "mesh needs --mesh FILE.msh beside it".to_owned(),
+            });
+        };
+        let misfit = self.given().into_iter().find(|(name, ..)| !ON_MESH.contains(name));
+        if let Some((name, value, _)) = misfit {
+            return Err(OptionError::misfit(name, &value, "mpm on a mesh"));
+        }
+        let options = MeshOptions {
+            steps: steps.or(default.steps),
+            time_step: self.time_step.or(default.time_step),
+            friction: self.friction.or(default.friction),
+            shifts: self.shifts.map_or(default.shifts, Switch::is_on),
+            settling: self.settling(default.settling),
+            non_finite_scores: self.non_finite.map_or(default.non_finite_scores, Into::into),
+            displacement_limit: self.displacement_limit_of_gas(default.displacement_limit)?,
+            trace_every: self.trace_every,
+        };
+        Ok(OnMesh { file, options })
+    }
+
+    fn settling(&self, default: Settling) -> Settling {
+        Settling {
+            share: self.settling.unwrap_or(default.share),
+            shifts: self.settling_shifts.map_or(default.shifts, Switch::is_on),
+            ..default
+        }
+    }
+
+    fn displacement_limit_of_gas(&self, default: f64) -> Result<f64, OptionError> {
+        match self.displacement_limit {
+            None => Ok(default),
+            Some(Limit::At(limit)) => Ok(limit),
+            Some(Limit::Off) => Err(OptionError::misfit("displacement-limit", "off", "mpm")),
+        }
+    }
+
     fn paper(&self, steps: Option<usize>, affine: bool) -> PaperOptions {
         let default = PaperOptions::default();
         PaperOptions {
             affine,
-            basis: self.basis.map_or(default.basis, Into::into),
+            basis: self.basis.and_then(Basis::uniform).unwrap_or(default.basis),
             elasticity: self.material.map_or(default.elasticity, Into::into),
             youngs_modulus: self.youngs_modulus.unwrap_or(default.youngs_modulus),
             poissons_ratio: self.poissons_ratio.unwrap_or(default.poissons_ratio),
@@ -341,6 +397,7 @@ impl MethodOptions {
         let all = [
             ("steps", text(&self.steps), STEPPED),
             ("basis", text(&self.basis), GRID),
+            ("mesh", self.mesh.as_ref().map(|path| path.display().to_string()), GAS),
             ("spacing", text(&self.spacing), GRID),
             ("time-step", text(&self.time_step), GRID),
             ("score", text(&self.score), GRID),
@@ -427,6 +484,14 @@ impl MethodOptions {
 
     /// Options that need or exclude each other.
     fn check_pairs(&self) -> Result<(), OptionError> {
+        if let Some(mesh) = &self.mesh
+            && self.basis != Some(Basis::Mesh)
+        {
+            return Err(OptionError {
+                name: "mesh".to_owned(),
+                reason: format!("{} needs the basis `mesh`", mesh.display()),
+            });
+        }
         let refuse = |name: &str, value: f64, reason: &str| {
             Err(OptionError {
                 name: name.to_owned(),

@@ -18,15 +18,19 @@ pub enum Basis {
     Quadratic,
     /// Tensor-product cubic B-splines
     Cubic,
+    /// Hat functions on the mesh of --mesh, in 2 and 3 dimensions (mpm)
+    Mesh,
 }
 
-impl From<Basis> for BasisChoice {
-    fn from(basis: Basis) -> Self {
-        match basis {
-            Basis::Lattice => Self::Lattice,
-            Basis::Linear => Self::Linear,
-            Basis::Quadratic => Self::Quadratic,
-            Basis::Cubic => Self::Cubic,
+impl Basis {
+    /// The basis without end; none for a mesh.
+    pub fn uniform(self) -> Option<BasisChoice> {
+        match self {
+            Self::Lattice => Some(BasisChoice::Lattice),
+            Self::Linear => Some(BasisChoice::Linear),
+            Self::Quadratic => Some(BasisChoice::Quadratic),
+            Self::Cubic => Some(BasisChoice::Cubic),
+            Self::Mesh => None,
         }
     }
 }

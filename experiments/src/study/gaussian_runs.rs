@@ -62,7 +62,7 @@ impl definition::Case for Case {
             _ => {
                 let dim = self.dim.get();
                 let nodes = match self.method.options.basis.unwrap_or(Basis::Lattice) {
-                    Basis::Lattice => dim as f64 + 1.0,
+                    Basis::Lattice | Basis::Mesh => dim as f64 + 1.0,
                     Basis::Linear => 2f64.powi(dim as i32),
                     Basis::Quadratic => 3f64.powi(dim as i32),
                     Basis::Cubic => 4f64.powi(dim as i32),
@@ -272,6 +272,9 @@ impl TargetTask for DefaultSpacing {
     type Output = f64;
 
     fn run<const D: usize>(self, _target: BoxedTarget<D>) -> Result<f64, CommandError> {
-        Ok(parvi::defaults::spacing::<D>(self.basis.into(), self.particles))
+        Ok(parvi::defaults::spacing::<D>(
+            self.basis.uniform().unwrap_or_default(),
+            self.particles,
+        ))
     }
 }

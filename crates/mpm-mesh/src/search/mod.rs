@@ -72,6 +72,12 @@ impl<const D: usize> CellSearch<D> {
         &self.mesh
     }
 
+    /// The barycentric coordinates of a cell as functions of x.
+    #[inline(always)]
+    pub(crate) fn frame(&self, cell: u32) -> &Frame<D> {
+        &self.frames[cell as usize]
+    }
+
     /// Barycentric coordinates b_1, …, b_D of `x` in a cell, wherever `x` is.
     #[inline(always)]
     pub fn barycentric(&self, cell: u32, x: &[f64; D]) -> [f64; D] {

@@ -89,7 +89,7 @@ impl definition::Case for Case {
 fn stencil(basis: Basis, dim: usize) -> usize {
     let power = |base: usize| base.saturating_pow(dim as u32);
     match basis {
-        Basis::Lattice => dim + 1,
+        Basis::Lattice | Basis::Mesh => dim + 1,
         Basis::Linear => power(2),
         Basis::Quadratic => power(3),
         Basis::Cubic => power(4),

@@ -44,7 +44,8 @@ impl TargetTask for Trial<'_> {
                 return Ok(row);
             }
         };
-        let spacing = case.spacing_factor * defaults::spacing::<D>(case.basis.into(), case.particles);
+        let spacing =
+            case.spacing_factor * defaults::spacing::<D>(case.basis.uniform().unwrap_or_default(), case.particles);
         let time_step = case.time_step_factor * defaults::time_step(spacing);
         (row.spacing, row.time_step) = (Some(spacing), Some(time_step));
         let mut options = case.options.clone();

@@ -1,0 +1,220 @@
+//! The calibrated sampler on a bounded domain: a gas on the hat functions of a mesh, within its wall.
+
+mod meshes;
+mod start;
+mod wall;
+
+use mpm_core::{Basis, Mpm, Particles, Pic, StepControl};
+use mpm_materials::IsothermalGas;
+use mpm_mesh::{MeshError, SimplexMesh, read_msh};
+use mpm_tensor::vector;
+use parvi_targets::{Frame, Target};
+use rand::{Rng, RngExt};
+
+use self::meshes::Meshes;
+use self::wall::SmoothWall;
+use crate::drive::finite;
+use crate::framed_score::{FramedScore, ScoreForce};
+use crate::residual::galerkin_stein_residual_at;
+use crate::start::{Stream, check, positive, steps};
+use crate::stiffness::Stiffness;
+use crate::{
+    MeshOptions, NonFiniteScores, Observer, OnMesh, Progress, Run, SampleError, Samples, ScoreLocation, TracePoint,
+    defaults,
+};
+
+/// Copies of the mesh with moved vertices; the last one serves the residual alone.
+const COPIES: usize = 16;
+
+impl OnMesh {
+    /// As [`MeshOptions::sample`], on the mesh of the file.
+    ///
+    /// # Errors
+    /// [`SampleError::MeshFile`] for a file that is no mesh of this dimension, and in other dimensions than 2 and 3.
+    pub fn sample<const D: usize>(
+        &self,
+        target: &dyn Target<D>,
+        run: &Run,
+        observer: &mut dyn Observer,
+    ) -> Result<Samples<D>, SampleError> {
+        let refused = |reason: String| SampleError::MeshFile {
+            path: self.file.clone(),
+            reason,
+        };
+        if const { D == 2 || D == 3 } {
+            let bytes = std::fs::read(&self.file).map_err(|error| refused(error.to_string()))?;
+            let mesh = read_msh::<D>(&bytes).map_err(|error| refused(error.to_string()))?;
+            self.options.sample(target, &mesh, run, observer)
+        } else {
+            Err(refused(format!("a mesh has 2 or 3 dimensions, the target has {D}")))
+        }
+    }
+}
+
+impl MeshOptions {
+    /// Sample the density of `target` within `mesh`: p(x) on the mesh, zero outside. The run's start law is not used: particles begin evenly spread over the mesh.
+    ///
+    /// The residual is that of the hat functions which vanish on the boundary.
+    ///
+    /// # Errors
+    /// [`SampleError`]: an option out of range, a score that is not finite, or the observer's stop.
+    pub fn sample<const D: usize>(
+        &self,
+        target: &dyn Target<D>,
+        mesh: &SimplexMesh<D>,
+        run: &Run,
+        observer: &mut dyn Observer,
+    ) -> Result<Samples<D>, SampleError> {
+        self.settling.check()?;
+        let count = run.checked_particles()?;
+        let frame = frame_of(mesh);
+        let mesh = in_frame(mesh, &frame)?;
+        let mut generator = run.generator(Stream::Places.of_body(0));
+        let copies = if self.shifts { COPIES } else { 1 };
+        let meshes = Meshes::new(&mesh, copies, &mut generator)?;
+        let wall = SmoothWall::around(&mesh);
+        let inner: Vec<bool> = wall.marks(mesh.vertices().len()).into_iter().map(|on| !on).collect();
+
+        let spacing = meshes.spacing();
+        let time_step = positive("time step", self.time_step, defaults::time_step(spacing))?;
+        let steps = steps(self.steps, self.default_steps(&mesh, time_step, count))?;
+        let friction = self.friction.unwrap_or(defaults::FRICTION);
+        check(
+            "friction",
+            friction,
+            friction >= 0.0 && friction.is_finite(),
+            "at least 0 and finite",
+        )?;
+        let displacement = positive("displacement limit", Some(self.displacement_limit), 0.0)?;
+
+        let mut score = FramedScore::new(target, &frame);
+        score.non_finite = self.non_finite_scores;
+        let force = ScoreForce {
+            score,
+            alpha: 1.0,
+            location: ScoreLocation::Particles,
+            mass_weighted: true,
+            mass_floor: 0.0,
+            stiffness: Some(Stiffness::default()),
+        };
+        let start = start::uniform_in(&mesh, count, &mut run.generator(Stream::Start.of_body(0)));
+        let particles = Particles::at_rest(start, 1.0);
+        let mut body = Mpm::new(particles, meshes, Pic, IsothermalGas::new(1.0)?, force).with_boundary(wall);
+        let mut scores = vec![[0.0; D]; count];
+        let mut trace = Vec::new();
+        let mut time = 0.0;
+        for step in 1..=steps {
+            let failed = |error| SampleError::in_step(step, error);
+            body.basis.chosen = self.choice(step, steps, &mut generator);
+            let stiff = body
+                .body_force
+                .stiffness
+                .as_ref()
+                .map_or(f64::INFINITY, Stiffness::time_limit);
+            let control = StepControl {
+                time_step: (time_step * self.settling.factor(step, steps)).min(stiff),
+                courant: 1.0,
+                displacement,
+                friction,
+            };
+            let report = body.step(&control).map_err(failed)?;
+            if let Some(stiffness) = &mut body.body_force.stiffness {
+                stiffness.update(body.basis.schedule().order());
+            }
+            body.basis.basis().pull_inside(&mut body.particles.positions);
+            time += report.time_step;
+            if self.trace_every > 0 && (step % self.trace_every == 0 || step == 1) {
+                let positions = &body.particles.positions;
+                body.body_force.score.evaluate(positions, &mut scores).map_err(failed)?;
+                body.basis.chosen = copies;
+                let residual = galerkin_stein_residual_at(&mut body.basis, positions, &scores, |node| inner[node]);
+                trace.push(TracePoint {
+                    step,
+                    time,
+                    residual: Some(residual.map_err(failed)?.ratio()),
+                    kinetic_energy: body.particles.kinetic_energy(),
+                    potential_energy: Some(body.body_force.score.potential_energy(positions)),
+                    displacement: report.displacement,
+                });
+            }
+            if observer.after_step(Progress { step, steps }).is_break() {
+                return Err(SampleError::Interrupted { step });
+            }
+        }
+        let failed = |error| SampleError::in_step(steps, error);
+        let positions = &body.particles.positions;
+        let score = &mut body.body_force.score;
+        score.non_finite = NonFiniteScores::Report;
+        score.evaluate(positions, &mut scores).map_err(failed)?;
+        body.basis.chosen = copies;
+        let residual = galerkin_stein_residual_at(&mut body.basis, positions, &scores, |node| inner[node]);
+        let residual = residual.map_err(failed)?.ratio();
+        let in_order = body.particles.in_creation_order(positions);
+        Ok(Samples {
+            positions: finite(in_order.iter().map(|z| frame.to_target(z)).collect(), steps)?,
+            steps,
+            score_evaluations: body.body_force.score.evaluations,
+            scores_replaced: body.body_force.score.replaced,
+            residual: Some(residual),
+            spacing: Some(spacing),
+            active_nodes: Some(body.basis.node_count()),
+            bodies: Some(1),
+            storage_bytes: Some(body.storage_bytes()),
+            trace,
+            ..Samples::default()
+        })
+    }
+
+    /// Which of the meshes a step takes: any of the copies but the last while the basis varies.
+    fn choice(&self, step: usize, steps: usize, generator: &mut impl Rng) -> usize {
+        if self.shifts && self.settling.varies(step, steps) {
+            generator.random_range(0..COPIES)
+        } else {
+            0
+        }
+    }
+}
+
+impl MeshOptions {
+    /// N with Σ Δt = 4 L before settling, L the diagonal of the mesh's bounding box: the sound of the gas has speed one.
+    fn default_steps<const D: usize>(&self, mesh: &SimplexMesh<D>, time_step: f64, count: usize) -> usize {
+        let axis = |a: usize| {
+            let along = || mesh.vertices().iter().map(|x| x[a]);
+            along().fold(f64::NEG_INFINITY, f64::max) - along().fold(f64::INFINITY, f64::min)
+        };
+        let diagonal = (0..D).map(|a| axis(a).powi(2)).sum::<f64>().sqrt();
+        let moving = CROSSINGS * diagonal / time_step / (1.0 - self.settling.share);
+        (moving.ceil() as usize).max(defaults::steps(count))
+    }
+}
+
+/// Times that the gas could cross the mesh before settling begins.
+const CROSSINGS: f64 = 4.0;
+
+/// The frame of a round density as wide as the mesh: μ the mesh's centroid, L = r I with r² = ∫ |x − μ|² / (D V), by the midpoint rule; no less than an edge.
+fn frame_of<const D: usize>(mesh: &SimplexMesh<D>) -> Frame<D> {
+    let centre_of = |cell: &[u32]| -> [f64; D] {
+        std::array::from_fn(|a| {
+            let sum: f64 = cell.iter().map(|&vertex| mesh.vertices()[vertex as usize][a]).sum();
+            sum / (D + 1) as f64
+        })
+    };
+    let total = mesh.total_volume();
+    let average = |of: &dyn Fn(&[f64; D]) -> f64| {
+        let cells = mesh.cells().enumerate();
+        cells
+            .map(|(k, cell)| mesh.volume(k) / total * of(&centre_of(cell)))
+            .sum::<f64>()
+    };
+    let centre: [f64; D] = std::array::from_fn(|a| average(&|x| x[a]));
+    let square = average(&|x| vector::distance_squared(x, &centre)) / D as f64;
+    let edge = mesh.edge_lengths().mean;
+    let radius = square.sqrt().max(edge);
+    Frame::from_scales(centre, [radius; D]).unwrap_or_else(|_| Frame::identity())
+}
+
+/// The mesh in coordinates of the frame.
+fn in_frame<const D: usize>(mesh: &SimplexMesh<D>, frame: &Frame<D>) -> Result<SimplexMesh<D>, MeshError> {
+    let vertices = mesh.vertices().iter().map(|x| frame.to_reference(x)).collect();
+    SimplexMesh::new(vertices, mesh.cells().flatten().copied().collect())
+}
