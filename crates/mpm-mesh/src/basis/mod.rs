@@ -3,6 +3,7 @@
 mod activate;
 mod curve;
 mod locate;
+mod node_at;
 mod stencils;
 mod transfers;
 mod weights;
@@ -182,6 +183,10 @@ impl<const D: usize> Basis<D> for MeshBasis<D> {
         let vertices = self.mesh().vertices();
         out.clear();
         out.extend(self.active.iter().map(|&vertex| vertices[vertex as usize]));
+    }
+
+    fn node_number(&self, position: &[f64; D]) -> Option<u32> {
+        self.node_at(position)
     }
 
     /// The shortest edge: a wave must not cross a cell in one step.
