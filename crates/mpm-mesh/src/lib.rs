@@ -1,24 +1,29 @@
 #![doc = include_str!("../README.md")]
 
 mod adjacency;
+mod appended;
 mod basis;
 mod boundary;
 mod edge_lengths;
 mod error;
 pub mod generate;
+mod gmsh;
 mod kernel;
 mod mesh;
 mod quality;
 mod rings;
 mod search;
+mod vtu;
 
 pub use adjacency::Lists;
 pub use basis::{MeshBasis, Outside, WeightAt};
 pub use boundary::BoundaryFacet;
 pub use edge_lengths::EdgeLengths;
 pub use error::MeshError;
+pub use gmsh::{MshError, MshFormat, Place, read_msh, write_msh};
 pub use kernel::SampleWeight;
 pub use mesh::{Frame, NO_CELL, SimplexMesh};
 pub use quality::{Quality, QualitySummary};
 pub use rings::Rings;
 pub use search::{CellSearch, Located, NearestPoint};
+pub use vtu::{Field, VtuError, mesh_vtu};

@@ -12,9 +12,10 @@ fn every_mesh_in_every_dimension() {
     samples::one_dimensional().iter().for_each(check);
     samples::two_dimensional().iter().for_each(check);
     samples::three_dimensional().iter().for_each(check);
+    check(&samples::channel(0.4));
 }
 
-fn check<const D: usize>(sample: &Sample<D>) {
+pub fn check<const D: usize>(sample: &Sample<D>) {
     let Sample {
         name,
         mesh,

@@ -2,6 +2,12 @@
 
 mod conformance;
 mod figures;
+mod gmsh_damage;
+mod gmsh_files;
+mod layers;
+mod parameters;
+mod random;
 mod refused;
 mod rings;
 mod samples;
+mod vtu;

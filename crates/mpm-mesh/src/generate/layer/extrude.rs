@@ -7,7 +7,7 @@ use crate::generate::GenerationError;
 use crate::mesh::signed_volume;
 use crate::{BoundaryFacet, MeshError, SimplexMesh};
 
-/// Height of a prism in units of the boundary's edges nearby: that of a regular tetrahedron.
+/// Length of an offset in units of the boundary's edges nearby: the height of a regular tetrahedron.
 const HEIGHT: f64 = 0.8;
 
 /// Cells of the layer have at least this share of the volume that they would have in an upright prism.
@@ -50,8 +50,7 @@ pub fn surrounded<const D: usize>(mesh: &SimplexMesh<D>) -> Result<SimplexMesh<D
     }
 }
 
-/// The vertices of the boundary, in ascending order, with offsets that give every facet around its full height where the
-/// normals allow it.
+/// The vertices of the boundary, in ascending order.
 fn stems<const D: usize>(
     mesh: &SimplexMesh<D>,
     boundary: &[BoundaryFacet<D>],
@@ -69,8 +68,7 @@ fn stems<const D: usize>(
             if least <= 1e-3 {
                 return Err(GenerationError::NoLayer { vertex });
             }
-            // A mitre: further out where facets meet at an edge or corner, up to twice the height.
-            let height = HEIGHT * mean_edge(mesh, vertex as u32, facets, boundary) / least.max(0.5);
+            let height = HEIGHT * mean_edge(mesh, vertex as u32, facets, boundary);
             Ok(Stem {
                 vertex: vertex as u32,
                 offset: scale(&direction, height),

@@ -12,7 +12,7 @@ pub use self::shapes::{disk, polygon, rectangle, wavy_channel};
 
 use self::outline::Outline;
 use super::GenerationError;
-use crate::SimplexMesh;
+use crate::{MeshError, SimplexMesh};
 
 /// How long edges should be, and along which direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,6 +46,14 @@ pub fn outlines(outlines: &[Vec<[f64; 2]>], target: &EdgeTarget) -> Result<Simpl
         });
     }
     let outline = Outline::new(outlines, target.length)?;
+    if outline.points.is_empty() {
+        return Err(MeshError::Empty { what: "vertices" }.into());
+    }
+    // Two triangles per vertex, of which each has √3 / 2 h² for itself.
+    GenerationError::check_count(
+        target.length,
+        2.0 * outline.box_area() / (0.75f64.sqrt() * target.length.powi(2)),
+    )?;
     let mut points = outline.points.clone();
     points.extend(lattice::points_inside(&outline, target));
     let cells = relax::relax(&mut points, &outline, target.length)?;

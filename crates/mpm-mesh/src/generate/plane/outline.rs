@@ -34,6 +34,24 @@ impl Outline {
         Ok(outline)
     }
 
+    /// Lowest and highest coordinates.
+    pub fn bounds(&self) -> [[f64; 2]; 2] {
+        let fold = |start: f64, choose: fn(f64, f64) -> f64| {
+            [0, 1].map(|axis| {
+                self.points
+                    .iter()
+                    .fold(start, |bound, point| choose(bound, point[axis]))
+            })
+        };
+        [fold(f64::INFINITY, f64::min), fold(f64::NEG_INFINITY, f64::max)]
+    }
+
+    /// Area of the bounding box.
+    pub fn box_area(&self) -> f64 {
+        let [lower, upper] = self.bounds();
+        (upper[0] - lower[0]) * (upper[1] - lower[1])
+    }
+
     /// The edges as pairs of points.
     pub fn segments(&self) -> impl Iterator<Item = [[f64; 2]; 2]> {
         self.edges.iter().map(|&[a, b]| [self.points[a], self.points[b]])

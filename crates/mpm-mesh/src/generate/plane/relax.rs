@@ -7,11 +7,14 @@ use super::outline::Outline;
 use crate::adjacency::Lists;
 use crate::generate::GenerationError;
 
-/// Rounds of triangulating and moving; ours. After a few more nothing changes to speak of.
+/// Rounds of triangulating and moving; ours. After them little changes.
 const ROUNDS: usize = 16;
 
 /// Rounds, from the first, in which points come and go; the others only move them.
 const CHANGES: usize = 10;
+
+/// No inner edge is to be longer than this many target lengths; as many rounds again are made until it is so.
+const LIMIT: f64 = 1.5;
 
 /// Edges longer than this many target lengths are divided.
 const LONG: f64 = 1.35;
@@ -25,17 +28,49 @@ const LEAST_AREA: f64 = 0.1;
 /// The triangles inside the outline; points after those of the outline move, come and go.
 pub fn relax(points: &mut Vec<[f64; 2]>, outline: &Outline, length: f64) -> Result<Vec<[u32; 3]>, GenerationError> {
     let fixed = outline.points.len();
-    for round in 0..ROUNDS {
+    for round in 0..2 * ROUNDS {
         let triangles = Triangulation::new(points, &outline.edges)?.inside;
+        let edges = inner_edges(points, &triangles, outline, length);
+        // The longest edge comes first.
+        let too_long = edges.first().is_some_and(|edge| edge.ratio > LIMIT);
+        if round >= ROUNDS && !too_long {
+            return Ok(triangles);
+        }
         let stars = stars(points.len(), &triangles);
         for vertex in fixed..points.len() {
             to_mean_of_neighbours(points, &triangles, stars.get(vertex), vertex as u32, length);
         }
-        if round < CHANGES {
-            change(points, fixed, &triangles, length);
+        if round < CHANGES || too_long {
+            change(points, fixed, &edges);
         }
     }
     Ok(Triangulation::new(points, &outline.edges)?.inside)
+}
+
+/// An edge inside the domain.
+struct Edge {
+    ends: [usize; 2],
+    /// Its length over the target.
+    ratio: f64,
+}
+
+/// The edges of triangles that are not part of the outline, the longest first.
+fn inner_edges(points: &[[f64; 2]], triangles: &[[u32; 3]], outline: &Outline, length: f64) -> Vec<Edge> {
+    let sides = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+    // An inner edge belongs to two triangles, which pass it in opposite directions.
+    let once = sides.map(|ends| ends.map(|v| v as usize)).filter(|[a, b]| a < b);
+    let mut outer: Vec<[usize; 2]> = outline.edges.iter().map(|&[a, b]| [a.min(b), a.max(b)]).collect();
+    outer.sort_unstable();
+    let inner = once.filter(|ends| outer.binary_search(ends).is_err());
+    let ratio = |[a, b]: [usize; 2]| distance(&points[a], &points[b]) / length;
+    let mut edges: Vec<Edge> = inner
+        .map(|ends| Edge {
+            ends,
+            ratio: ratio(ends),
+        })
+        .collect();
+    edges.sort_by(|a, b| b.ratio.total_cmp(&a.ratio).then(a.ends.cmp(&b.ends)));
+    edges
 }
 
 /// For each vertex the triangles that it belongs to.
@@ -74,24 +109,18 @@ fn area(points: &[[f64; 2]], triangle: &[u32; 3]) -> f64 {
 }
 
 /// Divides long edges and drops ends of short ones, each vertex touched once at most.
-fn change(points: &mut Vec<[f64; 2]>, fixed: usize, triangles: &[[u32; 3]], length: f64) {
-    let mut edges: Vec<(u32, u32)> = (triangles.iter())
-        .flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)])
-        .filter(|&(a, b)| a < b && b as usize >= fixed)
-        .collect();
-    // Every edge once: an inner one is seen from both sides, one with a < b, since its triangles turn the same way.
-    let long = |&(a, b): &(u32, u32)| distance(&points[a as usize], &points[b as usize]) / length;
-    edges.sort_by(|a, b| long(b).total_cmp(&long(a)).then(a.cmp(b)));
+fn change(points: &mut Vec<[f64; 2]>, fixed: usize, edges: &[Edge]) {
     let mut touched = vec![false; points.len()];
     let (mut dropped, mut added) = (vec![false; points.len()], Vec::new());
-    for &(a, b) in &edges {
-        let ratio = long(&(a, b));
-        let (a, b) = (a as usize, b as usize);
-        if touched[a] || touched[b] || (SHORT..=LONG).contains(&ratio) {
+    for &Edge { ends: [a, b], ratio } in edges {
+        // Across a right-angled corner of the outline there may be an edge of √2.
+        let long = ratio > if b < fixed { LIMIT } else { LONG };
+        let short = ratio < SHORT && b >= fixed;
+        if touched[a] || touched[b] || !(long || short) {
             continue;
         }
         (touched[a], touched[b]) = (true, true);
-        if ratio > LONG {
+        if long {
             added.push([0, 1].map(|axis| 0.5 * (points[a][axis] + points[b][axis])));
         } else {
             dropped[b] = true;

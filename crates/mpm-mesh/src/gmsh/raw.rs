@@ -1,0 +1,115 @@
+//! Nodes and simplices as a file has them.
+
+use std::collections::HashMap;
+
+use super::MshError;
+use super::cursor::Cursor;
+use super::element_types::{ElementType, element_type, simplex};
+use crate::{SimplexMesh, mesh::signed_volume};
+
+/// Coordinates beyond the dimension may differ by this share of the mesh's extent: rounding of what wrote them.
+const ALIGNED: f64 = 1e-12;
+
+/// What has been read.
+#[derive(Default)]
+pub struct Raw {
+    tags: Vec<u64>,
+    positions: Vec<[f64; 3]>,
+    numbers: HashMap<u64, u32>,
+    /// Tags of the nodes of all cells.
+    cells: Vec<u64>,
+    /// Tags of the cells.
+    elements: Vec<u64>,
+}
+
+impl Raw {
+    /// Reads the position of a node, whose tag was at a mark.
+    pub fn add_node(&mut self, tag: u64, mark: usize, cursor: &mut Cursor) -> Result<(), MshError> {
+        if self.numbers.insert(tag, self.tags.len() as u32).is_some() {
+            let place = cursor.place(mark);
+            return Err(MshError::DuplicateNode { tag, place });
+        }
+        let mut position = [0.0; 3];
+        for coordinate in &mut position {
+            *coordinate = cursor.real("a coordinate")?;
+        }
+        self.tags.push(tag);
+        self.positions.push(position);
+        Ok(())
+    }
+
+    /// Adds an element by the tags of its nodes.
+    pub fn add_cell(&mut self, tag: u64, nodes: &[u64]) {
+        self.elements.push(tag);
+        self.cells.extend(nodes);
+    }
+
+    /// The mesh, clockwise triangles turned if all are.
+    pub fn into_mesh<const D: usize>(self) -> Result<SimplexMesh<D>, MshError> {
+        if self.cells.is_empty() {
+            let (_, name) = simplex(D);
+            return Err(MshError::NoCells { name, dimension: D });
+        }
+        let number = |(place, &tag): (usize, &u64)| {
+            let element = self.elements[place / (D + 1)];
+            self.numbers
+                .get(&tag)
+                .copied()
+                .ok_or(MshError::UnknownNode { tag, element })
+        };
+        let mut cells: Vec<u32> = self.cells.iter().enumerate().map(number).collect::<Result<_, _>>()?;
+        self.check_aligned::<D>(&cells)?;
+        let vertices: Vec<[f64; D]> = self
+            .positions
+            .iter()
+            .map(|x| std::array::from_fn(|axis| x[axis]))
+            .collect();
+        if cells
+            .chunks_exact(D + 1)
+            .all(|cell| signed_volume(&vertices, cell) < 0.0)
+        {
+            cells.chunks_exact_mut(D + 1).for_each(|cell| cell.swap(0, 1));
+        }
+        Ok(SimplexMesh::from_used(&vertices, &cells)?)
+    }
+
+    /// The vertices agree in the coordinates from D on.
+    fn check_aligned<const D: usize>(&self, cells: &[u32]) -> Result<(), MshError> {
+        let used = || cells.iter().map(|&vertex| vertex as usize);
+        let range = |axis: usize| {
+            let coordinates = || used().map(|vertex| self.positions[vertex][axis]);
+            coordinates().fold(f64::NEG_INFINITY, f64::max) - coordinates().fold(f64::INFINITY, f64::min)
+        };
+        let limit = ALIGNED * (0..D).map(range).fold(0.0, f64::max);
+        for (axis, name) in ['x', 'y', 'z'].into_iter().enumerate().skip(D) {
+            let expected = used().next().map_or(0.0, |first| self.positions[first][axis]);
+            let aligned = |&vertex: &usize| (self.positions[vertex][axis] - expected).abs() <= limit;
+            if let Some(vertex) = used().find(|vertex| !aligned(vertex)) {
+                return Err(MshError::OutOfPlane {
+                    tag: self.tags[vertex],
+                    axis: name,
+                    value: self.positions[vertex][axis],
+                    expected,
+                    dimension: D,
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The type of elements that begin at a mark, and whether they are cells: those of lower dimension are not, others refused.
+pub fn check_kind<const D: usize>(kind: u64, mark: usize, cursor: &Cursor) -> Result<(ElementType, bool), MshError> {
+    let unsupported = |name| MshError::UnsupportedElement {
+        kind,
+        name,
+        dimension: D,
+        place: cursor.place(mark),
+    };
+    let found = element_type(kind).ok_or_else(|| unsupported("unknown"))?;
+    let cell = kind == simplex(D).0;
+    if found.dimension >= D && !cell {
+        return Err(unsupported(found.name));
+    }
+    Ok((found, cell))
+}

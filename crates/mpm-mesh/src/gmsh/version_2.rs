@@ -1,0 +1,68 @@
+//! Sections of version 2.2. Counts are text in binary files too.
+
+use super::MshError;
+use super::cursor::{Cursor, Encoding};
+use super::raw::{Raw, check_kind};
+
+pub fn read_nodes(cursor: &mut Cursor, raw: &mut Raw) -> Result<(), MshError> {
+    for _ in 0..count(cursor, "the number of nodes")? {
+        let mark = cursor.mark();
+        let tag = cursor.integer("the tag of a node")?;
+        raw.add_node(tag, mark, cursor)?;
+    }
+    Ok(())
+}
+
+/// As text: tag, type, number of tags, tags, nodes. As bytes: type, number of elements, number of tags, and for each element its tag,
+/// tags and nodes.
+pub fn read_elements<const D: usize>(cursor: &mut Cursor, raw: &mut Raw) -> Result<(), MshError> {
+    let mut left = count(cursor, "the number of elements")?;
+    let mut nodes = Vec::new();
+    while left > 0 {
+        let mark = cursor.mark();
+        let text = cursor.encoding == Encoding::Text;
+        let first_tag = if text {
+            cursor.integer("the tag of an element")?
+        } else {
+            0
+        };
+        let (kind, cell) = check_kind::<D>(cursor.integer("the type of an element")?, mark, cursor)?;
+        let block = if text {
+            1
+        } else {
+            cursor.integer("a number of elements")?
+        };
+        let tag_count = cursor.integer("a number of tags")?;
+        if block == 0 || block > left {
+            return Err(cursor.malformed(mark, "a number of elements that are left", &block.to_string()));
+        }
+        for _ in 0..block {
+            let tag = if text {
+                first_tag
+            } else {
+                cursor.integer("the tag of an element")?
+            };
+            for _ in 0..tag_count {
+                cursor.signed_integer("a tag")?;
+            }
+            nodes.clear();
+            for _ in 0..kind.node_count {
+                nodes.push(cursor.integer("the tag of a node")?);
+            }
+            if cell {
+                raw.add_cell(tag, &nodes);
+            }
+        }
+        left -= block;
+    }
+    Ok(())
+}
+
+/// A count as text; bytes follow after the end of its line.
+fn count(cursor: &mut Cursor, expected: &'static str) -> Result<u64, MshError> {
+    let count = cursor.parse(expected)?;
+    if cursor.encoding != Encoding::Text {
+        cursor.skip_line();
+    }
+    Ok(count)
+}
