@@ -2,3 +2,5 @@
 //! without parvi and criterion, in seconds.
 
 pub mod elastic_block;
+pub mod mesh_block;
+pub mod processor_time;

@@ -7,18 +7,7 @@ use std::time::Instant;
 
 use mpm_core::{Apic, Basis, Flip, Mls, Pic, Transfer};
 use parvi_benches::elastic_block::{Order, block, control};
-
-/// Processor time of the process in nanoseconds, which other processes disturb less; 0 where the system does not tell.
-fn processor_time() -> f64 {
-    let Ok(tasks) = std::fs::read_dir("/proc/self/task") else {
-        return 0.0;
-    };
-    let of_task = |path: std::path::PathBuf| std::fs::read_to_string(path.join("schedstat")).ok();
-    let times = tasks.filter_map(|task| of_task(task.ok()?.path()));
-    times
-        .filter_map(|text| text.split(' ').next()?.parse::<f64>().ok())
-        .sum()
-}
+use parvi_benches::processor_time::processor_time;
 
 fn time<T: Transfer<3>>(transfer: T, order: Order, [cells, warm_up, steps]: [usize; 3]) {
     let mut mpm = block(cells, order, transfer);

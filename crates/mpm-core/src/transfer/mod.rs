@@ -109,7 +109,31 @@ fn shorten_huge<const D: usize>(vector: &mut [f64; D], limit: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::shorten;
+    use super::{FlipNode, GridNode, VelocityNode, shorten};
+    use mpm_kernels::Deposit;
+
+    fn velocity_of<N: GridNode<2>>(mass: f64, momentum: [f64; 2]) -> [f64; 2] {
+        let mut node = N::default();
+        node.add(&Deposit {
+            scalar: mass,
+            vector: momentum,
+        });
+        node.advance(&[0.0; 2], 1.0, f64::INFINITY);
+        *node.velocity()
+    }
+
+    #[test]
+    fn momentum_over_mass_is_the_velocity_whatever_the_sign() {
+        for (mass, expected) in [
+            (0.5, [2.0, -4.0]),
+            (-0.5, [-2.0, 4.0]),
+            (0.0, [0.0; 2]),
+            (-1e-310, [0.0; 2]),
+        ] {
+            assert_eq!(velocity_of::<VelocityNode<2>>(mass, [1.0, -2.0]), expected);
+            assert_eq!(velocity_of::<FlipNode<2>>(mass, [1.0, -2.0]), expected);
+        }
+    }
 
     #[test]
     fn a_vector_is_shortened_to_the_limit_and_keeps_its_direction() {

@@ -8,9 +8,10 @@ use super::definite::inverse_of_definite;
 use super::ring_lanes::RingLanes;
 use super::spline::quadratic;
 
-/// D_p is used where each of its pivots is above this share of Σ_i |w_ip| (x_i − x_p)_a² (ours): weights of both signs may make it
-/// singular.
+/// D_p is used where each of its pivots is above this share of Σ_i |w_ip| r_ia², since weights of both signs may make it singular, and above
+/// that share of Σ_i d′_ip r_ia², since it is also where a particle is at a vertex of the boundary (ours).
 const LEAST_SPREAD: f64 = 1.0 / 16.0;
+const LEAST_SAMPLED: f64 = 1e-3;
 
 /// What a particle needs, beside d′_pi, for its weights and gradients (Cao et al. 2024, Eqs. 14–17): M_p⁻¹ of
 /// M_p = Σ_i d′_pi P_i P_iᵀ with P_i = [1, r_i], r_i = x_i − x_p, in blocks \[α, βᵀ; β, Γ\], so that
@@ -94,17 +95,25 @@ impl<const D: usize> RingLanes<D> {
         let curvature = inverse_of_definite(&scatter, &[0.0; D]).unwrap_or(Matrix([[f64::NAN; D]; D]));
         let slope = curvature.apply(&centre).map(|c| -c);
         let level = 1.0 / total - dot(&slope, &centre);
+        let least = std::array::from_fn(|a| LEAST_SAMPLED * second[a][a].reduce_add());
         Fit {
             level,
             slope,
             curvature,
-            inverse_spread: self.inverse_spread(&point, level, &slope, samples),
+            inverse_spread: self.inverse_spread(&point, level, &slope, samples, &least),
         }
     }
 
-    /// D_p⁻¹, once the weights are known.
+    /// D_p⁻¹, once the weights are known; its pivots have to be above `least`.
     #[inline(always)]
-    fn inverse_spread(&self, point: &[Lanes; D], level: f64, slope: &[f64; D], samples: &[f64]) -> Option<Matrix<D>> {
+    fn inverse_spread(
+        &self,
+        point: &[Lanes; D],
+        level: f64,
+        slope: &[f64; D],
+        samples: &[f64],
+        least: &[f64; D],
+    ) -> Option<Matrix<D>> {
         let slope = slope.map(Lanes::splat);
         let (mut second, mut sizes) = ([[Lanes::ZERO; D]; D], [Lanes::ZERO; D]);
         for (group, samples) in self.groups.iter().zip(samples.chunks_exact(LANES)) {
@@ -123,7 +132,7 @@ impl<const D: usize> RingLanes<D> {
                 }
             }
         }
-        let floor = sizes.map(|size| LEAST_SPREAD * size.reduce_add());
+        let floor = std::array::from_fn(|a| least[a].max(LEAST_SPREAD * sizes[a].reduce_add()));
         inverse_of_definite(&symmetric(|i, j| second[i][j].reduce_add()), &floor)
     }
 }

@@ -1,0 +1,201 @@
+//! Weights and gradients of the moving least squares fit.
+
+mod basis_scenes;
+
+use basis_scenes::{cloud, cube, generator, line, naive_weights};
+use mpm_mesh::{MeshBasis, NO_CELL, SampleWeight, SimplexMesh, WeightAt};
+use mpm_tensor::Matrix;
+use proptest::prelude::*;
+use rand::RngExt;
+
+/// Weight and gradient by vertex, zero for those that are not in the ring.
+fn by_vertex<const D: usize>(mesh: &SimplexMesh<D>, weights: &[WeightAt<D>]) -> Vec<(f64, [f64; D])> {
+    let mut all = vec![(0.0, [0.0; D]); mesh.vertices().len()];
+    for weight in weights {
+        all[weight.vertex as usize] = (weight.entry.weight, weight.entry.gradient);
+    }
+    all
+}
+
+/// Largest difference of two lists, gradients in units of 1/h.
+fn difference<const D: usize>(one: &[(f64, [f64; D])], other: &[(f64, [f64; D])], h: f64) -> f64 {
+    let pairs = one.iter().zip(other);
+    pairs.fold(0.0, |most: f64, (a, b)| {
+        (0..D).fold(most.max((a.0 - b.0).abs()), |most, axis| {
+            most.max(h * (a.1[axis] - b.1[axis]).abs())
+        })
+    })
+}
+
+/// The largest jump of weights and gradients across the inner facets of a mesh.
+fn largest_jump<const D: usize>(basis: &MeshBasis<D>, seed: u64, vertices: impl Fn(u32) -> bool) -> f64 {
+    let mesh = basis.mesh();
+    let mut random = generator(seed);
+    let mut largest = 0.0;
+    for cell in 0..mesh.cell_count() {
+        for (opposite, &neighbour) in mesh.neighbours(cell).iter().enumerate() {
+            if neighbour == NO_CELL {
+                continue;
+            }
+            let mut x = [0.0; D];
+            let shares: Vec<f64> = (0..=D)
+                .map(|n| if n == opposite { 0.0 } else { random.random::<f64>() })
+                .collect();
+            for (share, &vertex) in shares.iter().zip(mesh.cell(cell)) {
+                for a in 0..D {
+                    x[a] += share / shares.iter().sum::<f64>() * mesh.vertices()[vertex as usize][a];
+                }
+            }
+            let side = |cell: u32| {
+                let mut all = by_vertex(mesh, &basis.weights_from(cell, &x));
+                let unwanted = all
+                    .iter_mut()
+                    .enumerate()
+                    .filter(|(vertex, _)| !vertices(*vertex as u32));
+                unwanted.for_each(|(_, entry)| *entry = (0.0, [0.0; D]));
+                all
+            };
+            largest = f64::max(
+                largest,
+                difference(&side(cell as u32), &side(neighbour), mesh.edge_lengths().longest),
+            );
+        }
+    }
+    largest
+}
+
+/// Nodes with cell sizes that cycle through 1, R, R², R.
+fn graded(ratio: f64) -> SimplexMesh<1> {
+    let sizes = [1.0, ratio, ratio * ratio, ratio];
+    let mut nodes = vec![0.0];
+    for k in 0..14 {
+        nodes.push(nodes[k] + sizes[k % 4]);
+    }
+    line(&nodes)
+}
+
+#[test]
+fn graded_meshes_have_continuous_weights_and_gradients() {
+    for ratio in [1.1, 1.2, 1.3, 1.4, 1.5] {
+        let mesh = graded(ratio);
+        let looked_at = |basis: &MeshBasis<1>| {
+            let given: Vec<u32> = (0..15).map(|vertex| basis.given_vertex(vertex)).collect();
+            largest_jump(basis, 1, |vertex| (5..=8).contains(&given[vertex as usize]))
+        };
+        let basis = MeshBasis::new(&mesh).unwrap();
+        assert!(looked_at(&basis) < 1e-13, "ratio {ratio}: {}", looked_at(&basis));
+        // Where a particle stands on a node, the nodes that come and go are two cells away, at least 1 + R. Up to R = 1.2 that is beyond the reach
+        // of the spline, 3/2 h with h = R², and there is nothing to correct.
+        let jump = looked_at(&basis.with_sample_weight(SampleWeight::DistanceAlone));
+        if 1.0 + ratio < 1.5 * ratio * ratio {
+            assert!(jump > 0.01, "ratio {ratio}: {jump}");
+        } else {
+            assert!(jump < 1e-13, "ratio {ratio}: {jump}");
+        }
+    }
+}
+
+#[test]
+fn unstructured_meshes_have_continuous_weights_and_gradients_with_the_adjacency_alone() {
+    fn check<const D: usize>(mesh: SimplexMesh<D>) {
+        let basis = MeshBasis::new(&mesh).unwrap();
+        let jump = largest_jump(&basis, 2, |_| true);
+        assert!(jump < 1e-11, "D = {D}: {jump}");
+        let jump = largest_jump(&basis.with_sample_weight(SampleWeight::DistanceAlone), 2, |_| true);
+        assert!(jump > 0.05, "D = {D}: {jump}");
+    }
+    check(cube::<2>(6, 0.3, 0.25, 3));
+    check(cube::<3>(4, 2.0, 0.15, 4));
+}
+
+#[test]
+fn weights_and_gradients_are_those_of_the_definitions() {
+    fn check<const D: usize>(mesh: SimplexMesh<D>, reach: f64) {
+        for weight in [SampleWeight::Continuous, SampleWeight::DistanceAlone] {
+            let basis = MeshBasis::new(&mesh).unwrap().with_sample_weight(weight);
+            for x in cloud::<D>(20, 0.0, reach, 8) {
+                let cell = basis.search().locate(&x, None).unwrap().cell;
+                let found = by_vertex(basis.mesh(), &basis.weights_from(cell, &x));
+                let expected = naive_weights(basis.mesh(), cell as usize, &x, weight);
+                let error = difference(&found, &expected, basis.kernel_width());
+                assert!(error < 1e-12, "D = {D}, {weight:?}, {x:?}: {error}");
+            }
+        }
+    }
+    check(line(&[0.0, 0.4, 1.3, 1.7, 2.6, 3.0]), 3.0);
+    check(cube::<2>(5, 0.2, 0.25, 5), 1.0);
+    check(cube::<3>(3, 10.0, 0.15, 6), 30.0);
+}
+
+/// Σ w = 1, Σ w x_i = x, Σ g = 0 and Σ g x_iᵀ = I, coordinates counted from the middle of the mesh.
+fn reproduces<const D: usize>(cells: usize, jitter: f64, seed: u64) {
+    let basis = MeshBasis::new(&cube::<D>(cells, 1.0, jitter, seed)).unwrap();
+    for x in cloud::<D>(30, 0.0, cells as f64, seed + 1) {
+        let (mut sum, mut mean, mut slope, mut unit) = (0.0, [0.0; D], [0.0; D], Matrix::<D>::ZERO);
+        for WeightAt { entry, .. } in basis.weights_at(&x).unwrap() {
+            sum += entry.weight;
+            unit += Matrix::outer(&entry.gradient, &entry.offset);
+            for a in 0..D {
+                mean[a] += entry.weight * entry.offset[a];
+                slope[a] += entry.gradient[a];
+            }
+        }
+        assert!(
+            (sum - 1.0).abs() < 1e-13,
+            "D = {D}, {x:?}: weights sum to 1 + {}",
+            sum - 1.0
+        );
+        assert!(
+            (0..D).all(|a| mean[a].abs() < 1e-13),
+            "D = {D}, {x:?}: the mean is off by {mean:?}"
+        );
+        assert!(
+            (0..D).all(|a| slope[a].abs() < 1e-13),
+            "D = {D}, {x:?}: gradients sum to {slope:?}"
+        );
+        let error = (unit - Matrix::IDENTITY).maximum_norm();
+        assert!(error < 1e-13, "D = {D}, {x:?}: Σ g rᵀ is off by {error}");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    #[test]
+    fn linear_fields_are_reproduced(seed in 0u64..1_000_000, jitter in 0.0..0.25f64) {
+        reproduces::<1>(9, jitter, seed);
+        reproduces::<2>(5, jitter, seed);
+        reproduces::<3>(3, 0.7 * jitter, seed);
+    }
+}
+
+/// The smallest weight over the cells whose vertices are all inside, and over the others.
+fn smallest_weights<const D: usize>(mesh: &SimplexMesh<D>, divisions: usize) -> (f64, f64) {
+    let basis = MeshBasis::new(mesh).unwrap();
+    let on_boundary = basis.mesh().on_boundary();
+    let (mut inside, mut at_boundary) = (f64::INFINITY, f64::INFINITY);
+    for (number, cell) in basis.mesh().cells().enumerate() {
+        let least = basis.minimum_weight(number as u32, divisions);
+        if cell.iter().any(|&vertex| on_boundary[vertex as usize]) {
+            at_boundary = at_boundary.min(least);
+        } else {
+            inside = inside.min(least);
+        }
+    }
+    (inside, at_boundary)
+}
+
+#[test]
+fn inner_weights_are_hardly_negative() {
+    let report = [
+        ("uniform, D = 1", smallest_weights(&cube::<1>(12, 1.0, 0.0, 0), 20)),
+        ("R = 1.5, D = 1", smallest_weights(&graded(1.5), 20)),
+        ("diagonals, D = 2", smallest_weights(&cube::<2>(8, 1.0, 0.0, 0), 8)),
+        ("jittered, D = 2", smallest_weights(&cube::<2>(10, 1.0, 0.15, 1), 8)),
+        ("Kuhn, D = 3", smallest_weights(&cube::<3>(5, 1.0, 0.0, 0), 5)),
+    ];
+    println!("{report:#?}");
+    for (name, (inside, _)) in report {
+        assert!(inside > -0.01, "{name}: {inside}");
+    }
+}

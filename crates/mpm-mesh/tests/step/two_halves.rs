@@ -1,0 +1,48 @@
+//! Two halves of a square that start against each other (Cao et al. 2024, Appendix D).
+
+use mpm_core::{Apic, Mpm, NoBodyForce, Particles};
+use mpm_materials::{ElasticModuli, NeoHookean};
+use mpm_mesh::MeshBasis;
+
+use crate::basis_scenes::cube;
+use crate::conservation::momenta;
+use crate::{control, solid};
+
+/// A square of side 0.2 in the middle of the unit square, 20 × 20 particles, E = 10⁴, ν = 0.3, ρ = 1, the halves with velocities (0, ±1),
+/// edges of 0.01, APIC, Δt = 10⁻⁵.
+#[test]
+fn momentum_drifts_no_more_than_rounding() {
+    let positions: Vec<[f64; 2]> = (0..400)
+        .map(|p| [0.405 + 0.01 * f64::from(p % 20), 0.405 + 0.01 * f64::from(p / 20)])
+        .collect();
+    let mut particles = Particles::at_rest(positions, 0.04).with_elastic_state(vec![1e-4; 400]);
+    for (v, x) in particles.velocities.iter_mut().zip(&particles.positions) {
+        v[1] = if x[0] < 0.5 { 1.0 } else { -1.0 };
+    }
+    let basis = MeshBasis::new(&cube::<2>(100, 0.01, 0.2, 1)).unwrap();
+    let law = NeoHookean::new(ElasticModuli::new(1e4, 0.3).unwrap());
+    let mut body = Mpm::new(particles, basis, Apic, solid(law), NoBodyForce);
+    let (linear, angular) = momenta(&body.particles);
+    let steps: usize = std::env::var("STEPS").map_or(5000, |s| s.parse().unwrap());
+    let (mut largest, mut largest_angular) = (0.0, 0.0);
+    for step in 0..steps {
+        body.step(&control(1e-5))
+            .unwrap_or_else(|error| panic!("step {step}: {error}"));
+        let (now, turning) = momenta(&body.particles);
+        largest = (0..2)
+            .map(|a| (now[a] - linear[a]).abs() / 0.04)
+            .fold(largest, f64::max);
+        largest_angular = f64::max(largest_angular, (turning.0[0][1] / angular.0[0][1] - 1.0).abs());
+        if step % (steps / 20).max(1) == 0 {
+            let speed = body
+                .particles
+                .velocities
+                .iter()
+                .flatten()
+                .fold(0.0, |m: f64, c| m.max(c.abs()));
+            println!("{step}: {largest:e} {largest_angular:e} speed {speed}");
+        }
+    }
+    assert!(largest < 1e-10, "{largest:e}");
+    assert!(largest_angular < 1e-7, "{largest_angular:e}");
+}
