@@ -14,11 +14,15 @@ impl<const D: usize> MeshBasis<D> {
         let cell = match self.search.locate(position, None) {
             Some(located) => located.cell,
             // Rounding may put a vertex of the boundary outside.
-            None => self.search.nearest(position, SAME_PLACE * self.shortest_edge)?.located.cell,
+            None => {
+                self.search
+                    .nearest(position, SAME_PLACE * self.shortest_edge)?
+                    .located
+                    .cell
+            }
         };
-        let near = |&&vertex: &&u32| {
-            distance(position, &mesh.vertices()[vertex as usize]) <= SAME_PLACE * self.shortest_edge
-        };
+        let near =
+            |&&vertex: &&u32| distance(position, &mesh.vertices()[vertex as usize]) <= SAME_PLACE * self.shortest_edge;
         let vertex = *mesh.cell(cell as usize).iter().find(near)? as usize;
         (self.marks[vertex] != 0).then(|| self.numbers[vertex])
     }

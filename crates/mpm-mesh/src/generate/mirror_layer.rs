@@ -1,12 +1,14 @@
 //! A layer of cells behind a plane wall: the image of the cells at it.
 
+use mpm_tensor::vector::{add_scaled, dot, subtract};
+
 use super::GenerationError;
 use crate::SimplexMesh;
 
 /// Vertices this close to the plane, in units of the longest edge, are on it.
 const ON_THE_PLANE: f64 = 1e-9;
 
-/// The mesh with the images of the cells that touch the plane x_`axis` = `position`, mirrored at it; `None` where the mesh does not end there:
+/// The mesh with the images of the cells that touch the plane through `point` with the unit vector `normal`, mirrored at it; `None` where the mesh does not end there:
 /// where no facet of its boundary lies in the plane, or there are vertices on both sides.
 ///
 /// The nodes that a particle on the plane has weights on are those joined to the vertices of its facet, so they come in pairs of images with
@@ -17,14 +19,14 @@ const ON_THE_PLANE: f64 = 1e-9;
 /// [`GenerationError::Mesh`] where the images are no valid mesh together with it.
 pub fn with_mirrored_layer<const D: usize>(
     mesh: &SimplexMesh<D>,
-    axis: usize,
-    position: f64,
+    point: &[f64; D],
+    normal: &[f64; D],
 ) -> Result<Option<SimplexMesh<D>>, GenerationError> {
     let limit = ON_THE_PLANE * mesh.edge_lengths().longest;
     let heights: Vec<f64> = mesh
         .vertices()
         .iter()
-        .map(|x| x.get(axis).map_or(f64::NAN, |c| c - position))
+        .map(|x| dot(normal, &subtract(x, point)))
         .collect();
     let on_plane = |vertex: u32| heights[vertex as usize].abs() <= limit;
     let (above, below) = (
@@ -49,9 +51,8 @@ pub fn with_mirrored_layer<const D: usize>(
                 *image = vertex;
                 if !on_plane(vertex) {
                     *image = vertices.len() as u32;
-                    let mut x = mesh.vertices()[vertex as usize];
-                    x[axis] = 2.0 * position - x[axis];
-                    vertices.push(x);
+                    let (x, height) = (&mesh.vertices()[vertex as usize], heights[vertex as usize]);
+                    vertices.push(add_scaled(x, -2.0 * height, normal));
                 }
             }
             cells.push(*image);
