@@ -11,8 +11,8 @@ pub fn mirror<const D: usize, N: GridNode<D>>(plane: &Plane<D>, pair: [usize; 2]
     let [outer, inner] = pair;
     let (outer_mass, inner_mass) = (masses[outer], masses[inner]);
     let mass = outer_mass + inner_mass;
-    if mass < f64::MIN_POSITIVE {
-        return; // both rest
+    if mass.abs() < f64::MIN_POSITIVE {
+        return; // both rest; negative weights make negative masses
     }
     masses[outer] = mass;
     masses[inner] = mass;
