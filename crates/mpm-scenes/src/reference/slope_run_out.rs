@@ -14,10 +14,8 @@ pub const STRUCTURED: f64 = 4.81;
 /// [`SceneFault::Value`](crate::SceneFault::Value) where a column is missing.
 pub(super) fn validate(run: &Run) -> Rows {
     let body = run.scene.bodies.first();
-    let base = match body.map(|body| &body.shape) {
-        Some(ShapeTable::Polygon { corners }) => corners.iter().map(|corner| corner[0]).fold(f64::NAN, f64::max),
-        _ => return Err(unfit(run.scene, "for a polygon as the first body")),
-    };
+    let base = body.and_then(|body| base(&body.shape));
+    let base = base.ok_or_else(|| unfit(run.scene, "for a polygon or the corner of a box as the first body"))?;
     let half = 0.5 * body.and_then(|body| body.spacing).unwrap_or(f64::NAN);
     let run_out = last(&run.curve("upper_x")?) + half - base;
     Ok(vec![ValidationRow::near(
@@ -26,4 +24,14 @@ pub(super) fn validate(run: &Run) -> Rows {
         STRUCTURED,
         0.05 * STRUCTURED,
     )])
+}
+
+/// Where the base of a slope ends: that of a polygon, or of the first box of an intersection.
+fn base(shape: &ShapeTable) -> Option<f64> {
+    match shape {
+        ShapeTable::Polygon { corners } => Some(corners.iter().map(|corner| corner[0]).fold(f64::NAN, f64::max)),
+        ShapeTable::Box { upper, .. } => upper.first().copied(),
+        ShapeTable::Intersection { shapes } => shapes.iter().find_map(base),
+        _ => None,
+    }
 }
