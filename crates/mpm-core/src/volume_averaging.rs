@@ -50,15 +50,20 @@ where
             basis,
             Moving::of(&mut self.particles),
             move |data: &mut Moving<D, M::State>, k, p, cell_nodes| {
+                let own = medium.volume_ratio(&data.deformation_gradients[k], &data.states[k]);
                 let mut average = 0.0;
                 basis.for_each_node(p, &data.positions[k], |index, entry| {
                     let node = &nodes[cell_nodes[index] as usize];
-                    if node.reference > 0.0 {
-                        average += entry.weight * (node.present / node.reference);
-                    }
+                    // Negative weights may leave a node no volume; then there is nothing to average.
+                    let ratio = if node.reference > 0.0 {
+                        node.present / node.reference
+                    } else {
+                        own
+                    };
+                    average += entry.weight * ratio;
                 });
                 let deformation = &mut data.deformation_gradients[k];
-                let ratio = average / medium.volume_ratio(deformation, &data.states[k]);
+                let ratio = average / own;
                 let trial = if ratio > 0.0 && ratio < f64::INFINITY {
                     *deformation * ratio.powf(1.0 / D as f64)
                 } else {

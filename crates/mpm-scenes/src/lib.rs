@@ -1,13 +1,16 @@
 #![doc = include_str!("../README.md")]
 
+mod background;
 mod error;
 pub mod fill;
 pub mod law;
 pub mod loads;
 mod manufactured;
 pub mod output;
+mod plane;
 mod population;
 pub mod reference;
+mod rotation;
 mod run;
 pub mod scene;
 mod series;

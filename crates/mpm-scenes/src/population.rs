@@ -1,10 +1,10 @@
 //! The particles of all bodies at t = 0.
 
-use crate::fill::{Filling, poisson_disk, regular, rings};
+use crate::background::{Background, of_shape};
+use crate::fill::{Filling, centroids, poisson_disk, random, regular, rings, vertices};
 use crate::scene::{BodyTable, FillKind, Scene};
-use crate::shape::{Bounds, Shape};
-use crate::values::vector;
-use crate::{SceneFault, shape, velocity};
+use crate::shape::{Bounds, Rotated, Shape};
+use crate::{SceneFault, rotation, shape, velocity};
 
 /// All particles in the order of creation, which is that of the bodies; one entry per particle in every list.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -17,6 +17,8 @@ pub struct Population<const D: usize> {
     pub masses: Vec<f64>,
     /// V⁰_p.
     pub volumes: Vec<f64>,
+    /// λ in F = λ 1 at t = 0.
+    pub stretches: Vec<f64>,
     /// Number of the body.
     pub bodies: Vec<u32>,
     /// Number of the material, in the order of the names.
@@ -30,12 +32,21 @@ impl<const D: usize> Population<D> {
     /// [`SceneFault::EmptyBody`], [`SceneFault::Overlap`] for a particle inside the shape of another body, [`SceneFault::OutsideDomain`], and
     /// [`SceneFault::Value`] for more particles than can be numbered.
     pub fn fill(scene: &Scene) -> Result<Self, SceneFault> {
-        let room = domain(scene)?;
+        Self::fill_on(scene, &Background::build(scene)?)
+    }
+
+    /// As [`fill`](Self::fill), on a background that has been made.
+    pub(crate) fn fill_on(scene: &Scene, background: &Background<D>) -> Result<Self, SceneFault> {
         let mut all = Self::default();
         let mut shapes: Vec<Box<dyn Shape<D>>> = Vec::new();
         for (number, body) in scene.bodies.iter().enumerate() {
-            let shape = shape::build::<D>(&format!("bodies.{}.shape", body.name), &body.shape)?;
-            let filling = fill(scene, body, &*shape, &room)?;
+            let field = |key: &str| format!("bodies.{}.{key}", body.name);
+            let mut shape = shape::build::<D>(&field("shape"), &body.shape)?;
+            let mut filling = fill(body, &*shape, background)?;
+            if let Some(rotation) = rotation::build(&field("rotation"), body.rotation.as_ref())? {
+                filling.positions.iter_mut().for_each(|x| *x = rotation.apply(x));
+                shape = Box::new(Rotated { shape, rotation });
+            }
             if filling.positions.is_empty() {
                 return Err(SceneFault::EmptyBody {
                     body: body.name.clone(),
@@ -44,7 +55,7 @@ impl<const D: usize> Population<D> {
             all.add(scene, number, &filling)?;
             shapes.push(shape);
         }
-        all.check_places(scene, &shapes, &room)?;
+        all.check_places(scene, &shapes, background.room())?;
         Ok(all)
     }
 
@@ -61,13 +72,18 @@ impl<const D: usize> Population<D> {
             .map_or(f64::NAN, |table| table.density());
         let total = self.positions.len() + filling.positions.len();
         if u32::try_from(total).is_err() {
-            let expected = format!("so wide that there are at most {} particles", u32::MAX);
-            return Err(SceneFault::value("grid.spacing", scene.grid.spacing, expected));
+            let expected = format!("so few that there are at most {} particles", u32::MAX);
+            return Err(SceneFault::value(format!("bodies.{}", body.name), total, expected));
         }
         self.velocities.extend(filling.positions.iter().map(|x| velocity.at(x)));
         self.positions.extend(&filling.positions);
-        self.masses.resize(total, density * filling.volume);
-        self.volumes.resize(total, filling.volume);
+        // The shape is that of the deformed body, V = λᴰ V⁰.
+        let stretch = body.deformation.unwrap_or(1.0);
+        let ratio = stretch.powi(D as i32);
+        self.volumes.extend(filling.volumes.iter().map(|volume| volume / ratio));
+        self.masses
+            .extend(filling.volumes.iter().map(|volume| density * (volume / ratio)));
+        self.stretches.resize(total, stretch);
         self.bodies.resize(total, number as u32);
         self.materials.resize(total, material.unwrap_or(0) as u32);
         Ok(())
@@ -102,27 +118,33 @@ impl<const D: usize> Population<D> {
     }
 }
 
-/// The domain of a scene.
-///
-/// # Errors
-/// [`SceneFault::Value`] for corners of another dimension.
-pub(crate) fn domain<const D: usize>(scene: &Scene) -> Result<Bounds<D>, SceneFault> {
-    Ok(Bounds {
-        lower: vector("domain.lower", &scene.domain.lower)?,
-        upper: vector("domain.upper", &scene.domain.upper)?,
-    })
-}
-
+/// Fills a shape before it is turned.
 fn fill<const D: usize>(
-    scene: &Scene,
     body: &BodyTable,
     shape: &dyn Shape<D>,
-    room: &Bounds<D>,
+    background: &Background<D>,
 ) -> Result<Filling<D>, SceneFault> {
-    let step = scene.grid.spacing / f64::from(body.particles_per_axis);
+    let field = format!("bodies.{}", body.name);
+    let step = body
+        .spacing
+        .unwrap_or(background.spacing() / f64::from(body.per_axis()));
+    let room = background.room();
+    let mesh = || of_shape::<D>(&format!("{field}.shape"), &body.shape, step);
     match body.fill {
-        FillKind::Regular => regular(shape, &room.lower, step, room),
+        FillKind::Regular => {
+            // A lattice of its own begins at the shape, that of a grid at the grid's first node.
+            let own = body.spacing.is_some() || matches!(background, Background::Mesh { .. });
+            let origin = if own {
+                shape.bounds().finite_within(room).lower
+            } else {
+                room.lower
+            };
+            regular(shape, &origin, step, room)
+        }
         FillKind::PoissonDisk => poisson_disk(shape, step, room, body.seed),
-        FillKind::Rings => rings(&format!("bodies.{}", body.name), shape, step, room),
+        FillKind::Rings => rings(&field, shape, step, room),
+        FillKind::Random => random(&field, shape, body.particles.unwrap_or(0), room, body.seed),
+        FillKind::Vertices => Ok(vertices(&mesh()?)),
+        FillKind::Centroids => Ok(centroids(&mesh()?)),
     }
 }

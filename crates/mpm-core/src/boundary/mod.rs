@@ -3,11 +3,13 @@
 mod contact;
 mod mirror;
 mod obstacle;
+mod plane;
 mod signed_distance;
 mod wall;
 
 pub use contact::Contact;
 pub use obstacle::Obstacle;
+pub use plane::Plane;
 pub use signed_distance::{HalfSpace, SignedDistance, Sphere};
 pub use wall::{Side, Wall};
 
@@ -47,8 +49,8 @@ impl<const D: usize> Boundary<D> for NoBoundary {
 /// Walls and obstacles, applied in this order.
 #[derive(Default)]
 pub struct Boundaries<const D: usize> {
-    /// Plane walls across an axis.
-    pub walls: Vec<Wall<D>>,
+    /// Plane walls.
+    pub walls: Vec<Plane<D>>,
     /// Rigid bodies.
     pub obstacles: Vec<Obstacle<D>>,
     /// Masses that mirrored nodes have together.
@@ -58,6 +60,11 @@ pub struct Boundaries<const D: usize> {
 impl<const D: usize> Boundaries<D> {
     /// These walls and obstacles.
     pub fn new(walls: Vec<Wall<D>>, obstacles: Vec<Obstacle<D>>) -> Self {
+        Self::with_planes(walls.iter().map(Wall::plane).collect(), obstacles)
+    }
+
+    /// As [`new`](Self::new), with walls in any direction.
+    pub fn with_planes(walls: Vec<Plane<D>>, obstacles: Vec<Obstacle<D>>) -> Self {
         Self {
             walls,
             obstacles,

@@ -3,22 +3,20 @@
 mod activate;
 mod curve;
 mod locate;
+mod node_at;
 mod stencils;
 mod transfers;
 mod weights;
 
 use mpm_core::{Basis, CellSort, MpmError, Schedule};
 use mpm_kernels::{Columns, Deposit, Entry, Interpolated, NodeField, NodeSink, Wanted};
-use mpm_tensor::vector::{distance, subtract};
+use mpm_tensor::vector::subtract;
 
 use self::curve::AlongCurve;
 use self::stencils::Stencils;
 pub use self::weights::WeightAt;
 use crate::kernel::Fit;
 use crate::{CellSearch, MeshError, SampleWeight, SimplexMesh};
-
-/// A point this close to a vertex, in shortest edges, is at the vertex.
-const ON_THE_NODE: f64 = 1e-6;
 
 /// What becomes of a particle that is in no cell.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -189,11 +187,7 @@ impl<const D: usize> Basis<D> for MeshBasis<D> {
     }
 
     fn node_number(&self, position: &[f64; D]) -> Option<u32> {
-        let cell = self.search.locate(position, None)?.cell;
-        let close = ON_THE_NODE * self.shortest_edge;
-        let at = |&&vertex: &&u32| distance(&self.mesh().vertices()[vertex as usize], position) < close;
-        let vertex = *self.mesh().cell(cell as usize).iter().find(at)? as usize;
-        (self.marks.get(vertex) == Some(&1)).then(|| self.numbers[vertex])
+        self.node_at(position)
     }
 
     /// The shortest edge: a wave must not cross a cell in one step.

@@ -6,6 +6,7 @@
 
 mod error;
 mod layer;
+mod mirror_layer;
 mod plane;
 mod prism;
 mod segments;
@@ -13,6 +14,7 @@ mod space;
 
 pub use self::error::GenerationError;
 pub use self::layer::{OuterLayer, with_outer_layer};
+pub use self::mirror_layer::with_mirrored_layer;
 use self::plane::Triangulation;
 pub use self::plane::{EdgeTarget, disk, outlines, polygon, rectangle, wavy_channel};
 pub use self::segments::{cyclic_sizes, segments};

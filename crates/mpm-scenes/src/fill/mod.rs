@@ -1,10 +1,14 @@
 //! Particles in a shape.
 
+mod mesh_points;
 mod poisson_disk;
+mod random;
 mod regular;
 mod rings;
 
+pub(crate) use mesh_points::{centroids, vertices};
 pub use poisson_disk::poisson_disk;
+pub use random::random;
 pub use regular::regular;
 pub use rings::rings;
 
@@ -15,8 +19,21 @@ use crate::SceneFault;
 pub struct Filling<const D: usize> {
     /// X_p.
     pub positions: Vec<[f64; D]>,
-    /// V⁰_p, the same for all particles of a filling.
-    pub volume: f64,
+    /// Their volumes V_p.
+    pub volumes: Vec<f64>,
+}
+
+impl<const D: usize> Filling<D> {
+    /// Particles that all have the same volume.
+    pub fn of_equal(positions: Vec<[f64; D]>, volume: f64) -> Self {
+        let volumes = vec![volume; positions.len()];
+        Self { positions, volumes }
+    }
+
+    /// Σ V_p.
+    pub fn volume(&self) -> f64 {
+        self.volumes.iter().sum()
+    }
 }
 
 /// Points of a lattice that are looked at, at most.
@@ -30,7 +47,7 @@ fn counts<const D: usize>(sides: &[f64; D], step: f64) -> Result<[u64; D], Scene
         return Ok(counts.map(|count| count as u64));
     }
     let expected = format!("so wide that no body has more than {MOST_POINTS} points");
-    Err(SceneFault::value("grid.spacing / particles_per_axis", step, expected))
+    Err(SceneFault::value("distance between particles", step, expected))
 }
 
 /// The place in a box of `counts` cells that has this number; the last axis varies fastest.

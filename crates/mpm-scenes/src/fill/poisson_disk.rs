@@ -38,14 +38,9 @@ pub fn poisson_disk<const D: usize>(
             disks.spread(shape, &bounds, &mut generator);
         }
     }
-    let volume = match shape.volume() {
-        Some(volume) if shape.bounds() == bounds => volume,
-        _ => counted_volume(shape, &bounds, 0.25 * step)?,
-    };
-    Ok(Filling {
-        volume: volume / disks.points.len().max(1) as f64,
-        positions: disks.points,
-    })
+    let volume = volume_within(shape, &bounds, 0.25 * step)?;
+    let each = volume / disks.points.len().max(1) as f64;
+    Ok(Filling::of_equal(disks.points, each))
 }
 
 /// θ_D: coverage times 2ᴰ over the volume of the unit ball.
@@ -58,10 +53,17 @@ fn points_per_radius<const D: usize>() -> f64 {
     }
 }
 
-/// Volume by the middles of a lattice that lie in the shape.
-fn counted_volume<const D: usize>(shape: &dyn Shape<D>, bounds: &Bounds<D>, step: f64) -> Result<f64, SceneFault> {
-    let filling = super::regular(shape, &bounds.lower, step, bounds)?;
-    Ok(filling.volume * filling.positions.len() as f64)
+/// Volume of the part of a shape that is within its bounds cut by the room; by the middles of a lattice that lie in it, where it is not known in
+/// closed form.
+pub(super) fn volume_within<const D: usize>(
+    shape: &dyn Shape<D>,
+    bounds: &Bounds<D>,
+    step: f64,
+) -> Result<f64, SceneFault> {
+    match shape.volume() {
+        Some(volume) if shape.bounds() == *bounds => Ok(volume),
+        _ => Ok(super::regular(shape, &bounds.lower, step, bounds)?.volume()),
+    }
 }
 
 /// Points on a background grid of cells so small that each has one at most.
@@ -176,7 +178,7 @@ mod tests {
         let expected = volume / step.powi(D as i32);
         let density = points.len() as f64 / expected;
         assert!((0.9..1.25).contains(&density), "D = {D}: {density}");
-        let total = filling.volume * points.len() as f64;
+        let total = filling.volume();
         assert!((total / volume - 1.0).abs() < 0.01, "{total} of {volume}");
         assert_eq!(
             poisson_disk(shape, step, &Bounds::EVERYWHERE, 7).expect("few points"),

@@ -24,10 +24,8 @@ pub fn regular<const D: usize>(
         std::array::from_fn(|a| origin[a] + (first[a] + place[a] as f64 + 0.5) * step)
     };
     let all = (0..counts.iter().product()).map(middle);
-    Ok(Filling {
-        positions: all.filter(|x| shape.distance(x) < 0.0).collect(),
-        volume: step.powi(D as i32),
-    })
+    let inside = all.filter(|x| shape.distance(x) < 0.0).collect();
+    Ok(Filling::of_equal(inside, step.powi(D as i32)))
 }
 
 #[cfg(test)]
@@ -45,7 +43,7 @@ mod tests {
         assert_eq!(filling.positions.len(), 8 * 6);
         assert_eq!(filling.positions[0], [0.5625, -0.1875]);
         assert_eq!(filling.positions[47], [1.4375, 0.4375]);
-        assert_eq!(filling.volume * 48.0, 0.75);
+        assert_eq!(filling.volume(), 0.75);
     }
 
     #[test]
@@ -55,7 +53,7 @@ mod tests {
             radius: 0.5,
         };
         let filling = regular(&shape, &[0.0; 3], 0.025, &Bounds::EVERYWHERE).expect("few points");
-        let volume = filling.volume * filling.positions.len() as f64;
+        let volume = filling.volume();
         assert!((volume / shape.volume().expect("known") - 1.0).abs() < 0.01, "{volume}");
     }
 

@@ -63,7 +63,7 @@ pub fn rings<const D: usize>(
             positions.push(std::array::from_fn(|a| centre[a] + offset.get(a).unwrap_or(&0.0)));
         }
     }
-    Ok(Filling { positions, volume })
+    Ok(Filling::of_equal(positions, volume))
 }
 
 /// The fractional part of the golden ratio.
@@ -92,8 +92,12 @@ mod tests {
         for (shape, square) in shapes {
             let filling = rings("bodies.a", shape, 0.03, &Bounds::EVERYWHERE).expect("round");
             let count = filling.positions.len() as f64;
-            assert!((count * filling.volume - PI * square).abs() < 1e-12);
-            assert!((filling.volume / (0.03 * 0.03) - 1.0).abs() < 0.1, "{}", filling.volume);
+            assert!((filling.volume() - PI * square).abs() < 1e-12);
+            assert!(
+                (filling.volume() / (count * 0.03 * 0.03) - 1.0).abs() < 0.1,
+                "{}",
+                filling.volume() / count
+            );
             for (a, middle) in [0.3, -0.2].into_iter().enumerate() {
                 let mean = filling.positions.iter().map(|x| x[a]).sum::<f64>() / count;
                 assert!((mean - middle).abs() < 1e-12);
@@ -108,7 +112,7 @@ mod tests {
             } else {
                 0.2f64.powi(4)
             };
-            assert!((moment.sum::<f64>() * filling.volume / (0.5 * PI * exact) - 1.0).abs() < 0.02);
+            assert!((moment.sum::<f64>() * filling.volumes[0] / (0.5 * PI * exact) - 1.0).abs() < 0.02);
         }
     }
 

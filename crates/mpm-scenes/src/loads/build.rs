@@ -1,8 +1,10 @@
 //! From the tables of a scene to its forces.
 
 use super::{Barrier, DirectLoad, Loads};
+use crate::background::Background;
 use crate::population::Population;
-use crate::scene::{BarrierTable, LoadTable, Scene, ShapeTable};
+use crate::scene::{BarrierAgainst, BarrierTable, LoadTable, Scene, ShapeTable};
+use crate::shape::{MeshOutside, Shape};
 use crate::values::vector;
 use crate::{SceneFault, reference, shape};
 
@@ -11,7 +13,7 @@ impl<const D: usize> Loads<D> {
     ///
     /// # Errors
     /// [`SceneFault::Value`] for a load whose region holds no particle, and for tables that [`Scene::read`] refuses.
-    pub fn of(scene: &Scene, particles: &Population<D>) -> Result<Self, SceneFault> {
+    pub(crate) fn of(scene: &Scene, particles: &Population<D>, background: &Background<D>) -> Result<Self, SceneFault> {
         let mut loads = Self::default();
         if !scene.gravity.is_empty() {
             loads.gravity = Some(vector("gravity", &scene.gravity)?);
@@ -53,7 +55,7 @@ impl<const D: usize> Loads<D> {
             }
         }
         if let Some(table) = &scene.barrier {
-            loads.barrier = Some(barrier(table, scene.grid.spacing)?);
+            loads.barrier = Some(barrier(table, background)?);
             loads.masses.clone_from(&particles.masses);
             let power = (D as f64 - 1.0) / D as f64;
             loads.areas = particles.volumes.iter().map(|volume| volume.powf(power)).collect();
@@ -101,12 +103,23 @@ fn direct<const D: usize>(
 }
 
 /// With a Courant number of at most 1 no particle goes farther than one spacing in a step.
-fn barrier<const D: usize>(table: &BarrierTable, spacing: f64) -> Result<Barrier<D>, SceneFault> {
+fn barrier<const D: usize>(table: &BarrierTable, background: &Background<D>) -> Result<Barrier<D>, SceneFault> {
+    let spacing = background.spacing();
     let shapes = table.shapes.iter().enumerate();
+    let shapes = shapes.map(|(index, table)| shape::build(&format!("barrier.shapes[{index}]"), table));
+    let mut shapes: Vec<Box<dyn Shape<D>>> = shapes.collect::<Result<_, _>>()?;
+    match (table.against, background) {
+        (Some(BarrierAgainst::Mesh), Background::Mesh { inner, .. }) => {
+            shapes.push(Box::new(MeshOutside::new(inner, table.gap + spacing)));
+        }
+        (Some(against), Background::Grid { .. }) => {
+            let expected = "left out unless there is a [mesh]";
+            return Err(SceneFault::value("barrier.against", against, expected));
+        }
+        (None, _) => {}
+    }
     Ok(Barrier {
-        shapes: shapes
-            .map(|(index, table)| shape::build(&format!("barrier.shapes[{index}]"), table))
-            .collect::<Result<_, _>>()?,
+        shapes,
         stiffness: table.stiffness,
         gap: table.gap,
         friction: table.friction,

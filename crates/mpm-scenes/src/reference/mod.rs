@@ -2,16 +2,20 @@
 
 pub mod axis_aligned;
 pub mod cantilever;
+pub mod channel;
 pub mod clay_slope;
 pub mod column_collapse;
 pub mod conservation;
 pub mod convergence;
 pub mod curve;
 pub mod dam_break;
+pub mod expansion;
 pub mod generalized_vortex;
 mod parts;
 pub mod power_law;
 mod registry;
+pub mod slope_run_out;
+pub mod tilted_cantilever;
 pub mod two_disks;
 pub mod vibrating_bar;
 

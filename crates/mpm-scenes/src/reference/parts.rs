@@ -3,7 +3,7 @@
 use mpm_materials::ElasticModuli;
 
 use super::curve::Curve;
-use crate::scene::{MaterialTable, ShapeTable, SolidTable};
+use crate::scene::{Discretisation, MaterialTable, ShapeTable, SolidTable};
 use crate::{Scene, SceneFault, Series, Snapshot, ValidationRow};
 
 /// A finished run.
@@ -88,7 +88,26 @@ pub fn sides(scene: &Scene) -> Result<Vec<f64>, SceneFault> {
     Ok(lower.iter().zip(upper).map(|(low, high)| high - low).collect())
 }
 
+/// The last value of a column; NaN without rows.
+pub fn last(curve: &Curve) -> f64 {
+    curve.values.last().copied().unwrap_or(f64::NAN)
+}
+
 /// |g|.
 pub fn gravity(scene: &Scene) -> f64 {
     scene.gravity.iter().map(|c| c * c).sum::<f64>().sqrt()
+}
+
+/// Spacing of the grid, or the edges that the mesh was asked for.
+///
+/// # Errors
+/// [`SceneFault::Value`] for a mesh from a file.
+pub fn spacing(scene: &Scene) -> Result<f64, SceneFault> {
+    match scene.discretisation()? {
+        Discretisation::Grid(grid) => Ok(grid.spacing),
+        Discretisation::Mesh(mesh) => {
+            let size = mesh.generate.as_ref().map(|shape| shape.size());
+            size.ok_or_else(|| unfit(scene, "for a mesh that is generated"))
+        }
+    }
 }

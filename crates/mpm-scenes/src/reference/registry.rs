@@ -1,7 +1,10 @@
 //! The references and manufactured solutions that a scene can name.
 
 use super::parts::{Rows, Run};
-use super::{axis_aligned, cantilever, conservation, dam_break, generalized_vortex, two_disks, vibrating_bar};
+use super::{
+    axis_aligned, cantilever, channel, conservation, dam_break, expansion, generalized_vortex, slope_run_out,
+    tilted_cantilever, two_disks, vibrating_bar,
+};
 use crate::{ManufacturedSolution, Scene, SceneFault, Series, Snapshot};
 
 /// A comparison of a run with a reference.
@@ -10,7 +13,7 @@ type Validate = fn(&Run) -> Rows;
 /// A manufactured solution for the material of a scene.
 type Manufacture = fn(&Scene) -> Result<Box<dyn ManufacturedSolution>, SceneFault>;
 
-const VALIDATIONS: [(&str, Validate); 9] = [
+const VALIDATIONS: [(&str, Validate); 16] = [
     ("axis-aligned", axis_aligned::validate),
     ("cantilever-dynamic", cantilever::validate_dynamic),
     ("cantilever-frequency", cantilever::validate_frequency),
@@ -19,6 +22,13 @@ const VALIDATIONS: [(&str, Validate); 9] = [
     ("dam-break", dam_break::validate),
     ("generalized-vortex", generalized_vortex::validate),
     ("two-disks", two_disks::validate),
+    ("umls-bar", vibrating_bar::validate_on_mesh),
+    ("umls-cantilever", tilted_cantilever::validate),
+    ("umls-channel", channel::validate),
+    ("umls-disks", two_disks::validate_on_mesh),
+    ("umls-expansion", expansion::validate),
+    ("umls-slope", slope_run_out::validate),
+    ("umls-square", conservation::validate_on_mesh),
     ("vibrating-bar", vibrating_bar::validate),
 ];
 

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::curve::Curve;
-use super::parts::{Rows, Run};
+use super::parts::{Rows, Run, spacing};
 use crate::ValidationRow;
 
 /// Two equal disks in plane strain on the diagonal of the unit square, flying at each other with ±(v, v).
@@ -93,7 +93,30 @@ pub(super) fn validate(run: &Run) -> Rows {
     for (sum, value) in energy.values.iter_mut().zip(&kinetic.values) {
         *sum += value;
     }
-    Ok(TwoDisks::default().checks(&momentum, &kinetic, &energy, run.scene.grid.spacing))
+    Ok(TwoDisks::default().checks(&momentum, &kinetic, &energy, spacing(run.scene)?))
+}
+
+/// As [`validate`], with the moments of Cao et al. (2024), §3.2: contact near 1.5 s (ours: ± 0.15 s), the lower disk at rest before 2.0 s, apart
+/// before 2.5 s.
+///
+/// # Errors
+/// As [`validate`].
+pub(super) fn validate_on_mesh(run: &Run) -> Rows {
+    let mut rows = validate(run)?;
+    let (kinetic, momentum) = (run.curve("kinetic_energy")?, run.curve("first_velocity_x")?);
+    let start = kinetic.values.first().copied().unwrap_or(f64::NAN);
+    let changed = |&(_, energy): &(f64, f64)| (energy - start).abs() > 1e-3 * start;
+    let contact = kinetic.points().find(changed).map_or(f64::NAN, |(time, _)| time);
+    let rest = momentum.crossings(0.0).first().copied().unwrap_or(f64::NAN);
+    let (speed, end) = (momentum.peak(), momentum.values.last().copied().unwrap_or(f64::NAN));
+    let pushed = momentum
+        .points()
+        .filter(|&(_, velocity)| (velocity - end).abs() > 1e-3 * speed);
+    let apart = pushed.last().map_or(f64::NAN, |(time, _)| time);
+    rows.push(ValidationRow::near("time of contact", contact, 1.5, 0.15));
+    rows.push(ValidationRow::at_most("time of rest", rest, 2.0));
+    rows.push(ValidationRow::at_most("time of separation", apart, 2.5));
+    Ok(rows)
 }
 
 #[cfg(test)]

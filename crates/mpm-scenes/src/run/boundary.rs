@@ -2,14 +2,13 @@
 
 use std::sync::Arc;
 
-use mpm_core::{Boundaries, Contact, Obstacle, Side, SignedDistance, Wall};
+use mpm_core::{Boundaries, Contact, Obstacle, Plane, SignedDistance};
 use mpm_tensor::vector as algebra;
 
-use crate::SceneFault;
-use crate::population::domain;
 use crate::scene::{self, Scene, WallCondition};
-use crate::shape::{self, Shape};
+use crate::shape::{self, Bounds, Shape};
 use crate::values::vector;
+use crate::{SceneFault, plane};
 
 /// A shape that has been moved from where the scene puts it.
 struct Placed<const D: usize> {
@@ -48,12 +47,15 @@ impl<const D: usize> MovingObstacles<D> {
 ///
 /// # Errors
 /// [`SceneFault::Value`] for tables that [`Scene::read`] refuses.
-pub(super) fn build<const D: usize>(scene: &Scene) -> Result<(Boundaries<D>, MovingObstacles<D>), SceneFault> {
+pub(super) fn build<const D: usize>(
+    scene: &Scene,
+    room: &Bounds<D>,
+) -> Result<(Boundaries<D>, MovingObstacles<D>), SceneFault> {
     let walls = scene
         .walls
         .iter()
         .enumerate()
-        .map(|(index, table)| wall(scene, index, table));
+        .map(|(index, table)| wall(room, index, table));
     let (mut obstacles, mut moving) = (Vec::new(), Vec::new());
     for (index, table) in scene.obstacles.iter().enumerate() {
         let field = format!("obstacles[{index}]");
@@ -77,7 +79,7 @@ pub(super) fn build<const D: usize>(scene: &Scene) -> Result<(Boundaries<D>, Mov
         let velocity = velocity(&format!("{field}.velocity"), table.velocity.as_ref())?;
         obstacles.push(obstacle(shape, Contact::Stick, velocity));
     }
-    let boundaries = Boundaries::new(walls.collect::<Result<_, _>>()?, obstacles);
+    let boundaries = Boundaries::with_planes(walls.collect::<Result<_, _>>()?, obstacles);
     Ok((boundaries, MovingObstacles(moving)))
 }
 
@@ -96,24 +98,11 @@ fn velocity<const D: usize>(field: &str, list: Option<&Vec<f64>>) -> Result<[f64
     list.map_or(Ok([0.0; D]), |list| vector(field, list))
 }
 
-fn wall<const D: usize>(scene: &Scene, index: usize, table: &scene::WallTable) -> Result<Wall<D>, SceneFault> {
-    let domain = domain::<D>(scene)?;
-    let axis = table.axis.index();
-    let (side, border) = match table.side {
-        scene::Side::Lower => (Side::Lower, domain.lower.get(axis)),
-        scene::Side::Upper => (Side::Upper, domain.upper.get(axis)),
-    };
-    let Some(&border) = border else {
-        return Err(SceneFault::value(
-            format!("walls[{index}].axis"),
-            table.axis,
-            "an axis of the scene",
-        ));
-    };
-    Ok(Wall {
-        axis,
-        side,
-        position: table.position.unwrap_or(border),
+fn wall<const D: usize>(room: &Bounds<D>, index: usize, table: &scene::WallTable) -> Result<Plane<D>, SceneFault> {
+    let (point, normal) = plane::build(room, index, table)?;
+    Ok(Plane {
+        point,
+        normal,
         contact: match table.condition {
             WallCondition::Fixed | WallCondition::Prescribed => Contact::Stick,
             WallCondition::Slip => Contact::Slip,

@@ -4,13 +4,18 @@ use mpm_core::{
     Apic, Boundaries, Continuum, Flip, Masses, Mls, Mpm, MpmError, Particles, SplineGrid, StressUpdate, Transfer,
 };
 use mpm_kernels::{Cubic, Gimp, Linear, Quadratic, Spline};
+use mpm_mesh::{MeshBasis, Outside, SimplexMesh};
+use mpm_tensor::Matrix;
 
+use super::basis::SecondMoments;
 use super::motion::Motion;
 use crate::SceneFault;
+use crate::background::Background;
 use crate::law::{self, LawState, Laws};
 use crate::loads::Loads;
-use crate::population::{Population, domain};
-use crate::scene::{BasisName, Scene, StressUpdateName, TransferKind};
+use crate::population::Population;
+use crate::scene::{BasisName, Discretisation, GridTable, MeshTable, Scene, StressUpdateName, TransferKind};
+use crate::shape::Bounds;
 
 /// Share of FLIP unless a scene says otherwise.
 const FLIP_SHARE: f64 = 0.99;
@@ -24,6 +29,13 @@ struct Parts<'a, const D: usize> {
     boundaries: Boundaries<D>,
 }
 
+/// A grid that is still to be made for a spline.
+#[derive(Clone, Copy)]
+struct Grid<const D: usize> {
+    spacing: f64,
+    room: Bounds<D>,
+}
+
 /// The body of a scene at t = 0.
 ///
 /// # Errors
@@ -31,25 +43,40 @@ struct Parts<'a, const D: usize> {
 pub(super) fn build<const D: usize>(
     scene: &Scene,
     population: &Population<D>,
+    background: Background<D>,
     boundaries: Boundaries<D>,
 ) -> Result<Box<dyn Motion<D>>, SceneFault> {
     let laws = laws(scene)?;
     let parts = Parts {
         scene,
         particles: particles(population, &laws)?,
-        loads: Loads::of(scene, population)?,
+        loads: Loads::of(scene, population, &background)?,
         laws,
         boundaries,
     };
-    match scene.grid.basis {
-        BasisName::Linear => with_spline::<Linear, 2, D>(parts),
-        BasisName::Quadratic => with_spline::<Quadratic, 3, D>(parts),
-        BasisName::Cubic => with_spline::<Cubic, 4, D>(parts),
-        BasisName::Gimp => match scene.bodies.first().map(|body| body.particles_per_axis) {
-            Some(1) => with_share::<Gimp<1>, 3, D>(parts),
-            Some(2) => with_share::<Gimp<2>, 3, D>(parts),
-            Some(3) => with_share::<Gimp<3>, 3, D>(parts),
-            Some(4) => with_share::<Gimp<4>, 3, D>(parts),
+    match (scene.discretisation()?, background) {
+        (Discretisation::Grid(table), Background::Grid { spacing, room }) => {
+            on_grid(table, parts, Grid { spacing, room })
+        }
+        (Discretisation::Mesh(table), Background::Mesh { whole, .. }) => on_mesh(table, parts, &whole),
+        _ => Err(SceneFault::value("grid", (), "given unless there is a [mesh]")),
+    }
+}
+
+fn on_grid<const D: usize>(
+    table: &GridTable,
+    parts: Parts<D>,
+    grid: Grid<D>,
+) -> Result<Box<dyn Motion<D>>, SceneFault> {
+    match table.basis {
+        BasisName::Linear => with_spline::<Linear, 2, D>(parts, grid),
+        BasisName::Quadratic => with_spline::<Quadratic, 3, D>(parts, grid),
+        BasisName::Cubic => with_spline::<Cubic, 4, D>(parts, grid),
+        BasisName::Gimp => match parts.scene.bodies.first().map(|body| body.per_axis()) {
+            Some(1) => with_share::<Gimp<1>, 3, D>(parts, grid),
+            Some(2) => with_share::<Gimp<2>, 3, D>(parts, grid),
+            Some(3) => with_share::<Gimp<3>, 3, D>(parts, grid),
+            Some(4) => with_share::<Gimp<4>, 3, D>(parts, grid),
             other => Err(SceneFault::value(
                 "bodies.particles_per_axis",
                 other.unwrap_or(0),
@@ -75,45 +102,78 @@ fn particles<const D: usize>(population: &Population<D>, laws: &Laws) -> Result<
         (0..population.positions.len() as u32).collect(),
     );
     let states = population.materials.iter().map(|&law| laws.virgin(law)).collect();
-    Ok(particles
-        .map_err(refused)?
-        .with_states(population.volumes.clone(), states))
+    let particles = particles.map_err(refused)?;
+    let mut particles = particles.with_states(population.volumes.clone(), states);
+    let stretches = population.stretches.iter();
+    particles.deformation_gradients = stretches.map(|&stretch| Matrix::IDENTITY * stretch).collect();
+    Ok(particles)
 }
 
 fn with_spline<S: Spline<W> + Sync + 'static, const W: usize, const D: usize>(
     parts: Parts<D>,
+    grid: Grid<D>,
 ) -> Result<Box<dyn Motion<D>>, SceneFault> {
     match parts.scene.transfer.kind {
-        TransferKind::Pic | TransferKind::Flip => with_share::<S, W, D>(parts),
-        TransferKind::Apic => with_transfer::<S, W, D, _>(parts, Apic),
-        TransferKind::Mls => with_transfer::<S, W, D, _>(parts, Mls),
+        TransferKind::Pic | TransferKind::Flip => with_share::<S, W, D>(parts, grid),
+        TransferKind::Apic => with_transfer(parts, grid.of_spline::<S, W>()?, Apic),
+        TransferKind::Mls => with_transfer(parts, grid.of_spline::<S, W>()?, Mls),
     }
 }
 
 /// FLIP with its share. PIC is FLIP without one: a step less to compile for every basis and dimension.
 fn with_share<S: Spline<W> + Sync + 'static, const W: usize, const D: usize>(
     parts: Parts<D>,
+    grid: Grid<D>,
 ) -> Result<Box<dyn Motion<D>>, SceneFault> {
-    let transfer = parts.scene.transfer;
-    let share = match transfer.kind {
-        TransferKind::Pic => 0.0,
-        _ => transfer.flip_share.unwrap_or(FLIP_SHARE),
-    };
-    with_transfer::<S, W, D, _>(parts, Flip { share })
+    let transfer = share(parts.scene);
+    with_transfer(parts, grid.of_spline::<S, W>()?, transfer)
 }
 
-fn with_transfer<S: Spline<W> + Sync + 'static, const W: usize, const D: usize, T: Transfer<D> + 'static>(
+fn share(scene: &Scene) -> Flip {
+    let share = match scene.transfer.kind {
+        TransferKind::Pic => 0.0,
+        _ => scene.transfer.flip_share.unwrap_or(FLIP_SHARE),
+    };
+    Flip { share }
+}
+
+impl<const D: usize> Grid<D> {
+    fn of_spline<S: Spline<W>, const W: usize>(self) -> Result<SplineGrid<S, W, D>, SceneFault> {
+        let grid = SplineGrid::<S, W, D>::new(self.room.lower, self.spacing);
+        grid.and_then(|grid| grid.with_limits(self.room.lower, self.room.upper))
+            .map_err(refused)
+    }
+}
+
+fn on_mesh<const D: usize>(
+    table: &MeshTable,
     parts: Parts<D>,
+    mesh: &SimplexMesh<D>,
+) -> Result<Box<dyn Motion<D>>, SceneFault> {
+    let invalid = |error: mpm_mesh::MeshError| SceneFault::value("mesh", table, format!("valid: {error}"));
+    let outside = match table.reach {
+        0.0 => Outside::Refuse,
+        reach => Outside::Extrapolate { reach },
+    };
+    let basis = MeshBasis::new(mesh).map_err(invalid)?.with_outside(outside);
+    match parts.scene.transfer.kind {
+        TransferKind::Pic | TransferKind::Flip => {
+            let transfer = share(parts.scene);
+            with_transfer(parts, basis, transfer)
+        }
+        TransferKind::Apic => with_transfer(parts, basis, Apic),
+        TransferKind::Mls => with_transfer(parts, basis, Mls),
+    }
+}
+
+fn with_transfer<const D: usize, B: SecondMoments<D> + 'static, T: Transfer<D> + 'static>(
+    parts: Parts<D>,
+    basis: B,
     transfer: T,
 ) -> Result<Box<dyn Motion<D>>, SceneFault> {
     let scene = parts.scene;
-    let room = domain::<D>(scene)?;
-    let grid = SplineGrid::<S, W, D>::new(room.lower, scene.grid.spacing);
-    let grid = grid
-        .and_then(|grid| grid.with_limits(room.lower, room.upper))
-        .map_err(refused)?;
     let medium = Continuum { law: parts.laws };
-    let mut mpm = Mpm::new(parts.particles, grid, transfer, medium, parts.loads).with_boundary(parts.boundaries);
+    let mut mpm = Mpm::new(parts.particles, basis, transfer, medium, parts.loads).with_boundary(parts.boundaries);
     mpm.volume_averaging = scene.volume_averaging;
     mpm.stress_update = match scene.time.stress_update {
         StressUpdateName::First => StressUpdate::First,

@@ -67,6 +67,7 @@ impl SimulationError {
         let particle = match &source {
             MpmError::PositionOutOfRange { particle, .. }
             | MpmError::OutsideDomain { particle, .. }
+            | MpmError::OutsideMesh { particle, .. }
             | MpmError::Deformation { particle, .. }
             | MpmError::WaveSpeed { particle, .. } => Some(*particle),
             MpmError::BodyForceNotFinite { index, .. } => Some(*index),

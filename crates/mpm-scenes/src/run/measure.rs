@@ -2,7 +2,7 @@
 
 use mpm_core::Particles;
 use mpm_materials::Law;
-use mpm_tensor::{Matrix, vector};
+use mpm_tensor::vector;
 
 use super::motion::Motion;
 use super::probe::Probe;
@@ -29,7 +29,7 @@ pub(super) fn columns<const D: usize>(motion: &dyn Motion<D>, probes: &[Probe<D>
     let mut columns = vec!["time".to_owned()];
     columns.extend(axis_names::<D>("centre"));
     columns.push("kinetic_energy".to_owned());
-    if is_affine(motion) {
+    if motion.is_affine() {
         columns.push("affine_energy".to_owned());
     }
     columns.extend(["strain_energy", "potential_energy"].map(str::to_owned));
@@ -58,7 +58,7 @@ pub(super) fn row<const D: usize>(motion: &dyn Motion<D>, probes: &[Probe<D>]) -
     let mut row = vec![motion.time()];
     row.extend(sums.moment.map(|c| c / sums.mass));
     row.push(particles.kinetic_energy());
-    if is_affine(motion) {
+    if motion.is_affine() {
         row.push(affine_energy(motion));
     }
     row.push(strain_energy(motion));
@@ -82,10 +82,6 @@ pub(super) fn row<const D: usize>(motion: &dyn Motion<D>, probes: &[Probe<D>]) -
 fn places<const D: usize>(particles: &Particles<D, LawState>) -> Vec<usize> {
     let order: Vec<usize> = (0..particles.len()).collect();
     particles.in_creation_order(&order)
-}
-
-fn is_affine<const D: usize>(motion: &dyn Motion<D>) -> bool {
-    motion.second_moments(&[0.0; D]).is_some()
 }
 
 /// Σ m, Σ m x, Σ m v and the bounding box.
@@ -120,19 +116,12 @@ impl<const D: usize> Sums<D> {
     }
 }
 
-/// ½ Σ m_p Σ_ab B_ab² / (D_p)_bb, the kinetic energy of the affine motion around the particles (Jiang et al. 2015, §5.3).
+/// ½ Σ m_p tr(B_p D_p⁻¹ B_pᵀ), the kinetic energy of the affine motion around the particles (Jiang et al. 2015, §5.3).
 fn affine_energy<const D: usize>(motion: &dyn Motion<D>) -> f64 {
     let particles = motion.particles();
     let each = particles.affine.iter().zip(&particles.positions).enumerate();
-    let energy = each.map(|(p, (Matrix(rows), x))| {
-        let moments = motion.second_moments(x).unwrap_or([1.0; D]);
-        let squares = rows.iter().flat_map(|row| row.iter().zip(&moments));
-        // Along an axis on which the particle is a node there is no moment, and B is zero.
-        let terms = squares
-            .filter(|&(_, &moment)| moment > 0.0)
-            .map(|(b, moment)| b * b / moment);
-        particles.masses.get(p) * terms.sum::<f64>()
-    });
+    let energy =
+        each.map(|(p, (moment, x))| particles.masses.get(p) * (*moment * motion.inverse_moment(x)).contract(moment));
     0.5 * energy.sum::<f64>()
 }
 

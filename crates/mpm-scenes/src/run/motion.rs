@@ -1,6 +1,7 @@
 //! A body on its way, whatever its basis and transfer: compiled once per dimension.
 
-use mpm_core::{Basis, Boundaries, Continuum, Medium, Mpm, MpmError, Particles, StepControl, StepReport, Transfer};
+use mpm_core::{Boundaries, Continuum, Medium, Mpm, MpmError, Particles, StepControl, StepReport, Transfer};
+use mpm_tensor::Matrix;
 
 use super::basis::SecondMoments;
 use crate::law::{LawState, Laws};
@@ -29,14 +30,17 @@ pub(super) trait Motion<const D: usize> {
     /// Puts the clock right.
     fn set_time(&mut self, time: f64);
 
-    /// Spacing of the grid.
+    /// Length that the time step is measured by: the spacing of the grid, or the shortest edge of the mesh.
     fn spacing(&self) -> f64;
 
     /// Largest wave speed of the particles.
     fn wave_speed(&self) -> Result<f64, MpmError>;
 
-    /// The diagonal of D_p at x, where the transfer is affine.
-    fn second_moments(&self, x: &[f64; D]) -> Option<[f64; D]>;
+    /// Whether the transfer is affine.
+    fn is_affine(&self) -> bool;
+
+    /// D_p⁻¹ at x.
+    fn inverse_moment(&self, x: &[f64; D]) -> Matrix<D>;
 
     /// One step.
     fn step(&mut self, control: &StepControl) -> Result<StepReport, MpmError>;
@@ -44,7 +48,7 @@ pub(super) trait Motion<const D: usize> {
 
 impl<const D: usize, B, T> Motion<D> for Mpm<D, B, T, Continuum<Laws>, Loads<D>, Boundaries<D>>
 where
-    B: Basis<D> + SecondMoments<D>,
+    B: SecondMoments<D>,
     T: Transfer<D>,
 {
     fn particles(&self) -> &Particles<D, LawState> {
@@ -83,8 +87,12 @@ where
         self.medium.wave_speed(&self.particles)
     }
 
-    fn second_moments(&self, x: &[f64; D]) -> Option<[f64; D]> {
-        T::AFFINE.then(|| self.basis.second_moments(x))
+    fn is_affine(&self) -> bool {
+        T::AFFINE
+    }
+
+    fn inverse_moment(&self, x: &[f64; D]) -> Matrix<D> {
+        self.basis.inverse_moment(x)
     }
 
     fn step(&mut self, control: &StepControl) -> Result<StepReport, MpmError> {

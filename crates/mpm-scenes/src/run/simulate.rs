@@ -4,6 +4,7 @@ use std::path::Path;
 use super::boundary;
 use super::driver::Driver;
 use super::{Observer, SimulationError, Summary, dispatch};
+use crate::background::Background;
 use crate::output::{names, write_whole};
 use crate::population::Population;
 use crate::{Scene, SceneFault};
@@ -30,9 +31,10 @@ fn simulate_in<const D: usize>(
     observer: &mut dyn Observer,
 ) -> Result<Summary, SimulationError> {
     let refused = |fault| scene.error(fault);
-    let population = Population::<D>::fill(scene).map_err(refused)?;
-    let (boundaries, moving) = boundary::build::<D>(scene).map_err(refused)?;
-    let motion = dispatch::build(scene, &population, boundaries).map_err(refused)?;
+    let background = Background::build(scene).map_err(refused)?;
+    let population = Population::<D>::fill_on(scene, &background).map_err(refused)?;
+    let (boundaries, moving) = boundary::build::<D>(scene, background.room()).map_err(refused)?;
+    let motion = dispatch::build(scene, &population, background, boundaries).map_err(refused)?;
     fs::create_dir_all(out).map_err(|error| SimulationError::file(out, error))?;
     let driver = Driver::begin(scene, out, population, motion, moving)?;
     write_whole(&out.join(names::SCENE), scene.text.as_bytes())?;

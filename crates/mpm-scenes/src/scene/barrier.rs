@@ -9,7 +9,10 @@ use super::ShapeTable;
 #[serde(deny_unknown_fields)]
 pub struct BarrierTable {
     /// The rigid shapes.
+    #[serde(default)]
     pub shapes: Vec<ShapeTable>,
+    /// What else is rigid.
+    pub against: Option<BarrierAgainst>,
     /// k, a stress per length.
     pub stiffness: f64,
     /// ĝ, the distance below which the barrier pushes.
@@ -20,4 +23,12 @@ pub struct BarrierTable {
     /// Sliding speed below which friction is proportional to the speed. Needed
     /// where there is friction.
     pub friction_speed: Option<f64>,
+}
+
+/// `barrier.against`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum BarrierAgainst {
+    /// All that is outside the mesh: its boundary is a wall.
+    Mesh,
 }

@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use super::{ShapeTable, VelocityTable};
+use super::{RotationTable, ShapeTable, VelocityTable};
 
 /// `[[bodies]]`: a shape filled with particles of one material.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -17,18 +17,33 @@ pub struct BodyTable {
     /// How it is filled.
     #[serde(default)]
     pub fill: FillKind,
-    /// Particles per axis in a cell of the grid; Poisson disks are filled to the same number per volume. Default 2.
-    #[serde(default = "default_particles_per_axis")]
-    pub particles_per_axis: u32,
+    /// A turn of the filled shape; two dimensions only.
+    pub rotation: Option<RotationTable>,
+    /// Particles per axis in a cell of the grid, or in a mean edge of the mesh; Poisson disks are filled to the same number per
+    /// volume. Default 2.
+    pub particles_per_axis: Option<u32>,
+    /// Instead of `particles_per_axis`: the distance between particles, and with `fill = "vertices"` and `"centroids"` the length of
+    /// the edges of the body's mesh.
+    pub spacing: Option<f64>,
+    /// Number of particles; with `fill = "random"` only.
+    pub particles: Option<u32>,
     /// Seed of a random filling. Default 0.
     #[serde(default)]
     pub seed: u64,
     /// Velocity at t = 0. By default the body is at rest.
     pub velocity: Option<VelocityTable>,
+    /// λ in F = λ 1 at t = 0: the shape is that of the deformed body. Default 1.
+    pub deformation: Option<f64>,
 }
 
-fn default_particles_per_axis() -> u32 {
-    2
+/// Particles per axis unless a scene says otherwise.
+const PARTICLES_PER_AXIS: u32 = 2;
+
+impl BodyTable {
+    /// Particles per axis of a cell.
+    pub fn per_axis(&self) -> u32 {
+        self.particles_per_axis.unwrap_or(PARTICLES_PER_AXIS)
+    }
 }
 
 /// `bodies.fill`.
@@ -42,4 +57,10 @@ pub enum FillKind {
     PoissonDisk,
     /// Rings around the centre of a disk or an annulus, without stairs at the edges; two dimensions only.
     Rings,
+    /// Points that are drawn evenly from the shape.
+    Random,
+    /// The vertices of a mesh of the body, each with its share of the cells around.
+    Vertices,
+    /// The centres of the cells of a mesh of the body.
+    Centroids,
 }

@@ -4,16 +4,20 @@ use serde::Deserialize;
 
 use super::ShapeTable;
 
-/// `[[walls]]`: a plane across an axis that bounds the motion on one side.
+/// `[[walls]]`: a plane that bounds the motion on one side, across an axis (`axis`, `side`, `position`) or anyhow (`point`, `normal`).
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WallTable {
     /// The axis that it is across.
-    pub axis: AxisName,
+    pub axis: Option<AxisName>,
     /// Which end of the axis it closes.
-    pub side: Side,
+    pub side: Option<Side>,
     /// Where it crosses the axis. Default: the domain's border.
     pub position: Option<f64>,
+    /// Instead of `axis`, `side` and `position`: a point of it.
+    pub point: Option<Vec<f64>>,
+    /// With `point`: the direction into the domain, of any length.
+    pub normal: Option<Vec<f64>>,
     /// What it does to a body that touches it.
     pub condition: WallCondition,
     /// Velocity of the wall; with `condition = "prescribed"` only.

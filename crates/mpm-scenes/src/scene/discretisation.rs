@@ -2,6 +2,17 @@
 
 use serde::Deserialize;
 
+use super::MeshTable;
+
+/// What a scene is computed on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Discretisation<'a> {
+    /// A uniform grid.
+    Grid(&'a GridTable),
+    /// A mesh.
+    Mesh(&'a MeshTable),
+}
+
 /// `[domain]`: the box that no particle may leave.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]

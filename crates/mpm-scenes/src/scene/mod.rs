@@ -7,6 +7,7 @@ mod check;
 mod discretisation;
 mod load;
 mod material;
+mod mesh;
 mod output;
 mod read;
 mod region;
@@ -18,12 +19,13 @@ use std::path::PathBuf;
 
 use serde::Deserialize;
 
-pub use barrier::BarrierTable;
+pub use barrier::{BarrierAgainst, BarrierTable};
 pub use body::{BodyTable, FillKind};
 pub use boundary::{AxisName, Contact, HeldTable, ObstacleTable, Side, WallCondition, WallTable};
-pub use discretisation::{BasisName, DomainTable, GridTable, TransferKind, TransferTable};
+pub use discretisation::{BasisName, Discretisation, DomainTable, GridTable, TransferKind, TransferTable};
 pub use load::LoadTable;
 pub use material::{FluidTable, GasTable, MaterialTable, MetalTable, SandTable, SolidTable};
+pub use mesh::{MeshShapeTable, MeshTable, RotationTable};
 pub use output::{OutputTable, ProbeTable, ValidationTable};
 pub use region::ShapeTable;
 pub use time::{StressUpdateName, TimeTable};
@@ -45,10 +47,12 @@ pub struct Scene {
     /// Averaging of volume ratios over cells (F-bar), against locking of nearly incompressible materials.
     #[serde(default)]
     pub volume_averaging: bool,
-    /// Where particles may be.
-    pub domain: DomainTable,
+    /// Where particles may be. Default: the box around the mesh.
+    pub domain: Option<DomainTable>,
     /// The background grid.
-    pub grid: GridTable,
+    pub grid: Option<GridTable>,
+    /// Instead of the grid: the background mesh.
+    pub mesh: Option<MeshTable>,
     /// How velocities travel between particles and grid.
     #[serde(default)]
     pub transfer: TransferTable,
@@ -58,7 +62,7 @@ pub struct Scene {
     pub materials: BTreeMap<String, MaterialTable>,
     /// The bodies.
     pub bodies: Vec<BodyTable>,
-    /// Walls on planes of the grid.
+    /// Walls on planes across the axes.
     #[serde(default)]
     pub walls: Vec<WallTable>,
     /// Rigid obstacles of any shape.

@@ -14,6 +14,12 @@ impl<const D: usize> Bounds<D> {
         upper: [f64::INFINITY; D],
     };
 
+    /// From −1 to 1 along every axis.
+    pub(crate) const UNIT: Self = Self {
+        lower: [-1.0; D],
+        upper: [1.0; D],
+    };
+
     /// The smallest box that holds both.
     pub fn hull(&self, other: &Self) -> Self {
         Self {

@@ -7,7 +7,9 @@ mod capsule;
 mod combination;
 mod cuboid;
 mod half_space;
+mod mesh_outside;
 mod polygon;
+mod rotated;
 
 pub use ball::Ball;
 pub use bounds::Bounds;
@@ -16,7 +18,9 @@ pub use capsule::Capsule;
 pub use combination::{Difference, Intersection, Union};
 pub use cuboid::Cuboid;
 pub use half_space::HalfSpace;
+pub(crate) use mesh_outside::MeshOutside;
 pub use polygon::Polygon;
+pub(crate) use rotated::Rotated;
 
 /// A set of points of space, given by the distance to its surface.
 pub trait Shape<const D: usize>: std::fmt::Debug + Send + Sync {

@@ -8,10 +8,14 @@ use super::scenes::{BAR, BLOCK, CUBE, scene};
 fn good_scenes_are_read_with_their_defaults() {
     let bar = scene(BAR);
     assert_eq!(
-        (bar.dimension, bar.grid.basis, bar.transfer.kind),
-        (1, BasisName::Quadratic, TransferKind::Flip)
+        (
+            bar.dimension,
+            bar.grid.as_ref().map(|grid| grid.basis),
+            bar.transfer.kind
+        ),
+        (1, Some(BasisName::Quadratic), TransferKind::Flip)
     );
-    assert_eq!((bar.bodies[0].particles_per_axis, bar.time.damping), (2, 0.0));
+    assert_eq!((bar.bodies[0].per_axis(), bar.time.damping), (2, 0.0));
     assert!(matches!(bar.bodies[0].velocity, Some(VelocityTable::Field(_))));
     assert_eq!(
         scene(BLOCK).bodies[0].velocity,

@@ -1,5 +1,6 @@
 //! Scenes as a user writes them: what is refused, what is written, and that a run can be stopped anywhere.
 
+mod bad_meshes;
 mod bad_scenes;
 mod document;
 mod failures;

@@ -239,6 +239,45 @@ velocity = { kind = "rotation", centre = [0.0, 0.0, 0.0], rate = [0.0, 1.0, 2.0]
 interval = 0.05
 "#;
 
+/// A block inside a square mesh whose boundary it cannot pass, D = 2.
+pub const RUBBER_ON_MESH: &str = r#"
+title = "rubber on a mesh"
+dimension = 2
+
+[mesh]
+generate = { kind = "rectangle", lower = [0.0, 0.0], upper = [1.0, 1.0], size = 0.2 }
+outer_layer = true
+
+[time]
+end = 0.1
+
+[materials.rubber]
+law = "neo-hookean"
+density = 1.0
+young_modulus = 1.0
+poisson_ratio = 0.3
+
+[[bodies]]
+name = "block"
+material = "rubber"
+shape = { kind = "box", lower = [0.3, 0.3], upper = [0.6, 0.6] }
+spacing = 0.05
+velocity = [0.1, 0.0]
+
+[[walls]]
+axis = "x"
+side = "lower"
+condition = "slip"
+
+[barrier]
+against = "mesh"
+stiffness = 1.0
+gap = 0.05
+
+[output]
+interval = 0.05
+"#;
+
 /// The scene of a text.
 pub fn scene(text: &str) -> Scene {
     Scene::parse(text, Path::new("test.toml")).expect("a good scene")

@@ -6,3 +6,4 @@ mod convergence;
 mod flows;
 mod problem;
 mod solids;
+mod umls;

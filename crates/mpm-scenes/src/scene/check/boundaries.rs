@@ -1,23 +1,16 @@
 //! Walls, obstacles and held regions.
 
 use crate::scene::{Contact, Scene, WallCondition};
-use crate::values::{not_negative, vector, within};
-use crate::{SceneFault, shape};
+use crate::shape::Bounds;
+use crate::values::{not_negative, vector};
+use crate::{SceneFault, plane, shape};
 
 impl Scene {
     pub(super) fn check_boundaries<const D: usize>(&self) -> Result<(), SceneFault> {
         for (index, wall) in self.walls.iter().enumerate() {
             let field = |key: &str| format!("walls[{index}].{key}");
-            if wall.axis.index() >= D {
-                return Err(SceneFault::value(
-                    field("axis"),
-                    wall.axis,
-                    format!("one of the {D} axes of the scene"),
-                ));
-            }
-            if let Some(position) = wall.position {
-                within(&field("position"), position, position.is_finite(), "finite")?;
-            }
+            // Without a domain the border is known when the mesh is; here any will do.
+            plane::build::<D>(&Bounds::UNIT, index, wall)?;
             let prescribed = wall.condition == WallCondition::Prescribed;
             check_presence(
                 field("velocity"),

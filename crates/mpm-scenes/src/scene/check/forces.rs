@@ -43,8 +43,18 @@ impl Scene {
 
     fn check_barrier<const D: usize>(&self) -> Result<(), SceneFault> {
         let Some(barrier) = &self.barrier else { return Ok(()) };
-        if barrier.shapes.is_empty() {
-            return Err(SceneFault::value("barrier.shapes", [0; 0], "at least one shape"));
+        match barrier.against {
+            None if barrier.shapes.is_empty() => {
+                return Err(SceneFault::value("barrier.shapes", [0; 0], "at least one shape"));
+            }
+            Some(against) if self.mesh.is_none() => {
+                return Err(SceneFault::value(
+                    "barrier.against",
+                    against,
+                    "left out unless there is a [mesh]",
+                ));
+            }
+            _ => {}
         }
         for (index, table) in barrier.shapes.iter().enumerate() {
             shape::build::<D>(&format!("barrier.shapes[{index}]"), table)?;

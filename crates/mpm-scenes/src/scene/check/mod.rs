@@ -3,6 +3,7 @@
 mod bodies;
 mod boundaries;
 mod forces;
+mod mesh;
 mod outputs;
 
 use super::{BasisName, Scene, TransferKind};
@@ -27,16 +28,7 @@ impl Scene {
         if !self.gravity.is_empty() {
             vector::<D>("gravity", &self.gravity)?;
         }
-        let lower = vector::<D>("domain.lower", &self.domain.lower)?;
-        let upper = vector::<D>("domain.upper", &self.domain.upper)?;
-        if !(0..D).all(|a| lower[a] < upper[a]) {
-            return Err(SceneFault::value(
-                "domain.upper",
-                upper,
-                format!("above domain.lower = {lower:?}"),
-            ));
-        }
-        positive("grid.spacing", self.grid.spacing)?;
+        self.check_discretisation::<D>()?;
         self.check_transfer()?;
         self.check_time()?;
         self.check_bodies::<D>()?;
@@ -59,11 +51,16 @@ impl Scene {
             )?;
         }
         let affine = matches!(self.transfer.kind, TransferKind::Apic | TransferKind::Mls);
-        if self.grid.basis == BasisName::Gimp && affine {
+        if self.is_gimp() && affine {
             let expected = "\"pic\" or \"flip\" with grid.basis = \"gimp\"";
             return Err(SceneFault::value("transfer.kind", self.transfer.kind, expected));
         }
         Ok(())
+    }
+
+    /// Whether the basis is `gimp`.
+    pub(super) fn is_gimp(&self) -> bool {
+        self.grid.as_ref().is_some_and(|grid| grid.basis == BasisName::Gimp)
     }
 
     fn check_time(&self) -> Result<(), SceneFault> {

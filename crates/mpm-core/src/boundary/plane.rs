@@ -1,0 +1,59 @@
+use mpm_tensor::vector;
+
+use super::Contact;
+use super::mirror::mirror;
+use crate::{Basis, GridNode};
+
+/// A plane wall, endless.
+///
+/// The shape functions of nodes behind the wall reach into the domain. Where the basis has a node at the mirror image of such a node and the material
+/// cannot leave the wall ([`Contact::Stick`], [`Contact::Slip`]), the node is the image of its mirror node: the field of velocities is
+/// odd (or, along a sliding wall, even) about the wall, so the condition holds on the wall itself and the order of the basis is kept. The
+/// pair moves with the momentum both have (the Galerkin method on the odd or even fields), so mass and momentum
+/// along the wall are conserved. Elsewhere, and where material may leave, the condition holds at the nodes on and behind the wall.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plane<const D: usize> {
+    /// A point of the wall.
+    pub point: [f64; D],
+    /// Unit normal, into the domain.
+    pub normal: [f64; D],
+    /// What it does to material at it.
+    pub contact: Contact,
+    /// Velocity of its surface. The wall itself stays where it is.
+    pub velocity: [f64; D],
+}
+
+/// Nodes this close to the wall, in spacings, stand on it.
+const ON_THE_WALL: f64 = 1e-6;
+
+impl<const D: usize> Plane<D> {
+    pub(super) fn constrain<B: Basis<D>, N: GridNode<D>>(
+        &self,
+        basis: &B,
+        positions: &[[f64; D]],
+        masses: &mut [f64],
+        nodes: &mut [N],
+    ) {
+        let close = ON_THE_WALL * basis.spacing();
+        let mirrored = !matches!(self.contact, Contact::Separate { .. });
+        for (number, x) in positions.iter().enumerate() {
+            let height = vector::dot(&self.normal, &vector::subtract(x, &self.point));
+            if height > close {
+                continue;
+            }
+            if mirrored && height < -close {
+                let image = vector::add_scaled(x, -2.0 * height, &self.normal);
+                if let Some(inner) = basis.node_number(&image) {
+                    mirror(self, [number, inner as usize], masses, nodes);
+                    continue;
+                }
+            }
+            let v = nodes[number].velocity_mut();
+            let relative = vector::subtract(v, &self.velocity);
+            let left = self.contact.resolve(&self.normal, &relative);
+            for a in 0..D {
+                v[a] = self.velocity[a] + left[a];
+            }
+        }
+    }
+}

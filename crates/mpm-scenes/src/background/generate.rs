@@ -1,0 +1,159 @@
+//! From the tables of a scene to meshes.
+
+use std::any::Any;
+
+use mpm_mesh::generate::{
+    EdgeTarget, GenerationError, ball, cuboid, cyclic_sizes, disk, outlines, rectangle, segments, slope, wavy_channel,
+};
+use mpm_mesh::{SimplexMesh, read_msh};
+
+use crate::SceneFault;
+use crate::rotation::Rotation;
+use crate::scene::{MeshShapeTable, MeshTable, Scene, ShapeTable};
+
+/// The mesh of a scene without an outer layer.
+pub(super) fn inner<const D: usize>(
+    scene: &Scene,
+    table: &MeshTable,
+    rotation: Option<&Rotation<D>>,
+) -> Result<SimplexMesh<D>, SceneFault> {
+    let mesh = match (&table.file, &table.generate) {
+        (Some(_), _) => read::<D>(scene, table)?,
+        (None, Some(shape)) => {
+            let refused = |error| SceneFault::value("mesh.generate", shape, format!("a mesh: {error}"));
+            generate(shape).map_err(refused)?
+        }
+        (None, None) => return Err(SceneFault::value("mesh.generate", (), "given unless file is")),
+    };
+    let Some(rotation) = rotation else { return Ok(mesh) };
+    let vertices = mesh.vertices().iter().map(|x| rotation.apply(x)).collect();
+    let cells = mesh.cells().flatten().copied().collect();
+    SimplexMesh::new(vertices, cells).map_err(|error| {
+        SceneFault::value(
+            "mesh.rotation",
+            rotation,
+            format!("one that keeps the mesh valid: {error}"),
+        )
+    })
+}
+
+/// The mesh of a file of Gmsh, beside the scene.
+fn read<const D: usize>(scene: &Scene, table: &MeshTable) -> Result<SimplexMesh<D>, SceneFault> {
+    let Some(file) = &table.file else {
+        return Err(SceneFault::value("mesh.file", (), "given"));
+    };
+    let path = scene
+        .file
+        .parent()
+        .map_or_else(|| file.clone(), |directory| directory.join(file));
+    let bytes = std::fs::read(&path)
+        .map_err(|error| SceneFault::value("mesh.file", file, format!("a file that can be read: {error}")))?;
+    read_msh(&bytes).map_err(|error| SceneFault::value("mesh.file", file, format!("a mesh of the scene: {error}")))
+}
+
+/// The mesh that a table describes.
+fn generate<const D: usize>(table: &MeshShapeTable) -> Result<SimplexMesh<D>, GenerationError> {
+    let plane = |size: f64| EdgeTarget {
+        length: size,
+        angle: 0.0,
+    };
+    match table {
+        MeshShapeTable::Segments {
+            start,
+            end,
+            size,
+            pattern,
+        } => {
+            let count = ((end - start) / size).round().max(1.0);
+            let sizes = cyclic_sizes(end - start, count as usize, pattern)?;
+            as_dimension(segments(*start, &sizes)?)
+        }
+        MeshShapeTable::Rectangle { lower, upper, size } => as_dimension(rectangle(*lower, *upper, &plane(*size))?),
+        MeshShapeTable::Polygon { corners, holes, size } => {
+            let all: Vec<_> = std::iter::once(corners).chain(holes).cloned().collect();
+            as_dimension(outlines(&all, &plane(*size))?)
+        }
+        MeshShapeTable::Disk { centre, radius, size } => as_dimension(disk(*centre, *radius, &plane(*size))?),
+        MeshShapeTable::Channel { height, size } => as_dimension(wavy_channel(*height, &plane(*size))?),
+        MeshShapeTable::Box { lower, upper, size } => as_dimension(cuboid(*lower, *upper, *size)?),
+        MeshShapeTable::Slope {
+            height,
+            crest,
+            base,
+            width,
+            size,
+        } => as_dimension(slope(*height, *crest, *base, *width, *size)?),
+        MeshShapeTable::Ball { centre, radius, size } => as_dimension(ball(*centre, *radius, *size)?),
+    }
+}
+
+/// The mesh as one of D dimensions, which it is.
+fn as_dimension<const D: usize, const E: usize>(mesh: SimplexMesh<E>) -> Result<SimplexMesh<D>, GenerationError> {
+    let mesh: Box<dyn Any> = Box::new(mesh);
+    let mesh = mesh.downcast::<SimplexMesh<D>>();
+    mesh.map(|mesh| *mesh).map_err(|_| GenerationError::InvalidParameter {
+        name: "dimension of the mesh",
+        value: E as f64,
+        requirement: "that of the scene",
+    })
+}
+
+/// A mesh of a body with edges of length `size`.
+///
+/// # Errors
+/// [`SceneFault::Value`] for shapes that there are no meshes of.
+pub(crate) fn of_shape<const D: usize>(
+    field: &str,
+    shape: &ShapeTable,
+    size: f64,
+) -> Result<SimplexMesh<D>, SceneFault> {
+    let refused = || {
+        SceneFault::value(
+            field,
+            shape,
+            "a box, a sphere or a polygon where a mesh of it is asked for",
+        )
+    };
+    let table = match (D, shape) {
+        (1, ShapeTable::Box { lower, upper }) => match (&lower[..], &upper[..]) {
+            (&[start], &[end]) => MeshShapeTable::Segments {
+                start,
+                end,
+                size,
+                pattern: vec![1.0],
+            },
+            _ => return Err(refused()),
+        },
+        (2, ShapeTable::Box { lower, upper }) => MeshShapeTable::Rectangle {
+            lower: corner(lower).ok_or_else(refused)?,
+            upper: corner(upper).ok_or_else(refused)?,
+            size,
+        },
+        (2, ShapeTable::Sphere { centre, radius }) => MeshShapeTable::Disk {
+            centre: corner(centre).ok_or_else(refused)?,
+            radius: *radius,
+            size,
+        },
+        (2, ShapeTable::Polygon { corners }) => MeshShapeTable::Polygon {
+            corners: corners.clone(),
+            holes: Vec::new(),
+            size,
+        },
+        (3, ShapeTable::Box { lower, upper }) => MeshShapeTable::Box {
+            lower: corner(lower).ok_or_else(refused)?,
+            upper: corner(upper).ok_or_else(refused)?,
+            size,
+        },
+        (3, ShapeTable::Sphere { centre, radius }) => MeshShapeTable::Ball {
+            centre: corner(centre).ok_or_else(refused)?,
+            radius: *radius,
+            size,
+        },
+        _ => return Err(refused()),
+    };
+    generate(&table).map_err(|error| SceneFault::value(field, shape, format!("a shape that has a mesh: {error}")))
+}
+
+fn corner<const E: usize>(list: &[f64]) -> Option<[f64; E]> {
+    list.try_into().ok()
+}

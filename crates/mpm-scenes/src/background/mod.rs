@@ -1,0 +1,99 @@
+//! What a scene is computed on: a grid or a mesh, and the room that bodies have there.
+
+mod generate;
+mod layer;
+
+use mpm_mesh::SimplexMesh;
+
+use crate::scene::{Discretisation, Scene};
+use crate::shape::Bounds;
+use crate::values::vector;
+use crate::{SceneFault, rotation};
+
+pub(crate) use generate::of_shape;
+
+/// The background of a scene.
+pub(crate) enum Background<const D: usize> {
+    /// A uniform grid.
+    Grid {
+        /// h.
+        spacing: f64,
+        /// The domain.
+        room: Bounds<D>,
+    },
+    /// A mesh.
+    Mesh {
+        /// Without its outer layer: where bodies may be.
+        inner: SimplexMesh<D>,
+        /// With its outer layer.
+        whole: SimplexMesh<D>,
+        /// Mean edge of the mesh without its layer.
+        spacing: f64,
+        /// The domain, or the box around the mesh without its layer.
+        room: Bounds<D>,
+    },
+}
+
+impl<const D: usize> Background<D> {
+    /// Makes or reads what the scene asks for.
+    ///
+    /// # Errors
+    /// [`SceneFault::Value`] for a mesh that cannot be made or read, and for what [`Scene::read`] refuses.
+    pub fn build(scene: &Scene) -> Result<Self, SceneFault> {
+        let domain = match &scene.domain {
+            None => None,
+            Some(table) => Some(Bounds {
+                lower: vector("domain.lower", &table.lower)?,
+                upper: vector("domain.upper", &table.upper)?,
+            }),
+        };
+        let table = match (scene.discretisation()?, domain) {
+            (Discretisation::Mesh(table), _) => table,
+            (Discretisation::Grid(table), Some(room)) => {
+                let spacing = table.spacing;
+                return Ok(Self::Grid { spacing, room });
+            }
+            (Discretisation::Grid(_), None) => return Err(SceneFault::value("domain", (), "given with a [grid]")),
+        };
+        let rotation = rotation::build::<D>("mesh.rotation", table.rotation.as_ref())?;
+        let inner = generate::inner::<D>(scene, table, rotation.as_ref())?;
+        let room = domain.unwrap_or_else(|| bounds(&inner));
+        let whole = if table.outer_layer {
+            layer::around(scene, &inner, &room)?
+        } else {
+            inner.clone()
+        };
+        let spacing = inner.edge_lengths().mean;
+        Ok(Self::Mesh {
+            inner,
+            whole,
+            spacing,
+            room,
+        })
+    }
+
+    /// Length over which a field is resolved: the spacing of the grid, or the mean edge of the mesh.
+    pub fn spacing(&self) -> f64 {
+        match self {
+            Self::Grid { spacing, .. } | Self::Mesh { spacing, .. } => *spacing,
+        }
+    }
+
+    /// Where bodies may be at the start.
+    pub fn room(&self) -> &Bounds<D> {
+        match self {
+            Self::Grid { room, .. } | Self::Mesh { room, .. } => room,
+        }
+    }
+}
+
+/// The smallest box around a mesh.
+fn bounds<const D: usize>(mesh: &SimplexMesh<D>) -> Bounds<D> {
+    let fold = |start: f64, choose: fn(f64, f64) -> f64| {
+        std::array::from_fn(|a| mesh.vertices().iter().fold(start, |bound, x| choose(bound, x[a])))
+    };
+    Bounds {
+        lower: fold(f64::INFINITY, f64::min),
+        upper: fold(f64::NEG_INFINITY, f64::max),
+    }
+}

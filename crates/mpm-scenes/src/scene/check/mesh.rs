@@ -1,0 +1,70 @@
+//! The background: a grid or a mesh.
+
+use crate::scene::{Discretisation, MeshTable, RotationTable, Scene};
+use crate::values::{not_negative, positive, vector, within};
+use crate::{SceneFault, rotation};
+
+impl Scene {
+    /// What the scene is computed on.
+    ///
+    /// # Errors
+    /// [`SceneFault::Value`] unless there is either a grid or a mesh.
+    pub fn discretisation(&self) -> Result<Discretisation<'_>, SceneFault> {
+        match (&self.grid, &self.mesh) {
+            (Some(grid), None) => Ok(Discretisation::Grid(grid)),
+            (None, Some(mesh)) => Ok(Discretisation::Mesh(mesh)),
+            (None, None) => Err(SceneFault::value("grid", (), "given unless there is a [mesh]")),
+            (Some(_), Some(mesh)) => Err(SceneFault::value("mesh", mesh, "left out where there is a [grid]")),
+        }
+    }
+
+    pub(super) fn check_discretisation<const D: usize>(&self) -> Result<(), SceneFault> {
+        match (self.discretisation()?, &self.domain) {
+            (Discretisation::Grid(_), None) => {
+                return Err(SceneFault::value("domain", (), "given with a [grid]"));
+            }
+            (_, Some(domain)) => {
+                let lower = vector::<D>("domain.lower", &domain.lower)?;
+                let upper = vector::<D>("domain.upper", &domain.upper)?;
+                if !(0..D).all(|a| lower[a] < upper[a]) {
+                    let expected = format!("above domain.lower = {lower:?}");
+                    return Err(SceneFault::value("domain.upper", upper, expected));
+                }
+            }
+            (Discretisation::Mesh(_), None) => {}
+        }
+        match self.discretisation()? {
+            Discretisation::Grid(grid) => positive("grid.spacing", grid.spacing).map(|_| ()),
+            Discretisation::Mesh(mesh) => check_mesh::<D>(mesh),
+        }
+    }
+
+    /// Whether a table of a rotation can be used.
+    pub(super) fn check_rotation<const D: usize>(field: &str, table: Option<&RotationTable>) -> Result<(), SceneFault> {
+        rotation::build::<D>(field, table).map(|_| ())
+    }
+}
+
+fn check_mesh<const D: usize>(mesh: &MeshTable) -> Result<(), SceneFault> {
+    match (&mesh.file, &mesh.generate) {
+        (Some(_), None) => {}
+        (None, Some(shape)) => {
+            positive("mesh.generate.size", shape.size())?;
+            let dimension = shape.dimension();
+            if dimension != D {
+                let expected = format!("a mesh of {D} dimensions, as the scene has");
+                return Err(SceneFault::value("mesh.generate", shape, expected));
+            }
+        }
+        (file, _) => {
+            return Err(SceneFault::value(
+                "mesh.file",
+                file,
+                "given unless generate is, not beside it",
+            ));
+        }
+    }
+    Scene::check_rotation::<D>("mesh.rotation", mesh.rotation.as_ref())?;
+    not_negative("mesh.reach", mesh.reach)?;
+    within("mesh.reach", mesh.reach, mesh.reach.is_finite(), "finite").map(|_| ())
+}

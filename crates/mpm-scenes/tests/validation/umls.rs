@@ -1,0 +1,107 @@
+//! The problems of Cao et al. (2024) on meshes, shortened and coarse; whole ones in docs/results/mechanics.
+
+use super::problem::{Finished, pinned, run};
+
+/// The figures that a coarse run has, whether they are within the tolerances of the whole one or not.
+fn figures(finished: &Finished, problem: &str) {
+    assert!(!finished.rows.is_empty());
+    for row in &finished.rows {
+        pinned(problem, &row.quantity, row.measured);
+    }
+}
+
+#[test]
+fn the_bar_converges_with_second_order() {
+    let size = |size: &str| run("umls_bar", &[("size = 1.0", &format!("size = {size}"))]);
+    let coarse = size("2.0");
+    figures(&coarse, "umls_bar, 2.0");
+    let (middle, fine) = (size("1.0"), size("0.5"));
+    middle.passes_as_pinned("umls_bar, 1.0");
+    fine.passes_as_pinned("umls_bar, 0.5");
+    let errors = [coarse, middle, fine].map(|run| run.row("error of the centre").measured);
+    for pair in errors.windows(2) {
+        assert!((1.8..2.2).contains(&(pair[0] / pair[1]).log2()), "{errors:?}");
+    }
+}
+
+/// 2000 steps of 10⁶; a hundredth of what they may drift.
+#[test]
+fn the_square_keeps_its_momenta() {
+    let changes = [
+        ("end = 1.0", "end = 0.02"),
+        ("\ninterval = 0.1", "\ninterval = 0.02"),
+        ("size = 0.01", "size = 0.02"),
+    ];
+    let end = run("umls_square", &changes);
+    assert!(
+        end.rows.len() == 2 && end.rows.iter().all(|row| row.measured <= 0.01 * row.tolerance),
+        "{:?}",
+        end.rows
+    );
+}
+
+#[test]
+fn the_disks_rebound() {
+    figures(
+        &run(
+            "umls_disks",
+            &[("size = 0.025", "size = 0.05"), ("spacing = 0.025", "spacing = 0.05")],
+        ),
+        "umls_disks, 0.05",
+    );
+}
+
+/// The scheme knows no direction: turning beam and mesh turns the motion, but for gravity, which the references follow.
+#[test]
+fn the_cantilever_swings_alike_at_all_angles() {
+    let coarse = [("size = 0.5", "size = 1.0"), ("spacing = 0.25", "spacing = 0.5")];
+    figures(&run("umls_cantilever", &coarse), "umls_cantilever, 1.0");
+}
+
+#[test]
+fn the_ball_falls_into_the_channel() {
+    let changes = [
+        ("size = 0.05", "size = 0.2"),
+        ("gap = 0.0125", "gap = 0.05"),
+        ("particles = 4735", "particles = 1000"),
+        ("end = 6.5", "end = 1.5"),
+    ];
+    let squeezed = run("umls_channel", &changes);
+    pinned(
+        "umls_channel, 0.2",
+        "energy gained / freed by the fall",
+        squeezed.row("energy gained").measured,
+    );
+    assert_eq!(squeezed.row("particles lost").measured, 0.0);
+    pinned(
+        "umls_channel, 0.2",
+        "centre_y",
+        squeezed.column("centre_y").last().copied().unwrap_or(f64::NAN),
+    );
+}
+
+#[test]
+fn the_slope_begins_to_fail() {
+    let changes = [
+        ("size = 0.2", "size = 0.8"),
+        ("spacing = 0.1", "spacing = 0.4"),
+        ("softening_rate = 5.0", "softening_rate = 20.0"),
+    ];
+    figures(&run("umls_slope", &changes), "umls_slope, 0.8");
+}
+
+#[test]
+fn the_cross_expands_inside_the_sphere() {
+    let changes = [
+        ("end = 1.5", "end = 0.02"),
+        ("\ninterval = 0.1", "\ninterval = 0.01"),
+        ("size = 0.1", "size = 0.125"),
+    ];
+    let expanded = run("umls_expansion", &changes);
+    figures(&expanded, "umls_expansion, 0.125");
+    let upper = expanded.column("upper_x");
+    assert!(
+        upper.iter().all(|&x| x < 0.5) && upper.last() > upper.first(),
+        "{upper:?}"
+    );
+}
