@@ -1,6 +1,6 @@
 //! The one seam: where a particle sits → which nodes, with which weight and gradient.
 
-use mpm_kernels::{Columns, Deposit, Entry, Interpolated, NodeField, NodeSink, Wanted};
+use mpm_kernels::{CellStencil, Columns, Deposit, Entry, Interpolated, NodeField, NodeSink, Wanted};
 use mpm_tensor::Matrix;
 use mpm_tensor::vector::multiply_add;
 
@@ -156,6 +156,15 @@ pub trait Basis<const D: usize>: Sync {
             sum.add(wanted, entry, &direction, &nodes.vector(index));
         });
         sum
+    }
+
+    /// Whether particles that share a cell see its nodes through [`cell_stencil`](Self::cell_stencil), which is quicker where several do.
+    const CELL_STENCILS: bool = false;
+
+    /// How a particle at `x` sees the nodes of its cell; `None` without [`CELL_STENCILS`](Self::CELL_STENCILS).
+    #[inline(always)]
+    fn cell_stencil(&self, _x: &[f64; D]) -> Option<CellStencil<D>> {
+        None
     }
 
     /// w_ip D_p⁻¹ (x_i − x_p), by which APIC sends the affine part of a particle's velocity to node i, with

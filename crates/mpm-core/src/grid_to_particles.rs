@@ -1,10 +1,9 @@
 //! Grid → particles: particles move and deform with the nodes around them.
 
-use mpm_kernels::{Interpolated, Wanted};
-use mpm_tensor::Matrix;
+use mpm_kernels::{Interpolated, Wanted, deformed};
 use mpm_tensor::vector::multiply_add;
 
-use crate::transfer::{CellField, Changes, Moving, Numbered, Transfer, Velocities, gather_cells};
+use crate::transfer::{CellField, Changes, Moving, MovingParticle, Numbered, Transfer, Velocities, gather_cells};
 use crate::{Basis, BodyForce, Boundary, Medium, Mpm};
 
 impl<const D: usize, B, T, M, F, C> Mpm<D, B, T, M, F, C>
@@ -42,27 +41,22 @@ where
         let rate_dependent = medium.rate_dependent();
         let velocity = Velocities::<_, D>(nodes);
         let change = Changes::<_, D> { nodes, damping };
-        let update = move |data: &mut Moving<D, M::State>, k: usize, seen: &Interpolated<D>, change: &[f64; D]| {
+        let update = move |particle: MovingParticle<D, M::State>, seen: &Interpolated<D>, change: &[f64; D]| {
             if MOVE {
-                data.velocities[k] = transfer.particle_velocity(&seen.value, change, &data.velocities[k], damping);
+                *particle.velocity = transfer.particle_velocity(&seen.value, change, particle.velocity, damping);
                 for a in 0..D {
-                    data.positions[k][a] = multiply_add(dt, seen.value[a], data.positions[k][a]);
+                    particle.position[a] = multiply_add(dt, seen.value[a], particle.position[a]);
                 }
-                if T::AFFINE {
-                    data.affine[k] = seen.moment;
+                if let Some(affine) = particle.affine {
+                    *affine = seen.moment;
                 }
             }
-            if DEFORM && M::DEFORMS {
-                #[allow(non_snake_case)]
-                let F = &mut data.deformation_gradients[k];
-                let trial = (Matrix::IDENTITY + seen.gradient * dt) * *F;
-                *F = if admit {
-                    medium.advance(&trial, &mut data.states[k])
-                } else {
-                    trial
-                };
-                if rate_dependent {
-                    data.velocity_gradients[k] = seen.gradient;
+            #[allow(non_snake_case)]
+            if let Some((F, state)) = particle.deformation {
+                let trial = deformed(F, &seen.gradient, dt);
+                *F = if admit { medium.advance(&trial, state) } else { trial };
+                if let (true, Some(velocity_gradient)) = (rate_dependent, particle.velocity_gradient) {
+                    *velocity_gradient = seen.gradient;
                 }
             }
         };
@@ -72,12 +66,13 @@ where
             move |data: &mut Moving<D, M::State>, particles, numbers, first, fields: &mut [CellField; 2]| {
                 // In here and not captured, so that they are known when this is compiled.
                 let incremental = MOVE && T::INCREMENTAL;
+                let (affine, deforms) = (MOVE && T::AFFINE, DEFORM && M::DEFORMS);
                 let wanted = Wanted {
-                    gradient: DEFORM && M::DEFORMS,
+                    gradient: deforms,
                     least_squares: T::MOVING_LEAST_SQUARES,
-                    moment: MOVE && T::AFFINE,
+                    moment: affine,
                 };
-                let size = numbers.len();
+                let (size, value) = (numbers.len(), Wanted::default());
                 let [velocities, changes] = fields;
                 if !B::LONE_PARTICLES {
                     velocities.collect(numbers, velocity);
@@ -85,11 +80,26 @@ where
                         changes.collect(numbers, change);
                     }
                 }
+                if B::CELL_STENCILS && M::DEFORMS {
+                    velocities.take_differences();
+                    if incremental {
+                        changes.take_differences();
+                    }
+                }
                 for p in particles {
-                    let (k, value) = (p - first, Wanted::default());
-                    let x = data.positions[k];
+                    let particle = data.particle(p - first, affine, deforms);
+                    let x = *particle.position;
                     let mut changed = [0.0; D];
-                    let seen = if B::LONE_PARTICLES {
+                    let seen = if B::CELL_STENCILS && M::DEFORMS {
+                        let (stencil, differences) = (basis.cell_stencil(&x), velocities.differences());
+                        let (Some(stencil), Some(differences)) = (stencil, differences) else {
+                            continue; // never: the basis has cell stencils
+                        };
+                        if let (true, Some(changes)) = (incremental, changes.differences()) {
+                            changed = stencil.interpolate(value, changes).value;
+                        }
+                        stencil.interpolate(wanted, differences)
+                    } else if B::LONE_PARTICLES {
                         if incremental {
                             let changes = Numbered { field: change, numbers };
                             changed = basis.interpolate(p, &x, value, &changes).value;
@@ -109,7 +119,7 @@ where
                         }
                         basis.interpolate(p, &x, wanted, &velocities.nodes(size))
                     };
-                    update(data, k, &seen, &changed);
+                    update(particle, &seen, &changed);
                 }
             },
         );

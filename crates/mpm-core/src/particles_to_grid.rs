@@ -1,9 +1,35 @@
 //! Particles → grid: mass, momentum and the impulse of the stress.
 
+use std::ops::Range;
+
 use mpm_kernels::Deposit;
 
-use crate::transfer::{GridNode, Tile, Transfer};
-use crate::{Basis, BodyForce, Boundary, ForceLocation, Medium, Mpm, StressImpulse};
+use crate::transfer::{GridNode, Prepare, Tile, Transfer};
+use crate::{Basis, BodyForce, Boundary, ForceLocation, Medium, Mpm, Particles, StressImpulse};
+
+/// −Δt V⁰_p τ_p of a medium that deforms.
+struct Stresses<'a, M: Medium<D>, const D: usize> {
+    particles: &'a Particles<D, M::State>,
+    medium: &'a M,
+    time_step: f64,
+}
+
+impl<M: Medium<D>, const D: usize> Clone for Stresses<'_, M, D> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<M: Medium<D>, const D: usize> Copy for Stresses<'_, M, D> {}
+
+impl<M: Medium<D>, const D: usize> Prepare for Stresses<'_, M, D> {
+    type Value = M::Impulse;
+    const WANTED: bool = M::DEFORMS;
+
+    fn prepare(&self, range: Range<usize>, to: &mut Vec<M::Impulse>) {
+        self.medium.impulses(self.particles, range, self.time_step, to);
+    }
+}
 
 impl<const D: usize, B, T, M, F, C> Mpm<D, B, T, M, F, C>
 where
@@ -20,13 +46,18 @@ where
         let (particles, medium, basis) = (&self.particles, &self.medium, &self.basis);
         let (velocities, accelerations) = (&particles.velocities[..], &self.accelerations[..]);
         let pulled = self.body_force.location() == ForceLocation::Particles;
-        let deposit = move |p: usize, x: &[f64; D], tile: &mut Tile<B, T::Node, D>| {
+        let stresses = Stresses {
+            particles,
+            medium,
+            time_step: dt,
+        };
+        let deposit = move |p: usize, x: &[f64; D], stress: Option<&M::Impulse>, tile: &mut Tile<B, T::Node, D>| {
             let mass = particles.masses.get(p);
             let mut impulse = [0.0; D];
             if pulled {
                 impulse = accelerations[p].map(|g| dt * mass * g);
             }
-            let stress = medium.impulse(particles, p, dt);
+            let stress = stress.copied().unwrap_or_else(|| medium.impulse(particles, p, dt));
             let mut value = Deposit {
                 scalar: mass,
                 vector: velocities[p].map(|v| mass * v),
@@ -54,7 +85,7 @@ where
             }
         };
         self.nodes
-            .scatter_packed(basis, &particles.positions, T::INCREMENTAL, deposit);
+            .scatter_packed(basis, &particles.positions, T::INCREMENTAL, stresses, deposit);
     }
 
     /// The velocities of the nodes without any force: mass and momentum alone, then the boundary.
@@ -63,7 +94,7 @@ where
             return; // nothing deforms with them
         }
         let (particles, basis) = (&self.particles, &self.basis);
-        let deposit = move |p: usize, x: &[f64; D], tile: &mut Tile<B, T::Node, D>| {
+        let deposit = move |p: usize, x: &[f64; D], _: Option<&()>, tile: &mut Tile<B, T::Node, D>| {
             let mass = particles.masses.get(p);
             let value = Deposit {
                 scalar: mass,
@@ -76,7 +107,8 @@ where
                 basis.deposit(p, x, &value, &(), &(), &mut tile.sums());
             }
         };
-        self.nodes.scatter_packed(basis, &particles.positions, false, deposit);
+        self.nodes
+            .scatter_packed(basis, &particles.positions, false, (), deposit);
         for node in self.nodes.as_mut_slice() {
             node.advance(&[0.0; D], 1.0, f64::INFINITY);
         }

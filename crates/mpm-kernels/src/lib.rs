@@ -1,7 +1,9 @@
 #![doc = include_str!("../README.md")]
 
 mod axis_group;
+mod cell_stencil;
 mod columns;
+mod deformed;
 mod deposit;
 mod gimp;
 mod lanes;
@@ -14,7 +16,9 @@ mod stencil_deposit;
 mod stencil_interpolate;
 mod walk;
 
+pub use cell_stencil::{CellLanes, CellStencil, differences};
 pub use columns::Columns;
+pub use deformed::deformed;
 pub use deposit::Deposit;
 pub use gimp::Gimp;
 pub use lanes::{LANES, Lanes, groups};

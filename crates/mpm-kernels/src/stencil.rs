@@ -33,6 +33,11 @@ impl<const D: usize> UniformGrid<D> {
         self.spacing
     }
 
+    /// 1/h.
+    pub(crate) fn inverse_spacing(&self) -> f64 {
+        self.inverse_spacing
+    }
+
     /// u_a = (x_a − origin_a) / h.
     #[inline(always)]
     pub fn coordinate(&self, x: &[f64; D], axis: usize) -> f64 {

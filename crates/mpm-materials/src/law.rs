@@ -41,6 +41,35 @@ pub trait Law<const D: usize>: Sync {
     /// flow only makes them slower; viscosity is not in it.
     fn wave_speed(&self, F: &Matrix<D>, state: &Self::State, reference_density: f64) -> f64;
 
+    /// [`kirchhoff_stress`](Self::kirchhoff_stress) of many particles, as many as `stresses`; `velocity_gradients` may be empty unless the law is
+    /// [`rate_dependent`](Self::rate_dependent). Laws that can work on several particles at once override it; each result depends on its own
+    /// particle alone, and agrees with that of the single particle up to rounding.
+    fn kirchhoff_stresses(
+        &self,
+        F: &[Matrix<D>],
+        states: &[Self::State],
+        velocity_gradients: &[Matrix<D>],
+        stresses: &mut [Matrix<D>],
+    ) {
+        for (k, ((F, state), stress)) in F.iter().zip(states).zip(stresses).enumerate() {
+            let velocity_gradient = velocity_gradients.get(k).unwrap_or(&Matrix::ZERO);
+            *stress = self.kirchhoff_stress(F, state, velocity_gradient);
+        }
+    }
+
+    /// [`wave_speed`](Self::wave_speed) of many particles, in the same way.
+    fn wave_speeds(
+        &self,
+        F: &[Matrix<D>],
+        states: &[Self::State],
+        reference_densities: &[f64],
+        wave_speeds: &mut [f64],
+    ) {
+        for (((F, state), &density), wave_speed) in F.iter().zip(states).zip(reference_densities).zip(wave_speeds) {
+            *wave_speed = self.wave_speed(F, state, density);
+        }
+    }
+
     /// Whether the law has a stress at F.
     ///
     /// # Errors
@@ -77,6 +106,16 @@ impl<const D: usize, M: Material<D> + ?Sized> Law<D> for M {
     #[inline(always)]
     fn wave_speed(&self, F: &Matrix<D>, _state: &(), reference_density: f64) -> f64 {
         Material::wave_speed(self, F, reference_density)
+    }
+
+    #[inline]
+    fn kirchhoff_stresses(&self, F: &[Matrix<D>], _: &[()], _: &[Matrix<D>], stresses: &mut [Matrix<D>]) {
+        Material::kirchhoff_stresses(self, F, stresses);
+    }
+
+    #[inline]
+    fn wave_speeds(&self, F: &[Matrix<D>], _: &[()], reference_densities: &[f64], wave_speeds: &mut [f64]) {
+        Material::wave_speeds(self, F, reference_densities, wave_speeds);
     }
 
     #[inline]

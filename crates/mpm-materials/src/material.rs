@@ -33,6 +33,17 @@ pub trait Material<const D: usize>: Sync {
     /// per reference volume. Not finite where [`check`](Self::check) fails or ρ₀ ≤ 0.
     fn wave_speed(&self, F: &Matrix<D>, reference_density: f64) -> f64;
 
+    /// [`kirchhoff_stress`](Self::kirchhoff_stress) of many F, as many as `stresses`. Materials that can work on several at once override
+    /// it; each result depends on its own F alone, and agrees with that of the single F up to rounding.
+    fn kirchhoff_stresses(&self, F: &[Matrix<D>], stresses: &mut [Matrix<D>]) {
+        stresses_one_by_one(self, F, stresses);
+    }
+
+    /// [`wave_speed`](Self::wave_speed) of many F, in the same way.
+    fn wave_speeds(&self, F: &[Matrix<D>], reference_densities: &[f64], wave_speeds: &mut [f64]) {
+        wave_speeds_one_by_one(self, F, reference_densities, wave_speeds);
+    }
+
     /// Whether the material has a stress at F; by default, whether F is finite.
     ///
     /// # Errors
@@ -53,6 +64,33 @@ pub trait Material<const D: usize>: Sync {
     }
 }
 
+/// The stress of every F, one after the other.
+#[allow(non_snake_case)]
+#[inline]
+pub(crate) fn stresses_one_by_one<const D: usize, M: Material<D> + ?Sized>(
+    material: &M,
+    F: &[Matrix<D>],
+    stresses: &mut [Matrix<D>],
+) {
+    for (F, stress) in F.iter().zip(stresses) {
+        *stress = material.kirchhoff_stress(F);
+    }
+}
+
+/// The wave speed of every F, one after the other.
+#[allow(non_snake_case)]
+#[inline]
+pub(crate) fn wave_speeds_one_by_one<const D: usize, M: Material<D> + ?Sized>(
+    material: &M,
+    F: &[Matrix<D>],
+    reference_densities: &[f64],
+    wave_speeds: &mut [f64],
+) {
+    for ((F, &density), wave_speed) in F.iter().zip(reference_densities).zip(wave_speeds) {
+        *wave_speed = material.wave_speed(F, density);
+    }
+}
+
 /// A reference to a material is a material, `&dyn Material<D>` among them.
 #[allow(non_snake_case)]
 impl<const D: usize, M: Material<D> + ?Sized> Material<D> for &M {
@@ -70,6 +108,14 @@ impl<const D: usize, M: Material<D> + ?Sized> Material<D> for &M {
 
     fn wave_speed(&self, F: &Matrix<D>, reference_density: f64) -> f64 {
         (**self).wave_speed(F, reference_density)
+    }
+
+    fn kirchhoff_stresses(&self, F: &[Matrix<D>], stresses: &mut [Matrix<D>]) {
+        (**self).kirchhoff_stresses(F, stresses);
+    }
+
+    fn wave_speeds(&self, F: &[Matrix<D>], reference_densities: &[f64], wave_speeds: &mut [f64]) {
+        (**self).wave_speeds(F, reference_densities, wave_speeds);
     }
 
     fn check(&self, F: &Matrix<D>) -> Result<(), DeformationError> {

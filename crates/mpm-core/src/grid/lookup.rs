@@ -39,10 +39,14 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
         let mut end = 0;
         if has_halo::<D>(W) {
             let base = rank * self.halo.nodes.len() + usize::from(self.halo.bases[place as usize]);
+            let (table, mut rest) = (&self.halo_numbers[base..], &mut scratch[..]);
             for &row in &self.halo.rows {
-                let numbers = &self.halo_numbers[base + usize::from(row)..][..4];
-                scratch[end..end + 4].copy_from_slice(numbers);
-                end += W;
+                if let (Some(to), Some(numbers)) =
+                    (rest.first_chunk_mut::<4>(), table[usize::from(row)..].first_chunk())
+                {
+                    *to = *numbers;
+                }
+                rest = &mut rest[W..];
             }
             return &scratch[..size];
         }

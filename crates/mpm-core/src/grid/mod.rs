@@ -11,7 +11,9 @@ mod template;
 
 use std::marker::PhantomData;
 
-use mpm_kernels::{Columns, Deposit, Entry, Interpolated, NodeField, NodeSink, Spline, Stencil, UniformGrid, Wanted};
+use mpm_kernels::{
+    CellStencil, Columns, Deposit, Entry, Interpolated, NodeField, NodeSink, Spline, Stencil, UniformGrid, Wanted,
+};
 
 use self::block::{locate, node_at, slot_count};
 use self::halo::Halo;
@@ -230,6 +232,17 @@ impl<S: Spline<W>, const W: usize, const D: usize> Basis<D> for SplineGrid<S, W,
     #[inline(always)]
     fn interpolate(&self, _: usize, x: &[f64; D], wanted: Wanted, nodes: &impl NodeField<D>) -> Interpolated<D> {
         Stencil::<W, D>::new::<S>(x, &self.nodes).interpolate(wanted, nodes)
+    }
+
+    const CELL_STENCILS: bool = S::CELL_STENCILS && D == 3;
+
+    #[inline(always)]
+    fn cell_stencil(&self, x: &[f64; D]) -> Option<CellStencil<D>> {
+        if Self::CELL_STENCILS {
+            CellStencil::new(x, &self.nodes)
+        } else {
+            None
+        }
     }
 
     #[inline(always)]

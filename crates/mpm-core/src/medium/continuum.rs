@@ -1,3 +1,5 @@
+use std::ops::Range;
+
 use mpm_materials::Law;
 use mpm_tensor::Matrix;
 use rayon::prelude::*;
@@ -14,16 +16,45 @@ pub struct Continuum<L> {
     pub law: L,
 }
 
+/// Particles of one piece of work.
+const CHUNK: usize = 1 << 12;
+
+/// Particles that a law is asked for at once.
+const GROUP: usize = 32;
+
 impl<L> Continuum<L> {
-    /// Wave speed c of a particle, and its density m_p / V⁰_p.
-    #[inline]
-    fn wave_speed_of<const D: usize>(&self, particles: &Particles<D, L::State>, particle: usize) -> (f64, f64)
+    /// The largest wave speed c of the particles of a range.
+    fn largest_wave_speed<const D: usize>(&self, particles: &Particles<D, L::State>, range: Range<usize>) -> f64
     where
         L: Law<D>,
     {
-        let density = particles.masses.get(particle) / particles.reference_volumes[particle];
-        let (deformation, state) = (&particles.deformation_gradients[particle], &particles.states[particle]);
-        (self.law.wave_speed(deformation, state, density), density)
+        let (mut densities, mut speeds) = ([0.0; GROUP], [0.0; GROUP]);
+        let mut largest = 0.0;
+        let mut start = range.start;
+        while start < range.end {
+            let group = start..range.end.min(start + GROUP);
+            let (densities, speeds) = (&mut densities[..group.len()], &mut speeds[..group.len()]);
+            for (density, particle) in densities.iter_mut().zip(group.clone()) {
+                *density = self.density(particles, particle);
+            }
+            let (deformations, states) = (&particles.deformation_gradients, &particles.states);
+            self.law
+                .wave_speeds(&deformations[group.clone()], &states[group.clone()], densities, speeds);
+            for &speed in speeds.iter() {
+                largest = larger_or_nan(largest, speed);
+            }
+            start = group.end;
+        }
+        largest
+    }
+
+    /// m_p / V⁰_p.
+    #[inline(always)]
+    fn density<const D: usize>(&self, particles: &Particles<D, L::State>, particle: usize) -> f64
+    where
+        L: Law<D>,
+    {
+        particles.masses.get(particle) / particles.reference_volumes[particle]
     }
 
     /// Why a particle has no finite wave speed.
@@ -33,14 +64,11 @@ impl<L> Continuum<L> {
     {
         match self.law.check(&particles.deformation_gradients[particle]) {
             Err(source) => MpmError::Deformation { particle, source },
-            Ok(()) => {
-                let (wave_speed, reference_density) = self.wave_speed_of(particles, particle);
-                MpmError::WaveSpeed {
-                    particle,
-                    wave_speed,
-                    reference_density,
-                }
-            }
+            Ok(()) => MpmError::WaveSpeed {
+                particle,
+                wave_speed: self.largest_wave_speed(particles, particle..particle + 1),
+                reference_density: self.density(particles, particle),
+            },
         }
     }
 }
@@ -62,6 +90,23 @@ impl<const D: usize, L: Law<D>> Medium<D> for Continuum<L> {
         stress * (-time_step * particles.reference_volumes[particle])
     }
 
+    fn impulses(
+        &self,
+        particles: &Particles<D, L::State>,
+        range: Range<usize>,
+        time_step: f64,
+        impulses: &mut Vec<Matrix<D>>,
+    ) {
+        impulses.resize(range.len(), Matrix::ZERO);
+        let rates = particles.velocity_gradients.get(range.clone()).unwrap_or(&[]);
+        let (deformations, states) = (&particles.deformation_gradients, &particles.states);
+        self.law
+            .kirchhoff_stresses(&deformations[range.clone()], &states[range.clone()], rates, impulses);
+        for (impulse, volume) in impulses.iter_mut().zip(&particles.reference_volumes[range]) {
+            *impulse = *impulse * (-time_step * volume);
+        }
+    }
+
     #[inline]
     fn advance(&self, trial: &Matrix<D>, state: &mut L::State) -> Matrix<D> {
         self.law.advance(trial, state)
@@ -74,13 +119,15 @@ impl<const D: usize, L: Law<D>> Medium<D> for Continuum<L> {
 
     /// A law gives a wave speed that is not finite wherever it has no stress, so the check costs nothing.
     fn wave_speed(&self, particles: &Particles<D, L::State>) -> Result<f64, MpmError> {
-        let speed = |particle| self.wave_speed_of(particles, particle).0;
-        let each = (0..particles.len()).into_par_iter().with_min_len(4096);
-        let largest = each.map(speed).reduce(|| 0.0, larger_or_nan);
+        let chunks = (0..particles.len().div_ceil(CHUNK)).into_par_iter();
+        let range = |chunk: usize| chunk * CHUNK..particles.len().min((chunk + 1) * CHUNK);
+        let largest = chunks.map(|chunk| self.largest_wave_speed(particles, range(chunk)));
+        let largest = largest.reduce(|| 0.0, larger_or_nan);
         if largest.is_finite() {
             return Ok(largest);
         }
-        let at_fault = (0..particles.len()).find(|&particle| !speed(particle).is_finite());
+        let finite = |p: usize| self.largest_wave_speed(particles, p..p + 1).is_finite();
+        let at_fault = (0..particles.len()).find(|&particle| !finite(particle));
         at_fault.map_or(Ok(0.0), |particle| Err(self.fault(particles, particle)))
     }
 }

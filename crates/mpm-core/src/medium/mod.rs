@@ -3,6 +3,8 @@
 mod continuum;
 mod gas;
 
+use std::ops::Range;
+
 use mpm_kernels::Columns;
 use mpm_tensor::Matrix;
 
@@ -48,6 +50,18 @@ pub trait Medium<const D: usize>: Sync {
 
     /// −Δt V⁰_p τ_p of one particle.
     fn impulse(&self, particles: &Particles<D, Self::State>, particle: usize, time_step: f64) -> Self::Impulse;
+
+    /// [`impulse`](Self::impulse) of the particles of a range, written to `impulses`; media that deform do it for several at once.
+    fn impulses(
+        &self,
+        particles: &Particles<D, Self::State>,
+        range: Range<usize>,
+        time_step: f64,
+        impulses: &mut Vec<Self::Impulse>,
+    ) {
+        impulses.clear();
+        impulses.extend(range.map(|particle| self.impulse(particles, particle, time_step)));
+    }
 
     /// Takes the trial (I + Δt L_p) F_p to a deformation gradient that the medium admits, and updates the internal variables;
     /// the trial itself for a medium without memory.

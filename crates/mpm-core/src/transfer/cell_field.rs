@@ -1,6 +1,6 @@
 //! Vector fields at the nodes, as the particles of a cell read them.
 
-use mpm_kernels::{LANES, Lanes, NodeField, Packed, groups_of};
+use mpm_kernels::{CellLanes, LANES, Lanes, NodeField, Packed, differences, groups_of};
 
 use super::GridNode;
 
@@ -102,6 +102,20 @@ impl CellField {
         for (lanes, &number) in self.0.chunks_exact_mut(G).zip(numbers) {
             field.packed::<G>(number as usize).write(lanes);
         }
+    }
+
+    /// From the values at the nodes to their [`differences`].
+    #[inline(always)]
+    pub fn take_differences(&mut self) {
+        if let Some(nodes) = self.0.first_chunk_mut() {
+            differences(nodes);
+        }
+    }
+
+    /// The differences, once they have been taken.
+    #[inline(always)]
+    pub fn differences(&self) -> Option<&CellLanes> {
+        self.0.first_chunk()
     }
 
     /// The field at the `size` nodes.

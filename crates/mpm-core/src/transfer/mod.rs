@@ -1,5 +1,6 @@
 //! How mass and momentum travel between particles and nodes: PIC, APIC, FLIP blend.
 
+mod ahead;
 mod apic;
 mod cell_field;
 mod flip;
@@ -12,13 +13,14 @@ mod tile;
 
 use mpm_kernels::{Deposit, Packed};
 
+pub(crate) use ahead::Prepare;
 pub use apic::Apic;
 pub(crate) use cell_field::{CellField, Changes, Numbered, Velocities};
 pub use flip::{Flip, FlipNode};
 pub(crate) use gather::gather_cells;
 pub use gather::{Divide, gather};
 pub use mls::Mls;
-pub(crate) use moving::Moving;
+pub(crate) use moving::{Moving, MovingParticle};
 pub use pic::{Pic, VelocityNode};
 pub use scatter::{NodeSums, StencilNodes, Sum};
 pub(crate) use tile::Tile;

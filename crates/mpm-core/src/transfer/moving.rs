@@ -13,6 +13,38 @@ pub struct Moving<'a, const D: usize, S> {
     pub states: &'a mut [S],
 }
 
+/// Those of one particle.
+pub struct MovingParticle<'a, const D: usize, S> {
+    pub position: &'a mut [f64; D],
+    pub velocity: &'a mut [f64; D],
+    pub affine: Option<&'a mut Matrix<D>>,
+    /// With its internal variables.
+    pub deformation: Option<(&'a mut Matrix<D>, &'a mut S)>,
+    pub velocity_gradient: Option<&'a mut Matrix<D>>,
+}
+
+impl<const D: usize, S> Moving<'_, D, S> {
+    /// The fields of particle k. Asked for before the nodes are read: a check of a length in between would tear the work on them apart.
+    #[inline(always)]
+    pub fn particle(&mut self, k: usize, affine: bool, deforms: bool) -> MovingParticle<'_, D, S> {
+        MovingParticle {
+            position: &mut self.positions[k],
+            velocity: &mut self.velocities[k],
+            affine: if affine { Some(&mut self.affine[k]) } else { None },
+            deformation: if deforms {
+                Some((&mut self.deformation_gradients[k], &mut self.states[k]))
+            } else {
+                None
+            },
+            velocity_gradient: if deforms {
+                self.velocity_gradients.get_mut(k)
+            } else {
+                None
+            },
+        }
+    }
+}
+
 impl<'a, const D: usize, S> Moving<'a, D, S> {
     pub fn of(particles: &'a mut Particles<D, S>) -> Self {
         Self {

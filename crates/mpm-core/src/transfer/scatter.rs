@@ -5,6 +5,7 @@ use std::ops::Range;
 use mpm_kernels::Lanes;
 use rayon::prelude::*;
 
+use super::ahead::{Ahead, Prepare};
 use super::{GridNode, Tile};
 use crate::Basis;
 
@@ -23,6 +24,21 @@ impl Sum for f64 {
 
 /// Nodes of one piece of work when the parts' sums are added.
 const MERGE_LENGTH: usize = 1 << 12;
+
+/// What the cells of a part leave to each other.
+struct Memory<I> {
+    lanes: Vec<Lanes>,
+    ahead: Ahead<I>,
+}
+
+impl<I> Default for Memory<I> {
+    fn default() -> Self {
+        Self {
+            lanes: Vec::new(),
+            ahead: Ahead::default(),
+        }
+    }
+}
 
 /// Sums at the nodes, and those of every part before they are added; the memory is kept between steps.
 #[derive(Clone, Debug, Default)]
@@ -52,44 +68,51 @@ impl<N: Sum> NodeSums<N> {
         positions: &[[f64; D]],
         deposit: impl Fn(usize, &[f64; D], &mut StencilNodes<N>) + Sync + Copy,
     ) {
-        self.scatter_cells(basis, move |particles, stencil, _| {
+        self.scatter_cells(basis, move |particles, stencil, _: &mut ()| {
             for particle in particles {
                 deposit(particle, &positions[particle], stencil);
             }
         });
     }
 
-    /// As [`scatter`](Self::scatter), for sums with lanes: `deposit(p, x_p, tile)` adds to a tile, which is added to the nodes
+    /// As [`scatter`](Self::scatter), for sums with lanes: `deposit(p, x_p, I, tile)` adds to a tile, which is added to the nodes
     /// once per cell. Bases with lone particles have no use for tiles; there the tile is the nodes themselves.
-    pub(crate) fn scatter_packed<const D: usize, B: Basis<D>>(
+    ///
+    /// I is what `source` has prepared for the particle, some particles ahead at a time; `None` where nothing is wanted of it.
+    pub(crate) fn scatter_packed<const D: usize, B: Basis<D>, P: Prepare>(
         &mut self,
         basis: &B,
         positions: &[[f64; D]],
         with_impulses: bool,
-        deposit: impl Fn(usize, &[f64; D], &mut Tile<B, N, D>) + Sync + Copy,
+        source: P,
+        deposit: impl Fn(usize, &[f64; D], Option<&P::Value>, &mut Tile<B, N, D>) + Sync + Copy,
     ) where
         N: GridNode<D>,
     {
-        self.scatter_cells(basis, move |particles, stencil, lanes| {
-            let mut tile = Tile::<B, N, D>::new(stencil, lanes, with_impulses);
+        self.scatter_cells(basis, move |particles, stencil, memory: &mut Memory<P::Value>| {
+            if P::WANTED {
+                memory.ahead.reach(&particles, positions.len(), &source);
+            }
+            let mut tile = Tile::<B, N, D>::new(stencil, &mut memory.lanes, with_impulses);
             for particle in particles {
-                deposit(particle, &positions[particle], &mut tile);
+                let prepared = if P::WANTED { memory.ahead.get(particle) } else { None };
+                deposit(particle, &positions[particle], prepared, &mut tile);
             }
             tile.close();
         });
     }
 
     /// Start from zero and call `add(particles, stencil, memory)` for every cell.
-    fn scatter_cells<const D: usize, B: Basis<D>>(
+    fn scatter_cells<const D: usize, B: Basis<D>, S: Default>(
         &mut self,
         basis: &B,
-        add: impl Fn(Range<usize>, &mut StencilNodes<N>, &mut Vec<Lanes>) + Sync + Copy,
+        add: impl Fn(Range<usize>, &mut StencilNodes<N>, &mut S) + Sync + Copy,
     ) {
         self.nodes.clear();
         self.nodes.resize(basis.node_count(), N::default());
         let schedule = basis.schedule();
         let add_up = |cells: Range<usize>, first: usize, nodes: &mut [N]| {
-            let (mut scratch, mut lanes) = (Vec::new(), Vec::new());
+            let (mut scratch, mut memory) = (Vec::new(), S::default());
             #[expect(
                 clippy::redundant_locals,
                 reason = "a copy of its own, so that what it captured may stay in registers"
@@ -101,7 +124,7 @@ impl<N: Sum> NodeSums<N> {
                     first,
                     nodes,
                 };
-                add(schedule.cell(cell), &mut stencil, &mut lanes);
+                add(schedule.cell(cell), &mut stencil, &mut memory);
             }
         };
         if let [part] = schedule.parts() {
