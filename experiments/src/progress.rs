@@ -154,3 +154,11 @@ impl Observer for CaseObserver {
         unless_interrupted()
     }
 }
+
+impl mpm_scenes::Observer for CaseObserver {
+    fn after_step(&mut self, progress: mpm_scenes::Progress) -> ControlFlow<()> {
+        let share = progress.time / progress.end;
+        self.bar.set_position(units(self.base + self.cost * share));
+        unless_interrupted()
+    }
+}

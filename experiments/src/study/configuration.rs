@@ -104,7 +104,7 @@ fn canonical(table: &toml::Table) -> String {
 }
 
 /// The 64-bit FNV-1a hash in hexadecimal digits.
-fn fingerprint(text: &str) -> String {
+pub fn fingerprint(text: &str) -> String {
     let mut hash: u64 = 0xcbf2_9ce4_8422_2325;
     for byte in text.bytes() {
         hash = (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);

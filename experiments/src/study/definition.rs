@@ -1,5 +1,7 @@
 //! What a study is.
 
+use std::path::Path;
+
 use serde::de::DeserializeOwned;
 
 use super::directory::StudyDirectory;
@@ -36,6 +38,22 @@ pub trait Study: DeserializeOwned + Sync {
 
     /// The `kind` in the configuration.
     const KIND: &'static str;
+
+    /// Reads and checks the files that the configuration names, relative to its own file. Before a run, not for a report.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or does not fit the configuration.
+    fn open(&mut self, _configuration: &Path) -> Result<(), CommandError> {
+        Ok(())
+    }
+
+    /// Checks that rows of an earlier start are of the files that [`open`](Self::open) has read.
+    ///
+    /// # Errors
+    /// A case whose files have changed.
+    fn check_earlier(&self, _rows: &[Self::Row]) -> Result<(), CommandError> {
+        Ok(())
+    }
 
     /// The seeds, for the manifest.
     fn seeds(&self) -> Vec<u64>;

@@ -17,6 +17,7 @@ mod quickstart;
 mod results;
 mod runner;
 mod scaling;
+mod scenes;
 mod spacing_particles;
 mod stability;
 mod start_law;
@@ -59,7 +60,7 @@ impl Kind {
 }
 
 /// All kinds.
-static KINDS: [Kind; 11] = [
+static KINDS: [Kind; 12] = [
     Kind::of::<quickstart::Quickstart>(),
     Kind::of::<scaling::Scaling>(),
     Kind::of::<time_error::TimeError>(),
@@ -71,6 +72,7 @@ static KINDS: [Kind; 11] = [
     Kind::of::<catalogue::Catalogue>(),
     Kind::of::<stability::Stability>(),
     Kind::of::<time_to_equal_error::TimeToEqualError>(),
+    Kind::of::<scenes::Scenes>(),
 ];
 
 /// Runs the study that a configuration describes.

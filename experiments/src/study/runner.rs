@@ -1,6 +1,7 @@
 //! Runs the cases of a study that are missing and writes its report.
 
 use std::collections::HashSet;
+use std::path::Path;
 
 use super::configuration::Configuration;
 use super::definition::{Case, Study};
@@ -12,17 +13,20 @@ use crate::progress::StudyProgress;
 use crate::{CommandError, console, interrupt};
 
 /// Runs a study into a directory, or the rest of it.
-pub fn run<S: Study>(configuration: &Configuration, out: &std::path::Path) -> Result<(), CommandError> {
-    let study: S = configuration.parse()?;
-    let cases = study.cases().map_err(|error| in_file(error, configuration))?;
+pub fn run<S: Study>(configuration: &Configuration, out: &Path) -> Result<(), CommandError> {
+    let mut study: S = configuration.parse()?;
+    let located = |error| in_file(error, configuration);
+    study.open(Path::new(configuration.file())).map_err(located)?;
+    let cases = study.cases().map_err(located)?;
     for method in cases.iter().filter_map(Case::method) {
         method.check_built()?;
     }
     let directory = StudyDirectory::claim(out, configuration)?;
     in_threads(study.threads(), || {
         let mut results = ResultsFile::<S::Row>::open(&directory.results())?;
+        study.check_earlier(results.rows()).map_err(located)?;
         note_start(&study, configuration, &directory)?;
-        run_missing(&study, &cases, &directory, &mut results)?;
+        run_missing(&study, &cases, &directory, &mut results).map_err(located)?;
         write_report(&study, results.rows(), &directory)
     })
 }

@@ -1,0 +1,192 @@
+//! The cases of a family: all combinations of the choices of its axes.
+
+use serde::Deserialize;
+use toml::{Table, Value};
+
+/// Changes of a scene that take each other's place.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Axis {
+    /// A dotted key that goes through `values`.
+    pub key: Option<String>,
+    /// Its values.
+    #[serde(default)]
+    pub values: Vec<Value>,
+    /// What labels call the key; its last name if absent.
+    pub label: Option<String>,
+    /// Instead of `key`: several keys at once.
+    #[serde(default)]
+    pub choices: Vec<Choice>,
+    /// Whether the largest number of the axis counts and the others do not.
+    #[serde(default)]
+    pub worst: bool,
+}
+
+/// One change of a scene.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Choice {
+    /// What it is called in labels.
+    #[serde(default)]
+    pub label: String,
+    /// Values by dotted keys.
+    pub set: Table,
+}
+
+/// A combination of choices.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Combination {
+    /// A name that no other combination has.
+    pub name: String,
+    /// What tells its series from others: the labels of all axes but those that x goes along or of which the worst counts.
+    pub label: String,
+    /// Values by dotted keys, later ones over earlier ones.
+    pub set: Vec<(String, Value)>,
+}
+
+impl Axis {
+    /// The choices, each with a label.
+    fn labelled(&self) -> Result<Vec<Choice>, String> {
+        let choices: Vec<Choice> = match (&self.key, self.choices.is_empty()) {
+            (Some(key), true) => self.values.iter().map(|value| self.choice(key, value)).collect(),
+            (None, false) if self.values.is_empty() && self.label.is_none() => self.choices.clone(),
+            _ => return Err("needs either `key` and `values` or `choices`".to_owned()),
+        };
+        if choices.is_empty() {
+            return Err("`values` is empty".to_owned());
+        }
+        Ok(choices)
+    }
+
+    fn choice(&self, key: &str, value: &Value) -> Choice {
+        let label = match value {
+            Value::String(text) if self.label.is_none() => text.clone(),
+            value => format!("{} = {}", self.label.as_deref().unwrap_or(last_name(key)), text(value)),
+        };
+        Choice {
+            label,
+            set: Table::from_iter([(key.to_owned(), value.clone())]),
+        }
+    }
+}
+
+/// All combinations, the last axis fastest; `x` is the dotted key of the horizontal axis.
+///
+/// # Errors
+/// What is wrong with which axis, in words.
+pub fn combinations(axes: &[Axis], x: &str) -> Result<Vec<Combination>, String> {
+    let mut combinations = vec![Combination::default()];
+    for (index, axis) in axes.iter().enumerate() {
+        let choices = axis.labelled().map_err(|message| format!("axes.{index} {message}"))?;
+        let along_x = choices
+            .iter()
+            .flat_map(|choice| choice.set.keys())
+            .any(|key| holds(key, x));
+        let silent = along_x || axis.worst;
+        let extended = combinations.iter().flat_map(|known| {
+            choices.iter().map(|choice| Combination {
+                name: joined(&known.name, &named(choice)),
+                label: joined(&known.label, if silent { "" } else { &choice.label }),
+                set: known.set.iter().cloned().chain(choice.set.clone()).collect(),
+            })
+        });
+        combinations = extended.collect();
+    }
+    Ok(combinations)
+}
+
+/// Whether a dotted key is `x` or a table or array around it.
+fn holds(key: &str, x: &str) -> bool {
+    x.strip_prefix(key)
+        .is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+}
+
+/// A choice's label, or all that it sets.
+fn named(choice: &Choice) -> String {
+    if !choice.label.is_empty() {
+        return choice.label.clone();
+    }
+    let pairs = choice
+        .set
+        .iter()
+        .map(|(key, value)| format!("{} = {}", last_name(key), text(value)));
+    pairs.collect::<Vec<_>>().join(", ")
+}
+
+fn joined(left: &str, right: &str) -> String {
+    let separator = if left.is_empty() || right.is_empty() { "" } else { ", " };
+    format!("{left}{separator}{right}")
+}
+
+/// The last part of a dotted key that is no index.
+fn last_name(key: &str) -> &str {
+    let names = key.rsplit('.');
+    names
+        .into_iter()
+        .find(|name| name.parse::<usize>().is_err())
+        .unwrap_or(key)
+}
+
+fn text(value: &Value) -> String {
+    match value {
+        Value::String(text) => text.clone(),
+        Value::Float(number) => number.to_string(),
+        value => value.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn axes(text: &str) -> Vec<Axis> {
+        #[derive(Deserialize)]
+        struct Document {
+            axes: Vec<Axis>,
+        }
+        toml::from_str::<Document>(text).unwrap().axes
+    }
+
+    #[test]
+    fn axes_multiply_and_label() {
+        let axes = axes(
+            r#"axes = [
+                { key = "grid.basis", values = ["linear", "cubic"] },
+                { choices = [{ label = "FLIP", set = { "transfer" = { kind = "flip" } } }, { set = { "transfer.kind" = "apic" } }] },
+                { key = "time.end", values = [1, 2], worst = true },
+                { key = "bodies.0.shape.upper", values = [[1.0, 2.0], [1.0, 4.0]] },
+            ]"#,
+        );
+        let all = combinations(&axes, "bodies.0.shape.upper.1").unwrap();
+        assert_eq!(all.len(), 16);
+        let labels: Vec<&str> = all.iter().step_by(4).map(|one| one.label.as_str()).collect();
+        assert_eq!(labels, ["linear, FLIP", "linear", "cubic, FLIP", "cubic"]);
+        assert_eq!(all[5].name, "linear, kind = apic, end = 1, upper = [1.0, 4.0]");
+        assert_eq!(all[5].set.len(), 4);
+    }
+
+    #[test]
+    fn numbers_that_are_not_x_carry_their_names() {
+        let axes =
+            axes("axes = [{ key = \"a.speed.0\", values = [0.1] }, { key = \"b\", label = \"v\", values = [2.5] }]");
+        assert_eq!(
+            combinations(&axes, "grid.spacing").unwrap()[0].label,
+            "speed = 0.1, v = 2.5"
+        );
+    }
+
+    #[test]
+    fn half_an_axis_is_refused() {
+        for (text, part) in [
+            ("axes = [{ key = \"a\", values = [] }]", "empty"),
+            ("axes = [{ values = [1] }]", "axes.0 needs either"),
+            (
+                "axes = [{ key = \"a\", values = [1], choices = [{ set = {} }] }]",
+                "needs either",
+            ),
+        ] {
+            let message = combinations(&axes(text), "x").unwrap_err();
+            assert!(message.contains(part), "{message}");
+        }
+    }
+}

@@ -1,0 +1,152 @@
+//! The configuration of the study `scenes`.
+
+use serde::Deserialize;
+use toml::Table;
+
+use super::axis::{Axis, combinations};
+use super::case::Case;
+use super::judgement::Judgement;
+use super::reading::Reading;
+use super::scene_files::SceneFiles;
+use crate::CommandError;
+use crate::options::Bounded;
+use crate::study::checks::{distinct, not_empty, refusal};
+
+/// Families of runs of scenes.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Scenes {
+    #[serde(rename = "kind")]
+    _kind: String,
+    /// Heads the report.
+    pub title: String,
+    /// Threads; absent: as many as the environment gives.
+    pub threads: Option<Bounded<1, 1024>>,
+    /// The families.
+    pub families: Vec<Family>,
+    /// The scenes that the families name, once they are read.
+    #[serde(skip)]
+    pub files: SceneFiles,
+}
+
+/// Runs of one scene with changes, of each of which one number is read.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Family {
+    /// Its name, also of its figure.
+    pub name: String,
+    /// Heads its part of the report.
+    pub title: String,
+    /// What the report says of it.
+    pub note: Option<String>,
+    /// A family before this one whose scene, changes, axes and x are this one's where it has none; equal runs are made once.
+    pub like: Option<String>,
+    /// The scene's file, relative to the configuration's.
+    pub scene: Option<String>,
+    /// Changes of all its runs: values by dotted keys.
+    #[serde(default)]
+    pub set: Table,
+    /// What differs between the runs.
+    #[serde(default)]
+    pub axes: Vec<Axis>,
+    /// The dotted key of a number of the scene: the horizontal axis.
+    pub x: Option<String>,
+    /// The label of that axis, with its unit.
+    pub x_label: Option<String>,
+    /// The label of the vertical axis, with its unit.
+    pub y_label: String,
+    /// The number.
+    pub read: Reading,
+    /// What is asked of the numbers.
+    #[serde(default)]
+    pub judgements: Vec<Judgement>,
+    /// Parts of the labels of the series that are judged; empty: all.
+    #[serde(default)]
+    pub judged: Vec<String>,
+}
+
+impl Scenes {
+    /// The families with what they take over from others.
+    ///
+    /// # Errors
+    /// The field that is wrong, with the family.
+    pub fn resolved(&self) -> Result<Vec<Family>, CommandError> {
+        not_empty("families", &self.families)?;
+        let mut known: Vec<Family> = Vec::with_capacity(self.families.len());
+        for family in &self.families {
+            if known.iter().any(|other| other.name == family.name) {
+                return Err(family.refuse("name", "is that of another family"));
+            }
+            let named = |name: &String| known.iter().find(|other| other.name == *name);
+            let model = match &family.like {
+                Some(name) => {
+                    Some(named(name).ok_or_else(|| family.refuse("like", format!("no family before it is `{name}`")))?)
+                }
+                None => None,
+            };
+            let family = family.over(model);
+            family.check()?;
+            known.push(family);
+        }
+        Ok(known)
+    }
+
+    /// The cases, family by family.
+    ///
+    /// # Errors
+    /// The field that is wrong, with the family.
+    pub fn all_cases(&self) -> Result<Vec<Case>, CommandError> {
+        let mut cases = Vec::new();
+        for family in self.resolved()? {
+            let combinations = combinations(&family.axes, family.x_key());
+            for combination in combinations.map_err(|message| family.refuse("axes", message))? {
+                cases.push(Case::new(&family, combination));
+            }
+        }
+        distinct("families.axes", &cases)?;
+        Ok(cases)
+    }
+}
+
+impl Family {
+    /// The family with what it takes over from `model`.
+    fn over(&self, model: Option<&Self>) -> Self {
+        let mut family = self.clone();
+        if let Some(model) = model {
+            family.scene = family.scene.or_else(|| model.scene.clone());
+            family.x = family.x.or_else(|| model.x.clone());
+            family.x_label = family.x_label.or_else(|| model.x_label.clone());
+            if family.axes.is_empty() {
+                family.axes.clone_from(&model.axes);
+            }
+            family.set = model.set.clone().into_iter().chain(family.set).collect();
+        }
+        family
+    }
+
+    fn check(&self) -> Result<(), CommandError> {
+        let simple = |c: char| c.is_ascii_alphanumeric() || c == '-';
+        if self.name.is_empty() || !self.name.chars().all(simple) {
+            return Err(self.refuse("name", "must be made of letters, digits and dashes"));
+        }
+        for (field, value) in [("scene", &self.scene), ("x", &self.x), ("x-label", &self.x_label)] {
+            if value.is_none() {
+                return Err(self.refuse(field, "is missing"));
+            }
+        }
+        not_empty(&format!("families.{}.axes", self.name), &self.axes)?;
+        self.read
+            .check()
+            .map_err(|(field, message)| self.refuse(field, message))
+    }
+
+    /// The dotted key of the horizontal axis.
+    pub fn x_key(&self) -> &str {
+        self.x.as_deref().unwrap_or_default()
+    }
+
+    /// The error for a field of the family.
+    pub fn refuse(&self, field: &str, message: impl Into<String>) -> CommandError {
+        refusal(&format!("families.{}.{field}", self.name), message)
+    }
+}

@@ -1,0 +1,108 @@
+//! Dotted keys: `bodies.0.shape.upper.1` is the second entry of `upper` of the first body's shape.
+
+use toml::{Table, Value};
+
+/// Puts a value where a dotted key says; what was there is replaced, tables as a whole. Tables on the way that do not exist are made, elements of
+/// arrays have to be there.
+///
+/// # Errors
+/// What is in the way, in words.
+pub fn put(scene: &mut Table, key: &str, value: Value) -> Result<(), String> {
+    let (first, rest) = split(key);
+    match rest {
+        None => {
+            scene.insert(first.to_owned(), value);
+            Ok(())
+        }
+        Some(rest) => {
+            let inner = scene.entry(first).or_insert_with(|| Value::Table(Table::new()));
+            put_within(inner, first, rest, value)
+        }
+    }
+}
+
+fn put_within(place: &mut Value, name: &str, key: &str, value: Value) -> Result<(), String> {
+    match place {
+        Value::Table(table) => put(table, key, value),
+        Value::Array(elements) => {
+            let (first, rest) = split(key);
+            let count = elements.len();
+            let index = first.parse::<usize>().ok();
+            let element = index.and_then(|index| elements.get_mut(index));
+            let element =
+                element.ok_or_else(|| format!("`{name}` has elements 0 to {}, not `{first}`", count as i64 - 1))?;
+            match rest {
+                None => {
+                    *element = value;
+                    Ok(())
+                }
+                Some(rest) => put_within(element, first, rest, value),
+            }
+        }
+        _ => Err(format!("`{name}` is neither a table nor an array")),
+    }
+}
+
+/// The number at a dotted key.
+pub fn number(scene: &Table, key: &str) -> Option<f64> {
+    let (first, rest) = split(key);
+    number_within(scene.get(first)?, rest)
+}
+
+fn number_within(place: &Value, key: Option<&str>) -> Option<f64> {
+    match (place, key.map(split)) {
+        (Value::Float(value), None) => Some(*value),
+        (Value::Integer(value), None) => Some(*value as f64),
+        (Value::Table(table), Some((first, rest))) => number_within(table.get(first)?, rest),
+        (Value::Array(elements), Some((first, rest))) => {
+            number_within(elements.get(first.parse::<usize>().ok()?)?, rest)
+        }
+        _ => None,
+    }
+}
+
+/// The first part of a key, and what follows its dot.
+fn split(key: &str) -> (&str, Option<&str>) {
+    match key.split_once('.') {
+        Some((first, rest)) => (first, Some(rest)),
+        None => (key, None),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scene() -> Table {
+        "grid = { spacing = 1.0 }\nbodies = [{ shape = { upper = [1, 2.0] } }]"
+            .parse()
+            .unwrap()
+    }
+
+    #[test]
+    fn what_was_put_is_found() {
+        let mut scene = scene();
+        for (key, value) in [
+            ("grid.spacing", 0.5),
+            ("bodies.0.shape.upper.1", 7.0),
+            ("time.end", 3.0),
+        ] {
+            put(&mut scene, key, Value::Float(value)).unwrap();
+            assert_eq!(number(&scene, key), Some(value), "{key}");
+        }
+        assert_eq!(number(&scene, "bodies.0.shape.upper.0"), Some(1.0));
+        put(&mut scene, "grid", Value::Table("basis = \"cubic\"".parse().unwrap())).unwrap();
+        assert_eq!(number(&scene, "grid.spacing"), None);
+        assert_eq!(number(&scene, "bodies.0.shape.upper.9"), None);
+        assert_eq!(number(&scene, "bodies.0.shape"), None);
+    }
+
+    #[test]
+    fn what_is_in_the_way_is_named() {
+        let mut scene = scene();
+        let mut message = |key: &str| put(&mut scene, key, Value::Float(0.0)).unwrap_err();
+        assert_eq!(message("bodies.1.shape"), "`bodies` has elements 0 to 0, not `1`");
+        assert_eq!(message("bodies.first"), "`bodies` has elements 0 to 0, not `first`");
+        assert_eq!(message("grid.spacing.x"), "`spacing` is neither a table nor an array");
+    }
+}

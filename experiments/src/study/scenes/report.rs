@@ -1,0 +1,141 @@
+//! The report of the study `scenes`.
+
+use super::configuration::{Family, Scenes};
+use super::figure;
+use super::judgement::{Judgement, Verdict, orders};
+use super::row::Row;
+use super::series::{MeasuredSeries, series};
+use crate::CommandError;
+use crate::plots::multiples;
+use crate::study::definition::Report;
+use crate::study::directory::StudyDirectory;
+use crate::study::document::{Document, MISSING, number, optional_number};
+
+/// Judgements, then each family with its figure and its numbers.
+pub fn report(study: &Scenes, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
+    let families = study.resolved()?;
+    let all: Vec<Vec<MeasuredSeries>> = families.iter().map(|family| series(rows, &family.name)).collect();
+    let mut document = Document::new(&study.title);
+    document.heading("Judgements");
+    let mut table = Vec::new();
+    let (mut judged, mut passed) = (0, 0);
+    for (family, series) in families.iter().zip(&all) {
+        for verdict in verdicts(family, series) {
+            judged += 1;
+            passed += usize::from(verdict.pass);
+            let pass = if verdict.pass { "yes" } else { "**no**" };
+            table.push(vec![
+                family.title.clone(),
+                verdict.of,
+                verdict.asked,
+                verdict.reached,
+                pass.to_owned(),
+            ]);
+        }
+    }
+    document.table(&["family", "series", "asked", "reached", "pass"], &table);
+    let seconds: f64 = rows.iter().filter_map(|row| row.wall_seconds).sum();
+    document.paragraph(format!(
+        "{passed} of {judged} judgements are kept. All runs together took {seconds:.0} s."
+    ));
+    for (family, series) in families.iter().zip(&all) {
+        section(&mut document, family, series, rows, directory)?;
+    }
+    let failed = rows.iter().filter(|row| row.value.is_none()).count();
+    let verdict = if judged > 0 && passed == judged { "pass" } else { "fail" };
+    Ok(Report {
+        document,
+        summary: vec![
+            ("study", "scenes".to_owned()),
+            ("cases", rows.len().to_string()),
+            ("failed", failed.to_string()),
+            ("judged", judged.to_string()),
+            ("passed", passed.to_string()),
+            ("verdict", verdict.to_owned()),
+        ],
+    })
+}
+
+fn verdicts(family: &Family, series: &[MeasuredSeries]) -> Vec<Verdict> {
+    let judged = || series.iter().filter(|series| series.is_among(&family.judged));
+    let of = |judgement: &Judgement| judged().flat_map(|series| judgement.judge(series)).collect::<Vec<_>>();
+    family.judgements.iter().flat_map(of).collect()
+}
+
+/// Figure and tables of one family.
+fn section(
+    document: &mut Document,
+    family: &Family,
+    series: &[MeasuredSeries],
+    rows: &[Row],
+    directory: &StudyDirectory,
+) -> Result<(), CommandError> {
+    document.heading(&family.title);
+    if let Some(note) = &family.note {
+        document.paragraph(note);
+    }
+    let name = format!("{}.svg", family.name);
+    let caption = format!("{}: {}.", family.title, family.y_label);
+    document.figure(directory, &name, &caption, multiples(&figure::plot(family, series)))?;
+    let order = |judgement: &Judgement| matches!(judgement, Judgement::Order { .. });
+    if family.judgements.iter().any(order) {
+        document.table(
+            &["series", "orders, coarse to fine", "least squares"],
+            &order_table(series),
+        );
+    }
+    let header = [
+        "series",
+        "x",
+        "value",
+        "reference",
+        "tolerance",
+        "steps",
+        "particles",
+        "wall s",
+        "ended",
+    ];
+    let here = rows.iter().filter(|row| row.family == family.name);
+    document.table(&header, &here.map(cells).collect::<Vec<_>>());
+    Ok(())
+}
+
+fn order_table(series: &[MeasuredSeries]) -> Vec<Vec<String>> {
+    let line = |series: &MeasuredSeries| {
+        let (between, overall) = orders(series);
+        let between: Vec<String> = between.iter().map(|order| format!("{order:.2}")).collect();
+        let overall = overall.map_or(MISSING.to_owned(), |order| format!("{order:.2}"));
+        vec![series.label.clone(), between.join(", "), overall]
+    };
+    series.iter().map(line).collect()
+}
+
+fn cells(row: &Row) -> Vec<String> {
+    let count = |value: Option<u64>| value.map_or(MISSING.to_owned(), |value| value.to_string());
+    vec![
+        if row.label.is_empty() {
+            MISSING.to_owned()
+        } else {
+            row.label.clone()
+        },
+        row.x.to_string(),
+        row.value.map_or(MISSING.to_owned(), |value| digits(value, row)),
+        optional_number(row.reference),
+        optional_number(row.tolerance),
+        count(row.steps),
+        count(row.particles.map(|value| value as u64)),
+        optional_number(row.wall_seconds),
+        match row.value {
+            Some(_) => "at the end".to_owned(),
+            None => row.reason.clone(),
+        },
+    ]
+}
+
+/// As many digits as it takes to compare with a reference: one more than usual where there is one that is not 0.
+fn digits(value: f64, row: &Row) -> String {
+    match row.reference {
+        Some(reference) if reference != 0.0 && (1e-3..1e3).contains(&value.abs()) => format!("{value:.4}"),
+        _ => number(value),
+    }
+}

@@ -1,0 +1,120 @@
+//! The rows of a family, ordered for figures and judgements.
+
+use super::row::Row;
+
+/// The rows of one label.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MeasuredSeries {
+    /// The label.
+    pub label: String,
+    /// One point for each x, by x.
+    pub points: Vec<Point>,
+    /// How many runs ended before their time.
+    pub failed: usize,
+}
+
+/// What counts at one x: of several rows the one with the largest value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Point {
+    /// x.
+    pub x: f64,
+    /// The value.
+    pub value: f64,
+    /// What validation.csv compares it with.
+    pub reference: Option<f64>,
+    /// How far from the reference it may be.
+    pub tolerance: Option<f64>,
+}
+
+impl MeasuredSeries {
+    /// (x, value) of all points.
+    pub fn pairs(&self) -> Vec<(f64, f64)> {
+        self.points.iter().map(|point| (point.x, point.value)).collect()
+    }
+
+    /// Whether the series is one of those named: all of them with an empty list, else those of which a part of the label is in it.
+    pub fn is_among(&self, names: &[String]) -> bool {
+        names.is_empty() || self.label.split(", ").any(|part| names.iter().any(|name| name == part))
+    }
+}
+
+/// The series of a family in the order in which their rows came.
+pub fn series(rows: &[Row], family: &str) -> Vec<MeasuredSeries> {
+    let mut all: Vec<MeasuredSeries> = Vec::new();
+    for row in rows.iter().filter(|row| row.family == family) {
+        let index = all
+            .iter()
+            .position(|series| series.label == row.label)
+            .unwrap_or_else(|| {
+                all.push(MeasuredSeries {
+                    label: row.label.clone(),
+                    ..MeasuredSeries::default()
+                });
+                all.len() - 1
+            });
+        add(&mut all[index], row);
+    }
+    for series in &mut all {
+        series.points.sort_by(|left, right| left.x.total_cmp(&right.x));
+    }
+    all
+}
+
+fn add(series: &mut MeasuredSeries, row: &Row) {
+    let Some(value) = row.value else {
+        series.failed += 1;
+        return;
+    };
+    let point = Point {
+        x: row.x,
+        value,
+        reference: row.reference,
+        tolerance: row.tolerance,
+    };
+    match series.points.iter_mut().find(|known| known.x == row.x) {
+        Some(known) if known.value < value => *known = point,
+        Some(_) => {}
+        None => series.points.push(point),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::attempt::Status;
+
+    fn row(label: &str, x: f64, value: Option<f64>) -> Row {
+        Row {
+            case: String::new(),
+            status: Status::Finished,
+            reason: String::new(),
+            family: "f".to_owned(),
+            label: label.to_owned(),
+            x,
+            quantity: String::new(),
+            value,
+            reference: None,
+            tolerance: None,
+            steps: None,
+            particles: None,
+            scene: String::new(),
+            wall_seconds: None,
+        }
+    }
+
+    #[test]
+    fn the_largest_of_one_x_counts() {
+        let rows = [
+            row("a, b", 2.0, Some(1.0)),
+            row("a, b", 1.0, Some(5.0)),
+            row("a, b", 1.0, Some(7.0)),
+            row("c", 1.0, None),
+        ];
+        let all = series(&rows, "f");
+        assert_eq!(all[0].pairs(), [(1.0, 7.0), (2.0, 1.0)]);
+        assert_eq!((all[1].points.len(), all[1].failed), (0, 1));
+        let among = |names: &[&str]| all[0].is_among(&names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>());
+        assert!(among(&[]) && among(&["b"]) && !among(&["c"]));
+        assert!(series(&rows, "g").is_empty());
+    }
+}
