@@ -21,9 +21,7 @@ pub fn deformed<const D: usize>(F: &Matrix<D>, velocity_gradient: &Matrix<D>, ti
             rate = rows[j].mul_add(Lanes::splat(velocity_gradient.0[i][j]), rate);
         }
         let sum = rate.mul_add(Lanes::splat(time_step), rows[i]).to_array();
-        for k in 0..3 {
-            moved.0[i][k] = sum[k];
-        }
+        moved.0[i].copy_from_slice(&sum[..D]);
     }
     moved
 }

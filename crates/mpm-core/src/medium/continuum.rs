@@ -103,7 +103,7 @@ impl<const D: usize, L: Law<D>> Medium<D> for Continuum<L> {
         self.law
             .kirchhoff_stresses(&deformations[range.clone()], &states[range.clone()], rates, impulses);
         for (impulse, volume) in impulses.iter_mut().zip(&particles.reference_volumes[range]) {
-            *impulse = *impulse * (-time_step * volume);
+            *impulse *= -time_step * volume;
         }
     }
 
