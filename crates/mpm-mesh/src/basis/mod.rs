@@ -33,7 +33,7 @@ pub enum Outside {
     },
 }
 
-/// UMLS-MPM (Cao, Zhao, Li & Jiang 2024, doi 10.1007/s00466-024-02524-x): a particle's nodes are the first ring of its cell, its
+/// UMLS-MPM (Cao et al. 2024, doi 10.1007/s00466-024-02524-x): a particle's nodes are the first ring of its cell, its
 /// weights and gradients those of a moving least squares fit with sample weights [`SampleWeight::Continuous`].
 ///
 /// With r_i = x_i − x_p, P_i = \[1, r_i\] and M_p = Σ_i d′_pi P_i P_iᵀ: (w_ip, g_ip) = d′_pi M_p⁻¹ P_i. So Σ w = 1, Σ w r = 0, Σ g = 0 and

@@ -25,7 +25,7 @@ impl<const D: usize> SmoothWall<D> {
             for vertex in facet.vertices {
                 let (area, sum) = &mut sums[vertex as usize];
                 *area += facet.area;
-                *sum = *sum + Matrix::outer(&facet.normal, &facet.normal) * facet.area;
+                *sum += Matrix::outer(&facet.normal, &facet.normal) * facet.area;
             }
         }
         let on_the_wall = sums.into_iter().zip(0..).filter(|&((area, _), _)| area > 0.0);
@@ -50,7 +50,7 @@ fn projection<const D: usize>(normals: &Matrix<D>) -> Matrix<D> {
     if let Some(eigen) = SymmetricEigen::new(normals) {
         for k in (0..D).filter(|&k| eigen.values[k] > CORNER) {
             let direction: [f64; D] = std::array::from_fn(|a| eigen.vectors.0[a][k]);
-            left = left - Matrix::outer(&direction, &direction);
+            left -= Matrix::outer(&direction, &direction);
         }
     }
     left
