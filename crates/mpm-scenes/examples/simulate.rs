@@ -1,8 +1,5 @@
 //! Runs a scene into a directory and prints what `parvi simulate` prints of its validation: `simulate SCENE.toml DIRECTORY`.
 
-// Printing is what an example is for.
-#![allow(clippy::print_stdout)]
-
 use std::error::Error;
 use std::path::PathBuf;
 use std::time::Instant;
