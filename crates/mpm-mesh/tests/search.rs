@@ -103,7 +103,7 @@ fn the_nearest_point_of_a_cube_is_the_one_clamped_into_it() {
             if let Some(near) = near {
                 assert!(distance(&near.position, &clamped) < 1e-13, "{x:?}: {near:?}");
                 assert!((near.distance - far).abs() < 1e-13);
-                assert_eq!(search.locate_by_brute_force(&clamped).is_some(), true);
+                assert!(search.locate_by_brute_force(&clamped).is_some());
             }
         }
     }
