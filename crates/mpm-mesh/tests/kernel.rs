@@ -1,5 +1,7 @@
 //! Weights and gradients of the moving least squares fit.
 
+#![allow(clippy::print_stdout, reason = "smallest weights are reported")]
+
 mod basis_scenes;
 
 use basis_scenes::{cloud, cube, generator, line, naive_weights};

@@ -15,6 +15,11 @@ fn greatest_common_divisor(a: i128, b: i128) -> i128 {
     }
 }
 
+/// a b, which has to fit.
+fn product(a: i128, b: i128) -> i128 {
+    a.checked_mul(b).expect("within 127 bits")
+}
+
 impl Fraction {
     pub fn new(numerator: i128, denominator: i128) -> Self {
         let divisor = greatest_common_divisor(numerator, denominator) * denominator.signum();
@@ -25,12 +30,9 @@ impl Fraction {
     }
 
     pub fn plus(self, other: Self) -> Self {
-        let numerator = self.product(other.denominator).0 + other.product(self.denominator).0;
-        Self::new(numerator, self.denominator.checked_mul(other.denominator).unwrap())
-    }
-
-    fn product(self, factor: i128) -> (i128,) {
-        (self.numerator.checked_mul(factor).unwrap(),)
+        let left = product(self.numerator, other.denominator);
+        let right = product(other.numerator, self.denominator);
+        Self::new(left + right, product(self.denominator, other.denominator))
     }
 
     pub fn minus(self, other: Self) -> Self {
@@ -38,8 +40,8 @@ impl Fraction {
     }
 
     pub fn times(self, other: Self) -> Self {
-        let denominator = self.denominator.checked_mul(other.denominator).unwrap();
-        Self::new(self.product(other.numerator).0, denominator)
+        let numerator = product(self.numerator, other.numerator);
+        Self::new(numerator, product(self.denominator, other.denominator))
     }
 
     pub fn is_negative(self) -> bool {

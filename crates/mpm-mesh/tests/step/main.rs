@@ -1,5 +1,7 @@
 //! The step of mpm-core on meshes.
 
+#![allow(clippy::print_stdout, reason = "errors and drifts are reported")]
+
 mod bar;
 #[path = "../basis_scenes/mod.rs"]
 mod basis_scenes;
