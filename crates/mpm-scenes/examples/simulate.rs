@@ -1,6 +1,7 @@
 //! Runs a scene into a directory and prints what `parvi simulate` prints of its validation: `simulate SCENE.toml DIRECTORY`.
 
 use std::error::Error;
+use std::io::Write;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -16,15 +17,17 @@ fn main() -> Result<(), Box<dyn Error>> {
     let summary = simulate(&scene, &out, &mut ())?;
     let seconds = start.elapsed().as_secs_f64();
     let updates = summary.steps_here as f64 * summary.particles as f64;
-    println!(
+    let mut output = std::io::stdout().lock();
+    writeln!(
+        output,
         "{}: {} steps, {} particles, {seconds:.1} s, {:.0} ns per particle and step",
         scene.title,
         summary.steps,
         summary.particles,
         1e9 * seconds / updates
-    );
+    )?;
     for row in summary.validation {
-        println!("{row:?}, passes: {}", row.passes());
+        writeln!(output, "{row:?}, passes: {}", row.passes())?;
     }
     Ok(())
 }

@@ -67,11 +67,7 @@ fn the_ball_falls_into_the_channel() {
         ("end = 6.5", "end = 1.5"),
     ];
     let squeezed = run("umls_channel", &changes);
-    pinned(
-        "umls_channel, 0.2",
-        "energy gained / freed by the fall",
-        squeezed.row("energy gained").measured,
-    );
+    assert!(squeezed.row("energy gained").passes());
     assert_eq!(squeezed.row("particles lost").measured, 0.0);
     pinned(
         "umls_channel, 0.2",
@@ -86,6 +82,7 @@ fn the_slope_begins_to_fail() {
         ("size = 0.2", "size = 0.8"),
         ("spacing = 0.1", "spacing = 0.4"),
         ("softening_rate = 5.0", "softening_rate = 20.0"),
+        ("step = 1.784e-4", "step = 7.1e-4"),
     ];
     figures(&run("umls_slope", &changes), "umls_slope, 0.8");
 }
@@ -93,12 +90,19 @@ fn the_slope_begins_to_fail() {
 #[test]
 fn the_cross_expands_inside_the_sphere() {
     let changes = [
-        ("end = 1.5", "end = 0.02"),
-        ("\ninterval = 0.1", "\ninterval = 0.01"),
+        ("end = 1.5", "end = 5e-4"),
+        ("\ninterval = 0.1", "\ninterval = 5e-4"),
+        ("series_interval = 0.01", "series_interval = 1e-4"),
         ("size = 0.1", "size = 0.125"),
     ];
     let expanded = run("umls_expansion", &changes);
     figures(&expanded, "umls_expansion, 0.125");
+    let strain = expanded.column("strain_energy");
+    pinned(
+        "umls_expansion, 0.125",
+        "strain_energy",
+        strain.last().copied().unwrap_or(f64::NAN),
+    );
     let upper = expanded.column("upper_x");
     assert!(
         upper.iter().all(|&x| x < 0.5) && upper.last() > upper.first(),
