@@ -167,7 +167,7 @@ fn a_barrier_against_the_mesh_needs_one() {
 fn a_particle_that_leaves_the_mesh_is_an_error_with_its_number() {
     let text = RUBBER_ON_MESH
         .replace("velocity = [0.1, 0.0]", "velocity = [100.0, 0.0]")
-        .replace("outer_layer = true", "outer_layer = false")
+        .replace("[mesh]", "[mesh]\nouter_layer = false")
         .replace(
             "against = \"mesh\"",
             "shapes = [{ kind = \"sphere\", centre = [9.0, 9.0], radius = 1.0 }]",

@@ -246,7 +246,6 @@ dimension = 2
 
 [mesh]
 generate = { kind = "rectangle", lower = [0.0, 0.0], upper = [1.0, 1.0], size = 0.2 }
-outer_layer = true
 
 [time]
 end = 0.1
