@@ -26,6 +26,11 @@ impl<const D: usize> Meshes<D> {
         Ok(Self { bases, chosen: 0 })
     }
 
+    /// Choose the copy made last.
+    pub fn choose_last(&mut self) {
+        self.chosen = self.bases.len() - 1;
+    }
+
     /// The basis that particles meet.
     pub fn basis(&self) -> &HatBasis<D> {
         &self.bases[self.chosen]

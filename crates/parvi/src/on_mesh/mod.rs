@@ -1,16 +1,17 @@
 //! The calibrated sampler on a bounded domain: a gas on the hat functions of a mesh, within its wall.
 
+mod frame;
 mod meshes;
 mod start;
 mod wall;
 
-use mpm_core::{Basis, Mpm, Particles, Pic, StepControl};
+use mpm_core::{Basis, Mpm, MpmError, Particles, Pic, StepControl};
 use mpm_materials::IsothermalGas;
-use mpm_mesh::{MeshError, SimplexMesh, read_msh};
-use mpm_tensor::vector;
-use parvi_targets::{Frame, Target};
+use mpm_mesh::{SimplexMesh, read_msh};
+use parvi_targets::Target;
 use rand::{Rng, RngExt};
 
+use self::frame::{frame_of, in_frame};
 use self::meshes::Meshes;
 use self::wall::SmoothWall;
 use crate::drive::finite;
@@ -22,6 +23,9 @@ use crate::{
     MeshOptions, NonFiniteScores, Observer, OnMesh, Progress, Run, SampleError, Samples, ScoreLocation, TracePoint,
     defaults,
 };
+
+/// The gas within its wall.
+type Body<'a, const D: usize> = Mpm<D, Meshes<D>, Pic, IsothermalGas, ScoreForce<'a, D>, SmoothWall<D>>;
 
 /// Copies of the mesh with moved vertices; the last one serves the residual alone.
 const COPIES: usize = 16;
@@ -99,20 +103,16 @@ impl MeshOptions {
         };
         let start = start::uniform_in(&mesh, count, &mut run.generator(Stream::Start.of_body(0)));
         let particles = Particles::at_rest(start, 1.0);
-        let mut body = Mpm::new(particles, meshes, Pic, IsothermalGas::new(1.0)?, force).with_boundary(wall);
-        let mut scores = vec![[0.0; D]; count];
+        let mut body: Body<D> = Mpm::new(particles, meshes, Pic, IsothermalGas::new(1.0)?, force).with_boundary(wall);
         let mut trace = Vec::new();
         let mut time = 0.0;
         for step in 1..=steps {
             let failed = |error| SampleError::in_step(step, error);
             body.basis.chosen = self.choice(step, steps, &mut generator);
-            let stiff = body
-                .body_force
-                .stiffness
-                .as_ref()
-                .map_or(f64::INFINITY, Stiffness::time_limit);
+            let stiffness = body.body_force.stiffness.as_ref();
             let control = StepControl {
-                time_step: (time_step * self.settling.factor(step, steps)).min(stiff),
+                time_step: (time_step * self.settling.factor(step, steps))
+                    .min(stiffness.map_or(f64::INFINITY, Stiffness::time_limit)),
                 courant: 1.0,
                 displacement,
                 friction,
@@ -124,16 +124,12 @@ impl MeshOptions {
             body.basis.basis().pull_inside(&mut body.particles.positions);
             time += report.time_step;
             if self.trace_every > 0 && (step % self.trace_every == 0 || step == 1) {
-                let positions = &body.particles.positions;
-                body.body_force.score.evaluate(positions, &mut scores).map_err(failed)?;
-                body.basis.chosen = copies;
-                let residual = galerkin_stein_residual_at(&mut body.basis, positions, &scores, |node| inner[node]);
                 trace.push(TracePoint {
                     step,
                     time,
-                    residual: Some(residual.map_err(failed)?.ratio()),
+                    residual: Some(residual(&mut body, &inner).map_err(failed)?),
                     kinetic_energy: body.particles.kinetic_energy(),
-                    potential_energy: Some(body.body_force.score.potential_energy(positions)),
+                    potential_energy: Some(body.body_force.score.potential_energy(&body.particles.positions)),
                     displacement: report.displacement,
                 });
             }
@@ -141,15 +137,9 @@ impl MeshOptions {
                 return Err(SampleError::Interrupted { step });
             }
         }
-        let failed = |error| SampleError::in_step(steps, error);
-        let positions = &body.particles.positions;
-        let score = &mut body.body_force.score;
-        score.non_finite = NonFiniteScores::Report;
-        score.evaluate(positions, &mut scores).map_err(failed)?;
-        body.basis.chosen = copies;
-        let residual = galerkin_stein_residual_at(&mut body.basis, positions, &scores, |node| inner[node]);
-        let residual = residual.map_err(failed)?.ratio();
-        let in_order = body.particles.in_creation_order(positions);
+        body.body_force.score.non_finite = NonFiniteScores::Report;
+        let residual = residual(&mut body, &inner).map_err(|error| SampleError::in_step(steps, error))?;
+        let in_order = body.particles.in_creation_order(&body.particles.positions);
         Ok(Samples {
             positions: finite(in_order.iter().map(|z| frame.to_target(z)).collect(), steps)?,
             steps,
@@ -188,33 +178,15 @@ impl MeshOptions {
     }
 }
 
+/// The residual relative to independent draws, of the vertices that are `inner`, on the copy that no particle was moved on.
+fn residual<const D: usize>(body: &mut Body<'_, D>, inner: &[bool]) -> Result<f64, MpmError> {
+    let positions = &body.particles.positions;
+    let mut scores = vec![[0.0; D]; positions.len()];
+    body.body_force.score.evaluate(positions, &mut scores)?;
+    body.basis.choose_last();
+    let residual = galerkin_stein_residual_at(&mut body.basis, positions, &scores, |node| inner[node])?;
+    Ok(residual.ratio())
+}
+
 /// Times that the gas could cross the mesh before settling begins.
 const CROSSINGS: f64 = 4.0;
-
-/// The frame of a round density as wide as the mesh: μ the mesh's centroid, L = r I with r² = ∫ |x − μ|² / (D V), by the midpoint rule; no less than an edge.
-fn frame_of<const D: usize>(mesh: &SimplexMesh<D>) -> Frame<D> {
-    let centre_of = |cell: &[u32]| -> [f64; D] {
-        std::array::from_fn(|a| {
-            let sum: f64 = cell.iter().map(|&vertex| mesh.vertices()[vertex as usize][a]).sum();
-            sum / (D + 1) as f64
-        })
-    };
-    let total = mesh.total_volume();
-    let average = |of: &dyn Fn(&[f64; D]) -> f64| {
-        let cells = mesh.cells().enumerate();
-        cells
-            .map(|(k, cell)| mesh.volume(k) / total * of(&centre_of(cell)))
-            .sum::<f64>()
-    };
-    let centre: [f64; D] = std::array::from_fn(|a| average(&|x| x[a]));
-    let square = average(&|x| vector::distance_squared(x, &centre)) / D as f64;
-    let edge = mesh.edge_lengths().mean;
-    let radius = square.sqrt().max(edge);
-    Frame::from_scales(centre, [radius; D]).unwrap_or_else(|_| Frame::identity())
-}
-
-/// The mesh in coordinates of the frame.
-fn in_frame<const D: usize>(mesh: &SimplexMesh<D>, frame: &Frame<D>) -> Result<SimplexMesh<D>, MeshError> {
-    let vertices = mesh.vertices().iter().map(|x| frame.to_reference(x)).collect();
-    SimplexMesh::new(vertices, mesh.cells().flatten().copied().collect())
-}
