@@ -37,8 +37,8 @@ pub enum Outside {
 /// weights and gradients those of a moving least squares fit with sample weights [`SampleWeight::Continuous`].
 ///
 /// With r_i = x_i − x_p, P_i = \[1, r_i\] and M_p = Σ_i d′_pi P_i P_iᵀ: (w_ip, g_ip) = d′_pi M_p⁻¹ P_i. So Σ w = 1, Σ w r = 0, Σ g = 0 and
-/// Σ g rᵀ = I. The gradient g is *diffuse*: not ∇ of w. Both are continuous. Weights may be negative: by less than a hundredth inside usual
-/// meshes, and by more in cells at the boundary, so a mesh should have a layer of cells around what particles reach.
+/// Σ g rᵀ = I. The gradient g is *diffuse*: not ∇ of w. Both are continuous. Weights may be negative: hardly inside usual
+/// meshes, and by a tenth in cells at the boundary, so a mesh should have a layer of cells around what particles reach.
 #[derive(Clone, Debug)]
 pub struct MeshBasis<const D: usize> {
     search: CellSearch<D>,
