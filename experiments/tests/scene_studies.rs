@@ -115,7 +115,7 @@ fn a_run_that_fails_is_a_row() {
     let study = STUDY.replace("\"quadratic\", \"cubic\"", "\"linear\"");
     let root = root(
         &study
-            .replace("judged = [\"cubic\"]", "set.\"time.courant\" = 3.0")
+            .replace("judged = [\"cubic\"]", "set.\"bodies.0.velocity.amplitude\" = [60.0]")
             .replace("set = { \"output.interval\" = 10.0 }\n", ""),
     );
     let output = parvi(root.path(), "run study.toml --out out");
