@@ -1,0 +1,23 @@
+//! What a deformation map says at a set of points.
+
+use mpm_tensor::Matrix;
+
+/// Which derivatives an evaluation carries beside the values.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Wanted {
+    /// ∇_X g̃, the deformation gradient of the map.
+    pub gradients: bool,
+    /// ∂g̃/∂x̂.
+    pub jacobians: bool,
+}
+
+/// Values and derivatives of a deformation map at P points; vectors that were not wanted are empty.
+#[derive(Clone, Debug, Default)]
+pub struct Evaluation<const D: usize> {
+    /// g̃(X_p, x̂), P entries (m).
+    pub positions: Vec<[f64; D]>,
+    /// ∇_X g̃(X_p, x̂), P entries, row = component of g̃, column = axis of X.
+    pub gradients: Vec<Matrix<D>>,
+    /// ∂g̃/∂x̂ (X_p, x̂) as P × r columns: entry p r + k is ∂g̃/∂x̂_k at point p.
+    pub jacobians: Vec<[f64; D]>,
+}
