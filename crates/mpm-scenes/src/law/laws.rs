@@ -2,6 +2,7 @@ use mpm_materials::{DeformationError, Law};
 use mpm_tensor::Matrix;
 
 use super::any_law::with_law;
+use super::batch;
 use super::memory::Remembered;
 use super::{AnyLaw, MEMORY_SIZE, Memory};
 
@@ -110,6 +111,28 @@ impl<const D: usize> Law<D> for Laws {
         })
     }
 
+    fn kirchhoff_stresses(
+        &self,
+        F: &[Matrix<D>],
+        states: &[LawState],
+        velocity_gradients: &[Matrix<D>],
+        stresses: &mut [Matrix<D>],
+    ) {
+        for piece in batch::pieces(states) {
+            let (F, states, stresses) = (&F[piece.clone()], &states[piece.clone()], &mut stresses[piece.clone()]);
+            let rates = velocity_gradients.get(piece).unwrap_or(&[]);
+            with_law!(self.of(states[0].law), law => batch::kirchhoff_stresses(law, F, states, rates, stresses));
+        }
+    }
+
+    fn wave_speeds(&self, F: &[Matrix<D>], states: &[LawState], reference_densities: &[f64], wave_speeds: &mut [f64]) {
+        for piece in batch::pieces(states) {
+            let (F, states) = (&F[piece.clone()], &states[piece.clone()]);
+            let (densities, speeds) = (&reference_densities[piece.clone()], &mut wave_speeds[piece]);
+            with_law!(self.of(states[0].law), law => batch::wave_speeds(law, F, states, densities, speeds));
+        }
+    }
+
     /// What the first of the laws that have no stress at F says: asked only where a particle has none, without its state.
     fn check(&self, F: &Matrix<D>) -> Result<(), DeformationError> {
         self.table
@@ -131,6 +154,46 @@ mod tests {
 
     fn moduli() -> ElasticModuli {
         ElasticModuli::new(100.0, 0.3).expect("in range")
+    }
+
+    #[test]
+    fn many_particles_at_once_are_as_one_by_one() {
+        let clay = SofteningHencky::new(moduli(), 1.0, 0.5, 3.0).expect("in range");
+        let water = TaitFluid::new(2.0, 10.0, 0.1).expect("in range");
+        let table = vec![
+            AnyLaw::NeoHookean(NeoHookean::new(moduli())),
+            AnyLaw::SofteningHencky(clay),
+            AnyLaw::TaitFluid(water),
+        ];
+        let laws = Laws::new(table).expect("three");
+        let count = 150;
+        let number = |k: usize, a: usize| ((7 * k + 3 * a) % 13) as f64 / 130.0;
+        let F: Vec<Matrix<2>> = (0..count)
+            .map(|k| Matrix([[1.0 + number(k, 0), number(k, 1)], [-number(k, 2), 1.1 - number(k, 3)]]))
+            .collect();
+        let rates: Vec<Matrix<2>> = F.iter().map(|F| *F * 3.0).collect();
+        // Long runs, short runs and single particles.
+        let law = |k: usize| if k < 70 { 0 } else { (k / (1 + k % 4) % 3) as u32 };
+        let mut states: Vec<LawState> = (0..count).map(|k| laws.virgin(law(k))).collect();
+        let F: Vec<Matrix<2>> = F
+            .iter()
+            .zip(&mut states)
+            .map(|(F, state)| laws.advance(F, state))
+            .collect();
+        let densities: Vec<f64> = (0..count).map(|k| 1.0 + number(k, 5)).collect();
+
+        let (mut stresses, mut speeds) = (vec![Matrix::ZERO; count], vec![0.0; count]);
+        laws.kirchhoff_stresses(&F, &states, &rates, &mut stresses);
+        laws.wave_speeds(&F, &states, &densities, &mut speeds);
+        for k in 0..count {
+            let stress = laws.kirchhoff_stress(&F[k], &states[k], &rates[k]);
+            assert!(
+                (stresses[k] - stress).maximum_norm() <= 1e-13 * (1.0 + stress.maximum_norm()),
+                "particle {k}"
+            );
+            let speed = laws.wave_speed(&F[k], &states[k], densities[k]);
+            assert!((speeds[k] - speed).abs() <= 1e-13 * speed, "particle {k}");
+        }
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Constitutive laws of a scene: several in one run.
 
 mod any_law;
+mod batch;
 mod build;
 mod laws;
 mod memory;
