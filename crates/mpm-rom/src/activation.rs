@@ -34,9 +34,9 @@ const INVERSE_FACTORIALS: [f64; 11] = {
 /// ELU'' = ELU' where ELU' < 1 and 0 elsewhere. Without branches, hence open to vectorisation.
 #[inline(always)]
 pub(crate) fn elu(z: f64) -> (f64, f64) {
-    let negative = if z > 0.0 { 0.0 } else { z };
+    let (positive, negative) = if z > 0.0 { (z, 0.0) } else { (0.0, z) };
     let slope = exponential(negative);
-    (z - negative + (slope - 1.0), slope)
+    (positive + (slope - 1.0), slope)
 }
 
 /// e^z for z ≤ 0: z = k ln 2 + r, e^z = 2ᵏ eʳ.

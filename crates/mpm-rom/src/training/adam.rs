@@ -58,9 +58,9 @@ mod tests {
     #[test]
     fn a_quadratic_is_minimised() {
         let (mut parameters, mut adam) = ([3.0, -2.0], Adam::new(2));
-        for n in 0..4000 {
+        for n in 0..10_000 {
             let gradient = [2.0 * (parameters[0] - 1.0), 200.0 * parameters[1]];
-            adam.step(parameters.iter_mut(), &gradient, 1e-2 * 0.998f64.powi(n));
+            adam.step(parameters.iter_mut(), &gradient, 1e-2 * 0.999f64.powi(n));
         }
         assert!(
             (parameters[0] - 1.0).abs() < 1e-3 && parameters[1].abs() < 1e-3,

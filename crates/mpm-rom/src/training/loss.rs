@@ -140,6 +140,7 @@ impl<const D: usize> PairLoss<D> {
             let term = |block: &mut [f64], mean: f64, weight: f64, target: &dyn Fn(usize) -> f64| {
                 let weight = weight * weights.share;
                 let mut sum = 0.0;
+                block[chunk.len()..].fill(0.0);
                 for (y, &point) in block.iter_mut().zip(chunk) {
                     let residual = mean + deviation * *y - target(point);
                     sum += residual * residual;

@@ -1,4 +1,3 @@
-use std::ops::ControlFlow;
 use std::path::Path;
 
 use rand::SeedableRng;

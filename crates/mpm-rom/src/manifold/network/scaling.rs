@@ -44,7 +44,7 @@ impl Scaling {
                 square[k] += (position[k] - mean[k]).powi(2);
             }
         }
-        let deviation = std::array::from_fn(|k| (square[k] / count).sqrt());
+        let deviation: [f64; D] = std::array::from_fn(|k| (square[k] / count).sqrt());
         Self {
             centre: (0..D).map(|k| 0.5 * (lower[k] + upper[k])).collect(),
             factor: positive(extent).map(|extent| 2.0 / extent).to_vec(),

@@ -12,8 +12,6 @@ pub(crate) struct Seed {
     pub tangents: Vec<f64>,
     /// Number of tangents.
     pub count: usize,
-    /// Whether the first D tangents are those of X.
-    pub gradients: bool,
 }
 
 /// Adjoints of a seed's constants, summed over points.
@@ -57,7 +55,6 @@ impl<const D: usize> Network<D> {
             offset,
             count: tangents.len() / bias.len(),
             tangents,
-            gradients,
         }
     }
 

@@ -3,12 +3,12 @@
 use super::Network;
 use super::seed::{Seed, SeedAdjoint};
 use crate::activation::elu;
-use crate::product;
+use crate::product::{LANES, Weights, add_products, multiply};
 
 /// What the passes of one chunk leave behind, reused from chunk to chunk.
 ///
 /// Lists of a layer are unit × column × point: column 0 holds the values, column 1 + t the tangent t, so that one product with the layer's weights
-/// carries all of them.
+/// carries all of them. The points are padded to a multiple of [`LANES`]; the padding holds points of its own that nothing reads.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Tape {
     points: usize,
@@ -107,7 +107,7 @@ impl Hidden {
 impl<const D: usize> Network<D> {
     /// Values and tangents of the scaled output at the chunk's points.
     pub(crate) fn forward(&self, reference: &[[f64; D]], seed: &Seed, tape: &mut Tape) {
-        let (points, columns) = (reference.len(), 1 + seed.count);
+        let (points, columns) = (reference.len().next_multiple_of(LANES), 1 + seed.count);
         let (width, depth) = (self.shape.width, self.shape.depth);
         tape.resize(points, columns, width, depth, D);
         let Some((last, middle)) = self.layers.split_last() else {
@@ -136,19 +136,22 @@ impl<const D: usize> Network<D> {
             let (previous, next) = (&done[number - 1], &mut rest[0]);
             let weights = &self.parameters[layer.weights.clone()];
             let z = &mut next.before;
-            product::forward(
+            multiply(
                 z,
+                Weights::new(weights, layer.outputs, layer.inputs),
                 &previous.after,
-                weights,
                 points * columns,
-                layer.inputs,
-                layer.outputs,
             );
             next.activate(&self.parameters[layer.bias.clone()], points, columns);
         }
         let weights = &self.parameters[last.weights.clone()];
         let after = &tape.hidden[depth - 1].after;
-        product::forward(&mut tape.output, after, weights, points * columns, last.inputs, D);
+        multiply(
+            &mut tape.output,
+            Weights::new(weights, D, last.inputs),
+            after,
+            points * columns,
+        );
         for (component, bias) in self.parameters[last.bias.clone()].iter().enumerate() {
             tape.output_mut(component, 0).iter_mut().for_each(|y| *y += bias);
         }
@@ -175,10 +178,15 @@ impl<const D: usize> Network<D> {
                 *bias += block[..points].iter().sum::<f64>();
             }
             let weights = &mut parameters[layer.weights.clone()];
-            product::weights_adjoint(weights, z, &hidden.after, stacked, layer.inputs, layer.outputs);
+            add_products(weights, z, &hidden.after, stacked);
             tape.adjoint.resize(layer.inputs * stacked, 0.0);
             let weights = &self.parameters[layer.weights.clone()];
-            product::columns_adjoint(&mut tape.adjoint, z, weights, stacked, layer.inputs, layer.outputs);
+            multiply(
+                &mut tape.adjoint,
+                Weights::new(weights, layer.outputs, layer.inputs).transpose(),
+                z,
+                stacked,
+            );
             tape.adjoint_before.resize(layer.inputs * stacked, 0.0);
             hidden.reverse(&tape.adjoint, &mut tape.adjoint_before, points, columns);
         }
