@@ -1,8 +1,10 @@
 //! Families of deformation maps X → g̃(X, x̂) with a few coordinates x̂.
 
 mod evaluation;
+pub mod network;
 
 pub use evaluation::{Evaluation, Wanted};
+pub use network::{Network, NetworkError, NetworkShape, Scaling};
 
 /// A family of maps g̃(X, x̂) from reference positions X to deformed positions, with r generalised coordinates x̂.
 pub trait Manifold<const D: usize>: Send + Sync {

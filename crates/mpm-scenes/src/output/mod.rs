@@ -10,7 +10,7 @@ pub use pvd::write_index;
 pub use series_file::{SeriesFile, read_series};
 pub use validation_file::write_validation;
 pub use vtu::vtu;
-pub(crate) use whole_file::write_whole;
+pub use whole_file::write_whole;
 
 /// Names of the files in a run's directory.
 pub mod names {

@@ -8,7 +8,7 @@ use crate::SimulationError;
 ///
 /// # Errors
 /// [`SimulationError::File`].
-pub(crate) fn write_whole(path: &Path, content: &[u8]) -> Result<(), SimulationError> {
+pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), SimulationError> {
     let mut part = path.to_owned().into_os_string();
     part.push(".partial");
     let replaced = File::create(&part).and_then(|mut file| {

@@ -1,0 +1,213 @@
+//! Snapshots of full-order runs: what a deformation map is trained on and measured against.
+
+mod error;
+mod file;
+
+pub use error::SnapshotsError;
+
+use mpm_tensor::{Matrix, vector};
+
+/// Snapshots of one body in several runs of full-order MPM that differ in their parameters.
+///
+/// Every position is relative to the body's centroid at rest; row p of every list belongs to the same material point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Snapshots<const D: usize> {
+    body: Body<D>,
+    runs: Vec<Run<D>>,
+}
+
+/// What all runs share.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Body<const D: usize> {
+    /// The scene's name; a model remembers on which it was trained.
+    pub scene: String,
+    /// X_p, reference positions relative to the centroid (m).
+    pub reference: Vec<[f64; D]>,
+    /// The centroid at rest in the scene's own coordinates (m).
+    pub centroid: [f64; D],
+    /// Δt, time between two frames (s), > 0.
+    pub interval: f64,
+    /// ρ₀, density at rest (kg/m^D), > 0.
+    pub density: f64,
+    /// Names of the parameters in which runs differ.
+    pub parameters: Vec<String>,
+}
+
+/// One run: frames 0, 1, 2, … at t = 0, Δt, 2 Δt, …; frame 0 is the initial state, so that its velocities are V₀.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Run<const D: usize> {
+    /// Values of the parameters, in the order of [`Body::parameters`].
+    pub parameters: Vec<f64>,
+    /// The frames.
+    pub frames: Vec<Frame<D>>,
+}
+
+/// All points at one instant.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Frame<const D: usize> {
+    /// φ_p, deformed positions relative to the centroid at rest (m).
+    pub positions: Vec<[f64; D]>,
+    /// F_p, deformation gradients, det F_p > 0.
+    pub deformation_gradients: Vec<Matrix<D>>,
+    /// v_p, velocities (m/s).
+    pub velocities: Vec<[f64; D]>,
+}
+
+impl<const D: usize> Snapshots<D> {
+    /// Snapshots of a body.
+    ///
+    /// # Errors
+    /// [`SnapshotsError`]: no point, run or frame; lists of other lengths than the body's; a value that is NaN or infinite; det F ≤ 0; Δt or
+    /// ρ₀ not positive.
+    pub fn new(body: Body<D>, runs: Vec<Run<D>>) -> Result<Self, SnapshotsError> {
+        body.check()?;
+        if runs.is_empty() {
+            return Err(SnapshotsError::Empty { what: "runs" });
+        }
+        for (number, run) in runs.iter().enumerate() {
+            run.check(number, &body)?;
+        }
+        Ok(Self { body, runs })
+    }
+
+    /// What all runs share.
+    pub fn body(&self) -> &Body<D> {
+        &self.body
+    }
+
+    /// X_p, reference positions relative to the centroid at rest (m).
+    pub fn reference(&self) -> &[[f64; D]] {
+        &self.body.reference
+    }
+
+    /// The runs.
+    pub fn runs(&self) -> &[Run<D>] {
+        &self.runs
+    }
+
+    /// Number of material points.
+    pub fn points(&self) -> usize {
+        self.body.reference.len()
+    }
+
+    /// The same body with the runs of these numbers, in this order.
+    ///
+    /// # Errors
+    /// [`SnapshotsError::NoSuchRun`]; [`SnapshotsError::Empty`] for no number.
+    pub fn select(&self, numbers: &[usize]) -> Result<Self, SnapshotsError> {
+        let run = |&number: &usize| {
+            self.runs.get(number).cloned().ok_or(SnapshotsError::NoSuchRun {
+                number,
+                runs: self.runs.len(),
+            })
+        };
+        let runs: Vec<_> = numbers.iter().map(run).collect::<Result<_, _>>()?;
+        if runs.is_empty() {
+            return Err(SnapshotsError::Empty { what: "runs" });
+        }
+        Ok(Self {
+            body: self.body.clone(),
+            runs,
+        })
+    }
+}
+
+impl<const D: usize> Body<D> {
+    fn check(&self) -> Result<(), SnapshotsError> {
+        if self.reference.is_empty() {
+            return Err(SnapshotsError::Empty { what: "points" });
+        }
+        for (field, value) in [("interval", self.interval), ("density", self.density)] {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(SnapshotsError::NotPositive { field, value });
+            }
+        }
+        for (point, position) in self.reference.iter().chain([&self.centroid]).enumerate() {
+            if let Some(&value) = position.iter().find(|value| !value.is_finite()) {
+                return Err(SnapshotsError::Reference { point, value });
+            }
+        }
+        Ok(())
+    }
+}
+
+impl<const D: usize> Run<D> {
+    fn check(&self, run: usize, body: &Body<D>) -> Result<(), SnapshotsError> {
+        if self.parameters.len() != body.parameters.len() {
+            return Err(SnapshotsError::Parameters {
+                run,
+                found: self.parameters.len(),
+                expected: body.parameters.len(),
+            });
+        }
+        for (name, &value) in body.parameters.iter().zip(&self.parameters) {
+            if !value.is_finite() {
+                let name = name.clone();
+                return Err(SnapshotsError::Parameter { run, name, value });
+            }
+        }
+        if self.frames.is_empty() {
+            return Err(SnapshotsError::Empty { what: "frames" });
+        }
+        self.frames
+            .iter()
+            .enumerate()
+            .try_for_each(|(number, frame)| frame.check(run, number, body.reference.len()))
+    }
+}
+
+impl<const D: usize> Frame<D> {
+    fn check(&self, run: usize, frame: usize, points: usize) -> Result<(), SnapshotsError> {
+        let lengths = [
+            ("positions", self.positions.len()),
+            ("deformation_gradients", self.deformation_gradients.len()),
+            ("velocities", self.velocities.len()),
+        ];
+        for (field, found) in lengths {
+            if found != points {
+                return Err(SnapshotsError::Length {
+                    run,
+                    frame,
+                    field,
+                    found,
+                    expected: points,
+                });
+            }
+        }
+        let not_finite = |point, field| SnapshotsError::NotFinite {
+            run,
+            frame,
+            point,
+            field,
+        };
+        let rows = self
+            .positions
+            .iter()
+            .zip(&self.deformation_gradients)
+            .zip(&self.velocities);
+        for (point, ((position, gradient), velocity)) in rows.enumerate() {
+            if !vector::is_finite(position) {
+                return Err(not_finite(point, "positions"));
+            }
+            if !gradient.is_finite() {
+                return Err(not_finite(point, "deformation_gradients"));
+            }
+            if !vector::is_finite(velocity) {
+                return Err(not_finite(point, "velocities"));
+            }
+            let determinant = gradient.determinant();
+            if determinant.is_nan() || determinant <= 0.0 {
+                return Err(SnapshotsError::Inverted {
+                    run,
+                    frame,
+                    point,
+                    determinant,
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests;
