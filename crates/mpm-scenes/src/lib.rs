@@ -3,6 +3,7 @@
 mod background;
 mod error;
 pub mod fill;
+mod kinematics;
 pub mod law;
 pub mod loads;
 mod manufactured;
@@ -21,10 +22,11 @@ mod values;
 mod velocity;
 
 pub use error::{SceneError, SceneFault};
+pub use kinematics::{KinematicRegion, Kinematics, RigidMotion};
 pub use law::{LawState, Laws};
 pub use manufactured::ManufacturedSolution;
 pub use population::Population;
-pub use run::{Observer, Outcome, Progress, SimulationError, Summary, simulate};
+pub use run::{Observer, Outcome, Progress, SimulationError, Summary, frames, simulate};
 pub use scene::Scene;
 pub use series::Series;
 pub use snapshot::Snapshot;

@@ -94,7 +94,7 @@ pub(crate) fn build<const D: usize>(
 }
 
 /// The matrix of v = ω × x: ω is one number in the plane and three in space.
-fn spin<const D: usize>(field: &str, rate: &[f64]) -> Result<Matrix<D>, SceneFault> {
+pub(crate) fn spin<const D: usize>(field: &str, rate: &[f64]) -> Result<Matrix<D>, SceneFault> {
     let mut matrix = Matrix::<D>::ZERO;
     let omega = match (D, rate.len()) {
         (2, 1) => [0.0, 0.0, vector::<1>(field, rate)?[0]],

@@ -1,11 +1,13 @@
 //! From a scene to its files: dispatch, the loop over steps, measurements, checkpoints.
 
 mod basis;
+mod body;
 mod boundary;
 mod checkpoint;
 mod dispatch;
 mod driver;
 mod error;
+mod frames;
 mod measure;
 mod motion;
 mod observer;
@@ -16,6 +18,7 @@ mod snapshot;
 mod summary;
 
 pub use error::SimulationError;
+pub use frames::frames;
 pub use observer::{Observer, Progress};
 pub use simulate::simulate;
 pub use summary::{Outcome, Summary};

@@ -4,6 +4,7 @@ use mpm_core::{Boundaries, Continuum, Medium, Mpm, MpmError, Particles, StepCont
 use mpm_tensor::Matrix;
 
 use super::basis::SecondMoments;
+use crate::Kinematics;
 use crate::law::{LawState, Laws};
 use crate::loads::Loads;
 
@@ -41,6 +42,9 @@ pub(super) trait Motion<const D: usize> {
 
     /// D_p⁻¹ at x.
     fn inverse_moment(&self, x: &[f64; D]) -> Matrix<D>;
+
+    /// Gives kinematic particles the position and velocity that they have at this time; `reference` has X in the order of creation.
+    fn prescribe(&mut self, kinematics: &Kinematics<D>, reference: &[[f64; D]]);
 
     /// One step.
     fn step(&mut self, control: &StepControl) -> Result<StepReport, MpmError>;
@@ -93,6 +97,21 @@ where
 
     fn inverse_moment(&self, x: &[f64; D]) -> Matrix<D> {
         self.basis.inverse_moment(x)
+    }
+
+    fn prescribe(&mut self, kinematics: &Kinematics<D>, reference: &[[f64; D]]) {
+        if kinematics.regions().is_empty() {
+            return;
+        }
+        for index in 0..self.particles.len() {
+            let particle = self.particles.identity(index);
+            let start = reference.get(particle);
+            let state = start.and_then(|start| kinematics.prescribed(particle, start, self.time));
+            if let Some((position, velocity)) = state {
+                self.particles.positions[index] = position;
+                self.particles.velocities[index] = velocity;
+            }
+        }
     }
 
     fn step(&mut self, control: &StepControl) -> Result<StepReport, MpmError> {

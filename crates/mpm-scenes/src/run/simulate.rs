@@ -1,12 +1,10 @@
 use std::fs;
 use std::path::Path;
 
-use super::boundary;
+use super::body::Body;
 use super::driver::Driver;
-use super::{Observer, SimulationError, Summary, dispatch};
-use crate::background::Background;
+use super::{Observer, SimulationError, Summary};
 use crate::output::{names, write_whole};
-use crate::population::Population;
 use crate::{Scene, SceneFault};
 
 /// Runs a scene and writes its files into the directory `out`, which is made if it does not exist.
@@ -30,13 +28,9 @@ fn simulate_in<const D: usize>(
     out: &Path,
     observer: &mut dyn Observer,
 ) -> Result<Summary, SimulationError> {
-    let refused = |fault| scene.error(fault);
-    let background = Background::build(scene).map_err(refused)?;
-    let population = Population::<D>::fill_on(scene, &background).map_err(refused)?;
-    let (boundaries, moving) = boundary::build::<D>(scene, background.room()).map_err(refused)?;
-    let motion = dispatch::build(scene, &population, background, boundaries).map_err(refused)?;
+    let body = Body::<D>::begin(scene)?;
     fs::create_dir_all(out).map_err(|error| SimulationError::file(out, error))?;
-    let driver = Driver::begin(scene, out, population, motion, moving)?;
+    let driver = Driver::begin(scene, out, body)?;
     write_whole(&out.join(names::SCENE), scene.text.as_bytes())?;
     driver.run(observer)
 }

@@ -1,4 +1,4 @@
-//! `[[walls]]`, `[[obstacles]]` and `[[held]]`.
+//! `[[walls]]`, `[[obstacles]]`, `[[held]]` and `[[kinematic]]`.
 
 use serde::Deserialize;
 
@@ -114,4 +114,31 @@ pub struct HeldTable {
     pub shape: ShapeTable,
     /// Its velocity. Default 0.
     pub velocity: Option<Vec<f64>>,
+}
+
+/// `[[kinematic]]`: particles that are in a region at t = 0 move as one rigid body: at the end of every step they take the position and velocity of
+/// x = c + v t + R(t) (X − c). In the first step they still have the velocity of their body.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct KinematicTable {
+    /// The region.
+    pub region: ShapeTable,
+    /// The body whose particles it holds. Default: all.
+    pub body: Option<String>,
+    /// v. Default 0.
+    pub velocity: Option<Vec<f64>>,
+    /// c and the rate of R. By default it does not turn.
+    pub rotation: Option<TurningTable>,
+    /// When the particles are let go. Default: never.
+    pub until: Option<f64>,
+}
+
+/// `kinematic.rotation`.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TurningTable {
+    /// c, the point that turns stay around; it moves with the velocity.
+    pub centre: Vec<f64>,
+    /// ω in radians per time: one number in two dimensions, three in three.
+    pub rate: Vec<f64>,
 }

@@ -21,7 +21,9 @@ use serde::Deserialize;
 
 pub use barrier::{BarrierAgainst, BarrierTable};
 pub use body::{BodyTable, FillKind};
-pub use boundary::{AxisName, Contact, HeldTable, ObstacleTable, Side, WallCondition, WallTable};
+pub use boundary::{
+    AxisName, Contact, HeldTable, KinematicTable, ObstacleTable, Side, TurningTable, WallCondition, WallTable,
+};
 pub use discretisation::{BasisName, Discretisation, DomainTable, GridTable, TransferKind, TransferTable};
 pub use load::LoadTable;
 pub use material::{FluidTable, GasTable, MaterialTable, MetalTable, SandTable, SolidTable};
@@ -71,6 +73,9 @@ pub struct Scene {
     /// Regions of the grid with a prescribed velocity.
     #[serde(default)]
     pub held: Vec<HeldTable>,
+    /// Particles with a prescribed motion.
+    #[serde(default)]
+    pub kinematic: Vec<KinematicTable>,
     /// Forces on particles.
     #[serde(default)]
     pub loads: Vec<LoadTable>,

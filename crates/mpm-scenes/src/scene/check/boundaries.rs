@@ -1,9 +1,9 @@
-//! Walls, obstacles and held regions.
+//! Walls, obstacles, held regions and kinematic particles.
 
 use crate::scene::{Contact, Scene, WallCondition};
 use crate::shape::Bounds;
-use crate::values::{not_negative, vector};
-use crate::{SceneFault, plane, shape};
+use crate::values::{not_negative, positive, vector};
+use crate::{SceneFault, kinematics, plane, shape};
 
 impl Scene {
     pub(super) fn check_boundaries<const D: usize>(&self) -> Result<(), SceneFault> {
@@ -44,6 +44,15 @@ impl Scene {
             let field = |key: &str| format!("held[{index}].{key}");
             shape::build::<D>(&field("shape"), &held.shape)?;
             check_motion::<D>(&field, held.velocity.as_ref(), None)?;
+        }
+        for (index, table) in self.kinematic.iter().enumerate() {
+            let field = |key: &str| format!("kinematic[{index}].{key}");
+            shape::build::<D>(&field("region"), &table.region)?;
+            self.check_body_name(field("body"), table.body.as_ref())?;
+            kinematics::motion::<D>(&field, table)?;
+            if let Some(until) = table.until {
+                positive(&field("until"), until)?;
+            }
         }
         Ok(())
     }

@@ -1,0 +1,118 @@
+//! A body on its way through a scene: its steps, and the times that they hit.
+
+use mpm_core::{MpmError, StepControl};
+
+use super::SimulationError;
+use super::boundary::{self, MovingObstacles};
+use super::dispatch;
+use super::motion::Motion;
+use super::schedule::{SAME, Schedule};
+use crate::background::Background;
+use crate::population::Population;
+use crate::{Kinematics, Scene, SceneFault};
+
+/// The bodies of a scene and the clock of their run.
+pub(super) struct Body<'a, const D: usize> {
+    scene: &'a Scene,
+    pub start: Population<D>,
+    pub motion: Box<dyn Motion<D>>,
+    moving: MovingObstacles<D>,
+    kinematics: Kinematics<D>,
+    pub frames: Schedule,
+    pub rows: Schedule,
+    pub checkpoints: Schedule,
+    /// Steps taken.
+    pub step: u64,
+    /// The last Δt that no event had cut short.
+    pub free_step: f64,
+}
+
+impl<'a, const D: usize> Body<'a, D> {
+    /// At t = 0.
+    ///
+    /// # Errors
+    /// What [`Population::fill`] says, and [`SceneFault::TimeStep`] for a step above the Courant condition.
+    pub fn begin(scene: &'a Scene) -> Result<Self, SimulationError> {
+        let refused = |fault| scene.error(fault);
+        let background = Background::build(scene).map_err(refused)?;
+        let start = Population::<D>::fill_on(scene, &background).map_err(refused)?;
+        let (boundaries, moving) = boundary::build::<D>(scene, background.room()).map_err(refused)?;
+        let kinematics = Kinematics::of(scene, &start).map_err(refused)?;
+        let motion = dispatch::build(scene, &start, background, boundaries).map_err(refused)?;
+        check_step(scene, &*motion)?;
+        let (end, output) = (scene.time.end, &scene.output);
+        Ok(Self {
+            scene,
+            start,
+            motion,
+            moving,
+            kinematics,
+            frames: Schedule::new(output.interval, end),
+            rows: Schedule::new(output.series_interval.unwrap_or(output.interval), end),
+            checkpoints: Schedule::new(output.checkpoint_interval.unwrap_or(output.interval), end),
+            step: 0,
+            free_step: f64::INFINITY,
+        })
+    }
+
+    /// One step, which ends at the next event if that is near.
+    pub fn advance(&mut self) -> Result<(), SimulationError> {
+        let time = self.motion.time();
+        let step = self.step + 1;
+        let longest = self.motion.loads().longest_step(self.motion.particles());
+        let longest = longest.map_err(|penetration| SimulationError::Penetration {
+            step,
+            time,
+            particle: self.motion.particles().identity(penetration.index),
+            distance: penetration.distance,
+        })?;
+        let events = [self.frames, self.rows, self.checkpoints].map(|schedule| schedule.time(schedule.next(time)));
+        let event = events.into_iter().fold(self.scene.time.end, f64::min);
+        let rest = event - time;
+        let viscous = self.motion.laws().viscous_step(D, self.motion.spacing());
+        let free = longest.min(self.scene.time.courant * viscous);
+        let free = free.min(self.scene.time.step.unwrap_or(f64::INFINITY));
+        // Two equal steps to the event, not a long one and a tiny one.
+        let cut = if rest > self.free_step && rest < 2.0 * self.free_step {
+            0.5 * rest
+        } else {
+            rest
+        };
+        let control = StepControl {
+            time_step: free.min(cut),
+            courant: self.scene.time.courant,
+            displacement: f64::INFINITY,
+            friction: self.scene.time.damping,
+        };
+        self.moving.place(self.motion.boundaries_mut(), time);
+        let report = self.motion.step(&control);
+        let taken = report
+            .map_err(|source| SimulationError::step(step, time, source))?
+            .time_step;
+        if taken < cut {
+            self.free_step = taken;
+        }
+        if event - self.motion.time() <= SAME * rest {
+            self.motion.set_time(event);
+        }
+        self.motion.prescribe(&self.kinematics, &self.start.positions);
+        self.step = step;
+        Ok(())
+    }
+}
+
+/// Whether the time step that a scene asks for is one that the Courant condition allows at the start.
+fn check_step<const D: usize>(scene: &Scene, motion: &dyn Motion<D>) -> Result<(), SimulationError> {
+    let courant = scene.time.courant;
+    let failed = |source: MpmError| SimulationError::step(1, 0.0, source);
+    let wave_speed = motion.wave_speed().map_err(failed)?;
+    let speed = motion.particles().largest_speed();
+    let limit = courant * motion.spacing() / (wave_speed + speed);
+    match scene.time.step {
+        Some(step) if step > limit => {
+            let fault = SceneFault::TimeStep { step, limit, courant };
+            Err(scene.error(fault).into())
+        }
+        _ => Ok(()),
+    }
+}

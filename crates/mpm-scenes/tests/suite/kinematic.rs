@@ -1,0 +1,90 @@
+//! Particles with a prescribed motion, and runs in memory.
+
+use mpm_scenes::{Kinematics, Population, Scene, Snapshot, frames};
+
+use super::scenes::scene;
+
+const TURNED: &str = r#"
+title = "a strip that is turned at one end and held at the other"
+dimension = 2
+domain = { lower = [-1.0, -1.0], upper = [3.0, 2.0] }
+grid = { spacing = 0.25 }
+transfer = { kind = "pic" }
+time = { end = 0.2, step = 0.005, courant = 0.5 }
+materials.rubber = { law = "fixed-corotated", density = 1.0, young_modulus = 100.0, poisson_ratio = 0.3 }
+output = { interval = 0.05 }
+
+[[bodies]]
+name = "strip"
+shape = { kind = "box", lower = [0.0, 0.0], upper = [2.0, 0.5] }
+material = "rubber"
+
+[[kinematic]]
+region = { kind = "box", lower = [0.0, 0.0], upper = [0.25, 0.5] }
+
+[[kinematic]]
+region = { kind = "box", lower = [1.75, 0.0], upper = [2.0, 0.5] }
+velocity = [0.1, 0.0]
+rotation = { centre = [2.0, 0.25], rate = [1.5] }
+until = 0.1
+"#;
+
+fn all_frames(scene: &Scene) -> Vec<Snapshot> {
+    let mut all = Vec::new();
+    let steps = frames(scene, &mut |frame| all.push(frame)).expect("runs");
+    assert_eq!(steps, 40);
+    all
+}
+
+#[test]
+fn kinematic_particles_are_where_their_motion_puts_them_until_they_are_let_go() {
+    let scene = scene(TURNED);
+    let population = Population::<2>::fill(&scene).expect("fills");
+    let kinematics = Kinematics::of(&scene, &population).expect("both regions hold particles");
+    assert_eq!(
+        kinematics.regions().iter().map(|r| r.members.len()).collect::<Vec<_>>(),
+        [8, 8]
+    );
+    let all = all_frames(&scene);
+    assert_eq!(all.len(), 5);
+    for frame in &all {
+        for (p, start) in population.positions.iter().enumerate() {
+            let Some((x, v)) = kinematics.prescribed(p, start, frame.time) else {
+                continue;
+            };
+            assert_eq!(frame.vector(&frame.positions, p), Some(&x[..]));
+            if frame.time > 0.0 {
+                assert_eq!(frame.vector(&frame.velocities, p), Some(&v[..]));
+            }
+        }
+    }
+    let turned = &kinematics.regions()[1];
+    assert!(turned.prescribes(0.1) && !turned.prescribes(0.15));
+    // What was let go comes back.
+    let (p, last) = (turned.members[0], &all[4]);
+    let held = turned.motion.position(&population.positions[p], 0.2);
+    let free = last.vector(&last.positions, p).expect("a particle");
+    assert!((held[1] - free[1]).abs() > 1e-3, "{held:?} {free:?}");
+}
+
+#[test]
+fn a_region_without_particles_is_an_error_with_its_field() {
+    let text = TURNED.replace(
+        "lower = [1.75, 0.0], upper = [2.0, 0.5]",
+        "lower = [2.1, 0.0], upper = [2.5, 0.5]",
+    );
+    let scene = scene(&text);
+    let error = frames(&scene, &mut |_| ()).expect_err("an empty region");
+    assert!(error.to_string().contains("kinematic[1].region"), "{error}");
+}
+
+#[test]
+fn frames_in_memory_are_those_of_the_files() {
+    let scene = scene(TURNED);
+    let directory = tempfile::tempdir().expect("a directory");
+    mpm_scenes::simulate(&scene, directory.path(), &mut ()).expect("runs");
+    for (number, frame) in all_frames(&scene).iter().enumerate() {
+        let file = directory.path().join(format!("particles_{number:06}.vtu"));
+        assert_eq!(std::fs::read(file).expect("written"), mpm_scenes::output::vtu(frame));
+    }
+}
