@@ -1,0 +1,256 @@
+//! The file of an experiment.
+
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+
+use super::ExperimentError;
+use crate::online::{Inverted, Options, Quadrature, SampleChoice, Search, Update};
+use crate::training::Training;
+
+/// An experiment: a scene, the parameters in which its runs differ, and what is trained and run.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Experiment {
+    /// What tables and figures are headed by.
+    pub title: String,
+    /// The scene's file, seen from the experiment's.
+    pub scene: PathBuf,
+    /// Names of the parameters.
+    pub parameters: Vec<String>,
+    /// What the parameters change in the scene.
+    pub keys: Vec<Key>,
+    /// Their values.
+    pub cases: Cases,
+    /// How the network is trained.
+    #[serde(default)]
+    pub training: Training,
+    /// The reduced runs.
+    #[serde(default)]
+    pub run: ReducedRuns,
+    /// The experiment's file.
+    #[serde(skip)]
+    pub(super) file: PathBuf,
+    /// Its text.
+    #[serde(skip)]
+    pub(super) text: String,
+}
+
+/// A number of the scene: offset + factor Π `product`.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Key {
+    /// Dotted key in the scene's document: `gravity.1`.
+    pub key: String,
+    /// What is added.
+    #[serde(default)]
+    pub offset: f64,
+    /// What the product is multiplied by.
+    #[serde(default = "one")]
+    pub factor: f64,
+    /// Each a parameter's name, or its cosine or sine in radians: `"speed"`, `"cos angle"`, `"sin angle"`.
+    pub product: Vec<String>,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+/// Values of the parameters, one list per run.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Cases {
+    /// Of the runs that the network learns from.
+    pub train: Vec<Vec<f64>>,
+    /// Of the runs that it has not seen.
+    pub test: Vec<Vec<f64>>,
+}
+
+/// How many sample points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(untagged)]
+pub enum SampleCount {
+    /// So many.
+    Drawn(usize),
+    /// Every material point: the word `"all"`.
+    All(All),
+}
+
+/// The word `"all"`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum All {
+    /// Itself.
+    All,
+}
+
+/// Where the momentum balance is summed; see [`Quadrature`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum QuadratureName {
+    /// At material points.
+    #[default]
+    Lagrangian,
+    /// At points of space.
+    Eulerian,
+}
+
+impl QuadratureName {
+    /// As in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Lagrangian => "lagrangian",
+            Self::Eulerian => "eulerian",
+        }
+    }
+}
+
+/// How coordinates follow from velocities; see [`Update`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum UpdateName {
+    /// From the velocities alone.
+    VelocityOnly,
+    /// From positions, with velocities beside them.
+    #[default]
+    PositionVelocity,
+}
+
+impl UpdateName {
+    /// As in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::VelocityOnly => "velocity-only",
+            Self::PositionVelocity => "position-velocity",
+        }
+    }
+}
+
+/// The reduced runs of every test case: each number of sample points with each quadrature and update.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct ReducedRuns {
+    /// |𝒫|.
+    pub samples: Vec<SampleCount>,
+    /// Seed of the draw of sample points.
+    pub seed: u64,
+    /// Quadratures.
+    pub quadrature: Vec<QuadratureName>,
+    /// Updates.
+    pub update: Vec<UpdateName>,
+    /// ℓ of the Eulerian quadrature.
+    pub points_per_axis: usize,
+    /// The skin of neighbour lists, in grid spacings.
+    pub skin: f64,
+}
+
+impl Default for ReducedRuns {
+    fn default() -> Self {
+        Self {
+            samples: vec![SampleCount::Drawn(50), SampleCount::All(All::All)],
+            seed: 0,
+            quadrature: vec![QuadratureName::Lagrangian],
+            update: vec![UpdateName::PositionVelocity],
+            points_per_axis: 2,
+            skin: 0.5,
+        }
+    }
+}
+
+impl ReducedRuns {
+    /// The options of one run.
+    pub fn options(&self, samples: SampleCount, quadrature: QuadratureName, update: UpdateName) -> Options {
+        Options {
+            samples: match samples {
+                SampleCount::All(_) => SampleChoice::All,
+                SampleCount::Drawn(count) => SampleChoice::Drawn { count, seed: self.seed },
+            },
+            quadrature: match (quadrature, samples) {
+                // All points are near a sample point when all are samples.
+                (QuadratureName::Lagrangian, SampleCount::All(_)) => Quadrature::Lagrangian { search: Search::All },
+                (QuadratureName::Lagrangian, _) => Quadrature::Lagrangian {
+                    search: Search::Lists { skin: self.skin },
+                },
+                (QuadratureName::Eulerian, _) => Quadrature::Eulerian {
+                    per_axis: self.points_per_axis,
+                    inverted: Inverted::Refuse,
+                },
+            },
+            update: match update {
+                UpdateName::VelocityOnly => Update::VelocityOnly,
+                UpdateName::PositionVelocity => Update::position_velocity(),
+            },
+        }
+    }
+}
+
+impl Experiment {
+    /// Reads and checks a file.
+    ///
+    /// # Errors
+    /// [`ExperimentError::File`], [`ExperimentError::Syntax`], [`ExperimentError::Field`].
+    pub fn read(file: &Path) -> Result<Self, ExperimentError> {
+        let text = std::fs::read_to_string(file).map_err(|source| ExperimentError::file("read", file, source))?;
+        Self::parse(&text, file)
+    }
+
+    /// As [`read`](Self::read), of a text; `file` is where it lies.
+    ///
+    /// # Errors
+    /// [`ExperimentError::Syntax`], [`ExperimentError::Field`].
+    pub fn parse(text: &str, file: &Path) -> Result<Self, ExperimentError> {
+        let mut experiment: Self = toml::from_str(text).map_err(|error| ExperimentError::Syntax {
+            file: file.display().to_string(),
+            message: error.to_string(),
+        })?;
+        experiment.file = file.to_owned();
+        experiment.text = text.to_owned();
+        experiment.check()?;
+        Ok(experiment)
+    }
+
+    /// The scene's file.
+    pub fn scene_file(&self) -> PathBuf {
+        self.file.parent().unwrap_or(Path::new("")).join(&self.scene)
+    }
+
+    fn check(&self) -> Result<(), ExperimentError> {
+        let refuse = |field: String, message: String| Err(self.field(field, message));
+        for (name, cases) in [("cases.train", &self.cases.train), ("cases.test", &self.cases.test)] {
+            if cases.is_empty() {
+                return refuse(name.to_owned(), "at least one case is needed".to_owned());
+            }
+            for (number, values) in cases.iter().enumerate() {
+                if values.len() != self.parameters.len() {
+                    let (found, expected) = (values.len(), self.parameters.len());
+                    let message = format!("{found} values for {expected} parameters");
+                    return refuse(format!("{name}.{number}"), message);
+                }
+                if let Some(value) = values.iter().find(|value| !value.is_finite()) {
+                    return refuse(format!("{name}.{number}"), format!("{value} is not finite"));
+                }
+            }
+        }
+        let lists = [
+            ("run.samples", self.run.samples.len()),
+            ("run.quadrature", self.run.quadrature.len()),
+            ("run.update", self.run.update.len()),
+        ];
+        if let Some((field, _)) = lists.iter().find(|(_, length)| *length == 0) {
+            return refuse((*field).to_owned(), "at least one is needed".to_owned());
+        }
+        self.training
+            .check()
+            .map_err(|error| self.field("training".to_owned(), error.to_string()))?;
+        // The values themselves show whether all keys make sense.
+        self.case(&self.cases.train[0]).map(|_| ())
+    }
+
+    pub(super) fn field(&self, field: String, message: String) -> ExperimentError {
+        ExperimentError::Field {
+            file: self.file.display().to_string(),
+            field,
+            message,
+        }
+    }
+}

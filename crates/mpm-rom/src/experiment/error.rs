@@ -1,0 +1,103 @@
+use std::path::Path;
+
+use mpm_scenes::{SceneError, SimulationError};
+
+use crate::deformation_map::DeformationMapError;
+use crate::encoder::EncoderError;
+use crate::full_order::FullOrderError;
+use crate::online::OnlineError;
+use crate::tensor_file::TensorFileError;
+use crate::training::TrainingError;
+
+/// Why an experiment cannot begin or go on.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ExperimentError {
+    /// A file cannot be read or written.
+    #[error("cannot {operation} {file}: {source}")]
+    File {
+        /// What was tried.
+        operation: &'static str,
+        /// The file.
+        file: String,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// The file is no TOML, or not that of an experiment.
+    #[error("{file}: {message}")]
+    Syntax {
+        /// The file.
+        file: String,
+        /// What the parser says, with the line.
+        message: String,
+    },
+    /// A field of the experiment's file.
+    #[error("{file}, {field}: {message}")]
+    Field {
+        /// The file.
+        file: String,
+        /// The field.
+        field: String,
+        /// What is wrong.
+        message: String,
+    },
+    /// The directory holds another experiment.
+    #[error("{directory} holds another experiment, left untouched: choose another directory")]
+    Occupied {
+        /// The directory.
+        directory: String,
+    },
+    /// The model has been trained for another scene or another number of points.
+    #[error("{file}: trained on `{found}`, the scene is `{expected}`")]
+    OtherScene {
+        /// The model's file.
+        file: String,
+        /// The model's scene and number of points.
+        found: String,
+        /// The experiment's.
+        expected: String,
+    },
+    /// A dimension that nothing is built for.
+    #[error("a scene of dimension {dimension}: reduced models have 2 or 3")]
+    Dimension {
+        /// D.
+        dimension: usize,
+    },
+    /// A stop was asked for.
+    #[error("stopped: the same line started again goes on")]
+    Stopped,
+    /// The scene cannot be read.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// A file cannot be written.
+    #[error(transparent)]
+    Simulation(#[from] SimulationError),
+    /// The full-order runs.
+    #[error(transparent)]
+    FullOrder(#[from] FullOrderError),
+    /// The training.
+    #[error(transparent)]
+    Training(#[from] TrainingError),
+    /// The encoder.
+    #[error(transparent)]
+    Encoder(#[from] EncoderError),
+    /// The map at rest.
+    #[error(transparent)]
+    Map(#[from] DeformationMapError),
+    /// A reduced run that cannot begin.
+    #[error(transparent)]
+    Online(#[from] OnlineError),
+    /// A file of snapshots or a model.
+    #[error(transparent)]
+    TensorFile(#[from] TensorFileError),
+}
+
+impl ExperimentError {
+    pub(super) fn file(operation: &'static str, file: &Path, source: std::io::Error) -> Self {
+        Self::File {
+            operation,
+            file: file.display().to_string(),
+            source,
+        }
+    }
+}

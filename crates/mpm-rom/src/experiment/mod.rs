@@ -1,0 +1,16 @@
+//! An experiment from one file: full-order data, training, reduced runs beside full-order ones.
+
+mod case;
+mod config;
+mod error;
+mod files;
+mod reduced;
+mod results;
+mod trained;
+
+pub use config::{Cases, Experiment, Key, QuadratureName, ReducedRuns, SampleCount, UpdateName};
+pub use error::ExperimentError;
+pub use files::names;
+pub use reduced::run;
+pub use results::{FrameRow, ReducedRow};
+pub use trained::{Trained, Watch, train};

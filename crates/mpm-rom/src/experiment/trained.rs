@@ -1,0 +1,146 @@
+//! From full-order data to a model.
+
+use std::fmt::Write;
+use std::ops::ControlFlow;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use super::files::{self, names};
+use super::{Experiment, ExperimentError};
+use crate::full_order::{self, SceneDocument};
+use crate::model::Model;
+use crate::snapshots::Snapshots;
+use crate::training::{EpochReport, Trainer};
+
+/// Watches an experiment and may stop its training.
+pub trait Watch {
+    /// After a full-order run.
+    fn after_run(&mut self, done: usize, runs: usize);
+
+    /// After an epoch; a break ends the training with a checkpoint to go on from.
+    fn after_epoch(&mut self, report: &EpochReport) -> ControlFlow<()>;
+}
+
+/// Watches nothing.
+impl Watch for () {
+    fn after_run(&mut self, _: usize, _: usize) {}
+
+    fn after_epoch(&mut self, _: &EpochReport) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+}
+
+/// What a training came to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trained {
+    /// N, material points.
+    pub points: usize,
+    /// Full-order runs.
+    pub runs: usize,
+    /// Frames of all of them.
+    pub frames: usize,
+    /// Epochs in all.
+    pub epochs: u64,
+    /// Epochs of an earlier call.
+    pub resumed_at: u64,
+    /// Reports of all epochs.
+    pub history: Vec<EpochReport>,
+    /// What encoder and network lose of the training data, in per cent.
+    pub reconstruction_error: f64,
+    /// Time of the full-order runs in this call; zero where their data were there.
+    pub data_time: Duration,
+    /// Time of the training in this call.
+    pub training_time: Duration,
+}
+
+/// Runs the scene for all training cases, trains, and writes the model. What the directory holds of it already is not done again.
+///
+/// # Errors
+/// [`ExperimentError`]; [`ExperimentError::Stopped`] where the watch broke.
+pub fn train<const D: usize>(
+    experiment: &Experiment,
+    directory: &Path,
+    watch: &mut dyn Watch,
+) -> Result<Trained, ExperimentError> {
+    experiment.occupy(directory)?;
+    let start = Instant::now();
+    let snapshots = training_data::<D>(experiment, directory, watch)?;
+    let data_time = start.elapsed();
+    let start = Instant::now();
+    let checkpoint = directory.join(names::CHECKPOINT);
+    let mut trainer = if checkpoint.exists() {
+        Trainer::resume(&snapshots, experiment.training.clone(), &checkpoint)?
+    } else {
+        Trainer::new(&snapshots, experiment.training.clone())?
+    };
+    let resumed_at = trainer.history().len() as u64;
+    trainer.train(Some(&checkpoint), &mut |report: &EpochReport| watch.after_epoch(report))?;
+    files::write(&directory.join(names::LOSSES), &losses(trainer.history()))?;
+    let epochs = trainer.history().len() as u64;
+    if epochs < experiment.training.epochs {
+        return Err(ExperimentError::Stopped);
+    }
+    let model = trainer.model()?;
+    model.write(&directory.join(names::MODEL))?;
+    Ok(Trained {
+        points: snapshots.points(),
+        runs: snapshots.runs().len(),
+        frames: snapshots.runs().iter().map(|run| run.frames.len()).sum(),
+        epochs,
+        resumed_at,
+        history: trainer.history().to_vec(),
+        reconstruction_error: model.reconstruction_error(&snapshots)?,
+        data_time,
+        training_time: start.elapsed(),
+    })
+}
+
+/// The snapshots of the training runs, from the directory or from the scene.
+fn training_data<const D: usize>(
+    experiment: &Experiment,
+    directory: &Path,
+    watch: &mut dyn Watch,
+) -> Result<Snapshots<D>, ExperimentError> {
+    let file = directory.join(names::TRAINING_DATA);
+    if file.exists() {
+        return Ok(Snapshots::read(&file)?);
+    }
+    let document = SceneDocument::read(&experiment.scene_file())?;
+    let values = &experiment.cases.train;
+    let cases: Vec<_> = values.iter().map(|values| experiment.case(values)).collect::<Result<_, _>>()?;
+    let after_run = |done| watch.after_run(done, values.len());
+    let snapshots = full_order::collect(&document, &experiment.parameters, &cases, after_run)?;
+    snapshots.write(&file)?;
+    Ok(snapshots)
+}
+
+/// One row per epoch.
+fn losses(history: &[EpochReport]) -> String {
+    let mut text = "epoch,rate,loss,position,gradient,velocity\n".to_owned();
+    for report in history {
+        let terms = &report.terms;
+        let (total, rate) = (terms.total(), report.rate);
+        // A String takes everything.
+        let _ = writeln!(
+            text,
+            "{},{rate:?},{total:?},{:?},{:?},{:?}",
+            report.epoch, terms.position, terms.gradient, terms.velocity
+        );
+    }
+    text
+}
+
+/// The model of a directory, if it fits a scene with these points.
+pub(super) fn model_for<const D: usize>(directory: &Path, scene: &str, points: usize) -> Result<Model<D>, ExperimentError> {
+    let file = directory.join(names::MODEL);
+    let model = Model::<D>::read(&file)?;
+    let trained_on = model.encoder().shape().points;
+    if model.summary().scene != scene || trained_on != points {
+        return Err(ExperimentError::OtherScene {
+            file: file.display().to_string(),
+            found: format!("{}, {trained_on} points", model.summary().scene),
+            expected: format!("{scene}, {points} points"),
+        });
+    }
+    Ok(model)
+}
