@@ -3,7 +3,7 @@
 //! Every entry is one chain of fused products in a fixed order, so that a point has the same bits whatever stands beside it (a general
 //! matrix product switches its order of summation with the shape). Lists of columns are unit × column and a multiple of [`LANES`] long.
 
-use mpm_tensor::vector::multiply_add;
+use wide::f64x4;
 
 /// Entries that are worked on together.
 pub(crate) const LANES: usize = 8;
@@ -39,25 +39,36 @@ impl<'a> Weights<'a> {
             ..self
         }
     }
+
+    /// The entries of `ROWS` rows from `row` on, column after column.
+    fn pack<const ROWS: usize>(&self, row: usize) -> Vec<[f64; ROWS]> {
+        let entry = |k: usize, i: usize| self.entries[(row + k) * self.row_stride + i * self.column_stride];
+        (0..self.columns)
+            .map(|i| std::array::from_fn(|k| entry(k, i)))
+            .collect()
+    }
 }
+
+/// Rows whose sums fit into the registers: 6 × 2 of 16.
+const TALL: usize = 6;
 
 /// Z_o = Σ_i W_oi A_i for the `length` entries of every unit.
 pub(crate) fn multiply(z: &mut [f64], weights: Weights<'_>, a: &[f64], length: usize) {
     let (a, blocks) = (a.as_chunks::<LANES>().0, length / LANES);
     let z = z.as_chunks_mut::<LANES>().0;
+    let tall: Vec<_> = (0..weights.rows / TALL)
+        .map(|n| weights.pack::<TALL>(n * TALL))
+        .collect();
+    let low: Vec<_> = (tall.len() * TALL..weights.rows)
+        .map(|row| weights.pack::<1>(row))
+        .collect();
+    // Block by block, because its columns then stay in the first-level cache for all rows.
     for block in 0..blocks {
-        let mut row = 0;
-        while row + 6 <= weights.rows {
-            multiply_rows::<6>(z, weights, a, blocks, block, row);
-            row += 6;
+        for (n, rows) in tall.iter().enumerate() {
+            multiply_rows(z, rows, a, blocks, block, n * TALL);
         }
-        while row + 3 <= weights.rows {
-            multiply_rows::<3>(z, weights, a, blocks, block, row);
-            row += 3;
-        }
-        while row < weights.rows {
-            multiply_rows::<1>(z, weights, a, blocks, block, row);
-            row += 1;
+        for (n, rows) in low.iter().enumerate() {
+            multiply_rows(z, rows, a, blocks, block, tall.len() * TALL + n);
         }
     }
 }
@@ -65,25 +76,25 @@ pub(crate) fn multiply(z: &mut [f64], weights: Weights<'_>, a: &[f64], length: u
 #[inline(always)]
 fn multiply_rows<const ROWS: usize>(
     z: &mut [[f64; LANES]],
-    weights: Weights<'_>,
+    rows: &[[f64; ROWS]],
     a: &[[f64; LANES]],
     blocks: usize,
     block: usize,
     row: usize,
 ) {
-    let mut sums = [[0.0; LANES]; ROWS];
-    let starts: [usize; ROWS] = std::array::from_fn(|k| (row + k) * weights.row_stride);
-    for i in 0..weights.columns {
-        let a = &a[i * blocks + block];
+    let mut sums = [[f64x4::ZERO; 2]; ROWS];
+    for (i, weights) in rows.iter().enumerate() {
+        let [a0, a1, a2, a3, a4, a5, a6, a7] = a[i * blocks + block];
+        let (lower, upper) = (f64x4::new([a0, a1, a2, a3]), f64x4::new([a4, a5, a6, a7]));
         for k in 0..ROWS {
-            let weight = weights.entries[starts[k] + i * weights.column_stride];
-            for lane in 0..LANES {
-                sums[k][lane] = multiply_add(a[lane], weight, sums[k][lane]);
-            }
+            let weight = f64x4::splat(weights[k]);
+            sums[k][0] = lower.mul_add(weight, sums[k][0]);
+            sums[k][1] = upper.mul_add(weight, sums[k][1]);
         }
     }
-    for (k, sum) in sums.into_iter().enumerate() {
-        z[(row + k) * blocks + block] = sum;
+    for (k, [lower, upper]) in sums.into_iter().enumerate() {
+        let (s, t) = (lower.to_array(), upper.to_array());
+        z[(row + k) * blocks + block] = [s[0], s[1], s[2], s[3], t[0], t[1], t[2], t[3]];
     }
 }
 
@@ -120,21 +131,21 @@ fn add_block<const ROWS: usize, const COLUMNS: usize>(
     a: &[[f64; HALF]],
     [row, column, columns, blocks]: [usize; 4],
 ) {
-    let mut sums = [[[0.0; HALF]; COLUMNS]; ROWS];
+    let mut sums = [[f64x4::ZERO; COLUMNS]; ROWS];
     let z: [&[[f64; HALF]]; ROWS] = std::array::from_fn(|k| &z[(row + k) * blocks..(row + k + 1) * blocks]);
     let a: [&[[f64; HALF]]; COLUMNS] = std::array::from_fn(|j| &a[(column + j) * blocks..(column + j + 1) * blocks]);
     for block in 0..blocks {
+        let a: [f64x4; COLUMNS] = std::array::from_fn(|j| f64x4::new(a[j][block]));
         for k in 0..ROWS {
+            let z = f64x4::new(z[k][block]);
             for j in 0..COLUMNS {
-                for lane in 0..HALF {
-                    sums[k][j][lane] = multiply_add(z[k][block][lane], a[j][block][lane], sums[k][j][lane]);
-                }
+                sums[k][j] = z.mul_add(a[j], sums[k][j]);
             }
         }
     }
     for k in 0..ROWS {
         for j in 0..COLUMNS {
-            let [s0, s1, s2, s3] = sums[k][j];
+            let [s0, s1, s2, s3] = sums[k][j].to_array();
             g[(row + k) * columns + column + j] += (s0 + s1) + (s2 + s3);
         }
     }

@@ -117,6 +117,7 @@ impl<const D: usize> Network<D> {
         if let Some(first) = tape.hidden.first_mut() {
             for (unit, block) in first.before.chunks_exact_mut(points * columns).enumerate() {
                 let row = &weights[unit * inputs..unit * inputs + D];
+                block[reference.len()..points].fill(0.0);
                 for (z, position) in block.iter_mut().zip(reference) {
                     let mut sum = 0.0;
                     for k in 0..D {
