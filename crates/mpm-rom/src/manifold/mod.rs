@@ -1,8 +1,12 @@
 //! Families of deformation maps X → g̃(X, x̂) with a few coordinates x̂.
 
 mod evaluation;
+#[cfg(test)]
+mod polynomial;
 
 pub use evaluation::{Evaluation, Wanted};
+#[cfg(test)]
+pub(crate) use polynomial::Fields;
 
 /// A family of maps g̃(X, x̂) from reference positions X to deformed positions, with r generalised coordinates x̂.
 pub trait Manifold<const D: usize>: Send + Sync {
