@@ -6,6 +6,8 @@ mod error;
 mod files;
 mod reduced;
 mod results;
+#[cfg(test)]
+mod tests;
 mod trained;
 
 pub use config::{Cases, Experiment, Key, QuadratureName, ReducedRuns, SampleCount, UpdateName};

@@ -65,7 +65,10 @@ pub fn run<const D: usize>(
                 }
             }
         }
-        files::write(&directory.join(names::RESULTS), &results::results(&experiment.parameters, &rows))?;
+        files::write(
+            &directory.join(names::RESULTS),
+            &results::results(&experiment.parameters, &rows),
+        )?;
         files::write(&directory.join(names::FRAMES), &results::frames(&frames))?;
         if !after_case(case + 1) {
             return Err(ExperimentError::Stopped);
@@ -88,7 +91,8 @@ fn beside<const D: usize>(
     let interval = body.time_step * body.steps_per_frame as f64;
     let map = DeformationMap::new(model.network().clone(), &body.reference, &start)?;
     let mut reduced = ReducedModel::new(body, map, experiment.run.options(samples, quadrature, update))?;
-    let (mut total, mut evaluation, mut report) = (PositionError::default(), Evaluation::default(), StepReport::default());
+    let (mut total, mut evaluation, mut report) =
+        (PositionError::default(), Evaluation::default(), StepReport::default());
     let (mut seconds, mut outcome) = (0.0, "finished".to_owned());
     let full_run = &full.snapshots.runs()[0];
     for (number, frame) in full_run.frames.iter().enumerate() {

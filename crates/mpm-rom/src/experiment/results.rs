@@ -52,8 +52,13 @@ pub struct FrameRow {
 
 /// All rows as CSV.
 pub(super) fn results(parameters: &[String], rows: &[ReducedRow]) -> String {
-    let mut text = format!("case,{},samples,quadrature,update,position_error_percent,", parameters.join(","));
-    text.push_str("reconstruction_error_percent,simulated_seconds,steps,seconds,full_seconds,speed_up,real_time_factor,");
+    let mut text = format!(
+        "case,{},samples,quadrature,update,position_error_percent,",
+        parameters.join(",")
+    );
+    text.push_str(
+        "reconstruction_error_percent,simulated_seconds,steps,seconds,full_seconds,speed_up,real_time_factor,",
+    );
     text.push_str("nodes,quadrature_points,neighbour_lists,outcome\n");
     for row in rows {
         let values: Vec<String> = row.parameters.iter().map(|value| format!("{value:?}")).collect();

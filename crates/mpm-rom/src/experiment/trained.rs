@@ -107,7 +107,10 @@ fn training_data<const D: usize>(
     }
     let document = SceneDocument::read(&experiment.scene_file())?;
     let values = &experiment.cases.train;
-    let cases: Vec<_> = values.iter().map(|values| experiment.case(values)).collect::<Result<_, _>>()?;
+    let cases: Vec<_> = values
+        .iter()
+        .map(|values| experiment.case(values))
+        .collect::<Result<_, _>>()?;
     let after_run = |done| watch.after_run(done, values.len());
     let snapshots = full_order::collect(&document, &experiment.parameters, &cases, after_run)?;
     snapshots.write(&file)?;
@@ -131,7 +134,11 @@ fn losses(history: &[EpochReport]) -> String {
 }
 
 /// The model of a directory, if it fits a scene with these points.
-pub(super) fn model_for<const D: usize>(directory: &Path, scene: &str, points: usize) -> Result<Model<D>, ExperimentError> {
+pub(super) fn model_for<const D: usize>(
+    directory: &Path,
+    scene: &str,
+    points: usize,
+) -> Result<Model<D>, ExperimentError> {
     let file = directory.join(names::MODEL);
     let model = Model::<D>::read(&file)?;
     let trained_on = model.encoder().shape().points;

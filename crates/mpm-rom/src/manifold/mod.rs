@@ -2,9 +2,13 @@
 
 mod evaluation;
 pub mod network;
+#[cfg(test)]
+mod polynomial;
 
 pub use evaluation::{Evaluation, Wanted};
 pub use network::{Network, NetworkError, NetworkShape, Scaling};
+#[cfg(test)]
+pub(crate) use polynomial::Fields;
 
 /// A family of maps g̃(X, x̂) from reference positions X to deformed positions, with r generalised coordinates x̂.
 pub trait Manifold<const D: usize>: Send + Sync {

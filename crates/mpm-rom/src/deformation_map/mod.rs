@@ -1,0 +1,179 @@
+//! g from g̃: the map that starts at rest exactly.
+
+mod initial;
+mod points;
+#[cfg(test)]
+mod tests;
+
+pub use initial::{AffineVelocity, InitialMotion};
+pub use points::MaterialPoints;
+
+use mpm_tensor::{Matrix, vector};
+
+use crate::least_squares::{GaussNewton, LeastSquares, LeastSquaresError, Settings};
+use crate::manifold::{Evaluation, Manifold, Wanted};
+
+/// Why a family of maps cannot start at rest.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum DeformationMapError {
+    /// The first guess of x̂₀ has another length than the manifold has coordinates.
+    #[error("{found} coordinates to start from, not {expected}")]
+    Coordinates {
+        /// Its length.
+        found: usize,
+        /// r.
+        expected: usize,
+    },
+    /// x̂₀ cannot be found.
+    #[error("coordinates at rest: {0}")]
+    Rest(LeastSquaresError),
+    /// v̂₀ cannot be found.
+    #[error("rates at the start: {0}")]
+    InitialRates(LeastSquaresError),
+}
+
+/// The deformation map g(X, x̂) = g̃(X, x̂) + a(X) + b(X) f(t), f(t) = t (Chen et al. 2023, §3.2).
+///
+/// a(X) = X − g̃(X, x̂₀) with x̂₀ = argmin_y Σ|X_p − g̃(X_p, y)|², so that g(X, x̂₀) = X at t = 0, and
+/// F = ∇g̃(X, x̂) + I − ∇g̃(X, x̂₀) + t ∇b = I there. b(X) = V₀ − ∂g̃/∂x̂(X, x̂₀) v̂₀ with v̂₀ = argmin_w Σ|V₀_p − ∂g̃/∂x̂(X_p, x̂₀) w|²; for a body that
+/// starts at rest b = 0 and v̂₀ = 0, and neither is stored nor computed.
+pub struct DeformationMap<const D: usize, M> {
+    manifold: M,
+    rest: Vec<f64>,
+    initial: Option<InitialMotion<D>>,
+    at_rest: Evaluation<D>,
+}
+
+impl<const D: usize, M: Manifold<D>> DeformationMap<D, M> {
+    /// The map of a body that starts at rest. `reference` are the points in the sums for x̂₀, `start` is where the search begins: the encoder's
+    /// coordinates of the body at rest, or zeros.
+    ///
+    /// # Errors
+    /// [`DeformationMapError`].
+    pub fn new(manifold: M, reference: &[[f64; D]], start: &[f64]) -> Result<Self, DeformationMapError> {
+        let expected = manifold.coordinates();
+        if start.len() != expected {
+            let found = start.len();
+            return Err(DeformationMapError::Coordinates { found, expected });
+        }
+        let mut rest = start.to_vec();
+        let evaluate =
+            |y: &[f64], wanted: Wanted, out: &mut Evaluation<D>| manifold.evaluate(reference, y, wanted, out);
+        let found = GaussNewton::default().minimise(reference, &mut rest, &Settings::default(), evaluate);
+        found.map_err(DeformationMapError::Rest)?;
+        Ok(Self {
+            manifold,
+            rest,
+            initial: None,
+            at_rest: Evaluation::default(),
+        })
+    }
+
+    /// The same map for a body that starts with the velocity V₀(X).
+    ///
+    /// # Errors
+    /// [`DeformationMapError::InitialRates`].
+    pub fn starting_with(
+        mut self,
+        velocity: AffineVelocity<D>,
+        reference: &[[f64; D]],
+    ) -> Result<Self, DeformationMapError> {
+        let wanted = Wanted {
+            jacobians: true,
+            ..Wanted::default()
+        };
+        self.manifold.evaluate(reference, &self.rest, wanted, &mut self.at_rest);
+        let targets: Vec<[f64; D]> = reference.iter().map(|x| velocity.at(x)).collect();
+        let mut rates = vec![0.0; self.coordinates()];
+        LeastSquares::default()
+            .solve(&self.at_rest.jacobians, &targets, &mut rates)
+            .map_err(DeformationMapError::InitialRates)?;
+        self.initial = Some(InitialMotion { velocity, rates });
+        Ok(self)
+    }
+
+    /// r.
+    pub fn coordinates(&self) -> usize {
+        self.manifold.coordinates()
+    }
+
+    /// x̂₀.
+    pub fn rest(&self) -> &[f64] {
+        &self.rest
+    }
+
+    /// V₀ and v̂₀; `None` for a body that starts at rest.
+    pub fn initial(&self) -> Option<&InitialMotion<D>> {
+        self.initial.as_ref()
+    }
+
+    /// The family g̃.
+    pub fn manifold(&self) -> &M {
+        &self.manifold
+    }
+
+    /// What does not depend on x̂ at these points: a(X), I − ∇g̃(X, x̂₀), b(X), ∇b(X). `out` is overwritten.
+    pub fn prepare(&mut self, reference: &[[f64; D]], out: &mut MaterialPoints<D>) {
+        out.clear();
+        out.reference.extend_from_slice(reference);
+        let wanted = Wanted {
+            gradients: true,
+            jacobians: self.initial.is_some(),
+        };
+        self.manifold.evaluate(reference, &self.rest, wanted, &mut self.at_rest);
+        let pairs = reference.iter().zip(&self.at_rest.positions);
+        out.offsets.extend(pairs.map(|(x, g)| vector::subtract(x, g)));
+        let gradients = self.at_rest.gradients.iter();
+        out.gradient_offsets
+            .extend(gradients.map(|gradient| Matrix::IDENTITY - *gradient));
+        if let Some(initial) = &self.initial {
+            initial.drifts(&self.manifold, &self.rest, &self.at_rest, out);
+        }
+    }
+
+    /// g, and where wanted F = ∇g and ∂g/∂x̂, at prepared points; `out` is overwritten. `time` is read only where there is a b(X).
+    pub fn evaluate(
+        &self,
+        points: &MaterialPoints<D>,
+        latent: &[f64],
+        time: f64,
+        wanted: Wanted,
+        out: &mut Evaluation<D>,
+    ) {
+        self.manifold.evaluate(&points.reference, latent, wanted, out);
+        for (g, a) in out.positions.iter_mut().zip(&points.offsets) {
+            vector::accumulate(g, 1.0, a);
+        }
+        for (g, b) in out.positions.iter_mut().zip(&points.drifts) {
+            vector::accumulate(g, time, b);
+        }
+        for (gradient, offset) in out.gradients.iter_mut().zip(&points.gradient_offsets) {
+            *gradient += *offset;
+        }
+        for (total, gradient) in out.gradients.iter_mut().zip(&points.drift_gradients) {
+            *total += *gradient * time;
+        }
+    }
+}
+
+/// v_p = ∂g/∂x̂ v̂ + b f′, f′ = 1, from the Jacobians of an evaluation at these points; `out` is overwritten.
+pub fn velocities<const D: usize>(
+    points: &MaterialPoints<D>,
+    evaluation: &Evaluation<D>,
+    rates: &[f64],
+    out: &mut Vec<[f64; D]>,
+) {
+    out.clear();
+    out.extend(evaluation.jacobians.chunks_exact(rates.len().max(1)).map(|columns| {
+        let mut velocity = [0.0; D];
+        for (column, rate) in columns.iter().zip(rates) {
+            vector::accumulate(&mut velocity, *rate, column);
+        }
+        velocity
+    }));
+    out.resize(points.reference.len(), [0.0; D]);
+    for (velocity, drift) in out.iter_mut().zip(&points.drifts) {
+        vector::accumulate(velocity, 1.0, drift);
+    }
+}

@@ -1,0 +1,53 @@
+//! Material points with what the map needs of them at rest.
+
+use mpm_tensor::Matrix;
+
+/// Reference positions and the parts of g that do not depend on x̂, one entry per point in every list; the last two are empty where b = 0.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MaterialPoints<const D: usize> {
+    /// X_p, relative to the centroid at rest.
+    pub reference: Vec<[f64; D]>,
+    /// a(X_p).
+    pub offsets: Vec<[f64; D]>,
+    /// I − ∇g̃(X_p, x̂₀).
+    pub gradient_offsets: Vec<Matrix<D>>,
+    /// b(X_p).
+    pub drifts: Vec<[f64; D]>,
+    /// ∇b(X_p).
+    pub drift_gradients: Vec<Matrix<D>>,
+}
+
+impl<const D: usize> MaterialPoints<D> {
+    /// Number of points.
+    pub fn len(&self) -> usize {
+        self.reference.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.reference.is_empty()
+    }
+
+    /// No points; the storage stays.
+    pub fn clear(&mut self) {
+        self.reference.clear();
+        self.offsets.clear();
+        self.gradient_offsets.clear();
+        self.drifts.clear();
+        self.drift_gradients.clear();
+    }
+
+    /// The points of `all` with these numbers, in this order; numbers that there are not are left out.
+    pub fn select(&mut self, all: &Self, numbers: &[u32]) {
+        choose(&mut self.reference, &all.reference, numbers);
+        choose(&mut self.offsets, &all.offsets, numbers);
+        choose(&mut self.gradient_offsets, &all.gradient_offsets, numbers);
+        choose(&mut self.drifts, &all.drifts, numbers);
+        choose(&mut self.drift_gradients, &all.drift_gradients, numbers);
+    }
+}
+
+fn choose<T: Copy>(out: &mut Vec<T>, all: &[T], numbers: &[u32]) {
+    out.clear();
+    out.extend(numbers.iter().filter_map(|&number| all.get(number as usize)));
+}

@@ -1,0 +1,91 @@
+use super::*;
+use crate::manifold::Fields;
+
+/// A lattice of points in [-1, 1]² × [-0.5, 0.5].
+fn points() -> Vec<[f64; 3]> {
+    let axis = |k: usize, n: usize, half: f64| half * (2.0 * (k as f64 + 0.5) / n as f64 - 1.0);
+    (0..60)
+        .map(|k| [axis(k % 5, 5, 1.0), axis(k / 5 % 4, 4, 1.0), axis(k / 20, 3, 0.5)])
+        .collect()
+}
+
+/// A family that is nowhere the identity: X + 0.1 + fields.
+struct Shifted(Fields<3>);
+
+impl Manifold<3> for Shifted {
+    fn coordinates(&self) -> usize {
+        self.0.coordinates()
+    }
+
+    fn evaluate(&self, reference: &[[f64; 3]], latent: &[f64], wanted: Wanted, out: &mut Evaluation<3>) {
+        self.0.evaluate(reference, latent, wanted, out);
+        out.positions.iter_mut().for_each(|g| g[2] += 0.1);
+        out.gradients.iter_mut().for_each(|F| F.0[2][2] += 0.05);
+    }
+}
+
+const ALL: Wanted = Wanted {
+    gradients: true,
+    jacobians: true,
+};
+
+#[test]
+fn at_rest_every_point_is_where_it_was_and_nothing_is_deformed() {
+    let (reference, mut prepared, mut out) = (points(), MaterialPoints::default(), Evaluation::default());
+    let mut map = DeformationMap::new(Shifted(Fields::bending(3)), &reference, &[0.2; 3]).expect("solvable");
+    map.prepare(&reference, &mut prepared);
+    assert!(prepared.drifts.is_empty() && prepared.drift_gradients.is_empty());
+    let rest = map.rest().to_vec();
+    map.evaluate(&prepared, &rest, 3.0, ALL, &mut out);
+    for ((g, x), F) in out.positions.iter().zip(&reference).zip(&out.gradients) {
+        assert!(vector::distance(g, x) < 1e-15 && (*F - Matrix::IDENTITY).frobenius_norm() < 1e-15);
+    }
+    assert!(rest.iter().all(|y| y.abs() < 1e-7), "{rest:?}");
+}
+
+#[test]
+fn at_the_start_every_point_has_its_velocity_and_the_gradient_is_that_of_the_map() {
+    let reference = points();
+    let velocity = AffineVelocity {
+        constant: [0.3, -0.1, 0.2],
+        gradient: Matrix([[0.1, 0.5, 0.0], [-0.2, 0.3, 0.1], [0.4, 0.0, -0.3]]),
+    };
+    let map = DeformationMap::new(Fields::bending(4), &reference, &[0.0; 4]).expect("solvable");
+    let mut map = map.starting_with(velocity, &reference).expect("solvable");
+    let rates = map.initial().expect("given").rates.clone();
+    let (mut prepared, mut out, mut found) = (MaterialPoints::default(), Evaluation::default(), Vec::new());
+    map.prepare(&reference, &mut prepared);
+    let latent: Vec<f64> = map.rest().to_vec();
+    map.evaluate(&prepared, &latent, 0.0, ALL, &mut out);
+    velocities(&prepared, &out, &rates, &mut found);
+    for (v, x) in found.iter().zip(&reference) {
+        assert!(vector::distance(v, &velocity.at(x)) < 1e-13);
+    }
+    // F against central differences of g in X, away from rest.
+    let (latent, time, step) = ([0.2, -0.1, 0.05, 0.1], 0.7, 1e-5);
+    map.evaluate(&prepared, &latent, time, ALL, &mut out);
+    let gradients = out.gradients.clone();
+    for b in 0..3 {
+        let [above, below] = [step, -step].map(|step| {
+            let moved: Vec<[f64; 3]> = reference
+                .iter()
+                .map(|x| std::array::from_fn(|a| x[a] + if a == b { step } else { 0.0 }))
+                .collect();
+            let mut there = MaterialPoints::default();
+            map.prepare(&moved, &mut there);
+            map.evaluate(&there, &latent, time, Wanted::default(), &mut out);
+            out.positions.clone()
+        });
+        for ((F, above), below) in gradients.iter().zip(&above).zip(&below) {
+            for a in 0..3 {
+                assert!((F.0[a][b] - (above[a] - below[a]) / (2.0 * step)).abs() < 1e-8);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_wrong_start_is_refused() {
+    let error = DeformationMap::new(Fields::<3>::translations(), &points(), &[0.0; 2]).err();
+    assert_eq!(error, Some(DeformationMapError::Coordinates { found: 2, expected: 3 }));
+}

@@ -1,0 +1,165 @@
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+
+use super::*;
+use crate::training::EpochReport;
+
+/// A strip whose left end is held, and which falls.
+const SCENE: &str = r#"
+title = "a strip that bends"
+dimension = 2
+gravity = [0.0, -1.0]
+domain = { lower = [-1.0, -2.0], upper = [3.0, 2.0] }
+grid = { spacing = 0.25 }
+transfer = { kind = "pic" }
+time = { end = 0.2, step = 0.0050000001, courant = 0.5 }
+materials.rubber = { law = "fixed-corotated", density = 2.0, young_modulus = 1000.0, poisson_ratio = 0.3 }
+output = { interval = 0.05 }
+
+[[bodies]]
+name = "strip"
+shape = { kind = "box", lower = [0.0, 0.0], upper = [2.0, 0.5] }
+material = "rubber"
+
+[[kinematic]]
+region = { kind = "box", lower = [-0.1, -1.0], upper = [0.25, 1.0] }
+"#;
+
+const EXPERIMENT: &str = r#"
+title = "A strip"
+scene = "strip.toml"
+parameters = ["gravity", "angle"]
+keys = [
+    { key = "gravity.0", product = ["gravity", "sin angle"] },
+    { key = "gravity.1", factor = -1.0, product = ["gravity", "cos angle"] },
+]
+cases = { train = [[1.0, 0.0], [3.0, 0.2]], test = [[2.0, 0.1]] }
+training = { coordinates = 2, width = 6, depth = 2, epochs = 4, batch = 2, checkpoint_interval = 2 }
+run = { samples = [20, "all"], quadrature = ["lagrangian"], update = ["position-velocity", "velocity-only"] }
+"#;
+
+fn files() -> (tempfile::TempDir, PathBuf) {
+    let directory = tempfile::tempdir().expect("a directory");
+    std::fs::write(directory.path().join("strip.toml"), SCENE).expect("written");
+    let file = directory.path().join("strip_rom.toml");
+    std::fs::write(&file, EXPERIMENT).expect("written");
+    (directory, file)
+}
+
+fn message(change: (&str, &str)) -> String {
+    assert!(EXPERIMENT.contains(change.0), "{change:?}");
+    let text = EXPERIMENT.replace(change.0, change.1);
+    let error = Experiment::parse(&text, Path::new("rom.toml")).expect_err("refused");
+    error.to_string()
+}
+
+#[test]
+fn keys_take_their_values_from_the_parameters() {
+    let experiment = Experiment::parse(EXPERIMENT, Path::new("a/rom.toml")).expect("sound");
+    assert_eq!(experiment.scene_file(), Path::new("a/strip.toml"));
+    let case = experiment.case(&[2.0, 0.3]).expect("known");
+    let value = |k: usize| case.changes[k].1.as_float().expect("a number");
+    assert!((value(0) - 2.0 * 0.3f64.sin()).abs() < 1e-15 && (value(1) + 2.0 * 0.3f64.cos()).abs() < 1e-15);
+}
+
+#[test]
+fn what_is_wrong_is_named_with_its_file_and_field() {
+    for (change, expected) in [
+        (
+            ("\"sin angle\"", "\"tan angle\""),
+            "rom.toml, keys.0.product: [\"gravity\", \"tan angle\"]",
+        ),
+        (
+            ("test = [[2.0, 0.1]]", "test = []"),
+            "rom.toml, cases.test: at least one case",
+        ),
+        (
+            ("[3.0, 0.2]", "[3.0]"),
+            "rom.toml, cases.train.1: 1 values for 2 parameters",
+        ),
+        (
+            ("[3.0, 0.2]", "[3.0, nan]"),
+            "rom.toml, cases.train.1: NaN is not finite",
+        ),
+        (("epochs = 4", "epochs = 0"), "rom.toml, training: epochs = 0"),
+        (
+            ("samples = [20, \"all\"]", "samples = []"),
+            "rom.toml, run.samples: at least one",
+        ),
+        (
+            ("samples = [20, \"all\"]", "samples = [\"some\"]"),
+            "rom.toml: TOML parse error",
+        ),
+        (("width = 6", "breadth = 6"), "unknown field `breadth`"),
+    ] {
+        let message = message(change);
+        assert!(message.contains(expected), "{message}");
+    }
+}
+
+/// Breaks after so many epochs.
+struct Stop(u64);
+
+impl Watch for Stop {
+    fn after_run(&mut self, _: usize, _: usize) {}
+
+    fn after_epoch(&mut self, report: &EpochReport) -> ControlFlow<()> {
+        if report.epoch + 1 == self.0 {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    }
+}
+
+#[test]
+fn an_experiment_is_stopped_goes_on_and_is_run() {
+    let (directory, file) = files();
+    let experiment = Experiment::read(&file).expect("sound");
+    let (whole, parts) = (directory.path().join("whole"), directory.path().join("parts"));
+    assert!(run::<2>(&experiment, &whole, &mut |_| true).is_err(), "no model");
+    let trained = train::<2>(&experiment, &whole, &mut ()).expect("trained");
+    assert_eq!(
+        (trained.points, trained.runs, trained.frames, trained.epochs),
+        (64, 2, 10, 4)
+    );
+    assert!(matches!(
+        train::<2>(&experiment, &parts, &mut Stop(2)),
+        Err(ExperimentError::Stopped)
+    ));
+    let rest = train::<2>(&experiment, &parts, &mut ()).expect("the rest");
+    assert_eq!((rest.resumed_at, rest.history.clone()), (2, trained.history));
+    let bytes = |directory: &Path, name| std::fs::read(directory.join(name)).expect(name);
+    for name in [names::MODEL, names::LOSSES] {
+        assert_eq!(bytes(&whole, name), bytes(&parts, name), "{name}");
+    }
+
+    let rows = run::<2>(&experiment, &whole, &mut |_| true).expect("run");
+    let kinds: Vec<_> = rows.iter().map(|row| (row.samples, row.update)).collect();
+    let updates = ["position-velocity", "velocity-only"];
+    assert_eq!(
+        kinds,
+        [(20, updates[0]), (20, updates[1]), (64, updates[0]), (64, updates[1])]
+    );
+    let table = String::from_utf8(bytes(&whole, names::RESULTS)).expect("text");
+    assert_eq!(table.lines().count(), 5);
+    let frames = String::from_utf8(bytes(&whole, names::FRAMES)).expect("text");
+    assert!(
+        frames.starts_with("run,time,position_error_percent,x1,x2\n0,0.0,"),
+        "{frames}"
+    );
+
+    let mut other = experiment.clone();
+    other.cases.train.pop();
+    assert!(matches!(
+        train::<2>(&other, &whole, &mut ()),
+        Err(ExperimentError::Occupied { .. })
+    ));
+    other = experiment.clone();
+    other.run.samples.truncate(1);
+    assert_eq!(run::<2>(&other, &whole, &mut |_| true).expect("run").len(), 2);
+    assert!(matches!(
+        run::<2>(&other, &whole, &mut |_| false),
+        Err(ExperimentError::Stopped)
+    ));
+}

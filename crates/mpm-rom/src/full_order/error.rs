@@ -1,0 +1,67 @@
+use mpm_scenes::{SceneError, SimulationError};
+
+use crate::snapshots::SnapshotsError;
+
+/// Why there is no data.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum FullOrderError {
+    /// No run was asked for.
+    #[error("no runs")]
+    NoRuns,
+    /// The file cannot be read.
+    #[error("{file}: {source}")]
+    Unreadable {
+        /// The scene's file.
+        file: String,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// The file is no TOML.
+    #[error("{file}: {message}")]
+    Syntax {
+        /// The scene's file.
+        file: String,
+        /// What the parser says.
+        message: String,
+    },
+    /// A key of a change does not fit the document.
+    #[error("{file}, change of `{key}`: {reason}")]
+    Change {
+        /// The scene's file.
+        file: String,
+        /// The dotted key.
+        key: String,
+        /// What is in the way.
+        reason: String,
+    },
+    /// The scene has another dimension than is asked for.
+    #[error("a scene of dimension {found}, not {expected}")]
+    Dimension {
+        /// That of the scene.
+        found: usize,
+        /// What is asked for.
+        expected: usize,
+    },
+    /// The scene cannot be run.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// Materials of different density.
+    #[error("densities {densities:?}: one for all materials is needed")]
+    Densities {
+        /// ρ₀ of the materials.
+        densities: Vec<f64>,
+    },
+    /// A change of parameters changes the points, so that the runs have no common body.
+    #[error("run {run} has other points or frames than run 0")]
+    AnotherBody {
+        /// The run, counted from 0.
+        run: usize,
+    },
+    /// A run failed.
+    #[error(transparent)]
+    Simulation(#[from] SimulationError),
+    /// What the runs gave is of no use.
+    #[error(transparent)]
+    Snapshots(#[from] SnapshotsError),
+}

@@ -1,0 +1,127 @@
+//! Data for a reduced model: full-order runs of one scene with other parameters each.
+
+mod document;
+mod error;
+#[cfg(test)]
+mod tests;
+
+pub use document::{SceneDocument, Value};
+pub use error::FullOrderError;
+
+use mpm_scenes::scene::MaterialTable;
+use mpm_scenes::{Population, Scene, Snapshot, frames};
+use mpm_tensor::{Matrix, vector};
+
+use crate::snapshots::{Body, Frame, Run, Snapshots};
+
+/// A run: the values of its parameters, and the keys of the scene that they change.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Case {
+    /// Values of the parameters.
+    pub parameters: Vec<f64>,
+    /// Dotted keys of the document with their values: `gravity.1`, `kinematic.0.velocity`.
+    pub changes: Vec<(String, Value)>,
+}
+
+impl Case {
+    /// A run whose only parameter is the number at a key.
+    pub fn of_key(key: &str, value: f64) -> Self {
+        Self {
+            parameters: vec![value],
+            changes: vec![(key.to_owned(), Value::Float(value))],
+        }
+    }
+}
+
+/// Runs all cases of a scene and collects their frames, that of t = 0 included. `after_run` is told the number of runs done.
+///
+/// # Errors
+/// [`FullOrderError`]: a change that does not fit the document, a scene that cannot be run or that has another body than that of the first case, a run that
+/// fails, snapshots that hold what they must not.
+pub fn collect<const D: usize>(
+    document: &SceneDocument,
+    parameters: &[String],
+    cases: &[Case],
+    mut after_run: impl FnMut(usize),
+) -> Result<Snapshots<D>, FullOrderError> {
+    let (mut body, mut runs) = (None, Vec::with_capacity(cases.len()));
+    for (number, case) in cases.iter().enumerate() {
+        let scene = document.scene(&case.changes)?;
+        let own = body_of::<D>(&scene, parameters)?;
+        match &body {
+            None => body = Some(own.clone()),
+            Some(first) if *first == own => {}
+            Some(_) => return Err(FullOrderError::AnotherBody { run: number }),
+        }
+        let frames = run(&scene, &own.centroid)?;
+        let parameters = case.parameters.clone();
+        runs.push(Run { parameters, frames });
+        after_run(runs.len());
+    }
+    let body = body.ok_or(FullOrderError::NoRuns)?;
+    Ok(Snapshots::new(body, runs)?)
+}
+
+/// All frames of one scene, positions relative to `centroid`.
+///
+/// # Errors
+/// [`FullOrderError::Dimension`], [`FullOrderError::Simulation`].
+pub fn run<const D: usize>(scene: &Scene, centroid: &[f64; D]) -> Result<Vec<Frame<D>>, FullOrderError> {
+    check_dimension::<D>(scene)?;
+    let mut all = Vec::new();
+    frames(scene, &mut |snapshot| all.push(frame(&snapshot, centroid)))?;
+    Ok(all)
+}
+
+/// What all runs of a scene share: its points, relative to their mean.
+///
+/// # Errors
+/// [`FullOrderError::Dimension`], [`FullOrderError::Scene`], [`FullOrderError::Densities`] for materials of different density.
+pub fn body_of<const D: usize>(scene: &Scene, parameters: &[String]) -> Result<Body<D>, FullOrderError> {
+    check_dimension::<D>(scene)?;
+    let population = Population::<D>::fill(scene).map_err(|fault| scene.error(fault))?;
+    let mut densities: Vec<f64> = scene.materials.values().map(MaterialTable::density).collect();
+    densities.dedup();
+    let [density] = densities[..] else {
+        return Err(FullOrderError::Densities { densities });
+    };
+    let centroid = centroid(&population.positions);
+    let reference = population.positions.iter();
+    Ok(Body {
+        scene: scene.title.clone(),
+        reference: reference.map(|x| vector::subtract(x, &centroid)).collect(),
+        centroid,
+        interval: scene.output.interval,
+        density,
+        parameters: parameters.to_vec(),
+    })
+}
+
+/// The mean of the points.
+pub fn centroid<const D: usize>(points: &[[f64; D]]) -> [f64; D] {
+    let share = 1.0 / points.len().max(1) as f64;
+    let mut mean = [0.0; D];
+    for x in points {
+        vector::accumulate(&mut mean, share, x);
+    }
+    mean
+}
+
+fn check_dimension<const D: usize>(scene: &Scene) -> Result<(), FullOrderError> {
+    match scene.dimension {
+        found if found != D => Err(FullOrderError::Dimension { found, expected: D }),
+        _ => Ok(()),
+    }
+}
+
+fn frame<const D: usize>(snapshot: &Snapshot, centroid: &[f64; D]) -> Frame<D> {
+    let (positions, _) = snapshot.positions.as_chunks::<D>();
+    let (velocities, _) = snapshot.velocities.as_chunks::<D>();
+    let (rows, _) = snapshot.deformation_gradients.as_chunks::<D>();
+    let (gradients, _) = rows.as_chunks::<D>();
+    Frame {
+        positions: positions.iter().map(|x| vector::subtract(x, centroid)).collect(),
+        deformation_gradients: gradients.iter().map(|rows| Matrix(*rows)).collect(),
+        velocities: velocities.to_vec(),
+    }
+}

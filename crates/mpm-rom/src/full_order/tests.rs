@@ -1,0 +1,70 @@
+use super::*;
+
+const STRIP: &str = r#"
+title = "a strip that falls"
+dimension = 2
+gravity = [0.0, -1.0]
+domain = { lower = [-1.0, -1.0], upper = [3.0, 2.0] }
+grid = { spacing = 0.25 }
+transfer = { kind = "pic" }
+time = { end = 0.2, step = 0.0050000001, courant = 0.5 }
+materials.rubber = { law = "fixed-corotated", density = 2.0, young_modulus = 100.0, poisson_ratio = 0.3 }
+output = { interval = 0.05 }
+
+[[bodies]]
+name = "strip"
+shape = { kind = "box", lower = [0.0, 0.0], upper = [2.0, 0.5] }
+material = "rubber"
+"#;
+
+fn document() -> SceneDocument {
+    SceneDocument::parse(STRIP, "strip.toml".as_ref()).expect("TOML")
+}
+
+#[test]
+fn every_run_has_its_own_parameter_and_all_have_the_same_body() {
+    let cases: Vec<Case> = [1.0, 3.0].map(|g| Case::of_key("gravity.1", -g)).to_vec();
+    let mut done = Vec::new();
+    let names = ["gravity".to_owned()];
+    let snapshots = collect::<2>(&document(), &names, &cases, |run| done.push(run)).expect("runs");
+    assert_eq!((snapshots.runs().len(), snapshots.points(), done), (2, 64, vec![1, 2]));
+    assert_eq!((snapshots.body().density, snapshots.body().interval), (2.0, 0.05));
+    assert!(vector::distance(&snapshots.body().centroid, &[1.0, 0.25]) < 1e-15);
+    for (run, g) in snapshots.runs().iter().zip([1.0, 3.0]) {
+        assert_eq!((run.parameters[0], run.frames.len()), (-g, 5));
+        assert_eq!(run.frames[0].positions, snapshots.reference());
+        assert!(run.frames[0].velocities.iter().all(|v| *v == [0.0; 2]));
+        // Free fall in 40 steps of 0.005.
+        let last = &run.frames[4];
+        for ((x, start), (v, F)) in last
+            .positions
+            .iter()
+            .zip(snapshots.reference())
+            .zip(last.velocities.iter().zip(&last.deformation_gradients))
+        {
+            assert!((x[1] - start[1] + g * 0.005 * 0.005 * 820.0).abs() < 1e-6 && (v[1] + 0.2 * g).abs() < 1e-6);
+            assert!((*F - Matrix::IDENTITY).frobenius_norm() < 1e-12);
+        }
+    }
+}
+
+#[test]
+fn what_does_not_fit_is_an_error_with_its_name() {
+    let collect = |cases: &[Case]| collect::<2>(&document(), &["p".to_owned()], cases, |_| ());
+    assert!(matches!(collect(&[]), Err(FullOrderError::NoRuns)));
+    let error = collect(&[Case::of_key("bodies.1.shape.radius", 1.0)]).expect_err("no such body");
+    assert_eq!(
+        error.to_string(),
+        "strip.toml, change of `bodies.1.shape.radius`: there is no `1`"
+    );
+    let wider = [
+        Case::of_key("gravity.0", 0.0),
+        Case::of_key("bodies.0.shape.upper.0", 2.5),
+    ];
+    assert!(matches!(collect(&wider), Err(FullOrderError::AnotherBody { run: 1 })));
+    let error = super::collect::<3>(&document(), &[], &[Case::of_key("gravity.0", 0.0)], |_| ());
+    assert!(matches!(
+        error,
+        Err(FullOrderError::Dimension { found: 2, expected: 3 })
+    ));
+}

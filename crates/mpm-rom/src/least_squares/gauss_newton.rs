@@ -1,0 +1,160 @@
+//! min_y Σ_p |g_p(y) − x_p|².
+
+use mpm_tensor::vector;
+
+use super::{LeastSquares, LeastSquaresError};
+use crate::manifold::{Evaluation, Wanted};
+
+/// When a Gauss–Newton iteration ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Steps, at most.
+    pub iterations: usize,
+    /// It ends when a step changes no coordinate by more than this multiple of 1 + its size.
+    pub tolerance: f64,
+    /// Halvings of a step that does not lower the sum, at most.
+    pub halvings: usize,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            iterations: 50,
+            tolerance: 1e-12,
+            halvings: 30,
+        }
+    }
+}
+
+/// Where an iteration ended.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Minimum {
+    /// Steps taken.
+    pub iterations: usize,
+    /// Σ_p |g_p(y) − x_p|².
+    pub squared_residual: f64,
+}
+
+/// Gauss–Newton with backtracking: the step w = argmin Σ|∂g_p/∂y w − (x_p − g_p(y))|², halved until the sum falls.
+#[derive(Default)]
+pub struct GaussNewton<const D: usize> {
+    solver: LeastSquares,
+    evaluation: Evaluation<D>,
+    residuals: Vec<[f64; D]>,
+    step: Vec<f64>,
+    trial: Vec<f64>,
+}
+
+impl<const D: usize> GaussNewton<D> {
+    /// Moves `y` to a minimum; `evaluate` gives g_p(y), with ∂g_p/∂y where wanted.
+    ///
+    /// # Errors
+    /// [`LeastSquaresError`] where a step cannot be computed; `y` is then the best point so far.
+    pub fn minimise(
+        &mut self,
+        targets: &[[f64; D]],
+        y: &mut [f64],
+        settings: &Settings,
+        mut evaluate: impl FnMut(&[f64], Wanted, &mut Evaluation<D>),
+    ) -> Result<Minimum, LeastSquaresError> {
+        let derivatives = Wanted {
+            jacobians: true,
+            ..Wanted::default()
+        };
+        self.step.resize(y.len(), 0.0);
+        self.trial.resize(y.len(), 0.0);
+        evaluate(y, derivatives, &mut self.evaluation);
+        let mut sum = squared_distance(targets, &self.evaluation.positions);
+        if !sum.is_finite() {
+            return Err(LeastSquaresError::NotFinite);
+        }
+        for iteration in 0..settings.iterations {
+            if iteration > 0 {
+                evaluate(y, derivatives, &mut self.evaluation);
+            }
+            let pairs = targets.iter().zip(&self.evaluation.positions);
+            self.residuals.clear();
+            self.residuals.extend(pairs.map(|(x, g)| vector::subtract(x, g)));
+            self.solver
+                .solve(&self.evaluation.jacobians, &self.residuals, &mut self.step)?;
+            let moves = self.step.iter().zip(y.iter());
+            let still = moves
+                .clone()
+                .all(|(w, y)| w.abs() <= settings.tolerance * (1.0 + y.abs()));
+            let (mut share, mut lower) = (1.0, None);
+            for _ in 0..=settings.halvings {
+                for ((trial, y), w) in self.trial.iter_mut().zip(y.iter()).zip(&self.step) {
+                    *trial = y + share * w;
+                }
+                evaluate(&self.trial, Wanted::default(), &mut self.evaluation);
+                let candidate = squared_distance(targets, &self.evaluation.positions);
+                if candidate < sum {
+                    lower = Some(candidate);
+                    break;
+                }
+                if still {
+                    break;
+                }
+                share *= 0.5;
+            }
+            let Some(candidate) = lower else {
+                // No step along the descent direction lowers the sum: rounding.
+                return Ok(Minimum {
+                    iterations: iteration,
+                    squared_residual: sum,
+                });
+            };
+            y.copy_from_slice(&self.trial);
+            sum = candidate;
+            if still {
+                return Ok(Minimum {
+                    iterations: iteration + 1,
+                    squared_residual: sum,
+                });
+            }
+        }
+        Ok(Minimum {
+            iterations: settings.iterations,
+            squared_residual: sum,
+        })
+    }
+}
+
+/// Σ_p |a_p − b_p|².
+pub(crate) fn squared_distance<const D: usize>(a: &[[f64; D]], b: &[[f64; D]]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| vector::distance_squared(a, b)).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// g_p(y) = (e^{y₀ p}, y₁ sin(y₀ p)), p = 0.1, 0.2, …
+    fn curve(y: &[f64], out: &mut Evaluation<2>) {
+        out.positions.clear();
+        out.jacobians.clear();
+        for p in (1..10).map(|p| 0.1 * f64::from(p)) {
+            let (exponential, (sine, cosine)) = ((y[0] * p).exp(), (y[0] * p).sin_cos());
+            out.positions.push([exponential, y[1] * sine]);
+            out.jacobians.push([p * exponential, y[1] * p * cosine]);
+            out.jacobians.push([0.0, sine]);
+        }
+    }
+
+    #[test]
+    fn it_finds_the_parameters_of_a_curve_from_afar() {
+        let (mut search, mut exact) = (GaussNewton::default(), Evaluation::default());
+        curve(&[1.3, -0.7], &mut exact);
+        let mut y = [5.0, 4.0];
+        let found = search
+            .minimise(&exact.positions, &mut y, &Settings::default(), |y, _, out| {
+                curve(y, out)
+            })
+            .expect("of full rank");
+        assert!(
+            (y[0] - 1.3).abs() < 1e-12 && (y[1] + 0.7).abs() < 1e-12,
+            "{y:?} {found:?}"
+        );
+        assert!(found.squared_residual < 1e-24);
+    }
+}

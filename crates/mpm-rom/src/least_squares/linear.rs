@@ -1,0 +1,193 @@
+//! min_w Σ_p |J_p w − y_p|².
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::qr::no_pivoting::{factor, solve};
+use faer::{Mat, Par};
+
+/// Pivots below this multiple of the largest one count as zero.
+const RANK_TOLERANCE: f64 = 1e-12;
+
+/// Why a least squares problem has no unique finite solution.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum LeastSquaresError {
+    /// More unknowns than equations.
+    #[error("{equations} equations for {unknowns} unknowns")]
+    TooFewEquations {
+        /// D times the number of points.
+        equations: usize,
+        /// r.
+        unknowns: usize,
+    },
+    /// The points do not see a coordinate: its column depends on those before it.
+    #[error("coordinate {coordinate} cannot be told from those before it: pivot {pivot:e} of {largest:e}")]
+    RankDeficient {
+        /// The coordinate, counted from 0.
+        coordinate: usize,
+        /// |R_kk|.
+        pivot: f64,
+        /// The largest pivot.
+        largest: f64,
+    },
+    /// A residual or derivative is NaN or infinite.
+    #[error("a residual or derivative is not finite")]
+    NotFinite,
+}
+
+/// Solver of min_w Σ_p |J_p w − y_p|² by Householder QR; it keeps its storage from one problem to the next.
+pub struct LeastSquares {
+    matrix: Mat<f64>,
+    coefficients: Mat<f64>,
+    right: Mat<f64>,
+    scratch: MemBuffer,
+}
+
+impl Default for LeastSquares {
+    fn default() -> Self {
+        Self {
+            matrix: Mat::new(),
+            coefficients: Mat::new(),
+            right: Mat::new(),
+            scratch: MemBuffer::new(faer::dyn_stack::StackReq::EMPTY),
+        }
+    }
+}
+
+impl LeastSquares {
+    /// w, r = `solution.len()` numbers, for P points: `jacobians` has ∂/∂w_k at point p as entry p r + k, `targets` y_p.
+    ///
+    /// # Errors
+    /// [`LeastSquaresError`]; `solution` is then as it was.
+    pub fn solve<const D: usize>(
+        &mut self,
+        jacobians: &[[f64; D]],
+        targets: &[[f64; D]],
+        solution: &mut [f64],
+    ) -> Result<(), LeastSquaresError> {
+        let (equations, unknowns) = (D * targets.len(), solution.len());
+        if equations < unknowns || jacobians.len() != unknowns * targets.len() {
+            return Err(LeastSquaresError::TooFewEquations { equations, unknowns });
+        }
+        if unknowns == 0 {
+            return Ok(());
+        }
+        self.shape(equations, unknowns);
+        for (p, (row, target)) in jacobians.chunks_exact(unknowns).zip(targets).enumerate() {
+            for a in 0..D {
+                self.right[(D * p + a, 0)] = target[a];
+                for (k, column) in row.iter().enumerate() {
+                    self.matrix[(D * p + a, k)] = column[a];
+                }
+            }
+        }
+        let stack = MemStack::new(&mut self.scratch);
+        let parameters = Default::default();
+        factor::qr_in_place(
+            self.matrix.as_mut(),
+            self.coefficients.as_mut(),
+            Par::Seq,
+            stack,
+            parameters,
+        );
+        self.check_rank(unknowns)?;
+        let (factors, coefficients) = (self.matrix.as_ref(), self.coefficients.as_ref());
+        let stack = MemStack::new(&mut self.scratch);
+        solve::solve_lstsq_in_place(factors, coefficients, factors, self.right.as_mut(), Par::Seq, stack);
+        if !(0..unknowns).all(|k| self.right[(k, 0)].is_finite()) {
+            return Err(LeastSquaresError::NotFinite);
+        }
+        for (k, entry) in solution.iter_mut().enumerate() {
+            *entry = self.right[(k, 0)];
+        }
+        Ok(())
+    }
+
+    /// Storage for a problem of this size.
+    fn shape(&mut self, equations: usize, unknowns: usize) {
+        if (self.matrix.nrows(), self.matrix.ncols()) == (equations, unknowns) {
+            return;
+        }
+        let block = factor::recommended_block_size::<f64>(equations, unknowns);
+        let factoring = factor::qr_in_place_scratch::<f64>(equations, unknowns, block, Par::Seq, Default::default());
+        let solving = solve::solve_lstsq_in_place_scratch::<f64>(equations, unknowns, block, 1, Par::Seq);
+        self.matrix = Mat::zeros(equations, unknowns);
+        self.coefficients = Mat::zeros(block, unknowns);
+        self.right = Mat::zeros(equations, 1);
+        self.scratch = MemBuffer::new(factoring.or(solving));
+    }
+
+    fn check_rank(&self, unknowns: usize) -> Result<(), LeastSquaresError> {
+        let pivots = (0..unknowns).map(|k| self.matrix[(k, k)].abs());
+        let largest = pivots.clone().fold(0.0, f64::max);
+        for (coordinate, pivot) in pivots.enumerate() {
+            if !pivot.is_finite() {
+                return Err(LeastSquaresError::NotFinite);
+            }
+            if pivot <= RANK_TOLERANCE * largest {
+                return Err(LeastSquaresError::RankDeficient {
+                    coordinate,
+                    pivot,
+                    largest,
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// Jᵀ (J w − y), which vanishes at the minimum.
+    fn gradient(jacobians: &[[f64; 3]], targets: &[[f64; 3]], w: &[f64]) -> Vec<f64> {
+        let mut sum = vec![0.0; w.len()];
+        for (row, y) in jacobians.chunks(w.len()).zip(targets) {
+            for a in 0..3 {
+                let residual: f64 = row.iter().zip(w).map(|(column, w)| column[a] * w).sum::<f64>() - y[a];
+                row.iter()
+                    .zip(&mut sum)
+                    .for_each(|(column, sum)| *sum += column[a] * residual);
+            }
+        }
+        sum
+    }
+
+    proptest! {
+        #[test]
+        fn the_normal_equations_hold(values in prop::collection::vec(-1.0..1.0f64, 5 * 3 * 7 * 2)) {
+            let vectors: Vec<[f64; 3]> = values.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect();
+            let (jacobians, targets) = (&vectors[..35], &vectors[35..42]);
+            let (mut solver, mut w) = (LeastSquares::default(), vec![0.0; 5]);
+            solver.solve(jacobians, targets, &mut w).expect("of full rank");
+            let scale = w.iter().fold(1.0, |m: f64, w| m.max(w.abs()));
+            prop_assert!(gradient(jacobians, targets, &w).iter().all(|g| g.abs() < 1e-11 * scale));
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_solved_is_said() {
+        let (mut solver, mut w) = (LeastSquares::default(), [0.0; 2]);
+        let error = solver
+            .solve(&[[1.0], [2.0]], &[[1.0]], &mut w)
+            .expect_err("one equation");
+        assert_eq!(
+            error,
+            LeastSquaresError::TooFewEquations {
+                equations: 1,
+                unknowns: 2
+            }
+        );
+        let jacobians = [[1.0, 2.0], [2.0, 4.0], [0.5, 1.0], [1.0, 2.0]];
+        let error = solver
+            .solve(&jacobians, &[[1.0, 1.0]; 2], &mut w)
+            .expect_err("parallel");
+        assert!(
+            matches!(error, LeastSquaresError::RankDeficient { coordinate: 1, .. }),
+            "{error}"
+        );
+        let error = solver.solve(&[[f64::NAN]], &[[1.0]], &mut w[..1]).expect_err("NaN");
+        assert_eq!(error, LeastSquaresError::NotFinite);
+    }
+}

@@ -1,0 +1,147 @@
+//! The body of a scene as the reduced dynamics see it.
+
+use mpm_kernels::UniformGrid;
+use mpm_materials::{ElasticModuli, FixedCorotated, Hencky, Material, NeoHookean, ParameterError};
+use mpm_scenes::scene::{BasisName, MaterialTable, SolidTable, TransferKind};
+use mpm_scenes::shape::{self, Shape};
+use mpm_scenes::{Kinematics, Population, Scene};
+use mpm_tensor::vector;
+
+use super::OnlineError;
+use crate::full_order::body_of;
+
+/// A body with everything that pulls at it: the same points, grid, kernel (quadratic), transfer (PIC), Δt and prescribed motions as in the full-order run
+/// of its scene. Positions are relative to the centroid at rest.
+pub struct ReducedBody<const D: usize> {
+    /// X_p.
+    pub reference: Vec<[f64; D]>,
+    /// The centroid at rest in the scene's coordinates.
+    pub centroid: [f64; D],
+    /// V⁰_p.
+    pub volumes: Vec<f64>,
+    /// ρ₀.
+    pub density: f64,
+    /// The law.
+    pub material: Box<dyn Material<D>>,
+    /// Acceleration of gravity.
+    pub gravity: [f64; D],
+    /// Prescribed motions, in the scene's coordinates.
+    pub kinematics: Kinematics<D>,
+    /// The background grid.
+    pub grid: UniformGrid<D>,
+    /// Δt.
+    pub time_step: f64,
+    /// Steps from one frame to the next.
+    pub steps_per_frame: u64,
+    /// Where the body is at rest, in the scene's coordinates.
+    pub shapes: Vec<Box<dyn Shape<D>>>,
+}
+
+impl<const D: usize> ReducedBody<D> {
+    /// The body of a scene.
+    ///
+    /// # Errors
+    /// [`OnlineError::Unsupported`] for what the reduced dynamics do not have: other bases, transfers and laws, walls, obstacles, held nodes, loads, several
+    /// materials, a Δt that is not given or does not divide the frame; what [`body_of`] says.
+    pub fn of(scene: &Scene) -> Result<Self, OnlineError> {
+        let refused = |fault| scene.error(fault);
+        let body = body_of::<D>(scene, &[])?;
+        let population = Population::<D>::fill(scene).map_err(refused)?;
+        let kinematics = Kinematics::of(scene, &population).map_err(refused)?;
+        let (grid, lower) = supported(scene)?;
+        let [table] = scene.materials.values().collect::<Vec<_>>()[..] else {
+            return unsupported("materials", "a single one");
+        };
+        let shapes = scene
+            .bodies
+            .iter()
+            .map(|body| shape::build::<D>("bodies.shape", &body.shape));
+        let frame = scene.output.interval;
+        let steps = (frame / scene.time.step.unwrap_or(f64::NAN)).round();
+        let origin: [f64; D] = std::array::from_fn(|a| lower.get(a).copied().unwrap_or(0.0));
+        Ok(Self {
+            density: body.density,
+            volumes: population.volumes,
+            material: material(table)?,
+            gravity: std::array::from_fn(|a| scene.gravity.get(a).copied().unwrap_or(0.0)),
+            kinematics,
+            grid: UniformGrid::new(vector::subtract(&origin, &body.centroid), grid),
+            time_step: frame / steps,
+            steps_per_frame: steps as u64,
+            shapes: shapes.collect::<Result<_, _>>().map_err(refused)?,
+            reference: body.reference,
+            centroid: body.centroid,
+        })
+    }
+
+    /// Position and velocity of a material point at a time; `None` where they are not prescribed.
+    pub fn prescribed(&self, point: usize, time: f64) -> Option<([f64; D], [f64; D])> {
+        let reference = vector::add(self.reference.get(point)?, &self.centroid);
+        let (position, velocity) = self.kinematics.prescribed(point, &reference, time)?;
+        Some((vector::subtract(&position, &self.centroid), velocity))
+    }
+
+    /// Whether the body is at X at rest.
+    pub fn holds(&self, reference: &[f64; D]) -> bool {
+        let x = vector::add(reference, &self.centroid);
+        self.shapes.iter().any(|shape| shape.distance(&x) <= 0.0)
+    }
+}
+
+fn unsupported<T>(field: &'static str, expected: &'static str) -> Result<T, OnlineError> {
+    Err(OnlineError::Unsupported { field, expected })
+}
+
+/// The spacing and the first node of the grid of a scene that can be reduced.
+fn supported(scene: &Scene) -> Result<(f64, &[f64]), OnlineError> {
+    let (Some(grid), Some(domain)) = (&scene.grid, &scene.domain) else {
+        return unsupported("mesh", "left out: a [grid] is needed");
+    };
+    let turned = scene
+        .bodies
+        .iter()
+        .any(|body| body.rotation.is_some() || body.deformation.is_some());
+    let moving = scene.bodies.iter().any(|body| body.velocity.is_some());
+    let surroundings = [
+        scene.walls.len(),
+        scene.obstacles.len(),
+        scene.held.len(),
+        scene.loads.len(),
+    ];
+    let rules = [
+        (grid.basis == BasisName::Quadratic, "grid.basis", "\"quadratic\""),
+        (scene.transfer.kind == TransferKind::Pic, "transfer.kind", "\"pic\""),
+        (
+            surroundings == [0; 4] && scene.barrier.is_none(),
+            "walls, obstacles, held, loads, barrier",
+            "left out",
+        ),
+        (!scene.volume_averaging, "volume_averaging", "false"),
+        (scene.time.damping == 0.0, "time.damping", "0"),
+        (!turned, "bodies.rotation, bodies.deformation", "left out"),
+        (!moving, "bodies.velocity", "left out"),
+    ];
+    for (kept, field, expected) in rules {
+        if !kept {
+            return unsupported(field, expected);
+        }
+    }
+    let steps = scene.output.interval / scene.time.step.unwrap_or(f64::NAN);
+    if !(steps >= 0.5 && (steps - steps.round()).abs() <= 1e-6 * steps) {
+        return unsupported("time.step", "given, and a whole part of output.interval");
+    }
+    Ok((grid.spacing, &domain.lower))
+}
+
+fn material<const D: usize>(table: &MaterialTable) -> Result<Box<dyn Material<D>>, OnlineError> {
+    let moduli = |solid: &SolidTable| {
+        let moduli: Result<_, ParameterError> = ElasticModuli::new(solid.young_modulus, solid.poisson_ratio);
+        moduli.or_else(|_| unsupported("materials", "one whose moduli are in range"))
+    };
+    Ok(match table {
+        MaterialTable::FixedCorotated(solid) => Box::new(FixedCorotated::new(moduli(solid)?)),
+        MaterialTable::NeoHookean(solid) => Box::new(NeoHookean::new(moduli(solid)?)),
+        MaterialTable::Hencky(solid) => Box::new(Hencky::new(moduli(solid)?)),
+        _ => return unsupported("materials.law", "\"fixed-corotated\", \"neo-hookean\" or \"hencky\""),
+    })
+}

@@ -1,0 +1,106 @@
+use mpm_scenes::SceneError;
+
+use crate::deformation_map::DeformationMapError;
+use crate::full_order::FullOrderError;
+use crate::least_squares::LeastSquaresError;
+
+/// Why a reduced run cannot begin or go on.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum OnlineError {
+    /// The scene cannot be read as a body.
+    #[error(transparent)]
+    Body(#[from] FullOrderError),
+    /// The scene cannot be filled or held.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// The map cannot start at rest.
+    #[error(transparent)]
+    Map(#[from] DeformationMapError),
+    /// A part of the scene that the reduced dynamics do not have.
+    #[error("{field}: must be {expected} in a reduced run")]
+    Unsupported {
+        /// The part.
+        field: &'static str,
+        /// What it must be.
+        expected: &'static str,
+    },
+    /// An option is out of its range.
+    #[error("{field} = {value}: must be {expected}")]
+    Option {
+        /// Its name.
+        field: &'static str,
+        /// Its value.
+        value: f64,
+        /// What is allowed.
+        expected: &'static str,
+    },
+    /// Fewer sample points than the coordinates and the kinematic regions need.
+    #[error(
+        "{found} sample points, at least {needed} are needed: r / D = {coordinates} / {dimension}, 5 on each kinematic region"
+    )]
+    TooFewSamples {
+        /// |𝒫|.
+        found: usize,
+        /// The smallest number.
+        needed: usize,
+        /// r.
+        coordinates: usize,
+        /// D.
+        dimension: usize,
+    },
+    /// More sample points than material points.
+    #[error("{found} sample points of {points} material points")]
+    TooManySamples {
+        /// |𝒫|.
+        found: usize,
+        /// N.
+        points: usize,
+    },
+    /// The map has turned a point inside out or made it NaN.
+    #[error("step {step}: the map has volume ratio {volume_ratio} at X = {reference:?}")]
+    Inverted {
+        /// Number of the step, counted from 1.
+        step: u64,
+        /// X.
+        reference: Vec<f64>,
+        /// J = det F.
+        volume_ratio: f64,
+    },
+    /// A sample point has left the range of the grid's numbers, or is NaN.
+    #[error("step {step}: sample point {sample} is at {position:?}")]
+    Position {
+        /// Number of the step, counted from 1.
+        step: u64,
+        /// Its number among the sample points.
+        sample: usize,
+        /// Its position.
+        position: Vec<f64>,
+    },
+    /// The sample points are so far apart that the box of nodes around them is too large to be kept.
+    #[error("step {step}: the box around the sample points has {places} nodes, at most {most} can be kept")]
+    TooManyNodes {
+        /// Number of the step, counted from 1.
+        step: u64,
+        /// Its number of nodes.
+        places: f64,
+        /// The largest number.
+        most: usize,
+    },
+    /// No node of a sample point has mass: no quadrature point is near it.
+    #[error("step {step}: no quadrature point near sample point {sample}")]
+    NoMass {
+        /// Number of the step, counted from 1.
+        step: u64,
+        /// Its number among the sample points.
+        sample: usize,
+    },
+    /// Rates or coordinates cannot be computed.
+    #[error("step {step}: {source}")]
+    Coordinates {
+        /// Number of the step, counted from 1.
+        step: u64,
+        /// Why.
+        source: LeastSquaresError,
+    },
+}

@@ -1,0 +1,119 @@
+//! Quadrature at material points.
+
+use super::neighbours::{NeighbourList, Search};
+use super::nodes::Nodes;
+use super::quadrature::{QuadraturePoints, checked_volume_ratio};
+use super::{OnlineError, ReducedBody};
+use crate::deformation_map::{DeformationMap, MaterialPoints, velocities};
+use crate::manifold::{Evaluation, Manifold, Wanted};
+
+/// Every material point that touches ℐ, with its own mass; 𝒫 is among them.
+pub(super) struct Lagrangian<const D: usize> {
+    search: Search,
+    list: NeighbourList<D>,
+    candidates: MaterialPoints<D>,
+    /// Numbers of the points that touch ℐ.
+    touching: Vec<u32>,
+    chosen: MaterialPoints<D>,
+    evaluation: Evaluation<D>,
+    /// How often the list has been made.
+    pub refreshes: u64,
+}
+
+/// What a quadrature is told of the instant.
+pub(super) struct Instant<'a, const D: usize> {
+    pub latent: &'a [f64],
+    pub rates: &'a [f64],
+    pub time: f64,
+    pub step: u64,
+    /// x_p of the sample points.
+    pub samples: &'a [[f64; D]],
+}
+
+impl<const D: usize> Lagrangian<D> {
+    pub fn new(search: Search) -> Self {
+        Self {
+            search,
+            list: NeighbourList::default(),
+            candidates: MaterialPoints::default(),
+            touching: Vec::new(),
+            chosen: MaterialPoints::default(),
+            evaluation: Evaluation::default(),
+            refreshes: 0,
+        }
+    }
+
+    /// The quadrature points of this instant.
+    pub fn place<M: Manifold<D>>(
+        &mut self,
+        body: &ReducedBody<D>,
+        map: &DeformationMap<D, M>,
+        all: &MaterialPoints<D>,
+        nodes: &Nodes<D>,
+        now: &Instant<D>,
+        out: &mut QuadraturePoints<D>,
+    ) -> Result<(), OnlineError> {
+        self.find(map, all, nodes, now);
+        let wanted = Wanted {
+            gradients: true,
+            jacobians: true,
+        };
+        self.chosen.select(all, &self.touching);
+        map.evaluate(&self.chosen, now.latent, now.time, wanted, &mut self.evaluation);
+        out.clear();
+        out.positions.extend_from_slice(&self.evaluation.positions);
+        out.gradients.extend_from_slice(&self.evaluation.gradients);
+        velocities(&self.chosen, &self.evaluation, now.rates, &mut out.velocities);
+        let volumes = self.touching.iter().filter_map(|&p| body.volumes.get(p as usize));
+        out.volumes.extend(volumes);
+        for (gradient, reference) in out.gradients.iter().zip(&self.chosen.reference) {
+            checked_volume_ratio(gradient, reference, now.step)?;
+        }
+        Ok(())
+    }
+
+    /// The numbers of the points that touch ℐ, ascending.
+    fn find<M: Manifold<D>>(
+        &mut self,
+        map: &DeformationMap<D, M>,
+        all: &MaterialPoints<D>,
+        nodes: &Nodes<D>,
+        now: &Instant<D>,
+    ) {
+        let Search::Lists { skin } = self.search else {
+            map.evaluate(all, now.latent, now.time, Wanted::default(), &mut self.evaluation);
+            let numbered = self.evaluation.positions.iter().zip(0..);
+            self.touching.clear();
+            self.touching
+                .extend(numbered.filter(|(x, _)| nodes.touched_by(x)).map(|(_, p)| p));
+            return;
+        };
+        let spacing = nodes.grid.spacing();
+        if !self.list.points.is_empty() {
+            map.evaluate(
+                &self.candidates,
+                now.latent,
+                now.time,
+                Wanted::default(),
+                &mut self.evaluation,
+            );
+        }
+        let positions = &self.evaluation.positions;
+        if self.list.points.is_empty() || !self.list.holds(positions, now.samples, spacing, skin) {
+            map.evaluate(all, now.latent, now.time, Wanted::default(), &mut self.evaluation);
+            self.list
+                .rebuild(&self.evaluation.positions, now.samples, spacing, skin);
+            self.candidates.select(all, &self.list.points);
+            self.refreshes += 1;
+            let numbered = self.evaluation.positions.iter().zip(0..);
+            self.touching.clear();
+            self.touching
+                .extend(numbered.filter(|(x, _)| nodes.touched_by(x)).map(|(_, p)| p));
+            return;
+        }
+        let numbered = positions.iter().zip(&self.list.points);
+        self.touching.clear();
+        self.touching
+            .extend(numbered.filter(|(x, _)| nodes.touched_by(x)).map(|(_, &p)| p));
+    }
+}

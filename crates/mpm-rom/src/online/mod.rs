@@ -1,0 +1,25 @@
+//! The reduced dynamics: a step on a few sample points.
+
+mod body;
+mod coordinates;
+mod error;
+mod eulerian;
+mod lagrangian;
+mod model;
+mod neighbours;
+mod nodes;
+mod options;
+mod quadrature;
+mod samples;
+mod step;
+#[cfg(test)]
+mod tests;
+mod timings;
+
+pub use body::ReducedBody;
+pub use error::OnlineError;
+pub use neighbours::Search;
+pub use options::{Inverted, Options, Quadrature, Update};
+pub use samples::SampleChoice;
+pub use step::{ReducedModel, StepReport};
+pub use timings::Timings;

@@ -1,0 +1,133 @@
+//! A reduced model: how it is made, and what it says of the body.
+
+use super::coordinates::Coordinates;
+use super::eulerian::Eulerian;
+use super::lagrangian::Lagrangian;
+use super::nodes::Nodes;
+use super::quadrature::QuadraturePoints;
+use super::step::Scheme;
+use super::{OnlineError, Options, Quadrature, ReducedBody, ReducedModel, Search, StepReport, Timings};
+use crate::deformation_map::{DeformationMap, MaterialPoints};
+use crate::manifold::{Evaluation, Manifold, Wanted};
+
+impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
+    /// The model at t = 0: x̂ = x̂₀, v̂ = v̂₀.
+    ///
+    /// # Errors
+    /// [`OnlineError::Option`], [`OnlineError::TooFewSamples`], [`OnlineError::TooManySamples`].
+    pub fn new(body: ReducedBody<D>, mut map: DeformationMap<D, M>, options: Options) -> Result<Self, OnlineError> {
+        let scheme = scheme(&options.quadrature)?;
+        let (count, coordinates) = (body.reference.len(), map.coordinates());
+        let sample_numbers = options.samples.choose(count, coordinates, &body.kinematics)?;
+        let (mut points, mut samples) = (MaterialPoints::default(), MaterialPoints::default());
+        map.prepare(&body.reference, &mut points);
+        samples.select(&points, &sample_numbers);
+        let rates = map
+            .initial()
+            .map_or_else(|| vec![0.0; coordinates], |initial| initial.rates.clone());
+        Ok(Self {
+            coordinates: Coordinates::new(map.rest().to_vec(), rates),
+            nodes: Nodes::new(body.grid),
+            body,
+            map,
+            options,
+            points,
+            sample_numbers,
+            samples,
+            scheme,
+            quadrature: QuadraturePoints::default(),
+            evaluation: Evaluation::default(),
+            velocities: Vec::new(),
+            moved: Vec::new(),
+            step: 0,
+            timings: Timings::default(),
+        })
+    }
+
+    /// All steps of one frame; the report is that of the last.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step).
+    pub fn advance_frame(&mut self) -> Result<StepReport, OnlineError> {
+        let mut report = StepReport::default();
+        for _ in 0..self.body.steps_per_frame {
+            report = self.step()?;
+        }
+        Ok(report)
+    }
+
+    /// The body.
+    pub fn body(&self) -> &ReducedBody<D> {
+        &self.body
+    }
+
+    /// x̂.
+    pub fn latent(&self) -> &[f64] {
+        &self.coordinates.latent
+    }
+
+    /// v̂.
+    pub fn rates(&self) -> &[f64] {
+        &self.coordinates.rates
+    }
+
+    /// t.
+    pub fn time(&self) -> f64 {
+        self.time_at(self.step)
+    }
+
+    /// Where the time went.
+    pub fn timings(&self) -> &Timings {
+        &self.timings
+    }
+
+    /// Numbers of the sample points.
+    pub fn samples(&self) -> &[u32] {
+        &self.sample_numbers
+    }
+
+    /// All material points, for [`evaluate`](Self::evaluate).
+    pub fn points(&self) -> &MaterialPoints<D> {
+        &self.points
+    }
+
+    /// Other points of the body for [`evaluate`](Self::evaluate), by their reference positions: super-resolution.
+    pub fn prepare(&mut self, reference: &[[f64; D]]) -> MaterialPoints<D> {
+        let mut points = MaterialPoints::default();
+        self.map.prepare(reference, &mut points);
+        points
+    }
+
+    /// g, F and ∂g/∂x̂ at prepared points now.
+    pub fn evaluate(&self, points: &MaterialPoints<D>, wanted: Wanted, out: &mut Evaluation<D>) {
+        self.map
+            .evaluate(points, &self.coordinates.latent, self.time(), wanted, out);
+    }
+}
+
+fn scheme<const D: usize>(quadrature: &Quadrature) -> Result<Scheme<D>, OnlineError> {
+    match *quadrature {
+        Quadrature::Lagrangian { search } => {
+            if let Search::Lists { skin } = search
+                && !(skin > 0.0 && skin.is_finite())
+            {
+                return Err(OnlineError::Option {
+                    field: "skin",
+                    value: skin,
+                    expected: "positive and finite",
+                });
+            }
+            Ok(Scheme::Lagrangian(Lagrangian::new(search)))
+        }
+        Quadrature::Eulerian { per_axis, inverted } => {
+            if !(1..=16).contains(&per_axis) {
+                return Err(OnlineError::Option {
+                    field: "per_axis",
+                    value: per_axis as f64,
+                    expected: "1 to 16",
+                });
+            }
+            Ok(Scheme::Eulerian(Eulerian::new(per_axis, inverted)))
+        }
+    }
+}

@@ -1,0 +1,68 @@
+//! The choices of a reduced run.
+
+use super::neighbours::Search;
+use super::samples::SampleChoice;
+use crate::least_squares::Settings;
+
+/// The choices of a reduced run; quadrature and update are independent of each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options {
+    /// The sample points 𝒫.
+    pub samples: SampleChoice,
+    /// Where the momentum balance of the nodes is summed.
+    pub quadrature: Quadrature,
+    /// How x̂ follows from the velocities of the sample points.
+    pub update: Update,
+}
+
+/// The quadrature of nodal masses, momenta and forces.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Quadrature {
+    /// The material points that touch the nodes, with their masses.
+    Lagrangian {
+        /// How they are found.
+        search: Search,
+    },
+    /// Points of space, ℓᴰ in every cell of the nodes' support.
+    Eulerian {
+        /// ℓ, points per axis of a cell; the paper's is 2.
+        per_axis: usize,
+        /// What happens at J ≤ 0.
+        inverted: Inverted,
+    },
+}
+
+/// What happens where the map has J ≤ 0 at a quadrature point of space.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Inverted {
+    /// The run ends with an error.
+    #[default]
+    Refuse,
+    /// The point carries nothing; such points are counted in the step's report.
+    LeaveOut,
+}
+
+/// How x̂ moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Update {
+    /// x̂ ← x̂ + Δt v̂.
+    VelocityOnly,
+    /// x̂ = argmin Σ|g(X_p, x̂) − x_p|², begun at 2 x̂_n − x̂_{n−1}.
+    PositionVelocity {
+        /// When the search ends.
+        settings: Settings,
+    },
+}
+
+impl Update {
+    /// [`PositionVelocity`](Self::PositionVelocity) with at most three steps, the paper's number.
+    pub fn position_velocity() -> Self {
+        Self::PositionVelocity {
+            settings: Settings {
+                iterations: 3,
+                tolerance: 1e-10,
+                halvings: 8,
+            },
+        }
+    }
+}

@@ -1,0 +1,68 @@
+//! The quadrature points of a step, whatever they are.
+
+use mpm_materials::Material;
+use mpm_tensor::Matrix;
+
+use super::OnlineError;
+
+/// One entry per point in every list.
+#[derive(Clone, Debug, Default)]
+pub(super) struct QuadraturePoints<const D: usize> {
+    /// x_q.
+    pub positions: Vec<[f64; D]>,
+    /// v_q.
+    pub velocities: Vec<[f64; D]>,
+    /// F_q.
+    pub gradients: Vec<Matrix<D>>,
+    /// m_q / ρ₀: V⁰ of a material point, V_q / J_q of a point of space.
+    pub volumes: Vec<f64>,
+    /// τ_q.
+    stresses: Vec<Matrix<D>>,
+}
+
+impl<const D: usize> QuadraturePoints<D> {
+    /// Number of points.
+    pub fn len(&self) -> usize {
+        self.positions.len()
+    }
+
+    /// No points; the storage stays.
+    pub fn clear(&mut self) {
+        self.positions.clear();
+        self.velocities.clear();
+        self.gradients.clear();
+        self.volumes.clear();
+    }
+
+    /// τ_q = τ(F_q) of every point.
+    pub fn update_stresses(&mut self, material: &dyn Material<D>) {
+        self.stresses.resize(self.gradients.len(), Matrix::ZERO);
+        material.kirchhoff_stresses(&self.gradients, &mut self.stresses);
+    }
+
+    /// x_q, v_q, m_q / ρ₀ and τ_q.
+    pub fn iter(&self) -> impl Iterator<Item = (&[f64; D], &[f64; D], f64, &Matrix<D>)> {
+        let vectors = self.positions.iter().zip(&self.velocities);
+        let rest = self.volumes.iter().zip(&self.stresses);
+        vectors
+            .zip(rest)
+            .map(|((x, v), (&volume, stress))| (x, v, volume, stress))
+    }
+}
+
+/// J = det F, if it is positive and finite.
+pub(super) fn checked_volume_ratio<const D: usize>(
+    gradient: &Matrix<D>,
+    reference: &[f64; D],
+    step: u64,
+) -> Result<f64, OnlineError> {
+    let volume_ratio = gradient.determinant();
+    if volume_ratio > 0.0 && volume_ratio.is_finite() {
+        return Ok(volume_ratio);
+    }
+    Err(OnlineError::Inverted {
+        step,
+        reference: reference.to_vec(),
+        volume_ratio,
+    })
+}

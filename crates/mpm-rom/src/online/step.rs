@@ -1,0 +1,179 @@
+//! One step of the reduced dynamics, phase by phase (Chen et al. 2023, Algorithm 1).
+
+use std::time::{Duration, Instant as Clock};
+
+use mpm_tensor::vector;
+
+use super::coordinates::Coordinates;
+use super::eulerian::Eulerian;
+use super::lagrangian::{Instant, Lagrangian};
+use super::nodes::Nodes;
+use super::quadrature::QuadraturePoints;
+use super::{OnlineError, Options, Quadrature, ReducedBody, Timings};
+use crate::deformation_map::{DeformationMap, MaterialPoints};
+use crate::manifold::{Evaluation, Manifold, Wanted};
+
+/// A body whose motion is that of r coordinates.
+pub struct ReducedModel<const D: usize, M> {
+    pub(super) body: ReducedBody<D>,
+    pub(super) map: DeformationMap<D, M>,
+    pub(super) options: Options,
+    /// All material points.
+    pub(super) points: MaterialPoints<D>,
+    /// Numbers of the sample points 𝒫 and what the map needs of them.
+    pub(super) sample_numbers: Vec<u32>,
+    pub(super) samples: MaterialPoints<D>,
+    pub(super) coordinates: Coordinates<D>,
+    pub(super) nodes: Nodes<D>,
+    pub(super) scheme: Scheme<D>,
+    pub(super) quadrature: QuadraturePoints<D>,
+    /// The map at the sample points.
+    pub(super) evaluation: Evaluation<D>,
+    /// v_p and x_p of the sample points at the end of a step.
+    pub(super) velocities: Vec<[f64; D]>,
+    pub(super) moved: Vec<[f64; D]>,
+    pub(super) step: u64,
+    pub(super) timings: Timings,
+}
+
+/// The quadrature with its storage.
+pub(super) enum Scheme<const D: usize> {
+    Lagrangian(Lagrangian<D>),
+    Eulerian(Eulerian<D>),
+}
+
+/// What a step did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct StepReport {
+    /// |ℐ|.
+    pub nodes: usize,
+    /// Quadrature points that carried mass.
+    pub quadrature_points: usize,
+    /// Quadrature points that were left out because of J ≤ 0.
+    pub left_out: usize,
+    /// How often neighbour lists have been made since the start.
+    pub refreshes: u64,
+}
+
+impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
+    /// One step of length Δt, from t_n to t_{n+1}.
+    ///
+    /// # Errors
+    /// [`OnlineError`] with the number of the step; the coordinates are then those of t_n.
+    pub fn step(&mut self) -> Result<StepReport, OnlineError> {
+        let mut clock = Clock::now();
+        self.step += 1;
+        self.place_samples();
+        self.timings.samples += lap(&mut clock);
+        self.nodes.activate(&self.evaluation.positions, self.step)?;
+        self.timings.nodes += lap(&mut clock);
+        let mut report = self.place_quadrature()?;
+        self.timings.quadrature += lap(&mut clock);
+        self.sum_at_nodes();
+        self.timings.grid += lap(&mut clock);
+        self.move_samples()?;
+        self.timings.gather += lap(&mut clock);
+        self.move_coordinates()?;
+        self.timings.coordinates += lap(&mut clock);
+        self.timings.steps += 1;
+        report.nodes = self.nodes.len();
+        report.quadrature_points = self.quadrature.len();
+        Ok(report)
+    }
+
+    /// (1) x_p = g(X_p, x̂_n) of the sample points, with ∂g/∂x̂ for (5).
+    fn place_samples(&mut self) {
+        let wanted = Wanted {
+            gradients: matches!(self.options.quadrature, Quadrature::Eulerian { .. }),
+            jacobians: true,
+        };
+        let (latent, time) = (&self.coordinates.latent, self.time_at(self.step - 1));
+        self.map
+            .evaluate(&self.samples, latent, time, wanted, &mut self.evaluation);
+    }
+
+    /// (3) The quadrature points with x_q, v_q, F_q, m_q / ρ₀ and their stresses.
+    fn place_quadrature(&mut self) -> Result<StepReport, OnlineError> {
+        let now = Instant {
+            latent: &self.coordinates.latent,
+            rates: &self.coordinates.rates,
+            time: (self.step - 1) as f64 * self.body.time_step,
+            step: self.step,
+            samples: &self.evaluation.positions,
+        };
+        let (body, nodes, out) = (&self.body, &self.nodes, &mut self.quadrature);
+        let mut report = StepReport::default();
+        match &mut self.scheme {
+            Scheme::Lagrangian(scheme) => {
+                scheme.place(body, &self.map, &self.points, nodes, &now, out)?;
+                report.refreshes = scheme.refreshes;
+            }
+            Scheme::Eulerian(scheme) => {
+                let reference = &self.samples.reference;
+                scheme.place(body, &mut self.map, reference, &self.evaluation, nodes, &now, out)?;
+                report.left_out = scheme.left_out;
+            }
+        }
+        self.quadrature.update_stresses(&*self.body.material);
+        Ok(report)
+    }
+
+    /// (4) m_i = Σ N_i m_q, m_i v_i = Σ N_i m_q v_q, f_i = Σ (J_q / ρ₀) m_q (b N_i − σ_q ∇N_i), v_i ← v_i + Δt f_i / m_i, with
+    /// (J_q / ρ₀) m_q σ_q = (m_q / ρ₀) τ_q and (J_q / ρ₀) b = g the force per mass.
+    fn sum_at_nodes(&mut self) {
+        let (dt, density) = (self.body.time_step, self.body.density);
+        for (x, v, volume, stress) in self.quadrature.iter() {
+            let mass = density * volume;
+            let pulled = vector::add_scaled(v, dt, &self.body.gravity);
+            let momentum = vector::scale(&pulled, mass);
+            self.nodes.add(x, mass, &momentum, &(*stress * (dt * volume)));
+        }
+        self.nodes.divide();
+    }
+
+    /// (4) v_p = Σ N_i v_i and x_p ← x_p + Δt v_p; kinematic points take what is prescribed for t_{n+1}.
+    fn move_samples(&mut self) -> Result<(), OnlineError> {
+        let (dt, end) = (self.body.time_step, self.time_at(self.step));
+        self.velocities.clear();
+        self.moved.clear();
+        for (sample, (x, &point)) in self.evaluation.positions.iter().zip(&self.sample_numbers).enumerate() {
+            let (position, velocity) = match self.body.prescribed(point as usize, end) {
+                Some(prescribed) => prescribed,
+                None => {
+                    let missing = OnlineError::NoMass {
+                        step: self.step,
+                        sample,
+                    };
+                    let velocity = self.nodes.velocity_at(x).ok_or(missing)?;
+                    (vector::add_scaled(x, dt, &velocity), velocity)
+                }
+            };
+            self.velocities.push(velocity);
+            self.moved.push(position);
+        }
+        Ok(())
+    }
+
+    /// (5) v̂_{n+1} and x̂_{n+1}.
+    fn move_coordinates(&mut self) -> Result<(), OnlineError> {
+        let (step, end, dt) = (self.step, self.time_at(self.step), self.body.time_step);
+        let failed = |source| OnlineError::Coordinates { step, source };
+        self.coordinates
+            .find_rates(&self.samples, &self.evaluation, &self.velocities)
+            .map_err(failed)?;
+        self.coordinates
+            .advance(&self.map, &self.samples, &self.moved, end, dt, &self.options.update)
+            .map_err(failed)
+    }
+
+    /// t after so many steps.
+    pub(super) fn time_at(&self, step: u64) -> f64 {
+        step as f64 * self.body.time_step
+    }
+}
+
+/// Time since the last call.
+fn lap(clock: &mut Clock) -> Duration {
+    let before = std::mem::replace(clock, Clock::now());
+    clock.duration_since(before)
+}

@@ -1,0 +1,332 @@
+#![allow(non_snake_case)]
+
+use mpm_core::{Continuum, Masses, Mpm, NoBodyForce, Particles, Pic, SplineGrid, StepControl};
+use mpm_kernels::Quadratic;
+use mpm_materials::{ElasticModuli, FixedCorotated};
+use mpm_scenes::Scene;
+use mpm_tensor::vector;
+
+use super::*;
+use crate::deformation_map::{DeformationMap, velocities};
+use crate::least_squares::LeastSquares;
+use crate::manifold::{Evaluation, Fields, Manifold, Wanted};
+
+const BLOCK: &str = r#"
+title = "block"
+dimension = 2
+gravity = [0.0, 0.0]
+domain = { lower = [-1.0, -1.0], upper = [2.0, 2.0] }
+grid = { spacing = 0.125 }
+transfer = { kind = "pic" }
+time = { end = 1.0, step = 0.002, courant = 0.5 }
+materials.rubber = { law = "fixed-corotated", density = 2.0, young_modulus = 100.0, poisson_ratio = 0.3 }
+output = { interval = 0.02 }
+
+[[bodies]]
+name = "block"
+shape = { kind = "box", lower = [0.0, 0.0], upper = [1.0, 0.5] }
+material = "rubber"
+"#;
+
+const HELD: &str = "[[kinematic]]\nregion = { kind = \"box\", lower = [0.0, 0.0], upper = [0.125, 0.5] }\n";
+
+const LAGRANGIAN: Quadrature = Quadrature::Lagrangian { search: Search::All };
+const EULERIAN: Quadrature = Quadrature::Eulerian {
+    per_axis: 2,
+    inverted: Inverted::Refuse,
+};
+
+fn body(text: &str) -> ReducedBody<2> {
+    let scene = Scene::parse(text, "block.toml".as_ref()).expect("a scene");
+    ReducedBody::of(&scene).expect("a body that can be reduced")
+}
+
+fn model(text: &str, fields: Fields<2>, options: Options) -> ReducedModel<2, Fields<2>> {
+    let body = body(text);
+    let zeros = vec![0.0; fields.coordinates()];
+    let map = DeformationMap::new(fields, &body.reference, &zeros).expect("zero is at rest");
+    ReducedModel::new(body, map, options).expect("options in range")
+}
+
+fn options(samples: SampleChoice, quadrature: Quadrature, update: Update) -> Options {
+    Options {
+        samples,
+        quadrature,
+        update,
+    }
+}
+
+#[test]
+fn free_fall_is_exact_with_every_scheme() {
+    let text = BLOCK.replace("gravity = [0.0, 0.0]", "gravity = [3.0, -10.0]");
+    let few = SampleChoice::Drawn { count: 3, seed: 4 };
+    for quadrature in [
+        LAGRANGIAN,
+        EULERIAN,
+        Quadrature::Lagrangian {
+            search: Search::Lists { skin: 0.5 },
+        },
+    ] {
+        for update in [Update::VelocityOnly, Update::position_velocity()] {
+            for samples in [SampleChoice::All, few] {
+                let mut model = model(&text, Fields::translations(), options(samples, quadrature, update));
+                for _ in 0..3 {
+                    model.advance_frame().expect("a step");
+                }
+                // Symplectic Euler: x_n = Δt² g n (n + 1) / 2, n = 30.
+                for (a, g) in [3.0, -10.0].into_iter().enumerate() {
+                    let exact = 0.002 * 0.002 * g * 465.0;
+                    assert!((model.latent()[a] - exact).abs() < 1e-13, "{quadrature:?} {update:?}");
+                    assert!((model.rates()[a] - 0.06 * g).abs() < 1e-12);
+                }
+            }
+        }
+    }
+}
+
+/// v_p of all points after one full-order step from the model's state.
+fn full_order_step(model: &mut ReducedModel<2, Fields<2>>) -> (Vec<[f64; 2]>, Evaluation<2>) {
+    let (mut there, mut start) = (Evaluation::default(), Vec::new());
+    let all = Wanted {
+        gradients: true,
+        jacobians: true,
+    };
+    let points = model.points().clone();
+    model.evaluate(&points, all, &mut there);
+    velocities(&points, &there, model.rates(), &mut start);
+    let body = model.body();
+    let masses = body.volumes.iter().map(|volume| body.density * volume).collect();
+    let numbers = (0..start.len() as u32).collect();
+    let particles = Particles::in_order(
+        there.positions.clone(),
+        start,
+        Masses::Each(masses),
+        Vec::new(),
+        numbers,
+    );
+    let mut particles = particles
+        .expect("equal lengths")
+        .with_elastic_state(body.volumes.clone());
+    particles.deformation_gradients = there.gradients.clone();
+    let grid = SplineGrid::<Quadratic, 3, 2>::new(*body.grid.origin(), body.grid.spacing()).expect("a grid");
+    let law = FixedCorotated::new(ElasticModuli::new(100.0, 0.3).expect("in range"));
+    let mut mpm = Mpm::new(particles, grid, Pic, Continuum { law }, NoBodyForce);
+    let control = StepControl {
+        time_step: body.time_step,
+        courant: f64::INFINITY,
+        displacement: f64::INFINITY,
+        friction: 0.0,
+    };
+    mpm.step(&control).expect("a step");
+    (
+        mpm.particles.in_creation_order(&mpm.particles.velocities).to_vec(),
+        there,
+    )
+}
+
+#[test]
+fn a_lagrangian_step_is_the_projected_full_order_step() {
+    let draw = |count| SampleChoice::Drawn { count, seed: 1 };
+    for (samples, search) in [
+        (SampleChoice::All, Search::All),
+        (draw(5), Search::All),
+        (draw(5), Search::Lists { skin: 0.25 }),
+    ] {
+        let chosen = options(samples, Quadrature::Lagrangian { search }, Update::VelocityOnly);
+        let mut model = model(BLOCK, Fields::bending(4), chosen);
+        model.coordinates.latent = vec![0.3, -0.2, 0.4, 0.1];
+        model.coordinates.rates = vec![1.0, 0.5, -2.0, 0.3];
+        let before = model.latent().to_vec();
+        let (full, there) = full_order_step(&mut model);
+        let report = model.step().expect("a step");
+        assert!(report.nodes > 9 && (samples != SampleChoice::All || report.quadrature_points == full.len()));
+        // The naive projection: the same sum over the sample points.
+        let numbers: Vec<usize> = model.samples().iter().map(|&p| p as usize).collect();
+        let targets: Vec<[f64; 2]> = numbers.iter().map(|&p| full[p]).collect();
+        let rows = numbers.iter().flat_map(|&p| there.jacobians[4 * p..4 * p + 4].to_vec());
+        let mut expected = vec![0.0; 4];
+        LeastSquares::default()
+            .solve(&rows.collect::<Vec<_>>(), &targets, &mut expected)
+            .expect("of full rank");
+        for k in 0..4 {
+            assert!(
+                (model.rates()[k] - expected[k]).abs() < 1e-10,
+                "{samples:?}: {:?} {expected:?}",
+                model.rates()
+            );
+            assert!((model.latent()[k] - before[k] - 0.002 * expected[k]).abs() < 1e-12);
+        }
+    }
+}
+
+#[test]
+fn neighbour_lists_find_what_the_search_of_all_points_finds() {
+    let text = format!(
+        "{}{HELD}",
+        BLOCK.replace("gravity = [0.0, 0.0]", "gravity = [0.0, -8.0]")
+    );
+    let samples = SampleChoice::Drawn { count: 8, seed: 2 };
+    let run = |search| {
+        let chosen = options(samples, Quadrature::Lagrangian { search }, Update::position_velocity());
+        let mut model = model(&text, Fields::bending(5), chosen);
+        let reports: Vec<StepReport> = (0..20).map(|_| model.advance_frame().expect("a frame")).collect();
+        (model.latent().to_vec(), reports)
+    };
+    let (oracle, all) = run(Search::All);
+    let (found, lists) = run(Search::Lists { skin: 0.2 });
+    assert_eq!(oracle, found);
+    assert!(oracle[0].abs() > 0.05, "it has bent: {oracle:?}");
+    let count = |reports: &[StepReport]| {
+        reports
+            .iter()
+            .map(|report| report.quadrature_points)
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(count(&all), count(&lists));
+    let refreshes = lists.last().map_or(0, |report| report.refreshes);
+    assert!((2..150).contains(&refreshes), "{refreshes} of 200 steps");
+}
+
+#[test]
+fn at_rest_the_points_of_space_fill_the_body() {
+    let chosen = options(SampleChoice::All, EULERIAN, Update::VelocityOnly);
+    let mut model = model(BLOCK, Fields::bending(3), chosen);
+    let report = model.step().expect("a step");
+    // 8 × 4 cells of the grid, four points in each.
+    assert_eq!((report.quadrature_points, report.left_out), (128, 0));
+    let volume: f64 = model.quadrature.volumes.iter().sum();
+    assert!((volume - 0.5).abs() < 1e-12, "{volume}");
+}
+
+#[test]
+fn points_of_space_give_nearly_the_motion_of_the_material_points() {
+    let text = format!(
+        "{}{HELD}",
+        BLOCK.replace("gravity = [0.0, 0.0]", "gravity = [0.0, -8.0]")
+    );
+    let run = |quadrature| {
+        let chosen = options(SampleChoice::All, quadrature, Update::VelocityOnly);
+        let mut model = model(&text, Fields::bending(4), chosen);
+        (0..10).for_each(|_| {
+            model.advance_frame().expect("a frame");
+        });
+        let (points, mut there) = (model.points().clone(), Evaluation::default());
+        model.evaluate(&points, Wanted::default(), &mut there);
+        (there.positions, points.reference)
+    };
+    let ((material, start), (space, _)) = (run(LAGRANGIAN), run(EULERIAN));
+    let moved = crate::least_squares::squared_distance(&material, &start);
+    let apart = crate::least_squares::squared_distance(&material, &space);
+    assert!(apart < 0.05f64.powi(2) * moved && moved > 0.0, "{apart} {moved}");
+}
+
+#[test]
+fn held_points_hold_the_coordinates() {
+    let text = format!(
+        "{}{HELD}",
+        BLOCK.replace("gravity = [0.0, 0.0]", "gravity = [0.0, -8.0]")
+    );
+    let chosen = options(
+        SampleChoice::Drawn { count: 20, seed: 0 },
+        LAGRANGIAN,
+        Update::position_velocity(),
+    );
+    let mut model = model(&text, Fields::affine(), chosen);
+    let held = model
+        .samples()
+        .iter()
+        .filter(|&&p| model.body().prescribed(p as usize, 0.0).is_some());
+    assert!(held.count() >= 5);
+    model.advance_frame().expect("a frame");
+    let free = 0.5 * 8.0 * 0.02 * 0.02;
+    assert!(
+        model.latent()[1] < 0.0 && model.latent()[1] > -free,
+        "{:?}",
+        model.latent()
+    );
+}
+
+#[test]
+fn bad_input_is_an_error_with_its_name() {
+    let few = |count| options(SampleChoice::Drawn { count, seed: 0 }, LAGRANGIAN, Update::VelocityOnly);
+    let try_new = |text: &str, options: Options| {
+        let body = body(text);
+        let map = DeformationMap::new(Fields::bending(5), &body.reference, &[0.0; 5]).expect("at rest");
+        ReducedModel::new(body, map, options).map(|_| ())
+    };
+    let error = try_new(BLOCK, few(2)).expect_err("two points for five coordinates");
+    assert!(
+        matches!(
+            error,
+            OnlineError::TooFewSamples {
+                found: 2,
+                needed: 3,
+                ..
+            }
+        ),
+        "{error}"
+    );
+    let error = try_new(&format!("{BLOCK}{HELD}"), few(4)).expect_err("four with a kinematic region");
+    assert!(matches!(error, OnlineError::TooFewSamples { needed: 5, .. }), "{error}");
+    let error = try_new(BLOCK, few(1000)).expect_err("more than there are");
+    assert!(
+        matches!(
+            error,
+            OnlineError::TooManySamples {
+                found: 1000,
+                points: 128
+            }
+        ),
+        "{error}"
+    );
+    let wrong = Quadrature::Eulerian {
+        per_axis: 0,
+        inverted: Inverted::Refuse,
+    };
+    let error = try_new(BLOCK, options(SampleChoice::All, wrong, Update::VelocityOnly)).expect_err("no points");
+    assert!(
+        matches!(error, OnlineError::Option { field: "per_axis", .. }),
+        "{error}"
+    );
+    let apic = Scene::parse(&BLOCK.replace("\"pic\"", "\"apic\""), "block.toml".as_ref()).expect("a scene");
+    let error = ReducedBody::<2>::of(&apic).err().expect("another transfer");
+    assert!(
+        matches!(
+            error,
+            OnlineError::Unsupported {
+                field: "transfer.kind",
+                ..
+            }
+        ),
+        "{error}"
+    );
+}
+
+#[test]
+fn an_inverted_map_is_an_error_and_a_named_fallback() {
+    let squashed = |quadrature| {
+        let mut model = model(
+            BLOCK,
+            Fields::bending(3),
+            options(SampleChoice::All, quadrature, Update::VelocityOnly),
+        );
+        // ∂x/∂X_1 = 1 + (y + 0.3 y²) X_1² ... of field 1 is X_0 X_1 along the first axis: J ≤ 0 where X_1 is low.
+        model.coordinates.latent = vec![0.0, 4.0, 0.0];
+        model.step()
+    };
+    let error = squashed(LAGRANGIAN).expect_err("J < 0");
+    let OnlineError::Inverted {
+        step: 1,
+        reference,
+        volume_ratio,
+    } = error
+    else {
+        panic!("{error}");
+    };
+    assert!(volume_ratio <= 0.0 && vector::norm(&[reference[0], reference[1]]) < 1.0);
+    let fallback = Quadrature::Eulerian {
+        per_axis: 2,
+        inverted: Inverted::LeaveOut,
+    };
+    assert!(squashed(fallback).is_ok_and(|report| report.quadrature_points > 0));
+}
