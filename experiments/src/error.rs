@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use mpm_rom::experiment::ExperimentError;
 use mpm_scenes::{SceneError, SimulationError};
 use parvi::SampleError;
 use parvi_metrics::MetricError;
@@ -28,6 +29,9 @@ pub enum CommandError {
     /// A simulation ended before its time.
     #[error(transparent)]
     Simulation(#[from] SimulationError),
+    /// An experiment with a reduced-order model cannot begin or go on.
+    #[error(transparent)]
+    Experiment(#[from] ExperimentError),
     /// A metric refused its input.
     #[error(transparent)]
     Metric(#[from] MetricError),
@@ -134,7 +138,9 @@ impl CommandError {
     pub fn is_interruption(&self) -> bool {
         matches!(
             self,
-            Self::Interrupted { .. } | Self::Sample(SampleError::Interrupted { .. })
+            Self::Interrupted { .. }
+                | Self::Sample(SampleError::Interrupted { .. })
+                | Self::Experiment(ExperimentError::Stopped)
         )
     }
 }

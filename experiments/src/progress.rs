@@ -95,6 +95,80 @@ impl mpm_scenes::Observer for SimulationProgress {
     }
 }
 
+/// The bar of a training: full-order runs, then epochs.
+pub struct TrainingProgress {
+    bar: ProgressBar,
+    /// Whether the bar shows epochs.
+    training: bool,
+}
+
+impl TrainingProgress {
+    /// A bar that appears with the first run or epoch.
+    pub fn new() -> Self {
+        let bar = ProgressBar::new(0).with_style(style("{bar:30} run {pos}/{len}, {eta} left"));
+        Self { bar, training: false }
+    }
+
+    /// After a full-order run.
+    pub fn run(&mut self, done: usize, runs: usize) {
+        self.bar.set_length(runs as u64);
+        self.bar.set_position(done as u64);
+    }
+
+    /// After an epoch, with its mean loss. A break if a stop was asked for.
+    pub fn epoch(&mut self, done: u64, epochs: u64, loss: f64) -> ControlFlow<()> {
+        if !self.training {
+            self.training = true;
+            self.bar
+                .set_style(style("{bar:30} epoch {pos}/{len}, loss {msg}, {eta} left"));
+            self.bar.set_length(epochs);
+            self.bar.set_position(done);
+            self.bar.reset_eta();
+        }
+        self.bar.set_position(done);
+        if !self.bar.is_hidden() {
+            self.bar.set_message(format!("{loss:.3e}"));
+        }
+        unless_interrupted()
+    }
+
+    /// Takes the bar off the screen.
+    pub fn clear(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+impl Default for TrainingProgress {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// The bar of a number of like things.
+pub struct CountProgress {
+    bar: ProgressBar,
+}
+
+impl CountProgress {
+    /// A bar for so many things of this name.
+    pub fn new(name: &str, count: usize) -> Self {
+        let style = style(&format!("{{bar:30}} {name} {{pos}}/{{len}}, {{eta}} left"));
+        let bar = ProgressBar::new(count as u64).with_style(style);
+        bar.enable_steady_tick(Duration::from_millis(500));
+        Self { bar }
+    }
+
+    /// So many are done.
+    pub fn set(&self, done: usize) {
+        self.bar.set_position(done as u64);
+    }
+
+    /// Takes the bar off the screen.
+    pub fn clear(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
 /// Units of the study's bar per unit of cost.
 const RESOLUTION: f64 = 1000.0;
 

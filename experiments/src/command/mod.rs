@@ -1,6 +1,7 @@
 //! The command line: one subcommand per file.
 
 mod report;
+mod rom;
 mod run;
 pub(crate) mod sample;
 mod simulate;
@@ -30,6 +31,8 @@ enum Command {
     Run(run::Arguments),
     /// Simulate a scene of the material point method; resumes if the directory holds a part of it
     Simulate(simulate::Arguments),
+    /// Train or run a reduced-order model of the material point method
+    Rom(rom::Arguments),
     /// Write tables and plots of a study again from its raw results
     Report(report::Arguments),
 }
@@ -50,6 +53,7 @@ pub fn main() -> ExitCode {
         Command::Sample(arguments) => sample::execute(&arguments),
         Command::Run(arguments) => run::execute(&arguments),
         Command::Simulate(arguments) => simulate::execute(&arguments),
+        Command::Rom(arguments) => rom::execute(&arguments),
         Command::Report(arguments) => report::execute(&arguments),
     };
     match result {

@@ -1,0 +1,78 @@
+//! Figures of a training and of reduced runs.
+
+use std::path::Path;
+
+use mpm_rom::experiment::ReducedRow;
+use mpm_rom::training::EpochReport;
+
+use super::run::groups;
+use crate::CommandError;
+use crate::output::AtomicFile;
+use crate::plots::{AxisKind, LinePlot, LineSeries, line};
+
+/// The loss and its terms against the epoch.
+pub fn losses(directory: &Path, title: &str, history: &[EpochReport]) -> Result<(), CommandError> {
+    let terms: [(&str, fn(&EpochReport) -> f64); 4] = [
+        ("loss", |report| report.terms.total()),
+        ("position", |report| report.terms.position),
+        ("gradient", |report| report.terms.gradient),
+        ("velocity", |report| report.terms.velocity),
+    ];
+    let series = terms.map(|(label, value)| LineSeries {
+        label: label.to_owned(),
+        x: history.iter().map(|report| (report.epoch + 1) as f64).collect(),
+        y: history.iter().map(value).collect(),
+        bars: Vec::new(),
+    });
+    let plot = LinePlot {
+        title: format!("{title}: training"),
+        x_label: "epoch".to_owned(),
+        y_label: "mean loss".to_owned(),
+        y_axis: AxisKind::Logarithmic,
+        series: series.into(),
+        ..LinePlot::default()
+    };
+    AtomicFile::write(directory.join("losses.svg"), line(&plot)?)
+}
+
+/// Position error and wall time against the number of sample points.
+pub fn errors(directory: &Path, title: &str, rows: &[ReducedRow]) -> Result<(), CommandError> {
+    let figures: [(&str, &str, fn(&ReducedRow) -> f64); 2] = [
+        ("errors.svg", "position error (%)", |row| row.error),
+        ("speed_up.svg", "full-order over reduced wall time", |row| {
+            row.full_seconds / row.seconds
+        }),
+    ];
+    for (file, y_label, value) in figures {
+        let mut series: Vec<LineSeries> = Vec::new();
+        for group in groups(rows) {
+            let label = format!("{}, {}", group[0].quadrature, group[0].update);
+            let values: Vec<f64> = group.iter().map(|row| value(row)).collect();
+            let mean = values.iter().sum::<f64>() / values.len() as f64;
+            let ends = values.iter().fold((f64::INFINITY, 0.0f64), |(low, high), &value| {
+                (low.min(value), high.max(value))
+            });
+            let place = series.iter().position(|line| line.label == label).unwrap_or_else(|| {
+                series.push(LineSeries {
+                    label,
+                    ..LineSeries::default()
+                });
+                series.len() - 1
+            });
+            series[place].x.push(group[0].samples as f64);
+            series[place].y.push(mean);
+            series[place].bars.push(ends);
+        }
+        let plot = LinePlot {
+            title: title.to_owned(),
+            x_label: "sample points (mean and range over the test cases)".to_owned(),
+            y_label: y_label.to_owned(),
+            x_axis: AxisKind::Logarithmic,
+            y_axis: AxisKind::Logarithmic,
+            series,
+            ..LinePlot::default()
+        };
+        AtomicFile::write(directory.join(file), line(&plot)?)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,64 @@
+//! `parvi rom`: the reduced-order model, trained and run.
+
+mod figures;
+mod run;
+mod train;
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, Subcommand};
+use mpm_rom::experiment::{Experiment, ExperimentError};
+use mpm_rom::full_order::SceneDocument;
+
+use crate::{CommandError, interrupt};
+
+/// What to do with a reduced-order model.
+#[derive(Args)]
+pub struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Run the scene for all training cases and train the network; goes on with a part of it
+    Train(Task),
+    /// Run the test cases with the model that has been trained in the same directory
+    Run(Task),
+}
+
+/// An experiment and its directory.
+#[derive(Args)]
+struct Task {
+    /// The experiment
+    #[arg(value_name = "CONFIG.toml")]
+    configuration: PathBuf,
+    /// Directory of data, model and tables
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+}
+
+/// Trains or runs.
+pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
+    let (task, training) = match &arguments.command {
+        Command::Train(task) => (task, true),
+        Command::Run(task) => (task, false),
+    };
+    let experiment = Experiment::read(&task.configuration)?;
+    interrupt::listen();
+    let execute: fn(&Experiment, &Path) -> Result<(), CommandError> = match (dimension(&experiment)?, training) {
+        (2, true) => train::execute::<2>,
+        (3, true) => train::execute::<3>,
+        (2, false) => run::execute::<2>,
+        (3, false) => run::execute::<3>,
+        (dimension, _) => return Err(ExperimentError::Dimension { dimension }.into()),
+    };
+    execute(&experiment, &task.out)
+}
+
+/// The dimension of the experiment's scene.
+fn dimension(experiment: &Experiment) -> Result<usize, ExperimentError> {
+    let document = SceneDocument::read(&experiment.scene_file())?;
+    let case = experiment.case(&experiment.cases.train[0])?;
+    Ok(document.scene(&case.changes)?.dimension)
+}

@@ -1,0 +1,59 @@
+//! `parvi rom run`.
+
+use std::path::Path;
+
+use mpm_rom::experiment::{Experiment, ReducedRow, run};
+
+use super::figures;
+use crate::progress::CountProgress;
+use crate::{CommandError, console, interrupt};
+
+/// Reduced runs of all test cases, their table and figures.
+pub fn execute<const D: usize>(experiment: &Experiment, directory: &Path) -> Result<(), CommandError> {
+    let progress = CountProgress::new("case", experiment.cases.test.len());
+    let result = run::<D>(experiment, directory, &mut |done| {
+        progress.set(done);
+        !interrupt::requested()
+    });
+    progress.clear();
+    let rows = result?;
+    figures::errors(directory, &experiment.title, &rows)?;
+    for row in rows.iter().filter(|row| row.outcome != "finished") {
+        console::notice(&format!(
+            "case {}, {} samples, {}, {}: {}",
+            row.case, row.samples, row.quadrature, row.update, row.outcome
+        ));
+    }
+    let mut text = String::new();
+    for group in groups(&rows) {
+        let mean = |value: fn(&ReducedRow) -> f64| group.iter().map(|row| value(row)).sum::<f64>() / group.len() as f64;
+        let largest = group.iter().map(|row| row.error).fold(0.0, f64::max);
+        text.push_str(&format!(
+            "samples={} quadrature={} update={} runs={} mean_error_percent={:.4} largest_error_percent={largest:.4} speed_up={:.2} real_time_factor={:.3}\n",
+            group[0].samples,
+            group[0].quadrature,
+            group[0].update,
+            group.len(),
+            mean(|row| row.error),
+            mean(|row| row.full_seconds) / mean(|row| row.seconds),
+            mean(|row| row.simulated) / mean(|row| row.seconds),
+        ));
+    }
+    console::print(&text)
+}
+
+/// Rows that share samples, quadrature and update, in the order in which these come first.
+pub fn groups(rows: &[ReducedRow]) -> Vec<Vec<&ReducedRow>> {
+    let mut groups: Vec<Vec<&ReducedRow>> = Vec::new();
+    for row in rows {
+        let same = |group: &&mut Vec<&ReducedRow>| {
+            let first = group[0];
+            (first.samples, first.quadrature, first.update) == (row.samples, row.quadrature, row.update)
+        };
+        match groups.iter_mut().find(same) {
+            Some(group) => group.push(row),
+            None => groups.push(vec![row]),
+        }
+    }
+    groups
+}
