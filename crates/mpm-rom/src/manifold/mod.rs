@@ -1,10 +1,14 @@
 //! Families of deformation maps X → g̃(X, x̂) with a few coordinates x̂.
 
 mod evaluation;
+mod linear;
 pub mod network;
+mod pod;
 
 pub use evaluation::{Evaluation, Wanted};
+pub use linear::Linear;
 pub use network::{Network, NetworkError, NetworkShape, Scaling};
+pub use pod::{LinearError, Pod};
 
 /// A family of maps g̃(X, x̂) from reference positions X to deformed positions, with r generalised coordinates x̂.
 pub trait Manifold<const D: usize>: Send + Sync {
