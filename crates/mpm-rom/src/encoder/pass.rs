@@ -33,14 +33,7 @@ impl<const D: usize> Encoder<D> {
             let (weights, bias) = self.parameters[range.clone()].split_at(KERNEL);
             let (done, rest) = tape.values.split_at_mut(number + 1);
             let (input, output) = (&done[number], &mut rest[0]);
-            output.clear();
-            output.extend(input.windows(KERNEL).step_by(STRIDE).map(|window| {
-                let mut sum = bias[0];
-                for k in 0..KERNEL {
-                    sum += weights[k] * window[k];
-                }
-                sum
-            }));
+            convolve(input, weights, bias[0], output);
             activate(output, &mut tape.slopes[number]);
         }
         let number = activations - 1;
@@ -87,15 +80,39 @@ impl<const D: usize> Encoder<D> {
             }
             // The positions are data: nothing asks for their adjoint.
             if number > 0 {
-                for (n, &z) in adjoint.iter().enumerate() {
-                    for (a, weight) in input_adjoint[STRIDE * n..].iter_mut().zip(weights) {
-                        *a += z * weight;
-                    }
-                }
+                spread(&adjoint, weights, &mut input_adjoint);
             }
             adjoint = input_adjoint;
         }
     }
+}
+
+/// z_n = b + Σ_k w_k a_{2n+k}, seen as pairs of entries so that neighbouring outputs are computed together.
+fn convolve(input: &[f64], weights: &[f64], bias: f64, output: &mut Vec<f64>) {
+    output.clear();
+    let (pairs, _) = input.as_chunks::<STRIDE>();
+    let [w0, w1, w2, w3, w4, w5] = array(weights);
+    let windows = pairs.iter().zip(pairs.iter().skip(1)).zip(pairs.iter().skip(2));
+    output.extend(
+        windows.map(|((a, b), c)| bias + (w0 * a[0] + w1 * a[1]) + (w2 * b[0] + w3 * b[1]) + (w4 * c[0] + w5 * c[1])),
+    );
+}
+
+/// a̅_{2n+k} += z̅_n w_k.
+fn spread(adjoint: &[f64], weights: &[f64], input: &mut [f64]) {
+    let [w0, w1, w2, w3, w4, w5] = array(weights);
+    let mut padded = vec![0.0; adjoint.len() + 4];
+    for (padded, z) in padded.iter_mut().skip(2).zip(adjoint) {
+        *padded = *z;
+    }
+    let (pairs, _) = input.as_chunks_mut::<STRIDE>();
+    for (pair, z) in pairs.iter_mut().zip(padded.windows(3)) {
+        *pair = [w0 * z[2] + w2 * z[1] + w4 * z[0], w1 * z[2] + w3 * z[1] + w5 * z[0]];
+    }
+}
+
+fn array(weights: &[f64]) -> [f64; KERNEL] {
+    std::array::from_fn(|k| weights[k])
 }
 
 /// ELU in place; its slopes beside it.

@@ -1,12 +1,16 @@
 //! Families of deformation maps X → g̃(X, x̂) with a few coordinates x̂.
 
 mod evaluation;
+mod linear;
 pub mod network;
+mod pod;
 #[cfg(test)]
 mod polynomial;
 
 pub use evaluation::{Evaluation, Wanted};
+pub use linear::Linear;
 pub use network::{Network, NetworkError, NetworkShape, Scaling};
+pub use pod::{LinearError, Pod};
 #[cfg(test)]
 pub(crate) use polynomial::Fields;
 

@@ -63,7 +63,7 @@ impl Hidden {
             .before
             .chunks_exact_mut(points * columns)
             .zip(self.after.chunks_exact_mut(points * columns));
-        for (((before, after), slope), bias) in units.zip(self.slope.chunks_exact_mut(points)).zip(bias) {
+        for (((before, after), slope), &bias) in units.zip(self.slope.chunks_exact_mut(points)).zip(bias) {
             let (z, tangents) = before.split_at(points);
             let (value, tangents_after) = after.split_at_mut(points);
             for ((z, value), slope) in z.iter().zip(value).zip(slope.iter_mut()) {
