@@ -20,7 +20,7 @@ impl Manifold<3> for Shifted {
     fn evaluate(&self, reference: &[[f64; 3]], latent: &[f64], wanted: Wanted, out: &mut Evaluation<3>) {
         self.0.evaluate(reference, latent, wanted, out);
         out.positions.iter_mut().for_each(|g| g[2] += 0.1);
-        out.gradients.iter_mut().for_each(|F| F.0[2][2] += 0.05);
+        out.gradients.iter_mut().for_each(|gradient| gradient.0[2][2] += 0.05);
     }
 }
 
@@ -37,8 +37,8 @@ fn at_rest_every_point_is_where_it_was_and_nothing_is_deformed() {
     assert!(prepared.drifts.is_empty() && prepared.drift_gradients.is_empty());
     let rest = map.rest().to_vec();
     map.evaluate(&prepared, &rest, 3.0, ALL, &mut out);
-    for ((g, x), F) in out.positions.iter().zip(&reference).zip(&out.gradients) {
-        assert!(vector::distance(g, x) < 1e-15 && (*F - Matrix::IDENTITY).frobenius_norm() < 1e-15);
+    for ((g, x), gradient) in out.positions.iter().zip(&reference).zip(&out.gradients) {
+        assert!(vector::distance(g, x) < 1e-15 && (*gradient - Matrix::IDENTITY).frobenius_norm() < 1e-15);
     }
     assert!(rest.iter().all(|y| y.abs() < 1e-7), "{rest:?}");
 }
@@ -76,9 +76,9 @@ fn at_the_start_every_point_has_its_velocity_and_the_gradient_is_that_of_the_map
             map.evaluate(&there, &latent, time, Wanted::default(), &mut out);
             out.positions.clone()
         });
-        for ((F, above), below) in gradients.iter().zip(&above).zip(&below) {
+        for ((gradient, above), below) in gradients.iter().zip(&above).zip(&below) {
             for a in 0..3 {
-                assert!((F.0[a][b] - (above[a] - below[a]) / (2.0 * step)).abs() < 1e-8);
+                assert!((gradient.0[a][b] - (above[a] - below[a]) / (2.0 * step)).abs() < 1e-8);
             }
         }
     }

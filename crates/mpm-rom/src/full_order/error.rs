@@ -64,4 +64,7 @@ pub enum FullOrderError {
     /// What the runs gave is of no use.
     #[error(transparent)]
     Snapshots(#[from] SnapshotsError),
+    /// The mechanics refused a body or a step.
+    #[error(transparent)]
+    Mechanics(#[from] mpm_core::MpmError),
 }

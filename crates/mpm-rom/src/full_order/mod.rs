@@ -4,9 +4,11 @@ mod document;
 mod error;
 #[cfg(test)]
 mod tests;
+mod tracers;
 
 pub use document::{SceneDocument, Value};
 pub use error::FullOrderError;
+pub use tracers::TracedRun;
 
 use mpm_scenes::scene::MaterialTable;
 use mpm_scenes::{Population, Scene, Snapshot, frames};

@@ -36,14 +36,14 @@ fn every_run_has_its_own_parameter_and_all_have_the_same_body() {
         assert!(run.frames[0].velocities.iter().all(|v| *v == [0.0; 2]));
         // Free fall in 40 steps of 0.005.
         let last = &run.frames[4];
-        for ((x, start), (v, F)) in last
+        for ((x, start), (v, gradient)) in last
             .positions
             .iter()
             .zip(snapshots.reference())
             .zip(last.velocities.iter().zip(&last.deformation_gradients))
         {
             assert!((x[1] - start[1] + g * 0.005 * 0.005 * 820.0).abs() < 1e-6 && (v[1] + 0.2 * g).abs() < 1e-6);
-            assert!((*F - Matrix::IDENTITY).frobenius_norm() < 1e-12);
+            assert!((*gradient - Matrix::IDENTITY).frobenius_norm() < 1e-12);
         }
     }
 }
@@ -67,4 +67,26 @@ fn what_does_not_fit_is_an_error_with_its_name() {
         error,
         Err(FullOrderError::Dimension { found: 2, expected: 3 })
     ));
+}
+
+#[test]
+fn tracers_leave_the_run_as_it_is_and_move_with_it() {
+    let held =
+        format!("{STRIP}[[kinematic]]\nregion = {{ kind = \"box\", lower = [0.0, 0.0], upper = [0.25, 0.5] }}\n");
+    let scene = Scene::parse(&held, "strip.toml".as_ref()).expect("a scene");
+    let body = crate::online::ReducedBody::<2>::of(&scene).expect("can be reduced");
+    let frames = run(&scene, &body.centroid).expect("runs");
+    // A tracer at a particle, and one in the middle of four.
+    let tracers = [body.reference[37], [0.125, 0.0]];
+    let mut traced = TracedRun::new(&body, &tracers).expect("two tracers");
+    for frame in &frames[1..] {
+        traced.advance_frame().expect("steps");
+        for (found, expected) in traced.positions().iter().zip(&frame.positions) {
+            // The scene's step is longer by 2e-8.
+            assert!(vector::distance(found, expected) < 1e-7, "{found:?} {expected:?}");
+        }
+        let found = traced.tracers();
+        assert!(vector::distance(&found[0], &frame.positions[37]) < 1e-7);
+        assert!(found[1][1] < 0.0);
+    }
 }

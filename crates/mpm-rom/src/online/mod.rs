@@ -1,6 +1,7 @@
 //! The reduced dynamics: a step on a few sample points.
 
 mod body;
+mod compare;
 mod coordinates;
 mod error;
 mod eulerian;
@@ -17,6 +18,7 @@ mod tests;
 mod timings;
 
 pub use body::ReducedBody;
+pub use compare::{compare, super_resolve};
 pub use error::OnlineError;
 pub use neighbours::Search;
 pub use options::{Inverted, Options, Quadrature, Update};
