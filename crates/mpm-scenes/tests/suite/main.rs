@@ -5,6 +5,7 @@ mod bad_scenes;
 mod document;
 mod failures;
 mod forces;
+mod on_meshes;
 mod resume;
 mod runs;
 mod scenes;

@@ -1,5 +1,6 @@
 //! Triangles that are near to equilateral, in domains bounded by polygons.
 
+mod ampersand;
 mod delaunay;
 mod lattice;
 mod outline;
@@ -7,6 +8,7 @@ mod relax;
 mod shapes;
 mod triangle_lattice;
 
+pub use self::ampersand::ampersand;
 pub(super) use self::delaunay::Triangulation;
 pub(super) use self::outline::{encloses, squared_distance_to_segment};
 pub use self::shapes::{disk, polygon, rectangle, wavy_channel};
