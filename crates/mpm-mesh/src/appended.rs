@@ -1,15 +1,18 @@
-//! Arrays of VTK XML files as raw appended data.
+//! Arrays of VTK XML files as raw appended data, the binary form that ParaView reads fastest.
 
-/// The block of data behind the text, and where each array begins in it.
-#[derive(Default)]
+/// The arrays of an unstructured grid: the text of a file has an element for each, which says where it begins in a block of data behind the text.
+///
+/// Format: VTK XML, version 1.0, little endian; every array is a 64-bit count of bytes followed by the bytes
+/// (<https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html>).
+#[derive(Clone, Debug, Default)]
 pub struct Appended {
     /// The arrays, each behind the count of its bytes.
-    pub bytes: Vec<u8>,
+    bytes: Vec<u8>,
 }
 
 impl Appended {
-    /// Adds an array; returns the element that describes it.
-    pub fn array(&mut self, kind: &str, name: &str, components: usize, content: Vec<u8>) -> String {
+    /// Adds an array of VTK's type `kind` with little-endian `content`; returns the element that describes it.
+    pub fn array(&mut self, kind: &str, name: &str, components: usize, content: &[u8]) -> String {
         let offset = self.bytes.len();
         self.bytes.extend((content.len() as u64).to_le_bytes());
         self.bytes.extend(content);
@@ -19,12 +22,26 @@ impl Appended {
         )
     }
 
+    /// As [`array`](Self::array), of type `Float64`.
     pub fn floats(&mut self, name: &str, components: usize, values: &[f64]) -> String {
-        let content = values.iter().flat_map(|value| value.to_le_bytes()).collect();
-        self.array("Float64", name, components, content)
+        let content: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
+        self.array("Float64", name, components, &content)
     }
 
+    /// As [`array`](Self::array), of type `Int64` with one component.
     pub fn integers(&mut self, name: &str, values: impl Iterator<Item = i64>) -> String {
-        self.array("Int64", name, 1, values.flat_map(i64::to_le_bytes).collect())
+        let content: Vec<u8> = values.flat_map(i64::to_le_bytes).collect();
+        self.array("Int64", name, 1, &content)
+    }
+
+    /// A file of the arrays, whose elements are in `grid`, the text between `<UnstructuredGrid>` and its end.
+    pub fn file(&self, grid: &str) -> Vec<u8> {
+        let text = format!(
+            "<?xml version=\"1.0\"?>\n\
+             <VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n\
+             <UnstructuredGrid>\n{grid}</UnstructuredGrid>\n\
+             <AppendedData encoding=\"raw\">\n_"
+        );
+        [text.as_bytes(), &self.bytes, b"\n</AppendedData>\n</VTKFile>\n"].concat()
     }
 }

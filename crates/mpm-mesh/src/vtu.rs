@@ -1,4 +1,4 @@
-//! Meshes as VTK XML unstructured grids with raw appended data, the binary form that ParaView reads fastest.
+//! Meshes as VTK XML unstructured grids.
 
 use crate::SimplexMesh;
 use crate::appended::Appended;
@@ -37,10 +37,7 @@ pub enum VtuError {
 }
 
 /// A `.vtu` file of a mesh: positions padded with zeros to three coordinates, cells as VTK's lines (type 3), triangles (5) or
-/// tetrahedra (10), and fields at the vertices and in the cells.
-///
-/// Format: VTK XML, version 1.0, little endian; every array is a 64-bit count of bytes followed by the bytes
-/// (<https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html>).
+/// tetrahedra (10), and fields at the vertices and in the cells; for the format see [`Appended`].
 ///
 /// # Errors
 /// [`VtuError`], if a field's values are not as many as its components times the vertices or cells.
@@ -61,22 +58,17 @@ pub fn mesh_vtu<const D: usize>(
         2 => 5,
         _ => 10,
     };
-    let types = appended.array("UInt8", "types", 1, vec![kind; cell_count]);
+    let types = appended.array("UInt8", "types", 1, &vec![kind; cell_count]);
     let point_data = append(&mut appended, at_vertices, point_count)?;
     let cell_data = append(&mut appended, in_cells, cell_count)?;
-    let header = format!(
-        "<?xml version=\"1.0\"?>\n\
-         <VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n\
-         <UnstructuredGrid>\n\
-         <Piece NumberOfPoints=\"{point_count}\" NumberOfCells=\"{cell_count}\">\n\
+    Ok(appended.file(&format!(
+        "<Piece NumberOfPoints=\"{point_count}\" NumberOfCells=\"{cell_count}\">\n\
          <Points>\n{points}</Points>\n\
          <Cells>\n{connectivity}{offsets}{types}</Cells>\n\
          <PointData>\n{point_data}</PointData>\n\
          <CellData>\n{cell_data}</CellData>\n\
-         </Piece>\n</UnstructuredGrid>\n\
-         <AppendedData encoding=\"raw\">\n_"
-    );
-    Ok([header.as_bytes(), &appended.bytes, b"\n</AppendedData>\n</VTKFile>\n"].concat())
+         </Piece>\n"
+    )))
 }
 
 /// Adds fields of `count` places.

@@ -5,7 +5,7 @@
 mod basis_scenes;
 
 use basis_scenes::{cloud, cube, generator, line, naive_weights};
-use mpm_mesh::generate::{EdgeTarget, ball, cuboid, disk, rectangle, with_outer_layer};
+use mpm_mesh::generate::{EdgeTarget, ampersand, ball, cuboid, disk, rectangle, with_outer_layer};
 use mpm_mesh::{MeshBasis, NO_CELL, SampleWeight, SimplexMesh, WeightAt};
 use mpm_tensor::Matrix;
 use proptest::prelude::*;
@@ -114,6 +114,51 @@ fn unstructured_meshes_have_continuous_weights_and_gradients_with_the_adjacency_
         angle: 0.4,
     };
     check(disk([0.5; 2], 1.0, &target).unwrap());
+}
+
+/// Two holes, strokes of a few cells and corners that point inwards: over all nodes, and over those at such corners alone.
+#[test]
+fn around_holes_and_re_entrant_corners_weights_and_gradients_are_continuous_with_the_adjacency_alone() {
+    let corners = [
+        [5.4, 1.4],
+        [6.6, 2.6],
+        [5.5, 3.9],
+        [4.2, 5.6],
+        [1.9, 5.8],
+        [3.0, 4.4],
+        [3.2, 6.5],
+    ];
+    for length in [0.09, 0.045, 0.03] {
+        let target = EdgeTarget { length, angle: 0.2 };
+        let basis = MeshBasis::new(&ampersand(1.0, &target).unwrap()).unwrap();
+        let at_corner: Vec<bool> = basis
+            .mesh()
+            .vertices()
+            .iter()
+            .map(|x| {
+                corners
+                    .iter()
+                    .any(|corner| (0..2).all(|a| (x[a] - 0.1 * corner[a]).abs() < 1e-12))
+            })
+            .collect();
+        assert_eq!(at_corner.iter().filter(|&&found| found).count(), corners.len());
+        let control = basis.clone().with_sample_weight(SampleWeight::DistanceAlone);
+        for seed in 0..3 {
+            let jump = largest_jump(&basis, seed, |_| true);
+            assert!(jump < 1e-10, "length {length}: {jump}");
+            let [everywhere, corner] = [
+                largest_jump(&control, seed, |_| true),
+                largest_jump(&control, seed, |v| at_corner[v as usize]),
+            ];
+            assert!(
+                everywhere > 0.1 && corner > 0.02,
+                "length {length}: {everywhere} {corner}"
+            );
+            println!(
+                "length {length}: jumps of {jump:.1e} with, {everywhere:.2} without the adjacency, {corner:.2} at corners"
+            );
+        }
+    }
 }
 
 #[test]

@@ -72,3 +72,30 @@ fn fields_of_another_length_are_refused() {
     let error = VtuError::NoComponents { name: "t".into() };
     assert_eq!(mesh_vtu(&samples::square(), &[field(0, &[])], &[]), Err(error));
 }
+
+/// The whole of a file but its numbers.
+#[test]
+fn the_text_of_a_file() {
+    let file = mesh_vtu(&samples::unit::<2>(), &[], &[]).expect("a file");
+    let element = |kind: &str, name: &str, components: usize, offset: usize| {
+        format!(
+            "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"appended\" offset=\"{offset}\"/>\n"
+        )
+    };
+    let text = "<?xml version=\"1.0\"?>\n\
+        <VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n\
+        <UnstructuredGrid>\n<Piece NumberOfPoints=\"3\" NumberOfCells=\"1\">\n<Points>\n"
+        .to_owned()
+        + &element("Float64", "position", 3, 0)
+        + "</Points>\n<Cells>\n"
+        + &element("Int64", "connectivity", 1, 8 + 72)
+        + &element("Int64", "offsets", 1, 80 + 8 + 24)
+        + &element("UInt8", "types", 1, 112 + 8 + 8)
+        + "</Cells>\n<PointData>\n</PointData>\n<CellData>\n</CellData>\n</Piece>\n</UnstructuredGrid>\n\
+           <AppendedData encoding=\"raw\">\n_";
+    assert!(file.starts_with(text.as_bytes()), "{}", String::from_utf8_lossy(&file));
+    assert_eq!(
+        file.len(),
+        text.len() + 128 + 8 + 1 + "\n</AppendedData>\n</VTKFile>\n".len()
+    );
+}

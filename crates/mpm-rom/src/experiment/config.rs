@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 
 use super::ExperimentError;
+use super::beside::Choice;
 use crate::online::{Inverted, Options, Quadrature, SampleChoice, Search, Update};
 use crate::training::Training;
 
@@ -126,10 +127,33 @@ impl UpdateName {
     }
 }
 
-/// The reduced runs of every test case: each number of sample points with each quadrature and update.
+/// The family of maps; see [`manifold`](crate::manifold).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ManifoldName {
+    /// The trained network.
+    #[default]
+    Network,
+    /// The linear manifold of as many coordinates, from the same training data.
+    Linear,
+}
+
+impl ManifoldName {
+    /// As in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Network => "network",
+            Self::Linear => "linear",
+        }
+    }
+}
+
+/// The reduced runs of every test case: each manifold with each number of sample points, quadrature and update.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ReducedRuns {
+    /// Families of maps.
+    pub manifold: Vec<ManifoldName>,
     /// |𝒫|.
     pub samples: Vec<SampleCount>,
     /// Seed of the draw of sample points.
@@ -147,6 +171,7 @@ pub struct ReducedRuns {
 impl Default for ReducedRuns {
     fn default() -> Self {
         Self {
+            manifold: vec![ManifoldName::Network],
             samples: vec![SampleCount::Drawn(50), SampleCount::All(All::All)],
             seed: 0,
             quadrature: vec![QuadratureName::Lagrangian],
@@ -159,13 +184,13 @@ impl Default for ReducedRuns {
 
 impl ReducedRuns {
     /// The options of one run.
-    pub fn options(&self, samples: SampleCount, quadrature: QuadratureName, update: UpdateName) -> Options {
+    pub(super) fn options(&self, choice: &Choice) -> Options {
         Options {
-            samples: match samples {
+            samples: match choice.samples {
                 SampleCount::All(_) => SampleChoice::All,
                 SampleCount::Drawn(count) => SampleChoice::Drawn { count, seed: self.seed },
             },
-            quadrature: match (quadrature, samples) {
+            quadrature: match (choice.quadrature, choice.samples) {
                 // All points are near a sample point when all are samples.
                 (QuadratureName::Lagrangian, SampleCount::All(_)) => Quadrature::Lagrangian { search: Search::All },
                 (QuadratureName::Lagrangian, _) => Quadrature::Lagrangian {
@@ -176,7 +201,7 @@ impl ReducedRuns {
                     inverted: Inverted::Refuse,
                 },
             },
-            update: match update {
+            update: match choice.update {
                 UpdateName::VelocityOnly => Update::VelocityOnly,
                 UpdateName::PositionVelocity => Update::position_velocity(),
             },
@@ -232,6 +257,7 @@ impl Experiment {
             }
         }
         let lists = [
+            ("run.manifold", self.run.manifold.len()),
             ("run.samples", self.run.samples.len()),
             ("run.quadrature", self.run.quadrature.len()),
             ("run.update", self.run.update.len()),

@@ -5,6 +5,7 @@ use mpm_scenes::{SceneError, SimulationError};
 use crate::deformation_map::DeformationMapError;
 use crate::encoder::EncoderError;
 use crate::full_order::FullOrderError;
+use crate::manifold::LinearError;
 use crate::online::OnlineError;
 use crate::tensor_file::TensorFileError;
 use crate::training::TrainingError;
@@ -81,6 +82,9 @@ pub enum ExperimentError {
     /// The encoder.
     #[error(transparent)]
     Encoder(#[from] EncoderError),
+    /// The linear manifold.
+    #[error(transparent)]
+    Linear(#[from] LinearError),
     /// The map at rest.
     #[error(transparent)]
     Map(#[from] DeformationMapError),

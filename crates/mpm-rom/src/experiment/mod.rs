@@ -1,5 +1,6 @@
 //! An experiment from one file: full-order data, training, reduced runs beside full-order ones.
 
+mod beside;
 mod case;
 mod config;
 mod error;
@@ -10,7 +11,7 @@ mod results;
 mod tests;
 mod trained;
 
-pub use config::{Cases, Experiment, Key, QuadratureName, ReducedRuns, SampleCount, UpdateName};
+pub use config::{Cases, Experiment, Key, ManifoldName, QuadratureName, ReducedRuns, SampleCount, UpdateName};
 pub use error::ExperimentError;
 pub use files::names;
 pub use reduced::run;

@@ -9,6 +9,8 @@ pub struct ReducedRow {
     pub case: usize,
     /// Values of its parameters.
     pub parameters: Vec<f64>,
+    /// The family of maps.
+    pub manifold: &'static str,
     /// |𝒫|.
     pub samples: usize,
     /// The quadrature.
@@ -17,8 +19,8 @@ pub struct ReducedRow {
     pub update: &'static str,
     /// The position error over all frames reached, in per cent.
     pub error: f64,
-    /// What encoder and network lose of the full-order frames without any dynamics, in per cent.
-    pub reconstruction_error: f64,
+    /// What encoder and network lose of the full-order frames without any dynamics, in per cent; `None` without an encoder.
+    pub reconstruction_error: Option<f64>,
     /// Time simulated (s).
     pub simulated: f64,
     /// Steps.
@@ -40,8 +42,6 @@ pub struct ReducedRow {
 /// A frame of a reduced run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameRow {
-    /// The row of the run, counted from 0.
-    pub run: usize,
     /// t (s).
     pub time: f64,
     /// The position error of this frame, in per cent.
@@ -53,7 +53,7 @@ pub struct FrameRow {
 /// All rows as CSV.
 pub(super) fn results(parameters: &[String], rows: &[ReducedRow]) -> String {
     let mut text = format!(
-        "case,{},samples,quadrature,update,position_error_percent,",
+        "case,{},manifold,samples,quadrature,update,position_error_percent,",
         parameters.join(",")
     );
     text.push_str(
@@ -66,14 +66,16 @@ pub(super) fn results(parameters: &[String], rows: &[ReducedRow]) -> String {
         // A String takes everything.
         let _ = writeln!(
             text,
-            "{},{},{},{},{},{:?},{:?},{:?},{},{:.6},{:.6},{speed_up:.3},{real_time:.3},{},{},{},\"{}\"",
+            "{},{},{},{},{},{},{:?},{},{:?},{},{:.6},{:.6},{speed_up:.3},{real_time:.3},{},{},{},\"{}\"",
             row.case,
             values.join(","),
+            row.manifold,
             row.samples,
             row.quadrature,
             row.update,
             row.error,
-            row.reconstruction_error,
+            row.reconstruction_error
+                .map_or(String::new(), |error| format!("{error:?}")),
             row.simulated,
             row.steps,
             row.seconds,
@@ -87,14 +89,16 @@ pub(super) fn results(parameters: &[String], rows: &[ReducedRow]) -> String {
     text
 }
 
-/// All frames as CSV, with as many coordinates as the first one has.
-pub(super) fn frames(rows: &[FrameRow]) -> String {
-    let coordinates = rows.first().map_or(0, |row| row.latent.len());
+/// All frames of all runs as CSV; `run` is the row of the run in the results, counted from 0.
+pub(super) fn frames(runs: &[Vec<FrameRow>]) -> String {
+    let coordinates = runs.iter().flatten().next().map_or(0, |row| row.latent.len());
     let names: String = (1..=coordinates).map(|k| format!(",x{k}")).collect();
     let mut text = format!("run,time,position_error_percent{names}\n");
-    for row in rows {
-        let latent: String = row.latent.iter().map(|value| format!(",{value:?}")).collect();
-        let _ = writeln!(text, "{},{:?},{:?}{latent}", row.run, row.time, row.error);
+    for (run, rows) in runs.iter().enumerate() {
+        for row in rows {
+            let latent: String = row.latent.iter().map(|value| format!(",{value:?}")).collect();
+            let _ = writeln!(text, "{run},{:?},{:?}{latent}", row.time, row.error);
+        }
     }
     text
 }

@@ -35,7 +35,7 @@ keys = [
 ]
 cases = { train = [[1.0, 0.0], [3.0, 0.2]], test = [[2.0, 0.1]] }
 training = { coordinates = 2, width = 6, depth = 2, epochs = 4, batch = 2, checkpoint_interval = 2 }
-run = { samples = [20, "all"], quadrature = ["lagrangian"], update = ["position-velocity", "velocity-only"] }
+run = { manifold = ["network", "linear"], samples = [20, "all"], quadrature = ["lagrangian"], update = ["position-velocity", "velocity-only"] }
 "#;
 
 fn files() -> (tempfile::TempDir, PathBuf) {
@@ -135,14 +135,24 @@ fn an_experiment_is_stopped_goes_on_and_is_run() {
     }
 
     let rows = run::<2>(&experiment, &whole, &mut |_| true).expect("run");
-    let kinds: Vec<_> = rows.iter().map(|row| (row.samples, row.update)).collect();
+    let kinds: Vec<_> = rows[..4].iter().map(|row| (row.samples, row.update)).collect();
     let updates = ["position-velocity", "velocity-only"];
+    assert!(
+        rows[..4]
+            .iter()
+            .all(|row| row.manifold == "network" && row.reconstruction_error.is_some())
+    );
+    assert!(
+        rows[4..]
+            .iter()
+            .all(|row| row.manifold == "linear" && row.outcome == "finished")
+    );
     assert_eq!(
         kinds,
         [(20, updates[0]), (20, updates[1]), (64, updates[0]), (64, updates[1])]
     );
     let table = String::from_utf8(bytes(&whole, names::RESULTS)).expect("text");
-    assert_eq!(table.lines().count(), 5);
+    assert_eq!(table.lines().count(), 9);
     let frames = String::from_utf8(bytes(&whole, names::FRAMES)).expect("text");
     assert!(
         frames.starts_with("run,time,position_error_percent,x1,x2\n0,0.0,"),
@@ -157,7 +167,7 @@ fn an_experiment_is_stopped_goes_on_and_is_run() {
     ));
     other = experiment.clone();
     other.run.samples.truncate(1);
-    assert_eq!(run::<2>(&other, &whole, &mut |_| true).expect("run").len(), 2);
+    assert_eq!(run::<2>(&other, &whole, &mut |_| true).expect("run").len(), 4);
     assert!(matches!(
         run::<2>(&other, &whole, &mut |_| false),
         Err(ExperimentError::Stopped)

@@ -133,20 +133,24 @@ fn losses(history: &[EpochReport]) -> String {
     text
 }
 
-/// The model of a directory, if it fits a scene with these points.
+/// The model of a directory, if it fits the scene.
 pub(super) fn model_for<const D: usize>(
+    experiment: &Experiment,
     directory: &Path,
-    scene: &str,
-    points: usize,
+    document: &SceneDocument,
 ) -> Result<Model<D>, ExperimentError> {
     let file = directory.join(names::MODEL);
     let model = Model::<D>::read(&file)?;
+    let scene = document.scene(&experiment.case(&experiment.cases.test[0])?.changes)?;
+    let points = full_order::body_of::<D>(&scene, &experiment.parameters)?
+        .reference
+        .len();
     let trained_on = model.encoder().shape().points;
-    if model.summary().scene != scene || trained_on != points {
+    if model.summary().scene != scene.title || trained_on != points {
         return Err(ExperimentError::OtherScene {
             file: file.display().to_string(),
             found: format!("{}, {trained_on} points", model.summary().scene),
-            expected: format!("{scene}, {points} points"),
+            expected: format!("{}, {points} points", scene.title),
         });
     }
     Ok(model)

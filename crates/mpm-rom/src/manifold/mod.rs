@@ -25,3 +25,13 @@ pub trait Manifold<const D: usize>: Send + Sync {
     /// others, nor on the number of threads.
     fn evaluate(&self, reference: &[[f64; D]], latent: &[f64], wanted: Wanted, out: &mut Evaluation<D>);
 }
+
+impl<const D: usize, M: Manifold<D> + ?Sized> Manifold<D> for &M {
+    fn coordinates(&self) -> usize {
+        (**self).coordinates()
+    }
+
+    fn evaluate(&self, reference: &[[f64; D]], latent: &[f64], wanted: Wanted, out: &mut Evaluation<D>) {
+        (**self).evaluate(reference, latent, wanted, out);
+    }
+}

@@ -3,7 +3,8 @@
 use std::any::Any;
 
 use mpm_mesh::generate::{
-    EdgeTarget, GenerationError, ball, cuboid, cyclic_sizes, disk, outlines, rectangle, segments, slope, wavy_channel,
+    EdgeTarget, GenerationError, ball, cuboid, cyclic_sizes, disk, outlines, rectangle, segments, slope,
+    triangle_lattice, wavy_channel,
 };
 use mpm_mesh::{SimplexMesh, read_msh};
 
@@ -69,6 +70,7 @@ fn generate<const D: usize>(table: &MeshShapeTable) -> Result<SimplexMesh<D>, Ge
             as_dimension(segments(*start, &sizes)?)
         }
         MeshShapeTable::Rectangle { lower, upper, size } => as_dimension(rectangle(*lower, *upper, &plane(*size))?),
+        MeshShapeTable::Lattice { lower, upper, size } => as_dimension(triangle_lattice(*lower, *upper, *size)?),
         MeshShapeTable::Polygon { corners, holes, size } => {
             let all: Vec<_> = std::iter::once(corners).chain(holes).cloned().collect();
             as_dimension(outlines(&all, &plane(*size))?)

@@ -1,39 +1,30 @@
-//! Frames as VTK XML unstructured grids with raw appended data, the binary form that ParaView reads fastest.
+//! Frames as VTK XML unstructured grids.
+
+use mpm_mesh::Appended;
 
 use crate::Snapshot;
 
 /// A `.vtu` file of a snapshot: one vertex per particle, positions padded with zeros to three coordinates.
 ///
 /// Arrays at the points: `displacement`, `velocity` (three components), `stress` (Cauchy, nine), `pressure` (−tr σ / D), `volume_ratio` (J), `mass`, `volume`
-/// (current, J V⁰), `body`, `material`, `particle` (number in the order of creation) and the internal variables of the laws.
-///
-/// Format: VTK XML, version 1.0, little endian; every array is a 64-bit count of bytes followed by the bytes
-/// (<https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html>).
+/// (current, J V⁰), `body`, `material`, `particle` (number in the order of creation) and the internal variables of the laws. For the format see [`Appended`].
 pub fn vtu(snapshot: &Snapshot) -> Vec<u8> {
     let count = snapshot.len();
     let mut appended = Appended::default();
     let points = appended.floats("position", 3, &padded(snapshot, &snapshot.positions));
     let connectivity = appended.integers("connectivity", (0..count).map(|p| p as i64));
     let offsets = appended.integers("offsets", (1..=count).map(|p| p as i64));
-    let types = appended.array("UInt8", "types", 1, vec![1; count]);
+    let types = appended.array("UInt8", "types", 1, &vec![1; count]);
     let data = point_data(snapshot, &mut appended);
-    let header = format!(
-        "<?xml version=\"1.0\"?>\n\
-         <VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n\
-         <UnstructuredGrid>\n\
-         <FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{:?}</DataArray>\n</FieldData>\n\
+    appended.file(&format!(
+        "<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{:?}</DataArray>\n</FieldData>\n\
          <Piece NumberOfPoints=\"{count}\" NumberOfCells=\"{count}\">\n\
          <Points>\n{points}</Points>\n\
          <Cells>\n{connectivity}{offsets}{types}</Cells>\n\
          <PointData Vectors=\"velocity\" Tensors=\"stress\">\n{data}</PointData>\n\
-         </Piece>\n</UnstructuredGrid>\n\
-         <AppendedData encoding=\"raw\">\n_",
+         </Piece>\n",
         snapshot.time
-    );
-    let mut file = header.into_bytes();
-    file.extend(appended.bytes);
-    file.extend(b"\n</AppendedData>\n</VTKFile>\n");
-    file
+    ))
 }
 
 fn point_data(snapshot: &Snapshot, appended: &mut Appended) -> String {
@@ -95,33 +86,6 @@ fn padded_tensor(tensor: &[f64], dimension: usize) -> [f64; 9] {
             0.0
         }
     })
-}
-
-/// The block of data behind the text, and where each array begins in it.
-#[derive(Default)]
-struct Appended {
-    bytes: Vec<u8>,
-}
-
-impl Appended {
-    /// Adds an array; returns the element that describes it.
-    fn array(&mut self, kind: &str, name: &str, components: usize, content: Vec<u8>) -> String {
-        let offset = self.bytes.len();
-        self.bytes.extend((content.len() as u64).to_le_bytes());
-        self.bytes.extend(content);
-        format!(
-            "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"appended\" offset=\"{offset}\"/>\n"
-        )
-    }
-
-    fn floats(&mut self, name: &str, components: usize, values: &[f64]) -> String {
-        let content = values.iter().flat_map(|value| value.to_le_bytes()).collect();
-        self.array("Float64", name, components, content)
-    }
-
-    fn integers(&mut self, name: &str, values: impl Iterator<Item = i64>) -> String {
-        self.array("Int64", name, 1, values.flat_map(i64::to_le_bytes).collect())
-    }
 }
 
 #[cfg(test)]

@@ -62,6 +62,15 @@ pub enum MeshShapeTable {
         /// Length of edges.
         size: f64,
     },
+    /// Equal triangles that cover a rectangle, with straight sides across x only, D = 2.
+    Lattice {
+        /// Lowest corner.
+        lower: [f64; 2],
+        /// Highest corner.
+        upper: [f64; 2],
+        /// Length of edges.
+        size: f64,
+    },
     /// A polygon that does not cross itself, D = 2.
     Polygon {
         /// The corners in either order.
@@ -131,6 +140,7 @@ impl MeshShapeTable {
         match self {
             Self::Segments { size, .. }
             | Self::Rectangle { size, .. }
+            | Self::Lattice { size, .. }
             | Self::Polygon { size, .. }
             | Self::Disk { size, .. }
             | Self::Channel { size, .. }
@@ -144,7 +154,11 @@ impl MeshShapeTable {
     pub fn dimension(&self) -> usize {
         match self {
             Self::Segments { .. } => 1,
-            Self::Rectangle { .. } | Self::Polygon { .. } | Self::Disk { .. } | Self::Channel { .. } => 2,
+            Self::Rectangle { .. }
+            | Self::Lattice { .. }
+            | Self::Polygon { .. }
+            | Self::Disk { .. }
+            | Self::Channel { .. } => 2,
             Self::Box { .. } | Self::Slope { .. } | Self::Ball { .. } => 3,
         }
     }

@@ -6,6 +6,7 @@ mod document;
 mod failures;
 mod forces;
 mod kinematic;
+mod on_meshes;
 mod resume;
 mod runs;
 mod scenes;

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use mpm_scenes::{Outcome, Progress, simulate};
 
-use super::scenes::{BAR, BLOCK, CUBE, HEAPS, scene};
+use super::scenes::{BAR, BLOCK, BLOCK_ON_MESH, CUBE, HEAPS, scene};
 
 /// All files of a directory.
 fn files(directory: &Path) -> BTreeMap<String, Vec<u8>> {
@@ -21,7 +21,7 @@ fn files(directory: &Path) -> BTreeMap<String, Vec<u8>> {
 
 #[test]
 fn a_stopped_run_ends_with_the_files_of_one_that_was_not() {
-    for text in [BAR, BLOCK, HEAPS, CUBE] {
+    for text in [BAR, BLOCK, HEAPS, CUBE, BLOCK_ON_MESH] {
         let scene = scene(text);
         let (whole, parts) = (
             tempfile::tempdir().expect("a directory"),

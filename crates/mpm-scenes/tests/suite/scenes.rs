@@ -239,6 +239,38 @@ velocity = { kind = "rotation", centre = [0.0, 0.0, 0.0], rate = [0.0, 1.0, 2.0]
 interval = 0.05
 "#;
 
+/// A block that turns and swings freely on a lattice of triangles, D = 2.
+pub const BLOCK_ON_MESH: &str = r#"
+title = "a block on a lattice"
+dimension = 2
+
+[mesh]
+generate = { kind = "lattice", lower = [-1.0, -1.0], upper = [1.0, 1.0], size = 0.2 }
+
+[transfer]
+kind = "apic"
+
+[time]
+end = 0.2
+
+[materials.rubber]
+law = "neo-hookean"
+density = 1.0
+young_modulus = 10.0
+poisson_ratio = 0.3
+
+[[bodies]]
+name = "block"
+material = "rubber"
+shape = { kind = "box", lower = [-0.4, -0.3], upper = [0.4, 0.3] }
+spacing = 0.1
+velocity = { kind = "linear", centre = [0.0, 0.0], gradient = [[0.3, 0.2], [0.5, -0.1]] }
+
+[output]
+interval = 0.1
+series_interval = 0.02
+"#;
+
 /// A block inside a square mesh whose boundary it cannot pass, D = 2.
 pub const RUBBER_ON_MESH: &str = r#"
 title = "rubber on a mesh"

@@ -46,7 +46,7 @@ pub fn errors(directory: &Path, title: &str, rows: &[ReducedRow]) -> Result<(), 
     for (file, y_label, value) in figures {
         let mut series: Vec<LineSeries> = Vec::new();
         for group in groups(rows) {
-            let label = format!("{}, {}", group[0].quadrature, group[0].update);
+            let label = format!("{}, {}, {}", group[0].manifold, group[0].quadrature, group[0].update);
             let values: Vec<f64> = group.iter().map(|row| value(row)).collect();
             let mean = values.iter().sum::<f64>() / values.len() as f64;
             let ends = values.iter().fold((f64::INFINITY, 0.0f64), |(low, high), &value| {

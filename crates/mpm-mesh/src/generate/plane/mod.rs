@@ -1,14 +1,18 @@
 //! Triangles that are near to equilateral, in domains bounded by polygons.
 
+mod ampersand;
 mod delaunay;
 mod lattice;
 mod outline;
 mod relax;
 mod shapes;
+mod triangle_lattice;
 
+pub use self::ampersand::ampersand;
 pub(super) use self::delaunay::Triangulation;
 pub(super) use self::outline::{encloses, squared_distance_to_segment};
 pub use self::shapes::{disk, polygon, rectangle, wavy_channel};
+pub use self::triangle_lattice::triangle_lattice;
 
 use self::outline::Outline;
 use super::GenerationError;
