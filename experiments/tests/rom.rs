@@ -92,7 +92,7 @@ fn what_is_wrong_is_named() {
         } else {
             "rom train rom.toml --out out"
         };
-        assert_refused(&parvi(root.path(), command), 1, expected);
+        assert_refused(&parvi(root.path(), command), &[expected]);
     }
 }
 
