@@ -1,10 +1,12 @@
 //! Families of deformation maps X → g̃(X, x̂) with a few coordinates x̂.
 
 mod evaluation;
+pub mod network;
 #[cfg(test)]
 mod polynomial;
 
 pub use evaluation::{Evaluation, Wanted};
+pub use network::{Network, NetworkError, NetworkShape, Scaling};
 #[cfg(test)]
 pub(crate) use polynomial::Fields;
 

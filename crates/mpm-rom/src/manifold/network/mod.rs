@@ -1,0 +1,191 @@
+//! The nonlinear manifold: a fully connected network of X and x̂.
+
+mod scaling;
+mod seed;
+mod shape;
+mod tape;
+
+pub use scaling::Scaling;
+pub(crate) use seed::{SeedAdjoint, SeedTarget};
+pub use shape::NetworkShape;
+pub(crate) use shape::{Layer, draw_uniform};
+pub(crate) use tape::Tape;
+
+use mpm_tensor::Matrix;
+use rand::Rng;
+use rayon::prelude::*;
+
+use super::{Evaluation, Manifold, Wanted};
+
+/// Points that go through the layers together: as many as keep a layer's columns in the second-level cache.
+pub(crate) const CHUNK: usize = 64;
+
+/// g̃(X, x̂) = mean + deviation ∘ y(u, x̂) with u = (X − centre) ∘ factor and y fully connected, (D + r) → width → … → width → D, ELU between
+/// (Chen et al. 2023, §4.1: width 30, depth 4).
+///
+/// Derivatives are forward tangents carried through the same layers: ẏ' = ELU'(z) ∘ (W ẏ).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Network<const D: usize> {
+    shape: NetworkShape,
+    scaling: Scaling,
+    layers: Vec<Layer>,
+    parameters: Vec<f64>,
+}
+
+/// Sizes, scaling and parameters that make no network.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NetworkError {
+    /// A size is zero.
+    #[error("network of shape {0:?}: every size must be at least 1")]
+    Shape(NetworkShape),
+    /// The scaling is not of D axes, or not finite and positive.
+    #[error("{0:?} does not scale {1} axes")]
+    Scaling(Scaling, usize),
+    /// There are more or fewer parameters than weights and biases.
+    #[error("{found} parameters for {expected} weights and biases")]
+    Parameters {
+        /// How many there are.
+        found: usize,
+        /// How many the shape has.
+        expected: usize,
+    },
+}
+
+impl<const D: usize> Network<D> {
+    /// The network with these weights and biases: layer by layer W row-major (outputs × inputs; inputs of the first: X, then x̂), then b.
+    ///
+    /// # Errors
+    /// [`NetworkError`].
+    pub fn new(shape: NetworkShape, scaling: Scaling, parameters: Vec<f64>) -> Result<Self, NetworkError> {
+        if shape.coordinates == 0 || shape.width == 0 || shape.depth == 0 {
+            return Err(NetworkError::Shape(shape));
+        }
+        if !scaling.is_sound(D) {
+            return Err(NetworkError::Scaling(scaling, D));
+        }
+        let expected = shape.parameters(D);
+        if parameters.len() != expected {
+            let found = parameters.len();
+            return Err(NetworkError::Parameters { found, expected });
+        }
+        Ok(Self {
+            shape,
+            scaling,
+            layers: shape.layers(D),
+            parameters,
+        })
+    }
+
+    /// A network to start from: weights uniform in ±√(6 / (inputs + outputs)) (Glorot, Bengio 2010), biases 0.
+    ///
+    /// # Errors
+    /// [`NetworkError`].
+    pub fn start(shape: NetworkShape, scaling: Scaling, generator: &mut impl Rng) -> Result<Self, NetworkError> {
+        let mut network = Self::new(shape, scaling, vec![0.0; shape.parameters(D)])?;
+        for layer in &network.layers {
+            layer.draw(&mut network.parameters, generator);
+        }
+        Ok(network)
+    }
+
+    /// Its sizes.
+    pub fn shape(&self) -> NetworkShape {
+        self.shape
+    }
+
+    /// Its scaling.
+    pub fn scaling(&self) -> &Scaling {
+        &self.scaling
+    }
+
+    /// Weights and biases in the order of [`Self::new`].
+    pub fn parameters(&self) -> &[f64] {
+        &self.parameters
+    }
+
+    pub(crate) fn parameters_mut(&mut self) -> &mut [f64] {
+        &mut self.parameters
+    }
+
+    /// Weights, biases and number of inputs of the first layer.
+    fn first_layer(&self) -> (&[f64], &[f64], usize) {
+        let first = &self.layers[0];
+        let weights = &self.parameters[first.weights.clone()];
+        (weights, &self.parameters[first.bias.clone()], first.inputs)
+    }
+}
+
+impl<const D: usize> Manifold<D> for Network<D> {
+    fn coordinates(&self) -> usize {
+        self.shape.coordinates
+    }
+
+    fn evaluate(&self, reference: &[[f64; D]], latent: &[f64], wanted: Wanted, out: &mut Evaluation<D>) {
+        let r = self.shape.coordinates;
+        let unit = |k: usize| (0..r).map(move |j| f64::from(u8::from(j == k)));
+        let basis: Vec<f64> = (0..if wanted.jacobians { r } else { 0 }).flat_map(unit).collect();
+        let seed = self.seed(latent, wanted.gradients, basis.chunks_exact(r));
+        let (points, skipped) = (reference.len(), if wanted.gradients { D } else { 0 });
+        out.positions.resize(points, [0.0; D]);
+        out.gradients
+            .resize(if wanted.gradients { points } else { 0 }, Matrix::ZERO);
+        out.jacobians
+            .resize(if wanted.jacobians { points * r } else { 0 }, [0.0; D]);
+        // Lists that were not wanted are empty; their chunks then have to come from somewhere.
+        let chunks = points.div_ceil(CHUNK);
+        let mut gradients: Vec<_> = out.gradients.chunks_mut(CHUNK).map(Some).collect();
+        let mut jacobians: Vec<_> = out.jacobians.chunks_mut(CHUNK * r).map(Some).collect();
+        gradients.resize_with(chunks, || None);
+        jacobians.resize_with(chunks, || None);
+        let work = |tape: &mut Tape, ((reference, positions), (gradients, jacobians)): Chunk<'_, D>| {
+            self.forward(reference, &seed, tape);
+            let deviation = &self.scaling.deviation;
+            for c in 0..D {
+                for (position, y) in positions.iter_mut().zip(tape.output(c, 0)) {
+                    position[c] = self.scaling.mean[c] + deviation[c] * y;
+                }
+            }
+            if let Some(gradients) = gradients {
+                for c in 0..D {
+                    for k in 0..D {
+                        for (gradient, y) in gradients.iter_mut().zip(tape.output(c, 1 + k)) {
+                            gradient.0[c][k] = deviation[c] * y;
+                        }
+                    }
+                }
+            }
+            if let Some(jacobians) = jacobians {
+                for c in 0..D {
+                    for k in 0..r {
+                        let columns = jacobians.chunks_exact_mut(r);
+                        for (columns, y) in columns.zip(tape.output(c, 1 + skipped + k)) {
+                            columns[k][c] = deviation[c] * y;
+                        }
+                    }
+                }
+            }
+        };
+        let lists = reference
+            .chunks(CHUNK)
+            .zip(out.positions.chunks_mut(CHUNK))
+            .zip(gradients.into_iter().zip(jacobians));
+        let lists: Vec<Chunk<'_, D>> = lists.collect();
+        // Handing a few chunks to other threads costs more than it saves.
+        if chunks < 4 {
+            let mut tape = Tape::default();
+            lists.into_iter().for_each(|chunk| work(&mut tape, chunk));
+        } else {
+            lists.into_par_iter().for_each_init(Tape::default, work);
+        }
+    }
+}
+
+/// Points, positions, gradients and Jacobians of a chunk.
+type Chunk<'a, const D: usize> = (
+    (&'a [[f64; D]], &'a mut [[f64; D]]),
+    (Option<&'a mut [Matrix<D>]>, Option<&'a mut [[f64; D]]>),
+);
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,186 @@
+use rand::SeedableRng;
+use rand::rngs::ChaCha8Rng;
+
+use super::*;
+
+const SHAPE: NetworkShape = NetworkShape {
+    coordinates: 2,
+    width: 5,
+    depth: 3,
+};
+
+fn scaling() -> Scaling {
+    Scaling {
+        centre: vec![0.3, -0.2, 0.1],
+        factor: vec![1.5, 0.7, 2.0],
+        mean: vec![0.1, 0.2, -0.3],
+        deviation: vec![0.8, 0.5, 1.2],
+    }
+}
+
+fn network() -> Network<3> {
+    let mut network = Network::start(SHAPE, scaling(), &mut ChaCha8Rng::seed_from_u64(3)).unwrap();
+    // Biases that are not zero, so that a test sees them.
+    for (k, parameter) in network.parameters.iter_mut().enumerate() {
+        *parameter += 0.1 * (k as f64).sin();
+    }
+    network
+}
+
+fn points(count: usize) -> Vec<[f64; 3]> {
+    let at = |n: usize| [(n as f64).sin(), (1.3 * n as f64).cos(), (0.7 * n as f64).sin()];
+    (0..count).map(at).collect()
+}
+
+const ALL: Wanted = Wanted {
+    gradients: true,
+    jacobians: true,
+};
+
+fn evaluate(network: &Network<3>, points: &[[f64; 3]], latent: &[f64], wanted: Wanted) -> Evaluation<3> {
+    let mut out = Evaluation::default();
+    network.evaluate(points, latent, wanted, &mut out);
+    out
+}
+
+/// The formula, one point and one unit at a time.
+fn naive(network: &Network<3>, position: [f64; 3], latent: &[f64]) -> [f64; 3] {
+    let s = &network.scaling;
+    let mut a: Vec<f64> = (0..3).map(|k| (position[k] - s.centre[k]) * s.factor[k]).collect();
+    a.extend(latent);
+    for (number, layer) in network.layers.iter().enumerate() {
+        let weights = &network.parameters[layer.weights.clone()];
+        let bias = &network.parameters[layer.bias.clone()];
+        let row = |unit: usize| (0..layer.inputs).map(move |k| (unit * layer.inputs + k, k));
+        let z = |unit: usize| bias[unit] + row(unit).map(|(at, k)| weights[at] * a[k]).sum::<f64>();
+        let z: Vec<f64> = (0..layer.outputs).map(z).collect();
+        let last = number + 1 == network.layers.len();
+        a = z
+            .iter()
+            .map(|&z| if last || z > 0.0 { z } else { z.exp() - 1.0 })
+            .collect();
+    }
+    std::array::from_fn(|c| s.mean[c] + s.deviation[c] * a[c])
+}
+
+#[test]
+fn values_follow_the_formula() {
+    let network = network();
+    let (points, latent) = (points(200), [0.4, -0.9]);
+    let out = evaluate(&network, &points, &latent, Wanted::default());
+    for (point, position) in points.iter().zip(&out.positions) {
+        let expected = naive(&network, *point, &latent);
+        for c in 0..3 {
+            assert!((position[c] - expected[c]).abs() < 1e-13);
+        }
+    }
+    assert!(out.gradients.is_empty() && out.jacobians.is_empty());
+}
+
+#[test]
+fn derivatives_are_those_of_the_values() {
+    let network = network();
+    let (points, latent) = (points(70), [0.4, -0.9]);
+    let out = evaluate(&network, &points, &latent, ALL);
+    let step = 1e-6;
+    for (p, point) in points.iter().enumerate() {
+        for k in 0..3 {
+            let moved = |by: f64| {
+                let mut moved = *point;
+                moved[k] += by;
+                naive(&network, moved, &latent)
+            };
+            let (plus, minus) = (moved(step), moved(-step));
+            for c in 0..3 {
+                let difference = (plus[c] - minus[c]) / (2.0 * step);
+                assert!(
+                    (out.gradients[p].0[c][k] - difference).abs() < 2e-8,
+                    "point {p}, axis {k}"
+                );
+            }
+        }
+        for k in 0..2 {
+            let moved = |by: f64| {
+                let mut moved = latent;
+                moved[k] += by;
+                naive(&network, *point, &moved)
+            };
+            let (plus, minus) = (moved(step), moved(-step));
+            for c in 0..3 {
+                let difference = (plus[c] - minus[c]) / (2.0 * step);
+                assert!(
+                    (out.jacobians[p * 2 + k][c] - difference).abs() < 2e-8,
+                    "point {p}, coordinate {k}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_point_alone_has_the_same_bits() {
+    let network = Network::<3>::start(
+        NetworkShape {
+            coordinates: 6,
+            width: 30,
+            depth: 4,
+        },
+        scaling(),
+        &mut ChaCha8Rng::seed_from_u64(1),
+    )
+    .unwrap();
+    let (points, latent) = (points(333), [0.1, 0.2, 0.3, -0.4, 0.5, -0.6]);
+    for wanted in [
+        ALL,
+        Wanted::default(),
+        Wanted {
+            gradients: true,
+            jacobians: false,
+        },
+    ] {
+        let all = evaluate(&network, &points, &latent, wanted);
+        for count in [1, 2, 3, 5, 17, 63] {
+            let from = 128;
+            let some = evaluate(&network, &points[from..from + count], &latent, wanted);
+            assert_eq!(some.positions, all.positions[from..from + count], "{count} points");
+            if wanted.gradients {
+                assert_eq!(some.gradients, all.gradients[from..from + count], "{count} points");
+            }
+            if wanted.jacobians {
+                assert_eq!(some.jacobians, all.jacobians[6 * from..6 * (from + count)]);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_number_of_threads_does_not_matter() {
+    let network = network();
+    let points = points(1000);
+    let on = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| evaluate(&network, &points, &[0.4, -0.9], ALL))
+    };
+    let (one, three) = (on(1), on(3));
+    assert_eq!(one.positions, three.positions);
+    assert_eq!(one.gradients, three.gradients);
+    assert_eq!(one.jacobians, three.jacobians);
+}
+
+#[test]
+fn what_makes_no_network_is_refused() {
+    let none = NetworkShape { width: 0, ..SHAPE };
+    assert_eq!(
+        Network::<3>::new(none, scaling(), vec![]),
+        Err(NetworkError::Shape(none))
+    );
+    let expected = SHAPE.parameters(3);
+    assert_eq!(
+        Network::<3>::new(SHAPE, scaling(), vec![0.0]),
+        Err(NetworkError::Parameters { found: 1, expected })
+    );
+    assert!(matches!(
+        Network::<2>::new(SHAPE, scaling(), vec![0.0; SHAPE.parameters(2)]),
+        Err(NetworkError::Scaling(_, 2))
+    ));
+}

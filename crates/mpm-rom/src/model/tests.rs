@@ -1,0 +1,100 @@
+use std::path::Path;
+
+use rand::SeedableRng;
+use rand::rngs::ChaCha8Rng;
+
+use super::*;
+use crate::encoder::EncoderShape;
+use crate::manifold::{NetworkShape, Scaling};
+use crate::tensor_file::TensorFileError as E;
+
+fn model() -> Model<2> {
+    let scaling = Scaling {
+        centre: vec![0.0; 2],
+        factor: vec![1.0 / 3.0; 2],
+        mean: vec![0.1, 0.2],
+        deviation: vec![1.0, 2.0],
+    };
+    let network = NetworkShape {
+        coordinates: 3,
+        width: 5,
+        depth: 2,
+    };
+    let encoder = EncoderShape {
+        points: 50,
+        width: 4,
+        coordinates: 3,
+    };
+    let mut generator = ChaCha8Rng::seed_from_u64(1);
+    let summary = Summary {
+        scene: "beam".to_owned(),
+        epochs: 7,
+        best: None,
+        training: Training::default(),
+    };
+    Model::new(
+        Network::start(network, scaling.clone(), &mut generator).unwrap(),
+        Encoder::start(encoder, scaling, &mut generator).unwrap(),
+        summary,
+    )
+}
+
+fn replaced(path: &Path, from: &str, to: &str) -> Result<Model<2>, E> {
+    assert_eq!(from.len(), to.len());
+    let bytes = std::fs::read(path).unwrap();
+    let at = bytes
+        .windows(from.len())
+        .position(|window| window == from.as_bytes())
+        .unwrap();
+    let mut changed = bytes.clone();
+    changed[at..at + to.len()].copy_from_slice(to.as_bytes());
+    let other = path.with_extension("changed");
+    std::fs::write(&other, changed).unwrap();
+    Model::read(&other)
+}
+
+#[test]
+fn a_file_reads_back_to_the_same_bits() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("model.safetensors");
+    model().write(&path).unwrap();
+    assert_eq!(Model::read(&path).unwrap(), model());
+}
+
+#[test]
+fn every_fault_has_its_error() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("model.safetensors");
+    model().write(&path).unwrap();
+    assert!(matches!(
+        Model::<3>::read(&path),
+        Err(E::Dimension {
+            found: 2,
+            expected: 3,
+            ..
+        })
+    ));
+    assert!(matches!(
+        replaced(&path, r#"\"version\":1"#, r#"\"version\":9"#),
+        Err(E::Version { found: 9, .. })
+    ));
+    assert!(matches!(
+        replaced(&path, r#"\"kind\":\"model\""#, r#"\"kind\":\"motel\""#),
+        Err(E::Kind { found, .. }) if found == "motel"
+    ));
+    assert!(matches!(
+        replaced(&path, r#"\"depth\":2"#, r#"\"depth\":3"#),
+        Err(E::Shape { name, .. }) if name == "network"
+    ));
+    assert!(matches!(
+        replaced(&path, r#""network":{"dtype"#, r#""netwerk":{"dtype"#),
+        Err(E::Missing { name, .. }) if name == "network"
+    ));
+    assert!(matches!(
+        replaced(&path, r#"\"width\":5"#, r#"\"girth\":5"#),
+        Err(E::Header { .. })
+    ));
+    let bytes = std::fs::read(&path).unwrap();
+    std::fs::write(&path, &bytes[..bytes.len() - 8]).unwrap();
+    assert!(matches!(Model::<2>::read(&path), Err(E::Damaged { .. })));
+}

@@ -1,0 +1,156 @@
+use serde::{Deserialize, Serialize};
+
+use super::TrainingError;
+
+/// How a network and an encoder are trained together.
+///
+/// A step of Adam takes `batch` pairs (run, frame) and of each frame `points` material points, drawn anew every time; the encoder always sees all
+/// points. An epoch takes every pair once. The rate falls exponentially from step to step, rate(s) = initial (final / initial)^{s / (S − 1)}
+/// for S steps (ours; the paper gives the end points).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Training {
+    /// r, the number of generalised coordinates, ≥ 1.
+    pub coordinates: usize,
+    /// Units of a hidden layer of the network, ≥ 1.
+    pub width: usize,
+    /// Hidden layers of the network, ≥ 1.
+    pub depth: usize,
+    /// Units of the encoder's dense hidden layer, ≥ 1.
+    pub encoder_width: usize,
+    /// λ_F, weight of ‖∇_X g̃ − F‖², ≥ 0.
+    pub gradient_weight: f64,
+    /// λ_v, weight of |∂g̃/∂x̂ (x̂(t_{n+1}) − x̂(t_n)) / Δt − v|², ≥ 0.
+    pub velocity_weight: f64,
+    /// Passes over all pairs, ≥ 1.
+    pub epochs: u64,
+    /// Pairs (run, frame) of a step, ≥ 1.
+    pub batch: usize,
+    /// Material points of a pair, ≥ 1; all of them if there are no more.
+    pub points: usize,
+    /// Adam's rate at the first step, > 0.
+    pub initial_rate: f64,
+    /// Adam's rate at the last step, > 0 and at most the first.
+    pub final_rate: f64,
+    /// Seed of everything random.
+    pub seed: u64,
+    /// Epochs between two checkpoints, ≥ 1.
+    pub checkpoint_interval: u64,
+}
+
+impl Default for Training {
+    fn default() -> Self {
+        Self {
+            coordinates: 6,
+            width: 30,
+            depth: 4,
+            encoder_width: 32,
+            gradient_weight: 100.0,
+            velocity_weight: 0.01,
+            epochs: 1000,
+            batch: 16,
+            points: 64,
+            initial_rate: 1e-3,
+            final_rate: 1e-6,
+            seed: 0,
+            checkpoint_interval: 50,
+        }
+    }
+}
+
+impl Training {
+    /// Whether every value is in its range.
+    ///
+    /// # Errors
+    /// [`TrainingError::Value`].
+    pub fn check(&self) -> Result<(), TrainingError> {
+        let sizes = [
+            ("coordinates", self.coordinates),
+            ("width", self.width),
+            ("depth", self.depth),
+            ("encoder_width", self.encoder_width),
+            ("batch", self.batch),
+            ("points", self.points),
+        ];
+        let intervals = [
+            ("epochs", self.epochs),
+            ("checkpoint_interval", self.checkpoint_interval),
+        ];
+        let weights = [
+            ("gradient_weight", self.gradient_weight),
+            ("velocity_weight", self.velocity_weight),
+        ];
+        let refuse = |field, value: &dyn ToString, expected| {
+            Err(TrainingError::Value {
+                field,
+                value: value.to_string(),
+                expected,
+            })
+        };
+        if let Some((field, value)) = sizes.iter().find(|(_, size)| *size == 0) {
+            return refuse(field, value, "at least 1");
+        }
+        if let Some((field, value)) = intervals.iter().find(|(_, number)| *number == 0) {
+            return refuse(field, value, "at least 1");
+        }
+        if let Some((field, value)) = weights
+            .iter()
+            .find(|(_, weight)| !(weight.is_finite() && *weight >= 0.0))
+        {
+            return refuse(field, value, "at least 0 and finite");
+        }
+        if !(self.initial_rate.is_finite() && self.initial_rate > 0.0) {
+            return refuse("initial_rate", &self.initial_rate, "positive and finite");
+        }
+        if !(self.final_rate > 0.0 && self.final_rate <= self.initial_rate) {
+            return refuse("final_rate", &self.final_rate, "positive and at most initial_rate");
+        }
+        Ok(())
+    }
+
+    /// Adam's rate at step s of S.
+    pub fn rate(&self, step: u64, steps: u64) -> f64 {
+        let fraction = step as f64 / steps.saturating_sub(1).max(1) as f64;
+        self.initial_rate * (self.final_rate / self.initial_rate).powf(fraction)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_rate_runs_from_end_to_end() {
+        let config = Training::default();
+        assert_eq!(config.rate(0, 100), 1e-3);
+        assert!((config.rate(99, 100) / 1e-6 - 1.0).abs() < 1e-12);
+        assert!((config.rate(1, 3) / 1e-3f64.mul_add(1e-6, 0.0).sqrt() - 1.0).abs() < 1e-9);
+        assert_eq!(config.rate(0, 1), 1e-3);
+    }
+
+    #[test]
+    fn values_out_of_range_are_named() {
+        let field = |change: fn(&mut Training)| {
+            let mut config = Training::default();
+            change(&mut config);
+            match config.check() {
+                Err(TrainingError::Value { field, .. }) => field,
+                other => panic!("{other:?}"),
+            }
+        };
+        assert!(Training::default().check().is_ok());
+        assert_eq!(field(|c| c.coordinates = 0), "coordinates");
+        assert_eq!(field(|c| c.points = 0), "points");
+        assert_eq!(field(|c| c.epochs = 0), "epochs");
+        assert_eq!(field(|c| c.gradient_weight = -1.0), "gradient_weight");
+        assert_eq!(field(|c| c.velocity_weight = f64::NAN), "velocity_weight");
+        assert_eq!(field(|c| c.initial_rate = f64::INFINITY), "initial_rate");
+        assert_eq!(field(|c| c.final_rate = 1.0), "final_rate");
+    }
+
+    #[test]
+    fn unknown_keys_are_refused() {
+        assert!(toml::from_str::<Training>("epochs = 3\nbatch = 2").is_ok());
+        assert!(toml::from_str::<Training>("epoch = 3").is_err());
+    }
+}
