@@ -71,8 +71,10 @@ fn what_does_not_fit_is_an_error_with_its_name() {
 
 #[test]
 fn tracers_leave_the_run_as_it_is_and_move_with_it() {
-    let held =
-        format!("{STRIP}[[kinematic]]\nregion = {{ kind = \"box\", lower = [0.0, 0.0], upper = [0.25, 0.5] }}\n");
+    let held = format!(
+        "{STRIP}[[kinematic]]\nregion = {{ kind = \"box\", lower = [0.0, 0.0], upper = [0.125, 0.5] }}\n\
+        [[held]]\nshape = {{ kind = \"half-space\", point = [0.25, 0.0], normal = [1.0, 0.0] }}\n"
+    );
     let scene = Scene::parse(&held, "strip.toml".as_ref()).expect("a scene");
     let body = crate::online::ReducedBody::<2>::of(&scene).expect("can be reduced");
     let frames = run(&scene, &body.centroid).expect("runs");

@@ -1,6 +1,6 @@
 //! The baseline for super-resolution: points that the coarse run carries along.
 
-use mpm_core::{Continuum, Masses, Mpm, Particles, Pic, SplineGrid, StepControl};
+use mpm_core::{Boundaries, Contact, Continuum, Masses, Mpm, Obstacle, Particles, Pic, SplineGrid, StepControl};
 use mpm_kernels::Quadratic;
 use mpm_materials::Material;
 use mpm_scenes::loads::Loads;
@@ -16,7 +16,7 @@ const SHARE: f64 = 1e-14;
 /// A tracer is a particle of vanishing mass and volume (ours): it moves with the velocities of the run's grid, x ← x + Δt Σ_i N_i(x) v_i, and only nodes that no
 /// particle of the body touches, beyond its surface, move with the tracers around them.
 pub struct TracedRun<'a, const D: usize> {
-    mpm: Mpm<D, SplineGrid<Quadratic, 3, D>, Pic, Continuum<&'a dyn Material<D>>, Loads<D>>,
+    mpm: Mpm<D, SplineGrid<Quadratic, 3, D>, Pic, Continuum<&'a dyn Material<D>>, Loads<D>, Boundaries<D>>,
     body: &'a ReducedBody<D>,
     step: u64,
 }
@@ -54,6 +54,12 @@ impl<'a, const D: usize> TracedRun<'a, D> {
             Continuum { law },
             loads,
         );
+        let held = body.held.iter().map(|held| Obstacle {
+            shape: Box::new(held.clone()),
+            contact: Contact::Stick,
+            velocity: held.velocity,
+        });
+        let mpm = mpm.with_boundary(Boundaries::new(Vec::new(), held.collect()));
         Ok(Self { mpm, body, step: 0 })
     }
 

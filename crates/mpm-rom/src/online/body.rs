@@ -1,5 +1,8 @@
 //! The body of a scene as the reduced dynamics see it.
 
+use std::sync::Arc;
+
+use mpm_core::SignedDistance;
 use mpm_kernels::UniformGrid;
 use mpm_materials::{ElasticModuli, FixedCorotated, Hencky, Material, NeoHookean, ParameterError};
 use mpm_scenes::scene::{BasisName, MaterialTable, SolidTable, TransferKind};
@@ -33,15 +36,37 @@ pub struct ReducedBody<const D: usize> {
     pub time_step: f64,
     /// Steps from one frame to the next.
     pub steps_per_frame: u64,
+    /// Regions whose nodes have a prescribed velocity.
+    pub held: Vec<HeldNodes<D>>,
     /// Where the body is at rest, in the scene's coordinates.
     pub shapes: Vec<Box<dyn Shape<D>>>,
+}
+
+/// Nodes inside a shape move with a given velocity: `[[held]]` of a scene.
+#[derive(Clone, Debug)]
+pub struct HeldNodes<const D: usize> {
+    shape: Arc<dyn Shape<D>>,
+    /// The origin of positions in the shape's coordinates.
+    centroid: [f64; D],
+    /// Their velocity.
+    pub velocity: [f64; D],
+}
+
+impl<const D: usize> SignedDistance<D> for HeldNodes<D> {
+    fn distance(&self, x: &[f64; D]) -> f64 {
+        self.shape.distance(&vector::add(x, &self.centroid))
+    }
+
+    fn normal(&self, x: &[f64; D]) -> [f64; D] {
+        self.shape.normal(&vector::add(x, &self.centroid))
+    }
 }
 
 impl<const D: usize> ReducedBody<D> {
     /// The body of a scene.
     ///
     /// # Errors
-    /// [`OnlineError::Unsupported`] for what the reduced dynamics do not have: other bases, transfers and laws, walls, obstacles, held nodes, loads, several
+    /// [`OnlineError::Unsupported`] for what the reduced dynamics do not have: other bases, transfers and laws, walls, obstacles, loads, several
     /// materials, a Δt that is not given or does not divide the frame; what [`body_of`] says.
     pub fn of(scene: &Scene) -> Result<Self, OnlineError> {
         let refused = |fault| scene.error(fault);
@@ -56,6 +81,15 @@ impl<const D: usize> ReducedBody<D> {
             .bodies
             .iter()
             .map(|body| shape::build::<D>("bodies.shape", &body.shape));
+        let held = scene.held.iter().map(|table| {
+            let velocity = table.velocity.iter().flatten().copied().chain(std::iter::repeat(0.0));
+            let mut entries = velocity.take(D);
+            Ok(HeldNodes {
+                shape: Arc::from(shape::build::<D>("held.shape", &table.shape)?),
+                centroid: body.centroid,
+                velocity: std::array::from_fn(|_| entries.next().unwrap_or(0.0)),
+            })
+        });
         let frame = scene.output.interval;
         let steps = (frame / scene.time.step.unwrap_or(f64::NAN)).round();
         let origin: [f64; D] = std::array::from_fn(|a| lower.get(a).copied().unwrap_or(0.0));
@@ -68,6 +102,7 @@ impl<const D: usize> ReducedBody<D> {
             grid: UniformGrid::new(vector::subtract(&origin, &body.centroid), grid),
             time_step: frame / steps,
             steps_per_frame: steps as u64,
+            held: held.collect::<Result<_, _>>().map_err(refused)?,
             shapes: shapes.collect::<Result<_, _>>().map_err(refused)?,
             reference: body.reference,
             centroid: body.centroid,
@@ -102,18 +137,13 @@ fn supported(scene: &Scene) -> Result<(f64, &[f64]), OnlineError> {
         .iter()
         .any(|body| body.rotation.is_some() || body.deformation.is_some());
     let moving = scene.bodies.iter().any(|body| body.velocity.is_some());
-    let surroundings = [
-        scene.walls.len(),
-        scene.obstacles.len(),
-        scene.held.len(),
-        scene.loads.len(),
-    ];
+    let surroundings = [scene.walls.len(), scene.obstacles.len(), scene.loads.len()];
     let rules = [
         (grid.basis == BasisName::Quadratic, "grid.basis", "\"quadratic\""),
         (scene.transfer.kind == TransferKind::Pic, "transfer.kind", "\"pic\""),
         (
-            surroundings == [0; 4] && scene.barrier.is_none(),
-            "walls, obstacles, held, loads, barrier",
+            surroundings == [0; 3] && scene.barrier.is_none(),
+            "walls, obstacles, loads, barrier",
             "left out",
         ),
         (!scene.volume_averaging, "volume_averaging", "false"),

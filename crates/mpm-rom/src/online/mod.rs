@@ -17,7 +17,7 @@ mod step;
 mod tests;
 mod timings;
 
-pub use body::ReducedBody;
+pub use body::{HeldNodes, ReducedBody};
 pub use compare::{compare, super_resolve};
 pub use error::OnlineError;
 pub use neighbours::Search;

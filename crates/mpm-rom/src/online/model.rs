@@ -17,8 +17,8 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
     /// [`OnlineError::Option`], [`OnlineError::TooFewSamples`], [`OnlineError::TooManySamples`].
     pub fn new(body: ReducedBody<D>, mut map: DeformationMap<D, M>, options: Options) -> Result<Self, OnlineError> {
         let scheme = scheme(&options.quadrature)?;
-        let (count, coordinates) = (body.reference.len(), map.coordinates());
-        let sample_numbers = options.samples.choose(count, coordinates, &body.kinematics)?;
+        let coordinates = map.coordinates();
+        let sample_numbers = options.samples.choose(&body.reference, coordinates, &body.kinematics)?;
         let (mut points, mut samples) = (MaterialPoints::default(), MaterialPoints::default());
         map.prepare(&body.reference, &mut points);
         samples.select(&points, &sample_numbers);

@@ -1,9 +1,10 @@
 //! The nodes ℐ that sample points touch, with their masses and velocities.
 
+use mpm_core::SignedDistance;
 use mpm_kernels::{Quadratic, Stencil, UniformGrid};
 use mpm_tensor::{Matrix, vector};
 
-use super::OnlineError;
+use super::{HeldNodes, OnlineError};
 
 /// Nodes per axis of the quadratic kernel.
 pub(super) const WIDTH: usize = 3;
@@ -175,6 +176,21 @@ impl<const D: usize> Nodes<D> {
         for (velocity, &mass) in self.velocities.iter_mut().zip(&self.masses) {
             if mass > 0.0 {
                 *velocity = velocity.map(|c| c / mass);
+            }
+        }
+    }
+
+    /// Gives nodes in held regions their velocities; where regions overlap, the last one's.
+    pub fn hold(&mut self, regions: &[HeldNodes<D>]) {
+        if regions.is_empty() {
+            return;
+        }
+        for number in 0..self.places.len() {
+            let x = self
+                .grid
+                .node_position(&self.node(self.places[number]).map(|c| c as i32));
+            for region in regions.iter().filter(|region| region.distance(&x) <= 0.0) {
+                self.velocities[number] = region.velocity;
             }
         }
     }

@@ -119,7 +119,8 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
     }
 
     /// (4) m_i = Σ N_i m_q, m_i v_i = Σ N_i m_q v_q, f_i = Σ (J_q / ρ₀) m_q (b N_i − σ_q ∇N_i), v_i ← v_i + Δt f_i / m_i, with
-    /// (J_q / ρ₀) m_q σ_q = (m_q / ρ₀) τ_q and (J_q / ρ₀) b = g the force per mass.
+    /// (J_q / ρ₀) m_q σ_q = (m_q / ρ₀) τ_q and (J_q / ρ₀) b = g the force per mass; held nodes
+    /// take their velocity (ours: as in the full-order run).
     fn sum_at_nodes(&mut self) {
         let (dt, density) = (self.body.time_step, self.body.density);
         for (x, v, volume, stress) in self.quadrature.iter() {
@@ -129,6 +130,7 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
             self.nodes.add(x, mass, &momentum, &(*stress * (dt * volume)));
         }
         self.nodes.divide();
+        self.nodes.hold(&self.body.held);
     }
 
     /// (4) v_p = Σ N_i v_i and x_p ← x_p + Δt v_p; kinematic points take what is prescribed for t_{n+1}.
