@@ -59,7 +59,7 @@ fn a_file_of_another_dimension_is_refused() {
     }
 }
 
-/// Momentum and angular momentum stay, energy nearly so; MLS differs from APIC by its stress force only.
+/// Momentum and angular momentum stay, energy does not grow; MLS differs from APIC by its stress force only.
 #[test]
 fn a_free_block_swings_alike_with_both_affine_transfers() {
     let directory = tempfile::tempdir().expect("a directory");
@@ -77,17 +77,14 @@ fn a_free_block_swings_alike_with_both_affine_transfers() {
                 .fold(0.0, |most: f64, value| most.max((value - values[0]).abs()));
             assert!(change < 1e-13, "{kind}: {name} changes by {change}");
         }
-        assert!(
-            energy.iter().all(|e| (e / energy[0] - 1.0).abs() < 0.05),
-            "{kind}: {energy:?}"
-        );
+        assert!(energy.iter().all(|e| *e <= energy[0]), "{kind}: {energy:?}");
         column("strain_energy")
     };
     let (apic, mls) = (columns("apic"), columns("mls"));
     let peak = apic.iter().fold(0.0, |peak: f64, energy| peak.max(*energy));
     assert!(peak > 0.0 && apic != mls);
     for (a, m) in apic.iter().zip(&mls) {
-        assert!((a - m).abs() < 0.1 * peak, "{apic:?} {mls:?}");
+        assert!((a - m).abs() < 0.01 * peak, "{apic:?} {mls:?}");
     }
 }
 
