@@ -1,3 +1,4 @@
+use proptest::prelude::*;
 use rand::SeedableRng;
 use rand::rngs::ChaCha8Rng;
 
@@ -183,4 +184,25 @@ fn what_makes_no_network_is_refused() {
         Network::<2>::new(SHAPE, scaling(), vec![0.0; SHAPE.parameters(2)]),
         Err(NetworkError::Scaling(_, 2))
     ));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(40))]
+
+    /// Any shape, any place in the list: the bits of a point are its own.
+    #[test]
+    fn neighbours_and_shapes_do_not_matter(
+        (coordinates, width, depth) in (1_usize..8, 1_usize..14, 1_usize..4),
+        (count, chosen) in (1_usize..150).prop_flat_map(|count| (Just(count), 0..count)),
+        seed in any::<u64>(),
+    ) {
+        let shape = NetworkShape { coordinates, width, depth };
+        let network = Network::<3>::start(shape, scaling(), &mut ChaCha8Rng::seed_from_u64(seed)).unwrap();
+        let (points, latent) = (points(count), vec![0.7; coordinates]);
+        let all = evaluate(&network, &points, &latent, ALL);
+        let one = evaluate(&network, &points[chosen..=chosen], &latent, ALL);
+        prop_assert_eq!(one.positions[0], all.positions[chosen]);
+        prop_assert_eq!(one.gradients[0], all.gradients[chosen]);
+        prop_assert_eq!(&one.jacobians[..], &all.jacobians[chosen * coordinates..(chosen + 1) * coordinates]);
+    }
 }
