@@ -31,7 +31,7 @@ pub enum CommandError {
     Simulation(#[from] SimulationError),
     /// An experiment with a reduced-order model cannot begin or go on.
     #[error(transparent)]
-    Experiment(#[from] ExperimentError),
+    Experiment(Box<ExperimentError>),
     /// A metric refused its input.
     #[error(transparent)]
     Metric(#[from] MetricError),
@@ -136,12 +136,17 @@ impl CommandError {
 
     /// Whether the command was interrupted rather than failed.
     pub fn is_interruption(&self) -> bool {
-        matches!(
-            self,
-            Self::Interrupted { .. }
-                | Self::Sample(SampleError::Interrupted { .. })
-                | Self::Experiment(ExperimentError::Stopped)
-        )
+        match self {
+            Self::Interrupted { .. } | Self::Sample(SampleError::Interrupted { .. }) => true,
+            Self::Experiment(error) => matches!(**error, ExperimentError::Stopped),
+            _ => false,
+        }
+    }
+}
+
+impl From<ExperimentError> for CommandError {
+    fn from(error: ExperimentError) -> Self {
+        Self::Experiment(Box::new(error))
     }
 }
 

@@ -10,9 +10,12 @@ use crate::CommandError;
 use crate::output::AtomicFile;
 use crate::plots::{AxisKind, LinePlot, LineSeries, line};
 
+/// A number of an epoch or of a run.
+type Value<T> = fn(&T) -> f64;
+
 /// The loss and its terms against the epoch.
 pub fn losses(directory: &Path, title: &str, history: &[EpochReport]) -> Result<(), CommandError> {
-    let terms: [(&str, fn(&EpochReport) -> f64); 4] = [
+    let terms: [(&str, Value<EpochReport>); 4] = [
         ("loss", |report| report.terms.total()),
         ("position", |report| report.terms.position),
         ("gradient", |report| report.terms.gradient),
@@ -37,7 +40,7 @@ pub fn losses(directory: &Path, title: &str, history: &[EpochReport]) -> Result<
 
 /// Position error and wall time against the number of sample points.
 pub fn errors(directory: &Path, title: &str, rows: &[ReducedRow]) -> Result<(), CommandError> {
-    let figures: [(&str, &str, fn(&ReducedRow) -> f64); 2] = [
+    let figures: [(&str, &str, Value<ReducedRow>); 2] = [
         ("errors.svg", "position error (%)", |row| row.error),
         ("speed_up.svg", "full-order over reduced wall time", |row| {
             row.full_seconds / row.seconds

@@ -57,8 +57,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
 }
 
 /// The dimension of the experiment's scene.
-fn dimension(experiment: &Experiment) -> Result<usize, ExperimentError> {
-    let document = SceneDocument::read(&experiment.scene_file())?;
+fn dimension(experiment: &Experiment) -> Result<usize, CommandError> {
+    let document = SceneDocument::read(&experiment.scene_file()).map_err(ExperimentError::from)?;
     let case = experiment.case(&experiment.cases.train[0])?;
-    Ok(document.scene(&case.changes)?.dimension)
+    let scene = document.scene(&case.changes).map_err(ExperimentError::from)?;
+    Ok(scene.dimension)
 }
