@@ -150,16 +150,17 @@ pub struct CountProgress {
 }
 
 impl CountProgress {
-    /// A bar for so many things of this name.
-    pub fn new(name: &str, count: usize) -> Self {
+    /// A bar for things of this name, which appears with the first one done.
+    pub fn new(name: &str) -> Self {
         let style = style(&format!("{{bar:30}} {name} {{pos}}/{{len}}, {{eta}} left"));
-        let bar = ProgressBar::new(count as u64).with_style(style);
-        bar.enable_steady_tick(Duration::from_millis(500));
-        Self { bar }
+        Self {
+            bar: ProgressBar::new(0).with_style(style),
+        }
     }
 
-    /// So many are done.
-    pub fn set(&self, done: usize) {
+    /// So many of so many are done.
+    pub fn set(&self, done: usize, count: usize) {
+        self.bar.set_length(count as u64);
         self.bar.set_position(done as u64);
     }
 

@@ -134,7 +134,7 @@ pub enum ManifoldName {
     /// The trained network.
     #[default]
     Network,
-    /// The linear manifold of as many coordinates, from the same training data.
+    /// The linear manifold of as many coordinates from the same training data ([`Pod`](crate::manifold::Pod)).
     Linear,
 }
 

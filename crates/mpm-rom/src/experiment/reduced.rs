@@ -9,11 +9,13 @@ use super::results::{self, ReducedRow};
 use super::trained::model_for;
 use super::{Experiment, ExperimentError, ManifoldName};
 use crate::full_order::{self, FullOrderError, SceneDocument};
-use crate::manifold::{Linear, Manifold, Pod};
+use crate::manifold::{Manifold, Pod};
 use crate::online::ReducedBody;
 use crate::snapshots::{Run, Snapshots};
 
-/// Runs every test case with the model of `directory`, and writes the tables there. `after_case` is told the number of cases done; a false ends the runs.
+/// Runs every test case with the model of `directory`, and writes the tables there. `after_run` is told how many reduced runs are done, and of how many; a false ends them.
+///
+/// The tables grow with every run.
 ///
 /// A reduced run that fails is a row with its error, and the others go on.
 ///
@@ -22,13 +24,14 @@ use crate::snapshots::{Run, Snapshots};
 pub fn run<const D: usize>(
     experiment: &Experiment,
     directory: &Path,
-    after_case: &mut dyn FnMut(usize) -> bool,
+    after_run: &mut dyn FnMut(usize, usize) -> bool,
 ) -> Result<Vec<ReducedRow>, ExperimentError> {
     experiment.occupy(directory)?;
     let document = SceneDocument::read(&experiment.scene_file())?;
     let model = model_for::<D>(experiment, directory, &document)?;
     let linear = linear::<D>(experiment, directory, model.network().coordinates())?;
-    let (mut rows, mut frames) = (Vec::new(), Vec::new());
+    let (choices, mut rows, mut frames) = (choices(experiment), Vec::new(), Vec::new());
+    let runs = choices.len() * experiment.cases.test.len();
     for (case, values) in experiment.cases.test.iter().enumerate() {
         let scene = document.scene(&experiment.case(values)?.changes)?;
         let body = full_order::body_of::<D>(&scene, &experiment.parameters)?;
@@ -45,10 +48,10 @@ pub fn run<const D: usize>(
             snapshots,
             seconds,
         };
-        for choice in choices(experiment) {
+        for choice in &choices {
             let network = (model.network() as &dyn Manifold<D>, Some(reconstruction_error));
             let (manifold, reconstruction_error) = match (choice.manifold, &linear) {
-                (ManifoldName::Linear, Some(linear)) => (linear as &dyn Manifold<D>, None),
+                (ManifoldName::Linear, Some(pod)) => (pod as &dyn Manifold<D>, None),
                 _ => network,
             };
             let body = ReducedBody::of(&scene)?;
@@ -56,17 +59,17 @@ pub fn run<const D: usize>(
                 ManifoldName::Network => model.encoder().encode(&body.reference)?,
                 ManifoldName::Linear => vec![0.0; manifold.coordinates()],
             };
-            let options = experiment.run.options(&choice);
-            let (mut row, of_run) = beside(manifold, &guess, body, &full, &choice, options)?;
+            let options = experiment.run.options(choice);
+            let (mut row, of_run) = beside(manifold, &guess, body, &full, choice, options)?;
             row.reconstruction_error = reconstruction_error;
             frames.push(of_run);
             rows.push(row);
-        }
-        let table = results::results(&experiment.parameters, &rows);
-        files::write(&directory.join(names::RESULTS), &table)?;
-        files::write(&directory.join(names::FRAMES), &results::frames(&frames))?;
-        if !after_case(case + 1) {
-            return Err(ExperimentError::Stopped);
+            let table = results::results(&experiment.parameters, &rows);
+            files::write(&directory.join(names::RESULTS), &table)?;
+            files::write(&directory.join(names::FRAMES), &results::frames(&frames))?;
+            if !after_run(rows.len(), runs) {
+                return Err(ExperimentError::Stopped);
+            }
         }
     }
     Ok(rows)
@@ -92,15 +95,15 @@ fn choices(experiment: &Experiment) -> Vec<Choice> {
     all
 }
 
-/// The linear manifold of the training data, where it is asked for.
+/// The linear manifold of the training data, known at the material points, where it is asked for.
 fn linear<const D: usize>(
     experiment: &Experiment,
     directory: &Path,
     coordinates: usize,
-) -> Result<Option<Linear<D>>, ExperimentError> {
+) -> Result<Option<Pod<D>>, ExperimentError> {
     if !experiment.run.manifold.contains(&ManifoldName::Linear) {
         return Ok(None);
     }
     let snapshots = Snapshots::read(&directory.join(names::TRAINING_DATA))?;
-    Ok(Some(Linear::new(&Pod::new(&snapshots, coordinates)?)?))
+    Ok(Some(Pod::new(&snapshots, coordinates)?))
 }

@@ -117,7 +117,7 @@ fn an_experiment_is_stopped_goes_on_and_is_run() {
     let (directory, file) = files();
     let experiment = Experiment::read(&file).expect("sound");
     let (whole, parts) = (directory.path().join("whole"), directory.path().join("parts"));
-    assert!(run::<2>(&experiment, &whole, &mut |_| true).is_err(), "no model");
+    assert!(run::<2>(&experiment, &whole, &mut |_, _| true).is_err(), "no model");
     let trained = train::<2>(&experiment, &whole, &mut ()).expect("trained");
     assert_eq!(
         (trained.points, trained.runs, trained.frames, trained.epochs),
@@ -134,7 +134,7 @@ fn an_experiment_is_stopped_goes_on_and_is_run() {
         assert_eq!(bytes(&whole, name), bytes(&parts, name), "{name}");
     }
 
-    let rows = run::<2>(&experiment, &whole, &mut |_| true).expect("run");
+    let rows = run::<2>(&experiment, &whole, &mut |_, _| true).expect("run");
     let kinds: Vec<_> = rows[..4].iter().map(|row| (row.samples, row.update)).collect();
     let updates = ["position-velocity", "velocity-only"];
     assert!(
@@ -167,9 +167,9 @@ fn an_experiment_is_stopped_goes_on_and_is_run() {
     ));
     other = experiment.clone();
     other.run.samples.truncate(1);
-    assert_eq!(run::<2>(&other, &whole, &mut |_| true).expect("run").len(), 4);
+    assert_eq!(run::<2>(&other, &whole, &mut |_, _| true).expect("run").len(), 4);
     assert!(matches!(
-        run::<2>(&other, &whole, &mut |_| false),
+        run::<2>(&other, &whole, &mut |_, _| false),
         Err(ExperimentError::Stopped)
     ));
 }

@@ -1,3 +1,5 @@
+use std::collections::HashMap;
+
 use faer::Mat;
 use mpm_tensor::{Matrix, vector};
 
@@ -17,6 +19,8 @@ use crate::snapshots::Snapshots;
 pub struct Pod<const D: usize> {
     coordinates: usize,
     reference: Vec<[f64; D]>,
+    /// Number of the point at a position, by its bits.
+    numbers: HashMap<[u64; D], usize>,
     /// u_k at point p: entry p r + k.
     modes: Vec<[f64; D]>,
     /// ∇u_k at point p: entry p r + k.
@@ -78,6 +82,7 @@ impl<const D: usize> Pod<D> {
         Ok(Self {
             coordinates,
             reference: reference.to_vec(),
+            numbers: (reference.iter().map(|x| x.map(f64::to_bits)).zip(0..)).collect(),
             modes,
             gradients,
         })
@@ -116,10 +121,9 @@ impl<const D: usize> Manifold<D> for Pod<D> {
         out.positions.clear();
         out.gradients.clear();
         out.jacobians.clear();
-        for (number, position) in reference.iter().enumerate() {
-            // Most callers ask for all points in their order.
-            let same = self.reference.get(number) == Some(position);
-            let point = if same { number } else { self.nearest(position) };
+        for position in reference {
+            let known = self.numbers.get(&position.map(f64::to_bits));
+            let point = known.copied().unwrap_or_else(|| self.nearest(position));
             let range = point * r..(point + 1) * r;
             let mut deformed = *position;
             for (mode, x) in self.modes[range.clone()].iter().zip(latent) {

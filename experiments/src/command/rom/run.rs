@@ -10,9 +10,9 @@ use crate::{CommandError, console, interrupt};
 
 /// Reduced runs of all test cases, their table and figures.
 pub fn execute<const D: usize>(experiment: &Experiment, directory: &Path) -> Result<(), CommandError> {
-    let progress = CountProgress::new("case", experiment.cases.test.len());
-    let result = run::<D>(experiment, directory, &mut |done| {
-        progress.set(done);
+    let progress = CountProgress::new("run");
+    let result = run::<D>(experiment, directory, &mut |done, runs| {
+        progress.set(done, runs);
         !interrupt::requested()
     });
     progress.clear();
