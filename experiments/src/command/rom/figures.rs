@@ -8,7 +8,7 @@ use mpm_rom::training::EpochReport;
 use super::run::groups;
 use crate::CommandError;
 use crate::output::AtomicFile;
-use crate::plots::{AxisKind, LinePlot, LineSeries, line};
+use crate::plots::{AxisKind, LinePlot, LineSeries, TracePanel, TracePlot, TraceSeries, line, trace};
 
 /// A number of an epoch or of a run.
 type Value<T> = fn(&T) -> f64;
@@ -21,21 +21,23 @@ pub fn losses(directory: &Path, title: &str, history: &[EpochReport]) -> Result<
         ("gradient", |report| report.terms.gradient),
         ("velocity", |report| report.terms.velocity),
     ];
-    let series = terms.map(|(label, value)| LineSeries {
+    let series = terms.map(|(label, value)| TraceSeries {
         label: label.to_owned(),
-        x: history.iter().map(|report| (report.epoch + 1) as f64).collect(),
-        y: history.iter().map(value).collect(),
-        bars: Vec::new(),
+        step: history.iter().map(|report| (report.epoch + 1) as f64).collect(),
+        value: history.iter().map(value).collect(),
     });
-    let plot = LinePlot {
-        title: format!("{title}: training"),
-        x_label: "epoch".to_owned(),
+    let panel = TracePanel {
         y_label: "mean loss".to_owned(),
         y_axis: AxisKind::Logarithmic,
         series: series.into(),
-        ..LinePlot::default()
+        levels: Vec::new(),
     };
-    AtomicFile::write(directory.join("losses.svg"), line(&plot)?)
+    let plot = TracePlot {
+        title: format!("{title}: training"),
+        x_label: "epoch".to_owned(),
+        panels: vec![panel],
+    };
+    AtomicFile::write(directory.join("losses.svg"), trace(&plot)?)
 }
 
 /// Position error and wall time against the number of sample points.
@@ -71,7 +73,6 @@ pub fn errors(directory: &Path, title: &str, rows: &[ReducedRow]) -> Result<(), 
             x_label: "sample points (mean and range over the test cases)".to_owned(),
             y_label: y_label.to_owned(),
             x_axis: AxisKind::Logarithmic,
-            y_axis: AxisKind::Logarithmic,
             series,
             ..LinePlot::default()
         };
