@@ -13,7 +13,7 @@ domain = { lower = [-1.0, -2.0], upper = [3.0, 2.0] }
 grid = { spacing = 0.25 }
 transfer = { kind = "pic" }
 time = { end = 0.2, step = 0.0050000001, courant = 0.5 }
-materials.rubber = { law = "fixed-corotated", density = 2.0, young_modulus = 1000.0, poisson_ratio = 0.3 }
+materials.rubber = { law = "fixed-corotated", density = 2.0, young_modulus = 500.0, poisson_ratio = 0.3 }
 output = { interval = 0.05 }
 
 [[bodies]]
