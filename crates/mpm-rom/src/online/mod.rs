@@ -1,7 +1,6 @@
 //! The reduced dynamics: a step on a few sample points.
 
 mod body;
-mod compare;
 mod coordinates;
 mod error;
 mod eulerian;
@@ -13,15 +12,16 @@ mod options;
 mod quadrature;
 mod samples;
 mod step;
+mod super_resolution;
 #[cfg(test)]
 mod tests;
 mod timings;
 
 pub use body::{HeldNodes, ReducedBody};
-pub use compare::{compare, super_resolve};
 pub use error::OnlineError;
 pub use neighbours::Search;
 pub use options::{Inverted, Options, Quadrature, Update};
 pub use samples::SampleChoice;
 pub use step::{ReducedModel, StepReport};
+pub use super_resolution::super_resolve;
 pub use timings::Timings;

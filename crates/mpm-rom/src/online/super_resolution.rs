@@ -1,26 +1,7 @@
-//! Reduced runs beside full-order ones.
+//! More points than the dynamics know.
 
 use super::{OnlineError, ReducedModel};
 use crate::manifold::{Evaluation, Manifold, Wanted};
-use crate::position_error::PositionError;
-use crate::snapshots::Frame;
-
-/// The position error of a reduced run that begins at t = 0, over all frames after the first, which it starts from, and all material points.
-///
-/// # Errors
-/// As [`ReducedModel::step`].
-pub fn compare<const D: usize, M: Manifold<D>>(
-    model: &mut ReducedModel<D, M>,
-    frames: &[Frame<D>],
-) -> Result<PositionError, OnlineError> {
-    let (points, mut there, mut error) = (model.points().clone(), Evaluation::default(), PositionError::default());
-    for frame in frames.iter().skip(1) {
-        model.advance_frame()?;
-        model.evaluate(&points, Wanted::default(), &mut there);
-        error.add(&there.positions, &frame.positions);
-    }
-    Ok(error)
-}
 
 /// Positions of other points of the body than those that the model was made with, in every frame of a run of so many frames, that of t = 0 first; `reference` is relative to the
 /// model's centroid. The dynamics are those of the model's own points: detail costs one evaluation of the map per frame.
