@@ -1,10 +1,13 @@
 //! The one seam: where a particle sits → which nodes, with which weight and gradient.
 
-use mpm_kernels::{CellStencil, Columns, Deposit, Entry, Interpolated, NodeField, NodeSink, Wanted};
+use mpm_kernels::{Columns, Deposit, Entry, Interpolated, NodeField, NodeSink, Wanted};
 use mpm_tensor::Matrix;
 use mpm_tensor::vector::multiply_add;
 
 use crate::{MpmError, Schedule};
+
+/// In [`Basis::cell_nodes`]: no particle of the cell touches this one.
+pub const NO_NODE: u32 = u32::MAX;
 
 /// A background discretisation: shape functions w_i that sum to one. They may be negative.
 ///
@@ -65,15 +68,15 @@ pub trait Basis<const D: usize>: Sync {
     /// it.
     fn stencil_size(&self) -> usize;
 
-    /// Nodes that the particles of `cell` touch: [`stencil_size`](Self::stencil_size) in all cells, unless a basis says
+    /// Places of nodes that the particles of `cell` may touch: [`stencil_size`](Self::stencil_size) in all cells, unless a basis says
     /// otherwise.
     #[inline(always)]
     fn cell_stencil_size(&self, _cell: usize) -> usize {
         self.stencil_size()
     }
 
-    /// The [`cell_stencil_size`](Self::cell_stencil_size) node numbers that the particles of `cell` touch, in the order of
-    /// [`for_each_node`](Self::for_each_node); written to `scratch` where they are not stored.
+    /// The [`cell_stencil_size`](Self::cell_stencil_size) node numbers that the particles of `cell` touch, by the places of
+    /// [`for_each_node`](Self::for_each_node), [`NO_NODE`] at places that none of them touches; written to `scratch` where they are not stored.
     fn cell_nodes<'a>(&'a self, cell: usize, scratch: &'a mut Vec<u32>) -> &'a [u32];
 
     /// Visit the stencil of a particle, given by its place in the schedule and the position `x` that it was activated with:
@@ -156,15 +159,6 @@ pub trait Basis<const D: usize>: Sync {
             sum.add(wanted, entry, &direction, &nodes.vector(index));
         });
         sum
-    }
-
-    /// Whether particles that share a cell see its nodes through [`cell_stencil`](Self::cell_stencil), which is quicker where several do.
-    const CELL_STENCILS: bool = false;
-
-    /// How a particle at `x` sees the nodes of its cell; `None` without [`CELL_STENCILS`](Self::CELL_STENCILS).
-    #[inline(always)]
-    fn cell_stencil(&self, _x: &[f64; D]) -> Option<CellStencil<D>> {
-        None
     }
 
     /// w_ip D_p⁻¹ (x_i − x_p), by which APIC sends the affine part of a particle's velocity to node i, with

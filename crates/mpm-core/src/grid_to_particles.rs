@@ -80,26 +80,11 @@ where
                         changes.collect(numbers, change);
                     }
                 }
-                if B::CELL_STENCILS && M::DEFORMS {
-                    velocities.take_differences();
-                    if incremental {
-                        changes.take_differences();
-                    }
-                }
                 for p in particles {
                     let particle = data.particle(p - first, affine, deforms);
                     let x = *particle.position;
                     let mut changed = [0.0; D];
-                    let seen = if B::CELL_STENCILS && M::DEFORMS {
-                        let (stencil, differences) = (basis.cell_stencil(&x), velocities.differences());
-                        let (Some(stencil), Some(differences)) = (stencil, differences) else {
-                            continue; // never: the basis has cell stencils
-                        };
-                        if let (true, Some(changes)) = (incremental, changes.differences()) {
-                            changed = stencil.interpolate(value, changes).value;
-                        }
-                        stencil.interpolate(wanted, differences)
-                    } else if B::LONE_PARTICLES {
+                    let seen = if B::LONE_PARTICLES {
                         if incremental {
                             let changes = Numbered { field: change, numbers };
                             changed = basis.interpolate(p, &x, value, &changes).value;

@@ -23,7 +23,7 @@ mod stress_update;
 mod transfer;
 mod volume_averaging;
 
-pub use basis::{Basis, UniformBasis};
+pub use basis::{Basis, NO_NODE, UniformBasis};
 pub use body_force::{BodyForce, ForceLocation, NoBodyForce, Sites};
 pub use boundary::{
     Boundaries, Boundary, Contact, GridMotion, HalfSpace, NoBoundary, Obstacle, Plane, Side, SignedDistance, Sphere,

@@ -94,6 +94,12 @@ pub trait NodeSink<const D: usize> {
 
     /// Let `add` add to what it is given, and add what that has become more by.
     fn update<const G: usize>(&mut self, index: usize, add: impl FnOnce(&Packed<G>) -> Packed<G>);
+
+    /// The `length` places from `first` on, counted from 0: a sink in memory checks them here, once for all nodes of a stencil.
+    #[inline(always)]
+    fn window(&mut self, first: usize, _length: usize) -> impl NodeSink<D> {
+        Shifted { inner: self, first }
+    }
 }
 
 /// A vector field at the nodes of a stencil, by place in the stencil.
@@ -103,4 +109,46 @@ pub trait NodeField<const D: usize> {
 
     /// The same as the vector of a deposit, whose scalar has no meaning.
     fn packed<const G: usize>(&self, index: usize) -> Packed<G>;
+
+    /// The first group of [`packed`](Self::packed): all of the vector for D ≤ 3.
+    #[inline(always)]
+    fn lanes(&self, index: usize) -> Lanes {
+        self.packed::<1>(index).0[0]
+    }
+
+    /// The `length` places from `first` on, as [`NodeSink::window`].
+    #[inline(always)]
+    fn window(&self, first: usize, _length: usize) -> impl NodeField<D> {
+        Shifted { inner: self, first }
+    }
+}
+
+/// Places from `first` on.
+struct Shifted<V> {
+    inner: V,
+    first: usize,
+}
+
+impl<V: NodeSink<D> + ?Sized, const D: usize> NodeSink<D> for Shifted<&mut V> {
+    #[inline(always)]
+    fn add(&mut self, index: usize, deposit: &Deposit<D>) {
+        self.inner.add(self.first + index, deposit);
+    }
+
+    #[inline(always)]
+    fn update<const G: usize>(&mut self, index: usize, add: impl FnOnce(&Packed<G>) -> Packed<G>) {
+        self.inner.update(self.first + index, add);
+    }
+}
+
+impl<V: NodeField<D> + ?Sized, const D: usize> NodeField<D> for Shifted<&V> {
+    #[inline(always)]
+    fn vector(&self, index: usize) -> [f64; D] {
+        self.inner.vector(self.first + index)
+    }
+
+    #[inline(always)]
+    fn packed<const G: usize>(&self, index: usize) -> Packed<G> {
+        self.inner.packed(self.first + index)
+    }
 }

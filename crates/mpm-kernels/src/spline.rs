@@ -18,8 +18,8 @@ pub trait Spline<const W: usize>: Copy + Default + Send + Sync + 'static {
     /// D_p = Σ_i w_ip (x_i − x_p)(x_i − x_p)ᵀ.
     const SECOND_MOMENT: SecondMoment;
 
-    /// Whether [`CellStencil`](crate::CellStencil) is written for this kernel.
-    const CELL_STENCILS: bool = false;
+    /// Whether this is the kernel that [`QuadraticCube`](crate::QuadraticCube) is written for.
+    const IS_QUADRATIC: bool = false;
 
     /// All nodes touched from four grid coordinates u = x/h side by side, |u| < 2⁵¹, with values and derivatives. Beyond, and for NaN,
     /// the rows are without meaning.
@@ -117,7 +117,7 @@ pub struct Quadratic;
 impl Spline<3> for Quadratic {
     const NAME: &'static str = "quadratic";
     const SECOND_MOMENT: SecondMoment = SecondMoment::Constant(0.25);
-    const CELL_STENCILS: bool = true;
+    const IS_QUADRATIC: bool = true;
 
     fn value(r: f64) -> f64 {
         let r = r.abs();

@@ -3,7 +3,7 @@
 use crate::axis_group::AxisGroup;
 use crate::lanes::{LANES, Lanes};
 use crate::walk::for_each_product;
-use crate::{Deposit, SecondMoment, Spline};
+use crate::{Deposit, Layout, SecondMoment, Spline};
 
 /// The nodes {origin + h i : i ∈ ℤᴰ}.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,6 +77,13 @@ impl<const D: usize> UniformGrid<D> {
         inside.then_some(node)
     }
 
+    /// The index of the first node along each of the first four axes that `x` touches with kernel `S`, one axis per lane, as
+    /// [`first_node`](Self::first_node) but without its checks. Lanes beyond the last axis have no meaning.
+    #[inline(always)]
+    pub fn first_nodes<S: Spline<W>, const W: usize>(&self, x: &[f64; D]) -> Lanes {
+        S::rows(self.coordinates(x, 0)).base
+    }
+
     /// Position of the node with index i.
     pub fn node_position(&self, node: &[i32; D]) -> [f64; D] {
         std::array::from_fn(|a| self.origin[a] + self.spacing * f64::from(node[a]))
@@ -101,6 +108,8 @@ pub struct Stencil<const W: usize, const D: usize> {
     pub(crate) axes: [Axis<W>; D],
     /// Whether the gradient stands for w_ip D_p⁻¹ (x_i − x_p).
     gradient_directions: bool,
+    /// Where the nodes stand.
+    pub(crate) layout: Layout<D>,
 }
 
 /// What a stencil knows along one axis, for the `W` nodes of a row.
@@ -162,7 +171,14 @@ impl<const W: usize, const D: usize> Stencil<W, D> {
         Self {
             axes,
             gradient_directions: S::SECOND_MOMENT == SecondMoment::Gradient,
+            layout: const { Layout::alone(W) },
         }
+    }
+
+    /// The same stencil with its nodes at other places; they count from 0 without gaps until it is said otherwise.
+    #[inline(always)]
+    pub fn at(self, layout: Layout<D>) -> Self {
+        Self { layout, ..self }
     }
 
     /// First node per axis.
@@ -180,7 +196,7 @@ impl<const W: usize, const D: usize> Stencil<W, D> {
         Some(std::array::from_fn(|a| self.axes[a].second_moment))
     }
 
-    /// Visit all Wᴰ nodes, the last axis fastest; the first argument counts from 0.
+    /// Visit all Wᴰ nodes, the last axis fastest, by their places.
     #[inline(always)]
     pub fn for_each(&self, visit: impl FnMut(usize, &Entry<D>)) {
         let extend = |a: usize, j: usize, before: &Entry<D>| {
@@ -199,7 +215,7 @@ impl<const W: usize, const D: usize> Stencil<W, D> {
             gradient: [0.0; D],
             offset: [0.0; D],
         };
-        for_each_product::<W, D, _>(one, extend, visit);
+        for_each_product::<W, D, _>(one, &self.layout, extend, visit);
     }
 
     /// Visit all Wᴰ nodes with their weight and w_ip `value` + `scale` (0, ∇w_ip), at D + 1 products per node:
@@ -218,7 +234,7 @@ impl<const W: usize, const D: usize> Stencil<W, D> {
             flux[a] = before.0 * own[a][j];
             (before.0 * w, flux)
         };
-        for_each_product::<W, D, _>((1.0, [0.0; D]), extend, |index, &(weight, vector)| {
+        for_each_product::<W, D, _>((1.0, [0.0; D]), &self.layout, extend, |index, &(weight, vector)| {
             let scalar = weight * value.scalar;
             visit(index, weight, &Deposit { scalar, vector });
         });

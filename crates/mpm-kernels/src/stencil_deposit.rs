@@ -56,7 +56,9 @@ impl<const W: usize, const D: usize> Stencil<W, D> {
             sum: Packed::new(value.scalar, &value.vector),
         };
         let stencil = self;
-        walk::<W, D, _>(one, &mut Depositor { stencil, own, sink });
+        let layout = self.layout;
+        let sink = &mut sink.window(layout.first(), layout.span());
+        walk::<W, D, _>(one, &layout.from(0), &mut Depositor { stencil, own, sink });
     }
 }
 

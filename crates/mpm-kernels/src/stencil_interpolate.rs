@@ -82,12 +82,13 @@ impl<const W: usize, const D: usize> Stencil<W, D> {
             moment: wanted.moment && !both,
             ..wanted
         };
-        let mut total = Level::<G, D>::ZERO;
+        let (layout, mut total) = (self.layout, Level::<G, D>::ZERO);
+        let nodes = &nodes.window(layout.first(), layout.span());
         match D {
             1 => total = self.row(wanted, 0, nodes),
             2 => {
                 for i in 0..W {
-                    let row = self.row(wanted, i * W, nodes);
+                    let row = self.row(wanted, i * layout.stride(0), nodes);
                     total.take(wanted, 0, &row, self.factors(wanted, 0, i));
                 }
             }
@@ -95,7 +96,8 @@ impl<const W: usize, const D: usize> Stencil<W, D> {
             _ => {
                 let mut levels = [Level::ZERO; D];
                 for row in 0..W.pow(D as u32 - 1) {
-                    let (mut sum, mut rest) = (self.row(wanted, row * W, nodes), row);
+                    let first = self.row_place(row);
+                    let (mut sum, mut rest) = (self.row(wanted, first, nodes), row);
                     for axis in (0..D - 1).rev() {
                         levels[axis].take(wanted, axis, &sum, self.factors(wanted, axis, rest % W));
                         if rest % W < W - 1 {
@@ -133,7 +135,7 @@ impl<const W: usize, const D: usize> Stencil<W, D> {
             for j in 0..W {
                 let (mut row, mut row_slope, mut row_moment) = (zero, zero, zero);
                 for k in 0..W {
-                    let v = nodes.packed::<G>((i * W + j) * W + k);
+                    let v = nodes.packed::<G>(i * self.layout.stride(0) + j * self.layout.stride(1) + k);
                     let [weight, slope, moment] = self.factors(wanted, 2, k);
                     row = row.plus(weight, &v);
                     row_slope = row_slope.plus(slope, &v);
@@ -164,6 +166,17 @@ impl<const W: usize, const D: usize> Stencil<W, D> {
             (total.moments[0], total.moments[1], total.moments[2]) = (moment_0, moment_1, moment_2);
         }
         total
+    }
+
+    /// Place of the first node of a row along the last axis, from that of the stencil; rows count with the last but one axis fastest.
+    #[inline(always)]
+    fn row_place(&self, mut row: usize) -> usize {
+        let mut place = 0;
+        for axis in (0..D - 1).rev() {
+            place += row % W * self.layout.stride(axis);
+            row /= W;
+        }
+        place
     }
 
     /// The sum over W nodes along the last axis.

@@ -1,12 +1,14 @@
 //! All products of one factor per axis.
 
+use crate::Layout;
+
 /// What is done on the way over the nodes of a stencil with W nodes per axis. A trait and not two closures: methods can be made
 /// to be inlined, which keeps sums over the nodes in registers.
 pub(crate) trait Walker<P> {
     /// The product over the axes before `axis`, taken over to that axis with factor j.
     fn extend(&self, axis: usize, j: usize, before: &P) -> P;
 
-    /// A row of W nodes along the last axis, by its first node and the product over the axes before.
+    /// A row of W nodes along the last axis, by the place of its first node and the product over the axes before.
     fn row(&mut self, first: usize, before: &P);
 }
 
@@ -15,43 +17,42 @@ pub(crate) trait Walker<P> {
 /// The inner loops have a constant length, so that they unroll; products over the outer axes are carried along and
 /// renewed only from the first digit that changed.
 #[inline(always)]
-pub(crate) fn walk<const W: usize, const D: usize, P: Copy>(one: P, walker: &mut impl Walker<P>) {
+pub(crate) fn walk<const W: usize, const D: usize, P: Copy>(one: P, layout: &Layout<D>, walker: &mut impl Walker<P>) {
+    let first = layout.first();
     match D {
-        1 => walker.row(0, &one),
+        1 => walker.row(first, &one),
         2 => {
             for i in 0..W {
                 let row = walker.extend(0, i, &one);
-                walker.row(i * W, &row);
+                walker.row(first + i * layout.stride(0), &row);
             }
         }
         3 => {
-            for i in 0..W {
-                let plane = walker.extend(0, i, &one);
-                for j in 0..W {
-                    let row = walker.extend(1, j, &plane);
-                    walker.row((i * W + j) * W, &row);
-                }
-            }
+            const { assert!(W <= 4, "planes are written out") }
+            plane::<W, D, P>(0, &one, layout, walker);
+            plane::<W, D, P>(1, &one, layout, walker);
+            plane::<W, D, P>(2, &one, layout, walker);
+            plane::<W, D, P>(3, &one, layout, walker);
         }
         _ => {
             let mut digit = [0usize; D];
             let mut products = [one; D];
-            let (mut changed, mut index) = (0, 0);
+            let mut changed = 0;
             loop {
                 for a in changed..D - 2 {
                     products[a + 1] = walker.extend(a, digit[a], &products[a]);
                 }
+                let plane = (0..D - 2).fold(first, |place, a| place + digit[a] * layout.stride(a));
                 for j in 0..W {
                     let row = walker.extend(D - 2, j, &products[D - 2]);
-                    walker.row(index, &row);
-                    index += W;
-                }
-                if index == W.pow(D as u32) {
-                    return;
+                    walker.row(plane + j * layout.stride(D - 2), &row);
                 }
                 changed = D - 3;
                 digit[changed] += 1;
                 while digit[changed] == W {
+                    if changed == 0 {
+                        return;
+                    }
                     digit[changed] = 0;
                     changed -= 1;
                     digit[changed] += 1;
@@ -61,14 +62,29 @@ pub(crate) fn walk<const W: usize, const D: usize, P: Copy>(one: P, walker: &mut
     }
 }
 
-/// Visit all products over all axes, the last axis fastest: `extend` as [`Walker::extend`].
+/// The rows of plane i of a stencil in three dimensions; none where it has no such plane. Written out by the caller: a loop over planes would not unroll, and check
+/// places while it runs.
+#[inline(always)]
+fn plane<const W: usize, const D: usize, P: Copy>(i: usize, one: &P, layout: &Layout<D>, walker: &mut impl Walker<P>) {
+    if i >= W {
+        return;
+    }
+    let plane = walker.extend(0, i, one);
+    for j in 0..W {
+        let row = walker.extend(1, j, &plane);
+        walker.row(layout.first() + i * layout.stride(0) + j * layout.stride(1), &row);
+    }
+}
+
+/// Visit all products over all axes by the place of their node, the last axis fastest: `extend` as [`Walker::extend`].
 #[inline(always)]
 pub(crate) fn for_each_product<const W: usize, const D: usize, P: Copy>(
     one: P,
+    layout: &Layout<D>,
     extend: impl Fn(usize, usize, &P) -> P,
     visit: impl FnMut(usize, &P),
 ) {
-    walk::<W, D, P>(one, &mut Products::<_, _, W, D> { extend, visit });
+    walk::<W, D, P>(one, layout, &mut Products::<_, _, W, D> { extend, visit });
 }
 
 struct Products<E, V, const W: usize, const D: usize> {

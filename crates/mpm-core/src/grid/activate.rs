@@ -4,8 +4,9 @@ use mpm_kernels::Spline;
 use rayon::prelude::*;
 
 use super::SplineGrid;
-use super::halo::has_halo;
+use super::locate::place_bits;
 use super::lookup::NodeBlock;
+use super::tile::{has_tiles, members, words};
 use crate::{Basis, MpmError};
 
 impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
@@ -19,12 +20,15 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
         let mut touched = vec![0u64; slots];
         for (rank, &number) in self.sorted_blocks.iter().enumerate() {
             touched.fill(0);
-            let mut places = self.occupied[rank];
-            while places != 0 {
-                for &(slot, mask) in self.template.touched(places.trailing_zeros()) {
+            for place in members(&self.occupied[rank * words::<D>(W)..][..words::<D>(W)]) {
+                if has_tiles::<D>() {
+                    let (slot, local) = self.template.tile[place];
+                    touched[usize::from(slot)] |= 1 << local;
+                    continue;
+                }
+                for &(slot, mask) in self.template.touched(place as u32) {
                     touched[slot as usize] |= mask;
                 }
-                places &= places - 1;
             }
             let home = self.particle_blocks.keys()[number as usize];
             let row = &mut self.neighbours[rank * slots..][..slots];
@@ -49,28 +53,7 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
         if count > u64::from(u32::MAX) {
             return Err(MpmError::TooManyNodes { nodes: count });
         }
-        if has_halo::<D>(W) {
-            self.number_halos();
-        }
         Ok(())
-    }
-
-    /// The node numbers of every block with particles, and around it.
-    fn number_halos(&mut self) {
-        let (size, slots) = (self.halo.nodes.len(), self.template.neighbours.len());
-        let (halo, blocks, neighbours) = (&self.halo.nodes, &self.blocks, &self.neighbours);
-        let count = self.sorted_blocks.len();
-        self.halo_numbers.resize(count * size + 4, 0); // rows are read four numbers at once
-        let tables = self
-            .halo_numbers
-            .par_chunks_exact_mut(size)
-            .zip(neighbours.par_chunks_exact(slots));
-        tables.with_min_len(64).for_each(|(numbers, row)| {
-            for (number, &(slot, place)) in numbers.iter_mut().zip(halo) {
-                let block = blocks.get(row[usize::from(slot)] as usize);
-                *number = block.map_or(0, |block| block.number(place));
-            }
-        });
     }
 
     /// Phase 4 (activate): cut the cells into parts.
@@ -82,10 +65,10 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
         self.schedule.parts.par_iter_mut().for_each(|part| {
             let (mut last, mut ends) = (u32::MAX, (u32::MAX, 0));
             for key in &cell_keys[part.cells.clone()] {
-                if key >> 6 == last {
+                if key >> place_bits::<D>() == last {
                     continue;
                 }
-                last = key >> 6;
+                last = key >> place_bits::<D>();
                 let touched = neighbours[last as usize * slots..][..slots].iter();
                 let touched = touched.filter(|&&block| block != u32::MAX);
                 ends = touched.fold(ends, |(low, high), &block| (low.min(block), high.max(block)));

@@ -3,7 +3,8 @@
 use mpm_kernels::{Spline, Stencil};
 
 use super::SplineGrid;
-use super::halo::has_halo;
+use super::tile::{self, has_tiles, members, words};
+use crate::NO_NODE;
 
 /// The active nodes of a block.
 #[derive(Clone, Copy, Debug, Default)]
@@ -31,25 +32,15 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
     /// The node numbers of a cell, written to `scratch`.
     #[inline]
     pub(super) fn look_up<'a>(&self, cell: usize, scratch: &'a mut Vec<u32>) -> &'a [u32] {
+        if has_tiles::<D>() {
+            return self.look_up_tile(cell, scratch);
+        }
         // Four numbers are written at once; the next ones overwrite those that are too many.
         const { assert!(W <= 4, "four numbers at once") }
         let (size, key) = (Stencil::<W, D>::SIZE, self.cell_keys[cell]);
         let (rank, place) = ((key >> 6) as usize, key & 63);
         scratch.resize(size + 4, 0);
         let mut end = 0;
-        if has_halo::<D>(W) {
-            let base = rank * self.halo.nodes.len() + usize::from(self.halo.bases[place as usize]);
-            let (table, mut rest) = (&self.halo_numbers[base..], &mut scratch[..]);
-            for &row in &self.halo.rows {
-                if let (Some(to), Some(numbers)) =
-                    (rest.first_chunk_mut::<4>(), table[usize::from(row)..].first_chunk())
-                {
-                    *to = *numbers;
-                }
-                rest = &mut rest[W..];
-            }
-            return &scratch[..size];
-        }
         let slots = self.template.neighbours.len();
         let row = &self.neighbours[rank * slots..][..slots];
         for segment in self.template.segments(place) {
@@ -59,5 +50,18 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
             end += usize::from(segment.count);
         }
         &scratch[..size]
+    }
+
+    /// The node numbers of a tile.
+    fn look_up_tile<'a>(&self, cell: usize, scratch: &'a mut Vec<u32>) -> &'a [u32] {
+        let (slots, words) = (self.template.neighbours.len(), words::<D>(W));
+        let row = &self.neighbours[self.cell_keys[cell] as usize * slots..][..slots];
+        scratch.clear();
+        scratch.resize(tile::size::<D>(W), NO_NODE);
+        for place in members(&self.touched[cell * words..][..words]) {
+            let (slot, local) = self.template.tile[place];
+            scratch[place] = self.blocks[row[usize::from(slot)] as usize].number(local);
+        }
+        scratch
     }
 }

@@ -3,23 +3,23 @@
 
 mod activate;
 mod block;
-mod halo;
 mod locate;
 mod lookup;
 mod sort;
 mod template;
+mod tile;
 
 use std::marker::PhantomData;
 
 use mpm_kernels::{
-    CellStencil, Columns, Deposit, Entry, Interpolated, NodeField, NodeSink, Spline, Stencil, UniformGrid, Wanted,
+    Columns, Deposit, Entry, Interpolated, Layout, NodeField, NodeSink, QuadraticCube, Spline, Stencil, UniformGrid, Wanted,
 };
 
 use self::block::{locate, node_at, slot_count};
-use self::halo::Halo;
 use self::locate::ChunkRuns;
 use self::lookup::NodeBlock;
 use self::template::Template;
+use self::tile::has_tiles;
 use crate::basis::check_placement;
 use crate::key_map::KeyMap;
 use crate::{Basis, MpmError, Schedule, UniformBasis};
@@ -32,7 +32,6 @@ pub struct SplineGrid<S, const W: usize, const D: usize> {
     /// Where particles may be.
     limits: Option<([f64; D], [f64; D])>,
     template: Template<D>,
-    halo: Halo,
     /// Blocks that hold particles (the base of their stencil).
     particle_blocks: KeyMap<[i32; D]>,
     /// Blocks that hold active nodes.
@@ -42,14 +41,16 @@ pub struct SplineGrid<S, const W: usize, const D: usize> {
     node_count: usize,
     /// For every particle block, in lexicographic order, and slot of the template: number of the node block.
     neighbours: Vec<u32>,
-    /// For every particle block, in lexicographic order, and place in the halo: number of the node; without meaning where
-    /// it is not active. Empty without halos.
-    halo_numbers: Vec<u32>,
-    /// For every particle block, in lexicographic order: its number, and which of its 64 places hold particles.
+    /// For every particle block, in lexicographic order: its number, and which of its 64 places hold particles, or which places of its tile
+    /// they touch.
     sorted_blocks: Vec<u32>,
     occupied: Vec<u64>,
-    /// (rank of its block << 6) | place, for every cell.
+    /// For every cell of the schedule: the rank of its block if that is a tile, else (rank << 6) | place.
     cell_keys: Vec<u32>,
+    /// For every tile of the schedule: which of its places its particles touch.
+    touched: Vec<u64>,
+    /// For every particle: place in the tile of the first node of its stencil.
+    places: Vec<u16>,
     schedule: Schedule,
     scratch: Scratch<D>,
 }
@@ -60,9 +61,9 @@ struct Scratch<const D: usize> {
     chunks: Vec<ChunkRuns<D>>,
     /// Each block's rank.
     ranks: Vec<u32>,
-    /// (block rank << 6) | place, for every particle; empty where particles stay in their order.
+    /// The key of its cell, for every particle; empty where particles stay in their order.
     keys: Vec<u32>,
-    /// First particle per (rank, place).
+    /// First particle per key.
     bin_starts: Vec<u32>,
     cursors: Vec<u32>,
 }
@@ -84,16 +85,16 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
             nodes: UniformGrid::new(origin, h),
             limits: None,
             template: Template::new(W),
-            halo: Halo::new::<D>(W),
             particle_blocks: KeyMap::default(),
             node_blocks: KeyMap::default(),
             blocks: Vec::new(),
             node_count: 0,
             neighbours: Vec::new(),
-            halo_numbers: Vec::new(),
             sorted_blocks: Vec::new(),
             occupied: Vec::new(),
             cell_keys: Vec::new(),
+            touched: Vec::new(),
+            places: Vec::new(),
             schedule: Schedule::default(),
             scratch: Scratch {
                 chunks: Vec::new(),
@@ -124,6 +125,21 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
     }
 }
 
+impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
+    /// Where a particle's nodes stand in its tile.
+    #[inline(always)]
+    fn layout(&self, particle: usize) -> Layout<D> {
+        let first = self.places.get(particle).map_or(0, |&place| usize::from(place)); // there are none without tiles
+        const { Layout::in_box(W, &tile::edges::<D>(W)) }.from(first)
+    }
+
+    /// The stencil of a particle, with its nodes at their places in the tile.
+    #[inline(always)]
+    fn stencil(&self, particle: usize, x: &[f64; D]) -> Stencil<W, D> {
+        Stencil::new::<S>(x, &self.nodes).at(self.layout(particle))
+    }
+}
+
 impl<S: Spline<W>, const W: usize, const D: usize> UniformBasis<D> for SplineGrid<S, W, D> {
     fn place(&mut self, origin: [f64; D], h: f64) -> Result<(), MpmError> {
         check_placement(&origin, h)?;
@@ -138,19 +154,18 @@ impl<S: Spline<W>, const W: usize, const D: usize> UniformBasis<D> for SplineGri
 
 impl<S: Spline<W>, const W: usize, const D: usize> Basis<D> for SplineGrid<S, W, D> {
     fn sort(&mut self, positions: &[[f64; D]]) -> Result<(), MpmError> {
-        if let Err(error) = self.locate_particles(positions) {
+        let sorted = self.sort_or_keep(positions);
+        if sorted.is_err() {
             self.schedule.clear();
-            return Err(error);
         }
-        if self.is_nearly_sorted() {
-            self.keep_order();
-        } else {
-            self.sort_particles();
-        }
-        Ok(())
+        sorted
     }
 
-    fn activate(&mut self, _: &[[f64; D]]) -> Result<(), MpmError> {
+    fn activate(&mut self, sorted: &[[f64; D]]) -> Result<(), MpmError> {
+        if has_tiles::<D>() && !self.schedule.keeps_order {
+            self.locate_particles(sorted, 0)?; // the same tiles, and now the places of their particles
+            self.rank_blocks();
+        }
         self.activate_nodes()?;
         self.divide_cells();
         Ok(())
@@ -194,55 +209,55 @@ impl<S: Spline<W>, const W: usize, const D: usize> Basis<D> for SplineGrid<S, W,
         Stencil::<W, D>::SIZE
     }
 
+    #[inline(always)]
+    fn cell_stencil_size(&self, _: usize) -> usize {
+        tile::size::<D>(W)
+    }
+
     #[inline]
     fn cell_nodes<'a>(&'a self, cell: usize, scratch: &'a mut Vec<u32>) -> &'a [u32] {
         self.look_up(cell, scratch)
     }
 
     #[inline(always)]
-    fn for_each_node(&self, _: usize, x: &[f64; D], visit: impl FnMut(usize, &Entry<D>)) {
-        Stencil::<W, D>::new::<S>(x, &self.nodes).for_each(visit);
+    fn for_each_node(&self, particle: usize, x: &[f64; D], visit: impl FnMut(usize, &Entry<D>)) {
+        self.stencil(particle, x).for_each(visit);
     }
 
     #[inline(always)]
     fn for_each_deposit(
         &self,
-        _: usize,
+        particle: usize,
         x: &[f64; D],
         value: &Deposit<D>,
         scale: f64,
         visit: impl FnMut(usize, f64, &Deposit<D>),
     ) {
-        Stencil::<W, D>::new::<S>(x, &self.nodes).for_each_deposit(value, scale, visit);
+        self.stencil(particle, x).for_each_deposit(value, scale, visit);
     }
 
     #[inline(always)]
     fn deposit<A: Columns<D>, F: Columns<D>>(
         &self,
-        _: usize,
+        particle: usize,
         x: &[f64; D],
         value: &Deposit<D>,
         affine: &A,
         flux: &F,
         sink: &mut impl NodeSink<D>,
     ) {
-        Stencil::<W, D>::new::<S>(x, &self.nodes).deposit(value, affine, flux, sink);
+        self.stencil(particle, x).deposit(value, affine, flux, sink);
     }
 
     #[inline(always)]
-    fn interpolate(&self, _: usize, x: &[f64; D], wanted: Wanted, nodes: &impl NodeField<D>) -> Interpolated<D> {
-        Stencil::<W, D>::new::<S>(x, &self.nodes).interpolate(wanted, nodes)
-    }
-
-    const CELL_STENCILS: bool = S::CELL_STENCILS && D == 3;
-
-    #[inline(always)]
-    fn cell_stencil(&self, x: &[f64; D]) -> Option<CellStencil<D>> {
-        if Self::CELL_STENCILS {
-            CellStencil::new(x, &self.nodes)
-        } else {
-            None
+    fn interpolate(&self, particle: usize, x: &[f64; D], wanted: Wanted, nodes: &impl NodeField<D>) -> Interpolated<D> {
+        let with_slopes = wanted != Wanted::default();
+        if S::IS_QUADRATIC && with_slopes {
+            if let Some(cube) = QuadraticCube::new(x, &self.nodes, self.layout(particle)) {
+                return cube.interpolate(wanted, nodes);
+            }
         }
+        self.stencil(particle, x).interpolate(wanted, nodes)
     }
 
     #[inline(always)]
@@ -257,7 +272,6 @@ impl<S: Spline<W>, const W: usize, const D: usize> Basis<D> for SplineGrid<S, W,
         let s = &self.scratch;
         let words = [
             &self.neighbours,
-            &self.halo_numbers,
             &self.sorted_blocks,
             &self.cell_keys,
             &s.keys,
@@ -266,11 +280,11 @@ impl<S: Spline<W>, const W: usize, const D: usize> Basis<D> for SplineGrid<S, W,
             &s.cursors,
         ];
         self.template.storage_bytes()
-            + self.halo.storage_bytes()
             + self.particle_blocks.storage_bytes()
             + self.node_blocks.storage_bytes()
             + self.blocks.capacity() * size_of::<NodeBlock>()
-            + self.occupied.capacity() * 8
+            + (self.occupied.capacity() + self.touched.capacity()) * 8
+            + self.places.capacity() * 2
             + s.chunks.iter().map(ChunkRuns::storage_bytes).sum::<usize>()
             + words.iter().map(|v| v.capacity() * 4).sum::<usize>()
             + self.schedule.storage_bytes()

@@ -2,20 +2,41 @@
 
 use mpm_kernels::Spline;
 
+use super::locate::place_bits;
+use super::tile::{RIM, has_tiles, words};
 use super::{Scratch, SplineGrid};
-use crate::Schedule;
 use crate::counting_sort::counting_sort;
+use crate::{MpmError, Schedule};
 
-/// Particles are sorted once one in so many is followed by one of an earlier cell. Sorting moves all fields of all particles;
-/// not sorting makes more and shorter cells, whose nodes are collected one by one.
-const PARTICLES_PER_DESCENT: usize = 8;
+/// Particles are sorted once one in so many is followed by one of an earlier cell, or begins one tile too many. Sorting moves all fields of
+/// all particles; not sorting makes more and shorter cells, whose nodes are collected one by one.
+const fn particles_per_disorder<const D: usize>() -> usize {
+    if has_tiles::<D>() { 128 } else { 8 }
+}
 
 impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
-    /// Bring the blocks into lexicographic order, and tell whether the particles are nearly in that of the cells.
+    /// Find the cells, and sort the particles by them unless they nearly are.
     ///
-    /// The answer depends on the positions in their present order alone: a run that is resumed sorts when the run that was not
+    /// What is done depends on the positions in their present order alone: a run that is resumed sorts when the run that was not
     /// interrupted does, and so do any number of threads.
-    pub(super) fn is_nearly_sorted(&mut self) -> bool {
+    pub(super) fn sort_or_keep(&mut self, positions: &[[f64; D]]) -> Result<(), MpmError> {
+        self.locate_particles(positions, RIM)?;
+        let disorder = self.rank_blocks();
+        if disorder * particles_per_disorder::<D>() <= positions.len() {
+            self.keep_order();
+            return Ok(());
+        }
+        if has_tiles::<D>() {
+            self.locate_particles(positions, 0)?;
+            self.rank_blocks();
+        }
+        self.sort_particles();
+        Ok(())
+    }
+
+    /// Bring the blocks into lexicographic order; returns how many cells follow a later one, or how many tiles there are more than blocks.
+    pub(super) fn rank_blocks(&mut self) -> usize {
+        let (bits, words) = (place_bits::<D>(), words::<D>(W));
         let blocks = self.particle_blocks.keys();
         self.sorted_blocks.clear();
         self.sorted_blocks.extend(0..blocks.len() as u32);
@@ -28,20 +49,30 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
             ranks[number as usize] = rank as u32;
         }
         self.occupied.clear();
-        self.occupied.resize(blocks.len(), 0);
+        self.occupied.resize(blocks.len() * words, 0);
         let (mut last, mut descents) = (0, 0);
-        for key in &mut self.cell_keys {
-            *key = (ranks[(*key >> 6) as usize] << 6) | (*key & 63);
-            self.occupied[(*key >> 6) as usize] |= 1 << (*key & 63);
+        for (cell, key) in self.cell_keys.iter_mut().enumerate() {
+            let rank = ranks[(*key >> bits) as usize];
+            *key = (rank << bits) | (*key & ((1 << bits) - 1));
+            if has_tiles::<D>() {
+                let touched = &self.touched[cell * words..][..words];
+                for (all, more) in self.occupied[rank as usize * words..].iter_mut().zip(touched) {
+                    *all |= more;
+                }
+            } else {
+                self.occupied[rank as usize] |= 1 << (*key & 63);
+            }
             descents += usize::from(*key < last);
             last = *key;
         }
-        let particles = self.schedule.cell_starts.last().map_or(0, |&count| count as usize);
-        descents * PARTICLES_PER_DESCENT <= particles
+        if has_tiles::<D>() {
+            return self.cell_keys.len() - blocks.len();
+        }
+        descents
     }
 
     /// All particles stay where they are; the runs are the cells.
-    pub(super) fn keep_order(&mut self) {
+    fn keep_order(&mut self) {
         let Schedule {
             order,
             cell_starts,
@@ -56,8 +87,8 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
         }
     }
 
-    /// Counting sort of the particles by (block in lexicographic order, cell).
-    pub(super) fn sort_particles(&mut self) {
+    /// Counting sort of the particles by (block in lexicographic order, cell), or by tile.
+    fn sort_particles(&mut self) {
         let Scratch {
             keys,
             bin_starts,
@@ -69,7 +100,8 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
         for (run, &key) in cell_starts.windows(2).zip(&self.cell_keys) {
             keys.resize(run[1] as usize, key);
         }
-        counting_sort(keys, self.occupied.len() * 64, bin_starts, order, cursors);
+        let bins = self.sorted_blocks.len() << place_bits::<D>();
+        counting_sort(keys, bins, bin_starts, order, cursors);
         cell_starts.clear();
         self.cell_keys.clear();
         for (bin, range) in bin_starts.windows(2).enumerate() {

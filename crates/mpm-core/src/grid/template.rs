@@ -1,12 +1,15 @@
-//! What the stencils of one kernel look like from each of the 64 cells of a block; the same for all blocks.
+//! What the stencils of one kernel look like from a block; the same for all blocks.
 
 use super::block::{locate, node_at, reach, slot_count};
+use super::tile::{self, has_tiles};
 
 /// Precomputed geometry of stencils with `width` nodes per axis.
 #[derive(Clone, Debug)]
 pub struct Template<const D: usize> {
-    /// Offsets, in blocks, of all blocks that a stencil may touch; slot 0 is the block of its base.
+    /// Offsets, in blocks, of all blocks that particles of one block may touch: the slots.
     pub neighbours: Vec<[i32; D]>,
+    /// (slot, place in the block) of every node of a tile; the rest is for grids without tiles, and from each of the 64 cells of a block.
+    pub tile: Vec<(u16, u8)>,
     /// For each cell: (slot, mask) of every block it touches.
     touched: Vec<Vec<(u16, u64)>>,
     /// The segments of all cells, and the number of the first one of every cell.
@@ -28,6 +31,16 @@ pub struct Segment {
 
 impl<const D: usize> Template<D> {
     pub fn new(width: usize) -> Self {
+        if has_tiles::<D>() {
+            let (neighbours, tile) = tile::nodes(width);
+            return Self {
+                neighbours,
+                tile,
+                touched: Vec::new(),
+                segments: Vec::new(),
+                segment_starts: Vec::new(),
+            };
+        }
         let reach = reach::<D>(width);
         let slots = slot_count::<D>(width);
         let neighbours = (0..slots)
@@ -60,6 +73,7 @@ impl<const D: usize> Template<D> {
         }
         Self {
             neighbours,
+            tile: Vec::new(),
             touched,
             segments,
             segment_starts,
@@ -81,6 +95,7 @@ impl<const D: usize> Template<D> {
 
     pub fn storage_bytes(&self) -> usize {
         self.neighbours.capacity() * size_of::<[i32; D]>()
+            + self.tile.capacity() * 4
             + self.segments.capacity() * size_of::<Segment>()
             + self.segment_starts.capacity() * 4
             + self.touched.iter().map(|t| t.capacity() * 16).sum::<usize>()

@@ -1,8 +1,9 @@
 //! Vector fields at the nodes, as the particles of a cell read them.
 
-use mpm_kernels::{CellLanes, LANES, Lanes, NodeField, Packed, differences, groups_of};
+use mpm_kernels::{LANES, Lanes, NodeField, Packed, groups_of};
 
 use super::GridNode;
+use crate::NO_NODE;
 
 /// A vector field by number of the node.
 pub(crate) trait GridField<const D: usize>: Copy {
@@ -85,7 +86,7 @@ impl<F: GridField<D>, const D: usize> NodeField<D> for Numbered<'_, F> {
 pub(crate) struct CellField(Vec<Lanes>);
 
 impl CellField {
-    /// Collect the field at all nodes of a cell.
+    /// Collect the field at the nodes of a cell.
     #[inline(always)]
     pub fn collect<const D: usize>(&mut self, numbers: &[u32], field: impl GridField<D>) {
         match const { groups_of(D) } {
@@ -100,22 +101,10 @@ impl CellField {
     fn collect_in<const G: usize, const D: usize>(&mut self, numbers: &[u32], field: impl GridField<D>) {
         self.0.resize(numbers.len() * G, Lanes::ZERO);
         for (lanes, &number) in self.0.chunks_exact_mut(G).zip(numbers) {
-            field.packed::<G>(number as usize).write(lanes);
+            if number != NO_NODE {
+                field.packed::<G>(number as usize).write(lanes);
+            }
         }
-    }
-
-    /// From the values at the nodes to their [`differences`].
-    #[inline(always)]
-    pub fn take_differences(&mut self) {
-        if let Some(nodes) = self.0.first_chunk_mut() {
-            differences(nodes);
-        }
-    }
-
-    /// The differences, once they have been taken.
-    #[inline(always)]
-    pub fn differences(&self) -> Option<&CellLanes> {
-        self.0.first_chunk()
     }
 
     /// The field at the `size` nodes.
@@ -137,5 +126,10 @@ impl<const D: usize> NodeField<D> for Collected<'_> {
     #[inline(always)]
     fn packed<const G: usize>(&self, index: usize) -> Packed<G> {
         Packed::read(&self.0[index * G..][..G])
+    }
+
+    #[inline(always)]
+    fn window(&self, first: usize, length: usize) -> impl NodeField<D> {
+        Collected(&self.0[first * groups_of(D)..][..length * groups_of(D)])
     }
 }

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::ahead::{Ahead, Prepare};
 use super::{GridNode, Tile};
-use crate::Basis;
+use crate::{Basis, NO_NODE};
 
 /// Sums that several parts of the particles contribute to.
 pub trait Sum: Copy + Default + Send + Sync {
@@ -180,5 +180,15 @@ impl<N> StencilNodes<'_, N> {
     #[inline(always)]
     pub fn node(&mut self, index: usize) -> &mut N {
         &mut self.nodes[self.numbers[index] as usize - self.first]
+    }
+
+    /// Every node that a particle of the cell touches, with what `others` has for its place.
+    #[inline(always)]
+    pub(super) fn for_each_with<T>(&mut self, others: impl Iterator<Item = T>, mut visit: impl FnMut(&mut N, T)) {
+        for (&number, other) in self.numbers.iter().zip(others) {
+            if number != NO_NODE {
+                visit(&mut self.nodes[number as usize - self.first], other);
+            }
+        }
     }
 }

@@ -81,14 +81,12 @@ fn close<const G: usize, const D: usize, N: GridNode<D>>(
     sums: &[Lanes],
     impulses: &[Lanes],
 ) {
-    for (index, sum) in sums.chunks_exact(G).enumerate() {
-        stencil.node(index).add(&Packed::<G>::read(sum).deposit());
-    }
-    for (index, sum) in impulses.chunks_exact(G).enumerate() {
-        stencil
-            .node(index)
-            .add_impulse(&Packed::<G>::read(sum).deposit().vector);
-    }
+    stencil.for_each_with(sums.chunks_exact(G), |node, sum| {
+        node.add(&Packed::<G>::read(sum).deposit());
+    });
+    stencil.for_each_with(impulses.chunks_exact(G), |node, sum| {
+        node.add_impulse(&Packed::<G>::read(sum).deposit().vector);
+    });
 }
 
 struct Sums<'a, 'b, B, N, const D: usize, const IMPULSES: bool> {
@@ -123,6 +121,19 @@ impl<B: Basis<D>, N: GridNode<D>, const D: usize, const IMPULSES: bool> NodeSink
         } else {
             let sum = &mut self.lanes[index * G..][..G];
             add(&Packed::read(sum)).write(sum);
+        }
+    }
+
+    #[inline(always)]
+    fn window(&mut self, first: usize, length: usize) -> impl NodeSink<D> {
+        Sums::<B, N, D, IMPULSES> {
+            lanes: if B::LONE_PARTICLES {
+                &mut []
+            } else {
+                &mut self.lanes[first * groups_of(D)..][..length * groups_of(D)]
+            },
+            stencil: self.stencil,
+            basis: PhantomData,
         }
     }
 }
