@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use mpm_kernels::Deposit;
 
-use crate::transfer::{GridNode, Prepare, Tile, Transfer};
+use crate::transfer::{CellSums, GridNode, Prepare, Transfer};
 use crate::{Basis, BodyForce, Boundary, ForceLocation, Medium, Mpm, Particles, StressImpulse};
 
 /// −Δt V⁰_p τ_p of a medium that deforms.
@@ -51,7 +51,7 @@ where
             medium,
             time_step: dt,
         };
-        let deposit = move |p: usize, x: &[f64; D], stress: Option<&M::Impulse>, tile: &mut Tile<B, T::Node, D>| {
+        let deposit = move |p: usize, x: &[f64; D], stress: Option<&M::Impulse>, cell: &mut CellSums<B, T::Node, D>| {
             let mass = particles.masses.get(p);
             let mut impulse = [0.0; D];
             if pulled {
@@ -67,8 +67,8 @@ where
                     scalar: 0.0,
                     vector: impulse,
                 };
-                basis.deposit(p, x, &value, &(), &(), &mut tile.sums());
-                basis.deposit(p, x, &force, &(), &stress, &mut tile.impulses());
+                basis.deposit(p, x, &value, &(), &(), &mut cell.sums());
+                basis.deposit(p, x, &force, &(), &stress, &mut cell.impulses());
                 return;
             }
             for a in 0..D {
@@ -76,12 +76,12 @@ where
             }
             if T::MOVING_LEAST_SQUARES {
                 let affine = particles.affine[p] * mass + stress.matrix();
-                basis.deposit(p, x, &value, &affine, &(), &mut tile.sums());
+                basis.deposit(p, x, &value, &affine, &(), &mut cell.sums());
             } else if T::AFFINE {
                 let affine = particles.affine[p] * mass;
-                basis.deposit(p, x, &value, &affine, &stress, &mut tile.sums());
+                basis.deposit(p, x, &value, &affine, &stress, &mut cell.sums());
             } else {
-                basis.deposit(p, x, &value, &(), &stress, &mut tile.sums());
+                basis.deposit(p, x, &value, &(), &stress, &mut cell.sums());
             }
         };
         self.nodes
@@ -94,7 +94,7 @@ where
             return; // nothing deforms with them
         }
         let (particles, basis) = (&self.particles, &self.basis);
-        let deposit = move |p: usize, x: &[f64; D], _: Option<&()>, tile: &mut Tile<B, T::Node, D>| {
+        let deposit = move |p: usize, x: &[f64; D], _: Option<&()>, cell: &mut CellSums<B, T::Node, D>| {
             let mass = particles.masses.get(p);
             let value = Deposit {
                 scalar: mass,
@@ -102,9 +102,9 @@ where
             };
             if T::AFFINE {
                 let affine = particles.affine[p] * mass;
-                basis.deposit(p, x, &value, &affine, &(), &mut tile.sums());
+                basis.deposit(p, x, &value, &affine, &(), &mut cell.sums());
             } else {
-                basis.deposit(p, x, &value, &(), &(), &mut tile.sums());
+                basis.deposit(p, x, &value, &(), &(), &mut cell.sums());
             }
         };
         self.nodes

@@ -76,11 +76,7 @@ impl<const D: usize> QuadraticCube<D> {
         }
         let (value, slope, curvature) = self.row(0, &values);
         let slopes = [slope, self.value(0, &slopes_1), self.value(0, &slopes_2)];
-        let curvatures = [
-            curvature,
-            self.value(0, &curvatures_1),
-            self.value(0, &curvatures_2),
-        ];
+        let curvatures = [curvature, self.value(0, &curvatures_1), self.value(0, &curvatures_2)];
         let mut skewed = slopes;
         for axis in 0..3 {
             skewed[axis] = curvatures[axis].mul_add(Lanes::splat(self.skew[axis]), slopes[axis]);

@@ -189,15 +189,20 @@ impl Spline<4> for Cubic {
     fn rows(u: Lanes) -> Rows<4> {
         let base = round(u - 0.5) - 1.0;
         let f = u - base; // in [1, 2]: distance to the first node
-        let (a, b, c, d) = (2.0 - f, f - 1.0, 2.0 - f, f - 1.0);
-        let inner = |r: Lanes| (0.5 * r - 1.0) * r * r + 2.0 / 3.0;
-        let slope = |r: Lanes| (1.5 * r - 2.0) * r;
-        let (first, third, last) = (a * a * a / 6.0, inner(c), d * d * d / 6.0);
-        // The second is what the others leave: four rounded polynomials would lose mass and momentum step by step.
+        let (left, right) = (2.0 - f, f - 1.0);
+        let (first, last) = (left * left * left / 6.0, right * right * right / 6.0);
+        let (falling, rising) = (-0.5 * left * left, 0.5 * right * right);
+        // The inner two are what Σ N = 1, Σ j N = f, Σ N′ = 0 and Σ j N′ = 1 leave: four rounded polynomials would lose mass, momentum and
+        // angular momentum step by step.
         Rows {
             base,
-            weights: [first, 1.0 - (first + third + last), third, last],
-            derivatives: [-0.5 * a * a, slope(b), -slope(c), 0.5 * d * d],
+            weights: [first, left + last - 2.0 * first, right + first - 2.0 * last, last],
+            derivatives: [
+                falling,
+                rising - 2.0 * falling - 1.0,
+                1.0 + falling - 2.0 * rising,
+                rising,
+            ],
         }
     }
 }

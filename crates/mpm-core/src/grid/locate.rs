@@ -97,14 +97,7 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
     }
 
     /// The runs of the particles from `first` on, by tile, and the particles' places in them. A run ends with the first particle that its tile does not hold.
-    fn find_tiles(
-        &self,
-        first: usize,
-        positions: &[[f64; D]],
-        rim: i32,
-        chunk: &mut ChunkRuns<D>,
-        places: &mut [u16],
-    ) {
+    fn find_tiles(&self, first: usize, positions: &[[f64; D]], rim: i32, chunk: &mut ChunkRuns<D>, places: &mut [u16]) {
         chunk.blocks.clear();
         chunk.runs.clear();
         chunk.touched.clear();

@@ -12,7 +12,8 @@ mod tile;
 use std::marker::PhantomData;
 
 use mpm_kernels::{
-    Columns, Deposit, Entry, Interpolated, Layout, NodeField, NodeSink, QuadraticCube, Spline, Stencil, UniformGrid, Wanted,
+    Columns, Deposit, Entry, Interpolated, Layout, NodeField, NodeSink, QuadraticCube, Spline, Stencil, UniformGrid,
+    Wanted,
 };
 
 use self::block::{locate, node_at, slot_count};

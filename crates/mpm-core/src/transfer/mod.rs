@@ -3,19 +3,20 @@
 mod ahead;
 mod apic;
 mod cell_field;
+mod cell_sums;
 mod flip;
 mod gather;
 mod mls;
 mod moving;
 mod pic;
 mod scatter;
-mod tile;
 
 use mpm_kernels::{Deposit, Packed};
 
 pub(crate) use ahead::Prepare;
 pub use apic::Apic;
 pub(crate) use cell_field::{CellField, Changes, Numbered, Velocities};
+pub(crate) use cell_sums::CellSums;
 pub use flip::{Flip, FlipNode};
 pub(crate) use gather::gather_cells;
 pub use gather::{Divide, gather};
@@ -23,7 +24,6 @@ pub use mls::Mls;
 pub(crate) use moving::{Moving, MovingParticle};
 pub use pic::{Pic, VelocityNode};
 pub use scatter::{NodeSums, StencilNodes, Sum};
-pub(crate) use tile::Tile;
 
 /// What a node accumulates and later carries: mass and momentum first, velocity after [`advance`](Self::advance).
 pub trait GridNode<const D: usize>: Sum {

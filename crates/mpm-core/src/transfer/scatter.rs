@@ -6,7 +6,7 @@ use mpm_kernels::Lanes;
 use rayon::prelude::*;
 
 use super::ahead::{Ahead, Prepare};
-use super::{GridNode, Tile};
+use super::{CellSums, GridNode};
 use crate::{Basis, NO_NODE};
 
 /// Sums that several parts of the particles contribute to.
@@ -75,8 +75,8 @@ impl<N: Sum> NodeSums<N> {
         });
     }
 
-    /// As [`scatter`](Self::scatter), for sums with lanes: `deposit(p, x_p, I, tile)` adds to a tile, which is added to the nodes
-    /// once per cell. Bases with lone particles have no use for tiles; there the tile is the nodes themselves.
+    /// As [`scatter`](Self::scatter), for sums with lanes: `deposit(p, x_p, I, sums)` adds to the sums of a cell, which are added to the nodes
+    /// once per cell. Bases with lone particles have no use for them; there the sums are the nodes themselves.
     ///
     /// I is what `source` has prepared for the particle, some particles ahead at a time; `None` where nothing is wanted of it.
     pub(crate) fn scatter_packed<const D: usize, B: Basis<D>, P: Prepare>(
@@ -85,7 +85,7 @@ impl<N: Sum> NodeSums<N> {
         positions: &[[f64; D]],
         with_impulses: bool,
         source: P,
-        deposit: impl Fn(usize, &[f64; D], Option<&P::Value>, &mut Tile<B, N, D>) + Sync + Copy,
+        deposit: impl Fn(usize, &[f64; D], Option<&P::Value>, &mut CellSums<B, N, D>) + Sync + Copy,
     ) where
         N: GridNode<D>,
     {
@@ -93,12 +93,12 @@ impl<N: Sum> NodeSums<N> {
             if P::WANTED {
                 memory.ahead.reach(&particles, positions.len(), &source);
             }
-            let mut tile = Tile::<B, N, D>::new(stencil, &mut memory.lanes, with_impulses);
+            let mut sums = CellSums::<B, N, D>::new(stencil, &mut memory.lanes, with_impulses);
             for particle in particles {
                 let prepared = if P::WANTED { memory.ahead.get(particle) } else { None };
-                deposit(particle, &positions[particle], prepared, &mut tile);
+                deposit(particle, &positions[particle], prepared, &mut sums);
             }
-            tile.close();
+            sums.close();
         });
     }
 

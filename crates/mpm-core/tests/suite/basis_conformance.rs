@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use mpm_core::{Basis, SimplexLattice};
+use mpm_core::{Basis, NO_NODE, SimplexLattice};
 use mpm_kernels::Deposit;
 use mpm_tensor::Matrix;
 use rand::RngExt;
@@ -54,22 +54,26 @@ fn stencils_are_right<const D: usize, B: Basis<D>>(basis: &B, sorted: &[[f64; D]
     let mut scratch = Vec::new();
     for cell in 0..schedule.cell_count() {
         let cell_nodes = basis.cell_nodes(cell, &mut scratch);
-        assert_eq!(cell_nodes.len(), basis.stencil_size(), "{what}");
-        let distinct: HashSet<_> = cell_nodes.iter().collect();
-        assert_eq!(
-            distinct.len(),
-            cell_nodes.len(),
-            "{what}: a node occurs twice in a cell"
-        );
-        for &node in cell_nodes {
+        assert_eq!(cell_nodes.len(), basis.cell_stencil_size(cell), "{what}");
+        let present: Vec<u32> = cell_nodes.iter().copied().filter(|&node| node != NO_NODE).collect();
+        let distinct: HashSet<_> = present.iter().collect();
+        assert_eq!(distinct.len(), present.len(), "{what}: a node occurs twice in a cell");
+        for &node in &present {
             touched[node as usize] = true;
         }
+        let mut by_particles = HashSet::new();
         for place in schedule.cell(cell) {
             stencil_is_right(basis, place, &sorted[place], cell_nodes, &node_positions, what);
+            by_particles.extend(stencil(basis, place, &sorted[place]).iter().map(|s| cell_nodes[s.0]));
             if place % 16 == 0 {
-                transfers_are_sums(basis, place, &sorted[place], what);
+                transfers_are_sums(basis, place, &sorted[place], cell_nodes.len(), what);
             }
         }
+        assert_eq!(
+            by_particles.len(),
+            present.len(),
+            "{what}: a node that no particle of the cell touches"
+        );
     }
     assert!(
         touched.iter().all(|&t| t),
@@ -94,7 +98,7 @@ fn stencil_is_right<const D: usize, B: Basis<D>>(
     let rounding = 1e-12 * (norm(x) + h);
     let seen = stencil(basis, particle, x);
     assert!(
-        seen.iter().map(|s| s.0).eq(0..seen.len()),
+        seen.iter().is_sorted_by(|before, after| before.0 < after.0),
         "{what}: places out of order"
     );
     assert!(seen.len() <= basis.stencil_size());

@@ -1,6 +1,6 @@
 //! Conformance of a basis, part: who works when.
 
-use mpm_core::Basis;
+use mpm_core::{Basis, NO_NODE};
 
 /// The schedule is a permutation in cells and parts, and a part's cells touch no node outside its range.
 pub fn layout_is_sound<const D: usize, B: Basis<D>>(basis: &B, positions: &[[f64; D]], what: &str) {
@@ -38,7 +38,8 @@ pub fn layout_is_sound<const D: usize, B: Basis<D>>(basis: &B, positions: &[[f64
         next_cell = part.cells.end;
         assert!(part.nodes.end <= basis.node_count(), "{what}: a part beyond the nodes");
         for cell in part.cells.clone() {
-            for &node in basis.cell_nodes(cell, &mut scratch) {
+            let touched = basis.cell_nodes(cell, &mut scratch).iter();
+            for &node in touched.filter(|&&node| node != NO_NODE) {
                 assert!(
                     part.nodes.contains(&(node as usize)),
                     "{what}: node {node} outside its part"

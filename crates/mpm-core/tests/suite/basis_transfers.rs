@@ -28,11 +28,17 @@ impl<const D: usize> NodeField<D> for Nodes<D> {
     }
 }
 
-/// What a particle at `x` sends to its nodes and reads from them.
-pub fn transfers_are_sums<const D: usize, B: Basis<D>>(basis: &B, particle: usize, x: &[f64; D], what: &str) {
+/// What a particle at `x`, in a cell of so many `places`, sends to its nodes and reads from them.
+pub fn transfers_are_sums<const D: usize, B: Basis<D>>(
+    basis: &B,
+    particle: usize,
+    x: &[f64; D],
+    places: usize,
+    what: &str,
+) {
     let h = basis.spacing();
     let vector = |i: usize| std::array::from_fn(|a| ((7 * i + 3 * a) % 11) as f64 - 5.0);
-    let field: Vec<Deposit<D>> = (0..basis.stencil_size())
+    let field: Vec<Deposit<D>> = (0..places)
         .map(|i| Deposit {
             scalar: 0.0,
             vector: vector(i),

@@ -195,7 +195,7 @@ fn states_travel_with_their_particles() {
     let states: Vec<(u32, f64)> = positions.iter().map(|x| (0, x[0])).collect();
     let particles = Particles::at_rest(positions.clone(), 1.0).with_states(vec![1.0 / COUNT as f64; COUNT], states);
     let law = Remembering(NeoHookean::new(ElasticModuli::new(20.0, 0.3).unwrap()));
-    let grid = SplineGrid::<Quadratic, 3, 2>::new([0.0; 2], 0.2).unwrap();
+    let grid = SplineGrid::<Quadratic, 3, 2>::new([0.0; 2], 0.05).unwrap();
     let mut body = Mpm::new(particles, grid, Apic, Continuum { law }, Pull::none());
     body.step(&free(0.001)).unwrap();
     let sorted = body.particles.in_creation_order(&body.particles.states);

@@ -8,7 +8,7 @@ use super::{GridNode, StencilNodes};
 use crate::Basis;
 
 /// What the particles of one cell add to its nodes. Where every particle is a cell, the nodes are added to at once.
-pub(crate) struct Tile<'a, 'b, B, N, const D: usize> {
+pub(crate) struct CellSums<'a, 'b, B, N, const D: usize> {
     stencil: &'a mut StencilNodes<'b, N>,
     /// Mass and momentum at the nodes, by place in the stencil.
     sums: &'a mut [Lanes],
@@ -17,7 +17,7 @@ pub(crate) struct Tile<'a, 'b, B, N, const D: usize> {
     basis: PhantomData<B>,
 }
 
-impl<'a, 'b, B: Basis<D>, N: GridNode<D>, const D: usize> Tile<'a, 'b, B, N, D> {
+impl<'a, 'b, B: Basis<D>, N: GridNode<D>, const D: usize> CellSums<'a, 'b, B, N, D> {
     /// Nothing yet. `lanes` is memory to work in.
     #[inline(always)]
     pub fn new(stencil: &'a mut StencilNodes<'b, N>, lanes: &'a mut Vec<Lanes>, with_impulses: bool) -> Self {
@@ -43,6 +43,7 @@ impl<'a, 'b, B: Basis<D>, N: GridNode<D>, const D: usize> Tile<'a, 'b, B, N, D> 
         Sums::<B, N, D, false> {
             stencil: self.stencil,
             lanes: self.sums,
+            first: 0,
             basis: PhantomData,
         }
     }
@@ -53,6 +54,7 @@ impl<'a, 'b, B: Basis<D>, N: GridNode<D>, const D: usize> Tile<'a, 'b, B, N, D> 
         Sums::<B, N, D, true> {
             stencil: self.stencil,
             lanes: self.impulses,
+            first: 0,
             basis: PhantomData,
         }
     }
@@ -91,7 +93,10 @@ fn close<const G: usize, const D: usize, N: GridNode<D>>(
 
 struct Sums<'a, 'b, B, N, const D: usize, const IMPULSES: bool> {
     stencil: &'a mut StencilNodes<'b, N>,
+    /// Those of the places from `first` on; none with lone particles.
     lanes: &'a mut [Lanes],
+    /// Place that counts as 0.
+    first: usize,
     basis: PhantomData<B>,
 }
 
@@ -108,9 +113,9 @@ impl<B: Basis<D>, N: GridNode<D>, const D: usize, const IMPULSES: bool> NodeSink
                 _ => self.update(index, |sum: &Packed<4>| sum.plus_deposit(deposit)),
             }
         } else if IMPULSES {
-            self.stencil.node(index).add_impulse(&deposit.vector);
+            self.stencil.node(self.first + index).add_impulse(&deposit.vector);
         } else {
-            self.stencil.node(index).add(deposit);
+            self.stencil.node(self.first + index).add(deposit);
         }
     }
 
@@ -133,6 +138,7 @@ impl<B: Basis<D>, N: GridNode<D>, const D: usize, const IMPULSES: bool> NodeSink
                 &mut self.lanes[first * groups_of(D)..][..length * groups_of(D)]
             },
             stencil: self.stencil,
+            first: self.first + first,
             basis: PhantomData,
         }
     }
