@@ -2,12 +2,16 @@
 
 mod baseline_options;
 mod bounded;
+mod gas_options;
+mod given_options;
 mod limit;
 mod method_name;
 mod method_options;
 mod method_specification;
+mod option_checks;
 mod option_error;
 mod option_values;
+mod paper_options;
 mod target_specification;
 
 pub use bounded::{Bounded, Dimension, ParticleCount, StepCount, WarmUp};

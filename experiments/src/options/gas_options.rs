@@ -1,0 +1,102 @@
+//! The options of the sampler, on a lattice or a grid and on a mesh, from the flags.
+
+use parvi::{MeshOptions, MpmOptions, OnMesh, Settling, SpacingSchedule, TransferChoice};
+
+use super::{Basis, Limit, MethodOptions, OptionError, StepCount, Switch, Transfer};
+
+/// What the sampler on a mesh knows.
+const ON_MESH: [&str; 10] = [
+    "basis",
+    "mesh",
+    "steps",
+    "time-step",
+    "friction",
+    "shifts",
+    "settling",
+    "settling-shifts",
+    "non-finite",
+    "displacement-limit",
+];
+
+impl MethodOptions {
+    /// The calibrated gas.
+    pub(super) fn mpm(&self, steps: Option<usize>) -> Result<MpmOptions, OptionError> {
+        let default = MpmOptions::default();
+        let transfer = match self.transfer {
+            None => default.transfer,
+            Some(Transfer::Pic) => TransferChoice::Pic,
+            Some(Transfer::Apic) => TransferChoice::Apic,
+            Some(Transfer::Flip) => TransferChoice::Flip(self.flip_share.unwrap_or(0.95)),
+        };
+        let displacement_limit = self.displacement_limit_of_gas(default.displacement_limit)?;
+        Ok(MpmOptions {
+            basis: self.basis.and_then(Basis::uniform).unwrap_or(default.basis),
+            transfer,
+            spacing: self.spacing.or(default.spacing),
+            steps: steps.or(default.steps),
+            time_step: self.time_step.or(default.time_step),
+            friction: self.friction.or(default.friction),
+            survey: self.survey.map_or(default.survey, Switch::is_on),
+            shifts: self.shifts.map_or(default.shifts, Switch::is_on),
+            rotation: self.rotation.map_or(default.rotation, Switch::is_on),
+            spacing_schedule: SpacingSchedule {
+                range: self.spacing_range.unwrap_or(default.spacing_schedule.range),
+                coarse_start: self.coarse_start.unwrap_or(default.spacing_schedule.coarse_start),
+                ..default.spacing_schedule
+            },
+            settling: self.settling(default.settling),
+            moment_correction: self.moment_correction.map_or(default.moment_correction, Into::into),
+            score_location: self.score.map_or(default.score_location, Into::into),
+            displacement_limit,
+            rounds: self.rounds.map(StepCount::get).or(default.rounds),
+            non_finite_scores: self.non_finite.map_or(default.non_finite_scores, Into::into),
+            annealing: self.annealing().unwrap_or(default.annealing),
+            certificate: self.certificate.map_or(default.certificate, Switch::is_on),
+            checkpoint: default.checkpoint,
+            weighted: self.weighted.map_or(default.weighted, Switch::is_on),
+            trace_every: self.trace_every,
+        })
+    }
+
+    /// The calibrated gas within a mesh.
+    pub(super) fn on_mesh(&self, steps: Option<usize>) -> Result<OnMesh, OptionError> {
+        let default = MeshOptions::default();
+        let Some(file) = self.mesh.clone() else {
+            return Err(OptionError {
+                name: "basis".to_owned(),
+                reason: "mesh needs --mesh FILE.msh beside it".to_owned(),
+            });
+        };
+        let misfit = self.given().into_iter().find(|(name, ..)| !ON_MESH.contains(name));
+        if let Some((name, value, _)) = misfit {
+            return Err(OptionError::misfit(name, &value, "mpm on a mesh"));
+        }
+        let options = MeshOptions {
+            steps: steps.or(default.steps),
+            time_step: self.time_step.or(default.time_step),
+            friction: self.friction.or(default.friction),
+            shifts: self.shifts.map_or(default.shifts, Switch::is_on),
+            settling: self.settling(default.settling),
+            non_finite_scores: self.non_finite.map_or(default.non_finite_scores, Into::into),
+            displacement_limit: self.displacement_limit_of_gas(default.displacement_limit)?,
+            trace_every: self.trace_every,
+        };
+        Ok(OnMesh { file, options })
+    }
+
+    fn settling(&self, default: Settling) -> Settling {
+        Settling {
+            share: self.settling.unwrap_or(default.share),
+            shifts: self.settling_shifts.map_or(default.shifts, Switch::is_on),
+            ..default
+        }
+    }
+
+    fn displacement_limit_of_gas(&self, default: f64) -> Result<f64, OptionError> {
+        match self.displacement_limit {
+            None => Ok(default),
+            Some(Limit::At(limit)) => Ok(limit),
+            Some(Limit::Off) => Err(OptionError::misfit("displacement-limit", "off", "mpm")),
+        }
+    }
+}

@@ -1,0 +1,97 @@
+//! Which options belong to which method.
+
+use super::{MethodName, MethodOptions, OptionError};
+
+/// The methods that have an option.
+pub(super) type Owners = &'static [MethodName];
+const GAS: Owners = &[MethodName::Mpm];
+const PAPER: Owners = &[MethodName::PaperPic, MethodName::PaperApic];
+const GRID: Owners = &[MethodName::Mpm, MethodName::PaperPic, MethodName::PaperApic];
+const STEIN: Owners = &[MethodName::Svgd];
+const STEPPED: Owners = &[
+    MethodName::Mpm,
+    MethodName::PaperPic,
+    MethodName::PaperApic,
+    MethodName::Svgd,
+    MethodName::SupportPoints,
+];
+const CHAIN: Owners = &[MethodName::Nuts, MethodName::SteinThinning];
+const CHOICE: Owners = &[MethodName::SteinThinning];
+const CONDENSED: Owners = &[MethodName::SteinThinning, MethodName::SupportPoints];
+const REST: Owners = &[MethodName::SupportPoints];
+const STARTED: Owners = &[
+    MethodName::Mpm,
+    MethodName::PaperPic,
+    MethodName::PaperApic,
+    MethodName::Svgd,
+    MethodName::Nuts,
+    MethodName::SteinThinning,
+];
+
+impl MethodOptions {
+    /// Refuses options that the method does not have.
+    pub(super) fn check_fit(&self, method: MethodName) -> Result<(), OptionError> {
+        for (name, value, owners) in self.given() {
+            if !owners.contains(&method) {
+                return Err(OptionError::misfit(name, &value, method.as_str()));
+            }
+        }
+        Ok(())
+    }
+
+    /// The options that are set: name, value as typed, methods that have it.
+    pub(super) fn given(&self) -> Vec<(&'static str, String, Owners)> {
+        fn text<T: ToString>(value: &Option<T>) -> Option<String> {
+            value.as_ref().map(T::to_string)
+        }
+        let all = [
+            ("steps", text(&self.steps), STEPPED),
+            ("basis", text(&self.basis), GRID),
+            ("mesh", self.mesh.as_ref().map(|path| path.display().to_string()), GAS),
+            ("spacing", text(&self.spacing), GRID),
+            ("time-step", text(&self.time_step), GRID),
+            ("score", text(&self.score), GRID),
+            ("displacement-limit", text(&self.displacement_limit), GRID),
+            ("survey", text(&self.survey), GAS),
+            ("shifts", text(&self.shifts), GAS),
+            ("rotation", text(&self.rotation), GAS),
+            ("spacing-range", text(&self.spacing_range), GAS),
+            ("coarse-start", text(&self.coarse_start), GAS),
+            ("settling", text(&self.settling), GAS),
+            ("settling-shifts", text(&self.settling_shifts), GAS),
+            ("moment-correction", text(&self.moment_correction), GAS),
+            ("transfer", text(&self.transfer), GAS),
+            ("flip-share", text(&self.flip_share), GAS),
+            ("friction", text(&self.friction), GAS),
+            ("rounds", text(&self.rounds), GAS),
+            ("weighted", text(&self.weighted), GAS),
+            ("non-finite", text(&self.non_finite), GAS),
+            ("certificate", text(&self.certificate), GAS),
+            ("material", text(&self.material), PAPER),
+            ("youngs-modulus", text(&self.youngs_modulus), PAPER),
+            ("poissons-ratio", text(&self.poissons_ratio), PAPER),
+            ("alpha", text(&self.alpha), GRID),
+            ("alpha-from", text(&self.alpha_from), GRID),
+            ("alpha-to", text(&self.alpha_to), GRID),
+            ("guards", text(&self.guards), PAPER),
+            ("mass-floor", text(&self.mass_floor), PAPER),
+            ("mass-weighted-force", text(&self.mass_weighted_force), PAPER),
+            ("courant", text(&self.courant), PAPER),
+            ("step-size", text(&self.step_size), STEIN),
+            ("bandwidth", text(&self.bandwidth), STEIN),
+            ("warm-up", text(&self.warm_up), CHAIN),
+            ("chains", text(&self.chains), CHAIN),
+            ("thinning", text(&self.thinning), CHAIN),
+            ("target-acceptance", text(&self.target_acceptance), CHAIN),
+            ("pool", text(&self.pool), CHOICE),
+            ("pool-size", text(&self.pool_size), CONDENSED),
+            ("tolerance", text(&self.tolerance), REST),
+            ("start-mean", text(&self.start_mean), STARTED),
+            ("start-sd", text(&self.start_sd), STARTED),
+            ("start-draws", text(&self.start_draws), STARTED),
+        ];
+        all.into_iter()
+            .filter_map(|(name, value, owners)| Some((name, value?, owners)))
+            .collect()
+    }
+}

@@ -1,0 +1,84 @@
+//! Ranges of options, and which of them need or exclude each other.
+
+use super::{Basis, Limit, MethodOptions, OptionError, Transfer};
+
+/// A range for numbers.
+type Range = (fn(f64) -> bool, &'static str);
+const POSITIVE: Range = (|x| x > 0.0 && x.is_finite(), "a number above 0");
+const NOT_NEGATIVE: Range = (|x| x >= 0.0 && x.is_finite(), "a number of at least 0");
+const FINITE: Range = (f64::is_finite, "a finite number");
+const SHARE: Range = (|x| (0.0..=1.0).contains(&x), "from 0 to 1");
+const RATIO: Range = (|x| x >= 1.0 && x.is_finite(), "a number of at least 1");
+const BELOW_ONE: Range = (|x| (0.0..1.0).contains(&x), "at least 0 and below 1");
+const BETWEEN: Range = (|x| x > 0.0 && x < 1.0, "above 0 and below 1");
+const POISSON: Range = (|x| x > -1.0 && x < 0.5, "above -1 and below 0.5");
+
+impl MethodOptions {
+    /// Refuses numbers outside of their range.
+    pub(super) fn check_ranges(&self) -> Result<(), OptionError> {
+        let numbers: [(&str, Option<f64>, Range); 20] = [
+            ("spacing", self.spacing, POSITIVE),
+            ("time-step", self.time_step, POSITIVE),
+            (
+                "displacement-limit",
+                self.displacement_limit.and_then(Limit::value),
+                POSITIVE,
+            ),
+            ("spacing-range", self.spacing_range, RATIO),
+            ("coarse-start", self.coarse_start, RATIO),
+            ("settling", self.settling, BELOW_ONE),
+            ("flip-share", self.flip_share, SHARE),
+            ("friction", self.friction, NOT_NEGATIVE),
+            ("youngs-modulus", self.youngs_modulus, POSITIVE),
+            ("poissons-ratio", self.poissons_ratio, POISSON),
+            ("alpha", self.alpha, POSITIVE),
+            ("alpha-from", self.alpha_from, POSITIVE),
+            ("alpha-to", self.alpha_to, POSITIVE),
+            ("mass-floor", self.mass_floor, NOT_NEGATIVE),
+            ("courant", self.courant.and_then(Limit::value), POSITIVE),
+            ("step-size", self.step_size, POSITIVE),
+            ("bandwidth", self.bandwidth, POSITIVE),
+            ("target-acceptance", self.target_acceptance, BETWEEN),
+            ("tolerance", self.tolerance, NOT_NEGATIVE),
+            ("start-sd", self.start_sd, POSITIVE),
+        ];
+        for (name, value, (holds, expected)) in numbers.into_iter().chain([("start-mean", self.start_mean, FINITE)]) {
+            if let Some(value) = value
+                && !holds(value)
+            {
+                return Err(OptionError::out_of_range(name, value, expected));
+            }
+        }
+        Ok(())
+    }
+
+    /// Options that need or exclude each other.
+    pub(super) fn check_pairs(&self) -> Result<(), OptionError> {
+        if let Some(mesh) = &self.mesh
+            && self.basis != Some(Basis::Mesh)
+        {
+            return Err(OptionError {
+                name: "mesh".to_owned(),
+                reason: format!("{} needs the basis `mesh`", mesh.display()),
+            });
+        }
+        let refuse = |name: &str, value: f64, reason: &str| {
+            Err(OptionError {
+                name: name.to_owned(),
+                reason: format!("{value} {reason}"),
+            })
+        };
+        if let Some(share) = self.flip_share
+            && self.transfer != Some(Transfer::Flip)
+        {
+            return refuse("flip-share", share, "needs the transfer `flip`");
+        }
+        match (self.alpha, self.alpha_from, self.alpha_to) {
+            (Some(_), Some(from), _) => refuse("alpha-from", from, "contradicts a constant alpha"),
+            (Some(_), _, Some(to)) => refuse("alpha-to", to, "contradicts a constant alpha"),
+            (None, Some(from), None) => refuse("alpha-from", from, "needs alpha-to beside it"),
+            (None, None, Some(to)) => refuse("alpha-to", to, "needs alpha-from beside it"),
+            _ => Ok(()),
+        }
+    }
+}
