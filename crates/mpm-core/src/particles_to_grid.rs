@@ -67,7 +67,12 @@ where
                     scalar: 0.0,
                     vector: impulse,
                 };
-                basis.deposit(p, x, &value, &(), &(), &mut tile.sums());
+                if T::AFFINE {
+                    let affine = particles.affine[p] * mass;
+                    basis.deposit(p, x, &value, &affine, &(), &mut tile.sums());
+                } else {
+                    basis.deposit(p, x, &value, &(), &(), &mut tile.sums());
+                }
                 basis.deposit(p, x, &force, &(), &stress, &mut tile.impulses());
                 return;
             }
