@@ -93,6 +93,16 @@ fn errors_name_the_file_the_field_and_the_value() {
             "kind = \"apic\"\nflip_share = 0.5",
             &["transfer.flip_share = 0.5: must be left out"],
         ),
+        (
+            "kind = \"apic\"",
+            "kind = \"mls\"\npic_rate = 5.0",
+            &["transfer.pic_rate = 5.0: must be left out"],
+        ),
+        (
+            "kind = \"apic\"",
+            "kind = \"affine-flip\"\npic_rate = -1.0",
+            &["transfer.pic_rate = -1.0"],
+        ),
         ("end = 0.2", "end = 0.2\ncourant = 2", &["time.courant = 2.0"]),
         (
             "material = \"foam\"",
