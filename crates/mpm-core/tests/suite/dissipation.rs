@@ -17,7 +17,11 @@ fn left<T: Transfer<2>>(transfer: T, steps: usize) -> f64 {
         .map(|k| [place(k % PER_EDGE), place(k / PER_EDGE)])
         .collect();
     let mut particles = Particles::at_rest(positions, 1.0);
-    particles.velocities = particles.positions.iter().map(|x| [1e-4 * (4.0 * TAU * x[1]).sin(), 0.0]).collect();
+    particles.velocities = particles
+        .positions
+        .iter()
+        .map(|x| [1e-4 * (4.0 * TAU * x[1]).sin(), 0.0])
+        .collect();
     if T::AFFINE {
         particles.affine = vec![Matrix::ZERO; particles.velocities.len()];
     }
@@ -39,7 +43,10 @@ fn a_rate_dissipates_alike_in_few_steps_and_in_many() {
         pic_rate: 2.0,
     };
     let (few, many) = (left(relaxing, 25), left(relaxing, 400));
-    assert!((0.4..0.9).contains(&few) && (few / many - 1.0).abs() < 0.05, "{few}, {many}");
+    assert!(
+        (0.4..0.9).contains(&few) && (few / many - 1.0).abs() < 0.05,
+        "{few}, {many}"
+    );
     let (few, many) = (left(Flip::blend(0.95), 25), left(Flip::blend(0.95), 400));
     assert!(many < 0.2 * few, "{few}, {many}");
 }
