@@ -33,7 +33,7 @@ fn benches(c: &mut Criterion) {
     bench_transfer(c, "APIC", Apic, Order::Shuffled);
     bench_transfer(c, "MLS", Mls, Order::Sorted);
     bench_transfer(c, "PIC", Pic, Order::Sorted);
-    bench_transfer(c, "FLIP", Flip { share: 0.95 }, Order::Sorted);
+    bench_transfer(c, "FLIP", Flip::blend(0.95), Order::Sorted);
 }
 
 fn main() {

@@ -51,7 +51,7 @@ fn main() {
         "apic" => time(Apic, order, sizes),
         "mls" => time(Mls, order, sizes),
         "pic" => time(Pic, order, sizes),
-        "flip" => time(Flip { share: 0.95 }, order, sizes),
+        "flip" => time(Flip::blend(0.95), order, sizes),
         other => panic!("{other} is no transfer"),
     }
 }

@@ -36,7 +36,7 @@ where
 
     /// G2P. With volume averaging the trial deformation gradient is left for [`average_volume_ratios`](Self::average_volume_ratios).
     fn grid_to_particles<const MOVE: bool, const DEFORM: bool>(&mut self, dt: f64, damping: f64) {
-        let (basis, nodes, transfer) = (&self.basis, self.nodes.as_slice(), self.transfer);
+        let (basis, nodes, transfer) = (&self.basis, self.nodes.as_slice(), self.transfer.over(dt));
         let (medium, admit) = (&self.medium, !self.volume_averaging);
         let rate_dependent = medium.rate_dependent();
         let velocity = Velocities::<_, D>(nodes);

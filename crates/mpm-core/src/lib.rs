@@ -40,5 +40,6 @@ pub use particles::{Masses, Particles};
 pub use schedule::{Part, Schedule};
 pub use stress_update::StressUpdate;
 pub use transfer::{
-    Apic, Divide, Flip, FlipNode, GridNode, Mls, NodeSums, Pic, StencilNodes, Sum, Transfer, VelocityNode, gather,
+    AffineFlip, Apic, Divide, Flip, FlipNode, GridNode, Mls, NodeSums, Pic, StencilNodes, Sum, Transfer, VelocityNode,
+    gather,
 };

@@ -67,7 +67,12 @@ where
                     scalar: 0.0,
                     vector: impulse,
                 };
-                basis.deposit(p, x, &value, &(), &(), &mut cell.sums());
+                if T::AFFINE {
+                    let affine = particles.affine[p] * mass;
+                    basis.deposit(p, x, &value, &affine, &(), &mut cell.sums());
+                } else {
+                    basis.deposit(p, x, &value, &(), &(), &mut cell.sums());
+                }
                 basis.deposit(p, x, &force, &(), &stress, &mut cell.impulses());
                 return;
             }

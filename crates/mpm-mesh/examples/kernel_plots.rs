@@ -1,6 +1,6 @@
 //! Weights and diffuse gradients, with and without η, on graded segments and on a mesh of an "&": `cargo run -p mpm-mesh --example kernel_plots -- DIRECTORY`.
 //!
-//! * `graded_1.1.csv`, `graded_1.5.csv`: cells of sizes 1, R, R², R in turn; columns x, node (5 to 8, from 0 on), weight, gradient, `weight_distance_alone`,
+//! * `graded_1.1.csv` to `graded_1.5.csv`: cells of sizes 1, R, R², R in turn; columns x, node (5 to 8, from 0 on), weight, gradient, `weight_distance_alone`,
 //!   `gradient_distance_alone`; 200 points per cell, where a cell ends one from either side of the node, so that jumps are upright lines;
 //! * `ampersand.vtu`: the mesh;
 //! * `ampersand.csv`: one node at a re-entrant corner; columns x, y, cell, weight, `gradient_x`, `gradient_y` and the same for distances alone, at the points of every cell with
@@ -25,7 +25,7 @@ const BOTH: [SampleWeight; 2] = [SampleWeight::Continuous, SampleWeight::Distanc
 fn main() -> Result<(), Box<dyn Error>> {
     let directory = PathBuf::from(std::env::args().nth(1).ok_or("usage: kernel_plots DIRECTORY")?);
     std::fs::create_dir_all(&directory)?;
-    for ratio in [1.1, 1.5] {
+    for ratio in [1.1, 1.2, 1.3, 1.4, 1.5] {
         std::fs::write(directory.join(format!("graded_{ratio}.csv")), graded(ratio)?)?;
     }
     plane(&directory)

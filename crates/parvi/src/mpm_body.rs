@@ -37,7 +37,7 @@ impl<const D: usize> OnBasis<D> for Body<'_, D> {
             TransferChoice::Apic => self.run(Apic, make),
             TransferChoice::Flip(share) => {
                 check("FLIP share", share, (0.0..=1.0).contains(&share), "in [0, 1]")?;
-                self.run(Flip { share }, make)
+                self.run(Flip::blend(share), make)
             }
         }
     }

@@ -1,4 +1,4 @@
-//! Heat maps: shares over the cells of a plane, one panel per setting, with the number in every cell.
+//! Heat maps: shares over the cells of a plane, one panel per setting, with the number in every cell that has room for it.
 
 use super::data::{PlotError, check_size};
 use super::legend::{LegendEntry, Swatch, draw_legend, draw_notes, draw_title};
@@ -12,6 +12,8 @@ use super::text::{Anchor, TextStyle};
 const FULL: &str = ESTIMATE;
 /// The size of the numbers in the cells.
 const CELL_TEXT: f64 = 7.0;
+/// Narrower cells have no number.
+const NARROWEST: f64 = 9.0;
 /// The height of a panel.
 const PANEL_HEIGHT: f64 = 150.0;
 
@@ -166,6 +168,9 @@ fn draw_cells(drawing: &mut Drawing, axes: &Panel, plot: &HeatMapPlot, panel: &H
         };
         let share = share.clamp(0.0, 1.0);
         drawing.filled_rectangle(area, FULL, share);
+        if area.width < NARROWEST || area.height < CELL_TEXT {
+            continue;
+        }
         let at = (0.5 * (low.0 + high.0), 0.5 * (low.1 + high.1) + 0.36 * CELL_TEXT);
         let text = format!("{:.0}", 100.0 * share);
         drawing.text(at, &text, TextStyle::sized(CELL_TEXT, Anchor::Middle));

@@ -8,14 +8,29 @@ use super::{GridNode, Sum, Transfer, shorten};
 /// With friction, v_p and v_iⁿ in the second term are damped by the factor e^{−γΔt} that vⁿ⁺¹ contains.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Flip {
-    /// Share a ∈ [0, 1]: 0 is PIC, 1 is FLIP.
+    /// Share a ∈ [0, 1] in every step: 0 is PIC, 1 is FLIP. What a share below 1 dissipates depends on the number of steps.
     pub share: f64,
+    /// Rate r ≥ 0, per time, at which what the nodes do not see of v_p is forgotten: a = share · e^{−rΔt}. With a share of 1 that does not depend on the
+    /// number of steps.
+    pub pic_rate: f64,
+}
+
+impl Flip {
+    /// A fixed share of FLIP, the rest is PIC.
+    pub fn blend(share: f64) -> Self {
+        Self { share, pic_rate: 0.0 }
+    }
 }
 
 impl<const D: usize> Transfer<D> for Flip {
     type Node = FlipNode<D>;
     const AFFINE: bool = false;
     const INCREMENTAL: bool = true;
+
+    #[inline(always)]
+    fn over(&self, time_step: f64) -> Self {
+        Self::blend(self.share * (-self.pic_rate * time_step).exp())
+    }
 
     #[inline(always)]
     fn particle_velocity(&self, interpolated: &[f64; D], change: &[f64; D], own: &[f64; D], damping: f64) -> [f64; D] {

@@ -1,5 +1,6 @@
-//! How mass and momentum travel between particles and nodes: PIC, APIC, FLIP blend.
+//! How mass and momentum travel between particles and nodes: PIC, APIC, FLIP blend, FLIP with affine particles.
 
+mod affine_flip;
 mod ahead;
 mod apic;
 mod cell_field;
@@ -13,6 +14,7 @@ mod scatter;
 
 use mpm_kernels::{Deposit, Packed};
 
+pub use affine_flip::AffineFlip;
 pub(crate) use ahead::Prepare;
 pub use apic::Apic;
 pub(crate) use cell_field::{CellField, Changes, Numbered, Velocities};
@@ -72,6 +74,12 @@ pub trait Transfer<const D: usize>: Copy + Send + Sync {
 
     /// Whether nodes keep v_iⁿ beside v_iⁿ⁺¹ ([`GridNode::change`]); otherwise impulse and momentum may be added as one.
     const INCREMENTAL: bool;
+
+    /// The transfer in a step of length Δt; most do not depend on it.
+    #[inline(always)]
+    fn over(&self, _time_step: f64) -> Self {
+        *self
+    }
 
     /// New particle velocity from the interpolated nodal velocity, the interpolated nodal change and its own velocity.
     fn particle_velocity(&self, interpolated: &[f64; D], change: &[f64; D], own: &[f64; D], damping: f64) -> [f64; D];

@@ -113,7 +113,7 @@ fn apic() {
 
 #[test]
 fn flip() {
-    let flip = Flip { share: 0.95 };
+    let flip = Flip::blend(0.95);
     same_on_any_pool("gas", || {
         run(16_000, grid::<Quadratic, 3, 2>(0.06), flip, gas(), Pull::well())
     });
@@ -139,6 +139,6 @@ fn lattice_in_all_its_tables() {
     same_on_any_pool("D = 8, hashed by coordinates", || {
         run(9_000, lattice::<8>(0.05), Pic, gas(), Pull::well())
     });
-    let flip = Flip { share: 0.95 };
+    let flip = Flip::blend(0.95);
     same_on_any_pool("FLIP", || run(30_000, lattice::<4>(0.6), flip, gas(), nodal_well()));
 }

@@ -11,6 +11,7 @@ mod boundaries;
 mod conservation;
 mod deformation;
 mod determinism;
+mod dissipation;
 mod errors;
 mod force_identities;
 mod golden_counters;

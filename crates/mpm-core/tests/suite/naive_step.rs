@@ -62,6 +62,7 @@ pub enum Velocity {
     Pic,
     Apic,
     Flip(f64),
+    AffineFlip(f64),
 }
 
 /// A body force of position.
@@ -187,8 +188,8 @@ pub fn naive_step<const D: usize>(
         let stress = kirchhoff_stress(law, p);
         for (node, w, gradient) in &stencil {
             let affine = match (velocity, grid.kernel) {
-                (Velocity::Apic, Kernel::Linear) => p.affine.apply(gradient),
-                (Velocity::Apic, _) => {
+                (Velocity::Apic | Velocity::AffineFlip(_), Kernel::Linear) => p.affine.apply(gradient),
+                (Velocity::Apic | Velocity::AffineFlip(_), _) => {
                     let direction = second_moment.inverse().unwrap().apply(&offset(node));
                     p.affine.apply(&direction).map(|c| w * c)
                 }
@@ -251,7 +252,9 @@ pub fn naive_step<const D: usize>(
         for a in 0..D {
             p.x[a] += dt * interpolated[a];
             p.v[a] = match velocity {
-                Velocity::Flip(share) => (1.0 - share) * interpolated[a] + share * (damping * p.v[a] + change[a]),
+                Velocity::Flip(share) | Velocity::AffineFlip(share) => {
+                    (1.0 - share) * interpolated[a] + share * (damping * p.v[a] + change[a])
+                }
                 _ => interpolated[a],
             };
         }

@@ -37,7 +37,7 @@ fn fields_without_use_have_no_capacity() {
     // Positions, velocities, a buffer (24 bytes each), identities and their buffer (4 each).
     assert_eq!(after_steps(Pic, gas, Pull::none()), ([0; 3], 80));
     assert_eq!(
-        after_steps(Flip { share: 0.9 }, gas, Pull::at_particles(|_| [0.0; 3])),
+        after_steps(Flip::blend(0.9), gas, Pull::at_particles(|_| [0.0; 3])),
         ([0; 3], 80)
     );
     assert_eq!(after_steps(Pic, gas, Pull::at_nodes(|_, _| [0.0; 3])), ([0; 3], 80));

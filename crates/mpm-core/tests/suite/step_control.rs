@@ -44,8 +44,8 @@ proptest! {
         stays_within::<Quadratic, _, 3, 2>(Pic, strength, limit);
         stays_within::<Quadratic, _, 3, 1>(Apic, strength, limit);
         stays_within::<Quadratic, _, 3, 3>(Apic, strength, limit);
-        stays_within::<Cubic, _, 4, 2>(Flip { share: 1.0 }, strength, limit);
-        stays_within::<Linear, _, 2, 2>(Flip { share: 0.5 }, strength, limit);
+        stays_within::<Cubic, _, 4, 2>(Flip::blend(1.0), strength, limit);
+        stays_within::<Linear, _, 2, 2>(Flip::blend(0.5), strength, limit);
     }
 
     #[test]
@@ -125,8 +125,8 @@ fn friction_decays_exponentially() {
     }
     let expected = (-0.8f64).exp();
     assert!((speed(Pic) - expected).abs() < 1e-12);
-    assert!((speed(Flip { share: 1.0 }) - expected).abs() < 1e-12);
-    assert!((speed(Flip { share: 0.3 }) - expected).abs() < 1e-12);
+    assert!((speed(Flip::blend(1.0)) - expected).abs() < 1e-12);
+    assert!((speed(Flip::blend(0.3)) - expected).abs() < 1e-12);
 }
 
 #[test]

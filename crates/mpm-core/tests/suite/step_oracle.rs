@@ -1,6 +1,6 @@
 //! The step against the textbook: every transfer, law and kind of body force.
 
-use mpm_core::{Apic, Flip, Masses, Medium, Mpm, Particles, Pic, SplineGrid, Transfer, UniformBasis};
+use mpm_core::{AffineFlip, Apic, Flip, Masses, Medium, Mpm, Particles, Pic, SplineGrid, Transfer, UniformBasis};
 use mpm_kernels::{Cubic, Linear, Quadratic, Spline};
 use mpm_materials::{ElasticModuli, IsothermalGas, LinearElastic, NeoHookean};
 use mpm_tensor::Matrix;
@@ -12,6 +12,7 @@ use crate::scenes::{Pull, free, generator, normal, solid};
 const LAMBDA: f64 = 1.5;
 const MU: f64 = 2.0;
 const STEPS: usize = 6;
+const TIME_STEP: f64 = 0.01;
 
 fn pull<const D: usize>(x: &[f64; D]) -> [f64; D] {
     std::array::from_fn(|a| 0.3 - 1.2 * x[a] + 0.1 * x[(a + 1) % D])
@@ -54,7 +55,7 @@ fn agree<S: Spline<W>, T: Transfer<D>, M: Medium<D, State = ()>, const W: usize,
         Force::Nodes(f) => Pull::at_nodes(f),
     };
     let mut naive = body::<D>(40 + D as u64);
-    let (h, dt) = (0.45, 0.01);
+    let (h, dt) = (0.45, TIME_STEP);
     let mut particles = Particles::at_rest(naive.iter().map(|p| p.x).collect(), 1.0);
     particles.masses = Masses::Each(naive.iter().map(|p| p.mass).collect());
     particles.velocities = naive.iter().map(|p| p.v).collect();
@@ -140,7 +141,15 @@ fn every_law<S: Spline<W>, T: Transfer<D>, const W: usize, const D: usize>(
 fn every_transfer<S: Spline<W>, const W: usize, const D: usize>(kernel: Kernel) {
     every_law::<S, _, W, D>(kernel, Velocity::Pic, Pic);
     every_law::<S, _, W, D>(kernel, Velocity::Apic, Apic);
-    every_law::<S, _, W, D>(kernel, Velocity::Flip(0.9), Flip { share: 0.9 });
+    every_law::<S, _, W, D>(kernel, Velocity::Flip(0.9), Flip::blend(0.9));
+    let decaying = Flip {
+        share: 0.95,
+        pic_rate: 6.0,
+    };
+    let share = 0.95 * (-6.0 * TIME_STEP).exp();
+    every_law::<S, _, W, D>(kernel, Velocity::Flip(share), decaying);
+    every_law::<S, _, W, D>(kernel, Velocity::AffineFlip(0.9), AffineFlip(Flip::blend(0.9)));
+    every_law::<S, _, W, D>(kernel, Velocity::AffineFlip(share), AffineFlip(decaying));
 }
 
 #[test]

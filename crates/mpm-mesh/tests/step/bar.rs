@@ -35,7 +35,7 @@ fn error(h: f64, outer: usize, per_cell: usize) -> f64 {
     };
     let law = LinearElastic::new(ElasticModuli::new(YOUNG, 0.0).unwrap());
     let basis = MeshBasis::new(&line(&nodes)).unwrap();
-    let body = Mpm::new(particles, basis, Flip { share: 1.0 }, solid(law), NoBodyForce);
+    let body = Mpm::new(particles, basis, Flip::blend(1.0), solid(law), NoBodyForce);
     let mut body = body.with_boundary(Boundaries::new(vec![wall], Vec::new()));
     let frequency = wave_number * YOUNG.sqrt();
     let amplitude = SPEED / (wave_number * LENGTH * frequency);

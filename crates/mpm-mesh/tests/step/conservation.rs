@@ -75,9 +75,9 @@ proptest! {
 
     #[test]
     fn momentum_is_conserved(seed in 0u64..1_000_000) {
-        conserves::<1, _>(12, 0.6, seed, "FLIP", Flip { share: 0.95 });
+        conserves::<1, _>(12, 0.6, seed, "FLIP", Flip::blend(0.95));
         conserves::<2, _>(8, 0.6, seed, "PIC", Pic);
-        conserves::<2, _>(8, 0.6, seed, "FLIP", Flip { share: 0.95 });
+        conserves::<2, _>(8, 0.6, seed, "FLIP", Flip::blend(0.95));
         conserves::<2, _>(8, 0.6, seed, "APIC", Apic);
         conserves::<2, _>(8, 0.6, seed, "MLS", Mls);
         conserves::<3, _>(5, 0.4, seed, "APIC", Apic);
@@ -120,8 +120,8 @@ fn any_number_of_threads_gives_the_same_bits() {
             assert!(one == on(threads), "{what}: {threads} threads give other bits than one");
         }
     }
-    check("FLIP, D = 1", || run::<1, _>(400, 20_000, Flip { share: 0.95 }));
+    check("FLIP, D = 1", || run::<1, _>(400, 20_000, Flip::blend(0.95)));
     check("APIC, D = 2", || run::<2, _>(30, 10_000, Apic));
-    check("FLIP, D = 2", || run::<2, _>(30, 10_000, Flip { share: 0.95 }));
+    check("FLIP, D = 2", || run::<2, _>(30, 10_000, Flip::blend(0.95)));
     check("APIC, D = 3", || run::<3, _>(8, 6_000, Apic));
 }

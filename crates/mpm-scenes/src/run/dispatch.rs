@@ -1,7 +1,8 @@
 //! Basis and transfer, chosen once per run.
 
 use mpm_core::{
-    Apic, Boundaries, Continuum, Flip, Masses, Mls, Mpm, MpmError, Particles, SplineGrid, StressUpdate, Transfer,
+    AffineFlip, Apic, Boundaries, Continuum, Flip, Masses, Mls, Mpm, MpmError, Particles, SplineGrid, StressUpdate,
+    Transfer,
 };
 use mpm_kernels::{Cubic, Gimp, Linear, Quadratic, Spline};
 use mpm_mesh::{MeshBasis, Outside, SimplexMesh};
@@ -17,7 +18,7 @@ use crate::population::Population;
 use crate::scene::{BasisName, Discretisation, GridTable, MeshTable, Scene, StressUpdateName, TransferKind};
 use crate::shape::Bounds;
 
-/// Share of FLIP unless a scene says otherwise.
+/// Share of FLIP unless a scene says otherwise, or names a rate.
 const FLIP_SHARE: f64 = 0.99;
 
 /// The parts of a body that do not depend on basis and transfer.
@@ -115,6 +116,10 @@ fn with_spline<S: Spline<W> + Sync + 'static, const W: usize, const D: usize>(
 ) -> Result<Box<dyn Motion<D>>, SceneFault> {
     match parts.scene.transfer.kind {
         TransferKind::Pic | TransferKind::Flip => with_share::<S, W, D>(parts, grid),
+        TransferKind::AffineFlip => {
+            let transfer = AffineFlip(share(parts.scene));
+            with_transfer(parts, grid.of_spline::<S, W>()?, transfer)
+        }
         TransferKind::Apic => with_transfer(parts, grid.of_spline::<S, W>()?, Apic),
         TransferKind::Mls => with_transfer(parts, grid.of_spline::<S, W>()?, Mls),
     }
@@ -132,9 +137,15 @@ fn with_share<S: Spline<W> + Sync + 'static, const W: usize, const D: usize>(
 fn share(scene: &Scene) -> Flip {
     let share = match scene.transfer.kind {
         TransferKind::Pic => 0.0,
-        _ => scene.transfer.flip_share.unwrap_or(FLIP_SHARE),
+        _ => {
+            let default = scene.transfer.pic_rate.map_or(FLIP_SHARE, |_| 1.0);
+            scene.transfer.flip_share.unwrap_or(default)
+        }
     };
-    Flip { share }
+    Flip {
+        share,
+        pic_rate: scene.transfer.pic_rate.unwrap_or(0.0),
+    }
 }
 
 impl<const D: usize> Grid<D> {
@@ -159,6 +170,10 @@ fn on_mesh<const D: usize>(
     match parts.scene.transfer.kind {
         TransferKind::Pic | TransferKind::Flip => {
             let transfer = share(parts.scene);
+            with_transfer(parts, basis, transfer)
+        }
+        TransferKind::AffineFlip => {
+            let transfer = AffineFlip(share(parts.scene));
             with_transfer(parts, basis, transfer)
         }
         TransferKind::Apic => with_transfer(parts, basis, Apic),

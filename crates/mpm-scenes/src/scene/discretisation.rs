@@ -56,8 +56,12 @@ pub enum BasisName {
 pub struct TransferTable {
     /// Which one.
     pub kind: TransferKind,
-    /// Share of FLIP in [0, 1], the rest is PIC; with `kind = "flip"` only. Default 0.99.
+    /// Share of FLIP in [0, 1], the rest is PIC; with `kind = "flip"` and `"affine-flip"` only. Default 0.99, with `pic_rate` 1. What a share below 1
+    /// dissipates depends on the number of steps.
     pub flip_share: Option<f64>,
+    /// Rate r at which particle velocities turn into those of PIC, in 1/s: the share of FLIP in a step is `flip_share` e^{−rΔt}. Default 0; with
+    /// `kind = "flip"` and `"affine-flip"` only.
+    pub pic_rate: Option<f64>,
 }
 
 /// `transfer.kind`.
@@ -68,6 +72,8 @@ pub enum TransferKind {
     Pic,
     /// FLIP blended with PIC.
     Flip,
+    /// FLIP, blended alike, with affine particles (AFLIP).
+    AffineFlip,
     /// Affine particle in cell.
     #[default]
     Apic,

@@ -1,28 +1,11 @@
 //! Every bad mesh of a scene gets an error with file, field and value.
 
-use std::ops::ControlFlow;
 use std::path::Path;
 
 use mpm_scenes::{Scene, simulate};
 
+use super::refusal::refusal;
 use super::scenes::RUBBER_ON_MESH;
-
-/// What `parvi simulate` would say of the scene with one text replaced.
-fn refusal(from: &str, to: &str) -> String {
-    assert!(RUBBER_ON_MESH.contains(from), "{from}");
-    let text = RUBBER_ON_MESH.replacen(from, to, 1);
-    match Scene::parse(&text, Path::new("no/such/mesh.toml")) {
-        Err(error) => error.to_string(),
-        Ok(scene) => {
-            let directory = tempfile::tempdir().expect("a directory");
-            let stop = &mut |_| ControlFlow::Break(());
-            match simulate(&scene, directory.path(), stop) {
-                Err(error) => error.to_string(),
-                Ok(_) => panic!("{to}: accepted"),
-            }
-        }
-    }
-}
 
 #[test]
 fn errors_name_the_field_and_the_value() {
@@ -143,7 +126,7 @@ fn errors_name_the_field_and_the_value() {
         ("against = \"mesh\"", "against = \"grid\"", &["barrier.against", "grid"]),
     ];
     for (from, to, expected) in cases {
-        let message = refusal(from, to);
+        let message = refusal(RUBBER_ON_MESH, "no/such/mesh.toml", from, to);
         for part in *expected {
             assert!(message.contains(part), "{to}: {message}\nlacks {part}");
         }

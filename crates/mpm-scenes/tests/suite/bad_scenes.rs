@@ -1,28 +1,9 @@
 //! Every bad scene gets an error with file, field and value.
 
-use std::ops::ControlFlow;
-use std::path::Path;
+use mpm_scenes::Scene;
 
-use mpm_scenes::{Scene, simulate};
-
+use super::refusal::refusal;
 use super::scenes::BLOCK;
-
-/// What `parvi simulate` would say of the block scene with one text replaced.
-fn refusal(from: &str, to: &str) -> String {
-    assert!(BLOCK.contains(from), "{from}");
-    let text = BLOCK.replacen(from, to, 1);
-    match Scene::parse(&text, Path::new("block.toml")) {
-        Err(error) => error.to_string(),
-        Ok(scene) => {
-            let directory = tempfile::tempdir().expect("a directory");
-            let stop = &mut |_| ControlFlow::Break(());
-            match simulate(&scene, directory.path(), stop) {
-                Err(error) => error.to_string(),
-                Ok(_) => panic!("{to}: accepted"),
-            }
-        }
-    }
-}
 
 #[test]
 fn errors_name_the_file_the_field_and_the_value() {
@@ -92,6 +73,16 @@ fn errors_name_the_file_the_field_and_the_value() {
             "kind = \"apic\"",
             "kind = \"apic\"\nflip_share = 0.5",
             &["transfer.flip_share = 0.5: must be left out"],
+        ),
+        (
+            "kind = \"apic\"",
+            "kind = \"mls\"\npic_rate = 5.0",
+            &["transfer.pic_rate = 5.0: must be left out"],
+        ),
+        (
+            "kind = \"apic\"",
+            "kind = \"affine-flip\"\npic_rate = -1.0",
+            &["transfer.pic_rate = -1.0"],
         ),
         ("end = 0.2", "end = 0.2\ncourant = 2", &["time.courant = 2.0"]),
         (
@@ -169,7 +160,7 @@ fn errors_name_the_file_the_field_and_the_value() {
         ),
     ];
     for (from, to, expected) in cases {
-        let message = refusal(from, to);
+        let message = refusal(BLOCK, "block.toml", from, to);
         for part in *expected {
             assert!(message.contains(part), "{to}: {message}\nlacks {part}");
         }

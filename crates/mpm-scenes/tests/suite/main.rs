@@ -7,6 +7,7 @@ mod failures;
 mod forces;
 mod kinematic;
 mod on_meshes;
+mod refusal;
 mod resume;
 mod runs;
 mod scenes;

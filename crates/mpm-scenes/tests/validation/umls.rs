@@ -82,7 +82,6 @@ fn the_slope_begins_to_fail() {
         ("size = 0.2", "size = 0.8"),
         ("spacing = 0.1", "spacing = 0.4"),
         ("softening_rate = 5.0", "softening_rate = 20.0"),
-        ("step = 1.784e-4", "step = 7.1e-4"),
     ];
     figures(&run("umls_slope", &changes), "umls_slope, 0.8");
 }

@@ -273,3 +273,31 @@ fn heat_maps_state_the_share_of_every_cell() {
         Err(PlotError::Empty { .. })
     ));
 }
+
+#[test]
+fn snapshots_colour_particles_by_class() {
+    let panel = |title: &str, values: Vec<f64>| SnapshotPanel {
+        title: title.to_owned(),
+        positions: vec![[0.5, 0.5], [1.5, 0.5], [9.0, 9.0]],
+        values,
+    };
+    let mut plot = SnapshotsPlot {
+        title: "slope".to_owned(),
+        value_label: "strain".to_owned(),
+        extent: [[0.0, 0.0], [4.0, 2.0]],
+        spacing: 0.5,
+        bounds: vec![1.0, 2.0],
+        columns: 1,
+        panels: vec![panel("start", vec![0.0, 1.5, 3.0]), panel("end", vec![5.0; 3])],
+        ..SnapshotsPlot::default()
+    };
+    let svg = snapshots(&plot).unwrap();
+    assert_well_formed(&svg);
+    for text in ["strain &lt; 1", "1 to 2", "≥ 2", ">start<", ">end<"] {
+        assert!(svg.contains(text), "{text}");
+    }
+    plot.panels[0].values.pop();
+    assert!(matches!(snapshots(&plot), Err(PlotError::Size { .. })));
+    plot.panels.clear();
+    assert!(matches!(snapshots(&plot), Err(PlotError::Empty { .. })));
+}

@@ -38,11 +38,18 @@ impl Scene {
     }
 
     fn check_transfer(&self) -> Result<(), SceneFault> {
-        if let Some(share) = self.transfer.flip_share {
-            if self.transfer.kind != TransferKind::Flip {
-                let expected = "left out unless transfer.kind = \"flip\"";
-                return Err(SceneFault::value("transfer.flip_share", share, expected));
+        let table = &self.transfer;
+        let blended = matches!(table.kind, TransferKind::Flip | TransferKind::AffineFlip);
+        for (field, value) in [
+            ("transfer.flip_share", table.flip_share),
+            ("transfer.pic_rate", table.pic_rate),
+        ] {
+            if let (Some(value), false) = (value, blended) {
+                let expected = "left out unless transfer.kind = \"flip\" or \"affine-flip\"";
+                return Err(SceneFault::value(field, value, expected));
             }
+        }
+        if let Some(share) = table.flip_share {
             within(
                 "transfer.flip_share",
                 share,
@@ -50,7 +57,13 @@ impl Scene {
                 "between 0 and 1",
             )?;
         }
-        let affine = matches!(self.transfer.kind, TransferKind::Apic | TransferKind::Mls);
+        if let Some(rate) = table.pic_rate {
+            not_negative("transfer.pic_rate", rate)?;
+        }
+        let affine = matches!(
+            table.kind,
+            TransferKind::Apic | TransferKind::Mls | TransferKind::AffineFlip
+        );
         if self.is_gimp() && affine {
             let expected = "\"pic\" or \"flip\" with grid.basis = \"gimp\"";
             return Err(SceneFault::value("transfer.kind", self.transfer.kind, expected));

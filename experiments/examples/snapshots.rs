@@ -1,0 +1,54 @@
+//! A figure of frames of `parvi simulate`: `snapshots OUT.svg TITLE FIELD BOUNDS EXTENT COLUMNS FRAME.vtu…`.
+//!
+//! FIELD is a scalar of the particles, as in `plastic_strain`; BOUNDS, up to four numbers with commas, divide it into classes; EXTENT is
+//! `x_lower,y_lower,x_upper,y_upper`; COLUMNS is how many frames stand in a row.
+
+mod frames;
+
+use frames::{Frame, Result};
+use parvi_experiments::output::AtomicFile;
+use parvi_experiments::plots::{SnapshotPanel, SnapshotsPlot, snapshots};
+
+fn main() -> Result<()> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let [out, title, field, bounds, extent, columns, frames @ ..] = &arguments[..] else {
+        return Err("usage: snapshots OUT.svg TITLE FIELD BOUNDS EXTENT COLUMNS FRAME.vtu…".into());
+    };
+    let extent: [f64; 4] = numbers(extent)?.try_into().map_err(|_| "EXTENT has four numbers")?;
+    let mut panels = Vec::new();
+    for path in frames {
+        let frame = Frame::read(path)?;
+        panels.push(SnapshotPanel {
+            title: format!("t = {} s", frame.time()?),
+            positions: frame.plane()?,
+            values: frame.field(field)?,
+        });
+    }
+    let count = panels.first().map_or(0, |panel| panel.positions.len());
+    let plot = SnapshotsPlot {
+        title: format!("{title}, {count} particles"),
+        value_label: field.replace('_', " "),
+        x_label: "x (m)".to_owned(),
+        y_label: "y (m)".to_owned(),
+        extent: [[extent[0], extent[1]], [extent[2], extent[3]]],
+        spacing: nearest(&panels),
+        bounds: numbers(bounds)?,
+        columns: columns.parse()?,
+        panels,
+        notes: Vec::new(),
+    };
+    AtomicFile::write(out, snapshots(&plot)?)?;
+    Ok(())
+}
+
+fn numbers(list: &str) -> Result<Vec<f64>> {
+    list.split(',').map(|number| Ok(number.trim().parse()?)).collect()
+}
+
+/// Distance between the first two particles, which a filling makes neighbours.
+fn nearest(panels: &[SnapshotPanel]) -> f64 {
+    let Some([first, second, ..]) = panels.first().map(|panel| &panel.positions[..]) else {
+        return 1.0;
+    };
+    (second[0] - first[0]).hypot(second[1] - first[1])
+}

@@ -1,0 +1,152 @@
+//! Snapshots of bodies: particles in a plane, coloured by classes of a value, one panel per instant, both axes on one scale.
+
+use super::data::{PlotError, check_size};
+use super::legend::{LegendEntry, Swatch, draw_legend, draw_notes, draw_title};
+use super::panel::{AxesParts, Panel, label_lines, label_room, x_axis_room, x_ticks, y_tick_room, y_ticks};
+use super::scale::{AxisKind, Scale, plottable};
+use super::style::{FIGURE_WIDTH, LABEL_SIZE, MARGIN};
+use super::svg::{Drawing, Rectangle, Stroke};
+use super::text::{Anchor, TextStyle};
+
+/// Colours of classes from low to high, each darker than the one before.
+const CLASSES: [&str; 5] = ["#c6d5e8", "#8fb8de", "#f2b46b", "#d55e00", "#5a1200"];
+
+/// One instant.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct SnapshotPanel {
+    /// Which one.
+    pub title: String,
+    /// Where the particles are.
+    pub positions: Vec<[f64; 2]>,
+    /// A value of each particle.
+    pub values: Vec<f64>,
+}
+
+/// A figure of snapshots.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct SnapshotsPlot {
+    /// The title; empty for none.
+    pub title: String,
+    /// What the values are, with their unit.
+    pub value_label: String,
+    /// The label of the horizontal axis, with its unit.
+    pub x_label: String,
+    /// The label of the vertical axis, with its unit.
+    pub y_label: String,
+    /// The part of the plane, lowest and highest corner.
+    pub extent: [[f64; 2]; 2],
+    /// Distance between particles: the size they are drawn with.
+    pub spacing: f64,
+    /// Bounds between the classes, up to four, growing.
+    pub bounds: Vec<f64>,
+    /// Panels in a row.
+    pub columns: usize,
+    /// The panels.
+    pub panels: Vec<SnapshotPanel>,
+    /// Notes below the figure.
+    pub notes: Vec<String>,
+}
+
+/// Draws snapshots as an SVG document.
+///
+/// # Errors
+/// [`PlotError::Empty`] without a particle that can be drawn; [`PlotError::Size`] if a panel has not one value per particle.
+pub fn snapshots(plot: &SnapshotsPlot) -> Result<String, PlotError> {
+    for panel in &plot.panels {
+        check_size(|| panel.title.clone(), panel.positions.len(), panel.values.len())?;
+    }
+    let mut all = plot.panels.iter().flat_map(|panel| &panel.positions);
+    if !all.any(|x| plottable(x[0]) && plottable(x[1])) {
+        return Err(PlotError::Empty {
+            what: "particles".to_owned(),
+        });
+    }
+    let [low, high] = plot.extent;
+    let x = Scale::around([low[0], high[0]], AxisKind::Linear, 0.0);
+    let y = Scale::around([low[1], high[1]], AxisKind::Linear, 0.0);
+    let columns = plot.columns.clamp(1, plot.panels.len());
+    let rows = plot.panels.len().div_ceil(columns);
+    let left = MARGIN + 24.0 + label_room(1);
+    let gap = 8.0;
+    let width = (FIGURE_WIDTH - left - MARGIN - 8.0 - gap * (columns - 1) as f64) / columns as f64;
+    let unit = width / (high[0] - low[0]);
+    let height = (unit * (high[1] - low[1])).clamp(20.0, 640.0);
+    let (horizontal, vertical) = (x_ticks(&x, width, 4.0), y_ticks(&y, height, 5.0));
+
+    let mut drawing = Drawing::new(&plot.title);
+    let room = FIGURE_WIDTH - 2.0 * MARGIN;
+    let mut top = MARGIN + draw_title(&mut drawing, (MARGIN, MARGIN), room, &plot.title);
+    top += draw_legend(&mut drawing, (left, top), room - left, &legend(plot)) + 6.0;
+    for (row, members) in plot.panels.chunks(columns).enumerate() {
+        let lowest = row + 1 == rows;
+        for (column, panel) in members.iter().enumerate() {
+            let area = Rectangle {
+                x: left + column as f64 * (width + gap),
+                y: top + LABEL_SIZE + 5.0,
+                width,
+                height,
+            };
+            let axes = Panel { area, x, y };
+            draw_particles(&mut drawing, &axes, plot, panel, unit);
+            let parts = AxesParts {
+                x_ticks: horizontal.clone(),
+                y_ticks: vertical.clone(),
+                x_label: Some(if lowest { plot.x_label.as_str() } else { "" }),
+                y_label: if column == 0 { &plot.y_label } else { "" },
+                y_tick_room: Some(y_tick_room(&vertical)),
+            };
+            axes.draw_axes(&mut drawing, &parts);
+            let title = TextStyle {
+                bold: true,
+                ..TextStyle::sized(LABEL_SIZE, Anchor::Start)
+            };
+            drawing.text((area.x, area.y - 4.5), &panel.title, title);
+        }
+        let lines = if lowest {
+            label_lines(&plot.x_label, horizontal.exponent, width).len()
+        } else {
+            0
+        };
+        top += LABEL_SIZE + 5.0 + height + x_axis_room(lines) + 6.0;
+    }
+    let notes = draw_notes(&mut drawing, (MARGIN, top - 4.0), room, &plot.notes);
+    Ok(drawing.finish(FIGURE_WIDTH, top + notes + MARGIN - 4.0))
+}
+
+/// The class of a value: how many bounds it reaches.
+fn class(plot: &SnapshotsPlot, value: f64) -> usize {
+    let reached = plot.bounds.iter().take_while(|bound| value >= **bound).count();
+    reached.min(CLASSES.len() - 1)
+}
+
+fn legend(plot: &SnapshotsPlot) -> Vec<LegendEntry<'static>> {
+    let count = plot.bounds.len().min(CLASSES.len() - 1);
+    let label = |class: usize| match (class, plot.bounds.get(class)) {
+        (0, None) => plot.value_label.clone(),
+        (0, Some(bound)) => format!("{} < {bound}", plot.value_label),
+        (_, Some(bound)) if class < count => format!("{} to {bound}", plot.bounds[class - 1]),
+        _ => format!("≥ {}", plot.bounds[class - 1]),
+    };
+    let entry = |class: usize| LegendEntry {
+        swatch: Swatch::Area(CLASSES[class], 1.0),
+        label: label(class),
+    };
+    (0..=count).map(entry).collect()
+}
+
+/// The particles of a panel, the lowest class first: squares as short thick lines, one path per class.
+fn draw_particles(drawing: &mut Drawing, axes: &Panel, plot: &SnapshotsPlot, panel: &SnapshotPanel, unit: f64) {
+    let size = (unit * plot.spacing).max(0.6);
+    drawing.clipped(axes.area, |drawing| {
+        for (number, color) in CLASSES.iter().enumerate() {
+            let particles = panel.positions.iter().zip(&panel.values);
+            let members = particles.filter(|(_, value)| class(plot, **value) == number);
+            let square = |(at, _): (&[f64; 2], &f64)| {
+                let (x, y) = axes.point(at[0], at[1])?;
+                Some([(x - 0.5 * size, y), (x + 0.5 * size, y)])
+            };
+            let squares: Vec<_> = members.filter_map(square).collect();
+            drawing.lines(&squares, Stroke::solid(color, size));
+        }
+    });
+}
