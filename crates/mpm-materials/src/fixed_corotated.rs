@@ -2,7 +2,8 @@
 
 use mpm_tensor::{Matrix, Polar};
 
-use crate::material::{check_volume_ratio, inverse_transpose};
+use crate::material::{check_volume_ratio, inverse_transpose, stresses_one_by_one, wave_speeds_one_by_one};
+use crate::side_by_side::{LANES, groups, write_wave_speeds};
 use crate::stretch::{largest_squared_stretch, squared_stretch_range};
 use crate::{DeformationError, ElasticModuli, Material};
 
@@ -95,6 +96,35 @@ impl<const D: usize> Material<D> for FixedCorotated {
         ((2.0 * mu * largest + correction) / reference_density).sqrt()
     }
 
+    fn kirchhoff_stresses(&self, F: &[Matrix<D>], stresses: &mut [Matrix<D>]) {
+        let (lambda, mu) = (self.moduli.first_lame_parameter(), self.moduli.shear_modulus());
+        if D > 3 {
+            return stresses_one_by_one(self, F, stresses); // a group has no determinant
+        }
+        for (F, stresses) in groups(F).zip(stresses.chunks_mut(LANES)) {
+            let (J, R) = (F.volume_ratio(), F.rotation());
+            let pressure = (J - 1.0) * J * lambda;
+            let strain = F.minus(&R);
+            strain
+                .symmetric_product(&F)
+                .scaled_and_shifted(2.0 * mu, pressure)
+                .write(stresses);
+        }
+    }
+
+    fn wave_speeds(&self, F: &[Matrix<D>], reference_densities: &[f64], wave_speeds: &mut [f64]) {
+        let (lambda, mu) = (self.moduli.first_lame_parameter(), self.moduli.shear_modulus());
+        if D > 3 || lambda < 0.0 {
+            return wave_speeds_one_by_one(self, F, reference_densities, wave_speeds);
+        }
+        let each = reference_densities.chunks(LANES).zip(wave_speeds.chunks_mut(LANES));
+        for (F, (densities, speeds)) in groups(F).zip(each) {
+            let J = F.volume_ratio();
+            let stiffness = F.left_cauchy_green().largest_row_sum() * (2.0 * mu) + J * J * lambda;
+            write_wave_speeds(stiffness, densities, speeds);
+        }
+    }
+
     fn check(&self, F: &Matrix<D>) -> Result<(), DeformationError> {
         check_volume_ratio(F).map(|_| ())
     }
@@ -127,5 +157,10 @@ mod tests {
         assert!(material().kirchhoff_stress(&F).trace().is_nan());
         assert!(material().first_piola_kirchhoff(&F).trace().is_nan());
         assert!(material().energy_density(&F).is_nan() && material().wave_speed(&F, 1.0).is_nan());
+    }
+
+    #[test]
+    fn many_at_once_are_each_of_them_in_any_company() {
+        crate::side_by_side::tests::company_does_not_matter(&material());
     }
 }

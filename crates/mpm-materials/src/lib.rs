@@ -12,6 +12,7 @@ mod linear_elastic;
 mod log_strain;
 mod material;
 mod neo_hookean;
+mod rotations;
 mod side_by_side;
 mod softening_hencky;
 mod stretch;

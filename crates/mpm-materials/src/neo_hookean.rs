@@ -6,7 +6,7 @@ use wide::f64x4;
 use crate::material::{
     check_volume_ratio, inverse_transpose, log_volume_ratio, stresses_one_by_one, wave_speeds_one_by_one,
 };
-use crate::side_by_side::{LANES, groups};
+use crate::side_by_side::{LANES, groups, write_wave_speeds};
 use crate::stretch::{largest_squared_stretch, left_cauchy_green};
 use crate::{DeformationError, ElasticModuli, Material};
 
@@ -92,10 +92,7 @@ impl<const D: usize> Material<D> for NeoHookean {
             // Where F has NaN, so have ln J and this.
             let pressure_part = pressure_part.simd_lt(f64x4::ZERO).select(f64x4::ZERO, pressure_part);
             let stiffness = F.left_cauchy_green().largest_row_sum() * mu + pressure_part;
-            let mut density = [1.0; LANES];
-            density[..densities.len()].copy_from_slice(densities);
-            let speed = (stiffness / f64x4::new(density)).sqrt().to_array();
-            speeds.copy_from_slice(&speed[..speeds.len()]);
+            write_wave_speeds(stiffness, densities, speeds);
         }
     }
 
@@ -139,44 +136,6 @@ mod tests {
 
     #[test]
     fn many_at_once_are_each_of_them_in_any_company() {
-        fn check<const D: usize>() {
-            let deform = |k: usize| {
-                let entry = |i: usize, j: usize| 0.05 * ((7 * k + 5 * i + 3 * j) % 11) as f64 - 0.2;
-                let mut F = Matrix::<D>::from_fn(entry) + Matrix::IDENTITY;
-                match k {
-                    3 => F.0[0] = [0.0; D],
-                    5 => F.0[0][D - 1] = f64::NAN,
-                    _ => {}
-                }
-                F
-            };
-            let F: Vec<Matrix<D>> = (0..11).map(deform).collect();
-            let densities: Vec<f64> = (0..11).map(|k| 1.0 + 0.3 * k as f64).collect();
-            for count in 0..=F.len() {
-                let (mut stresses, mut speeds) = (vec![Matrix::ZERO; count], vec![0.0; count]);
-                Material::kirchhoff_stresses(&material(), &F[..count], &mut stresses);
-                Material::wave_speeds(&material(), &F[..count], &densities[..count], &mut speeds);
-                for k in 0..count {
-                    let (mut stress, mut speed) = ([Matrix::ZERO], [0.0]);
-                    Material::kirchhoff_stresses(&material(), &F[k..=k], &mut stress);
-                    Material::wave_speeds(&material(), &F[k..=k], &densities[k..=k], &mut speed);
-                    let bits = |matrix: &Matrix<D>| matrix.0.map(|row| row.map(f64::to_bits));
-                    assert_eq!(bits(&stress[0]), bits(&stresses[k]));
-                    assert_eq!(speed[0].to_bits(), speeds[k].to_bits());
-                    let expected = material().kirchhoff_stress(&F[k]);
-                    let expected_speed = Material::wave_speed(&material(), &F[k], densities[k]);
-                    assert_eq!(expected_speed.is_finite(), speeds[k].is_finite(), "{:?}", F[k]);
-                    assert_eq!(expected.trace().is_nan(), stresses[k].trace().is_nan());
-                    if expected_speed.is_finite() {
-                        assert!((expected - stresses[k]).maximum_norm() < 1e-14 * (1.0 + expected.maximum_norm()));
-                        assert!((expected_speed - speeds[k]).abs() < 1e-14 * expected_speed);
-                    }
-                }
-            }
-        }
-        check::<1>();
-        check::<2>();
-        check::<3>();
-        check::<4>();
+        crate::side_by_side::tests::company_does_not_matter(&material());
     }
 }

@@ -8,7 +8,7 @@ pub(crate) const LANES: usize = 4;
 
 /// Four matrices, one per lane.
 #[derive(Clone, Copy)]
-pub(crate) struct Group<const D: usize>([[f64x4; D]; D]);
+pub(crate) struct Group<const D: usize>(pub(crate) [[f64x4; D]; D]);
 
 /// The groups of `matrices`. What is missing of the last group is its last matrix: a matrix has the same results in any company.
 #[inline(always)]
@@ -47,17 +47,34 @@ impl<const D: usize> Group<D> {
         }
     }
 
-    /// ln J, J = det F; NaN unless J is positive and finite. Only for D ≤ 3; NaN beyond.
+    /// `value` I.
     #[inline(always)]
-    pub fn log_volume_ratio(&self) -> f64x4 {
+    pub fn diagonal(value: f64x4) -> Self {
+        let mut group = Self([[f64x4::ZERO; D]; D]);
+        for i in 0..D {
+            group.0[i][i] = value;
+        }
+        group
+    }
+
+    /// J = det F; NaN unless it is positive and finite. Only for D ≤ 3; NaN beyond.
+    #[inline(always)]
+    pub fn volume_ratio(&self) -> f64x4 {
         let J = self.determinant();
         let sound = J.simd_gt(f64x4::ZERO) & J.simd_lt(f64x4::splat(f64::INFINITY));
-        sound.select(J.ln(), f64x4::splat(f64::NAN))
+        sound.select(J, f64x4::splat(f64::NAN))
+    }
+
+    /// ln J; NaN where the [`volume_ratio`](Self::volume_ratio) is.
+    #[inline(always)]
+    pub fn log_volume_ratio(&self) -> f64x4 {
+        let J = self.volume_ratio();
+        J.simd_eq(J).select(J.ln(), J)
     }
 
     /// As [`Matrix::determinant`], to the last bit.
     #[inline(always)]
-    fn determinant(&self) -> f64x4 {
+    pub fn determinant(&self) -> f64x4 {
         let a = &self.0;
         match D {
             1 => a[0][0],
@@ -87,6 +104,35 @@ impl<const D: usize> Group<D> {
         b
     }
 
+    /// A − B.
+    #[inline(always)]
+    pub fn minus(&self, other: &Self) -> Self {
+        let mut difference = *self;
+        for i in 0..D {
+            for j in 0..D {
+                difference.0[i][j] -= other.0[i][j];
+            }
+        }
+        difference
+    }
+
+    /// (A Bᵀ + B Aᵀ)/2, exactly symmetric.
+    #[inline(always)]
+    pub fn symmetric_product(&self, other: &Self) -> Self {
+        let mut product = Self([[f64x4::ZERO; D]; D]);
+        for i in 0..D {
+            for j in 0..=i {
+                let mut sum = f64x4::ZERO;
+                for k in 0..D {
+                    sum = self.0[i][k].mul_add(other.0[j][k], sum);
+                    sum = other.0[i][k].mul_add(self.0[j][k], sum);
+                }
+                (product.0[i][j], product.0[j][i]) = (sum * 0.5, sum * 0.5);
+            }
+        }
+        product
+    }
+
     /// `factor` A + `shift` I.
     #[inline(always)]
     pub fn scaled_and_shifted(mut self, factor: f64, shift: f64x4) -> Self {
@@ -111,5 +157,69 @@ impl<const D: usize> Group<D> {
             largest = largest.fast_max(sum);
         }
         largest
+    }
+}
+
+/// √(`stiffness` / ρ₀) for up to four densities.
+#[inline(always)]
+pub(crate) fn write_wave_speeds(stiffness: f64x4, densities: &[f64], speeds: &mut [f64]) {
+    let mut density = [1.0; LANES];
+    density[..densities.len()].copy_from_slice(densities);
+    let speed = (stiffness / f64x4::new(density)).sqrt().to_array();
+    speeds.copy_from_slice(&speed[..speeds.len()]);
+}
+
+#[cfg(test)]
+#[allow(non_snake_case)]
+pub(crate) mod tests {
+    use mpm_tensor::Matrix;
+
+    use crate::Material;
+
+    /// What is worked out for several deformation gradients at once has the same bits for each of them whatever the others are, and is what is worked out for one.
+    pub(crate) fn company_does_not_matter<M>(material: &M)
+    where
+        M: Material<1> + Material<2> + Material<3> + Material<4>,
+    {
+        check::<M, 1>(material);
+        check::<M, 2>(material);
+        check::<M, 3>(material);
+        check::<M, 4>(material);
+    }
+
+    fn check<M: Material<D>, const D: usize>(material: &M) {
+        let deform = |k: usize| {
+            let entry = |i: usize, j: usize| 0.05 * ((7 * k + 5 * i + 3 * j) % 11) as f64 - 0.2;
+            let mut F = Matrix::<D>::from_fn(entry) + Matrix::IDENTITY;
+            match k {
+                3 => F.0[0] = [0.0; D],
+                5 => F.0[0][D - 1] = f64::NAN,
+                _ => {}
+            }
+            F
+        };
+        let F: Vec<Matrix<D>> = (0..11).map(deform).collect();
+        let densities: Vec<f64> = (0..11).map(|k| 1.0 + 0.3 * k as f64).collect();
+        for count in 0..=F.len() {
+            let (mut stresses, mut speeds) = (vec![Matrix::ZERO; count], vec![0.0; count]);
+            material.kirchhoff_stresses(&F[..count], &mut stresses);
+            material.wave_speeds(&F[..count], &densities[..count], &mut speeds);
+            for k in 0..count {
+                let (mut stress, mut speed) = ([Matrix::ZERO], [0.0]);
+                material.kirchhoff_stresses(&F[k..=k], &mut stress);
+                material.wave_speeds(&F[k..=k], &densities[k..=k], &mut speed);
+                let bits = |matrix: &Matrix<D>| matrix.0.map(|row| row.map(f64::to_bits));
+                assert_eq!(bits(&stress[0]), bits(&stresses[k]));
+                assert_eq!(speed[0].to_bits(), speeds[k].to_bits());
+                let expected = material.kirchhoff_stress(&F[k]);
+                let expected_speed = material.wave_speed(&F[k], densities[k]);
+                assert_eq!(expected_speed.is_finite(), speeds[k].is_finite(), "{:?}", F[k]);
+                assert_eq!(expected.trace().is_nan(), stresses[k].trace().is_nan());
+                if expected_speed.is_finite() {
+                    assert!((expected - stresses[k]).maximum_norm() < 1e-14 * (1.0 + expected.maximum_norm()));
+                    assert!((expected_speed - speeds[k]).abs() < 1e-14 * expected_speed);
+                }
+            }
+        }
     }
 }
