@@ -68,24 +68,17 @@ impl Tile {
     /// The tile of a block that holds particles up to `rim` cells outside of it.
     pub fn new<const D: usize>(block: &[i32; D], rim: i32) -> Self {
         let bits = edge_bits::<D>();
-        let corner = |outside: i32| {
-            let mut corner = [if outside < 0 { f64::INFINITY } else { f64::NEG_INFINITY }; 4];
-            for a in 0..D {
-                corner[a] = f64::from((block[a] << bits[a]) - outside);
-                if outside < 0 {
-                    corner[a] += f64::from(1 << bits[a]) - 1.0;
-                }
-            }
-            Lanes::new(corner)
-        };
-        let mut start = [0.0; 4];
+        let (mut start, mut lower, mut upper) = ([0.0; 4], [f64::NEG_INFINITY; 4], [f64::INFINITY; 4]);
         for a in 0..D {
-            start[a] = f64::from((block[a] << bits[a]) - RIM);
+            let first = block[a] << bits[a];
+            start[a] = f64::from(first - RIM);
+            lower[a] = f64::from(first - rim);
+            upper[a] = f64::from(first + (1 << bits[a]) + rim);
         }
         Self {
             start: Lanes::new(start),
-            lower: corner(rim),
-            upper: corner(-rim - 1),
+            lower: Lanes::new(lower),
+            upper: Lanes::new(upper),
         }
     }
 
