@@ -30,7 +30,7 @@ scene = "strip.toml"
 parameters = ["gravity"]
 keys = [{ key = "gravity.1", factor = -1.0, product = ["gravity"] }]
 cases = { train = [[1.0], [3.0]], test = [[2.0]] }
-training = { coordinates = 2, width = 6, depth = 2, epochs = 3, batch = 2 }
+training = { coordinates = 2, width = 6, depth = 2, epochs = 3, finishing_steps = 2, batch = 2 }
 run = { samples = [20, "all"] }
 "#;
 
@@ -47,7 +47,7 @@ fn a_model_is_trained_and_run() {
     );
     let trained = parvi(root.path(), "rom train rom.toml --out out");
     assert!(trained.status.success(), "{}", stderr(&trained));
-    for (key, expected) in [("points", "64"), ("runs", "2"), ("frames", "10"), ("epochs", "3")] {
+    for (key, expected) in [("points", "64"), ("runs", "2"), ("frames", "10"), ("epochs", "5")] {
         assert_eq!(value(&trained, key).as_deref(), Some(expected), "{key}");
     }
     let run = parvi(root.path(), "rom run rom.toml --out out");

@@ -1,6 +1,6 @@
 //! Fit error against training time on a family of deformations known by formula, split into runs trained on and runs that were not.
 //!
-//!     cargo run --release -p mpm-rom --example bending -- [EPOCHS [BATCH [POINTS [RATE [COORDINATES [λ_F [λ_v]]]]]]]
+//!     cargo run --release -p mpm-rom --example bending -- [EPOCHS [BATCH [POINTS [RATE [COORDINATES [λ_F [λ_v [FINISHING]]]]]]]]
 
 #[path = "../tests/common/mod.rs"]
 mod common;
@@ -26,6 +26,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         coordinates: or(4, standard.coordinates as f64) as usize,
         gradient_weight: or(5, standard.gradient_weight),
         velocity_weight: or(6, standard.velocity_weight),
+        finishing_steps: or(7, 0.0) as u64,
         ..standard
     };
     let all = common::bending_cylinder(1368, 30, 30);

@@ -14,6 +14,8 @@ fn small() -> (Snapshots<3>, Training) {
         depth: 2,
         encoder_width: 6,
         epochs: 6,
+        finishing_steps: 4,
+        finishing_samples: 100,
         batch: 5,
         points: 20,
         checkpoint_interval: 2,
@@ -28,7 +30,7 @@ fn a_resumed_training_has_the_bits_of_an_uninterrupted_one() {
     let mut whole = Trainer::new(&snapshots, config.clone()).unwrap();
     whole.train(None, &mut ()).unwrap();
     let directory = tempfile::tempdir().unwrap();
-    for last in [0, 2, 5] {
+    for last in [0, 2, 5, 7] {
         let path = directory.path().join(format!("{last}.safetensors"));
         let mut stop = |report: &EpochReport| {
             if report.epoch == last {
@@ -120,6 +122,7 @@ fn unseen_runs_are_reproduced() {
     );
     let config = Training {
         epochs: 600,
+        finishing_steps: 0,
         ..Training::default()
     };
     let mut trainer = Trainer::new(&seen, config).unwrap();

@@ -3,7 +3,7 @@
 use mpm_tensor::{Matrix, vector as algebra};
 
 use crate::loads::within;
-use crate::scene::{KinematicTable, Scene};
+use crate::scene::{Scene, TurningTable};
 use crate::values::vector;
 use crate::velocity::spin;
 use crate::{Population, SceneFault};
@@ -38,6 +38,25 @@ impl<const D: usize> RigidMotion<D> {
         algebra::add_scaled(&turned, time, &self.velocity)
     }
 
+    /// X of what is at x at a time.
+    pub fn reference(&self, position: &[f64; D], time: f64) -> [f64; D] {
+        let back = algebra::add_scaled(position, -time, &self.velocity);
+        if self.spin == Matrix::ZERO {
+            return back;
+        }
+        algebra::add(&self.centre, &self.turned(&back, -time))
+    }
+
+    /// The velocity that takes what is at x at `time` in `time_step` to where it is then: (x(X, t + Δt) − x(X, t)) / Δt, an affine function of x. A
+    /// velocity of the grid that is affine comes to particles without error, so that these move exactly as the body does.
+    pub fn mean_velocity(&self, position: &[f64; D], time: f64, time_step: f64) -> [f64; D] {
+        if self.spin == Matrix::ZERO {
+            return self.velocity;
+        }
+        let later = self.position(&self.reference(position, time), time + time_step);
+        algebra::scale(&algebra::subtract(&later, position), 1.0 / time_step)
+    }
+
     /// ∂x/∂t = v + W R(t) (X − c).
     pub fn velocity(&self, reference: &[f64; D], time: f64) -> [f64; D] {
         algebra::add(&self.velocity, &self.spin.apply(&self.turned(reference, time)))
@@ -58,8 +77,13 @@ pub struct KinematicRegion<const D: usize> {
 impl<const D: usize> KinematicRegion<D> {
     /// Whether the motion is still prescribed at this time, which may be off by the rounding of a sum of steps.
     pub fn prescribes(&self, time: f64) -> bool {
-        time <= self.until * (1.0 + 1e-9)
+        prescribes(self.until, time)
     }
+}
+
+/// Whether something lasts until a time that may be off by the rounding of a sum of steps.
+pub(crate) fn prescribes(until: f64, time: f64) -> bool {
+    time <= until * (1.0 + 1e-9)
 }
 
 /// The kinematic regions of a scene. At the end of every step their particles take the position and velocity of their region's motion; between, they
@@ -91,7 +115,7 @@ impl<const D: usize> Kinematics<D> {
                 }
             }
             all.regions.push(KinematicRegion {
-                motion: motion(&field, table)?,
+                motion: motion(&field, table.velocity.as_ref(), table.rotation.as_ref())?,
                 until: table.until.unwrap_or(f64::INFINITY),
                 members,
             });
@@ -116,14 +140,14 @@ impl<const D: usize> Kinematics<D> {
     }
 }
 
-/// The motion that a table describes.
+/// The motion that `velocity` and `rotation` of a table describe.
 pub(crate) fn motion<const D: usize>(
     field: &dyn Fn(&str) -> String,
-    table: &KinematicTable,
+    velocity: Option<&Vec<f64>>,
+    rotation: Option<&TurningTable>,
 ) -> Result<RigidMotion<D>, SceneFault> {
-    let velocity = table.velocity.as_ref();
     let velocity = velocity.map_or(Ok([0.0; D]), |list| vector(&field("velocity"), list))?;
-    let (centre, spin) = match &table.rotation {
+    let (centre, spin) = match rotation {
         None => ([0.0; D], Matrix::ZERO),
         Some(rotation) => (
             vector(&field("rotation.centre"), &rotation.centre)?,
@@ -148,6 +172,10 @@ mod tests {
         assert_eq!(motion.position(&x, 0.0), x);
         let length = algebra::distance(&motion.position(&x, t), &motion.position(&y, t));
         assert!((length - algebra::distance(&x, &y)).abs() < 1e-14);
+        let now = motion.position(&x, t);
+        assert!(algebra::distance(&motion.reference(&now, t), &x) < 1e-14);
+        let moved = algebra::add_scaled(&now, 0.3, &motion.mean_velocity(&now, t, 0.3));
+        assert!(algebra::distance(&moved, &motion.position(&x, t + 0.3)) < 1e-14);
         let (before, after) = (motion.position(&x, t - step), motion.position(&x, t + step));
         let rate = algebra::scale(&algebra::subtract(&after, &before), 0.5 / step);
         assert!(algebra::distance(&rate, &motion.velocity(&x, t)) < 1e-9);

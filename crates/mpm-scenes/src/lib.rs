@@ -3,6 +3,7 @@
 mod background;
 mod error;
 pub mod fill;
+mod held;
 mod kinematics;
 pub mod law;
 pub mod loads;
@@ -22,6 +23,7 @@ mod values;
 mod velocity;
 
 pub use error::{SceneError, SceneFault};
+pub use held::HeldRegion;
 pub use kinematics::{KinematicRegion, Kinematics, RigidMotion};
 pub use law::{LawState, Laws};
 pub use manufactured::ManufacturedSolution;

@@ -4,12 +4,14 @@ mod contact;
 mod mirror;
 mod obstacle;
 mod plane;
+mod prescribed;
 mod signed_distance;
 mod wall;
 
 pub use contact::Contact;
 pub use obstacle::Obstacle;
 pub use plane::Plane;
+pub use prescribed::PrescribedVelocity;
 pub use signed_distance::{HalfSpace, SignedDistance, Sphere};
 pub use wall::{Side, Wall};
 
@@ -46,13 +48,15 @@ impl<const D: usize> Boundary<D> for NoBoundary {
     fn constrain<B: Basis<D>, N: GridNode<D>>(&mut self, _: &B, _: &GridMotion<D>, _: &mut [N]) {}
 }
 
-/// Walls and obstacles, applied in this order.
+/// Walls, obstacles and prescribed velocities, applied in this order.
 #[derive(Default)]
 pub struct Boundaries<const D: usize> {
     /// Plane walls.
     pub walls: Vec<Plane<D>>,
     /// Rigid bodies.
     pub obstacles: Vec<Obstacle<D>>,
+    /// Given velocities; the last one has the last word.
+    pub prescribed: Vec<Box<dyn PrescribedVelocity<D>>>,
     /// Masses that mirrored nodes have together.
     masses: Vec<f64>,
 }
@@ -68,8 +72,15 @@ impl<const D: usize> Boundaries<D> {
         Self {
             walls,
             obstacles,
+            prescribed: Vec::new(),
             masses: Vec::new(),
         }
+    }
+
+    /// The same, with these velocities.
+    pub fn with_prescribed(mut self, prescribed: Vec<Box<dyn PrescribedVelocity<D>>>) -> Self {
+        self.prescribed = prescribed;
+        self
     }
 }
 
@@ -84,6 +95,9 @@ impl<const D: usize> Boundary<D> for Boundaries<D> {
         }
         for obstacle in &self.obstacles {
             obstacle.constrain(motion.positions, nodes);
+        }
+        for field in &self.prescribed {
+            prescribed::prescribe(&**field, motion, nodes);
         }
     }
 }

@@ -158,6 +158,8 @@ pub struct ReducedRuns {
     pub samples: Vec<SampleCount>,
     /// Seed of the draw of sample points.
     pub seed: u64,
+    /// Whether sample points are spread out ([`SampleChoice::Spread`]) and not drawn evenly.
+    pub spread: bool,
     /// Quadratures.
     pub quadrature: Vec<QuadratureName>,
     /// Updates.
@@ -174,6 +176,7 @@ impl Default for ReducedRuns {
             manifold: vec![ManifoldName::Network],
             samples: vec![SampleCount::Drawn(50), SampleCount::All(All::All)],
             seed: 0,
+            spread: false,
             quadrature: vec![QuadratureName::Lagrangian],
             update: vec![UpdateName::PositionVelocity],
             points_per_axis: 2,
@@ -188,6 +191,7 @@ impl ReducedRuns {
         Options {
             samples: match choice.samples {
                 SampleCount::All(_) => SampleChoice::All,
+                SampleCount::Drawn(count) if self.spread => SampleChoice::Spread { count, seed: self.seed },
                 SampleCount::Drawn(count) => SampleChoice::Drawn { count, seed: self.seed },
             },
             quadrature: match (choice.quadrature, choice.samples) {

@@ -34,7 +34,7 @@ keys = [
     { key = "gravity.1", factor = -1.0, product = ["gravity", "cos angle"] },
 ]
 cases = { train = [[1.0, 0.0], [3.0, 0.2]], test = [[2.0, 0.1]] }
-training = { coordinates = 2, width = 6, depth = 2, epochs = 4, batch = 2, checkpoint_interval = 2 }
+training = { coordinates = 2, width = 6, depth = 2, epochs = 4, finishing_steps = 3, batch = 2, checkpoint_interval = 2 }
 run = { manifold = ["network", "linear"], samples = [20, "all"], quadrature = ["lagrangian"], update = ["position-velocity", "velocity-only"] }
 "#;
 
@@ -121,7 +121,7 @@ fn an_experiment_is_stopped_goes_on_and_is_run() {
     let trained = train::<2>(&experiment, &whole, &mut ()).expect("trained");
     assert_eq!(
         (trained.points, trained.runs, trained.frames, trained.epochs),
-        (64, 2, 10, 4)
+        (64, 2, 10, 7)
     );
     assert!(matches!(
         train::<2>(&experiment, &parts, &mut Stop(2)),

@@ -1,9 +1,11 @@
 //! The baseline for super-resolution: points that the coarse run carries along.
 
-use mpm_core::{Boundaries, Contact, Continuum, Masses, Mpm, Obstacle, Particles, Pic, SplineGrid, StepControl};
+use mpm_core::{Boundaries, Continuum, Masses, Mpm, Particles, Pic, PrescribedVelocity, SplineGrid, StepControl};
 use mpm_kernels::Quadratic;
 use mpm_materials::Material;
+use mpm_scenes::HeldRegion;
 use mpm_scenes::loads::Loads;
+use mpm_tensor::vector;
 
 use super::FullOrderError;
 use crate::online::ReducedBody;
@@ -19,6 +21,18 @@ pub struct TracedRun<'a, const D: usize> {
     mpm: Mpm<D, SplineGrid<Quadratic, 3, D>, Pic, Continuum<&'a dyn Material<D>>, Loads<D>, Boundaries<D>>,
     body: &'a ReducedBody<D>,
     step: u64,
+}
+
+/// A held region, seen from the centroid.
+struct Held<const D: usize> {
+    region: HeldRegion<D>,
+    centroid: [f64; D],
+}
+
+impl<const D: usize> PrescribedVelocity<D> for Held<D> {
+    fn velocity(&self, x: &[f64; D], time: f64, time_step: f64) -> Option<[f64; D]> {
+        self.region.velocity(&vector::add(x, &self.centroid), time, time_step)
+    }
 }
 
 impl<'a, const D: usize> TracedRun<'a, D> {
@@ -54,12 +68,11 @@ impl<'a, const D: usize> TracedRun<'a, D> {
             Continuum { law },
             loads,
         );
-        let held = body.held.iter().map(|held| Obstacle {
-            shape: Box::new(held.clone()),
-            contact: Contact::Stick,
-            velocity: held.velocity,
+        let held = body.held.iter().map(|region| {
+            let (region, centroid) = (region.clone(), body.centroid);
+            Box::new(Held { region, centroid }) as Box<dyn PrescribedVelocity<D>>
         });
-        let mpm = mpm.with_boundary(Boundaries::new(Vec::new(), held.collect()));
+        let mpm = mpm.with_boundary(Boundaries::default().with_prescribed(held.collect()));
         Ok(Self { mpm, body, step: 0 })
     }
 

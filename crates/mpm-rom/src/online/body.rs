@@ -1,13 +1,11 @@
 //! The body of a scene as the reduced dynamics see it.
 
-use std::sync::Arc;
-
-use mpm_core::SignedDistance;
+use mpm_core::PrescribedVelocity;
 use mpm_kernels::UniformGrid;
 use mpm_materials::{ElasticModuli, FixedCorotated, Hencky, Material, NeoHookean, ParameterError};
 use mpm_scenes::scene::{BasisName, MaterialTable, SolidTable, TransferKind};
 use mpm_scenes::shape::{self, Shape};
-use mpm_scenes::{Kinematics, Population, Scene};
+use mpm_scenes::{HeldRegion, Kinematics, Population, Scene};
 use mpm_tensor::vector;
 
 use super::OnlineError;
@@ -36,30 +34,10 @@ pub struct ReducedBody<const D: usize> {
     pub time_step: f64,
     /// Steps from one frame to the next.
     pub steps_per_frame: u64,
-    /// Regions whose nodes have a prescribed velocity.
-    pub held: Vec<HeldNodes<D>>,
+    /// Regions whose nodes have a prescribed velocity, in the scene's coordinates.
+    pub held: Vec<HeldRegion<D>>,
     /// Where the body is at rest, in the scene's coordinates.
     pub shapes: Vec<Box<dyn Shape<D>>>,
-}
-
-/// Nodes inside a shape move with a given velocity: `[[held]]` of a scene.
-#[derive(Clone, Debug)]
-pub struct HeldNodes<const D: usize> {
-    shape: Arc<dyn Shape<D>>,
-    /// The origin of positions in the shape's coordinates.
-    centroid: [f64; D],
-    /// Their velocity.
-    pub velocity: [f64; D],
-}
-
-impl<const D: usize> SignedDistance<D> for HeldNodes<D> {
-    fn distance(&self, x: &[f64; D]) -> f64 {
-        self.shape.distance(&vector::add(x, &self.centroid))
-    }
-
-    fn normal(&self, x: &[f64; D]) -> [f64; D] {
-        self.shape.normal(&vector::add(x, &self.centroid))
-    }
 }
 
 impl<const D: usize> ReducedBody<D> {
@@ -81,15 +59,6 @@ impl<const D: usize> ReducedBody<D> {
             .bodies
             .iter()
             .map(|body| shape::build::<D>("bodies.shape", &body.shape));
-        let held = scene.held.iter().map(|table| {
-            let velocity = table.velocity.iter().flatten().copied().chain(std::iter::repeat(0.0));
-            let mut entries = velocity.take(D);
-            Ok(HeldNodes {
-                shape: Arc::from(shape::build::<D>("held.shape", &table.shape)?),
-                centroid: body.centroid,
-                velocity: std::array::from_fn(|_| entries.next().unwrap_or(0.0)),
-            })
-        });
         let frame = scene.output.interval;
         let steps = (frame / scene.time.step.unwrap_or(f64::NAN)).round();
         let origin: [f64; D] = std::array::from_fn(|a| lower.get(a).copied().unwrap_or(0.0));
@@ -102,7 +71,7 @@ impl<const D: usize> ReducedBody<D> {
             grid: UniformGrid::new(vector::subtract(&origin, &body.centroid), grid),
             time_step: frame / steps,
             steps_per_frame: steps as u64,
-            held: held.collect::<Result<_, _>>().map_err(refused)?,
+            held: HeldRegion::of(scene).map_err(refused)?,
             shapes: shapes.collect::<Result<_, _>>().map_err(refused)?,
             reference: body.reference,
             centroid: body.centroid,
@@ -114,6 +83,15 @@ impl<const D: usize> ReducedBody<D> {
         let reference = vector::add(self.reference.get(point)?, &self.centroid);
         let (position, velocity) = self.kinematics.prescribed(point, &reference, time)?;
         Some((vector::subtract(&position, &self.centroid), velocity))
+    }
+
+    /// The velocity of a node at x in the step from `time` on; `None` where it is not prescribed. Where regions overlap, the last one's.
+    pub fn held_velocity(&self, x: &[f64; D], time: f64) -> Option<[f64; D]> {
+        let x = vector::add(x, &self.centroid);
+        let regions = self.held.iter().rev();
+        regions
+            .clone()
+            .find_map(|region| region.velocity(&x, time, self.time_step))
     }
 
     /// Whether the body is at X at rest.

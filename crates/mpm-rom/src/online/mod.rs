@@ -17,7 +17,7 @@ mod super_resolution;
 mod tests;
 mod timings;
 
-pub use body::{HeldNodes, ReducedBody};
+pub use body::ReducedBody;
 pub use error::OnlineError;
 pub use neighbours::Search;
 pub use options::{Inverted, Options, Quadrature, Update};

@@ -1,10 +1,9 @@
 //! The nodes ℐ that sample points touch, with their masses and velocities.
 
-use mpm_core::SignedDistance;
 use mpm_kernels::{Quadratic, Stencil, UniformGrid};
 use mpm_tensor::{Matrix, vector};
 
-use super::{HeldNodes, OnlineError};
+use super::{OnlineError, ReducedBody};
 
 /// Nodes per axis of the quadratic kernel.
 pub(super) const WIDTH: usize = 3;
@@ -180,17 +179,17 @@ impl<const D: usize> Nodes<D> {
         }
     }
 
-    /// Gives nodes in held regions their velocities; where regions overlap, the last one's.
-    pub fn hold(&mut self, regions: &[HeldNodes<D>]) {
-        if regions.is_empty() {
+    /// Gives nodes in held regions their velocities in the step from `time` on.
+    pub fn hold(&mut self, body: &ReducedBody<D>, time: f64) {
+        if body.held.is_empty() {
             return;
         }
         for number in 0..self.places.len() {
             let x = self
                 .grid
                 .node_position(&self.node(self.places[number]).map(|c| c as i32));
-            for region in regions.iter().filter(|region| region.distance(&x) <= 0.0) {
-                self.velocities[number] = region.velocity;
+            if let Some(velocity) = body.held_velocity(&x, time) {
+                self.velocities[number] = velocity;
             }
         }
     }

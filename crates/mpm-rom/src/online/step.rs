@@ -130,7 +130,7 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
             self.nodes.add(x, mass, &momentum, &(*stress * (dt * volume)));
         }
         self.nodes.divide();
-        self.nodes.hold(&self.body.held);
+        self.nodes.hold(&self.body, self.time_at(self.step - 1));
     }
 
     /// (4) v_p = Σ N_i v_i and x_p ← x_p + Δt v_p; kinematic points take what is prescribed for t_{n+1}.

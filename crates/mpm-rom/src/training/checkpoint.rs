@@ -3,14 +3,15 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::adam::Adam;
+use super::finish::{InverseHessian, QuasiNewton};
 use super::trainer::{Best, Trainer};
-use super::{EpochReport, Training, TrainingError};
+use super::{EpochReport, Terms, Training, TrainingError};
 use crate::manifold::Scaling;
 use crate::snapshots::Snapshots;
 use crate::tensor_file::{TensorReader, TensorWriter};
 
 const KIND: &str = "training-checkpoint";
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -22,12 +23,15 @@ struct Header {
     scaling: Scaling,
     steps: u64,
     best: Option<EpochReport>,
+    /// Loss of the second phase, where it has begun.
+    finish: Option<Terms>,
     history: Vec<EpochReport>,
 }
 
 impl<'a, const D: usize> Trainer<'a, D> {
     /// Writes the whole state: parameters, moments and steps of Adam, best parameters, reports. Random numbers need no state, every epoch has a
-    /// stream of its own. Tensors: `network`, `encoder`, `first`, `second`, and `best_network`, `best_encoder` if there is a best epoch.
+    /// stream of its own. Tensors: `network`, `encoder`, `first`, `second`, `best_network`, `best_encoder` if there is a best epoch,
+    /// and `finish_gradient`, `finish_product`, `finish_inverse` (its rows on and below the diagonal) in the second phase.
     ///
     /// # Errors
     /// [`TrainingError::File`].
@@ -39,6 +43,7 @@ impl<'a, const D: usize> Trainer<'a, D> {
             scaling: self.network.scaling().clone(),
             steps: self.adam.steps,
             best: self.best.as_ref().map(|best| best.report),
+            finish: self.finish.as_ref().map(|state| state.terms),
             history: self.history.clone(),
         };
         let mut file = TensorWriter::default();
@@ -50,6 +55,11 @@ impl<'a, const D: usize> Trainer<'a, D> {
         if let Some(best) = &self.best {
             add("best_network", &best.network);
             add("best_encoder", &best.encoder);
+        }
+        if let Some(state) = &self.finish {
+            add("finish_gradient", &state.gradient);
+            add("finish_product", &state.product);
+            add("finish_inverse", &state.inverse.lower());
         }
         Ok(file.write(path, KIND, VERSION, &header)?)
     }
@@ -94,6 +104,15 @@ impl<'a, const D: usize> Trainer<'a, D> {
                 report,
                 network: file.tensor("best_network", &[network])?,
                 encoder: file.tensor("best_encoder", &[encoder])?,
+            });
+        }
+        if let Some(terms) = header.finish {
+            let lower = file.tensor("finish_inverse", &[network * (network + 1) / 2])?;
+            trainer.finish = Some(QuasiNewton {
+                inverse: InverseHessian::from_lower(network, &lower),
+                gradient: file.tensor("finish_gradient", &[network])?,
+                product: file.tensor("finish_product", &[network])?,
+                terms,
             });
         }
         trainer.history = header.history;

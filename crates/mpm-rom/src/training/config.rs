@@ -8,6 +8,9 @@ use super::TrainingError;
 /// points. An epoch takes every pair once. The rate falls exponentially from step to step, rate(s) = initial (final / initial)^{s / (S − 1)}
 /// for S steps (ours; the paper gives the end points 1e-3 and 1e-6).
 ///
+/// After Adam comes a quasi-Newton method (ours): the encoder stays as it is, and the network alone goes down the same loss at samples that stay the
+/// same. Its matrix begins as that of Gauss and Newton, damped, and anew every 100 steps.
+///
 /// The default batch, points and first rate are ours, too: neighbouring points say much the same, so that many small steps reach a given error sooner
 /// than few large ones, and 3e-3 sooner than 1e-3.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -25,8 +28,12 @@ pub struct Training {
     pub gradient_weight: f64,
     /// λ_v, weight of |∂g̃/∂x̂ (x̂(t_{n+1}) − x̂(t_n)) / Δt − v|², ≥ 0.
     pub velocity_weight: f64,
-    /// Passes over all pairs, ≥ 1.
+    /// Passes of Adam over all pairs, ≥ 1.
     pub epochs: u64,
+    /// Steps of the quasi-Newton method after them, each a pass over all pairs; 0: none.
+    pub finishing_steps: u64,
+    /// Samples (run, frame, point) of the loss that it minimises, shared evenly by all pairs; at least one of each, at most all.
+    pub finishing_samples: usize,
     /// Pairs (run, frame) of a step, ≥ 1.
     pub batch: usize,
     /// Material points of a pair, ≥ 1; all of them if there are no more.
@@ -51,6 +58,8 @@ impl Default for Training {
             gradient_weight: 100.0,
             velocity_weight: 0.01,
             epochs: 400,
+            finishing_steps: 400,
+            finishing_samples: 50_000,
             batch: 4,
             points: 16,
             initial_rate: 3e-3,
@@ -74,6 +83,7 @@ impl Training {
             ("encoder_width", self.encoder_width),
             ("batch", self.batch),
             ("points", self.points),
+            ("finishing_samples", self.finishing_samples),
         ];
         let intervals = [
             ("epochs", self.epochs),
@@ -111,6 +121,11 @@ impl Training {
         Ok(())
     }
 
+    /// Passes over all pairs in both phases.
+    pub fn all_epochs(&self) -> u64 {
+        self.epochs + self.finishing_steps
+    }
+
     /// Adam's rate at step s of S.
     pub fn rate(&self, step: u64, steps: u64) -> f64 {
         let fraction = step as f64 / steps.saturating_sub(1).max(1) as f64;
@@ -144,6 +159,7 @@ mod tests {
         assert!(Training::default().check().is_ok());
         assert_eq!(field(|c| c.coordinates = 0), "coordinates");
         assert_eq!(field(|c| c.points = 0), "points");
+        assert_eq!(field(|c| c.finishing_samples = 0), "finishing_samples");
         assert_eq!(field(|c| c.epochs = 0), "epochs");
         assert_eq!(field(|c| c.gradient_weight = -1.0), "gradient_weight");
         assert_eq!(field(|c| c.velocity_weight = f64::NAN), "velocity_weight");

@@ -48,7 +48,15 @@ pub(super) struct Weights {
     pub share: f64,
 }
 
-/// Loss and adjoints of one pair (run, frame), with the buffers to compute them.
+/// x̂ and its rate w of a frame.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Coordinates<'a> {
+    pub latent: &'a [f64],
+    /// None for the last frame of a run, and without weight.
+    pub direction: Option<&'a [f64]>,
+}
+
+/// Loss and adjoints of pairs (run, frame), with the buffers to compute them.
 #[derive(Clone, Debug)]
 pub(super) struct PairLoss<const D: usize> {
     pub terms: Terms,
@@ -75,12 +83,19 @@ impl<const D: usize> PairLoss<D> {
         }
     }
 
-    /// Overwrites terms and adjoints with those of frame `number` at the points `chosen`:
+    /// Terms and adjoints of no frame.
+    pub fn clear(&mut self) {
+        self.terms = Terms::default();
+        self.network.fill(0.0);
+        self.encoder.fill(0.0);
+    }
+
+    /// Adds terms and adjoints of frame `number` at the points `chosen`:
     ///
     /// share Σ_p |g̃ − φ|² / ℓ² + λ_F ‖∇_X g̃ − F‖² + λ_v |∂g̃/∂x̂ w − v|² / ℓ², x̂ = e(φ(t_n)), w = (e(φ(t_{n+1})) − x̂) / Δt.
     ///
     /// The last frame of a run has no t_{n+1} and no third term. Terms without weight are not computed.
-    pub fn evaluate(
+    pub fn add(
         &mut self,
         (network, encoder): (&Network<D>, &Encoder<D>),
         weights: &Weights,
@@ -89,9 +104,6 @@ impl<const D: usize> PairLoss<D> {
         number: usize,
         chosen: &[usize],
     ) {
-        self.terms = Terms::default();
-        self.network.fill(0.0);
-        self.encoder.fill(0.0);
         let frame = &run.frames[number];
         encoder.forward(&frame.positions, &mut self.now);
         let next = run.frames.get(number + 1).filter(|_| weights.velocity > 0.0);
@@ -100,24 +112,13 @@ impl<const D: usize> PairLoss<D> {
             let pairs = self.next.latent.iter().zip(&self.now.latent);
             pairs.map(|(next, now)| (next - now) / weights.interval).collect()
         });
-        let gradients = weights.gradient > 0.0;
-        let seed = network.seed(&self.now.latent, gradients, direction.as_deref().into_iter());
-        let mut adjoint = SeedAdjoint::zero(&seed);
-        for chunk in chosen.chunks(CHUNK) {
-            self.reference.clear();
-            self.reference.extend(chunk.iter().map(|&point| reference[point]));
-            network.forward(&self.reference, &seed, &mut self.tape);
-            self.residuals(network, weights, frame, chunk, direction.is_some());
-            network.reverse(&self.reference, &mut self.tape, &mut self.network, &mut adjoint);
-        }
-        let coordinates = self.now.latent.len();
-        let (mut latent, mut along) = (vec![0.0; coordinates], vec![0.0; coordinates]);
-        let mut target = SeedTarget {
-            parameters: &mut self.network,
-            latent: &mut latent,
-            direction: &mut along,
+        let now = std::mem::take(&mut self.now.latent);
+        let at = Coordinates {
+            latent: &now,
+            direction: direction.as_deref(),
         };
-        network.reverse_seed(&adjoint, gradients, &self.now.latent, direction.as_deref(), &mut target);
+        let (mut latent, mut along) = self.add_at(network, weights, reference, frame, chosen, &at);
+        self.now.latent = now;
         if direction.is_some() {
             for (latent, along) in latent.iter_mut().zip(&mut along) {
                 *along /= weights.interval;
@@ -126,6 +127,38 @@ impl<const D: usize> PairLoss<D> {
             encoder.reverse(&self.next, &along, &mut self.encoder);
         }
         encoder.reverse(&self.now, &latent, &mut self.encoder);
+    }
+
+    /// The same for given coordinates, which the encoder then has no part in: adds terms and adjoints of the network's parameters, and returns those of
+    /// x̂ and w.
+    pub fn add_at(
+        &mut self,
+        network: &Network<D>,
+        weights: &Weights,
+        reference: &[[f64; D]],
+        frame: &Frame<D>,
+        chosen: &[usize],
+        at: &Coordinates<'_>,
+    ) -> (Vec<f64>, Vec<f64>) {
+        let gradients = weights.gradient > 0.0;
+        let seed = network.seed(at.latent, gradients, at.direction.into_iter());
+        let mut adjoint = SeedAdjoint::zero(&seed);
+        for chunk in chosen.chunks(CHUNK) {
+            self.reference.clear();
+            self.reference.extend(chunk.iter().map(|&point| reference[point]));
+            network.forward(&self.reference, &seed, &mut self.tape);
+            self.residuals(network, weights, frame, chunk, at.direction.is_some());
+            network.reverse(&self.reference, &mut self.tape, &mut self.network, &mut adjoint);
+        }
+        let coordinates = at.latent.len();
+        let (mut latent, mut along) = (vec![0.0; coordinates], vec![0.0; coordinates]);
+        let mut target = SeedTarget {
+            parameters: &mut self.network,
+            latent: &mut latent,
+            direction: &mut along,
+        };
+        network.reverse_seed(&adjoint, gradients, at.latent, at.direction, &mut target);
+        (latent, along)
     }
 
     /// Adds the terms of a chunk and overwrites the tape's output with its adjoint.

@@ -1,4 +1,4 @@
-//! Training: a network and an encoder fitted to snapshots by Adam.
+//! Training: a network and an encoder fitted to snapshots by Adam, and the network further by a quasi-Newton method.
 //!
 //! The loss (Chen et al. 2023, Eq. 31) is, per sample (run, frame n, point p),
 //!
@@ -20,7 +20,10 @@ mod adam;
 mod checkpoint;
 mod config;
 mod error;
+mod finish;
+mod finishing;
 mod loss;
+mod normal_matrix;
 mod observer;
 mod trainer;
 

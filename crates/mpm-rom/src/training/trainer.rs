@@ -6,6 +6,8 @@ use rand::seq::{SliceRandom, index};
 use rayon::prelude::*;
 
 use super::adam::Adam;
+use super::finish::QuasiNewton;
+use super::finishing::FixedSample;
 use super::loss::{PairLoss, Weights};
 use super::{EpochReport, Observer, Terms, Training, TrainingError};
 use crate::encoder::{Encoder, EncoderShape};
@@ -13,7 +15,7 @@ use crate::manifold::{Network, NetworkShape, Scaling};
 use crate::model::{Model, Summary};
 use crate::snapshots::Snapshots;
 
-/// A training under way: the state after a whole number of epochs.
+/// A training under way: the state after a whole number of passes over all pairs.
 #[derive(Debug)]
 pub struct Trainer<'a, const D: usize> {
     pub(super) snapshots: &'a Snapshots<D>,
@@ -21,6 +23,8 @@ pub struct Trainer<'a, const D: usize> {
     pub(super) network: Network<D>,
     pub(super) encoder: Encoder<D>,
     pub(super) adam: Adam,
+    /// The state of the second phase, once it has begun.
+    pub(super) finish: Option<QuasiNewton>,
     /// The best parameters so far.
     pub(super) best: Option<Best>,
     /// One report per epoch taken.
@@ -69,6 +73,7 @@ impl<'a, const D: usize> Trainer<'a, D> {
             network,
             encoder,
             adam: Adam::new(parameters),
+            finish: None,
             best: None,
             history: Vec::new(),
         })
@@ -87,8 +92,17 @@ impl<'a, const D: usize> Trainer<'a, D> {
     pub fn train(&mut self, checkpoint: Option<&Path>, observer: &mut impl Observer) -> Result<(), TrainingError> {
         let worker = PairLoss::new(&self.network, &self.encoder);
         let mut workers = vec![worker; self.config.batch.min(self.pairs().len())];
-        while (self.history.len() as u64) < self.config.epochs {
-            let report = self.epoch(&mut workers)?;
+        let (epochs, mut sample) = (self.config.all_epochs(), None);
+        while (self.history.len() as u64) < epochs {
+            let report = if (self.history.len() as u64) < self.config.epochs {
+                self.epoch(&mut workers)?
+            } else {
+                let sample = match &mut sample {
+                    Some(sample) => sample,
+                    none => none.insert(FixedSample::of(self)?),
+                };
+                self.finishing_step(sample)?
+            };
             self.history.push(report);
             let least = self
                 .best
@@ -103,7 +117,7 @@ impl<'a, const D: usize> Trainer<'a, D> {
             }
             let flow = observer.after_epoch(&report);
             let done = self.history.len() as u64;
-            let due = done.is_multiple_of(self.config.checkpoint_interval) || done == self.config.epochs;
+            let due = done.is_multiple_of(self.config.checkpoint_interval) || done == epochs;
             if let Some(path) = checkpoint.filter(|_| due || flow.is_break()) {
                 self.write_checkpoint(path)?;
             }
@@ -134,7 +148,7 @@ impl<'a, const D: usize> Trainer<'a, D> {
     }
 
     /// All pairs (run, frame).
-    fn pairs(&self) -> Vec<(usize, usize)> {
+    pub(super) fn pairs(&self) -> Vec<(usize, usize)> {
         let runs = self.snapshots.runs().iter().enumerate();
         runs.flat_map(|(number, run)| (0..run.frames.len()).map(move |frame| (number, frame)))
             .collect()
@@ -168,7 +182,7 @@ impl<'a, const D: usize> Trainer<'a, D> {
         }
         Ok(EpochReport {
             epoch,
-            epochs: self.config.epochs,
+            epochs: self.config.all_epochs(),
             terms,
             rate,
         })
@@ -192,7 +206,8 @@ impl<'a, const D: usize> Trainer<'a, D> {
         let (model, snapshots) = ((&self.network, &self.encoder), self.snapshots);
         let tasks = workers.par_iter_mut().zip(batch).zip(chosen);
         tasks.for_each(|((worker, &(run, frame)), chosen)| {
-            worker.evaluate(
+            worker.clear();
+            worker.add(
                 model,
                 &weights,
                 snapshots.reference(),

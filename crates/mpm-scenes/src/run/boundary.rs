@@ -2,13 +2,13 @@
 
 use std::sync::Arc;
 
-use mpm_core::{Boundaries, Contact, Obstacle, Plane, SignedDistance};
+use mpm_core::{Boundaries, Contact, Obstacle, Plane, PrescribedVelocity, SignedDistance};
 use mpm_tensor::vector as algebra;
 
 use crate::scene::{self, Scene, WallCondition};
 use crate::shape::{self, Bounds, Shape};
 use crate::values::vector;
-use crate::{SceneFault, plane};
+use crate::{HeldRegion, SceneFault, plane};
 
 /// A shape that has been moved from where the scene puts it.
 struct Placed<const D: usize> {
@@ -73,13 +73,10 @@ pub(super) fn build<const D: usize>(
         };
         obstacles.push(obstacle(shape, contact, velocity));
     }
-    for (index, table) in scene.held.iter().enumerate() {
-        let field = format!("held[{index}]");
-        let shape = Arc::from(shape::build::<D>(&format!("{field}.shape"), &table.shape)?);
-        let velocity = velocity(&format!("{field}.velocity"), table.velocity.as_ref())?;
-        obstacles.push(obstacle(shape, Contact::Stick, velocity));
-    }
-    let boundaries = Boundaries::with_planes(walls.collect::<Result<_, _>>()?, obstacles);
+    let held = HeldRegion::<D>::of(scene)?.into_iter();
+    let held = held.map(|region| Box::new(region) as Box<dyn PrescribedVelocity<D>>);
+    let boundaries =
+        Boundaries::with_planes(walls.collect::<Result<_, _>>()?, obstacles).with_prescribed(held.collect());
     Ok((boundaries, MovingObstacles(moving)))
 }
 

@@ -106,14 +106,18 @@ pub enum Contact {
     Separate,
 }
 
-/// `[[held]]`: nodes in a region move with a prescribed velocity.
+/// `[[held]]`: nodes in a region that moves as a rigid body, x = c + v t + R(t) (X − c), have the region's velocity.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct HeldTable {
-    /// The region.
+    /// The region at t = 0.
     pub shape: ShapeTable,
-    /// Its velocity. Default 0.
+    /// v. Default 0.
     pub velocity: Option<Vec<f64>>,
+    /// c and the rate of R. By default it does not turn.
+    pub rotation: Option<TurningTable>,
+    /// When the nodes are let go. Default: never.
+    pub until: Option<f64>,
 }
 
 /// `[[kinematic]]`: particles that are in a region at t = 0 move as one rigid body: at the end of every step they take the position and velocity of
@@ -133,7 +137,7 @@ pub struct KinematicTable {
     pub until: Option<f64>,
 }
 
-/// `kinematic.rotation`.
+/// `kinematic.rotation` and `held.rotation`.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TurningTable {

@@ -1,6 +1,6 @@
 //! Particles with a prescribed motion, and runs in memory.
 
-use mpm_scenes::{Kinematics, Population, Scene, Snapshot, frames};
+use mpm_scenes::{HeldRegion, Kinematics, Population, Scene, Snapshot, frames};
 
 use super::scenes::scene;
 
@@ -86,5 +86,85 @@ fn frames_in_memory_are_those_of_the_files() {
     for (number, frame) in all_frames(&scene).iter().enumerate() {
         let file = directory.path().join(format!("particles_{number:06}.vtu"));
         assert_eq!(std::fs::read(file).expect("written"), mpm_scenes::output::vtu(frame));
+    }
+}
+
+/// A block all of whose nodes are held by a region that moves.
+const CARRIED: &str = r#"
+title = "a block that is carried and turned"
+dimension = 2
+domain = { lower = [-2.0, -2.0], upper = [3.0, 3.0] }
+grid = { spacing = 0.25 }
+transfer = { kind = "pic" }
+time = { end = 0.2, step = 0.0050000001, courant = 0.5 }
+materials.rubber = { law = "fixed-corotated", density = 1.0, young_modulus = 100.0, poisson_ratio = 0.3 }
+output = { interval = 0.05 }
+
+[[bodies]]
+name = "block"
+shape = { kind = "box", lower = [0.0, 0.0], upper = [1.0, 0.5] }
+material = "rubber"
+
+[[held]]
+shape = { kind = "box", lower = [-0.5, -0.5], upper = [1.5, 1.0] }
+velocity = [1.0, -0.5]
+rotation = { centre = [0.2, 0.1], rate = [4.0] }
+"#;
+
+#[test]
+fn held_nodes_that_move_and_turn_carry_a_body_exactly() {
+    let scene = scene(CARRIED);
+    let population = Population::<2>::fill(&scene).expect("fills");
+    let motion = HeldRegion::<2>::of(&scene).expect("one region")[0].motion;
+    for frame in all_frames(&scene) {
+        let (sin, cos) = (4.0 * frame.time).sin_cos();
+        for (p, start) in population.positions.iter().enumerate() {
+            let x = frame.vector(&frame.positions, p).expect("a particle");
+            let expected = motion.position(start, frame.time);
+            assert!(
+                (x[0] - expected[0]).abs() < 1e-13 && (x[1] - expected[1]).abs() < 1e-13,
+                "{x:?} {expected:?}"
+            );
+            let gradient = &frame.deformation_gradients[4 * p..4 * p + 4];
+            for (found, turn) in gradient.iter().zip([cos, -sin, sin, cos]) {
+                assert!((found - turn).abs() < 1e-12, "{gradient:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn held_nodes_are_let_go_after_their_time() {
+    let text = CARRIED
+        .replace("rotation = { centre = [0.2, 0.1], rate = [4.0] }", "until = 0.1")
+        .replace("dimension = 2", "dimension = 2\ngravity = [0.0, -10.0]");
+    let scene = scene(&text);
+    let population = Population::<2>::fill(&scene).expect("fills");
+    for frame in all_frames(&scene) {
+        // Symplectic Euler: n steps of free fall after the first 20.
+        let n = ((frame.time - 0.1) / 0.005).round().max(0.0);
+        let fallen = 10.0 * 0.005 * 0.005 * n * (n + 1.0) / 2.0;
+        for (p, start) in population.positions.iter().enumerate() {
+            let x = frame.vector(&frame.positions, p).expect("a particle");
+            let expected = [start[0] + frame.time, start[1] - 0.5 * frame.time - fallen];
+            assert!(
+                (x[0] - expected[0]).abs() < 1e-12 && (x[1] - expected[1]).abs() < 1e-12,
+                "{x:?} {expected:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn motions_of_held_nodes_that_make_no_sense_are_errors_with_their_field() {
+    for (from, to, said) in [
+        ("rate = [4.0]", "rate = [4.0, 1.0]", "held[0].rotation.rate"),
+        ("centre = [0.2, 0.1]", "centre = [0.2]", "held[0].rotation.centre"),
+        ("velocity = [1.0, -0.5]", "velocity = [1.0]", "held[0].velocity"),
+        ("velocity = [1.0, -0.5]", "until = -1.0", "held[0].until"),
+        ("velocity = [1.0, -0.5]", "till = 1.0", "unknown field `till`"),
+    ] {
+        let error = Scene::parse(&CARRIED.replace(from, to), "carried.toml".as_ref()).expect_err(to);
+        assert!(error.to_string().contains(said), "{error}");
     }
 }

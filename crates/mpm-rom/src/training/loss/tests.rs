@@ -107,7 +107,7 @@ fn check(weights: Weights, number: usize) {
     let (mut network, mut encoder) = start();
     let chosen: Vec<usize> = (0..POINTS).step_by(3).collect();
     let mut loss = PairLoss::new(&network, &encoder);
-    loss.evaluate((&network, &encoder), &weights, &reference(), &run(), number, &chosen);
+    loss.add((&network, &encoder), &weights, &reference(), &run(), number, &chosen);
     let expected = naive(&network, &encoder, &weights, number, &chosen);
     assert!(close(loss.terms.position, expected.position, 1e-13));
     assert!(close(loss.terms.gradient, expected.gradient, 1e-13));

@@ -43,13 +43,16 @@ impl Scene {
         for (index, held) in self.held.iter().enumerate() {
             let field = |key: &str| format!("held[{index}].{key}");
             shape::build::<D>(&field("shape"), &held.shape)?;
-            check_motion::<D>(&field, held.velocity.as_ref(), None)?;
+            kinematics::motion::<D>(&field, held.velocity.as_ref(), held.rotation.as_ref())?;
+            if let Some(until) = held.until {
+                positive(&field("until"), until)?;
+            }
         }
         for (index, table) in self.kinematic.iter().enumerate() {
             let field = |key: &str| format!("kinematic[{index}].{key}");
             shape::build::<D>(&field("region"), &table.region)?;
             self.check_body_name(field("body"), table.body.as_ref())?;
-            kinematics::motion::<D>(&field, table)?;
+            kinematics::motion::<D>(&field, table.velocity.as_ref(), table.rotation.as_ref())?;
             if let Some(until) = table.until {
                 positive(&field("until"), until)?;
             }

@@ -1,0 +1,48 @@
+//! Nodes whose motion is prescribed.
+
+use std::sync::Arc;
+
+use mpm_core::PrescribedVelocity;
+
+use crate::SceneFault;
+use crate::kinematics::{self, RigidMotion};
+use crate::scene::Scene;
+use crate::shape::{self, Shape};
+
+/// A region that moves as a rigid body; nodes in it have its velocity, [`RigidMotion::mean_velocity`] of the step.
+#[derive(Clone, Debug)]
+pub struct HeldRegion<const D: usize> {
+    /// The region at t = 0.
+    pub shape: Arc<dyn Shape<D>>,
+    /// How it moves.
+    pub motion: RigidMotion<D>,
+    /// Until when; infinite: to the end.
+    pub until: f64,
+}
+
+impl<const D: usize> HeldRegion<D> {
+    /// The held regions of a scene, in its order.
+    ///
+    /// # Errors
+    /// [`SceneFault::Value`] for tables that [`Scene::read`] refuses.
+    pub fn of(scene: &Scene) -> Result<Vec<Self>, SceneFault> {
+        let region = |(index, table): (usize, &crate::scene::HeldTable)| {
+            let field = |key: &str| format!("held[{index}].{key}");
+            Ok(Self {
+                shape: Arc::from(shape::build::<D>(&field("shape"), &table.shape)?),
+                motion: kinematics::motion(&field, table.velocity.as_ref(), table.rotation.as_ref())?,
+                until: table.until.unwrap_or(f64::INFINITY),
+            })
+        };
+        scene.held.iter().enumerate().map(region).collect()
+    }
+}
+
+impl<const D: usize> PrescribedVelocity<D> for HeldRegion<D> {
+    /// None outside, and none in a step that ends after `until`: kinematic particles are free at its end, too.
+    fn velocity(&self, x: &[f64; D], time: f64, time_step: f64) -> Option<[f64; D]> {
+        let inside = kinematics::prescribes(self.until, time + time_step)
+            && self.shape.distance(&self.motion.reference(x, time)) <= 0.0;
+        inside.then(|| self.motion.mean_velocity(x, time, time_step))
+    }
+}
