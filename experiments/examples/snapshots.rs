@@ -15,9 +15,11 @@ fn main() -> Result<()> {
         return Err("usage: snapshots OUT.svg TITLE FIELD BOUNDS EXTENT COLUMNS FRAME.vtu…".into());
     };
     let extent: [f64; 4] = numbers(extent)?.try_into().map_err(|_| "EXTENT has four numbers")?;
-    let mut panels = Vec::new();
+    let (mut panels, mut spacing) = (Vec::new(), 1.0);
     for path in frames {
         let frame = Frame::read(path)?;
+        let volumes = frame.field("volume")?;
+        spacing = (volumes.iter().sum::<f64>() / volumes.len() as f64).sqrt();
         panels.push(SnapshotPanel {
             title: format!("t = {} s", frame.time()?),
             positions: frame.plane()?,
@@ -31,7 +33,7 @@ fn main() -> Result<()> {
         x_label: "x (m)".to_owned(),
         y_label: "y (m)".to_owned(),
         extent: [[extent[0], extent[1]], [extent[2], extent[3]]],
-        spacing: nearest(&panels),
+        spacing,
         bounds: numbers(bounds)?,
         columns: columns.parse()?,
         panels,
@@ -43,12 +45,4 @@ fn main() -> Result<()> {
 
 fn numbers(list: &str) -> Result<Vec<f64>> {
     list.split(',').map(|number| Ok(number.trim().parse()?)).collect()
-}
-
-/// Distance between the first two particles, which a filling makes neighbours.
-fn nearest(panels: &[SnapshotPanel]) -> f64 {
-    let Some([first, second, ..]) = panels.first().map(|panel| &panel.positions[..]) else {
-        return 1.0;
-    };
-    (second[0] - first[0]).hypot(second[1] - first[1])
 }

@@ -67,7 +67,7 @@ pub fn snapshots(plot: &SnapshotsPlot) -> Result<String, PlotError> {
     let columns = plot.columns.clamp(1, plot.panels.len());
     let rows = plot.panels.len().div_ceil(columns);
     let left = MARGIN + 24.0 + label_room(1);
-    let gap = 8.0;
+    let gap = 26.0;
     let width = (FIGURE_WIDTH - left - MARGIN - 8.0 - gap * (columns - 1) as f64) / columns as f64;
     let unit = width / (high[0] - low[0]);
     let height = (unit * (high[1] - low[1])).clamp(20.0, 640.0);
