@@ -107,11 +107,12 @@ impl<'a, const D: usize> Trainer<'a, D> {
             });
         }
         if let Some(terms) = header.finish {
-            let lower = file.tensor("finish_inverse", &[network * (network + 1) / 2])?;
+            let size = network + encoder;
+            let lower = file.tensor("finish_inverse", &[size * (size + 1) / 2])?;
             trainer.finish = Some(QuasiNewton {
-                inverse: InverseHessian::from_lower(network, &lower),
-                gradient: file.tensor("finish_gradient", &[network])?,
-                product: file.tensor("finish_product", &[network])?,
+                inverse: InverseHessian::from_lower(size, &lower),
+                gradient: file.tensor("finish_gradient", &[size])?,
+                product: file.tensor("finish_product", &[size])?,
                 terms,
             });
         }

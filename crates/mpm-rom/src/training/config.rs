@@ -8,8 +8,8 @@ use super::TrainingError;
 /// points. An epoch takes every pair once. The rate falls exponentially from step to step, rate(s) = initial (final / initial)^{s / (S − 1)}
 /// for S steps (ours; the paper gives the end points 1e-3 and 1e-6).
 ///
-/// After Adam comes a quasi-Newton method (ours): the encoder stays as it is, and the network alone goes down the same loss at samples that stay the
-/// same. Its matrix begins as that of Gauss and Newton, damped, and anew every 100 steps.
+/// After Adam comes a quasi-Newton method (ours), down the same loss at samples that stay the same: Adam's rate falls while the gradient ∇_X g̃ is still far from
+/// what the network can do, and this method goes on from there.
 ///
 /// The default batch, points and first rate are ours, too: neighbouring points say much the same, so that many small steps reach a given error sooner
 /// than few large ones, and 3e-3 sooner than 1e-3.
@@ -58,7 +58,7 @@ impl Default for Training {
             gradient_weight: 100.0,
             velocity_weight: 0.01,
             epochs: 400,
-            finishing_steps: 400,
+            finishing_steps: 1000,
             finishing_samples: 50_000,
             batch: 4,
             points: 16,

@@ -48,14 +48,6 @@ pub(super) struct Weights {
     pub share: f64,
 }
 
-/// x̂ and its rate w of a frame.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Coordinates<'a> {
-    pub latent: &'a [f64],
-    /// None for the last frame of a run, and without weight.
-    pub direction: Option<&'a [f64]>,
-}
-
 /// Loss and adjoints of pairs (run, frame), with the buffers to compute them.
 #[derive(Clone, Debug)]
 pub(super) struct PairLoss<const D: usize> {
@@ -112,13 +104,24 @@ impl<const D: usize> PairLoss<D> {
             let pairs = self.next.latent.iter().zip(&self.now.latent);
             pairs.map(|(next, now)| (next - now) / weights.interval).collect()
         });
-        let now = std::mem::take(&mut self.now.latent);
-        let at = Coordinates {
-            latent: &now,
-            direction: direction.as_deref(),
+        let gradients = weights.gradient > 0.0;
+        let seed = network.seed(&self.now.latent, gradients, direction.as_deref().into_iter());
+        let mut adjoint = SeedAdjoint::zero(&seed);
+        for chunk in chosen.chunks(CHUNK) {
+            self.reference.clear();
+            self.reference.extend(chunk.iter().map(|&point| reference[point]));
+            network.forward(&self.reference, &seed, &mut self.tape);
+            self.residuals(network, weights, frame, chunk, direction.is_some());
+            network.reverse(&self.reference, &mut self.tape, &mut self.network, &mut adjoint);
+        }
+        let coordinates = self.now.latent.len();
+        let (mut latent, mut along) = (vec![0.0; coordinates], vec![0.0; coordinates]);
+        let mut target = SeedTarget {
+            parameters: &mut self.network,
+            latent: &mut latent,
+            direction: &mut along,
         };
-        let (mut latent, mut along) = self.add_at(network, weights, reference, frame, chosen, &at);
-        self.now.latent = now;
+        network.reverse_seed(&adjoint, gradients, &self.now.latent, direction.as_deref(), &mut target);
         if direction.is_some() {
             for (latent, along) in latent.iter_mut().zip(&mut along) {
                 *along /= weights.interval;
@@ -127,38 +130,6 @@ impl<const D: usize> PairLoss<D> {
             encoder.reverse(&self.next, &along, &mut self.encoder);
         }
         encoder.reverse(&self.now, &latent, &mut self.encoder);
-    }
-
-    /// The same for given coordinates, which the encoder then has no part in: adds terms and adjoints of the network's parameters, and returns those of
-    /// x̂ and w.
-    pub fn add_at(
-        &mut self,
-        network: &Network<D>,
-        weights: &Weights,
-        reference: &[[f64; D]],
-        frame: &Frame<D>,
-        chosen: &[usize],
-        at: &Coordinates<'_>,
-    ) -> (Vec<f64>, Vec<f64>) {
-        let gradients = weights.gradient > 0.0;
-        let seed = network.seed(at.latent, gradients, at.direction.into_iter());
-        let mut adjoint = SeedAdjoint::zero(&seed);
-        for chunk in chosen.chunks(CHUNK) {
-            self.reference.clear();
-            self.reference.extend(chunk.iter().map(|&point| reference[point]));
-            network.forward(&self.reference, &seed, &mut self.tape);
-            self.residuals(network, weights, frame, chunk, at.direction.is_some());
-            network.reverse(&self.reference, &mut self.tape, &mut self.network, &mut adjoint);
-        }
-        let coordinates = at.latent.len();
-        let (mut latent, mut along) = (vec![0.0; coordinates], vec![0.0; coordinates]);
-        let mut target = SeedTarget {
-            parameters: &mut self.network,
-            latent: &mut latent,
-            direction: &mut along,
-        };
-        network.reverse_seed(&adjoint, gradients, at.latent, at.direction, &mut target);
-        (latent, along)
     }
 
     /// Adds the terms of a chunk and overwrites the tape's output with its adjoint.

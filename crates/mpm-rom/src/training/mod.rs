@@ -1,4 +1,4 @@
-//! Training: a network and an encoder fitted to snapshots by Adam, and the network further by a quasi-Newton method.
+//! Training: a network and an encoder fitted to snapshots by Adam, and further by a quasi-Newton method.
 //!
 //! The loss (Chen et al. 2023, Eq. 31) is, per sample (run, frame n, point p),
 //!
@@ -23,7 +23,6 @@ mod error;
 mod finish;
 mod finishing;
 mod loss;
-mod normal_matrix;
 mod observer;
 mod trainer;
 

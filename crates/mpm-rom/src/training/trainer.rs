@@ -97,10 +97,7 @@ impl<'a, const D: usize> Trainer<'a, D> {
             let report = if (self.history.len() as u64) < self.config.epochs {
                 self.epoch(&mut workers)?
             } else {
-                let sample = match &mut sample {
-                    Some(sample) => sample,
-                    none => none.insert(FixedSample::of(self)?),
-                };
+                let sample = sample.get_or_insert_with(|| FixedSample::of(self));
                 self.finishing_step(sample)?
             };
             self.history.push(report);

@@ -43,12 +43,6 @@ impl Tape {
         &mut self.output[start..start + self.points]
     }
 
-    /// An adjoint of zero everywhere, to be filled before [`Network::reverse`]; `outputs` are D.
-    pub fn zero_output(&mut self, outputs: usize) {
-        self.output.clear();
-        self.output.resize(outputs * self.points * self.columns, 0.0);
-    }
-
     fn resize(&mut self, points: usize, columns: usize, width: usize, depth: usize, outputs: usize) {
         (self.points, self.columns) = (points, columns);
         let size = width * points * columns;

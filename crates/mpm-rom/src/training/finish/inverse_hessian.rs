@@ -4,9 +4,9 @@ use rayon::prelude::*;
 
 /// H ≈ (∇²L)⁻¹, dense and symmetric.
 ///
-/// A step s with the change y of the gradient makes of it the update of Broyden, Fletcher, Goldfarb and Shanno (J. Nocedal, S. Wright 2006, Eq. 6.17),
+/// A step s with the change y of the gradient makes of it the self-scaled update of Broyden, Fletcher, Goldfarb and Shanno (M. Al-Baali 1998),
 ///
-/// H ← H − (s hᵀ + h sᵀ) / b + (a + b) / b² s sᵀ, h = H y, a = y·h, b = s·y > 0.
+/// H ← (H − (s hᵀ + h sᵀ) / b + (a / b²) s sᵀ) / τ + s sᵀ / b, h = H y, a = y·h, b = s·y > 0, τ = min(1, b / (s·H⁻¹ s)).
 ///
 /// Rows are changed when the next product passes them, so that a step costs one pass through memory.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,9 +16,10 @@ pub(crate) struct InverseHessian {
     pending: Option<Update>,
 }
 
-/// An update that the rows have not seen: H ← H + u sᵀ + s uᵀ with u = −h / b + (a + b) / (2 b²) s.
+/// An update that the rows have not seen: H ← scale H + u sᵀ + s uᵀ.
 #[derive(Clone, Debug, PartialEq)]
 struct Update {
+    scale: f64,
     step: Vec<f64>,
     other: Vec<f64>,
 }
@@ -26,13 +27,18 @@ struct Update {
 impl Update {
     /// Entry (i, j) after the update.
     fn of(&self, i: usize, j: usize, entry: f64) -> f64 {
-        entry + (self.step[i] * self.other[j] + self.other[i] * self.step[j])
+        self.scale * entry + (self.step[i] * self.other[j] + self.other[i] * self.step[j])
     }
 }
 
 impl InverseHessian {
-    /// The symmetric matrix with these rows.
-    pub fn new(size: usize, rows: Vec<f64>) -> Self {
+    /// A diagonal matrix.
+    pub fn diagonal(entries: &[f64]) -> Self {
+        let size = entries.len();
+        let mut rows = vec![0.0; size * size];
+        for (k, &entry) in entries.iter().enumerate() {
+            rows[k * size + k] = entry;
+        }
         Self {
             size,
             rows,
@@ -51,7 +57,11 @@ impl InverseHessian {
             }
             start += i + 1;
         }
-        Self::new(size, rows)
+        Self {
+            size,
+            rows,
+            pending: None,
+        }
     }
 
     /// Its rows on and below the diagonal.
@@ -73,7 +83,7 @@ impl InverseHessian {
             Some(update) => {
                 let (s, u) = (update.step[i], update.other[i]);
                 for ((entry, step), other) in row.iter_mut().zip(&update.step).zip(&update.other) {
-                    *entry += s * other + u * step;
+                    *entry = update.scale * *entry + (s * other + u * step);
                 }
                 dot(row, x)
             }
@@ -88,15 +98,18 @@ impl InverseHessian {
         let change = difference(after.gradient, before.gradient);
         let h = difference(after.product, before.product);
         let (a, b) = (dot(&change, &h), dot(&step, &change));
-        if !(b > 0.0 && a > 0.0) {
+        // s·H⁻¹ s = −length s·g.
+        let curvature = -length * dot(&step, before.gradient);
+        if !(b > 0.0 && a > 0.0 && curvature > 0.0) {
             return after.product.to_vec();
         }
-        let own = 0.5 * (a + b) / (b * b);
-        let other: Vec<f64> = h.iter().zip(&step).map(|(h, s)| own * s - h / b).collect();
+        let scale = 1.0 / (b / curvature).min(1.0);
+        let (both, own) = (-scale / b, scale * a / (b * b) + 1.0 / b);
+        let other: Vec<f64> = h.iter().zip(&step).map(|(h, s)| both * h + 0.5 * own * s).collect();
         let (along, across) = (dot(&step, after.gradient), dot(&other, after.gradient));
         let parts = after.product.iter().zip(&step).zip(&other);
-        let product = parts.map(|((p, s), u)| p + s * across + u * along).collect();
-        self.pending = Some(Update { step, other });
+        let product = parts.map(|((p, s), u)| scale * p + s * across + u * along).collect();
+        self.pending = Some(Update { scale, step, other });
         product
     }
 }

@@ -18,9 +18,8 @@ fn valley(x: &[f64]) -> (Terms, Vec<f64>) {
 
 fn start() -> (QuasiNewton, Vec<f64>) {
     let parameters = vec![-1.2, 1.0, 0.3, -0.7, 2.0, 2.5];
-    let mut matrix = vec![0.0; 36];
-    (0..6).for_each(|k| matrix[7 * k] = 100.0);
-    let state = QuasiNewton::new(&matrix, &parameters, valley(&parameters), &mut valley);
+    let (terms, gradient) = valley(&parameters);
+    let state = QuasiNewton::new(&[0.01; 6], terms, gradient);
     (state, parameters)
 }
 
