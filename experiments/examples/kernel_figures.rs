@@ -82,18 +82,30 @@ fn graded(table: &Table, ratio: &str) -> Result<String> {
 }
 
 /// Parts of the figure's edge.
-const PIXELS: usize = 64;
+const PIXELS: usize = 40;
+
+/// A pixel has the value of the nearest point, up to so many pixels away.
+const NEAR: f64 = 1.0;
 
 fn ampersand(table: &Table) -> Result<String> {
     let (x, y) = (table.column("x")?, table.column("y")?);
-    let range = |values: &[f64]| {
+    let edges = |values: &[f64]| -> Vec<f64> {
         let low = values.iter().copied().fold(f64::INFINITY, f64::min);
         let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        (low, (high - low) / PIXELS as f64)
+        let edge = |k| low + (high - low) * k as f64 / PIXELS as f64;
+        (0..=PIXELS).map(edge).collect()
     };
-    let ((left, width), (bottom, height)) = (range(x), range(y));
-    let edges = |low: f64, size: f64| (0..=PIXELS).map(|k| low + size * k as f64).collect();
-    let place = |value: f64, low: f64, size: f64| (((value - low) / size) as usize).min(PIXELS - 1);
+    let (x_edges, y_edges) = (edges(x), edges(y));
+    let (width, height) = (x_edges[1] - x_edges[0], y_edges[1] - y_edges[0]);
+    let mut nearest = Vec::with_capacity(PIXELS * PIXELS);
+    for row in y_edges.windows(2) {
+        for column in x_edges.windows(2) {
+            let centre = [0.5 * (column[0] + column[1]), 0.5 * (row[0] + row[1])];
+            let away = |k: &usize| ((x[*k] - centre[0]) / width).hypot((y[*k] - centre[1]) / height);
+            let point = (0..x.len()).min_by(|a, b| away(a).total_cmp(&away(b)));
+            nearest.push(point.filter(|point| away(point) <= NEAR));
+        }
+    }
     let mut panels = Vec::new();
     for (suffix, with) in [("", "with η"), ("_distance_alone", "without η")] {
         let weights = table.column(&format!("weight{suffix}"))?;
@@ -102,18 +114,12 @@ fn ampersand(table: &Table) -> Result<String> {
             table.column(&format!("gradient_y{suffix}"))?,
         );
         let lengths: Vec<f64> = along_x.iter().zip(along_y).map(|(a, b)| a.hypot(*b)).collect();
-        for (values, what) in [(weights, "weight"), (&lengths[..], "length of the gradient")] {
+        for (values, what) in [(weights, "weight"), (&lengths[..], "|gradient|")] {
             let largest = values.iter().copied().fold(0.0, f64::max);
-            let mut sums = vec![(0.0, 0u32); PIXELS * PIXELS];
-            for ((x, y), value) in x.iter().zip(y).zip(values) {
-                let (sum, count) = &mut sums[place(*y, bottom, height) * PIXELS + place(*x, left, width)];
-                *sum += value;
-                *count += 1;
-            }
-            let share = |(sum, count): (f64, u32)| (count > 0).then(|| sum / f64::from(count) / largest);
+            let share = |point: &Option<usize>| point.map(|point| values[point] / largest);
             panels.push(HeatPanel {
-                title: format!("{what}, {with}; 100 % = {largest:.3}"),
-                shares: sums.into_iter().map(share).collect(),
+                title: format!("{what} {with}, 100 % = {largest:.3}"),
+                shares: nearest.iter().map(share).collect(),
             });
         }
     }
@@ -121,8 +127,8 @@ fn ampersand(table: &Table) -> Result<String> {
         title: "A node at a re-entrant corner of an \"&\"".to_owned(),
         x_label: "x (m)".to_owned(),
         y_label: "y (m)".to_owned(),
-        x_edges: edges(left, width),
-        y_edges: edges(bottom, height),
+        x_edges,
+        y_edges,
         axis: AxisKind::Linear,
         panels,
         notes: vec!["Grey: outside of the shape, or of the cells whose rings have the node.".to_owned()],

@@ -2,7 +2,7 @@
 
 use parvi::{Annealing, Guards, PaperOptions};
 
-use super::{Basis, Limit, MethodOptions, StepCount, Switch};
+use super::{Basis, Limit, MethodOptions, Switch};
 
 impl MethodOptions {
     /// Algorithm 1, or 2 if `affine`.
