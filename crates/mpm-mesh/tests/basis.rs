@@ -62,7 +62,7 @@ fn stencils_are_right<const D: usize>(basis: &MeshBasis<D>, sorted: &[[f64; D]],
             assert!(expected.next().is_none());
             affine_directions_conserve(basis, place, x, &spread, what);
             if place % 8 == 0 {
-                transfers_are_sums(basis, place, x, what);
+                transfers_are_sums(basis, place, x, nodes.len(), what);
             }
         }
     }
