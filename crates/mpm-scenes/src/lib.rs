@@ -28,7 +28,7 @@ pub use kinematics::{KinematicRegion, Kinematics, RigidMotion};
 pub use law::{LawState, Laws};
 pub use manufactured::ManufacturedSolution;
 pub use population::Population;
-pub use run::{Observer, Outcome, Progress, SimulationError, Summary, frames, simulate};
+pub use run::{Effort, Observer, Outcome, Progress, SimulationError, Summary, frames, simulate};
 pub use scene::Scene;
 pub use series::Series;
 pub use snapshot::Snapshot;

@@ -41,8 +41,9 @@ pub(super) fn beside<const D: usize>(
     choice: &Choice,
     options: Options,
 ) -> Result<(ReducedRow, Vec<FrameRow>), ExperimentError> {
-    let map = DeformationMap::new(manifold, &body.reference, guess)?;
+    let map = DeformationMap::new(manifold, full.snapshots.reference(), guess)?;
     let mut reduced = ReducedModel::new(body, map, options)?;
+    let points = reduced.prepare(full.snapshots.reference());
     let (mut total, mut evaluation) = (PositionError::default(), Evaluation::default());
     let (mut report, mut seconds, mut outcome) = (StepReport::default(), 0.0, "finished".to_owned());
     let mut rows = Vec::new();
@@ -60,7 +61,7 @@ pub(super) fn beside<const D: usize>(
                 }
             }
         }
-        reduced.evaluate(reduced.points(), Wanted::default(), &mut evaluation);
+        reduced.evaluate(&points, Wanted::default(), &mut evaluation);
         error.add(&evaluation.positions, &frame.positions);
         if !rows.is_empty() {
             total.merge(&error);

@@ -17,6 +17,9 @@ pub struct Experiment {
     pub title: String,
     /// The scene's file, seen from the experiment's.
     pub scene: PathBuf,
+    /// Points of the scene that training and errors know, at most: so many, evenly drawn. All of them if left out; dynamics always have all.
+    #[serde(default)]
+    pub recorded_points: Option<usize>,
     /// Names of the parameters.
     pub parameters: Vec<String>,
     /// What the parameters change in the scene.
@@ -149,9 +152,13 @@ impl ManifoldName {
 }
 
 /// The reduced runs of every test case: each manifold with each number of sample points, quadrature and update.
+///
+/// A `scene` of their own is the same body with other points, spacing or time step, which the network has not seen; it takes the same keys.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ReducedRuns {
+    /// The scene's file, seen from the experiment's; that of the training if left out.
+    pub scene: Option<PathBuf>,
     /// Families of maps.
     pub manifold: Vec<ManifoldName>,
     /// |𝒫|.
@@ -173,6 +180,7 @@ pub struct ReducedRuns {
 impl Default for ReducedRuns {
     fn default() -> Self {
         Self {
+            scene: None,
             manifold: vec![ManifoldName::Network],
             samples: vec![SampleCount::Drawn(50), SampleCount::All(All::All)],
             seed: 0,
@@ -238,9 +246,18 @@ impl Experiment {
         Ok(experiment)
     }
 
-    /// The scene's file.
+    /// The file of the scene that is trained on.
     pub fn scene_file(&self) -> PathBuf {
-        self.file.parent().unwrap_or(Path::new("")).join(&self.scene)
+        self.beside(&self.scene)
+    }
+
+    /// The file of the scene that reduced runs are runs of.
+    pub fn run_scene_file(&self) -> PathBuf {
+        self.beside(self.run.scene.as_ref().unwrap_or(&self.scene))
+    }
+
+    fn beside(&self, file: &Path) -> PathBuf {
+        self.file.parent().unwrap_or(Path::new("")).join(file)
     }
 
     fn check(&self) -> Result<(), ExperimentError> {
@@ -268,6 +285,17 @@ impl Experiment {
         ];
         if let Some((field, _)) = lists.iter().find(|(_, length)| *length == 0) {
             return refuse((*field).to_owned(), "at least one is needed".to_owned());
+        }
+        if self.recorded_points == Some(0) {
+            return refuse("recorded_points".to_owned(), "0: at least 1".to_owned());
+        }
+        if self.run.scene.is_some() && self.run.manifold.contains(&ManifoldName::Linear) {
+            let message = "\"linear\" is known at the points of the training alone: leave out run.scene";
+            return refuse("run.manifold".to_owned(), message.to_owned());
+        }
+        if self.recorded_points.is_some() && self.run.manifold.contains(&ManifoldName::Linear) {
+            let message = "\"linear\" is known at recorded points alone: leave out recorded_points";
+            return refuse("run.manifold".to_owned(), message.to_owned());
         }
         self.training
             .check()

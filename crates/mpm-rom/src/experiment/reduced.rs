@@ -1,14 +1,13 @@
 //! Reduced runs of the test cases, each beside its full-order run.
 
 use std::path::Path;
-use std::time::Instant;
 
 use super::beside::{Choice, Full, beside};
 use super::files::{self, names};
 use super::results::{self, ReducedRow};
 use super::trained::model_for;
 use super::{Experiment, ExperimentError, ManifoldName};
-use crate::full_order::{self, FullOrderError, SceneDocument};
+use crate::full_order::{FullOrderError, Recording, SceneDocument};
 use crate::manifold::{Manifold, Pod};
 use crate::online::ReducedBody;
 use crate::snapshots::{Run, Snapshots};
@@ -27,36 +26,41 @@ pub fn run<const D: usize>(
     after_run: &mut dyn FnMut(usize, usize) -> bool,
 ) -> Result<Vec<ReducedRow>, ExperimentError> {
     experiment.occupy(directory)?;
-    let document = SceneDocument::read(&experiment.scene_file())?;
-    let model = model_for::<D>(experiment, directory, &document)?;
+    let document = SceneDocument::read(&experiment.run_scene_file())?;
+    let (model, trained_on) = model_for::<D>(experiment, directory)?;
+    let rest = model.encoder().encode(&trained_on.reference)?;
     let linear = linear::<D>(experiment, directory, model.network().coordinates())?;
     let (choices, mut rows, mut frames) = (choices(experiment), Vec::new(), Vec::new());
     let runs = choices.len() * experiment.cases.test.len();
     for (case, values) in experiment.cases.test.iter().enumerate() {
         let scene = document.scene(&experiment.case(values)?.changes)?;
-        let body = full_order::body_of::<D>(&scene, &experiment.parameters)?;
-        let start = Instant::now();
+        let recording = Recording::<D>::of(&scene, &experiment.parameters, experiment.recorded_points)?;
+        let recording = recording.about(&trained_on.centroid);
+        let (frames_of_run, effort) = recording.run(&scene)?;
         let run = Run {
             parameters: values.clone(),
-            frames: full_order::run(&scene, &body.centroid)?,
+            frames: frames_of_run,
         };
-        let seconds = start.elapsed().as_secs_f64();
-        let snapshots = Snapshots::new(body, vec![run]).map_err(FullOrderError::from)?;
-        let reconstruction_error = model.reconstruction_error(&snapshots)?;
+        let snapshots = Snapshots::new(recording.body, vec![run]).map_err(FullOrderError::from)?;
+        // The encoder knows the points that it was trained on, no others.
+        let reconstruction_error = match &experiment.run.scene {
+            None => Some(model.reconstruction_error(&snapshots)?),
+            Some(_) => None,
+        };
         let full = Full {
             case,
             snapshots,
-            seconds,
+            seconds: effort.time.as_secs_f64(),
         };
         for choice in &choices {
-            let network = (model.network() as &dyn Manifold<D>, Some(reconstruction_error));
+            let network = (model.network() as &dyn Manifold<D>, reconstruction_error);
             let (manifold, reconstruction_error) = match (choice.manifold, &linear) {
                 (ManifoldName::Linear, Some(pod)) => (pod as &dyn Manifold<D>, None),
                 _ => network,
             };
-            let body = ReducedBody::of(&scene)?;
+            let body = ReducedBody::of(&scene)?.about(&trained_on.centroid);
             let guess = match choice.manifold {
-                ManifoldName::Network => model.encoder().encode(&body.reference)?,
+                ManifoldName::Network => rest.clone(),
                 ManifoldName::Linear => vec![0.0; manifold.coordinates()],
             };
             let options = experiment.run.options(choice);

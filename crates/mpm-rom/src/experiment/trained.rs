@@ -7,9 +7,9 @@ use std::time::{Duration, Instant};
 
 use super::files::{self, names};
 use super::{Experiment, ExperimentError};
-use crate::full_order::{self, SceneDocument};
+use crate::full_order::{self, Recording, SceneDocument};
 use crate::model::Model;
-use crate::snapshots::Snapshots;
+use crate::snapshots::{Body, Snapshots};
 use crate::training::{EpochReport, Trainer};
 
 /// Watches an experiment and may stop its training.
@@ -112,7 +112,8 @@ fn training_data<const D: usize>(
         .map(|values| experiment.case(values))
         .collect::<Result<_, _>>()?;
     let after_run = |done| watch.after_run(done, values.len());
-    let snapshots = full_order::collect(&document, &experiment.parameters, &cases, after_run)?;
+    let recorded = experiment.recorded_points;
+    let snapshots = full_order::collect(&document, &experiment.parameters, &cases, recorded, after_run)?;
     snapshots.write(&file)?;
     Ok(snapshots)
 }
@@ -133,19 +134,17 @@ fn losses(history: &[EpochReport]) -> String {
     text
 }
 
-/// The model of a directory, if it fits the scene.
+/// The model of a directory, if it fits the scene, and the body that it was trained on.
 pub(super) fn model_for<const D: usize>(
     experiment: &Experiment,
     directory: &Path,
-    document: &SceneDocument,
-) -> Result<Model<D>, ExperimentError> {
+) -> Result<(Model<D>, Body<D>), ExperimentError> {
     let file = directory.join(names::MODEL);
     let model = Model::<D>::read(&file)?;
+    let document = SceneDocument::read(&experiment.scene_file())?;
     let scene = document.scene(&experiment.case(&experiment.cases.test[0])?.changes)?;
-    let points = full_order::body_of::<D>(&scene, &experiment.parameters)?
-        .reference
-        .len();
-    let trained_on = model.encoder().shape().points;
+    let body = Recording::<D>::of(&scene, &experiment.parameters, experiment.recorded_points)?.body;
+    let (points, trained_on) = (body.reference.len(), model.encoder().shape().points);
     if model.summary().scene != scene.title || trained_on != points {
         return Err(ExperimentError::OtherScene {
             file: file.display().to_string(),
@@ -153,5 +152,5 @@ pub(super) fn model_for<const D: usize>(
             expected: format!("{}, {points} points", scene.title),
         });
     }
-    Ok(model)
+    Ok((model, body))
 }

@@ -2,19 +2,21 @@
 
 mod document;
 mod error;
+mod recording;
 #[cfg(test)]
 mod tests;
 mod tracers;
 
 pub use document::{SceneDocument, Value};
 pub use error::FullOrderError;
+pub use recording::Recording;
 pub use tracers::TracedRun;
 
 use mpm_scenes::scene::MaterialTable;
-use mpm_scenes::{Population, Scene, Snapshot, frames};
-use mpm_tensor::{Matrix, vector};
+use mpm_scenes::{Population, Scene};
+use mpm_tensor::vector;
 
-use crate::snapshots::{Body, Frame, Run, Snapshots};
+use crate::snapshots::{Body, Run, Snapshots};
 
 /// A run: the values of its parameters, and the keys of the scene that they change.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,7 +37,8 @@ impl Case {
     }
 }
 
-/// Runs all cases of a scene and collects their frames, that of t = 0 included. `after_run` is told the number of runs done.
+/// Runs all cases of a scene and collects their frames, that of t = 0 included: of all points, or of at most `recorded` of them ([`Recording`]).
+/// `after_run` is told the number of runs done.
 ///
 /// # Errors
 /// [`FullOrderError`]: a change that does not fit the document, a scene that cannot be run or that has another body than that of the first case, a run that
@@ -44,35 +47,24 @@ pub fn collect<const D: usize>(
     document: &SceneDocument,
     parameters: &[String],
     cases: &[Case],
+    recorded: Option<usize>,
     mut after_run: impl FnMut(usize),
 ) -> Result<Snapshots<D>, FullOrderError> {
-    let (mut body, mut runs) = (None, Vec::with_capacity(cases.len()));
+    let (mut recording, mut runs) = (None, Vec::with_capacity(cases.len()));
     for (number, case) in cases.iter().enumerate() {
         let scene = document.scene(&case.changes)?;
-        let own = body_of::<D>(&scene, parameters)?;
-        match &body {
-            None => body = Some(own.clone()),
-            Some(first) if *first == own => {}
-            Some(_) => return Err(FullOrderError::AnotherBody { run: number }),
+        let own = Recording::<D>::of(&scene, parameters, recorded)?;
+        let first = recording.get_or_insert_with(|| own.clone());
+        if *first != own {
+            return Err(FullOrderError::AnotherBody { run: number });
         }
-        let frames = run(&scene, &own.centroid)?;
+        let (frames, _) = own.run(&scene)?;
         let parameters = case.parameters.clone();
         runs.push(Run { parameters, frames });
         after_run(runs.len());
     }
-    let body = body.ok_or(FullOrderError::NoRuns)?;
-    Ok(Snapshots::new(body, runs)?)
-}
-
-/// All frames of one scene, positions relative to `centroid`.
-///
-/// # Errors
-/// [`FullOrderError::Dimension`], [`FullOrderError::Simulation`].
-pub fn run<const D: usize>(scene: &Scene, centroid: &[f64; D]) -> Result<Vec<Frame<D>>, FullOrderError> {
-    check_dimension::<D>(scene)?;
-    let mut all = Vec::new();
-    frames(scene, &mut |snapshot| all.push(frame(&snapshot, centroid)))?;
-    Ok(all)
+    let recording = recording.ok_or(FullOrderError::NoRuns)?;
+    Ok(Snapshots::new(recording.body, runs)?)
 }
 
 /// What all runs of a scene share: its points, relative to their mean.
@@ -113,17 +105,5 @@ fn check_dimension<const D: usize>(scene: &Scene) -> Result<(), FullOrderError> 
     match scene.dimension {
         found if found != D => Err(FullOrderError::Dimension { found, expected: D }),
         _ => Ok(()),
-    }
-}
-
-fn frame<const D: usize>(snapshot: &Snapshot, centroid: &[f64; D]) -> Frame<D> {
-    let (positions, _) = snapshot.positions.as_chunks::<D>();
-    let (velocities, _) = snapshot.velocities.as_chunks::<D>();
-    let (rows, _) = snapshot.deformation_gradients.as_chunks::<D>();
-    let (gradients, _) = rows.as_chunks::<D>();
-    Frame {
-        positions: positions.iter().map(|x| vector::subtract(x, centroid)).collect(),
-        deformation_gradients: gradients.iter().map(|rows| Matrix(*rows)).collect(),
-        velocities: velocities.to_vec(),
     }
 }

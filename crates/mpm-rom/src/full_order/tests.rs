@@ -1,3 +1,5 @@
+use mpm_tensor::Matrix;
+
 use super::*;
 
 const STRIP: &str = r#"
@@ -26,7 +28,7 @@ fn every_run_has_its_own_parameter_and_all_have_the_same_body() {
     let cases: Vec<Case> = [1.0, 3.0].map(|g| Case::of_key("gravity.1", -g)).to_vec();
     let mut done = Vec::new();
     let names = ["gravity".to_owned()];
-    let snapshots = collect::<2>(&document(), &names, &cases, |run| done.push(run)).expect("runs");
+    let snapshots = collect::<2>(&document(), &names, &cases, None, |run| done.push(run)).expect("runs");
     assert_eq!((snapshots.runs().len(), snapshots.points(), done), (2, 64, vec![1, 2]));
     assert_eq!((snapshots.body().density, snapshots.body().interval), (2.0, 0.05));
     assert!(vector::distance(&snapshots.body().centroid, &[1.0, 0.25]) < 1e-15);
@@ -50,7 +52,7 @@ fn every_run_has_its_own_parameter_and_all_have_the_same_body() {
 
 #[test]
 fn what_does_not_fit_is_an_error_with_its_name() {
-    let collect = |cases: &[Case]| collect::<2>(&document(), &["p".to_owned()], cases, |_| ());
+    let collect = |cases: &[Case]| collect::<2>(&document(), &["p".to_owned()], cases, None, |_| ());
     assert!(matches!(collect(&[]), Err(FullOrderError::NoRuns)));
     let error = collect(&[Case::of_key("bodies.1.shape.radius", 1.0)]).expect_err("no such body");
     assert_eq!(
@@ -62,7 +64,7 @@ fn what_does_not_fit_is_an_error_with_its_name() {
         Case::of_key("bodies.0.shape.upper.0", 2.5),
     ];
     assert!(matches!(collect(&wider), Err(FullOrderError::AnotherBody { run: 1 })));
-    let error = super::collect::<3>(&document(), &[], &[Case::of_key("gravity.0", 0.0)], |_| ());
+    let error = super::collect::<3>(&document(), &[], &[Case::of_key("gravity.0", 0.0)], None, |_| ());
     assert!(matches!(
         error,
         Err(FullOrderError::Dimension { found: 2, expected: 3 })
@@ -77,7 +79,8 @@ fn tracers_leave_the_run_as_it_is_and_move_with_it() {
     );
     let scene = Scene::parse(&held, "strip.toml".as_ref()).expect("a scene");
     let body = crate::online::ReducedBody::<2>::of(&scene).expect("can be reduced");
-    let frames = run(&scene, &body.centroid).expect("runs");
+    let recording = Recording::of(&scene, &[], None).expect("a body");
+    let (frames, _) = recording.run(&scene).expect("runs");
     // A tracer at a particle, and one in the middle of four.
     let tracers = [body.reference[37], [0.125, 0.0]];
     let mut traced = TracedRun::new(&body, &tracers).expect("two tracers");
@@ -90,5 +93,29 @@ fn tracers_leave_the_run_as_it_is_and_move_with_it() {
         let found = traced.tracers();
         assert!(vector::distance(&found[0], &frame.positions[37]) < 1e-7);
         assert!(found[1][1] < 0.0);
+    }
+}
+
+#[test]
+fn a_part_of_the_points_moves_as_it_does_among_all() {
+    let scene = document().scene(&[]).expect("a scene");
+    let all = Recording::<2>::of(&scene, &[], None).expect("a body");
+    let part = Recording::<2>::of(&scene, &[], Some(10)).expect("a body");
+    assert_eq!((part.body.reference.len(), part.body.centroid), (10, all.body.centroid));
+    assert_eq!(Recording::<2>::of(&scene, &[], Some(64)).expect("a body"), all);
+    let place = |x: &[f64; 2]| all.body.reference.iter().position(|y| x == y).expect("one of them");
+    let numbers: Vec<usize> = part.body.reference.iter().map(place).collect();
+    assert!(numbers.windows(2).all(|pair| pair[0] < pair[1]), "{numbers:?}");
+
+    let (whole, effort) = all.run(&scene).expect("runs");
+    let (frames, _) = part.clone().about(&[1.0, 0.0]).run(&scene).expect("runs");
+    assert_eq!((effort.steps, frames.len()), (40, whole.len()));
+    for (frame, whole) in frames.iter().zip(&whole) {
+        for (k, &p) in numbers.iter().enumerate() {
+            let expected = vector::add(&whole.positions[p], &[0.0, 0.25]);
+            assert!(vector::distance(&frame.positions[k], &expected) < 1e-14);
+            assert_eq!(frame.velocities[k], whole.velocities[p]);
+            assert_eq!(frame.deformation_gradients[k], whole.deformation_gradients[p]);
+        }
     }
 }

@@ -78,6 +78,17 @@ impl<const D: usize> ReducedBody<D> {
         })
     }
 
+    /// The same body, with positions relative to another origin: that of a map which was trained on other points of it.
+    pub fn about(mut self, centroid: &[f64; D]) -> Self {
+        let shift = vector::subtract(&self.centroid, centroid);
+        for x in &mut self.reference {
+            *x = vector::add(x, &shift);
+        }
+        self.grid = UniformGrid::new(vector::add(self.grid.origin(), &shift), self.grid.spacing());
+        self.centroid = *centroid;
+        self
+    }
+
     /// Position and velocity of a material point at a time; `None` where they are not prescribed.
     pub fn prescribed(&self, point: usize, time: f64) -> Option<([f64; D], [f64; D])> {
         let reference = vector::add(self.reference.get(point)?, &self.centroid);

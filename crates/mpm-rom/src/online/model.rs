@@ -20,8 +20,11 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
         let coordinates = map.coordinates();
         let sample_numbers = options.samples.choose(&body.reference, coordinates, &body.kinematics)?;
         let (mut points, mut samples) = (MaterialPoints::default(), MaterialPoints::default());
-        map.prepare(&body.reference, &mut points);
-        samples.select(&points, &sample_numbers);
+        let of_samples = sample_numbers.iter().filter_map(|&p| body.reference.get(p as usize));
+        map.prepare(&of_samples.copied().collect::<Vec<_>>(), &mut samples);
+        if matches!(scheme, Scheme::Lagrangian(_)) {
+            map.prepare(&body.reference, &mut points);
+        }
         let rates = map
             .initial()
             .map_or_else(|| vec![0.0; coordinates], |initial| initial.rates.clone());
@@ -86,12 +89,7 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
         &self.sample_numbers
     }
 
-    /// All material points, for [`evaluate`](Self::evaluate).
-    pub fn points(&self) -> &MaterialPoints<D> {
-        &self.points
-    }
-
-    /// Other points of the body for [`evaluate`](Self::evaluate), by their reference positions: super-resolution.
+    /// Points of the body for [`evaluate`](Self::evaluate), by their reference positions: its own, or others (super-resolution).
     pub fn prepare(&mut self, reference: &[[f64; D]]) -> MaterialPoints<D> {
         let mut points = MaterialPoints::default();
         self.map.prepare(reference, &mut points);

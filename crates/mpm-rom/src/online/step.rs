@@ -18,7 +18,7 @@ pub struct ReducedModel<const D: usize, M> {
     pub(super) body: ReducedBody<D>,
     pub(super) map: DeformationMap<D, M>,
     pub(super) options: Options,
-    /// All material points.
+    /// All material points; none with quadrature at points of space, which does not need them.
     pub(super) points: MaterialPoints<D>,
     /// Numbers of the sample points 𝒫 and what the map needs of them.
     pub(super) sample_numbers: Vec<u32>,

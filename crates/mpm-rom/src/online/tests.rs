@@ -7,7 +7,7 @@ use mpm_scenes::Scene;
 use mpm_tensor::vector;
 
 use super::*;
-use crate::deformation_map::{DeformationMap, velocities};
+use crate::deformation_map::{DeformationMap, MaterialPoints, velocities};
 use crate::least_squares::LeastSquares;
 use crate::manifold::{Evaluation, Fields, Manifold, Wanted};
 
@@ -84,6 +84,12 @@ fn free_fall_is_exact_with_every_scheme() {
     }
 }
 
+/// All points of a model's body.
+fn all_points<M: Manifold<2>>(model: &mut ReducedModel<2, M>) -> MaterialPoints<2> {
+    let reference = model.body().reference.clone();
+    model.prepare(&reference)
+}
+
 /// v_p of all points after one full-order step from the model's state.
 fn full_order_step(model: &mut ReducedModel<2, Fields<2>>) -> (Vec<[f64; 2]>, Evaluation<2>) {
     let (mut there, mut start) = (Evaluation::default(), Vec::new());
@@ -91,7 +97,7 @@ fn full_order_step(model: &mut ReducedModel<2, Fields<2>>) -> (Vec<[f64; 2]>, Ev
         gradients: true,
         jacobians: true,
     };
-    let points = model.points().clone();
+    let points = all_points(model);
     model.evaluate(&points, all, &mut there);
     velocities(&points, &there, model.rates(), &mut start);
     let body = model.body();

@@ -18,7 +18,7 @@ mod snapshot;
 mod summary;
 
 pub use error::SimulationError;
-pub use frames::frames;
+pub use frames::{Effort, frames};
 pub use observer::{Observer, Progress};
 pub use simulate::simulate;
 pub use summary::{Outcome, Summary};

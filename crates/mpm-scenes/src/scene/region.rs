@@ -58,4 +58,11 @@ pub enum ShapeTable {
         /// What is cut off it.
         remove: Vec<ShapeTable>,
     },
+    /// A shape twisted about the z axis; three dimensions only.
+    Twist {
+        /// The straight shape, with finite bounds.
+        shape: Box<ShapeTable>,
+        /// Angle per height, in rad/m: the section at height z is turned by rate z.
+        rate: f64,
+    },
 }

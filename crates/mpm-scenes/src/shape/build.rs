@@ -1,15 +1,16 @@
 //! From a shape's table to the shape.
 
-use super::{Ball, Capsule, Cuboid, Difference, HalfSpace, Intersection, Polygon, Shape, Union, unit};
+use super::{Ball, Bounds, Capsule, Cuboid, Difference, HalfSpace, Intersection, Polygon, Shape, Twisted, Union, unit};
 use crate::SceneFault;
 use crate::scene::ShapeTable;
-use crate::values::{positive, vector};
+use crate::values::{positive, vector, within};
 
 /// The shape that a table describes; `field` is what errors call it.
 ///
 /// # Errors
 /// [`SceneFault::Value`] for a vector of the wrong length, a number that is not finite, a box or polygon that holds no point, a radius that is not
-/// positive, a normal of no length, a combination of nothing, a polygon in other than two dimensions.
+/// positive, a normal of no length, a combination of nothing, a polygon in other than two dimensions, a twist in
+/// other than three or of a shape without bounds.
 pub fn build<const D: usize>(field: &str, table: &ShapeTable) -> Result<Box<dyn Shape<D>>, SceneFault> {
     let point = |name: &str, list: &[f64]| vector::<D>(&format!("{field}.{name}"), list);
     let radius_of = |radius: f64| positive(&format!("{field}.radius"), radius);
@@ -56,6 +57,7 @@ pub fn build<const D: usize>(field: &str, table: &ShapeTable) -> Result<Box<dyn 
             from: build(&format!("{field}.from"), from)?,
             remove: all("remove", remove)?,
         }),
+        ShapeTable::Twist { shape, rate } => Box::new(twisted(field, shape, *rate)?),
     })
 }
 
@@ -68,6 +70,21 @@ fn some<T>(field: &str, shapes: Vec<T>) -> Result<Vec<T>, SceneFault> {
         ));
     }
     Ok(shapes)
+}
+
+fn twisted<const D: usize>(field: &str, shape: &ShapeTable, rate: f64) -> Result<Twisted<D>, SceneFault> {
+    if D != 3 {
+        return Err(SceneFault::value(format!("{field}.kind"), "twist", "a shape of the scene's dimension"));
+    }
+    let straight = build::<D>(&format!("{field}.shape"), shape)?;
+    let Bounds { lower, upper } = straight.bounds();
+    if !lower.iter().chain(&upper).all(|c| c.is_finite()) {
+        return Err(SceneFault::value(format!("{field}.shape"), shape, "a shape with finite bounds"));
+    }
+    Ok(Twisted {
+        shape: straight,
+        rate: within(&format!("{field}.rate"), rate, rate.is_finite(), "finite")?,
+    })
 }
 
 fn polygon<const D: usize>(field: &str, corners: &[[f64; 2]]) -> Result<Polygon, SceneFault> {

@@ -10,6 +10,7 @@ mod half_space;
 mod mesh_outside;
 mod polygon;
 mod rotated;
+mod twisted;
 
 pub use ball::Ball;
 pub use bounds::Bounds;
@@ -21,6 +22,7 @@ pub use half_space::HalfSpace;
 pub(crate) use mesh_outside::MeshOutside;
 pub use polygon::Polygon;
 pub(crate) use rotated::Rotated;
+pub use twisted::Twisted;
 
 /// A set of points of space, given by the distance to its surface.
 pub trait Shape<const D: usize>: std::fmt::Debug + Send + Sync {

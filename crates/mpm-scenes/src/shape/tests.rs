@@ -115,3 +115,22 @@ fn distances_follow_the_hand_calculation() {
     assert!((Shape::<2>::distance(&triangle, &[1.0, 1.0]) + 1.0).abs() < 1e-15);
     assert_eq!(Shape::<2>::volume(&triangle), Some(6.0));
 }
+
+proptest! {
+    /// As above, for a twist, at points of a path that leaves the shape's bounds.
+    #[test]
+    fn a_twist_turns_sections_and_never_promises_too_much(x in [-2.0..2.0, -2.0..2.0, -1.5..3.0], rate in -2.0..2.0) {
+        let shape = Twisted {
+            shape: Box::new(Cuboid { lower: [-0.5, -0.25, 0.0], upper: [0.5, 0.25, 2.0] }),
+            rate,
+        };
+        // The corner (½, ¼) of the section at this height is on the surface.
+        let height = x[2].clamp(0.0, 2.0);
+        let (sine, cosine) = (rate * height).sin_cos();
+        let corner = [0.5 * cosine - 0.25 * sine, 0.5 * sine + 0.25 * cosine, height];
+        prop_assert!(shape.distance(&corner).abs() < 1e-12);
+        prop_assert!(shape.distance(&[0.0, 0.0, 1.0]) < 0.0 && shape.distance(&[0.0, 0.0, 2.1]) > 0.0);
+        prop_assert!(shape.bounds().contains(&corner));
+        prop_assert!(shape.distance(&x).abs() <= mpm_tensor::vector::distance(&x, &corner) + 1e-12);
+    }
+}

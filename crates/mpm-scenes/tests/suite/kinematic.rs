@@ -31,8 +31,8 @@ until = 0.1
 
 fn all_frames(scene: &Scene) -> Vec<Snapshot> {
     let mut all = Vec::new();
-    let steps = frames(scene, &mut |frame| all.push(frame)).expect("runs");
-    assert_eq!(steps, 40);
+    let effort = frames(scene, &mut |frame| all.push(frame)).expect("runs");
+    assert_eq!(effort.steps, 40);
     all
 }
 

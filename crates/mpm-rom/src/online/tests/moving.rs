@@ -25,7 +25,7 @@ fn points_of_space_give_nearly_the_motion_of_the_material_points() {
         (0..10).for_each(|_| {
             model.advance_frame().expect("a frame");
         });
-        let (points, mut there) = (model.points().clone(), Evaluation::default());
+        let (points, mut there) = (all_points(&mut model), Evaluation::default());
         model.evaluate(&points, Wanted::default(), &mut there);
         (there.positions, points.reference)
     };
@@ -73,7 +73,7 @@ fn held_nodes_that_turn_carry_the_body() {
         Update::position_velocity(),
     );
     let mut model = model(&text, Fields::affine(), chosen);
-    let (points, mut there) = (model.points().clone(), Evaluation::default());
+    let (points, mut there) = (all_points(&mut model), Evaluation::default());
     for frame in 1..=5 {
         model.advance_frame().expect("a frame");
         model.evaluate(&points, Wanted::default(), &mut there);
