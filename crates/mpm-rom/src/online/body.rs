@@ -105,10 +105,11 @@ impl<const D: usize> ReducedBody<D> {
             .find_map(|region| region.velocity(&x, time, self.time_step))
     }
 
-    /// Whether the body is at X at rest.
-    pub fn holds(&self, reference: &[f64; D]) -> bool {
+    /// The distance of X from the surface of the body at rest, negative inside; at most that, of combined shapes.
+    pub fn distance(&self, reference: &[f64; D]) -> f64 {
         let x = vector::add(reference, &self.centroid);
-        self.shapes.iter().any(|shape| shape.distance(&x) <= 0.0)
+        let distances = self.shapes.iter().map(|shape| shape.distance(&x));
+        distances.fold(f64::INFINITY, f64::min)
     }
 }
 

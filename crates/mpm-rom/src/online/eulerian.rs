@@ -1,37 +1,60 @@
 //! Quadrature at points of space.
 
-use mpm_tensor::vector;
+use mpm_tensor::{Matrix, vector};
 
 use super::lagrangian::Instant;
 use super::nodes::Nodes;
 use super::quadrature::{QuadraturePoints, checked_volume_ratio};
+use super::support::Support;
 use super::{Inverted, OnlineError, ReducedBody};
-use crate::deformation_map::{DeformationMap, MaterialPoints, velocities};
-use crate::manifold::{Evaluation, Manifold, Wanted};
+use crate::deformation_map::{DeformationMap, MaterialPoints};
+use crate::manifold::{Evaluation, Manifold};
 
-/// Newton steps for a reference position, at most; a point that needs more carries nothing.
-const ITERATIONS: usize = 10;
+/// Evaluations of the map for one X, at most; a point that needs more carries nothing.
+const EVALUATIONS: usize = 10;
 
-/// A reference position is found where |g(X) − x| is at most this multiple of h.
-const TOLERANCE: f64 = 1e-8;
+/// X is found where |g(X) − x| is at most this multiple of h. The point's place is then g(X), not x, so that all that is lost is the evenness of the spacing.
+const TOLERANCE: f64 = 1e-3;
+
+/// Steps for which a point outside the body is left alone, at most.
+const LONGEST_REST: f64 = 32.0;
 
 /// ℓᴰ points in every cell of the support of ℐ, V_q = (h/ℓ)ᴰ, with X_q from g(X_q, x̂_n) = x_q and m_q = ρ₀ V_q / J_q. Cells are those between the knots of the
 /// kernel (ours): for the quadratic one they are centred at nodes, and a node's support is exactly 3ᴰ of them.
+///
+/// x_q stays where it is while the body moves, so X_q goes along dX/dt = −F⁻¹ v. Newton's method begins there (ours): its first evaluation of the map, which is needed in any
+/// case, then nearly always shows that no other is.
 pub(super) struct Eulerian<const D: usize> {
     per_axis: usize,
     inverted: Inverted,
-    /// Which places of the nodes' box are in the list of cells.
-    marked: Vec<bool>,
-    cells: Vec<usize>,
-    /// x_q that are still looked for, their X_q, and the guesses' evaluation.
-    targets: Vec<[f64; D]>,
+    support: Support<D>,
+    /// What is known of the points, ℓᴰ entries per cell; of this step, and of the one before.
+    known: Vec<Option<Known<D>>>,
+    known_before: Vec<Option<Known<D>>>,
+    /// Points whose X is looked for, with guesses of it.
+    sought: Vec<Sought<D>>,
     guesses: Vec<[f64; D]>,
     prepared: MaterialPoints<D>,
     evaluation: Evaluation<D>,
-    /// X_q that have been found.
-    found: Vec<[f64; D]>,
     /// Points that the step left out because of J ≤ 0.
     pub left_out: usize,
+}
+
+/// Where a point of space was in the body at rest.
+#[derive(Clone, Copy)]
+struct Known<const D: usize> {
+    reference: [f64; D],
+    /// dX/dt.
+    rate: [f64; D],
+    /// The step that this is of, and the next at which it is looked at.
+    step: u64,
+    next: u64,
+}
+
+struct Sought<const D: usize> {
+    /// Its place in `known`.
+    number: usize,
+    position: [f64; D],
 }
 
 impl<const D: usize> Eulerian<D> {
@@ -39,13 +62,13 @@ impl<const D: usize> Eulerian<D> {
         Self {
             per_axis,
             inverted,
-            marked: Vec::new(),
-            cells: Vec::new(),
-            targets: Vec::new(),
+            support: Support::default(),
+            known: Vec::new(),
+            known_before: Vec::new(),
+            sought: Vec::new(),
             guesses: Vec::new(),
             prepared: MaterialPoints::default(),
             evaluation: Evaluation::default(),
-            found: Vec::new(),
             left_out: 0,
         }
     }
@@ -62,121 +85,145 @@ impl<const D: usize> Eulerian<D> {
         now: &Instant<D>,
         out: &mut QuadraturePoints<D>,
     ) -> Result<(), OnlineError> {
-        self.find_cells(nodes);
-        self.guess(nodes, reference, samples);
-        self.search(map, now, TOLERANCE * nodes.grid.spacing());
-        self.found.retain(|x| body.holds(x));
-        map.prepare(&self.found, &mut self.prepared);
-        let wanted = Wanted {
-            gradients: true,
-            jacobians: true,
-        };
-        map.evaluate(&self.prepared, now.latent, now.time, wanted, &mut self.evaluation);
-        velocities(&self.prepared, &self.evaluation, now.rates, &mut self.targets);
-        let volume = (nodes.grid.spacing() / self.per_axis as f64).powi(D as i32);
+        self.support.find(nodes);
+        self.guess(body, nodes, reference, samples, now);
         out.clear();
         self.left_out = 0;
-        let places = self.evaluation.positions.iter().zip(&self.evaluation.gradients);
-        for ((place, velocity), start) in places.zip(&self.targets).zip(&self.found) {
-            let (position, gradient) = place;
-            match (checked_volume_ratio(gradient, start, now.step), self.inverted) {
-                (Ok(ratio), _) => {
-                    out.positions.push(*position);
-                    out.velocities.push(*velocity);
-                    out.gradients.push(*gradient);
-                    out.volumes.push(volume / ratio);
-                }
-                (Err(error), Inverted::Refuse) => return Err(error),
-                (Err(_), Inverted::LeaveOut) => self.left_out += 1,
+        let tolerance = TOLERANCE * nodes.grid.spacing();
+        for _ in 0..EVALUATIONS {
+            if self.sought.is_empty() {
+                break;
             }
+            map.prepare(&self.guesses, &mut self.prepared);
+            map.evaluate_moving(&self.prepared, now.latent, now.rates, now.time, &mut self.evaluation);
+            self.accept(body, now, tolerance, out)?;
         }
         Ok(())
     }
 
-    /// The cells of the support of ℐ, each once.
-    fn find_cells(&mut self, nodes: &Nodes<D>) {
-        for &place in &self.cells {
-            if let Some(marked) = self.marked.get_mut(place) {
-                *marked = false;
-            }
-        }
-        self.cells.clear();
-        self.marked.resize(nodes.box_size(), false);
-        for &active in nodes.active() {
-            let node = nodes.node(active);
-            for number in 0..3usize.pow(D as u32) {
-                let cell = std::array::from_fn(|a| node[a] + (number / 3usize.pow(a as u32) % 3) as i64 - 1);
-                if let Some(place) = nodes.place(&cell)
-                    && let Some(marked) = self.marked.get_mut(place)
-                    && !*marked
-                {
-                    *marked = true;
-                    self.cells.push(place);
-                }
-            }
-        }
-    }
-
-    /// The points of all cells, and their first guesses: Newton's step from the sample point that is nearest to the cell's centre.
-    fn guess(&mut self, nodes: &Nodes<D>, reference: &[[f64; D]], samples: &Evaluation<D>) {
-        self.targets.clear();
+    /// Points of all cells that have to be looked at, each with a guess of its X.
+    fn guess(
+        &mut self,
+        body: &ReducedBody<D>,
+        nodes: &Nodes<D>,
+        reference: &[[f64; D]],
+        samples: &Evaluation<D>,
+        now: &Instant<D>,
+    ) {
+        let (h, count) = (nodes.grid.spacing(), self.per_axis.pow(D as u32));
+        std::mem::swap(&mut self.known, &mut self.known_before);
+        self.known.clear();
+        self.sought.clear();
         self.guesses.clear();
-        let h = nodes.grid.spacing();
-        for &place in &self.cells {
-            let node = nodes.node(place).map(|c| c as i32);
-            let centre = nodes.grid.node_position(&node);
-            let all = samples.positions.iter().zip(&samples.gradients).zip(reference);
-            let nearest = all.min_by(|((a, _), _), ((b, _), _)| {
-                vector::distance_squared(a, &centre).total_cmp(&vector::distance_squared(b, &centre))
-            });
-            let Some(((x, gradient), start)) = nearest else {
-                continue;
-            };
-            let Some(inverse) = gradient.inverse() else { continue };
-            for number in 0..self.per_axis.pow(D as u32) {
-                let target: [f64; D] = std::array::from_fn(|a| {
-                    let digit = number / self.per_axis.pow(a as u32) % self.per_axis;
-                    centre[a] + h * ((digit as f64 + 0.5) / self.per_axis as f64 - 0.5)
-                });
-                let step = inverse.apply(&vector::subtract(&target, x));
-                self.targets.push(target);
-                self.guesses.push(vector::add(start, &step));
+        for &(node, before) in self.support.cells() {
+            let centre = nodes.grid.node_position(&node.map(|c| c as i32));
+            let known = before.and_then(|cell| self.known_before.get(cell * count..(cell + 1) * count));
+            let mut start = None;
+            for digit in 0..count {
+                let known = known.and_then(|list| list[digit]);
+                let number = self.known.len();
+                self.known.push(known);
+                if known.is_some_and(|known| now.step < known.next) {
+                    continue;
+                }
+                let position = point(&centre, h, self.per_axis, digit);
+                let guess = match known {
+                    Some(known) => {
+                        let time = (now.step - known.step) as f64 * body.time_step;
+                        Some(vector::add_scaled(&known.reference, time, &known.rate))
+                    }
+                    None => {
+                        let start = start.get_or_insert_with(|| Start::nearest(&centre, reference, samples));
+                        start.as_ref().map(|start| start.guess(&position))
+                    }
+                };
+                if let Some(guess) = guess {
+                    self.sought.push(Sought { number, position });
+                    self.guesses.push(guess);
+                }
             }
         }
     }
 
-    /// Newton's method for all points at once: X ← X + F⁻¹ (x − g(X)). Points that it does not find are dropped.
-    fn search<M: Manifold<D>>(&mut self, map: &mut DeformationMap<D, M>, now: &Instant<D>, tolerance: f64) {
-        let wanted = Wanted {
-            gradients: true,
-            ..Wanted::default()
-        };
-        self.found.clear();
-        for _ in 0..ITERATIONS {
-            if self.guesses.is_empty() {
-                return;
-            }
-            map.prepare(&self.guesses, &mut self.prepared);
-            map.evaluate(&self.prepared, now.latent, now.time, wanted, &mut self.evaluation);
-            let mut left = 0;
-            for point in 0..self.guesses.len() {
-                let rest = vector::subtract(&self.targets[point], &self.evaluation.positions[point]);
-                let distance = vector::maximum_norm(&rest);
-                if distance <= tolerance {
-                    self.found.push(self.guesses[point]);
-                    continue;
+    /// Takes the points whose X has been found, and improves the guesses of the others by X + F⁻¹ (x − g(X)).
+    fn accept(
+        &mut self,
+        body: &ReducedBody<D>,
+        now: &Instant<D>,
+        tolerance: f64,
+        out: &mut QuadraturePoints<D>,
+    ) -> Result<(), OnlineError> {
+        let volume = (body.grid.spacing() / self.per_axis as f64).powi(D as i32);
+        let mut left = 0;
+        for place in 0..self.sought.len() {
+            let Sought { number, position } = self.sought[place];
+            let (x, F, v) = (
+                self.evaluation.positions[place],
+                self.evaluation.gradients[place],
+                self.evaluation.velocities[place],
+            );
+            let (reference, rest) = (self.guesses[place], vector::subtract(&position, &x));
+            self.known[number] = None;
+            let inverse = F.inverse();
+            if vector::maximum_norm(&rest) <= tolerance {
+                let outside = body.distance(&reference);
+                if outside <= 0.0 {
+                    match (checked_volume_ratio(&F, &reference, now.step), self.inverted) {
+                        (Ok(J), _) => out.push(x, v, F, volume / J),
+                        (Err(error), Inverted::Refuse) => return Err(error),
+                        (Err(_), Inverted::LeaveOut) => self.left_out += 1,
+                    }
                 }
-                let Some(inverse) = self.evaluation.gradients[point].inverse() else {
-                    continue;
-                };
-                if distance.is_finite() {
-                    self.guesses[left] = vector::add(&self.guesses[point], &inverse.apply(&rest));
-                    self.targets[left] = self.targets[point];
-                    left += 1;
-                }
+                self.known[number] = inverse.map(|inverse| {
+                    let rate = inverse.apply(&v).map(|c| -c);
+                    let step = now.step;
+                    // Half the steps that it needs to reach the body.
+                    let steps = 0.5 * outside / (vector::norm(&rate) * body.time_step);
+                    let next = step + steps.clamp(1.0, LONGEST_REST) as u64;
+                    Known { reference, rate, step, next }
+                });
+            } else if let (Some(inverse), true) = (inverse, vector::is_finite(&rest)) {
+                self.guesses[left] = vector::add(&reference, &inverse.apply(&rest));
+                self.sought[left] = Sought { number, position };
+                left += 1;
             }
-            self.guesses.truncate(left);
-            self.targets.truncate(left);
         }
+        self.guesses.truncate(left);
+        self.sought.truncate(left);
+        Ok(())
+    }
+}
+
+/// Point number `digit` of the ℓᴰ in the cell around `centre`.
+fn point<const D: usize>(centre: &[f64; D], h: f64, per_axis: usize, digit: usize) -> [f64; D] {
+    std::array::from_fn(|a| {
+        let along = digit / per_axis.pow(a as u32) % per_axis;
+        centre[a] + h * ((along as f64 + 0.5) / per_axis as f64 - 0.5)
+    })
+}
+
+/// A sample point to begin a search at.
+struct Start<'a, const D: usize> {
+    reference: &'a [f64; D],
+    position: &'a [f64; D],
+    inverse: Matrix<D>,
+}
+
+impl<'a, const D: usize> Start<'a, D> {
+    /// The sample point nearest to `centre`; `None` where its F has no inverse.
+    fn nearest(centre: &[f64; D], reference: &'a [[f64; D]], samples: &'a Evaluation<D>) -> Option<Self> {
+        let all = samples.positions.iter().zip(&samples.gradients).zip(reference);
+        let nearest = all.min_by(|((a, _), _), ((b, _), _)| {
+            vector::distance_squared(a, centre).total_cmp(&vector::distance_squared(b, centre))
+        });
+        let ((position, F), reference) = nearest?;
+        let inverse = F.inverse()?;
+        Some(Self { reference, position, inverse })
+    }
+
+    /// Newton's step from there to x.
+    fn guess(&self, x: &[f64; D]) -> [f64; D] {
+        let step = self.inverse.apply(&vector::subtract(x, self.position));
+        vector::add(self.reference, &step)
     }
 }

@@ -13,6 +13,7 @@ mod quadrature;
 mod samples;
 mod step;
 mod super_resolution;
+mod support;
 #[cfg(test)]
 mod tests;
 mod timings;

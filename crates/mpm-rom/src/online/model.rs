@@ -40,6 +40,7 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
             scheme,
             quadrature: QuadraturePoints::default(),
             evaluation: Evaluation::default(),
+            prescribed: Vec::new(),
             velocities: Vec::new(),
             moved: Vec::new(),
             step: 0,

@@ -47,14 +47,18 @@ impl<const D: usize> Nodes<D> {
         self.places.len()
     }
 
-    /// Makes the nodes that these points touch the active ones, without mass.
-    pub fn activate(&mut self, positions: &[[f64; D]], step: u64) -> Result<(), OnlineError> {
+    /// Makes the nodes that these points touch the active ones, without mass; each with the number that an error calls it by.
+    pub fn activate<'a>(
+        &mut self,
+        points: impl Iterator<Item = (usize, &'a [f64; D])> + Clone,
+        step: u64,
+    ) -> Result<(), OnlineError> {
         for &place in &self.places {
             self.table[place] = 0;
         }
         self.places.clear();
-        self.enclose(positions, step)?;
-        for x in positions {
+        self.enclose(points.clone(), step)?;
+        for (_, x) in points {
             let Some(first) = self.first_place(x) else { continue };
             for offset in &self.offsets {
                 let number = &mut self.table[first + offset];
@@ -72,9 +76,13 @@ impl<const D: usize> Nodes<D> {
     }
 
     /// Makes the box hold the stencils of these points and of all that share a node with one.
-    fn enclose(&mut self, positions: &[[f64; D]], step: u64) -> Result<(), OnlineError> {
+    fn enclose<'a>(
+        &mut self,
+        points: impl Iterator<Item = (usize, &'a [f64; D])>,
+        step: u64,
+    ) -> Result<(), OnlineError> {
         let (mut lower, mut upper) = ([i64::MAX; D], [i64::MIN; D]);
-        for (sample, x) in positions.iter().enumerate() {
+        for (sample, x) in points {
             let Some(base) = self.grid.first_node::<Quadratic, WIDTH>(x) else {
                 let position = x.to_vec();
                 return Err(OnlineError::Position { step, sample, position });
@@ -87,7 +95,7 @@ impl<const D: usize> Nodes<D> {
         let reach = WIDTH as i64 - 1;
         let fits = (0..D)
             .all(|a| lower[a] - reach >= self.lower[a] && upper[a] + 2 * reach < self.lower[a] + self.counts[a] as i64);
-        if fits || positions.is_empty() {
+        if fits || lower[0] > upper[0] {
             return Ok(());
         }
         // Two cells to spare on every side, so that the box is not made anew in every step.

@@ -34,6 +34,14 @@ impl<const D: usize> QuadraturePoints<D> {
         self.volumes.clear();
     }
 
+    /// A point with x_q, v_q, F_q and m_q / ρ₀.
+    pub fn push(&mut self, position: [f64; D], velocity: [f64; D], gradient: Matrix<D>, volume: f64) {
+        self.positions.push(position);
+        self.velocities.push(velocity);
+        self.gradients.push(gradient);
+        self.volumes.push(volume);
+    }
+
     /// τ_q = τ(F_q) of every point.
     pub fn update_stresses(&mut self, material: &dyn Material<D>) {
         self.stresses.resize(self.gradients.len(), Matrix::ZERO);

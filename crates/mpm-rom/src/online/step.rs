@@ -29,6 +29,8 @@ pub struct ReducedModel<const D: usize, M> {
     pub(super) quadrature: QuadraturePoints<D>,
     /// The map at the sample points.
     pub(super) evaluation: Evaluation<D>,
+    /// x_p and v_p of the sample points at the end of a step, where they are prescribed.
+    pub(super) prescribed: Vec<Option<([f64; D], [f64; D])>>,
     /// v_p and x_p of the sample points at the end of a step.
     pub(super) velocities: Vec<[f64; D]>,
     pub(super) moved: Vec<[f64; D]>,
@@ -65,7 +67,7 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
         self.step += 1;
         self.place_samples();
         self.timings.samples += lap(&mut clock);
-        self.nodes.activate(&self.evaluation.positions, self.step)?;
+        self.activate_nodes()?;
         self.timings.nodes += lap(&mut clock);
         let mut report = self.place_quadrature()?;
         self.timings.quadrature += lap(&mut clock);
@@ -90,6 +92,18 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
         let (latent, time) = (&self.coordinates.latent, self.time_at(self.step - 1));
         self.map
             .evaluate(&self.samples, latent, time, wanted, &mut self.evaluation);
+    }
+
+    /// (2) ℐ: the nodes that sample points touch, those aside whose motion is prescribed, since they take nothing from nodes.
+    fn activate_nodes(&mut self) -> Result<(), OnlineError> {
+        let end = self.time_at(self.step);
+        let numbers = self.sample_numbers.iter();
+        self.prescribed.clear();
+        self.prescribed
+            .extend(numbers.map(|&point| self.body.prescribed(point as usize, end)));
+        let samples = self.evaluation.positions.iter().enumerate();
+        let free = samples.filter(|&(sample, _)| self.prescribed[sample].is_none());
+        self.nodes.activate(free, self.step)
     }
 
     /// (3) The quadrature points with x_q, v_q, F_q, m_q / ρ₀ and their stresses.
@@ -135,11 +149,11 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
 
     /// (4) v_p = Σ N_i v_i and x_p ← x_p + Δt v_p; kinematic points take what is prescribed for t_{n+1}.
     fn move_samples(&mut self) -> Result<(), OnlineError> {
-        let (dt, end) = (self.body.time_step, self.time_at(self.step));
+        let dt = self.body.time_step;
         self.velocities.clear();
         self.moved.clear();
-        for (sample, (x, &point)) in self.evaluation.positions.iter().zip(&self.sample_numbers).enumerate() {
-            let (position, velocity) = match self.body.prescribed(point as usize, end) {
+        for (sample, (x, prescribed)) in self.evaluation.positions.iter().zip(&self.prescribed).enumerate() {
+            let (position, velocity) = match *prescribed {
                 Some(prescribed) => prescribed,
                 None => {
                     let missing = OnlineError::NoMass {
