@@ -6,6 +6,7 @@ use serde::Deserialize;
 
 use super::ExperimentError;
 use super::beside::Choice;
+use super::sampling::Chosen;
 use crate::online::{Inverted, Options, Quadrature, SampleChoice, Search, Update};
 use crate::training::Training;
 
@@ -85,6 +86,30 @@ pub enum All {
     All,
 }
 
+/// How sample points are chosen; see [`SampleChoice`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ChoiceName {
+    /// Drawn evenly.
+    Drawn,
+    /// Each the farthest from those before it.
+    Spread,
+    /// Those that stand for all points best in steps from frames of the training data ([`choose_greedily`](crate::online::choose_greedily)).
+    #[default]
+    Greedy,
+}
+
+impl ChoiceName {
+    /// As in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Drawn => "drawn",
+            Self::Spread => "spread",
+            Self::Greedy => "greedy",
+        }
+    }
+}
+
 /// Where the momentum balance is summed; see [`Quadrature`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -128,7 +153,7 @@ impl UpdateName {
 }
 
 /// The family of maps; see [`manifold`](crate::manifold).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ManifoldName {
     /// The trained network.
@@ -156,10 +181,10 @@ pub struct ReducedRuns {
     pub manifold: Vec<ManifoldName>,
     /// |𝒫|.
     pub samples: Vec<SampleCount>,
+    /// Ways to choose them.
+    pub choice: Vec<ChoiceName>,
     /// Seed of the draw of sample points.
     pub seed: u64,
-    /// Whether sample points are spread out ([`SampleChoice::Spread`]) and not drawn evenly.
-    pub spread: bool,
     /// Quadratures.
     pub quadrature: Vec<QuadratureName>,
     /// Updates.
@@ -175,8 +200,8 @@ impl Default for ReducedRuns {
         Self {
             manifold: vec![ManifoldName::Network],
             samples: vec![SampleCount::Drawn(50), SampleCount::All(All::All)],
+            choice: vec![ChoiceName::default()],
             seed: 0,
-            spread: false,
             quadrature: vec![QuadratureName::Lagrangian],
             update: vec![UpdateName::PositionVelocity],
             points_per_axis: 2,
@@ -186,13 +211,17 @@ impl Default for ReducedRuns {
 }
 
 impl ReducedRuns {
-    /// The options of one run.
-    pub(super) fn options(&self, choice: &Choice) -> Options {
+    /// The options of one run; `greedy` are the choices that were made on training runs.
+    pub(super) fn options(&self, choice: &Choice, greedy: &Chosen) -> Options {
         Options {
-            samples: match choice.samples {
-                SampleCount::All(_) => SampleChoice::All,
-                SampleCount::Drawn(count) if self.spread => SampleChoice::Spread { count, seed: self.seed },
-                SampleCount::Drawn(count) => SampleChoice::Drawn { count, seed: self.seed },
+            samples: match (choice.samples, choice.chosen) {
+                (SampleCount::All(_), _) => SampleChoice::All,
+                (SampleCount::Drawn(count), ChoiceName::Drawn) => SampleChoice::Drawn { count, seed: self.seed },
+                (SampleCount::Drawn(count), ChoiceName::Spread) => SampleChoice::Spread { count, seed: self.seed },
+                (SampleCount::Drawn(count), ChoiceName::Greedy) => greedy
+                    .get(&(choice.manifold, count))
+                    .cloned()
+                    .unwrap_or(SampleChoice::Drawn { count, seed: self.seed }),
             },
             quadrature: match (choice.quadrature, choice.samples) {
                 // All points are near a sample point when all are samples.
@@ -263,6 +292,7 @@ impl Experiment {
         let lists = [
             ("run.manifold", self.run.manifold.len()),
             ("run.samples", self.run.samples.len()),
+            ("run.choice", self.run.choice.len()),
             ("run.quadrature", self.run.quadrature.len()),
             ("run.update", self.run.update.len()),
         ];

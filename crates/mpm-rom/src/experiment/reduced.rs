@@ -6,8 +6,9 @@ use std::time::Instant;
 use super::beside::{Choice, Full, beside};
 use super::files::{self, names};
 use super::results::{self, ReducedRow};
+use super::sampling::{Chosen, Sampling};
 use super::trained::model_for;
-use super::{Experiment, ExperimentError, ManifoldName};
+use super::{ChoiceName, Experiment, ExperimentError, ManifoldName, SampleCount};
 use crate::full_order::{self, FullOrderError, SceneDocument};
 use crate::manifold::{Manifold, Pod};
 use crate::online::ReducedBody;
@@ -29,7 +30,28 @@ pub fn run<const D: usize>(
     experiment.occupy(directory)?;
     let document = SceneDocument::read(&experiment.scene_file())?;
     let model = model_for::<D>(experiment, directory, &document)?;
-    let linear = linear::<D>(experiment, directory, model.network().coordinates())?;
+    let training = training::<D>(experiment, directory)?;
+    let linear = match &training {
+        Some(snapshots) if experiment.run.manifold.contains(&ManifoldName::Linear) => {
+            Some(Pod::new(snapshots, model.network().coordinates())?)
+        }
+        _ => None,
+    };
+    let mut greedy = Chosen::new();
+    if let Some(snapshots) = training.as_ref().filter(|_| is_greedy(experiment)) {
+        let sampling = Sampling {
+            experiment,
+            document: &document,
+            model: &model,
+            snapshots,
+        };
+        for &name in &experiment.run.manifold {
+            match (name, &linear) {
+                (ManifoldName::Linear, Some(pod)) => sampling.choose(name, pod, &mut greedy)?,
+                _ => sampling.choose(name, model.network(), &mut greedy)?,
+            }
+        }
+    }
     let (choices, mut rows, mut frames) = (choices(experiment), Vec::new(), Vec::new());
     let runs = choices.len() * experiment.cases.test.len();
     for (case, values) in experiment.cases.test.iter().enumerate() {
@@ -59,7 +81,7 @@ pub fn run<const D: usize>(
                 ManifoldName::Network => model.encoder().encode(&body.reference)?,
                 ManifoldName::Linear => vec![0.0; manifold.coordinates()],
             };
-            let options = experiment.run.options(choice);
+            let options = experiment.run.options(choice, &greedy);
             let (mut row, of_run) = beside(manifold, &guess, body, &full, choice, options)?;
             row.reconstruction_error = reconstruction_error;
             frames.push(of_run);
@@ -82,12 +104,19 @@ fn choices(experiment: &Experiment) -> Vec<Choice> {
         for &samples in &experiment.run.samples {
             for &quadrature in &experiment.run.quadrature {
                 for &update in &experiment.run.update {
-                    all.push(Choice {
-                        manifold,
-                        samples,
-                        quadrature,
-                        update,
-                    });
+                    for &chosen in &experiment.run.choice {
+                        // There is one way to take all points.
+                        if matches!(samples, SampleCount::All(_)) && chosen != experiment.run.choice[0] {
+                            continue;
+                        }
+                        all.push(Choice {
+                            manifold,
+                            samples,
+                            chosen,
+                            quadrature,
+                            update,
+                        });
+                    }
                 }
             }
         }
@@ -95,15 +124,23 @@ fn choices(experiment: &Experiment) -> Vec<Choice> {
     all
 }
 
-/// The linear manifold of the training data, known at the material points, where it is asked for.
-fn linear<const D: usize>(
+/// Whether sample points are chosen on training runs.
+fn is_greedy(experiment: &Experiment) -> bool {
+    let run = &experiment.run;
+    let drawn = run
+        .samples
+        .iter()
+        .any(|samples| matches!(samples, SampleCount::Drawn(_)));
+    drawn && run.choice.contains(&ChoiceName::Greedy)
+}
+
+/// The training data, where linear manifolds or the choice of sample points need them.
+fn training<const D: usize>(
     experiment: &Experiment,
     directory: &Path,
-    coordinates: usize,
-) -> Result<Option<Pod<D>>, ExperimentError> {
-    if !experiment.run.manifold.contains(&ManifoldName::Linear) {
-        return Ok(None);
+) -> Result<Option<Snapshots<D>>, ExperimentError> {
+    if experiment.run.manifold.contains(&ManifoldName::Linear) || is_greedy(experiment) {
+        return Ok(Some(Snapshots::read(&directory.join(names::TRAINING_DATA))?));
     }
-    let snapshots = Snapshots::read(&directory.join(names::TRAINING_DATA))?;
-    Ok(Some(Pod::new(&snapshots, coordinates)?))
+    Ok(None)
 }

@@ -13,6 +13,8 @@ pub struct ReducedRow {
     pub manifold: &'static str,
     /// |𝒫|.
     pub samples: usize,
+    /// How they were chosen.
+    pub chosen: &'static str,
     /// The quadrature.
     pub quadrature: &'static str,
     /// The update.
@@ -53,7 +55,7 @@ pub struct FrameRow {
 /// All rows as CSV.
 pub(super) fn results(parameters: &[String], rows: &[ReducedRow]) -> String {
     let mut text = format!(
-        "case,{},manifold,samples,quadrature,update,position_error_percent,",
+        "case,{},manifold,samples,choice,quadrature,update,position_error_percent,",
         parameters.join(",")
     );
     text.push_str(
@@ -66,11 +68,12 @@ pub(super) fn results(parameters: &[String], rows: &[ReducedRow]) -> String {
         // A String takes everything.
         let _ = writeln!(
             text,
-            "{},{},{},{},{},{},{:?},{},{:?},{},{:.6},{:.6},{speed_up:.3},{real_time:.3},{},{},{},\"{}\"",
+            "{},{},{},{},{},{},{},{:?},{},{:?},{},{:.6},{:.6},{speed_up:.3},{real_time:.3},{},{},{},\"{}\"",
             row.case,
             values.join(","),
             row.manifold,
             row.samples,
+            row.chosen,
             row.quadrature,
             row.update,
             row.error,

@@ -6,7 +6,7 @@ use super::lagrangian::Instant;
 use super::nodes::Nodes;
 use super::quadrature::{QuadraturePoints, checked_volume_ratio};
 use super::{Inverted, OnlineError, ReducedBody};
-use crate::deformation_map::{DeformationMap, MaterialPoints, velocities};
+use crate::deformation_map::{DeformationMap, MaterialPoints};
 use crate::manifold::{Evaluation, Manifold, Wanted};
 
 /// Newton steps for a reference position, at most; a point that needs more carries nothing.
@@ -67,17 +67,12 @@ impl<const D: usize> Eulerian<D> {
         self.search(map, now, TOLERANCE * nodes.grid.spacing());
         self.found.retain(|x| body.holds(x));
         map.prepare(&self.found, &mut self.prepared);
-        let wanted = Wanted {
-            gradients: true,
-            jacobians: true,
-        };
-        map.evaluate(&self.prepared, now.latent, now.time, wanted, &mut self.evaluation);
-        velocities(&self.prepared, &self.evaluation, now.rates, &mut self.targets);
+        map.evaluate_moving(&self.prepared, now.latent, now.rates, now.time, &mut self.evaluation);
         let volume = (nodes.grid.spacing() / self.per_axis as f64).powi(D as i32);
         out.clear();
         self.left_out = 0;
         let places = self.evaluation.positions.iter().zip(&self.evaluation.gradients);
-        for ((place, velocity), start) in places.zip(&self.targets).zip(&self.found) {
+        for ((place, velocity), start) in places.zip(&self.evaluation.velocities).zip(&self.found) {
             let (position, gradient) = place;
             match (checked_volume_ratio(gradient, start, now.step), self.inverted) {
                 (Ok(ratio), _) => {
