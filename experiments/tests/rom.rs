@@ -54,7 +54,7 @@ fn a_model_is_trained_and_run() {
     assert!(run.status.success(), "{}", stderr(&run));
     assert_eq!(stdout(&run).lines().count(), 2, "{}", stdout(&run));
     assert!(
-        stdout(&run).starts_with("manifold=network samples=20 "),
+        stdout(&run).starts_with("manifold=network samples=20 choice=greedy "),
         "{}",
         stdout(&run)
     );

@@ -142,6 +142,28 @@ impl<const D: usize, M: Manifold<D>> DeformationMap<D, M> {
         out: &mut Evaluation<D>,
     ) {
         self.manifold.evaluate(&points.reference, latent, wanted, out);
+        out.velocities.clear();
+        Self::start_at_rest(points, time, out);
+    }
+
+    /// g, F and the velocities v_p = ∂g/∂x̂ v̂ + b f′ (f′ = 1) at prepared points; `out` is overwritten. Costs one tangent for the velocities, not r.
+    pub fn evaluate_moving(
+        &self,
+        points: &MaterialPoints<D>,
+        latent: &[f64],
+        rates: &[f64],
+        time: f64,
+        out: &mut Evaluation<D>,
+    ) {
+        self.manifold.evaluate_moving(&points.reference, latent, rates, out);
+        for (velocity, drift) in out.velocities.iter_mut().zip(&points.drifts) {
+            vector::accumulate(velocity, 1.0, drift);
+        }
+        Self::start_at_rest(points, time, out);
+    }
+
+    /// Adds a + b f to g̃ and I − ∇g̃(X, x̂₀) + f ∇b to ∇g̃.
+    fn start_at_rest(points: &MaterialPoints<D>, time: f64, out: &mut Evaluation<D>) {
         for (g, a) in out.positions.iter_mut().zip(&points.offsets) {
             vector::accumulate(g, 1.0, a);
         }

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use super::results::{FrameRow, ReducedRow};
-use super::{ExperimentError, ManifoldName, QuadratureName, SampleCount, UpdateName};
+use super::{ChoiceName, ExperimentError, ManifoldName, QuadratureName, SampleCount, UpdateName};
 use crate::deformation_map::DeformationMap;
 use crate::manifold::{Evaluation, Manifold, Wanted};
 use crate::online::{Options, ReducedBody, ReducedModel, StepReport};
@@ -17,10 +17,14 @@ pub struct Choice {
     pub manifold: ManifoldName,
     /// |𝒫|.
     pub samples: SampleCount,
+    /// How they are chosen.
+    pub chosen: ChoiceName,
     /// Where the momentum balance is summed.
     pub quadrature: QuadratureName,
     /// How coordinates follow from velocities.
     pub update: UpdateName,
+    /// Δt over that of the full-order run.
+    pub step_factor: u64,
 }
 
 /// A full-order run to compare with.
@@ -33,6 +37,7 @@ pub(super) struct Full<const D: usize> {
 }
 
 /// Runs as many frames as the full-order run has, or up to the first error. The first frame, where both start, has no part in the error.
+/// The search for x̂₀ begins at `guess`.
 pub(super) fn beside<const D: usize>(
     manifold: &dyn Manifold<D>,
     guess: &[f64],
@@ -85,8 +90,13 @@ pub(super) fn beside<const D: usize>(
             .collect(),
         manifold: choice.manifold.name(),
         samples: reduced.samples().len(),
+        chosen: match choice.samples {
+            SampleCount::All(_) => "all",
+            SampleCount::Drawn(_) => choice.chosen.name(),
+        },
         quadrature: choice.quadrature.name(),
         update: choice.update.name(),
+        step_factor: choice.step_factor,
         error: total.percent().unwrap_or(0.0),
         reconstruction_error: None,
         simulated: steps as f64 * reduced.body().time_step,

@@ -6,6 +6,7 @@ use serde::Deserialize;
 
 use super::ExperimentError;
 use super::beside::Choice;
+use super::sampling::Chosen;
 use crate::online::{Inverted, Options, Quadrature, SampleChoice, Search, Update};
 use crate::training::Training;
 
@@ -88,6 +89,30 @@ pub enum All {
     All,
 }
 
+/// How sample points are chosen; see [`SampleChoice`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ChoiceName {
+    /// Drawn evenly.
+    Drawn,
+    /// Each the farthest from those before it.
+    Spread,
+    /// Those that stand for all points best in steps from frames of the training data ([`choose_greedily`](crate::online::choose_greedily)).
+    #[default]
+    Greedy,
+}
+
+impl ChoiceName {
+    /// As in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Drawn => "drawn",
+            Self::Spread => "spread",
+            Self::Greedy => "greedy",
+        }
+    }
+}
+
 /// Where the momentum balance is summed; see [`Quadrature`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -131,7 +156,7 @@ impl UpdateName {
 }
 
 /// The family of maps; see [`manifold`](crate::manifold).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ManifoldName {
     /// The trained network.
@@ -163,14 +188,16 @@ pub struct ReducedRuns {
     pub manifold: Vec<ManifoldName>,
     /// |𝒫|.
     pub samples: Vec<SampleCount>,
+    /// Ways to choose them.
+    pub choice: Vec<ChoiceName>,
     /// Seed of the draw of sample points.
     pub seed: u64,
-    /// Whether sample points are spread out ([`SampleChoice::Spread`]) and not drawn evenly.
-    pub spread: bool,
     /// Quadratures.
     pub quadrature: Vec<QuadratureName>,
     /// Updates.
     pub update: Vec<UpdateName>,
+    /// Time steps of reduced runs in those of the full-order run; each must divide the steps of a frame.
+    pub step_factor: Vec<u64>,
     /// ℓ of the Eulerian quadrature.
     pub points_per_axis: usize,
     /// The skin of neighbour lists, in grid spacings.
@@ -183,10 +210,11 @@ impl Default for ReducedRuns {
             scene: None,
             manifold: vec![ManifoldName::Network],
             samples: vec![SampleCount::Drawn(50), SampleCount::All(All::All)],
+            choice: vec![ChoiceName::default()],
             seed: 0,
-            spread: false,
             quadrature: vec![QuadratureName::Lagrangian],
             update: vec![UpdateName::PositionVelocity],
+            step_factor: vec![1],
             points_per_axis: 2,
             skin: 0.5,
         }
@@ -194,13 +222,17 @@ impl Default for ReducedRuns {
 }
 
 impl ReducedRuns {
-    /// The options of one run.
-    pub(super) fn options(&self, choice: &Choice) -> Options {
+    /// The options of one run; `greedy` are the choices that were made on training runs.
+    pub(super) fn options(&self, choice: &Choice, greedy: &Chosen) -> Options {
         Options {
-            samples: match choice.samples {
-                SampleCount::All(_) => SampleChoice::All,
-                SampleCount::Drawn(count) if self.spread => SampleChoice::Spread { count, seed: self.seed },
-                SampleCount::Drawn(count) => SampleChoice::Drawn { count, seed: self.seed },
+            samples: match (choice.samples, choice.chosen) {
+                (SampleCount::All(_), _) => SampleChoice::All,
+                (SampleCount::Drawn(count), ChoiceName::Drawn) => SampleChoice::Drawn { count, seed: self.seed },
+                (SampleCount::Drawn(count), ChoiceName::Spread) => SampleChoice::Spread { count, seed: self.seed },
+                (SampleCount::Drawn(count), ChoiceName::Greedy) => greedy
+                    .get(&(choice.manifold, count))
+                    .cloned()
+                    .unwrap_or(SampleChoice::Drawn { count, seed: self.seed }),
             },
             quadrature: match (choice.quadrature, choice.samples) {
                 // All points are near a sample point when all are samples.
@@ -280,8 +312,10 @@ impl Experiment {
         let lists = [
             ("run.manifold", self.run.manifold.len()),
             ("run.samples", self.run.samples.len()),
+            ("run.choice", self.run.choice.len()),
             ("run.quadrature", self.run.quadrature.len()),
             ("run.update", self.run.update.len()),
+            ("run.step_factor", self.run.step_factor.len()),
         ];
         if let Some((field, _)) = lists.iter().find(|(_, length)| *length == 0) {
             return refuse((*field).to_owned(), "at least one is needed".to_owned());
@@ -289,13 +323,18 @@ impl Experiment {
         if self.recorded_points == Some(0) {
             return refuse("recorded_points".to_owned(), "0: at least 1".to_owned());
         }
-        if self.run.scene.is_some() && self.run.manifold.contains(&ManifoldName::Linear) {
-            let message = "\"linear\" is known at the points of the training alone: leave out run.scene";
-            return refuse("run.manifold".to_owned(), message.to_owned());
-        }
-        if self.recorded_points.is_some() && self.run.manifold.contains(&ManifoldName::Linear) {
-            let message = "\"linear\" is known at recorded points alone: leave out recorded_points";
-            return refuse("run.manifold".to_owned(), message.to_owned());
+        let partial = [
+            ("run.scene", self.run.scene.is_some()),
+            ("recorded_points", self.recorded_points.is_some()),
+        ];
+        if let Some((key, _)) = partial.iter().find(|(_, given)| *given) {
+            let need = |what: &str| format!("\"{what}\" needs all points of the training: leave out {key}");
+            if self.run.manifold.contains(&ManifoldName::Linear) {
+                return refuse("run.manifold".to_owned(), need("linear"));
+            }
+            if self.run.choice.contains(&ChoiceName::Greedy) {
+                return refuse("run.choice".to_owned(), need("greedy"));
+            }
         }
         self.training
             .check()

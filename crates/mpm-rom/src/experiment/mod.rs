@@ -7,11 +7,14 @@ mod error;
 mod files;
 mod reduced;
 mod results;
+mod sampling;
 #[cfg(test)]
 mod tests;
 mod trained;
 
-pub use config::{Cases, Experiment, Key, ManifoldName, QuadratureName, ReducedRuns, SampleCount, UpdateName};
+pub use config::{
+    Cases, ChoiceName, Experiment, Key, ManifoldName, QuadratureName, ReducedRuns, SampleCount, UpdateName,
+};
 pub use error::ExperimentError;
 pub use files::names;
 pub use reduced::run;

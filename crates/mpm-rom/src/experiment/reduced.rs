@@ -5,8 +5,9 @@ use std::path::Path;
 use super::beside::{Choice, Full, beside};
 use super::files::{self, names};
 use super::results::{self, ReducedRow};
+use super::sampling::{Chosen, Sampling};
 use super::trained::model_for;
-use super::{Experiment, ExperimentError, ManifoldName};
+use super::{ChoiceName, Experiment, ExperimentError, ManifoldName, SampleCount};
 use crate::full_order::{FullOrderError, Recording, SceneDocument};
 use crate::manifold::{Manifold, Pod};
 use crate::online::ReducedBody;
@@ -29,7 +30,28 @@ pub fn run<const D: usize>(
     let document = SceneDocument::read(&experiment.run_scene_file())?;
     let (model, trained_on) = model_for::<D>(experiment, directory)?;
     let rest = model.encoder().encode(&trained_on.reference)?;
-    let linear = linear::<D>(experiment, directory, model.network().coordinates())?;
+    let training = training::<D>(experiment, directory)?;
+    let linear = match &training {
+        Some(snapshots) if experiment.run.manifold.contains(&ManifoldName::Linear) => {
+            Some(Pod::new(snapshots, model.network().coordinates())?)
+        }
+        _ => None,
+    };
+    let mut greedy = Chosen::new();
+    if let Some(snapshots) = training.as_ref().filter(|_| is_greedy(experiment)) {
+        let sampling = Sampling {
+            experiment,
+            document: &document,
+            model: &model,
+            snapshots,
+        };
+        for &name in &experiment.run.manifold {
+            match (name, &linear) {
+                (ManifoldName::Linear, Some(pod)) => sampling.choose(name, pod, &mut greedy)?,
+                _ => sampling.choose(name, model.network(), &mut greedy)?,
+            }
+        }
+    }
     let (choices, mut rows, mut frames) = (choices(experiment), Vec::new(), Vec::new());
     let runs = choices.len() * experiment.cases.test.len();
     for (case, values) in experiment.cases.test.iter().enumerate() {
@@ -59,11 +81,16 @@ pub fn run<const D: usize>(
                 _ => network,
             };
             let body = ReducedBody::of(&scene)?.about(&trained_on.centroid);
+            let steps = body.steps_per_frame;
+            let body = body.with_longer_steps(choice.step_factor).ok_or_else(|| {
+                let message = format!("{} does not divide the {steps} steps of a frame", choice.step_factor);
+                experiment.field("run.step_factor".to_owned(), message)
+            })?;
             let guess = match choice.manifold {
                 ManifoldName::Network => rest.clone(),
                 ManifoldName::Linear => vec![0.0; manifold.coordinates()],
             };
-            let options = experiment.run.options(choice);
+            let options = experiment.run.options(choice, &greedy);
             let (mut row, of_run) = beside(manifold, &guess, body, &full, choice, options)?;
             row.reconstruction_error = reconstruction_error;
             frames.push(of_run);
@@ -81,17 +108,26 @@ pub fn run<const D: usize>(
 
 /// All combinations of what is asked for.
 fn choices(experiment: &Experiment) -> Vec<Choice> {
-    let mut all = Vec::new();
-    for &manifold in &experiment.run.manifold {
-        for &samples in &experiment.run.samples {
-            for &quadrature in &experiment.run.quadrature {
-                for &update in &experiment.run.update {
-                    all.push(Choice {
-                        manifold,
-                        samples,
-                        quadrature,
-                        update,
-                    });
+    let (run, mut all) = (&experiment.run, Vec::new());
+    for &manifold in &run.manifold {
+        for &samples in &run.samples {
+            for &quadrature in &run.quadrature {
+                for &update in &run.update {
+                    for &step_factor in &run.step_factor {
+                        // There is one way to take all points.
+                        let ways = match samples {
+                            SampleCount::All(_) => &run.choice[..1],
+                            SampleCount::Drawn(_) => &run.choice,
+                        };
+                        all.extend(ways.iter().map(|&chosen| Choice {
+                            manifold,
+                            samples,
+                            chosen,
+                            quadrature,
+                            update,
+                            step_factor,
+                        }));
+                    }
                 }
             }
         }
@@ -99,15 +135,23 @@ fn choices(experiment: &Experiment) -> Vec<Choice> {
     all
 }
 
-/// The linear manifold of the training data, known at the material points, where it is asked for.
-fn linear<const D: usize>(
+/// Whether sample points are chosen on training runs.
+fn is_greedy(experiment: &Experiment) -> bool {
+    let run = &experiment.run;
+    let drawn = run
+        .samples
+        .iter()
+        .any(|samples| matches!(samples, SampleCount::Drawn(_)));
+    drawn && run.choice.contains(&ChoiceName::Greedy)
+}
+
+/// The training data, where linear manifolds or the choice of sample points need them.
+fn training<const D: usize>(
     experiment: &Experiment,
     directory: &Path,
-    coordinates: usize,
-) -> Result<Option<Pod<D>>, ExperimentError> {
-    if !experiment.run.manifold.contains(&ManifoldName::Linear) {
-        return Ok(None);
+) -> Result<Option<Snapshots<D>>, ExperimentError> {
+    if experiment.run.manifold.contains(&ManifoldName::Linear) || is_greedy(experiment) {
+        return Ok(Some(Snapshots::read(&directory.join(names::TRAINING_DATA))?));
     }
-    let snapshots = Snapshots::read(&directory.join(names::TRAINING_DATA))?;
-    Ok(Some(Pod::new(&snapshots, coordinates)?))
+    Ok(None)
 }

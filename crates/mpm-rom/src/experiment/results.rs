@@ -13,10 +13,14 @@ pub struct ReducedRow {
     pub manifold: &'static str,
     /// |𝒫|.
     pub samples: usize,
+    /// How they were chosen.
+    pub chosen: &'static str,
     /// The quadrature.
     pub quadrature: &'static str,
     /// The update.
     pub update: &'static str,
+    /// Δt over that of the full-order run.
+    pub step_factor: u64,
     /// The position error over all frames reached, in per cent.
     pub error: f64,
     /// What encoder and network lose of the full-order frames without any dynamics, in per cent; `None` without an encoder.
@@ -53,7 +57,7 @@ pub struct FrameRow {
 /// All rows as CSV.
 pub(super) fn results(parameters: &[String], rows: &[ReducedRow]) -> String {
     let mut text = format!(
-        "case,{},manifold,samples,quadrature,update,position_error_percent,",
+        "case,{},manifold,samples,choice,quadrature,update,step_factor,position_error_percent,",
         parameters.join(",")
     );
     text.push_str(
@@ -66,13 +70,15 @@ pub(super) fn results(parameters: &[String], rows: &[ReducedRow]) -> String {
         // A String takes everything.
         let _ = writeln!(
             text,
-            "{},{},{},{},{},{},{:?},{},{:?},{},{:.6},{:.6},{speed_up:.3},{real_time:.3},{},{},{},\"{}\"",
+            "{},{},{},{},{},{},{},{},{:?},{},{:?},{},{:.6},{:.6},{speed_up:.3},{real_time:.3},{},{},{},\"{}\"",
             row.case,
             values.join(","),
             row.manifold,
             row.samples,
+            row.chosen,
             row.quadrature,
             row.update,
+            row.step_factor,
             row.error,
             row.reconstruction_error
                 .map_or(String::new(), |error| format!("{error:?}")),

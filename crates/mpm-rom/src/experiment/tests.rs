@@ -87,6 +87,14 @@ fn what_is_wrong_is_named_with_its_file_and_field() {
             "rom.toml, run.samples: at least one",
         ),
         (
+            ("samples = [20, \"all\"]", "choice = []"),
+            "rom.toml, run.choice: at least one",
+        ),
+        (
+            ("samples = [20, \"all\"]", "choice = [\"best\"]"),
+            "unknown variant `best`",
+        ),
+        (
             ("samples = [20, \"all\"]", "samples = [\"some\"]"),
             "rom.toml: TOML parse error",
         ),
@@ -136,6 +144,7 @@ fn an_experiment_is_stopped_goes_on_and_is_run() {
 
     let rows = run::<2>(&experiment, &whole, &mut |_, _| true).expect("run");
     let kinds: Vec<_> = rows[..4].iter().map(|row| (row.samples, row.update)).collect();
+    assert_eq!((rows[0].chosen, rows[2].chosen), ("greedy", "all"));
     let updates = ["position-velocity", "velocity-only"];
     assert!(
         rows[..4]

@@ -20,4 +20,6 @@ pub struct Evaluation<const D: usize> {
     pub gradients: Vec<Matrix<D>>,
     /// ∂g̃/∂x̂ (X_p, x̂) as P × r columns: entry p r + k is ∂g̃/∂x̂_k at point p.
     pub jacobians: Vec<[f64; D]>,
+    /// ∂g̃/∂x̂ (X_p, x̂) v̂, P entries (m/s), of an evaluation along rates v̂ ([`Manifold::evaluate_moving`](super::Manifold::evaluate_moving)).
+    pub velocities: Vec<[f64; D]>,
 }

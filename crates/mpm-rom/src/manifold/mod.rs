@@ -14,6 +14,8 @@ pub use pod::{LinearError, Pod};
 #[cfg(test)]
 pub(crate) use polynomial::Fields;
 
+use mpm_tensor::vector;
+
 /// A family of maps g̃(X, x̂) from reference positions X to deformed positions, with r generalised coordinates x̂.
 pub trait Manifold<const D: usize>: Send + Sync {
     /// r, the number of generalised coordinates.
@@ -24,6 +26,27 @@ pub trait Manifold<const D: usize>: Send + Sync {
     /// `reference` holds X_p (m, relative to the body's centroid at rest), `latent` the r coordinates x̂. The result of a point does not depend on the
     /// others, nor on the number of threads.
     fn evaluate(&self, reference: &[[f64; D]], latent: &[f64], wanted: Wanted, out: &mut Evaluation<D>);
+
+    /// g̃(X_p, x̂), ∇_X g̃(X_p, x̂) and the velocities ∂g̃/∂x̂ (X_p, x̂) v̂ at every point, `rates` being v̂ (r entries); Jacobians are left empty or as they may be.
+    ///
+    /// The velocity is one tangent, whatever r is; families that cannot carry it alone contract the Jacobians, as this default does.
+    fn evaluate_moving(&self, reference: &[[f64; D]], latent: &[f64], rates: &[f64], out: &mut Evaluation<D>) {
+        let wanted = Wanted {
+            gradients: true,
+            jacobians: true,
+        };
+        self.evaluate(reference, latent, wanted, out);
+        let columns = out.jacobians.chunks_exact(rates.len().max(1));
+        out.velocities.clear();
+        out.velocities.extend(columns.map(|columns| {
+            let mut velocity = [0.0; D];
+            for (column, rate) in columns.iter().zip(rates) {
+                vector::accumulate(&mut velocity, *rate, column);
+            }
+            velocity
+        }));
+        out.velocities.resize(reference.len(), [0.0; D]);
+    }
 }
 
 impl<const D: usize, M: Manifold<D> + ?Sized> Manifold<D> for &M {
@@ -33,5 +56,9 @@ impl<const D: usize, M: Manifold<D> + ?Sized> Manifold<D> for &M {
 
     fn evaluate(&self, reference: &[[f64; D]], latent: &[f64], wanted: Wanted, out: &mut Evaluation<D>) {
         (**self).evaluate(reference, latent, wanted, out);
+    }
+
+    fn evaluate_moving(&self, reference: &[[f64; D]], latent: &[f64], rates: &[f64], out: &mut Evaluation<D>) {
+        (**self).evaluate_moving(reference, latent, rates, out);
     }
 }

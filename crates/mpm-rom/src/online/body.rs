@@ -89,6 +89,16 @@ impl<const D: usize> ReducedBody<D> {
         self
     }
 
+    /// The same body with time steps `factor` times as long; `None` unless they divide a frame. What is left out of a body's motion often allows longer steps than the grid's waves do.
+    pub fn with_longer_steps(mut self, factor: u64) -> Option<Self> {
+        if factor == 0 || !self.steps_per_frame.is_multiple_of(factor) {
+            return None;
+        }
+        self.time_step *= factor as f64;
+        self.steps_per_frame /= factor;
+        Some(self)
+    }
+
     /// Position and velocity of a material point at a time; `None` where they are not prescribed.
     pub fn prescribed(&self, point: usize, time: f64) -> Option<([f64; D], [f64; D])> {
         let reference = vector::add(self.reference.get(point)?, &self.centroid);

@@ -49,6 +49,16 @@ pub enum OnlineError {
         /// D.
         dimension: usize,
     },
+    /// Sample points that are none, or twice the same.
+    #[error(
+        "sample point {number} of {points} material points: each must be one of them, and named once, in ascending order"
+    )]
+    Samples {
+        /// The first number that is wrong.
+        number: u32,
+        /// N.
+        points: usize,
+    },
     /// More sample points than material points.
     #[error("{found} sample points of {points} material points")]
     TooManySamples {

@@ -157,19 +157,19 @@ impl<const D: usize> Eulerian<D> {
         let mut left = 0;
         for place in 0..self.sought.len() {
             let Sought { number, position } = self.sought[place];
-            let (x, F, v) = (
+            let (x, gradient, v) = (
                 self.evaluation.positions[place],
                 self.evaluation.gradients[place],
                 self.evaluation.velocities[place],
             );
             let (reference, rest) = (self.guesses[place], vector::subtract(&position, &x));
             self.known[number] = None;
-            let inverse = F.inverse();
+            let inverse = gradient.inverse();
             if vector::maximum_norm(&rest) <= tolerance {
                 let outside = body.distance(&reference);
                 if outside <= 0.0 {
-                    match (checked_volume_ratio(&F, &reference, now.step), self.inverted) {
-                        (Ok(J), _) => out.push(x, v, F, volume / J),
+                    match (checked_volume_ratio(&gradient, &reference, now.step), self.inverted) {
+                        (Ok(ratio), _) => out.push(x, v, gradient, volume / ratio),
                         (Err(error), Inverted::Refuse) => return Err(error),
                         (Err(_), Inverted::LeaveOut) => self.left_out += 1,
                     }
@@ -180,7 +180,12 @@ impl<const D: usize> Eulerian<D> {
                     // Half the steps that it needs to reach the body.
                     let steps = 0.5 * outside / (vector::norm(&rate) * body.time_step);
                     let next = step + steps.clamp(1.0, LONGEST_REST) as u64;
-                    Known { reference, rate, step, next }
+                    Known {
+                        reference,
+                        rate,
+                        step,
+                        next,
+                    }
                 });
             } else if let (Some(inverse), true) = (inverse, vector::is_finite(&rest)) {
                 self.guesses[left] = vector::add(&reference, &inverse.apply(&rest));
@@ -216,9 +221,13 @@ impl<'a, const D: usize> Start<'a, D> {
         let nearest = all.min_by(|((a, _), _), ((b, _), _)| {
             vector::distance_squared(a, centre).total_cmp(&vector::distance_squared(b, centre))
         });
-        let ((position, F), reference) = nearest?;
-        let inverse = F.inverse()?;
-        Some(Self { reference, position, inverse })
+        let ((position, gradient), reference) = nearest?;
+        let inverse = gradient.inverse()?;
+        Some(Self {
+            reference,
+            position,
+            inverse,
+        })
     }
 
     /// Newton's step from there to x.

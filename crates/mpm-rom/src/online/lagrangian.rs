@@ -4,7 +4,7 @@ use super::neighbours::{NeighbourList, Search};
 use super::nodes::Nodes;
 use super::quadrature::{QuadraturePoints, checked_volume_ratio};
 use super::{OnlineError, ReducedBody};
-use crate::deformation_map::{DeformationMap, MaterialPoints, velocities};
+use crate::deformation_map::{DeformationMap, MaterialPoints};
 use crate::manifold::{Evaluation, Manifold, Wanted};
 
 /// Every material point that touches ℐ, with its own mass; 𝒫 is among them.
@@ -54,16 +54,12 @@ impl<const D: usize> Lagrangian<D> {
         out: &mut QuadraturePoints<D>,
     ) -> Result<(), OnlineError> {
         self.find(map, all, nodes, now);
-        let wanted = Wanted {
-            gradients: true,
-            jacobians: true,
-        };
         self.chosen.select(all, &self.touching);
-        map.evaluate(&self.chosen, now.latent, now.time, wanted, &mut self.evaluation);
+        map.evaluate_moving(&self.chosen, now.latent, now.rates, now.time, &mut self.evaluation);
         out.clear();
         out.positions.extend_from_slice(&self.evaluation.positions);
         out.gradients.extend_from_slice(&self.evaluation.gradients);
-        velocities(&self.chosen, &self.evaluation, now.rates, &mut out.velocities);
+        out.velocities.extend_from_slice(&self.evaluation.velocities);
         let volumes = self.touching.iter().filter_map(|&p| body.volumes.get(p as usize));
         out.volumes.extend(volumes);
         for (gradient, reference) in out.gradients.iter().zip(&self.chosen.reference) {

@@ -14,7 +14,7 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
     /// The model at t = 0: x̂ = x̂₀, v̂ = v̂₀.
     ///
     /// # Errors
-    /// [`OnlineError::Option`], [`OnlineError::TooFewSamples`], [`OnlineError::TooManySamples`].
+    /// [`OnlineError::Option`], [`OnlineError::TooFewSamples`], [`OnlineError::TooManySamples`], [`OnlineError::Samples`].
     pub fn new(body: ReducedBody<D>, mut map: DeformationMap<D, M>, options: Options) -> Result<Self, OnlineError> {
         let scheme = scheme(&options.quadrature)?;
         let coordinates = map.coordinates();

@@ -5,7 +5,7 @@ use super::samples::SampleChoice;
 use crate::least_squares::Settings;
 
 /// The choices of a reduced run; quadrature and update are independent of each other.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Options {
     /// The sample points 𝒫.
     pub samples: SampleChoice,

@@ -12,7 +12,7 @@ use super::OnlineError;
 const ON_EACH_REGION: usize = 5;
 
 /// How sample points are chosen.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum SampleChoice {
     /// Every material point.
     All,
@@ -30,13 +30,16 @@ pub enum SampleChoice {
         /// Seed of the first point.
         seed: u64,
     },
+    /// The points with these numbers, ascending: those of [`choose_greedily`](super::choose_greedily), for example.
+    Given(Vec<u32>),
 }
 
 impl SampleChoice {
     /// The numbers of the sample points among material points with these reference positions, ascending.
     ///
     /// # Errors
-    /// [`OnlineError::TooFewSamples`] for fewer than max(⌈r / D⌉, 1), or too few for the regions; [`OnlineError::TooManySamples`].
+    /// [`OnlineError::TooFewSamples`] for fewer than max(⌈r / D⌉, 1), or too few for the regions; [`OnlineError::TooManySamples`]; [`OnlineError::Samples`] for
+    /// given numbers that are no points.
     pub fn choose<const D: usize>(
         &self,
         reference: &[[f64; D]],
@@ -44,66 +47,85 @@ impl SampleChoice {
         kinematics: &Kinematics<D>,
     ) -> Result<Vec<u32>, OnlineError> {
         let points = reference.len();
-        let per_region = |members: usize| members.min(ON_EACH_REGION);
-        let held: usize = kinematics
-            .regions()
-            .iter()
-            .map(|region| per_region(region.members.len()))
-            .sum();
-        let needed = coordinates.div_ceil(D).max(held).max(1);
-        let (found, seed) = match *self {
-            Self::All => (points, None),
-            Self::Drawn { count, seed } | Self::Spread { count, seed } => (count, Some(seed)),
+        let (count, seed) = match self {
+            Self::All => (points, 0),
+            Self::Drawn { count, seed } | Self::Spread { count, seed } => (*count, *seed),
+            Self::Given(numbers) => (numbers.len(), 0),
         };
-        if found < needed {
-            return Err(OnlineError::TooFewSamples {
-                found,
-                needed,
-                coordinates,
-                dimension: D,
-            });
+        let groups = groups(kinematics, points, coordinates, count)?;
+        match self {
+            Self::All => return Ok((0..points as u32).collect()),
+            Self::Given(numbers) => return given(numbers, points),
+            _ => {}
         }
-        if found > points {
-            return Err(OnlineError::TooManySamples { found, points });
-        }
-        let Some(seed) = seed else {
-            return Ok((0..points as u32).collect());
-        };
         let mut generator = ChaCha8Rng::seed_from_u64(seed);
-        let mut chosen = Vec::with_capacity(found);
-        let mut free = vec![true; points];
-        let mut take = |mut from: Vec<u32>, count: usize| {
-            from.shuffle(&mut generator);
+        let mut chosen = Vec::with_capacity(count);
+        for (mut members, share) in groups {
+            members.retain(|point| !chosen.contains(point));
+            members.shuffle(&mut generator);
             if matches!(self, Self::Spread { .. }) {
-                spread(reference, &mut from, count);
+                spread(reference, &mut members, share);
             }
-            from.truncate(count);
-            chosen.extend(from);
-        };
-        for region in kinematics.regions() {
-            for &p in &region.members {
-                if let Some(free) = free.get_mut(p) {
-                    *free = false;
-                }
-            }
-            let members: Vec<u32> = region.members.iter().map(|&p| p as u32).collect();
-            let share = per_region(members.len());
-            take(members, share);
+            chosen.extend(members.into_iter().take(share));
         }
-        let others: Vec<u32> = (0..points as u32)
-            .filter(|&p| free.get(p as usize) == Some(&true))
-            .collect();
-        let drawn = others.len().min(found - held);
-        take(others, drawn);
-        // More than there are free points: the rest of the regions' points too.
-        let mut taken = vec![false; points];
-        chosen.iter().for_each(|&p| taken[p as usize] = true);
-        let rest = (0..points as u32).filter(|&p| !taken[p as usize]);
-        let missing = found - held - drawn;
-        chosen.extend(rest.take(missing));
         chosen.sort_unstable();
         Ok(chosen)
     }
+}
+
+/// Lists of points, with how many of each are to be chosen in their order: those of each kinematic region, those that are in none, and all, of which the points of
+/// earlier lists have to be left out. The last two are empty where no more are needed.
+///
+/// # Errors
+/// [`OnlineError::TooFewSamples`], [`OnlineError::TooManySamples`].
+pub(super) fn groups<const D: usize>(
+    kinematics: &Kinematics<D>,
+    points: usize,
+    coordinates: usize,
+    count: usize,
+) -> Result<Vec<(Vec<u32>, usize)>, OnlineError> {
+    let mut free = vec![true; points];
+    let mut groups = Vec::new();
+    for region in kinematics.regions() {
+        let members: Vec<u32> = region.members.iter().map(|&p| p as u32).collect();
+        let share = members.len().min(ON_EACH_REGION);
+        groups.push((members, share));
+        for &p in &region.members {
+            if let Some(free) = free.get_mut(p) {
+                *free = false;
+            }
+        }
+    }
+    let held: usize = groups.iter().map(|(_, share)| share).sum();
+    let needed = coordinates.div_ceil(D).max(held).max(1);
+    if count < needed {
+        return Err(OnlineError::TooFewSamples {
+            found: count,
+            needed,
+            coordinates,
+            dimension: D,
+        });
+    }
+    if count > points {
+        return Err(OnlineError::TooManySamples { found: count, points });
+    }
+    let others: Vec<u32> = (0..points as u32).filter(|&p| free[p as usize]).collect();
+    let drawn = others.len().min(count - held);
+    groups.push((others, drawn));
+    groups.push(((0..points as u32).collect(), count - held - drawn));
+    groups.retain(|(_, share)| *share > 0);
+    Ok(groups)
+}
+
+fn given(numbers: &[u32], points: usize) -> Result<Vec<u32>, OnlineError> {
+    let mut next = 0;
+    for &number in numbers {
+        if number < next || number as usize >= points {
+            return Err(OnlineError::Samples { number, points });
+        }
+        next = number + 1;
+    }
+    Ok(numbers.to_vec())
 }
 
 /// Puts `count` points first, each the farthest from those before it; the first one stays.
@@ -144,5 +166,20 @@ mod tests {
                 "{chosen:?}"
             );
         }
+    }
+
+    #[test]
+    fn given_points_are_checked() {
+        let line: Vec<[f64; 1]> = (0..5).map(|k| [f64::from(k)]).collect();
+        let choose = |numbers: &[u32]| SampleChoice::Given(numbers.to_vec()).choose(&line, 2, &Kinematics::default());
+        assert_eq!(choose(&[1, 4]).expect("points"), [1, 4]);
+        for (numbers, wrong) in [([1, 5], 5), ([2, 2], 2), ([3, 1], 1)] {
+            let error = choose(&numbers).expect_err("refused");
+            assert!(
+                matches!(error, OnlineError::Samples { number, points: 5 } if number == wrong),
+                "{error}"
+            );
+        }
+        assert!(matches!(choose(&[1]), Err(OnlineError::TooFewSamples { .. })));
     }
 }

@@ -84,7 +84,7 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
     }
 
     /// (1) x_p = g(X_p, x̂_n) of the sample points, with ∂g/∂x̂ for (5).
-    fn place_samples(&mut self) {
+    pub(super) fn place_samples(&mut self) {
         let wanted = Wanted {
             gradients: matches!(self.options.quadrature, Quadrature::Eulerian { .. }),
             jacobians: true,
@@ -95,7 +95,7 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
     }
 
     /// (2) ℐ: the nodes that sample points touch, those aside whose motion is prescribed, since they take nothing from nodes.
-    fn activate_nodes(&mut self) -> Result<(), OnlineError> {
+    pub(super) fn activate_nodes(&mut self) -> Result<(), OnlineError> {
         let end = self.time_at(self.step);
         let numbers = self.sample_numbers.iter();
         self.prescribed.clear();
@@ -107,7 +107,7 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
     }
 
     /// (3) The quadrature points with x_q, v_q, F_q, m_q / ρ₀ and their stresses.
-    fn place_quadrature(&mut self) -> Result<StepReport, OnlineError> {
+    pub(super) fn place_quadrature(&mut self) -> Result<StepReport, OnlineError> {
         let now = Instant {
             latent: &self.coordinates.latent,
             rates: &self.coordinates.rates,
@@ -135,7 +135,7 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
     /// (4) m_i = Σ N_i m_q, m_i v_i = Σ N_i m_q v_q, f_i = Σ (J_q / ρ₀) m_q (b N_i − σ_q ∇N_i), v_i ← v_i + Δt f_i / m_i, with
     /// (J_q / ρ₀) m_q σ_q = (m_q / ρ₀) τ_q and (J_q / ρ₀) b = g the force per mass; held nodes
     /// take their velocity (ours: as in the full-order run).
-    fn sum_at_nodes(&mut self) {
+    pub(super) fn sum_at_nodes(&mut self) {
         let (dt, density) = (self.body.time_step, self.body.density);
         for (x, v, volume, stress) in self.quadrature.iter() {
             let mass = density * volume;
@@ -148,7 +148,7 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
     }
 
     /// (4) v_p = Σ N_i v_i and x_p ← x_p + Δt v_p; kinematic points take what is prescribed for t_{n+1}.
-    fn move_samples(&mut self) -> Result<(), OnlineError> {
+    pub(super) fn move_samples(&mut self) -> Result<(), OnlineError> {
         let dt = self.body.time_step;
         self.velocities.clear();
         self.moved.clear();

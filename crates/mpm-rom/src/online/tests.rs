@@ -68,7 +68,7 @@ fn free_fall_is_exact_with_every_scheme() {
         },
     ] {
         for update in [Update::VelocityOnly, Update::position_velocity()] {
-            for samples in [SampleChoice::All, few] {
+            for samples in [SampleChoice::All, few.clone()] {
                 let mut model = model(&text, Fields::translations(), options(samples, quadrature, update));
                 for _ in 0..3 {
                     model.advance_frame().expect("a step");
@@ -138,7 +138,7 @@ fn a_lagrangian_step_is_the_projected_full_order_step() {
         (draw(5), Search::All),
         (draw(5), Search::Lists { skin: 0.25 }),
     ] {
-        let chosen = options(samples, Quadrature::Lagrangian { search }, Update::VelocityOnly);
+        let chosen = options(samples.clone(), Quadrature::Lagrangian { search }, Update::VelocityOnly);
         let mut model = model(BLOCK, Fields::bending(4), chosen);
         model.coordinates.latent = vec![0.3, -0.2, 0.4, 0.1];
         model.coordinates.rates = vec![1.0, 0.5, -2.0, 0.3];
@@ -169,7 +169,11 @@ fn a_lagrangian_step_is_the_projected_full_order_step() {
 fn neighbour_lists_find_what_the_search_of_all_points_finds() {
     let samples = SampleChoice::Drawn { count: 8, seed: 2 };
     let run = |search| {
-        let chosen = options(samples, Quadrature::Lagrangian { search }, Update::position_velocity());
+        let chosen = options(
+            samples.clone(),
+            Quadrature::Lagrangian { search },
+            Update::position_velocity(),
+        );
         let mut model = model(BLOCK, Fields::bending(3), chosen);
         model.coordinates.rates = vec![6.0, 0.5, -2.0];
         let mut bent = 0.0f64;

@@ -11,7 +11,7 @@ use crate::snapshots::Snapshots;
 use crate::tensor_file::{TensorReader, TensorWriter};
 
 const KIND: &str = "training-checkpoint";
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -107,12 +107,11 @@ impl<'a, const D: usize> Trainer<'a, D> {
             });
         }
         if let Some(terms) = header.finish {
-            let size = network + encoder;
-            let lower = file.tensor("finish_inverse", &[size * (size + 1) / 2])?;
+            let lower = file.tensor("finish_inverse", &[network * (network + 1) / 2])?;
             trainer.finish = Some(QuasiNewton {
-                inverse: InverseHessian::from_lower(size, &lower),
-                gradient: file.tensor("finish_gradient", &[size])?,
-                product: file.tensor("finish_product", &[size])?,
+                inverse: InverseHessian::from_lower(network, &lower),
+                gradient: file.tensor("finish_gradient", &[network])?,
+                product: file.tensor("finish_product", &[network])?,
                 terms,
             });
         }

@@ -8,8 +8,9 @@ use super::TrainingError;
 /// points. An epoch takes every pair once. The rate falls exponentially from step to step, rate(s) = initial (final / initial)^{s / (S − 1)}
 /// for S steps (ours; the paper gives the end points 1e-3 and 1e-6).
 ///
-/// After Adam comes a quasi-Newton method (ours), down the same loss at samples that stay the same: Adam's rate falls while the gradient ∇_X g̃ is still far from
-/// what the network can do, and this method goes on from there.
+/// After Adam comes a quasi-Newton method (ours), down the same loss at samples that stay the same for many steps: Adam's rate falls while the gradient ∇_X g̃ is
+/// still far from what the network can do, and this method goes on from there. It moves the network alone; the coordinates of the frames stay as
+/// the encoder has them (fitting them anew gains nothing, and the encoder costs more than the samples).
 ///
 /// The default batch, points and first rate are ours, too: neighbouring points say much the same, so that many small steps reach a given error sooner
 /// than few large ones, and 3e-3 sooner than 1e-3.
@@ -30,10 +31,12 @@ pub struct Training {
     pub velocity_weight: f64,
     /// Passes of Adam over all pairs, ≥ 1.
     pub epochs: u64,
-    /// Steps of the quasi-Newton method after them, each a pass over all pairs; 0: none.
+    /// Steps of the quasi-Newton method after them; 0: none.
     pub finishing_steps: u64,
-    /// Samples (run, frame, point) of the loss that it minimises, shared evenly by all pairs; at least one of each, at most all.
+    /// Samples (run, frame, point) of the loss that it minimises, ≥ 1: as many points of each pair, 16 or more, of some of the pairs where that is too many.
     pub finishing_samples: usize,
+    /// Steps after which these samples are drawn anew, ≥ 1.
+    pub finishing_redraw: u64,
     /// Pairs (run, frame) of a step, ≥ 1.
     pub batch: usize,
     /// Material points of a pair, ≥ 1; all of them if there are no more.
@@ -58,8 +61,9 @@ impl Default for Training {
             gradient_weight: 100.0,
             velocity_weight: 0.01,
             epochs: 400,
-            finishing_steps: 1000,
-            finishing_samples: 50_000,
+            finishing_steps: 6000,
+            finishing_samples: 12_000,
+            finishing_redraw: 500,
             batch: 4,
             points: 16,
             initial_rate: 3e-3,
@@ -87,6 +91,7 @@ impl Training {
         ];
         let intervals = [
             ("epochs", self.epochs),
+            ("finishing_redraw", self.finishing_redraw),
             ("checkpoint_interval", self.checkpoint_interval),
         ];
         let weights = [
@@ -160,6 +165,7 @@ mod tests {
         assert_eq!(field(|c| c.coordinates = 0), "coordinates");
         assert_eq!(field(|c| c.points = 0), "points");
         assert_eq!(field(|c| c.finishing_samples = 0), "finishing_samples");
+        assert_eq!(field(|c| c.finishing_redraw = 0), "finishing_redraw");
         assert_eq!(field(|c| c.epochs = 0), "epochs");
         assert_eq!(field(|c| c.gradient_weight = -1.0), "gradient_weight");
         assert_eq!(field(|c| c.velocity_weight = f64::NAN), "velocity_weight");

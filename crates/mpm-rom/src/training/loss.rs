@@ -48,6 +48,31 @@ pub(super) struct Weights {
     pub share: f64,
 }
 
+/// Coordinates of a frame and how they move on.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Motion {
+    /// x̂.
+    pub latent: Vec<f64>,
+    /// w = (x̂(t_{n+1}) − x̂(t_n)) / Δt; `None` in the last frame of a run.
+    pub rates: Option<Vec<f64>>,
+}
+
+impl Motion {
+    /// Of a frame and the next one, if there is one, so much later.
+    pub fn between(now: &[f64], next: Option<&[f64]>, interval: f64) -> Self {
+        let rates = |next: &[f64]| {
+            next.iter()
+                .zip(now)
+                .map(|(next, now)| (next - now) / interval)
+                .collect()
+        };
+        Self {
+            latent: now.to_vec(),
+            rates: next.map(rates),
+        }
+    }
+}
+
 /// Loss and adjoints of pairs (run, frame), with the buffers to compute them.
 #[derive(Clone, Debug)]
 pub(super) struct PairLoss<const D: usize> {
@@ -99,13 +124,34 @@ impl<const D: usize> PairLoss<D> {
         let frame = &run.frames[number];
         encoder.forward(&frame.positions, &mut self.now);
         let next = run.frames.get(number + 1).filter(|_| weights.velocity > 0.0);
-        let direction: Option<Vec<f64>> = next.map(|next| {
+        if let Some(next) = next {
             encoder.forward(&next.positions, &mut self.next);
-            let pairs = self.next.latent.iter().zip(&self.now.latent);
-            pairs.map(|(next, now)| (next - now) / weights.interval).collect()
-        });
+        }
+        let motion = Motion::between(&self.now.latent, next.map(|_| &self.next.latent[..]), weights.interval);
+        let (mut latent, mut along) = self.add_at(network, weights, reference, frame, &motion, chosen);
+        if next.is_some() {
+            for (latent, along) in latent.iter_mut().zip(&mut along) {
+                *along /= weights.interval;
+                *latent -= *along;
+            }
+            encoder.reverse(&self.next, &along, &mut self.encoder);
+        }
+        encoder.reverse(&self.now, &latent, &mut self.encoder);
+    }
+
+    /// The same for given coordinates: no encoder has a part in it. Returns the adjoints of x̂ and w.
+    pub fn add_at(
+        &mut self,
+        network: &Network<D>,
+        weights: &Weights,
+        reference: &[[f64; D]],
+        frame: &Frame<D>,
+        motion: &Motion,
+        chosen: &[usize],
+    ) -> (Vec<f64>, Vec<f64>) {
+        let direction = motion.rates.as_deref().filter(|_| weights.velocity > 0.0);
         let gradients = weights.gradient > 0.0;
-        let seed = network.seed(&self.now.latent, gradients, direction.as_deref().into_iter());
+        let seed = network.seed(&motion.latent, gradients, direction.into_iter());
         let mut adjoint = SeedAdjoint::zero(&seed);
         for chunk in chosen.chunks(CHUNK) {
             self.reference.clear();
@@ -114,22 +160,15 @@ impl<const D: usize> PairLoss<D> {
             self.residuals(network, weights, frame, chunk, direction.is_some());
             network.reverse(&self.reference, &mut self.tape, &mut self.network, &mut adjoint);
         }
-        let coordinates = self.now.latent.len();
+        let coordinates = motion.latent.len();
         let (mut latent, mut along) = (vec![0.0; coordinates], vec![0.0; coordinates]);
         let mut target = SeedTarget {
             parameters: &mut self.network,
             latent: &mut latent,
             direction: &mut along,
         };
-        network.reverse_seed(&adjoint, gradients, &self.now.latent, direction.as_deref(), &mut target);
-        if direction.is_some() {
-            for (latent, along) in latent.iter_mut().zip(&mut along) {
-                *along /= weights.interval;
-                *latent -= *along;
-            }
-            encoder.reverse(&self.next, &along, &mut self.encoder);
-        }
-        encoder.reverse(&self.now, &latent, &mut self.encoder);
+        network.reverse_seed(&adjoint, gradients, &motion.latent, direction, &mut target);
+        (latent, along)
     }
 
     /// Adds the terms of a chunk and overwrites the tape's output with its adjoint.

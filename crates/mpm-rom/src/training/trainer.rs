@@ -7,7 +7,6 @@ use rayon::prelude::*;
 
 use super::adam::Adam;
 use super::finish::QuasiNewton;
-use super::finishing::FixedSample;
 use super::loss::{PairLoss, Weights};
 use super::{EpochReport, Observer, Terms, Training, TrainingError};
 use crate::encoder::{Encoder, EncoderShape};
@@ -97,8 +96,7 @@ impl<'a, const D: usize> Trainer<'a, D> {
             let report = if (self.history.len() as u64) < self.config.epochs {
                 self.epoch(&mut workers)?
             } else {
-                let sample = sample.get_or_insert_with(|| FixedSample::of(self));
-                self.finishing_step(sample)?
+                self.finishing_step(&mut sample)?
             };
             self.history.push(report);
             let least = self

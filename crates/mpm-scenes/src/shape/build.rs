@@ -74,12 +74,20 @@ fn some<T>(field: &str, shapes: Vec<T>) -> Result<Vec<T>, SceneFault> {
 
 fn twisted<const D: usize>(field: &str, shape: &ShapeTable, rate: f64) -> Result<Twisted<D>, SceneFault> {
     if D != 3 {
-        return Err(SceneFault::value(format!("{field}.kind"), "twist", "a shape of the scene's dimension"));
+        return Err(SceneFault::value(
+            format!("{field}.kind"),
+            "twist",
+            "a shape of the scene's dimension",
+        ));
     }
     let straight = build::<D>(&format!("{field}.shape"), shape)?;
     let Bounds { lower, upper } = straight.bounds();
     if !lower.iter().chain(&upper).all(|c| c.is_finite()) {
-        return Err(SceneFault::value(format!("{field}.shape"), shape, "a shape with finite bounds"));
+        return Err(SceneFault::value(
+            format!("{field}.shape"),
+            shape,
+            "a shape with finite bounds",
+        ));
     }
     Ok(Twisted {
         shape: straight,

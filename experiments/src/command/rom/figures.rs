@@ -50,8 +50,21 @@ pub fn errors(directory: &Path, title: &str, rows: &[ReducedRow]) -> Result<(), 
     ];
     for (file, y_label, value) in figures {
         let mut series: Vec<LineSeries> = Vec::new();
+        let mut ways: Vec<_> = rows
+            .iter()
+            .map(|row| row.chosen)
+            .filter(|&chosen| chosen != "all")
+            .collect();
+        ways.sort_unstable();
+        ways.dedup();
+        let several = ways.len() > 1;
         for group in groups(rows) {
-            let label = format!("{}, {}, {}", group[0].manifold, group[0].quadrature, group[0].update);
+            let first = group[0];
+            let mut label = format!("{}, {}, {}", first.manifold, first.quadrature, first.update);
+            // All points are a choice of their own, and belong to every line; with one way of choosing there is nothing to tell apart.
+            if several && first.chosen != "all" {
+                label.push_str(&format!(", {}", first.chosen));
+            }
             let values: Vec<f64> = group.iter().map(|row| value(row)).collect();
             let mean = values.iter().sum::<f64>() / values.len() as f64;
             let ends = values.iter().fold((f64::INFINITY, 0.0f64), |(low, high), &value| {

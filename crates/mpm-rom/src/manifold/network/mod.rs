@@ -6,6 +6,7 @@ mod shape;
 mod tape;
 
 pub use scaling::Scaling;
+use seed::Seed;
 pub(crate) use seed::{SeedAdjoint, SeedTarget};
 pub use shape::NetworkShape;
 pub(crate) use shape::{Layer, draw_uniform};
@@ -126,20 +127,49 @@ impl<const D: usize> Manifold<D> for Network<D> {
         let unit = |k: usize| (0..r).map(move |j| f64::from(u8::from(j == k)));
         let basis: Vec<f64> = (0..if wanted.jacobians { r } else { 0 }).flat_map(unit).collect();
         let seed = self.seed(latent, wanted.gradients, basis.chunks_exact(r));
-        let (points, skipped) = (reference.len(), if wanted.gradients { D } else { 0 });
-        out.positions.resize(points, [0.0; D]);
-        out.gradients
-            .resize(if wanted.gradients { points } else { 0 }, Matrix::ZERO);
-        out.jacobians
-            .resize(if wanted.jacobians { points * r } else { 0 }, [0.0; D]);
+        let (positions, gradients) = (&mut out.positions, &mut out.gradients);
+        self.fill(
+            reference,
+            &seed,
+            wanted.gradients,
+            positions,
+            gradients,
+            &mut out.jacobians,
+        );
+    }
+
+    fn evaluate_moving(&self, reference: &[[f64; D]], latent: &[f64], rates: &[f64], out: &mut Evaluation<D>) {
+        let seed = self.seed(latent, true, std::iter::once(rates));
+        let (positions, gradients) = (&mut out.positions, &mut out.gradients);
+        self.fill(reference, &seed, true, positions, gradients, &mut out.velocities);
+        out.jacobians.clear();
+    }
+}
+
+impl<const D: usize> Network<D> {
+    /// Values and tangents of a seed at all points, in metres; `along` receives P × directions columns.
+    fn fill(
+        &self,
+        reference: &[[f64; D]],
+        seed: &Seed,
+        wanted: bool,
+        positions: &mut Vec<[f64; D]>,
+        gradients: &mut Vec<Matrix<D>>,
+        along: &mut Vec<[f64; D]>,
+    ) {
+        let (points, skipped) = (reference.len(), if wanted { D } else { 0 });
+        let directions = seed.count - skipped;
+        positions.resize(points, [0.0; D]);
+        gradients.resize(if wanted { points } else { 0 }, Matrix::ZERO);
+        along.resize(points * directions, [0.0; D]);
         // Lists that were not wanted are empty; their chunks then have to come from somewhere.
         let chunks = points.div_ceil(CHUNK);
-        let mut gradients: Vec<_> = out.gradients.chunks_mut(CHUNK).map(Some).collect();
-        let mut jacobians: Vec<_> = out.jacobians.chunks_mut(CHUNK * r).map(Some).collect();
+        let mut gradients: Vec<_> = gradients.chunks_mut(CHUNK).map(Some).collect();
+        let mut along: Vec<_> = along.chunks_mut(CHUNK * directions.max(1)).map(Some).collect();
         gradients.resize_with(chunks, || None);
-        jacobians.resize_with(chunks, || None);
-        let work = |tape: &mut Tape, ((reference, positions), (gradients, jacobians)): Chunk<'_, D>| {
-            self.forward(reference, &seed, tape);
+        along.resize_with(chunks, || None);
+        let work = |tape: &mut Tape, ((reference, positions), (gradients, along)): Chunk<'_, D>| {
+            self.forward(reference, seed, tape);
             let deviation = &self.scaling.deviation;
             for c in 0..D {
                 for (position, y) in positions.iter_mut().zip(tape.output(c, 0)) {
@@ -155,10 +185,10 @@ impl<const D: usize> Manifold<D> for Network<D> {
                     }
                 }
             }
-            if let Some(jacobians) = jacobians {
+            if let Some(along) = along {
                 for c in 0..D {
-                    for k in 0..r {
-                        let columns = jacobians.chunks_exact_mut(r);
+                    for k in 0..directions {
+                        let columns = along.chunks_exact_mut(directions);
                         for (columns, y) in columns.zip(tape.output(c, 1 + skipped + k)) {
                             columns[k][c] = deviation[c] * y;
                         }
@@ -168,8 +198,8 @@ impl<const D: usize> Manifold<D> for Network<D> {
         };
         let lists = reference
             .chunks(CHUNK)
-            .zip(out.positions.chunks_mut(CHUNK))
-            .zip(gradients.into_iter().zip(jacobians));
+            .zip(positions.chunks_mut(CHUNK))
+            .zip(gradients.into_iter().zip(along));
         let lists: Vec<Chunk<'_, D>> = lists.collect();
         // Handing a few chunks to other threads costs more than it saves.
         if chunks < 4 {
@@ -181,7 +211,7 @@ impl<const D: usize> Manifold<D> for Network<D> {
     }
 }
 
-/// Points, positions, gradients and Jacobians of a chunk.
+/// Points, positions, gradients and tangents along directions of a chunk.
 type Chunk<'a, const D: usize> = (
     (&'a [[f64; D]], &'a mut [[f64; D]]),
     (Option<&'a mut [Matrix<D>]>, Option<&'a mut [[f64; D]]>),

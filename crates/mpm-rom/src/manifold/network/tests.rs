@@ -155,6 +155,22 @@ fn a_point_alone_has_the_same_bits() {
 }
 
 #[test]
+fn velocities_are_the_jacobians_along_the_rates() {
+    let (network, points, latent, rates) = (network(), points(300), [0.4, -0.9], [1.7, -0.6]);
+    let all = evaluate(&network, &points, &latent, ALL);
+    let mut moving = Evaluation::default();
+    network.evaluate_moving(&points, &latent, &rates, &mut moving);
+    assert_eq!((&moving.positions, &moving.gradients), (&all.positions, &all.gradients));
+    assert_eq!((moving.velocities.len(), moving.jacobians.len()), (300, 0));
+    for (velocity, columns) in moving.velocities.iter().zip(all.jacobians.chunks(2)) {
+        for c in 0..3 {
+            let expected = columns[0][c] * rates[0] + columns[1][c] * rates[1];
+            assert!((velocity[c] - expected).abs() < 1e-13);
+        }
+    }
+}
+
+#[test]
 fn the_number_of_threads_does_not_matter() {
     let network = network();
     let points = points(1000);

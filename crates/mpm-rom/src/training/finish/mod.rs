@@ -36,6 +36,13 @@ impl QuasiNewton {
         }
     }
 
+    /// The same H for another loss with these terms and this gradient.
+    pub fn with_loss(mut self, terms: Terms, gradient: Vec<f64>) -> Self {
+        self.product = self.inverse.apply(&gradient);
+        (self.terms, self.gradient) = (terms, gradient);
+        self
+    }
+
     /// One step along −H ∇L, with its length; `None`, and no step, where no length makes L smaller.
     pub fn step(&mut self, parameters: &mut [f64], loss: Loss<'_>) -> Option<f64> {
         let slope = -dot(&self.gradient, &self.product);
