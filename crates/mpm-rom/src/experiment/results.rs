@@ -43,6 +43,20 @@ pub struct ReducedRow {
     pub outcome: String,
 }
 
+impl ReducedRow {
+    /// How the run was made: manifold, samples and their choice, quadrature, update and step factor.
+    pub fn way(&self) -> (&'static str, usize, &'static str, &'static str, &'static str, u64) {
+        (
+            self.manifold,
+            self.samples,
+            self.chosen,
+            self.quadrature,
+            self.update,
+            self.step_factor,
+        )
+    }
+}
+
 /// A frame of a reduced run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameRow {

@@ -65,6 +65,9 @@ pub fn errors(directory: &Path, title: &str, rows: &[ReducedRow]) -> Result<(), 
             if several && first.chosen != "all" {
                 label.push_str(&format!(", {}", first.chosen));
             }
+            if first.step_factor > 1 {
+                label.push_str(&format!(", Δt × {}", first.step_factor));
+            }
             let values: Vec<f64> = group.iter().map(|row| value(row)).collect();
             let mean = values.iter().sum::<f64>() / values.len() as f64;
             let ends = values.iter().fold((f64::INFINITY, 0.0f64), |(low, high), &value| {

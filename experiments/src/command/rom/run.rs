@@ -20,8 +20,8 @@ pub fn execute<const D: usize>(experiment: &Experiment, directory: &Path) -> Res
     figures::errors(directory, &experiment.title, &rows)?;
     for row in rows.iter().filter(|row| row.outcome != "finished") {
         console::notice(&format!(
-            "case {}, {}, {} samples ({}), {}, {}: {}",
-            row.case, row.manifold, row.samples, row.chosen, row.quadrature, row.update, row.outcome
+            "case {}, {}, {} samples ({}), {}, {}, steps of {}: {}",
+            row.case, row.manifold, row.samples, row.chosen, row.quadrature, row.update, row.step_factor, row.outcome
         ));
     }
     let mut text = String::new();
@@ -29,12 +29,13 @@ pub fn execute<const D: usize>(experiment: &Experiment, directory: &Path) -> Res
         let mean = |value: fn(&ReducedRow) -> f64| group.iter().map(|row| value(row)).sum::<f64>() / group.len() as f64;
         let largest = group.iter().map(|row| row.error).fold(0.0, f64::max);
         text.push_str(&format!(
-            "manifold={} samples={} choice={} quadrature={} update={} runs={} mean_error_percent={:.4} largest_error_percent={largest:.4} speed_up={:.2} real_time_factor={:.3}\n",
+            "manifold={} samples={} choice={} quadrature={} update={} step_factor={} runs={} mean_error_percent={:.4} largest_error_percent={largest:.4} speed_up={:.2} real_time_factor={:.3}\n",
             group[0].manifold,
             group[0].samples,
             group[0].chosen,
             group[0].quadrature,
             group[0].update,
+            group[0].step_factor,
             group.len(),
             mean(|row| row.error),
             mean(|row| row.full_seconds) / mean(|row| row.seconds),
@@ -44,20 +45,11 @@ pub fn execute<const D: usize>(experiment: &Experiment, directory: &Path) -> Res
     console::print(&text)
 }
 
-/// Rows that share manifold, samples and their choice, quadrature and update, in the order in which these come first.
+/// Rows of runs that were made in the same way, in the order in which these come first.
 pub fn groups(rows: &[ReducedRow]) -> Vec<Vec<&ReducedRow>> {
     let mut groups: Vec<Vec<&ReducedRow>> = Vec::new();
     for row in rows {
-        let same = |group: &&mut Vec<&ReducedRow>| {
-            let first = group[0];
-            (
-                first.manifold,
-                first.samples,
-                first.chosen,
-                first.quadrature,
-                first.update,
-            ) == (row.manifold, row.samples, row.chosen, row.quadrature, row.update)
-        };
+        let same = |group: &&mut Vec<&ReducedRow>| group[0].way() == row.way();
         match groups.iter_mut().find(same) {
             Some(group) => group.push(row),
             None => groups.push(vec![row]),
