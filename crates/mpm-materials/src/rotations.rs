@@ -62,7 +62,7 @@ impl<const D: usize> Group<D> {
                     rotation.0[i][j] = settled.select(rotation.0[i][j], next);
                 }
             }
-            settled = settled | change.simd_le(size * (CHANGE * CHANGE));
+            settled |= change.simd_le(size * (CHANGE * CHANGE));
         }
         rotation
     }
