@@ -99,6 +99,22 @@ fn what_is_wrong_is_named_with_its_file_and_field() {
             "rom.toml: TOML parse error",
         ),
         (("width = 6", "breadth = 6"), "unknown field `breadth`"),
+        (
+            ("cases = {", "recorded_points = 0\ncases = {"),
+            "rom.toml, recorded_points: 0",
+        ),
+        (
+            ("cases = {", "recorded_points = 9\ncases = {"),
+            "rom.toml, run.manifold: \"linear\" needs all points of the training: leave out recorded_points",
+        ),
+        (
+            ("manifold = [\"network\", \"linear\"]", "scene = \"fine.toml\""),
+            "rom.toml, run.choice: \"greedy\" needs all points of the training: leave out run.scene",
+        ),
+        (
+            ("manifold = [\"network\", \"linear\"]", "step_factor = []"),
+            "rom.toml, run.step_factor: at least one",
+        ),
     ] {
         let message = message(change);
         assert!(message.contains(expected), "{message}");
@@ -181,4 +197,33 @@ fn an_experiment_is_stopped_goes_on_and_is_run() {
         run::<2>(&other, &whole, &mut |_, _| false),
         Err(ExperimentError::Stopped)
     ));
+}
+
+#[test]
+fn a_model_of_a_part_of_the_points_runs_a_finer_scene() {
+    let (directory, file) = files();
+    let fine = SCENE
+        .replace("spacing = 0.25", "spacing = 0.125")
+        .replace("0.0050000001", "0.0025000001");
+    std::fs::write(directory.path().join("fine.toml"), fine).expect("written");
+    let text = EXPERIMENT.replace("cases = {", "recorded_points = 50\ncases = {").replace(
+        "manifold = [\"network\", \"linear\"], samples = [20, \"all\"], quadrature = [\"lagrangian\"]",
+        "scene = \"fine.toml\", samples = [40], choice = [\"drawn\"], step_factor = [1, 4], quadrature = [\"eulerian\", \"lagrangian\"]",
+    );
+    let experiment = Experiment::parse(&text, &file).expect("sound");
+    let out = directory.path().join("out");
+    assert_eq!(train::<2>(&experiment, &out, &mut ()).expect("trained").points, 50);
+    let rows = run::<2>(&experiment, &out, &mut |_, _| true).expect("run");
+    assert_eq!(rows.len(), 8);
+    for row in &rows {
+        assert_eq!((row.outcome.as_str(), row.reconstruction_error), ("finished", None));
+        assert_eq!(row.steps * row.step_factor, 80, "of the fine scene");
+        assert!(row.error < 20.0, "{row:?}");
+    }
+
+    let refused = text.replace("step_factor = [1, 4]", "step_factor = [3]");
+    let refused = Experiment::parse(&refused, &file).expect("sound");
+    let other = directory.path().join("out");
+    let error = run::<2>(&refused, &other, &mut |_, _| true).expect_err("3 does not divide 20");
+    assert!(error.to_string().contains("run.step_factor: 3 does not divide the 20 steps"), "{error}");
 }

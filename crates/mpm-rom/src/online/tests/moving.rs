@@ -88,3 +88,51 @@ fn held_nodes_that_turn_carry_the_body() {
     assert!(model.body().held_velocity(&[0.0; 2], 0.05).is_some());
     assert_eq!(model.body().held_velocity(&[0.0; 2], 0.1), None, "let go");
 }
+
+/// A search that begins anew in every step is the oracle for points that are followed.
+#[test]
+fn points_of_space_are_followed_to_where_a_search_finds_them() {
+    let text = format!(
+        "{}{HELD}",
+        BLOCK.replace("gravity = [0.0, 0.0]", "gravity = [0.0, -8.0]")
+    );
+    let samples = SampleChoice::Drawn { count: 12, seed: 1 };
+    let run = |fresh: bool| {
+        let chosen = options(samples.clone(), EULERIAN, Update::VelocityOnly);
+        let mut model = model(&text, Fields::bending(4), chosen);
+        let mut sums = Vec::new();
+        for _ in 0..100 {
+            if fresh {
+                model.scheme = Scheme::Eulerian(Eulerian::new(2, Inverted::Refuse));
+            }
+            model.step().expect("a step");
+            sums.push(model.quadrature.volumes.iter().sum::<f64>());
+        }
+        (model.latent().to_vec(), sums)
+    };
+    let ((followed, volumes), (searched, fresh)) = (run(false), run(true));
+    for (a, b) in followed.iter().zip(&searched) {
+        assert!((a - b).abs() < 2e-4 * searched[0].abs(), "{followed:?} {searched:?}");
+    }
+    for (step, (a, b)) in volumes.iter().zip(&fresh).enumerate() {
+        assert!((a - b).abs() < 0.01 * b, "step {step}: {a} {b}");
+    }
+}
+
+#[test]
+fn a_body_is_the_same_about_another_origin_and_with_longer_steps() {
+    let own = body(BLOCK);
+    let moved = body(BLOCK).about(&[1.0, -2.0]);
+    for (x, y) in own.reference.iter().zip(&moved.reference) {
+        let (x, y) = (vector::add(x, &own.centroid), vector::add(y, &moved.centroid));
+        assert!(vector::distance(&x, &y) < 1e-14);
+    }
+    let node = |body: &ReducedBody<2>| vector::add(&body.grid.node_position(&[3, 5]), &body.centroid);
+    assert!(vector::distance(&node(&own), &node(&moved)) < 1e-14);
+
+    let (step, steps) = (own.time_step, own.steps_per_frame);
+    let longer = own.with_longer_steps(5).expect("10 steps per frame");
+    assert_eq!((longer.time_step, longer.steps_per_frame * 5), (5.0 * step, steps));
+    assert!(longer.with_longer_steps(3).is_none());
+    assert!(body(BLOCK).with_longer_steps(0).is_none());
+}
