@@ -225,5 +225,10 @@ fn a_model_of_a_part_of_the_points_runs_a_finer_scene() {
     let refused = Experiment::parse(&refused, &file).expect("sound");
     let other = directory.path().join("out");
     let error = run::<2>(&refused, &other, &mut |_, _| true).expect_err("3 does not divide 20");
-    assert!(error.to_string().contains("run.step_factor: 3 does not divide the 20 steps"), "{error}");
+    assert!(
+        error
+            .to_string()
+            .contains("run.step_factor: 3 does not divide the 20 steps"),
+        "{error}"
+    );
 }

@@ -125,7 +125,7 @@ proptest! {
             rate,
         };
         // The corner (½, ¼) of the section at this height is on the surface.
-        let height = x[2].clamp(0.0, 2.0);
+        let height = f64::clamp(x[2], 0.0, 2.0);
         let (sine, cosine) = (rate * height).sin_cos();
         let corner = [0.5 * cosine - 0.25 * sine, 0.5 * sine + 0.25 * cosine, height];
         prop_assert!(shape.distance(&corner).abs() < 1e-12);

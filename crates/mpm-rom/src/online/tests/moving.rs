@@ -1,6 +1,8 @@
 //! Points of space, and bodies that are held.
 
 use super::*;
+use crate::online::eulerian::Eulerian;
+use crate::online::step::Scheme;
 
 #[test]
 fn at_rest_the_points_of_space_fill_the_body() {
