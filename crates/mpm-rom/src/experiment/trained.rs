@@ -7,15 +7,15 @@ use std::time::{Duration, Instant};
 
 use super::files::{self, names};
 use super::{Experiment, ExperimentError};
-use crate::full_order::{self, SceneDocument};
+use crate::full_order::{self, FullOrderError, SceneDocument};
 use crate::model::Model;
 use crate::snapshots::Snapshots;
 use crate::training::{EpochReport, Trainer};
 
 /// Watches an experiment and may stop its training.
 pub trait Watch {
-    /// After a full-order run.
-    fn after_run(&mut self, done: usize, runs: usize);
+    /// After a full-order run; a break ends them, and nothing of them is kept.
+    fn after_run(&mut self, done: usize, runs: usize) -> ControlFlow<()>;
 
     /// After an epoch; a break ends the training with a checkpoint to go on from.
     fn after_epoch(&mut self, report: &EpochReport) -> ControlFlow<()>;
@@ -23,7 +23,9 @@ pub trait Watch {
 
 /// Watches nothing.
 impl Watch for () {
-    fn after_run(&mut self, _: usize, _: usize) {}
+    fn after_run(&mut self, _: usize, _: usize) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
 
     fn after_epoch(&mut self, _: &EpochReport) -> ControlFlow<()> {
         ControlFlow::Continue(())
@@ -112,7 +114,10 @@ fn training_data<const D: usize>(
         .map(|values| experiment.case(values))
         .collect::<Result<_, _>>()?;
     let after_run = |done| watch.after_run(done, values.len());
-    let snapshots = full_order::collect(&document, &experiment.parameters, &cases, after_run)?;
+    let snapshots = match full_order::collect(&document, &experiment.parameters, &cases, after_run) {
+        Err(FullOrderError::Stopped { .. }) => return Err(ExperimentError::Stopped),
+        collected => collected?,
+    };
     snapshots.write(&file)?;
     Ok(snapshots)
 }

@@ -10,6 +10,8 @@ pub use document::{SceneDocument, Value};
 pub use error::FullOrderError;
 pub use tracers::TracedRun;
 
+use std::ops::ControlFlow;
+
 use mpm_scenes::scene::MaterialTable;
 use mpm_scenes::{Population, Scene, Snapshot, frames};
 use mpm_tensor::{Matrix, vector};
@@ -35,16 +37,16 @@ impl Case {
     }
 }
 
-/// Runs all cases of a scene and collects their frames, that of t = 0 included. `after_run` is told the number of runs done.
+/// Runs all cases of a scene and collects their frames, that of t = 0 included. `after_run` is told the number of runs done; a break ends them.
 ///
 /// # Errors
-/// [`FullOrderError`]: a change that does not fit the document, a scene that cannot be run or that has another body than that of the first case, a run that
+/// [`FullOrderError::Stopped`] after a break; [`FullOrderError`]: a change that does not fit the document, a scene that cannot be run or that has another body than that of the first case, a run that
 /// fails, snapshots that hold what they must not.
 pub fn collect<const D: usize>(
     document: &SceneDocument,
     parameters: &[String],
     cases: &[Case],
-    mut after_run: impl FnMut(usize),
+    mut after_run: impl FnMut(usize) -> ControlFlow<()>,
 ) -> Result<Snapshots<D>, FullOrderError> {
     let (mut body, mut runs) = (None, Vec::with_capacity(cases.len()));
     for (number, case) in cases.iter().enumerate() {
@@ -58,7 +60,9 @@ pub fn collect<const D: usize>(
         let frames = run(&scene, &own.centroid)?;
         let parameters = case.parameters.clone();
         runs.push(Run { parameters, frames });
-        after_run(runs.len());
+        if after_run(runs.len()).is_break() && runs.len() < cases.len() {
+            return Err(FullOrderError::Stopped { runs: runs.len() });
+        }
     }
     let body = body.ok_or(FullOrderError::NoRuns)?;
     Ok(Snapshots::new(body, runs)?)

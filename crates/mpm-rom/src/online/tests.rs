@@ -163,7 +163,11 @@ fn a_lagrangian_step_is_the_projected_full_order_step() {
 fn neighbour_lists_find_what_the_search_of_all_points_finds() {
     let samples = SampleChoice::Drawn { count: 8, seed: 2 };
     let run = |search| {
-        let chosen = options(samples.clone(), Quadrature::Lagrangian { search }, Update::position_velocity());
+        let chosen = options(
+            samples.clone(),
+            Quadrature::Lagrangian { search },
+            Update::position_velocity(),
+        );
         let mut model = model(BLOCK, Fields::bending(3), chosen);
         model.coordinates.rates = vec![6.0, 0.5, -2.0];
         let mut bent = 0.0f64;
