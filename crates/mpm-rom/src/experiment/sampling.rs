@@ -23,7 +23,7 @@ const FRAMES: usize = 4;
 
 /// Distances of the states around each frame, over the root mean square of the points' distance from the centroid. Without such states a choice knows only errors on the way, and not
 /// whether a run comes back to it; how far a run strays is not known beforehand.
-const DISTANCES: [f64; 4] = [0.0, 0.002, 0.005, 0.01];
+const DISTANCES: [f64; 5] = [0.0, 0.002, 0.005, 0.01, 0.02];
 
 /// Training runs that choices are tried on, at most, and frames of each.
 const TRIAL_RUNS: usize = 3;
