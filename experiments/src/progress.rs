@@ -109,10 +109,11 @@ impl TrainingProgress {
         Self { bar, training: false }
     }
 
-    /// After a full-order run.
-    pub fn run(&mut self, done: usize, runs: usize) {
+    /// After a full-order run. A break if a stop was asked for.
+    pub fn run(&mut self, done: usize, runs: usize) -> ControlFlow<()> {
         self.bar.set_length(runs as u64);
         self.bar.set_position(done as u64);
+        unless_interrupted()
     }
 
     /// After an epoch, with its mean loss. A break if a stop was asked for.

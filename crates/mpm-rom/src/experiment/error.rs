@@ -65,7 +65,9 @@ pub enum ExperimentError {
         dimension: usize,
     },
     /// A stop was asked for.
-    #[error("stopped: the same line started again goes on with a training, and begins reduced runs anew")]
+    #[error(
+        "stopped: the same line started again goes on with a training, and begins full-order and reduced runs anew"
+    )]
     Stopped,
     /// The scene cannot be read.
     #[error(transparent)]

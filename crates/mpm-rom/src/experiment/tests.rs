@@ -121,11 +121,17 @@ fn what_is_wrong_is_named_with_its_file_and_field() {
     }
 }
 
-/// Breaks after so many epochs.
+/// Breaks after so many full-order runs or epochs; the data have two runs, after which there is nothing left to stop.
 struct Stop(u64);
 
 impl Watch for Stop {
-    fn after_run(&mut self, _: usize, _: usize) {}
+    fn after_run(&mut self, done: usize, _: usize) -> ControlFlow<()> {
+        if done as u64 == self.0 {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    }
 
     fn after_epoch(&mut self, report: &EpochReport) -> ControlFlow<()> {
         if report.epoch + 1 == self.0 {
@@ -151,6 +157,12 @@ fn an_experiment_is_stopped_goes_on_and_is_run() {
         train::<2>(&experiment, &parts, &mut Stop(2)),
         Err(ExperimentError::Stopped)
     ));
+    let data = directory.path().join("data");
+    assert!(matches!(
+        train::<2>(&experiment, &data, &mut Stop(1)),
+        Err(ExperimentError::Stopped)
+    ));
+    assert!(!data.join(names::TRAINING_DATA).exists());
     let rest = train::<2>(&experiment, &parts, &mut ()).expect("the rest");
     assert_eq!((rest.resumed_at, rest.history.clone()), (2, trained.history));
     let bytes = |directory: &Path, name| std::fs::read(directory.join(name)).expect(name);

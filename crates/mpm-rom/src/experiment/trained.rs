@@ -7,15 +7,15 @@ use std::time::{Duration, Instant};
 
 use super::files::{self, names};
 use super::{Experiment, ExperimentError};
-use crate::full_order::{self, Recording, SceneDocument};
+use crate::full_order::{self, FullOrderError, Recording, SceneDocument};
 use crate::model::Model;
 use crate::snapshots::{Body, Snapshots};
 use crate::training::{EpochReport, Trainer};
 
 /// Watches an experiment and may stop its training.
 pub trait Watch {
-    /// After a full-order run.
-    fn after_run(&mut self, done: usize, runs: usize);
+    /// After a full-order run; a break ends them, and nothing of them is kept.
+    fn after_run(&mut self, done: usize, runs: usize) -> ControlFlow<()>;
 
     /// After an epoch; a break ends the training with a checkpoint to go on from.
     fn after_epoch(&mut self, report: &EpochReport) -> ControlFlow<()>;
@@ -23,7 +23,9 @@ pub trait Watch {
 
 /// Watches nothing.
 impl Watch for () {
-    fn after_run(&mut self, _: usize, _: usize) {}
+    fn after_run(&mut self, _: usize, _: usize) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
 
     fn after_epoch(&mut self, _: &EpochReport) -> ControlFlow<()> {
         ControlFlow::Continue(())
@@ -113,7 +115,10 @@ fn training_data<const D: usize>(
         .collect::<Result<_, _>>()?;
     let after_run = |done| watch.after_run(done, values.len());
     let recorded = experiment.recorded_points;
-    let snapshots = full_order::collect(&document, &experiment.parameters, &cases, recorded, after_run)?;
+    let snapshots = match full_order::collect(&document, &experiment.parameters, &cases, recorded, after_run) {
+        Err(FullOrderError::Stopped { .. }) => return Err(ExperimentError::Stopped),
+        collected => collected?,
+    };
     snapshots.write(&file)?;
     Ok(snapshots)
 }

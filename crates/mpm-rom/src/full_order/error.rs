@@ -9,6 +9,12 @@ pub enum FullOrderError {
     /// No run was asked for.
     #[error("no runs")]
     NoRuns,
+    /// A stop was asked for between two runs.
+    #[error("stopped after {runs} runs")]
+    Stopped {
+        /// Runs done.
+        runs: usize,
+    },
     /// The file cannot be read.
     #[error("{file}: {source}")]
     Unreadable {

@@ -12,6 +12,8 @@ pub use error::FullOrderError;
 pub use recording::Recording;
 pub use tracers::TracedRun;
 
+use std::ops::ControlFlow;
+
 use mpm_scenes::scene::MaterialTable;
 use mpm_scenes::{Population, Scene};
 use mpm_tensor::vector;
@@ -38,17 +40,17 @@ impl Case {
 }
 
 /// Runs all cases of a scene and collects their frames, that of t = 0 included: of all points, or of at most `recorded` of them ([`Recording`]).
-/// `after_run` is told the number of runs done.
+/// `after_run` is told the number of runs done; a break ends them.
 ///
 /// # Errors
-/// [`FullOrderError`]: a change that does not fit the document, a scene that cannot be run or that has another body than that of the first case, a run that
+/// [`FullOrderError::Stopped`] after a break; [`FullOrderError`]: a change that does not fit the document, a scene that cannot be run or that has another body than that of the first case, a run that
 /// fails, snapshots that hold what they must not.
 pub fn collect<const D: usize>(
     document: &SceneDocument,
     parameters: &[String],
     cases: &[Case],
     recorded: Option<usize>,
-    mut after_run: impl FnMut(usize),
+    mut after_run: impl FnMut(usize) -> ControlFlow<()>,
 ) -> Result<Snapshots<D>, FullOrderError> {
     let (mut recording, mut runs) = (None, Vec::with_capacity(cases.len()));
     for (number, case) in cases.iter().enumerate() {
@@ -61,7 +63,9 @@ pub fn collect<const D: usize>(
         let (frames, _) = own.run(&scene)?;
         let parameters = case.parameters.clone();
         runs.push(Run { parameters, frames });
-        after_run(runs.len());
+        if after_run(runs.len()).is_break() && runs.len() < cases.len() {
+            return Err(FullOrderError::Stopped { runs: runs.len() });
+        }
     }
     let recording = recording.ok_or(FullOrderError::NoRuns)?;
     Ok(Snapshots::new(recording.body, runs)?)

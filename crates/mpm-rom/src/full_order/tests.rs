@@ -1,3 +1,5 @@
+use std::ops::ControlFlow;
+
 use mpm_tensor::Matrix;
 
 use super::*;
@@ -28,7 +30,11 @@ fn every_run_has_its_own_parameter_and_all_have_the_same_body() {
     let cases: Vec<Case> = [1.0, 3.0].map(|g| Case::of_key("gravity.1", -g)).to_vec();
     let mut done = Vec::new();
     let names = ["gravity".to_owned()];
-    let snapshots = collect::<2>(&document(), &names, &cases, None, |run| done.push(run)).expect("runs");
+    let snapshots = collect::<2>(&document(), &names, &cases, None, |run| {
+        done.push(run);
+        ControlFlow::Continue(())
+    })
+    .expect("runs");
     assert_eq!((snapshots.runs().len(), snapshots.points(), done), (2, 64, vec![1, 2]));
     assert_eq!((snapshots.body().density, snapshots.body().interval), (2.0, 0.05));
     assert!(vector::distance(&snapshots.body().centroid, &[1.0, 0.25]) < 1e-15);
@@ -52,8 +58,15 @@ fn every_run_has_its_own_parameter_and_all_have_the_same_body() {
 
 #[test]
 fn what_does_not_fit_is_an_error_with_its_name() {
-    let collect = |cases: &[Case]| collect::<2>(&document(), &["p".to_owned()], cases, None, |_| ());
+    let collect = |cases: &[Case]| {
+        collect::<2>(&document(), &["p".to_owned()], cases, None, |_| {
+            ControlFlow::Continue(())
+        })
+    };
     assert!(matches!(collect(&[]), Err(FullOrderError::NoRuns)));
+    let twice = [Case::of_key("gravity.0", 0.0), Case::of_key("gravity.0", 1.0)];
+    let stopped = super::collect::<2>(&document(), &["p".to_owned()], &twice, None, |_| ControlFlow::Break(()));
+    assert!(matches!(stopped, Err(FullOrderError::Stopped { runs: 1 })));
     let error = collect(&[Case::of_key("bodies.1.shape.radius", 1.0)]).expect_err("no such body");
     assert_eq!(
         error.to_string(),
@@ -64,7 +77,9 @@ fn what_does_not_fit_is_an_error_with_its_name() {
         Case::of_key("bodies.0.shape.upper.0", 2.5),
     ];
     assert!(matches!(collect(&wider), Err(FullOrderError::AnotherBody { run: 1 })));
-    let error = super::collect::<3>(&document(), &[], &[Case::of_key("gravity.0", 0.0)], None, |_| ());
+    let error = super::collect::<3>(&document(), &[], &[Case::of_key("gravity.0", 0.0)], None, |_| {
+        ControlFlow::Continue(())
+    });
     assert!(matches!(
         error,
         Err(FullOrderError::Dimension { found: 2, expected: 3 })

@@ -1,5 +1,6 @@
 //! What a step says of the velocities of all points, without being taken.
 
+use faer::{Mat, Side};
 use mpm_tensor::vector;
 
 use super::{OnlineError, ReducedModel};
@@ -40,6 +41,36 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
     /// g, F and ∂g/∂x̂ of all material points at other coordinates.
     pub fn evaluate_at(&self, latent: &[f64], time: f64, wanted: Wanted, out: &mut Evaluation<D>) {
         self.map.evaluate(&self.points, latent, time, wanted, out);
+    }
+
+    /// 2 r states around one: the eigenvectors of N⁻¹ Σ_p J_pᵀ J_p with both signs, so long that to first order the positions of all points differ by `distance` (m) in the root mean
+    /// square. Directions that move nothing are left out.
+    pub fn states_around(&self, latent: &[f64], time: f64, distance: f64) -> Vec<Vec<f64>> {
+        let (mut there, r) = (Evaluation::default(), latent.len());
+        let wanted = Wanted {
+            jacobians: true,
+            ..Wanted::default()
+        };
+        self.evaluate_at(latent, time, wanted, &mut there);
+        let share = 1.0 / self.points.len().max(1) as f64;
+        let mut mean = Mat::<f64>::zeros(r, r);
+        for rows in there.jacobians.chunks_exact(r.max(1)) {
+            for i in 0..r {
+                for j in 0..r {
+                    mean[(i, j)] += share * vector::dot(&rows[i], &rows[j]);
+                }
+            }
+        }
+        let Ok(eigen) = mean.self_adjoint_eigen(Side::Lower) else {
+            return Vec::new();
+        };
+        let lengths = (0..r).map(|k| distance / eigen.S().column_vector()[k].sqrt());
+        let states = lengths.enumerate().flat_map(|(k, length)| {
+            [length, -length].map(|length| (0..r).map(|i| latent[i] + length * eigen.U()[(i, k)]).collect())
+        });
+        states
+            .filter(|state: &Vec<f64>| state.iter().all(|y| y.is_finite()))
+            .collect()
     }
 
     /// (1) to (4) of a step.

@@ -42,8 +42,8 @@ pub fn execute<const D: usize>(experiment: &Experiment, directory: &Path) -> Res
 }
 
 impl Watch for TrainingProgress {
-    fn after_run(&mut self, done: usize, runs: usize) {
-        self.run(done, runs);
+    fn after_run(&mut self, done: usize, runs: usize) -> ControlFlow<()> {
+        self.run(done, runs)
     }
 
     fn after_epoch(&mut self, report: &EpochReport) -> ControlFlow<()> {
