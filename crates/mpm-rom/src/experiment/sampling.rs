@@ -29,8 +29,11 @@ const DISTANCES: [f64; 5] = [0.0, 0.002, 0.005, 0.01, 0.02];
 const TRIAL_RUNS: usize = 3;
 const TRIAL_FRAMES: usize = 91;
 
-/// Larger numbers of sample points are not tried: the first choice is good then.
-const MOST_TRIED: usize = 64;
+/// Larger numbers of sample points are not tried: choices then differ little.
+const MOST_TRIED: usize = 24;
+
+/// The distance (its place in the list) of the choice that is then taken.
+const UNTRIED: usize = 1;
 
 /// Choices made so far, by manifold and number of points.
 pub(super) type Chosen = HashMap<(ManifoldName, usize), SampleChoice>;
@@ -47,7 +50,7 @@ impl<const D: usize> Sampling<'_, D> {
     /// Sample points for every number of them in the experiment.
     ///
     /// Candidates are what [`choose_greedily`] finds on steps from 4 frames of each of up to 8 training runs, and from states around these frames at one of several distances.
-    /// Each is tried on up to three training runs of at most 90 frames, and the one with the least mean position error is taken. Above 64 points nothing is tried.
+    /// Each is tried on up to three training runs of at most 90 frames, and the one with the least mean position error is taken. Above 24 points nothing is tried, and the distance is 0.002.
     pub fn choose(
         &self,
         name: ManifoldName,
@@ -57,7 +60,16 @@ impl<const D: usize> Sampling<'_, D> {
         let body = ReducedBody::<D>::of(&self.scene(0)?)?;
         let (points, coordinates) = (body.reference.len(), manifold.coordinates());
         let mut readings = Vec::new();
-        for distance in DISTANCES {
+        let counts = self.experiment.run.samples.iter().filter_map(|samples| match samples {
+            SampleCount::Drawn(count) => Some(*count),
+            SampleCount::All(_) => None,
+        });
+        let tried = counts.min().is_some_and(|least| least <= MOST_TRIED);
+        for (place, distance) in DISTANCES.into_iter().enumerate() {
+            if !tried && place != UNTRIED {
+                readings.push(Vec::new());
+                continue;
+            }
             let mut of_distance = Vec::new();
             for run in evenly(self.snapshots.runs().len(), RUNS) {
                 of_distance.extend(self.readings(name, manifold, run, distance)?);
@@ -66,14 +78,16 @@ impl<const D: usize> Sampling<'_, D> {
         }
         for samples in &self.experiment.run.samples {
             let SampleCount::Drawn(count) = *samples else { continue };
+            let greedily = |readings: &[Reading<D>]| {
+                choose_greedily(readings, coordinates, &body.kinematics, points, count).map(SampleChoice::Given)
+            };
+            if count > MOST_TRIED {
+                into.insert((name, count), greedily(&readings[UNTRIED])?);
+                continue;
+            }
             let mut best: Option<(f64, SampleChoice)> = None;
             for readings in &readings {
-                let candidate =
-                    SampleChoice::Given(choose_greedily(readings, coordinates, &body.kinematics, points, count)?);
-                if count > MOST_TRIED {
-                    best = Some((f64::NAN, candidate));
-                    break;
-                }
+                let candidate = greedily(readings)?;
                 let error = self.trial(name, manifold, &candidate)?;
                 if best.as_ref().is_none_or(|(least, _)| error < *least) {
                     best = Some((error, candidate));

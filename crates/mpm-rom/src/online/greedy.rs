@@ -21,6 +21,9 @@ const SMALLEST: f64 = 1e-6;
 /// Rounds of exchanges after the greedy choice, at most.
 const EXCHANGES: usize = 4;
 
+/// Larger choices are not exchanged: a round costs as much as the choice.
+const MOST_EXCHANGED: usize = 24;
+
 /// `count` sample points that stand for all points best, ascending: a greedy choice on readings of training states, as that of sample nodes in GNAT (K. Carlberg, C. Farhat, J. Cortial,
 /// D. Amsallem 2013, Algorithm 3), with five points or more on each kinematic region as [`SampleChoice::Drawn`](super::SampleChoice::Drawn) has.
 ///
@@ -30,7 +33,7 @@ const EXCHANGES: usize = 4;
 /// Σ_s |S_s⁻¹ b_s|² + σ² tr S_s⁻¹
 ///
 /// small, coordinates being scaled so that N⁻¹ Σ_p J_pᵀ J_p = I over all points: the mean square of the difference of all velocities, and that of independent errors of
-/// size σ = 0.3 × the root mean square of e, which keeps the problem well conditioned (an A-optimal design). Each point is the one that lowers the sum most, the first of equals; then each is exchanged for the
+/// size σ = 0.3 × the root mean square of e, which keeps the problem well conditioned (an A-optimal design). Each point is the one that lowers the sum most, the first of equals; then, up to 24 points, each is exchanged for the
 /// one that lowers it most, until none does or after four rounds. Readings whose Jacobians do not tell the coordinates apart at all points are left out.
 ///
 /// # Errors
@@ -56,7 +59,8 @@ pub fn choose_greedily<const D: usize>(
             chosen.push((point, number));
         }
     }
-    for _ in 0..EXCHANGES {
+    let rounds = if count <= MOST_EXCHANGED { EXCHANGES } else { 0 };
+    for _ in 0..rounds {
         let mut changed = false;
         for (point, number) in &mut chosen {
             let before = design.objective();
