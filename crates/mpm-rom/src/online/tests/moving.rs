@@ -113,8 +113,10 @@ fn points_of_space_are_followed_to_where_a_search_finds_them() {
         (model.latent().to_vec(), sums)
     };
     let ((followed, volumes), (searched, fresh)) = (run(false), run(true));
+    // Both take a point to be found within h/1000 of its place, from different sides.
+    let largest = searched.iter().fold(0.0, |most: f64, y| most.max(y.abs()));
     for (a, b) in followed.iter().zip(&searched) {
-        assert!((a - b).abs() < 2e-4 * searched[0].abs(), "{followed:?} {searched:?}");
+        assert!((a - b).abs() < 1e-3 * largest, "{followed:?} {searched:?}");
     }
     for (step, (a, b)) in volumes.iter().zip(&fresh).enumerate() {
         assert!((a - b).abs() < 0.01 * b, "step {step}: {a} {b}");
