@@ -253,10 +253,11 @@ impl<S: Spline<W>, const W: usize, const D: usize> Basis<D> for SplineGrid<S, W,
     #[inline(always)]
     fn interpolate(&self, particle: usize, x: &[f64; D], wanted: Wanted, nodes: &impl NodeField<D>) -> Interpolated<D> {
         let with_slopes = wanted != Wanted::default();
-        if S::IS_QUADRATIC && with_slopes {
-            if let Some(cube) = QuadraticCube::new(x, &self.nodes, self.layout(particle)) {
-                return cube.interpolate(wanted, nodes);
-            }
+        if S::IS_QUADRATIC
+            && with_slopes
+            && let Some(cube) = QuadraticCube::new(x, &self.nodes, self.layout(particle))
+        {
+            return cube.interpolate(wanted, nodes);
         }
         self.stencil(particle, x).interpolate(wanted, nodes)
     }
