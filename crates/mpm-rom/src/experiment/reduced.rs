@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use mpm_scenes::Scene;
+
 use super::beside::{Choice, Full, beside};
 use super::files::{self, names};
 use super::results::{self, ReducedRow};
@@ -56,6 +58,10 @@ pub fn run<const D: usize>(
     let runs = choices.len() * experiment.cases.test.len();
     for (case, values) in experiment.cases.test.iter().enumerate() {
         let scene = document.scene(&experiment.case(values)?.changes)?;
+        // Full-order runs can be long: what makes no reduced body is refused before them.
+        for &factor in &experiment.run.step_factor {
+            reduced_body(experiment, &scene, &trained_on.centroid, factor)?;
+        }
         let recording = Recording::<D>::of(&scene, &experiment.parameters, experiment.recorded_points)?;
         let recording = recording.about(&trained_on.centroid);
         let (frames_of_run, effort) = recording.run(&scene)?;
@@ -80,12 +86,7 @@ pub fn run<const D: usize>(
                 (ManifoldName::Linear, Some(pod)) => (pod as &dyn Manifold<D>, None),
                 _ => network,
             };
-            let body = ReducedBody::of(&scene)?.about(&trained_on.centroid);
-            let steps = body.steps_per_frame;
-            let body = body.with_longer_steps(choice.step_factor).ok_or_else(|| {
-                let message = format!("{} does not divide the {steps} steps of a frame", choice.step_factor);
-                experiment.field("run.step_factor".to_owned(), message)
-            })?;
+            let body = reduced_body(experiment, &scene, &trained_on.centroid, choice.step_factor)?;
             let guess = match choice.manifold {
                 ManifoldName::Network => rest.clone(),
                 ManifoldName::Linear => vec![0.0; manifold.coordinates()],
@@ -104,6 +105,21 @@ pub fn run<const D: usize>(
         }
     }
     Ok(rows)
+}
+
+/// The body of a scene about the origin of the training, with time steps so many times as long.
+fn reduced_body<const D: usize>(
+    experiment: &Experiment,
+    scene: &Scene,
+    centroid: &[f64; D],
+    step_factor: u64,
+) -> Result<ReducedBody<D>, ExperimentError> {
+    let body = ReducedBody::of(scene)?.about(centroid);
+    let steps = body.steps_per_frame;
+    body.with_longer_steps(step_factor).ok_or_else(|| {
+        let message = format!("{step_factor} does not divide the {steps} steps of a frame");
+        experiment.field("run.step_factor".to_owned(), message)
+    })
 }
 
 /// All combinations of what is asked for.
