@@ -178,24 +178,3 @@ impl<const D: usize, M: Manifold<D>> DeformationMap<D, M> {
         }
     }
 }
-
-/// v_p = ∂g/∂x̂ v̂ + b f′, f′ = 1, from the Jacobians of an evaluation at these points; `out` is overwritten.
-pub fn velocities<const D: usize>(
-    points: &MaterialPoints<D>,
-    evaluation: &Evaluation<D>,
-    rates: &[f64],
-    out: &mut Vec<[f64; D]>,
-) {
-    out.clear();
-    out.extend(evaluation.jacobians.chunks_exact(rates.len().max(1)).map(|columns| {
-        let mut velocity = [0.0; D];
-        for (column, rate) in columns.iter().zip(rates) {
-            vector::accumulate(&mut velocity, *rate, column);
-        }
-        velocity
-    }));
-    out.resize(points.reference.len(), [0.0; D]);
-    for (velocity, drift) in out.iter_mut().zip(&points.drifts) {
-        vector::accumulate(velocity, 1.0, drift);
-    }
-}

@@ -7,7 +7,7 @@ use mpm_scenes::Scene;
 use mpm_tensor::vector;
 
 use super::*;
-use crate::deformation_map::{DeformationMap, MaterialPoints, velocities};
+use crate::deformation_map::{DeformationMap, MaterialPoints};
 use crate::least_squares::LeastSquares;
 use crate::manifold::{Evaluation, Fields, Manifold, Wanted};
 
@@ -92,15 +92,16 @@ fn all_points<M: Manifold<2>>(model: &mut ReducedModel<2, M>) -> MaterialPoints<
 
 /// v_p of all points after one full-order step from the model's state.
 fn full_order_step(model: &mut ReducedModel<2, Fields<2>>) -> (Vec<[f64; 2]>, Evaluation<2>) {
-    let (mut there, mut start) = (Evaluation::default(), Vec::new());
+    let (mut there, mut moving) = (Evaluation::default(), Evaluation::default());
     let all = Wanted {
         gradients: true,
         jacobians: true,
     };
     let points = all_points(model);
     model.evaluate(&points, all, &mut there);
-    velocities(&points, &there, model.rates(), &mut start);
-    let body = model.body();
+    let (latent, rates, time) = (model.latent(), model.rates(), model.time());
+    model.map.evaluate_moving(&points, latent, rates, time, &mut moving);
+    let (body, start) = (model.body(), moving.velocities);
     let masses = body.volumes.iter().map(|volume| body.density * volume).collect();
     let numbers = (0..start.len() as u32).collect();
     let particles = Particles::in_order(
