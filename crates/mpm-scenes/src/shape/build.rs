@@ -89,10 +89,8 @@ fn twisted<const D: usize>(field: &str, shape: &ShapeTable, rate: f64) -> Result
             "a shape with finite bounds",
         ));
     }
-    Ok(Twisted {
-        shape: straight,
-        rate: within(&format!("{field}.rate"), rate, rate.is_finite(), "finite")?,
-    })
+    let rate = within(&format!("{field}.rate"), rate, rate.is_finite(), "finite")?;
+    Ok(Twisted::new(straight, rate))
 }
 
 fn polygon<const D: usize>(field: &str, corners: &[[f64; 2]]) -> Result<Polygon, SceneFault> {

@@ -120,10 +120,8 @@ proptest! {
     /// As above, for a twist, at points of a path that leaves the shape's bounds.
     #[test]
     fn a_twist_turns_sections_and_never_promises_too_much(x in [-2.0..2.0, -2.0..2.0, -1.5..3.0], rate in -2.0..2.0) {
-        let shape = Twisted {
-            shape: Box::new(Cuboid { lower: [-0.5, -0.25, 0.0], upper: [0.5, 0.25, 2.0] }),
-            rate,
-        };
+        let straight = Cuboid { lower: [-0.5, -0.25, 0.0], upper: [0.5, 0.25, 2.0] };
+        let shape = Twisted::new(Box::new(straight), rate);
         // The corner (½, ¼) of the section at this height is on the surface.
         let height = f64::clamp(x[2], 0.0, 2.0);
         let (sine, cosine) = (rate * height).sin_cos();

@@ -6,24 +6,25 @@ use super::{Bounds, Shape};
 /// straight shape's farthest point, whichever is larger, the straight shape's distance there over s(r) has the right sign and is never more than the distance.
 #[derive(Debug)]
 pub struct Twisted<const D: usize> {
-    /// The straight shape, with finite bounds.
-    pub shape: Box<dyn Shape<D>>,
-    /// Angle per height (rad/m).
-    pub rate: f64,
+    shape: Box<dyn Shape<D>>,
+    rate: f64,
+    /// The distance from the axis of the farthest corner of the straight shape's bounds.
+    radius: f64,
 }
 
 impl<const D: usize> Twisted<D> {
-    /// The distance from the axis of the farthest corner of the bounds.
-    fn radius(&self) -> f64 {
-        let Bounds { lower, upper } = self.shape.bounds();
+    /// A straight shape with finite bounds, and the angle per height (rad/m).
+    pub fn new(shape: Box<dyn Shape<D>>, rate: f64) -> Self {
+        let Bounds { lower, upper } = shape.bounds();
         let farthest = |axis: usize| lower[axis].abs().max(upper[axis].abs());
-        farthest(0).hypot(farthest(1))
+        let radius = farthest(0).hypot(farthest(1));
+        Self { shape, rate, radius }
     }
 }
 
 impl<const D: usize> Shape<D> for Twisted<D> {
     fn distance(&self, x: &[f64; D]) -> f64 {
-        let shear = self.rate.abs() * self.radius().max(x[0].hypot(x[1]));
+        let shear = self.rate.abs() * self.radius.max(x[0].hypot(x[1]));
         let stretch = 0.5 * (shear + shear.hypot(2.0));
         let (sine, cosine) = (self.rate * x[2]).sin_cos();
         let mut straight = *x;
@@ -33,9 +34,9 @@ impl<const D: usize> Shape<D> for Twisted<D> {
     }
 
     fn bounds(&self) -> Bounds<D> {
-        let (radius, mut bounds) = (self.radius(), self.shape.bounds());
-        bounds.lower[..2].fill(-radius);
-        bounds.upper[..2].fill(radius);
+        let mut bounds = self.shape.bounds();
+        bounds.lower[..2].fill(-self.radius);
+        bounds.upper[..2].fill(self.radius);
         bounds
     }
 
