@@ -4,8 +4,8 @@ use mpm_scenes::{HeldRegion, Kinematics, Population, Scene, Snapshot, frames};
 
 use super::scenes::scene;
 
-const TURNED: &str = r#"
-title = "a strip that is turned at one end and held at the other"
+const STRIP: &str = r#"
+title = "a strip"
 dimension = 2
 domain = { lower = [-1.0, -1.0], upper = [3.0, 2.0] }
 grid = { spacing = 0.25 }
@@ -18,7 +18,10 @@ output = { interval = 0.05 }
 name = "strip"
 shape = { kind = "box", lower = [0.0, 0.0], upper = [2.0, 0.5] }
 material = "rubber"
+"#;
 
+/// Turned at one end and held at the other.
+const TURNED: &str = r#"
 [[kinematic]]
 region = { kind = "box", lower = [0.0, 0.0], upper = [0.25, 0.5] }
 
@@ -29,6 +32,11 @@ rotation = { centre = [2.0, 0.25], rate = [1.5] }
 until = 0.1
 "#;
 
+/// The strip with these regions.
+fn strip(regions: &str) -> String {
+    format!("{STRIP}{regions}")
+}
+
 fn all_frames(scene: &Scene) -> Vec<Snapshot> {
     let mut all = Vec::new();
     let effort = frames(scene, &mut |frame| all.push(frame)).expect("runs");
@@ -38,7 +46,7 @@ fn all_frames(scene: &Scene) -> Vec<Snapshot> {
 
 #[test]
 fn kinematic_particles_are_where_their_motion_puts_them_until_they_are_let_go() {
-    let scene = scene(TURNED);
+    let scene = scene(&strip(TURNED));
     let population = Population::<2>::fill(&scene).expect("fills");
     let kinematics = Kinematics::of(&scene, &population).expect("both regions hold particles");
     assert_eq!(
@@ -69,7 +77,7 @@ fn kinematic_particles_are_where_their_motion_puts_them_until_they_are_let_go() 
 
 #[test]
 fn a_region_without_particles_is_an_error_with_its_field() {
-    let text = TURNED.replace(
+    let text = strip(TURNED).replace(
         "lower = [1.75, 0.0], upper = [2.0, 0.5]",
         "lower = [2.1, 0.0], upper = [2.5, 0.5]",
     );
@@ -80,7 +88,7 @@ fn a_region_without_particles_is_an_error_with_its_field() {
 
 #[test]
 fn frames_in_memory_are_those_of_the_files() {
-    let scene = scene(TURNED);
+    let scene = scene(&strip(TURNED));
     let directory = tempfile::tempdir().expect("a directory");
     mpm_scenes::simulate(&scene, directory.path(), &mut ()).expect("runs");
     for (number, frame) in all_frames(&scene).iter().enumerate() {
@@ -89,31 +97,17 @@ fn frames_in_memory_are_those_of_the_files() {
     }
 }
 
-/// A block all of whose nodes are held by a region that moves.
+/// All nodes around it are held by a region that moves.
 const CARRIED: &str = r#"
-title = "a block that is carried and turned"
-dimension = 2
-domain = { lower = [-2.0, -2.0], upper = [3.0, 3.0] }
-grid = { spacing = 0.25 }
-transfer = { kind = "pic" }
-time = { end = 0.2, step = 0.0050000001, courant = 0.5 }
-materials.rubber = { law = "fixed-corotated", density = 1.0, young_modulus = 100.0, poisson_ratio = 0.3 }
-output = { interval = 0.05 }
-
-[[bodies]]
-name = "block"
-shape = { kind = "box", lower = [0.0, 0.0], upper = [1.0, 0.5] }
-material = "rubber"
-
 [[held]]
-shape = { kind = "box", lower = [-0.5, -0.5], upper = [1.5, 1.0] }
+shape = { kind = "box", lower = [-0.5, -0.5], upper = [2.5, 1.0] }
 velocity = [1.0, -0.5]
 rotation = { centre = [0.2, 0.1], rate = [4.0] }
 "#;
 
 #[test]
 fn held_nodes_that_move_and_turn_carry_a_body_exactly() {
-    let scene = scene(CARRIED);
+    let scene = scene(&strip(CARRIED));
     let population = Population::<2>::fill(&scene).expect("fills");
     let motion = HeldRegion::<2>::of(&scene).expect("one region")[0].motion;
     for frame in all_frames(&scene) {
@@ -135,7 +129,7 @@ fn held_nodes_that_move_and_turn_carry_a_body_exactly() {
 
 #[test]
 fn held_nodes_are_let_go_after_their_time() {
-    let text = CARRIED
+    let text = strip(CARRIED)
         .replace("rotation = { centre = [0.2, 0.1], rate = [4.0] }", "until = 0.1")
         .replace("dimension = 2", "dimension = 2\ngravity = [0.0, -10.0]");
     let scene = scene(&text);
@@ -164,7 +158,7 @@ fn motions_of_held_nodes_that_make_no_sense_are_errors_with_their_field() {
         ("velocity = [1.0, -0.5]", "until = -1.0", "held[0].until"),
         ("velocity = [1.0, -0.5]", "till = 1.0", "unknown field `till`"),
     ] {
-        let error = Scene::parse(&CARRIED.replace(from, to), "carried.toml".as_ref()).expect_err(to);
+        let error = Scene::parse(&strip(CARRIED).replace(from, to), "carried.toml".as_ref()).expect_err(to);
         assert!(error.to_string().contains(said), "{error}");
     }
 }
