@@ -63,6 +63,7 @@ fn a_model_is_trained_and_run() {
         [
             "checkpoint.safetensors",
             "config.toml",
+            "coordinates.svg",
             "errors.svg",
             "frames.csv",
             "losses.csv",

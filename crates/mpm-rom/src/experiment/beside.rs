@@ -2,13 +2,15 @@
 
 use std::time::Instant;
 
+use super::comparison::Comparison;
+use super::frame_files::FrameFiles;
 use super::results::{FrameRow, ReducedRow};
+use super::super_resolution::{Finer, SuperResolved};
 use super::{ChoiceName, ExperimentError, ManifoldName, QuadratureName, SampleCount, UpdateName};
 use crate::deformation_map::DeformationMap;
-use crate::manifold::{Evaluation, Manifold, Wanted};
+use crate::manifold::Manifold;
 use crate::online::{Options, ReducedBody, ReducedModel, StepReport};
-use crate::position_error::PositionError;
-use crate::snapshots::Snapshots;
+use crate::snapshots::{Frame, Snapshots};
 
 /// What a reduced run is made with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,10 +36,12 @@ pub(super) struct Full<const D: usize> {
     pub snapshots: Snapshots<D>,
     /// Its wall time.
     pub seconds: f64,
+    /// The run of the same case with more points.
+    pub finer: Option<Finer<D>>,
 }
 
 /// Runs as many frames as the full-order run has, or up to the first error. The first frame, where both start, has no part in the error.
-/// The search for x̂₀ begins at `guess`.
+/// The search for x̂₀ begins at `guess`; `files` takes the frames.
 pub(super) fn beside<const D: usize>(
     manifold: &dyn Manifold<D>,
     guess: &[f64],
@@ -45,16 +49,21 @@ pub(super) fn beside<const D: usize>(
     full: &Full<D>,
     choice: &Choice,
     options: Options,
-) -> Result<(ReducedRow, Vec<FrameRow>), ExperimentError> {
+    mut files: Option<FrameFiles>,
+) -> Result<ReducedRow, ExperimentError> {
     let map = DeformationMap::new(manifold, full.snapshots.reference(), guess)?;
     let mut reduced = ReducedModel::new(body, map, options)?;
-    let points = reduced.prepare(full.snapshots.reference());
-    let (mut total, mut evaluation) = (PositionError::default(), Evaluation::default());
+    let mut own = Comparison::new(&mut reduced, &full.snapshots);
+    let mut finer = full
+        .finer
+        .as_ref()
+        .filter(|_| choice.manifold == ManifoldName::Network)
+        .map(|finer| (Comparison::new(&mut reduced, &finer.snapshots), finer));
     let (mut report, mut seconds, mut outcome) = (StepReport::default(), 0.0, "finished".to_owned());
     let mut rows = Vec::new();
-    for frame in full.snapshots.runs().iter().flat_map(|run| &run.frames) {
-        let mut error = PositionError::default();
-        if !rows.is_empty() {
+    for (number, frame) in frames_of(&full.snapshots).enumerate() {
+        let first = number == 0;
+        if !first {
             let start = Instant::now();
             let advanced = reduced.advance_frame();
             seconds += start.elapsed().as_secs_f64();
@@ -66,21 +75,24 @@ pub(super) fn beside<const D: usize>(
                 }
             }
         }
-        reduced.evaluate(&points, Wanted::default(), &mut evaluation);
-        error.add(&evaluation.positions, &frame.positions);
-        if !rows.is_empty() {
-            total.merge(&error);
-        }
         rows.push(FrameRow {
             time: reduced.time(),
-            error: error.percent().unwrap_or(0.0),
+            error: own.add(&reduced, frame, first),
             latent: reduced.latent().to_vec(),
         });
+        if let Some((comparison, finer)) = &mut finer
+            && let Some(frame) = frames_of(&finer.snapshots).nth(number)
+        {
+            comparison.add(&reduced, frame, first);
+        }
+        if let Some(files) = &mut files {
+            let points = finer.as_ref().map_or(&own.points, |(comparison, _)| &comparison.points);
+            files.write(&reduced.snapshot(points))?;
+        }
     }
     let steps = reduced.timings().steps;
-    let frames: usize = full.snapshots.runs().iter().map(|run| run.frames.len()).sum();
-    let all_steps = (frames as u64).saturating_sub(1) * reduced.body().steps_per_frame;
-    let row = ReducedRow {
+    let all_steps = (frames_of(&full.snapshots).count() as u64).saturating_sub(1) * reduced.body().steps_per_frame;
+    Ok(ReducedRow {
         case: full.case,
         parameters: full
             .snapshots
@@ -97,8 +109,14 @@ pub(super) fn beside<const D: usize>(
         quadrature: choice.quadrature.name(),
         update: choice.update.name(),
         step_factor: choice.step_factor,
-        error: total.percent().unwrap_or(0.0),
+        error: own.percent(),
         reconstruction_error: None,
+        super_resolved: finer.map(|(comparison, finer)| SuperResolved {
+            points: finer.snapshots.points(),
+            error: comparison.percent(),
+            tracer_error: finer.tracer_error,
+        }),
+        latent_return: latent_return(&rows),
         simulated: steps as f64 * reduced.body().time_step,
         steps,
         seconds,
@@ -106,7 +124,26 @@ pub(super) fn beside<const D: usize>(
         nodes: report.nodes,
         quadrature_points: report.quadrature_points,
         refreshes: report.refreshes,
+        left_out: report.left_out,
         outcome,
+        frames: rows,
+    })
+}
+
+/// The frames of a full-order run.
+fn frames_of<const D: usize>(snapshots: &Snapshots<D>) -> impl Iterator<Item = &Frame<D>> {
+    snapshots.runs().iter().flat_map(|run| &run.frames)
+}
+
+/// How far x̂ is from its start in the end, over its largest distance from there: 0 where the path is closed. A path that never leaves its start is.
+fn latent_return(rows: &[FrameRow]) -> f64 {
+    let distance = |row: &FrameRow| {
+        let pairs = row.latent.iter().zip(&rows[0].latent);
+        pairs.map(|(y, start)| (y - start).powi(2)).sum::<f64>().sqrt()
     };
-    Ok((row, rows))
+    let largest = rows.iter().map(distance).fold(0.0, f64::max);
+    match rows.last() {
+        Some(last) if largest > 0.0 => distance(last) / largest,
+        _ => 0.0,
+    }
 }

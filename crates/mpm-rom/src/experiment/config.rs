@@ -202,6 +202,13 @@ pub struct ReducedRuns {
     pub points_per_axis: usize,
     /// The skin of neighbour lists, in grid spacings.
     pub skin: f64,
+    /// What happens at quadrature points with J ≤ 0: `"refuse"` ends the run, `"leave-out"` goes on without them and counts them.
+    pub inverted: Inverted,
+    /// Super-resolution: the file of a scene of the same body with more points, seen from the experiment's. Reduced runs are then also compared with its full-order runs, at its points,
+    /// and so are tracers on the runs of the scene itself. Linear manifolds know their own points only and are left out.
+    pub super_resolution: Option<PathBuf>,
+    /// Whether every reduced run writes its frames as `.vtu` files, at the points of the super-resolution or else at those that errors are taken at.
+    pub vtu: bool,
 }
 
 impl Default for ReducedRuns {
@@ -217,6 +224,9 @@ impl Default for ReducedRuns {
             step_factor: vec![1],
             points_per_axis: 2,
             skin: 0.5,
+            inverted: Inverted::Refuse,
+            super_resolution: None,
+            vtu: false,
         }
     }
 }
@@ -242,13 +252,13 @@ impl ReducedRuns {
                 },
                 (QuadratureName::Eulerian, _) => Quadrature::Eulerian {
                     per_axis: self.points_per_axis,
-                    inverted: Inverted::Refuse,
                 },
             },
             update: match choice.update {
                 UpdateName::VelocityOnly => Update::VelocityOnly,
                 UpdateName::PositionVelocity => Update::position_velocity(),
             },
+            inverted: self.inverted,
         }
     }
 }
@@ -286,6 +296,11 @@ impl Experiment {
     /// The file of the scene that reduced runs are runs of.
     pub fn run_scene_file(&self) -> PathBuf {
         self.beside(self.run.scene.as_ref().unwrap_or(&self.scene))
+    }
+
+    /// The file of the scene with more points.
+    pub fn super_resolution_file(&self) -> Option<PathBuf> {
+        self.run.super_resolution.as_ref().map(|file| self.beside(file))
     }
 
     fn beside(&self, file: &Path) -> PathBuf {

@@ -6,8 +6,10 @@ use mpm_scenes::Scene;
 
 use super::beside::{Choice, Full, beside};
 use super::files::{self, names};
+use super::frame_files::FrameFiles;
 use super::results::{self, ReducedRow};
 use super::sampling::{Chosen, Sampling};
+use super::super_resolution::Finer;
 use super::trained::model_for;
 use super::{ChoiceName, Experiment, ExperimentError, ManifoldName, SampleCount};
 use crate::full_order::{FullOrderError, Recording, SceneDocument};
@@ -30,6 +32,8 @@ pub fn run<const D: usize>(
 ) -> Result<Vec<ReducedRow>, ExperimentError> {
     experiment.occupy(directory)?;
     let document = SceneDocument::read(&experiment.run_scene_file())?;
+    let finer = experiment.super_resolution_file();
+    let finer = finer.map(|file| SceneDocument::read(&file)).transpose()?;
     let (model, trained_on) = model_for::<D>(experiment, directory)?;
     let rest = model.encoder().encode(&trained_on.reference)?;
     let training = training::<D>(experiment, directory)?;
@@ -54,10 +58,11 @@ pub fn run<const D: usize>(
             }
         }
     }
-    let (choices, mut rows, mut frames) = (choices(experiment), Vec::new(), Vec::new());
+    let (choices, mut rows) = (choices(experiment), Vec::new());
     let runs = choices.len() * experiment.cases.test.len();
     for (case, values) in experiment.cases.test.iter().enumerate() {
-        let scene = document.scene(&experiment.case(values)?.changes)?;
+        let changed = experiment.case(values)?;
+        let scene = document.scene(&changed.changes)?;
         // Full-order runs can be long: what makes no reduced body is refused before them.
         for &factor in &experiment.run.step_factor {
             reduced_body(experiment, &scene, &trained_on.centroid, factor)?;
@@ -75,10 +80,18 @@ pub fn run<const D: usize>(
             None => Some(model.reconstruction_error(&snapshots)?),
             Some(_) => None,
         };
+        let finer = match &finer {
+            None => None,
+            Some(finer) => {
+                let coarse = reduced_body(experiment, &scene, &trained_on.centroid, 1)?;
+                Some(Finer::run(experiment, finer, &changed, &coarse, &snapshots)?)
+            }
+        };
         let full = Full {
             case,
             snapshots,
             seconds: effort.time.as_secs_f64(),
+            finer,
         };
         for choice in &choices {
             let network = (model.network() as &dyn Manifold<D>, reconstruction_error);
@@ -92,13 +105,13 @@ pub fn run<const D: usize>(
                 ManifoldName::Linear => vec![0.0; manifold.coordinates()],
             };
             let options = experiment.run.options(choice, &greedy);
-            let (mut row, of_run) = beside(manifold, &guess, body, &full, choice, options)?;
+            let written = experiment.run.vtu.then(|| FrameFiles::of_run(directory, rows.len()));
+            let mut row = beside(manifold, &guess, body, &full, choice, options, written.transpose()?)?;
             row.reconstruction_error = reconstruction_error;
-            frames.push(of_run);
             rows.push(row);
             let table = results::results(&experiment.parameters, &rows);
             files::write(&directory.join(names::RESULTS), &table)?;
-            files::write(&directory.join(names::FRAMES), &results::frames(&frames))?;
+            files::write(&directory.join(names::FRAMES), &results::frames(&rows))?;
             if !after_run(rows.len(), runs) {
                 return Err(ExperimentError::Stopped);
             }

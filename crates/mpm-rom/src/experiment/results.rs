@@ -2,6 +2,8 @@
 
 use std::fmt::Write;
 
+use super::SuperResolved;
+
 /// A reduced run beside the full-order run of the same case.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReducedRow {
@@ -25,6 +27,10 @@ pub struct ReducedRow {
     pub error: f64,
     /// What encoder and network lose of the full-order frames without any dynamics, in per cent; `None` without an encoder.
     pub reconstruction_error: Option<f64>,
+    /// At the points of the scene with more points, where there is one.
+    pub super_resolved: Option<SuperResolved>,
+    /// ‖x̂ − x̂₀‖ at the end over its largest value: 0 where the path of the coordinates is closed.
+    pub latent_return: f64,
     /// Time simulated (s).
     pub simulated: f64,
     /// Steps.
@@ -39,8 +45,12 @@ pub struct ReducedRow {
     pub quadrature_points: usize,
     /// Neighbour lists made.
     pub refreshes: u64,
+    /// Quadrature points that were left out because of J ≤ 0, counted in every step.
+    pub left_out: usize,
     /// `finished`, or why the run ended before its time.
     pub outcome: String,
+    /// All frames reached.
+    pub frames: Vec<FrameRow>,
 }
 
 impl ReducedRow {
@@ -70,54 +80,68 @@ pub struct FrameRow {
 
 /// All rows as CSV.
 pub(super) fn results(parameters: &[String], rows: &[ReducedRow]) -> String {
-    let mut text = format!(
-        "case,{},manifold,samples,choice,quadrature,update,step_factor,position_error_percent,",
-        parameters.join(",")
-    );
-    text.push_str(
-        "reconstruction_error_percent,simulated_seconds,steps,seconds,full_seconds,speed_up,real_time_factor,",
-    );
-    text.push_str("nodes,quadrature_points,neighbour_lists,outcome\n");
+    let mut text = String::new();
     for row in rows {
-        let values: Vec<String> = row.parameters.iter().map(|value| format!("{value:?}")).collect();
-        let (speed_up, real_time) = (row.full_seconds / row.seconds, row.simulated / row.seconds);
-        // A String takes everything.
-        let _ = writeln!(
-            text,
-            "{},{},{},{},{},{},{},{},{:?},{},{:?},{},{:.6},{:.6},{speed_up:.3},{real_time:.3},{},{},{},\"{}\"",
-            row.case,
-            values.join(","),
-            row.manifold,
-            row.samples,
-            row.chosen,
-            row.quadrature,
-            row.update,
-            row.step_factor,
-            row.error,
-            row.reconstruction_error
-                .map_or(String::new(), |error| format!("{error:?}")),
-            row.simulated,
-            row.steps,
-            row.seconds,
-            row.full_seconds,
-            row.nodes,
-            row.quadrature_points,
-            row.refreshes,
-            row.outcome.replace('"', "'"),
-        );
+        let columns = columns(parameters, row);
+        if text.is_empty() {
+            let names: Vec<&str> = columns.iter().map(|(name, _)| *name).collect();
+            text = names.join(",") + "\n";
+        }
+        let values: Vec<String> = columns.into_iter().map(|(_, value)| value).collect();
+        text += &(values.join(",") + "\n");
     }
     text
 }
 
+/// Names and values of a row, empty where there are none.
+fn columns<'a>(parameters: &'a [String], row: &ReducedRow) -> Vec<(&'a str, String)> {
+    let exact = |value: f64| format!("{value:?}");
+    let some = |value: Option<f64>| value.map(exact).unwrap_or_default();
+    let fine = row.super_resolved;
+    let mut columns = vec![("case", row.case.to_string())];
+    let named = parameters.iter().zip(&row.parameters);
+    columns.extend(named.map(|(name, &value)| (name.as_str(), exact(value))));
+    columns.extend([
+        ("manifold", row.manifold.to_owned()),
+        ("samples", row.samples.to_string()),
+        ("choice", row.chosen.to_owned()),
+        ("quadrature", row.quadrature.to_owned()),
+        ("update", row.update.to_owned()),
+        ("step_factor", row.step_factor.to_string()),
+        ("position_error_percent", exact(row.error)),
+        ("reconstruction_error_percent", some(row.reconstruction_error)),
+        (
+            "super_resolution_points",
+            fine.map(|fine| fine.points.to_string()).unwrap_or_default(),
+        ),
+        ("super_resolution_error_percent", some(fine.map(|fine| fine.error))),
+        ("tracer_error_percent", some(fine.map(|fine| fine.tracer_error))),
+        ("latent_return", exact(row.latent_return)),
+        ("simulated_seconds", exact(row.simulated)),
+        ("steps", row.steps.to_string()),
+        ("seconds", format!("{:.6}", row.seconds)),
+        ("full_seconds", format!("{:.6}", row.full_seconds)),
+        ("speed_up", format!("{:.3}", row.full_seconds / row.seconds)),
+        ("real_time_factor", format!("{:.3}", row.simulated / row.seconds)),
+        ("nodes", row.nodes.to_string()),
+        ("quadrature_points", row.quadrature_points.to_string()),
+        ("neighbour_lists", row.refreshes.to_string()),
+        ("left_out", row.left_out.to_string()),
+        ("outcome", format!("\"{}\"", row.outcome.replace('"', "'"))),
+    ]);
+    columns
+}
+
 /// All frames of all runs as CSV; `run` is the row of the run in the results, counted from 0.
-pub(super) fn frames(runs: &[Vec<FrameRow>]) -> String {
-    let coordinates = runs.iter().flatten().next().map_or(0, |row| row.latent.len());
+pub(super) fn frames(runs: &[ReducedRow]) -> String {
+    let first = runs.iter().flat_map(|run| &run.frames).next();
+    let coordinates = first.map_or(0, |frame| frame.latent.len());
     let names: String = (1..=coordinates).map(|k| format!(",x{k}")).collect();
     let mut text = format!("run,time,position_error_percent{names}\n");
-    for (run, rows) in runs.iter().enumerate() {
-        for row in rows {
-            let latent: String = row.latent.iter().map(|value| format!(",{value:?}")).collect();
-            let _ = writeln!(text, "{run},{:?},{:?}{latent}", row.time, row.error);
+    for (number, run) in runs.iter().enumerate() {
+        for frame in &run.frames {
+            let latent: String = frame.latent.iter().map(|value| format!(",{value:?}")).collect();
+            let _ = writeln!(text, "{number},{:?},{:?}{latent}", frame.time, frame.error);
         }
     }
     text

@@ -13,7 +13,7 @@ use crate::least_squares::{GaussNewton, LeastSquares, Settings};
 use crate::manifold::{Evaluation, Manifold, Wanted};
 use crate::model::Model;
 use crate::online::{
-    Options, Quadrature, Reading, ReducedBody, ReducedModel, SampleChoice, Search, Update, choose_greedily,
+    Inverted, Options, Quadrature, Reading, ReducedBody, ReducedModel, SampleChoice, Search, Update, choose_greedily,
 };
 use crate::snapshots::{Frame, Run, Snapshots};
 
@@ -133,10 +133,11 @@ impl<const D: usize> Sampling<'_, D> {
                 case,
                 snapshots,
                 seconds: 0.0,
+                finer: None,
             };
             let body = ReducedBody::of(&self.scene(case)?)?;
             let guess = self.guess(name, &body.reference)?;
-            let (row, _) = beside(manifold, &guess, body, &full, &choice, options.clone())?;
+            let row = beside(manifold, &guess, body, &full, &choice, options.clone(), None)?;
             let finished = row.outcome == "finished" && row.error.is_finite();
             mean += if finished { row.error } else { f64::INFINITY } / tried.len() as f64;
         }
@@ -166,6 +167,7 @@ impl<const D: usize> Sampling<'_, D> {
             samples: SampleChoice::All,
             quadrature: Quadrature::Lagrangian { search: Search::All },
             update: Update::VelocityOnly,
+            inverted: Inverted::Refuse,
         };
         let mut reduced = ReducedModel::new(body, map, options)?;
         let frames = &self.snapshots.runs()[run].frames;

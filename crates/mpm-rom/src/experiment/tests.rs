@@ -244,3 +244,61 @@ fn a_model_of_a_part_of_the_points_runs_a_finer_scene() {
         "{error}"
     );
 }
+
+#[test]
+fn more_points_than_those_of_the_dynamics_are_compared_with_a_run_of_their_own() {
+    let (directory, file) = files();
+    let denser = SCENE.replace("material = \"rubber\"", "material = \"rubber\"\nparticles_per_axis = 3");
+    std::fs::write(directory.path().join("denser.toml"), &denser).expect("written");
+    let text = EXPERIMENT.replace(
+        "manifold = [\"network\", \"linear\"], samples = [20, \"all\"], quadrature = [\"lagrangian\"]",
+        "manifold = [\"network\", \"linear\"], super_resolution = \"denser.toml\", vtu = true, samples = [20], inverted = \"leave-out\"",
+    );
+    let experiment = Experiment::parse(&text, &file).expect("sound");
+    let out = directory.path().join("out");
+    train::<2>(&experiment, &out, &mut ()).expect("trained");
+    let rows = run::<2>(&experiment, &out, &mut |_, _| true).expect("run");
+    assert_eq!(rows.len(), 4);
+    assert!(rows[2..].iter().all(|row| row.super_resolved.is_none()), "linear");
+    for row in &rows[..2] {
+        let fine = row.super_resolved.expect("asked for");
+        assert_eq!(fine.points, 144);
+        // The same grid, so that particles and tracers of the coarse run see nearly the same motion.
+        assert!(fine.tracer_error > 0.0 && fine.tracer_error < 1.0, "{fine:?}");
+        assert!(
+            fine.error > 0.0 && (fine.error - row.error).abs() < 0.2 * row.error,
+            "{row:?}"
+        );
+        assert!(row.latent_return > 0.0 && row.latent_return <= 1.0);
+    }
+    let table = std::fs::read_to_string(out.join(names::RESULTS)).expect("a table");
+    let names = table.lines().next().expect("a head");
+    assert!(names.starts_with("case,gravity,angle,manifold,samples,"), "{names}");
+    for line in table.lines() {
+        assert_eq!(line.split(',').count(), names.split(',').count(), "{line}");
+    }
+    for run in ["run_0000", "run_0001"] {
+        let run = out.join(run);
+        let index = std::fs::read_to_string(run.join("particles.pvd")).expect("an index");
+        assert_eq!(index.matches("DataSet").count(), 5);
+        let last = std::fs::read(run.join("particles_000004.vtu")).expect("the last frame");
+        let head = String::from_utf8_lossy(&last[..last.len().min(4000)]).into_owned();
+        assert!(head.contains("NumberOfPoints=\"144\""), "{head}");
+    }
+
+    for (change, expected) in [
+        (("interval = 0.05", "interval = 0.1"), "a frame every 0.1 s"),
+        (
+            ("end = 0.2", "end = 0.3"),
+            "7 frames, where the scene that is run has 5",
+        ),
+    ] {
+        std::fs::write(directory.path().join("denser.toml"), denser.replace(change.0, change.1)).expect("written");
+        let error = run::<2>(&experiment, &out, &mut |_, _| true).expect_err("refused");
+        let message = error.to_string();
+        assert!(
+            message.contains("run.super_resolution") && message.contains(expected),
+            "{message}"
+        );
+    }
+}

@@ -4,9 +4,9 @@ use mpm_tensor::{Matrix, vector};
 
 use super::lagrangian::Instant;
 use super::nodes::Nodes;
-use super::quadrature::{QuadraturePoints, checked_volume_ratio};
+use super::quadrature::QuadraturePoints;
 use super::support::Support;
-use super::{Inverted, OnlineError, ReducedBody};
+use super::{OnlineError, ReducedBody};
 use crate::deformation_map::{DeformationMap, MaterialPoints};
 use crate::manifold::{Evaluation, Manifold};
 
@@ -26,7 +26,6 @@ const LONGEST_REST: f64 = 32.0;
 /// case, then nearly always shows that no other is.
 pub(super) struct Eulerian<const D: usize> {
     per_axis: usize,
-    inverted: Inverted,
     support: Support<D>,
     /// What is known of the points, ℓᴰ entries per cell; of this step, and of the one before.
     known: Vec<Option<Known<D>>>,
@@ -36,8 +35,6 @@ pub(super) struct Eulerian<const D: usize> {
     guesses: Vec<[f64; D]>,
     prepared: MaterialPoints<D>,
     evaluation: Evaluation<D>,
-    /// Points that the step left out because of J ≤ 0.
-    pub left_out: usize,
 }
 
 /// Where a point of space was in the body at rest.
@@ -58,10 +55,9 @@ struct Sought<const D: usize> {
 }
 
 impl<const D: usize> Eulerian<D> {
-    pub fn new(per_axis: usize, inverted: Inverted) -> Self {
+    pub fn new(per_axis: usize) -> Self {
         Self {
             per_axis,
-            inverted,
             support: Support::default(),
             known: Vec::new(),
             known_before: Vec::new(),
@@ -69,7 +65,6 @@ impl<const D: usize> Eulerian<D> {
             guesses: Vec::new(),
             prepared: MaterialPoints::default(),
             evaluation: Evaluation::default(),
-            left_out: 0,
         }
     }
 
@@ -88,7 +83,6 @@ impl<const D: usize> Eulerian<D> {
         self.support.find(nodes);
         self.guess(body, nodes, reference, samples, now);
         out.clear();
-        self.left_out = 0;
         let tolerance = TOLERANCE * nodes.grid.spacing();
         for _ in 0..EVALUATIONS {
             if self.sought.is_empty() {
@@ -168,10 +162,8 @@ impl<const D: usize> Eulerian<D> {
             if vector::maximum_norm(&rest) <= tolerance {
                 let outside = body.distance(&reference);
                 if outside <= 0.0 {
-                    match (checked_volume_ratio(&gradient, &reference, now.step), self.inverted) {
-                        (Ok(ratio), _) => out.push(x, v, gradient, volume / ratio),
-                        (Err(error), Inverted::Refuse) => return Err(error),
-                        (Err(_), Inverted::LeaveOut) => self.left_out += 1,
+                    if let Some(ratio) = out.admit(&gradient, &reference, now)? {
+                        out.push(x, v, gradient, volume / ratio);
                     }
                 }
                 self.known[number] = inverse.map(|inverse| {

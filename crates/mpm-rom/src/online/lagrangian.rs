@@ -2,8 +2,8 @@
 
 use super::neighbours::{NeighbourList, Search};
 use super::nodes::Nodes;
-use super::quadrature::{QuadraturePoints, checked_volume_ratio};
-use super::{OnlineError, ReducedBody};
+use super::quadrature::QuadraturePoints;
+use super::{Inverted, OnlineError, ReducedBody};
 use crate::deformation_map::{DeformationMap, MaterialPoints};
 use crate::manifold::{Evaluation, Manifold, Wanted};
 
@@ -28,6 +28,8 @@ pub(super) struct Instant<'a, const D: usize> {
     pub step: u64,
     /// x_p of the sample points.
     pub samples: &'a [[f64; D]],
+    /// What happens at J ≤ 0.
+    pub inverted: Inverted,
 }
 
 impl<const D: usize> Lagrangian<D> {
@@ -57,13 +59,15 @@ impl<const D: usize> Lagrangian<D> {
         self.chosen.select(all, &self.touching);
         map.evaluate_moving(&self.chosen, now.latent, now.rates, now.time, &mut self.evaluation);
         out.clear();
-        out.positions.extend_from_slice(&self.evaluation.positions);
-        out.gradients.extend_from_slice(&self.evaluation.gradients);
-        out.velocities.extend_from_slice(&self.evaluation.velocities);
-        let volumes = self.touching.iter().filter_map(|&p| body.volumes.get(p as usize));
-        out.volumes.extend(volumes);
-        for (gradient, reference) in out.gradients.iter().zip(&self.chosen.reference) {
-            checked_volume_ratio(gradient, reference, now.step)?;
+        let there = &self.evaluation;
+        let moving = there.positions.iter().zip(&there.velocities).zip(&there.gradients);
+        let numbered = self.touching.iter().zip(&self.chosen.reference);
+        for (((x, v), gradient), (&p, reference)) in moving.zip(numbered) {
+            if out.admit(gradient, reference, now)?.is_some()
+                && let Some(&volume) = body.volumes.get(p as usize)
+            {
+                out.push(*x, *v, *gradient, volume);
+            }
         }
         Ok(())
     }

@@ -13,8 +13,8 @@ mod options;
 mod quadrature;
 mod reading;
 mod samples;
+mod snapshot;
 mod step;
-mod super_resolution;
 mod support;
 #[cfg(test)]
 mod tests;
@@ -28,5 +28,4 @@ pub use options::{Inverted, Options, Quadrature, Update};
 pub use reading::Reading;
 pub use samples::SampleChoice;
 pub use step::{ReducedModel, StepReport};
-pub use super_resolution::super_resolve;
 pub use timings::Timings;

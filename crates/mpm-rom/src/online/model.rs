@@ -118,7 +118,7 @@ fn scheme<const D: usize>(quadrature: &Quadrature) -> Result<Scheme<D>, OnlineEr
             }
             Ok(Scheme::Lagrangian(Lagrangian::new(search)))
         }
-        Quadrature::Eulerian { per_axis, inverted } => {
+        Quadrature::Eulerian { per_axis } => {
             if !(1..=16).contains(&per_axis) {
                 return Err(OnlineError::Option {
                     field: "per_axis",
@@ -126,7 +126,7 @@ fn scheme<const D: usize>(quadrature: &Quadrature) -> Result<Scheme<D>, OnlineEr
                     expected: "1 to 16",
                 });
             }
-            Ok(Scheme::Eulerian(Eulerian::new(per_axis, inverted)))
+            Ok(Scheme::Eulerian(Eulerian::new(per_axis)))
         }
     }
 }

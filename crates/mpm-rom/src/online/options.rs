@@ -1,5 +1,7 @@
 //! The choices of a reduced run.
 
+use serde::Deserialize;
+
 use super::neighbours::Search;
 use super::samples::SampleChoice;
 use crate::least_squares::Settings;
@@ -13,6 +15,8 @@ pub struct Options {
     pub quadrature: Quadrature,
     /// How x̂ follows from the velocities of the sample points.
     pub update: Update,
+    /// What happens at J ≤ 0.
+    pub inverted: Inverted,
 }
 
 /// The quadrature of nodal masses, momenta and forces.
@@ -27,18 +31,17 @@ pub enum Quadrature {
     Eulerian {
         /// ℓ, points per axis of a cell; the paper's is 2.
         per_axis: usize,
-        /// What happens at J ≤ 0.
-        inverted: Inverted,
     },
 }
 
-/// What happens where the map has J ≤ 0 at a quadrature point of space.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// What happens where the map has J ≤ 0 at a quadrature point.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Inverted {
     /// The run ends with an error.
     #[default]
     Refuse,
-    /// The point carries nothing; such points are counted in the step's report.
+    /// The point carries nothing, neither mass nor force; such points are counted in the step's report.
     LeaveOut,
 }
 

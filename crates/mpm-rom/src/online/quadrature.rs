@@ -3,7 +3,8 @@
 use mpm_materials::Material;
 use mpm_tensor::Matrix;
 
-use super::OnlineError;
+use super::lagrangian::Instant;
+use super::{Inverted, OnlineError};
 
 /// One entry per point in every list.
 #[derive(Clone, Debug, Default)]
@@ -18,6 +19,8 @@ pub(super) struct QuadraturePoints<const D: usize> {
     pub volumes: Vec<f64>,
     /// τ_q.
     stresses: Vec<Matrix<D>>,
+    /// Points that were left out because of J ≤ 0, counted in every step.
+    pub left_out: usize,
 }
 
 impl<const D: usize> QuadraturePoints<D> {
@@ -26,12 +29,36 @@ impl<const D: usize> QuadraturePoints<D> {
         self.positions.len()
     }
 
-    /// No points; the storage stays.
+    /// No points; the storage stays, and the count of what was left out.
     pub fn clear(&mut self) {
         self.positions.clear();
         self.velocities.clear();
         self.gradients.clear();
         self.volumes.clear();
+    }
+
+    /// J of a point, if it is positive; `None` if the point is to be left out, which is counted.
+    pub fn admit(
+        &mut self,
+        gradient: &Matrix<D>,
+        reference: &[f64; D],
+        now: &Instant<D>,
+    ) -> Result<Option<f64>, OnlineError> {
+        let volume_ratio = gradient.determinant();
+        if volume_ratio > 0.0 && volume_ratio.is_finite() {
+            return Ok(Some(volume_ratio));
+        }
+        match now.inverted {
+            Inverted::Refuse => Err(OnlineError::Inverted {
+                step: now.step,
+                reference: reference.to_vec(),
+                volume_ratio,
+            }),
+            Inverted::LeaveOut => {
+                self.left_out += 1;
+                Ok(None)
+            }
+        }
     }
 
     /// A point with x_q, v_q, F_q and m_q / ρ₀.
@@ -56,21 +83,4 @@ impl<const D: usize> QuadraturePoints<D> {
             .zip(rest)
             .map(|((x, v), (&volume, stress))| (x, v, volume, stress))
     }
-}
-
-/// J = det F, if it is positive and finite.
-pub(super) fn checked_volume_ratio<const D: usize>(
-    gradient: &Matrix<D>,
-    reference: &[f64; D],
-    step: u64,
-) -> Result<f64, OnlineError> {
-    let volume_ratio = gradient.determinant();
-    if volume_ratio > 0.0 && volume_ratio.is_finite() {
-        return Ok(volume_ratio);
-    }
-    Err(OnlineError::Inverted {
-        step,
-        reference: reference.to_vec(),
-        volume_ratio,
-    })
 }

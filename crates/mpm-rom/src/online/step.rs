@@ -51,7 +51,7 @@ pub struct StepReport {
     pub nodes: usize,
     /// Quadrature points that carried mass.
     pub quadrature_points: usize,
-    /// Quadrature points that were left out because of J ≤ 0.
+    /// Quadrature points that have been left out because of J ≤ 0 since the start, counted in every step.
     pub left_out: usize,
     /// How often neighbour lists have been made since the start.
     pub refreshes: u64,
@@ -114,6 +114,7 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
             time: (self.step - 1) as f64 * self.body.time_step,
             step: self.step,
             samples: &self.evaluation.positions,
+            inverted: self.options.inverted,
         };
         let (body, nodes, out) = (&self.body, &self.nodes, &mut self.quadrature);
         let mut report = StepReport::default();
@@ -125,9 +126,9 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
             Scheme::Eulerian(scheme) => {
                 let reference = &self.samples.reference;
                 scheme.place(body, &mut self.map, reference, &self.evaluation, nodes, &now, out)?;
-                report.left_out = scheme.left_out;
             }
         }
+        report.left_out = self.quadrature.left_out;
         self.quadrature.update_stresses(&*self.body.material);
         Ok(report)
     }

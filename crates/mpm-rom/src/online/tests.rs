@@ -31,10 +31,7 @@ material = "rubber"
 const HELD: &str = "[[kinematic]]\nregion = { kind = \"box\", lower = [0.0, 0.0], upper = [0.125, 0.5] }\n";
 
 const LAGRANGIAN: Quadrature = Quadrature::Lagrangian { search: Search::All };
-const EULERIAN: Quadrature = Quadrature::Eulerian {
-    per_axis: 2,
-    inverted: Inverted::Refuse,
-};
+const EULERIAN: Quadrature = Quadrature::Eulerian { per_axis: 2 };
 
 fn body(text: &str) -> ReducedBody<2> {
     let scene = Scene::parse(text, "block.toml".as_ref()).expect("a scene");
@@ -53,6 +50,7 @@ fn options(samples: SampleChoice, quadrature: Quadrature, update: Update) -> Opt
         samples,
         quadrature,
         update,
+        inverted: Inverted::Refuse,
     }
 }
 

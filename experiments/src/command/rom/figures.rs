@@ -40,6 +40,39 @@ pub fn losses(directory: &Path, title: &str, history: &[EpochReport]) -> Result<
     AtomicFile::write(directory.join("losses.svg"), trace(&plot)?)
 }
 
+/// Test cases whose coordinates are drawn, at most.
+const DRAWN: usize = 6;
+
+/// x̂ against time, a panel for each coordinate: the first test cases, run in the way that comes first.
+pub fn coordinates(directory: &Path, title: &str, rows: &[ReducedRow]) -> Result<(), CommandError> {
+    let groups = groups(rows);
+    let Some(first) = groups.first() else { return Ok(()) };
+    let shown = &first[..first.len().min(DRAWN)];
+    let count = shown[0].frames.first().map_or(0, |frame| frame.latent.len());
+    let panel = |coordinate: usize| TracePanel {
+        y_label: format!("x̂{}", coordinate + 1),
+        y_axis: AxisKind::Linear,
+        series: shown
+            .iter()
+            .map(|row| {
+                let values: Vec<String> = row.parameters.iter().map(f64::to_string).collect();
+                TraceSeries {
+                    label: values.join(", "),
+                    step: row.frames.iter().map(|frame| frame.time).collect(),
+                    value: row.frames.iter().map(|frame| frame.latent[coordinate]).collect(),
+                }
+            })
+            .collect(),
+        levels: Vec::new(),
+    };
+    let plot = TracePlot {
+        title: format!("{title}: coordinates"),
+        x_label: "time (s)".to_owned(),
+        panels: (0..count).map(panel).collect(),
+    };
+    AtomicFile::write(directory.join("coordinates.svg"), trace(&plot)?)
+}
+
 /// Position error and wall time against the number of sample points.
 pub fn errors(directory: &Path, title: &str, rows: &[ReducedRow]) -> Result<(), CommandError> {
     let figures: [(&str, &str, Value<ReducedRow>); 2] = [

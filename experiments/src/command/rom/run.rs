@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use mpm_rom::experiment::{Experiment, ReducedRow, run};
+use mpm_rom::experiment::{Experiment, ReducedRow, SuperResolved, run};
 
 use super::figures;
 use crate::progress::CountProgress;
@@ -18,6 +18,7 @@ pub fn execute<const D: usize>(experiment: &Experiment, directory: &Path) -> Res
     progress.clear();
     let rows = result?;
     figures::errors(directory, &experiment.title, &rows)?;
+    figures::coordinates(directory, &experiment.title, &rows)?;
     for row in rows.iter().filter(|row| row.outcome != "finished") {
         console::notice(&format!(
             "case {}, {}, {} samples ({}), {}, {}, steps of {}: {}",
@@ -29,7 +30,7 @@ pub fn execute<const D: usize>(experiment: &Experiment, directory: &Path) -> Res
         let mean = |value: fn(&ReducedRow) -> f64| group.iter().map(|row| value(row)).sum::<f64>() / group.len() as f64;
         let largest = group.iter().map(|row| row.error).fold(0.0, f64::max);
         text.push_str(&format!(
-            "manifold={} samples={} choice={} quadrature={} update={} step_factor={} runs={} mean_error_percent={:.4} largest_error_percent={largest:.4} speed_up={:.2} real_time_factor={:.3}\n",
+            "manifold={} samples={} choice={} quadrature={} update={} step_factor={} runs={} mean_error_percent={:.4} largest_error_percent={largest:.4} speed_up={:.2} real_time_factor={:.3}",
             group[0].manifold,
             group[0].samples,
             group[0].chosen,
@@ -41,6 +42,18 @@ pub fn execute<const D: usize>(experiment: &Experiment, directory: &Path) -> Res
             mean(|row| row.full_seconds) / mean(|row| row.seconds),
             mean(|row| row.simulated) / mean(|row| row.seconds),
         ));
+        if group[0].super_resolved.is_some() {
+            let fine = |value: fn(&SuperResolved) -> f64| {
+                let all = group.iter().filter_map(|row| row.super_resolved.as_ref());
+                all.map(value).sum::<f64>() / group.len() as f64
+            };
+            text.push_str(&format!(
+                " super_resolution_mean_error_percent={:.4} tracer_mean_error_percent={:.4}",
+                fine(|fine| fine.error),
+                fine(|fine| fine.tracer_error)
+            ));
+        }
+        text.push('\n');
     }
     console::print(&text)
 }

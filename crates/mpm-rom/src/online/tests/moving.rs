@@ -105,7 +105,7 @@ fn points_of_space_are_followed_to_where_a_search_finds_them() {
         let mut sums = Vec::new();
         for _ in 0..100 {
             if fresh {
-                model.scheme = Scheme::Eulerian(Eulerian::new(2, Inverted::Refuse));
+                model.scheme = Scheme::Eulerian(Eulerian::new(2));
             }
             model.step().expect("a step");
             sums.push(model.quadrature.volumes.iter().sum::<f64>());

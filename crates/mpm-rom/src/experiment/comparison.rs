@@ -1,0 +1,40 @@
+//! A reduced run beside a full-order one, at the points of the latter.
+
+use crate::deformation_map::MaterialPoints;
+use crate::manifold::{Evaluation, Manifold, Wanted};
+use crate::online::ReducedModel;
+use crate::position_error::PositionError;
+use crate::snapshots::{Frame, Snapshots};
+
+/// The points of a full-order run as a reduced model sees them, and how far they have been apart so far.
+pub(super) struct Comparison<const D: usize> {
+    pub points: MaterialPoints<D>,
+    evaluation: Evaluation<D>,
+    total: PositionError,
+}
+
+impl<const D: usize> Comparison<D> {
+    pub fn new<M: Manifold<D>>(reduced: &mut ReducedModel<D, M>, full: &Snapshots<D>) -> Self {
+        Self {
+            points: reduced.prepare(full.reference()),
+            evaluation: Evaluation::default(),
+            total: PositionError::default(),
+        }
+    }
+
+    /// The error of a frame, in per cent. The first one, where both runs start, has no part in the error of the run.
+    pub fn add<M: Manifold<D>>(&mut self, reduced: &ReducedModel<D, M>, frame: &Frame<D>, first: bool) -> f64 {
+        reduced.evaluate(&self.points, Wanted::default(), &mut self.evaluation);
+        let mut error = PositionError::default();
+        error.add(&self.evaluation.positions, &frame.positions);
+        if !first {
+            self.total.merge(&error);
+        }
+        error.percent().unwrap_or(0.0)
+    }
+
+    /// The error of all frames but the first, in per cent.
+    pub fn percent(&self) -> f64 {
+        self.total.percent().unwrap_or(0.0)
+    }
+}
