@@ -2,7 +2,7 @@
 
 mod support;
 
-use support::{assert_refused, files, parvi, stderr, stdout, value};
+use support::{assert_refused, files, interrupted, parvi, stderr, stdout, value};
 
 const SCENE: &str = r#"
 title = "falling block"
@@ -79,4 +79,30 @@ fn bad_scenes_are_refused_with_file_field_and_value() {
         &parvi(root.path(), "simulate none.toml --out out"),
         &["none.toml: cannot be read"],
     );
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_goes_on_to_the_same_bits() {
+    let root = tempfile::tempdir().unwrap();
+    let slow = SCENE.replace("time = { end = 0.5 }", "time = { end = 0.5, step = 1e-5 }");
+    let scene = slow.replace("interval = 0.25, series_interval = 0.05", "interval = 0.05");
+    std::fs::write(root.path().join("scene.toml"), scene).unwrap();
+    let whole = parvi(root.path(), "simulate scene.toml --out whole");
+    assert!(whole.status.success(), "{}", stderr(&whole));
+    let second = root.path().join("part/particles_000001.vtu");
+    let part = interrupted(root.path(), "simulate scene.toml --out part", || second.exists());
+    assert!(
+        stderr(&part).contains("the same line started again goes on"),
+        "{}",
+        stderr(&part)
+    );
+    assert_eq!(value(&part, "outcome").as_deref(), Some("interrupted"));
+    let rest = parvi(root.path(), "simulate scene.toml --out part");
+    assert!(rest.status.success(), "{}", stderr(&rest));
+    assert_eq!(value(&rest, "steps"), value(&whole, "steps"));
+    for name in ["series.csv", "particles_000010.vtu", "particles.pvd"] {
+        let [whole, part] = ["whole", "part"].map(|run| std::fs::read(root.path().join(run).join(name)).unwrap());
+        assert_eq!(whole, part, "{name}");
+    }
 }

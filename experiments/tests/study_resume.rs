@@ -3,10 +3,8 @@
 mod support;
 
 use std::path::Path;
-use std::process::Stdio;
-use std::time::{Duration, Instant};
 
-use support::{command, files, parvi, stderr, value};
+use support::{files, interrupted, parvi, stderr, value};
 
 const STUDY: &str = r#"
 kind = "time-error"
@@ -122,31 +120,11 @@ fn an_interrupted_study_can_be_resumed() {
     )
     .unwrap();
     run(root.path(), "whole");
-    let mut child = command()
-        .current_dir(root.path())
-        .args(["run", "study.toml", "--out", "out"])
-        .stdout(Stdio::null())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    // Wait for some rows, so that the interruption falls into the middle.
+    // Some rows, so that the interruption falls into the middle.
     let path = root.path().join("out/results.csv");
-    let begin = Instant::now();
-    while std::fs::read_to_string(&path).map_or(0, |text| text.lines().count()) < 6 {
-        assert!(begin.elapsed() < Duration::from_secs(60), "no rows appear");
-        assert!(
-            child.try_wait().unwrap().is_none(),
-            "it ended before it was interrupted"
-        );
-        std::thread::sleep(Duration::from_millis(1));
-    }
-    let kill = std::process::Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status()
-        .unwrap();
-    assert!(kill.success());
-    let output = child.wait_with_output().unwrap();
-    assert_eq!(output.status.code(), Some(130), "{}", stderr(&output));
+    let output = interrupted(root.path(), "run study.toml --out out", || {
+        std::fs::read_to_string(&path).map_or(0, |text| text.lines().count()) >= 6
+    });
     assert!(stderr(&output).contains("resumes"), "{}", stderr(&output));
     let whole = results(&root.path().join("whole"));
     let part = results(&root.path().join("out"));

@@ -4,7 +4,8 @@
 
 use std::collections::HashMap;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
+use std::time::{Duration, Instant};
 
 /// The built command.
 pub fn command() -> Command {
@@ -20,6 +21,34 @@ pub fn parvi(directory: &Path, arguments: &str) -> Output {
         .args(arguments.split_whitespace())
         .output()
         .unwrap()
+}
+
+/// As [`parvi`], with Ctrl-C a little after `begun` has become true, and asserts that this is how it ended.
+pub fn interrupted(directory: &Path, arguments: &str, begun: impl Fn() -> bool) -> Output {
+    let mut child = command()
+        .current_dir(directory)
+        .args(arguments.split_whitespace())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let start = Instant::now();
+    while !begun() {
+        assert!(start.elapsed() < Duration::from_secs(60), "it does not begin");
+        assert!(
+            child.try_wait().unwrap().is_none(),
+            "it ended before it was interrupted"
+        );
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    let kill = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status()
+        .unwrap();
+    assert!(kill.success());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130), "{}", stderr(&output));
+    output
 }
 
 /// Standard output as text.

@@ -17,6 +17,8 @@ use crate::snapshots::{Frame, Snapshots};
 pub struct Choice {
     /// The family of maps.
     pub manifold: ManifoldName,
+    /// Which of the experiment's networks; 0 where it is none.
+    pub network: usize,
     /// |𝒫|.
     pub samples: SampleCount,
     /// How they are chosen.
@@ -101,6 +103,7 @@ pub(super) fn beside<const D: usize>(
             .flat_map(|run| run.parameters.clone())
             .collect(),
         manifold: choice.manifold.name(),
+        variant: String::new(),
         samples: reduced.samples().len(),
         chosen: match choice.samples {
             SampleCount::All(_) => "all",

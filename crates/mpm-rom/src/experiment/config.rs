@@ -6,7 +6,9 @@ use serde::Deserialize;
 
 use super::ExperimentError;
 use super::beside::Choice;
+use super::options::{All, ChoiceName, ManifoldName, QuadratureName, SampleCount, UpdateName};
 use super::sampling::Chosen;
+use super::variants::Variant;
 use crate::online::{Inverted, Options, Quadrature, SampleChoice, Search, Update};
 use crate::training::Training;
 
@@ -30,6 +32,9 @@ pub struct Experiment {
     /// How the network is trained.
     #[serde(default)]
     pub training: Training,
+    /// Other networks for the same data.
+    #[serde(default)]
+    pub variants: Vec<Variant>,
     /// The reduced runs.
     #[serde(default)]
     pub run: ReducedRuns,
@@ -69,111 +74,6 @@ pub struct Cases {
     pub train: Vec<Vec<f64>>,
     /// Of the runs that it has not seen.
     pub test: Vec<Vec<f64>>,
-}
-
-/// How many sample points.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(untagged)]
-pub enum SampleCount {
-    /// So many.
-    Drawn(usize),
-    /// Every material point: the word `"all"`.
-    All(All),
-}
-
-/// The word `"all"`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum All {
-    /// Itself.
-    All,
-}
-
-/// How sample points are chosen; see [`SampleChoice`].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum ChoiceName {
-    /// Drawn evenly.
-    Drawn,
-    /// Each the farthest from those before it.
-    Spread,
-    /// Those that stand for all points best in steps from frames of the training data ([`choose_greedily`](crate::online::choose_greedily)).
-    #[default]
-    Greedy,
-}
-
-impl ChoiceName {
-    /// As in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Drawn => "drawn",
-            Self::Spread => "spread",
-            Self::Greedy => "greedy",
-        }
-    }
-}
-
-/// Where the momentum balance is summed; see [`Quadrature`].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum QuadratureName {
-    /// At material points.
-    #[default]
-    Lagrangian,
-    /// At points of space.
-    Eulerian,
-}
-
-impl QuadratureName {
-    /// As in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Lagrangian => "lagrangian",
-            Self::Eulerian => "eulerian",
-        }
-    }
-}
-
-/// How coordinates follow from velocities; see [`Update`].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum UpdateName {
-    /// From the velocities alone.
-    VelocityOnly,
-    /// From positions, with velocities beside them.
-    #[default]
-    PositionVelocity,
-}
-
-impl UpdateName {
-    /// As in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::VelocityOnly => "velocity-only",
-            Self::PositionVelocity => "position-velocity",
-        }
-    }
-}
-
-/// The family of maps; see [`manifold`](crate::manifold).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum ManifoldName {
-    /// The trained network.
-    #[default]
-    Network,
-    /// The linear manifold of as many coordinates from the same training data ([`Pod`](crate::manifold::Pod)).
-    Linear,
-}
-
-impl ManifoldName {
-    /// As in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Network => "network",
-            Self::Linear => "linear",
-        }
-    }
 }
 
 /// The reduced runs of every test case: each manifold with each number of sample points, quadrature and update.
@@ -240,7 +140,7 @@ impl ReducedRuns {
                 (SampleCount::Drawn(count), ChoiceName::Drawn) => SampleChoice::Drawn { count, seed: self.seed },
                 (SampleCount::Drawn(count), ChoiceName::Spread) => SampleChoice::Spread { count, seed: self.seed },
                 (SampleCount::Drawn(count), ChoiceName::Greedy) => greedy
-                    .get(&(choice.manifold, count))
+                    .get(&(choice.manifold, choice.network, count))
                     .cloned()
                     .unwrap_or(SampleChoice::Drawn { count, seed: self.seed }),
             },
@@ -351,9 +251,7 @@ impl Experiment {
                 return refuse("run.choice".to_owned(), need("greedy"));
             }
         }
-        self.training
-            .check()
-            .map_err(|error| self.field("training".to_owned(), error.to_string()))?;
+        self.trainings()?;
         // The values themselves show whether all keys make sense.
         self.case(&self.cases.train[0]).map(|_| ())
     }

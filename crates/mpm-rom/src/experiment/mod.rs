@@ -7,6 +7,7 @@ mod config;
 mod error;
 mod files;
 mod frame_files;
+mod options;
 mod reduced;
 mod results;
 mod sampling;
@@ -14,13 +15,14 @@ mod super_resolution;
 #[cfg(test)]
 mod tests;
 mod trained;
+mod variants;
 
-pub use config::{
-    Cases, ChoiceName, Experiment, Key, ManifoldName, QuadratureName, ReducedRuns, SampleCount, UpdateName,
-};
+pub use config::{Cases, Experiment, Key, ReducedRuns};
 pub use error::ExperimentError;
 pub use files::names;
+pub use options::{All, ChoiceName, ManifoldName, QuadratureName, SampleCount, UpdateName};
 pub use reduced::run;
 pub use results::{FrameRow, ReducedRow};
 pub use super_resolution::SuperResolved;
 pub use trained::{Trained, Watch, train};
+pub use variants::Variant;

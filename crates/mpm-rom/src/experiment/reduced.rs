@@ -10,7 +10,7 @@ use super::frame_files::FrameFiles;
 use super::results::{self, ReducedRow};
 use super::sampling::{Chosen, Sampling};
 use super::super_resolution::Finer;
-use super::trained::model_for;
+use super::trained::models_for;
 use super::{ChoiceName, Experiment, ExperimentError, ManifoldName, SampleCount};
 use crate::full_order::{FullOrderError, Recording, SceneDocument};
 use crate::manifold::{Manifold, Pod};
@@ -34,31 +34,36 @@ pub fn run<const D: usize>(
     let document = SceneDocument::read(&experiment.run_scene_file())?;
     let finer = experiment.super_resolution_file();
     let finer = finer.map(|file| SceneDocument::read(&file)).transpose()?;
-    let (model, trained_on) = model_for::<D>(experiment, directory)?;
-    let rest = model.encoder().encode(&trained_on.reference)?;
+    let (models, trained_on) = models_for::<D>(experiment, directory)?;
+    let at_rest = models
+        .iter()
+        .map(|(_, model)| model.encoder().encode(&trained_on.reference));
+    let at_rest: Vec<Vec<f64>> = at_rest.collect::<Result<_, _>>()?;
     let training = training::<D>(experiment, directory)?;
     let linear = match &training {
         Some(snapshots) if experiment.run.manifold.contains(&ManifoldName::Linear) => {
-            Some(Pod::new(snapshots, model.network().coordinates())?)
+            Some(Pod::new(snapshots, experiment.training.coordinates)?)
         }
         _ => None,
     };
     let mut greedy = Chosen::new();
     if let Some(snapshots) = training.as_ref().filter(|_| is_greedy(experiment)) {
-        let sampling = Sampling {
-            experiment,
-            document: &document,
-            model: &model,
-            snapshots,
-        };
-        for &name in &experiment.run.manifold {
+        for (name, network) in maps(experiment, models.len()) {
+            let model = &models[network].1;
+            let sampling = Sampling {
+                experiment,
+                document: &document,
+                model,
+                network,
+                snapshots,
+            };
             match (name, &linear) {
                 (ManifoldName::Linear, Some(pod)) => sampling.choose(name, pod, &mut greedy)?,
                 _ => sampling.choose(name, model.network(), &mut greedy)?,
             }
         }
     }
-    let (choices, mut rows) = (choices(experiment), Vec::new());
+    let (choices, mut rows) = (choices(experiment, models.len()), Vec::new());
     let runs = choices.len() * experiment.cases.test.len();
     for (case, values) in experiment.cases.test.iter().enumerate() {
         let changed = experiment.case(values)?;
@@ -76,9 +81,12 @@ pub fn run<const D: usize>(
         };
         let snapshots = Snapshots::new(recording.body, vec![run]).map_err(FullOrderError::from)?;
         // The encoder knows the points that it was trained on, no others.
-        let reconstruction_error = match &experiment.run.scene {
-            None => Some(model.reconstruction_error(&snapshots)?),
-            Some(_) => None,
+        let reconstruction_errors: Vec<Option<f64>> = match &experiment.run.scene {
+            None => models
+                .iter()
+                .map(|(_, model)| model.reconstruction_error(&snapshots).map(Some))
+                .collect::<Result<_, _>>()?,
+            Some(_) => vec![None; models.len()],
         };
         let finer = match &finer {
             None => None,
@@ -94,20 +102,23 @@ pub fn run<const D: usize>(
             finer,
         };
         for choice in &choices {
-            let network = (model.network() as &dyn Manifold<D>, reconstruction_error);
-            let (manifold, reconstruction_error) = match (choice.manifold, &linear) {
-                (ManifoldName::Linear, Some(pod)) => (pod as &dyn Manifold<D>, None),
-                _ => network,
+            let (variant, model) = &models[choice.network];
+            let manifold = match (choice.manifold, &linear) {
+                (ManifoldName::Linear, Some(pod)) => pod as &dyn Manifold<D>,
+                _ => model.network(),
             };
             let body = reduced_body(experiment, &scene, &trained_on.centroid, choice.step_factor)?;
             let guess = match choice.manifold {
-                ManifoldName::Network => rest.clone(),
+                ManifoldName::Network => at_rest[choice.network].clone(),
                 ManifoldName::Linear => vec![0.0; manifold.coordinates()],
             };
             let options = experiment.run.options(choice, &greedy);
             let written = experiment.run.vtu.then(|| FrameFiles::of_run(directory, rows.len()));
             let mut row = beside(manifold, &guess, body, &full, choice, options, written.transpose()?)?;
-            row.reconstruction_error = reconstruction_error;
+            if choice.manifold == ManifoldName::Network {
+                row.reconstruction_error = reconstruction_errors[choice.network];
+                row.variant = variant.clone();
+            }
             rows.push(row);
             let table = results::results(&experiment.parameters, &rows);
             files::write(&directory.join(names::RESULTS), &table)?;
@@ -135,10 +146,20 @@ fn reduced_body<const D: usize>(
     })
 }
 
+/// The families of maps with the numbers of their networks.
+fn maps(experiment: &Experiment, networks: usize) -> Vec<(ManifoldName, usize)> {
+    let names = experiment.run.manifold.iter();
+    let each = names.flat_map(|&name| {
+        let count = if name == ManifoldName::Network { networks } else { 1 };
+        (0..count).map(move |network| (name, network))
+    });
+    each.collect()
+}
+
 /// All combinations of what is asked for.
-fn choices(experiment: &Experiment) -> Vec<Choice> {
+fn choices(experiment: &Experiment, networks: usize) -> Vec<Choice> {
     let (run, mut all) = (&experiment.run, Vec::new());
-    for &manifold in &run.manifold {
+    for (manifold, network) in maps(experiment, networks) {
         for &samples in &run.samples {
             for &quadrature in &run.quadrature {
                 for &update in &run.update {
@@ -150,6 +171,7 @@ fn choices(experiment: &Experiment) -> Vec<Choice> {
                         };
                         all.extend(ways.iter().map(|&chosen| Choice {
                             manifold,
+                            network,
                             samples,
                             chosen,
                             quadrature,

@@ -13,6 +13,8 @@ pub struct ReducedRow {
     pub parameters: Vec<f64>,
     /// The family of maps.
     pub manifold: &'static str,
+    /// The variant whose network it is; empty for that of `[training]`.
+    pub variant: String,
     /// |𝒫|.
     pub samples: usize,
     /// How they were chosen.
@@ -54,10 +56,11 @@ pub struct ReducedRow {
 }
 
 impl ReducedRow {
-    /// How the run was made: manifold, samples and their choice, quadrature, update and step factor.
-    pub fn way(&self) -> (&'static str, usize, &'static str, &'static str, &'static str, u64) {
+    /// How the run was made: manifold, variant, samples and their choice, quadrature, update and step factor.
+    pub fn way(&self) -> (&str, &str, usize, &str, &str, &str, u64) {
         (
             self.manifold,
+            &self.variant,
             self.samples,
             self.chosen,
             self.quadrature,
@@ -103,6 +106,7 @@ fn columns<'a>(parameters: &'a [String], row: &ReducedRow) -> Vec<(&'a str, Stri
     columns.extend(named.map(|(name, &value)| (name.as_str(), exact(value))));
     columns.extend([
         ("manifold", row.manifold.to_owned()),
+        ("variant", row.variant.clone()),
         ("samples", row.samples.to_string()),
         ("choice", row.chosen.to_owned()),
         ("quadrature", row.quadrature.to_owned()),
@@ -132,15 +136,22 @@ fn columns<'a>(parameters: &'a [String], row: &ReducedRow) -> Vec<(&'a str, Stri
     columns
 }
 
-/// All frames of all runs as CSV; `run` is the row of the run in the results, counted from 0.
+/// All frames of all runs as CSV, with as many coordinates as the largest network has; `run` is the row of the run in the results, counted from 0.
 pub(super) fn frames(runs: &[ReducedRow]) -> String {
-    let first = runs.iter().flat_map(|run| &run.frames).next();
-    let coordinates = first.map_or(0, |frame| frame.latent.len());
+    let all = runs.iter().flat_map(|run| &run.frames);
+    let coordinates = all.map(|frame| frame.latent.len()).max().unwrap_or(0);
     let names: String = (1..=coordinates).map(|k| format!(",x{k}")).collect();
     let mut text = format!("run,time,position_error_percent{names}\n");
     for (number, run) in runs.iter().enumerate() {
         for frame in &run.frames {
-            let latent: String = frame.latent.iter().map(|value| format!(",{value:?}")).collect();
+            let value = |k: usize| {
+                frame
+                    .latent
+                    .get(k)
+                    .map(|value| format!("{value:?}"))
+                    .unwrap_or_default()
+            };
+            let latent: String = (0..coordinates).map(|k| format!(",{}", value(k))).collect();
             let _ = writeln!(text, "{number},{:?},{:?}{latent}", frame.time, frame.error);
         }
     }

@@ -35,14 +35,16 @@ const MOST_TRIED: usize = 24;
 /// The distance (its place in the list) of the choice that is then taken.
 const UNTRIED: usize = 1;
 
-/// Choices made so far, by manifold and number of points.
-pub(super) type Chosen = HashMap<(ManifoldName, usize), SampleChoice>;
+/// Choices made so far, by manifold, number of the network and number of points.
+pub(super) type Chosen = HashMap<(ManifoldName, usize, usize), SampleChoice>;
 
 /// Training runs and what is needed to step from their frames.
 pub(super) struct Sampling<'a, const D: usize> {
     pub experiment: &'a Experiment,
     pub document: &'a SceneDocument,
     pub model: &'a Model<D>,
+    /// Its number among those of the experiment.
+    pub network: usize,
     pub snapshots: &'a Snapshots<D>,
 }
 
@@ -82,7 +84,7 @@ impl<const D: usize> Sampling<'_, D> {
                 choose_greedily(readings, coordinates, &body.kinematics, points, count).map(SampleChoice::Given)
             };
             if count > MOST_TRIED {
-                into.insert((name, count), greedily(&readings[UNTRIED])?);
+                into.insert((name, self.network, count), greedily(&readings[UNTRIED])?);
                 continue;
             }
             let mut best: Option<(f64, SampleChoice)> = None;
@@ -94,7 +96,7 @@ impl<const D: usize> Sampling<'_, D> {
                 }
             }
             if let Some((_, choice)) = best {
-                into.insert((name, count), choice);
+                into.insert((name, self.network, count), choice);
             }
         }
         Ok(())
@@ -110,6 +112,7 @@ impl<const D: usize> Sampling<'_, D> {
         let run = &self.experiment.run;
         let choice = Choice {
             manifold: name,
+            network: self.network,
             samples: SampleCount::Drawn(0),
             chosen: ChoiceName::Greedy,
             quadrature: run.quadrature[0],

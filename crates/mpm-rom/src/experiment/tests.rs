@@ -115,6 +115,25 @@ fn what_is_wrong_is_named_with_its_file_and_field() {
             ("manifold = [\"network\", \"linear\"]", "step_factor = []"),
             "rom.toml, run.step_factor: at least one",
         ),
+        (
+            ("cases = {", "variants = [{ name = \"a/b\" }]\ncases = {"),
+            "rom.toml, variants.0.name: `a/b`",
+        ),
+        (
+            (
+                "cases = {",
+                "variants = [{ name = \"a\" }, { name = \"a\" }]\ncases = {",
+            ),
+            "rom.toml, variants.1.name: `a`",
+        ),
+        (
+            ("cases = {", "variants = [{ name = \"a\", weight = 1.0 }]\ncases = {"),
+            "rom.toml, variants.0: unknown field `weight`",
+        ),
+        (
+            ("cases = {", "variants = [{ name = \"a\", epochs = 0 }]\ncases = {"),
+            "rom.toml, variants.0: epochs = 0",
+        ),
     ] {
         let message = message(change);
         assert!(message.contains(expected), "{message}");
@@ -142,13 +161,19 @@ impl Watch for Stop {
     }
 }
 
+fn train_one(experiment: &Experiment, directory: &Path) -> Trained {
+    let mut trained = train::<2>(experiment, directory, &mut ()).expect("trained");
+    assert_eq!(trained.len(), 1);
+    trained.remove(0)
+}
+
 #[test]
 fn an_experiment_is_stopped_goes_on_and_is_run() {
     let (directory, file) = files();
     let experiment = Experiment::read(&file).expect("sound");
     let (whole, parts) = (directory.path().join("whole"), directory.path().join("parts"));
     assert!(run::<2>(&experiment, &whole, &mut |_, _| true).is_err(), "no model");
-    let trained = train::<2>(&experiment, &whole, &mut ()).expect("trained");
+    let trained = train_one(&experiment, &whole);
     assert_eq!(
         (trained.points, trained.runs, trained.frames, trained.epochs),
         (64, 2, 10, 7)
@@ -163,7 +188,7 @@ fn an_experiment_is_stopped_goes_on_and_is_run() {
         Err(ExperimentError::Stopped)
     ));
     assert!(!data.join(names::TRAINING_DATA).exists());
-    let rest = train::<2>(&experiment, &parts, &mut ()).expect("the rest");
+    let rest = train_one(&experiment, &parts);
     assert_eq!((rest.resumed_at, rest.history.clone()), (2, trained.history));
     let bytes = |directory: &Path, name| std::fs::read(directory.join(name)).expect(name);
     for name in [names::MODEL, names::LOSSES] {
@@ -224,7 +249,7 @@ fn a_model_of_a_part_of_the_points_runs_a_finer_scene() {
     );
     let experiment = Experiment::parse(&text, &file).expect("sound");
     let out = directory.path().join("out");
-    assert_eq!(train::<2>(&experiment, &out, &mut ()).expect("trained").points, 50);
+    assert_eq!(train_one(&experiment, &out).points, 50);
     let rows = run::<2>(&experiment, &out, &mut |_, _| true).expect("run");
     assert_eq!(rows.len(), 8);
     for row in &rows {
@@ -273,7 +298,7 @@ fn more_points_than_those_of_the_dynamics_are_compared_with_a_run_of_their_own()
     }
     let table = std::fs::read_to_string(out.join(names::RESULTS)).expect("a table");
     let names = table.lines().next().expect("a head");
-    assert!(names.starts_with("case,gravity,angle,manifold,samples,"), "{names}");
+    assert!(names.starts_with("case,gravity,angle,manifold,variant,samples,"), "{names}");
     for line in table.lines() {
         assert_eq!(line.split(',').count(), names.split(',').count(), "{line}");
     }
@@ -301,4 +326,40 @@ fn more_points_than_those_of_the_dynamics_are_compared_with_a_run_of_their_own()
             "{message}"
         );
     }
+}
+
+#[test]
+fn variants_are_other_networks_for_the_same_data() {
+    let (directory, file) = files();
+    let text = EXPERIMENT
+        .replace(
+            "cases = {",
+            "variants = [{ name = \"three\", coordinates = 3, gradient_weight = 0.0 }]\ncases = {",
+        )
+        .replace("samples = [20, \"all\"]", "samples = [20]");
+    let experiment = Experiment::parse(&text, &file).expect("sound");
+    let out = directory.path().join("out");
+    let trained = train::<2>(&experiment, &out, &mut ()).expect("trained");
+    assert_eq!(
+        trained.iter().map(|network| network.name.as_str()).collect::<Vec<_>>(),
+        ["", "three"]
+    );
+    assert!(trained[1].history.iter().all(|epoch| epoch.terms.gradient == 0.0));
+    assert!(out.join("three").join(names::MODEL).exists() && !out.join("three").join(names::TRAINING_DATA).exists());
+    let rows = run::<2>(&experiment, &out, &mut |_, _| true).expect("run");
+    let kinds: Vec<_> = rows
+        .iter()
+        .map(|row| (row.manifold, row.variant.as_str(), row.frames[0].latent.len()))
+        .collect();
+    let expected = [("network", "", 2), ("network", "three", 3), ("linear", "", 2)];
+    assert_eq!(kinds, expected.iter().flat_map(|&kind| [kind; 2]).collect::<Vec<_>>());
+    // The main network is that of an experiment without variants.
+    let alone = Experiment::parse(EXPERIMENT, &file).expect("sound");
+    let other = directory.path().join("other");
+    let first = train_one(&alone, &other);
+    assert_eq!(first.history, trained[0].history);
+    let table = std::fs::read_to_string(out.join(names::FRAMES)).expect("frames");
+    let columns = |line: &str| line.split(',').count();
+    let head = table.lines().next().expect("a head");
+    assert!(table.lines().all(|line| columns(line) == columns(head)), "{table}");
 }

@@ -6,11 +6,12 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use super::files::{self, names};
+use super::variants::directory_of;
 use super::{Experiment, ExperimentError};
 use crate::full_order::{self, FullOrderError, Recording, SceneDocument};
 use crate::model::Model;
 use crate::snapshots::{Body, Snapshots};
-use crate::training::{EpochReport, Trainer};
+use crate::training::{EpochReport, Trainer, Training};
 
 /// Watches an experiment and may stop its training.
 pub trait Watch {
@@ -35,6 +36,8 @@ impl Watch for () {
 /// What a training came to.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trained {
+    /// The variant's name; empty for the network of `[training]`.
+    pub name: String,
     /// N, material points.
     pub points: usize,
     /// Full-order runs.
@@ -55,7 +58,7 @@ pub struct Trained {
     pub training_time: Duration,
 }
 
-/// Runs the scene for all training cases, trains, and writes the model. What the directory holds of it already is not done again.
+/// Runs the scene for all training cases, trains the network and its variants, and writes the models. What the directory holds of it already is not done again.
 ///
 /// # Errors
 /// [`ExperimentError`]; [`ExperimentError::Stopped`] where the watch broke.
@@ -63,36 +66,60 @@ pub fn train<const D: usize>(
     experiment: &Experiment,
     directory: &Path,
     watch: &mut dyn Watch,
-) -> Result<Trained, ExperimentError> {
+) -> Result<Vec<Trained>, ExperimentError> {
     experiment.occupy(directory)?;
     let start = Instant::now();
     let snapshots = training_data::<D>(experiment, directory, watch)?;
     let data_time = start.elapsed();
+    let networks = experiment.trainings()?.into_iter();
+    networks
+        .map(|(name, training)| {
+            let directory = directory_of(directory, name);
+            std::fs::create_dir_all(&directory)
+                .map_err(|source| ExperimentError::file("create", &directory, source))?;
+            let trained = train_network(&snapshots, &training, &directory, watch)?;
+            Ok(Trained {
+                name: name.to_owned(),
+                data_time,
+                ..trained
+            })
+        })
+        .collect()
+}
+
+/// Trains one network, or what is left of it, and writes its model.
+fn train_network<const D: usize>(
+    snapshots: &Snapshots<D>,
+    training: &Training,
+    directory: &Path,
+    watch: &mut dyn Watch,
+) -> Result<Trained, ExperimentError> {
     let start = Instant::now();
     let checkpoint = directory.join(names::CHECKPOINT);
     let mut trainer = if checkpoint.exists() {
-        Trainer::resume(&snapshots, experiment.training.clone(), &checkpoint)?
+        Trainer::resume(snapshots, training.clone(), &checkpoint)?
     } else {
-        Trainer::new(&snapshots, experiment.training.clone())?
+        Trainer::new(snapshots, training.clone())?
     };
     let resumed_at = trainer.history().len() as u64;
     trainer.train(Some(&checkpoint), &mut |report: &EpochReport| watch.after_epoch(report))?;
     files::write(&directory.join(names::LOSSES), &losses(trainer.history()))?;
     let epochs = trainer.history().len() as u64;
-    if epochs < experiment.training.epochs {
+    if epochs < training.epochs {
         return Err(ExperimentError::Stopped);
     }
     let model = trainer.model()?;
     model.write(&directory.join(names::MODEL))?;
     Ok(Trained {
+        name: String::new(),
         points: snapshots.points(),
         runs: snapshots.runs().len(),
         frames: snapshots.runs().iter().map(|run| run.frames.len()).sum(),
         epochs,
         resumed_at,
         history: trainer.history().to_vec(),
-        reconstruction_error: model.reconstruction_error(&snapshots)?,
-        data_time,
+        reconstruction_error: model.reconstruction_error(snapshots)?,
+        data_time: Duration::ZERO,
         training_time: start.elapsed(),
     })
 }
@@ -139,23 +166,27 @@ fn losses(history: &[EpochReport]) -> String {
     text
 }
 
-/// The model of a directory, if it fits the scene, and the body that it was trained on.
-pub(super) fn model_for<const D: usize>(
+/// The models of all networks, if they fit the scene, by their names; and the body that they were trained on.
+pub(super) fn models_for<const D: usize>(
     experiment: &Experiment,
     directory: &Path,
-) -> Result<(Model<D>, Body<D>), ExperimentError> {
-    let file = directory.join(names::MODEL);
-    let model = Model::<D>::read(&file)?;
+) -> Result<(Vec<(String, Model<D>)>, Body<D>), ExperimentError> {
     let document = SceneDocument::read(&experiment.scene_file())?;
     let scene = document.scene(&experiment.case(&experiment.cases.test[0])?.changes)?;
     let body = Recording::<D>::of(&scene, &experiment.parameters, experiment.recorded_points)?.body;
-    let (points, trained_on) = (body.reference.len(), model.encoder().shape().points);
-    if model.summary().scene != scene.title || trained_on != points {
-        return Err(ExperimentError::OtherScene {
-            file: file.display().to_string(),
-            found: format!("{}, {trained_on} points", model.summary().scene),
-            expected: format!("{}, {points} points", scene.title),
-        });
-    }
-    Ok((model, body))
+    let networks = experiment.trainings()?.into_iter();
+    let models = networks.map(|(name, _)| {
+        let file = directory_of(directory, name).join(names::MODEL);
+        let model = Model::<D>::read(&file)?;
+        let (points, trained_on) = (body.reference.len(), model.encoder().shape().points);
+        if model.summary().scene != scene.title || trained_on != points {
+            return Err(ExperimentError::OtherScene {
+                file: file.display().to_string(),
+                found: format!("{}, {trained_on} points", model.summary().scene),
+                expected: format!("{}, {points} points", scene.title),
+            });
+        }
+        Ok((name.to_owned(), model))
+    });
+    Ok((models.collect::<Result<_, _>>()?, body))
 }

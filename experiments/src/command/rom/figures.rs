@@ -93,7 +93,11 @@ pub fn errors(directory: &Path, title: &str, rows: &[ReducedRow]) -> Result<(), 
         let several = ways.len() > 1;
         for group in groups(rows) {
             let first = group[0];
-            let mut label = format!("{}, {}, {}", first.manifold, first.quadrature, first.update);
+            let map = match first.variant.as_str() {
+                "" => first.manifold,
+                variant => variant,
+            };
+            let mut label = format!("{map}, {}, {}", first.quadrature, first.update);
             // All points are a choice of their own, and belong to every line; with one way of choosing there is nothing to tell apart.
             if several && first.chosen != "all" {
                 label.push_str(&format!(", {}", first.chosen));

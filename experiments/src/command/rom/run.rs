@@ -21,8 +21,16 @@ pub fn execute<const D: usize>(experiment: &Experiment, directory: &Path) -> Res
     figures::coordinates(directory, &experiment.title, &rows)?;
     for row in rows.iter().filter(|row| row.outcome != "finished") {
         console::notice(&format!(
-            "case {}, {}, {} samples ({}), {}, {}, steps of {}: {}",
-            row.case, row.manifold, row.samples, row.chosen, row.quadrature, row.update, row.step_factor, row.outcome
+            "case {}, {}{}, {} samples ({}), {}, {}, steps of {}: {}",
+            row.case,
+            row.manifold,
+            variant(row),
+            row.samples,
+            row.chosen,
+            row.quadrature,
+            row.update,
+            row.step_factor,
+            row.outcome
         ));
     }
     let mut text = String::new();
@@ -30,8 +38,9 @@ pub fn execute<const D: usize>(experiment: &Experiment, directory: &Path) -> Res
         let mean = |value: fn(&ReducedRow) -> f64| group.iter().map(|row| value(row)).sum::<f64>() / group.len() as f64;
         let largest = group.iter().map(|row| row.error).fold(0.0, f64::max);
         text.push_str(&format!(
-            "manifold={} samples={} choice={} quadrature={} update={} step_factor={} runs={} mean_error_percent={:.4} largest_error_percent={largest:.4} speed_up={:.2} real_time_factor={:.3}",
+            "manifold={}{} samples={} choice={} quadrature={} update={} step_factor={} runs={} mean_error_percent={:.4} largest_error_percent={largest:.4} speed_up={:.2} real_time_factor={:.3}",
             group[0].manifold,
+            variant(group[0]),
             group[0].samples,
             group[0].chosen,
             group[0].quadrature,
@@ -56,6 +65,15 @@ pub fn execute<const D: usize>(experiment: &Experiment, directory: &Path) -> Res
         text.push('\n');
     }
     console::print(&text)
+}
+
+/// Which variant of the network it was, with a space before it.
+fn variant(row: &ReducedRow) -> String {
+    if row.variant.is_empty() {
+        String::new()
+    } else {
+        format!(" variant={}", row.variant)
+    }
 }
 
 /// Rows of runs that were made in the same way, in the order in which these come first.

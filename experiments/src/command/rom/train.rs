@@ -2,8 +2,9 @@
 
 use std::ops::ControlFlow;
 use std::path::Path;
+use std::time::Duration;
 
-use mpm_rom::experiment::{Experiment, Watch, train};
+use mpm_rom::experiment::{Experiment, Trained, Watch, train};
 use mpm_rom::training::EpochReport;
 
 use super::figures;
@@ -11,14 +12,26 @@ use crate::machine::MemoryGauge;
 use crate::progress::TrainingProgress;
 use crate::{CommandError, console};
 
-/// Full-order runs, training, the curve of the loss.
+/// Full-order runs, training of all networks, the curves of their losses.
 pub fn execute<const D: usize>(experiment: &Experiment, directory: &Path) -> Result<(), CommandError> {
     let memory = MemoryGauge::begin();
     let mut progress = TrainingProgress::new();
     let result = train::<D>(experiment, directory, &mut progress);
     progress.clear();
-    let trained = result?;
-    figures::losses(directory, &experiment.title, &trained.history)?;
+    for trained in result? {
+        let (place, title) = match trained.name.as_str() {
+            "" => (directory.to_owned(), experiment.title.clone()),
+            name => (directory.join(name), format!("{}, {name}", experiment.title)),
+        };
+        figures::losses(&place, &title, &trained.history)?;
+        console::print_pairs(&pairs(&trained, &memory))?;
+    }
+    Ok(())
+}
+
+/// What standard output says of a network.
+fn pairs(trained: &Trained, memory: &MemoryGauge) -> Vec<(&'static str, String)> {
+    let seconds = |time: Duration| format!("{:.3}", time.as_secs_f64());
     let mut pairs = vec![
         ("points", trained.points.to_string()),
         ("runs", trained.runs.to_string()),
@@ -29,16 +42,16 @@ pub fn execute<const D: usize>(experiment: &Experiment, directory: &Path) -> Res
             "reconstruction_error_percent",
             format!("{:.6}", trained.reconstruction_error),
         ),
-        ("data_seconds", format!("{:.3}", trained.data_time.as_secs_f64())),
-        (
-            "training_seconds",
-            format!("{:.3}", trained.training_time.as_secs_f64()),
-        ),
+        ("data_seconds", seconds(trained.data_time)),
+        ("training_seconds", seconds(trained.training_time)),
     ];
+    if !trained.name.is_empty() {
+        pairs.insert(0, ("variant", trained.name.clone()));
+    }
     if let Some(bytes) = memory.peak_bytes() {
         pairs.push(("peak_memory_bytes", bytes.to_string()));
     }
-    console::print_pairs(&pairs)
+    pairs
 }
 
 impl Watch for TrainingProgress {

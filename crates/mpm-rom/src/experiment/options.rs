@@ -1,0 +1,108 @@
+//! What a reduced run can be made with, by the words of the file.
+
+use serde::Deserialize;
+
+/// How many sample points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(untagged)]
+pub enum SampleCount {
+    /// So many.
+    Drawn(usize),
+    /// Every material point: the word `"all"`.
+    All(All),
+}
+
+/// The word `"all"`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum All {
+    /// Itself.
+    All,
+}
+
+/// How sample points are chosen; see [`SampleChoice`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ChoiceName {
+    /// Drawn evenly.
+    Drawn,
+    /// Each the farthest from those before it.
+    Spread,
+    /// Those that stand for all points best in steps from frames of the training data ([`choose_greedily`](crate::online::choose_greedily)).
+    #[default]
+    Greedy,
+}
+
+impl ChoiceName {
+    /// As in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Drawn => "drawn",
+            Self::Spread => "spread",
+            Self::Greedy => "greedy",
+        }
+    }
+}
+
+/// Where the momentum balance is summed; see [`Quadrature`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum QuadratureName {
+    /// At material points.
+    #[default]
+    Lagrangian,
+    /// At points of space.
+    Eulerian,
+}
+
+impl QuadratureName {
+    /// As in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Lagrangian => "lagrangian",
+            Self::Eulerian => "eulerian",
+        }
+    }
+}
+
+/// How coordinates follow from velocities; see [`Update`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum UpdateName {
+    /// From the velocities alone.
+    VelocityOnly,
+    /// From positions, with velocities beside them.
+    #[default]
+    PositionVelocity,
+}
+
+impl UpdateName {
+    /// As in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::VelocityOnly => "velocity-only",
+            Self::PositionVelocity => "position-velocity",
+        }
+    }
+}
+
+/// The family of maps; see [`manifold`](crate::manifold).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ManifoldName {
+    /// The trained network.
+    #[default]
+    Network,
+    /// The linear manifold of as many coordinates from the same training data ([`Pod`](crate::manifold::Pod)).
+    Linear,
+}
+
+impl ManifoldName {
+    /// As in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Network => "network",
+            Self::Linear => "linear",
+        }
+    }
+}
