@@ -19,7 +19,7 @@ use crate::snapshots::{Frame, Run, Snapshots};
 
 /// Training runs that are read, at most, and frames of each.
 const RUNS: usize = 8;
-const FRAMES: usize = 4;
+const FRAMES: usize = 6;
 
 /// Distances of the states around each frame, over the root mean square of the points' distance from the centroid. Without such states a choice knows only errors on the way, and not
 /// whether a run comes back to it; how far a run strays is not known beforehand.
@@ -51,7 +51,7 @@ pub(super) struct Sampling<'a, const D: usize> {
 impl<const D: usize> Sampling<'_, D> {
     /// Sample points for every number of them in the experiment.
     ///
-    /// Candidates are what [`choose_greedily`] finds on steps from 4 frames of each of up to 8 training runs, and from states around these frames at one of several distances.
+    /// Candidates are what [`choose_greedily`] finds on steps from 6 frames of each of up to 8 training runs, evenly spaced along the way of the body, and from states around these frames at one of several distances.
     /// Each is tried on up to three training runs of at most 90 frames, and the one with the least mean position error is taken. Above 24 points nothing is tried, and the distance is 0.002.
     pub fn choose(
         &self,
@@ -175,9 +175,8 @@ impl<const D: usize> Sampling<'_, D> {
         let mut reduced = ReducedModel::new(body, map, options)?;
         let frames = &self.snapshots.runs()[run].frames;
         let mut readings = Vec::new();
-        // Never the first one, where nothing moves yet.
-        for index in evenly(frames.len().saturating_sub(1), FRAMES) {
-            let (frame, time) = (&frames[index + 1], (index + 1) as f64 * self.snapshots.body().interval);
+        for index in along_path(frames, FRAMES) {
+            let (frame, time) = (&frames[index], index as f64 * self.snapshots.body().interval);
             let guess = self.guess(name, &frame.positions)?;
             let Some((latent, rates)) = fitted(&reduced, frame, time, guess) else {
                 continue;
@@ -207,6 +206,26 @@ fn evenly(count: usize, most: usize) -> Vec<usize> {
     (1..=used).map(|n| n * count / used - 1).collect()
 }
 
+/// At most `most` frames, evenly spaced along the way that the points go together, up to its end; never the first one, where nothing moves yet. A motion may be over soon, and most frames those of a
+/// body at rest.
+fn along_path<const D: usize>(frames: &[Frame<D>], most: usize) -> Vec<usize> {
+    let mut way = vec![0.0];
+    for pair in frames.windows(2) {
+        let steps = pair[0].positions.iter().zip(&pair[1].positions);
+        let squares: f64 = steps.map(|(x, y)| vector::distance_squared(x, y)).sum();
+        way.push(way[way.len() - 1] + squares.sqrt());
+    }
+    let whole = way[way.len() - 1];
+    let mut chosen: Vec<usize> = (1..=most)
+        .filter_map(|n| {
+            let part = whole * n as f64 / most as f64;
+            (1..way.len()).find(|&k| way[k] >= part * (1.0 - 1e-9))
+        })
+        .collect();
+    chosen.dedup();
+    chosen
+}
+
 /// x̂ and v̂ that come nearest to a frame: argmin Σ|g − φ|² and argmin Σ|∂g/∂x̂ v̂ − v|².
 fn fitted<const D: usize>(
     reduced: &ReducedModel<D, &dyn Manifold<D>>,
@@ -232,4 +251,24 @@ fn fitted<const D: usize>(
         .solve(&there.jacobians, &frame.velocities, &mut rates)
         .ok()?;
     Some((latent, rates))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_are_spread_over_the_way_not_the_time() {
+        let frame = |x: f64| Frame {
+            positions: vec![[x], [x + 1.0]],
+            deformation_gradients: Vec::new(),
+            velocities: Vec::new(),
+        };
+        let mut frames: Vec<Frame<1>> = (0..=10).map(|k| frame(f64::from(k))).collect();
+        frames.extend((0..90).map(|_| frame(10.0)));
+        assert_eq!(along_path(&frames, 5), [2, 4, 6, 8, 10]);
+        assert_eq!(along_path(&frames[..3], 5), [1, 2]);
+        assert_eq!(along_path(&frames[10..20], 2), [1], "a body at rest");
+        assert!(along_path(&frames[..1], 5).is_empty());
+    }
 }

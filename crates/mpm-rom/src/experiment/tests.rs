@@ -298,7 +298,10 @@ fn more_points_than_those_of_the_dynamics_are_compared_with_a_run_of_their_own()
     }
     let table = std::fs::read_to_string(out.join(names::RESULTS)).expect("a table");
     let names = table.lines().next().expect("a head");
-    assert!(names.starts_with("case,gravity,angle,manifold,variant,samples,"), "{names}");
+    assert!(
+        names.starts_with("case,gravity,angle,manifold,variant,samples,"),
+        "{names}"
+    );
     for line in table.lines() {
         assert_eq!(line.split(',').count(), names.split(',').count(), "{line}");
     }
