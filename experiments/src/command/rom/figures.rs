@@ -66,7 +66,7 @@ pub fn coordinates(directory: &Path, title: &str, rows: &[ReducedRow]) -> Result
         levels: Vec::new(),
     };
     let plot = TracePlot {
-        title: format!("{title}: coordinates"),
+        title: format!("{title}: coordinates, {} sample points", shown[0].samples),
         x_label: "time (s)".to_owned(),
         panels: (0..count).map(panel).collect(),
     };
