@@ -20,7 +20,7 @@ pub enum All {
     All,
 }
 
-/// How sample points are chosen; see [`SampleChoice`].
+/// How sample points are chosen; see [`SampleChoice`](crate::online::SampleChoice).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ChoiceName {
@@ -44,7 +44,7 @@ impl ChoiceName {
     }
 }
 
-/// Where the momentum balance is summed; see [`Quadrature`].
+/// Where the momentum balance is summed; see [`Quadrature`](crate::online::Quadrature).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum QuadratureName {
@@ -65,7 +65,7 @@ impl QuadratureName {
     }
 }
 
-/// How coordinates follow from velocities; see [`Update`].
+/// How coordinates follow from velocities; see [`Update`](crate::online::Update).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum UpdateName {
