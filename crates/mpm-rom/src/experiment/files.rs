@@ -25,7 +25,7 @@ pub mod names {
 }
 
 impl Experiment {
-    /// Takes a directory for this experiment, which may hold a part of it. Title, variants and reduced runs may have changed since.
+    /// Takes a directory for this experiment, which may hold a part of it. Title and reduced runs may have changed since.
     pub(super) fn occupy(&self, directory: &Path) -> Result<(), ExperimentError> {
         std::fs::create_dir_all(directory).map_err(|source| ExperimentError::file("create", directory, source))?;
         let file = directory.join(names::CONFIG);
@@ -35,7 +35,6 @@ impl Experiment {
         let before = Self::read(&file).map(|before| Self {
             title: self.title.clone(),
             run: self.run.clone(),
-            variants: self.variants.clone(),
             file: self.file.clone(),
             text: self.text.clone(),
             ..before
