@@ -5,28 +5,16 @@
 mod support;
 
 use std::path::Path;
-use std::process::Stdio;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use support::{assert_refused, command, files, parvi, stderr, stdout, value};
+use support::{assert_refused, files, parvi, started, stderr, stdout, value};
 
 const RUN: &str = "sample --target mixture-2 --dim 2 --particles 20000 --steps 400 --seed 3";
 
 /// Runs until the checkpoint exists and `more` has passed, then kills the process without a warning; false if it was faster.
 fn killed(directory: &Path, more: Duration) -> bool {
     let line = format!("{RUN} --out x.npy --checkpoint state --checkpoint-every 8");
-    let mut child = command()
-        .current_dir(directory)
-        .args(line.split_whitespace())
-        .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .spawn()
-        .unwrap();
-    let begin = Instant::now();
-    while !directory.join("state").exists() && child.try_wait().unwrap().is_none() {
-        assert!(begin.elapsed() < Duration::from_secs(60), "it writes no checkpoint");
-        std::thread::sleep(Duration::from_millis(1));
-    }
+    let mut child = started(directory, &line, || directory.join("state").exists());
     std::thread::sleep(more);
     let running = child.try_wait().unwrap().is_none();
     child.kill().unwrap();

@@ -4,7 +4,7 @@
 
 use std::collections::HashMap;
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 /// The built command.
@@ -23,8 +23,8 @@ pub fn parvi(directory: &Path, arguments: &str) -> Output {
         .unwrap()
 }
 
-/// As [`parvi`], with Ctrl-C a little after `begun` has become true, and asserts that this is how it ended.
-pub fn interrupted(directory: &Path, arguments: &str, begun: impl Fn() -> bool) -> Output {
+/// As [`parvi`], but comes back when `begun` has become true, or when the command has ended before.
+pub fn started(directory: &Path, arguments: &str, begun: impl Fn() -> bool) -> Child {
     let mut child = command()
         .current_dir(directory)
         .args(arguments.split_whitespace())
@@ -33,14 +33,20 @@ pub fn interrupted(directory: &Path, arguments: &str, begun: impl Fn() -> bool) 
         .spawn()
         .unwrap();
     let start = Instant::now();
-    while !begun() {
+    while !begun() && child.try_wait().unwrap().is_none() {
         assert!(start.elapsed() < Duration::from_secs(60), "it does not begin");
-        assert!(
-            child.try_wait().unwrap().is_none(),
-            "it ended before it was interrupted"
-        );
         std::thread::sleep(Duration::from_millis(1));
     }
+    child
+}
+
+/// As [`parvi`], with Ctrl-C as soon as `begun` has become true, and asserts that this is how it ended.
+pub fn interrupted(directory: &Path, arguments: &str, begun: impl Fn() -> bool) -> Output {
+    let mut child = started(directory, arguments, begun);
+    assert!(
+        child.try_wait().unwrap().is_none(),
+        "it ended before it was interrupted"
+    );
     let kill = Command::new("kill")
         .args(["-INT", &child.id().to_string()])
         .status()
