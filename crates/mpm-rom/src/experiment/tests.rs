@@ -358,7 +358,9 @@ fn variants_are_other_networks_for_the_same_data() {
     assert_eq!(kinds, expected.iter().flat_map(|&kind| [kind; 2]).collect::<Vec<_>>());
     // A model must not be run under the name of a variant that it was not trained as.
     let mut other = experiment.clone();
-    other.variants[0].changes.insert("coordinates".to_owned(), toml::Value::Integer(1));
+    other.variants[0]
+        .changes
+        .insert("coordinates".to_owned(), toml::Value::Integer(1));
     assert!(matches!(
         run::<2>(&other, &out, &mut |_, _| true),
         Err(ExperimentError::Occupied { .. })
