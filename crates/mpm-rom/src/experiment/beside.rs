@@ -127,7 +127,7 @@ pub(super) fn beside<const D: usize>(
         nodes: report.nodes,
         quadrature_points: report.quadrature_points,
         refreshes: report.refreshes,
-        left_out: report.left_out,
+        limited: report.limited,
         outcome,
         frames: rows,
     })

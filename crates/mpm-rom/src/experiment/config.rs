@@ -7,9 +7,8 @@ use serde::Deserialize;
 use super::ExperimentError;
 use super::beside::Choice;
 use super::options::{All, ChoiceName, ManifoldName, QuadratureName, SampleCount, UpdateName};
-use super::sampling::Chosen;
 use super::variants::Variant;
-use crate::online::{Inverted, Options, Quadrature, SampleChoice, Search, Update};
+use crate::online::{Inverted, OnlineError, Options, Quadrature, SampleChoice, Search, Update};
 use crate::training::Training;
 
 /// An experiment: a scene, the parameters in which its runs differ, and what is trained and run.
@@ -102,7 +101,7 @@ pub struct ReducedRuns {
     pub points_per_axis: usize,
     /// The skin of neighbour lists, in grid spacings.
     pub skin: f64,
-    /// What happens at quadrature points with J ≤ 0: `"refuse"` ends the run, `"leave-out"` goes on without them and counts them.
+    /// What happens at quadrature points with J ≤ 0: `"refuse"` ends the run, `"limit"` goes on with a limited F there and counts them.
     pub inverted: Inverted,
     /// Super-resolution: the file of a scene of the same body with more points, seen from the experiment's. Reduced runs are then also compared with its full-order runs, at its points,
     /// and so are tracers on the runs of the scene itself. Linear manifolds know their own points only and are left out.
@@ -132,18 +131,27 @@ impl Default for ReducedRuns {
 }
 
 impl ReducedRuns {
-    /// The options of one run; `greedy` are the choices that were made on training runs.
-    pub(super) fn options(&self, choice: &Choice, greedy: &Chosen) -> Options {
+    /// The sample points of one run; `greedily` makes the choice that needs training runs.
+    pub(super) fn samples(
+        &self,
+        choice: &Choice,
+        greedily: impl FnOnce(usize) -> Result<SampleChoice, OnlineError>,
+    ) -> Result<SampleChoice, OnlineError> {
+        let (count, seed) = match choice.samples {
+            SampleCount::All(_) => return Ok(SampleChoice::All),
+            SampleCount::Drawn(count) => (count, self.seed),
+        };
+        match choice.chosen {
+            ChoiceName::Drawn => Ok(SampleChoice::Drawn { count, seed }),
+            ChoiceName::Spread => Ok(SampleChoice::Spread { count, seed }),
+            ChoiceName::Greedy => greedily(count),
+        }
+    }
+
+    /// The options of one run with these sample points.
+    pub(super) fn options(&self, choice: &Choice, samples: SampleChoice) -> Options {
         Options {
-            samples: match (choice.samples, choice.chosen) {
-                (SampleCount::All(_), _) => SampleChoice::All,
-                (SampleCount::Drawn(count), ChoiceName::Drawn) => SampleChoice::Drawn { count, seed: self.seed },
-                (SampleCount::Drawn(count), ChoiceName::Spread) => SampleChoice::Spread { count, seed: self.seed },
-                (SampleCount::Drawn(count), ChoiceName::Greedy) => greedy
-                    .get(&(choice.manifold, choice.network, count))
-                    .cloned()
-                    .unwrap_or(SampleChoice::Drawn { count, seed: self.seed }),
-            },
+            samples,
             quadrature: match (choice.quadrature, choice.samples) {
                 // All points are near a sample point when all are samples.
                 (QuadratureName::Lagrangian, SampleCount::All(_)) => Quadrature::Lagrangian { search: Search::All },

@@ -15,6 +15,7 @@ mod super_resolution;
 #[cfg(test)]
 mod tests;
 mod trained;
+mod training_states;
 mod variants;
 
 pub use config::{Cases, Experiment, Key, ReducedRuns};

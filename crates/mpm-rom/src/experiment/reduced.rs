@@ -46,7 +46,7 @@ pub fn run<const D: usize>(
         }
         _ => None,
     };
-    let mut greedy = Chosen::new();
+    let mut greedy = Chosen::default();
     if let Some(snapshots) = training.as_ref().filter(|_| is_greedy(experiment)) {
         for (name, network) in maps(experiment, models.len()) {
             let model = &models[network].1;
@@ -112,7 +112,10 @@ pub fn run<const D: usize>(
                 ManifoldName::Network => at_rest[choice.network].clone(),
                 ManifoldName::Linear => vec![0.0; manifold.coordinates()],
             };
-            let options = experiment.run.options(choice, &greedy);
+            let samples = experiment.run.samples(choice, |count| {
+                greedy.points((choice.manifold, choice.network, count), manifold.coordinates(), &body)
+            })?;
+            let options = experiment.run.options(choice, samples);
             let written = experiment.run.vtu.then(|| FrameFiles::of_run(directory, rows.len()));
             let mut row = beside(manifold, &guess, body, &full, choice, options, written.transpose()?)?;
             if choice.manifold == ManifoldName::Network {

@@ -47,8 +47,8 @@ pub struct ReducedRow {
     pub quadrature_points: usize,
     /// Neighbour lists made.
     pub refreshes: u64,
-    /// Quadrature points that were left out because of J ≤ 0, counted in every step.
-    pub left_out: usize,
+    /// Quadrature points that had F limited because of J ≤ 0, counted in every step.
+    pub limited: usize,
     /// `finished`, or why the run ended before its time.
     pub outcome: String,
     /// All frames reached.
@@ -130,7 +130,7 @@ fn columns<'a>(parameters: &'a [String], row: &ReducedRow) -> Vec<(&'a str, Stri
         ("nodes", row.nodes.to_string()),
         ("quadrature_points", row.quadrature_points.to_string()),
         ("neighbour_lists", row.refreshes.to_string()),
-        ("left_out", row.left_out.to_string()),
+        ("limited", row.limited.to_string()),
         ("outcome", format!("\"{}\"", row.outcome.replace('"', "'"))),
     ]);
     columns

@@ -277,7 +277,7 @@ fn more_points_than_those_of_the_dynamics_are_compared_with_a_run_of_their_own()
     std::fs::write(directory.path().join("denser.toml"), &denser).expect("written");
     let text = EXPERIMENT.replace(
         "manifold = [\"network\", \"linear\"], samples = [20, \"all\"], quadrature = [\"lagrangian\"]",
-        "manifold = [\"network\", \"linear\"], super_resolution = \"denser.toml\", vtu = true, samples = [20], inverted = \"leave-out\"",
+        "manifold = [\"network\", \"linear\"], super_resolution = \"denser.toml\", vtu = true, samples = [20], inverted = \"limit\"",
     );
     let experiment = Experiment::parse(&text, &file).expect("sound");
     let out = directory.path().join("out");

@@ -59,6 +59,16 @@ pub enum OnlineError {
         /// N.
         points: usize,
     },
+    /// Given sample points that leave a kinematic region out.
+    #[error("{found} of the sample points are on kinematic region {region}, at least {needed} are needed")]
+    TooFewOnRegion {
+        /// Its number in the scene.
+        region: usize,
+        /// How many are.
+        found: usize,
+        /// 5, or all points of the region if there are fewer.
+        needed: usize,
+    },
     /// More sample points than material points.
     #[error("{found} sample points of {points} material points")]
     TooManySamples {

@@ -161,10 +161,9 @@ impl<const D: usize> Eulerian<D> {
             let inverse = gradient.inverse();
             if vector::maximum_norm(&rest) <= tolerance {
                 let outside = body.distance(&reference);
-                if outside <= 0.0
-                    && let Some(ratio) = out.admit(&gradient, &reference, now)?
-                {
-                    out.push(x, v, gradient, volume / ratio);
+                if outside <= 0.0 {
+                    let (admitted, ratio) = out.admit(&gradient, &reference, now)?;
+                    out.push(x, v, admitted, volume / ratio);
                 }
                 self.known[number] = inverse.map(|inverse| {
                     let rate = inverse.apply(&v).map(|c| -c);

@@ -63,10 +63,9 @@ impl<const D: usize> Lagrangian<D> {
         let moving = there.positions.iter().zip(&there.velocities).zip(&there.gradients);
         let numbered = self.touching.iter().zip(&self.chosen.reference);
         for (((x, v), gradient), (&p, reference)) in moving.zip(numbered) {
-            if out.admit(gradient, reference, now)?.is_some()
-                && let Some(&volume) = body.volumes.get(p as usize)
-            {
-                out.push(*x, *v, *gradient, volume);
+            let (gradient, _) = out.admit(gradient, reference, now)?;
+            if let Some(&volume) = body.volumes.get(p as usize) {
+                out.push(*x, *v, gradient, volume);
             }
         }
         Ok(())

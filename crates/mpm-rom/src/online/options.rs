@@ -41,8 +41,8 @@ pub enum Inverted {
     /// The run ends with an error.
     #[default]
     Refuse,
-    /// The point carries nothing, neither mass nor force; such points are counted in the step's report.
-    LeaveOut,
+    /// The point has the stress of the nearest F whose stretches are at least 0.1, which pushes it back; such points are counted in the step's report.
+    Limit,
 }
 
 /// How x̂ moves.

@@ -1,10 +1,13 @@
 //! The quadrature points of a step, whatever they are.
 
 use mpm_materials::Material;
-use mpm_tensor::Matrix;
+use mpm_tensor::{Matrix, Polar, SymmetricEigen};
 
 use super::lagrangian::Instant;
 use super::{Inverted, OnlineError};
+
+/// The least stretch of a limited F.
+const LEAST_STRETCH: f64 = 0.1;
 
 /// One entry per point in every list.
 #[derive(Clone, Debug, Default)]
@@ -19,8 +22,8 @@ pub(super) struct QuadraturePoints<const D: usize> {
     pub volumes: Vec<f64>,
     /// τ_q.
     stresses: Vec<Matrix<D>>,
-    /// Points that were left out because of J ≤ 0, counted in every step.
-    pub left_out: usize,
+    /// Points whose F was limited because of J ≤ 0, counted in every step.
+    pub limited: usize,
 }
 
 impl<const D: usize> QuadraturePoints<D> {
@@ -29,7 +32,7 @@ impl<const D: usize> QuadraturePoints<D> {
         self.positions.len()
     }
 
-    /// No points; the storage stays, and the count of what was left out.
+    /// No points; the storage stays, and the count of what was limited.
     pub fn clear(&mut self) {
         self.positions.clear();
         self.velocities.clear();
@@ -37,28 +40,28 @@ impl<const D: usize> QuadraturePoints<D> {
         self.volumes.clear();
     }
 
-    /// J of a point, if it is positive; `None` if the point is to be left out, which is counted.
+    /// F and J of a point as they are used: where J ≤ 0 the F that [`Inverted`] asks for, which is counted.
     pub fn admit(
         &mut self,
         gradient: &Matrix<D>,
         reference: &[f64; D],
         now: &Instant<D>,
-    ) -> Result<Option<f64>, OnlineError> {
+    ) -> Result<(Matrix<D>, f64), OnlineError> {
         let volume_ratio = gradient.determinant();
         if volume_ratio > 0.0 && volume_ratio.is_finite() {
-            return Ok(Some(volume_ratio));
+            return Ok((*gradient, volume_ratio));
         }
-        match now.inverted {
-            Inverted::Refuse => Err(OnlineError::Inverted {
-                step: now.step,
-                reference: reference.to_vec(),
-                volume_ratio,
-            }),
-            Inverted::LeaveOut => {
-                self.left_out += 1;
-                Ok(None)
-            }
-        }
+        let limited = match now.inverted {
+            Inverted::Refuse => None,
+            Inverted::Limit => limited(gradient),
+        };
+        let limited = limited.ok_or_else(|| OnlineError::Inverted {
+            step: now.step,
+            reference: reference.to_vec(),
+            volume_ratio,
+        })?;
+        self.limited += 1;
+        Ok((limited, limited.determinant()))
     }
 
     /// A point with x_q, v_q, F_q and m_q / ρ₀.
@@ -83,4 +86,12 @@ impl<const D: usize> QuadraturePoints<D> {
             .zip(rest)
             .map(|((x, v), (&volume, stress))| (x, v, volume, stress))
     }
+}
+
+/// The nearest F whose stretches are at least [`LEAST_STRETCH`]: R Q max(Λ, 0.1) Qᵀ with F = R Q Λ Qᵀ and a rotation R, the smallest stretch being negative where det F < 0, as in
+/// G. Irving, J. Teran & R. Fedkiw, *Invertible finite elements for robust simulation of large deformation*, SCA 2004. `None` unless F is finite.
+fn limited<const D: usize>(gradient: &Matrix<D>) -> Option<Matrix<D>> {
+    let polar = Polar::new(gradient)?;
+    let stretch = SymmetricEigen::new(&polar.stretch)?;
+    Some(polar.rotation * stretch.map(|value| value.max(LEAST_STRETCH)))
 }

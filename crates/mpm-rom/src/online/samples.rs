@@ -38,8 +38,8 @@ impl SampleChoice {
     /// The numbers of the sample points among material points with these reference positions, ascending.
     ///
     /// # Errors
-    /// [`OnlineError::TooFewSamples`] for fewer than max(⌈r / D⌉, 1), or too few for the regions; [`OnlineError::TooManySamples`]; [`OnlineError::Samples`] for
-    /// given numbers that are no points.
+    /// [`OnlineError::TooFewSamples`] for fewer than max(⌈r / D⌉, 1), or too few for the regions; [`OnlineError::TooManySamples`]; for given numbers [`OnlineError::Samples`] and
+    /// [`OnlineError::TooFewOnRegion`].
     pub fn choose<const D: usize>(
         &self,
         reference: &[[f64; D]],
@@ -55,7 +55,7 @@ impl SampleChoice {
         let groups = groups(kinematics, points, coordinates, count)?;
         match self {
             Self::All => return Ok((0..points as u32).collect()),
-            Self::Given(numbers) => return given(numbers, points),
+            Self::Given(numbers) => return given(numbers, points, kinematics),
             _ => {}
         }
         let mut generator = ChaCha8Rng::seed_from_u64(seed);
@@ -117,13 +117,20 @@ pub(super) fn groups<const D: usize>(
     Ok(groups)
 }
 
-fn given(numbers: &[u32], points: usize) -> Result<Vec<u32>, OnlineError> {
+fn given<const D: usize>(numbers: &[u32], points: usize, kinematics: &Kinematics<D>) -> Result<Vec<u32>, OnlineError> {
     let mut next = 0;
     for &number in numbers {
         if number < next || number as usize >= points {
             return Err(OnlineError::Samples { number, points });
         }
         next = number + 1;
+    }
+    for (region, members) in kinematics.regions().iter().map(|region| &region.members).enumerate() {
+        let chosen = members.iter().filter(|&&p| numbers.binary_search(&(p as u32)).is_ok());
+        let (found, needed) = (chosen.count(), members.len().min(ON_EACH_REGION));
+        if found < needed {
+            return Err(OnlineError::TooFewOnRegion { region, found, needed });
+        }
     }
     Ok(numbers.to_vec())
 }

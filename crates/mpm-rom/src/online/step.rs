@@ -51,8 +51,8 @@ pub struct StepReport {
     pub nodes: usize,
     /// Quadrature points that carried mass.
     pub quadrature_points: usize,
-    /// Quadrature points that have been left out because of J ≤ 0 since the start, counted in every step.
-    pub left_out: usize,
+    /// Quadrature points that have been whose F was limited because of J ≤ 0 since the start, counted in every step.
+    pub limited: usize,
     /// How often neighbour lists have been made since the start.
     pub refreshes: u64,
 }
@@ -128,7 +128,7 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
                 scheme.place(body, &mut self.map, reference, &self.evaluation, nodes, &now, out)?;
             }
         }
-        report.left_out = self.quadrature.left_out;
+        report.limited = self.quadrature.limited;
         self.quadrature.update_stresses(&*self.body.material);
         Ok(report)
     }

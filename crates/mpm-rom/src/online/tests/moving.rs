@@ -10,7 +10,7 @@ fn at_rest_the_points_of_space_fill_the_body() {
     let mut model = model(BLOCK, Fields::bending(3), chosen);
     let report = model.step().expect("a step");
     // 8 × 4 cells of the grid, four points in each.
-    assert_eq!((report.quadrature_points, report.left_out), (128, 0));
+    assert_eq!((report.quadrature_points, report.limited), (128, 0));
     let volume: f64 = model.quadrature.volumes.iter().sum();
     assert!((volume - 0.5).abs() < 1e-12, "{volume}");
 }

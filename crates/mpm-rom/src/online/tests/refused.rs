@@ -24,6 +24,21 @@ fn bad_input_is_an_error_with_its_name() {
     );
     let error = try_new(&format!("{BLOCK}{HELD}"), few(4)).expect_err("four with a kinematic region");
     assert!(matches!(error, OnlineError::TooFewSamples { needed: 5, .. }), "{error}");
+    let members = body(&format!("{BLOCK}{HELD}")).kinematics.regions()[0].members.clone();
+    let free = (0..128).filter(|p| !members.contains(&(*p as usize))).take(9);
+    let four = members.iter().take(4).map(|&p| p as u32);
+    let mut numbers: Vec<u32> = free.chain(four).collect();
+    numbers.sort_unstable();
+    let given = options(SampleChoice::Given(numbers), LAGRANGIAN, Update::VelocityOnly);
+    let error = try_new(&format!("{BLOCK}{HELD}"), given).expect_err("four on the region");
+    let OnlineError::TooFewOnRegion {
+        region: 0,
+        found: 4,
+        needed: 5,
+    } = error
+    else {
+        panic!("{error}");
+    };
     let error = try_new(BLOCK, few(1000)).expect_err("more than there are");
     assert!(
         matches!(
@@ -78,7 +93,7 @@ fn an_inverted_map_is_an_error_and_a_named_fallback() {
             panic!("{error}");
         };
         assert!(volume_ratio <= 0.0 && vector::norm(&[reference[0], reference[1]]) < 1.0);
-        let report = squashed(quadrature, Inverted::LeaveOut).expect("a step");
-        assert!(report.quadrature_points > 0 && report.left_out > 0, "{report:?}");
+        let report = squashed(quadrature, Inverted::Limit).expect("a step");
+        assert!(report.quadrature_points > 0 && report.limited > 0, "{report:?}");
     }
 }

@@ -1,0 +1,134 @@
+//! States near the frames of training runs, and what steps from them say of the velocities of all points.
+
+use mpm_tensor::vector;
+
+use super::sampling::{Sampling, evenly};
+use super::{ExperimentError, ManifoldName};
+use crate::deformation_map::DeformationMap;
+use crate::least_squares::{GaussNewton, LeastSquares, Settings};
+use crate::manifold::{Evaluation, Manifold, Wanted};
+use crate::online::{Inverted, Options, Quadrature, Reading, ReducedBody, ReducedModel, SampleChoice, Search, Update};
+use crate::snapshots::Frame;
+
+/// Training runs that are read, at most, and frames of each.
+const RUNS: usize = 8;
+const FRAMES: usize = 6;
+
+impl<const D: usize> Sampling<'_, D> {
+    /// Steps from frames of several training runs.
+    pub(super) fn all_readings(
+        &self,
+        name: ManifoldName,
+        manifold: &dyn Manifold<D>,
+        distance: f64,
+    ) -> Result<Vec<Reading<D>>, ExperimentError> {
+        let runs = evenly(self.snapshots.runs().len(), RUNS).into_iter();
+        let read = runs.map(|run| self.readings(name, manifold, run, distance));
+        Ok(read.collect::<Result<Vec<_>, _>>()?.concat())
+    }
+
+    /// Steps from some frames of a run and from states around them, read at all points. States from which there is no step, because the map is inverted there for example, are left out.
+    fn readings(
+        &self,
+        name: ManifoldName,
+        manifold: &dyn Manifold<D>,
+        run: usize,
+        distance: f64,
+    ) -> Result<Vec<Reading<D>>, ExperimentError> {
+        let body = ReducedBody::<D>::of(&self.scene(run)?)?;
+        let squares: f64 = body.reference.iter().map(vector::norm_squared).sum();
+        let distance = distance * (squares / body.reference.len().max(1) as f64).sqrt();
+        let guess = self.guess(name, &body.reference)?;
+        let map = DeformationMap::new(manifold, &body.reference, &guess)?;
+        let options = Options {
+            samples: SampleChoice::All,
+            quadrature: Quadrature::Lagrangian { search: Search::All },
+            update: Update::VelocityOnly,
+            inverted: Inverted::Refuse,
+        };
+        let mut reduced = ReducedModel::new(body, map, options)?;
+        let frames = &self.snapshots.runs()[run].frames;
+        let mut readings = Vec::new();
+        for index in along_path(frames, FRAMES) {
+            let (frame, time) = (&frames[index], index as f64 * self.snapshots.body().interval);
+            let guess = self.guess(name, &frame.positions)?;
+            let Some((latent, rates)) = fitted(&reduced, frame, time, guess) else {
+                continue;
+            };
+            let mut states = vec![latent.clone()];
+            if distance > 0.0 {
+                states.extend(reduced.states_around(&latent, time, distance));
+            }
+            let steps = states.iter().map(|state| reduced.reading(state, &rates, time));
+            readings.extend(steps.flatten());
+        }
+        Ok(readings)
+    }
+}
+
+/// At most `most` frames, evenly spaced along the way that the points go together, up to its end; never the first one, where nothing moves yet. A motion may be over soon, and most frames those of a
+/// body at rest.
+fn along_path<const D: usize>(frames: &[Frame<D>], most: usize) -> Vec<usize> {
+    let mut way = vec![0.0];
+    for pair in frames.windows(2) {
+        let steps = pair[0].positions.iter().zip(&pair[1].positions);
+        let squares: f64 = steps.map(|(x, y)| vector::distance_squared(x, y)).sum();
+        way.push(way[way.len() - 1] + squares.sqrt());
+    }
+    let whole = way[way.len() - 1];
+    let mut chosen: Vec<usize> = (1..=most)
+        .filter_map(|n| {
+            let part = whole * n as f64 / most as f64;
+            (1..way.len()).find(|&k| way[k] >= part * (1.0 - 1e-9))
+        })
+        .collect();
+    chosen.dedup();
+    chosen
+}
+
+/// x̂ and v̂ that come nearest to a frame: argmin Σ|g − φ|² and argmin Σ|∂g/∂x̂ v̂ − v|².
+fn fitted<const D: usize>(
+    reduced: &ReducedModel<D, &dyn Manifold<D>>,
+    frame: &Frame<D>,
+    time: f64,
+    guess: Vec<f64>,
+) -> Option<(Vec<f64>, Vec<f64>)> {
+    let mut latent = guess;
+    let evaluate = |y: &[f64], wanted: Wanted, out: &mut Evaluation<D>| reduced.evaluate_at(y, time, wanted, out);
+    GaussNewton::default()
+        .minimise(&frame.positions, &mut latent, &Settings::default(), evaluate)
+        .ok()?;
+    let (mut there, wanted) = (
+        Evaluation::default(),
+        Wanted {
+            jacobians: true,
+            ..Wanted::default()
+        },
+    );
+    reduced.evaluate_at(&latent, time, wanted, &mut there);
+    let mut rates = vec![0.0; latent.len()];
+    LeastSquares::default()
+        .solve(&there.jacobians, &frame.velocities, &mut rates)
+        .ok()?;
+    Some((latent, rates))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_are_spread_over_the_way_not_the_time() {
+        let frame = |x: f64| Frame {
+            positions: vec![[x], [x + 1.0]],
+            deformation_gradients: Vec::new(),
+            velocities: Vec::new(),
+        };
+        let mut frames: Vec<Frame<1>> = (0..=10).map(|k| frame(f64::from(k))).collect();
+        frames.extend((0..90).map(|_| frame(10.0)));
+        assert_eq!(along_path(&frames, 5), [2, 4, 6, 8, 10]);
+        assert_eq!(along_path(&frames[..3], 5), [1, 2]);
+        assert_eq!(along_path(&frames[10..20], 2), [1], "a body at rest");
+        assert!(along_path(&frames[..1], 5).is_empty());
+    }
+}
