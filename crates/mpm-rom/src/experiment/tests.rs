@@ -332,6 +332,27 @@ fn more_points_than_those_of_the_dynamics_are_compared_with_a_run_of_their_own()
 }
 
 #[test]
+fn sample_points_are_on_the_regions_of_each_case() {
+    let (directory, file) = files();
+    let keys = EXPERIMENT.replace("\"angle\"]\nkeys", "\"angle\", \"end\"]\nkeys").replace(
+        "keys = [",
+        "keys = [\n    { key = \"kinematic.0.region.lower.0\", offset = -0.1, factor = 1.85, product = [\"end\"] },\n    { key = \"kinematic.0.region.upper.0\", offset = 0.25, factor = 1.85, product = [\"end\"] },",
+    );
+    // The first training case is held at the other end than the unseen one.
+    let text = keys.replace(
+        "train = [[1.0, 0.0], [3.0, 0.2]], test = [[2.0, 0.1]]",
+        "train = [[1.0, 0.0, 0.0], [3.0, 0.2, 1.0]], test = [[2.0, 0.1, 1.0]]",
+    );
+    let experiment = Experiment::parse(&text, &file).expect("sound");
+    let out = directory.path().join("out");
+    train_one(&experiment, &out);
+    // Given points without five on the region would be refused.
+    let rows = run::<2>(&experiment, &out, &mut |_, _| true).expect("run");
+    let greedy: Vec<_> = rows.iter().filter(|row| row.chosen == "greedy").collect();
+    assert!(!greedy.is_empty() && greedy.iter().all(|row| row.samples == 20));
+}
+
+#[test]
 fn variants_are_other_networks_for_the_same_data() {
     let (directory, file) = files();
     let text = EXPERIMENT

@@ -95,3 +95,25 @@ fn limited<const D: usize>(gradient: &Matrix<D>) -> Option<Matrix<D>> {
     let stretch = SymmetricEigen::new(&polar.stretch)?;
     Some(polar.rotation * stretch.map(|value| value.max(LEAST_STRETCH)))
 }
+
+#[cfg(test)]
+mod tests {
+    use mpm_tensor::SingularValues;
+
+    use super::*;
+
+    #[test]
+    fn a_limited_gradient_keeps_its_rotation_and_its_large_stretches() {
+        let (sine, cosine) = 0.7f64.sin_cos();
+        let turn = Matrix([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]]);
+        for (least, expected) in [(-0.4, 0.1), (0.0, 0.1), (0.05, 0.1), (0.3, 0.3)] {
+            let gradient = turn * Matrix::diagonal(&[1.5, 0.8, least]);
+            let found = limited(&gradient).expect("finite");
+            let difference = found - turn * Matrix::diagonal(&[1.5, 0.8, expected]);
+            assert!(difference.frobenius_norm() < 1e-12, "{least}: {found:?}");
+            let values = SingularValues::new(&found).expect("finite").values;
+            assert!(values.iter().all(|&value| value > LEAST_STRETCH - 1e-12) && found.determinant() > 0.0);
+        }
+        assert!(limited(&Matrix([[f64::NAN; 2]; 2])).is_none());
+    }
+}

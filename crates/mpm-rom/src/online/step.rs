@@ -51,7 +51,7 @@ pub struct StepReport {
     pub nodes: usize,
     /// Quadrature points that carried mass.
     pub quadrature_points: usize,
-    /// Quadrature points that have been whose F was limited because of J ≤ 0 since the start, counted in every step.
+    /// Quadrature points whose F has been limited because of J ≤ 0 since the start, counted in every step.
     pub limited: usize,
     /// How often neighbour lists have been made since the start.
     pub refreshes: u64,
