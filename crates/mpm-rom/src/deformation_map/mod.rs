@@ -1,14 +1,17 @@
 //! g from g̃: the map that starts at rest exactly.
 
+mod at_rest;
 mod initial;
 mod points;
 #[cfg(test)]
 mod tests;
 
+pub use at_rest::AtRestTable;
 pub use initial::{AffineVelocity, InitialMotion};
 pub use points::MaterialPoints;
 
 use mpm_tensor::{Matrix, vector};
+use rayon::prelude::*;
 
 use crate::least_squares::{GaussNewton, LeastSquares, LeastSquaresError, Settings};
 use crate::manifold::{Evaluation, Manifold, Wanted};
@@ -130,6 +133,40 @@ impl<const D: usize, M: Manifold<D>> DeformationMap<D, M> {
         if let Some(initial) = &self.initial {
             initial.drifts(&self.manifold, &self.rest, &self.at_rest, out);
         }
+    }
+
+    /// A table of a(X) with this spacing, in the box around these points and `margin` beyond it; `None` where it would be too large, or where the body does not start at rest.
+    pub fn tabulate(&self, reference: &[[f64; D]], margin: f64, spacing: f64) -> Option<AtRestTable<D>> {
+        if self.initial.is_some() {
+            return None;
+        }
+        AtRestTable::around(reference, margin, spacing, |nodes| {
+            let mut there = Evaluation::default();
+            self.manifold.evaluate(nodes, &self.rest, Wanted::default(), &mut there);
+            let pairs = nodes.iter().zip(&there.positions);
+            pairs.map(|(x, g)| vector::subtract(x, g)).collect()
+        })
+    }
+
+    /// As [`prepare`](Self::prepare), from a table; points outside it are computed.
+    pub fn prepare_from(&mut self, table: &AtRestTable<D>, reference: &[[f64; D]], out: &mut MaterialPoints<D>) {
+        let found: Vec<_> = reference.par_iter().with_min_len(256).map(|x| table.at(x)).collect();
+        let outside: Vec<[f64; D]> = reference
+            .iter()
+            .zip(&found)
+            .filter(|(_, found)| found.is_none())
+            .map(|(x, _)| *x)
+            .collect();
+        self.prepare(&outside, out);
+        let mut computed = out.offsets.drain(..).zip(out.gradient_offsets.drain(..));
+        let (offsets, gradients) = found
+            .into_iter()
+            .filter_map(|found| found.or_else(|| computed.next()))
+            .unzip();
+        drop(computed);
+        (out.offsets, out.gradient_offsets) = (offsets, gradients);
+        out.reference.clear();
+        out.reference.extend_from_slice(reference);
     }
 
     /// g, and where wanted F = ∇g and ∂g/∂x̂, at prepared points; `out` is overwritten. `time` is read only where there is a b(X).

@@ -89,3 +89,57 @@ fn a_wrong_start_is_refused() {
     let error = DeformationMap::new(Fields::<3>::translations(), &points(), &[0.0; 2]).err();
     assert_eq!(error, Some(DeformationMapError::Coordinates { found: 2, expected: 3 }));
 }
+
+/// A family that is bent at rest: X + 0.05 sin(X_0 + 2 X_1) e_2 + fields.
+struct Wavy(Fields<3>);
+
+impl Manifold<3> for Wavy {
+    fn coordinates(&self) -> usize {
+        self.0.coordinates()
+    }
+
+    fn evaluate(&self, reference: &[[f64; 3]], latent: &[f64], wanted: Wanted, out: &mut Evaluation<3>) {
+        self.0.evaluate(reference, latent, wanted, out);
+        for (x, g) in reference.iter().zip(&mut out.positions) {
+            g[2] += 0.05 * (x[0] + 2.0 * x[1]).sin();
+        }
+        for (x, gradient) in reference.iter().zip(&mut out.gradients) {
+            let slope = 0.05 * (x[0] + 2.0 * x[1]).cos();
+            gradient.0[2][0] += slope;
+            gradient.0[2][1] += 2.0 * slope;
+        }
+    }
+}
+
+#[test]
+fn a_table_gives_what_is_computed() {
+    let reference = points();
+    let mut map = DeformationMap::new(Wavy(Fields::bending(3)), &reference, &[0.2; 3]).expect("solvable");
+    let table = map.tabulate(&reference, 0.1, 0.1).expect("small");
+    // The last one is outside of the table.
+    let places: Vec<[f64; 3]> = reference
+        .iter()
+        .map(|x| vector::scale(x, 0.97))
+        .chain([[5.0; 3]])
+        .collect();
+    let (mut found, mut expected) = (MaterialPoints::default(), MaterialPoints::default());
+    map.prepare_from(&table, &places, &mut found);
+    map.prepare(&places, &mut expected);
+    assert_eq!(
+        (found.reference, found.offsets.len()),
+        (expected.reference, places.len())
+    );
+    for (a, b) in found.offsets.iter().zip(&expected.offsets) {
+        assert!(vector::distance(a, b) < 1e-4, "{a:?} {b:?}");
+    }
+    for (a, b) in found.gradient_offsets.iter().zip(&expected.gradient_offsets) {
+        assert!((*a - *b).frobenius_norm() < 2e-3, "{a:?} {b:?}");
+    }
+    assert_eq!(found.offsets.last(), expected.offsets.last());
+    let moving = AffineVelocity {
+        constant: [0.3, -0.1, 0.2],
+        gradient: Matrix::ZERO,
+    };
+    let map = map.starting_with(moving, &reference).expect("solvable");
+    assert!(map.tabulate(&reference, 0.1, 0.1).is_none());
+}

@@ -42,7 +42,7 @@ pub(super) struct Full<const D: usize> {
     pub finer: Option<Finer<D>>,
 }
 
-/// Runs as many frames as the full-order run has, or up to the first error. The first frame, where both start, has no part in the error.
+/// Runs to the times of all frames of the full-order run, or up to the first error. The first frame, where both start, has no part in the error.
 /// The search for x̂₀ begins at `guess`; `files` takes the frames.
 pub(super) fn beside<const D: usize>(
     manifold: &dyn Manifold<D>,
@@ -67,7 +67,7 @@ pub(super) fn beside<const D: usize>(
         let first = number == 0;
         if !first {
             let start = Instant::now();
-            let advanced = reduced.advance_frame();
+            let advanced = reduced.advance_to(frame.time);
             seconds += start.elapsed().as_secs_f64();
             match advanced {
                 Ok(done) => report = done,
@@ -93,7 +93,8 @@ pub(super) fn beside<const D: usize>(
         }
     }
     let steps = reduced.timings().steps;
-    let all_steps = (frames_of(&full.snapshots).count() as u64).saturating_sub(1) * reduced.body().steps_per_frame;
+    let end = frames_of(&full.snapshots).last().map_or(0.0, |frame| frame.time);
+    let all_steps = (end / reduced.body().time_step).round();
     Ok(ReducedRow {
         case: full.case,
         parameters: full
@@ -123,7 +124,7 @@ pub(super) fn beside<const D: usize>(
         simulated: steps as f64 * reduced.body().time_step,
         steps,
         seconds,
-        full_seconds: full.seconds * steps as f64 / all_steps.max(1) as f64,
+        full_seconds: full.seconds * steps as f64 / all_steps.max(1.0),
         nodes: report.nodes,
         quadrature_points: report.quadrature_points,
         refreshes: report.refreshes,

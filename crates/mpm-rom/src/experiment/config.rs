@@ -8,7 +8,8 @@ use super::ExperimentError;
 use super::beside::Choice;
 use super::options::{All, ChoiceName, ManifoldName, QuadratureName, SampleCount, UpdateName};
 use super::variants::Variant;
-use crate::online::{Inverted, OnlineError, Options, Quadrature, SampleChoice, Search, Update};
+use crate::full_order::FramesBetween;
+use crate::online::{Inverted, OnlineError, Options, Quadrature, SampleChoice, SampleWeights, Search, Update};
 use crate::training::Training;
 
 /// An experiment: a scene, the parameters in which its runs differ, and what is trained and run.
@@ -22,6 +23,9 @@ pub struct Experiment {
     /// Points of the scene that training and errors know, at most: so many, evenly drawn. All of them if left out; dynamics always have all.
     #[serde(default)]
     pub recorded_points: Option<usize>,
+    /// Frames of the training runs between those of the scene; none if left out.
+    #[serde(default)]
+    pub frames_between: Option<FramesBetween>,
     /// Names of the parameters.
     pub parameters: Vec<String>,
     /// What the parameters change in the scene.
@@ -91,6 +95,8 @@ pub struct ReducedRuns {
     pub choice: Vec<ChoiceName>,
     /// Seed of the draw of sample points.
     pub seed: u64,
+    /// What sample points count: `"equal"`, the paper's, or `"nearest"`, each the number of points that are nearest to it.
+    pub weights: SampleWeights,
     /// Quadratures.
     pub quadrature: Vec<QuadratureName>,
     /// Updates.
@@ -118,6 +124,7 @@ impl Default for ReducedRuns {
             samples: vec![SampleCount::Drawn(50), SampleCount::All(All::All)],
             choice: vec![ChoiceName::default()],
             seed: 0,
+            weights: SampleWeights::default(),
             quadrature: vec![QuadratureName::Lagrangian],
             update: vec![UpdateName::PositionVelocity],
             step_factor: vec![1],
@@ -152,6 +159,7 @@ impl ReducedRuns {
     pub(super) fn options(&self, choice: &Choice, samples: SampleChoice) -> Options {
         Options {
             samples,
+            weights: self.weights,
             quadrature: match (choice.quadrature, choice.samples) {
                 // All points are near a sample point when all are samples.
                 (QuadratureName::Lagrangian, SampleCount::All(_)) => Quadrature::Lagrangian { search: Search::All },
@@ -245,6 +253,9 @@ impl Experiment {
         }
         if self.recorded_points == Some(0) {
             return refuse("recorded_points".to_owned(), "0: at least 1".to_owned());
+        }
+        if let Some((key, message)) = self.frames_between.and_then(|between| between.fault()) {
+            return refuse(format!("frames_between.{key}"), message);
         }
         let partial = [
             ("run.scene", self.run.scene.is_some()),

@@ -104,6 +104,20 @@ fn what_is_wrong_is_named_with_its_file_and_field() {
             "rom.toml, recorded_points: 0",
         ),
         (
+            (
+                "cases = {",
+                "frames_between = { per_frame = 1, distance = 0.1 }\ncases = {",
+            ),
+            "rom.toml, frames_between.per_frame: 1: at least 2",
+        ),
+        (
+            (
+                "cases = {",
+                "frames_between = { per_frame = 2, distance = 0.0 }\ncases = {",
+            ),
+            "rom.toml, frames_between.distance: 0: must be positive",
+        ),
+        (
             ("cases = {", "recorded_points = 9\ncases = {"),
             "rom.toml, run.manifold: \"linear\" needs all points of the training: leave out recorded_points",
         ),

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use super::files::{self, names};
 use super::variants::directory_of;
 use super::{Experiment, ExperimentError};
-use crate::full_order::{self, FullOrderError, Recording, SceneDocument};
+use crate::full_order::{self, FullOrderError, Kept, Recording, SceneDocument};
 use crate::model::Model;
 use crate::snapshots::{Body, Snapshots};
 use crate::training::{EpochReport, Trainer, Training};
@@ -141,8 +141,11 @@ fn training_data<const D: usize>(
         .map(|values| experiment.case(values))
         .collect::<Result<_, _>>()?;
     let after_run = |done| watch.after_run(done, values.len());
-    let recorded = experiment.recorded_points;
-    let snapshots = match full_order::collect(&document, &experiment.parameters, &cases, recorded, after_run) {
+    let kept = Kept {
+        points: experiment.recorded_points,
+        between: experiment.frames_between,
+    };
+    let snapshots = match full_order::collect(&document, &experiment.parameters, &cases, &kept, after_run) {
         Err(FullOrderError::Stopped { .. }) => return Err(ExperimentError::Stopped),
         collected => collected?,
     };

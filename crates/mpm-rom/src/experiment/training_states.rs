@@ -7,7 +7,9 @@ use super::{ExperimentError, ManifoldName};
 use crate::deformation_map::DeformationMap;
 use crate::least_squares::{GaussNewton, LeastSquares, Settings};
 use crate::manifold::{Evaluation, Manifold, Wanted};
-use crate::online::{Inverted, Options, Quadrature, Reading, ReducedBody, ReducedModel, SampleChoice, Search, Update};
+use crate::online::{
+    Inverted, Options, Quadrature, Reading, ReducedBody, ReducedModel, SampleChoice, SampleWeights, Search, Update,
+};
 use crate::snapshots::Frame;
 
 /// Training runs that are read, at most, and frames of each.
@@ -42,6 +44,7 @@ impl<const D: usize> Sampling<'_, D> {
         let map = DeformationMap::new(manifold, &body.reference, &guess)?;
         let options = Options {
             samples: SampleChoice::All,
+            weights: SampleWeights::Equal,
             quadrature: Quadrature::Lagrangian { search: Search::All },
             update: Update::VelocityOnly,
             inverted: Inverted::Refuse,
@@ -50,7 +53,7 @@ impl<const D: usize> Sampling<'_, D> {
         let frames = &self.snapshots.runs()[run].frames;
         let mut readings = Vec::new();
         for index in along_path(frames, FRAMES) {
-            let (frame, time) = (&frames[index], index as f64 * self.snapshots.body().interval);
+            let (frame, time) = (&frames[index], frames[index].time);
             let guess = self.guess(name, &frame.positions)?;
             let Some((latent, rates)) = fitted(&reduced, frame, time, guess) else {
                 continue;
@@ -71,9 +74,7 @@ impl<const D: usize> Sampling<'_, D> {
 fn along_path<const D: usize>(frames: &[Frame<D>], most: usize) -> Vec<usize> {
     let mut way = vec![0.0];
     for pair in frames.windows(2) {
-        let steps = pair[0].positions.iter().zip(&pair[1].positions);
-        let squares: f64 = steps.map(|(x, y)| vector::distance_squared(x, y)).sum();
-        way.push(way[way.len() - 1] + squares.sqrt());
+        way.push(way[way.len() - 1] + pair[1].moved_from(&pair[0]).sqrt());
     }
     let whole = way[way.len() - 1];
     let mut chosen: Vec<usize> = (1..=most)
@@ -120,6 +121,7 @@ mod tests {
     #[test]
     fn frames_are_spread_over_the_way_not_the_time() {
         let frame = |x: f64| Frame {
+            time: 0.0,
             positions: vec![[x], [x + 1.0]],
             deformation_gradients: Vec::new(),
             velocities: Vec::new(),

@@ -64,6 +64,14 @@ pub enum FullOrderError {
         /// The run, counted from 0.
         run: usize,
     },
+    /// The instants at which frames are looked for would change the time steps of the scene.
+    #[error("{per_frame} instants per frame, which do not divide its {steps} steps")]
+    FramesBetween {
+        /// Instants per frame.
+        per_frame: u64,
+        /// Time steps of a frame.
+        steps: f64,
+    },
     /// A run failed.
     #[error(transparent)]
     Simulation(#[from] SimulationError),

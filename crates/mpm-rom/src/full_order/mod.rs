@@ -9,7 +9,7 @@ mod tracers;
 
 pub use document::{SceneDocument, Value};
 pub use error::FullOrderError;
-pub use recording::Recording;
+pub use recording::{FramesBetween, Recording};
 pub use tracers::TracedRun;
 
 use std::ops::ControlFlow;
@@ -39,7 +39,16 @@ impl Case {
     }
 }
 
-/// Runs all cases of a scene and collects their frames, that of t = 0 included: of all points, or of at most `recorded` of them ([`Recording`]).
+/// What is kept of runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Kept {
+    /// So many points, evenly drawn; all with `None`.
+    pub points: Option<usize>,
+    /// Frames between those of the scene; none with `None`.
+    pub between: Option<FramesBetween>,
+}
+
+/// Runs all cases of a scene and collects their frames, that of t = 0 included.
 /// `after_run` is told the number of runs done; a break ends them.
 ///
 /// # Errors
@@ -49,13 +58,13 @@ pub fn collect<const D: usize>(
     document: &SceneDocument,
     parameters: &[String],
     cases: &[Case],
-    recorded: Option<usize>,
+    kept: &Kept,
     mut after_run: impl FnMut(usize) -> ControlFlow<()>,
 ) -> Result<Snapshots<D>, FullOrderError> {
     let (mut recording, mut runs) = (None, Vec::with_capacity(cases.len()));
     for (number, case) in cases.iter().enumerate() {
         let scene = document.scene(&case.changes)?;
-        let own = Recording::<D>::of(&scene, parameters, recorded)?;
+        let own = Recording::<D>::of(&scene, parameters, kept.points)?.with_frames_between(kept.between);
         let first = recording.get_or_insert_with(|| own.clone());
         if *first != own {
             return Err(FullOrderError::AnotherBody { run: number });

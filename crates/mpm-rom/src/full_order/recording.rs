@@ -5,11 +5,49 @@ use mpm_tensor::{Matrix, vector};
 use rand::SeedableRng;
 use rand::rngs::ChaCha8Rng;
 use rand::seq::index;
+use serde::Deserialize;
 
 use super::{FullOrderError, body_of};
 use crate::snapshots::{Body, Frame};
 
-/// The points of a scene that are recorded, all or a part.
+/// Frames that are recorded beside those of the scene (ours): a body that swings within a few frames is not known from these alone.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FramesBetween {
+    /// Instants that are looked at, per frame of the scene; they divide its steps.
+    pub per_frame: u64,
+    /// A frame is kept where the points have moved by this since the last one that was kept: the root mean square of their displacements, over that of their distances from the centroid at rest.
+    pub distance: f64,
+}
+
+impl FramesBetween {
+    /// The scene with a frame at every instant that is looked at.
+    fn of(&self, scene: &Scene) -> Result<Scene, FullOrderError> {
+        let mut finer = scene.clone();
+        finer.output.interval /= self.per_frame as f64;
+        if let Some(step) = scene.time.step {
+            let (steps, of_part) = (scene.output.interval / step, finer.output.interval / step);
+            if (of_part - of_part.round()).abs() > 1e-6 * of_part {
+                return Err(FullOrderError::FramesBetween {
+                    per_frame: self.per_frame,
+                    steps,
+                });
+            }
+        }
+        Ok(finer)
+    }
+
+    /// The field that makes no sense, with what is wrong.
+    pub(crate) fn fault(&self) -> Option<(&'static str, String)> {
+        if self.per_frame < 2 {
+            return Some(("per_frame", format!("{}: at least 2", self.per_frame)));
+        }
+        let positive = self.distance > 0.0 && self.distance.is_finite();
+        (!positive).then(|| ("distance", format!("{}: must be positive and finite", self.distance)))
+    }
+}
+
+/// The points and frames of a scene that are recorded, all or a part.
 ///
 /// A network is trained on samples anyway, and errors are means over points: bodies of millions of points need not be kept whole.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,6 +56,7 @@ pub struct Recording<const D: usize> {
     pub body: Body<D>,
     /// Numbers of the recorded points, ascending; `None` for all.
     points: Option<Vec<usize>>,
+    between: Option<FramesBetween>,
 }
 
 impl<const D: usize> Recording<D> {
@@ -36,7 +75,11 @@ impl<const D: usize> Recording<D> {
         if points.is_some() {
             body.reference = each(&body.reference, points.as_deref(), |x| *x);
         }
-        Ok(Self { body, points })
+        Ok(Self {
+            body,
+            points,
+            between: None,
+        })
     }
 
     /// The same points, relative to another origin.
@@ -47,13 +90,32 @@ impl<const D: usize> Recording<D> {
         self
     }
 
+    /// With frames between those of the scene.
+    pub fn with_frames_between(self, between: Option<FramesBetween>) -> Self {
+        Self { between, ..self }
+    }
+
     /// All frames of a run of the scene, and what its steps took.
     ///
     /// # Errors
-    /// [`FullOrderError::Simulation`].
+    /// [`FullOrderError::Simulation`], [`FullOrderError::FramesBetween`].
     pub fn run(&self, scene: &Scene) -> Result<(Vec<Frame<D>>, Effort), FullOrderError> {
         let mut all = Vec::new();
-        let effort = frames(scene, &mut |snapshot| all.push(self.frame(&snapshot)))?;
+        let Some(between) = &self.between else {
+            let effort = frames(scene, &mut |snapshot| all.push(self.frame(&snapshot)))?;
+            return Ok((all, effort));
+        };
+        let squares: f64 = self.body.reference.iter().map(vector::norm_squared).sum();
+        let far = squares * between.distance * between.distance;
+        let mut number = 0;
+        let effort = frames(&between.of(scene)?, &mut |snapshot| {
+            let frame = self.frame(&snapshot);
+            let of_scene = u64::is_multiple_of(number, between.per_frame);
+            if of_scene || all.last().is_none_or(|last: &Frame<D>| frame.moved_from(last) >= far) {
+                all.push(frame);
+            }
+            number += 1;
+        })?;
         Ok((all, effort))
     }
 
@@ -65,6 +127,7 @@ impl<const D: usize> Recording<D> {
         let points = self.points.as_deref();
         let centroid = &self.body.centroid;
         Frame {
+            time: snapshot.time,
             positions: each(positions, points, |x| vector::subtract(x, centroid)),
             deformation_gradients: each(gradients, points, |rows| Matrix(*rows)),
             velocities: each(velocities, points, |v| *v),

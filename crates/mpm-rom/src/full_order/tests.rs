@@ -30,7 +30,7 @@ fn every_run_has_its_own_parameter_and_all_have_the_same_body() {
     let cases: Vec<Case> = [1.0, 3.0].map(|g| Case::of_key("gravity.1", -g)).to_vec();
     let mut done = Vec::new();
     let names = ["gravity".to_owned()];
-    let snapshots = collect::<2>(&document(), &names, &cases, None, |run| {
+    let snapshots = collect::<2>(&document(), &names, &cases, &Kept::default(), |run| {
         done.push(run);
         ControlFlow::Continue(())
     })
@@ -59,13 +59,15 @@ fn every_run_has_its_own_parameter_and_all_have_the_same_body() {
 #[test]
 fn what_does_not_fit_is_an_error_with_its_name() {
     let collect = |cases: &[Case]| {
-        collect::<2>(&document(), &["p".to_owned()], cases, None, |_| {
+        collect::<2>(&document(), &["p".to_owned()], cases, &Kept::default(), |_| {
             ControlFlow::Continue(())
         })
     };
     assert!(matches!(collect(&[]), Err(FullOrderError::NoRuns)));
     let twice = [Case::of_key("gravity.0", 0.0), Case::of_key("gravity.0", 1.0)];
-    let stopped = super::collect::<2>(&document(), &["p".to_owned()], &twice, None, |_| ControlFlow::Break(()));
+    let stopped = super::collect::<2>(&document(), &["p".to_owned()], &twice, &Kept::default(), |_| {
+        ControlFlow::Break(())
+    });
     assert!(matches!(stopped, Err(FullOrderError::Stopped { runs: 1 })));
     let error = collect(&[Case::of_key("bodies.1.shape.radius", 1.0)]).expect_err("no such body");
     assert_eq!(
@@ -77,9 +79,13 @@ fn what_does_not_fit_is_an_error_with_its_name() {
         Case::of_key("bodies.0.shape.upper.0", 2.5),
     ];
     assert!(matches!(collect(&wider), Err(FullOrderError::AnotherBody { run: 1 })));
-    let error = super::collect::<3>(&document(), &[], &[Case::of_key("gravity.0", 0.0)], None, |_| {
-        ControlFlow::Continue(())
-    });
+    let error = super::collect::<3>(
+        &document(),
+        &[],
+        &[Case::of_key("gravity.0", 0.0)],
+        &Kept::default(),
+        |_| ControlFlow::Continue(()),
+    );
     assert!(matches!(
         error,
         Err(FullOrderError::Dimension { found: 2, expected: 3 })
@@ -133,4 +139,48 @@ fn a_part_of_the_points_moves_as_it_does_among_all() {
             assert_eq!(frame.deformation_gradients[k], whole.deformation_gradients[p]);
         }
     }
+}
+
+#[test]
+fn frames_between_those_of_the_scene_are_kept_where_the_body_moves() {
+    let scene = document().scene(&[]).expect("a scene");
+    let recording = Recording::<2>::of(&scene, &[], None).expect("a body");
+    let between = FramesBetween {
+        per_frame: 5,
+        distance: 0.0025,
+    };
+    let (of_scene, effort) = recording.run(&scene).expect("runs");
+    let finer = recording.clone().with_frames_between(Some(between));
+    let (frames, same) = finer.run(&scene).expect("runs");
+    assert_eq!(effort.steps, same.steps);
+    let number = |frame: &Frame<2>| frame.time / 0.05;
+    let is_of_scene = |frame: &&Frame<2>| (number(frame) - number(frame).round()).abs() < 1e-9;
+    let squares: f64 = recording.body.reference.iter().map(vector::norm_squared).sum();
+    for pair in frames.windows(2) {
+        let moved = pair[1].moved_from(&pair[0]) >= 0.0025 * 0.0025 * squares;
+        assert!(moved || is_of_scene(&&pair[1]), "at {}", pair[1].time);
+    }
+    // Free fall by t² / 2: by 0.00125 in the first frame, by 0.0015 and more between all instants of the last, of a body of size 0.6.
+    let count = |from: f64, to: f64| frames.iter().filter(|f| f.time > from && f.time < to).count();
+    assert_eq!((count(0.001, 0.049), count(0.1501, 0.1999)), (0, 4));
+    let found: Vec<_> = frames.iter().filter(is_of_scene).collect();
+    assert_eq!(found.len(), of_scene.len());
+    for (found, expected) in found.iter().zip(&of_scene) {
+        assert!(found.moved_from(expected).sqrt() < 1e-6, "at {}", found.time);
+    }
+
+    let seven = FramesBetween {
+        per_frame: 7,
+        ..between
+    };
+    let error = recording
+        .with_frames_between(Some(seven))
+        .run(&scene)
+        .expect_err("10 steps a frame");
+    assert!(
+        error
+            .to_string()
+            .starts_with("7 instants per frame, which do not divide its 9.99"),
+        "{error}"
+    );
 }

@@ -1,4 +1,4 @@
-//! min_y Σ_p |g_p(y) − x_p|².
+//! min_y Σ_p ω_p |g_p(y) − x_p|².
 
 use mpm_tensor::vector;
 
@@ -31,13 +31,15 @@ impl Default for Settings {
 pub struct Minimum {
     /// Steps taken.
     pub iterations: usize,
-    /// Σ_p |g_p(y) − x_p|².
+    /// Σ_p ω_p |g_p(y) − x_p|².
     pub squared_residual: f64,
 }
 
-/// Gauss–Newton with backtracking: the step w = argmin Σ|∂g_p/∂y w − (x_p − g_p(y))|², halved until the sum falls.
+/// Gauss–Newton with backtracking: the step w = argmin Σ ω_p |∂g_p/∂y w − (x_p − g_p(y))|², halved until the sum falls.
 #[derive(Default)]
 pub struct GaussNewton<const D: usize> {
+    /// ω_p; none where all points weigh the same.
+    weights: Vec<f64>,
     solver: LeastSquares,
     evaluation: Evaluation<D>,
     residuals: Vec<[f64; D]>,
@@ -46,6 +48,15 @@ pub struct GaussNewton<const D: usize> {
 }
 
 impl<const D: usize> GaussNewton<D> {
+    /// With these weights of the points, as in [`LeastSquares::weighted`].
+    pub fn weighted(weights: Vec<f64>) -> Self {
+        Self {
+            solver: LeastSquares::weighted(&weights),
+            weights,
+            ..Self::default()
+        }
+    }
+
     /// Moves `y` to a minimum; `evaluate` gives g_p(y), with ∂g_p/∂y where wanted.
     ///
     /// # Errors
@@ -64,7 +75,7 @@ impl<const D: usize> GaussNewton<D> {
         self.step.resize(y.len(), 0.0);
         self.trial.resize(y.len(), 0.0);
         evaluate(y, derivatives, &mut self.evaluation);
-        let mut sum = squared_distance(targets, &self.evaluation.positions);
+        let mut sum = self.sum(targets);
         if !sum.is_finite() {
             return Err(LeastSquaresError::NotFinite);
         }
@@ -87,7 +98,7 @@ impl<const D: usize> GaussNewton<D> {
                     *trial = y + share * w;
                 }
                 evaluate(&self.trial, Wanted::default(), &mut self.evaluation);
-                let candidate = squared_distance(targets, &self.evaluation.positions);
+                let candidate = self.sum(targets);
                 if candidate < sum {
                     lower = Some(candidate);
                     break;
@@ -118,6 +129,17 @@ impl<const D: usize> GaussNewton<D> {
             squared_residual: sum,
         })
     }
+
+    fn sum(&self, targets: &[[f64; D]]) -> f64 {
+        let positions = &self.evaluation.positions;
+        if self.weights.is_empty() {
+            return squared_distance(targets, positions);
+        }
+        let pairs = targets.iter().zip(positions).zip(&self.weights);
+        pairs
+            .map(|((a, b), weight)| weight * vector::distance_squared(a, b))
+            .sum()
+    }
 }
 
 /// Σ_p |a_p − b_p|².
@@ -139,6 +161,22 @@ mod tests {
             out.jacobians.push([p * exponential, y[1] * p * cosine]);
             out.jacobians.push([0.0, sine]);
         }
+    }
+
+    #[test]
+    fn weights_decide_between_targets() {
+        // g_p(y) = y for both points.
+        let same = |y: &[f64], _: Wanted, out: &mut Evaluation<1>| {
+            out.positions = vec![[y[0]]; 2];
+            out.jacobians = vec![[1.0]; 2];
+        };
+        let mut y = [0.3];
+        let found = GaussNewton::weighted(vec![3.0, 1.0]).minimise(&[[1.0], [5.0]], &mut y, &Settings::default(), same);
+        let found = found.expect("of full rank");
+        assert!(
+            (y[0] - 2.0).abs() < 1e-14 && (found.squared_residual - 12.0).abs() < 1e-13,
+            "{y:?} {found:?}"
+        );
     }
 
     #[test]

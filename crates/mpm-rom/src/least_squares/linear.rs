@@ -1,4 +1,4 @@
-//! min_w Σ_p |J_p w − y_p|².
+//! min_w Σ_p ω_p |J_p w − y_p|².
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::qr::no_pivoting::{factor, solve};
@@ -19,6 +19,14 @@ pub enum LeastSquaresError {
         /// r.
         unknowns: usize,
     },
+    /// The solver has weights for another number of points.
+    #[error("{found} points for {expected} weights")]
+    Weights {
+        /// The number of points.
+        found: usize,
+        /// That of weights.
+        expected: usize,
+    },
     /// The points do not see a coordinate: its column depends on those before it.
     #[error("coordinate {coordinate} cannot be told from those before it: pivot {pivot:e} of {largest:e}")]
     RankDeficient {
@@ -34,8 +42,10 @@ pub enum LeastSquaresError {
     NotFinite,
 }
 
-/// Solver of min_w Σ_p |J_p w − y_p|² by Householder QR; it keeps its storage from one problem to the next.
+/// Solver of min_w Σ_p ω_p |J_p w − y_p|² by Householder QR; it keeps its storage from one problem to the next.
 pub struct LeastSquares {
+    /// √ω_p; none where all points weigh the same.
+    roots: Vec<f64>,
     matrix: Mat<f64>,
     coefficients: Mat<f64>,
     right: Mat<f64>,
@@ -45,6 +55,7 @@ pub struct LeastSquares {
 impl Default for LeastSquares {
     fn default() -> Self {
         Self {
+            roots: Vec::new(),
             matrix: Mat::new(),
             coefficients: Mat::new(),
             right: Mat::new(),
@@ -54,6 +65,14 @@ impl Default for LeastSquares {
 }
 
 impl LeastSquares {
+    /// A solver of problems whose points have these weights ω_p ≥ 0, and so many points; any number of points with the same weight if there are none.
+    pub fn weighted(weights: &[f64]) -> Self {
+        Self {
+            roots: weights.iter().map(|weight| weight.sqrt()).collect(),
+            ..Self::default()
+        }
+    }
+
     /// w, r = `solution.len()` numbers, for P points: `jacobians` has ∂/∂w_k at point p as entry p r + k, `targets` y_p.
     ///
     /// # Errors
@@ -68,15 +87,20 @@ impl LeastSquares {
         if equations < unknowns || jacobians.len() != unknowns * targets.len() {
             return Err(LeastSquaresError::TooFewEquations { equations, unknowns });
         }
+        if !(self.roots.is_empty() || self.roots.len() == targets.len()) {
+            let (found, expected) = (targets.len(), self.roots.len());
+            return Err(LeastSquaresError::Weights { found, expected });
+        }
         if unknowns == 0 {
             return Ok(());
         }
         self.shape(equations, unknowns);
         for (p, (row, target)) in jacobians.chunks_exact(unknowns).zip(targets).enumerate() {
+            let root = self.roots.get(p).copied().unwrap_or(1.0);
             for a in 0..D {
-                self.right[(D * p + a, 0)] = target[a];
+                self.right[(D * p + a, 0)] = root * target[a];
                 for (k, column) in row.iter().enumerate() {
-                    self.matrix[(D * p + a, k)] = column[a];
+                    self.matrix[(D * p + a, k)] = root * column[a];
                 }
             }
         }
@@ -167,6 +191,30 @@ mod tests {
     }
 
     #[test]
+    fn a_point_of_weight_three_is_three_points() {
+        let (jacobians, targets) = (
+            [[1.0, 0.2], [0.3, -1.0], [2.0, 0.5], [0.1, 0.4], [-1.0, 0.7], [0.6, 0.9]],
+            [[1.0, -0.5], [0.2, 0.8], [-0.3, 0.4]],
+        );
+        let (mut found, mut expected) = ([0.0; 2], [0.0; 2]);
+        let weighted = LeastSquares::weighted(&[1.0, 3.0, 0.0]).solve(&jacobians, &targets, &mut found);
+        weighted.expect("of full rank");
+        let [a, b, c, d, ..] = jacobians;
+        let [first, second, _] = targets;
+        LeastSquares::default()
+            .solve(
+                &[a, b, c, d, c, d, c, d],
+                &[first, second, second, second],
+                &mut expected,
+            )
+            .expect("of full rank");
+        assert!(
+            found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-14),
+            "{found:?} {expected:?}"
+        );
+    }
+
+    #[test]
     fn what_cannot_be_solved_is_said() {
         let (mut solver, mut w) = (LeastSquares::default(), [0.0; 2]);
         let error = solver
@@ -189,5 +237,9 @@ mod tests {
         );
         let error = solver.solve(&[[f64::NAN]], &[[1.0]], &mut w[..1]).expect_err("NaN");
         assert_eq!(error, LeastSquaresError::NotFinite);
+        let error = LeastSquares::weighted(&[1.0; 3])
+            .solve(&[[1.0]], &[[1.0]], &mut w[..1])
+            .expect_err("one point");
+        assert_eq!(error, LeastSquaresError::Weights { found: 1, expected: 3 });
     }
 }

@@ -3,7 +3,6 @@
 mod gauss_newton;
 mod linear;
 
-#[cfg(test)]
 pub(crate) use gauss_newton::squared_distance;
 pub use gauss_newton::{GaussNewton, Minimum, Settings};
 pub use linear::{LeastSquares, LeastSquaresError};

@@ -23,15 +23,18 @@ pub(super) struct Coordinates<const D: usize> {
 }
 
 impl<const D: usize> Coordinates<D> {
-    pub fn new(latent: Vec<f64>, rates: Vec<f64>) -> Self {
+    /// `weights` are those of the sample points; none where all are the same.
+    pub fn new(latent: Vec<f64>, rates: Vec<f64>, weights: Vec<f64>) -> Self {
         Self {
             latent,
             rates,
+            solver: LeastSquares::weighted(&weights),
+            search: GaussNewton::weighted(weights),
             ..Self::default()
         }
     }
 
-    /// v̂ = argmin Σ|∂g/∂x̂(X_p, x̂_n) v̂ + b f′ − v_p|²; `evaluation` is that of the sample points at x̂_n.
+    /// v̂ = argmin Σ ω_p |∂g/∂x̂(X_p, x̂_n) v̂ + b f′ − v_p|²; `evaluation` is that of the sample points at x̂_n.
     pub fn find_rates(
         &mut self,
         samples: &MaterialPoints<D>,

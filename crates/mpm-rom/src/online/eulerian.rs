@@ -1,20 +1,25 @@
 //! Quadrature at points of space.
 
 use mpm_tensor::{Matrix, vector};
+use rayon::prelude::*;
 
 use super::lagrangian::Instant;
 use super::nodes::Nodes;
 use super::quadrature::QuadraturePoints;
 use super::support::Support;
 use super::{OnlineError, ReducedBody};
-use crate::deformation_map::{DeformationMap, MaterialPoints};
+use crate::deformation_map::{AtRestTable, DeformationMap, MaterialPoints};
 use crate::manifold::{Evaluation, Manifold};
 
 /// Evaluations of the map for one X, at most; a point that needs more carries nothing.
 const EVALUATIONS: usize = 10;
 
 /// X is found where |g(X) − x| is at most this multiple of h. The point's place is then g(X), not x, so that all that is lost is the evenness of the spacing.
-const TOLERANCE: f64 = 1e-3;
+const TOLERANCE: f64 = 1e-2;
+
+/// Spacing of the table of a(X), and how far beyond the body it reaches, in grid spacings.
+const TABLE_SPACING: f64 = 0.5;
+const TABLE_MARGIN: f64 = 2.0;
 
 /// Steps for which a point outside the body is left alone, at most.
 const LONGEST_REST: f64 = 32.0;
@@ -26,6 +31,7 @@ const LONGEST_REST: f64 = 32.0;
 /// case, then nearly always shows that no other is.
 pub(super) struct Eulerian<const D: usize> {
     per_axis: usize,
+    table: Option<AtRestTable<D>>,
     support: Support<D>,
     /// What is known of the points, ℓᴰ entries per cell; of this step, and of the one before.
     known: Vec<Option<Known<D>>>,
@@ -58,6 +64,7 @@ impl<const D: usize> Eulerian<D> {
     pub fn new(per_axis: usize) -> Self {
         Self {
             per_axis,
+            table: None,
             support: Support::default(),
             known: Vec::new(),
             known_before: Vec::new(),
@@ -66,6 +73,12 @@ impl<const D: usize> Eulerian<D> {
             prepared: MaterialPoints::default(),
             evaluation: Evaluation::default(),
         }
+    }
+
+    /// Tabulates what the map is at rest, if it can be.
+    pub fn tabulate<M: Manifold<D>>(&mut self, map: &DeformationMap<D, M>, body: &ReducedBody<D>) {
+        let h = body.grid.spacing();
+        self.table = map.tabulate(&body.reference, TABLE_MARGIN * h, TABLE_SPACING * h);
     }
 
     /// The quadrature points of this instant; `samples` is the evaluation of the sample points with gradients, `reference` their X_p.
@@ -88,7 +101,10 @@ impl<const D: usize> Eulerian<D> {
             if self.sought.is_empty() {
                 break;
             }
-            map.prepare(&self.guesses, &mut self.prepared);
+            match &self.table {
+                Some(table) => map.prepare_from(table, &self.guesses, &mut self.prepared),
+                None => map.prepare(&self.guesses, &mut self.prepared),
+            }
             map.evaluate_moving(&self.prepared, now.latent, now.rates, now.time, &mut self.evaluation);
             self.accept(body, now, tolerance, out)?;
         }
@@ -148,19 +164,29 @@ impl<const D: usize> Eulerian<D> {
         out: &mut QuadraturePoints<D>,
     ) -> Result<(), OnlineError> {
         let volume = (body.grid.spacing() / self.per_axis as f64).powi(D as i32);
+        // What takes time, on all threads.
+        let found = self.evaluation.positions.par_iter().zip(&self.evaluation.gradients);
+        let found: Vec<_> = found
+            .zip(self.sought.par_iter().zip(&self.guesses))
+            .with_min_len(128)
+            .map(|((x, gradient), (sought, reference))| {
+                let rest = vector::subtract(&sought.position, x);
+                let near = vector::maximum_norm(&rest) <= tolerance;
+                let outside = near.then(|| body.distance(reference));
+                (rest, gradient.inverse(), outside)
+            })
+            .collect();
         let mut left = 0;
-        for place in 0..self.sought.len() {
+        for (place, (rest, inverse, outside)) in found.into_iter().enumerate() {
             let Sought { number, position } = self.sought[place];
             let (x, gradient, v) = (
                 self.evaluation.positions[place],
                 self.evaluation.gradients[place],
                 self.evaluation.velocities[place],
             );
-            let (reference, rest) = (self.guesses[place], vector::subtract(&position, &x));
+            let reference = self.guesses[place];
             self.known[number] = None;
-            let inverse = gradient.inverse();
-            if vector::maximum_norm(&rest) <= tolerance {
-                let outside = body.distance(&reference);
+            if let Some(outside) = outside {
                 if outside <= 0.0 {
                     let (admitted, ratio) = out.admit(&gradient, &reference, now)?;
                     out.push(x, v, admitted, volume / ratio);
@@ -172,7 +198,8 @@ impl<const D: usize> Eulerian<D> {
                     let steps = 0.5 * outside / (vector::norm(&rate) * body.time_step);
                     let next = step + steps.clamp(1.0, LONGEST_REST) as u64;
                     Known {
-                        reference,
+                        // Newton's step, which costs nothing here: what this step leaves does not grow.
+                        reference: vector::add(&reference, &inverse.apply(&rest)),
                         rate,
                         step,
                         next,

@@ -19,12 +19,13 @@ mod support;
 #[cfg(test)]
 mod tests;
 mod timings;
+mod weights;
 
 pub use body::ReducedBody;
 pub use error::OnlineError;
 pub use greedy::choose_greedily;
 pub use neighbours::Search;
-pub use options::{Inverted, Options, Quadrature, Update};
+pub use options::{Inverted, Options, Quadrature, SampleWeights, Update};
 pub use reading::Reading;
 pub use samples::SampleChoice;
 pub use step::{ReducedModel, StepReport};

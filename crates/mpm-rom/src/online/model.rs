@@ -16,20 +16,22 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
     /// # Errors
     /// [`OnlineError::Option`], [`OnlineError::TooFewSamples`], [`OnlineError::TooManySamples`], [`OnlineError::Samples`].
     pub fn new(body: ReducedBody<D>, mut map: DeformationMap<D, M>, options: Options) -> Result<Self, OnlineError> {
-        let scheme = scheme(&options.quadrature)?;
+        let mut scheme = scheme(&options.quadrature)?;
         let coordinates = map.coordinates();
         let sample_numbers = options.samples.choose(&body.reference, coordinates, &body.kinematics)?;
+        let weights = options.weights.of(&body.reference, &sample_numbers);
         let (mut points, mut samples) = (MaterialPoints::default(), MaterialPoints::default());
         let of_samples = sample_numbers.iter().filter_map(|&p| body.reference.get(p as usize));
         map.prepare(&of_samples.copied().collect::<Vec<_>>(), &mut samples);
-        if matches!(scheme, Scheme::Lagrangian(_)) {
-            map.prepare(&body.reference, &mut points);
+        match &mut scheme {
+            Scheme::Lagrangian(_) => map.prepare(&body.reference, &mut points),
+            Scheme::Eulerian(scheme) => scheme.tabulate(&map, &body),
         }
         let rates = map
             .initial()
             .map_or_else(|| vec![0.0; coordinates], |initial| initial.rates.clone());
         Ok(Self {
-            coordinates: Coordinates::new(map.rest().to_vec(), rates),
+            coordinates: Coordinates::new(map.rest().to_vec(), rates, weights),
             nodes: Nodes::new(body.grid),
             body,
             map,
@@ -55,6 +57,18 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
     pub fn advance_frame(&mut self) -> Result<StepReport, OnlineError> {
         let mut report = StepReport::default();
         for _ in 0..self.body.steps_per_frame {
+            report = self.step()?;
+        }
+        Ok(report)
+    }
+
+    /// All steps up to a time that is a whole number of them; the report is that of the last.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step).
+    pub fn advance_to(&mut self, time: f64) -> Result<StepReport, OnlineError> {
+        let mut report = StepReport::default();
+        while self.time() < time - 0.5 * self.body.time_step {
             report = self.step()?;
         }
         Ok(report)

@@ -11,12 +11,25 @@ use crate::least_squares::Settings;
 pub struct Options {
     /// The sample points 𝒫.
     pub samples: SampleChoice,
+    /// What each of them counts in the sums for v̂ and x̂.
+    pub weights: SampleWeights,
     /// Where the momentum balance of the nodes is summed.
     pub quadrature: Quadrature,
     /// How x̂ follows from the velocities of the sample points.
     pub update: Update,
     /// What happens at J ≤ 0.
     pub inverted: Inverted,
+}
+
+/// Weights ω_p of the sample points: v̂ = argmin Σ ω_p |∂g/∂x̂(X_p, x̂) v̂ − v_p|², and x̂ accordingly.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SampleWeights {
+    /// 1 (the paper's).
+    #[default]
+    Equal,
+    /// The number of material points that are nearer at rest to p than to other sample points (ours): sums over 𝒫 then stand for those over all points, wherever the points of 𝒫 crowd.
+    Nearest,
 }
 
 /// The quadrature of nodal masses, momenta and forces.

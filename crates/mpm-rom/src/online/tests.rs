@@ -48,6 +48,7 @@ fn model(text: &str, fields: Fields<2>, options: Options) -> ReducedModel<2, Fie
 fn options(samples: SampleChoice, quadrature: Quadrature, update: Update) -> Options {
     Options {
         samples,
+        weights: SampleWeights::default(),
         quadrature,
         update,
         inverted: Inverted::Refuse,

@@ -44,6 +44,16 @@ pub enum SnapshotsError {
         /// Its value.
         value: f64,
     },
+    /// A frame is not later than the one before it, or its time is NaN or infinite.
+    #[error("run {run}, frame {frame}: time {time}, must be finite and later than that of the frame before")]
+    Time {
+        /// The run.
+        run: usize,
+        /// The frame.
+        frame: usize,
+        /// Its time.
+        time: f64,
+    },
     /// A list has another number of points than the body.
     #[error("run {run}, frame {frame}: {field} of {found} points, not {expected}")]
     Length {

@@ -7,7 +7,8 @@ use super::{Body, Frame, Run, Snapshots};
 use crate::tensor_file::{TensorFileError, TensorReader, TensorWriter};
 
 const KIND: &str = "snapshots";
-const VERSION: u32 = 1;
+/// 1 had no times: frames were one interval apart.
+const VERSION: u32 = 2;
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -24,8 +25,8 @@ struct Header {
 
 impl<const D: usize> Snapshots<D> {
     /// Writes the file whole or not at all. The tensors, for P points, K parameters, R runs and N frames of all runs, one run after the
-    /// other: `reference` P × D, `centroid` D, `parameters` R × K, `positions` N × P × D, `deformation_gradients` N × P × D × D, `velocities`
-    /// N × P × D.
+    /// other: `reference` P × D, `centroid` D, `parameters` R × K, `times` N, `positions` N × P × D, `deformation_gradients` N × P × D × D,
+    /// `velocities` N × P × D.
     ///
     /// # Errors
     /// [`TensorFileError`].
@@ -47,6 +48,7 @@ impl<const D: usize> Snapshots<D> {
         file.add("centroid", &[D], body.centroid);
         let parameters = self.runs.iter().flat_map(|run| run.parameters.iter().copied());
         file.add("parameters", &[self.runs.len(), body.parameters.len()], parameters);
+        file.add("times", &[total], frames().map(|frame| frame.time));
         let positions = frames().flat_map(|frame| frame.positions.iter().flatten().copied());
         file.add("positions", &[total, points, D], positions);
         let gradients = frames().flat_map(|frame| &frame.deformation_gradients);
@@ -82,16 +84,19 @@ impl<const D: usize> Snapshots<D> {
         };
         let count = body.parameters.len();
         let parameters = file.unchecked("parameters", &[header.frames.len(), count])?;
+        let times = file.unchecked("times", &[total])?;
         let positions: Vec<[f64; D]> = vectors(&file.unchecked("positions", &[total, points, D])?);
         let gradients = matrices::<D>(&file.unchecked("deformation_gradients", &[total, points, D, D])?);
         let velocities: Vec<[f64; D]> = vectors(&file.unchecked("velocities", &[total, points, D])?);
         // A body without points fails in `new`; the length 1 keeps `chunks` from failing before.
         let length = points.max(1);
-        let rows = positions
-            .chunks(length)
+        let rows = times
+            .into_iter()
+            .zip(positions.chunks(length))
             .zip(gradients.chunks(length))
             .zip(velocities.chunks(length));
-        let mut frames = rows.map(|((positions, gradients), velocities)| Frame {
+        let mut frames = rows.map(|(((time, positions), gradients), velocities)| Frame {
+            time,
             positions: positions.to_vec(),
             deformation_gradients: gradients.to_vec(),
             velocities: velocities.to_vec(),

@@ -7,6 +7,8 @@ pub use error::SnapshotsError;
 
 use mpm_tensor::{Matrix, vector};
 
+use crate::least_squares::squared_distance;
+
 /// Snapshots of one body in several runs of full-order MPM that differ in their parameters.
 ///
 /// Every position is relative to the body's centroid at rest; row p of every list belongs to the same material point.
@@ -25,7 +27,7 @@ pub struct Body<const D: usize> {
     pub reference: Vec<[f64; D]>,
     /// The centroid at rest in the scene's own coordinates (m).
     pub centroid: [f64; D],
-    /// Δt, time between two frames (s), > 0.
+    /// Time between two frames of the scene (s), > 0; snapshots may hold more frames than these.
     pub interval: f64,
     /// ρ₀, density at rest (kg/m^D), > 0.
     pub density: f64,
@@ -33,7 +35,7 @@ pub struct Body<const D: usize> {
     pub parameters: Vec<String>,
 }
 
-/// One run: frames 0, 1, 2, … at t = 0, Δt, 2 Δt, …; frame 0 is the initial state, so that its velocities are V₀.
+/// One run: frames in the order of time; frame 0 is the initial state at t = 0, so that its velocities are V₀.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Run<const D: usize> {
     /// Values of the parameters, in the order of [`Body::parameters`].
@@ -45,6 +47,8 @@ pub struct Run<const D: usize> {
 /// All points at one instant.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Frame<const D: usize> {
+    /// t (s).
+    pub time: f64,
     /// φ_p, deformed positions relative to the centroid at rest (m).
     pub positions: Vec<[f64; D]>,
     /// F_p, deformation gradients, det F_p > 0.
@@ -149,6 +153,13 @@ impl<const D: usize> Run<D> {
         if self.frames.is_empty() {
             return Err(SnapshotsError::Empty { what: "frames" });
         }
+        let mut before = f64::NEG_INFINITY;
+        for (frame, time) in self.frames.iter().map(|frame| frame.time).enumerate() {
+            if !(time > before && time.is_finite()) {
+                return Err(SnapshotsError::Time { run, frame, time });
+            }
+            before = time;
+        }
         self.frames
             .iter()
             .enumerate()
@@ -157,6 +168,11 @@ impl<const D: usize> Run<D> {
 }
 
 impl<const D: usize> Frame<D> {
+    /// Σ_p |x_p − y_p|², y_p the positions of another frame.
+    pub(crate) fn moved_from(&self, other: &Self) -> f64 {
+        squared_distance(&self.positions, &other.positions)
+    }
+
     fn check(&self, run: usize, frame: usize, points: usize) -> Result<(), SnapshotsError> {
         let lengths = [
             ("positions", self.positions.len()),

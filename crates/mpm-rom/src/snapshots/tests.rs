@@ -3,6 +3,7 @@ use crate::tensor_file::TensorFileError;
 
 fn frame(scale: f64) -> Frame<2> {
     Frame {
+        time: scale - 1.0,
         positions: vec![[scale, 0.0], [0.0, -scale]],
         deformation_gradients: vec![Matrix::IDENTITY * scale; 2],
         velocities: vec![[0.25, scale], [1.0, 2.0]],
@@ -71,6 +72,19 @@ fn faults_are_named_with_run_frame_and_point() {
     assert_eq!(refused(|b, _| b.reference.clear()), E::Empty { what: "points" });
     assert_eq!(refused(|_, r| r.clear()), E::Empty { what: "runs" });
     assert_eq!(refused(|_, r| r[1].frames.clear()), E::Empty { what: "frames" });
+    let time = f64::NAN;
+    assert!(matches!(
+        refused(|_, r| r[0].frames[1].time = time),
+        E::Time { run: 0, frame: 1, .. }
+    ));
+    assert_eq!(
+        refused(|_, r| r[0].frames[2].time = 0.05),
+        E::Time {
+            run: 0,
+            frame: 2,
+            time: 0.05
+        }
+    );
     let field = "interval";
     assert_eq!(refused(|b, _| b.interval = 0.0), E::NotPositive { field, value: 0.0 });
     assert!(matches!(

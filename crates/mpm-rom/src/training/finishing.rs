@@ -58,7 +58,6 @@ impl<const D: usize> FixedSample<D> {
         let weights = Weights {
             gradient: trainer.config.gradient_weight,
             velocity: trainer.config.velocity_weight,
-            interval: trainer.snapshots.body().interval,
             share: 1.0 / self.chosen.iter().map(Vec::len).sum::<usize>() as f64,
         };
         let (network, snapshots) = (&trainer.network, trainer.snapshots);
@@ -143,8 +142,10 @@ impl<const D: usize> Trainer<'_, D> {
             self.encoder.forward(&frame.positions, &mut tape);
             tape.latent
         };
-        let next = frames.get(frame + 1).map(latent);
-        Motion::between(&latent(&frames[frame]), next.as_deref(), self.snapshots.body().interval)
+        let now = &frames[frame];
+        let next = frames.get(frame + 1).map(|next| (latent(next), next.time - now.time));
+        let next = next.as_ref().map(|(next, interval)| (&next[..], *interval));
+        Motion::between(&latent(now), next)
     }
 
     /// What H begins with: 10⁻³ / √s with Adam's mean squares of the gradient.

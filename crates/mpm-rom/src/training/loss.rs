@@ -16,7 +16,7 @@ pub struct Terms {
     pub position: f64,
     /// λ_F ‖∇_X g̃ − F‖².
     pub gradient: f64,
-    /// λ_v |∂g̃/∂x̂ (x̂(t_{n+1}) − x̂(t_n)) / Δt − v|² / ℓ² (s⁻² dropped).
+    /// λ_v |∂g̃/∂x̂ (x̂(t_{n+1}) − x̂(t_n)) / (t_{n+1} − t_n) − v|² / ℓ² (s⁻² dropped).
     pub velocity: f64,
 }
 
@@ -42,8 +42,6 @@ pub(super) struct Weights {
     pub gradient: f64,
     /// λ_v.
     pub velocity: f64,
-    /// Δt between frames (s).
-    pub interval: f64,
     /// 1 / (pairs × points of a pair) of the batch.
     pub share: f64,
 }
@@ -53,14 +51,14 @@ pub(super) struct Weights {
 pub(super) struct Motion {
     /// x̂.
     pub latent: Vec<f64>,
-    /// w = (x̂(t_{n+1}) − x̂(t_n)) / Δt; `None` in the last frame of a run.
+    /// w = (x̂(t_{n+1}) − x̂(t_n)) / (t_{n+1} − t_n); `None` in the last frame of a run.
     pub rates: Option<Vec<f64>>,
 }
 
 impl Motion {
-    /// Of a frame and the next one, if there is one, so much later.
-    pub fn between(now: &[f64], next: Option<&[f64]>, interval: f64) -> Self {
-        let rates = |next: &[f64]| {
+    /// Of a frame and, if there is one, the next one with the time between them.
+    pub fn between(now: &[f64], next: Option<(&[f64], f64)>) -> Self {
+        let rates = |(next, interval): (&[f64], f64)| {
             next.iter()
                 .zip(now)
                 .map(|(next, now)| (next - now) / interval)
@@ -109,7 +107,7 @@ impl<const D: usize> PairLoss<D> {
 
     /// Adds terms and adjoints of frame `number` at the points `chosen`:
     ///
-    /// share Σ_p |g̃ − φ|² / ℓ² + λ_F ‖∇_X g̃ − F‖² + λ_v |∂g̃/∂x̂ w − v|² / ℓ², x̂ = e(φ(t_n)), w = (e(φ(t_{n+1})) − x̂) / Δt.
+    /// share Σ_p |g̃ − φ|² / ℓ² + λ_F ‖∇_X g̃ − F‖² + λ_v |∂g̃/∂x̂ w − v|² / ℓ², x̂ = e(φ(t_n)), w = (e(φ(t_{n+1})) − x̂) / (t_{n+1} − t_n).
     ///
     /// The last frame of a run has no t_{n+1} and no third term. Terms without weight are not computed.
     pub fn add(
@@ -127,11 +125,12 @@ impl<const D: usize> PairLoss<D> {
         if let Some(next) = next {
             encoder.forward(&next.positions, &mut self.next);
         }
-        let motion = Motion::between(&self.now.latent, next.map(|_| &self.next.latent[..]), weights.interval);
+        let next = next.map(|next| next.time - frame.time);
+        let motion = Motion::between(&self.now.latent, next.map(|interval| (&self.next.latent[..], interval)));
         let (mut latent, mut along) = self.add_at(network, weights, reference, frame, &motion, chosen);
-        if next.is_some() {
+        if let Some(interval) = next {
             for (latent, along) in latent.iter_mut().zip(&mut along) {
-                *along /= weights.interval;
+                *along /= interval;
                 *latent -= *along;
             }
             encoder.reverse(&self.next, &along, &mut self.encoder);

@@ -195,7 +195,6 @@ impl<'a, const D: usize> Trainer<'a, D> {
         let weights = Weights {
             gradient: self.config.gradient_weight,
             velocity: self.config.velocity_weight,
-            interval: self.snapshots.body().interval,
             share: 1.0 / (batch.len() * points) as f64,
         };
         let (model, snapshots) = ((&self.network, &self.encoder), self.snapshots);

@@ -66,6 +66,7 @@ pub fn bending_cylinder(count: usize, runs: usize, frames: usize) -> Snapshots<3
             std::array::from_fn(|c| (plus[c] - minus[c]) / (2.0 * step))
         };
         Frame {
+            time: t,
             positions,
             deformation_gradients,
             velocities: at(t + step).zip(at(t - step)).map(velocity).collect(),

@@ -12,6 +12,8 @@ fn run() -> Run<2> {
     let frame = |n: usize| {
         let t = n as f64;
         Frame {
+            // Not evenly spaced.
+            time: 0.4 * t + 0.1 * t * t,
             positions: (0..POINTS)
                 .map(|p| [(p as f64 + 0.3 * t).sin(), (1.7 * p as f64 - 0.2 * t).cos()])
                 .collect(),
@@ -62,7 +64,6 @@ fn start() -> (Network<2>, Encoder<2>) {
 const WEIGHTS: Weights = Weights {
     gradient: 0.7,
     velocity: 0.4,
-    interval: 0.5,
     share: 0.02,
 };
 
@@ -74,7 +75,7 @@ fn naive(network: &Network<2>, encoder: &Encoder<2>, weights: &Weights, number: 
     let next = run
         .frames
         .get(number + 1)
-        .map(|next| encoder.encode(&next.positions).unwrap());
+        .map(|next| (encoder.encode(&next.positions).unwrap(), next.time - frame.time));
     let wanted = Wanted {
         gradients: true,
         jacobians: true,
@@ -88,8 +89,8 @@ fn naive(network: &Network<2>, encoder: &Encoder<2>, weights: &Weights, number: 
                 let residual = out.gradients[p].0[c][k] - frame.deformation_gradients[p].0[c][k];
                 terms.gradient += weights.share * weights.gradient * residual.powi(2);
             }
-            if let Some(next) = &next {
-                let along = |k: usize| out.jacobians[2 * p + k][c] * (next[k] - latent[k]) / weights.interval;
+            if let Some((next, interval)) = &next {
+                let along = |k: usize| out.jacobians[2 * p + k][c] * (next[k] - latent[k]) / interval;
                 let residual = along(0) + along(1) - frame.velocities[p][c];
                 terms.velocity += weights.share * weights.velocity * residual.powi(2) / length;
             }
