@@ -148,8 +148,11 @@ impl<const D: usize, M: Manifold<D>> DeformationMap<D, M> {
         })
     }
 
-    /// As [`prepare`](Self::prepare), from a table; points outside it are computed.
+    /// As [`prepare`](Self::prepare), from a table; points outside it are computed, and all of them for a body that does not start at rest.
     pub fn prepare_from(&mut self, table: &AtRestTable<D>, reference: &[[f64; D]], out: &mut MaterialPoints<D>) {
+        if self.initial.is_some() {
+            return self.prepare(reference, out);
+        }
         let found: Vec<_> = reference.par_iter().with_min_len(256).map(|x| table.at(x)).collect();
         let outside: Vec<[f64; D]> = reference
             .iter()

@@ -285,6 +285,47 @@ fn a_model_of_a_part_of_the_points_runs_a_finer_scene() {
 }
 
 #[test]
+fn weights_and_frames_between_those_of_the_scene_have_a_part_in_a_run() {
+    let (directory, file) = files();
+    let text = EXPERIMENT
+        .replace(
+            "cases = {",
+            "frames_between = { per_frame = 2, distance = 0.01 }\ncases = {",
+        )
+        .replace("samples = [20, \"all\"]", "samples = [12, \"all\"]")
+        .replace("manifold = [\"network\", \"linear\"]", "manifold = [\"linear\"]");
+    let errors = |text: &str, out: &str| {
+        let experiment = Experiment::parse(text, &file).expect("sound");
+        let out = directory.path().join(out);
+        let frames = train_one(&experiment, &out).frames;
+        // Greedy points are tried on training runs, whose frames are not evenly spaced.
+        let rows = run::<2>(&experiment, &out, &mut |_, _| true).expect("run");
+        assert!(
+            rows.iter()
+                .all(|row| row.outcome == "finished" && row.frames.len() == 5),
+            "{rows:?}"
+        );
+        (frames, rows.iter().map(|row| row.error).collect::<Vec<_>>())
+    };
+    let (frames, equal) = errors(&text, "equal");
+    assert!(
+        frames > 10 && frames < 18,
+        "2 runs of 5 frames and some of 4 instants between: {frames}"
+    );
+    let weighted = text.replace("samples = [12", "weights = \"nearest\", samples = [12");
+    let (_, nearest) = errors(&weighted, "nearest");
+    assert!(
+        equal.iter().chain(&nearest).all(|&error| error < 5.0),
+        "{equal:?} {nearest:?}"
+    );
+    // Two updates with 12 points, then with all, where weights are the same.
+    assert!(
+        equal[0] != nearest[0] && equal[2..] == nearest[2..],
+        "{equal:?} {nearest:?}"
+    );
+}
+
+#[test]
 fn more_points_than_those_of_the_dynamics_are_compared_with_a_run_of_their_own() {
     let (directory, file) = files();
     let denser = SCENE.replace("material = \"rubber\"", "material = \"rubber\"\nparticles_per_axis = 3");

@@ -3,6 +3,7 @@ use std::ops::ControlFlow;
 use mpm_tensor::Matrix;
 
 use super::*;
+use crate::snapshots::Frame;
 
 const STRIP: &str = r#"
 title = "a strip that falls"

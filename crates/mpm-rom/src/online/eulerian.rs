@@ -31,6 +31,8 @@ const LONGEST_REST: f64 = 32.0;
 /// case, then nearly always shows that no other is.
 pub(super) struct Eulerian<const D: usize> {
     per_axis: usize,
+    /// In multiples of h.
+    pub tolerance: f64,
     table: Option<AtRestTable<D>>,
     support: Support<D>,
     /// What is known of the points, ℓᴰ entries per cell; of this step, and of the one before.
@@ -64,6 +66,7 @@ impl<const D: usize> Eulerian<D> {
     pub fn new(per_axis: usize) -> Self {
         Self {
             per_axis,
+            tolerance: TOLERANCE,
             table: None,
             support: Support::default(),
             known: Vec::new(),
@@ -96,7 +99,7 @@ impl<const D: usize> Eulerian<D> {
         self.support.find(nodes);
         self.guess(body, nodes, reference, samples, now);
         out.clear();
-        let tolerance = TOLERANCE * nodes.grid.spacing();
+        let tolerance = self.tolerance * nodes.grid.spacing();
         for _ in 0..EVALUATIONS {
             if self.sought.is_empty() {
                 break;

@@ -91,7 +91,7 @@ fn held_nodes_that_turn_carry_the_body() {
     assert_eq!(model.body().held_velocity(&[0.0; 2], 0.1), None, "let go");
 }
 
-/// A search that begins anew in every step is the oracle for points that are followed.
+/// A search that begins anew in every step and goes on to rounding is the oracle for points that are followed.
 #[test]
 fn points_of_space_are_followed_to_where_a_search_finds_them() {
     let text = format!(
@@ -105,7 +105,9 @@ fn points_of_space_are_followed_to_where_a_search_finds_them() {
         let mut sums = Vec::new();
         for _ in 0..100 {
             if fresh {
-                model.scheme = Scheme::Eulerian(Eulerian::new(2));
+                let mut search = Eulerian::new(2);
+                search.tolerance = 1e-9;
+                model.scheme = Scheme::Eulerian(search);
             }
             model.step().expect("a step");
             sums.push(model.quadrature.volumes.iter().sum::<f64>());
@@ -113,7 +115,6 @@ fn points_of_space_are_followed_to_where_a_search_finds_them() {
         (model.latent().to_vec(), sums)
     };
     let ((followed, volumes), (searched, fresh)) = (run(false), run(true));
-    // Both take a point to be found within h/1000 of its place, from different sides.
     let largest = searched.iter().fold(0.0, |most: f64, y| most.max(y.abs()));
     for (a, b) in followed.iter().zip(&searched) {
         assert!((a - b).abs() < 1e-3 * largest, "{followed:?} {searched:?}");
