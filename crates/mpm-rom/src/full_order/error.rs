@@ -70,7 +70,7 @@ pub enum FullOrderError {
         /// Instants per frame.
         per_frame: u64,
         /// Time steps of a frame.
-        steps: f64,
+        steps: u64,
     },
     /// A run failed.
     #[error(transparent)]

@@ -30,7 +30,7 @@ impl FramesBetween {
             if (of_part - of_part.round()).abs() > 1e-6 * of_part {
                 return Err(FullOrderError::FramesBetween {
                     per_frame: self.per_frame,
-                    steps,
+                    steps: steps.round() as u64,
                 });
             }
         }

@@ -181,7 +181,7 @@ fn frames_between_those_of_the_scene_are_kept_where_the_body_moves() {
     assert!(
         error
             .to_string()
-            .starts_with("7 instants per frame, which do not divide its 9.99"),
+            .starts_with("7 instants per frame, which do not divide its 10 steps"),
         "{error}"
     );
 }
