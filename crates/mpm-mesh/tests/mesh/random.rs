@@ -50,6 +50,21 @@ fn renumbered<const D: usize>(mesh: &SimplexMesh<D>, seed: u64) -> (SimplexMesh<
     )
 }
 
+/// Points that came and went in turn, until the last round was one with an edge of 1.56 h.
+#[test]
+fn edges_of_a_polygon_do_not_stay_long() {
+    let radii = [0.7658, 1.2505, 1.1517, 1.2341, 0.7083, 0.8321, 0.7215, 1.3116];
+    let corners: Vec<_> = (0..8)
+        .map(|k| {
+            let (sine, cosine) = (std::f64::consts::FRAC_PI_4 * k as f64).sin_cos();
+            [radii[k] * cosine, radii[k] * sine]
+        })
+        .collect();
+    let length = 0.370_73;
+    let mesh = generate::polygon(&corners, &EdgeTarget { length, angle: 1.1423 }).expect("a mesh");
+    assert!(mesh.edge_lengths().longest <= 1.5 * length);
+}
+
 fn same_geometry<const D: usize>(mesh: &SimplexMesh<D>, seed: u64) {
     let (other, vertices, cells) = renumbered(mesh, seed);
     let (rings, others) = (Rings::new(mesh), Rings::new(&other));

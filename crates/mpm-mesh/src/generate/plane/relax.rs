@@ -18,13 +18,14 @@ const SWEEPS: usize = 3;
 /// Rounds, from the first, in which points come and go; the others only move them.
 const CHANGES: usize = 7;
 
-/// No inner edge is to be longer than this many target lengths; as many rounds again are made until it is so.
+/// No inner edge is to be longer than this many target lengths; as many rounds again are made until it is so, in which
+/// points only come.
 const LIMIT: f64 = 1.5;
 
 /// Edges longer than this many target lengths are divided.
 const LONG: f64 = 1.35;
 
-/// One end of edges shorter than this many target lengths is dropped.
+/// In the first rounds one end of edges shorter than this many target lengths is dropped.
 const SHORT: f64 = 0.6;
 
 /// A move is refused if it brings a triangle below this share of the area of the equilateral one.
@@ -48,7 +49,9 @@ pub fn relax(points: &mut Vec<[f64; 2]>, outline: &Outline, length: f64) -> Resu
             }
         }
         if round < CHANGES || too_long {
-            change(points, fixed, &edges);
+            // Points that came may go again for a short edge, which leaves a long one, and so on in a circle.
+            let shortest = if round < ROUNDS { SHORT } else { 0.0 };
+            change(points, fixed, &edges, shortest);
         }
     }
     Ok(Triangulation::new(points, &outline.edges)?.inside)
@@ -113,14 +116,14 @@ fn area(points: &[[f64; 2]], triangle: &[u32; 3]) -> f64 {
     0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
 }
 
-/// Divides long edges and drops ends of short ones, each vertex touched once at most.
-fn change(points: &mut Vec<[f64; 2]>, fixed: usize, edges: &[Edge]) {
+/// Divides long edges and drops one end of those below `shortest` target lengths, each vertex touched once at most.
+fn change(points: &mut Vec<[f64; 2]>, fixed: usize, edges: &[Edge], shortest: f64) {
     let mut touched = vec![false; points.len()];
     let (mut dropped, mut added) = (vec![false; points.len()], Vec::new());
     for &Edge { ends: [a, b], ratio } in edges {
         // Across a right-angled corner of the outline there may be an edge of √2.
         let long = ratio > if b < fixed { LIMIT } else { LONG };
-        let short = ratio < SHORT && b >= fixed;
+        let short = ratio < shortest && b >= fixed;
         if touched[a] || touched[b] || !(long || short) {
             continue;
         }
