@@ -4,7 +4,7 @@ use std::path::Path;
 
 use mpm_scenes::output::write_whole;
 
-use super::{Experiment, ExperimentError};
+use super::{Cases, Experiment, ExperimentError};
 
 /// Names of the files.
 pub mod names {
@@ -25,7 +25,7 @@ pub mod names {
 }
 
 impl Experiment {
-    /// Takes a directory for this experiment, which may hold a part of it. Title and reduced runs may have changed since.
+    /// Takes a directory for this experiment, which may hold a part of it. What the training does not hang on may have changed since: title, test cases and reduced runs.
     pub(super) fn occupy(&self, directory: &Path) -> Result<(), ExperimentError> {
         std::fs::create_dir_all(directory).map_err(|source| ExperimentError::file("create", directory, source))?;
         let file = directory.join(names::CONFIG);
@@ -34,6 +34,10 @@ impl Experiment {
         }
         let before = Self::read(&file).map(|before| Self {
             title: self.title.clone(),
+            cases: Cases {
+                train: before.cases.train,
+                ..self.cases.clone()
+            },
             run: self.run.clone(),
             file: self.file.clone(),
             text: self.text.clone(),

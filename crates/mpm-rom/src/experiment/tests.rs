@@ -243,6 +243,7 @@ fn an_experiment_is_stopped_goes_on_and_is_run() {
     ));
     other = experiment.clone();
     other.run.samples.truncate(1);
+    other.cases.test[0][0] *= 1.01;
     assert_eq!(run::<2>(&other, &whole, &mut |_, _| true).expect("run").len(), 4);
     assert!(matches!(
         run::<2>(&other, &whole, &mut |_, _| false),
