@@ -141,7 +141,7 @@ mod tests {
         let error = ElasticModuli::from_lame(-1.0, 1.5).expect_err("at the border");
         assert_eq!(error, ParameterError::FirstLameParameter { value: -1.0 });
         let message = ElasticModuli::new(1.0, 0.5).expect_err("incompressible").to_string();
-        assert_eq!(message, "Poisson's ratio must lie strictly between -1 and 1/2, not 0.5");
+        assert_eq!(message, "Poisson's ratio must be strictly between -1 and 1/2, not 0.5");
         assert!(ElasticModuli::new(1e308, 0.5 - 1e-16).is_err(), "lambda overflows");
     }
 }

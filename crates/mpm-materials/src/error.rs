@@ -9,8 +9,8 @@ pub enum ParameterError {
         /// E as given.
         value: f64,
     },
-    /// Poisson's ratio ν must lie strictly between −1 and 1/2.
-    #[error("Poisson's ratio must lie strictly between -1 and 1/2, not {value}")]
+    /// Poisson's ratio ν must be strictly between −1 and 1/2.
+    #[error("Poisson's ratio must be strictly between -1 and 1/2, not {value}")]
     PoissonRatio {
         /// ν as given.
         value: f64,
@@ -45,8 +45,8 @@ pub enum ParameterError {
         /// κ_p as given.
         value: f64,
     },
-    /// The residual yield stress κ_r must lie between zero and the peak.
-    #[error("the residual yield stress must lie between 0 and the peak {peak}, not {value}")]
+    /// The residual yield stress κ_r must be between zero and the peak.
+    #[error("the residual yield stress must be between 0 and the peak {peak}, not {value}")]
     ResidualYieldStress {
         /// κ_r as given.
         value: f64,
@@ -59,8 +59,8 @@ pub enum ParameterError {
         /// η as given.
         value: f64,
     },
-    /// The friction angle φ must lie strictly between 0 and π/2.
-    #[error("the friction angle must lie strictly between 0 and pi/2 (radians), not {value}")]
+    /// The friction angle φ must be strictly between 0 and π/2.
+    #[error("the friction angle must be strictly between 0 and pi/2 (radians), not {value}")]
     FrictionAngle {
         /// φ as given, in radians.
         value: f64,

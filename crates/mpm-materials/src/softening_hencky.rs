@@ -286,7 +286,7 @@ mod tests {
         assert_eq!(new(1.0, 2.0, 1.0), error);
         assert_eq!(
             error.to_string(),
-            "the residual yield stress must lie between 0 and the peak 1, not 2"
+            "the residual yield stress must be between 0 and the peak 1, not 2"
         );
         assert_eq!(new(1.0, 0.5, -1.0), ParameterError::SofteningRate { value: -1.0 });
         assert!(SofteningHencky::new(moduli(), 1.0, f64::NAN, 1.0).is_err());

@@ -42,6 +42,12 @@ pub enum ExperimentError {
         /// What is wrong.
         message: String,
     },
+    /// Nothing has been trained there.
+    #[error("{directory} holds no trained model: `parvi rom train` with this file and directory makes one")]
+    Untrained {
+        /// The directory.
+        directory: String,
+    },
     /// The directory holds another experiment.
     #[error("{directory} holds another experiment, left untouched: choose another directory")]
     Occupied {

@@ -30,6 +30,11 @@ pub fn run<const D: usize>(
     directory: &Path,
     after_run: &mut dyn FnMut(usize, usize) -> bool,
 ) -> Result<Vec<ReducedRow>, ExperimentError> {
+    if !directory.join(names::MODEL).exists() {
+        return Err(ExperimentError::Untrained {
+            directory: directory.display().to_string(),
+        });
+    }
     experiment.occupy(directory)?;
     let document = SceneDocument::read(&experiment.run_scene_file())?;
     let finer = experiment.super_resolution_file();

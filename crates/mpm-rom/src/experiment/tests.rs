@@ -186,7 +186,16 @@ fn an_experiment_is_stopped_goes_on_and_is_run() {
     let (directory, file) = files();
     let experiment = Experiment::read(&file).expect("sound");
     let (whole, parts) = (directory.path().join("whole"), directory.path().join("parts"));
-    assert!(run::<2>(&experiment, &whole, &mut |_, _| true).is_err(), "no model");
+    assert!(matches!(
+        run::<2>(&experiment, &whole, &mut |_, _| true),
+        Err(ExperimentError::Untrained { .. })
+    ));
+    let nowhere = directory.path().join("nowhere");
+    let error = run::<2>(&experiment, &nowhere, &mut |_, _| true).expect_err("no model");
+    assert!(
+        error.to_string().contains("parvi rom train") && !nowhere.exists(),
+        "{error}"
+    );
     let trained = train_one(&experiment, &whole);
     assert_eq!(
         (trained.points, trained.runs, trained.frames, trained.epochs),

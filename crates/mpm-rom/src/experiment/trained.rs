@@ -52,6 +52,8 @@ pub struct Trained {
     pub history: Vec<EpochReport>,
     /// What encoder and network lose of the training data, in per cent.
     pub reconstruction_error: f64,
+    /// The root mean square of ‖∇_X g̃ − F‖ over all points and frames of the training data.
+    pub gradient_error: f64,
     /// Time of the full-order runs in this call; zero where their data were there.
     pub data_time: Duration,
     /// Time of the training in this call.
@@ -119,6 +121,7 @@ fn train_network<const D: usize>(
         resumed_at,
         history: trainer.history().to_vec(),
         reconstruction_error: model.reconstruction_error(snapshots)?,
+        gradient_error: model.gradient_error(snapshots)?,
         data_time: Duration::ZERO,
         training_time: start.elapsed(),
     })

@@ -1,11 +1,13 @@
 use std::path::Path;
 
+use mpm_tensor::Matrix;
 use rand::SeedableRng;
 use rand::rngs::ChaCha8Rng;
 
 use super::*;
 use crate::encoder::EncoderShape;
-use crate::manifold::{NetworkShape, Scaling};
+use crate::manifold::{Evaluation, Manifold, NetworkShape, Scaling, Wanted};
+use crate::snapshots::{Body, Frame, Run, Snapshots};
 use crate::tensor_file::TensorFileError as E;
 
 fn model() -> Model<2> {
@@ -97,4 +99,57 @@ fn every_fault_has_its_error() {
     let bytes = std::fs::read(&path).unwrap();
     std::fs::write(&path, &bytes[..bytes.len() - 8]).unwrap();
     assert!(matches!(Model::<2>::read(&path), Err(E::Damaged { .. })));
+}
+
+#[test]
+fn errors_are_those_of_all_points_and_frames() {
+    let model = model();
+    let reference: Vec<[f64; 2]> = (0..50)
+        .map(|k| [0.1 * f64::from(k), (0.7 * f64::from(k)).sin()])
+        .collect();
+    let frame = |stretch: f64| Frame {
+        time: stretch - 1.0,
+        positions: reference.iter().map(|x| [stretch * x[0], x[1]]).collect(),
+        deformation_gradients: vec![Matrix([[stretch, 0.0], [0.0, 1.0]]); 50],
+        velocities: vec![[0.0; 2]; 50],
+    };
+    let frames: Vec<_> = [1.0, 1.2, 1.5].map(frame).into();
+    let (mut position, mut size, mut gradient) = (0.0, 0.0, 0.0);
+    for frame in &frames {
+        let (latent, mut at) = (model.encoder().encode(&frame.positions).unwrap(), Evaluation::default());
+        let wanted = Wanted {
+            gradients: true,
+            ..Wanted::default()
+        };
+        model.network().evaluate(&reference, &latent, wanted, &mut at);
+        for p in 0..50 {
+            for i in 0..2 {
+                position += (at.positions[p][i] - frame.positions[p][i]).powi(2);
+                size += frame.positions[p][i].powi(2);
+                for j in 0..2 {
+                    gradient += (at.gradients[p].0[i][j] - frame.deformation_gradients[p].0[i][j]).powi(2);
+                }
+            }
+        }
+    }
+    let body = Body {
+        scene: "beam".to_owned(),
+        reference,
+        centroid: [0.0; 2],
+        interval: 0.1,
+        density: 1.0,
+        parameters: Vec::new(),
+    };
+    let run = Run {
+        parameters: Vec::new(),
+        frames,
+    };
+    let snapshots = Snapshots::new(body, vec![run]).unwrap();
+    let lost = model.reconstruction_error(&snapshots).unwrap();
+    assert!(
+        (lost / (100.0 * (position / size).sqrt()) - 1.0).abs() < 1e-12,
+        "{lost}"
+    );
+    let apart = model.gradient_error(&snapshots).unwrap();
+    assert!((apart / (gradient / 150.0_f64).sqrt() - 1.0).abs() < 1e-12, "{apart}");
 }

@@ -42,6 +42,7 @@ fn pairs(trained: &Trained, memory: &MemoryGauge) -> Vec<(&'static str, String)>
             "reconstruction_error_percent",
             format!("{:.6}", trained.reconstruction_error),
         ),
+        ("gradient_error", format!("{:.6}", trained.gradient_error)),
         ("data_seconds", seconds(trained.data_time)),
         ("training_seconds", seconds(trained.training_time)),
     ];

@@ -48,10 +48,17 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
 /// The comparisons that failed.
 fn warn(validation: &[ValidationRow]) {
     for row in validation.iter().filter(|row| !row.passes()) {
-        console::notice(&format!(
-            "{}: {} differs from {} by more than {}",
-            row.quantity, row.measured, row.reference, row.tolerance
-        ));
+        console::notice(&if row.measured.is_nan() {
+            format!(
+                "{}: the run gives no value, {} is expected",
+                row.quantity, row.reference
+            )
+        } else {
+            format!(
+                "{}: {} differs from {} by more than {}",
+                row.quantity, row.measured, row.reference, row.tolerance
+            )
+        });
     }
 }
 
