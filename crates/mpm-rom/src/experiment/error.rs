@@ -43,10 +43,10 @@ pub enum ExperimentError {
         message: String,
     },
     /// Nothing has been trained there.
-    #[error("{directory} holds no trained model: `parvi rom train` with this file and directory makes one")]
+    #[error("{model} is missing: `parvi rom train` with this experiment and directory makes it")]
     Untrained {
-        /// The directory.
-        directory: String,
+        /// The model's file.
+        model: String,
     },
     /// The directory holds another experiment.
     #[error("{directory} holds another experiment, left untouched: choose another directory")]

@@ -30,9 +30,10 @@ pub fn run<const D: usize>(
     directory: &Path,
     after_run: &mut dyn FnMut(usize, usize) -> bool,
 ) -> Result<Vec<ReducedRow>, ExperimentError> {
-    if !directory.join(names::MODEL).exists() {
+    let model = directory.join(names::MODEL);
+    if !model.exists() {
         return Err(ExperimentError::Untrained {
-            directory: directory.display().to_string(),
+            model: model.display().to_string(),
         });
     }
     experiment.occupy(directory)?;
