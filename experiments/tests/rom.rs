@@ -30,7 +30,7 @@ scene = "strip.toml"
 parameters = ["gravity"]
 keys = [{ key = "gravity.1", factor = -1.0, product = ["gravity"] }]
 cases = { train = [[1.0], [3.0]], test = [[2.0]] }
-training = { coordinates = 2, width = 6, depth = 2, epochs = 3, finishing_steps = 2, batch = 2 }
+training = { coordinates = 2, width = 6, depth = 2, epochs = 5, batch = 2 }
 run = { samples = [20, "all"] }
 "#;
 
@@ -83,7 +83,7 @@ fn what_is_wrong_is_named() {
     for (change, expected) in [
         (("strip.toml", "none.toml"), "none.toml"),
         (("gravity.1", "gravity.7"), "gravity.7"),
-        (("epochs = 3", "epochs = 0"), "epochs = 0"),
+        (("epochs = 5", "epochs = 0"), "epochs = 0"),
         (("samples = [20", "samples = [3"), "3 sample points, at least"),
     ] {
         std::fs::write(root.path().join("rom.toml"), EXPERIMENT.replace(change.0, change.1)).unwrap();

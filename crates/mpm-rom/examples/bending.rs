@@ -1,6 +1,6 @@
 //! Fit error against training time on a family of deformations known by formula, split into runs trained on and runs that were not.
 //!
-//!     cargo run --release -p mpm-rom --example bending -- [EPOCHS [BATCH [POINTS [RATE [COORDINATES [λ_F [λ_v [FINISHING]]]]]]]]
+//!     cargo run --release -p mpm-rom --example bending -- [EPOCHS [BATCH [POINTS [RATE [COORDINATES [λ_F [λ_v [ADAM]]]]]]]]
 
 #[path = "../tests/common/mod.rs"]
 mod common;
@@ -8,7 +8,7 @@ mod common;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use mpm_rom::training::{EpochReport, Trainer, Training};
+use mpm_rom::training::{EpochReport, Optimizer, Trainer, Training};
 
 #[allow(clippy::print_stdout)]
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -26,7 +26,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         coordinates: or(4, standard.coordinates as f64) as usize,
         gradient_weight: or(5, standard.gradient_weight),
         velocity_weight: or(6, standard.velocity_weight),
-        finishing_steps: or(7, 0.0) as u64,
+        optimizer: if or(7, 0.0) > 0.0 {
+            Optimizer::Adam
+        } else {
+            Optimizer::Soap
+        },
         ..standard
     };
     let all = common::bending_cylinder(1368, 30, 30);

@@ -48,7 +48,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let config = Training {
             points,
             epochs: 1,
-            finishing_steps: 0,
             ..Training::default()
         };
         let samples = (30 * points) as f64;

@@ -13,9 +13,7 @@ fn small() -> (Snapshots<3>, Training) {
         width: 8,
         depth: 2,
         encoder_width: 6,
-        epochs: 6,
-        finishing_steps: 4,
-        finishing_samples: 100,
+        epochs: 8,
         batch: 5,
         points: 20,
         checkpoint_interval: 2,
@@ -122,7 +120,6 @@ fn unseen_runs_are_reproduced() {
     );
     let config = Training {
         epochs: 600,
-        finishing_steps: 0,
         ..Training::default()
     };
     let mut trainer = Trainer::new(&seen, config).unwrap();

@@ -10,8 +10,7 @@ use shape::Layout;
 use rand::Rng;
 use rayon::prelude::*;
 
-use crate::manifold::network::Scaling;
-use crate::manifold::network::draw_uniform;
+use crate::manifold::network::{Layer, Scaling, draw_uniform};
 
 /// x̂ = e(φ): the scaled positions of all points, x₁ y₁ z₁ x₂ …, as one channel through 1-D convolutions (kernel 6, stride 2, no padding,
 /// ELU; one weight vector and one bias each) while the result is at least 32 wide, a dense layer with ELU and a dense layer to r
@@ -101,6 +100,14 @@ impl<const D: usize> Encoder<D> {
     /// Weights and biases in the order of [`Self::new`].
     pub fn parameters(&self) -> &[f64] {
         &self.parameters
+    }
+
+    /// Convolutions and dense layers as layers of one kind: a convolution has six inputs and an output.
+    pub(crate) fn layers(&self) -> Vec<Layer> {
+        let convolutions = self.layout.convolutions.iter();
+        let convolutions = convolutions.map(|range| Layer::at(range.start, shape::KERNEL, 1));
+        let dense = [&self.layout.hidden, &self.layout.last];
+        convolutions.chain(dense.into_iter().cloned()).collect()
     }
 
     pub(crate) fn parameters_mut(&mut self) -> &mut [f64] {

@@ -34,7 +34,7 @@ keys = [
     { key = "gravity.1", factor = -1.0, product = ["gravity", "cos angle"] },
 ]
 cases = { train = [[1.0, 0.0], [3.0, 0.2]], test = [[2.0, 0.1]] }
-training = { coordinates = 2, width = 6, depth = 2, epochs = 4, finishing_steps = 3, batch = 2, checkpoint_interval = 2 }
+training = { coordinates = 2, width = 6, depth = 2, epochs = 7, batch = 2, checkpoint_interval = 2 }
 run = { manifold = ["network", "linear"], samples = [20, "all"], quadrature = ["lagrangian"], update = ["position-velocity", "velocity-only"] }
 "#;
 
@@ -81,7 +81,7 @@ fn what_is_wrong_is_named_with_its_file_and_field() {
             ("[3.0, 0.2]", "[3.0, nan]"),
             "rom.toml, cases.train.1: NaN is not finite",
         ),
-        (("epochs = 4", "epochs = 0"), "rom.toml, training: epochs = 0"),
+        (("epochs = 7", "epochs = 0"), "rom.toml, training: epochs = 0"),
         (
             ("samples = [20, \"all\"]", "samples = []"),
             "rom.toml, run.samples: at least one",

@@ -8,7 +8,7 @@ use crate::manifold::{Network, NetworkShape, Scaling};
 use crate::tensor_file::{TensorFileError, TensorReader, TensorWriter};
 
 const KIND: &str = "model";
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -2,16 +2,14 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::adam::Adam;
-use super::finish::{InverseHessian, QuasiNewton};
 use super::trainer::{Best, Trainer};
-use super::{EpochReport, Terms, Training, TrainingError};
+use super::{EpochReport, Training, TrainingError};
 use crate::manifold::Scaling;
 use crate::snapshots::Snapshots;
 use crate::tensor_file::{TensorReader, TensorWriter};
 
 const KIND: &str = "training-checkpoint";
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -23,15 +21,12 @@ struct Header {
     scaling: Scaling,
     steps: u64,
     best: Option<EpochReport>,
-    /// Loss of the second phase, where it has begun.
-    finish: Option<Terms>,
     history: Vec<EpochReport>,
 }
 
 impl<'a, const D: usize> Trainer<'a, D> {
-    /// Writes the whole state: parameters, moments and steps of Adam, best parameters, reports. Random numbers need no state, every epoch has a
-    /// stream of its own. Tensors: `network`, `encoder`, `first`, `second`, `best_network`, `best_encoder` if there is a best epoch,
-    /// and `finish_gradient`, `finish_product`, `finish_inverse` (its rows on and below the diagonal) in the second phase.
+    /// Writes the whole state: parameters, numbers and steps of the optimizer, best parameters, reports. Random numbers need no state, every epoch has a
+    /// stream of its own. Tensors: `network`, `encoder`, `descent`, and `best_network`, `best_encoder` if there is a best epoch.
     ///
     /// # Errors
     /// [`TrainingError::File`].
@@ -41,25 +36,18 @@ impl<'a, const D: usize> Trainer<'a, D> {
             scene: self.snapshots.body().scene.clone(),
             training: self.config.clone(),
             scaling: self.network.scaling().clone(),
-            steps: self.adam.steps,
+            steps: self.descent.steps(),
             best: self.best.as_ref().map(|best| best.report),
-            finish: self.finish.as_ref().map(|state| state.terms),
             history: self.history.clone(),
         };
         let mut file = TensorWriter::default();
         let mut add = |name: &str, values: &[f64]| file.add(name, &[values.len()], values.iter().copied());
         add("network", self.network.parameters());
         add("encoder", self.encoder.parameters());
-        add("first", &self.adam.first);
-        add("second", &self.adam.second);
+        add("descent", &self.descent.state());
         if let Some(best) = &self.best {
             add("best_network", &best.network);
             add("best_encoder", &best.encoder);
-        }
-        if let Some(state) = &self.finish {
-            add("finish_gradient", &state.gradient);
-            add("finish_product", &state.product);
-            add("finish_inverse", &state.inverse.lower());
         }
         Ok(file.write(path, KIND, VERSION, &header)?)
     }
@@ -94,25 +82,15 @@ impl<'a, const D: usize> Trainer<'a, D> {
             .encoder
             .parameters_mut()
             .copy_from_slice(&file.tensor("encoder", &[encoder])?);
-        trainer.adam = Adam {
-            first: file.tensor("first", &[network + encoder])?,
-            second: file.tensor("second", &[network + encoder])?,
-            steps: header.steps,
-        };
+        let state = trainer.descent.state().len();
+        trainer
+            .descent
+            .restore(header.steps, &file.tensor("descent", &[state])?);
         if let Some(report) = header.best {
             trainer.best = Some(Best {
                 report,
                 network: file.tensor("best_network", &[network])?,
                 encoder: file.tensor("best_encoder", &[encoder])?,
-            });
-        }
-        if let Some(terms) = header.finish {
-            let lower = file.tensor("finish_inverse", &[network * (network + 1) / 2])?;
-            trainer.finish = Some(QuasiNewton {
-                inverse: InverseHessian::from_lower(network, &lower),
-                gradient: file.tensor("finish_gradient", &[network])?,
-                product: file.tensor("finish_product", &[network])?,
-                terms,
             });
         }
         trainer.history = header.history;

@@ -139,7 +139,7 @@ impl<const D: usize> PairLoss<D> {
     }
 
     /// The same for given coordinates: no encoder has a part in it. Returns the adjoints of x̂ and w.
-    pub fn add_at(
+    fn add_at(
         &mut self,
         network: &Network<D>,
         weights: &Weights,

@@ -1,4 +1,4 @@
-//! Training: a network and an encoder fitted to snapshots by Adam, and further by a quasi-Newton method.
+//! Training: a network and an encoder fitted to snapshots.
 //!
 //! The loss (Chen et al. 2023, Eq. 31) is, per sample (run, frame n, point p),
 //!
@@ -16,18 +16,17 @@
 //! their adjoints, 6 width² (D + 2) flop per layer between hidden ones; per pair two passes of the encoder there and back, which at 1,368 points
 //! weigh as much as some tens of samples. The example `train_speed` measures both, the example `bending` error against time.
 
-mod adam;
 mod checkpoint;
 mod config;
 mod error;
-mod finish;
-mod finishing;
 mod loss;
 mod observer;
+mod optimizer;
 mod trainer;
 
 pub use config::Training;
 pub use error::TrainingError;
 pub use loss::Terms;
 pub use observer::{EpochReport, Observer};
+pub use optimizer::Optimizer;
 pub use trainer::Trainer;

@@ -7,13 +7,13 @@ use super::Terms;
 /// What an epoch reached.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EpochReport {
-    /// The epoch, counted from 0; a step of the second phase counts as one.
+    /// The epoch, counted from 0.
     pub epoch: u64,
     /// Epochs in all.
     pub epochs: u64,
-    /// Means over the epoch's samples, each sample with the parameters of its step; in the second phase the loss after the step.
+    /// Means over the epoch's samples, each sample with the parameters of its step.
     pub terms: Terms,
-    /// Adam's rate at the last step; in the second phase the length of the step, 0 where none made the loss less.
+    /// The rate at the last step.
     pub rate: f64,
 }
 

@@ -5,9 +5,8 @@ use rand::rngs::ChaCha8Rng;
 use rand::seq::{SliceRandom, index};
 use rayon::prelude::*;
 
-use super::adam::Adam;
-use super::finish::QuasiNewton;
 use super::loss::{PairLoss, Weights};
+use super::optimizer::Descent;
 use super::{EpochReport, Observer, Terms, Training, TrainingError};
 use crate::encoder::{Encoder, EncoderShape};
 use crate::manifold::{Network, NetworkShape, Scaling};
@@ -21,9 +20,7 @@ pub struct Trainer<'a, const D: usize> {
     pub(super) config: Training,
     pub(super) network: Network<D>,
     pub(super) encoder: Encoder<D>,
-    pub(super) adam: Adam,
-    /// The state of the second phase, once it has begun.
-    pub(super) finish: Option<QuasiNewton>,
+    pub(super) descent: Descent,
     /// The best parameters so far.
     pub(super) best: Option<Best>,
     /// One report per epoch taken.
@@ -65,14 +62,12 @@ impl<'a, const D: usize> Trainer<'a, D> {
         let mut generator = ChaCha8Rng::seed_from_u64(config.seed);
         let network = Network::start(shape, scaling.clone(), &mut generator)?;
         let encoder = Encoder::start(encoder, scaling, &mut generator)?;
-        let parameters = network.parameters().len() + encoder.parameters().len();
         Ok(Self {
             snapshots,
+            descent: Descent::new(config.optimizer, &network, &encoder),
             config,
             network,
             encoder,
-            adam: Adam::new(parameters),
-            finish: None,
             best: None,
             history: Vec::new(),
         })
@@ -91,13 +86,9 @@ impl<'a, const D: usize> Trainer<'a, D> {
     pub fn train(&mut self, checkpoint: Option<&Path>, observer: &mut impl Observer) -> Result<(), TrainingError> {
         let worker = PairLoss::new(&self.network, &self.encoder);
         let mut workers = vec![worker; self.config.batch.min(self.pairs().len())];
-        let (epochs, mut sample) = (self.config.all_epochs(), None);
+        let epochs = self.config.epochs;
         while (self.history.len() as u64) < epochs {
-            let report = if (self.history.len() as u64) < self.config.epochs {
-                self.epoch(&mut workers)?
-            } else {
-                self.finishing_step(&mut sample)?
-            };
+            let report = self.epoch(&mut workers)?;
             self.history.push(report);
             let least = self
                 .best
@@ -161,11 +152,11 @@ impl<'a, const D: usize> Trainer<'a, D> {
         for batch in pairs.chunks(self.config.batch) {
             let mut draw = || index::sample(&mut generator, self.snapshots.points(), count).into_vec();
             let chosen: Vec<Vec<usize>> = batch.iter().map(|_| draw()).collect();
-            rate = self.config.rate(self.adam.steps, steps);
+            rate = self.config.rate(self.descent.steps(), steps);
             let of_batch = self.step(workers, batch, &chosen, rate);
             let loss = of_batch.total();
             if !loss.is_finite() {
-                let step = self.adam.steps - 1;
+                let step = self.descent.steps() - 1;
                 return Err(TrainingError::NotFinite { epoch, step, loss });
             }
             let share = batch.len() as f64 / pairs.len() as f64;
@@ -177,13 +168,13 @@ impl<'a, const D: usize> Trainer<'a, D> {
         }
         Ok(EpochReport {
             epoch,
-            epochs: self.config.all_epochs(),
+            epochs: self.config.epochs,
             terms,
             rate,
         })
     }
 
-    /// One step of Adam; the loss before it.
+    /// One step; the loss before it.
     fn step(
         &mut self,
         workers: &mut [PairLoss<D>],
@@ -212,19 +203,15 @@ impl<'a, const D: usize> Trainer<'a, D> {
         });
         // The order of the batch, whatever thread was first.
         let mut terms = Terms::default();
-        let mut gradient = vec![0.0; self.adam.first.len()];
+        let mut gradient = vec![0.0; self.network.parameters().len() + self.encoder.parameters().len()];
         for worker in &workers[..batch.len()] {
             terms += worker.terms;
             for (sum, part) in gradient.iter_mut().zip(worker.network.iter().chain(&worker.encoder)) {
                 *sum += part;
             }
         }
-        let parameters = self
-            .network
-            .parameters_mut()
-            .iter_mut()
-            .chain(self.encoder.parameters_mut());
-        self.adam.step(parameters, &gradient, rate);
+        let (network, encoder) = (self.network.parameters_mut(), self.encoder.parameters_mut());
+        self.descent.step(network, encoder, &gradient, rate);
         terms
     }
 }

@@ -105,6 +105,10 @@ impl<const D: usize> Network<D> {
         &self.parameters
     }
 
+    pub(crate) fn layers(&self) -> &[Layer] {
+        &self.layers
+    }
+
     pub(crate) fn parameters_mut(&mut self) -> &mut [f64] {
         &mut self.parameters
     }

@@ -7,11 +7,11 @@ const SMALLEST: f64 = 1e-8;
 /// m ← β₁ m + (1 − β₁) g, s ← β₂ s + (1 − β₂) g², θ ← θ − rate · m̂ / (√ŝ + ε) with m̂ = m / (1 − β₁ᵗ), ŝ = s / (1 − β₂ᵗ), β₁ = 0.9,
 /// β₂ = 0.999, ε = 1e-8.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Adam {
+pub(in crate::training) struct Adam {
     /// m.
-    pub first: Vec<f64>,
+    first: Vec<f64>,
     /// s.
-    pub second: Vec<f64>,
+    second: Vec<f64>,
     /// t, steps taken.
     pub steps: u64,
 }
@@ -25,8 +25,8 @@ impl Adam {
         }
     }
 
-    /// One step; `parameters` yields θ in the order of `gradient`.
-    pub fn step<'a>(&mut self, parameters: impl Iterator<Item = &'a mut f64>, gradient: &[f64], rate: f64) {
+    /// What to add to θ.
+    pub fn change(&mut self, gradient: &[f64], rate: f64) -> Vec<f64> {
         self.steps += 1;
         let power = self.steps as f64;
         let (first_scale, second_scale) = (
@@ -34,11 +34,17 @@ impl Adam {
             1.0 / (1.0 - SECOND_DECAY.powf(power)),
         );
         let moments = self.first.iter_mut().zip(&mut self.second);
-        for ((parameter, gradient), (first, second)) in parameters.zip(gradient).zip(moments) {
+        let change = |(gradient, (first, second)): (&f64, (&mut f64, &mut f64))| {
             *first = FIRST_DECAY * *first + (1.0 - FIRST_DECAY) * gradient;
             *second = SECOND_DECAY * *second + (1.0 - SECOND_DECAY) * gradient * gradient;
-            *parameter -= rate * (*first * first_scale) / ((*second * second_scale).sqrt() + SMALLEST);
-        }
+            -rate * (*first * first_scale) / ((*second * second_scale).sqrt() + SMALLEST)
+        };
+        gradient.iter().zip(moments).map(change).collect()
+    }
+
+    /// m and s.
+    pub fn numbers(&mut self) -> impl Iterator<Item = &mut f64> {
+        self.first.iter_mut().chain(&mut self.second)
     }
 }
 
@@ -48,11 +54,10 @@ mod tests {
 
     #[test]
     fn the_first_step_is_the_rate_against_the_sign() {
-        let mut parameters = [1.0, 2.0, 3.0];
-        Adam::new(3).step(parameters.iter_mut(), &[5.0, -1e-3, 0.0], 0.1);
-        assert!((parameters[0] - 0.9).abs() < 1e-8);
-        assert!((parameters[1] - 2.1).abs() < 1e-5);
-        assert_eq!(parameters[2], 3.0);
+        let change = Adam::new(3).change(&[5.0, -1e-3, 0.0], 0.1);
+        assert!((change[0] + 0.1).abs() < 1e-8);
+        assert!((change[1] - 0.1).abs() < 1e-5);
+        assert_eq!(change[2], 0.0);
     }
 
     #[test]
@@ -60,7 +65,8 @@ mod tests {
         let (mut parameters, mut adam) = ([3.0, -2.0], Adam::new(2));
         for n in 0..10_000 {
             let gradient = [2.0 * (parameters[0] - 1.0), 200.0 * parameters[1]];
-            adam.step(parameters.iter_mut(), &gradient, 1e-2 * 0.999f64.powi(n));
+            let change = adam.change(&gradient, 1e-2 * 0.999f64.powi(n));
+            parameters = [parameters[0] + change[0], parameters[1] + change[1]];
         }
         assert!(
             (parameters[0] - 1.0).abs() < 1e-3 && parameters[1].abs() < 1e-3,

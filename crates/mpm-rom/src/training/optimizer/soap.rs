@@ -1,0 +1,253 @@
+//! SOAP (N. Vyas et al. 2024, arXiv 2409.11321, Algorithms 3 and 4): Adam in the eigenvectors of Shampoo's preconditioners.
+
+use faer::{Mat, Scale, Side};
+
+use crate::manifold::network::Layer;
+
+const FIRST_DECAY: f64 = 0.9;
+const SECOND_DECAY: f64 = 0.95;
+const COVARIANCE_DECAY: f64 = 0.95;
+const SMALLEST: f64 = 1e-12;
+/// Steps between two updates of the eigenvectors.
+const INTERVAL: u64 = 10;
+
+/// For each layer, whose weights and, as a last column, biases are a matrix Θ (m × n) with the gradient G:
+///
+/// * L ← β₃ L + (1 − β₃) G Gᵀ, R ← β₃ R + (1 − β₃) Gᵀ G; Q_L and Q_R, their eigenvectors, follow by one step of orthogonal iteration, Q ← qr(L Q),
+///   at every tenth step;
+/// * G' = Q_Lᵀ G Q_R, M ← β₁ M + (1 − β₁) G', S ← β₂ S + (1 − β₂) G'², Θ ← Θ − rate · Q_L [M̂ / (√Ŝ + ε)] Q_Rᵀ, entry by entry, M̂ and Ŝ as in Adam.
+///
+/// β₁ = 0.9, β₂ = β₃ = 0.95, ε = 1e-12 (ours, by the loss of a training of §5.2). M is turned with the eigenvectors, S is not. A step costs
+/// 8 products of m × n with a square matrix, and two factorisations at every tenth.
+#[derive(Clone, Debug)]
+pub(in crate::training) struct Soap {
+    layers: Vec<Eigenbasis>,
+    /// t, steps taken.
+    pub steps: u64,
+}
+
+/// A layer, and the moments of its gradients.
+#[derive(Clone, Debug)]
+struct Eigenbasis {
+    layer: Layer,
+    /// L, R.
+    covariances: [Mat<f64>; 2],
+    /// Q_L, Q_R.
+    vectors: [Mat<f64>; 2],
+    /// M.
+    first: Mat<f64>,
+    /// S.
+    second: Mat<f64>,
+}
+
+impl Soap {
+    /// For parameters that are those of the network, then those of the encoder.
+    pub fn new(network: &[Layer], encoder: &[Layer]) -> Self {
+        let end = network.last().map_or(0, |layer| layer.bias.end);
+        let encoder = encoder
+            .iter()
+            .map(|layer| Layer::at(end + layer.weights.start, layer.inputs, layer.outputs));
+        Self {
+            layers: network.iter().cloned().chain(encoder).map(Eigenbasis::new).collect(),
+            steps: 0,
+        }
+    }
+
+    /// What to add to the parameters.
+    pub fn change(&mut self, gradient: &[f64], rate: f64) -> Vec<f64> {
+        self.steps += 1;
+        let mut change = vec![0.0; gradient.len()];
+        for layer in &mut self.layers {
+            layer.step(gradient, rate, self.steps, &mut change);
+        }
+        change
+    }
+
+    /// L, R, Q_L, Q_R, M and S of every layer.
+    pub fn numbers(&mut self) -> impl Iterator<Item = &mut f64> {
+        let matrices = self.layers.iter_mut().flat_map(|layer| {
+            let ([left, right], [left_vectors, right_vectors]) = (&mut layer.covariances, &mut layer.vectors);
+            let moments = [&mut layer.first, &mut layer.second];
+            [left, right, left_vectors, right_vectors].into_iter().chain(moments)
+        });
+        matrices.flat_map(|matrix| matrix.col_iter_mut().flat_map(|column| column.iter_mut()))
+    }
+}
+
+impl Eigenbasis {
+    fn new(layer: Layer) -> Self {
+        let (m, n) = (layer.outputs, layer.inputs + 1);
+        Self {
+            layer,
+            covariances: [Mat::zeros(m, m), Mat::zeros(n, n)],
+            vectors: [Mat::identity(m, m), Mat::identity(n, n)],
+            first: Mat::zeros(m, n),
+            second: Mat::zeros(m, n),
+        }
+    }
+
+    /// Where entry (i, j) of Θ stands among the parameters.
+    fn position(layer: &Layer, i: usize, j: usize) -> usize {
+        if j < layer.inputs {
+            layer.weights.start + i * layer.inputs + j
+        } else {
+            layer.bias.start + i
+        }
+    }
+
+    fn step(&mut self, gradient: &[f64], rate: f64, steps: u64, change: &mut [f64]) {
+        let gradient = Mat::from_fn(self.first.nrows(), self.first.ncols(), |i, j| {
+            gradient[Self::position(&self.layer, i, j)]
+        });
+        let direction = self.direction(&gradient, steps);
+        for j in 0..direction.ncols() {
+            for i in 0..direction.nrows() {
+                change[Self::position(&self.layer, i, j)] = -rate * direction[(i, j)];
+            }
+        }
+        let products = [&gradient * gradient.transpose(), gradient.transpose() * &gradient];
+        for (covariance, product) in self.covariances.iter_mut().zip(products) {
+            *covariance = &*covariance * Scale(COVARIANCE_DECAY) + product * Scale(1.0 - COVARIANCE_DECAY);
+        }
+        if steps % INTERVAL == 1 {
+            self.turn(steps == 1);
+        }
+    }
+
+    /// Q_L [M̂ / (√Ŝ + ε)] Q_Rᵀ with this gradient in the moments.
+    fn direction(&mut self, gradient: &Mat<f64>, steps: u64) -> Mat<f64> {
+        let [left, right] = &self.vectors;
+        let gradient = left.transpose() * gradient * right;
+        let power = steps as f64;
+        let first_scale = 1.0 / (1.0 - FIRST_DECAY.powf(power));
+        let second_scale = 1.0 / (1.0 - SECOND_DECAY.powf(power));
+        let within = Mat::from_fn(gradient.nrows(), gradient.ncols(), |i, j| {
+            let (gradient, first, second) = (gradient[(i, j)], &mut self.first[(i, j)], &mut self.second[(i, j)]);
+            *first = FIRST_DECAY * *first + (1.0 - FIRST_DECAY) * gradient;
+            *second = SECOND_DECAY * *second + (1.0 - SECOND_DECAY) * gradient * gradient;
+            (*first * first_scale) / ((*second * second_scale).sqrt() + SMALLEST)
+        });
+        left * within * right.transpose()
+    }
+
+    /// The eigenvectors follow the covariances: all at once at the beginning, later by a step of orthogonal iteration, which keeps their order.
+    fn turn(&mut self, begins: bool) {
+        let [left, right] = &self.vectors;
+        let first = left * &self.first * right.transpose();
+        for (vectors, covariance) in self.vectors.iter_mut().zip(&self.covariances) {
+            let found = if begins {
+                covariance
+                    .self_adjoint_eigen(Side::Lower)
+                    .ok()
+                    .map(|found| found.U().to_owned())
+            } else {
+                Some((covariance * &*vectors).qr().compute_thin_Q())
+            };
+            // None where the gradient is not finite, which the loss will tell.
+            if let Some(found) = found {
+                *vectors = found;
+            }
+        }
+        let [left, right] = &self.vectors;
+        self.first = left.transpose() * first * right;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Θ of 3 × 5 and 2 × 3.
+    fn layers() -> Vec<Layer> {
+        let first = Layer::at(0, 4, 3);
+        let second = Layer::at(first.bias.end, 2, 2);
+        vec![first, second]
+    }
+
+    fn largest(values: &[f64]) -> f64 {
+        values.iter().fold(0.0, |largest, value| value.abs().max(largest))
+    }
+
+    #[test]
+    fn every_parameter_has_its_place() {
+        let mut soap = Soap::new(&layers(), &layers());
+        let change = soap.change(&[1.0; 42], 0.1);
+        assert!(change.iter().all(|change| (change + 0.1).abs() < 1e-9), "{change:?}");
+    }
+
+    #[test]
+    fn vectors_stay_orthonormal_and_become_those_of_the_covariance() {
+        let mut soap = Soap::new(&layers()[..1], &[]);
+        for step in 0..2001 {
+            let gradient: Vec<_> = (0..15)
+                .map(|k| (k as f64 + 1.0) * f64::from(step * k + k * k).sin())
+                .collect();
+            soap.change(&gradient, 0.1);
+        }
+        let layer = &soap.layers[0];
+        for (vectors, covariance) in layer.vectors.iter().zip(&layer.covariances) {
+            let size = vectors.nrows();
+            let product = vectors.transpose() * vectors;
+            let diagonal = vectors.transpose() * covariance * vectors;
+            for i in 0..size {
+                for j in 0..size {
+                    let unit = f64::from(u8::from(i == j));
+                    assert!((product[(i, j)] - unit).abs() < 1e-12);
+                    let off = diagonal[(i, j)].abs() / (diagonal[(i, i)] * diagonal[(j, j)]).sqrt();
+                    assert!(i == j || off < 0.5, "{i} {j} {off}");
+                }
+            }
+        }
+    }
+
+    /// ‖A (Θ − Θ*) B‖² with A and B turned and of condition 100: Adam needs the axes of the parameters, SOAP finds its own.
+    #[test]
+    fn a_turned_quadratic_is_minimised_faster_than_by_adam() {
+        let size = 4;
+        let turned = Mat::from_fn(size, size, |i, j| {
+            let sum = |k: usize| {
+                let wave = |i: usize| ((i as f64 + 0.5) * k as f64 * std::f64::consts::PI / size as f64).cos();
+                let norm = if k == 0 { 1.0 } else { 2.0 } / size as f64;
+                norm * wave(i) * wave(j) * 100f64.powf(-(k as f64) / (size as f64 - 1.0))
+            };
+            (0..size).map(sum).sum::<f64>()
+        });
+        let layer = Layer::at(0, size - 1, size);
+        let loss_and_gradient = |parameters: &[f64]| {
+            let error = Mat::from_fn(size, size, |i, j| {
+                parameters[Eigenbasis::position(&layer, i, j)] - (1.0 + (i + 2 * j) as f64).sin()
+            });
+            let residual = &turned * &error * &turned;
+            let matrix = &turned * &residual * &turned;
+            let mut gradient = vec![0.0; size * size];
+            for i in 0..size {
+                for j in 0..size {
+                    gradient[Eigenbasis::position(&layer, i, j)] = 2.0 * matrix[(i, j)];
+                }
+            }
+            (residual.squared_norm_l2(), gradient)
+        };
+        let minimise = |mut change: Box<dyn FnMut(&[f64], f64) -> Vec<f64>>| {
+            let mut parameters = vec![0.0; size * size];
+            for step in 0..1000 {
+                let (_, gradient) = loss_and_gradient(&parameters);
+                for (parameter, change) in parameters.iter_mut().zip(change(&gradient, 0.1 * 0.99f64.powi(step))) {
+                    *parameter += change;
+                }
+            }
+            loss_and_gradient(&parameters).0
+        };
+        let mut soap = Soap::new(std::slice::from_ref(&layer), &[]);
+        let mut adam = super::super::Adam::new(size * size);
+        let with_soap = minimise(Box::new(move |gradient, rate| soap.change(gradient, rate)));
+        let with_adam = minimise(Box::new(move |gradient, rate| adam.change(gradient, rate)));
+        assert!(with_soap < 0.1 * with_adam, "{with_soap} {with_adam}");
+    }
+
+    #[test]
+    fn the_first_step_is_adams() {
+        let mut soap = Soap::new(&layers(), &[]);
+        let change = soap.change(&[0.0; 21], 0.1);
+        assert_eq!(largest(&change), 0.0);
+    }
+}
