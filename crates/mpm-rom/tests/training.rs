@@ -5,7 +5,7 @@ mod common;
 use std::ops::ControlFlow;
 
 use mpm_rom::snapshots::Snapshots;
-use mpm_rom::training::{EpochReport, Trainer, Training, TrainingError};
+use mpm_rom::training::{EpochReport, Optimizer, Trainer, Training, TrainingError};
 
 fn small() -> (Snapshots<3>, Training) {
     let config = Training {
@@ -24,7 +24,14 @@ fn small() -> (Snapshots<3>, Training) {
 
 #[test]
 fn a_resumed_training_has_the_bits_of_an_uninterrupted_one() {
+    for optimizer in [Optimizer::Soap, Optimizer::Adam] {
+        resumed_and_whole(optimizer);
+    }
+}
+
+fn resumed_and_whole(optimizer: Optimizer) {
     let (snapshots, config) = small();
+    let config = Training { optimizer, ..config };
     let mut whole = Trainer::new(&snapshots, config.clone()).unwrap();
     whole.train(None, &mut ()).unwrap();
     let directory = tempfile::tempdir().unwrap();
