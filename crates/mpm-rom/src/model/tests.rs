@@ -77,7 +77,7 @@ fn every_fault_has_its_error() {
         })
     ));
     assert!(matches!(
-        replaced(&path, r#"\"version\":1"#, r#"\"version\":9"#),
+        replaced(&path, r#"\"version\":2"#, r#"\"version\":9"#),
         Err(E::Version { found: 9, .. })
     ));
     assert!(matches!(
