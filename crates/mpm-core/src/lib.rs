@@ -21,6 +21,7 @@ mod schedule;
 mod step;
 mod stress_update;
 mod transfer;
+mod velocity_filter;
 mod volume_averaging;
 
 pub use basis::{Basis, NO_NODE, UniformBasis};
@@ -43,3 +44,4 @@ pub use transfer::{
     AffineFlip, Apic, Divide, Flip, FlipNode, GridNode, Mls, NodeSums, Pic, StencilNodes, Sum, Transfer, VelocityNode,
     gather,
 };
+pub use velocity_filter::VelocityFilter;

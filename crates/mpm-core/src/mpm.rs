@@ -3,7 +3,9 @@
 use mpm_tensor::Matrix;
 
 use crate::volume_averaging::NodeVolume;
-use crate::{Basis, BodyForce, Boundary, Medium, NoBoundary, NodeSums, Particles, StressUpdate, Transfer};
+use crate::{
+    Basis, BodyForce, Boundary, Medium, NoBoundary, NodeSums, Particles, StressUpdate, Transfer, VelocityFilter,
+};
 
 /// A body of particles on a basis: what moves (`particles`), where (`basis`), how velocities travel (`transfer`), what it
 /// is made of (`medium`), what pulls at it (`body_force`) and what it runs against (`boundary`).
@@ -24,6 +26,8 @@ pub struct Mpm<const D: usize, B, T: Transfer<D>, M: Medium<D>, F, C = NoBoundar
     pub stress_update: StressUpdate,
     /// Whether volume ratios are averaged over the nodes (F̄), against volumetric locking.
     pub volume_averaging: bool,
+    /// What is forgotten of velocities that the nodes do not see.
+    pub velocity_filter: Option<VelocityFilter<D>>,
     /// Time since the body was made; every step adds its Δt.
     pub time: f64,
     /// Nodal masses and velocities, in the order of the basis' numbers.
@@ -62,6 +66,7 @@ where
             boundary: NoBoundary,
             stress_update: StressUpdate::default(),
             volume_averaging: false,
+            velocity_filter: None,
             time: 0.0,
             nodes: NodeSums::default(),
             accelerations: Vec::new(),
@@ -91,6 +96,7 @@ where
             body_force: self.body_force,
             stress_update: self.stress_update,
             volume_averaging: self.volume_averaging,
+            velocity_filter: self.velocity_filter,
             time: self.time,
             nodes: self.nodes,
             accelerations: self.accelerations,
@@ -107,6 +113,7 @@ where
             + self.basis.storage_bytes()
             + self.nodes.storage_bytes()
             + self.node_volumes.storage_bytes()
+            + self.velocity_filter.as_ref().map_or(0, VelocityFilter::storage_bytes)
             + vectors * size_of::<[f64; D]>()
     }
 }

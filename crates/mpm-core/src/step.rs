@@ -22,7 +22,7 @@ where
     /// # Errors
     /// [`MpmError`]: limits or field lengths that make no sense, an inadmissible deformation, a position outside the grid's
     /// range, a force or a nodal velocity that is not finite. The particles' state is then what it was, up to their order;
-    /// with [`StressUpdate::First`] they may have deformed already.
+    /// with [`StressUpdate::First`] they may have deformed already, and their velocities may have been filtered.
     pub fn step(&mut self, control: &StepControl) -> Result<StepReport, MpmError> {
         control.check()?;
         self.particles
@@ -32,6 +32,7 @@ where
         let damping = control.damping(dt);
 
         self.rebuild()?;
+        self.filter_velocities(dt);
         self.evaluate_particle_forces()?;
         if self.stress_update == StressUpdate::First {
             self.momentum_to_grid(dt);
@@ -87,6 +88,20 @@ where
             self.particles.reorder(schedule.order());
         }
         self.basis.activate(&self.particles.positions)
+    }
+
+    /// Forget what nodes do not see of the velocities, where a filter is given and its time has come.
+    fn filter_velocities(&mut self, dt: f64) {
+        if let Some(filter) = &mut self.velocity_filter {
+            let particles = &mut self.particles;
+            filter.act(
+                &self.basis,
+                (self.time, dt),
+                &particles.positions,
+                &particles.masses,
+                &mut particles.velocities,
+            );
+        }
     }
 
     /// Force per unit mass at the particles.

@@ -21,3 +21,4 @@ mod optional_fields;
 mod sparse_memory;
 mod step_control;
 mod step_oracle;
+mod velocity_filter;

@@ -1,6 +1,6 @@
 //! `[domain]`, `[grid]` and `[transfer]`.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::MeshTable;
 
@@ -62,10 +62,12 @@ pub struct TransferTable {
     /// Rate r at which particle velocities turn into those of PIC, in 1/s: the share of FLIP in a step is `flip_share` e^{−rΔt}. Default 0; with
     /// `kind = "flip"` and `"affine-flip"` only.
     pub pic_rate: Option<f64>,
+    /// Order m of the PIC that velocities turn into at the rate `pic_rate`, XPIC(m): with a larger one smooth motion loses less. Default 1.
+    pub pic_order: Option<usize>,
 }
 
 /// `transfer.kind`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum TransferKind {
     /// Particle in cell.
