@@ -82,7 +82,11 @@ fn what_is_wrong_is_named() {
     std::fs::write(root.path().join("strip.toml"), SCENE).unwrap();
     for (change, expected) in [
         (("strip.toml", "none.toml"), "none.toml"),
-        (("gravity.1", "gravity.7"), "gravity.7"),
+        (
+            ("gravity.1", "gravity.7"),
+            "rom.toml, keys.0.key: `gravity.7` does not fit the scene strip.toml",
+        ),
+        (("epochs = 5", "epoch = 5"), "rom.toml, line 7, column "),
         (("epochs = 5", "epochs = 0"), "epochs = 0"),
         (("samples = [20", "samples = [3"), "3 sample points, at least"),
     ] {

@@ -1,7 +1,9 @@
 //! What the values of the parameters make of the scene.
 
+use mpm_scenes::Scene;
+
 use super::{Experiment, ExperimentError, Key};
-use crate::full_order::{Case, Value};
+use crate::full_order::{Case, FullOrderError, SceneDocument, Value};
 
 impl Experiment {
     /// The run with these values.
@@ -20,6 +22,27 @@ impl Experiment {
             parameters: values.to_vec(),
             changes: changes.collect::<Result<_, ExperimentError>>()?,
         })
+    }
+
+    /// The scene of the run with these values.
+    ///
+    /// # Errors
+    /// As [`case`](Self::case), for a key that the scene does not have too, and what the scene's own reader says.
+    pub fn scene_of(&self, document: &SceneDocument, values: &[f64]) -> Result<Scene, ExperimentError> {
+        let case = self.case(values)?;
+        document.scene(&case.changes).map_err(|error| self.blamed(error))
+    }
+
+    /// A change that does not fit the scene is a fault of the key that asks for it, not of the scene.
+    pub(super) fn blamed(&self, error: FullOrderError) -> ExperimentError {
+        match error {
+            FullOrderError::Change { file, key, reason } => {
+                let number = self.keys.iter().position(|own| own.key == key).unwrap_or_default();
+                let message = format!("`{key}` does not fit the scene {file}: {reason}");
+                self.field(format!("keys.{number}.key"), message)
+            }
+            other => other.into(),
+        }
     }
 
     /// offset + factor Π product.

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use mpm_scenes::document;
 use serde::Deserialize;
 
 use super::ExperimentError;
@@ -138,11 +139,11 @@ impl Default for ReducedRuns {
 }
 
 impl ReducedRuns {
-    /// The sample points of one run; `greedily` makes the choice that needs training runs.
+    /// The sample points of one run; `on_training` makes the choices that need training runs.
     pub(super) fn samples(
         &self,
         choice: &Choice,
-        greedily: impl FnOnce(usize) -> Result<SampleChoice, OnlineError>,
+        on_training: impl FnOnce(usize) -> Result<SampleChoice, OnlineError>,
     ) -> Result<SampleChoice, OnlineError> {
         let (count, seed) = match choice.samples {
             SampleCount::All(_) => return Ok(SampleChoice::All),
@@ -151,7 +152,7 @@ impl ReducedRuns {
         match choice.chosen {
             ChoiceName::Drawn => Ok(SampleChoice::Drawn { count, seed }),
             ChoiceName::Spread => Ok(SampleChoice::Spread { count, seed }),
-            ChoiceName::Greedy => greedily(count),
+            ChoiceName::Greedy | ChoiceName::Cubature => on_training(count),
         }
     }
 
@@ -194,10 +195,7 @@ impl Experiment {
     /// # Errors
     /// [`ExperimentError::Syntax`], [`ExperimentError::Field`].
     pub fn parse(text: &str, file: &Path) -> Result<Self, ExperimentError> {
-        let mut experiment: Self = toml::from_str(text).map_err(|error| ExperimentError::Syntax {
-            file: file.display().to_string(),
-            message: error.to_string(),
-        })?;
+        let mut experiment: Self = document::parse(text, file)?;
         experiment.file = file.to_owned();
         experiment.text = text.to_owned();
         experiment.check()?;
@@ -266,8 +264,8 @@ impl Experiment {
             if self.run.manifold.contains(&ManifoldName::Linear) {
                 return refuse("run.manifold".to_owned(), need("linear"));
             }
-            if self.run.choice.contains(&ChoiceName::Greedy) {
-                return refuse("run.choice".to_owned(), need("greedy"));
+            if let Some(choice) = self.run.choice.iter().find(|choice| choice.needs_training()) {
+                return refuse("run.choice".to_owned(), need(choice.name()));
             }
         }
         self.trainings()?;

@@ -1,5 +1,6 @@
 use std::path::Path;
 
+use mpm_scenes::document::DocumentError;
 use mpm_scenes::{SceneError, SimulationError};
 
 use crate::deformation_map::DeformationMapError;
@@ -25,13 +26,8 @@ pub enum ExperimentError {
         source: std::io::Error,
     },
     /// The file is no TOML, or not that of an experiment.
-    #[error("{file}: {message}")]
-    Syntax {
-        /// The file.
-        file: String,
-        /// What the parser says, with the line.
-        message: String,
-    },
+    #[error(transparent)]
+    Syntax(#[from] DocumentError),
     /// A field of the experiment's file.
     #[error("{file}, {field}: {message}")]
     Field {

@@ -1,9 +1,10 @@
 //! Frames of reduced runs for ParaView.
 
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use mpm_scenes::Snapshot;
-use mpm_scenes::output::{self, vtu, write_index, write_whole};
+use mpm_scenes::output::{self, remove_frames, vtu, write_index, write_whole};
 
 use super::ExperimentError;
 
@@ -16,7 +17,7 @@ pub(super) struct FrameFiles {
 impl FrameFiles {
     /// Files of the run with this number, in `run_0000` of `directory`.
     pub fn of_run(directory: &Path, run: usize) -> Result<Self, ExperimentError> {
-        let directory = directory.join(format!("run_{run:04}"));
+        let directory = directory.join(name_of(run));
         std::fs::create_dir_all(&directory).map_err(|source| ExperimentError::file("create", &directory, source))?;
         Ok(Self {
             directory,
@@ -31,4 +32,28 @@ impl FrameFiles {
         self.times.push(snapshot.time);
         Ok(write_index(&self.directory, &self.times)?)
     }
+}
+
+fn name_of(run: usize) -> String {
+    format!("run_{run:04}")
+}
+
+/// Removes the frames that earlier reduced runs have left in `directory`, with the directories that they leave empty.
+pub(super) fn forget_earlier(directory: &Path) -> Result<(), ExperimentError> {
+    let refused = |source| ExperimentError::file("read", directory, source);
+    for entry in std::fs::read_dir(directory).map_err(refused)? {
+        let entry = entry.map_err(refused)?;
+        let name = entry.file_name().to_string_lossy().into_owned();
+        let number = name.strip_prefix("run_").and_then(|digits| digits.parse().ok());
+        if number.is_some_and(|number| name_of(number) == name) && entry.path().is_dir() {
+            remove_frames(&entry.path())?;
+            match std::fs::remove_dir(entry.path()) {
+                Err(source) if source.kind() != ErrorKind::DirectoryNotEmpty => {
+                    return Err(ExperimentError::file("remove", &entry.path(), source));
+                }
+                _ => {}
+            }
+        }
+    }
+    Ok(())
 }

@@ -4,7 +4,7 @@ use serde::Deserialize;
 
 /// How many sample points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "expected a number of points or \"all\"")]
 pub enum SampleCount {
     /// So many.
     Drawn(usize),
@@ -31,6 +31,8 @@ pub enum ChoiceName {
     /// Those that stand for all points best in steps from frames of the training data ([`choose_greedily`](crate::online::choose_greedily)).
     #[default]
     Greedy,
+    /// Those with weights of their own that sum as all points do in such steps ([`choose_cubature`](crate::online::choose_cubature)).
+    Cubature,
 }
 
 impl ChoiceName {
@@ -40,7 +42,13 @@ impl ChoiceName {
             Self::Drawn => "drawn",
             Self::Spread => "spread",
             Self::Greedy => "greedy",
+            Self::Cubature => "cubature",
         }
+    }
+
+    /// Whether it is made on training runs.
+    pub fn needs_training(self) -> bool {
+        matches!(self, Self::Greedy | Self::Cubature)
     }
 }
 

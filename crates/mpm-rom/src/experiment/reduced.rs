@@ -6,12 +6,12 @@ use mpm_scenes::Scene;
 
 use super::beside::{Choice, Full, beside};
 use super::files::{self, names};
-use super::frame_files::FrameFiles;
+use super::frame_files::{self, FrameFiles};
 use super::results::{self, ReducedRow};
 use super::sampling::{Chosen, Sampling};
 use super::super_resolution::Finer;
 use super::trained::models_for;
-use super::{ChoiceName, Experiment, ExperimentError, ManifoldName, SampleCount};
+use super::{Experiment, ExperimentError, ManifoldName, SampleCount};
 use crate::full_order::{FullOrderError, Recording, SceneDocument};
 use crate::manifold::{Manifold, Pod};
 use crate::online::ReducedBody;
@@ -37,6 +37,7 @@ pub fn run<const D: usize>(
         });
     }
     experiment.occupy(directory)?;
+    frame_files::forget_earlier(directory)?;
     let document = SceneDocument::read(&experiment.run_scene_file())?;
     let finer = experiment.super_resolution_file();
     let finer = finer.map(|file| SceneDocument::read(&file)).transpose()?;
@@ -52,8 +53,8 @@ pub fn run<const D: usize>(
         }
         _ => None,
     };
-    let mut greedy = Chosen::default();
-    if let Some(snapshots) = training.as_ref().filter(|_| is_greedy(experiment)) {
+    let mut chosen = Chosen::default();
+    if let Some(snapshots) = training.as_ref().filter(|_| chooses_on_training(experiment)) {
         for (name, network) in maps(experiment, models.len()) {
             let model = &models[network].1;
             let sampling = Sampling {
@@ -64,8 +65,8 @@ pub fn run<const D: usize>(
                 snapshots,
             };
             match (name, &linear) {
-                (ManifoldName::Linear, Some(pod)) => sampling.choose(name, pod, &mut greedy)?,
-                _ => sampling.choose(name, model.network(), &mut greedy)?,
+                (ManifoldName::Linear, Some(pod)) => sampling.choose(name, pod, &mut chosen)?,
+                _ => sampling.choose(name, model.network(), &mut chosen)?,
             }
         }
     }
@@ -73,7 +74,7 @@ pub fn run<const D: usize>(
     let runs = choices.len() * experiment.cases.test.len();
     for (case, values) in experiment.cases.test.iter().enumerate() {
         let changed = experiment.case(values)?;
-        let scene = document.scene(&changed.changes)?;
+        let scene = experiment.scene_of(&document, values)?;
         // Full-order runs can be long: what makes no reduced body is refused before them.
         for &factor in &experiment.run.step_factor {
             reduced_body(experiment, &scene, &trained_on.centroid, factor)?;
@@ -119,7 +120,8 @@ pub fn run<const D: usize>(
                 ManifoldName::Linear => vec![0.0; manifold.coordinates()],
             };
             let samples = experiment.run.samples(choice, |count| {
-                greedy.points((choice.manifold, choice.network, count), manifold.coordinates(), &body)
+                let of = (choice.manifold, choice.network, choice.chosen, count);
+                chosen.points(of, manifold.coordinates(), &body)
             })?;
             let options = experiment.run.options(choice, samples);
             let written = experiment.run.vtu.then(|| FrameFiles::of_run(directory, rows.len()));
@@ -196,13 +198,13 @@ fn choices(experiment: &Experiment, networks: usize) -> Vec<Choice> {
 }
 
 /// Whether sample points are chosen on training runs.
-fn is_greedy(experiment: &Experiment) -> bool {
+fn chooses_on_training(experiment: &Experiment) -> bool {
     let run = &experiment.run;
     let drawn = run
         .samples
         .iter()
         .any(|samples| matches!(samples, SampleCount::Drawn(_)));
-    drawn && run.choice.contains(&ChoiceName::Greedy)
+    drawn && run.choice.iter().any(|choice| choice.needs_training())
 }
 
 /// The training data, where linear manifolds or the choice of sample points need them.
@@ -210,7 +212,7 @@ fn training<const D: usize>(
     experiment: &Experiment,
     directory: &Path,
 ) -> Result<Option<Snapshots<D>>, ExperimentError> {
-    if experiment.run.manifold.contains(&ManifoldName::Linear) || is_greedy(experiment) {
+    if experiment.run.manifold.contains(&ManifoldName::Linear) || chooses_on_training(experiment) {
         return Ok(Some(Snapshots::read(&directory.join(names::TRAINING_DATA))?));
     }
     Ok(None)

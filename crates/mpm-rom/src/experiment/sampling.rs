@@ -9,12 +9,15 @@ use super::{ChoiceName, Experiment, ExperimentError, ManifoldName, SampleCount};
 use crate::full_order::{FullOrderError, SceneDocument};
 use crate::manifold::Manifold;
 use crate::model::Model;
-use crate::online::{OnlineError, Reading, ReducedBody, SampleChoice, choose_greedily};
+use crate::online::{OnlineError, Reading, ReducedBody, SampleChoice, choose_cubature, choose_greedily};
 use crate::snapshots::{Run, Snapshots};
 
 /// Distances of the states around each frame, over the root mean square of the points' distance from the centroid. Without such states a choice knows only errors on the way, and not
 /// whether a run comes back to it; how far a run strays is not known beforehand.
 const DISTANCES: [f64; 5] = [0.002, 0.0, 0.005, 0.01, 0.02];
+
+/// The distances for a cubature, all of them: near the way it has to be exact, and farther off it must know the way back.
+const CUBATURE_DISTANCES: [f64; 2] = [0.002, 0.02];
 
 /// Training runs that choices are tried on, at most, and frames of each.
 const TRIAL_RUNS: usize = 3;
@@ -33,8 +36,8 @@ pub(super) struct Sampling<'a, const D: usize> {
     pub snapshots: &'a Snapshots<D>,
 }
 
-/// A manifold, the number of the network and |𝒫|.
-type Of = (ManifoldName, usize, usize);
+/// A manifold, the number of the network, how points are chosen, and |𝒫|.
+type Of = (ManifoldName, usize, ChoiceName, usize);
 
 /// The sample points of every manifold, network and number of them. They hang on the scene, too: its kinematic regions need not be the same in all cases.
 #[derive(Default)]
@@ -50,14 +53,14 @@ struct Best<const D: usize> {
 
 /// Points that were chosen on some readings, with the members of the scene's kinematic regions.
 #[derive(Default)]
-struct Made(Vec<(Vec<Vec<usize>>, Vec<u32>)>);
+struct Made(Vec<(Vec<Vec<usize>>, SampleChoice)>);
 
 impl<const D: usize> Chosen<D> {
     /// The points of a run of this body; drawn ones where nothing has been chosen.
     pub fn points(&mut self, of: Of, coordinates: usize, body: &ReducedBody<D>) -> Result<SampleChoice, OnlineError> {
         match self.0.iter_mut().find(|best| best.of == of) {
-            Some(best) => best.made.points(&best.readings, coordinates, of.2, body),
-            None => Ok(SampleChoice::Drawn { count: of.2, seed: 0 }),
+            Some(best) => best.made.points(&best.readings, coordinates, (of.2, of.3), body),
+            None => Ok(SampleChoice::Drawn { count: of.3, seed: 0 }),
         }
     }
 }
@@ -67,40 +70,86 @@ impl Made {
         &mut self,
         readings: &[Reading<D>],
         coordinates: usize,
-        count: usize,
+        (choice, count): (ChoiceName, usize),
         body: &ReducedBody<D>,
     ) -> Result<SampleChoice, OnlineError> {
         let regions = body.kinematics.regions().iter();
         let regions: Vec<_> = regions.map(|region| region.members.clone()).collect();
         if let Some((_, points)) = self.0.iter().find(|made| made.0 == regions) {
-            return Ok(SampleChoice::Given(points.clone()));
+            return Ok(points.clone());
         }
-        let points = choose_greedily(readings, coordinates, &body.kinematics, body.reference.len(), count)?;
+        let (kinematics, all) = (&body.kinematics, body.reference.len());
+        let points = match choice {
+            ChoiceName::Cubature => {
+                SampleChoice::Weighted(choose_cubature(readings, coordinates, kinematics, all, count)?)
+            }
+            _ => SampleChoice::Given(choose_greedily(readings, coordinates, kinematics, all, count)?),
+        };
         self.0.push((regions, points.clone()));
-        Ok(SampleChoice::Given(points))
+        Ok(points)
     }
 }
 
 impl<const D: usize> Sampling<'_, D> {
-    /// Sample points for every number of them in the experiment.
-    ///
-    /// Candidates are what [`choose_greedily`] finds on steps from 6 frames of each of up to 8 training runs, evenly spaced along the way of the body, and from states around these frames at one of several distances.
-    /// Each is tried on up to three training runs of at most 90 frames, and the one with the least mean position error is taken. More than 24 points are not tried, and the distance is 0.002.
+    /// Sample points for every number of them in the experiment, by every choice that needs training runs.
     pub fn choose(
         &self,
         name: ManifoldName,
         manifold: &dyn Manifold<D>,
         into: &mut Chosen<D>,
     ) -> Result<(), ExperimentError> {
-        let counts = self.experiment.run.samples.iter().filter_map(|samples| match samples {
+        for choice in &self.experiment.run.choice {
+            match choice {
+                ChoiceName::Greedy => self.choose_greedily(name, manifold, into)?,
+                ChoiceName::Cubature => self.choose_cubature(name, manifold, into)?,
+                ChoiceName::Drawn | ChoiceName::Spread => {}
+            }
+        }
+        Ok(())
+    }
+
+    /// The numbers of sample points that a choice is made for.
+    fn counts(&self) -> impl Iterator<Item = usize> + Clone {
+        self.experiment.run.samples.iter().filter_map(|samples| match samples {
             SampleCount::Drawn(count) => Some(*count),
             SampleCount::All(_) => None,
-        });
+        })
+    }
+
+    /// What [`choose_cubature`] finds on steps from 6 frames of each of up to 8 training runs, evenly spaced along the way of the body, and from states around these frames, near and far.
+    fn choose_cubature(
+        &self,
+        name: ManifoldName,
+        manifold: &dyn Manifold<D>,
+        into: &mut Chosen<D>,
+    ) -> Result<(), ExperimentError> {
+        let mut readings = Vec::new();
+        for distance in CUBATURE_DISTANCES {
+            readings.extend(self.all_readings(name, manifold, distance)?);
+        }
+        let readings = Rc::new(readings);
+        into.0.extend(self.counts().map(|count| Best {
+            of: (name, self.network, ChoiceName::Cubature, count),
+            error: f64::INFINITY,
+            readings: Rc::clone(&readings),
+            made: Made::default(),
+        }));
+        Ok(())
+    }
+
+    /// Candidates are what [`choose_greedily`] finds on steps from 6 frames of each of up to 8 training runs, evenly spaced along the way of the body, and from states around these frames at one of several distances.
+    /// Each is tried on up to three training runs of at most 90 frames, and the one with the least mean position error is taken. More than 24 points are not tried, and the distance is 0.002.
+    fn choose_greedily(
+        &self,
+        name: ManifoldName,
+        manifold: &dyn Manifold<D>,
+        into: &mut Chosen<D>,
+    ) -> Result<(), ExperimentError> {
         let mut best: Vec<Best<D>> = Vec::new();
         for distance in DISTANCES {
             let mut readings = None;
-            for count in counts.clone() {
-                let of = (name, self.network, count);
+            for count in self.counts() {
+                let of = (name, self.network, ChoiceName::Greedy, count);
                 let known = best.iter().position(|best| best.of == of);
                 if known.is_some() && count > MOST_TRIED {
                     continue;
@@ -168,7 +217,10 @@ impl<const D: usize> Sampling<'_, D> {
             };
             let body = ReducedBody::of(&self.scene(case)?)?;
             let guess = self.guess(name, &body.reference)?;
-            let options = run.options(&choice, made.points(readings, manifold.coordinates(), count, &body)?);
+            let options = run.options(
+                &choice,
+                made.points(readings, manifold.coordinates(), (ChoiceName::Greedy, count), &body)?,
+            );
             let row = beside(manifold, &guess, body, &full, &choice, options, None)?;
             mean += row.error / tried.len() as f64;
             let promising = row.outcome == "finished" && mean <= least;
@@ -181,8 +233,8 @@ impl<const D: usize> Sampling<'_, D> {
 
     /// The scene of a training run.
     pub(super) fn scene(&self, run: usize) -> Result<Scene, ExperimentError> {
-        let case = self.experiment.case(&self.experiment.cases.train[run])?;
-        Ok(self.document.scene(&case.changes)?)
+        let values = &self.experiment.cases.train[run];
+        self.experiment.scene_of(self.document, values)
     }
 
     /// Where a search for coordinates begins.

@@ -34,7 +34,7 @@ impl<const D: usize> Finer<D> {
         coarse: &ReducedBody<D>,
         like: &Snapshots<D>,
     ) -> Result<Self, ExperimentError> {
-        let scene = document.scene(&case.changes)?;
+        let scene = experiment.scene_of(document, &case.parameters)?;
         let recording = Recording::<D>::of(&scene, &experiment.parameters, experiment.recorded_points)?;
         let recording = recording.about(&coarse.centroid);
         let refuse = |message| Err(experiment.field("run.super_resolution".to_owned(), message));

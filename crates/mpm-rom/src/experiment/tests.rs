@@ -2,6 +2,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use super::*;
+use crate::full_order::SceneDocument;
 use crate::training::EpochReport;
 
 /// A strip whose left end is held, and which falls.
@@ -96,7 +97,7 @@ fn what_is_wrong_is_named_with_its_file_and_field() {
         ),
         (
             ("samples = [20, \"all\"]", "samples = [\"some\"]"),
-            "rom.toml: TOML parse error",
+            "expected a number of points or \"all\" (in `run = {",
         ),
         (("width = 6", "breadth = 6"), "unknown field `breadth`"),
         (
@@ -336,6 +337,53 @@ fn weights_and_frames_between_those_of_the_scene_have_a_part_in_a_run() {
 }
 
 #[test]
+fn a_key_that_does_not_fit_the_scene_is_named_with_the_file_that_asks_for_it() {
+    let (directory, file) = files();
+    let scene = directory.path().join("strip.toml");
+    let cases = [
+        (
+            ("\"gravity.1\"", "\"gravity.7\""),
+            "keys.1.key: `gravity.7`",
+            "gravity has no `7`",
+        ),
+        (
+            ("\"gravity.0\"", "\"mass\""),
+            "keys.0.key: `mass`",
+            "the scene has no `mass`",
+        ),
+        (
+            ("\"gravity.0\"", "\"title\""),
+            "keys.0.key: `title`",
+            "expected a string",
+        ),
+    ];
+    for (number, (change, field, reason)) in cases.into_iter().enumerate() {
+        let experiment = Experiment::parse(&EXPERIMENT.replace(change.0, change.1), &file).expect("sound");
+        let document = SceneDocument::read(&scene).expect("a scene");
+        let errors = [
+            experiment.scene_of(&document, &[1.0, 0.0]).expect_err("refused"),
+            train::<2>(&experiment, &directory.path().join(number.to_string()), &mut ()).expect_err("refused"),
+        ];
+        for error in errors.map(|error| error.to_string()) {
+            let expected = format!("{}, {field} does not fit the scene {}", file.display(), scene.display());
+            assert!(error.starts_with(&expected) && error.contains(reason), "{error}");
+        }
+    }
+    // A scene that is none without any change is to blame itself.
+    std::fs::write(&scene, SCENE.replace("dimension", "dimensions")).expect("written");
+    let experiment = Experiment::parse(EXPERIMENT, &file).expect("sound");
+    let document = SceneDocument::read(&scene).expect("a document");
+    let error = experiment
+        .scene_of(&document, &[1.0, 0.0])
+        .expect_err("refused")
+        .to_string();
+    assert!(
+        error.contains("strip.toml, line 3, column 1: unknown field `dimensions`"),
+        "{error}"
+    );
+}
+
+#[test]
 fn more_points_than_those_of_the_dynamics_are_compared_with_a_run_of_their_own() {
     let (directory, file) = files();
     let denser = SCENE.replace("material = \"rubber\"", "material = \"rubber\"\nparticles_per_axis = 3");
@@ -347,8 +395,20 @@ fn more_points_than_those_of_the_dynamics_are_compared_with_a_run_of_their_own()
     let experiment = Experiment::parse(&text, &file).expect("sound");
     let out = directory.path().join("out");
     train::<2>(&experiment, &out, &mut ()).expect("trained");
+    // What an earlier, longer `run` of more cases has left, and what somebody put beside it.
+    let earlier = [
+        "run_0000/particles_000005.vtu",
+        "run_0009/particles_000000.vtu",
+        "run_0008/notes.txt",
+    ];
+    for file in earlier.map(|name| out.join(name)) {
+        std::fs::create_dir_all(file.parent().expect("a directory")).expect("made");
+        std::fs::write(file, "earlier").expect("written");
+    }
     let rows = run::<2>(&experiment, &out, &mut |_, _| true).expect("run");
     assert_eq!(rows.len(), 4);
+    let there = [earlier[0], "run_0009", earlier[2]].map(|name| out.join(name).exists());
+    assert_eq!(there, [false, false, true]);
     assert!(rows[2..].iter().all(|row| row.super_resolved.is_none()), "linear");
     for row in &rows[..2] {
         let fine = row.super_resolved.expect("asked for");
@@ -460,4 +520,28 @@ fn variants_are_other_networks_for_the_same_data() {
     let columns = |line: &str| line.split(',').count();
     let head = table.lines().next().expect("a head");
     assert!(table.lines().all(|line| columns(line) == columns(head)), "{table}");
+}
+
+#[test]
+fn the_random_pokes_are_run_with_the_network_of_the_pokes() {
+    let read = |name: &str| {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("../../experiments/rom")
+            .join(name);
+        Experiment::read(&file).expect("sound")
+    };
+    let (pokes, random) = (read("poke.toml"), read("poke_random.toml"));
+    let network = |experiment: &Experiment| {
+        let frames = (
+            &experiment.scene,
+            &experiment.frames_between,
+            experiment.recorded_points,
+        );
+        format!(
+            "{:?}",
+            (frames, &experiment.keys, &experiment.cases.train, &experiment.training)
+        )
+    };
+    assert_eq!(network(&pokes), network(&random));
+    assert!(random.cases.test.iter().all(|angle| !pokes.cases.test.contains(angle)));
 }

@@ -150,7 +150,7 @@ fn training_data<const D: usize>(
     };
     let snapshots = match full_order::collect(&document, &experiment.parameters, &cases, &kept, after_run) {
         Err(FullOrderError::Stopped { .. }) => return Err(ExperimentError::Stopped),
-        collected => collected?,
+        collected => collected.map_err(|error| experiment.blamed(error))?,
     };
     snapshots.write(&file)?;
     Ok(snapshots)
@@ -178,7 +178,7 @@ pub(super) fn models_for<const D: usize>(
     directory: &Path,
 ) -> Result<(Vec<(String, Model<D>)>, Body<D>), ExperimentError> {
     let document = SceneDocument::read(&experiment.scene_file())?;
-    let scene = document.scene(&experiment.case(&experiment.cases.test[0])?.changes)?;
+    let scene = experiment.scene_of(&document, &experiment.cases.test[0])?;
     let body = Recording::<D>::of(&scene, &experiment.parameters, experiment.recorded_points)?.body;
     let networks = experiment.trainings()?.into_iter();
     let models = networks.map(|(name, _)| {

@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use mpm_scenes::Scene;
+use mpm_scenes::document::{self, DocumentError};
+use mpm_scenes::{Scene, SceneError, SceneFault};
 use toml::Table;
 pub use toml::Value;
 
@@ -12,6 +13,7 @@ use super::FullOrderError;
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneDocument {
     table: Table,
+    text: String,
     file: PathBuf,
 }
 
@@ -33,12 +35,9 @@ impl SceneDocument {
     /// # Errors
     /// [`FullOrderError::Syntax`].
     pub fn parse(text: &str, file: &Path) -> Result<Self, FullOrderError> {
-        let table = text.parse::<Table>().map_err(|error| FullOrderError::Syntax {
-            file: file.display().to_string(),
-            message: error.to_string(),
-        })?;
         Ok(Self {
-            table,
+            table: document::parse(text, file)?,
+            text: text.to_owned(),
             file: file.to_owned(),
         })
     }
@@ -47,33 +46,69 @@ impl SceneDocument {
     /// first body's shape.
     ///
     /// # Errors
-    /// [`FullOrderError::Change`] for a key that there is not, and what [`Scene::parse`] says.
+    /// [`FullOrderError::Change`] for a key that there is not, or that has no place for such a value, and what [`Scene::parse`] says.
     pub fn scene(&self, changes: &[(String, Value)]) -> Result<Scene, FullOrderError> {
+        match self.changed(changes) {
+            Err(FullOrderError::Scene(error)) if is_syntax(&error) => Err(self.culprit(changes, error)),
+            scene => scene,
+        }
+    }
+
+    fn changed(&self, changes: &[(String, Value)]) -> Result<Scene, FullOrderError> {
         let mut whole = Value::Table(self.table.clone());
         for (key, value) in changes {
-            let refused = |reason: String| FullOrderError::Change {
-                file: self.file.display().to_string(),
-                key: key.clone(),
-                reason,
-            };
-            *find(&mut whole, key).map_err(refused)? = value.clone();
+            let place = find(&mut whole, key).map_err(|reason| self.refused(key, reason))?;
+            *place = value.clone();
         }
-        let text = toml::to_string(&whole).map_err(|error| FullOrderError::Syntax {
-            file: self.file.display().to_string(),
+        let text = toml::to_string(&whole).map_err(|error| DocumentError {
+            file: self.file.clone(),
+            place: None,
             message: error.to_string(),
         })?;
         Ok(Scene::parse(&text, &self.file)?)
     }
+
+    /// What is to blame for a document that is no scene: the file, whose own lines the error then has, or the first change that makes it none.
+    fn culprit(&self, changes: &[(String, Value)], error: SceneError) -> FullOrderError {
+        match Scene::parse(&self.text, &self.file) {
+            Err(own) if is_syntax(&own) => return own.into(),
+            _ => {}
+        }
+        for (number, (key, _)) in changes.iter().enumerate() {
+            if let Err(FullOrderError::Scene(error)) = self.changed(&changes[..=number])
+                && let SceneFault::Syntax(fault) = *error.fault
+            {
+                return self.refused(key, fault.message);
+            }
+        }
+        error.into()
+    }
+
+    fn refused(&self, key: &str, reason: String) -> FullOrderError {
+        FullOrderError::Change {
+            file: self.file.display().to_string(),
+            key: key.to_owned(),
+            reason,
+        }
+    }
+}
+
+fn is_syntax(error: &SceneError) -> bool {
+    matches!(*error.fault, SceneFault::Syntax(_))
 }
 
 /// The value at a dotted key.
 fn find<'a>(whole: &'a mut Value, key: &str) -> Result<&'a mut Value, String> {
+    let mut known = "the scene";
     key.split('.').try_fold(whole, |place, name| {
         let found = match place {
             Value::Table(table) => table.get_mut(name),
             Value::Array(elements) => name.parse::<usize>().ok().and_then(|index| elements.get_mut(index)),
             _ => None,
         };
-        found.ok_or_else(|| format!("there is no `{name}`"))
+        let missing = || format!("{known} has no `{name}`");
+        let found = found.ok_or_else(missing)?;
+        known = name;
+        Ok(found)
     })
 }

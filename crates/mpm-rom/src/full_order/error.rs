@@ -1,3 +1,4 @@
+use mpm_scenes::document::DocumentError;
 use mpm_scenes::{SceneError, SimulationError};
 
 use crate::snapshots::SnapshotsError;
@@ -24,13 +25,8 @@ pub enum FullOrderError {
         source: std::io::Error,
     },
     /// The file is no TOML.
-    #[error("{file}: {message}")]
-    Syntax {
-        /// The scene's file.
-        file: String,
-        /// What the parser says.
-        message: String,
-    },
+    #[error(transparent)]
+    Syntax(#[from] DocumentError),
     /// A key of a change does not fit the document.
     #[error("{file}, change of `{key}`: {reason}")]
     Change {

@@ -73,7 +73,7 @@ fn what_does_not_fit_is_an_error_with_its_name() {
     let error = collect(&[Case::of_key("bodies.1.shape.radius", 1.0)]).expect_err("no such body");
     assert_eq!(
         error.to_string(),
-        "strip.toml, change of `bodies.1.shape.radius`: there is no `1`"
+        "strip.toml, change of `bodies.1.shape.radius`: bodies has no `1`"
     );
     let wider = [
         Case::of_key("gravity.0", 0.0),

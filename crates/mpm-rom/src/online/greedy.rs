@@ -1,22 +1,20 @@
 //! Sample points chosen by what they get wrong.
 
+use faer::Mat;
 use faer::linalg::solvers::Solve;
-use faer::{Mat, Side};
 use mpm_scenes::Kinematics;
 use mpm_tensor::{Matrix, vector};
 use rayon::prelude::*;
 
 use super::samples::groups;
+use super::scaled_reading::ScaledReading;
 use super::{OnlineError, Reading};
 
 /// What every S_s begins with, times the identity: small against what a mean point adds to its trace, r.
 const START: f64 = 1e-6;
 
 /// σ over the root mean square of the components of e: the part of the velocities' errors that readings do not foretell.
-const UNFORESEEN: f64 = 0.3;
-
-/// σ over the root mean square of the velocities' components, at least: errors that are rounding foretell nothing.
-const SMALLEST: f64 = 1e-6;
+pub(super) const UNFORESEEN: f64 = 0.3;
 
 /// Rounds of exchanges after the greedy choice, at most.
 const EXCHANGES: usize = 4;
@@ -92,12 +90,9 @@ struct Design<const D: usize> {
     unforeseen: f64,
 }
 
-/// One reading in scaled coordinates.
+/// One reading, and what the points chosen so far make of it.
 struct State<const D: usize> {
-    /// J_p, entry p r + k.
-    columns: Vec<[f64; D]>,
-    /// e_p.
-    errors: Vec<[f64; D]>,
+    reading: ScaledReading<D>,
     /// S, row-major, and b.
     information: Vec<f64>,
     right: Vec<f64>,
@@ -109,23 +104,15 @@ struct State<const D: usize> {
 
 impl<const D: usize> Design<D> {
     fn new(coordinates: usize, points: usize, readings: &[Reading<D>]) -> Self {
-        let fits = |reading: &&Reading<D>| {
-            reading.velocities.len() == points && reading.jacobians.len() == points * coordinates
-        };
-        let fitting: Vec<_> = readings.iter().filter(fits).collect();
-        let states: Vec<_> = fitting
-            .par_iter()
-            .filter_map(|reading| State::new(coordinates, reading))
-            .collect();
-        let errors = states.iter().flat_map(|state| &state.errors);
-        let velocities = fitting.iter().flat_map(|reading| &reading.velocities);
-        let squares: f64 = errors.map(vector::norm_squared).sum();
-        let rounding: f64 = velocities.map(vector::norm_squared).sum::<f64>() * SMALLEST * SMALLEST;
-        let share = 1.0 / (states.len() * points * D).max(1) as f64;
+        let scaled = ScaledReading::all(coordinates, points, readings);
+        let mean_square = scaled.iter().map(|reading| reading.mean_square).sum::<f64>() / scaled.len().max(1) as f64;
         Self {
             coordinates,
-            states,
-            unforeseen: share * (UNFORESEEN * UNFORESEEN * squares).max(rounding),
+            states: scaled
+                .into_par_iter()
+                .map(|reading| State::new(coordinates, reading))
+                .collect(),
+            unforeseen: UNFORESEEN * UNFORESEEN * mean_square,
         }
     }
 
@@ -154,12 +141,12 @@ impl<const D: usize> Design<D> {
     fn change(&mut self, point: usize, sign: f64) {
         let r = self.coordinates;
         self.states.par_iter_mut().for_each(|state| {
-            let rows = &state.columns[point * r..(point + 1) * r];
+            let rows = &state.reading.columns[point * r..(point + 1) * r];
             for (n, entry) in state.information.iter_mut().enumerate() {
                 *entry += sign * vector::dot(&rows[n / r], &rows[n % r]);
             }
             for (row, entry) in rows.iter().zip(&mut state.right) {
-                *entry += sign * vector::dot(row, &state.errors[point]);
+                *entry += sign * vector::dot(row, &state.reading.errors[point]);
             }
             state.solve();
         });
@@ -167,27 +154,9 @@ impl<const D: usize> Design<D> {
 }
 
 impl<const D: usize> State<D> {
-    fn new(r: usize, reading: &Reading<D>) -> Option<Self> {
-        let columns = whitened(r, &reading.jacobians)?;
-        let share = 1.0 / reading.velocities.len().max(1) as f64;
-        // N⁻¹ Σ JᵀJ = I makes the normal equations trivial.
-        let mut rates = vec![0.0; r];
-        for (rows, velocity) in columns.chunks_exact(r.max(1)).zip(&reading.velocities) {
-            for (rate, row) in rates.iter_mut().zip(rows) {
-                *rate += share * vector::dot(row, velocity);
-            }
-        }
-        let rows = columns.chunks_exact(r.max(1)).zip(&reading.velocities);
-        let errors = rows.map(|(rows, velocity)| {
-            let mut error = *velocity;
-            for (row, rate) in rows.iter().zip(&rates) {
-                vector::accumulate(&mut error, -rate, row);
-            }
-            error
-        });
+    fn new(r: usize, reading: ScaledReading<D>) -> Self {
         let mut state = Self {
-            errors: errors.collect(),
-            columns,
+            reading,
             information: (0..r * r).map(|n| if n % (r + 1) == 0 { START } else { 0.0 }).collect(),
             right: vec![0.0; r],
             inverse: Vec::new(),
@@ -195,7 +164,7 @@ impl<const D: usize> State<D> {
             trace: 0.0,
         };
         state.solve();
-        Some(state)
+        state
     }
 
     fn solve(&mut self) {
@@ -214,7 +183,7 @@ impl<const D: usize> State<D> {
     /// tr S⁻¹ − tr K⁻¹ W Wᵀ.
     fn with(&self, point: usize, unforeseen: f64) -> f64 {
         let r = self.right.len();
-        let rows = &self.columns[point * r..(point + 1) * r];
+        let rows = &self.reading.columns[point * r..(point + 1) * r];
         let product = |k: usize| {
             let mut column = [0.0; D];
             for (row, entry) in rows.iter().zip(&self.inverse[k * r..(k + 1) * r]) {
@@ -227,7 +196,7 @@ impl<const D: usize> State<D> {
             let column = product(k);
             within += Matrix::outer(&column, &rows[k]);
             squares += Matrix::outer(&column, &column);
-            let moved = self.difference[k] + vector::dot(&column, &self.errors[point]);
+            let moved = self.difference[k] + vector::dot(&column, &self.reading.errors[point]);
             vector::accumulate(&mut seen, moved, &rows[k]);
         }
         let Some(inverse) = within.inverse() else {
@@ -237,7 +206,7 @@ impl<const D: usize> State<D> {
         let mut sum = unforeseen * (self.trace - (inverse * squares).trace());
         for k in 0..r {
             let column = product(k);
-            let moved = self.difference[k] + vector::dot(&column, &self.errors[point]);
+            let moved = self.difference[k] + vector::dot(&column, &self.reading.errors[point]);
             sum += (moved - vector::dot(&column, &pulled)).powi(2);
         }
         sum
@@ -248,45 +217,10 @@ fn squared(list: &[f64]) -> f64 {
     list.iter().map(|value| value * value).sum()
 }
 
-/// J L⁻ᵀ with L Lᵀ = N⁻¹ Σ J_pᵀ J_p; `None` where that is not positive definite.
-fn whitened<const D: usize>(r: usize, columns: &[[f64; D]]) -> Option<Vec<[f64; D]>> {
-    let share = 1.0 / (columns.len() / r.max(1)).max(1) as f64;
-    let mut mean = Mat::<f64>::zeros(r, r);
-    for rows in columns.chunks_exact(r.max(1)) {
-        for i in 0..r {
-            for j in 0..r {
-                mean[(i, j)] += share * vector::dot(&rows[i], &rows[j]);
-            }
-        }
-    }
-    let factor = mean.llt(Side::Lower).ok()?;
-    let lower = factor.L();
-    let mut all = columns.to_vec();
-    for rows in all.chunks_exact_mut(r.max(1)) {
-        // J̃ Lᵀ = J, hence forward substitution.
-        for k in 0..r {
-            for j in 0..k {
-                let earlier = rows[j];
-                vector::accumulate(&mut rows[k], -lower[(k, j)], &earlier);
-            }
-            rows[k] = vector::scale(&rows[k], 1.0 / lower[(k, k)]);
-        }
-    }
-    all.iter().all(vector::is_finite).then_some(all)
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::scaled_reading::tests::reading;
     use super::*;
-
-    /// J and v of a state that are known by formula.
-    fn reading(points: usize, r: usize, seed: f64) -> Reading<2> {
-        let value = |n: usize| (1.0 + seed * n as f64).sin() + (0.31 * seed * (n * n) as f64).cos();
-        Reading {
-            jacobians: (0..points * r).map(|n| [value(n), value(3 * n + 7)]).collect(),
-            velocities: (0..points).map(|n| [value(5 * n + 1), value(2 * n + 9)]).collect(),
-        }
-    }
 
     #[test]
     fn a_lever_without_errors_is_read_at_its_ends() {

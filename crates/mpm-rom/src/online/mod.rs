@@ -2,6 +2,7 @@
 
 mod body;
 mod coordinates;
+mod cubature;
 mod error;
 mod eulerian;
 mod greedy;
@@ -13,6 +14,7 @@ mod options;
 mod quadrature;
 mod reading;
 mod samples;
+mod scaled_reading;
 mod snapshot;
 mod step;
 mod support;
@@ -22,6 +24,7 @@ mod timings;
 mod weights;
 
 pub use body::ReducedBody;
+pub use cubature::choose_cubature;
 pub use error::OnlineError;
 pub use greedy::choose_greedily;
 pub use neighbours::Search;

@@ -19,7 +19,8 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
         let mut scheme = scheme(&options.quadrature)?;
         let coordinates = map.coordinates();
         let sample_numbers = options.samples.choose(&body.reference, coordinates, &body.kinematics)?;
-        let weights = options.weights.of(&body.reference, &sample_numbers);
+        let own = options.samples.weights()?;
+        let weights = own.unwrap_or_else(|| options.weights.of(&body.reference, &sample_numbers));
         let (mut points, mut samples) = (MaterialPoints::default(), MaterialPoints::default());
         let of_samples = sample_numbers.iter().filter_map(|&p| body.reference.get(p as usize));
         map.prepare(&of_samples.copied().collect::<Vec<_>>(), &mut samples);

@@ -11,7 +11,7 @@ use crate::least_squares::Settings;
 pub struct Options {
     /// The sample points 𝒫.
     pub samples: SampleChoice,
-    /// What each of them counts in the sums for v̂ and x̂.
+    /// What each of them counts in the sums for v̂ and x̂, unless the choice says it.
     pub weights: SampleWeights,
     /// Where the momentum balance of the nodes is summed.
     pub quadrature: Quadrature,

@@ -9,10 +9,10 @@ use rand::seq::SliceRandom;
 use super::OnlineError;
 
 /// Sample points on each kinematic region, at least; all of a region that has fewer (ours).
-const ON_EACH_REGION: usize = 5;
+pub(super) const ON_EACH_REGION: usize = 5;
 
 /// How sample points are chosen.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum SampleChoice {
     /// Every material point.
     All,
@@ -32,6 +32,8 @@ pub enum SampleChoice {
     },
     /// The points with these numbers, ascending: those of [`choose_greedily`](super::choose_greedily), for example.
     Given(Vec<u32>),
+    /// Given points with weights ω_p ≥ 0 of their own: those of [`choose_cubature`](super::choose_cubature), for example.
+    Weighted(Vec<(u32, f64)>),
 }
 
 impl SampleChoice {
@@ -51,11 +53,16 @@ impl SampleChoice {
             Self::All => (points, 0),
             Self::Drawn { count, seed } | Self::Spread { count, seed } => (*count, *seed),
             Self::Given(numbers) => (numbers.len(), 0),
+            Self::Weighted(weighted) => (weighted.len(), 0),
         };
         let groups = groups(kinematics, points, coordinates, count)?;
         match self {
             Self::All => return Ok((0..points as u32).collect()),
             Self::Given(numbers) => return given(numbers, points, kinematics),
+            Self::Weighted(weighted) => {
+                let numbers: Vec<u32> = weighted.iter().map(|(number, _)| *number).collect();
+                return given(&numbers, points, kinematics);
+            }
             _ => {}
         }
         let mut generator = ChaCha8Rng::seed_from_u64(seed);
@@ -70,6 +77,25 @@ impl SampleChoice {
         }
         chosen.sort_unstable();
         Ok(chosen)
+    }
+
+    /// ω_p of the points where the choice says them.
+    ///
+    /// # Errors
+    /// [`OnlineError::Option`] for a weight below 0 or one that is not finite.
+    pub(super) fn weights(&self) -> Result<Option<Vec<f64>>, OnlineError> {
+        let Self::Weighted(weighted) = self else {
+            return Ok(None);
+        };
+        let weights: Vec<f64> = weighted.iter().map(|(_, weight)| *weight).collect();
+        match weights.iter().find(|weight| !(**weight >= 0.0 && weight.is_finite())) {
+            None => Ok(Some(weights)),
+            Some(&value) => Err(OnlineError::Option {
+                field: "weight",
+                value,
+                expected: "at least 0 and finite",
+            }),
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use mpm_rom::experiment::ReducedRow;
+use mpm_rom::experiment::{Experiment, ReducedRow};
 use mpm_rom::training::EpochReport;
 
 use super::run::groups;
@@ -44,7 +44,7 @@ pub fn losses(directory: &Path, title: &str, history: &[EpochReport]) -> Result<
 const DRAWN: usize = 6;
 
 /// x̂ against time, a panel for each coordinate: the first test cases, run in the way that comes first.
-pub fn coordinates(directory: &Path, title: &str, rows: &[ReducedRow]) -> Result<(), CommandError> {
+pub fn coordinates(directory: &Path, experiment: &Experiment, rows: &[ReducedRow]) -> Result<(), CommandError> {
     let groups = groups(rows);
     let Some(first) = groups.first() else { return Ok(()) };
     let shown = &first[..first.len().min(DRAWN)];
@@ -55,7 +55,8 @@ pub fn coordinates(directory: &Path, title: &str, rows: &[ReducedRow]) -> Result
         series: shown
             .iter()
             .map(|row| {
-                let values: Vec<String> = row.parameters.iter().map(f64::to_string).collect();
+                let named = experiment.parameters.iter().zip(&row.parameters);
+                let values: Vec<String> = named.map(|(name, value)| format!("{name} {value}")).collect();
                 TraceSeries {
                     label: values.join(", "),
                     step: row.frames.iter().map(|frame| frame.time).collect(),
@@ -66,7 +67,7 @@ pub fn coordinates(directory: &Path, title: &str, rows: &[ReducedRow]) -> Result
         levels: Vec::new(),
     };
     let plot = TracePlot {
-        title: format!("{title}: coordinates, {} sample points", shown[0].samples),
+        title: format!("{}: coordinates, {} sample points", experiment.title, shown[0].samples),
         x_label: "time (s)".to_owned(),
         panels: (0..count).map(panel).collect(),
     };

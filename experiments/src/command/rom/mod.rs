@@ -10,6 +10,7 @@ use clap::{Args, Subcommand};
 use mpm_rom::experiment::{Experiment, ExperimentError};
 use mpm_rom::full_order::SceneDocument;
 
+use super::file_kind::FileKind;
 use crate::{CommandError, interrupt};
 
 /// What to do with a reduced-order model.
@@ -44,6 +45,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
         Command::Train(task) => (task, true),
         Command::Run(task) => (task, false),
     };
+    FileKind::Experiment.check(&task.configuration)?;
     let experiment = Experiment::read(&task.configuration)?;
     interrupt::listen();
     let execute: fn(&Experiment, &Path) -> Result<(), CommandError> = match (dimension(&experiment)?, training) {
@@ -59,7 +61,5 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
 /// The dimension of the experiment's scene.
 fn dimension(experiment: &Experiment) -> Result<usize, CommandError> {
     let document = SceneDocument::read(&experiment.scene_file()).map_err(ExperimentError::from)?;
-    let case = experiment.case(&experiment.cases.train[0])?;
-    let scene = document.scene(&case.changes).map_err(ExperimentError::from)?;
-    Ok(scene.dimension)
+    Ok(experiment.scene_of(&document, &experiment.cases.train[0])?.dimension)
 }

@@ -18,7 +18,7 @@ pub fn execute<const D: usize>(experiment: &Experiment, directory: &Path) -> Res
     progress.clear();
     let rows = result?;
     figures::errors(directory, &experiment.title, &rows)?;
-    figures::coordinates(directory, &experiment.title, &rows)?;
+    figures::coordinates(directory, experiment, &rows)?;
     for row in rows.iter().filter(|row| row.outcome != "finished") {
         console::notice(&format!(
             "case {}, {}{}, {} samples ({}), {}, {}, steps of {}: {}",
