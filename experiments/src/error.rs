@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use mpm_rom::experiment::ExperimentError;
+use mpm_scenes::document::DocumentError;
 use mpm_scenes::{SceneError, SimulationError};
 use parvi::SampleError;
 use parvi_metrics::MetricError;
@@ -69,18 +70,19 @@ pub enum CommandError {
         source: std::io::Error,
     },
     /// A configuration does not say what it has to, or says too much.
-    #[error("{file}, line {line}, column {column}: {message}{}", quoted(.text))]
-    Config {
+    #[error(transparent)]
+    Config(#[from] DocumentError),
+    /// The file is one that another command takes.
+    #[error("{file} seems to be {found}, which `{command}` takes; this command takes {expected}")]
+    OtherKind {
         /// The file.
         file: String,
-        /// The line, counted from 1.
-        line: usize,
-        /// The column, counted from 1.
-        column: usize,
-        /// What is wrong.
-        message: String,
-        /// The text of the line.
-        text: String,
+        /// What it seems to be.
+        found: &'static str,
+        /// The command for it.
+        command: &'static str,
+        /// What was asked for.
+        expected: &'static str,
     },
     /// The parts of a configuration do not fit together.
     #[error("{file}: {field}: {message}")]
@@ -147,15 +149,5 @@ impl CommandError {
 impl From<ExperimentError> for CommandError {
     fn from(error: ExperimentError) -> Self {
         Self::Experiment(Box::new(error))
-    }
-}
-
-/// The offending line, in parentheses; nothing for an empty one.
-fn quoted(text: &str) -> String {
-    let text = text.trim();
-    if text.is_empty() {
-        String::new()
-    } else {
-        format!(" (in `{text}`)")
     }
 }

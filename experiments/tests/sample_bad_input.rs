@@ -60,6 +60,10 @@ fn meshes_that_do_not_fit() {
     on("--target gaussian --dim 2", &["--mesh", "needs the basis `mesh`"]);
     on("--target gaussian --dim 3 --basis mesh", &["disk.msh"]);
     on(
+        "--target gaussian --dim 2 --basis mesh --checkpoint state",
+        &["--checkpoint: state: sampling on a mesh has no checkpoint"],
+    );
+    on(
         "--target gaussian --dim 5 --basis mesh",
         &["disk.msh", "2 or 3 dimensions", "5"],
     );
@@ -171,6 +175,39 @@ fn flags_that_do_not_fit_the_target() {
 }
 
 #[test]
+fn targets_that_there_are_not_are_mistakes_of_the_command_line() {
+    for (flags, message) in [
+        ("--target rong", "error: --target: unknown target 'rong'"),
+        (
+            "--target ring --width -1",
+            "error: --width: -1 must be a number above 0",
+        ),
+        (
+            "--target gaussian --dim 2 --correlation 1.5",
+            "error: --correlation: 1.5 must be a number between",
+        ),
+        (
+            "--target gaussian --dim 2 --correlation NaN",
+            "error: --correlation: correlation is NaN",
+        ),
+        (
+            "--target student-t --dim 2 --degrees-of-freedom -2",
+            "error: --degrees-of-freedom: -2 must be",
+        ),
+        ("--target wells --dim 2 --prior-sd 0", "error: --prior-sd: "),
+        ("--target banana --radius 2", "error: --radius: "),
+        ("--target banana --dim 3", "error: --dim: "),
+        ("--target logistic", "error: --data: "),
+    ] {
+        let directory = tempfile::tempdir().unwrap();
+        let output = parvi(directory.path(), &format!("sample {flags} --particles 64 --out x.csv"));
+        assert_refused(&output, &[message]);
+        assert_eq!(output.status.code(), Some(2), "{flags}");
+        assert_eq!(files(directory.path()), [""; 0], "{flags}");
+    }
+}
+
+#[test]
 fn values_out_of_range() {
     refused(
         "--target banana --particles 64 --spacing 0",
@@ -236,7 +273,7 @@ fn data_that_cannot_be_used() {
     refused_data("y,a\n1,0.5\n0,many\n", "", &["data.csv", "line 3", "'a'", "many"]);
     refused_data("y,a\n1,0.5\n2,0.1\n", "", &["data.csv", "line 3", "2", "0 or 1"]);
     refused_data("y,a\n", "", &["data.csv", "no rows"]);
-    refused_data("", "", &["data.csv"]);
+    refused_data("", "", &["data.csv is empty"]);
     refused_data("y,a\n1,0.5\n0,0.1,7\n", "", &["data.csv", "line 3"]);
     refused_data("y,a\n1,nan\n0,0.1\n", "", &["data.csv", "line 2", "nan"]);
     let collinear = "y,a,b\n1,1,2\n0,2,4\n1,3,6\n0,4,8\n1,5,10\n0,1,2\n";

@@ -60,6 +60,62 @@ fn a_scene_leaves_frames_series_and_figures() {
 }
 
 #[test]
+fn a_run_anew_leaves_nothing_of_an_earlier_one() {
+    let root = tempfile::tempdir().unwrap();
+    let scene = root.path().join("scene.toml");
+    std::fs::write(
+        &scene,
+        SCENE.replace("end = 0.5", "end = 1.0").replace("corner", "edge"),
+    )
+    .unwrap();
+    assert!(parvi(root.path(), "simulate scene.toml --out out").status.success());
+    let out = root.path().join("out");
+    std::fs::remove_file(out.join("checkpoint.cbor")).unwrap();
+    std::fs::write(out.join("notes.txt"), "mine").unwrap();
+    std::fs::write(&scene, SCENE).unwrap();
+    assert!(parvi(root.path(), "simulate scene.toml --out out").status.success());
+    assert!(parvi(root.path(), "simulate scene.toml --out fresh").status.success());
+    let mut expected = files(&root.path().join("fresh"));
+    expected.push("notes.txt".to_owned());
+    expected.sort();
+    assert_eq!(files(&out), expected);
+}
+
+#[test]
+fn files_of_other_commands_are_refused_with_the_command_for_them() {
+    let root = tempfile::tempdir().unwrap();
+    let files = [
+        ("scene.toml", SCENE, "a scene, which `parvi simulate` takes"),
+        (
+            "study.toml",
+            "kind = \"quickstart\"",
+            "the configuration of a study, which `parvi run` takes",
+        ),
+        (
+            "rom.toml",
+            "scene = \"scene.toml\"\ncases = {}",
+            "the configuration of a reduced-order model, which `parvi rom train|run` takes",
+        ),
+    ];
+    for (name, text, _) in files {
+        std::fs::write(root.path().join(name), text).unwrap();
+    }
+    for (command, own) in [
+        ("simulate", "scene.toml"),
+        ("run", "study.toml"),
+        ("rom train", "rom.toml"),
+        ("rom run", "rom.toml"),
+    ] {
+        for (name, _, message) in files.into_iter().filter(|(name, ..)| *name != own) {
+            let output = parvi(root.path(), &format!("{command} {name} --out out"));
+            assert_refused(&output, &[&format!("{name} seems to be {message}; this command takes")]);
+            assert_eq!(output.status.code(), Some(2));
+        }
+    }
+    assert!(!root.path().join("out").exists());
+}
+
+#[test]
 fn bad_scenes_are_refused_with_file_field_and_value() {
     let root = tempfile::tempdir().unwrap();
     let cases = [

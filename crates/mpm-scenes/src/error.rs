@@ -1,10 +1,15 @@
 //! What can be wrong with a scene.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+
+use crate::document::DocumentError;
+use crate::toml_value;
 
 /// A scene that cannot be run, and why.
 #[derive(Debug, thiserror::Error)]
-#[error("{}: {fault}", file.display())]
+#[error("{}", described(file, fault))]
 pub struct SceneError {
     /// The scene's file.
     pub file: PathBuf,
@@ -20,15 +25,8 @@ pub enum SceneFault {
     #[error("cannot be read: {0}")]
     Unreadable(#[from] std::io::Error),
     /// The file is no TOML, has an unknown or missing key, or a value of the wrong type.
-    #[error("line {line}{}: {message}", in_field(field))]
-    Syntax {
-        /// The line, counted from 1.
-        line: usize,
-        /// The field at that line with the table it stands in, as in `materials.steel.density`; empty where there is none.
-        field: String,
-        /// What the parser says; it names unknown and missing keys.
-        message: String,
-    },
+    #[error(transparent)]
+    Syntax(#[from] DocumentError),
     /// A value is outside its range, or does not fit the rest of the scene.
     #[error("{field} = {value}: must be {expected}")]
     Value {
@@ -37,6 +35,14 @@ pub enum SceneFault {
         /// Its value.
         value: String,
         /// What is allowed.
+        expected: String,
+    },
+    /// A value that is needed is not there.
+    #[error("{field} is missing: must be {expected}")]
+    Missing {
+        /// The field.
+        field: String,
+        /// What is needed.
         expected: String,
     },
     /// A body has no particles: its shape is empty or smaller than the distance between particles.
@@ -82,20 +88,31 @@ pub enum SceneFault {
 }
 
 impl SceneFault {
-    /// A [`Value`](Self::Value).
-    pub fn value(field: impl Into<String>, value: impl std::fmt::Debug, expected: impl Into<String>) -> Self {
-        Self::Value {
+    /// A [`Value`](Self::Value), which is written as in the file; [`Missing`](Self::Missing) for `None`.
+    pub fn value(field: impl Into<String>, value: impl Serialize, expected: impl Into<String>) -> Self {
+        match toml_value::text(value) {
+            Some(value) => Self::Value {
+                field: field.into(),
+                value,
+                expected: expected.into(),
+            },
+            None => Self::missing(field, expected),
+        }
+    }
+
+    /// A [`Missing`](Self::Missing).
+    pub fn missing(field: impl Into<String>, expected: impl Into<String>) -> Self {
+        Self::Missing {
             field: field.into(),
-            value: format!("{value:?}"),
             expected: expected.into(),
         }
     }
 }
 
-fn in_field(field: &str) -> String {
-    if field.is_empty() {
-        String::new()
-    } else {
-        format!(", {field}")
+/// The fault with its file, once.
+fn described(file: &Path, fault: &SceneFault) -> String {
+    match fault {
+        SceneFault::Syntax(error) => error.to_string(),
+        fault => format!("{}: {fault}", file.display()),
     }
 }

@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod background;
+pub mod document;
 mod error;
 pub mod fill;
 mod held;
@@ -18,6 +19,7 @@ pub mod scene;
 mod series;
 pub mod shape;
 mod snapshot;
+mod toml_value;
 mod validation_row;
 mod values;
 mod velocity;

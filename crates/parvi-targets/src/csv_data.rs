@@ -71,7 +71,7 @@ fn line_of(record: &StringRecord) -> u64 {
 fn column_names(header: &StringRecord, source: &str) -> Result<Vec<String>, TargetError> {
     let (file, line) = (source.to_owned(), line_of(header));
     if header.is_empty() {
-        return Err(TargetError::DataHeaderEmpty { file, line, column: 1 });
+        return Err(TargetError::DataEmpty { file });
     }
     let mut names: Vec<String> = Vec::with_capacity(header.len());
     for (index, name) in header.iter().enumerate() {

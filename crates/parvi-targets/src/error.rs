@@ -120,7 +120,13 @@ pub enum TargetError {
         /// What the system said.
         reason: String,
     },
-    /// The file has no header, or a column without a name.
+    /// The file holds nothing, or nothing but blank lines.
+    #[error("{file} is empty: a header and rows of data are expected")]
+    DataEmpty {
+        /// The file.
+        file: String,
+    },
+    /// A column of the header has no name.
     #[error("{file}, line {line}: column {column} of the header is empty")]
     DataHeaderEmpty {
         /// The file.

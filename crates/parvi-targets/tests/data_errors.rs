@@ -56,7 +56,12 @@ fn bad_cells_are_named() {
 fn bad_shapes_are_named() {
     assert_eq!(message("y,age\n"), "some.csv has no rows of data");
     assert_eq!(message("y,age\n\n\n"), "some.csv has no rows of data");
-    assert_eq!(message(""), "some.csv, line 1: column 1 of the header is empty");
+    for nothing in ["", "\n\n"] {
+        assert_eq!(
+            message(nothing),
+            "some.csv is empty: a header and rows of data are expected"
+        );
+    }
     assert_eq!(
         message("y,,dose\n1,2,3\n"),
         "some.csv, line 1: column 2 of the header is empty"

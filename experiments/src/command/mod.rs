@@ -1,5 +1,6 @@
 //! The command line: one subcommand per file.
 
+mod file_kind;
 mod report;
 mod rom;
 mod run;
@@ -67,7 +68,7 @@ pub fn main() -> ExitCode {
 
 fn exit_code(error: &CommandError) -> u8 {
     match error {
-        CommandError::Flag(_) | CommandError::OutputExtension { .. } => 2,
+        CommandError::Flag(_) | CommandError::OutputExtension { .. } | CommandError::OtherKind { .. } => 2,
         error if error.is_interruption() => interrupt::EXIT_CODE,
         _ => 1,
     }

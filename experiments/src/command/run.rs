@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::file_kind::FileKind;
 use crate::study;
 use crate::{CommandError, interrupt};
 
@@ -20,6 +21,7 @@ pub struct Arguments {
 
 /// Runs the cases that are missing, then writes the report.
 pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
+    FileKind::Study.check(&arguments.configuration)?;
     interrupt::listen();
     study::run(&arguments.configuration, &arguments.out)
 }

@@ -72,13 +72,13 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     };
     let mut run = Run::new(arguments.particles.get(), arguments.seed);
     run.start = arguments.options.start();
-    target.dimension()?;
+    target.dimension().map_err(|error| of_flags(error.into()))?;
     let file = ParticleFile::create(&arguments.out)?;
     let diagnostics = arguments.diagnostics.as_ref().map(AtomicFile::create).transpose()?;
     interrupt::listen();
     let mut progress = StepProgress::new();
     let memory = MemoryGauge::begin();
-    let outcome = sampling::sample(&target, &method, &run, &mut progress)?;
+    let outcome = sampling::sample(&target, &method, &run, &mut progress).map_err(of_flags)?;
     let peak_memory = memory.peak_bytes();
     progress.clear();
     if let Some(mut diagnostics) = diagnostics {
@@ -89,6 +89,17 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     file.write(&outcome.particles)?;
     warn(&outcome);
     console::print_pairs(&pairs(arguments, &outcome, peak_memory))
+}
+
+/// An error of a target that a flag asks for is one of this flag.
+fn of_flags(error: CommandError) -> CommandError {
+    match error {
+        CommandError::Target(error) => match OptionError::of_target(&error) {
+            Some(error) => error.into(),
+            None => error.into(),
+        },
+        error => error,
+    }
 }
 
 /// Refuses one file in two roles.
@@ -136,6 +147,11 @@ fn with_checkpoint(method: Method, arguments: &Arguments) -> Result<Method, Comm
             }),
             ..options
         })),
+        (Method::OnMesh(_), Some(path)) => Err(OptionError {
+            name: "checkpoint".to_owned(),
+            reason: format!("{}: sampling on a mesh has no checkpoint", path.display()),
+        }
+        .into()),
         (_, Some(path)) => {
             Err(OptionError::misfit("checkpoint", &path.display().to_string(), arguments.method.as_str()).into())
         }

@@ -16,25 +16,25 @@ use super::{
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
 #[command(next_help_heading = "Options of the method")]
 pub struct MethodOptions {
-    /// Steps; support-points: at most [mpm, paper-*, svgd, support-points]
+    /// Steps; support-points: at most (mpm, paper-*, svgd, support-points)
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
     pub steps: Option<StepCount>,
-    /// Background basis [mpm, paper-*]
+    /// Background basis (mpm, paper-*)
     #[arg(long)]
     pub basis: Option<Basis>,
     /// Mesh of the domain that the density is kept to, a .msh file of Gmsh; with --basis mesh (mpm)
     #[arg(long, value_name = "FILE.msh")]
     pub mesh: Option<PathBuf>,
-    /// Grid spacing in units of the target's scale [mpm, paper-*]
+    /// Grid spacing in units of the target's scale (mpm, paper-*)
     #[arg(long, value_name = "H", allow_negative_numbers = true)]
     pub spacing: Option<f64>,
-    /// Time step [mpm, paper-*]
+    /// Time step (mpm, paper-*)
     #[arg(long, value_name = "DT", allow_negative_numbers = true)]
     pub time_step: Option<f64>,
-    /// Where the score is evaluated [mpm, paper-*]
+    /// Where the score is evaluated (mpm, paper-*)
     #[arg(long)]
     pub score: Option<Score>,
-    /// Largest displacement per step in units of the spacing, or `off` [paper-*; mpm: a number]
+    /// Largest displacement per step in units of the spacing, or `off` (paper-*; mpm: a number)
     #[arg(long, value_name = "C|off", allow_negative_numbers = true)]
     pub displacement_limit: Option<Limit>,
     /// Look for the target's place, scales and pieces before the body moves (mpm)
@@ -70,46 +70,49 @@ pub struct MethodOptions {
     /// Friction, per unit of time (mpm)
     #[arg(long, value_name = "GAMMA", allow_negative_numbers = true)]
     pub friction: Option<f64>,
-    /// Rounds of the steps, at most, while the particles are still on their way; 3, but 1 with --steps (mpm)
+    /// Rounds of the steps, at most, while the particles are still on their way (mpm) [default: 3, with --steps: 1]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub rounds: Option<StepCount>,
-    /// Equally many particles for each separate piece of the target, with weights; off unless given (mpm)
-    #[arg(long)]
+    /// Equally many particles for each separate piece of the target, with weights (mpm)
+    #[arg(
+        long,
+        help = "Equally many particles for each separate piece of the target, with weights (mpm) [default: off]"
+    )]
     pub weighted: Option<Switch>,
-    /// What is done about a score that is not finite; pull-back unless given (mpm)
+    /// What is done about a score that is not finite (mpm) [default: pull-back]
     #[arg(long)]
     pub non_finite: Option<NonFinite>,
-    /// Judge the particles at the end; on unless given (mpm)
-    #[arg(long)]
+    /// Judge the particles at the end (mpm)
+    #[arg(long, help = "Judge the particles at the end (mpm) [default: on]")]
     pub certificate: Option<Switch>,
-    /// Elastic law [paper-*]
+    /// Elastic law (paper-*)
     #[arg(long)]
     pub material: Option<Material>,
-    /// Young's modulus [paper-*]
+    /// Young's modulus (paper-*)
     #[arg(long, value_name = "E", allow_negative_numbers = true)]
     pub youngs_modulus: Option<f64>,
-    /// Poisson's ratio [paper-*]
+    /// Poisson's ratio (paper-*)
     #[arg(long, value_name = "NU", allow_negative_numbers = true)]
     pub poissons_ratio: Option<f64>,
-    /// Constant factor before the score [mpm, paper-*]
+    /// Constant factor before the score (mpm, paper-*)
     #[arg(long, allow_negative_numbers = true)]
     pub alpha: Option<f64>,
-    /// Factor before the score in the first step, with --alpha-to [mpm, paper-*]
+    /// Factor before the score in the first step, with --alpha-to (mpm, paper-*)
     #[arg(long, value_name = "ALPHA", allow_negative_numbers = true)]
     pub alpha_from: Option<f64>,
-    /// Factor before the score in the last step, mpm: when settling begins, with --alpha-from [mpm, paper-*]
+    /// Factor before the score in the last step, mpm: when settling begins, with --alpha-from (mpm, paper-*)
     #[arg(long, value_name = "ALPHA", allow_negative_numbers = true)]
     pub alpha_to: Option<f64>,
-    /// All guards at once; single guards can be set beside it [paper-*]
+    /// All guards at once; single guards can be set beside it (paper-*)
     #[arg(long)]
     pub guards: Option<Switch>,
-    /// Nodes lighter than this share of the mean particle mass get no force, 0: off [paper-*]
+    /// Nodes lighter than this share of the mean particle mass get no force, 0: off (paper-*)
     #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
     pub mass_floor: Option<f64>,
-    /// Multiply the force by the nodal mass [paper-*]
+    /// Multiply the force by the nodal mass (paper-*)
     #[arg(long)]
     pub mass_weighted_force: Option<Switch>,
-    /// Courant number that limits the time step, or `off` [paper-*]
+    /// Courant number that limits the time step, or `off` (paper-*)
     #[arg(long, value_name = "C|off", allow_negative_numbers = true)]
     pub courant: Option<Limit>,
     /// Step size of the optimiser (svgd)
@@ -118,34 +121,34 @@ pub struct MethodOptions {
     /// Fixed kernel bandwidth instead of the median rule (svgd)
     #[arg(long, allow_negative_numbers = true)]
     pub bandwidth: Option<f64>,
-    /// Draws per chain that tune the sampler and are thrown away [nuts, stein-thinning with --pool nuts]
+    /// Draws per chain that tune the sampler and are thrown away (nuts, stein-thinning with --pool nuts)
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub warm_up: Option<WarmUp>,
-    /// Chains that share the draws out [nuts, stein-thinning with --pool nuts]
+    /// Chains that share the draws out (nuts, stein-thinning with --pool nuts)
     #[arg(long, value_name = "C", allow_negative_numbers = true)]
     pub chains: Option<StepCount>,
-    /// Keep every K-th draw [nuts, stein-thinning with --pool nuts]
+    /// Keep every K-th draw (nuts, stein-thinning with --pool nuts)
     #[arg(long, value_name = "K", allow_negative_numbers = true)]
     pub thinning: Option<StepCount>,
-    /// Acceptance that the step size is tuned to, between 0 and 1 [nuts, stein-thinning with --pool nuts]
+    /// Acceptance that the step size is tuned to, between 0 and 1 (nuts, stein-thinning with --pool nuts)
     #[arg(long, value_name = "A", allow_negative_numbers = true)]
     pub target_acceptance: Option<f64>,
     /// What the draws are chosen from (stein-thinning)
     #[arg(long)]
     pub pool: Option<PoolChoice>,
-    /// Size of the bigger sample, at least the number of particles [stein-thinning, support-points]
+    /// Size of the bigger sample, at least the number of particles (stein-thinning, support-points)
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub pool_size: Option<ParticleCount>,
     /// End when no point moves farther, in units of the sample's spread (support-points)
     #[arg(long, value_name = "TOL", allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
-    /// Mean of every coordinate at the start, in units of the target's scale [mpm, paper-*, svgd, nuts]
+    /// Mean of every coordinate at the start, in units of the target's scale (mpm, paper-*, svgd, nuts)
     #[arg(long, value_name = "MEAN", allow_negative_numbers = true)]
     pub start_mean: Option<f64>,
-    /// Standard deviation of every coordinate at the start [mpm, paper-*, svgd, nuts]
+    /// Standard deviation of every coordinate at the start (mpm, paper-*, svgd, nuts)
     #[arg(long, value_name = "SD", allow_negative_numbers = true)]
     pub start_sd: Option<f64>,
-    /// How the particles are drawn from their initial law [mpm, paper-*, svgd, nuts]
+    /// How the particles are drawn from their initial law (mpm, paper-*, svgd, nuts)
     #[arg(long)]
     pub start_draws: Option<Draws>,
     /// Measure residual and energy every so many steps; set by the studies.

@@ -2,6 +2,8 @@
 
 use std::fmt::{self, Display, Formatter};
 
+use parvi_targets::TargetError;
+
 /// An option that is out of place or out of range.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OptionError {
@@ -27,6 +29,43 @@ impl OptionError {
             reason: format!("{value} must be {expected}"),
         }
     }
+
+    /// The flag that asks for a target which there is not; `None` where no flag does, but its data.
+    pub fn of_target(error: &TargetError) -> Option<Self> {
+        let name = match error {
+            TargetError::OutOfRange { field, value, allowed } if PARAMETERS.iter().any(|(word, _)| word == field) => {
+                return Some(Self::out_of_range(parameter_in(field), value, allowed));
+            }
+            TargetError::OutOfRange { field, .. } | TargetError::NotFinite { field, .. } => parameter_in(field),
+            TargetError::ParameterNotAllowed { parameter, .. } | TargetError::ParameterMissing { parameter, .. } => {
+                parameter
+            }
+            TargetError::DimensionMissing { .. } | TargetError::DimensionNotAllowed { .. } => "dim",
+            TargetError::UnknownTarget { .. } => "target",
+            _ => return None,
+        };
+        Some(Self {
+            name: name.to_owned(),
+            reason: error.to_string(),
+        })
+    }
+}
+
+/// Words for the parameters of targets, and their flags.
+const PARAMETERS: [(&str, &str); 7] = [
+    ("correlation", "correlation"),
+    ("curvature", "curvature"),
+    ("width", "width"),
+    ("spread", "spread"),
+    ("radius", "radius"),
+    ("degrees of freedom", "degrees-of-freedom"),
+    ("prior standard deviation", "prior-sd"),
+];
+
+/// The flag of the parameter that a field is made of; that of the target if it is made of none.
+fn parameter_in(field: &str) -> &'static str {
+    let known = PARAMETERS.iter().find(|(word, _)| field.contains(word));
+    known.map_or("target", |(_, flag)| flag)
 }
 
 impl Display for OptionError {

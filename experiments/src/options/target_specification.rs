@@ -21,7 +21,7 @@ pub struct TargetParameters {
     #[arg(long, value_name = "B", allow_negative_numbers = true)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub curvature: Option<f64>,
-    /// Width: standard deviation across the curve, the ring, an arm or a mode, of the funnel's mouth [banana, ring, mixture-*, funnel, rosenbrock, cross]
+    /// Width: standard deviation across the curve, the ring, an arm or a mode, of the funnel's mouth (banana, ring, mixture-*, funnel, rosenbrock, cross)
     #[arg(long, value_name = "SIGMA", allow_negative_numbers = true)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub width: Option<f64>,

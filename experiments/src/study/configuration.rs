@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 
+use mpm_scenes::document::{self, DocumentError};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use toml::Spanned;
@@ -35,8 +36,8 @@ impl Configuration {
     }
 
     fn from_text(file: String, text: String) -> Result<Self, CommandError> {
-        let kind: Kind = parse(&file, &text)?;
-        let table: toml::Table = parse(&file, &text)?;
+        let kind: Kind = document::parse(&text, Path::new(&file))?;
+        let table: toml::Table = document::parse(&text, Path::new(&file))?;
         Ok(Self {
             kind: kind.kind,
             hash: fingerprint(&canonical(&table)),
@@ -67,33 +68,13 @@ impl Configuration {
 
     /// The configuration as its kind understands it. Unknown keys are errors.
     pub fn parse<T: DeserializeOwned>(&self) -> Result<T, CommandError> {
-        parse(&self.file, &self.text)
+        Ok(document::parse(&self.text, Path::new(&self.file))?)
     }
 
     /// The error for a kind that does not exist.
     pub fn unknown_kind(&self, known: &[&str]) -> CommandError {
         let message = format!("unknown kind `{}`, expected one of {}", self.kind(), known.join(", "));
-        located(&self.file, &self.text, self.kind.span().start, message)
-    }
-}
-
-fn parse<T: DeserializeOwned>(file: &str, text: &str) -> Result<T, CommandError> {
-    toml::from_str(text).map_err(|error| {
-        let start = error.span().map_or(0, |span| span.start);
-        located(file, text, start, error.message().trim().replace('\n', ", "))
-    })
-}
-
-/// An error at a byte of the text.
-fn located(file: &str, text: &str, byte: usize, message: String) -> CommandError {
-    let before = text.get(..byte).unwrap_or(text);
-    let line_start = before.rfind('\n').map_or(0, |position| position + 1);
-    CommandError::Config {
-        file: file.to_owned(),
-        line: before.matches('\n').count() + 1,
-        column: before[line_start..].chars().count() + 1,
-        message,
-        text: text[line_start..].lines().next().unwrap_or_default().to_owned(),
+        DocumentError::at(Path::new(&self.file), &self.text, self.kind.span().start, message).into()
     }
 }
 

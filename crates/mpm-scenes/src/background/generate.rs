@@ -24,7 +24,7 @@ pub(super) fn inner<const D: usize>(
             let refused = |error| SceneFault::value("mesh.generate", shape, format!("a mesh: {error}"));
             generate(shape).map_err(refused)?
         }
-        (None, None) => return Err(SceneFault::value("mesh.generate", (), "given unless file is")),
+        (None, None) => return Err(SceneFault::missing("mesh.generate", "given unless file is")),
     };
     let Some(rotation) = rotation else { return Ok(mesh) };
     let vertices = mesh.vertices().iter().map(|x| rotation.apply(x)).collect();
@@ -32,7 +32,7 @@ pub(super) fn inner<const D: usize>(
     SimplexMesh::new(vertices, cells).map_err(|error| {
         SceneFault::value(
             "mesh.rotation",
-            rotation,
+            &table.rotation,
             format!("one that keeps the mesh valid: {error}"),
         )
     })
@@ -41,7 +41,7 @@ pub(super) fn inner<const D: usize>(
 /// The mesh of a file of Gmsh, beside the scene.
 fn read<const D: usize>(scene: &Scene, table: &MeshTable) -> Result<SimplexMesh<D>, SceneFault> {
     let Some(file) = &table.file else {
-        return Err(SceneFault::value("mesh.file", (), "given"));
+        return Err(SceneFault::missing("mesh.file", "given"));
     };
     let path = scene
         .file

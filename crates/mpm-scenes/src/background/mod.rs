@@ -53,7 +53,7 @@ impl<const D: usize> Background<D> {
                 let spacing = table.spacing;
                 return Ok(Self::Grid { spacing, room });
             }
-            (Discretisation::Grid(_), None) => return Err(SceneFault::value("domain", (), "given with a [grid]")),
+            (Discretisation::Grid(_), None) => return Err(SceneFault::missing("domain", "given with a [grid]")),
         };
         let rotation = rotation::build::<D>("mesh.rotation", table.rotation.as_ref())?;
         let inner = generate::inner::<D>(scene, table, rotation.as_ref())?;

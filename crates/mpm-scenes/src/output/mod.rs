@@ -1,11 +1,13 @@
 //! The files of a run.
 
+mod earlier_frames;
 mod pvd;
 mod series_file;
 mod validation_file;
 mod vtu;
 mod whole_file;
 
+pub use earlier_frames::{remove_file, remove_frames};
 pub use pvd::write_index;
 pub use series_file::{SeriesFile, read_series};
 pub use validation_file::write_validation;

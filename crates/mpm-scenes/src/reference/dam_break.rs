@@ -95,6 +95,11 @@ impl DamBreak {
     }
 }
 
+/// Whether a box with these sides is twice as high as wide.
+pub(super) fn is_column(sides: &[f64]) -> bool {
+    matches!(sides, &[base, height] if (height / base - 2.0).abs() < 1e-9)
+}
+
 /// The front of a scene with a column beside a wall at its lower side: half a distance between particles beyond the outermost one.
 ///
 /// # Errors
@@ -102,7 +107,7 @@ impl DamBreak {
 pub(super) fn validate(run: &Run) -> Rows {
     let sides = sides(run.scene)?;
     let dam = match sides.as_slice() {
-        &[base, height] if (height / base - 2.0).abs() < 1e-9 => DamBreak {
+        &[base, _] if is_column(&sides) => DamBreak {
             base,
             aspect: 2.0,
             gravity: gravity(run.scene),

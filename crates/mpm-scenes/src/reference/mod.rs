@@ -9,6 +9,7 @@ pub mod curve;
 pub mod dam_break;
 pub mod expansion;
 pub mod generalized_vortex;
+mod needs;
 mod parts;
 mod registry;
 pub mod slope_run_out;
@@ -19,4 +20,4 @@ pub mod vibrating_bar;
 #[cfg(test)]
 mod dual;
 
-pub use registry::{MANUFACTURED, REFERENCES, manufactured, validate};
+pub use registry::{MANUFACTURED, REFERENCES, check, manufactured, validate};

@@ -26,7 +26,7 @@ pub(super) fn validate(run: &Run) -> Rows {
 }
 
 /// Where the base of a slope ends: that of a polygon, or of the first box of an intersection.
-fn base(shape: &ShapeTable) -> Option<f64> {
+pub(super) fn base(shape: &ShapeTable) -> Option<f64> {
     match shape {
         ShapeTable::Polygon { corners } => Some(corners.iter().map(|corner| corner[0]).fold(f64::NAN, f64::max)),
         ShapeTable::Box { upper, .. } => upper.first().copied(),

@@ -2,7 +2,7 @@
 
 use super::curve::Curve;
 use super::parts::{Rows, Run, unfit};
-use crate::ValidationRow;
+use crate::{Scene, ValidationRow};
 
 /// Fine cubic runs of the beam at rest with gravity tilted instead: t, displacements of the tip along and across the beam, for each angle in degrees, and
 /// the error that Cao et al. reach at a mesh size of 0.5.
@@ -32,15 +32,19 @@ pub fn fine_run(degrees: f64) -> Option<(Curve, f64)> {
     Some((curve, *tolerance))
 }
 
+/// The fine run at the angle of a scene, with the tolerance.
+pub(super) fn fine_run_of(scene: &Scene) -> Option<(Curve, f64)> {
+    let rotation = scene.bodies.first().and_then(|body| body.rotation.as_ref());
+    fine_run(rotation.map_or(0.0, |rotation| rotation.degrees))
+}
+
 /// Root mean square difference of the tip to the fine run over 3 s, over its peak.
 ///
 /// # Errors
 /// [`SceneFault::Value`](crate::SceneFault::Value) without the probe `tip`, or at an angle that there is no fine run for.
 pub(super) fn validate(run: &Run) -> Rows {
-    let rotation = run.scene.bodies.first().and_then(|body| body.rotation.as_ref());
-    let degrees = rotation.map_or(0.0, |rotation| rotation.degrees);
-    let (fine, tolerance) =
-        fine_run(degrees).ok_or_else(|| unfit(run.scene, "for a turn of 0, 15, 30 or 45 degrees"))?;
+    let fine = fine_run_of(run.scene);
+    let (fine, tolerance) = fine.ok_or_else(|| unfit(run.scene, "for a turn of 0, 15, 30 or 45 degrees"))?;
     let tip = run.curve("tip_displacement_y")?;
     let error = tip.rms_difference(3.0, |time| fine.at(time).unwrap_or(f64::NAN)) / fine.peak();
     let name = "difference of the tip to the fine run, 3 s / peak";

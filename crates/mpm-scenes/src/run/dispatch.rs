@@ -2,7 +2,7 @@
 
 use mpm_core::{
     AffineFlip, Apic, Boundaries, Continuum, Flip, Masses, Mls, Mpm, MpmError, Particles, SplineGrid, StressUpdate,
-    Transfer,
+    Transfer, VelocityFilter,
 };
 use mpm_kernels::{Cubic, Gimp, Linear, Quadratic, Spline};
 use mpm_mesh::{MeshBasis, Outside, SimplexMesh};
@@ -60,7 +60,7 @@ pub(super) fn build<const D: usize>(
             on_grid(table, parts, Grid { spacing, room })
         }
         (Discretisation::Mesh(table), Background::Mesh { whole, .. }) => on_mesh(table, parts, &whole),
-        _ => Err(SceneFault::value("grid", (), "given unless there is a [mesh]")),
+        _ => Err(SceneFault::missing("grid", "given unless there is a [mesh]")),
     }
 }
 
@@ -142,10 +142,17 @@ fn share(scene: &Scene) -> Flip {
             scene.transfer.flip_share.unwrap_or(default)
         }
     };
-    Flip {
-        share,
-        pic_rate: scene.transfer.pic_rate.unwrap_or(0.0),
-    }
+    let pic_rate = match higher_order(scene) {
+        Some(_) => 0.0, // the filter's
+        None => scene.transfer.pic_rate.unwrap_or(0.0),
+    };
+    Flip { share, pic_rate }
+}
+
+/// Order and rate of a filter that turns velocities into those of XPIC; PIC itself is FLIP's affair.
+fn higher_order(scene: &Scene) -> Option<(usize, f64)> {
+    let order = scene.transfer.pic_order.filter(|&order| order > 1);
+    order.zip(scene.transfer.pic_rate)
 }
 
 impl<const D: usize> Grid<D> {
@@ -190,6 +197,9 @@ fn with_transfer<const D: usize, B: SecondMoments<D> + 'static, T: Transfer<D> +
     let medium = Continuum { law: parts.laws };
     let mut mpm = Mpm::new(parts.particles, basis, transfer, medium, parts.loads).with_boundary(parts.boundaries);
     mpm.volume_averaging = scene.volume_averaging;
+    if let Some((order, rate)) = higher_order(scene) {
+        mpm.velocity_filter = Some(VelocityFilter::new(order, rate).map_err(refused)?);
+    }
     mpm.stress_update = match scene.time.stress_update {
         StressUpdateName::First => StressUpdate::First,
         StressUpdateName::Last => StressUpdate::Last,

@@ -6,7 +6,7 @@ use super::body::Body;
 use super::checkpoint::{self, Place, Saved};
 use super::probe::Probe;
 use super::{Observer, Outcome, Progress, SimulationError, Summary, measure, snapshot};
-use crate::output::{SeriesFile, names, vtu, write_index, write_validation, write_whole};
+use crate::output::{SeriesFile, names, remove_file, remove_frames, vtu, write_index, write_validation, write_whole};
 use crate::{Scene, reference};
 
 /// A run on its way.
@@ -39,7 +39,7 @@ impl<'a, const D: usize> Driver<'a, D> {
         }
         let series = match &saved {
             None => {
-                forget_validation(out)?;
+                forget_earlier(out)?;
                 SeriesFile::create(out, columns)?
             }
             Some(saved) => SeriesFile::resume(out, columns, saved.rows)?,
@@ -138,13 +138,10 @@ impl<'a, const D: usize> Driver<'a, D> {
     }
 }
 
-/// Removes the comparison of an earlier run of the directory, which is not this one's.
-fn forget_validation(out: &Path) -> Result<(), SimulationError> {
-    let path = out.join(names::VALIDATION);
-    match std::fs::remove_file(&path) {
-        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(SimulationError::file(&path, error)),
-        _ => Ok(()),
-    }
+/// Removes what an earlier run of the directory has left and this one may not replace: frames beyond its last one, and a comparison.
+fn forget_earlier(out: &Path) -> Result<(), SimulationError> {
+    remove_frames(out)?;
+    remove_file(&out.join(names::VALIDATION))
 }
 
 /// What the run depends on.

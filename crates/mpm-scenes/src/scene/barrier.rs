@@ -1,6 +1,6 @@
 //! `[barrier]`.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::ShapeTable;
 
@@ -26,7 +26,7 @@ pub struct BarrierTable {
 }
 
 /// `barrier.against`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum BarrierAgainst {
     /// All that is outside the mesh: its boundary is a wall.

@@ -1,6 +1,6 @@
 //! `[[walls]]`, `[[obstacles]]`, `[[held]]` and `[[kinematic]]`.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::ShapeTable;
 
@@ -27,7 +27,7 @@ pub struct WallTable {
 }
 
 /// An axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum AxisName {
     /// The first.

@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// `[mesh]`: a mesh of segments, triangles or tetrahedra as the background, in place of `[grid]` (UMLS-MPM).
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MeshTable {
     /// A file of Gmsh (`.msh`), relative to the directory of the scene.
@@ -27,7 +27,7 @@ fn yes() -> bool {
 }
 
 /// A turn about a point, in the plane.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RotationTable {
     /// The point that stays.
@@ -38,7 +38,7 @@ pub struct RotationTable {
 
 /// `mesh.generate`: `{ kind = "rectangle", lower = [0.0, 0.0], upper = [1.0, 1.0], size = 0.1 }`. `size` is the length that edges
 /// should have.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum MeshShapeTable {
     /// An interval, D = 1.

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::Scene;
-use crate::{SceneError, SceneFault};
+use crate::{SceneError, SceneFault, document};
 
 impl Scene {
     /// Reads and checks a scene.
@@ -27,7 +27,7 @@ impl Scene {
     /// # Errors
     /// As [`read`](Self::read).
     pub fn parse(text: &str, file: &Path) -> Result<Self, SceneError> {
-        let scene = toml::from_str(text).map_err(|error| syntax(text, &error));
+        let scene = document::parse(text, file).map_err(SceneFault::from);
         let checked = scene.and_then(|mut scene: Self| {
             scene.file = file.to_owned();
             scene.text = text.to_owned();
@@ -46,33 +46,5 @@ impl Scene {
             file: self.file.clone(),
             fault: Box::new(fault),
         }
-    }
-}
-
-/// The parser's error with the line and the field that it stands at.
-fn syntax(text: &str, error: &toml::de::Error) -> SceneFault {
-    let before = error.span().and_then(|span| text.get(..span.start)).unwrap_or("");
-    let line = before.lines().count().max(1) + usize::from(before.ends_with('\n'));
-    SceneFault::Syntax {
-        line,
-        field: field_at(text, line),
-        message: error.message().to_owned(),
-    }
-}
-
-/// The key in a line with the table it stands in.
-fn field_at(text: &str, line: usize) -> String {
-    let header = |line: &str| {
-        let name = line.trim().strip_prefix('[')?;
-        let name = name.trim_start_matches('[').split(']').next()?;
-        Some(name.trim().to_owned())
-    };
-    let table = text.lines().take(line).filter_map(header).last().unwrap_or_default();
-    let own = text.lines().nth(line - 1).filter(|line| header(line).is_none());
-    let key = own.and_then(|line| Some(line.split_once('=')?.0.trim())).unwrap_or("");
-    match (table.is_empty(), key.is_empty()) {
-        (true, _) => key.to_owned(),
-        (false, true) => table,
-        (false, false) => format!("{table}.{key}"),
     }
 }

@@ -1,9 +1,9 @@
 //! Shapes as the document says them.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// A shape: `{ kind = "sphere", centre = [0.5, 0.5], radius = 0.2 }`.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum ShapeTable {
     /// All points between two corners; in one dimension an interval.

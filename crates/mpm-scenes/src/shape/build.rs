@@ -25,7 +25,7 @@ pub fn build<const D: usize>(field: &str, table: &ShapeTable) -> Result<Box<dyn 
             if !(0..D).all(|a| lower[a] < upper[a]) {
                 return Err(SceneFault::value(
                     format!("{field}.upper"),
-                    upper,
+                    upper.as_slice(),
                     format!("above lower = {lower:?}"),
                 ));
             }

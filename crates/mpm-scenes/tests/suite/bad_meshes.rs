@@ -19,18 +19,22 @@ fn errors_name_the_field_and_the_value() {
         (
             &format!("[mesh]\n{generate}"),
             "",
-            &["grid = (): must be given unless there is a [mesh]"],
+            &["grid is missing: must be given unless there is a [mesh]"],
         ),
         (
             &format!("[mesh]\n{generate}"),
             "[grid]\nspacing = 0.2",
-            &["domain = (): must be given with a [grid]"],
+            &["domain is missing: must be given with a [grid]"],
         ),
-        (generate, "", &["mesh.file = None: must be given unless generate is"]),
+        (
+            generate,
+            "",
+            &["mesh.file is missing: must be given unless generate is"],
+        ),
         (
             generate,
             &format!("file = \"a.msh\"\n{generate}"),
-            &["mesh.file = Some(\"a.msh\")", "not beside it"],
+            &["mesh.file = \"a.msh\"", "not beside it"],
         ),
         (
             generate,
@@ -42,7 +46,7 @@ fn errors_name_the_field_and_the_value() {
             "size = -0.2",
             &["mesh.generate.size = -0.2: must be positive"],
         ),
-        ("size = 0.2", "sizes = 0.2", &["mesh.generate", "unknown field `sizes`"]),
+        ("size = 0.2", "sizes = 0.2", &["of [mesh]", "unknown field `sizes`"]),
         (
             "size = 0.2",
             "size = 1e-9",
@@ -86,12 +90,15 @@ fn errors_name_the_field_and_the_value() {
         (
             "spacing = 0.05",
             "fill = \"random\"",
-            &["bodies.block.particles = None: must be at least 1"],
+            &["bodies.block.particles is missing: must be at least 1"],
         ),
         (
             "shape = { kind = \"box\", lower = [0.3, 0.3], upper = [0.6, 0.6] }",
             "fill = \"vertices\"\nshape = { kind = \"capsule\", start = [0.3, 0.3], end = [0.6, 0.6], radius = 0.1 }",
-            &["bodies.block.shape = Capsule", "a box, a sphere or a polygon"],
+            &[
+                "bodies.block.shape = { kind = \"capsule\"",
+                "a box, a sphere or a polygon",
+            ],
         ),
         (
             "spacing = 0.05",
@@ -106,7 +113,7 @@ fn errors_name_the_field_and_the_value() {
         (
             "axis = \"x\"\nside = \"lower\"",
             "axis = \"x\"",
-            &["walls[0].axis = Some(X): must be given with a side"],
+            &["walls[0].axis = \"x\": must be given with a side"],
         ),
         (
             "axis = \"x\"\nside = \"lower\"",
@@ -123,14 +130,19 @@ fn errors_name_the_field_and_the_value() {
             "",
             &["barrier.shapes = []: must be at least one shape"],
         ),
-        ("against = \"mesh\"", "against = \"grid\"", &["barrier.against", "grid"]),
+        (
+            "against = \"mesh\"",
+            "against = \"grid\"",
+            &["unknown variant `grid`", "of [barrier]"],
+        ),
     ];
     for (from, to, expected) in cases {
         let message = refusal(RUBBER_ON_MESH, "no/such/mesh.toml", from, to);
         for part in *expected {
             assert!(message.contains(part), "{to}: {message}\nlacks {part}");
         }
-        assert!(message.starts_with("no/such/mesh.toml: "), "{message}");
+        let after = message.strip_prefix("no/such/mesh.toml");
+        assert!(after.is_some_and(|rest| rest.starts_with([':', ','])), "{message}");
     }
 }
 
@@ -141,7 +153,7 @@ fn a_barrier_against_the_mesh_needs_one() {
         .expect_err("a grid")
         .to_string();
     assert!(
-        message.contains("barrier.against = Mesh: must be left out"),
+        message.contains("barrier.against = \"mesh\": must be left out"),
         "{message}"
     );
 }

@@ -56,6 +56,24 @@ fn a_stopped_run_ends_with_the_files_of_one_that_was_not() {
 }
 
 #[test]
+fn a_run_anew_leaves_nothing_of_a_longer_one() {
+    let (long, short) = (scene(BLOCK), scene(&BLOCK.replace("end = 0.2", "end = 0.1")));
+    let (used, fresh) = (
+        tempfile::tempdir().expect("a directory"),
+        tempfile::tempdir().expect("a directory"),
+    );
+    simulate(&long, used.path(), &mut ()).expect("runs");
+    std::fs::remove_file(used.path().join("checkpoint.cbor")).expect("there");
+    let own = used.path().join("notes.txt");
+    std::fs::write(&own, "mine").expect("writable");
+    simulate(&short, used.path(), &mut ()).expect("runs");
+    simulate(&short, fresh.path(), &mut ()).expect("runs");
+    assert_eq!(std::fs::read(&own).expect("still there"), b"mine");
+    std::fs::remove_file(own).expect("there");
+    assert!(files(used.path()).keys().eq(files(fresh.path()).keys()));
+}
+
+#[test]
 fn a_run_that_was_killed_goes_on_from_its_last_checkpoint() {
     let scene = scene(BLOCK);
     let (whole, killed) = (

@@ -21,13 +21,33 @@ pub fn draw(directory: &Path, title: &str) -> Result<(), CommandError> {
         return Ok(());
     }
     let series = read_series(directory)?;
-    for (name, panels) in groups(&series) {
+    let groups = groups(&series);
+    remove_others(directory, &groups)?;
+    for (name, panels) in groups {
         let plot = TracePlot {
             title: format!("{title}: {}", name.replace('_', " ")),
             x_label: "time".to_owned(),
             panels: panels.iter().filter_map(|panel| drawn(&series, panel)).collect(),
         };
-        AtomicFile::write(directory.join(format!("series_{name}.svg")), trace(&plot)?)?;
+        AtomicFile::write(directory.join(file_name(&name)), trace(&plot)?)?;
+    }
+    Ok(())
+}
+
+fn file_name(group: &str) -> String {
+    format!("series_{group}.svg")
+}
+
+/// Removes figures of probes that an earlier run had and this one has not.
+fn remove_others(directory: &Path, groups: &[(String, Vec<Panel>)]) -> Result<(), CommandError> {
+    let refused = |source| CommandError::file("read", directory, source);
+    for entry in std::fs::read_dir(directory).map_err(refused)? {
+        let entry = entry.map_err(refused)?;
+        let name = entry.file_name().to_string_lossy().into_owned();
+        let of_probe = name.starts_with("series_probe_") && name.ends_with(".svg");
+        if of_probe && !groups.iter().any(|(group, _)| file_name(group) == name) {
+            std::fs::remove_file(entry.path()).map_err(|source| CommandError::file("remove", entry.path(), source))?;
+        }
     }
     Ok(())
 }
@@ -126,7 +146,10 @@ mod tests {
         let rows = ["0.0,0,1,2,3,4,5,6,7,8,9", "1.0,1,2,3,4,5,6,7,8,9,10"];
         let text = format!("{}\n{}\n", columns.join(","), rows.join("\n"));
         std::fs::write(directory.path().join("series.csv"), text).unwrap();
+        let earlier = directory.path().join("series_probe_head.svg");
+        std::fs::write(&earlier, "").unwrap();
         draw(directory.path(), "bar").unwrap();
+        assert!(!earlier.exists());
         for name in ["centre_of_mass", "energies", "momenta", "extent", "probe_tip"] {
             let figure = std::fs::read_to_string(directory.path().join(format!("series_{name}.svg"))).unwrap();
             assert!(figure.contains("bar: ") && figure.contains("</svg>"), "{name}");

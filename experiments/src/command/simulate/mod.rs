@@ -8,6 +8,7 @@ use std::time::Instant;
 use clap::Args;
 use mpm_scenes::{Outcome, Scene, Summary, ValidationRow};
 
+use super::file_kind::FileKind;
 use crate::progress::SimulationProgress;
 use crate::{CommandError, console, interrupt};
 
@@ -24,6 +25,7 @@ pub struct Arguments {
 
 /// Runs the scene, draws its series and says what came out.
 pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
+    FileKind::Scene.check(&arguments.scene)?;
     let scene = Scene::read(&arguments.scene)?;
     interrupt::listen();
     let mut progress = SimulationProgress::new(scene.time.end);

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use mpm_scenes::document::{self, DocumentError};
 use mpm_scenes::{Scene, SceneError, SceneFault};
 use toml::{Table, Value};
 
@@ -46,8 +47,8 @@ impl SceneFiles {
             let path = directory.join(&name);
             let refuse = |message: String| family.refuse("scene", format!("{}: {message}", path.display()));
             let text = std::fs::read_to_string(&path).map_err(|error| refuse(error.to_string()))?;
-            let table = text.parse::<Table>();
-            let table = table.map_err(|error| refuse(error.message().trim().replace('\n', ", ")))?;
+            let table = document::parse::<Table>(&text, &path);
+            let table = table.map_err(|error| family.refuse("scene", error.to_string()))?;
             files.tables.insert(name, table);
         }
         Ok(files)
@@ -93,7 +94,10 @@ impl SceneFiles {
 pub fn refusal_text(error: SceneError) -> String {
     let file = error.file.display();
     match *error.fault {
-        SceneFault::Syntax { field, message, .. } => format!("{file}: {field}: {}", message.replace('\n', ", ")),
+        SceneFault::Syntax(DocumentError { place, message, .. }) => match place.map(|place| place.field()) {
+            Some(field) => format!("{file}: {field}: {message}"),
+            None => format!("{file}: {message}"),
+        },
         fault => format!("{file}: {fault}"),
     }
 }

@@ -62,14 +62,14 @@ impl Scene {
 }
 
 /// A value that belongs to one condition: there with it, left out without it.
-fn check_presence<T: std::fmt::Debug>(
+fn check_presence<T: serde::Serialize>(
     field: String,
     value: Option<&T>,
     wanted: bool,
     condition: &str,
 ) -> Result<(), SceneFault> {
     match (value, wanted) {
-        (None, true) => Err(SceneFault::value(field, (), format!("given with {condition}"))),
+        (None, true) => Err(SceneFault::missing(field, format!("given with {condition}"))),
         (Some(value), false) => Err(SceneFault::value(field, value, format!("left out unless {condition}"))),
         _ => Ok(()),
     }

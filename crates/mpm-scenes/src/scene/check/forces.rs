@@ -64,9 +64,8 @@ impl Scene {
         not_negative("barrier.friction", barrier.friction)?;
         match barrier.friction_speed {
             Some(speed) => positive("barrier.friction_speed", speed).map(|_| ()),
-            None if barrier.friction > 0.0 => Err(SceneFault::value(
+            None if barrier.friction > 0.0 => Err(SceneFault::missing(
                 "barrier.friction_speed",
-                (),
                 "given where there is friction",
             )),
             None => Ok(()),

@@ -13,7 +13,7 @@ impl Scene {
         match (&self.grid, &self.mesh) {
             (Some(grid), None) => Ok(Discretisation::Grid(grid)),
             (None, Some(mesh)) => Ok(Discretisation::Mesh(mesh)),
-            (None, None) => Err(SceneFault::value("grid", (), "given unless there is a [mesh]")),
+            (None, None) => Err(SceneFault::missing("grid", "given unless there is a [mesh]")),
             (Some(_), Some(mesh)) => Err(SceneFault::value("mesh", mesh, "left out where there is a [grid]")),
         }
     }
@@ -21,14 +21,14 @@ impl Scene {
     pub(super) fn check_discretisation<const D: usize>(&self) -> Result<(), SceneFault> {
         match (self.discretisation()?, &self.domain) {
             (Discretisation::Grid(_), None) => {
-                return Err(SceneFault::value("domain", (), "given with a [grid]"));
+                return Err(SceneFault::missing("domain", "given with a [grid]"));
             }
             (_, Some(domain)) => {
                 let lower = vector::<D>("domain.lower", &domain.lower)?;
                 let upper = vector::<D>("domain.upper", &domain.upper)?;
                 if !(0..D).all(|a| lower[a] < upper[a]) {
                     let expected = format!("above domain.lower = {lower:?}");
-                    return Err(SceneFault::value("domain.upper", upper, expected));
+                    return Err(SceneFault::value("domain.upper", &domain.upper, expected));
                 }
             }
             (Discretisation::Mesh(_), None) => {}

@@ -60,6 +60,19 @@ impl Scene {
         if let Some(rate) = table.pic_rate {
             not_negative("transfer.pic_rate", rate)?;
         }
+        if let Some(order) = table.pic_order {
+            let field = "transfer.pic_order";
+            if order == 0 {
+                return Err(SceneFault::value(field, order, "at least 1"));
+            }
+            if table.pic_rate.is_none() {
+                return Err(SceneFault::value(
+                    field,
+                    order,
+                    "left out unless transfer.pic_rate is given",
+                ));
+            }
+        }
         let affine = matches!(
             table.kind,
             TransferKind::Apic | TransferKind::Mls | TransferKind::AffineFlip

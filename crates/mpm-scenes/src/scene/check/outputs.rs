@@ -44,16 +44,9 @@ impl Scene {
             }
             self.check_body_name(field("body"), probe.body.as_ref())?;
         }
-        if let Some(validation) = &self.validation
-            && !reference::REFERENCES.contains(&validation.reference.as_str())
-        {
-            let expected = format!("one of {:?}", reference::REFERENCES);
-            return Err(SceneFault::value(
-                "validation.reference",
-                &validation.reference,
-                expected,
-            ));
+        match &self.validation {
+            Some(validation) => reference::check(&validation.reference, self),
+            None => Ok(()),
         }
-        Ok(())
     }
 }

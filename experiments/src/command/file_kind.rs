@@ -1,0 +1,89 @@
+//! Which command a file is for.
+
+use std::path::Path;
+
+use toml::Table;
+
+use crate::CommandError;
+
+/// The files that the command reads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FileKind {
+    /// Of `parvi run`.
+    Study,
+    /// Of `parvi simulate`.
+    Scene,
+    /// Of `parvi rom`.
+    Experiment,
+}
+
+impl FileKind {
+    /// Refuses a file that is clearly one of another command. What cannot be read or told is left to the reader that asks.
+    ///
+    /// # Errors
+    /// [`CommandError::OtherKind`].
+    pub fn check(self, file: &Path) -> Result<(), CommandError> {
+        match std::fs::read_to_string(file).ok().and_then(|text| Self::of(&text)) {
+            Some(found) if found != self => Err(CommandError::OtherKind {
+                file: file.display().to_string(),
+                found: found.in_words(),
+                command: found.command(),
+                expected: self.in_words(),
+            }),
+            _ => Ok(()),
+        }
+    }
+
+    /// By the keys that one kind has to have and the others do not know.
+    fn of(text: &str) -> Option<Self> {
+        let table = text.parse::<Table>().ok()?;
+        let has = |key| table.contains_key(key);
+        match () {
+            () if has("kind") => Some(Self::Study),
+            () if has("scene") && (has("cases") || has("parameters")) => Some(Self::Experiment),
+            () if has("bodies") && !has("families") => Some(Self::Scene),
+            () => None,
+        }
+    }
+
+    fn in_words(self) -> &'static str {
+        match self {
+            Self::Study => "the configuration of a study",
+            Self::Scene => "a scene",
+            Self::Experiment => "the configuration of a reduced-order model",
+        }
+    }
+
+    fn command(self) -> &'static str {
+        match self {
+            Self::Study => "parvi run",
+            Self::Scene => "parvi simulate",
+            Self::Experiment => "parvi rom train|run",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_committed_file_is_known() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+        for (directory, kind) in [
+            ("configs", FileKind::Study),
+            ("scenes", FileKind::Scene),
+            ("rom", FileKind::Experiment),
+        ] {
+            for entry in std::fs::read_dir(root.join(directory)).unwrap() {
+                let path = entry.unwrap().path();
+                if path.extension().is_some_and(|extension| extension == "toml") {
+                    let text = std::fs::read_to_string(&path).unwrap();
+                    assert_eq!(FileKind::of(&text), Some(kind), "{}", path.display());
+                }
+            }
+        }
+        assert_eq!(FileKind::of("title = 3"), None);
+        assert_eq!(FileKind::of("kind = "), None);
+    }
+}
