@@ -107,7 +107,7 @@ impl<const D: usize> SimplexLattice<D> {
                 let count = table.number();
                 let numbers = table.numbers();
                 for_each_part(parts, stencils, D + 1, |stencils| {
-                    number_stencils(stencils, D + 1, numbers)
+                    number_stencils::<D>(stencils, numbers)
                 });
                 count
             }
@@ -194,13 +194,13 @@ fn for_each_part(
 }
 
 /// Replace places by node numbers. Both grow together, and along a stencil: its ends tell the range.
-fn number_stencils(stencils: &mut [u32], size: usize, numbers: &[u32]) -> Range<usize> {
+fn number_stencils<const D: usize>(stencils: &mut [u32], numbers: &[u32]) -> Range<usize> {
     let (mut low, mut high) = (u32::MAX, 0);
-    for stencil in stencils.chunks_exact_mut(size) {
+    for stencil in stencils.chunks_exact_mut(D + 1) {
         for node in stencil.iter_mut() {
             *node = numbers[*node as usize];
         }
-        (low, high) = (low.min(stencil[0]), high.max(stencil[size - 1]));
+        (low, high) = (low.min(stencil[0]), high.max(stencil[D]));
     }
     low as usize..high as usize + 1
 }
