@@ -264,9 +264,6 @@ impl Experiment {
             if self.run.manifold.contains(&ManifoldName::Linear) {
                 return refuse("run.manifold".to_owned(), need("linear"));
             }
-            if let Some(choice) = self.run.choice.iter().find(|choice| choice.needs_training()) {
-                return refuse("run.choice".to_owned(), need(choice.name()));
-            }
         }
         self.trainings()?;
         // The values themselves show whether all keys make sense.

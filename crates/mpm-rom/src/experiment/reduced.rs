@@ -55,6 +55,7 @@ pub fn run<const D: usize>(
     };
     let mut chosen = Chosen::default();
     if let Some(snapshots) = training.as_ref().filter(|_| chooses_on_training(experiment)) {
+        let document = SceneDocument::read(&experiment.scene_file())?;
         for (name, network) in maps(experiment, models.len()) {
             let model = &models[network].1;
             let sampling = Sampling {

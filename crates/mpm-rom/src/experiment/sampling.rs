@@ -9,7 +9,7 @@ use super::{ChoiceName, Experiment, ExperimentError, ManifoldName, SampleCount};
 use crate::full_order::{FullOrderError, SceneDocument};
 use crate::manifold::Manifold;
 use crate::model::Model;
-use crate::online::{OnlineError, Reading, ReducedBody, SampleChoice, choose_cubature, choose_greedily};
+use crate::online::{KnownPoints, OnlineError, Reading, ReducedBody, SampleChoice, choose_cubature, choose_greedily};
 use crate::snapshots::{Run, Snapshots};
 
 /// Distances of the states around each frame, over the root mean square of the points' distance from the centroid. Without such states a choice knows only errors on the way, and not
@@ -29,6 +29,7 @@ const MOST_TRIED: usize = 24;
 /// Training runs and what is needed to step from their frames.
 pub(super) struct Sampling<'a, const D: usize> {
     pub experiment: &'a Experiment,
+    /// The scene that is trained on.
     pub document: &'a SceneDocument,
     pub model: &'a Model<D>,
     /// Its number among those of the experiment.
@@ -47,8 +48,14 @@ pub(super) struct Chosen<const D: usize>(Vec<Best<D>>);
 struct Best<const D: usize> {
     of: Of,
     error: f64,
-    readings: Rc<Vec<Reading<D>>>,
+    readings: Rc<Readings<D>>,
     made: Made,
+}
+
+/// Steps from states of training runs, and where the points that they are read at are at rest.
+pub(super) struct Readings<const D: usize> {
+    pub positions: Vec<[f64; D]>,
+    pub steps: Vec<Reading<D>>,
 }
 
 /// Points that were chosen on some readings, with the members of the scene's kinematic regions.
@@ -68,7 +75,7 @@ impl<const D: usize> Chosen<D> {
 impl Made {
     fn points<const D: usize>(
         &mut self,
-        readings: &[Reading<D>],
+        readings: &Readings<D>,
         coordinates: usize,
         (choice, count): (ChoiceName, usize),
         body: &ReducedBody<D>,
@@ -78,12 +85,13 @@ impl Made {
         if let Some((_, points)) = self.0.iter().find(|made| made.0 == regions) {
             return Ok(points.clone());
         }
-        let (kinematics, all) = (&body.kinematics, body.reference.len());
+        let (kinematics, steps) = (&body.kinematics, &readings.steps);
+        let known = KnownPoints::nearest(&body.reference, &readings.positions);
         let points = match choice {
             ChoiceName::Cubature => {
-                SampleChoice::Weighted(choose_cubature(readings, coordinates, kinematics, all, count)?)
+                SampleChoice::Weighted(choose_cubature(steps, coordinates, kinematics, &known, count)?)
             }
-            _ => SampleChoice::Given(choose_greedily(readings, coordinates, kinematics, all, count)?),
+            _ => SampleChoice::Given(choose_greedily(steps, coordinates, kinematics, &known, count)?),
         };
         self.0.push((regions, points.clone()));
         Ok(points)
@@ -123,11 +131,7 @@ impl<const D: usize> Sampling<'_, D> {
         manifold: &dyn Manifold<D>,
         into: &mut Chosen<D>,
     ) -> Result<(), ExperimentError> {
-        let mut readings = Vec::new();
-        for distance in CUBATURE_DISTANCES {
-            readings.extend(self.all_readings(name, manifold, distance)?);
-        }
-        let readings = Rc::new(readings);
+        let readings = Rc::new(self.readings(name, manifold, &CUBATURE_DISTANCES)?);
         into.0.extend(self.counts().map(|count| Best {
             of: (name, self.network, ChoiceName::Cubature, count),
             error: f64::INFINITY,
@@ -156,7 +160,7 @@ impl<const D: usize> Sampling<'_, D> {
                 }
                 let readings = match &readings {
                     Some(readings) => readings,
-                    None => readings.insert(Rc::new(self.all_readings(name, manifold, distance)?)),
+                    None => readings.insert(Rc::new(self.readings(name, manifold, &[distance])?)),
                 };
                 let least = known.map_or(f64::INFINITY, |known| best[known].error);
                 let error = match count {
@@ -186,7 +190,7 @@ impl<const D: usize> Sampling<'_, D> {
         &self,
         name: ManifoldName,
         manifold: &dyn Manifold<D>,
-        readings: &[Reading<D>],
+        readings: &Readings<D>,
         count: usize,
         least: f64,
     ) -> Result<f64, ExperimentError> {
@@ -216,7 +220,7 @@ impl<const D: usize> Sampling<'_, D> {
                 finer: None,
             };
             let body = ReducedBody::of(&self.scene(case)?)?;
-            let guess = self.guess(name, &body.reference)?;
+            let guess = self.guess(name, self.snapshots.reference())?;
             let options = run.options(
                 &choice,
                 made.points(readings, manifold.coordinates(), (ChoiceName::Greedy, count), &body)?,

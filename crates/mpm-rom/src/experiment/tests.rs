@@ -123,8 +123,8 @@ fn what_is_wrong_is_named_with_its_file_and_field() {
             "rom.toml, run.manifold: \"linear\" needs all points of the training: leave out recorded_points",
         ),
         (
-            ("manifold = [\"network\", \"linear\"]", "scene = \"fine.toml\""),
-            "rom.toml, run.choice: \"greedy\" needs all points of the training: leave out run.scene",
+            ("manifold = [\"network\",", "scene = \"fine.toml\", manifold = ["),
+            "rom.toml, run.manifold: \"linear\" needs all points of the training: leave out run.scene",
         ),
         (
             ("manifold = [\"network\", \"linear\"]", "step_factor = []"),
@@ -270,13 +270,13 @@ fn a_model_of_a_part_of_the_points_runs_a_finer_scene() {
     std::fs::write(directory.path().join("fine.toml"), fine).expect("written");
     let text = EXPERIMENT.replace("cases = {", "recorded_points = 50\ncases = {").replace(
         "manifold = [\"network\", \"linear\"], samples = [20, \"all\"], quadrature = [\"lagrangian\"]",
-        "scene = \"fine.toml\", samples = [40], choice = [\"drawn\"], step_factor = [1, 4], quadrature = [\"eulerian\", \"lagrangian\"]",
+        "scene = \"fine.toml\", samples = [20], choice = [\"drawn\", \"greedy\", \"cubature\"], step_factor = [1, 4], quadrature = [\"eulerian\", \"lagrangian\"]",
     );
     let experiment = Experiment::parse(&text, &file).expect("sound");
     let out = directory.path().join("out");
     assert_eq!(train_one(&experiment, &out).points, 50);
     let rows = run::<2>(&experiment, &out, &mut |_, _| true).expect("run");
-    assert_eq!(rows.len(), 8);
+    assert_eq!(rows.len(), 24);
     for row in &rows {
         assert_eq!((row.outcome.as_str(), row.reconstruction_error), ("finished", None));
         assert_eq!(row.steps * row.step_factor, 80, "of the fine scene");

@@ -2,13 +2,14 @@
 
 use mpm_tensor::vector;
 
-use super::sampling::{Sampling, evenly};
+use super::sampling::{Readings, Sampling, evenly};
 use super::{ExperimentError, ManifoldName};
 use crate::deformation_map::DeformationMap;
 use crate::least_squares::{GaussNewton, LeastSquares, Settings};
 use crate::manifold::{Evaluation, Manifold, Wanted};
 use crate::online::{
-    Inverted, Options, Quadrature, Reading, ReducedBody, ReducedModel, SampleChoice, SampleWeights, Search, Update,
+    Inverted, KnownPoints, Options, Quadrature, Reading, ReducedBody, ReducedModel, SampleChoice, SampleWeights,
+    Search, Update,
 };
 use crate::snapshots::Frame;
 
@@ -17,33 +18,41 @@ const RUNS: usize = 8;
 const FRAMES: usize = 6;
 
 impl<const D: usize> Sampling<'_, D> {
-    /// Steps from frames of several training runs.
-    pub(super) fn all_readings(
+    /// Steps from frames of several training runs and from states around them at these distances.
+    pub(super) fn readings(
         &self,
         name: ManifoldName,
         manifold: &dyn Manifold<D>,
-        distance: f64,
-    ) -> Result<Vec<Reading<D>>, ExperimentError> {
-        let runs = evenly(self.snapshots.runs().len(), RUNS).into_iter();
-        let read = runs.map(|run| self.readings(name, manifold, run, distance));
-        Ok(read.collect::<Result<Vec<_>, _>>()?.concat())
+        distances: &[f64],
+    ) -> Result<Readings<D>, ExperimentError> {
+        let mut steps = Vec::new();
+        for distance in distances {
+            for run in evenly(self.snapshots.runs().len(), RUNS) {
+                steps.extend(self.steps(name, manifold, run, *distance)?);
+            }
+        }
+        Ok(Readings {
+            positions: self.snapshots.reference().to_vec(),
+            steps,
+        })
     }
 
-    /// Steps from some frames of a run and from states around them, read at all points. States from which there is no step, because the map is inverted there for example, are left out.
-    fn readings(
+    /// Steps from some frames of a run and from states around them, read at all recorded points. States from which there is no step, because the map is inverted there for example, are left out.
+    fn steps(
         &self,
         name: ManifoldName,
         manifold: &dyn Manifold<D>,
         run: usize,
         distance: f64,
     ) -> Result<Vec<Reading<D>>, ExperimentError> {
-        let body = ReducedBody::<D>::of(&self.scene(run)?)?;
-        let squares: f64 = body.reference.iter().map(vector::norm_squared).sum();
-        let distance = distance * (squares / body.reference.len().max(1) as f64).sqrt();
-        let guess = self.guess(name, &body.reference)?;
-        let map = DeformationMap::new(manifold, &body.reference, &guess)?;
+        let (body, recorded) = (ReducedBody::<D>::of(&self.scene(run)?)?, self.snapshots.reference());
+        let squares: f64 = recorded.iter().map(vector::norm_squared).sum();
+        let distance = distance * (squares / recorded.len().max(1) as f64).sqrt();
+        let guess = self.guess(name, recorded)?;
+        let map = DeformationMap::new(manifold, recorded, &guess)?;
+        let known = KnownPoints::nearest(&body.reference, recorded);
         let options = Options {
-            samples: SampleChoice::All,
+            samples: SampleChoice::Given(known.numbers().to_vec()),
             weights: SampleWeights::Equal,
             quadrature: Quadrature::Lagrangian { search: Search::All },
             update: Update::VelocityOnly,

@@ -8,7 +8,7 @@ use mpm_tensor::vector;
 use super::greedy::UNFORESEEN;
 use super::samples::{ON_EACH_REGION, groups};
 use super::scaled_reading::ScaledReading;
-use super::{OnlineError, Reading};
+use super::{KnownPoints, OnlineError, Reading};
 use crate::least_squares::NonNegative;
 
 /// Points of each group that are looked at, at most: storage and work grow with the square of their number.
@@ -19,7 +19,7 @@ const AT_A_TIME: usize = 16;
 
 /// At most `count` sample points with weights ω_p, ascending: an empirical cubature (J. A. Hernández, M. A. Caicedo, A. Ferrer 2017, doi 10.1016/j.cma.2016.10.022) of the sums that make v̂.
 ///
-/// A [`Reading`] has the velocities v_p of all N points after a step from the state s, and J_p = ∂g/∂x̂(X_p, x̂). With e_p = v_p − J_p v̂, v̂ that of all points together, Σ_p J_pᵀ e_p = 0. Sample points with weights
+/// A [`Reading`] has the velocities v_p of all N points that readings know after a step from the state s, and J_p = ∂g/∂x̂(X_p, x̂). With e_p = v_p − J_p v̂, v̂ that of all points together, Σ_p J_pᵀ e_p = 0. Sample points with weights
 /// make the same v̂ where Σ_{p ∈ 𝒫} ω_p J_pᵀ e_p = 0, too. The weights are those that make
 ///
 /// Σ_s |Σ_p ω_p J_pᵀ e_p|² / e² + β |Σ_p ω_p J_pᵀ J_p − N I|² + σ² Σ_p ω_p² |J_p|²
@@ -30,6 +30,7 @@ const AT_A_TIME: usize = 16;
 /// where no further one lowers the sum.
 ///
 /// 𝒫 has five points or more of each kinematic region, as with [`SampleChoice::Drawn`](super::SampleChoice::Drawn); those without use have the weight 0.
+/// Points that readings do not know are only among them where a region has too few others.
 ///
 /// # Errors
 /// [`OnlineError::TooFewSamples`], [`OnlineError::TooManySamples`].
@@ -37,14 +38,14 @@ pub fn choose_cubature<const D: usize>(
     readings: &[Reading<D>],
     coordinates: usize,
     kinematics: &Kinematics<D>,
-    points: usize,
+    known: &KnownPoints,
     count: usize,
 ) -> Result<Vec<(u32, f64)>, OnlineError> {
-    let groups = groups(kinematics, points, coordinates, count)?;
-    let mut candidates: Vec<u32> = groups.iter().flat_map(|(members, _)| thinned(members)).collect();
+    let groups = groups(kinematics, known.points_of_body(), coordinates, count)?;
+    let mut candidates: Vec<u32> = groups.iter().flat_map(|(members, _)| thinned(known, members)).collect();
     candidates.sort_unstable();
     candidates.dedup();
-    let mut problem = problem(readings, coordinates, points, &candidates, count);
+    let mut problem = problem(readings, coordinates, known, &candidates, count);
     // Points leave, too; the sum falls every time, and an end is set only against rounding.
     for _ in 0..10 * count {
         let chosen = numbers(&problem, &candidates);
@@ -66,8 +67,13 @@ fn numbers(problem: &NonNegative, candidates: &[u32]) -> Vec<u32> {
     problem.positive().iter().map(|&k| candidates[k]).collect()
 }
 
-/// At most `MOST_CANDIDATES` of these points, evenly spaced in their list.
-fn thinned(members: &[u32]) -> Vec<u32> {
+/// At most `MOST_CANDIDATES` of these points, evenly spaced in the list of those that readings know.
+fn thinned(known: &KnownPoints, members: &[u32]) -> Vec<u32> {
+    let members: Vec<u32> = members
+        .iter()
+        .copied()
+        .filter(|&point| known.place(point).is_some())
+        .collect();
     let count = members.len().min(MOST_CANDIDATES);
     (0..count).map(|k| members[k * members.len() / count]).collect()
 }
@@ -88,11 +94,13 @@ fn unused<const D: usize>(kinematics: &Kinematics<D>, chosen: &[u32]) -> Vec<u32
 fn problem<const D: usize>(
     readings: &[Reading<D>],
     r: usize,
-    points: usize,
+    known: &KnownPoints,
     candidates: &[u32],
     count: usize,
 ) -> NonNegative {
+    let points = known.numbers().len();
     let scaled = ScaledReading::all(r, points, readings);
+    let places: Vec<usize> = candidates.iter().filter_map(|&point| known.place(point)).collect();
     let balance = (D * r) as f64 / count as f64;
     let products = r * (r + 1) / 2;
     let mut matrix = Mat::<f64>::zeros(candidates.len(), candidates.len());
@@ -104,7 +112,7 @@ fn problem<const D: usize>(
             .enumerate()
             .map(|(s, reading)| (s * (r + products), reading))
         {
-            for (k, point) in candidates.iter().map(|&point| point as usize).enumerate() {
+            for (k, &point) in places.iter().enumerate() {
                 let columns = &reading.columns[point * r..(point + 1) * r];
                 let mut row = first + r;
                 for (i, column) in columns.iter().enumerate() {
@@ -177,7 +185,8 @@ mod tests {
             reading(POINTS, 3, 0.61),
             reading(POINTS, 3, 0.83),
         ];
-        let chosen = choose_cubature(&readings, 3, &Kinematics::default(), POINTS, 20).expect("enough");
+        let chosen =
+            choose_cubature(&readings, 3, &Kinematics::default(), &KnownPoints::all(POINTS), 20).expect("enough");
         assert!(
             chosen.len() <= 20 && chosen.windows(2).all(|pair| pair[0].0 < pair[1].0),
             "{chosen:?}"
@@ -202,7 +211,8 @@ mod tests {
     fn more_points_are_better_and_all_of_them_count_one_each() {
         let readings = [reading(POINTS, 3, 0.37), reading(POINTS, 3, 0.61)];
         let of = |count| {
-            let chosen = choose_cubature(&readings, 3, &Kinematics::default(), POINTS, count).expect("enough");
+            let chosen = choose_cubature(&readings, 3, &Kinematics::default(), &KnownPoints::all(POINTS), count)
+                .expect("enough");
             (sum(&readings, &chosen, 20), chosen)
         };
         let sums = [5, 10, 20, 40].map(|count| of(count).0);
@@ -214,10 +224,18 @@ mod tests {
 
     #[test]
     fn readings_of_another_body_or_none_leave_only_the_points_that_must_be() {
-        let chosen = choose_cubature::<2>(&[], 3, &Kinematics::default(), POINTS, 20).expect("enough");
+        let chosen =
+            choose_cubature::<2>(&[], 3, &Kinematics::default(), &KnownPoints::all(POINTS), 20).expect("enough");
         assert!(chosen.is_empty());
-        let chosen = choose_cubature(&[reading(40, 3, 0.4)], 3, &Kinematics::default(), POINTS, 20).expect("enough");
+        let chosen = choose_cubature(
+            &[reading(40, 3, 0.4)],
+            3,
+            &Kinematics::default(),
+            &KnownPoints::all(POINTS),
+            20,
+        )
+        .expect("enough");
         assert!(chosen.is_empty());
-        assert!(choose_cubature::<2>(&[], 3, &Kinematics::default(), POINTS, 1).is_err());
+        assert!(choose_cubature::<2>(&[], 3, &Kinematics::default(), &KnownPoints::all(POINTS), 1).is_err());
     }
 }

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use super::samples::groups;
 use super::scaled_reading::ScaledReading;
-use super::{OnlineError, Reading};
+use super::{KnownPoints, OnlineError, Reading};
 
 /// What every S_s begins with, times the identity: small against what a mean point adds to its trace, r.
 const START: f64 = 1e-6;
@@ -23,9 +23,10 @@ const EXCHANGES: usize = 4;
 const MOST_EXCHANGED: usize = 24;
 
 /// `count` sample points that stand for all points best, ascending: a greedy choice on readings of training states, as that of sample nodes in GNAT (K. Carlberg, C. Farhat, J. Cortial,
-/// D. Amsallem 2013, Algorithm 3), with five points or more on each kinematic region as [`SampleChoice::Drawn`](super::SampleChoice::Drawn) has.
+/// D. Amsallem 2013, Algorithm 3), with five points or more on each kinematic region as [`SampleChoice::Drawn`](super::SampleChoice::Drawn) has;
+/// points that readings do not know are taken only where a region has too few others.
 ///
-/// A [`Reading`] has the velocities v_p of all N points after a step from the state s, and J_p = ∂g/∂x̂(X_p, x̂). Of all points together they make v̂ = argmin Σ|J_p v̂ − v_p|², of those in 𝒫
+/// A [`Reading`] has the velocities v_p of all N points that readings know after a step from the state s, and J_p = ∂g/∂x̂(X_p, x̂). Of all points together they make v̂ = argmin Σ|J_p v̂ − v_p|², of those in 𝒫
 /// another rate, which differs by S_s⁻¹ b_s with S_s = Σ_{p ∈ 𝒫} J_pᵀ J_p, b_s = Σ_{p ∈ 𝒫} J_pᵀ e_p, e_p = v_p − J_p v̂. The points are those that make
 ///
 /// Σ_s |S_s⁻¹ b_s|² + σ² tr S_s⁻¹
@@ -40,11 +41,12 @@ pub fn choose_greedily<const D: usize>(
     readings: &[Reading<D>],
     coordinates: usize,
     kinematics: &Kinematics<D>,
-    points: usize,
+    known: &KnownPoints,
     count: usize,
 ) -> Result<Vec<u32>, OnlineError> {
+    let points = known.points_of_body();
     let groups = groups(kinematics, points, coordinates, count)?;
-    let mut design = Design::new(coordinates, points, readings);
+    let mut design = Design::new(coordinates, known, readings);
     let mut chosen: Vec<(u32, usize)> = Vec::with_capacity(count);
     let mut free = vec![true; points];
     for (number, (members, share)) in groups.iter().enumerate() {
@@ -52,7 +54,7 @@ pub fn choose_greedily<const D: usize>(
             let Some((point, _)) = design.best(members, &free) else {
                 break;
             };
-            design.change(point as usize, 1.0);
+            design.change(point, 1.0);
             free[point as usize] = false;
             chosen.push((point, number));
         }
@@ -62,7 +64,7 @@ pub fn choose_greedily<const D: usize>(
         let mut changed = false;
         for (point, number) in &mut chosen {
             let before = design.objective();
-            design.change(*point as usize, -1.0);
+            design.change(*point, -1.0);
             free[*point as usize] = true;
             let best = design.best(&groups[*number].0, &free);
             // Rounding alone must not move a point.
@@ -70,7 +72,7 @@ pub fn choose_greedily<const D: usize>(
             let kept = other.map_or(*point, |(other, _)| other);
             changed |= kept != *point;
             *point = kept;
-            design.change(kept as usize, 1.0);
+            design.change(kept, 1.0);
             free[kept as usize] = false;
         }
         if !changed {
@@ -83,8 +85,9 @@ pub fn choose_greedily<const D: usize>(
 }
 
 /// The sums over the points chosen so far.
-struct Design<const D: usize> {
+struct Design<'a, const D: usize> {
     coordinates: usize,
+    known: &'a KnownPoints,
     states: Vec<State<D>>,
     /// σ².
     unforeseen: f64,
@@ -102,12 +105,13 @@ struct State<const D: usize> {
     trace: f64,
 }
 
-impl<const D: usize> Design<D> {
-    fn new(coordinates: usize, points: usize, readings: &[Reading<D>]) -> Self {
-        let scaled = ScaledReading::all(coordinates, points, readings);
+impl<'a, const D: usize> Design<'a, D> {
+    fn new(coordinates: usize, known: &'a KnownPoints, readings: &[Reading<D>]) -> Self {
+        let scaled = ScaledReading::all(coordinates, known.numbers().len(), readings);
         let mean_square = scaled.iter().map(|reading| reading.mean_square).sum::<f64>() / scaled.len().max(1) as f64;
         Self {
             coordinates,
+            known,
             states: scaled
                 .into_par_iter()
                 .map(|reading| State::new(coordinates, reading))
@@ -123,14 +127,17 @@ impl<const D: usize> Design<D> {
             .sum()
     }
 
-    /// The free point among these that makes the objective least, with it.
+    /// The free point among these that makes the objective least, with it: one that readings know where there is one.
     fn best(&self, members: &[u32], free: &[bool]) -> Option<(u32, f64)> {
         let candidates: Vec<u32> = members.iter().copied().filter(|&p| free[p as usize]).collect();
         let objectives: Vec<f64> = candidates
             .par_iter()
             .map(|&point| {
                 let states = self.states.iter();
-                states.map(|state| state.with(point as usize, self.unforeseen)).sum()
+                match self.known.place(point) {
+                    Some(place) => states.map(|state| state.with(place, self.unforeseen)).sum(),
+                    None => f64::INFINITY,
+                }
             })
             .collect();
         let pairs = candidates.into_iter().zip(objectives);
@@ -138,8 +145,11 @@ impl<const D: usize> Design<D> {
     }
 
     /// Adds a point to the sums, or takes it out.
-    fn change(&mut self, point: usize, sign: f64) {
+    fn change(&mut self, point: u32, sign: f64) {
         let r = self.coordinates;
+        let Some(point) = self.known.place(point) else {
+            return;
+        };
         self.states.par_iter_mut().for_each(|state| {
             let rows = &state.reading.columns[point * r..(point + 1) * r];
             for (n, entry) in state.information.iter_mut().enumerate() {
@@ -230,19 +240,20 @@ mod tests {
             jacobians: line.iter().flat_map(|&x| [[1.0], [x]]).collect(),
             velocities: line.iter().map(|&x| [0.3 - 0.2 * x]).collect(),
         };
-        let chosen = choose_greedily(&[lever], 2, &Kinematics::default(), 101, 4).expect("enough");
+        let chosen = choose_greedily(&[lever], 2, &Kinematics::default(), &KnownPoints::all(101), 4).expect("enough");
         assert_eq!(chosen, [0, 1, 99, 100]);
     }
 
     #[test]
     fn no_exchange_of_one_point_is_better() {
         let readings = [reading(30, 3, 0.37), reading(30, 3, 0.61)];
+        let all = KnownPoints::all(30);
         let objective = |chosen: &[u32]| {
-            let mut design = Design::new(3, 30, &readings);
-            chosen.iter().for_each(|&point| design.change(point as usize, 1.0));
+            let mut design = Design::new(3, &all, &readings);
+            chosen.iter().for_each(|&point| design.change(point, 1.0));
             design.objective()
         };
-        let chosen = choose_greedily(&readings, 3, &Kinematics::default(), 30, 5).expect("enough");
+        let chosen = choose_greedily(&readings, 3, &Kinematics::default(), &all, 5).expect("enough");
         let least = objective(&chosen);
         for place in 0..5 {
             for other in (0..30).filter(|p| !chosen.contains(p)) {
@@ -257,7 +268,8 @@ mod tests {
     fn the_objective_foretells_the_difference_of_the_rates() {
         use crate::least_squares::LeastSquares;
         let reading = reading(40, 3, 0.23);
-        let mut design = Design::new(3, 40, std::slice::from_ref(&reading));
+        let known = KnownPoints::all(40);
+        let mut design = Design::new(3, &known, std::slice::from_ref(&reading));
         let chosen = [3, 14, 15, 26, 35];
         chosen.iter().for_each(|&point| design.change(point, 1.0));
         let solve = |numbers: &[usize]| {
@@ -272,7 +284,8 @@ mod tests {
                 .expect("of full rank");
             rates
         };
-        let (all, few) = (solve(&(0..40).collect::<Vec<_>>()), solve(&chosen));
+        let few = chosen.map(|p| p as usize);
+        let (all, few) = (solve(&(0..40).collect::<Vec<_>>()), solve(&few));
         let mut mean = 0.0;
         for rows in reading.jacobians.chunks(3) {
             let mut gap = [0.0; 2];

@@ -38,12 +38,12 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
         })
     }
 
-    /// g, F and ∂g/∂x̂ of all material points at other coordinates.
+    /// g, F and ∂g/∂x̂ of the sample points at other coordinates.
     pub fn evaluate_at(&self, latent: &[f64], time: f64, wanted: Wanted, out: &mut Evaluation<D>) {
-        self.map.evaluate(&self.points, latent, time, wanted, out);
+        self.map.evaluate(&self.samples, latent, time, wanted, out);
     }
 
-    /// 2 r states around one: the eigenvectors of N⁻¹ Σ_p J_pᵀ J_p with both signs, so long that to first order the positions of all points differ by `distance` (m) in the root mean
+    /// 2 r states around one: the eigenvectors of |𝒫|⁻¹ Σ_p J_pᵀ J_p with both signs, so long that to first order the positions of the sample points differ by `distance` (m) in the root mean
     /// square. Directions that move nothing are left out.
     pub fn states_around(&self, latent: &[f64], time: f64, distance: f64) -> Vec<Vec<f64>> {
         let (mut there, r) = (Evaluation::default(), latent.len());
@@ -52,7 +52,7 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
             ..Wanted::default()
         };
         self.evaluate_at(latent, time, wanted, &mut there);
-        let share = 1.0 / self.points.len().max(1) as f64;
+        let share = 1.0 / self.samples.len().max(1) as f64;
         let mut mean = Mat::<f64>::zeros(r, r);
         for rows in there.jacobians.chunks_exact(r.max(1)) {
             for i in 0..r {

@@ -20,7 +20,7 @@ impl SampleWeights {
 }
 
 /// The first of the places that are nearest to x.
-fn nearest<const D: usize>(x: &[f64; D], places: &[[f64; D]]) -> usize {
+pub(super) fn nearest<const D: usize>(x: &[f64; D], places: &[[f64; D]]) -> usize {
     let (mut first, mut least) = (0, f64::INFINITY);
     for (number, place) in places.iter().enumerate() {
         let distance = vector::distance_squared(x, place);
