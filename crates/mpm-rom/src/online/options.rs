@@ -61,7 +61,7 @@ pub enum Inverted {
 /// How x̂ moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Update {
-    /// x̂ ← x̂ + Δt v̂.
+    /// x̂ ← x̂ + Δt v̂; kinematic points have the velocity that takes them to their prescribed position (ours), so that errors at them do not add up.
     VelocityOnly,
     /// x̂ = argmin Σ|g(X_p, x̂) − x_p|², begun at 2 x̂_n − x̂_{n−1}.
     PositionVelocity {

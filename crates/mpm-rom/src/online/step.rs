@@ -9,7 +9,7 @@ use super::eulerian::Eulerian;
 use super::lagrangian::{Instant, Lagrangian};
 use super::nodes::Nodes;
 use super::quadrature::QuadraturePoints;
-use super::{OnlineError, Options, Quadrature, ReducedBody, Timings};
+use super::{OnlineError, Options, Quadrature, ReducedBody, Timings, Update};
 use crate::deformation_map::{DeformationMap, MaterialPoints};
 use crate::manifold::{Evaluation, Manifold, Wanted};
 
@@ -171,9 +171,26 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
         Ok(())
     }
 
+    /// Kinematic points take the velocity that leads from g(X_p, x̂_n) to their prescribed position (ours): velocities alone know no positions, and what they miss would add up.
+    fn lead_prescribed(&mut self) {
+        let per_time = 1.0 / self.body.time_step;
+        for (sample, _) in self
+            .prescribed
+            .iter()
+            .enumerate()
+            .filter(|(_, prescribed)| prescribed.is_some())
+        {
+            let way = vector::subtract(&self.moved[sample], &self.evaluation.positions[sample]);
+            self.velocities[sample] = vector::scale(&way, per_time);
+        }
+    }
+
     /// (5) v̂_{n+1} and x̂_{n+1}.
     fn move_coordinates(&mut self) -> Result<(), OnlineError> {
         let (step, end, dt) = (self.step, self.time_at(self.step), self.body.time_step);
+        if self.options.update == Update::VelocityOnly {
+            self.lead_prescribed();
+        }
         let failed = |source| OnlineError::Coordinates { step, source };
         self.coordinates
             .find_rates(&self.samples, &self.evaluation, &self.velocities)
