@@ -106,6 +106,7 @@ pub(super) fn beside<const D: usize>(
         manifold: choice.manifold.name(),
         variant: String::new(),
         samples: reduced.samples().len(),
+        asked: choice.samples,
         chosen: match choice.samples {
             SampleCount::All(_) => "all",
             SampleCount::Drawn(_) => choice.chosen.name(),

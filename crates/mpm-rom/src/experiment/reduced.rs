@@ -37,7 +37,6 @@ pub fn run<const D: usize>(
         });
     }
     experiment.occupy(directory)?;
-    frame_files::forget_earlier(directory)?;
     let document = SceneDocument::read(&experiment.run_scene_file())?;
     let finer = experiment.super_resolution_file();
     let finer = finer.map(|file| SceneDocument::read(&file)).transpose()?;
@@ -71,6 +70,7 @@ pub fn run<const D: usize>(
             }
         }
     }
+    frame_files::forget_earlier(directory)?;
     let (choices, mut rows) = (choices(experiment, models.len()), Vec::new());
     let runs = choices.len() * experiment.cases.test.len();
     for (case, values) in experiment.cases.test.iter().enumerate() {

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::SuperResolved;
+use super::{SampleCount, SuperResolved};
 
 /// A reduced run beside the full-order run of the same case.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,6 +17,8 @@ pub struct ReducedRow {
     pub variant: String,
     /// |𝒫|.
     pub samples: usize,
+    /// What was asked for: a cubature may have fewer.
+    pub asked: SampleCount,
     /// How they were chosen.
     pub chosen: &'static str,
     /// The quadrature.
@@ -56,12 +58,12 @@ pub struct ReducedRow {
 }
 
 impl ReducedRow {
-    /// How the run was made: manifold, variant, samples and their choice, quadrature, update and step factor.
-    pub fn way(&self) -> (&str, &str, usize, &str, &str, &str, u64) {
+    /// How the run was made: manifold, variant, samples that were asked for and their choice, quadrature, update and step factor.
+    pub fn way(&self) -> (&str, &str, SampleCount, &str, &str, &str, u64) {
         (
             self.manifold,
             &self.variant,
-            self.samples,
+            self.asked,
             self.chosen,
             self.quadrature,
             self.update,

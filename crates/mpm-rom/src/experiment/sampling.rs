@@ -63,11 +63,17 @@ pub(super) struct Readings<const D: usize> {
 struct Made(Vec<(Vec<Vec<usize>>, SampleChoice)>);
 
 impl<const D: usize> Chosen<D> {
-    /// The points of a run of this body; drawn ones where nothing has been chosen.
+    /// The points of a run of this body.
+    ///
+    /// # Errors
+    /// Those of the choice; [`OnlineError::Readings`] where nothing has been read for it.
     pub fn points(&mut self, of: Of, coordinates: usize, body: &ReducedBody<D>) -> Result<SampleChoice, OnlineError> {
         match self.0.iter_mut().find(|best| best.of == of) {
             Some(best) => best.made.points(&best.readings, coordinates, (of.2, of.3), body),
-            None => Ok(SampleChoice::Drawn { count: of.3, seed: 0 }),
+            None => Err(OnlineError::Readings {
+                readings: 0,
+                points: body.reference.len(),
+            }),
         }
     }
 }
@@ -124,7 +130,7 @@ impl<const D: usize> Sampling<'_, D> {
         })
     }
 
-    /// What [`choose_cubature`] finds on steps from 6 frames of each of up to 8 training runs, evenly spaced along the way of the body, and from states around these frames, near and far.
+    /// What [`choose_cubature`] finds on steps from 6 frames of each of up to 8 training runs, evenly spaced along the way of the body, and from states around these frames, near and far; those from the frames themselves count twice.
     fn choose_cubature(
         &self,
         name: ManifoldName,

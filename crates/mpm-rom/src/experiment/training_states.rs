@@ -7,10 +7,7 @@ use super::{ExperimentError, ManifoldName};
 use crate::deformation_map::DeformationMap;
 use crate::least_squares::{GaussNewton, LeastSquares, Settings};
 use crate::manifold::{Evaluation, Manifold, Wanted};
-use crate::online::{
-    Inverted, KnownPoints, Options, Quadrature, Reading, ReducedBody, ReducedModel, SampleChoice, SampleWeights,
-    Search, Update,
-};
+use crate::online::{KnownPoints, Quadrature, Reading, ReducedBody, ReducedModel, Search};
 use crate::snapshots::Frame;
 
 /// Training runs that are read, at most, and frames of each.
@@ -18,17 +15,17 @@ const RUNS: usize = 8;
 const FRAMES: usize = 6;
 
 impl<const D: usize> Sampling<'_, D> {
-    /// Steps from frames of several training runs and from states around them at these distances.
+    /// Steps from frames of several training runs and from states around them at these distances; those from the frames themselves once for each distance.
     pub(super) fn readings(
         &self,
         name: ManifoldName,
         manifold: &dyn Manifold<D>,
         distances: &[f64],
     ) -> Result<Readings<D>, ExperimentError> {
-        let mut steps = Vec::new();
+        let (mut steps, mut known) = (Vec::new(), None);
         for distance in distances {
             for run in evenly(self.snapshots.runs().len(), RUNS) {
-                steps.extend(self.steps(name, manifold, run, *distance)?);
+                steps.extend(self.steps(name, manifold, (run, *distance), &mut known)?);
             }
         }
         Ok(Readings {
@@ -37,28 +34,22 @@ impl<const D: usize> Sampling<'_, D> {
         })
     }
 
-    /// Steps from some frames of a run and from states around them, read at all recorded points. States from which there is no step, because the map is inverted there for example, are left out.
+    /// Steps from some frames of a run and from states around them, read at all recorded points, which are `known` in the body of every run alike. States from which there is no step, because the map is inverted there for example, are left out.
     fn steps(
         &self,
         name: ManifoldName,
         manifold: &dyn Manifold<D>,
-        run: usize,
-        distance: f64,
+        (run, distance): (usize, f64),
+        known: &mut Option<KnownPoints>,
     ) -> Result<Vec<Reading<D>>, ExperimentError> {
         let (body, recorded) = (ReducedBody::<D>::of(&self.scene(run)?)?, self.snapshots.reference());
         let squares: f64 = recorded.iter().map(vector::norm_squared).sum();
         let distance = distance * (squares / recorded.len().max(1) as f64).sqrt();
         let guess = self.guess(name, recorded)?;
         let map = DeformationMap::new(manifold, recorded, &guess)?;
-        let known = KnownPoints::nearest(&body.reference, recorded);
-        let options = Options {
-            samples: SampleChoice::Given(known.numbers().to_vec()),
-            weights: SampleWeights::Equal,
-            quadrature: Quadrature::Lagrangian { search: Search::All },
-            update: Update::VelocityOnly,
-            inverted: Inverted::Refuse,
-        };
-        let mut reduced = ReducedModel::new(body, map, options)?;
+        let known = known.get_or_insert_with(|| KnownPoints::nearest(&body.reference, recorded));
+        let everywhere = Quadrature::Lagrangian { search: Search::All };
+        let mut reduced = ReducedModel::to_read(body, map, known.numbers().to_vec(), everywhere)?;
         let frames = &self.snapshots.runs()[run].frames;
         let mut readings = Vec::new();
         for index in along_path(frames, FRAMES) {

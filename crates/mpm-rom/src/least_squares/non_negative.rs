@@ -1,7 +1,8 @@
 //! min_w ½ wᵀ Q w − qᵀ w over w ≥ 0.
 
-use faer::linalg::solvers::Solve;
-use faer::{Mat, Side};
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::llt::{factor, solve};
+use faer::{Mat, Par};
 
 /// min_w ½ wᵀ Q w − qᵀ w over w ≥ 0 with Q positive definite, by the active sets of Lawson & Hanson (*Solving least squares problems*, 1974, algorithm 23.10), one entry at a time, so that it can be
 /// ended while few entries are positive.
@@ -73,7 +74,8 @@ impl NonNegative {
         while !self.positive.is_empty() {
             let Some(goal) = self.unconstrained() else {
                 // Not positive definite: the last entry says nothing that the others do not.
-                self.positive.pop();
+                let last = self.positive.pop();
+                last.into_iter().for_each(|k| self.weights[k] = 0.0);
                 continue;
             };
             let steps = self.positive.iter().zip(&goal).filter(|(_, goal)| **goal <= 0.0);
@@ -95,12 +97,18 @@ impl NonNegative {
         }
     }
 
+    /// Q⁻¹ q of the positive entries, on one thread: sums in another order would be other bits.
     fn unconstrained(&self) -> Option<Vec<f64>> {
         let (entries, count) = (&self.positive, self.positive.len());
-        let matrix = Mat::from_fn(count, count, |i, j| self.matrix[(entries[i], entries[j])]);
-        let right = Mat::from_fn(count, 1, |i, _| self.right[entries[i]]);
-        let solution = matrix.llt(Side::Lower).ok()?.solve(&right);
-        let solution: Vec<f64> = (0..count).map(|i| solution[(i, 0)]).collect();
+        let mut matrix = Mat::from_fn(count, count, |i, j| self.matrix[(entries[i], entries[j])]);
+        let mut right = Mat::from_fn(count, 1, |i, _| self.right[entries[i]]);
+        let factoring = factor::cholesky_in_place_scratch::<f64>(count, Par::Seq, Default::default());
+        let mut scratch = MemBuffer::new(factoring.or(solve::solve_in_place_scratch::<f64>(count, 1, Par::Seq)));
+        let (stack, parameters) = (MemStack::new(&mut scratch), Default::default());
+        factor::cholesky_in_place(matrix.as_mut(), Default::default(), Par::Seq, stack, parameters).ok()?;
+        let stack = MemStack::new(&mut scratch);
+        solve::solve_in_place(matrix.as_ref(), right.as_mut(), Par::Seq, stack);
+        let solution: Vec<f64> = (0..count).map(|i| right[(i, 0)]).collect();
         solution.iter().all(|w| w.is_finite()).then_some(solution)
     }
 }

@@ -33,7 +33,7 @@ const AT_A_TIME: usize = 16;
 /// Points that readings do not know are only among them where a region has too few others.
 ///
 /// # Errors
-/// [`OnlineError::TooFewSamples`], [`OnlineError::TooManySamples`].
+/// [`OnlineError::TooFewSamples`], [`OnlineError::TooManySamples`], [`OnlineError::Readings`].
 pub fn choose_cubature<const D: usize>(
     readings: &[Reading<D>],
     coordinates: usize,
@@ -45,18 +45,19 @@ pub fn choose_cubature<const D: usize>(
     let mut candidates: Vec<u32> = groups.iter().flat_map(|(members, _)| thinned(known, members)).collect();
     candidates.sort_unstable();
     candidates.dedup();
-    let mut problem = problem(readings, coordinates, known, &candidates, count);
+    let scaled = ScaledReading::all(coordinates, known.numbers().len(), readings)?;
+    let mut problem = problem(&scaled, coordinates, known, &candidates, count);
     // Points leave, too; the sum falls every time, and an end is set only against rounding.
     for _ in 0..10 * count {
         let chosen = numbers(&problem, &candidates);
-        let full = chosen.len() + unused(kinematics, &chosen).len() >= count;
+        let full = chosen.len() + unused(kinematics, known, &chosen).len() >= count;
         if full || !problem.raise_one() {
             break;
         }
     }
     let positive = problem.positive().iter();
     let mut weighted: Vec<_> = positive.map(|&k| (candidates[k], problem.weights()[k])).collect();
-    let unused = unused(kinematics, &numbers(&problem, &candidates));
+    let unused = unused(kinematics, known, &numbers(&problem, &candidates));
     weighted.extend(unused.into_iter().map(|point| (point, 0.0)));
     weighted.sort_unstable_by_key(|(point, _)| *point);
     Ok(weighted)
@@ -78,12 +79,13 @@ fn thinned(known: &KnownPoints, members: &[u32]) -> Vec<u32> {
     (0..count).map(|k| members[k * members.len() / count]).collect()
 }
 
-/// Points of kinematic regions that must be in 𝒫, too, beside the chosen ones.
-fn unused<const D: usize>(kinematics: &Kinematics<D>, chosen: &[u32]) -> Vec<u32> {
+/// Points of kinematic regions that must be in 𝒫, too, beside the chosen ones: known ones first.
+fn unused<const D: usize>(kinematics: &Kinematics<D>, known: &KnownPoints, chosen: &[u32]) -> Vec<u32> {
     let mut others: Vec<u32> = Vec::new();
     for region in kinematics.regions() {
         let members = region.members.iter().map(|&p| p as u32);
-        let (found, free): (Vec<u32>, Vec<u32>) = members.partition(|p| chosen.contains(p) || others.contains(p));
+        let (found, mut free): (Vec<u32>, Vec<u32>) = members.partition(|p| chosen.contains(p) || others.contains(p));
+        free.sort_by_key(|point| known.place(*point).is_none());
         let needed = region.members.len().min(ON_EACH_REGION);
         others.extend(free.into_iter().take(needed.saturating_sub(found.len())));
     }
@@ -92,20 +94,19 @@ fn unused<const D: usize>(kinematics: &Kinematics<D>, chosen: &[u32]) -> Vec<u32
 
 /// Half the sum, for these points, as ½ ωᵀ Q ω − qᵀ ω.
 fn problem<const D: usize>(
-    readings: &[Reading<D>],
+    readings: &[ScaledReading<D>],
     r: usize,
     known: &KnownPoints,
     candidates: &[u32],
     count: usize,
 ) -> NonNegative {
     let points = known.numbers().len();
-    let scaled = ScaledReading::all(r, points, readings);
     let places: Vec<usize> = candidates.iter().filter_map(|&point| known.place(point)).collect();
     let balance = (D * r) as f64 / count as f64;
     let products = r * (r + 1) / 2;
     let mut matrix = Mat::<f64>::zeros(candidates.len(), candidates.len());
     let mut squares = vec![0.0; candidates.len()];
-    for part in scaled.chunks(AT_A_TIME) {
+    for part in readings.chunks(AT_A_TIME) {
         let mut rows = Mat::<f64>::zeros(part.len() * (r + products), candidates.len());
         for (first, reading) in part
             .iter()
@@ -152,7 +153,7 @@ mod tests {
 
     /// The sum of the description, as it stands there.
     fn sum(readings: &[Reading<2>], weighted: &[(u32, f64)], count: usize) -> f64 {
-        let scaled = ScaledReading::all(3, POINTS, readings);
+        let scaled = ScaledReading::all(3, POINTS, readings).expect("of these points");
         let (beta, sigma_squared) = (6.0 / count as f64, 0.09);
         let mut sum = 0.0;
         for state in &scaled {
@@ -223,19 +224,18 @@ mod tests {
     }
 
     #[test]
-    fn readings_of_another_body_or_none_leave_only_the_points_that_must_be() {
-        let chosen =
-            choose_cubature::<2>(&[], 3, &Kinematics::default(), &KnownPoints::all(POINTS), 20).expect("enough");
-        assert!(chosen.is_empty());
-        let chosen = choose_cubature(
-            &[reading(40, 3, 0.4)],
-            3,
-            &Kinematics::default(),
-            &KnownPoints::all(POINTS),
-            20,
-        )
-        .expect("enough");
-        assert!(chosen.is_empty());
-        assert!(choose_cubature::<2>(&[], 3, &Kinematics::default(), &KnownPoints::all(POINTS), 1).is_err());
+    fn readings_of_another_body_or_none_are_refused() {
+        let all = KnownPoints::all(POINTS);
+        let of = |readings: &[Reading<2>], count| choose_cubature(readings, 3, &Kinematics::default(), &all, count);
+        assert!(matches!(of(&[], 20), Err(OnlineError::Readings { readings: 0, .. })));
+        let another = of(&[reading(40, 3, 0.4)], 20);
+        assert!(matches!(
+            another,
+            Err(OnlineError::Readings {
+                readings: 1,
+                points: POINTS
+            })
+        ));
+        assert!(matches!(of(&[], 1), Err(OnlineError::TooFewSamples { .. })));
     }
 }

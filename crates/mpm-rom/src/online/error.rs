@@ -69,6 +69,16 @@ pub enum OnlineError {
         /// 5, or all points of the region if there are fewer.
         needed: usize,
     },
+    /// Sample points cannot be chosen on what there is.
+    #[error(
+        "no sample points can be chosen: of {readings} steps from states of training runs none has velocities at {points} points and Jacobians that tell all coordinates apart"
+    )]
+    Readings {
+        /// Steps that were read.
+        readings: usize,
+        /// Points that they should know.
+        points: usize,
+    },
     /// More sample points than material points.
     #[error("{found} sample points of {points} material points")]
     TooManySamples {

@@ -36,7 +36,7 @@ const MOST_EXCHANGED: usize = 24;
 /// one that lowers it most, until none does or after four rounds. Readings whose Jacobians do not tell the coordinates apart at all points are left out.
 ///
 /// # Errors
-/// [`OnlineError::TooFewSamples`], [`OnlineError::TooManySamples`].
+/// [`OnlineError::TooFewSamples`], [`OnlineError::TooManySamples`], [`OnlineError::Readings`].
 pub fn choose_greedily<const D: usize>(
     readings: &[Reading<D>],
     coordinates: usize,
@@ -46,7 +46,7 @@ pub fn choose_greedily<const D: usize>(
 ) -> Result<Vec<u32>, OnlineError> {
     let points = known.points_of_body();
     let groups = groups(kinematics, points, coordinates, count)?;
-    let mut design = Design::new(coordinates, known, readings);
+    let mut design = Design::new(coordinates, known, readings)?;
     let mut chosen: Vec<(u32, usize)> = Vec::with_capacity(count);
     let mut free = vec![true; points];
     for (number, (members, share)) in groups.iter().enumerate() {
@@ -106,10 +106,10 @@ struct State<const D: usize> {
 }
 
 impl<'a, const D: usize> Design<'a, D> {
-    fn new(coordinates: usize, known: &'a KnownPoints, readings: &[Reading<D>]) -> Self {
-        let scaled = ScaledReading::all(coordinates, known.numbers().len(), readings);
+    fn new(coordinates: usize, known: &'a KnownPoints, readings: &[Reading<D>]) -> Result<Self, OnlineError> {
+        let scaled = ScaledReading::all(coordinates, known.numbers().len(), readings)?;
         let mean_square = scaled.iter().map(|reading| reading.mean_square).sum::<f64>() / scaled.len().max(1) as f64;
-        Self {
+        Ok(Self {
             coordinates,
             known,
             states: scaled
@@ -117,7 +117,7 @@ impl<'a, const D: usize> Design<'a, D> {
                 .map(|reading| State::new(coordinates, reading))
                 .collect(),
             unforeseen: UNFORESEEN * UNFORESEEN * mean_square,
-        }
+        })
     }
 
     fn objective(&self) -> f64 {
@@ -249,7 +249,7 @@ mod tests {
         let readings = [reading(30, 3, 0.37), reading(30, 3, 0.61)];
         let all = KnownPoints::all(30);
         let objective = |chosen: &[u32]| {
-            let mut design = Design::new(3, &all, &readings);
+            let mut design = Design::new(3, &all, &readings).expect("of these points");
             chosen.iter().for_each(|&point| design.change(point, 1.0));
             design.objective()
         };
@@ -269,7 +269,7 @@ mod tests {
         use crate::least_squares::LeastSquares;
         let reading = reading(40, 3, 0.23);
         let known = KnownPoints::all(40);
-        let mut design = Design::new(3, &known, std::slice::from_ref(&reading));
+        let mut design = Design::new(3, &known, std::slice::from_ref(&reading)).expect("of these points");
         let chosen = [3, 14, 15, 26, 35];
         chosen.iter().for_each(|&point| design.change(point, 1.0));
         let solve = |numbers: &[usize]| {

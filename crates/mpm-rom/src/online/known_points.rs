@@ -21,6 +21,9 @@ impl KnownPoints {
 
     /// For each position at rest the nearest point of the body, the first of equals: readings of a part of the body, or of one with other points.
     pub fn nearest<const D: usize>(reference: &[[f64; D]], positions: &[[f64; D]]) -> Self {
+        if reference == positions {
+            return Self::all(positions.len());
+        }
         let numbers = positions.par_iter().map(|x| nearest(x, reference) as u32);
         Self::new(numbers.collect(), reference.len())
     }
@@ -65,5 +68,7 @@ mod tests {
             (Some(0), Some(1), None)
         );
         assert_eq!(KnownPoints::nearest(&line, &line), KnownPoints::all(10));
+        let nearly: Vec<[f64; 1]> = line.iter().map(|[x]| [x + 0.1]).collect();
+        assert_eq!(KnownPoints::nearest(&line, &nearly), KnownPoints::all(10));
     }
 }

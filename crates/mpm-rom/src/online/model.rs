@@ -6,7 +6,10 @@ use super::lagrangian::Lagrangian;
 use super::nodes::Nodes;
 use super::quadrature::QuadraturePoints;
 use super::step::Scheme;
-use super::{OnlineError, Options, Quadrature, ReducedBody, ReducedModel, Search, StepReport, Timings};
+use super::{
+    Inverted, OnlineError, Options, Quadrature, ReducedBody, ReducedModel, SampleChoice, SampleWeights, Search,
+    StepReport, Timings, Update,
+};
 use crate::deformation_map::{DeformationMap, MaterialPoints};
 use crate::manifold::{Evaluation, Manifold, Wanted};
 
@@ -14,11 +17,42 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
     /// The model at t = 0: x̂ = x̂₀, v̂ = v̂₀.
     ///
     /// # Errors
-    /// [`OnlineError::Option`], [`OnlineError::TooFewSamples`], [`OnlineError::TooManySamples`], [`OnlineError::Samples`].
-    pub fn new(body: ReducedBody<D>, mut map: DeformationMap<D, M>, options: Options) -> Result<Self, OnlineError> {
+    /// [`OnlineError::Option`]; those of [`SampleChoice::choose`](super::SampleChoice::choose).
+    pub fn new(body: ReducedBody<D>, map: DeformationMap<D, M>, options: Options) -> Result<Self, OnlineError> {
+        let numbers = options
+            .samples
+            .choose(&body.reference, map.coordinates(), &body.kinematics)?;
+        Self::with_samples(body, map, options, numbers)
+    }
+
+    /// A model that is not run, but [read](Self::reading) at the points with these numbers: kinematic regions need have none of them.
+    ///
+    /// # Errors
+    /// [`OnlineError::Option`].
+    pub(crate) fn to_read(
+        body: ReducedBody<D>,
+        map: DeformationMap<D, M>,
+        numbers: Vec<u32>,
+        quadrature: Quadrature,
+    ) -> Result<Self, OnlineError> {
+        let options = Options {
+            samples: SampleChoice::Given(numbers.clone()),
+            weights: SampleWeights::Equal,
+            quadrature,
+            update: Update::VelocityOnly,
+            inverted: Inverted::Refuse,
+        };
+        Self::with_samples(body, map, options, numbers)
+    }
+
+    fn with_samples(
+        body: ReducedBody<D>,
+        mut map: DeformationMap<D, M>,
+        options: Options,
+        sample_numbers: Vec<u32>,
+    ) -> Result<Self, OnlineError> {
         let mut scheme = scheme(&options.quadrature)?;
         let coordinates = map.coordinates();
-        let sample_numbers = options.samples.choose(&body.reference, coordinates, &body.kinematics)?;
         let own = options.samples.weights()?;
         let weights = own.unwrap_or_else(|| options.weights.of(&body.reference, &sample_numbers));
         let (mut points, mut samples) = (MaterialPoints::default(), MaterialPoints::default());

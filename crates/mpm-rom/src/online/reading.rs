@@ -11,7 +11,7 @@ use crate::manifold::{Evaluation, Manifold, Wanted};
 pub struct Reading<const D: usize> {
     /// ∂g/∂x̂_k at x̂_n, entry p r + k.
     pub jacobians: Vec<[f64; D]>,
-    /// v_p at the end of the step, without b f′: what v̂ is found from.
+    /// v_p at the end of the step, without b f′: what v̂ is found from. Kinematic points have the velocity of their motion, with velocity-only, too.
     pub velocities: Vec<[f64; D]>,
 }
 

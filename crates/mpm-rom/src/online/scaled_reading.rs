@@ -4,7 +4,7 @@ use faer::{Mat, Side};
 use mpm_tensor::vector;
 use rayon::prelude::*;
 
-use super::Reading;
+use super::{OnlineError, Reading};
 
 /// A reading whose coordinates are scaled so that N⁻¹ Σ_p J_pᵀ J_p = I over all points.
 pub(super) struct ScaledReading<const D: usize> {
@@ -21,12 +21,20 @@ const SMALLEST: f64 = 1e-6;
 
 impl<const D: usize> ScaledReading<D> {
     /// Those of readings of so many points. Readings without any velocity, and those whose Jacobians do not tell the coordinates apart at all points, are left out.
-    pub fn all(coordinates: usize, points: usize, readings: &[Reading<D>]) -> Vec<Self> {
+    ///
+    /// # Errors
+    /// [`OnlineError::Readings`] where none is left.
+    pub fn all(coordinates: usize, points: usize, readings: &[Reading<D>]) -> Result<Vec<Self>, OnlineError> {
         let fits = |reading: &&Reading<D>| {
             reading.velocities.len() == points && reading.jacobians.len() == points * coordinates
         };
         let fitting = readings.par_iter().filter(fits);
-        fitting.filter_map(|reading| Self::of(coordinates, reading)).collect()
+        let scaled: Vec<_> = fitting.filter_map(|reading| Self::of(coordinates, reading)).collect();
+        if scaled.is_empty() {
+            let readings = readings.len();
+            return Err(OnlineError::Readings { readings, points });
+        }
+        Ok(scaled)
     }
 
     fn of(r: usize, reading: &Reading<D>) -> Option<Self> {
@@ -103,7 +111,7 @@ pub(super) mod tests {
 
     #[test]
     fn all_points_see_the_coordinates_alike_and_errors_are_none_of_their_motions() {
-        let scaled = ScaledReading::all(3, 40, &[reading(40, 3, 0.23), reading(39, 3, 0.23)]);
+        let scaled = ScaledReading::all(3, 40, &[reading(40, 3, 0.23), reading(39, 3, 0.23)]).expect("one");
         assert_eq!(scaled.len(), 1, "one is of another body");
         let (columns, errors) = (&scaled[0].columns, &scaled[0].errors);
         for i in 0..3 {
@@ -126,6 +134,6 @@ pub(super) mod tests {
             velocities: vec![[0.0; 2]; 40],
             ..reading(40, 3, 0.23)
         };
-        assert!(ScaledReading::all(3, 40, &[flat, still]).is_empty());
+        assert!(ScaledReading::all(3, 40, &[flat, still]).is_err());
     }
 }
