@@ -21,8 +21,8 @@ where
     ///
     /// # Errors
     /// [`MpmError`]: limits or field lengths that make no sense, an inadmissible deformation, a position outside the grid's
-    /// range, a force or a nodal velocity that is not finite. The particles' state is then what it was, up to their order;
-    /// with [`StressUpdate::First`] they may have deformed already, and their velocities may have been filtered.
+    /// range, a force or a nodal velocity that is not finite. The particles' state is then what it was, up to their order,
+    /// but that a [`VelocityFilter`](crate::VelocityFilter) may have acted; with [`StressUpdate::First`] they may have deformed, too.
     pub fn step(&mut self, control: &StepControl) -> Result<StepReport, MpmError> {
         control.check()?;
         self.particles

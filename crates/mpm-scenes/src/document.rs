@@ -73,13 +73,7 @@ impl Place {
             line,
             column: before[start..].chars().count() + 1,
             text: text[start..].lines().next().unwrap_or_default().trim().to_owned(),
-            table: text
-                .lines()
-                .take(line)
-                .filter_map(header)
-                .last()
-                .unwrap_or("")
-                .to_owned(),
+            table: table_of(text, line).to_owned(),
         }
     }
 
@@ -130,6 +124,20 @@ fn in_words(message: &str) -> String {
         }
     }
     words.join(" ")
+}
+
+/// The table that a line stands in; empty for that of the document. A bracket within an array of several lines is no header: what stands before a header is TOML of its own.
+fn table_of(text: &str, line: usize) -> &str {
+    let (mut table, mut start) = ("", 0);
+    for own in text.split_inclusive('\n').take(line) {
+        if let Some(name) = header(own)
+            && text[..start].parse::<toml::Table>().is_ok()
+        {
+            table = name;
+        }
+        start += own.len();
+    }
+    table
 }
 
 /// The name in the header of a table.
@@ -223,5 +231,17 @@ mod tests {
             "a.toml, line 3, column 6: odd (in `size = 2` of [part])"
         );
         assert_eq!(error.place.map(|place| place.field()).as_deref(), Some("part.size"));
+    }
+
+    #[test]
+    fn rows_of_an_array_are_no_headers() {
+        let field = |text: &str, key: &str| {
+            let byte = text.find(key).expect("there");
+            let error = DocumentError::at(Path::new("a.toml"), text, byte, "odd".to_owned());
+            error.place.map(|place| place.field())
+        };
+        let text = "[part]\nrows = [\n  [1.0],\n  [2.0],\n]\nsize = 2\n[[other]]\nlength = 1\n";
+        assert_eq!(field(text, "size").as_deref(), Some("part.size"));
+        assert_eq!(field(text, "length").as_deref(), Some("other.length"));
     }
 }

@@ -1,6 +1,6 @@
 //! Which scenes a reference describes: what sets its problem apart, and all that its comparison reads.
 
-use super::parts::{gravity, sides, solid};
+use super::parts::{gravity, sides, solid, spacing};
 use super::{slope_run_out, tilted_cantilever};
 use crate::Scene;
 use crate::scene::{BodyTable, FillKind, LoadTable, MaterialTable, ShapeTable, VelocityField, VelocityTable};
@@ -45,7 +45,8 @@ pub fn dam_break(scene: &Scene) -> bool {
 
 pub fn two_disks(scene: &Scene) -> bool {
     let sphere = |body: &BodyTable| matches!(body.shape, ShapeTable::Sphere { .. });
-    scene.dimension == 2 && scene.bodies.len() == 2 && scene.bodies.iter().all(sphere) && has_probe(scene, "first")
+    let two = scene.dimension == 2 && scene.bodies.len() == 2 && scene.bodies.iter().all(sphere);
+    two && spacing(scene).is_ok() && has_probe(scene, "first")
 }
 
 pub fn bar(scene: &Scene) -> bool {

@@ -66,7 +66,7 @@ const VALIDATIONS: [Reference; 16] = [
     },
     Reference {
         name: "two-disks",
-        describes: "two spheres in the plane, with the probe `first`",
+        describes: "two spheres in the plane on a grid or a generated mesh, with the probe `first`",
         fits: needs::two_disks,
         validate: two_disks::validate,
     },
@@ -90,7 +90,7 @@ const VALIDATIONS: [Reference; 16] = [
     },
     Reference {
         name: "umls-disks",
-        describes: "two spheres in the plane, with the probe `first`",
+        describes: "two spheres in the plane on a grid or a generated mesh, with the probe `first`",
         fits: needs::two_disks,
         validate: two_disks::validate_on_mesh,
     },
@@ -137,7 +137,15 @@ pub const REFERENCES: &[&str] = &{
 };
 
 /// Names of manufactured solutions, for bodies (`velocity = { kind = "manufactured", solution = NAME }`) and loads.
-pub const MANUFACTURED: &[&str] = &[SOLUTIONS[0].0, SOLUTIONS[1].0];
+pub const MANUFACTURED: &[&str] = &{
+    let mut names = [""; SOLUTIONS.len()];
+    let mut k = 0;
+    while k < names.len() {
+        names[k] = SOLUTIONS[k].0;
+        k += 1;
+    }
+    names
+};
 
 /// The reference of this name.
 fn named(name: &str) -> Result<&'static Reference, SceneFault> {

@@ -59,7 +59,7 @@ pub struct TransferTable {
     /// Share of FLIP in [0, 1], the rest is PIC; with `kind = "flip"` and `"affine-flip"` only. Default 0.99, with `pic_rate` 1. What a share below 1
     /// dissipates depends on the number of steps.
     pub flip_share: Option<f64>,
-    /// Rate r at which particle velocities turn into those of PIC, in 1/s: the share of FLIP in a step is `flip_share` e^{−rΔt}. Default 0; with
+    /// Rate r at which particle velocities turn into those of PIC, in 1/s: with `pic_order` 1 the share of FLIP in a step is `flip_share` e^{−rΔt}. Default 0; with
     /// `kind = "flip"` and `"affine-flip"` only.
     pub pic_rate: Option<f64>,
     /// Order m of the PIC that velocities turn into at the rate `pic_rate`, XPIC(m): with a larger one smooth motion loses less. Default 1.
