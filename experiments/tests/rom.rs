@@ -74,6 +74,19 @@ fn a_model_is_trained_and_run() {
             "training_data.safetensors",
         ]
     );
+    let figures = ["coordinates.svg", "errors.svg", "speed_up.svg"].map(|name| root.path().join("out").join(name));
+    let drawn = [&figures[0], &figures[1]].map(|file| std::fs::read(file).unwrap());
+    for file in &figures {
+        std::fs::remove_file(file).unwrap();
+    }
+    let report = parvi(root.path(), "report out");
+    assert!(report.status.success(), "{}", stderr(&report));
+    assert_eq!(stdout(&report).lines().count(), 2, "{}", stdout(&report));
+    assert_eq!(
+        [&figures[0], &figures[1]].map(|file| std::fs::read(file).unwrap()),
+        drawn
+    );
+    assert!(figures[2].exists());
 }
 
 #[test]

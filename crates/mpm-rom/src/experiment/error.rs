@@ -38,6 +38,16 @@ pub enum ExperimentError {
         /// What is wrong.
         message: String,
     },
+    /// A table of reduced runs cannot be read.
+    #[error("{file}, line {line}: {message}")]
+    Table {
+        /// The file.
+        file: String,
+        /// The line, counted from 1.
+        line: u64,
+        /// What is wrong.
+        message: String,
+    },
     /// Nothing has been trained there.
     #[error("{model} is missing: `parvi rom train` with this experiment and directory makes it")]
     Untrained {
@@ -68,7 +78,7 @@ pub enum ExperimentError {
     },
     /// A stop was asked for.
     #[error(
-        "stopped: the same line started again goes on with a training, and begins full-order and reduced runs anew"
+        "stopped: the same line started again goes on with a training, and begins full-order and reduced runs anew; `parvi report` draws the runs that are done"
     )]
     Stopped,
     /// The scene cannot be read.

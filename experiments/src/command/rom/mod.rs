@@ -7,7 +7,7 @@ mod train;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
-use mpm_rom::experiment::{Experiment, ExperimentError};
+use mpm_rom::experiment::{Experiment, ExperimentError, names, read_results};
 use mpm_rom::full_order::SceneDocument;
 
 use super::file_kind::FileKind;
@@ -56,6 +56,18 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
         (dimension, _) => return Err(ExperimentError::Dimension { dimension }.into()),
     };
     execute(&experiment, &task.out)
+}
+
+/// Whether a directory is that of a reduced-order model.
+pub fn holds_model(directory: &Path) -> bool {
+    directory.join(names::MODEL).exists()
+}
+
+/// Figures and means of the reduced runs of a directory again.
+pub fn report(directory: &Path) -> Result<(), CommandError> {
+    let experiment = Experiment::read(&directory.join(names::CONFIG))?;
+    let rows = read_results(&experiment, directory)?;
+    run::report(&experiment, directory, &rows)
 }
 
 /// The dimension of the experiment's scene.

@@ -16,9 +16,13 @@ pub fn execute<const D: usize>(experiment: &Experiment, directory: &Path) -> Res
         !interrupt::requested()
     });
     progress.clear();
-    let rows = result?;
-    figures::errors(directory, &experiment.title, &rows)?;
-    figures::coordinates(directory, experiment, &rows)?;
+    report(experiment, directory, &result?)
+}
+
+/// Figures and means of reduced runs.
+pub fn report(experiment: &Experiment, directory: &Path, rows: &[ReducedRow]) -> Result<(), CommandError> {
+    figures::errors(directory, &experiment.title, rows)?;
+    figures::coordinates(directory, experiment, rows)?;
     for row in rows.iter().filter(|row| row.outcome != "finished") {
         console::notice(&format!(
             "case {}, {}{}, {} samples ({}), {}, {}, steps of {}: {}",
@@ -34,7 +38,7 @@ pub fn execute<const D: usize>(experiment: &Experiment, directory: &Path) -> Res
         ));
     }
     let mut text = String::new();
-    for group in groups(&rows) {
+    for group in groups(rows) {
         let mean = |value: fn(&ReducedRow) -> f64| group.iter().map(|row| value(row)).sum::<f64>() / group.len() as f64;
         let largest = group.iter().map(|row| row.error).fold(0.0, f64::max);
         text.push_str(&format!(
