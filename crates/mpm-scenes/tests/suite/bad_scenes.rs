@@ -147,7 +147,7 @@ fn errors_name_the_file_the_field_and_the_value() {
             "[validation]\nreference = \"two-disks\"\n\n[[probes]]",
             &[
                 "validation.reference = \"two-disks\": must be one for this scene",
-                "two spheres in the plane, with the probe `first`",
+                "two spheres in the plane on a grid or a generated mesh, with the probe `first`",
             ],
         ),
         // What only the particles tell.

@@ -74,6 +74,14 @@ pub fn coordinates(directory: &Path, experiment: &Experiment, rows: &[ReducedRow
     AtomicFile::write(directory.join("coordinates.svg"), trace(&plot)?)
 }
 
+/// The family of maps, or the variant of the network.
+fn map_of(row: &ReducedRow) -> &str {
+    match row.variant.as_str() {
+        "" => row.manifold,
+        variant => variant,
+    }
+}
+
 /// Position error and wall time against the number of sample points.
 pub fn errors(directory: &Path, title: &str, rows: &[ReducedRow]) -> Result<(), CommandError> {
     let figures: [(&str, &str, Value<ReducedRow>); 2] = [
@@ -84,23 +92,18 @@ pub fn errors(directory: &Path, title: &str, rows: &[ReducedRow]) -> Result<(), 
     ];
     for (file, y_label, value) in figures {
         let mut series: Vec<LineSeries> = Vec::new();
-        let mut ways: Vec<_> = rows
-            .iter()
-            .map(|row| row.chosen)
-            .filter(|&chosen| chosen != "all")
-            .collect();
-        ways.sort_unstable();
-        ways.dedup();
-        let several = ways.len() > 1;
+        // What all lines share is not in their labels. All points are a choice of their own, and belong to every line.
+        let several_maps = rows.iter().any(|row| map_of(row) != map_of(&rows[0]));
+        let mut drawn = rows.iter().map(|row| row.chosen).filter(|&chosen| chosen != "all");
+        let first_choice = drawn.next();
+        let several_choices = drawn.any(|chosen| Some(chosen) != first_choice);
         for group in groups(rows) {
             let first = group[0];
-            let map = match first.variant.as_str() {
-                "" => first.manifold,
-                variant => variant,
-            };
-            let mut label = format!("{map}, {}, {}", first.quadrature, first.update);
-            // All points are a choice of their own, and belong to every line; with one way of choosing there is nothing to tell apart.
-            if several && first.chosen != "all" {
+            let mut label = format!("{}, {}", first.quadrature, first.update);
+            if several_maps {
+                label = format!("{}, {label}", map_of(first));
+            }
+            if several_choices && first.chosen != "all" {
                 label.push_str(&format!(", {}", first.chosen));
             }
             if first.step_factor > 1 {
