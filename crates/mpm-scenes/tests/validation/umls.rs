@@ -81,7 +81,7 @@ fn the_slope_begins_to_fail() {
     let changes = [
         ("size = 0.2", "size = 0.8"),
         ("spacing = 0.1", "spacing = 0.4"),
-        ("softening_rate = 5.0", "softening_rate = 20.0"),
+        ("softening_rate = 5.85", "softening_rate = 20.0"),
     ];
     figures(&run("umls_slope", &changes), "umls_slope, 0.8");
 }
