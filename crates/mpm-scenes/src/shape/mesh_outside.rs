@@ -1,91 +1,99 @@
 //! The distance to the boundary of a mesh.
 
-use std::collections::HashMap;
-
 use mpm_mesh::{CellSearch, SimplexMesh};
 use mpm_tensor::vector::{accumulate, distance, dot, norm_squared, subtract};
 
+use super::facet_grid::{FacetGrid, Near};
 use super::{Bounds, Shape, unit};
 
 /// All that is outside a mesh: d > 0 inside it.
 ///
-/// Facets of the boundary are listed in the bins of a grid, each in all bins that have a point within `reach` of its box; so one bin holds all facets
-/// within `reach` of its points. Farther than that the distance is given as `reach`, which is less than the distance and has its
-/// sign. Which side a point is on the search for its cell tells.
+/// Farther than `reach` the distance is given as `reach`, which is less than the distance and has its sign.
 #[derive(Debug)]
 pub(crate) struct MeshOutside<const D: usize> {
     search: CellSearch<D>,
     facets: Vec<Facet<D>>,
     reach: f64,
-    /// Facets near a bin, by its place.
-    bins: HashMap<[i64; D], Vec<u32>>,
+    grid: FacetGrid<D>,
 }
 
 /// A facet of the boundary.
 #[derive(Debug)]
 struct Facet<const D: usize> {
     corners: [[f64; D]; D],
+    /// The mean of the corners, and how far the farthest one is from it.
+    centre: [f64; D],
+    radius: f64,
     /// Into the mesh.
     inward: [f64; D],
 }
 
+/// The nearest point of the boundary, its facet and its distance.
+type Nearest<'a, const D: usize> = (f64, [f64; D], &'a Facet<D>);
+
 impl<const D: usize> MeshOutside<D> {
     /// Of a mesh; distances are exact up to `reach`.
     pub fn new(mesh: &SimplexMesh<D>, reach: f64) -> Self {
-        let mut bins: HashMap<[i64; D], Vec<u32>> = HashMap::new();
-        let mut facets = Vec::new();
-        for facet in mesh.boundary() {
-            let corners = facet.vertices.map(|vertex| mesh.vertices()[vertex as usize]);
-            let bound = |start: f64, choose: fn(f64, f64) -> f64| -> [f64; D] {
-                std::array::from_fn(|a| corners.iter().fold(start, |bound, x| choose(bound, x[a])))
-            };
-            let first = place(&bound(f64::INFINITY, f64::min).map(|c| c - reach), reach);
-            let last = place(&bound(f64::NEG_INFINITY, f64::max).map(|c| c + reach), reach);
-            let mut bin = first;
-            loop {
-                bins.entry(bin).or_default().push(facets.len() as u32);
-                let Some(axis) = (0..D).rev().find(|&a| bin[a] < last[a]) else {
-                    break;
-                };
-                bin[axis] += 1;
-                bin[axis + 1..].copy_from_slice(&first[axis + 1..]);
-            }
-            facets.push(Facet {
-                corners,
-                inward: facet.normal.map(|c| -c),
-            });
-        }
+        let facets: Vec<_> = mesh
+            .boundary()
+            .iter()
+            .map(|facet| {
+                let corners = facet.vertices.map(|vertex| mesh.vertices()[vertex as usize]);
+                Facet::new(corners, facet.normal.map(|c| -c))
+            })
+            .collect();
+        let corners: Vec<_> = facets.iter().map(|facet| facet.corners).collect();
+        let search = CellSearch::new(mesh.clone());
         Self {
-            search: CellSearch::new(mesh.clone()),
+            grid: FacetGrid::new(&search, &corners, reach),
+            search,
             facets,
             reach,
-            bins,
         }
     }
 
-    /// The nearest point of the boundary and its facet, if there is one within reach.
-    fn nearest(&self, x: &[f64; D]) -> Option<(f64, [f64; D], &Facet<D>)> {
-        let near = self.bins.get(&place(x, self.reach))?.iter();
-        let each = near.filter_map(|&facet| {
-            let facet = self.facets.get(facet as usize)?;
-            let point = facet.nearest_point(x);
-            Some((distance(x, &point), point, facet))
-        });
-        let nearest = each.min_by(|a, b| a.0.total_cmp(&b.0))?;
-        (nearest.0 < self.reach).then_some(nearest)
+    /// The nearest point of the boundary, if there is one within reach, or whether x is inside.
+    fn nearest(&self, x: &[f64; D]) -> Result<Nearest<'_, D>, bool> {
+        let near = match self.grid.near(x) {
+            Near::None { inside } => return Err(inside),
+            Near::Facets(near) => near.iter(),
+        };
+        let (mut nearest, mut least) = (None, self.reach);
+        for facet in near.map(|&number| &self.facets[number as usize]) {
+            if distance(x, &facet.centre) - facet.radius < least {
+                let point = facet.nearest_point(x);
+                let distance = distance(x, &point);
+                if distance < least {
+                    (nearest, least) = (Some((distance, point, facet)), distance);
+                }
+            }
+        }
+        nearest.ok_or_else(|| self.search.locate(x, None).is_some())
     }
 
-    fn is_inside(&self, x: &[f64; D]) -> bool {
+    /// Whether x is inside: right above or below its nearest facet that facet tells, else the search for its cell.
+    fn is_inside(&self, x: &[f64; D], (distance, point, facet): &Nearest<'_, D>) -> bool {
+        let height = dot(&subtract(x, point), &facet.inward);
+        if height.abs() > (1.0 - 1e-9) * distance {
+            return height > 0.0;
+        }
         self.search.locate(x, None).is_some()
     }
 }
 
-/// The bin of width `width` that a point is in.
-fn place<const D: usize>(x: &[f64; D], width: f64) -> [i64; D] {
-    x.map(|c| (c / width).floor() as i64)
-}
-
 impl<const D: usize> Facet<D> {
+    fn new(corners: [[f64; D]; D], inward: [f64; D]) -> Self {
+        let centre = std::array::from_fn(|a| corners.iter().map(|x| x[a]).sum::<f64>() / D as f64);
+        let radius = corners.iter().map(|x| distance(x, &centre)).fold(0.0, f64::max);
+        Self {
+            corners,
+            inward,
+            centre,
+            // Against rounding, a little more.
+            radius: radius * (1.0 + 1e-9),
+        }
+    }
+
     /// The nearest point of a point, a segment or a triangle.
     fn nearest_point(&self, x: &[f64; D]) -> [f64; D] {
         let [a, b, c] = [0, 1, 2].map(|k| &self.corners[k % D]);
@@ -126,8 +134,11 @@ fn nearest_on_triangle<const D: usize>(x: &[f64; D], a: &[f64; D], b: &[f64; D],
 
 impl<const D: usize> Shape<D> for MeshOutside<D> {
     fn distance(&self, x: &[f64; D]) -> f64 {
-        let distance = self.nearest(x).map_or(self.reach, |(distance, _, _)| distance);
-        if self.is_inside(x) { distance } else { -distance }
+        let (distance, inside) = match self.nearest(x) {
+            Ok(nearest) => (nearest.0, self.is_inside(x, &nearest)),
+            Err(inside) => (self.reach, inside),
+        };
+        if inside { distance } else { -distance }
     }
 
     fn bounds(&self) -> Bounds<D> {
@@ -141,10 +152,10 @@ impl<const D: usize> Shape<D> for MeshOutside<D> {
     /// From the nearest point of the boundary to x inside the mesh, the other way outside, into the mesh on the boundary itself; zero beyond reach.
     fn normal(&self, x: &[f64; D]) -> [f64; D] {
         match self.nearest(x) {
-            None => [0.0; D],
-            Some((0.0, _, facet)) => facet.inward,
-            Some((_, point, _)) if self.is_inside(x) => unit(subtract(x, &point)),
-            Some((_, point, _)) => unit(subtract(&point, x)),
+            Err(_) => [0.0; D],
+            Ok((0.0, _, facet)) => facet.inward,
+            Ok(nearest) if self.is_inside(x, &nearest) => unit(subtract(x, &nearest.1)),
+            Ok(nearest) => unit(subtract(&nearest.1, x)),
         }
     }
 }
@@ -168,11 +179,12 @@ mod tests {
             prop_assert!((outside.distance(&x) - expected).abs() < 1e-12);
         }
 
-        /// All facets, without bins.
+        /// All facets, without the grid, and the search for the sign.
         #[test]
-        fn bins_miss_no_facet(x in [-1.1..1.1, -1.1..1.1, -1.1..1.1]) {
+        fn the_grid_misses_no_facet(x in [-1.1..1.1, -1.1..1.1, -1.1..1.1]) {
             let mesh = ball([0.0; 3], 1.0, 0.4).expect("a ball");
             let outside = MeshOutside::new(&mesh, 0.3);
+            prop_assert_eq!(outside.distance(&x) > 0.0, outside.search.locate(&x, None).is_some());
             let all = outside.facets.iter().map(|facet| distance(&x, &facet.nearest_point(&x)));
             let least = all.fold(f64::INFINITY, f64::min).min(0.3);
             prop_assert!((outside.distance(&x).abs() - least).abs() < 1e-12);

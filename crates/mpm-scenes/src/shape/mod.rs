@@ -6,6 +6,7 @@ mod build;
 mod capsule;
 mod combination;
 mod cuboid;
+mod facet_grid;
 mod half_space;
 mod mesh_outside;
 mod polygon;
