@@ -82,14 +82,18 @@ pub(super) fn beside<const D: usize>(
             error: own.add(&reduced, frame, first),
             latent: reduced.latent().to_vec(),
         });
+        let (mut finest, mut expected) = (&own, frame);
         if let Some((comparison, finer)) = &mut finer
             && let Some(frame) = frames_of(&finer.snapshots).nth(number)
         {
             comparison.add(&reduced, frame, first);
+            (finest, expected) = (comparison, frame);
         }
         if let Some(files) = &mut files {
-            let points = finer.as_ref().map_or(&own.points, |(comparison, _)| &comparison.points);
-            files.write(&reduced.snapshot(points))?;
+            let mut snapshot = reduced.snapshot(&finest.points);
+            let errors = ("position_error".to_owned(), finest.distances(expected));
+            snapshot.internal_variables.push(errors);
+            files.write(&snapshot)?;
         }
     }
     let steps = reduced.timings().steps;

@@ -1,5 +1,7 @@
 //! A reduced run beside a full-order one, at the points of the latter.
 
+use mpm_tensor::vector;
+
 use crate::deformation_map::MaterialPoints;
 use crate::manifold::{Evaluation, Manifold, Wanted};
 use crate::online::ReducedModel;
@@ -31,6 +33,12 @@ impl<const D: usize> Comparison<D> {
             self.total.merge(&error);
         }
         error.percent().unwrap_or(0.0)
+    }
+
+    /// Distances |g − φ| in m of the points of the frame that was added last.
+    pub fn distances(&self, frame: &Frame<D>) -> Vec<f64> {
+        let pairs = self.evaluation.positions.iter().zip(&frame.positions);
+        pairs.map(|(x, expected)| vector::distance(x, expected)).collect()
     }
 
     /// The error of all frames but the first, in per cent.

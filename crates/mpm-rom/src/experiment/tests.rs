@@ -468,6 +468,7 @@ fn more_points_than_those_of_the_dynamics_are_compared_with_a_run_of_their_own()
         let last = std::fs::read(run.join("particles_000004.vtu")).expect("the last frame");
         let head = String::from_utf8_lossy(&last[..last.len().min(4000)]).into_owned();
         assert!(head.contains("NumberOfPoints=\"144\""), "{head}");
+        assert!(head.contains("Name=\"position_error\""), "{head}");
     }
 
     for (change, expected) in [

@@ -5,7 +5,7 @@ use faer::{Accum, Mat, Par};
 use mpm_scenes::Kinematics;
 use mpm_tensor::vector;
 
-use super::greedy::UNFORESEEN;
+use super::design::UNFORESEEN;
 use super::samples::{ON_EACH_REGION, groups};
 use super::scaled_reading::ScaledReading;
 use super::{KnownPoints, OnlineError, Reading};

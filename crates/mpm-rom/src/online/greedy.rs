@@ -1,20 +1,10 @@
 //! Sample points chosen by what they get wrong.
 
-use faer::Mat;
-use faer::linalg::solvers::Solve;
 use mpm_scenes::Kinematics;
-use mpm_tensor::{Matrix, vector};
-use rayon::prelude::*;
 
+use super::design::Design;
 use super::samples::groups;
-use super::scaled_reading::ScaledReading;
 use super::{KnownPoints, OnlineError, Reading};
-
-/// What every S_s begins with, times the identity: small against what a mean point adds to its trace, r.
-const START: f64 = 1e-6;
-
-/// σ over the root mean square of the components of e: the part of the velocities' errors that readings do not foretell.
-pub(super) const UNFORESEEN: f64 = 0.3;
 
 /// Rounds of exchanges after the greedy choice, at most.
 const EXCHANGES: usize = 4;
@@ -84,149 +74,6 @@ pub fn choose_greedily<const D: usize>(
     Ok(numbers)
 }
 
-/// The sums over the points chosen so far.
-struct Design<'a, const D: usize> {
-    coordinates: usize,
-    known: &'a KnownPoints,
-    states: Vec<State<D>>,
-    /// σ².
-    unforeseen: f64,
-}
-
-/// One reading, and what the points chosen so far make of it.
-struct State<const D: usize> {
-    reading: ScaledReading<D>,
-    /// S, row-major, and b.
-    information: Vec<f64>,
-    right: Vec<f64>,
-    /// S⁻¹, S⁻¹ b and tr S⁻¹.
-    inverse: Vec<f64>,
-    difference: Vec<f64>,
-    trace: f64,
-}
-
-impl<'a, const D: usize> Design<'a, D> {
-    fn new(coordinates: usize, known: &'a KnownPoints, readings: &[Reading<D>]) -> Result<Self, OnlineError> {
-        let scaled = ScaledReading::all(coordinates, known.numbers().len(), readings)?;
-        let mean_square = scaled.iter().map(|reading| reading.mean_square).sum::<f64>() / scaled.len().max(1) as f64;
-        Ok(Self {
-            coordinates,
-            known,
-            states: scaled
-                .into_par_iter()
-                .map(|reading| State::new(coordinates, reading))
-                .collect(),
-            unforeseen: UNFORESEEN * UNFORESEEN * mean_square,
-        })
-    }
-
-    fn objective(&self) -> f64 {
-        let states = self.states.iter();
-        states
-            .map(|state| squared(&state.difference) + self.unforeseen * state.trace)
-            .sum()
-    }
-
-    /// The free point among these that makes the objective least, with it: one that readings know where there is one.
-    fn best(&self, members: &[u32], free: &[bool]) -> Option<(u32, f64)> {
-        let candidates: Vec<u32> = members.iter().copied().filter(|&p| free[p as usize]).collect();
-        let objectives: Vec<f64> = candidates
-            .par_iter()
-            .map(|&point| {
-                let states = self.states.iter();
-                match self.known.place(point) {
-                    Some(place) => states.map(|state| state.with(place, self.unforeseen)).sum(),
-                    None => f64::INFINITY,
-                }
-            })
-            .collect();
-        let pairs = candidates.into_iter().zip(objectives);
-        pairs.reduce(|best, next| if next.1 < best.1 { next } else { best })
-    }
-
-    /// Adds a point to the sums, or takes it out.
-    fn change(&mut self, point: u32, sign: f64) {
-        let r = self.coordinates;
-        let Some(point) = self.known.place(point) else {
-            return;
-        };
-        self.states.par_iter_mut().for_each(|state| {
-            let rows = &state.reading.columns[point * r..(point + 1) * r];
-            for (n, entry) in state.information.iter_mut().enumerate() {
-                *entry += sign * vector::dot(&rows[n / r], &rows[n % r]);
-            }
-            for (row, entry) in rows.iter().zip(&mut state.right) {
-                *entry += sign * vector::dot(row, &state.reading.errors[point]);
-            }
-            state.solve();
-        });
-    }
-}
-
-impl<const D: usize> State<D> {
-    fn new(r: usize, reading: ScaledReading<D>) -> Self {
-        let mut state = Self {
-            reading,
-            information: (0..r * r).map(|n| if n % (r + 1) == 0 { START } else { 0.0 }).collect(),
-            right: vec![0.0; r],
-            inverse: Vec::new(),
-            difference: Vec::new(),
-            trace: 0.0,
-        };
-        state.solve();
-        state
-    }
-
-    fn solve(&mut self) {
-        let r = self.right.len();
-        let matrix = Mat::from_fn(r, r, |i, j| self.information[i * r + j]);
-        let inverse = matrix.partial_piv_lu().solve(&Mat::<f64>::identity(r, r));
-        self.inverse = (0..r * r).map(|n| inverse[(n / r, n % r)]).collect();
-        let rows = self.inverse.chunks_exact(r.max(1));
-        self.difference = rows
-            .map(|row| row.iter().zip(&self.right).map(|(a, b)| a * b).sum())
-            .collect();
-        self.trace = (0..r).map(|k| self.inverse[k * r + k]).sum();
-    }
-
-    /// |S⁻¹ b|² + σ² tr S⁻¹ with one more point: with W = J S⁻¹, K = I + W Jᵀ and y = S⁻¹ b + Wᵀ e they become |y − Wᵀ K⁻¹ J y|² and
-    /// tr S⁻¹ − tr K⁻¹ W Wᵀ.
-    fn with(&self, point: usize, unforeseen: f64) -> f64 {
-        let r = self.right.len();
-        let rows = &self.reading.columns[point * r..(point + 1) * r];
-        let product = |k: usize| {
-            let mut column = [0.0; D];
-            for (row, entry) in rows.iter().zip(&self.inverse[k * r..(k + 1) * r]) {
-                vector::accumulate(&mut column, *entry, row);
-            }
-            column
-        };
-        let (mut within, mut squares, mut seen) = (Matrix::<D>::IDENTITY, Matrix::<D>::ZERO, [0.0; D]);
-        for k in 0..r {
-            let column = product(k);
-            within += Matrix::outer(&column, &rows[k]);
-            squares += Matrix::outer(&column, &column);
-            let moved = self.difference[k] + vector::dot(&column, &self.reading.errors[point]);
-            vector::accumulate(&mut seen, moved, &rows[k]);
-        }
-        let Some(inverse) = within.inverse() else {
-            return f64::INFINITY;
-        };
-        let pulled = inverse.apply(&seen);
-        let mut sum = unforeseen * (self.trace - (inverse * squares).trace());
-        for k in 0..r {
-            let column = product(k);
-            let moved = self.difference[k] + vector::dot(&column, &self.reading.errors[point]);
-            sum += (moved - vector::dot(&column, &pulled)).powi(2);
-        }
-        sum
-    }
-}
-
-fn squared(list: &[f64]) -> f64 {
-    list.iter().map(|value| value * value).sum()
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::scaled_reading::tests::reading;
@@ -262,41 +109,5 @@ mod tests {
                 assert!(least <= objective(&instead) * (1.0 + 1e-6), "{place}: {other}");
             }
         }
-    }
-
-    #[test]
-    fn the_objective_foretells_the_difference_of_the_rates() {
-        use crate::least_squares::LeastSquares;
-        let reading = reading(40, 3, 0.23);
-        let known = KnownPoints::all(40);
-        let mut design = Design::new(3, &known, std::slice::from_ref(&reading)).expect("of these points");
-        let chosen = [3, 14, 15, 26, 35];
-        chosen.iter().for_each(|&point| design.change(point, 1.0));
-        let solve = |numbers: &[usize]| {
-            let rows: Vec<_> = numbers
-                .iter()
-                .flat_map(|&p| reading.jacobians[3 * p..3 * p + 3].to_vec())
-                .collect();
-            let targets: Vec<_> = numbers.iter().map(|&p| reading.velocities[p]).collect();
-            let mut rates = vec![0.0; 3];
-            LeastSquares::default()
-                .solve(&rows, &targets, &mut rates)
-                .expect("of full rank");
-            rates
-        };
-        let few = chosen.map(|p| p as usize);
-        let (all, few) = (solve(&(0..40).collect::<Vec<_>>()), solve(&few));
-        let mut mean = 0.0;
-        for rows in reading.jacobians.chunks(3) {
-            let mut gap = [0.0; 2];
-            (0..3).for_each(|k| vector::accumulate(&mut gap, few[k] - all[k], &rows[k]));
-            mean += vector::norm_squared(&gap) / 40.0;
-        }
-        let found = squared(&design.states[0].difference);
-        assert!((found - mean).abs() < 1e-4 * mean, "{found} {mean}");
-        // And one more point is what it becomes.
-        let foretold = design.states[0].with(20, design.unforeseen);
-        design.change(20, 1.0);
-        assert!((foretold / design.objective() - 1.0).abs() < 1e-6);
     }
 }

@@ -3,6 +3,7 @@
 mod body;
 mod coordinates;
 mod cubature;
+mod design;
 mod error;
 mod eulerian;
 mod greedy;
