@@ -27,6 +27,9 @@ pub struct Experiment {
     /// Frames of the training runs between those of the scene; none if left out.
     #[serde(default)]
     pub frames_between: Option<FramesBetween>,
+    /// Networks that are trained for each one that is asked for, with seeds that follow one another; the one whose reduced runs of training cases are best is kept. ≥ 1.
+    #[serde(default = "one_start")]
+    pub starts: u64,
     /// Names of the parameters.
     pub parameters: Vec<String>,
     /// What the parameters change in the scene.
@@ -68,6 +71,10 @@ pub struct Key {
 
 fn one() -> f64 {
     1.0
+}
+
+fn one_start() -> u64 {
+    1
 }
 
 /// Values of the parameters, one list per run.
@@ -251,6 +258,9 @@ impl Experiment {
         }
         if self.recorded_points == Some(0) {
             return refuse("recorded_points".to_owned(), "0: at least 1".to_owned());
+        }
+        if self.starts == 0 {
+            return refuse("starts".to_owned(), "0: at least 1".to_owned());
         }
         if let Some((key, message)) = self.frames_between.and_then(|between| between.fault()) {
             return refuse(format!("frames_between.{key}"), message);

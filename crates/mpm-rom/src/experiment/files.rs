@@ -16,6 +16,8 @@ pub mod names {
     pub const CHECKPOINT: &str = "checkpoint.safetensors";
     /// The trained model.
     pub const MODEL: &str = "model.safetensors";
+    /// One row per network, where the best of several is kept.
+    pub const STARTS: &str = "starts.csv";
     /// One row per epoch.
     pub const LOSSES: &str = "losses.csv";
     /// One row per reduced run.

@@ -12,6 +12,7 @@ mod read_results;
 mod reduced;
 mod results;
 mod sampling;
+mod starts;
 mod super_resolution;
 #[cfg(test)]
 mod tests;
@@ -27,5 +28,5 @@ pub use read_results::read_results;
 pub use reduced::run;
 pub use results::{FrameRow, ReducedRow};
 pub use super_resolution::SuperResolved;
-pub use trained::{Trained, Watch, train};
+pub use trained::{Start, Trained, Watch, train};
 pub use variants::Variant;

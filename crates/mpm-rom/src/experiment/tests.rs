@@ -555,6 +555,44 @@ fn variants_are_other_networks_for_the_same_data() {
 }
 
 #[test]
+fn of_several_starts_the_one_with_the_best_training_runs_is_kept() {
+    let (directory, file) = files();
+    let text = EXPERIMENT.replace("cases = {", "starts = 3\ncases = {");
+    let experiment = Experiment::parse(&text, &file).expect("sound");
+    let out = directory.path().join("out");
+    let trained = train_one(&experiment, &out);
+    assert_eq!(
+        trained.starts.iter().map(|start| start.seed).collect::<Vec<_>>(),
+        [0, 1, 2]
+    );
+    let errors: Vec<f64> = trained.starts.iter().map(|start| start.position_error).collect();
+    let best = (0..3).min_by(|&a, &b| errors[a].total_cmp(&errors[b])).expect("three");
+    assert_eq!(trained.gradient_error, trained.starts[best].gradient_error);
+    let bytes = |path: PathBuf| std::fs::read(path).expect("a file");
+    let model = |number: usize| bytes(out.join(format!("start_{number}")).join(names::MODEL));
+    assert_eq!(bytes(out.join(names::MODEL)), model(best));
+    assert_ne!(model(0), model(1));
+    let table = std::fs::read_to_string(out.join(names::STARTS)).expect("a table");
+    assert_eq!(table.lines().count(), 4, "{table}");
+    // The first start is the network of an experiment without others, and the error that of its runs of the training cases.
+    let alone = text
+        .replace("starts = 3", "")
+        .replace("test = [[2.0, 0.1]]", "test = [[1.0, 0.0], [3.0, 0.2]]");
+    let alone = Experiment::parse(&alone, &file).expect("sound");
+    let other = directory.path().join("other");
+    train_one(&alone, &other);
+    assert_eq!(bytes(other.join(names::MODEL)), model(0));
+    let rows = run::<2>(&alone, &other, &mut |_, _| true).expect("run");
+    let of_all = |row: &&ReducedRow| (row.manifold, row.chosen, row.update) == ("network", "all", "position-velocity");
+    let mean = rows.iter().filter(of_all).map(|row| row.error).sum::<f64>() / 2.0;
+    assert!((errors[0] / mean - 1.0).abs() < 1e-9, "{errors:?} {mean}");
+    assert_eq!(
+        message(("cases = {", "starts = 0\ncases = {")),
+        "rom.toml, starts: 0: at least 1"
+    );
+}
+
+#[test]
 fn the_random_pokes_are_run_with_the_network_of_the_pokes() {
     let read = |name: &str| {
         let file = Path::new(env!("CARGO_MANIFEST_DIR"))

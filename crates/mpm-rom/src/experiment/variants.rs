@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-use super::{Experiment, ExperimentError};
+use super::{Experiment, ExperimentError, starts};
 use crate::training::Training;
 
 /// Another network: its name, and the keys of `[training]` that differ.
@@ -32,9 +32,13 @@ impl Experiment {
         let mut names = HashSet::new();
         for (number, Variant { name, changes }) in self.variants.iter().enumerate() {
             let field = format!("variants.{number}");
+            let taken = name.starts_with(starts::PREFIX);
             let sound = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
-            if name.is_empty() || !name.chars().all(sound) || !names.insert(name) {
-                let message = format!("`{name}`: letters, digits, - and _, and a name of its own");
+            if name.is_empty() || taken || !name.chars().all(sound) || !names.insert(name) {
+                let message = format!(
+                    "`{name}`: letters, digits, - and _, and a name of its own, not {}…",
+                    starts::PREFIX
+                );
                 return refuse(&format!("{field}.name"), message);
             }
             match self.training.changed(changes) {

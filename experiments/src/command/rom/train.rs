@@ -49,6 +49,14 @@ fn pairs(trained: &Trained, memory: &MemoryGauge) -> Vec<(&'static str, String)>
     if !trained.name.is_empty() {
         pairs.insert(0, ("variant", trained.name.clone()));
     }
+    if let Some(best) = trained
+        .starts
+        .iter()
+        .min_by(|a, b| a.position_error.total_cmp(&b.position_error))
+    {
+        pairs.push(("starts", trained.starts.len().to_string()));
+        pairs.push(("training_runs_error_percent", format!("{:.6}", best.position_error)));
+    }
     if let Some(bytes) = memory.peak_bytes() {
         pairs.push(("peak_memory_bytes", bytes.to_string()));
     }
