@@ -1,7 +1,7 @@
 //! How wide the kernels of the mesh generators are: `cargo run --release -p mpm-mesh --example kernel_width`.
 //!
 //! Prints the second moments Σ w_i (x_i − x)_a² of the weights, in size², per axis and as their mean, and the longest edge in sizes; means over
-//! the inner points of all cells, whose barycentric coordinates are (k + 1/2) / (n + (D + 1)/2). Quadratic splines on a grid have 0.25.
+//! D + 2 points of every cell, its middle and one near each corner. Quadratic splines on a grid have 0.25.
 
 use std::error::Error;
 
@@ -37,16 +37,12 @@ fn second_moments<const D: usize>(mesh: &SimplexMesh<D>) -> Result<[f64; D], Box
     let (mut sums, mut points) = ([0.0; D], 0.0);
     for cell in 0..basis.mesh().cell_count() as u32 {
         let corners = basis.mesh().cell(cell as usize);
-        // The middle of the cell and of its parts next to each corner.
+        // Near no corner in the last turn: the middle.
         for nearest in 0..=D + 1 {
-            let share = |n: usize| {
-                if nearest > D {
-                    1.0
-                } else if n == nearest {
-                    2.0
-                } else {
-                    0.5
-                }
+            let share = |n: usize| match nearest {
+                _ if nearest > D => 1.0,
+                _ if n == nearest => 2.0,
+                _ => 0.5,
             };
             let total: f64 = (0..=D).map(share).sum();
             let x: [f64; D] = std::array::from_fn(|a| {

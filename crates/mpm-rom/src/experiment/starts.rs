@@ -3,6 +3,9 @@
 use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use mpm_scenes::output::write_whole;
 
 use super::files::{self, names};
 use super::sampling::Sampling;
@@ -25,7 +28,8 @@ pub(super) fn best_start<const D: usize>(
     watch: &mut dyn Watch,
 ) -> Result<Trained, ExperimentError> {
     let document = SceneDocument::read(&experiment.scene_file())?;
-    let mut all: Vec<(PathBuf, Trained)> = Vec::new();
+    let (mut starts, mut training_time) = (Vec::new(), Duration::ZERO);
+    let mut best: Option<(Start, PathBuf, Trained)> = None;
     for number in 0..experiment.starts {
         let place = directory.join(directory_name(number));
         fs::create_dir_all(&place).map_err(|source| ExperimentError::file("create", &place, source))?;
@@ -33,7 +37,8 @@ pub(super) fn best_start<const D: usize>(
             seed: training.seed.wrapping_add(number),
             ..training.clone()
         };
-        let mut trained = train_network(snapshots, &training, &place, watch)?;
+        let trained = train_network(snapshots, &training, &place, watch)?;
+        training_time += trained.training_time;
         let model = Model::read(&place.join(names::MODEL))?;
         let sampling = Sampling {
             experiment,
@@ -42,37 +47,36 @@ pub(super) fn best_start<const D: usize>(
             network: 0,
             snapshots,
         };
-        trained.starts = vec![Start {
+        let start = Start {
             seed: training.seed,
             reconstruction_error: trained.reconstruction_error,
             gradient_error: trained.gradient_error,
             position_error: sampling.error_of_training_runs()?,
-        }];
-        all.push((place, trained));
-        files::write(&directory.join(names::STARTS), &table(&all))?;
+        };
+        starts.push(start);
+        files::write(&directory.join(names::STARTS), &table(&starts))?;
+        if best.as_ref().is_none_or(|(best, ..)| start.is_better_than(best)) {
+            best = Some((start, place, trained));
+        }
     }
-    let starts: Vec<Start> = all.iter().flat_map(|(_, trained)| trained.starts.clone()).collect();
-    let key = |(_, trained): &(PathBuf, Trained)| {
-        trained.starts.first().map_or((f64::INFINITY, f64::INFINITY), |start| {
-            (start.position_error, start.gradient_error)
-        })
-    };
-    let training_time = all.iter().map(|(_, trained)| trained.training_time).sum();
-    let best = all.into_iter().min_by(|a, b| {
-        let (a, b) = (key(a), key(b));
-        a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1))
-    });
-    // There is one start at least: the file has been checked.
-    let (place, best) = best.ok_or_else(|| experiment.field("starts".to_owned(), "0: at least 1".to_owned()))?;
+    let (_, place, best) = best.ok_or_else(|| experiment.field("starts".to_owned(), "0: at least 1".to_owned()))?;
     for name in [names::MODEL, names::LOSSES] {
-        let (from, to) = (place.join(name), directory.join(name));
-        fs::copy(&from, &to).map_err(|source| ExperimentError::file("write", &to, source))?;
+        let from = place.join(name);
+        let bytes = fs::read(&from).map_err(|source| ExperimentError::file("read", &from, source))?;
+        write_whole(&directory.join(name), &bytes)?;
     }
     Ok(Trained {
         starts,
         training_time,
         ..best
     })
+}
+
+impl Start {
+    fn is_better_than(&self, other: &Self) -> bool {
+        let key = |start: &Self| (start.position_error, start.gradient_error);
+        key(self) < key(other)
+    }
 }
 
 /// Where the network of a start is.
@@ -84,17 +88,15 @@ fn directory_name(number: u64) -> String {
 pub(super) const PREFIX: &str = "start_";
 
 /// One row per start.
-fn table(all: &[(PathBuf, Trained)]) -> String {
+fn table(starts: &[Start]) -> String {
     let mut text = "seed,reconstruction_error_percent,gradient_error,position_error_percent\n".to_owned();
-    for start in all.iter().flat_map(|(_, trained)| &trained.starts) {
-        let Start {
-            seed,
-            reconstruction_error,
-            gradient_error,
-            position_error,
-        } = start;
+    for start in starts {
         // A String takes everything.
-        let _ = writeln!(text, "{seed},{reconstruction_error},{gradient_error},{position_error}");
+        let _ = writeln!(
+            text,
+            "{},{},{},{}",
+            start.seed, start.reconstruction_error, start.gradient_error, start.position_error
+        );
     }
     text
 }

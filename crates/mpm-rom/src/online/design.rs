@@ -77,11 +77,11 @@ impl<'a, const D: usize> Design<'a, D> {
         let places: Vec<Option<usize>> = candidates.iter().map(|&point| self.known.place(point)).collect();
         let group = |some: &[Option<usize>]| std::array::from_fn(|l| some.get(l).copied().flatten().unwrap_or(0));
         let groups: Vec<[usize; LANES]> = places.chunks(LANES).map(group).collect();
-        let (mut sums, mut seen_by) = (vec![Lanes::ZERO; groups.len()], Vec::new());
+        let (mut sums, mut columns) = (vec![Lanes::ZERO; groups.len()], Vec::new());
         // Every state serves all candidates while it is at hand.
         for state in &self.states {
             for (sum, group) in sums.iter_mut().zip(&groups) {
-                *sum += state.with(group, self.unforeseen, &mut seen_by);
+                *sum += state.with(group, self.unforeseen, &mut columns);
             }
         }
         let sums = sums.iter().flat_map(|sum| sum.to_array());
