@@ -3,6 +3,7 @@
 //! Printed per frame: the instant, the mean of the plastic strain q over the body, and its mean in the bands, Σ q² V / Σ q V. For the same slip the latter
 //! goes with the inverse of the bands' width.
 
+#[expect(dead_code, reason = "positions are for others")]
 mod frames;
 
 use std::io::Write;

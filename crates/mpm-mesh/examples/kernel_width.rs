@@ -4,6 +4,7 @@
 //! D + 2 points of every cell, its middle and one near each corner. Quadratic splines on a grid have 0.25.
 
 use std::error::Error;
+use std::io::Write;
 
 use mpm_mesh::generate::{EdgeTarget, cuboid, rectangle, triangle_lattice};
 use mpm_mesh::{MeshBasis, SimplexMesh};
@@ -27,7 +28,11 @@ fn print<const D: usize>(name: &str, size: f64, mesh: &SimplexMesh<D>) -> Result
     let moments = second_moments(mesh)?.map(|moment| moment / (size * size));
     let mean = moments.iter().sum::<f64>() / D as f64;
     let longest = mesh.edge_lengths().longest / size;
-    println!("{name:9} size {size}: moments {moments:.3?}, mean {mean:.3}, longest edge {longest:.2}");
+    let mut output = std::io::stdout().lock();
+    writeln!(
+        output,
+        "{name:9} size {size}: moments {moments:.3?}, mean {mean:.3}, longest edge {longest:.2}"
+    )?;
     Ok(())
 }
 
