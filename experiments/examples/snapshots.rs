@@ -1,4 +1,4 @@
-//! A figure of frames of `parvi simulate`: `snapshots OUT.svg TITLE FIELD BOUNDS EXTENT COLUMNS FRAME.vtu…`.
+//! A figure of frames of `parvi simulate` or of reduced runs, bodies in space seen along z: `snapshots OUT.svg TITLE FIELD BOUNDS EXTENT COLUMNS FRAME.vtu…`.
 //!
 //! FIELD is a scalar of the particles, as in `plastic_strain`; BOUNDS, up to four numbers with commas, divide it into classes; EXTENT is
 //! `x_lower,y_lower,x_upper,y_upper`; COLUMNS is how many frames stand in a row.
@@ -19,9 +19,11 @@ fn main() -> Result<()> {
     for path in frames {
         let frame = Frame::read(path)?;
         let volumes = frame.field("volume")?;
-        spacing = (volumes.iter().sum::<f64>() / volumes.len() as f64).sqrt();
+        let in_space = frame.field("position")?.chunks_exact(3).any(|x| x[2] != 0.0);
+        let dimension = if in_space { 3.0 } else { 2.0 };
+        spacing = (volumes.iter().sum::<f64>() / volumes.len() as f64).powf(1.0 / dimension);
         panels.push(SnapshotPanel {
-            title: format!("t = {} s", frame.time()?),
+            title: format!("t = {} s", (frame.time()? * 1e4).round() / 1e4),
             positions: frame.plane()?,
             values: frame.field(field)?,
         });

@@ -11,6 +11,9 @@ use super::text::{Anchor, TextStyle};
 /// Colours of classes from low to high, each darker than the one before.
 const CLASSES: [&str; 5] = ["#c6d5e8", "#8fb8de", "#f2b46b", "#d55e00", "#5a1200"];
 
+/// Room for the labels of vertical ticks, at least.
+const LEAST_TICK_ROOM: f64 = 20.0;
+
 /// One instant.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SnapshotPanel {
@@ -66,11 +69,17 @@ pub fn snapshots(plot: &SnapshotsPlot) -> Result<String, PlotError> {
     let y = Scale::around([low[1], high[1]], AxisKind::Linear, 0.0);
     let columns = plot.columns.clamp(1, plot.panels.len());
     let rows = plot.panels.len().div_ceil(columns);
-    let left = MARGIN + 24.0 + label_room(1);
-    let gap = 26.0;
-    let width = (FIGURE_WIDTH - left - MARGIN - 8.0 - gap * (columns - 1) as f64) / columns as f64;
+    // Left margin, gap, width and height with so much room for the labels of vertical ticks.
+    let layout = |room: f64| {
+        let (left, gap) = (MARGIN + room + 4.0 + label_room(1), room + 6.0);
+        let width = (FIGURE_WIDTH - left - MARGIN - 8.0 - gap * (columns - 1) as f64) / columns as f64;
+        let height = (width / (high[0] - low[0]) * (high[1] - low[1])).clamp(20.0, 640.0);
+        (left, gap, width, height)
+    };
+    // What these labels are hangs on the height, which hangs on their room.
+    let (_, _, _, first_height) = layout(LEAST_TICK_ROOM);
+    let (left, gap, width, height) = layout(y_tick_room(&y_ticks(&y, first_height, 5.0)).max(LEAST_TICK_ROOM));
     let unit = width / (high[0] - low[0]);
-    let height = (unit * (high[1] - low[1])).clamp(20.0, 640.0);
     let (horizontal, vertical) = (x_ticks(&x, width, 4.0), y_ticks(&y, height, 5.0));
 
     let mut drawing = Drawing::new(&plot.title);
