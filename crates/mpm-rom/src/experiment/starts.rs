@@ -19,7 +19,7 @@ use crate::training::Training;
 /// Trains a network from each of several seeds, each in a directory of its own, and keeps the one whose reduced runs of training cases are nearest to their full-order runs; of
 /// equals that with the smaller gradient error.
 ///
-/// Networks that lose as little of the training data may differ by a factor of two and more in the runs that they make: a loss does not tell what forces are wrong together.
+/// Networks that lose as little of the training data may differ by half and more in the runs that they make: a loss does not tell what forces are wrong together.
 pub(super) fn best_start<const D: usize>(
     experiment: &Experiment,
     snapshots: &Snapshots<D>,
@@ -47,11 +47,16 @@ pub(super) fn best_start<const D: usize>(
             network: 0,
             snapshots,
         };
+        let position_error = match sampling.error_of_training_runs() {
+            // A network without a state at rest, or without a step, makes no run.
+            Err(ExperimentError::Map(_) | ExperimentError::Online(_)) => f64::INFINITY,
+            other => other?,
+        };
         let start = Start {
             seed: training.seed,
             reconstruction_error: trained.reconstruction_error,
             gradient_error: trained.gradient_error,
-            position_error: sampling.error_of_training_runs()?,
+            position_error,
         };
         starts.push(start);
         files::write(&directory.join(names::STARTS), &table(&starts))?;

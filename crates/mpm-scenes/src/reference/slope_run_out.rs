@@ -4,8 +4,8 @@ use super::parts::{Rows, Run, last, unfit};
 use crate::ValidationRow;
 use crate::scene::ShapeTable;
 
-/// Run-outs in m after 3 s on structured grids, by the distance between particles in m: `clay_slope.toml` with two particles per axis of a cell, `spacing` twice that distance and
-/// `softening_rate` 5 `spacing` / 0.2 m (docs/results/mechanics).
+/// Run-outs in m after 3 s on structured grids, by the distance between particles in m: `clay_slope.toml` with `particles_per_axis = 2`, `spacing` twice that distance and
+/// `softening_rate` 5 `spacing` / 0.2 m (docs/results/umls).
 const STRUCTURED: [[f64; 2]; 4] = [[0.05, 10.26], [0.1, 10.85], [0.15, 11.01], [0.2, 11.20]];
 
 /// The run-out, of the outermost particle and half the distance between particles from where the base ends, within 5 % of that on a structured grid with as many particles.

@@ -78,6 +78,7 @@ fn the_ball_falls_into_the_channel() {
 
 #[test]
 fn the_slope_begins_to_fail() {
+    // The rate of a grid: what is pinned is the run, not how far it goes.
     let changes = [
         ("size = 0.2", "size = 0.8"),
         ("spacing = 0.1", "spacing = 0.4"),
