@@ -5,6 +5,9 @@ use super::*;
 use crate::full_order::SceneDocument;
 use crate::training::EpochReport;
 
+mod networks;
+mod refused;
+
 /// A strip whose left end is held, and which falls.
 const SCENE: &str = r#"
 title = "a strip that bends"
@@ -61,98 +64,6 @@ fn keys_take_their_values_from_the_parameters() {
     let case = experiment.case(&[2.0, 0.3]).expect("known");
     let value = |k: usize| case.changes[k].1.as_float().expect("a number");
     assert!((value(0) - 2.0 * 0.3f64.sin()).abs() < 1e-15 && (value(1) + 2.0 * 0.3f64.cos()).abs() < 1e-15);
-}
-
-#[test]
-fn what_is_wrong_is_named_with_its_file_and_field() {
-    for (change, expected) in [
-        (
-            ("\"sin angle\"", "\"tan angle\""),
-            "rom.toml, keys.0.product: [\"gravity\", \"tan angle\"]",
-        ),
-        (
-            ("test = [[2.0, 0.1]]", "test = []"),
-            "rom.toml, cases.test: at least one case",
-        ),
-        (
-            ("[3.0, 0.2]", "[3.0]"),
-            "rom.toml, cases.train.1: 1 values for 2 parameters",
-        ),
-        (
-            ("[3.0, 0.2]", "[3.0, nan]"),
-            "rom.toml, cases.train.1: NaN is not finite",
-        ),
-        (("epochs = 7", "epochs = 0"), "rom.toml, training: epochs = 0"),
-        (
-            ("samples = [20, \"all\"]", "samples = []"),
-            "rom.toml, run.samples: at least one",
-        ),
-        (
-            ("samples = [20, \"all\"]", "choice = []"),
-            "rom.toml, run.choice: at least one",
-        ),
-        (
-            ("samples = [20, \"all\"]", "choice = [\"best\"]"),
-            "unknown variant `best`",
-        ),
-        (
-            ("samples = [20, \"all\"]", "samples = [\"some\"]"),
-            "expected a number of points or \"all\" (in `run = {",
-        ),
-        (("width = 6", "breadth = 6"), "unknown field `breadth`"),
-        (
-            ("cases = {", "recorded_points = 0\ncases = {"),
-            "rom.toml, recorded_points: 0",
-        ),
-        (
-            (
-                "cases = {",
-                "frames_between = { per_frame = 1, distance = 0.1 }\ncases = {",
-            ),
-            "rom.toml, frames_between.per_frame: 1: at least 2",
-        ),
-        (
-            (
-                "cases = {",
-                "frames_between = { per_frame = 2, distance = 0.0 }\ncases = {",
-            ),
-            "rom.toml, frames_between.distance: 0: must be positive",
-        ),
-        (
-            ("cases = {", "recorded_points = 9\ncases = {"),
-            "rom.toml, run.manifold: \"linear\" needs all points of the training: leave out recorded_points",
-        ),
-        (
-            ("manifold = [\"network\",", "scene = \"fine.toml\", manifold = ["),
-            "rom.toml, run.manifold: \"linear\" needs all points of the training: leave out run.scene",
-        ),
-        (
-            ("manifold = [\"network\", \"linear\"]", "step_factor = []"),
-            "rom.toml, run.step_factor: at least one",
-        ),
-        (
-            ("cases = {", "variants = [{ name = \"a/b\" }]\ncases = {"),
-            "rom.toml, variants.0.name: `a/b`",
-        ),
-        (
-            (
-                "cases = {",
-                "variants = [{ name = \"a\" }, { name = \"a\" }]\ncases = {",
-            ),
-            "rom.toml, variants.1.name: `a`",
-        ),
-        (
-            ("cases = {", "variants = [{ name = \"a\", weight = 1.0 }]\ncases = {"),
-            "rom.toml, variants.0: unknown field `weight`",
-        ),
-        (
-            ("cases = {", "variants = [{ name = \"a\", epochs = 0 }]\ncases = {"),
-            "rom.toml, variants.0: epochs = 0",
-        ),
-    ] {
-        let message = message(change);
-        assert!(message.contains(expected), "{message}");
-    }
 }
 
 /// Breaks after so many full-order runs or epochs; the data have two runs, after which there is nothing left to stop.
@@ -368,53 +279,6 @@ fn weights_and_frames_between_those_of_the_scene_have_a_part_in_a_run() {
 }
 
 #[test]
-fn a_key_that_does_not_fit_the_scene_is_named_with_the_file_that_asks_for_it() {
-    let (directory, file) = files();
-    let scene = directory.path().join("strip.toml");
-    let cases = [
-        (
-            ("\"gravity.1\"", "\"gravity.7\""),
-            "keys.1.key: `gravity.7`",
-            "gravity has no `7`",
-        ),
-        (
-            ("\"gravity.0\"", "\"mass\""),
-            "keys.0.key: `mass`",
-            "the scene has no `mass`",
-        ),
-        (
-            ("\"gravity.0\"", "\"title\""),
-            "keys.0.key: `title`",
-            "expected a string",
-        ),
-    ];
-    for (number, (change, field, reason)) in cases.into_iter().enumerate() {
-        let experiment = Experiment::parse(&EXPERIMENT.replace(change.0, change.1), &file).expect("sound");
-        let document = SceneDocument::read(&scene).expect("a scene");
-        let errors = [
-            experiment.scene_of(&document, &[1.0, 0.0]).expect_err("refused"),
-            train::<2>(&experiment, &directory.path().join(number.to_string()), &mut ()).expect_err("refused"),
-        ];
-        for error in errors.map(|error| error.to_string()) {
-            let expected = format!("{}, {field} does not fit the scene {}", file.display(), scene.display());
-            assert!(error.starts_with(&expected) && error.contains(reason), "{error}");
-        }
-    }
-    // A scene that is none without any change is to blame itself.
-    std::fs::write(&scene, SCENE.replace("dimension", "dimensions")).expect("written");
-    let experiment = Experiment::parse(EXPERIMENT, &file).expect("sound");
-    let document = SceneDocument::read(&scene).expect("a document");
-    let error = experiment
-        .scene_of(&document, &[1.0, 0.0])
-        .expect_err("refused")
-        .to_string();
-    assert!(
-        error.contains("strip.toml, line 3, column 1: unknown field `dimensions`"),
-        "{error}"
-    );
-}
-
-#[test]
 fn more_points_than_those_of_the_dynamics_are_compared_with_a_run_of_their_own() {
     let (directory, file) = files();
     let denser = SCENE.replace("material = \"rubber\"", "material = \"rubber\"\nparticles_per_axis = 3");
@@ -507,111 +371,4 @@ fn sample_points_are_on_the_regions_of_each_case() {
     let rows = run::<2>(&experiment, &out, &mut |_, _| true).expect("run");
     let greedy: Vec<_> = rows.iter().filter(|row| row.chosen == "greedy").collect();
     assert!(!greedy.is_empty() && greedy.iter().all(|row| row.samples == 20));
-}
-
-#[test]
-fn variants_are_other_networks_for_the_same_data() {
-    let (directory, file) = files();
-    let text = EXPERIMENT
-        .replace(
-            "cases = {",
-            "variants = [{ name = \"three\", coordinates = 3, gradient_weight = 0.0 }]\ncases = {",
-        )
-        .replace("samples = [20, \"all\"]", "samples = [20]");
-    let experiment = Experiment::parse(&text, &file).expect("sound");
-    let out = directory.path().join("out");
-    let trained = train::<2>(&experiment, &out, &mut ()).expect("trained");
-    assert_eq!(
-        trained.iter().map(|network| network.name.as_str()).collect::<Vec<_>>(),
-        ["", "three"]
-    );
-    assert!(trained[1].history.iter().all(|epoch| epoch.terms.gradient == 0.0));
-    assert!(out.join("three").join(names::MODEL).exists() && !out.join("three").join(names::TRAINING_DATA).exists());
-    let rows = run::<2>(&experiment, &out, &mut |_, _| true).expect("run");
-    let kinds: Vec<_> = rows
-        .iter()
-        .map(|row| (row.manifold, row.variant.as_str(), row.frames[0].latent.len()))
-        .collect();
-    let expected = [("network", "", 2), ("network", "three", 3), ("linear", "", 2)];
-    assert_eq!(kinds, expected.iter().flat_map(|&kind| [kind; 2]).collect::<Vec<_>>());
-    // A model must not be run under the name of a variant that it was not trained as.
-    let mut other = experiment.clone();
-    other.variants[0]
-        .changes
-        .insert("coordinates".to_owned(), toml::Value::Integer(1));
-    assert!(matches!(
-        run::<2>(&other, &out, &mut |_, _| true),
-        Err(ExperimentError::Occupied { .. })
-    ));
-    // The main network is that of an experiment without variants.
-    let alone = Experiment::parse(EXPERIMENT, &file).expect("sound");
-    let other = directory.path().join("other");
-    let first = train_one(&alone, &other);
-    assert_eq!(first.history, trained[0].history);
-    let table = std::fs::read_to_string(out.join(names::FRAMES)).expect("frames");
-    let columns = |line: &str| line.split(',').count();
-    let head = table.lines().next().expect("a head");
-    assert!(table.lines().all(|line| columns(line) == columns(head)), "{table}");
-}
-
-#[test]
-fn of_several_starts_the_one_with_the_best_training_runs_is_kept() {
-    let (directory, file) = files();
-    let text = EXPERIMENT.replace("cases = {", "starts = 3\ncases = {");
-    let experiment = Experiment::parse(&text, &file).expect("sound");
-    let out = directory.path().join("out");
-    let trained = train_one(&experiment, &out);
-    assert_eq!(
-        trained.starts.iter().map(|start| start.seed).collect::<Vec<_>>(),
-        [0, 1, 2]
-    );
-    let errors: Vec<f64> = trained.starts.iter().map(|start| start.position_error).collect();
-    let best = (0..3).min_by(|&a, &b| errors[a].total_cmp(&errors[b])).expect("three");
-    assert_eq!(trained.gradient_error, trained.starts[best].gradient_error);
-    let bytes = |path: PathBuf| std::fs::read(path).expect("a file");
-    let model = |number: usize| bytes(out.join(format!("start_{number}")).join(names::MODEL));
-    assert_eq!(bytes(out.join(names::MODEL)), model(best));
-    assert_ne!(model(0), model(1));
-    let table = std::fs::read_to_string(out.join(names::STARTS)).expect("a table");
-    assert_eq!(table.lines().count(), 4, "{table}");
-    // The first start is the network of an experiment without others, and the error that of its runs of the training cases.
-    let alone = text
-        .replace("starts = 3", "")
-        .replace("test = [[2.0, 0.1]]", "test = [[1.0, 0.0], [3.0, 0.2]]");
-    let alone = Experiment::parse(&alone, &file).expect("sound");
-    let other = directory.path().join("other");
-    train_one(&alone, &other);
-    assert_eq!(bytes(other.join(names::MODEL)), model(0));
-    let rows = run::<2>(&alone, &other, &mut |_, _| true).expect("run");
-    let of_all = |row: &&ReducedRow| (row.manifold, row.chosen, row.update) == ("network", "all", "position-velocity");
-    let mean = rows.iter().filter(of_all).map(|row| row.error).sum::<f64>() / 2.0;
-    assert!((errors[0] / mean - 1.0).abs() < 1e-9, "{errors:?} {mean}");
-    assert_eq!(
-        message(("cases = {", "starts = 0\ncases = {")),
-        "rom.toml, starts: 0: at least 1"
-    );
-}
-
-#[test]
-fn the_random_pokes_are_run_with_the_network_of_the_pokes() {
-    let read = |name: &str| {
-        let file = Path::new(env!("CARGO_MANIFEST_DIR"))
-            .join("../../experiments/rom")
-            .join(name);
-        Experiment::read(&file).expect("sound")
-    };
-    let (pokes, random) = (read("poke.toml"), read("poke_random.toml"));
-    let network = |experiment: &Experiment| {
-        let frames = (
-            &experiment.scene,
-            &experiment.frames_between,
-            experiment.recorded_points,
-        );
-        format!(
-            "{:?}",
-            (frames, &experiment.keys, &experiment.cases.train, &experiment.training)
-        )
-    };
-    assert_eq!(network(&pokes), network(&random));
-    assert!(random.cases.test.iter().all(|angle| !pokes.cases.test.contains(angle)));
 }

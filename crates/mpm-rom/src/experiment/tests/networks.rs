@@ -1,0 +1,110 @@
+//! Several networks of one experiment, and one network of several.
+
+use super::*;
+
+#[test]
+fn variants_are_other_networks_for_the_same_data() {
+    let (directory, file) = files();
+    let text = EXPERIMENT
+        .replace(
+            "cases = {",
+            "variants = [{ name = \"three\", coordinates = 3, gradient_weight = 0.0 }]\ncases = {",
+        )
+        .replace("samples = [20, \"all\"]", "samples = [20]");
+    let experiment = Experiment::parse(&text, &file).expect("sound");
+    let out = directory.path().join("out");
+    let trained = train::<2>(&experiment, &out, &mut ()).expect("trained");
+    assert_eq!(
+        trained.iter().map(|network| network.name.as_str()).collect::<Vec<_>>(),
+        ["", "three"]
+    );
+    assert!(trained[1].history.iter().all(|epoch| epoch.terms.gradient == 0.0));
+    assert!(out.join("three").join(names::MODEL).exists() && !out.join("three").join(names::TRAINING_DATA).exists());
+    let rows = run::<2>(&experiment, &out, &mut |_, _| true).expect("run");
+    let kinds: Vec<_> = rows
+        .iter()
+        .map(|row| (row.manifold, row.variant.as_str(), row.frames[0].latent.len()))
+        .collect();
+    let expected = [("network", "", 2), ("network", "three", 3), ("linear", "", 2)];
+    assert_eq!(kinds, expected.iter().flat_map(|&kind| [kind; 2]).collect::<Vec<_>>());
+    // A model must not be run under the name of a variant that it was not trained as.
+    let mut other = experiment.clone();
+    other.variants[0]
+        .changes
+        .insert("coordinates".to_owned(), toml::Value::Integer(1));
+    assert!(matches!(
+        run::<2>(&other, &out, &mut |_, _| true),
+        Err(ExperimentError::Occupied { .. })
+    ));
+    // The main network is that of an experiment without variants.
+    let alone = Experiment::parse(EXPERIMENT, &file).expect("sound");
+    let other = directory.path().join("other");
+    let first = train_one(&alone, &other);
+    assert_eq!(first.history, trained[0].history);
+    let table = std::fs::read_to_string(out.join(names::FRAMES)).expect("frames");
+    let columns = |line: &str| line.split(',').count();
+    let head = table.lines().next().expect("a head");
+    assert!(table.lines().all(|line| columns(line) == columns(head)), "{table}");
+}
+
+#[test]
+fn of_several_starts_the_one_with_the_best_training_runs_is_kept() {
+    let (directory, file) = files();
+    let text = EXPERIMENT.replace("cases = {", "starts = 3\ncases = {");
+    let experiment = Experiment::parse(&text, &file).expect("sound");
+    let out = directory.path().join("out");
+    let trained = train_one(&experiment, &out);
+    assert_eq!(
+        trained.starts.iter().map(|start| start.seed).collect::<Vec<_>>(),
+        [0, 1, 2]
+    );
+    let errors: Vec<f64> = trained.starts.iter().map(|start| start.position_error).collect();
+    let best = (0..3).min_by(|&a, &b| errors[a].total_cmp(&errors[b])).expect("three");
+    assert_eq!(trained.gradient_error, trained.starts[best].gradient_error);
+    let bytes = |path: PathBuf| std::fs::read(path).expect("a file");
+    let model = |number: usize| bytes(out.join(format!("start_{number}")).join(names::MODEL));
+    assert_eq!(bytes(out.join(names::MODEL)), model(best));
+    assert_ne!(model(0), model(1));
+    let table = std::fs::read_to_string(out.join(names::STARTS)).expect("a table");
+    assert_eq!(table.lines().count(), 4, "{table}");
+    // The first start is the network of an experiment without others, and the error that of its runs of the training cases.
+    let alone = text
+        .replace("starts = 3", "")
+        .replace("test = [[2.0, 0.1]]", "test = [[1.0, 0.0], [3.0, 0.2]]");
+    let alone = Experiment::parse(&alone, &file).expect("sound");
+    let other = directory.path().join("other");
+    train_one(&alone, &other);
+    assert_eq!(bytes(other.join(names::MODEL)), model(0));
+    let rows = run::<2>(&alone, &other, &mut |_, _| true).expect("run");
+    let of_all = |row: &&ReducedRow| (row.manifold, row.chosen, row.update) == ("network", "all", "position-velocity");
+    let mean = rows.iter().filter(of_all).map(|row| row.error).sum::<f64>() / 2.0;
+    assert!((errors[0] / mean - 1.0).abs() < 1e-9, "{errors:?} {mean}");
+    assert_eq!(
+        message(("cases = {", "starts = 0\ncases = {")),
+        "rom.toml, starts: 0: at least 1"
+    );
+}
+
+#[test]
+fn the_random_pokes_are_run_with_the_network_of_the_pokes() {
+    let read = |name: &str| {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("../../experiments/rom")
+            .join(name);
+        Experiment::read(&file).expect("sound")
+    };
+    let (pokes, random) = (read("poke.toml"), read("poke_random.toml"));
+    let network = |experiment: &Experiment| {
+        let frames = (
+            &experiment.scene,
+            &experiment.frames_between,
+            experiment.recorded_points,
+        );
+        format!(
+            "{:?}",
+            (frames, &experiment.keys, &experiment.cases.train, &experiment.training)
+        )
+    };
+    assert_eq!(network(&pokes), network(&random));
+    assert!(random.cases.test.iter().all(|angle| !pokes.cases.test.contains(angle)));
+}
