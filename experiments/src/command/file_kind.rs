@@ -40,6 +40,7 @@ impl FileKind {
         let has = |key| table.contains_key(key);
         match () {
             () if has("kind") => Some(Self::Study),
+            () if has("trained_as") => Some(Self::Experiment),
             () if has("scene") && (has("cases") || has("parameters")) => Some(Self::Experiment),
             () if has("bodies") && !has("families") => Some(Self::Scene),
             () => None,

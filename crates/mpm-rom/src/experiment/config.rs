@@ -7,6 +7,7 @@ use serde::Deserialize;
 
 use super::ExperimentError;
 use super::beside::Choice;
+use super::more_runs::MoreRuns;
 use super::options::{All, ChoiceName, ManifoldName, QuadratureName, SampleCount, UpdateName};
 use super::variants::Variant;
 use crate::full_order::FramesBetween;
@@ -48,7 +49,7 @@ pub struct Experiment {
     /// The experiment's file.
     #[serde(skip)]
     pub(super) file: PathBuf,
-    /// Its text.
+    /// The text that the training is described by: that of the file, or of the one that it names with `trained_as`.
     #[serde(skip)]
     pub(super) text: String,
 }
@@ -197,14 +198,19 @@ impl Experiment {
         Self::parse(&text, file)
     }
 
-    /// As [`read`](Self::read), of a text; `file` is where it lies.
+    /// As [`read`](Self::read), of a text; `file` is where it lies. A text with `trained_as` is completed by the file that it names.
     ///
     /// # Errors
-    /// [`ExperimentError::Syntax`], [`ExperimentError::Field`].
+    /// As [`read`](Self::read).
     pub fn parse(text: &str, file: &Path) -> Result<Self, ExperimentError> {
-        let mut experiment: Self = document::parse(text, file)?;
-        experiment.file = file.to_owned();
-        experiment.text = text.to_owned();
+        let experiment = match MoreRuns::parse(text, file)? {
+            Some(more) => more.completed(file)?,
+            None => Self {
+                file: file.to_owned(),
+                text: text.to_owned(),
+                ..document::parse(text, file)?
+            },
+        };
         experiment.check()?;
         Ok(experiment)
     }

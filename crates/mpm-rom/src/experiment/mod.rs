@@ -7,11 +7,13 @@ mod config;
 mod error;
 mod files;
 mod frame_files;
+mod more_runs;
 mod options;
 mod read_results;
 mod reduced;
 mod results;
 mod sampling;
+mod spread;
 mod starts;
 mod super_resolution;
 #[cfg(test)]

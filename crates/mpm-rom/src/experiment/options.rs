@@ -12,6 +12,16 @@ pub enum SampleCount {
     All(All),
 }
 
+impl SampleCount {
+    /// The number; none for all of them.
+    pub fn count(self) -> Option<usize> {
+        match self {
+            Self::Drawn(count) => Some(count),
+            Self::All(_) => None,
+        }
+    }
+}
+
 /// The word `"all"`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]

@@ -5,7 +5,8 @@ use std::rc::Rc;
 use mpm_scenes::Scene;
 
 use super::beside::{Choice, Full, beside};
-use super::{All, ChoiceName, Experiment, ExperimentError, ManifoldName, SampleCount};
+use super::spread::spread;
+use super::{ChoiceName, Experiment, ExperimentError, ManifoldName, SampleCount};
 use crate::full_order::{FullOrderError, SceneDocument};
 use crate::manifold::Manifold;
 use crate::model::Model;
@@ -112,33 +113,40 @@ impl<const D: usize> Sampling<'_, D> {
         manifold: &dyn Manifold<D>,
         into: &mut Chosen<D>,
     ) -> Result<(), ExperimentError> {
-        for choice in &self.experiment.run.choice {
-            match choice {
-                ChoiceName::Greedy => self.choose_greedily(name, manifold, into)?,
-                ChoiceName::Cubature => self.choose_cubature(name, manifold, into)?,
-                ChoiceName::Drawn | ChoiceName::Spread => {}
-            }
+        let (run, mut counts) = (&self.experiment.run, Vec::new());
+        counts.extend(run.samples.iter().filter_map(|samples| samples.count()));
+        for &choice in &run.choice {
+            self.choose_by(choice, &counts, name, manifold, into)?;
         }
         Ok(())
     }
 
-    /// The numbers of sample points that a choice is made for.
-    fn counts(&self) -> impl Iterator<Item = usize> + Clone {
-        self.experiment.run.samples.iter().filter_map(|samples| match samples {
-            SampleCount::Drawn(count) => Some(*count),
-            SampleCount::All(_) => None,
-        })
+    /// So many sample points by one choice, if it needs training runs.
+    fn choose_by(
+        &self,
+        choice: ChoiceName,
+        counts: &[usize],
+        name: ManifoldName,
+        manifold: &dyn Manifold<D>,
+        into: &mut Chosen<D>,
+    ) -> Result<(), ExperimentError> {
+        match choice {
+            ChoiceName::Greedy => self.choose_greedily(counts, name, manifold, into),
+            ChoiceName::Cubature => self.choose_cubature(counts, name, manifold, into),
+            ChoiceName::Drawn | ChoiceName::Spread => Ok(()),
+        }
     }
 
     /// What [`choose_cubature`] finds on steps from 6 frames of each of up to 8 training runs, evenly spaced along the way of the body, and from states around these frames, near and far; those from the frames themselves count twice.
     fn choose_cubature(
         &self,
+        counts: &[usize],
         name: ManifoldName,
         manifold: &dyn Manifold<D>,
         into: &mut Chosen<D>,
     ) -> Result<(), ExperimentError> {
         let readings = Rc::new(self.readings(name, manifold, &CUBATURE_DISTANCES)?);
-        into.0.extend(self.counts().map(|count| Best {
+        into.0.extend(counts.iter().map(|&count| Best {
             of: (name, self.network, ChoiceName::Cubature, count),
             error: f64::INFINITY,
             readings: Rc::clone(&readings),
@@ -151,6 +159,7 @@ impl<const D: usize> Sampling<'_, D> {
     /// Each is tried on up to three training runs of at most 90 frames, and the one with the least mean position error is taken. More than 24 points are not tried, and the distance is 0.002.
     fn choose_greedily(
         &self,
+        counts: &[usize],
         name: ManifoldName,
         manifold: &dyn Manifold<D>,
         into: &mut Chosen<D>,
@@ -158,7 +167,7 @@ impl<const D: usize> Sampling<'_, D> {
         let mut best: Vec<Best<D>> = Vec::new();
         for distance in DISTANCES {
             let mut readings = None;
-            for count in self.counts() {
+            for &count in counts {
                 let of = (name, self.network, ChoiceName::Greedy, count);
                 let known = best.iter().position(|best| best.of == of);
                 if known.is_some() && count > MOST_TRIED {
@@ -200,29 +209,36 @@ impl<const D: usize> Sampling<'_, D> {
         count: usize,
         least: f64,
     ) -> Result<f64, ExperimentError> {
-        let choice = self.choice(name, SampleCount::Drawn(count));
+        let choice = self.choice(name, SampleCount::Drawn(count), ChoiceName::Greedy);
         let mut made = Made::default();
         self.mean_error(manifold, &choice, least, &mut |body| {
             made.points(readings, manifold.coordinates(), (ChoiceName::Greedy, count), body)
         })
     }
 
-    /// The mean position error of training runs of the network with all points, in per cent; infinite where one does not end well.
+    /// The mean position error of training runs of the network, in per cent, with the first of everything that `[run]` asks for; infinite where one does not end well.
     pub fn error_of_training_runs(&self) -> Result<f64, ExperimentError> {
-        let choice = self.choice(ManifoldName::Network, SampleCount::All(All::All));
-        self.mean_error(self.model.network(), &choice, f64::INFINITY, &mut |_| {
-            Ok(SampleChoice::All)
+        let (run, network, mut chosen) = (&self.experiment.run, self.model.network(), Chosen::default());
+        let choice = self.choice(ManifoldName::Network, run.samples[0], run.choice[0]);
+        if let Some(count) = choice.samples.count() {
+            self.choose_by(choice.chosen, &[count], choice.manifold, network, &mut chosen)?;
+        }
+        self.mean_error(network, &choice, f64::INFINITY, &mut |body| {
+            run.samples(&choice, |count| {
+                let of = (choice.manifold, choice.network, choice.chosen, count);
+                chosen.points(of, network.coordinates(), body)
+            })
         })
     }
 
     /// What trial runs are made with.
-    fn choice(&self, name: ManifoldName, samples: SampleCount) -> Choice {
+    fn choice(&self, name: ManifoldName, samples: SampleCount, chosen: ChoiceName) -> Choice {
         let run = &self.experiment.run;
         Choice {
             manifold: name,
             network: self.network,
             samples,
-            chosen: ChoiceName::Greedy,
+            chosen,
             quadrature: run.quadrature[0],
             update: run.update[0],
             step_factor: 1,
@@ -237,7 +253,7 @@ impl<const D: usize> Sampling<'_, D> {
         least: f64,
         points: &mut dyn FnMut(&ReducedBody<D>) -> Result<SampleChoice, OnlineError>,
     ) -> Result<f64, ExperimentError> {
-        let (tried, mut mean) = (evenly(self.snapshots.runs().len(), TRIAL_RUNS), 0.0);
+        let (tried, mut mean) = (spread(&self.experiment.cases.train, TRIAL_RUNS), 0.0);
         for &case in &tried {
             let whole = &self.snapshots.runs()[case];
             let part = Run {
@@ -277,10 +293,4 @@ impl<const D: usize> Sampling<'_, D> {
             ManifoldName::Linear => vec![0.0; self.model.network().coordinates()],
         })
     }
-}
-
-/// At most `most` of the numbers below `count`, evenly spaced up to the last.
-pub(super) fn evenly(count: usize, most: usize) -> Vec<usize> {
-    let used = count.min(most);
-    (1..=used).map(|n| n * count / used - 1).collect()
 }

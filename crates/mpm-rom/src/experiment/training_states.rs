@@ -2,7 +2,8 @@
 
 use mpm_tensor::vector;
 
-use super::sampling::{Readings, Sampling, evenly};
+use super::sampling::{Readings, Sampling};
+use super::spread::evenly;
 use super::{ExperimentError, ManifoldName};
 use crate::deformation_map::DeformationMap;
 use crate::least_squares::{GaussNewton, LeastSquares, Settings};

@@ -1,0 +1,77 @@
+//! Files that ask for other runs of what another file trains.
+
+use std::path::{Path, PathBuf};
+
+use mpm_scenes::document;
+use serde::Deserialize;
+
+use super::config::ReducedRuns;
+use super::{Cases, Experiment, ExperimentError};
+
+/// Other test cases and reduced runs of the networks of another experiment.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct MoreRuns {
+    title: String,
+    /// The file of that experiment, which lies beside this one.
+    trained_as: PathBuf,
+    #[serde(default)]
+    cases: TestCases,
+    #[serde(default)]
+    run: ReducedRuns,
+}
+
+/// The test cases; those of the other file if left out.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct TestCases {
+    test: Option<Vec<Vec<f64>>>,
+}
+
+/// Whether there is the key.
+#[derive(Deserialize)]
+struct Kind {
+    trained_as: Option<toml::Value>,
+}
+
+impl MoreRuns {
+    /// The document, if it has the key `trained_as`.
+    pub fn parse(text: &str, file: &Path) -> Result<Option<Self>, ExperimentError> {
+        match document::parse::<Kind>(text, file)?.trained_as {
+            Some(_) => Ok(Some(document::parse(text, file)?)),
+            None => Ok(None),
+        }
+    }
+
+    /// The other experiment with this title, and these test cases and runs.
+    pub fn completed(self, file: &Path) -> Result<Experiment, ExperimentError> {
+        let field = |message: String| ExperimentError::Field {
+            file: file.display().to_string(),
+            field: "trained_as".to_owned(),
+            message,
+        };
+        // Paths are seen from the file, so that both have to lie in one place.
+        let name = self.trained_as.display();
+        if self.trained_as.file_name() != Some(self.trained_as.as_os_str()) {
+            return Err(field(format!(
+                "{name}: a file beside this one is needed, by its name alone"
+            )));
+        }
+        let other = file.with_file_name(&self.trained_as);
+        let text = std::fs::read_to_string(&other).map_err(|source| field(format!("{}: {source}", other.display())))?;
+        if Self::parse(&text, &other)?.is_some() {
+            return Err(field(format!("{name} names a further file itself")));
+        }
+        let trained = Experiment::parse(&text, &other)?;
+        Ok(Experiment {
+            title: self.title,
+            cases: Cases {
+                test: self.cases.test.unwrap_or(trained.cases.test),
+                ..trained.cases
+            },
+            run: self.run,
+            file: file.to_owned(),
+            ..trained
+        })
+    }
+}
