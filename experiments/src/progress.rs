@@ -98,15 +98,25 @@ impl mpm_scenes::Observer for SimulationProgress {
 /// The bar of a training: full-order runs, then epochs.
 pub struct TrainingProgress {
     bar: ProgressBar,
-    /// Whether the bar shows epochs.
-    training: bool,
+    phase: Phase,
+}
+
+/// What the bar of a training counts.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Phase {
+    Runs,
+    Epochs,
+    Trials,
 }
 
 impl TrainingProgress {
     /// A bar that appears with the first run or epoch.
     pub fn new() -> Self {
         let bar = ProgressBar::new(0).with_style(style("{bar:30} run {pos}/{len}, {eta} left"));
-        Self { bar, training: false }
+        Self {
+            bar,
+            phase: Phase::Runs,
+        }
     }
 
     /// After a full-order run. A break if a stop was asked for.
@@ -118,8 +128,8 @@ impl TrainingProgress {
 
     /// After an epoch, with its mean loss. A break if a stop was asked for.
     pub fn epoch(&mut self, done: u64, epochs: u64, loss: f64) -> ControlFlow<()> {
-        if !self.training {
-            self.training = true;
+        if self.phase != Phase::Epochs {
+            self.phase = Phase::Epochs;
             self.bar
                 .set_style(style("{bar:30} epoch {pos}/{len}, loss {msg}, {eta} left"));
             self.bar.set_length(epochs);
@@ -130,6 +140,17 @@ impl TrainingProgress {
         if !self.bar.is_hidden() {
             self.bar.set_message(format!("{loss:.3e}"));
         }
+        unless_interrupted()
+    }
+
+    /// After a run that networks are compared by; how many there will be is not known. A break if a stop was asked for.
+    pub fn trial(&mut self) -> ControlFlow<()> {
+        if self.phase != Phase::Trials {
+            self.phase = Phase::Trials;
+            self.bar.set_style(style("trial run {pos}"));
+            self.bar.set_position(0);
+        }
+        self.bar.inc(1);
         unless_interrupted()
     }
 

@@ -104,6 +104,8 @@ pub struct ReducedRuns {
     pub choice: Vec<ChoiceName>,
     /// Seed of the draw of sample points.
     pub seed: u64,
+    /// Exchanges that are tried on training runs, of greedily chosen points where they are 24 at most.
+    pub exchanges: usize,
     /// What sample points count: `"equal"`, the paper's, or `"nearest"`, each the number of points that are nearest to it.
     pub weights: SampleWeights,
     /// Quadratures.
@@ -133,6 +135,7 @@ impl Default for ReducedRuns {
             samples: vec![SampleCount::Drawn(50), SampleCount::All(All::All)],
             choice: vec![ChoiceName::default()],
             seed: 0,
+            exchanges: 0,
             weights: SampleWeights::default(),
             quadrature: vec![QuadratureName::Lagrangian],
             update: vec![UpdateName::PositionVelocity],

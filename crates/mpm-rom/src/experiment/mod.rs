@@ -2,9 +2,11 @@
 
 mod beside;
 mod case;
+mod chosen;
 mod comparison;
 mod config;
 mod error;
+mod exchanges;
 mod files;
 mod frame_files;
 mod more_runs;
@@ -20,6 +22,7 @@ mod super_resolution;
 mod tests;
 mod trained;
 mod training_states;
+mod trials;
 mod variants;
 
 pub use config::{Cases, Experiment, Key, ReducedRuns};

@@ -1,14 +1,16 @@
 //! Reduced runs of the test cases, each beside its full-order run.
 
+use std::cell::RefCell;
 use std::path::Path;
 
 use mpm_scenes::Scene;
 
 use super::beside::{Choice, Full, beside};
+use super::chosen::Chosen;
 use super::files::{self, names};
 use super::frame_files::{self, FrameFiles};
 use super::results::{self, ReducedRow};
-use super::sampling::{Chosen, Sampling};
+use super::sampling::Sampling;
 use super::super_resolution::Finer;
 use super::trained::models_for;
 use super::{Experiment, ExperimentError, ManifoldName, SampleCount};
@@ -17,7 +19,8 @@ use crate::manifold::{Manifold, Pod};
 use crate::online::ReducedBody;
 use crate::snapshots::{Run, Snapshots};
 
-/// Runs every test case with the model of `directory`, and writes the tables there. `after_run` is told how many reduced runs are done, and of how many; a false ends them.
+/// Runs every test case with the model of `directory`, and writes the tables there. `after_run` is told how many reduced runs are done, and of how many, also while sample points are still tried on training runs; a false ends
+/// them.
 ///
 /// The tables grow with every run.
 ///
@@ -52,6 +55,9 @@ pub fn run<const D: usize>(
         }
         _ => None,
     };
+    let choices = choices(experiment, models.len());
+    let runs = choices.len() * experiment.cases.test.len();
+    let after_run = RefCell::new(after_run);
     let mut chosen = Chosen::default();
     if let Some(snapshots) = training.as_ref().filter(|_| chooses_on_training(experiment)) {
         let document = SceneDocument::read(&experiment.scene_file())?;
@@ -63,6 +69,7 @@ pub fn run<const D: usize>(
                 model,
                 network,
                 snapshots,
+                go_on: &|| after_run.borrow_mut()(0, runs),
             };
             match (name, &linear) {
                 (ManifoldName::Linear, Some(pod)) => sampling.choose(name, pod, &mut chosen)?,
@@ -71,8 +78,8 @@ pub fn run<const D: usize>(
         }
     }
     frame_files::forget_earlier(directory)?;
-    let (choices, mut rows) = (choices(experiment, models.len()), Vec::new());
-    let runs = choices.len() * experiment.cases.test.len();
+    let after_run = after_run.into_inner();
+    let mut rows = Vec::new();
     for (case, values) in experiment.cases.test.iter().enumerate() {
         let changed = experiment.case(values)?;
         let scene = experiment.scene_of(&document, values)?;

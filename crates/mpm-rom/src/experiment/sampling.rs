@@ -4,14 +4,13 @@ use std::rc::Rc;
 
 use mpm_scenes::Scene;
 
-use super::beside::{Choice, Full, beside};
-use super::spread::spread;
-use super::{ChoiceName, Experiment, ExperimentError, ManifoldName, SampleCount};
-use crate::full_order::{FullOrderError, SceneDocument};
+use super::chosen::{Best, Chosen};
+use super::trials::Trials;
+use super::{ChoiceName, Experiment, ExperimentError, ManifoldName};
+use crate::full_order::SceneDocument;
 use crate::manifold::Manifold;
 use crate::model::Model;
-use crate::online::{KnownPoints, OnlineError, Reading, ReducedBody, SampleChoice, choose_cubature, choose_greedily};
-use crate::snapshots::{Run, Snapshots};
+use crate::snapshots::Snapshots;
 
 /// Distances of the states around each frame, over the root mean square of the points' distance from the centroid. Without such states a choice knows only errors on the way, and not
 /// whether a run comes back to it; how far a run strays is not known beforehand.
@@ -19,10 +18,6 @@ const DISTANCES: [f64; 5] = [0.002, 0.0, 0.005, 0.01, 0.02];
 
 /// The distances for a cubature, all of them: near the way it has to be exact, and farther off it must know the way back.
 const CUBATURE_DISTANCES: [f64; 2] = [0.002, 0.02];
-
-/// Training runs that choices are tried on, at most, and frames of each.
-const TRIAL_RUNS: usize = 3;
-const TRIAL_FRAMES: usize = 91;
 
 /// Larger numbers of sample points are not tried: choices then differ little. The first one is taken.
 const MOST_TRIED: usize = 24;
@@ -36,73 +31,8 @@ pub(super) struct Sampling<'a, const D: usize> {
     /// Its number among those of the experiment.
     pub network: usize,
     pub snapshots: &'a Snapshots<D>,
-}
-
-/// A manifold, the number of the network, how points are chosen, and |𝒫|.
-type Of = (ManifoldName, usize, ChoiceName, usize);
-
-/// The sample points of every manifold, network and number of them. They hang on the scene, too: its kinematic regions need not be the same in all cases.
-#[derive(Default)]
-pub(super) struct Chosen<const D: usize>(Vec<Best<D>>);
-
-/// The readings on which points are chosen, and the points.
-struct Best<const D: usize> {
-    of: Of,
-    error: f64,
-    readings: Rc<Readings<D>>,
-    made: Made,
-}
-
-/// Steps from states of training runs, and where the points that they are read at are at rest.
-pub(super) struct Readings<const D: usize> {
-    pub positions: Vec<[f64; D]>,
-    pub steps: Vec<Reading<D>>,
-}
-
-/// Points that were chosen on some readings, with the members of the scene's kinematic regions.
-#[derive(Default)]
-struct Made(Vec<(Vec<Vec<usize>>, SampleChoice)>);
-
-impl<const D: usize> Chosen<D> {
-    /// The points of a run of this body.
-    ///
-    /// # Errors
-    /// Those of the choice; [`OnlineError::Readings`] where nothing has been read for it.
-    pub fn points(&mut self, of: Of, coordinates: usize, body: &ReducedBody<D>) -> Result<SampleChoice, OnlineError> {
-        match self.0.iter_mut().find(|best| best.of == of) {
-            Some(best) => best.made.points(&best.readings, coordinates, (of.2, of.3), body),
-            None => Err(OnlineError::Readings {
-                readings: 0,
-                points: body.reference.len(),
-            }),
-        }
-    }
-}
-
-impl Made {
-    fn points<const D: usize>(
-        &mut self,
-        readings: &Readings<D>,
-        coordinates: usize,
-        (choice, count): (ChoiceName, usize),
-        body: &ReducedBody<D>,
-    ) -> Result<SampleChoice, OnlineError> {
-        let regions = body.kinematics.regions().iter();
-        let regions: Vec<_> = regions.map(|region| region.members.clone()).collect();
-        if let Some((_, points)) = self.0.iter().find(|made| made.0 == regions) {
-            return Ok(points.clone());
-        }
-        let (kinematics, steps) = (&body.kinematics, &readings.steps);
-        let known = KnownPoints::nearest(&body.reference, &readings.positions);
-        let points = match choice {
-            ChoiceName::Cubature => {
-                SampleChoice::Weighted(choose_cubature(steps, coordinates, kinematics, &known, count)?)
-            }
-            _ => SampleChoice::Given(choose_greedily(steps, coordinates, kinematics, &known, count)?),
-        };
-        self.0.push((regions, points.clone()));
-        Ok(points)
-    }
+    /// Asked after every trial run whether to go on.
+    pub go_on: &'a dyn Fn() -> bool,
 }
 
 impl<const D: usize> Sampling<'_, D> {
@@ -122,7 +52,7 @@ impl<const D: usize> Sampling<'_, D> {
     }
 
     /// So many sample points by one choice, if it needs training runs.
-    fn choose_by(
+    pub(super) fn choose_by(
         &self,
         choice: ChoiceName,
         counts: &[usize],
@@ -137,7 +67,7 @@ impl<const D: usize> Sampling<'_, D> {
         }
     }
 
-    /// What [`choose_cubature`] finds on steps from 6 frames of each of up to 8 training runs, evenly spaced along the way of the body, and from states around these frames, near and far; those from the frames themselves count twice.
+    /// What [`choose_cubature`](crate::online::choose_cubature) finds on steps from 6 frames of each of up to 8 training runs, evenly spaced along the way of the body, and from states around these frames, near and far; those from the frames themselves count twice.
     fn choose_cubature(
         &self,
         counts: &[usize],
@@ -146,17 +76,13 @@ impl<const D: usize> Sampling<'_, D> {
         into: &mut Chosen<D>,
     ) -> Result<(), ExperimentError> {
         let readings = Rc::new(self.readings(name, manifold, &CUBATURE_DISTANCES)?);
-        into.0.extend(counts.iter().map(|&count| Best {
-            of: (name, self.network, ChoiceName::Cubature, count),
-            error: f64::INFINITY,
-            readings: Rc::clone(&readings),
-            made: Made::default(),
-        }));
+        let of = |count| (name, self.network, ChoiceName::Cubature, count);
+        into.extend(counts.iter().map(|&count| Best::new(of(count), Rc::clone(&readings))));
         Ok(())
     }
 
-    /// Candidates are what [`choose_greedily`] finds on steps from 6 frames of each of up to 8 training runs, evenly spaced along the way of the body, and from states around these frames at one of several distances.
-    /// Each is tried on up to three training runs of at most 90 frames, and the one with the least mean position error is taken. More than 24 points are not tried, and the distance is 0.002.
+    /// Candidates are what [`choose_greedily`](crate::online::choose_greedily) finds on steps from 6 frames of each of up to 8 training runs, evenly spaced along the way of the body, and from states around these frames at one of several distances.
+    /// Each is tried on up to eight training runs of at most 91 frames, and the one with the least error of them together is taken, and exchanged. More than 24 points are not tried, and the distance is 0.002.
     fn choose_greedily(
         &self,
         counts: &[usize],
@@ -164,120 +90,38 @@ impl<const D: usize> Sampling<'_, D> {
         manifold: &dyn Manifold<D>,
         into: &mut Chosen<D>,
     ) -> Result<(), ExperimentError> {
-        let mut best: Vec<Best<D>> = Vec::new();
+        let new = |&count: &usize| (count, None, Trials::of(&self.experiment.cases.train));
+        let mut all: Vec<(usize, Option<Best<D>>, Trials)> = counts.iter().map(new).collect();
         for distance in DISTANCES {
             let mut readings = None;
-            for &count in counts {
-                let of = (name, self.network, ChoiceName::Greedy, count);
-                let known = best.iter().position(|best| best.of == of);
-                if known.is_some() && count > MOST_TRIED {
+            for (count, best, trials) in &mut all {
+                let tried = *count <= MOST_TRIED;
+                if best.is_some() && !tried {
                     continue;
                 }
                 let readings = match &readings {
                     Some(readings) => readings,
                     None => readings.insert(Rc::new(self.readings(name, manifold, &[distance])?)),
                 };
-                let least = known.map_or(f64::INFINITY, |known| best[known].error);
-                let error = match count {
-                    ..=MOST_TRIED => self.trial(name, manifold, readings, count, least)?,
-                    _ => f64::INFINITY,
-                };
-                let (readings, made) = (Rc::clone(readings), Made::default());
-                let candidate = Best {
-                    of,
-                    error,
-                    readings,
-                    made,
-                };
-                match known {
-                    None => best.push(candidate),
-                    Some(known) if error < least => best[known] = candidate,
-                    Some(_) => {}
+                let of = (name, self.network, ChoiceName::Greedy, *count);
+                let mut candidate = Best::new(of, Rc::clone(readings));
+                let least = best.as_ref().map_or(f64::INFINITY, |best| best.error);
+                if tried {
+                    candidate.error = self.error_of(manifold, &mut candidate, least, trials)?;
+                }
+                if best.is_none() || candidate.error < least {
+                    *best = Some(candidate);
                 }
             }
         }
-        into.0.extend(best);
-        Ok(())
-    }
-
-    /// The mean position error of training runs with sample points chosen on these readings, in per cent; infinite where one does not end well or the mean is above `least` in any case.
-    fn trial(
-        &self,
-        name: ManifoldName,
-        manifold: &dyn Manifold<D>,
-        readings: &Readings<D>,
-        count: usize,
-        least: f64,
-    ) -> Result<f64, ExperimentError> {
-        let choice = self.choice(name, SampleCount::Drawn(count), ChoiceName::Greedy);
-        let mut made = Made::default();
-        self.mean_error(manifold, &choice, least, &mut |body| {
-            made.points(readings, manifold.coordinates(), (ChoiceName::Greedy, count), body)
-        })
-    }
-
-    /// The mean position error of training runs of the network, in per cent, with the first of everything that `[run]` asks for; infinite where one does not end well.
-    pub fn error_of_training_runs(&self) -> Result<f64, ExperimentError> {
-        let (run, network, mut chosen) = (&self.experiment.run, self.model.network(), Chosen::default());
-        let choice = self.choice(ManifoldName::Network, run.samples[0], run.choice[0]);
-        if let Some(count) = choice.samples.count() {
-            self.choose_by(choice.chosen, &[count], choice.manifold, network, &mut chosen)?;
-        }
-        self.mean_error(network, &choice, f64::INFINITY, &mut |body| {
-            run.samples(&choice, |count| {
-                let of = (choice.manifold, choice.network, choice.chosen, count);
-                chosen.points(of, network.coordinates(), body)
-            })
-        })
-    }
-
-    /// What trial runs are made with.
-    fn choice(&self, name: ManifoldName, samples: SampleCount, chosen: ChoiceName) -> Choice {
-        let run = &self.experiment.run;
-        Choice {
-            manifold: name,
-            network: self.network,
-            samples,
-            chosen,
-            quadrature: run.quadrature[0],
-            update: run.update[0],
-            step_factor: 1,
-        }
-    }
-
-    /// The mean position error of up to three training runs of at most 90 frames, in per cent, with the sample points that `points` gives; infinite where one does not end well or the mean is above `least` in any case.
-    fn mean_error(
-        &self,
-        manifold: &dyn Manifold<D>,
-        choice: &Choice,
-        least: f64,
-        points: &mut dyn FnMut(&ReducedBody<D>) -> Result<SampleChoice, OnlineError>,
-    ) -> Result<f64, ExperimentError> {
-        let (tried, mut mean) = (spread(&self.experiment.cases.train, TRIAL_RUNS), 0.0);
-        for &case in &tried {
-            let whole = &self.snapshots.runs()[case];
-            let part = Run {
-                parameters: whole.parameters.clone(),
-                frames: whole.frames.iter().take(TRIAL_FRAMES).cloned().collect(),
-            };
-            let snapshots = Snapshots::new(self.snapshots.body().clone(), vec![part]).map_err(FullOrderError::from)?;
-            let full = Full {
-                case,
-                snapshots,
-                seconds: 0.0,
-                finer: None,
-            };
-            let body = ReducedBody::of(&self.scene(case)?)?;
-            let guess = self.guess(choice.manifold, self.snapshots.reference())?;
-            let options = self.experiment.run.options(choice, points(&body)?);
-            let row = beside(manifold, &guess, body, &full, choice, options, None)?;
-            mean += row.error / tried.len() as f64;
-            let promising = row.outcome == "finished" && mean <= least;
-            if !promising {
-                return Ok(f64::INFINITY);
+        for (count, best, mut trials) in all {
+            let Some(mut best) = best else { continue };
+            if count <= MOST_TRIED {
+                self.exchange(manifold, &mut best, &mut trials)?;
             }
+            into.extend([best]);
         }
-        Ok(mean)
+        Ok(())
     }
 
     /// The scene of a training run.

@@ -1,5 +1,6 @@
 //! The best of several networks that differ in their seed.
 
+use std::cell::RefCell;
 use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -29,6 +30,7 @@ pub(super) fn best_start<const D: usize>(
 ) -> Result<Trained, ExperimentError> {
     let document = SceneDocument::read(&experiment.scene_file())?;
     let (mut starts, mut training_time) = (Vec::new(), Duration::ZERO);
+    let watch = RefCell::new(watch);
     let mut best: Option<(Start, PathBuf, Trained)> = None;
     for number in 0..experiment.starts {
         let place = directory.join(directory_name(number));
@@ -37,7 +39,7 @@ pub(super) fn best_start<const D: usize>(
             seed: training.seed.wrapping_add(number),
             ..training.clone()
         };
-        let trained = train_network(snapshots, &training, &place, watch)?;
+        let trained = train_network(snapshots, &training, &place, &mut **watch.borrow_mut())?;
         training_time += trained.training_time;
         let model = Model::read(&place.join(names::MODEL))?;
         let sampling = Sampling {
@@ -46,6 +48,7 @@ pub(super) fn best_start<const D: usize>(
             model: &model,
             network: 0,
             snapshots,
+            go_on: &|| watch.borrow_mut().after_trial().is_continue(),
         };
         let position_error = match sampling.error_of_training_runs() {
             // A network without a state at rest, or without a step, makes no run.

@@ -5,6 +5,7 @@ use super::*;
 use crate::full_order::SceneDocument;
 use crate::training::EpochReport;
 
+mod exchanges;
 mod more_runs;
 mod networks;
 mod refused;

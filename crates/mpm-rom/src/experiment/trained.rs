@@ -21,6 +21,11 @@ pub trait Watch {
 
     /// After an epoch; a break ends the training with a checkpoint to go on from.
     fn after_epoch(&mut self, report: &EpochReport) -> ControlFlow<()>;
+
+    /// After a reduced run that networks are compared by; a break ends them, and the networks that have been trained are kept.
+    fn after_trial(&mut self) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
 }
 
 /// Watches nothing.
@@ -72,7 +77,7 @@ pub struct Start {
     pub reconstruction_error: f64,
     /// The root mean square of ‖∇_X g̃ − F‖ over all points and frames of the training data.
     pub gradient_error: f64,
-    /// The mean position error of reduced runs of up to three training cases with all points, up to 90 frames each, in per cent; infinite where one of them ends before.
+    /// The root of the mean square of the position errors of reduced runs of up to eight training cases, up to 91 frames each, with the first of everything that the experiment runs, in per cent; infinite where one of them ends before.
     pub position_error: f64,
 }
 

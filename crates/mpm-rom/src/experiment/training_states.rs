@@ -2,7 +2,8 @@
 
 use mpm_tensor::vector;
 
-use super::sampling::{Readings, Sampling};
+use super::chosen::Readings;
+use super::sampling::Sampling;
 use super::spread::evenly;
 use super::{ExperimentError, ManifoldName};
 use crate::deformation_map::DeformationMap;

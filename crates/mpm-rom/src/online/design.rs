@@ -73,7 +73,7 @@ impl<'a, const D: usize> Design<'a, D> {
     }
 
     /// The objective with one more point, for each of these; infinite for those that readings do not know.
-    fn with_each(&self, candidates: &[u32]) -> Vec<f64> {
+    pub fn with_each(&self, candidates: &[u32]) -> Vec<f64> {
         let places: Vec<Option<usize>> = candidates.iter().map(|&point| self.known.place(point)).collect();
         let group = |some: &[Option<usize>]| std::array::from_fn(|l| some.get(l).copied().flatten().unwrap_or(0));
         let groups: Vec<[usize; LANES]> = places.chunks(LANES).map(group).collect();

@@ -71,4 +71,8 @@ impl Watch for TrainingProgress {
     fn after_epoch(&mut self, report: &EpochReport) -> ControlFlow<()> {
         self.epoch(report.epoch + 1, report.epochs, report.terms.total())
     }
+
+    fn after_trial(&mut self) -> ControlFlow<()> {
+        self.trial()
+    }
 }

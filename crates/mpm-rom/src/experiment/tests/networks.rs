@@ -67,6 +67,31 @@ fn of_several_starts_the_one_with_the_best_training_runs_is_kept() {
     assert_ne!(model(0), model(1));
     let table = std::fs::read_to_string(out.join(names::STARTS)).expect("a table");
     assert_eq!(table.lines().count(), 4, "{table}");
+    // Stopped between trials, the same line goes on.
+    struct StopTrial(u64);
+    impl Watch for StopTrial {
+        fn after_run(&mut self, _: usize, _: usize) -> ControlFlow<()> {
+            ControlFlow::Continue(())
+        }
+        fn after_epoch(&mut self, _: &EpochReport) -> ControlFlow<()> {
+            ControlFlow::Continue(())
+        }
+        fn after_trial(&mut self) -> ControlFlow<()> {
+            self.0 -= 1;
+            if self.0 == 0 {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        }
+    }
+    let stopped = directory.path().join("stopped");
+    assert!(matches!(
+        train::<2>(&experiment, &stopped, &mut StopTrial(3)),
+        Err(ExperimentError::Stopped)
+    ));
+    assert!(!stopped.join(names::MODEL).exists());
+    assert_eq!(train_one(&experiment, &stopped).starts, trained.starts);
     // The first start is the network of an experiment without others, and the error that of its runs of the training cases, with the first of everything in [run].
     let alone = text
         .replace("starts = 3", "")
@@ -78,8 +103,9 @@ fn of_several_starts_the_one_with_the_best_training_runs_is_kept() {
     let rows = run::<2>(&alone, &other, &mut |_, _| true).expect("run");
     let of_first =
         |row: &&ReducedRow| (row.manifold, row.chosen, row.update) == ("network", "greedy", "position-velocity");
-    let mean = rows.iter().filter(of_first).map(|row| row.error).sum::<f64>() / 2.0;
-    assert!((errors[0] / mean - 1.0).abs() < 1e-9, "{errors:?} {mean}");
+    let squares = rows.iter().filter(of_first).map(|row| row.error.powi(2));
+    let together = (squares.sum::<f64>() / 2.0).sqrt();
+    assert!((errors[0] / together - 1.0).abs() < 1e-9, "{errors:?} {together}");
     assert_eq!(
         message(("cases = {", "starts = 0\ncases = {")),
         "rom.toml, starts: 0: at least 1"
