@@ -74,13 +74,16 @@ pub fn coordinates(directory: &Path, experiment: &Experiment, rows: &[ReducedRow
     AtomicFile::write(directory.join("coordinates.svg"), trace(&plot)?)
 }
 
-/// The family of maps, or the variant of the network.
-fn map_of(row: &ReducedRow) -> &str {
-    match row.variant.as_str() {
-        "" => row.manifold,
-        variant => variant,
-    }
-}
+/// What lines may differ in, besides the choice of their points.
+const PARTS: [fn(&ReducedRow) -> String; 4] = [
+    |row| match row.variant.as_str() {
+        "" => row.manifold.to_owned(),
+        variant => variant.to_owned(),
+    },
+    |row| row.quadrature.to_owned(),
+    |row| row.update.to_owned(),
+    |row| format!("Δt × {}", row.step_factor),
+];
 
 /// Position error and wall time against the number of sample points.
 pub fn errors(directory: &Path, title: &str, rows: &[ReducedRow]) -> Result<(), CommandError> {
@@ -91,49 +94,115 @@ pub fn errors(directory: &Path, title: &str, rows: &[ReducedRow]) -> Result<(), 
         }),
     ];
     for (file, y_label, value) in figures {
-        let mut series: Vec<LineSeries> = Vec::new();
-        // What all lines share is not in their labels. All points are a choice of their own, and belong to every line.
-        let several_maps = rows.iter().any(|row| map_of(row) != map_of(&rows[0]));
-        let mut drawn = rows.iter().map(|row| row.chosen).filter(|&chosen| chosen != "all");
-        let first_choice = drawn.next();
-        let several_choices = drawn.any(|chosen| Some(chosen) != first_choice);
-        for group in groups(rows) {
-            let first = group[0];
-            let mut label = format!("{}, {}", first.quadrature, first.update);
-            if several_maps {
-                label = format!("{}, {label}", map_of(first));
-            }
-            if several_choices && first.chosen != "all" {
-                label.push_str(&format!(", {}", first.chosen));
-            }
-            if first.step_factor > 1 {
-                label.push_str(&format!(", Δt × {}", first.step_factor));
-            }
-            let values: Vec<f64> = group.iter().map(|row| value(row)).collect();
-            let mean = values.iter().sum::<f64>() / values.len() as f64;
-            let ends = values.iter().fold((f64::INFINITY, 0.0f64), |(low, high), &value| {
-                (low.min(value), high.max(value))
-            });
-            let place = series.iter().position(|line| line.label == label).unwrap_or_else(|| {
-                series.push(LineSeries {
-                    label,
-                    ..LineSeries::default()
-                });
-                series.len() - 1
-            });
-            series[place].x.push(group[0].samples as f64);
-            series[place].y.push(mean);
-            series[place].bars.push(ends);
-        }
         let plot = LinePlot {
             title: title.to_owned(),
             x_label: "sample points (mean and range over the test cases)".to_owned(),
             y_label: y_label.to_owned(),
             x_axis: AxisKind::Logarithmic,
-            series,
+            series: series(rows, value),
             ..LinePlot::default()
         };
         AtomicFile::write(directory.join(file), line(&plot)?)?;
     }
     Ok(())
+}
+
+/// A line for all runs that differ in nothing but the number of their points. All points are a choice of their own, and belong to the line of every choice.
+fn series(rows: &[ReducedRow], value: Value<ReducedRow>) -> Vec<LineSeries> {
+    // What all lines share is not in their labels.
+    let told: Vec<_> = PARTS
+        .into_iter()
+        .filter(|part| rows.iter().any(|row| part(row) != part(&rows[0])))
+        .collect();
+    let way = |row: &ReducedRow| told.iter().map(|part| part(row)).collect::<Vec<_>>();
+    let (all, drawn): (Vec<_>, Vec<_>) = groups(rows).into_iter().partition(|group| group[0].chosen == "all");
+    let several_choices = drawn.iter().any(|group| group[0].chosen != drawn[0][0].chosen);
+    let mut lines: Vec<(Vec<String>, &str, LineSeries)> = Vec::new();
+    for group in drawn.into_iter().chain(all) {
+        let (way, chosen) = (way(group[0]), group[0].chosen);
+        let is_of = |line: &(Vec<String>, &str, LineSeries)| line.0 == way && [line.1, "all"].contains(&chosen);
+        if !lines.iter().any(is_of) {
+            let choice = (several_choices && chosen != "all").then_some(chosen);
+            let label = way.iter().map(String::as_str).chain(choice).collect::<Vec<_>>();
+            let line = LineSeries {
+                label: label.join(", "),
+                ..LineSeries::default()
+            };
+            lines.push((way.clone(), chosen, line));
+        }
+        let values: Vec<f64> = group.iter().map(|row| value(row)).collect();
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        let ends = values.iter().fold((f64::INFINITY, 0.0f64), |(low, high), &value| {
+            (low.min(value), high.max(value))
+        });
+        for (_, _, line) in lines.iter_mut().filter(|line| is_of(line)) {
+            line.x.push(group[0].samples as f64);
+            line.y.push(mean);
+            line.bars.push(ends);
+        }
+    }
+    lines.into_iter().map(|(_, _, line)| line).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use mpm_rom::experiment::{All, SampleCount};
+
+    use super::*;
+
+    fn row(quadrature: &'static str, chosen: &'static str, samples: usize, error: f64) -> ReducedRow {
+        ReducedRow {
+            case: 0,
+            parameters: vec![1.0],
+            manifold: "network",
+            variant: String::new(),
+            samples,
+            asked: match chosen {
+                "all" => SampleCount::All(All::All),
+                _ => SampleCount::Drawn(samples),
+            },
+            chosen,
+            quadrature,
+            update: "position-velocity",
+            step_factor: 1,
+            error,
+            reconstruction_error: None,
+            super_resolved: None,
+            latent_return: 0.0,
+            simulated: 1.0,
+            steps: 10,
+            seconds: 1.0,
+            full_seconds: 1.0,
+            nodes: 8,
+            quadrature_points: 20,
+            refreshes: 0,
+            limited: 0,
+            outcome: "finished".to_owned(),
+            frames: Vec::new(),
+        }
+    }
+
+    fn lines(rows: &[ReducedRow]) -> Vec<(String, Vec<f64>, Vec<f64>)> {
+        let lines = series(rows, |row| row.error).into_iter();
+        lines.map(|line| (line.label, line.x, line.y)).collect()
+    }
+
+    #[test]
+    fn labels_tell_what_differs_and_all_points_end_every_line() {
+        let one = [row("eulerian", "greedy", 10, 3.0), row("eulerian", "greedy", 20, 2.0)];
+        assert_eq!(lines(&one), [(String::new(), vec![10.0, 20.0], vec![3.0, 2.0])]);
+        let many = [
+            row("eulerian", "all", 90, 1.0),
+            row("eulerian", "greedy", 10, 3.0),
+            row("eulerian", "greedy", 10, 5.0),
+            row("eulerian", "cubature", 10, 7.0),
+            row("lagrangian", "all", 90, 2.0),
+        ];
+        let expected = [
+            ("eulerian, greedy", vec![10.0, 90.0], vec![4.0, 1.0]),
+            ("eulerian, cubature", vec![10.0, 90.0], vec![7.0, 1.0]),
+            ("lagrangian", vec![90.0], vec![2.0]),
+        ];
+        assert_eq!(lines(&many), expected.map(|(label, x, y)| (label.to_owned(), x, y)));
+    }
 }
