@@ -31,7 +31,7 @@ pub(super) struct Readings<const D: usize> {
     pub steps: Vec<Reading<D>>,
 }
 
-/// The choice for a body with these members of its kinematic regions.
+/// The choice for a body with these members of its kinematic regions; all bodies that are asked for one after another are alike but for these.
 struct Made {
     regions: Vec<Vec<usize>>,
     known: KnownPoints,
@@ -39,8 +39,13 @@ struct Made {
 }
 
 impl<const D: usize> Chosen<D> {
+    /// Takes choices that have been tried. What they made for the bodies of their trials is forgotten: a finer body may have the same kinematic regions.
     pub fn extend(&mut self, chosen: impl IntoIterator<Item = Best<D>>) {
-        self.0.extend(chosen);
+        let forgetting = |best| Best {
+            made: Vec::new(),
+            ..best
+        };
+        self.0.extend(chosen.into_iter().map(forgetting));
     }
 
     /// The points of a run of this body.
@@ -157,7 +162,57 @@ impl Made {
 
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
+
+    use mpm_scenes::Scene;
+
     use super::*;
+
+    /// A square of so many points along each side, nothing of which is held.
+    fn square(points: usize) -> ReducedBody<2> {
+        let text = format!(
+            r#"
+            title = "a square"
+            dimension = 2
+            domain = {{ lower = [-1.0, -1.0], upper = [2.0, 2.0] }}
+            grid = {{ spacing = 0.25 }}
+            transfer = {{ kind = "pic" }}
+            time = {{ end = 0.2, step = 0.005, courant = 0.5 }}
+            materials.rubber = {{ law = "fixed-corotated", density = 2.0, young_modulus = 500.0, poisson_ratio = 0.3 }}
+            output = {{ interval = 0.05 }}
+            [[bodies]]
+            name = "square"
+            shape = {{ kind = "box", lower = [0.0, 0.0], upper = [1.0, 1.0] }}
+            material = "rubber"
+            spacing = {}
+            "#,
+            1.0 / points as f64
+        );
+        ReducedBody::of(&Scene::parse(&text, Path::new("square.toml")).expect("a scene")).expect("a body")
+    }
+
+    #[test]
+    fn another_body_with_the_same_regions_gets_its_own_points() {
+        let (coarse, fine) = (square(4), square(8));
+        assert_eq!([coarse.reference.len(), fine.reference.len()], [16, 64]);
+        let value = |n: usize| (1.0 + 0.37 * n as f64).sin();
+        let step = Reading {
+            jacobians: (0..32).map(|n| [value(n), value(3 * n + 7)]).collect(),
+            velocities: (0..16).map(|n| [value(5 * n + 1), value(2 * n + 9)]).collect(),
+        };
+        let readings = Rc::new(Readings {
+            positions: coarse.reference.clone(),
+            steps: vec![step],
+        });
+        let of = (ManifoldName::Network, 0, ChoiceName::Greedy, 6);
+        let mut best = Best::new(of, Rc::clone(&readings));
+        let of_coarse = best.points(2, &coarse).expect("points");
+        let mut chosen = Chosen::default();
+        chosen.extend([best]);
+        let of_fine = chosen.points(of, 2, &fine).expect("points");
+        assert_eq!(of_fine, Best::new(of, readings).points(2, &fine).expect("points"));
+        assert_ne!(of_fine, of_coarse);
+    }
 
     #[test]
     fn free_points_are_exchanged_where_that_makes_sense() {

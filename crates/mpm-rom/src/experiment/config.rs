@@ -9,6 +9,7 @@ use super::ExperimentError;
 use super::beside::Choice;
 use super::more_runs::MoreRuns;
 use super::options::{All, ChoiceName, ManifoldName, QuadratureName, SampleCount, UpdateName};
+use super::sampling::MOST_TRIED;
 use super::variants::Variant;
 use crate::full_order::FramesBetween;
 use crate::online::{Inverted, OnlineError, Options, Quadrature, SampleChoice, SampleWeights, Search, Update};
@@ -104,7 +105,7 @@ pub struct ReducedRuns {
     pub choice: Vec<ChoiceName>,
     /// Seed of the draw of sample points.
     pub seed: u64,
-    /// Exchanges that are tried on training runs, of greedily chosen points where they are 24 at most.
+    /// Exchanges that are tried on training runs (with the first quadrature and update), of greedily chosen points where they are 24 at most.
     pub exchanges: usize,
     /// What sample points count: `"equal"`, the paper's, or `"nearest"`, each the number of points that are nearest to it.
     pub weights: SampleWeights,
@@ -270,6 +271,12 @@ impl Experiment {
         }
         if self.starts == 0 {
             return refuse("starts".to_owned(), "0: at least 1".to_owned());
+        }
+        let is_exchanged = |samples: &SampleCount| samples.count().is_some_and(|count| count <= MOST_TRIED);
+        let exchanges = self.run.choice.contains(&ChoiceName::Greedy) && self.run.samples.iter().any(is_exchanged);
+        if self.run.exchanges > 0 && !exchanges {
+            let message = format!("only greedily chosen sample points are exchanged, {MOST_TRIED} at most: none here");
+            return refuse("run.exchanges".to_owned(), message);
         }
         if let Some((key, message)) = self.frames_between.and_then(|between| between.fault()) {
             return refuse(format!("frames_between.{key}"), message);

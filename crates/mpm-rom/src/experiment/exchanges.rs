@@ -19,10 +19,10 @@ impl<const D: usize> Sampling<'_, D> {
         trials: &mut Trials,
     ) -> Result<(), ExperimentError> {
         let (most, r) = (self.experiment.run.exchanges, manifold.coordinates());
-        let Some(first) = trials.first().filter(|_| most > 0) else {
+        if most == 0 {
             return Ok(());
-        };
-        let body = ReducedBody::of(&self.scene(first)?)?;
+        }
+        let body = ReducedBody::of(&self.scene(trials.first())?)?;
         let (mut ranked, mut tried) = (best.ranked(r, &body)?, HashSet::new());
         for _ in 0..most {
             let Some(&(from, to)) = ranked.iter().find(|pair| !tried.contains(*pair)) else {

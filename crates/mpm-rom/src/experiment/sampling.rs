@@ -20,7 +20,7 @@ const DISTANCES: [f64; 5] = [0.002, 0.0, 0.005, 0.01, 0.02];
 const CUBATURE_DISTANCES: [f64; 2] = [0.002, 0.02];
 
 /// Larger numbers of sample points are not tried: choices then differ little. The first one is taken.
-const MOST_TRIED: usize = 24;
+pub(super) const MOST_TRIED: usize = 24;
 
 /// Training runs and what is needed to step from their frames.
 pub(super) struct Sampling<'a, const D: usize> {

@@ -77,7 +77,7 @@ pub struct Start {
     pub reconstruction_error: f64,
     /// The root mean square of ‖∇_X g̃ − F‖ over all points and frames of the training data.
     pub gradient_error: f64,
-    /// The root of the mean square of the position errors of reduced runs of up to eight training cases, up to 91 frames each, with the first of everything that the experiment runs, in per cent; infinite where one of them ends before.
+    /// The root of the mean square of the position errors of reduced runs of up to eight training cases, up to 91 frames each, with the first of everything that the experiment runs but Δt, in per cent; infinite where one of them ends before.
     pub position_error: f64,
 }
 

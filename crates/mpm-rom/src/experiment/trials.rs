@@ -22,14 +22,14 @@ impl Trials {
         Self(spread(cases, RUNS))
     }
 
-    /// The first of them.
-    pub fn first(&self) -> Option<usize> {
-        self.0.first().copied()
+    /// The first of them; an experiment has one at least.
+    pub fn first(&self) -> usize {
+        self.0[0]
     }
 }
 
 impl<const D: usize> Sampling<'_, D> {
-    /// The error of training runs of the network together, as [`Self::together`], with the first of everything that `[run]` asks for.
+    /// The error of training runs of the network together, as [`Self::together`], with the first of everything that `[run]` asks for, but for its step factors.
     pub fn error_of_training_runs(&self) -> Result<f64, ExperimentError> {
         let (run, network, mut chosen) = (&self.experiment.run, self.model.network(), Chosen::default());
         let choice = self.choice(ManifoldName::Network, run.samples[0], run.choice[0]);
@@ -60,7 +60,7 @@ impl<const D: usize> Sampling<'_, D> {
         })
     }
 
-    /// What trial runs are made with.
+    /// What trial runs are made with: the first quadrature and update of `[run]`, whichever others the points will be used for, and Δt of the full-order run.
     fn choice(&self, name: ManifoldName, samples: SampleCount, chosen: ChoiceName) -> Choice {
         let run = &self.experiment.run;
         Choice {

@@ -64,16 +64,20 @@ impl<'a, const D: usize> Design<'a, D> {
     /// The free point among these that makes the objective least, with it: one that readings know where there is one.
     pub fn best(&self, members: &[u32], free: &[bool]) -> Option<(u32, f64)> {
         let candidates: Vec<u32> = members.iter().copied().filter(|&p| free[p as usize]).collect();
-        let objectives = candidates
-            .par_chunks(TOGETHER)
-            .flat_map_iter(|some| self.with_each(some));
-        let objectives: Vec<f64> = objectives.collect();
+        let objectives = self.with_each(&candidates);
         let pairs = candidates.into_iter().zip(objectives);
         pairs.reduce(|best, next| if next.1 < best.1 { next } else { best })
     }
 
     /// The objective with one more point, for each of these; infinite for those that readings do not know.
     pub fn with_each(&self, candidates: &[u32]) -> Vec<f64> {
+        let objectives = candidates
+            .par_chunks(TOGETHER)
+            .flat_map_iter(|some| self.with_some(some));
+        objectives.collect()
+    }
+
+    fn with_some(&self, candidates: &[u32]) -> Vec<f64> {
         let places: Vec<Option<usize>> = candidates.iter().map(|&point| self.known.place(point)).collect();
         let group = |some: &[Option<usize>]| std::array::from_fn(|l| some.get(l).copied().flatten().unwrap_or(0));
         let groups: Vec<[usize; LANES]> = places.chunks(LANES).map(group).collect();

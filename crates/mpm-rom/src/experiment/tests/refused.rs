@@ -31,6 +31,17 @@ fn what_is_wrong_is_named_with_its_file_and_field() {
             "rom.toml, run.choice: at least one",
         ),
         (
+            ("samples = [20, \"all\"]", "exchanges = 9, samples = [25, \"all\"]"),
+            "rom.toml, run.exchanges: only greedily chosen sample points are exchanged, 24 at most",
+        ),
+        (
+            (
+                "samples = [20, \"all\"]",
+                "exchanges = 9, samples = [20], choice = [\"spread\"]",
+            ),
+            "rom.toml, run.exchanges: only greedily",
+        ),
+        (
             ("samples = [20, \"all\"]", "choice = [\"best\"]"),
             "unknown variant `best`",
         ),
