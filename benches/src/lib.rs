@@ -1,6 +1,7 @@
 //! Scenes that benchmarks share. Criterion benchmarks live in `benches/benches`, plain ones in `benches/src/bin`: these are built
 //! without parvi and criterion, in seconds.
 
+pub mod arguments;
 pub mod elastic_block;
 pub mod mesh_block;
 pub mod processor_time;

@@ -1,10 +1,10 @@
-//! Steps of the sampler's gas in a Gaussian well, on a grid that moves in every step, for `benches/instructions.sh`:
-//! `cargo run --release -p parvi-benches --bin step_gas -- [grid2|grid3|lattice3|lattice8] [particles] [steps]`.
+//! Steps of the sampler's gas in a Gaussian well, on a grid that moves in every step, for `benches/instructions.sh`.
 
 use mpm_core::{BodyForce, ForceLocation, Mpm, MpmError, Particles, Pic, Sites, StepControl};
 use mpm_core::{SimplexLattice, SplineGrid, UniformBasis};
 use mpm_kernels::Quadratic;
 use mpm_materials::IsothermalGas;
+use parvi_benches::arguments::Arguments;
 use rand::{RngExt, SeedableRng, rngs::ChaCha8Rng};
 
 /// g = −x: the score of N(0, I).
@@ -51,15 +51,19 @@ fn run<B: UniformBasis<D>, const D: usize>(new: impl FnOnce(f64) -> Result<B, Mp
     }
 }
 
+const USAGE: &str = "\
+Steps of the sampler's gas in a Gaussian well, quietly: for counts of instructions.
+usage: step_gas [grid2|grid3|lattice3|lattice8] [particles] [steps]
+       unless given: lattice3, 10000 particles, 10 steps";
+
 fn main() {
-    let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let number = |index: usize| arguments[index].parse::<u32>().expect("a number");
-    let (particles, steps) = (number(1) as usize, number(2));
-    match arguments[0].as_str() {
+    let arguments = Arguments::of_process(USAGE);
+    let (particles, steps) = (arguments.number(1, 10_000), arguments.number(2, 10));
+    match arguments.word(0, "lattice3") {
         "grid2" => run(|h| SplineGrid::<Quadratic, 3, 2>::new([0.0; 2], h), particles, steps),
         "grid3" => run(|h| SplineGrid::<Quadratic, 3, 3>::new([0.0; 3], h), particles, steps),
         "lattice3" => run(|h| SimplexLattice::<3>::permutohedral([0.0; 3], h), particles, steps),
         "lattice8" => run(|h| SimplexLattice::<8>::permutohedral([0.0; 8], h), particles, steps),
-        other => panic!("{other} is no case"),
+        other => arguments.refuse(other),
     }
 }

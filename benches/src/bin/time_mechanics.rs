@@ -1,11 +1,11 @@
-//! Median time per particle-step of an elastic block:
-//! `RAYON_NUM_THREADS=1 cargo run --release -p parvi-benches --bin time_mechanics -- [apic|mls|pic|flip] [sorted|shuffled] [cells] [warm-up steps] [steps]`.
+//! Median time per particle-step of an elastic block.
 
 #![allow(clippy::print_stdout)]
 
 use std::time::Instant;
 
 use mpm_core::{Apic, Basis, Flip, Mls, Pic, Transfer};
+use parvi_benches::arguments::Arguments;
 use parvi_benches::elastic_block::{Order, block, control};
 use parvi_benches::processor_time::processor_time;
 
@@ -37,21 +37,28 @@ fn time<T: Transfer<3>>(transfer: T, order: Order, [cells, warm_up, steps]: [usi
     );
 }
 
+const USAGE: &str = "\
+Median time per particle-step of an elastic block of 8 particles per cell; with RAYON_NUM_THREADS=1 that of one thread.
+usage: time_mechanics [apic|mls|pic|flip] [sorted|shuffled] [cells per edge] [warm-up steps] [steps]
+       unless given: apic, sorted, 50 cells, 10 and 20 steps";
+
 fn main() {
-    let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let word = |index: usize, default: &str| arguments.get(index).cloned().unwrap_or(default.to_owned());
-    let number = |index: usize, default: &str| word(index, default).parse().expect("a number");
-    let order = match word(1, "sorted").as_str() {
+    let arguments = Arguments::of_process(USAGE);
+    let order = match arguments.word(1, "sorted") {
         "sorted" => Order::Sorted,
         "shuffled" => Order::Shuffled,
-        other => panic!("{other} is no order"),
+        other => arguments.refuse(other),
     };
-    let sizes = [number(2, "50"), number(3, "10"), number(4, "20")];
-    match word(0, "apic").as_str() {
+    let sizes = [
+        arguments.number(2, 50),
+        arguments.number(3, 10),
+        arguments.number(4, 20).max(1),
+    ];
+    match arguments.word(0, "apic") {
         "apic" => time(Apic, order, sizes),
         "mls" => time(Mls, order, sizes),
         "pic" => time(Pic, order, sizes),
         "flip" => time(Flip::blend(0.95), order, sizes),
-        other => panic!("{other} is no transfer"),
+        other => arguments.refuse(other),
     }
 }

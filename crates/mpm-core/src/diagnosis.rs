@@ -12,34 +12,43 @@ where
 {
     /// The first force at a particle, else the first force at a node, else the first nodal velocity that is not finite.
     pub(crate) fn what_is_not_finite(&mut self) -> MpmError {
-        if self.body_force.location() == ForceLocation::Particles
-            && let Some(index) = first_not_finite(&self.accelerations)
-        {
-            return self.particles.name(MpmError::BodyForceNotFinite {
-                index,
-                position: self.particles.positions[index].to_vec(),
-                value: self.accelerations[index].to_vec(),
-            });
-        }
         self.basis.node_positions(&mut self.node_positions);
-        if self.body_force.location() == ForceLocation::Nodes
-            && let Some(index) = first_not_finite(&self.node_forces)
-        {
-            return MpmError::BodyForceNotFinite {
-                index,
-                position: self.node_positions[index].to_vec(),
-                value: self.node_forces[index].to_vec(),
-            };
-        }
-        let velocities: Vec<[f64; D]> = self.nodes.as_slice().iter().map(|node| *node.velocity()).collect();
-        let node = first_not_finite(&velocities).unwrap_or(0);
-        MpmError::VelocityNotFinite {
-            position: self.node_positions[node].to_vec(),
-            velocity: velocities[node].to_vec(),
+        let nodes = self.nodes.as_slice();
+        let velocity = |node: usize| *nodes[node].velocity();
+        let (places, forces) = (&self.node_positions, &self.node_forces);
+        match self.body_force.location() {
+            ForceLocation::Particles => {
+                let fault = fault_of_force(&self.particles.positions, &self.accelerations);
+                let fault = fault.map(|fault| self.particles.name(fault));
+                fault.unwrap_or_else(|| fault_of_velocity(places, &velocity))
+            }
+            ForceLocation::Nodes => {
+                let fault = fault_of_force(places, forces);
+                fault.unwrap_or_else(|| fault_of_velocity(places, &velocity))
+            }
+            ForceLocation::Nowhere => fault_of_velocity(places, &velocity),
         }
     }
 }
 
-fn first_not_finite<const D: usize>(vectors: &[[f64; D]]) -> Option<usize> {
-    vectors.iter().position(|vector| !vector.iter().all(|c| c.is_finite()))
+fn fault_of_force<const D: usize>(positions: &[[f64; D]], forces: &[[f64; D]]) -> Option<MpmError> {
+    let index = forces.iter().position(|force| !is_finite(force))?;
+    Some(MpmError::BodyForceNotFinite {
+        index,
+        position: positions[index].to_vec(),
+        value: forces[index].to_vec(),
+    })
+}
+
+fn fault_of_velocity<const D: usize>(positions: &[[f64; D]], velocity: &dyn Fn(usize) -> [f64; D]) -> MpmError {
+    let node = (0..positions.len()).find(|&node| !is_finite(&velocity(node)));
+    let node = node.unwrap_or(0);
+    MpmError::VelocityNotFinite {
+        position: positions[node].to_vec(),
+        velocity: velocity(node).to_vec(),
+    }
+}
+
+fn is_finite<const D: usize>(vector: &[f64; D]) -> bool {
+    vector.iter().all(|c| c.is_finite())
 }

@@ -17,6 +17,7 @@ mod medium;
 mod mpm;
 mod particles;
 mod particles_to_grid;
+mod product_grid;
 mod schedule;
 mod step;
 mod stress_update;
@@ -38,6 +39,7 @@ pub use lattice::SimplexLattice;
 pub use medium::{Continuum, Medium, StressImpulse};
 pub use mpm::Mpm;
 pub use particles::{Masses, Particles};
+pub use product_grid::{ProductGrid, SplineDegree};
 pub use schedule::{Part, Schedule};
 pub use stress_update::StressUpdate;
 pub use transfer::{

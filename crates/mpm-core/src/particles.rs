@@ -1,7 +1,6 @@
 //! Particles as structure of arrays; a field that a scene does not use is an empty vector.
 
 use mpm_tensor::Matrix;
-use rayon::prelude::*;
 
 use crate::MpmError;
 use crate::largest::larger_or_nan;
@@ -289,8 +288,9 @@ impl<const D: usize, S: Copy + Send + Sync> Particles<D, S> {
     /// Largest speed max_p |v_p|; NaN if a velocity is.
     pub fn largest_speed(&self) -> f64 {
         let square = |v: &[f64; D]| v.iter().map(|c| c * c).sum::<f64>();
-        let squares = self.velocities.par_iter().with_min_len(4096).map(square);
-        squares.reduce(|| 0.0, larger_or_nan).sqrt()
+        let largest = |piece: &[[f64; D]]| piece.iter().map(square).fold(0.0, larger_or_nan);
+        let pieces = mpm_parallel::map(self.velocities.chunks(SPEED_LENGTH), &largest);
+        pieces.into_iter().fold(0.0, larger_or_nan).sqrt()
     }
 
     /// ½ Σ m_p |v_p|², without the affine part of the velocity.
@@ -324,15 +324,19 @@ impl<const D: usize, S: Copy + Send + Sync> Particles<D, S> {
 
 /// Entries of one piece of work.
 const PERMUTE_LENGTH: usize = 1 << 13;
+const SPEED_LENGTH: usize = 1 << 12;
 
 fn permute<T: Copy + Send + Sync>(field: &mut Vec<T>, scratch: &mut Vec<T>, order: &[u32]) {
-    if field.is_empty() {
+    let Some(&any) = field.first() else {
         return;
-    }
-    let sorted = order
-        .par_iter()
-        .with_min_len(PERMUTE_LENGTH)
-        .map(|&from| field[from as usize]);
-    sorted.collect_into_vec(scratch);
+    };
+    scratch.resize(order.len(), any);
+    let from = field.as_slice();
+    let pieces = scratch.chunks_mut(PERMUTE_LENGTH).zip(order.chunks(PERMUTE_LENGTH));
+    mpm_parallel::each(pieces, &|(to, order): (&mut [T], &[u32])| {
+        for (to, &index) in to.iter_mut().zip(order) {
+            *to = from[index as usize];
+        }
+    });
     std::mem::swap(field, scratch);
 }

@@ -28,6 +28,10 @@ pub struct Part {
 /// Stencil visits that are worth a part of their own.
 const VISITS_PER_PART: usize = 1 << 15;
 
+/// Stencil visits that are worth a thread, and pieces of work that a thread gets at most.
+const VISITS_PER_STRETCH: usize = 1 << 14;
+const STRETCHES_PER_THREAD: usize = 8;
+
 /// Parts at most; not more than `FEW_PARTS` where they overlap.
 const MOST_PARTS: usize = 16;
 const FEW_PARTS: usize = 4;
@@ -88,22 +92,30 @@ impl Schedule {
     /// Cut the cells into parts of about equally many particles, as the work is worth with `stencil_size` nodes per
     /// particle. The cut depends on the particles alone. The parts know no nodes yet.
     pub fn cut(&mut self, stencil_size: usize) {
-        let (particles, cells) = (self.order.len(), self.cell_count());
-        let worth = (particles * stencil_size / VISITS_PER_PART).clamp(1, MOST_PARTS);
-        let count = 1 << worth.ilog2();
-        self.parts.clear();
-        let mut begin = 0;
-        for k in 1..=count {
+        let worth = (self.order.len() * stencil_size / VISITS_PER_PART).clamp(1, MOST_PARTS);
+        let part = |cells| Part { cells, nodes: 0..0 };
+        self.parts = self.even_stretches(1 << worth.ilog2()).map(part).collect();
+    }
+
+    /// Stretches of cells for threads that share nothing, as many as the work is worth with `stencil_size` nodes per particle.
+    pub(crate) fn stretches(&self, stencil_size: usize) -> Vec<Range<usize>> {
+        let worth = self.order.len() * stencil_size / VISITS_PER_STRETCH;
+        let count = match mpm_parallel::threads() {
+            1 => 1,
+            threads => worth.clamp(1, STRETCHES_PER_THREAD * threads),
+        };
+        self.even_stretches(count).collect()
+    }
+
+    /// At most `count` stretches of cells with about equally many particles; none is empty.
+    fn even_stretches(&self, count: usize) -> impl Iterator<Item = Range<usize>> {
+        let (particles, cells, mut begin) = (self.order.len(), self.cell_count(), 0);
+        (1..=count).filter_map(move |k| {
             let end = self.cell_starts[..cells].partition_point(|&start| (start as usize) < k * particles / count);
-            if begin < end {
-                let nodes = 0..0;
-                self.parts.push(Part {
-                    cells: begin..end,
-                    nodes,
-                });
-            }
+            let cells = begin..end;
             begin = end;
-        }
+            (!cells.is_empty()).then_some(cells)
+        })
     }
 
     /// Join neighbouring parts, now that they know their nodes, until few are left, where the nodes that several of them

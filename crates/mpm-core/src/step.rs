@@ -1,9 +1,6 @@
 //! One step of the material point method, phase by phase.
 
-use rayon::prelude::*;
-
-use crate::largest::larger_or_nan;
-use crate::transfer::{GridNode, Transfer};
+use crate::transfer::{GridNode, Transfer, advance};
 use crate::{
     Basis, BodyForce, Boundary, ForceLocation, GridMotion, Medium, Mpm, MpmError, Sites, StepControl, StepReport,
     StressUpdate,
@@ -135,14 +132,9 @@ where
 
     /// v_i ← damping (v_i + Δt f_i / m_i), shortened to the limit; returns the largest speed before.
     fn update_grid(&mut self, dt: f64, damping: f64, speed_limit: f64) -> Result<f64, MpmError> {
-        let forces = &self.node_forces;
         let pulled = self.body_force.location() == ForceLocation::Nodes;
-        let advance = |(i, node): (usize, &mut T::Node)| {
-            let impulse = if pulled { forces[i].map(|f| dt * f) } else { [0.0; D] };
-            node.advance(&impulse, damping, speed_limit)
-        };
-        let nodes = self.nodes.as_mut_slice().par_iter_mut().with_min_len(4096).enumerate();
-        let square = nodes.map(advance).reduce(|| 0.0, larger_or_nan);
+        let forces = pulled.then_some((self.node_forces.as_slice(), dt));
+        let square = advance(self.nodes.as_mut_slice(), forces, damping, speed_limit);
         if square.is_nan() {
             return Err(self.what_is_not_finite());
         }

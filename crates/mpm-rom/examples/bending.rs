@@ -2,7 +2,7 @@
 //!
 //!     cargo run --release -p mpm-rom --example bending -- [EPOCHS [BATCH [POINTS [RATE [COORDINATES [λ_F [λ_v [ADAM]]]]]]]]
 
-#[path = "../tests/common/mod.rs"]
+#[path = "../tests/suite/common.rs"]
 mod common;
 
 use std::ops::ControlFlow;

@@ -2,7 +2,7 @@
 //!
 //!     cargo run --release -p mpm-rom --example train_speed
 
-#[path = "../tests/common/mod.rs"]
+#[path = "../tests/suite/common.rs"]
 mod common;
 
 use std::time::Instant;

@@ -1,7 +1,5 @@
 //! The sliced Wasserstein distance: exact transport on the line, averaged over directions.
 
-use rayon::prelude::*;
-
 use crate::error::finite;
 use crate::sorted::SortedSample;
 use crate::summation::sum;
@@ -43,11 +41,7 @@ pub struct SlicedReference<const D: usize> {
 impl<const D: usize> SlicedReference<D> {
     /// Projects and sorts the reference: O(L N log N).
     pub fn new(reference: &Cloud<'_, D>, directions: Directions<D>) -> Self {
-        let projections = directions
-            .vectors()
-            .par_iter()
-            .map(|direction| project(reference, direction))
-            .collect();
+        let projections = mpm_parallel::map(directions.vectors().iter(), &|direction| project(reference, direction));
         Self {
             directions,
             projections,
@@ -76,14 +70,10 @@ fn project<const D: usize>(cloud: &Cloud<'_, D>, direction: &[f64; D]) -> Sorted
 /// The root of the mean of `cost` over the directions, added in order.
 fn average<const D: usize>(
     directions: &Directions<D>,
-    cost: impl Fn(usize, &[f64; D]) -> f64 + Send + Sync,
+    cost: impl Fn(usize, &[f64; D]) -> f64 + Sync,
 ) -> Result<f64, MetricError> {
-    let costs: Vec<f64> = directions
-        .vectors()
-        .par_iter()
-        .enumerate()
-        .map(|(index, direction)| cost(index, direction))
-        .collect();
+    let numbered = directions.vectors().iter().enumerate();
+    let costs = mpm_parallel::map(numbered, &|(index, direction)| cost(index, direction));
     let count = costs.len() as f64;
     Ok(finite("the sliced Wasserstein distance", sum(costs) / count)?.sqrt())
 }

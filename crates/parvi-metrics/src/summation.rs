@@ -1,7 +1,5 @@
 //! Sums that do not depend on the number of threads and hardly on rounding.
 
-use rayon::prelude::*;
-
 /// Neumaier's compensated sum: the error does not grow with the number of terms.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct CompensatedSum {
@@ -41,15 +39,15 @@ pub(crate) fn sum(terms: impl IntoIterator<Item = f64>) -> f64 {
 }
 
 /// Σ_c `term(c)` over `0..count`: terms in parallel, added in order, so the bits are those of one thread.
-pub(crate) fn parallel_sum(count: usize, term: impl Fn(usize) -> f64 + Send + Sync) -> f64 {
-    sum((0..count).into_par_iter().map(term).collect::<Vec<f64>>())
+pub(crate) fn parallel_sum(count: usize, term: impl Fn(usize) -> f64 + Sync) -> f64 {
+    sum(mpm_parallel::collect(count, 1, &term))
 }
 
 /// Number of items per term of [`chunked_sum`].
 const CHUNK: usize = 64;
 
 /// Σ_i `term(i)` over `0..count` in fixed chunks: for terms too small to be worth a task each.
-pub(crate) fn chunked_sum(count: usize, term: impl Fn(usize) -> f64 + Send + Sync) -> f64 {
+pub(crate) fn chunked_sum(count: usize, term: impl Fn(usize) -> f64 + Sync) -> f64 {
     parallel_sum(count.div_ceil(CHUNK), |chunk| {
         sum((chunk * CHUNK..count.min((chunk + 1) * CHUNK)).map(&term))
     })

@@ -1,7 +1,5 @@
 //! An exponential that a compiler can vectorise, and the dispatch to the widest vector instructions of the machine.
 
-use faer::traits::{ComplexField, SimdArch};
-
 /// Arguments beyond ± this value are clamped: e^±708 are the last powers of e whose reciprocal is a normal number.
 const LARGEST_ARGUMENT: f64 = 708.0;
 
@@ -53,7 +51,7 @@ const fn inverse_factorials() -> [f64; 14] {
 /// The closure and what it calls must be `#[inline(always)]` to be compiled with them.
 #[inline(always)]
 pub(crate) fn with_widest_vectors<R>(kernel: impl FnOnce() -> R) -> R {
-    SimdArch::dispatch(<f64 as ComplexField>::Arch::default(), kernel)
+    pulp::Arch::new().dispatch(kernel)
 }
 
 #[cfg(test)]

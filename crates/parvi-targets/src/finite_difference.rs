@@ -1,7 +1,5 @@
 //! A score by central differences, for a log density without a gradient.
 
-use rayon::prelude::*;
-
 use crate::error::positive;
 use crate::{Target, TargetError};
 
@@ -93,13 +91,11 @@ impl<F: Fn(&[f64; D]) -> f64 + Sync, const D: usize> Target<D> for FiniteDiffere
 
     /// In parallel over the points.
     fn scores(&self, xs: &[[f64; D]], out: &mut [[f64; D]]) {
-        let pairs = xs.par_iter().zip(out);
-        pairs.for_each(|(x, out)| *out = self.score(x));
+        mpm_parallel::write(xs, out, &|x| self.score(x));
     }
 
     /// In parallel over the points.
     fn log_densities(&self, xs: &[[f64; D]], out: &mut [f64]) {
-        let pairs = xs.par_iter().zip(out);
-        pairs.for_each(|(x, out)| *out = self.log_density(x));
+        mpm_parallel::write(xs, out, &|x| self.log_density(x));
     }
 }

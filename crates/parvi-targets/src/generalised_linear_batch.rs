@@ -2,20 +2,21 @@
 //!
 //! Particles are taken in groups of [`GROUP`], rows of data in blocks of [`BLOCK`], so the predictors in flight fill
 //! 64 KiB whatever the sizes of batch and data. With B the group's coefficients (GROUP × D) and X the signed rows of a
-//! block: predictors T = B Xᵀ, slopes W = ℓ′(T), scores += W X. A group that is not full is padded: every matrix
-//! product has the same shape for every particle, each entry is summed in the order of the rows, and so a particle's
-//! result depends neither on its neighbours nor on the number of threads.
+//! block: predictors T = B Xᵀ, slopes W = ℓ′(T), scores += W X. A group that is not full is padded: products are those
+//! of every particle, each entry is summed in the order of the rows, and so a particle's result depends neither on its neighbours nor on the number of threads.
 
-use faer::linalg::matmul::matmul;
-use faer::{Accum, MatMut, MatRef, Par};
-use rayon::prelude::*;
+use mpm_parallel::each;
 
 use crate::Link;
+use crate::exponential::with_widest_vectors;
 use crate::generalised_linear::Posterior;
 use crate::link::PARTICLES_PER_GROUP as GROUP;
 
 /// Rows in a block.
 const BLOCK: usize = 128;
+
+/// Particles of a group whose coefficients stay in registers while rows go by.
+const LANE: usize = 8;
 
 /// What a thread needs for one group.
 struct Buffers {
@@ -49,34 +50,64 @@ impl Buffers {
     /// The predictors of a block of rows: GROUP × rows, column by column.
     fn predictors_of<const D: usize>(&mut self, rows: &[[f64; D]]) -> &mut [f64] {
         let predictors = &mut self.predictors[..GROUP * rows.len()];
-        matmul(
-            MatMut::from_column_major_slice_mut(predictors, GROUP, rows.len()),
-            Accum::Replace,
-            MatRef::from_column_major_slice(&self.coefficients, GROUP, D),
-            MatRef::from_column_major_slice(rows.as_flattened(), D, rows.len()),
-            1.0,
-            Par::Seq,
+        let coefficients = &self.coefficients;
+        with_widest_vectors(
+            #[inline(always)]
+            || {
+                for first in (0..GROUP).step_by(LANE) {
+                    let own: [[f64; LANE]; D] =
+                        std::array::from_fn(|axis| std::array::from_fn(|l| coefficients[axis * GROUP + first + l]));
+                    for (row, predictors) in rows.iter().zip(predictors.chunks_exact_mut(GROUP)) {
+                        let mut sum = own[0].map(|c| c * row[0]);
+                        for axis in 1..D {
+                            for l in 0..LANE {
+                                sum[l] = own[axis][l].mul_add(row[axis], sum[l]);
+                            }
+                        }
+                        predictors[first..first + LANE].copy_from_slice(&sum);
+                    }
+                }
+            },
         );
         predictors
+    }
+
+    /// scores += W X, where W are the slopes that stand in the place of the predictors.
+    fn add_scores<const D: usize>(&mut self, rows: &[[f64; D]]) {
+        let (slopes, scores) = (&self.predictors, &mut self.scores);
+        with_widest_vectors(
+            #[inline(always)]
+            || {
+                for first in (0..GROUP).step_by(LANE) {
+                    let mut sums = [[0.0; LANE]; D];
+                    for (row, slopes) in rows.iter().zip(slopes.chunks_exact(GROUP)) {
+                        let slopes = &slopes[first..first + LANE];
+                        for axis in 0..D {
+                            for l in 0..LANE {
+                                sums[axis][l] = slopes[l].mul_add(row[axis], sums[axis][l]);
+                            }
+                        }
+                    }
+                    for axis in 0..D {
+                        for l in 0..LANE {
+                            scores[axis * GROUP + first + l] += sums[axis][l];
+                        }
+                    }
+                }
+            },
+        );
     }
 }
 
 /// `out[p]` = Σ_i b_i ℓ′(t_ip) x_i + Σ_i a_i x_i − precision ∘ β_p.
 pub(crate) fn scores<L: Link, const D: usize>(posterior: &Posterior<L, D>, xs: &[[f64; D]], out: &mut [[f64; D]]) {
-    let groups = xs.par_chunks(GROUP).zip(out.par_chunks_mut(GROUP));
-    groups.for_each_init(Buffers::new::<D>, |buffers, (xs, out)| {
+    let groups = xs.chunks(GROUP).zip(out.chunks_mut(GROUP));
+    each(groups, &|(xs, out): (&[[f64; D]], &mut [[f64; D]])| {
+        let mut buffers = Buffers::new::<D>();
         buffers.load(xs);
-        buffers.scores.fill(0.0);
         for rows in posterior.rows.chunks(BLOCK) {
             L::slopes(buffers.predictors_of(rows));
-            matmul(
-                MatMut::from_column_major_slice_mut(&mut buffers.scores, GROUP, D),
-                Accum::Add,
-                MatRef::from_column_major_slice(&buffers.predictors[..GROUP * rows.len()], GROUP, rows.len()),
-                MatRef::from_row_major_slice(rows.as_flattened(), rows.len(), D),
-                1.0,
-                Par::Seq,
-            );
+            buffers.add_scores(rows);
         }
         for (particle, (x, score)) in xs.iter().zip(out).enumerate() {
             for axis in 0..D {
@@ -89,8 +120,9 @@ pub(crate) fn scores<L: Link, const D: usize>(posterior: &Posterior<L, D>, xs: &
 
 /// `out[p]` = Σ_i ℓ(t_ip) + (what does not need the rows).
 pub(crate) fn log_densities<L: Link, const D: usize>(posterior: &Posterior<L, D>, xs: &[[f64; D]], out: &mut [f64]) {
-    let groups = xs.par_chunks(GROUP).zip(out.par_chunks_mut(GROUP));
-    groups.for_each_init(Buffers::new::<D>, |buffers, (xs, out)| {
+    let groups = xs.chunks(GROUP).zip(out.chunks_mut(GROUP));
+    each(groups, &|(xs, out): (&[[f64; D]], &mut [f64])| {
+        let mut buffers = Buffers::new::<D>();
         buffers.load(xs);
         let mut sums = [0.0; GROUP];
         for rows in posterior.rows.chunks(BLOCK) {

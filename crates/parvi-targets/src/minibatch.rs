@@ -5,7 +5,6 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use mpm_tensor::vector;
 use rand::SeedableRng;
 use rand::rngs::ChaCha8Rng;
-use rayon::prelude::*;
 
 use crate::error::finite;
 use crate::{SumTarget, Target, TargetError};
@@ -166,7 +165,6 @@ impl<T: SumTarget<D>, const D: usize> Target<D> for MinibatchScore<T, D> {
 
     /// In parallel over the points.
     fn log_densities(&self, xs: &[[f64; D]], out: &mut [f64]) {
-        let pairs = xs.par_iter().zip(out);
-        pairs.for_each(|(x, out)| *out = self.log_density(x));
+        mpm_parallel::write(xs, out, &|x| self.log_density(x));
     }
 }

@@ -2,12 +2,14 @@
 
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
-use rayon::prelude::*;
 
 use crate::error::positive;
 use crate::student_t::student_t_from_cube;
 use crate::weighted_draws::WeightedDraws;
 use crate::{CatalogueTarget, Frame, Moments, SobolSequence, TargetError};
+
+/// Points of one piece of work.
+const TOGETHER: usize = 1 << 10;
 
 /// Points of the pilot run that moves the proposal from the target's frame to the target's own mean and covariance.
 const PILOT_POINTS: usize = 1 << 13;
@@ -196,19 +198,14 @@ where
     let (mut points, mut proposal) = (Vec::new(), Vec::new());
     for &seed in seeds {
         let sequence = SobolSequence::scrambled(D + 1, seed)?;
-        let part: Vec<([f64; D], f64)> = (0..count as u32)
-            .into_par_iter()
-            .map_init(
-                || vec![0.0; D + 1],
-                |u, index| {
-                    sequence.write(index, u);
-                    let z: [f64; D] = student_t_from_cube(nu, u);
-                    let square: f64 = z.iter().map(|z| z * z).sum();
-                    let x = frame.to_target(&z.map(|z| options.inflation * z));
-                    (x, -0.5 * (nu + D as f64) * (square / nu).ln_1p())
-                },
-            )
-            .collect();
+        let part = mpm_parallel::collect(count, TOGETHER, &|index| {
+            let mut u = vec![0.0; D + 1];
+            sequence.write(index as u32, &mut u);
+            let z: [f64; D] = student_t_from_cube(nu, &u);
+            let square: f64 = z.iter().map(|z| z * z).sum();
+            let x = frame.to_target(&z.map(|z| options.inflation * z));
+            (x, -0.5 * (nu + D as f64) * (square / nu).ln_1p())
+        });
         points.extend(part.iter().map(|(x, _)| *x));
         proposal.extend(part.iter().map(|(_, log_density)| *log_density));
     }

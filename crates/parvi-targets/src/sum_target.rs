@@ -1,7 +1,6 @@
 //! Densities that are a prior times many terms.
 
 use mpm_tensor::vector;
-use rayon::prelude::*;
 
 /// log p(x) = ℓ₀(x) + Σ_{i<n} ℓ_i(x): a log prior ℓ₀ and a term for each of n independent rows of data.
 ///
@@ -27,11 +26,12 @@ pub trait SumTarget<const D: usize>: Sync {
     /// Override it where a batch is cheaper than its parts. `xs` and `out` have the same length, the sum of a point is the same
     /// bits wherever it stands in `xs`. Parallel over the points unless overridden.
     fn sums_of_term_scores(&self, terms: &[usize], xs: &[[f64; D]], out: &mut [[f64; D]]) {
-        xs.par_iter().zip(out).for_each(|(x, out)| {
-            *out = [0.0; D];
+        mpm_parallel::write(xs, out, &|x| {
+            let mut sum = [0.0; D];
             for &term in terms {
-                vector::accumulate(out, 1.0, &self.term_score(term, x));
+                vector::accumulate(&mut sum, 1.0, &self.term_score(term, x));
             }
+            sum
         });
     }
 

@@ -1,27 +1,84 @@
-//! From the choice of a basis, made at run time, to its type.
+//! From basis and transfer, chosen at run time, to their types: all code of the mechanics is generated here, once per dimension.
 
-use mpm_core::{MpmError, SimplexLattice, SplineGrid, UniformBasis};
+use mpm_core::{
+    Apic, Continuum, Flip, Medium, Mpm, MpmError, Particles, Pic, ProductGrid, SimplexLattice, SplineDegree,
+    SplineGrid, Transfer, UniformBasis,
+};
 use mpm_kernels::{Cubic, Linear, Quadratic};
+use mpm_materials::{IsothermalGas, Material};
 
-use crate::{BasisChoice, SampleError};
+use crate::framed_score::ScoreForce;
+use crate::moving::{Moving, OnBasis};
+use crate::{BasisChoice, SampleError, TransferChoice};
 
-/// Work that wants a basis of whatever type.
-pub(crate) trait OnBasis<const D: usize> {
-    type Output;
+/// The largest dimension with splines that are compiled for their width. Beyond, a stencil has 32 to 65,536 nodes, and code for each of the
+/// three widths would take most of the time that this crate takes to compile.
+const LARGEST_UNROLLED: usize = 4;
 
-    /// `make` gives any number of bases, all alike.
-    fn on<B: UniformBasis<D>>(self, make: impl Fn() -> Result<B, MpmError>) -> Result<Self::Output, SampleError>;
+/// A body that is ready to move.
+pub(crate) type Ready<'a, const D: usize> = Result<Box<dyn Moving<'a, D> + 'a>, SampleError>;
+
+/// A body before its basis is known.
+pub(crate) struct Parts<'a, const D: usize> {
+    pub particles: Particles<D>,
+    pub force: ScoreForce<'a, D>,
+    pub transfer: TransferChoice,
+    pub basis: BasisChoice,
+    /// h.
+    pub spacing: f64,
 }
 
-impl BasisChoice {
-    /// Do `work` on this basis, with spacing h.
-    pub(crate) fn with<W: OnBasis<D>, const D: usize>(self, h: f64, work: W) -> Result<W::Output, SampleError> {
-        let origin = [0.0; D];
-        match self {
-            Self::Lattice => work.on(|| SimplexLattice::<D>::permutohedral(origin, h)),
-            Self::Linear => work.on(|| SplineGrid::<Linear, 2, D>::new(origin, h)),
-            Self::Quadratic => work.on(|| SplineGrid::<Quadratic, 3, D>::new(origin, h)),
-            Self::Cubic => work.on(|| SplineGrid::<Cubic, 4, D>::new(origin, h)),
+impl<'a, const D: usize> Parts<'a, D> {
+    /// The gas of the calibrated sampler.
+    pub fn of_gas(self, gas: IsothermalGas) -> Ready<'a, D> {
+        self.of(gas)
+    }
+
+    /// The elastic body of the paper's algorithms.
+    pub fn elastic(self, law: &'a dyn Material<D>) -> Ready<'a, D> {
+        self.of(Continuum { law })
+    }
+
+    fn of<M: Medium<D, State = ()> + 'a>(self, medium: M) -> Ready<'a, D> {
+        let (origin, h) = ([0.0; D], self.spacing);
+        let degree = match self.basis {
+            BasisChoice::Lattice => return self.on(medium, || SimplexLattice::<D>::permutohedral(origin, h)),
+            BasisChoice::Linear => SplineDegree::Linear,
+            BasisChoice::Quadratic => SplineDegree::Quadratic,
+            BasisChoice::Cubic => SplineDegree::Cubic,
+        };
+        if const { D > LARGEST_UNROLLED } {
+            return self.on(medium, || ProductGrid::<D>::new(degree, origin, h));
         }
+        match degree {
+            SplineDegree::Linear => self.on(medium, || SplineGrid::<Linear, 2, D>::new(origin, h)),
+            SplineDegree::Quadratic => self.on(medium, || SplineGrid::<Quadratic, 3, D>::new(origin, h)),
+            SplineDegree::Cubic => self.on(medium, || SplineGrid::<Cubic, 4, D>::new(origin, h)),
+        }
+    }
+
+    /// `make` gives any number of bases, all alike.
+    fn on<B, M>(self, medium: M, make: impl Fn() -> Result<B, MpmError>) -> Ready<'a, D>
+    where
+        B: UniformBasis<D> + 'a,
+        M: Medium<D, State = ()> + 'a,
+    {
+        let failed = |error| SampleError::in_step(0, error);
+        let (basis, certificate) = (make().map_err(failed)?, make().map_err(failed)?);
+        Ok(match self.transfer {
+            TransferChoice::Pic => self.with(medium, Pic, basis, certificate),
+            TransferChoice::Apic => self.with(medium, Apic, basis, certificate),
+            TransferChoice::Flip(share) => self.with(medium, Flip::blend(share), basis, certificate),
+        })
+    }
+
+    fn with<B, T, M>(self, medium: M, transfer: T, basis: B, certificate: B) -> Box<dyn Moving<'a, D> + 'a>
+    where
+        B: UniformBasis<D> + 'a,
+        T: Transfer<D> + 'a,
+        M: Medium<D, State = ()> + 'a,
+    {
+        let body = Mpm::new(self.particles, basis, transfer, medium, self.force);
+        Box::new(OnBasis { body, certificate })
     }
 }

@@ -1,15 +1,15 @@
 //! The loop around the step, shared by the calibrated sampler and the paper's algorithms.
 
-use mpm_core::{Medium, Mpm, MpmError, StepControl, StepReport, Transfer, UniformBasis};
+use mpm_core::{MpmError, StepControl, StepReport};
 use mpm_tensor::Matrix;
 use parvi_targets::Frame;
 
 use crate::checkpoint::Journal;
 use crate::extent::Extent;
-use crate::framed_score::{FramedScore, ScoreForce};
+use crate::framed_score::FramedScore;
 use crate::guard::{Guard, Progressed, check_energy};
 use crate::moment_correction::correct_moments;
-use crate::residual::galerkin_stein_residual;
+use crate::moving::Moving;
 use crate::{MomentCorrection, NonFiniteScores, Observer, Progress, SampleError, Samples, TracePoint};
 
 /// One step of a plan.
@@ -28,11 +28,11 @@ pub(crate) struct PlannedStep<const D: usize> {
 }
 
 /// What the loop is to do.
-pub(crate) struct Plan<B, P> {
+pub(crate) struct Plan<P> {
     /// Steps.
     pub steps: usize,
-    /// What residuals are measured on: a basis like the body's, of the plan's central spacing.
-    pub certificate: B,
+    /// The central spacing h, which residuals are measured at.
+    pub spacing: f64,
     /// The step with a number, from 1; asked for in order.
     pub step: P,
     /// Times that steps which went wrong may be taken back.
@@ -59,57 +59,54 @@ pub(crate) struct Driven<const D: usize> {
 }
 
 /// Run `body` as planned; its particles are in frame coordinates, the result in the target's.
-pub(crate) fn drive<B, T, M, P, const D: usize>(
-    mut body: Mpm<D, B, T, M, ScoreForce<'_, D>>,
+pub(crate) fn drive<P, const D: usize>(
+    body: &mut dyn Moving<'_, D>,
     frame: &Frame<D>,
-    mut plan: Plan<B, P>,
+    mut plan: Plan<P>,
     journal: &mut Journal,
     observer: &mut dyn Observer,
 ) -> Result<Driven<D>, SampleError>
 where
-    B: UniformBasis<D>,
-    T: Transfer<D>,
-    M: Medium<D, State = ()>,
     P: FnMut(usize) -> PlannedStep<D>,
 {
-    let (steps, mut certificate) = (plan.steps, plan.certificate);
-    let spacing = certificate.spacing();
+    let (steps, spacing) = (plan.steps, plan.spacing);
     let late = steps - steps.div_ceil(10);
-    let mut scores = vec![[0.0; D]; body.particles.len()];
+    let mut scores = vec![[0.0; D]; body.particles().len()];
     let mut trace: Vec<TracePoint> = Vec::new();
     let mut guard = Guard::new(plan.retries);
-    let mut earlier = Extent::of(&body.particles.positions);
+    let mut earlier = Extent::of(&body.particles().positions);
     let (mut step, mut time, mut active_nodes, mut origin) = (1, 0.0, 0, [0.0; D]);
     if let Some(state) = journal.moving()? {
         for skipped in 1..state.step {
-            turn(&mut body.basis, &(plan.step)(skipped));
+            body.turn(&(plan.step)(skipped));
         }
         guard.resume(&state);
-        state.restore(&mut body);
+        state.restore(body);
         let Progressed {
             evaluations, replaced, ..
         } = state.so_far;
-        (body.body_force.score.evaluations, body.body_force.score.replaced) = (evaluations, replaced);
+        let score = &mut body.force().score;
+        (score.evaluations, score.replaced) = (evaluations, replaced);
         (step, time, earlier) = (state.step, state.so_far.time, state.so_far.earlier);
     }
     while step <= steps {
         let failed = |error| SampleError::in_step(step, error);
         let so_far = Progressed {
             time,
-            evaluations: body.body_force.score.evaluations,
-            replaced: body.body_force.score.replaced,
+            evaluations: body.force().score.evaluations,
+            replaced: body.force().score.replaced,
             earlier,
         };
-        let state = guard.state(&body, step, so_far);
+        let state = guard.state(body, step, so_far);
         let mut planned = guard.plan(step, &mut plan.step);
         planned.control.time_step *= guard.caution();
-        let report = match advance(&mut body, &planned, plan.retries > 0) {
+        let report = match advance(body, &planned, plan.retries > 0) {
             Ok(report) => report,
             Err(failure) => {
-                let Some(state) = guard.back().filter(|_| !failure.is_final(&body.body_force.score)) else {
+                let Some(state) = guard.back().filter(|_| !failure.is_final(&body.force().score)) else {
                     return Err(failure.into_error(step));
                 };
-                state.restore(&mut body);
+                state.restore(body);
                 (step, time) = (state.step, state.so_far.time);
                 trace.retain(|point| point.step < step);
                 continue;
@@ -122,22 +119,22 @@ where
         time += report.time_step;
         active_nodes = report.active_nodes;
         if plan.trace_every > 0 && (step % plan.trace_every == 0 || step == 1) {
-            let positions = &body.particles.positions;
-            let score = &mut body.body_force.score;
-            score.evaluate(positions, &mut scores).map_err(failed)?;
-            away_from(&mut certificate, &origin, spacing).map_err(failed)?;
-            let residual = galerkin_stein_residual(&mut certificate, positions, &scores).map_err(failed)?;
+            let positions = body.particles().positions.clone();
+            let score = &mut body.force().score;
+            score.evaluate(&positions, &mut scores).map_err(failed)?;
+            let potential_energy = Some(score.potential_energy(&positions));
+            let residual = body.residual(&origin, spacing, &scores).map_err(failed)?;
             trace.push(TracePoint {
                 step,
                 time,
                 residual: Some(residual.ratio()),
-                kinetic_energy: body.particles.kinetic_energy(),
-                potential_energy: Some(score.potential_energy(positions)),
+                kinetic_energy: body.particles().kinetic_energy(),
+                potential_energy,
                 displacement: report.displacement,
             });
         }
         if step == late {
-            earlier = Extent::of(&body.particles.positions);
+            earlier = Extent::of(&body.particles().positions);
         }
         if observer.after_step(Progress { step, steps }).is_break() {
             return Err(SampleError::Interrupted { step });
@@ -146,17 +143,18 @@ where
     }
 
     let failed = |error| SampleError::in_step(steps, error);
-    let drift = earlier.drift_to(&Extent::of(&body.particles.positions));
-    let kinetic_energy = body.particles.kinetic_energy();
+    let drift = earlier.drift_to(&Extent::of(&body.particles().positions));
+    let kinetic_energy = body.particles().kinetic_energy();
     let storage_bytes = body.storage_bytes();
-    let score = &mut body.body_force.score;
+    let mut positions = std::mem::take(&mut body.particles().positions);
+    let score = &mut body.force().score;
     score.non_finite = NonFiniteScores::Report;
-    let positions = &mut body.particles.positions;
-    correct_moments(plan.moment_correction, positions, score, &mut scores).map_err(failed)?;
-    away_from(&mut certificate, &origin, spacing).map_err(failed)?;
-    let residual = galerkin_stein_residual(&mut certificate, positions, &scores).map_err(failed)?;
+    correct_moments(plan.moment_correction, &mut positions, score, &mut scores).map_err(failed)?;
     let (evaluations, replaced) = (score.evaluations, score.replaced);
-    let in_order = body.particles.in_creation_order(&body.particles.positions);
+    body.particles().positions = positions;
+    let residual = body.residual(&origin, spacing, &scores).map_err(failed)?;
+    let particles = body.particles();
+    let in_order = particles.in_creation_order(&particles.positions);
     let samples = Samples {
         positions: finite(in_order.iter().map(|z| frame.to_target(z)).collect(), steps)?,
         steps,
@@ -172,7 +170,7 @@ where
     };
     Ok(Driven {
         samples,
-        scores: body.particles.in_creation_order(&scores),
+        scores: particles.in_creation_order(&scores),
         positions: in_order,
         drift,
         kinetic_energy,
@@ -202,49 +200,28 @@ impl Failure {
     }
 }
 
-fn turn<const D: usize>(basis: &mut impl UniformBasis<D>, planned: &PlannedStep<D>) {
-    if let Some(rotation) = &planned.rotation {
-        basis.turn(rotation);
-    }
-}
-
 /// Turn and place the basis, and make the step.
-fn advance<B, T, M, const D: usize>(
-    body: &mut Mpm<D, B, T, M, ScoreForce<'_, D>>,
+fn advance<const D: usize>(
+    body: &mut dyn Moving<'_, D>,
     planned: &PlannedStep<D>,
     guarded: bool,
-) -> Result<StepReport, Failure>
-where
-    B: UniformBasis<D>,
-    T: Transfer<D>,
-    M: Medium<D, State = ()>,
-{
-    turn(&mut body.basis, planned);
-    let point = body.basis.cell_point(&planned.origin, planned.spacing);
-    body.basis.place(point, planned.spacing).map_err(Failure::Refused)?;
-    body.body_force.alpha = planned.alpha;
-    let mut control = planned.control;
-    if let Some(stiffness) = &body.body_force.stiffness {
-        control.time_step = control.time_step.min(stiffness.time_limit());
+) -> Result<StepReport, Failure> {
+    let mut limited = *planned;
+    let force = body.force();
+    force.alpha = planned.alpha;
+    if let Some(stiffness) = &force.stiffness {
+        limited.control.time_step = limited.control.time_step.min(stiffness.time_limit());
     }
-    let report = body.step(&control).map_err(Failure::Refused)?;
+    body.turn(planned);
+    let report = body.step(&limited).map_err(Failure::Refused)?;
     if guarded {
-        check_energy(&body.particles, planned, &report).map_err(Failure::Exploded)?;
+        check_energy(body.particles(), planned, &report).map_err(Failure::Exploded)?;
     }
-    if let Some(stiffness) = &mut body.body_force.stiffness {
-        stiffness.update(body.basis.schedule().order());
+    if let Some(mut stiffness) = body.force().stiffness.take() {
+        stiffness.update(body.order());
+        body.force().stiffness = Some(stiffness);
     }
     Ok(report)
-}
-
-/// Put the certificate's basis where the particles were not moved: half a cell off the step's origin.
-fn away_from<const D: usize>(
-    certificate: &mut impl UniformBasis<D>,
-    origin: &[f64; D],
-    spacing: f64,
-) -> Result<(), MpmError> {
-    let point = certificate.cell_point(&origin.map(|c| (c + 0.5).fract()), spacing);
-    certificate.place(point, spacing)
 }
 
 /// The positions, if all are finite.

@@ -3,11 +3,11 @@
 
 use std::collections::VecDeque;
 
-use mpm_core::{Medium, Mpm, Particles, StepReport, Transfer};
+use mpm_core::{Particles, StepReport};
 
 use crate::drive::PlannedStep;
 use crate::extent::Extent;
-use crate::framed_score::ScoreForce;
+use crate::moving::Moving;
 use crate::stiffness::Stiffness;
 
 /// Steps between two states that are kept.
@@ -47,9 +47,9 @@ pub(crate) struct Progressed<const D: usize> {
 }
 
 impl<const D: usize> State<D> {
-    pub fn restore<B, T: Transfer<D>, M: Medium<D, State = ()>>(&self, body: &mut Mpm<D, B, T, M, ScoreForce<'_, D>>) {
-        body.particles.clone_from(&self.particles);
-        body.body_force.stiffness.clone_from(&self.stiffness);
+    pub fn restore(&self, body: &mut dyn Moving<'_, D>) {
+        body.particles().clone_from(&self.particles);
+        body.force().stiffness.clone_from(&self.stiffness);
     }
 }
 
@@ -85,17 +85,12 @@ impl<const D: usize> Guard<D> {
     }
 
     /// The state before this step, if it is one to be kept.
-    pub fn state<B, T: Transfer<D>, M: Medium<D, State = ()>>(
-        &self,
-        body: &Mpm<D, B, T, M, ScoreForce<'_, D>>,
-        step: usize,
-        so_far: Progressed<D>,
-    ) -> Option<State<D>> {
+    pub fn state(&self, body: &mut dyn Moving<'_, D>, step: usize, so_far: Progressed<D>) -> Option<State<D>> {
         let keeps = self.guards && (step - 1).is_multiple_of(INTERVAL);
         keeps.then(|| State {
             step,
-            particles: body.particles.clone(),
-            stiffness: body.body_force.stiffness.clone(),
+            particles: body.particles().clone(),
+            stiffness: body.force().stiffness.clone(),
             so_far,
             caution: self.caution,
             retries: self.retries,

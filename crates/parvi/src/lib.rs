@@ -4,6 +4,7 @@ mod basis_choice;
 mod bodies;
 pub mod certificate;
 mod checkpoint;
+mod cholesky;
 mod compiled;
 mod condense;
 pub mod defaults;
@@ -16,6 +17,7 @@ mod kronecker;
 mod mapped_target;
 mod method;
 mod moment_correction;
+mod moving;
 mod mpm;
 mod mpm_body;
 #[cfg(feature = "nuts")]

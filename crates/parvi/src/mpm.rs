@@ -6,7 +6,6 @@ use parvi_targets::{Frame, Target};
 use crate::bodies::{InTurn, Knowledge, apportion, judged};
 use crate::certificate::LARGEST_DRIFT;
 use crate::checkpoint::Journal;
-use crate::compiled::Movers;
 use crate::drive::Driven;
 use crate::extent::Extent;
 use crate::mpm_body::Body;
@@ -185,7 +184,7 @@ impl<const D: usize> Common<'_, D> {
                     journal,
                     observer: &mut InTurn { number, of, observer },
                 };
-                (Movers::of().gas)(body, spacing)
+                body.run(spacing)
             });
             let body = match &site.map {
                 Some(map) => map.driven(moved.map_err(|error| map.explained(error))?)?,

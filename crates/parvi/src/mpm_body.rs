@@ -1,11 +1,12 @@
 //! One body of the calibrated sampler: an isothermal gas under the score, on a basis that moves, turns and changes its spacing every step.
 
-use mpm_core::{Apic, Flip, Mpm, MpmError, Particles, Pic, StepControl, Transfer, UniformBasis};
+use mpm_core::{Particles, StepControl};
 use mpm_materials::IsothermalGas;
 use parvi_targets::{Frame, Target};
 
-use crate::basis_choice::OnBasis;
+use crate::basis_choice::Parts;
 use crate::checkpoint::Journal;
+use crate::compiled::Movers;
 use crate::drive::{Driven, Plan, PlannedStep, drive};
 use crate::framed_score::{FramedScore, ScoreForce};
 use crate::guard::RETRIES;
@@ -28,31 +29,13 @@ pub(crate) struct Body<'a, const D: usize> {
     pub observer: &'a mut dyn Observer,
 }
 
-impl<const D: usize> OnBasis<D> for Body<'_, D> {
-    type Output = Driven<D>;
-
-    fn on<B: UniformBasis<D>>(self, make: impl Fn() -> Result<B, MpmError>) -> Result<Driven<D>, SampleError> {
-        match self.options.transfer {
-            TransferChoice::Pic => self.run(Pic, make),
-            TransferChoice::Apic => self.run(Apic, make),
-            TransferChoice::Flip(share) => {
-                check("FLIP share", share, (0.0..=1.0).contains(&share), "in [0, 1]")?;
-                self.run(Flip::blend(share), make)
-            }
-        }
-    }
-}
-
 impl<const D: usize> Body<'_, D> {
-    fn run<B: UniformBasis<D>, T: Transfer<D>>(
-        self,
-        transfer: T,
-        make: impl Fn() -> Result<B, MpmError>,
-    ) -> Result<Driven<D>, SampleError> {
+    /// Move it, at spacing h.
+    pub fn run(self, spacing: f64) -> Result<Driven<D>, SampleError> {
         let (options, run) = (self.options, self.run);
-        let failed = |error| SampleError::in_step(0, error);
-        let (basis, certificate) = (make().map_err(failed)?, make().map_err(failed)?);
-        let spacing = basis.spacing();
+        if let TransferChoice::Flip(share) = options.transfer {
+            check("FLIP share", share, (0.0..=1.0).contains(&share), "in [0, 1]")?;
+        }
         let steps = steps(options.steps, defaults::steps(run.particles))?;
         let friction = options.friction.unwrap_or(defaults::FRICTION);
         check(
@@ -79,7 +62,7 @@ impl<const D: usize> Body<'_, D> {
         let (schedule, settling) = (&options.spacing_schedule, &options.settling);
         let plan = Plan {
             steps,
-            certificate,
+            spacing,
             step: |step| {
                 let varies = options.shifts && settling.varies(step, steps);
                 let (origin, draw) = if varies { places.next_point() } else { ([0.0; D], 0.5) };
@@ -109,8 +92,15 @@ impl<const D: usize> Body<'_, D> {
             mass_floor: 0.0,
             stiffness: Some(Stiffness::default()),
         };
-        let body = Mpm::new(particles, basis, transfer, gas, force);
-        drive(body, self.frame, plan, self.journal, self.observer)
+        let parts = Parts {
+            particles,
+            force,
+            transfer: options.transfer,
+            basis: options.basis,
+            spacing,
+        };
+        let mut body = (Movers::of().gas)(parts, gas)?;
+        drive(body.as_mut(), self.frame, plan, self.journal, self.observer)
     }
 }
 

@@ -134,7 +134,7 @@ fn run_all(
     observer: &mut dyn Observer,
 ) -> Result<Vec<Outcome>, SampleError> {
     let count = plans.len();
-    let workers = rayon::current_num_threads().clamp(1, count);
+    let workers = mpm_parallel::threads().clamp(1, count);
     let (stop, done) = (AtomicBool::new(false), AtomicUsize::new(0));
     let waiting = Mutex::new(plans.into_iter());
     let work = || {

@@ -1,17 +1,19 @@
 //! Algorithms 1 (PIC) and 2 (APIC) of the MPM-ParVI paper: an elastic body under the score.
 
-use mpm_core::{Apic, Continuum, Mpm, MpmError, Particles, Pic, StepControl, Transfer, UniformBasis};
+use mpm_core::{Particles, StepControl};
 use mpm_materials::{ElasticModuli, LinearElastic, Material, NeoHookean};
 use parvi_targets::{Frame, Target};
 
-use crate::basis_choice::OnBasis;
+use crate::basis_choice::Parts;
 use crate::bodies::{Knowledge, judged};
 use crate::checkpoint::Journal;
 use crate::compiled::Movers;
 use crate::drive::{Plan, PlannedStep, drive};
 use crate::framed_score::{FramedScore, ScoreForce};
 use crate::start::{check, positive, steps};
-use crate::{Elasticity, MomentCorrection, Observer, PaperOptions, Run, SampleError, Samples, defaults};
+use crate::{
+    Elasticity, MomentCorrection, Observer, PaperOptions, Run, SampleError, Samples, TransferChoice, defaults,
+};
 
 /// What every layer of the dispatch hands on.
 pub(crate) struct Job<'a, const D: usize> {
@@ -53,32 +55,13 @@ impl PaperOptions {
             },
             observer,
         };
-        (Movers::of().elastic)(job, spacing)
-    }
-}
-
-impl<const D: usize> OnBasis<D> for Job<'_, D> {
-    type Output = Samples<D>;
-
-    fn on<B: UniformBasis<D>>(self, make: impl Fn() -> Result<B, MpmError>) -> Result<Samples<D>, SampleError> {
-        if self.options.affine {
-            self.run(Apic, make)
-        } else {
-            self.run(Pic, make)
-        }
+        job.run(spacing)
     }
 }
 
 impl<const D: usize> Job<'_, D> {
-    fn run<B: UniformBasis<D>, T: Transfer<D>>(
-        self,
-        transfer: T,
-        make: impl Fn() -> Result<B, MpmError>,
-    ) -> Result<Samples<D>, SampleError> {
+    fn run(self, spacing: f64) -> Result<Samples<D>, SampleError> {
         let (job, options) = (&self, self.options);
-        let failed = |error| SampleError::in_step(0, error);
-        let (basis, certificate) = (make().map_err(failed)?, make().map_err(failed)?);
-        let spacing = basis.spacing();
         let steps = steps(options.steps, defaults::PAPER_STEPS)?;
         let optional = |field, value: Option<f64>| value.map_or(Ok(f64::INFINITY), |_| positive(field, value, 0.0));
         let control = StepControl {
@@ -94,7 +77,7 @@ impl<const D: usize> Job<'_, D> {
         let particles = Particles::at_rest(positions, 1.0).with_elastic_state(volumes);
         let plan = Plan {
             steps,
-            certificate,
+            spacing,
             step: |step| PlannedStep {
                 origin: [0.0; D],
                 spacing,
@@ -121,9 +104,19 @@ impl<const D: usize> Job<'_, D> {
             mass_floor: floor / job.run.particles as f64,
             stiffness: None,
         };
-        let medium = Continuum { law: job.material };
-        let body = Mpm::new(particles, basis, transfer, medium, force);
-        let driven = drive(body, job.frame, plan, &mut Journal::none(), self.observer)?;
+        let parts = Parts {
+            particles,
+            force,
+            transfer: if options.affine {
+                TransferChoice::Apic
+            } else {
+                TransferChoice::Pic
+            },
+            basis: options.basis,
+            spacing,
+        };
+        let mut body = (Movers::of().elastic)(parts, job.material)?;
+        let driven = drive(body.as_mut(), job.frame, plan, &mut Journal::none(), self.observer)?;
         let knowledge = Knowledge {
             masses: None,
             mass_errors: vec![0.0],

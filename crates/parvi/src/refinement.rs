@@ -1,7 +1,6 @@
 //! When a body is worth moving on at a finer spacing: the target is rough in its frame, and the particles get better by it.
 
 use mpm_tensor::vector;
-use rayon::prelude::*;
 
 use crate::stein_thinning::{Candidate, SteinKernel};
 
@@ -32,7 +31,7 @@ pub(crate) fn squared_stein_discrepancy<const D: usize>(positions: &[[f64; D]], 
         let below: f64 = points[..p].iter().map(|other| kernel.value(&points[p], other)).sum();
         2.0 * below + kernel.value(&points[p], &points[p])
     };
-    let rows: Vec<f64> = (0..points.len()).into_par_iter().map(row).collect();
+    let rows = mpm_parallel::collect(points.len(), 1, &row);
     rows.iter().sum::<f64>() / (points.len() as f64).powi(2)
 }
 

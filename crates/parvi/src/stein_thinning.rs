@@ -2,7 +2,6 @@
 
 use mpm_tensor::{Matrix, vector};
 use parvi_targets::Frame;
-use rayon::prelude::*;
 
 use crate::PointSetError;
 use crate::point_set_error::check_finite;
@@ -67,16 +66,14 @@ impl<const D: usize> GreedyChoice<D> {
     pub fn next_index(&mut self) -> usize {
         let chosen = self.best.1;
         let (latest, kernel) = (self.candidates[chosen], self.kernel);
-        let values = self.objective.par_chunks_mut(CHUNK);
-        let chunks = values.zip(self.candidates.par_chunks(CHUNK)).enumerate();
-        let minima: Vec<(f64, usize)> = chunks
-            .map(|(chunk, (values, candidates))| {
-                for (value, candidate) in values.iter_mut().zip(candidates) {
-                    *value += kernel.value(&latest, candidate);
-                }
-                least(values, chunk * CHUNK)
-            })
-            .collect();
+        let values = self.objective.chunks_mut(CHUNK);
+        let chunks = values.zip(self.candidates.chunks(CHUNK)).enumerate();
+        let minima = mpm_parallel::map(chunks, &|(chunk, (values, candidates)): (usize, (&mut [f64], &[_]))| {
+            for (value, candidate) in values.iter_mut().zip(candidates) {
+                *value += kernel.value(&latest, candidate);
+            }
+            least(values, chunk * CHUNK)
+        });
         self.best = minima.into_iter().fold((f64::INFINITY, chosen), smaller);
         chosen
     }

@@ -1,7 +1,6 @@
 //! Support points: the few points with the least energy distance to a big sample.
 
 use mpm_tensor::vector;
-use rayon::prelude::*;
 
 use crate::PointSetError;
 use crate::point_set_error::check_finite;
@@ -120,7 +119,7 @@ impl<const D: usize> ConvexConcave<D> {
 
     /// Move all points once; returns the largest distance moved, in units of the spread.
     pub fn iterate(&self, positions: &mut Vec<[f64; D]>) -> f64 {
-        let moved: Vec<[f64; D]> = positions.par_iter().map(|x| self.moved(x, positions)).collect();
+        let moved = mpm_parallel::collect(positions.len(), 1, &|p| self.moved(&positions[p], positions));
         let distances = positions.iter().zip(&moved).map(|(x, y)| vector::distance(x, y));
         let largest = distances.fold(0.0, f64::max);
         *positions = moved;

@@ -3,7 +3,6 @@
 use mpm_tensor::vector;
 use parvi_targets::{Frame, Target};
 use rand::seq::index;
-use rayon::prelude::*;
 
 use crate::drive::finite;
 use crate::framed_score::FramedScore;
@@ -79,7 +78,8 @@ impl SvgdOptions {
 /// φ at every particle; each sum is taken in the order of the particles, whatever the number of threads.
 fn stein_directions<const D: usize>(positions: &[[f64; D]], scores: &[[f64; D]], bandwidth: f64) -> Vec<[f64; D]> {
     let (inverse, share) = (1.0 / bandwidth, 1.0 / positions.len() as f64);
-    let direction = |x: &[f64; D]| {
+    let direction = |p: usize| {
+        let x = &positions[p];
         let mut sum = [0.0; D];
         for (y, score) in positions.iter().zip(scores) {
             let apart = vector::subtract(x, y);
@@ -90,7 +90,7 @@ fn stein_directions<const D: usize>(positions: &[[f64; D]], scores: &[[f64; D]],
         }
         sum.map(|c| share * c)
     };
-    positions.par_iter().map(direction).collect()
+    mpm_parallel::collect(positions.len(), 1, &direction)
 }
 
 /// The median heuristic b = median|x_i − x_j|² / ln M (Liu & Wang 2016, §5), over the pairs of `sample`.

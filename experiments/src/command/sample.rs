@@ -73,6 +73,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let mut run = Run::new(arguments.particles.get(), arguments.seed);
     run.start = arguments.options.start();
     target.dimension().map_err(|error| of_flags(error.into()))?;
+    let names = match arguments.parameters.data {
+        Some(_) => target.coordinate_names(),
+        None => Vec::new(),
+    };
     let file = ParticleFile::create(&arguments.out)?;
     let diagnostics = arguments.diagnostics.as_ref().map(AtomicFile::create).transpose()?;
     interrupt::listen();
@@ -86,7 +90,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
         diagnostics.fill(|writer| Ok(serde_json::to_writer_pretty(writer, &content)?))?;
         diagnostics.commit()?;
     }
-    file.write(&outcome.particles)?;
+    file.write(&outcome.particles, &names)?;
     warn(&outcome);
     console::print_pairs(&pairs(arguments, &outcome, peak_memory))
 }

@@ -54,10 +54,11 @@ impl ParticleFile {
         })
     }
 
-    /// Writes the particles and gives the file its final name.
-    pub fn write(mut self, particles: &Particles) -> Result<(), CommandError> {
+    /// Writes the particles, columns called by `names` where the format has room for them and there are such, and gives the file its
+    /// final name.
+    pub fn write(mut self, particles: &Particles, names: &[String]) -> Result<(), CommandError> {
         self.file.fill(|writer| match self.format {
-            ParticleFormat::Csv => particles_csv::write(particles, writer),
+            ParticleFormat::Csv => particles_csv::write(particles, names, writer),
             ParticleFormat::Npy => particles_npy::write(particles, writer),
         })?;
         self.file.commit()

@@ -6,15 +6,23 @@ use std::path::Path;
 use super::Particles;
 use crate::CommandError;
 
-/// Writes the header x1,…,xD (and `weight` where weights differ) and one particle per row.
+/// The name of the last column where weights differ.
+const WEIGHT: &str = "weight";
+
+/// Writes a header (and `weight` where weights differ) and one particle per row.
 ///
+/// Columns are called by `names`, which are quoted where they have to be; x1,…,xD where there are none, and a coordinate named `weight` too.
 /// Numbers are the shortest that read back to the same bits.
-pub fn write(particles: &Particles, writer: &mut dyn Write) -> io::Result<()> {
-    let mut header: Vec<String> = (1..=particles.dimension()).map(|axis| format!("x{axis}")).collect();
+pub fn write(particles: &Particles, names: &[String], writer: &mut dyn Write) -> io::Result<()> {
+    let name = |axis: usize| match names.get(axis) {
+        Some(name) if name != WEIGHT => name.clone(),
+        _ => format!("x{}", axis + 1),
+    };
+    let mut header: Vec<String> = (0..particles.dimension()).map(name).collect();
     if particles.weights().is_some() {
-        header.push("weight".to_owned());
+        header.push(WEIGHT.to_owned());
     }
-    writeln!(writer, "{}", header.join(","))?;
+    csv::Writer::from_writer(&mut *writer).write_record(header)?;
     for (index, row) in particles.rows().enumerate() {
         for (axis, value) in row.iter().enumerate() {
             if axis > 0 {
@@ -42,7 +50,7 @@ pub fn read(path: &Path) -> Result<Particles, CommandError> {
     let mut reader = csv::Reader::from_path(path).map_err(|error| unreadable(error.to_string()))?;
     let header = reader.headers().map_err(|error| unreadable(error.to_string()))?;
     let columns = header.len();
-    let weighted = header.iter().next_back() == Some("weight");
+    let weighted = header.iter().next_back() == Some(WEIGHT);
     let dimension = columns - usize::from(weighted);
     if dimension == 0 {
         return Err(unreadable("no coordinate in the header".to_owned()));
@@ -76,7 +84,7 @@ mod tests {
 
     fn text(particles: &Particles) -> String {
         let mut bytes = Vec::new();
-        write(particles, &mut bytes).unwrap();
+        write(particles, &[], &mut bytes).unwrap();
         String::from_utf8(bytes).unwrap()
     }
 
@@ -90,6 +98,15 @@ mod tests {
     fn weights_are_the_last_column() {
         let particles = Particles::new(&[[1.5], [2.5]], Some(&[0.25, 0.75]));
         assert_eq!(text(&particles), "x1,weight\n1.5,0.25\n2.5,0.75\n");
+    }
+
+    #[test]
+    fn columns_have_the_names_of_their_coordinates() {
+        let names = ["intercept", "age, in years", "weight"].map(str::to_owned);
+        let mut bytes = Vec::new();
+        write(&Particles::new(&[[1.0, 2.0, 3.0]], None), &names, &mut bytes).unwrap();
+        let text = String::from_utf8(bytes).unwrap();
+        assert_eq!(text, "intercept,\"age, in years\",x3\n1.0,2.0,3.0\n");
     }
 
     #[test]

@@ -1,13 +1,12 @@
 //! The rebuild, phases 3 and 4: active nodes and parts.
 
 use mpm_kernels::Spline;
-use rayon::prelude::*;
 
 use super::SplineGrid;
 use super::locate::place_bits;
 use super::lookup::NodeBlock;
 use super::tile::{has_tiles, members, words};
-use crate::{Basis, MpmError};
+use crate::{Basis, MpmError, Part};
 
 impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
     /// Phase 3 (activate): activate and number the nodes that the occupied cells touch.
@@ -62,7 +61,7 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
         let (neighbours, blocks, cell_keys) = (&self.neighbours, &self.blocks, &self.cell_keys);
         let (size, count) = (self.stencil_size(), self.node_count());
         self.schedule.cut(size);
-        self.schedule.parts.par_iter_mut().for_each(|part| {
+        mpm_parallel::each(self.schedule.parts.iter_mut(), &|part: &mut Part| {
             let (mut last, mut ends) = (u32::MAX, (u32::MAX, 0));
             for key in &cell_keys[part.cells.clone()] {
                 if key >> place_bits::<D>() == last {

@@ -1,7 +1,7 @@
 //! The rebuild, phase 1: the cell of every particle, as runs of particles that follow each other in one cell, or in one tile.
 
 use mpm_kernels::{Lanes, Layout, Spline};
-use rayon::prelude::*;
+use mpm_parallel::each;
 
 use super::SplineGrid;
 use super::block::locate;
@@ -55,15 +55,16 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
                 sound: true,
             });
         }
-        let work = chunks.par_iter_mut().zip(positions.par_chunks(CHUNK)).enumerate();
+        let work = chunks.iter_mut().zip(positions.chunks(CHUNK)).enumerate();
         if has_tiles::<D>() {
             let mut places = std::mem::take(&mut self.places);
             places.resize(positions.len(), 0);
-            work.zip(places.par_chunks_mut(CHUNK))
-                .for_each(|((index, (chunk, xs)), places)| self.find_tiles(index * CHUNK, xs, rim, chunk, places));
+            each(work.zip(places.chunks_mut(CHUNK)), &|((index, (chunk, xs)), places)| {
+                self.find_tiles(index * CHUNK, xs, rim, chunk, places);
+            });
             self.places = places;
         } else {
-            work.for_each(|(index, (chunk, xs))| self.find_cells(index * CHUNK, xs, chunk));
+            each(work, &|(index, (chunk, xs))| self.find_cells(index * CHUNK, xs, chunk));
         }
         let result = if chunks[..count].iter().all(|chunk| chunk.sound) {
             self.join_runs(&chunks[..count], positions.len())

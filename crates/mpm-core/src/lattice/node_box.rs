@@ -1,7 +1,6 @@
 //! The box of integer coordinates that a cloud's nodes lie in.
 
 use mpm_kernels::{LANES, Lanes, SimplexGeometry, groups};
-use rayon::prelude::*;
 
 /// Lattice coordinates beyond ±2³⁰ are refused.
 const COORDINATE_LIMIT: f64 = (1u64 << 30) as f64;
@@ -40,10 +39,8 @@ impl<const D: usize> NodeBox<D> {
             groups(xs).for_each(|group| range.include(&geometry.coordinates(&group)));
             range
         };
-        let range = positions
-            .par_chunks(CHUNK)
-            .map(chunk)
-            .reduce(|| Range::NONE, Range::with);
+        let ranges = mpm_parallel::map(positions.chunks(CHUNK), &chunk);
+        let range = ranges.into_iter().fold(Range::NONE, Range::with);
         let Some((low, high)) = range.ends() else {
             let inside = |x: &[f64; D]| {
                 let u = geometry.coordinates(&[*x; LANES]);

@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::atomic::{AtomicU8, Ordering::Relaxed};
 
 use mpm_kernels::{LANES, LARGEST_LATTICE_DIMENSION, Lanes, SimplexGeometry, SimplexPoint, groups};
-use rayon::prelude::*;
+use mpm_parallel::each;
 
 use super::dense_table::DenseTable;
 use super::node_box::NodeBox;
@@ -72,8 +72,10 @@ impl<const D: usize> SimplexLattice<D> {
                 let (size, bins) = (node_box.size(), FREE_PLACES + positions.len() as f64);
                 let shift = (size / bins).log2().ceil().max(0.0) as u32;
                 let key = |x: &[f64; D]| (place(x) as i64 as u32) >> shift;
-                let keys = positions.par_iter().with_min_len(CHUNK).map(key);
-                keys.collect_into_vec(&mut s.keys);
+                s.keys.resize(positions.len(), 0);
+                each(s.keys.chunks_mut(CHUNK).zip(positions.chunks(CHUNK)), &|(keys, xs)| {
+                    keys.iter_mut().zip(xs).for_each(|(to, x)| *to = key(x));
+                });
                 (size as usize >> shift) + 1
             }
             NodeTable::Packed(_) => {
@@ -149,30 +151,26 @@ fn mark<const D: usize>(
 ) {
     let strides: [u32; LARGEST_LATTICE_DIMENSION] =
         std::array::from_fn(|a| node_box.strides.get(a).map_or(0, |&stride| stride as i64 as u32));
-    let chunks = points
-        .par_chunks_mut(CHUNK)
-        .zip(stencils.par_chunks_mut(CHUNK * (D + 1)));
-    chunks
-        .zip(sorted.par_chunks(CHUNK))
-        .for_each(move |((points, stencils), xs)| {
-            let outputs = points.chunks_mut(LANES).zip(stencils.chunks_mut(LANES * (D + 1)));
-            for ((points, stencils), xs) in outputs.zip(groups(xs)) {
-                let (bases, inside) = geometry.simplices(&xs);
-                let places = (node_box.places(&bases) + TO_BITS).to_array();
-                let each = points.iter_mut().zip(stencils.chunks_exact_mut(D + 1));
-                for (l, (point, stencil)) in each.enumerate() {
-                    *point = inside[l];
-                    let mut node = places[l].to_bits() as u32;
-                    for k in 0..D {
-                        stencil[k] = node;
-                        marks[node as usize].store(1, Relaxed);
-                        node += strides[point.axis(k)];
-                    }
-                    stencil[D] = node;
+    let chunks = points.chunks_mut(CHUNK).zip(stencils.chunks_mut(CHUNK * (D + 1)));
+    each(chunks.zip(sorted.chunks(CHUNK)), &move |((points, stencils), xs)| {
+        let outputs = points.chunks_mut(LANES).zip(stencils.chunks_mut(LANES * (D + 1)));
+        for ((points, stencils), xs) in outputs.zip(groups(xs)) {
+            let (bases, inside) = geometry.simplices(&xs);
+            let places = (node_box.places(&bases) + TO_BITS).to_array();
+            let each = points.iter_mut().zip(stencils.chunks_exact_mut(D + 1));
+            for (l, (point, stencil)) in each.enumerate() {
+                *point = inside[l];
+                let mut node = places[l].to_bits() as u32;
+                for k in 0..D {
+                    stencil[k] = node;
                     marks[node as usize].store(1, Relaxed);
+                    node += strides[point.axis(k)];
                 }
+                stencil[D] = node;
+                marks[node as usize].store(1, Relaxed);
             }
-        });
+        }
+    });
 }
 
 /// Let `work` finish the stencils of every part and say which nodes are in them.
@@ -188,9 +186,9 @@ fn for_each_part(
         shares.push((part, own));
         stencils = others;
     }
-    shares
-        .into_par_iter()
-        .for_each(|(part, stencils)| part.nodes = work(stencils));
+    each(shares.into_iter(), &|(part, stencils): (&mut Part, &mut [u32])| {
+        part.nodes = work(stencils);
+    });
 }
 
 /// Replace places by node numbers. Both grow together, and along a stencil: its ends tell the range.

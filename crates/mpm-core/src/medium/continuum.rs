@@ -2,7 +2,6 @@ use std::ops::Range;
 
 use mpm_materials::Law;
 use mpm_tensor::Matrix;
-use rayon::prelude::*;
 
 use super::Medium;
 use crate::largest::larger_or_nan;
@@ -119,10 +118,10 @@ impl<const D: usize, L: Law<D>> Medium<D> for Continuum<L> {
 
     /// A law gives a wave speed that is not finite wherever it has no stress, so the check costs nothing.
     fn wave_speed(&self, particles: &Particles<D, L::State>) -> Result<f64, MpmError> {
-        let chunks = (0..particles.len().div_ceil(CHUNK)).into_par_iter();
         let range = |chunk: usize| chunk * CHUNK..particles.len().min((chunk + 1) * CHUNK);
-        let largest = chunks.map(|chunk| self.largest_wave_speed(particles, range(chunk)));
-        let largest = largest.reduce(|| 0.0, larger_or_nan);
+        let of_chunk = |chunk| self.largest_wave_speed(particles, range(chunk));
+        let chunks = mpm_parallel::map(0..particles.len().div_ceil(CHUNK), &of_chunk);
+        let largest = chunks.into_iter().fold(0.0, larger_or_nan);
         if largest.is_finite() {
             return Ok(largest);
         }

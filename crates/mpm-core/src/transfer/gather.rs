@@ -2,10 +2,7 @@
 
 use std::ops::Range;
 
-use crate::Basis;
-
-/// Below this many stencil visits a part of the particles is worked off by one thread.
-const PARALLEL_THRESHOLD: usize = 1 << 14;
+use crate::{Basis, Schedule};
 
 /// Mutable per-particle data that can be cut in two at a particle.
 pub trait Divide: Sized + Send {
@@ -47,36 +44,34 @@ pub(crate) fn gather_cells<const D: usize, B, V, S: Default>(
     B: Basis<D>,
     V: Divide,
 {
-    gather_stretch(basis, 0..basis.schedule().cell_count(), data, update);
+    let work = |(cells, data)| gather_stretch(basis, cells, data, update);
+    divided(basis.schedule(), basis.stencil_size(), data, &work);
+}
+
+/// Hand every stretch of cells the data of its particles.
+fn divided<V: Divide>(schedule: &Schedule, stencil_size: usize, data: V, work: &(dyn Fn((Range<usize>, V)) + Sync)) {
+    let (mut pieces, mut rest) = (Vec::new(), data);
+    for cells in schedule.stretches(stencil_size) {
+        let (own, others) = rest.divide(schedule.particles(&cells).len());
+        pieces.push((cells, own));
+        rest = others;
+    }
+    mpm_parallel::each(pieces.into_iter(), work);
 }
 
 fn gather_stretch<const D: usize, B, V, S: Default>(
     basis: &B,
     cells: Range<usize>,
     mut data: V,
-    update: impl Fn(&mut V, Range<usize>, &[u32], usize, &mut S) + Sync + Send + Copy,
+    update: impl Fn(&mut V, Range<usize>, &[u32], usize, &mut S),
 ) where
     B: Basis<D>,
-    V: Divide,
 {
-    if cells.is_empty() {
-        return;
-    }
     let schedule = basis.schedule();
-    let particles = schedule.particles(&cells);
-    let worth_two = particles.len() * basis.stencil_size() > PARALLEL_THRESHOLD;
-    if worth_two && cells.len() > 1 && rayon::current_num_threads() > 1 {
-        let middle = cells.start + cells.len() / 2;
-        let (left, right) = data.divide(schedule.cell(middle).start - particles.start);
-        rayon::join(
-            || gather_stretch(basis, cells.start..middle, left, update),
-            || gather_stretch(basis, middle..cells.end, right, update),
-        );
-        return;
-    }
+    let first = schedule.particles(&cells).start;
     let (mut scratch, mut memory) = (Vec::new(), S::default());
     for cell in cells {
         let cell_nodes = &basis.cell_nodes(cell, &mut scratch)[..basis.cell_stencil_size(cell)]; // no check per node
-        update(&mut data, schedule.cell(cell), cell_nodes, particles.start, &mut memory);
+        update(&mut data, schedule.cell(cell), cell_nodes, first, &mut memory);
     }
 }

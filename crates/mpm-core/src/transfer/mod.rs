@@ -14,6 +14,8 @@ mod scatter;
 
 use mpm_kernels::{Deposit, Packed};
 
+use crate::largest::larger_or_nan;
+
 pub use affine_flip::AffineFlip;
 pub(crate) use ahead::Prepare;
 pub use apic::Apic;
@@ -59,6 +61,28 @@ pub trait GridNode<const D: usize>: Sum {
 
     /// v_iⁿ⁺¹ − damping v_iⁿ, where the transfer keeps v_iⁿ.
     fn change(&self, damping: f64) -> [f64; D];
+}
+
+/// Nodes of one piece of work.
+const PIECE: usize = 1 << 12;
+
+/// [`GridNode::advance`] of all nodes, with forces at them over a time step where there are such; the largest square.
+pub(crate) fn advance<N: GridNode<D>, const D: usize>(
+    nodes: &mut [N],
+    forces: Option<(&[[f64; D]], f64)>,
+    damping: f64,
+    speed_limit: f64,
+) -> f64 {
+    let piece = |(index, nodes): (usize, &mut [N])| {
+        let mut largest = 0.0;
+        for (k, node) in nodes.iter_mut().enumerate() {
+            let impulse = forces.map_or([0.0; D], |(forces, dt)| forces[index * PIECE + k].map(|f| dt * f));
+            largest = larger_or_nan(largest, node.advance(&impulse, damping, speed_limit));
+        }
+        largest
+    };
+    let largest = mpm_parallel::map(nodes.chunks_mut(PIECE).enumerate(), &piece);
+    largest.into_iter().fold(0.0, larger_or_nan)
 }
 
 /// A pair of particle-to-grid and grid-to-particle rules for the velocity.

@@ -3,11 +3,11 @@
 use std::ops::Range;
 
 use mpm_kernels::Lanes;
-use rayon::prelude::*;
+use mpm_parallel::each;
 
 use super::ahead::{Ahead, Prepare};
 use super::{CellSums, GridNode};
-use crate::{Basis, NO_NODE};
+use crate::{Basis, NO_NODE, Part, Schedule};
 
 /// Sums that several parts of the particles contribute to.
 pub trait Sum: Copy + Default + Send + Sync {
@@ -21,6 +21,9 @@ impl Sum for f64 {
         *self += other;
     }
 }
+
+/// Cells whose particles add to nodes, the number of the first of these, and these.
+type Share<'a, N> = (Range<usize>, usize, &'a mut [N]);
 
 /// Nodes of one piece of work when the parts' sums are added.
 const MERGE_LENGTH: usize = 1 << 12;
@@ -108,10 +111,8 @@ impl<N: Sum> NodeSums<N> {
         basis: &B,
         add: impl Fn(Range<usize>, &mut StencilNodes<N>, &mut S) + Sync + Copy,
     ) {
-        self.nodes.clear();
-        self.nodes.resize(basis.node_count(), N::default());
         let schedule = basis.schedule();
-        let add_up = |cells: Range<usize>, first: usize, nodes: &mut [N]| {
+        self.add_up(schedule, basis.node_count(), &|(cells, first, nodes)| {
             let (mut scratch, mut memory) = (Vec::new(), S::default());
             #[expect(
                 clippy::redundant_locals,
@@ -126,45 +127,53 @@ impl<N: Sum> NodeSums<N> {
                 };
                 add(schedule.cell(cell), &mut stencil, &mut memory);
             }
-        };
+        });
+    }
+
+    /// Let `work` add up the nodes of every part, and add the parts.
+    fn add_up(&mut self, schedule: &Schedule, node_count: usize, work: &(dyn Fn(Share<N>) + Sync)) {
+        self.nodes.clear();
+        self.nodes.resize(node_count, N::default());
         if let [part] = schedule.parts() {
-            add_up(part.cells.clone(), 0, &mut self.nodes);
+            work((part.cells.clone(), 0, &mut self.nodes));
             return;
         }
         let stored = schedule.parts().iter().map(|part| part.nodes.len()).sum();
         self.parts.resize(stored, N::default());
-        let mut work = Vec::with_capacity(schedule.parts().len());
+        let mut parts = Vec::with_capacity(schedule.parts().len());
         let mut rest = self.parts.as_mut_slice();
         for part in schedule.parts() {
             let (own, others) = rest.split_at_mut(part.nodes.len());
-            work.push((part, own));
+            parts.push((part, own));
             rest = others;
         }
-        work.par_iter_mut().for_each(|(part, own)| {
+        each(parts.iter_mut(), &|(part, own): &mut (&Part, &mut [N])| {
             own.fill(N::default());
-            add_up(part.cells.clone(), part.nodes.start, own);
+            work((part.cells.clone(), part.nodes.start, own));
         });
-        self.nodes
-            .par_chunks_mut(MERGE_LENGTH)
-            .enumerate()
-            .for_each(|(chunk, nodes)| {
-                let begin = chunk * MERGE_LENGTH;
-                for (part, own) in &work {
-                    let shared = part.nodes.start.max(begin)..part.nodes.end.min(begin + nodes.len());
-                    if !shared.is_empty() {
-                        let from = &own[shared.start - part.nodes.start..shared.end - part.nodes.start];
-                        for (node, sum) in nodes[shared.start - begin..].iter_mut().zip(from) {
-                            node.merge(sum);
-                        }
-                    }
-                }
-            });
+        merge(&parts, &mut self.nodes);
     }
 
     /// Bytes held.
     pub fn storage_bytes(&self) -> usize {
         (self.nodes.capacity() + self.parts.capacity()) * size_of::<N>()
     }
+}
+
+/// Add the sums of all parts.
+fn merge<N: Sum>(parts: &[(&Part, &mut [N])], nodes: &mut [N]) {
+    each(nodes.chunks_mut(MERGE_LENGTH).enumerate(), &|(chunk, nodes)| {
+        let begin = chunk * MERGE_LENGTH;
+        for (part, own) in parts {
+            let shared = part.nodes.start.max(begin)..part.nodes.end.min(begin + nodes.len());
+            if !shared.is_empty() {
+                let from = &own[shared.start - part.nodes.start..shared.end - part.nodes.start];
+                for (node, sum) in nodes[shared.start - begin..].iter_mut().zip(from) {
+                    node.merge(sum);
+                }
+            }
+        }
+    });
 }
 
 /// The nodes of one cell's stencils.

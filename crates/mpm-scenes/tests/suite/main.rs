@@ -11,3 +11,4 @@ mod refusal;
 mod resume;
 mod runs;
 mod scenes;
+mod validation;

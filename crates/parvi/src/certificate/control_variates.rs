@@ -1,11 +1,9 @@
 //! Expectations with the part that the scores explain taken from the target instead of the particles.
 
-use faer::linalg::matmul::matmul;
-use faer::linalg::solvers::{Llt, Solve};
-use faer::{Accum, Mat, Par, Side};
 use parvi_targets::Frame;
 
 use super::stein_polynomials::{MAXIMUM_DEGREE, SteinPolynomials};
+use crate::cholesky::Cholesky;
 
 /// Particles that coefficients are fitted to, at most.
 const FITTED: usize = 2048;
@@ -75,9 +73,9 @@ pub(crate) struct ControlVariates<const D: usize> {
     effective_size: f64,
     /// Every `stride`-th particle is fitted to.
     stride: usize,
-    /// √w (A ψ_a − mean) / sd, a row for each fitted particle, a column for each polynomial.
-    design: Mat<f64>,
-    factor: Llt<f64>,
+    /// √w (A ψ_a − mean) / sd, for each polynomial, of each fitted particle.
+    design: Vec<Vec<f64>>,
+    factor: Cholesky,
     /// Means of A ψ_a over all particles, in units of the columns' sd.
     means: Vec<f64>,
 }
@@ -122,40 +120,29 @@ impl<const D: usize> ControlVariates<D> {
         let frame = Frame::of_points(positions, Some(&weights)).ok()?;
         let polynomials = SteinPolynomials::<D>::new(degree);
         let (count, stride) = (polynomials.len(), positions.len().div_ceil(FITTED).max(1));
-        let mut raw = Mat::<f64>::zeros(positions.len().div_ceil(stride), count);
+        let mut design = vec![vec![0.0; positions.len().div_ceil(stride)]; count];
         let mut means = vec![0.0; count];
         for (p, (x, s)) in positions.iter().zip(scores).enumerate() {
             polynomials.evaluate(&frame.to_reference(x), &frame.pull_back_score(s), |k, value| {
                 means[k] += weights[p] * value;
                 if p % stride == 0 {
-                    raw[(p / stride, k)] = value;
+                    design[k][p / stride] = value;
                 }
             });
         }
         let fitted = fitted_weights(&weights, stride);
-        let spread: Vec<(f64, f64)> = (0..count)
-            .map(|k| mean_and_deviation(&fitted, |row| raw[(row, k)]))
-            .collect();
-        let design = Mat::from_fn(raw.nrows(), count, |row, k| {
-            let (mean, deviation) = spread[k];
-            fitted[row].sqrt() * (raw[(row, k)] - mean) / deviation
-        });
-        let mut gram = Mat::<f64>::zeros(count, count);
-        matmul(
-            gram.as_mut(),
-            Accum::Replace,
-            design.transpose(),
-            design.as_ref(),
-            1.0,
-            Par::Seq, // the same bits on any number of threads
-        );
-        for k in 0..count {
-            gram[(k, k)] += RIDGE;
-            means[k] /= spread[k].1;
+        for (column, mean) in design.iter_mut().zip(&mut means) {
+            let (centre, deviation) = mean_and_deviation(&fitted, |row| column[row]);
+            *mean /= deviation;
+            for (entry, weight) in column.iter_mut().zip(&fitted) {
+                *entry = weight.sqrt() * (*entry - centre) / deviation;
+            }
         }
+        let entry = |i: usize, k: usize| dot(&design[i], &design[k]) + if i == k { RIDGE } else { 0.0 };
+        let gram = (0..count).map(|i| (0..=i).map(|k| entry(i, k)).collect()).collect();
         Some(Self {
             effective_size: weights.iter().map(|weight| weight * weight).sum::<f64>().recip(),
-            factor: gram.llt(Side::Lower).ok()?,
+            factor: Cholesky::new(gram)?,
             weights,
             stride,
             design,
@@ -168,17 +155,19 @@ impl<const D: usize> ControlVariates<D> {
         let (average, standard_deviation) = mean_and_deviation(&self.weights, |p| values[p]);
         let fitted = fitted_weights(&self.weights, self.stride);
         let (centre, _) = mean_and_deviation(&fitted, |row| values[row * self.stride]);
-        let centred = Mat::from_fn(fitted.len(), 1, |row, _| {
-            fitted[row].sqrt() * (values[row * self.stride] - centre)
-        });
-        let coefficients = self.factor.solve(self.design.transpose() * &centred);
-        let residual = &centred - &self.design * &coefficients;
-        let explained: f64 = (0..self.means.len())
-            .map(|k| coefficients[(k, 0)] * self.means[k])
-            .sum();
+        let centred = |row: usize| fitted[row].sqrt() * (values[row * self.stride] - centre);
+        let mut residual: Vec<f64> = (0..fitted.len()).map(centred).collect();
+        let projections: Vec<f64> = self.design.iter().map(|column| dot(column, &residual)).collect();
+        let coefficients = self.factor.solve(&projections);
+        for (column, coefficient) in self.design.iter().zip(&coefficients) {
+            for (rest, entry) in residual.iter_mut().zip(column) {
+                *rest -= coefficient * entry;
+            }
+        }
+        let explained = dot(&coefficients, &self.means);
         let rows = fitted.len() as f64;
         let degrees_of_freedom = (rows - self.means.len() as f64 - 1.0).max(1.0);
-        let unexplained = residual.norm_l2() * (rows / degrees_of_freedom).sqrt();
+        let unexplained = dot(&residual, &residual).sqrt() * (rows / degrees_of_freedom).sqrt();
         Expectation {
             average,
             estimate: average - explained,
@@ -187,6 +176,20 @@ impl<const D: usize> ControlVariates<D> {
             standard_error: explained.hypot(unexplained / self.effective_size.sqrt()),
         }
     }
+}
+
+/// Σ_k a_k b_k in eight sums side by side, which vector instructions can take.
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let (a, a_rest) = a.as_chunks::<8>();
+    let (b, b_rest) = b.as_chunks::<8>();
+    let mut sums = [0.0; 8];
+    for (a, b) in a.iter().zip(b) {
+        for l in 0..8 {
+            sums[l] += a[l] * b[l];
+        }
+    }
+    let rest: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
+    sums.iter().sum::<f64>() + rest
 }
 
 /// Weights that sum to one.

@@ -2,7 +2,7 @@
 
 use super::density::Density;
 use super::map_fit::mean;
-use super::symmetric_solve::solve;
+use crate::cholesky::Cholesky;
 use crate::triangular_map::{Image, TriangularMap, features};
 
 /// Scores are compared at z_i plus and minus this.
@@ -99,7 +99,7 @@ impl Regression {
         for k in 0..self.matrix.len() {
             self.matrix[k][k] *= 1.0 + RIDGE;
         }
-        solve(&mut self.matrix, &self.right_hand_side)
+        Some(Cholesky::new(self.matrix)?.solve(&self.right_hand_side))
     }
 }
 

@@ -3,7 +3,7 @@
 use mpm_tensor::vector;
 
 use super::density::Density;
-use super::symmetric_solve::solve;
+use crate::cholesky::Cholesky;
 use crate::triangular_map::{Image, TriangularMap, features, location_count};
 
 /// Steps at most.
@@ -83,8 +83,8 @@ impl<const D: usize> Mapped<D> {
                 (location, true, 1.0 / (1.0 + excess)),
                 (scale, false, excess.ln_1p() / excess),
             ] {
-                let (mut information, gradient) = self.information(nodes, i, quadratic);
-                let natural = solve(&mut information, &gradient)?;
+                let (information, gradient) = self.information(nodes, i, quadratic);
+                let natural = Cholesky::new(information)?.solve(&gradient);
                 for ((entry, n), g) in part.iter_mut().zip(natural).zip(gradient) {
                     *entry = share * n;
                     fall += *entry * g;

@@ -11,7 +11,6 @@ mod linear_score;
 mod map_choice;
 mod map_fit;
 mod masses;
-mod symmetric_solve;
 
 use mpm_tensor::{SymmetricEigen, vector};
 use parvi_targets::{Frame, Target};

@@ -176,7 +176,7 @@ impl Quickstart {
         let reference = with_target(target, task)?;
         let wall_seconds = begin.elapsed().as_secs_f64();
         reference::write(&reference.axes, &moments_file(directory))?;
-        ParticleFile::create(Case::Reference.particles_file(directory))?.write(&reference.draws)?;
+        ParticleFile::create(Case::Reference.particles_file(directory))?.write(&reference.draws, &[])?;
         let mut row = Row::new(
             Case::Reference,
             &self.posterior,
@@ -204,7 +204,7 @@ impl Quickstart {
         match attempt(sampling::sample(&part.target, &method, &run, observer))? {
             Attempt::Failed(status, reason) => (row.status, row.reason) = (status, reason),
             Attempt::Finished(outcome) => {
-                ParticleFile::create(case.particles_file(directory))?.write(&outcome.particles)?;
+                ParticleFile::create(case.particles_file(directory))?.write(&outcome.particles, &[])?;
                 table_file::write(outcome.trace.iter().map(TraceRow::from), &case.trace_file(directory))?;
                 row.steps = Some(outcome.steps);
                 row.score_evaluations = Some(outcome.score_evaluations);

@@ -1,0 +1,286 @@
+//! Tensor-product splines whose degree is known at run time only: compiled once per dimension, for dimensions in which a stencil has so
+//! many nodes that nobody computes with them for speed.
+
+use mpm_kernels::{Cubic, Entry, Linear, Quadratic, Row, Spline, UniformGrid};
+
+use crate::basis::check_placement;
+use crate::key_map::KeyMap;
+use crate::{Basis, MpmError, Schedule, UniformBasis};
+
+/// Nodes per axis of the widest spline.
+const WIDEST: usize = 4;
+
+/// Node numbers that are stored, at most; beyond, they are looked up whenever they are asked for.
+const MOST_STORED: usize = 1 << 26;
+
+/// Which spline.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SplineDegree {
+    /// [`Linear`], two nodes per axis.
+    Linear,
+    /// [`Quadratic`], three.
+    Quadratic,
+    /// [`Cubic`], four.
+    Cubic,
+}
+
+/// What a particle knows along every axis.
+struct Rows<const D: usize> {
+    weights: [[f64; WIDEST]; D],
+    /// Per unit of length.
+    derivatives: [[f64; WIDEST]; D],
+    /// Positions of the first nodes less that of the particle.
+    offsets: [f64; D],
+}
+
+/// The nodes {origin + h i : i ∈ ℤᴰ} with the shape functions of [`SplineGrid`](crate::SplineGrid), by a loop over the Wᴰ nodes of a particle.
+/// Every particle is a cell of its own; nodes are found by hashing.
+#[derive(Clone, Debug)]
+pub struct ProductGrid<const D: usize> {
+    degree: SplineDegree,
+    nodes: UniformGrid<D>,
+    map: KeyMap<[i32; D]>,
+    /// The first node of every particle.
+    bases: Vec<[i32; D]>,
+    /// The node numbers of every particle, where they are stored.
+    stencils: Vec<u32>,
+    schedule: Schedule,
+}
+
+impl<const D: usize> ProductGrid<D> {
+    /// A grid of spacing `h` with a node at `origin`.
+    ///
+    /// # Errors
+    /// [`MpmError::InvalidParameter`] unless `h` is positive and `h` and `origin` are finite.
+    pub fn new(degree: SplineDegree, origin: [f64; D], h: f64) -> Result<Self, MpmError> {
+        check_placement(&origin, h)?;
+        Ok(Self {
+            degree,
+            nodes: UniformGrid::new(origin, h),
+            map: KeyMap::default(),
+            bases: Vec::new(),
+            stencils: Vec::new(),
+            schedule: Schedule::default(),
+        })
+    }
+
+    fn width(&self) -> usize {
+        match self.degree {
+            SplineDegree::Linear => 2,
+            SplineDegree::Quadratic => 3,
+            SplineDegree::Cubic => 4,
+        }
+    }
+
+    /// D_p over h² I; `None` where ∇w_ip stands for w_ip D_p⁻¹ (x_i − x_p).
+    fn second_moment(&self) -> Option<f64> {
+        match self.degree {
+            SplineDegree::Linear => None,
+            SplineDegree::Quadratic => Some(0.25),
+            SplineDegree::Cubic => Some(1.0 / 3.0),
+        }
+    }
+
+    fn first_node(&self, x: &[f64; D]) -> Option<[i32; D]> {
+        match self.degree {
+            SplineDegree::Linear => self.nodes.first_node::<Linear, 2>(x),
+            SplineDegree::Quadratic => self.nodes.first_node::<Quadratic, 3>(x),
+            SplineDegree::Cubic => self.nodes.first_node::<Cubic, 4>(x),
+        }
+    }
+
+    fn rows(&self, x: &[f64; D]) -> Rows<D> {
+        let (h, mut rows) = (self.nodes.spacing(), Rows::NONE);
+        for a in 0..D {
+            let u = self.nodes.coordinate(x, a);
+            let base = match self.degree {
+                SplineDegree::Linear => rows.take(a, &Linear::row(u), h),
+                SplineDegree::Quadratic => rows.take(a, &Quadratic::row(u), h),
+                SplineDegree::Cubic => rows.take(a, &Cubic::row(u), h),
+            };
+            rows.offsets[a] = h * (base as f64 - u);
+        }
+        rows
+    }
+
+    /// The nodes of the stencil that begins at `base`, the last axis fastest.
+    fn stencil(&self, base: [i32; D]) -> impl Iterator<Item = [i32; D]> {
+        let width = self.width() as i32;
+        let mut place = [0; D];
+        (0..self.stencil_size()).map(move |_| {
+            let node = std::array::from_fn(|a| base[a] + place[a]);
+            advance(&mut place, width);
+            node
+        })
+    }
+}
+
+impl<const D: usize> Rows<D> {
+    const NONE: Self = Self {
+        weights: [[0.0; WIDEST]; D],
+        derivatives: [[0.0; WIDEST]; D],
+        offsets: [0.0; D],
+    };
+
+    /// Take over the row along an axis; returns its first node.
+    fn take<const W: usize>(&mut self, axis: usize, row: &Row<W>, h: f64) -> i64 {
+        for j in 0..W {
+            self.weights[axis][j] = row.weights[j];
+            self.derivatives[axis][j] = row.derivatives[j] / h;
+        }
+        row.base
+    }
+}
+
+/// The next place of a stencil, the last axis fastest; returns the first axis that changed.
+fn advance<const D: usize>(place: &mut [i32; D], width: i32) -> usize {
+    for a in (0..D).rev() {
+        place[a] += 1;
+        if place[a] < width {
+            return a;
+        }
+        place[a] = 0;
+    }
+    0
+}
+
+impl<const D: usize> Basis<D> for ProductGrid<D> {
+    const LONE_PARTICLES: bool = true;
+
+    /// Particles stay in their order.
+    fn sort(&mut self, positions: &[[f64; D]]) -> Result<(), MpmError> {
+        self.schedule.clear();
+        self.bases.clear();
+        for (particle, x) in positions.iter().enumerate() {
+            let base = self.first_node(x).ok_or_else(|| MpmError::PositionOutOfRange {
+                particle,
+                position: x.to_vec(),
+                spacing: self.nodes.spacing(),
+            })?;
+            self.bases.push(base);
+        }
+        let count = positions.len() as u32;
+        self.schedule.order.extend(0..count);
+        self.schedule.cell_starts.extend(0..=count);
+        (self.schedule.lone_particles, self.schedule.keeps_order) = (true, true);
+        Ok(())
+    }
+
+    fn activate(&mut self, sorted: &[[f64; D]]) -> Result<(), MpmError> {
+        let size = self.stencil_size();
+        let stored = sorted.len().saturating_mul(size) <= MOST_STORED;
+        let mut map = std::mem::take(&mut self.map);
+        let mut stencils = std::mem::take(&mut self.stencils);
+        map.clear();
+        stencils.clear();
+        self.schedule.cut(size);
+        for part in 0..self.schedule.parts.len() {
+            let (mut low, mut high) = (u32::MAX, 0);
+            for particle in self.schedule.parts[part].cells.clone() {
+                for node in self.stencil(self.bases[particle]) {
+                    let number = map.number(node);
+                    (low, high) = (low.min(number), high.max(number));
+                    if stored {
+                        stencils.push(number);
+                    }
+                }
+                if map.keys().len() > u32::MAX as usize - size {
+                    let nodes = map.keys().len() as u64;
+                    return Err(MpmError::TooManyNodes { nodes });
+                }
+            }
+            self.schedule.parts[part].nodes = low as usize..high as usize + 1;
+        }
+        (self.map, self.stencils) = (map, stencils);
+        self.schedule.join(self.map.keys().len());
+        Ok(())
+    }
+
+    fn schedule(&self) -> &Schedule {
+        &self.schedule
+    }
+
+    fn node_count(&self) -> usize {
+        self.map.keys().len()
+    }
+
+    fn node_positions(&self, out: &mut Vec<[f64; D]>) {
+        out.clear();
+        out.extend(self.map.keys().iter().map(|node| self.nodes.node_position(node)));
+    }
+
+    fn spacing(&self) -> f64 {
+        self.nodes.spacing()
+    }
+
+    fn stencil_size(&self) -> usize {
+        self.width().pow(D as u32)
+    }
+
+    fn cell_nodes<'a>(&'a self, cell: usize, scratch: &'a mut Vec<u32>) -> &'a [u32] {
+        let size = self.stencil_size();
+        if !self.stencils.is_empty() {
+            return &self.stencils[cell * size..][..size];
+        }
+        scratch.clear();
+        let numbers = self.stencil(self.bases[cell]);
+        scratch.extend(numbers.map(|node| self.map.find(node).unwrap_or(crate::NO_NODE)));
+        scratch
+    }
+
+    /// w = Π_a N_a and ∂w/∂x_a = N′_a Π_{b≠a} N_b by products over the leading axes, of which only those that changed are taken again.
+    #[inline]
+    fn for_each_node(&self, _: usize, x: &[f64; D], mut visit: impl FnMut(usize, &Entry<D>)) {
+        let (h, width, rows) = (self.spacing(), self.width() as i32, self.rows(x));
+        let one = Entry {
+            weight: 1.0,
+            gradient: [0.0; D],
+            offset: [0.0; D],
+        };
+        let (mut levels, mut place, mut changed) = ([one; D], [0; D], 0);
+        for index in 0..self.stencil_size() {
+            for a in changed..D {
+                let before = if a == 0 { one } else { levels[a - 1] };
+                let j = place[a] as usize;
+                let (weight, derivative) = (rows.weights[a][j], rows.derivatives[a][j]);
+                let mut entry = before;
+                for b in 0..a {
+                    entry.gradient[b] *= weight;
+                }
+                entry.gradient[a] = before.weight * derivative;
+                entry.weight = before.weight * weight;
+                entry.offset[a] = rows.offsets[a] + h * f64::from(place[a]);
+                levels[a] = entry;
+            }
+            visit(index, &levels[D - 1]);
+            changed = advance(&mut place, width);
+        }
+    }
+
+    fn affine_direction(&self, _: usize, _: &[f64; D], entry: &Entry<D>) -> [f64; D] {
+        let h = self.spacing();
+        match self.second_moment() {
+            None => entry.gradient,
+            Some(moment) => entry.offset.map(|r| entry.weight * r / (moment * h * h)),
+        }
+    }
+
+    fn storage_bytes(&self) -> usize {
+        self.map.storage_bytes()
+            + self.bases.capacity() * size_of::<[i32; D]>()
+            + self.stencils.capacity() * 4
+            + self.schedule.storage_bytes()
+    }
+}
+
+impl<const D: usize> UniformBasis<D> for ProductGrid<D> {
+    fn place(&mut self, origin: [f64; D], h: f64) -> Result<(), MpmError> {
+        check_placement(&origin, h)?;
+        self.nodes = UniformGrid::new(origin, h);
+        Ok(())
+    }
+
+    fn cell_point(&self, fraction: &[f64; D], h: f64) -> [f64; D] {
+        fraction.map(|c| c * h)
+    }
+}

@@ -1,0 +1,5 @@
+//! Splines, stencils and lattices. One theme per file.
+
+mod kernels;
+mod lattice;
+mod transfers;

@@ -1,0 +1,180 @@
+//! What every material must satisfy, D = 1…4, through `&dyn Material<D>`.
+#![allow(non_snake_case)]
+
+use mpm_materials::{ElasticModuli, FixedCorotated, Hencky, IsothermalGas, LinearElastic, Material, NeoHookean};
+use mpm_tensor::Matrix;
+use proptest::prelude::*;
+
+use crate::common::{Sample, derivative_of, rotation, sample, stiffness_of};
+
+/// A material and what its documentation promises.
+struct Member<'a, const D: usize> {
+    name: &'static str,
+    material: &'a dyn Material<D>,
+    /// ψ(Q F) = ψ(F) for every rotation Q.
+    objective: bool,
+    /// ψ(I) = 0 and τ(I) = 0.
+    stress_free_at_rest: bool,
+}
+
+/// Runs `check` on every member.
+fn for_each_member<const D: usize>(
+    sample: &Sample,
+    check: impl Fn(&Member<D>, &Sample) -> Result<(), TestCaseError>,
+) -> Result<(), TestCaseError> {
+    let moduli = ElasticModuli::new(sample.young_modulus, sample.poisson_ratio).expect("in range");
+    let gas = IsothermalGas::new(sample.young_modulus).expect("positive");
+    let gas = gas.with_reference_density(sample.reference_density).expect("positive");
+    let (linear, neo_hookean) = (LinearElastic::new(moduli), NeoHookean::new(moduli));
+    let fixed_corotated = FixedCorotated::new(moduli);
+    let hencky = Hencky::new(moduli);
+    let members: [Member<D>; 5] = [
+        Member {
+            name: "linear elastic",
+            material: &linear,
+            objective: false,
+            stress_free_at_rest: true,
+        },
+        Member {
+            name: "Neo-Hookean",
+            material: &neo_hookean,
+            objective: true,
+            stress_free_at_rest: true,
+        },
+        Member {
+            name: "fixed corotated",
+            material: &fixed_corotated,
+            objective: true,
+            stress_free_at_rest: true,
+        },
+        Member {
+            name: "Hencky",
+            material: &hencky,
+            objective: true,
+            stress_free_at_rest: true,
+        },
+        Member {
+            name: "isothermal gas",
+            material: &gas,
+            objective: true,
+            stress_free_at_rest: false,
+        },
+    ];
+    members.iter().try_for_each(|member| check(member, sample))
+}
+
+/// A size of stresses, for tolerances.
+fn stress_scale<const D: usize>(member: &Member<D>, sample: &Sample) -> f64 {
+    let F = sample.deformation::<D>();
+    10.0 * sample.young_modulus * sample.reference_density.max(1.0)
+        + member.material.first_piola_kirchhoff(&F).frobenius_norm()
+}
+
+/// P_ij = ∂ψ/∂F_ij by five-point differences; τ = P Fᵀ.
+fn stress_is_the_derivative_of_energy<const D: usize>(
+    member: &Member<D>,
+    sample: &Sample,
+) -> Result<(), TestCaseError> {
+    let F = sample.deformation::<D>();
+    let scale = stress_scale(member, sample);
+    let differences = derivative_of(|F| member.material.energy_density(F), &F);
+    let P = member.material.first_piola_kirchhoff(&F);
+    let error = (P - differences).frobenius_norm();
+    prop_assert!(error < 1e-9 * scale, "{}, D = {D}: dψ/dF off by {error:e}", member.name);
+    let stress = member.material.kirchhoff_stress(&F);
+    let error = (stress - P * F.transpose()).frobenius_norm();
+    prop_assert!(error < 1e-13 * scale, "{}, D = {D}: P Fᵀ off by {error:e}", member.name);
+    prop_assert_eq!(member.material.checked_kirchhoff_stress(&F), Ok(stress));
+    Ok(())
+}
+
+/// ψ(Q F) = ψ(F) and τ(Q F) = Q τ Qᵀ where promised, and with it τ = τᵀ; ψ(Q F Qᵀ) = ψ(F) for all, being isotropic.
+fn frames_and_axes_do_not_matter<const D: usize>(member: &Member<D>, sample: &Sample) -> Result<(), TestCaseError> {
+    let (F, Q) = (sample.deformation::<D>(), rotation(&sample.block::<D>(2)));
+    let tolerance = 1e-13 * stress_scale(member, sample);
+    let material = member.material;
+    let energy = material.energy_density(&F);
+    let stress = material.kirchhoff_stress(&F);
+    let turned_axes = material.energy_density(&(Q * F * Q.transpose()));
+    prop_assert!(
+        (turned_axes - energy).abs() < tolerance,
+        "{}: not isotropic",
+        member.name
+    );
+    if member.objective {
+        prop_assert!((material.energy_density(&(Q * F)) - energy).abs() < tolerance);
+        let turned = Q * stress * Q.transpose();
+        prop_assert!((material.kirchhoff_stress(&(Q * F)) - turned).frobenius_norm() < tolerance);
+        prop_assert_eq!(stress, stress.transpose());
+    } else {
+        // Symmetric to first order: P is, and τ − τᵀ = P (F − I)ᵀ − (F − I) P.
+        let strain = (F - Matrix::IDENTITY).frobenius_norm();
+        let P = material.first_piola_kirchhoff(&F);
+        prop_assert_eq!(P, P.transpose());
+        let asymmetry = (stress - stress.transpose()).frobenius_norm();
+        prop_assert!(asymmetry <= 2.0 * strain * P.frobenius_norm() + tolerance);
+    }
+    Ok(())
+}
+
+/// No energy and no stress at F = I, or the pressure κ ρ₀ of the gas.
+fn rest_is_as_promised<const D: usize>(member: &Member<D>, sample: &Sample) -> Result<(), TestCaseError> {
+    let rest = Matrix::<D>::IDENTITY;
+    prop_assert_eq!(member.material.energy_density(&rest), 0.0);
+    let pressure = if member.stress_free_at_rest {
+        0.0
+    } else {
+        sample.young_modulus * sample.reference_density
+    };
+    prop_assert_eq!(member.material.kirchhoff_stress(&rest), rest * -pressure);
+    prop_assert_eq!(member.material.first_piola_kirchhoff(&rest), rest * -pressure);
+    Ok(())
+}
+
+/// ρ₀ c² bounds d²/dε² ψ((I + ε a nᵀ) F) for all unit a, n, and equals it at rest for a = n.
+fn wave_speed_bounds_the_acoustic_tensor<const D: usize>(
+    member: &Member<D>,
+    sample: &Sample,
+) -> Result<(), TestCaseError> {
+    let density = sample.reference_density;
+    let scale = stress_scale(member, sample);
+    let stiffness =
+        |F: &Matrix<D>, a: &[f64; D], n: &[f64; D]| stiffness_of(|F| member.material.energy_density(F), F, a, n);
+    let (a, n) = (sample.direction(0), sample.direction(1));
+    let F = sample.deformation::<D>();
+    let speed = member.material.wave_speed(&F, density);
+    for polarisation in [a, n] {
+        let stiffness = stiffness(&F, &polarisation, &n);
+        prop_assert!(stiffness <= density * speed * speed + 1e-4 * scale, "{}", member.name);
+    }
+    let rest = Matrix::IDENTITY;
+    let speed = member.material.wave_speed(&rest, density);
+    let error = density * speed * speed - stiffness(&rest, &n, &n);
+    prop_assert!(
+        error.abs() < 1e-4 * scale,
+        "{}, D = {D}: off by {error:e} at rest",
+        member.name
+    );
+    Ok(())
+}
+
+macro_rules! conformance {
+    ($($name:ident: $check:ident;)*) => {
+        proptest! {
+            $(#[test]
+            fn $name(sample in sample()) {
+                for_each_member::<1>(&sample, $check)?;
+                for_each_member::<2>(&sample, $check)?;
+                for_each_member::<3>(&sample, $check)?;
+                for_each_member::<4>(&sample, $check)?;
+            })*
+        }
+    };
+}
+
+conformance! {
+    derivative: stress_is_the_derivative_of_energy;
+    objectivity_and_isotropy: frames_and_axes_do_not_matter;
+    rest: rest_is_as_promised;
+    wave_speed: wave_speed_bounds_the_acoustic_tensor;
+}

@@ -1,0 +1,186 @@
+//! `.msh` files that are refused, each with its error and the place.
+
+use mpm_mesh::{MeshError, MshError, Place, read_msh};
+use proptest::prelude::*;
+
+use super::gmsh_files::{BAR, BRICK, PLATE, QUADRANGLES};
+
+const HEADER: &str = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+const NODES: &str = "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n";
+const CELLS: &str = "$Elements\n2\n1 2 2 0 1 1 2 3\n2 2 2 0 1 1 3 4\n$EndElements\n";
+
+fn refused(text: &str) -> MshError {
+    read_msh::<2>(text.as_bytes()).expect_err("not a mesh")
+}
+
+fn line(byte: usize, line: usize) -> Place {
+    Place { byte, line: Some(line) }
+}
+
+fn malformed(text: &str, at: &str, expected: &'static str, found: &str) {
+    let byte = text.find(at).expect("the place");
+    let number = 1 + text[..byte].matches('\n').count();
+    let error = MshError::Malformed {
+        place: line(byte, number),
+        expected,
+        found: found.to_owned(),
+    };
+    assert_eq!(refused(text), error);
+}
+
+#[test]
+fn headers() {
+    let place = line(0, 1);
+    let expected = "$MeshFormat";
+    assert_eq!(refused(""), MshError::Truncated { place, expected });
+    malformed("solid cube", "solid", "$MeshFormat", "solid");
+    let version = "4".to_owned();
+    assert_eq!(
+        refused("$MeshFormat\n4 0 8\n"),
+        MshError::UnsupportedVersion { version }
+    );
+    malformed("$MeshFormat\n2.2 2 8\n", "2 8", "0 for text or 1 for binary", "2");
+    malformed("$MeshFormat\n4.1 0 x\n", "x", "the size of numbers", "x");
+    malformed("$MeshFormat\n4.1 0 8\n$Nodes", "$Nodes", "$EndMeshFormat", "$Nodes");
+    assert_eq!(
+        refused("$MeshFormat\n4.1 1 4\n"),
+        MshError::UnsupportedDataSize { size: 4 }
+    );
+    let mut marker = b"$MeshFormat\n4.1 1 8\n".to_vec();
+    marker.extend([1, 1, 0, 0]);
+    let error = MshError::Malformed {
+        place: Place { byte: 20, line: None },
+        expected: "the number one",
+        found: "257".to_owned(),
+    };
+    assert_eq!(read_msh::<2>(&marker), Err(error));
+}
+
+#[test]
+fn sections() {
+    assert_eq!(refused(HEADER), MshError::MissingSection { name: "Nodes" });
+    assert_eq!(
+        refused(&format!("{HEADER}{NODES}")),
+        MshError::MissingSection { name: "Elements" }
+    );
+    malformed(
+        &format!("{HEADER}junk {NODES}"),
+        "junk",
+        "the name of a section",
+        "junk",
+    );
+    let nodes = NODES.replace("4 0 1 0\n", "");
+    malformed(
+        &format!("{HEADER}{nodes}{CELLS}"),
+        "$EndNodes",
+        "the tag of a node",
+        "$EndNodes",
+    );
+    let open = format!("{HEADER}$Periodic\n1 2 3");
+    let place = line(open.len(), 5);
+    let expected = "the end of a section";
+    assert_eq!(refused(&open), MshError::Truncated { place, expected });
+}
+
+#[test]
+fn nodes_and_elements() {
+    let nodes = NODES.replace("3 1 1 0", "2 1 1 0");
+    let place = line(HEADER.len() + 25, 8);
+    let error = MshError::DuplicateNode { tag: 2, place };
+    assert_eq!(refused(&format!("{HEADER}{nodes}{CELLS}")), error);
+    let nodes = NODES.replace("3 1 1 0", "3 1 one 0");
+    malformed(&format!("{HEADER}{nodes}{CELLS}"), "one", "a coordinate", "one");
+    let cells = CELLS.replace("1 3 4", "1 3 5");
+    let error = MshError::UnknownNode { tag: 5, element: 2 };
+    assert_eq!(refused(&format!("{HEADER}{NODES}{cells}")), error);
+    let nodes = NODES.replace("3 1 1 0", "3 1 1 0.25");
+    let error = MshError::OutOfPlane {
+        tag: 3,
+        axis: 'z',
+        value: 0.25,
+        expected: 0.0,
+        dimension: 2,
+    };
+    assert_eq!(refused(&format!("{HEADER}{nodes}{CELLS}")), error);
+    let nodes = NODES.replace("3 1 1 0", "3 nan 1 0");
+    let error = refused(&format!("{HEADER}{nodes}{CELLS}"));
+    assert!(
+        matches!(error, MshError::Mesh(MeshError::NonFiniteVertex { vertex: 2, .. })),
+        "{error}"
+    );
+    let cells = CELLS.replace("1 3 4", "1 4 3");
+    let error = MeshError::InvertedCell { cell: 1, volume: -0.5 };
+    assert_eq!(refused(&format!("{HEADER}{NODES}{cells}")), MshError::Mesh(error));
+}
+
+#[test]
+fn elements_of_other_kinds() {
+    let unsupported = |kind, name, dimension, place| MshError::UnsupportedElement {
+        kind,
+        name,
+        dimension,
+        place,
+    };
+    let text = std::str::from_utf8(QUADRANGLES).expect("text");
+    let block = "2 1 3 16\n";
+    let byte = text.rfind(block).expect("a block of quadrangles");
+    let place = line(byte, 1 + text[..byte].matches('\n').count());
+    assert_eq!(refused(text), unsupported(3, "quadrangle", 2, place));
+    let cells = CELLS.replace("2 2 2 0", "2 99 2 0");
+    let place = line(HEADER.len() + NODES.len() + CELLS.find("2 2 2 0").expect("it"), 14);
+    assert_eq!(
+        refused(&format!("{HEADER}{NODES}{cells}")),
+        unsupported(99, "unknown", 2, place)
+    );
+    let tetrahedra = read_msh::<2>(BRICK[0]).expect_err("three dimensions");
+    assert!(
+        matches!(
+            tetrahedra,
+            MshError::UnsupportedElement {
+                kind: 4,
+                dimension: 2,
+                ..
+            }
+        ),
+        "{tetrahedra}"
+    );
+    let name = "tetrahedron";
+    assert_eq!(read_msh::<3>(PLATE[3]), Err(MshError::NoCells { name, dimension: 3 }));
+    let dimension = MeshError::UnsupportedDimension { dimension: 4 };
+    assert_eq!(read_msh::<4>(PLATE[3]), Err(MshError::Mesh(dimension)));
+}
+
+#[test]
+fn files_that_end_too_early() {
+    fn check<const D: usize>(file: &[u8]) {
+        let whole = read_msh::<D>(file).expect("a mesh");
+        for length in 0..file.len() {
+            // Without its last line break it is complete.
+            let cut = read_msh::<D>(&file[..length]);
+            assert!(
+                cut.is_err() || length + 1 == file.len() && cut.as_ref() == Ok(&whole),
+                "{length}"
+            );
+        }
+    }
+    BAR.iter().for_each(|file| check::<1>(file));
+    PLATE.iter().for_each(|file| check::<2>(file));
+    BRICK.iter().for_each(|file| check::<3>(file));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(512))]
+
+    /// Whatever comes of it is a mesh or an error.
+    #[test]
+    fn damaged_files_do_no_harm(file in 0..4usize, damage in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..4)) {
+        let mut flat = PLATE[file].to_vec();
+        let mut solid = BRICK[file].to_vec();
+        for (place, value) in damage {
+            *place.get_mut(&mut flat) = value;
+            *place.get_mut(&mut solid) = value;
+        }
+        let _ = read_msh::<2>(&flat);
+        let _ = read_msh::<3>(&solid);
+    }
+}

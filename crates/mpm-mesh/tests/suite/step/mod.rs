@@ -1,0 +1,31 @@
+//! The step of mpm-core on meshes.
+
+#![allow(clippy::print_stdout, reason = "errors and drifts are reported")]
+
+mod bar;
+mod conservation;
+mod oracle;
+mod two_halves;
+
+use mpm_core::{Continuum, StepControl};
+use mpm_materials::Material;
+
+/// Any elastic law; behind a reference, so that the step is compiled once for all laws.
+type Solid<const D: usize> = Continuum<&'static dyn Material<D>>;
+
+/// A solid of the given law.
+fn solid<const D: usize>(law: impl Material<D> + 'static) -> Solid<D> {
+    Continuum {
+        law: Box::leak(Box::new(law)),
+    }
+}
+
+/// A step of the given length with no other limit.
+fn control(time_step: f64) -> StepControl {
+    StepControl {
+        time_step,
+        courant: f64::INFINITY,
+        displacement: f64::INFINITY,
+        friction: 0.0,
+    }
+}

@@ -1,0 +1,5 @@
+//! The reduced-order model, from the outside. One theme per file.
+
+mod common;
+mod linear;
+mod training;

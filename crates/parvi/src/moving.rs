@@ -1,0 +1,80 @@
+//! A body on a basis of whatever type, as the loop around its steps sees it: what is behind is called once per step and compiled once per
+//! basis, transfer and medium, the loop once per dimension.
+
+use mpm_core::{Medium, Mpm, MpmError, Particles, StepReport, Transfer, UniformBasis};
+
+use crate::drive::PlannedStep;
+use crate::framed_score::ScoreForce;
+use crate::residual::{Residual, galerkin_stein_residual};
+
+/// Particles that a score moves.
+pub(crate) trait Moving<'a, const D: usize> {
+    /// Their state.
+    fn particles(&mut self) -> &mut Particles<D>;
+
+    /// What pulls at them.
+    fn force(&mut self) -> &mut ScoreForce<'a, D>;
+
+    /// Turn the basis as a step asks for.
+    fn turn(&mut self, planned: &PlannedStep<D>);
+
+    /// Place the basis and make the step.
+    fn step(&mut self, planned: &PlannedStep<D>) -> Result<StepReport, MpmError>;
+
+    /// Where every particle was before the last sort ([`Schedule::order`](mpm_core::Schedule::order)).
+    fn order(&self) -> &[u32];
+
+    /// The residual of the particles with these scores, on a basis of spacing h that they were not moved on: half a cell off the origin of
+    /// a step.
+    fn residual(&mut self, origin: &[f64; D], spacing: f64, scores: &[[f64; D]]) -> Result<Residual, MpmError>;
+
+    /// Bytes held.
+    fn storage_bytes(&self) -> usize;
+}
+
+/// A body and a second basis like its own, for residuals.
+pub(crate) struct OnBasis<'a, const D: usize, B, T: Transfer<D>, M: Medium<D>> {
+    pub body: Mpm<D, B, T, M, ScoreForce<'a, D>>,
+    pub certificate: B,
+}
+
+impl<'a, const D: usize, B, T, M> Moving<'a, D> for OnBasis<'a, D, B, T, M>
+where
+    B: UniformBasis<D>,
+    T: Transfer<D>,
+    M: Medium<D, State = ()>,
+{
+    fn particles(&mut self) -> &mut Particles<D> {
+        &mut self.body.particles
+    }
+
+    fn force(&mut self) -> &mut ScoreForce<'a, D> {
+        &mut self.body.body_force
+    }
+
+    fn turn(&mut self, planned: &PlannedStep<D>) {
+        if let Some(rotation) = &planned.rotation {
+            self.body.basis.turn(rotation);
+        }
+    }
+
+    fn step(&mut self, planned: &PlannedStep<D>) -> Result<StepReport, MpmError> {
+        let point = self.body.basis.cell_point(&planned.origin, planned.spacing);
+        self.body.basis.place(point, planned.spacing)?;
+        self.body.step(&planned.control)
+    }
+
+    fn order(&self) -> &[u32] {
+        self.body.basis.schedule().order()
+    }
+
+    fn residual(&mut self, origin: &[f64; D], spacing: f64, scores: &[[f64; D]]) -> Result<Residual, MpmError> {
+        let point = self.certificate.cell_point(&origin.map(|c| (c + 0.5).fract()), spacing);
+        self.certificate.place(point, spacing)?;
+        galerkin_stein_residual(&mut self.certificate, &self.body.particles.positions, scores)
+    }
+
+    fn storage_bytes(&self) -> usize {
+        self.body.storage_bytes()
+    }
+}

@@ -1,0 +1,12 @@
+//! Samplers, from the outside. One theme per file.
+
+mod bent_targets;
+#[cfg(feature = "nuts")]
+mod nuts;
+mod on_mesh;
+mod own_targets;
+mod robustness;
+mod samplers;
+mod stein_thinning;
+mod support_points;
+mod survey;

@@ -1,0 +1,17 @@
+//! The command `parvi`, from the outside. One theme per file.
+
+mod gaussian_studies;
+mod rom;
+mod sample_bad_input;
+mod sample_checkpoint;
+mod sample_diagnostics;
+mod sample_interrupted;
+mod sample_output;
+mod scene_studies;
+mod simulate;
+mod studies;
+mod study_bad_input;
+mod study_resume;
+mod support;
+mod target_studies;
+mod time_to_equal_error;

@@ -1,0 +1,128 @@
+//! `parvi rom`: training, reduced runs, refusals.
+
+use crate::support::{assert_refused, files, parvi, stderr, stdout, value};
+
+const SCENE: &str = r#"
+title = "a strip that bends"
+dimension = 2
+gravity = [0.0, -1.0]
+domain = { lower = [-1.0, -2.0], upper = [3.0, 2.0] }
+grid = { spacing = 0.25 }
+transfer = { kind = "pic" }
+time = { end = 0.2, step = 0.0050000001, courant = 0.5 }
+materials.rubber = { law = "fixed-corotated", density = 2.0, young_modulus = 500.0, poisson_ratio = 0.3 }
+output = { interval = 0.05 }
+
+[[bodies]]
+name = "strip"
+shape = { kind = "box", lower = [0.0, 0.0], upper = [2.0, 0.5] }
+material = "rubber"
+
+[[kinematic]]
+region = { kind = "box", lower = [-0.1, -1.0], upper = [0.25, 1.0] }
+"#;
+
+const EXPERIMENT: &str = r#"
+title = "A strip"
+scene = "strip.toml"
+parameters = ["gravity"]
+keys = [{ key = "gravity.1", factor = -1.0, product = ["gravity"] }]
+cases = { train = [[1.0], [3.0]], test = [[2.0]] }
+training = { coordinates = 2, width = 6, depth = 2, epochs = 5, batch = 2 }
+run = { samples = [20, "all"] }
+"#;
+
+#[test]
+fn a_model_is_trained_and_run() {
+    let root = tempfile::tempdir().unwrap();
+    std::fs::write(root.path().join("strip.toml"), SCENE).unwrap();
+    std::fs::write(root.path().join("rom.toml"), EXPERIMENT).unwrap();
+    let early = parvi(root.path(), "rom run rom.toml --out out");
+    assert!(
+        !early.status.success() && stderr(&early).contains("model.safetensors"),
+        "{}",
+        stderr(&early)
+    );
+    let trained = parvi(root.path(), "rom train rom.toml --out out");
+    assert!(trained.status.success(), "{}", stderr(&trained));
+    for (key, expected) in [("points", "64"), ("runs", "2"), ("frames", "10"), ("epochs", "5")] {
+        assert_eq!(value(&trained, key).as_deref(), Some(expected), "{key}");
+    }
+    let run = parvi(root.path(), "rom run rom.toml --out out");
+    assert!(run.status.success(), "{}", stderr(&run));
+    assert_eq!(stdout(&run).lines().count(), 2, "{}", stdout(&run));
+    assert!(
+        stdout(&run).starts_with("manifold=network samples=20 choice=greedy "),
+        "{}",
+        stdout(&run)
+    );
+    assert_eq!(
+        files(&root.path().join("out")),
+        [
+            "checkpoint.safetensors",
+            "config.toml",
+            "coordinates.svg",
+            "errors.svg",
+            "frames.csv",
+            "losses.csv",
+            "losses.svg",
+            "model.safetensors",
+            "results.csv",
+            "speed_up.svg",
+            "training_data.safetensors",
+        ]
+    );
+    let figures = ["coordinates.svg", "errors.svg", "speed_up.svg"].map(|name| root.path().join("out").join(name));
+    let drawn = [&figures[0], &figures[1]].map(|file| std::fs::read(file).unwrap());
+    for file in &figures {
+        std::fs::remove_file(file).unwrap();
+    }
+    let report = parvi(root.path(), "report out");
+    assert!(report.status.success(), "{}", stderr(&report));
+    assert_eq!(stdout(&report).lines().count(), 2, "{}", stdout(&report));
+    assert_eq!(
+        [&figures[0], &figures[1]].map(|file| std::fs::read(file).unwrap()),
+        drawn
+    );
+    assert!(figures[2].exists());
+}
+
+#[test]
+fn what_is_wrong_is_named() {
+    let root = tempfile::tempdir().unwrap();
+    std::fs::write(root.path().join("strip.toml"), SCENE).unwrap();
+    for (change, expected) in [
+        (("strip.toml", "none.toml"), "none.toml"),
+        (
+            ("gravity.1", "gravity.7"),
+            "rom.toml, keys.0.key: `gravity.7` does not fit the scene strip.toml",
+        ),
+        (("epochs = 5", "epoch = 5"), "rom.toml, line 7, column "),
+        (("epochs = 5", "epochs = 0"), "epochs = 0"),
+        (("samples = [20", "samples = [3"), "3 sample points, at least"),
+    ] {
+        std::fs::write(root.path().join("rom.toml"), EXPERIMENT.replace(change.0, change.1)).unwrap();
+        let command = if change.0.starts_with("samples") {
+            assert!(parvi(root.path(), "rom train rom.toml --out out").status.success());
+            "rom run rom.toml --out out"
+        } else {
+            "rom train rom.toml --out out"
+        };
+        assert_refused(&parvi(root.path(), command), &[expected]);
+    }
+}
+
+#[test]
+fn committed_experiments_can_be_read() {
+    // A directory that cannot be made: files are read first, so its name is in the message.
+    let experiments = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("rom");
+    let files = std::fs::read_dir(&experiments).unwrap();
+    let names: Vec<String> = files
+        .map(|file| file.unwrap().file_name().into_string().unwrap())
+        .collect();
+    assert!(names.len() >= 9, "{names:?}");
+    for name in names {
+        let message = stderr(&parvi(&experiments, &format!("rom run {name} --out {name}/out")));
+        assert!(message.contains(&format!("{name}/out")), "{message}");
+    }
+}

@@ -1,0 +1,142 @@
+//! What `parvi sample` writes and says.
+
+use crate::support::{files, parvi, stderr, stdout, value};
+
+fn keys(text: &str) -> Vec<&str> {
+    text.lines().map(|line| line.split_once('=').unwrap().0).collect()
+}
+
+#[test]
+fn particles_have_a_header_and_one_row_each() {
+    let directory = tempfile::tempdir().unwrap();
+    let output = parvi(
+        directory.path(),
+        "sample --target gaussian --dim 3 --particles 100 --method iid --out x.csv",
+    );
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert_eq!(files(directory.path()), ["x.csv"]);
+    let text = std::fs::read_to_string(directory.path().join("x.csv")).unwrap();
+    let mut lines = text.lines();
+    assert_eq!(lines.next(), Some("x1,x2,x3"));
+    let rows: Vec<Vec<f64>> = lines
+        .map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect())
+        .collect();
+    assert_eq!(rows.len(), 100);
+    assert!(
+        rows.iter()
+            .all(|row| row.len() == 3 && row.iter().all(|value| value.is_finite()))
+    );
+}
+
+#[test]
+fn a_density_on_a_mesh_stays_in_it() {
+    let directory = tempfile::tempdir().unwrap();
+    let mesh = concat!(env!("CARGO_MANIFEST_DIR"), "/meshes/disk.msh");
+    let line =
+        format!("sample --target gaussian --dim 2 --particles 300 --seed 1 --basis mesh --mesh {mesh} --out x.csv");
+    let output = parvi(directory.path(), &line);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let text = std::fs::read_to_string(directory.path().join("x.csv")).unwrap();
+    let squares = text.lines().skip(1).map(|row| {
+        let numbers = row.split(',').map(|cell| cell.parse::<f64>().unwrap());
+        numbers.map(|c| c * c).sum::<f64>()
+    });
+    let squares: Vec<f64> = squares.collect();
+    assert!(squares.iter().all(|&square| square < 1.0 + 1e-9));
+    // E r² of N(0, I) within the unit disk is 2 − 1 / (√e − 1); the polygon of the mesh is a little smaller.
+    let mean = squares.iter().sum::<f64>() / 300.0;
+    let exact = 2.0 - 1.0 / (0.5f64.exp() - 1.0);
+    assert!((mean / exact - 1.0).abs() < 0.03, "{mean}, {exact}");
+}
+
+#[test]
+fn both_formats_hold_the_same_numbers() {
+    let directory = tempfile::tempdir().unwrap();
+    for name in ["x.csv", "x.npy"] {
+        let line = format!("sample --target banana --particles 50 --method sobol --seed 7 --out {name}");
+        assert!(parvi(directory.path(), &line).status.success());
+    }
+    let text = std::fs::read_to_string(directory.path().join("x.csv")).unwrap();
+    let from_text: Vec<f64> = text
+        .lines()
+        .skip(1)
+        .flat_map(|line| line.split(','))
+        .map(|cell| cell.parse().unwrap())
+        .collect();
+    let bytes = std::fs::read(directory.path().join("x.npy")).unwrap();
+    let array = npyz::NpyFile::new(bytes.as_slice()).unwrap();
+    assert_eq!(array.shape(), [50, 2]);
+    assert_eq!(array.into_vec::<f64>().unwrap(), from_text);
+}
+
+// The peak of the memory is known on Linux only.
+#[cfg(target_os = "linux")]
+#[test]
+fn standard_output_has_the_keys_of_the_contract() {
+    let directory = tempfile::tempdir().unwrap();
+    let output = parvi(
+        directory.path(),
+        "sample --target gaussian --dim 2 --particles 200 --steps 5 --out x.csv",
+    );
+    assert!(output.status.success(), "{}", stderr(&output));
+    insta::assert_snapshot!(keys(&stdout(&output)).join(" "), @"method steps score_evaluations wall_seconds residual spacing active_nodes bodies storage_bytes peak_memory_bytes outcome mean_error sd_error unexplained drift target dim particles seed");
+    assert_eq!(value(&output, "method").unwrap(), "mpm");
+    assert_eq!(value(&output, "steps").unwrap(), "5");
+    assert!(value(&output, "spacing").unwrap().parse::<f64>().unwrap() > 0.0);
+
+    let output = parvi(
+        directory.path(),
+        "sample --target gaussian --dim 2 --particles 200 --method iid --out x.csv",
+    );
+    insta::assert_snapshot!(keys(&stdout(&output)).join(" "), @"method steps score_evaluations wall_seconds peak_memory_bytes target dim particles seed");
+    assert_eq!(value(&output, "steps").unwrap(), "0");
+    assert_eq!(value(&output, "score_evaluations").unwrap(), "0");
+}
+
+#[test]
+fn the_same_seed_gives_the_same_file_on_any_number_of_threads() {
+    let directory = tempfile::tempdir().unwrap();
+    let mut methods = vec![
+        "mpm",
+        "paper-pic",
+        "paper-apic",
+        "svgd",
+        "iid",
+        "sobol",
+        "stein-thinning",
+        "support-points",
+    ];
+    if cfg!(feature = "nuts") {
+        methods.push("nuts");
+    }
+    for method in methods {
+        let steps = if matches!(method, "iid" | "sobol" | "nuts" | "stein-thinning") {
+            ""
+        } else {
+            "--steps 8"
+        };
+        let file = |threads: &str, seed: u64| {
+            let line =
+                format!("sample --target banana --particles 300 --method {method} --seed {seed} {steps} --out x.csv");
+            let mut command = crate::support::command();
+            command
+                .current_dir(directory.path())
+                .env("RAYON_NUM_THREADS", threads)
+                .args(line.split_whitespace());
+            let output = command.output().unwrap();
+            assert!(output.status.success(), "{method}: {}", stderr(&output));
+            std::fs::read(directory.path().join("x.csv")).unwrap()
+        };
+        let one = file("1", 3);
+        assert!(one == file("2", 3), "{method}: threads matter");
+        assert!(one != file("2", 4), "{method}: the seed does not matter");
+    }
+}
+
+#[test]
+fn targets_are_listed() {
+    let directory = tempfile::tempdir().unwrap();
+    let output = parvi(directory.path(), "targets");
+    assert!(output.status.success(), "{}", stderr(&output));
+    insta::assert_snapshot!(stdout(&output));
+}

@@ -1,0 +1,244 @@
+//! The study `scenes`: a small one to its report, going on, and what it refuses.
+
+use std::path::Path;
+
+use crate::support::{assert_refused, assert_report, files, parvi, rows, stderr, value};
+
+const BAR: &str = include_str!("../../scenes/vibrating_bar.toml");
+
+const STUDY: &str = r#"
+kind = "scenes"
+title = "Bars"
+
+[[families]]
+name = "bar"
+title = "Vibrating bar"
+scene = "scenes/bar.toml"
+set = { "output.interval" = 10.0 }
+x = "grid.spacing"
+x-label = "spacing h (m)"
+y-label = "error (%)"
+read = { quantity = "error of the centre of mass / amplitude", factor = 100.0 }
+judged = ["cubic"]
+judgements = [{ kind = "order", at-least = 2.0 }, { kind = "bound", at = [1.0] }]
+axes = [
+    { key = "grid.basis", values = ["quadratic", "cubic"] },
+    { key = "grid.spacing", values = [1.0, 0.5] },
+    { choices = [{ set = { "time.end" = 10.0 } }, { set = { "time.end" = 10.5 } }], worst = true },
+]
+
+[[families]]
+name = "end"
+title = "End of the bar"
+like = "bar"
+y-label = "largest position of the end (m)"
+read = { column = "upper_x", take = "largest", offset = -25.0, offsets = { "grid.spacing" = 0.25 } }
+judgements = [{ kind = "spread", at-most = 0.5 }, { kind = "power-law", exponent = 0.0, tolerance = 1.0 }]
+"#;
+
+/// A directory with the scene and a study of it.
+fn root(study: &str) -> tempfile::TempDir {
+    let root = tempfile::tempdir().unwrap();
+    std::fs::create_dir(root.path().join("scenes")).unwrap();
+    std::fs::write(root.path().join("scenes/bar.toml"), BAR).unwrap();
+    std::fs::write(root.path().join("study.toml"), study).unwrap();
+    root
+}
+
+/// results.csv without the column of the wall time.
+fn results(root: &Path) -> Vec<Vec<(String, String)>> {
+    let sorted = rows(root).into_iter().map(|row| {
+        let mut cells: Vec<_> = row.into_iter().filter(|(name, _)| name != "wall_seconds").collect();
+        cells.sort();
+        cells
+    });
+    sorted.collect()
+}
+
+#[test]
+fn families_share_runs_and_are_judged() {
+    let root = root(STUDY);
+    let output = parvi(root.path(), "run study.toml --out out");
+    assert!(output.status.success(), "{}", stderr(&output));
+    for (key, expected) in [("cases", "16"), ("failed", "0"), ("judged", "6"), ("verdict", "pass")] {
+        assert_eq!(value(&output, key).as_deref(), Some(expected), "{key}");
+    }
+    let report = assert_report(root.path(), 2);
+    assert!(report.contains("| Vibrating bar | cubic | order ≥ 2 |"), "{report}");
+    assert!(
+        report.contains("| Vibrating bar | cubic, x = 1 | at most 0.500 |"),
+        "{report}"
+    );
+    assert!(!report.contains("| Vibrating bar | quadratic | order"), "{report}");
+
+    let rows = rows(root.path());
+    assert_eq!(rows[0]["case"], "bar: quadratic, spacing = 1, end = 10");
+    assert_eq!((rows[0]["label"].as_str(), rows[0]["x"].as_str()), ("quadratic", "1.0"));
+    assert_eq!(rows[0]["particles"], "50");
+    assert!(!rows[0]["wall_seconds"].is_empty() && rows[8]["wall_seconds"].is_empty());
+    assert_eq!(files(&root.path().join("out/raw")).len(), 8);
+
+    // The report needs neither scenes nor runs.
+    std::fs::remove_dir_all(root.path().join("scenes")).unwrap();
+    std::fs::remove_dir_all(root.path().join("out/raw")).unwrap();
+    assert!(parvi(root.path(), "report out").status.success());
+    assert_eq!(
+        std::fs::read_to_string(root.path().join("out/report.md")).unwrap(),
+        report
+    );
+}
+
+#[test]
+fn a_torn_study_ends_with_the_same_results_and_changed_scenes_are_seen() {
+    let root = root(STUDY);
+    let run = || parvi(root.path(), "run study.toml --out out");
+    assert!(run().status.success());
+    let whole = results(root.path());
+    let path = root.path().join("out/results.csv");
+    let text = std::fs::read_to_string(&path).unwrap();
+    std::fs::write(&path, &text[..text.len() / 2]).unwrap();
+    assert!(run().status.success());
+    assert_eq!(results(root.path()), whole);
+
+    std::fs::write(
+        root.path().join("scenes/bar.toml"),
+        BAR.replace("density = 1.0", "density = 2.0"),
+    )
+    .unwrap();
+    assert_refused(&run(), &["study.toml", "families.bar", "spacing = 1", "another scene"]);
+}
+
+#[test]
+fn a_run_that_fails_is_a_row() {
+    let study = STUDY.replace("\"quadratic\", \"cubic\"", "\"linear\"");
+    let root = root(
+        &study
+            .replace("judged = [\"cubic\"]", "set.\"bodies.0.velocity.amplitude\" = [60.0]")
+            .replace("set = { \"output.interval\" = 10.0 }\n", ""),
+    );
+    let output = parvi(root.path(), "run study.toml --out out");
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert_eq!(value(&output, "verdict").as_deref(), Some("fail"));
+    assert_ne!(value(&output, "failed").as_deref(), Some("0"));
+    let rows = rows(root.path());
+    assert!(
+        rows.iter()
+            .any(|row| row["status"] == "diverged" && row["reason"].contains("step ")),
+        "{rows:?}"
+    );
+}
+
+/// Asserts that a study with one text replaced is refused before anything is written.
+fn refused(from: &str, to: &str, parts: &[&str]) {
+    let text = STUDY.replacen(from, to, 1);
+    assert_ne!(text, STUDY);
+    let root = root(&text);
+    let parts: Vec<&str> = parts.iter().copied().chain(["study.toml"]).collect();
+    assert_refused(&parvi(root.path(), "run study.toml --out out"), &parts);
+    assert_eq!(files(root.path()), ["scenes", "study.toml"]);
+}
+
+#[test]
+fn changes_that_the_scene_refuses() {
+    let case = "case `quadratic, spacing = 1, end = 10`";
+    refused(
+        "\"output.interval\" = 10.0",
+        "\"output.colour\" = 1",
+        &[
+            "families.bar",
+            case,
+            "scenes/bar.toml",
+            "output.colour",
+            "unknown field",
+        ],
+    );
+    refused(
+        "\"grid.basis\"",
+        "\"grid.basis.order\"",
+        &[
+            "families.bar",
+            "grid.basis.order",
+            "`basis` is neither a table nor an array",
+        ],
+    );
+    refused(
+        "\"output.interval\"",
+        "\"bodies.3.fill\"",
+        &["families.bar", "bodies.3.fill", "elements 0 to 0"],
+    );
+    refused(
+        "values = [1.0, 0.5]",
+        "values = [1.0, -0.5]",
+        &["spacing = -0.5", "grid.spacing"],
+    );
+}
+
+#[test]
+fn families_that_make_no_sense() {
+    refused(
+        "values = [1.0, 0.5]",
+        "values = []",
+        &["families.bar.axes", "axes.1 `values` is empty"],
+    );
+    refused("axes = [\n", "axes = []\nignored = [\n", &["line", "ignored"]);
+    refused(
+        "x = \"grid.spacing\"",
+        "x = \"grid.basis\"",
+        &["families.bar.x", "`grid.basis` is no number"],
+    );
+    refused("like = \"bar\"", "like = \"beam\"", &["families.end.like", "`beam`"]);
+    refused(
+        "name = \"end\"",
+        "name = \"bar\"",
+        &["families.bar.name", "another family"],
+    );
+    refused(
+        "scene = \"scenes/bar.toml\"",
+        "scene = \"bar.toml\"",
+        &["families.bar.scene", "bar.toml"],
+    );
+    refused(
+        "scene = \"scenes/bar.toml\"\n",
+        "",
+        &["families.bar.scene", "is missing"],
+    );
+    refused("column = \"upper_x\", ", "", &["families.end.read", "column"]);
+    refused("[1.0, 0.5]", "[1.0, 1.0]", &["families.axes", "two cases"]);
+    refused("at-least", "at-most", &["line", "at-most"]);
+    refused(
+        "kind = \"order\"",
+        "kind = \"orders\"",
+        &["line", "orders", "power-law"],
+    );
+    refused(
+        "\"grid.spacing\" = 0.25",
+        "\"grid.width\" = 0.25",
+        &["families.end.read.offsets", "grid.width"],
+    );
+    let tables = "[[families]]\nname = \"none\"\ntitle = \"t\"\nscene = \"scenes/bar.toml\"\nx = \"grid.spacing\"\nx-label = \"x\"\ny-label = \"y\"\nread = { column = \"upper_x\" }\n\n[[families]]\nname = \"bar\"";
+    refused(
+        "[[families]]\nname = \"bar\"",
+        tables,
+        &["families.none.axes", "is empty"],
+    );
+}
+
+#[test]
+fn numbers_that_the_run_does_not_have() {
+    for (from, to, parts) in [
+        (
+            "quantity = \"error of the centre",
+            "quantity = \"horror of the centre",
+            ["families.bar.read.quantity", "none of `error of the centre of mass"],
+        ),
+        (
+            "column = \"upper_x\"",
+            "column = \"upper_z\"",
+            ["families.end.read.column", "`upper_x`"],
+        ),
+    ] {
+        let root = root(&STUDY.replace(from, to));
+        let output = parvi(root.path(), "run study.toml --out out");
+        assert_refused(&output, &["study.toml", parts[0], parts[1]]);
+    }
+}

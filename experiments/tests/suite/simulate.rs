@@ -1,0 +1,162 @@
+//! `parvi simulate`: files, lines, refusals, going on after Ctrl-C.
+
+use crate::support::{assert_refused, files, interrupted, parvi, stderr, stdout, value};
+
+const SCENE: &str = r#"
+title = "falling block"
+dimension = 2
+gravity = [0.0, -1.0]
+domain = { lower = [0.0, 0.0], upper = [2.0, 2.0] }
+grid = { spacing = 0.25 }
+time = { end = 0.5 }
+materials.rubber = { law = "neo-hookean", density = 1.0, young_modulus = 10.0, poisson_ratio = 0.3 }
+output = { interval = 0.25, series_interval = 0.05 }
+
+[[bodies]]
+name = "block"
+shape = { kind = "box", lower = [0.5, 1.0], upper = [1.0, 1.5] }
+material = "rubber"
+
+[[probes]]
+name = "corner"
+at = [1.0, 1.0]
+"#;
+
+#[test]
+fn a_scene_leaves_frames_series_and_figures() {
+    let root = tempfile::tempdir().unwrap();
+    std::fs::write(root.path().join("scene.toml"), SCENE).unwrap();
+    let output = parvi(root.path(), "simulate scene.toml --out out");
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert_eq!(value(&output, "outcome").as_deref(), Some("finished"));
+    assert_eq!(value(&output, "time").as_deref(), Some("0.5"));
+    assert_eq!(value(&output, "particles").as_deref(), Some("16"));
+    for key in ["scene", "steps", "wall_seconds", "nanoseconds_per_particle_step"] {
+        assert!(value(&output, key).is_some(), "{key} is missing in {}", stdout(&output));
+    }
+    assert_eq!(
+        files(&root.path().join("out")),
+        [
+            "checkpoint.cbor",
+            "particles.pvd",
+            "particles_000000.vtu",
+            "particles_000001.vtu",
+            "particles_000002.vtu",
+            "scene.toml",
+            "series.csv",
+            "series_centre_of_mass.svg",
+            "series_energies.svg",
+            "series_extent.svg",
+            "series_momenta.svg",
+            "series_probe_corner.svg",
+        ]
+    );
+    // A finished run is not run again.
+    let again = parvi(root.path(), "simulate scene.toml --out out");
+    assert_eq!(value(&again, "resumed_at").as_deref(), Some("0.5"));
+    assert_eq!(value(&again, "steps"), value(&output, "steps"));
+}
+
+#[test]
+fn a_run_anew_leaves_nothing_of_an_earlier_one() {
+    let root = tempfile::tempdir().unwrap();
+    let scene = root.path().join("scene.toml");
+    std::fs::write(
+        &scene,
+        SCENE.replace("end = 0.5", "end = 1.0").replace("corner", "edge"),
+    )
+    .unwrap();
+    assert!(parvi(root.path(), "simulate scene.toml --out out").status.success());
+    let out = root.path().join("out");
+    std::fs::remove_file(out.join("checkpoint.cbor")).unwrap();
+    std::fs::write(out.join("notes.txt"), "mine").unwrap();
+    std::fs::write(&scene, SCENE).unwrap();
+    assert!(parvi(root.path(), "simulate scene.toml --out out").status.success());
+    assert!(parvi(root.path(), "simulate scene.toml --out fresh").status.success());
+    let mut expected = files(&root.path().join("fresh"));
+    expected.push("notes.txt".to_owned());
+    expected.sort();
+    assert_eq!(files(&out), expected);
+}
+
+#[test]
+fn files_of_other_commands_are_refused_with_the_command_for_them() {
+    let root = tempfile::tempdir().unwrap();
+    let files = [
+        ("scene.toml", SCENE, "a scene, which `parvi simulate` takes"),
+        (
+            "study.toml",
+            "kind = \"quickstart\"",
+            "the configuration of a study, which `parvi run` takes",
+        ),
+        (
+            "rom.toml",
+            "scene = \"scene.toml\"\ncases = {}",
+            "the configuration of a reduced-order model, which `parvi rom train|run` takes",
+        ),
+    ];
+    for (name, text, _) in files {
+        std::fs::write(root.path().join(name), text).unwrap();
+    }
+    for (command, own) in [
+        ("simulate", "scene.toml"),
+        ("run", "study.toml"),
+        ("rom train", "rom.toml"),
+        ("rom run", "rom.toml"),
+    ] {
+        for (name, _, message) in files.into_iter().filter(|(name, ..)| *name != own) {
+            let output = parvi(root.path(), &format!("{command} {name} --out out"));
+            assert_refused(&output, &[&format!("{name} seems to be {message}; this command takes")]);
+            assert_eq!(output.status.code(), Some(2));
+        }
+    }
+    assert!(!root.path().join("out").exists());
+}
+
+#[test]
+fn bad_scenes_are_refused_with_file_field_and_value() {
+    let root = tempfile::tempdir().unwrap();
+    let cases = [
+        ("spacing = 0.25", "spacings = 0.25", "unknown field `spacings`"),
+        (
+            "poisson_ratio = 0.3",
+            "poisson_ratio = 0.5",
+            "materials.rubber.poisson_ratio = 0.5",
+        ),
+        ("end = 0.5", "end = 0.5, step = 1.0", "time.step = 1"),
+    ];
+    for (from, to, part) in cases {
+        std::fs::write(root.path().join("bad.toml"), SCENE.replace(from, to)).unwrap();
+        assert_refused(&parvi(root.path(), "simulate bad.toml --out out"), &["bad.toml", part]);
+    }
+    assert_refused(
+        &parvi(root.path(), "simulate none.toml --out out"),
+        &["none.toml: cannot be read"],
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_goes_on_to_the_same_bits() {
+    let root = tempfile::tempdir().unwrap();
+    let slow = SCENE.replace("time = { end = 0.5 }", "time = { end = 0.5, step = 1e-5 }");
+    let scene = slow.replace("interval = 0.25, series_interval = 0.05", "interval = 0.05");
+    std::fs::write(root.path().join("scene.toml"), scene).unwrap();
+    let whole = parvi(root.path(), "simulate scene.toml --out whole");
+    assert!(whole.status.success(), "{}", stderr(&whole));
+    let second = root.path().join("part/particles_000001.vtu");
+    let part = interrupted(root.path(), "simulate scene.toml --out part", || second.exists());
+    assert!(
+        stderr(&part).contains("the same line started again goes on"),
+        "{}",
+        stderr(&part)
+    );
+    assert_eq!(value(&part, "outcome").as_deref(), Some("interrupted"));
+    let rest = parvi(root.path(), "simulate scene.toml --out part");
+    assert!(rest.status.success(), "{}", stderr(&rest));
+    assert_eq!(value(&rest, "steps"), value(&whole, "steps"));
+    for name in ["series.csv", "particles_000010.vtu", "particles.pvd"] {
+        let [whole, part] = ["whole", "part"].map(|run| std::fs::read(root.path().join(run).join(name)).unwrap());
+        assert_eq!(whole, part, "{name}");
+    }
+}

@@ -1,0 +1,132 @@
+//! A study that was cut off goes on where it stopped and ends with the same results.
+
+use std::path::Path;
+
+use crate::support::{files, interrupted, parvi, stderr, value};
+
+const STUDY: &str = r#"
+kind = "time-error"
+seeds = [0, 1]
+threads = 1
+particles = 64
+steps = [2, 4]
+reference-points = 1000
+reference-seed = 7
+directions = 8
+targets = [{ name = "gaussian", dim = 2 }, { name = "banana" }, { name = "wells-small", dim = 2 }]
+methods = [{ name = "mpm" }, { name = "svgd" }, { name = "iid" }]
+"#;
+
+/// 3 targets × (2 methods × 2 numbers of steps + draws) × 2 seeds.
+const CASES: usize = 30;
+
+/// The rows of results.csv without the columns that depend on the machine.
+fn results(directory: &Path) -> Vec<Vec<String>> {
+    let mut reader = csv::Reader::from_path(directory.join("results.csv")).unwrap();
+    let kept: Vec<bool> = reader
+        .headers()
+        .unwrap()
+        .iter()
+        .map(|name| !name.starts_with("wall") && !name.starts_with("memory"))
+        .collect();
+    let pick = |record: csv::StringRecord| {
+        record
+            .iter()
+            .zip(&kept)
+            .filter(|(_, keep)| **keep)
+            .map(|(cell, _)| cell.to_owned())
+            .collect()
+    };
+    reader.records().map(|record| pick(record.unwrap())).collect()
+}
+
+fn run(root: &Path, out: &str) {
+    let output = parvi(root, &format!("run study.toml --out {out}"));
+    assert!(output.status.success(), "{}", stderr(&output));
+}
+
+#[test]
+fn a_torn_study_ends_with_the_same_results() {
+    let root = tempfile::tempdir().unwrap();
+    std::fs::write(root.path().join("study.toml"), STUDY).unwrap();
+    run(root.path(), "whole");
+    let whole = results(&root.path().join("whole"));
+    assert_eq!(whole.len(), CASES);
+
+    run(root.path(), "torn");
+    let path = root.path().join("torn/results.csv");
+    let text = std::fs::read_to_string(&path).unwrap();
+    for kept in [0, 20, text.len() / 3, 2 * text.len() / 3, text.len() - 1] {
+        std::fs::write(&path, &text[..kept]).unwrap();
+        run(root.path(), "torn");
+        assert_eq!(results(&root.path().join("torn")), whole, "cut at byte {kept}");
+    }
+    let manifest = std::fs::read_to_string(root.path().join("torn/manifest.json")).unwrap();
+    let manifest: serde_json::Value = serde_json::from_str(&manifest).unwrap();
+    assert_eq!(manifest["resumed"].as_array().unwrap().len(), 5);
+}
+
+#[test]
+fn a_finished_study_is_not_run_again() {
+    let root = tempfile::tempdir().unwrap();
+    std::fs::write(root.path().join("study.toml"), STUDY).unwrap();
+    run(root.path(), "out");
+    let before = std::fs::read(root.path().join("out/results.csv")).unwrap();
+    run(root.path(), "out");
+    assert_eq!(std::fs::read(root.path().join("out/results.csv")).unwrap(), before);
+}
+
+#[test]
+fn the_report_needs_the_raw_results_alone() {
+    let root = tempfile::tempdir().unwrap();
+    std::fs::write(root.path().join("study.toml"), STUDY).unwrap();
+    run(root.path(), "out");
+    let out = root.path().join("out");
+    assert_eq!(
+        files(&out),
+        [
+            "config.toml",
+            "figures",
+            "manifest.json",
+            "raw",
+            "report.md",
+            "results.csv"
+        ]
+    );
+    let report = std::fs::read_to_string(out.join("report.md")).unwrap();
+    let figures = files(&out.join("figures"));
+    assert!(!figures.is_empty());
+    assert!(figures.iter().all(|name| report.contains(name.as_str())));
+    let drawing = std::fs::read(out.join("figures").join(&figures[0])).unwrap();
+
+    std::fs::remove_file(out.join("report.md")).unwrap();
+    std::fs::remove_dir_all(out.join("figures")).unwrap();
+    let output = parvi(root.path(), "report out");
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert_eq!(std::fs::read_to_string(out.join("report.md")).unwrap(), report);
+    assert_eq!(std::fs::read(out.join("figures").join(&figures[0])).unwrap(), drawing);
+    assert_eq!(value(&output, "study").unwrap(), "time-error");
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_study_can_be_resumed() {
+    let root = tempfile::tempdir().unwrap();
+    std::fs::write(
+        root.path().join("study.toml"),
+        STUDY.replace("seeds = [0, 1]", "seeds = [0, 1, 2, 3, 4, 5]"),
+    )
+    .unwrap();
+    run(root.path(), "whole");
+    // Some rows, so that the interruption falls into the middle.
+    let path = root.path().join("out/results.csv");
+    let output = interrupted(root.path(), "run study.toml --out out", || {
+        std::fs::read_to_string(&path).map_or(0, |text| text.lines().count()) >= 6
+    });
+    assert!(stderr(&output).contains("resumes"), "{}", stderr(&output));
+    let whole = results(&root.path().join("whole"));
+    let part = results(&root.path().join("out"));
+    assert!(part.len() >= 5 && part.len() < whole.len(), "{} rows", part.len());
+    run(root.path(), "out");
+    assert_eq!(results(&root.path().join("out")), whole);
+}
