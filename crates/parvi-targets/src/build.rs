@@ -75,6 +75,29 @@ pub fn dimension_of(name: &str, requested: Option<usize>, parameters: &Parameter
 /// # Errors
 /// As [`dimension_of`] for `requested` = D, and those of the target's constructor.
 pub fn build<const D: usize>(name: &str, parameters: &Parameters) -> Result<BoxedTarget<D>, TargetError> {
+    let builder = BUILDERS.iter().find_map(|builder| builder.downcast_ref::<Builder<D>>());
+    match builder {
+        Some(Builder(build)) => build(name, parameters),
+        None => dimension_of(name, Some(D), parameters).and(Err(unknown_target(name))),
+    }
+}
+
+/// [`build`] in one dimension.
+struct Builder<const D: usize>(fn(&str, &Parameters) -> Result<BoxedTarget<D>, TargetError>);
+
+/// Those of all dimensions: the targets are compiled here, once for all crates that build them.
+static BUILDERS: [&(dyn Any + Send + Sync); MAXIMUM_DIMENSION] = [
+    &Builder::<1>(build_here),
+    &Builder::<2>(build_here),
+    &Builder::<3>(build_here),
+    &Builder::<4>(build_here),
+    &Builder::<5>(build_here),
+    &Builder::<6>(build_here),
+    &Builder::<7>(build_here),
+    &Builder::<8>(build_here),
+];
+
+fn build_here<const D: usize>(name: &str, parameters: &Parameters) -> Result<BoxedTarget<D>, TargetError> {
     dimension_of(name, Some(D), parameters)?;
     match name {
         "gaussian" => Ok(Box::new(Gaussian::<D>::autoregressive(

@@ -60,6 +60,15 @@ pub fn sample<const D: usize>(
     run: &Run,
     observer: &mut dyn Observer,
 ) -> Result<Samples<D>, SampleError> {
+    (compiled::Compiled::of().sample)(target, method, run, observer)
+}
+
+fn sample_here<const D: usize>(
+    target: &dyn CatalogueTarget<D>,
+    method: &Method,
+    run: &Run,
+    observer: &mut dyn Observer,
+) -> Result<Samples<D>, SampleError> {
     let frame = target.frame();
     match method {
         Method::Mpm(options) => options.sample(target, &frame, run, observer),

@@ -6,6 +6,7 @@ use parvi_targets::{Frame, Target};
 use crate::bodies::{InTurn, Knowledge, apportion, judged};
 use crate::certificate::LARGEST_DRIFT;
 use crate::checkpoint::Journal;
+use crate::compiled::Compiled;
 use crate::drive::Driven;
 use crate::extent::Extent;
 use crate::mpm_body::Body;
@@ -32,6 +33,79 @@ struct Common<'a, const D: usize> {
     sites: Vec<Site<D>>,
 }
 
+/// [`MpmOptions::sample`].
+pub(crate) fn sample<const D: usize>(
+    options: &MpmOptions,
+    target: &dyn Target<D>,
+    frame: &Frame<D>,
+    run: &Run,
+    observer: &mut dyn Observer,
+) -> Result<Samples<D>, SampleError> {
+    run.checked_particles()?;
+    options.spacing_schedule.check()?;
+    options.settling.check()?;
+    let rounds = options.checked_rounds()?;
+    let start = run.start_positions()?;
+    let mut journal = Journal::open(options, target, frame, run)?;
+    let survey = if options.survey {
+        Survey::new(target, frame, run, &start)?
+    } else {
+        Survey::skipped(frame)
+    };
+    let mut spent = survey.evaluations;
+    let mut departures = options.placed(&survey.sites, run, survey.keeps_start.then_some(start))?;
+    let common = Common {
+        options,
+        target,
+        run,
+        sites: departures.iter().map(|departure| departure.site.clone()).collect(),
+    };
+    let mut bodies = common.move_bodies(&departures, 0, &mut journal, observer)?;
+    let mut rounds = 1..rounds;
+    let mut steps = 0;
+    while bodies.iter().any(|body| body.drift > LARGEST_DRIFT)
+        && let Some(round) = rounds.next()
+    {
+        spent += evaluations(&bodies);
+        steps += longest(&bodies);
+        let further = departures.iter().zip(bodies);
+        departures = further.map(|(departure, body)| departure.further(body, 1.0)).collect();
+        bodies = common.move_bodies(&departures, round, &mut journal, observer)?;
+    }
+    while let ([departure], [body]) = (&departures[..], &bodies[..])
+        && options.spacing.is_none()
+        && is_rough(&body.scores)
+        && let Some(round) = rounds.next()
+    {
+        let finer = vec![departure.further(body.clone(), FINER)];
+        let moved = common.move_bodies(&finer, round, &mut journal, observer)?;
+        let gains = discrepancy(&moved) < discrepancy(&bodies);
+        let (taken, left) = if gains { (moved, bodies) } else { (bodies, moved) };
+        spent += evaluations(&left);
+        steps += longest(&left);
+        bodies = taken;
+        if !gains {
+            break;
+        }
+        departures = finer;
+    }
+    let of_sites = |of: fn(&Site<D>) -> f64| departures.iter().map(|departure| of(&departure.site)).collect();
+    let knowledge = Knowledge {
+        masses: options.weighted.then(|| of_sites(|site| site.mass)),
+        mass_errors: of_sites(|site| site.mass_error),
+        mass_left_out: survey.sites.iter().map(|site| site.mass).sum::<f64>()
+            - departures.iter().map(|departure| departure.site.mass).sum::<f64>(),
+        alpha: options.annealing.last(),
+        certificate: options.certificate,
+        surveyed: options.survey,
+    };
+    let mut samples = judged(bodies, &knowledge);
+    samples.score_evaluations += spent;
+    samples.steps += steps;
+    journal.close();
+    Ok(samples)
+}
+
 impl MpmOptions {
     /// Sample `target`; `frame` is what is known of its place and scales, and the unit of the run's start law.
     ///
@@ -44,69 +118,7 @@ impl MpmOptions {
         run: &Run,
         observer: &mut dyn Observer,
     ) -> Result<Samples<D>, SampleError> {
-        run.checked_particles()?;
-        self.spacing_schedule.check()?;
-        self.settling.check()?;
-        let rounds = self.checked_rounds()?;
-        let start = run.start_positions()?;
-        let mut journal = Journal::open(self, target, frame, run)?;
-        let survey = if self.survey {
-            Survey::new(target, frame, run, &start)?
-        } else {
-            Survey::skipped(frame)
-        };
-        let mut spent = survey.evaluations;
-        let mut departures = self.placed(&survey.sites, run, survey.keeps_start.then_some(start))?;
-        let common = Common {
-            options: self,
-            target,
-            run,
-            sites: departures.iter().map(|departure| departure.site.clone()).collect(),
-        };
-        let mut bodies = common.move_bodies(&departures, 0, &mut journal, observer)?;
-        let mut rounds = 1..rounds;
-        let mut steps = 0;
-        while bodies.iter().any(|body| body.drift > LARGEST_DRIFT)
-            && let Some(round) = rounds.next()
-        {
-            spent += evaluations(&bodies);
-            steps += longest(&bodies);
-            let further = departures.iter().zip(bodies);
-            departures = further.map(|(departure, body)| departure.further(body, 1.0)).collect();
-            bodies = common.move_bodies(&departures, round, &mut journal, observer)?;
-        }
-        while let ([departure], [body]) = (&departures[..], &bodies[..])
-            && self.spacing.is_none()
-            && is_rough(&body.scores)
-            && let Some(round) = rounds.next()
-        {
-            let finer = vec![departure.further(body.clone(), FINER)];
-            let moved = common.move_bodies(&finer, round, &mut journal, observer)?;
-            let gains = discrepancy(&moved) < discrepancy(&bodies);
-            let (taken, left) = if gains { (moved, bodies) } else { (bodies, moved) };
-            spent += evaluations(&left);
-            steps += longest(&left);
-            bodies = taken;
-            if !gains {
-                break;
-            }
-            departures = finer;
-        }
-        let of_sites = |of: fn(&Site<D>) -> f64| departures.iter().map(|departure| of(&departure.site)).collect();
-        let knowledge = Knowledge {
-            masses: self.weighted.then(|| of_sites(|site| site.mass)),
-            mass_errors: of_sites(|site| site.mass_error),
-            mass_left_out: survey.sites.iter().map(|site| site.mass).sum::<f64>()
-                - departures.iter().map(|departure| departure.site.mass).sum::<f64>(),
-            alpha: self.annealing.last(),
-            certificate: self.certificate,
-            surveyed: self.survey,
-        };
-        let mut samples = judged(bodies, &knowledge);
-        samples.score_evaluations += spent;
-        samples.steps += steps;
-        journal.close();
-        Ok(samples)
+        (Compiled::of().mpm)(self, target, frame, run, observer)
     }
 
     /// A departure from each site, of as many particles as its mass asks for (weighted: of equally many), from `start` (the only site's) or N(0, I) of its frame.

@@ -6,7 +6,7 @@ use parvi_targets::{Frame, Target};
 
 use crate::basis_choice::Parts;
 use crate::checkpoint::Journal;
-use crate::compiled::Movers;
+use crate::compiled::Compiled;
 use crate::drive::{Driven, Plan, PlannedStep, drive};
 use crate::framed_score::{FramedScore, ScoreForce};
 use crate::guard::RETRIES;
@@ -99,7 +99,7 @@ impl<const D: usize> Body<'_, D> {
             basis: options.basis,
             spacing,
         };
-        let mut body = (Movers::of().gas)(parts, gas)?;
+        let mut body = (Compiled::of().gas)(parts, gas)?;
         drive(body.as_mut(), self.frame, plan, self.journal, self.observer)
     }
 }

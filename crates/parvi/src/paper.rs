@@ -7,7 +7,7 @@ use parvi_targets::{Frame, Target};
 use crate::basis_choice::Parts;
 use crate::bodies::{Knowledge, judged};
 use crate::checkpoint::Journal;
-use crate::compiled::Movers;
+use crate::compiled::Compiled;
 use crate::drive::{Plan, PlannedStep, drive};
 use crate::framed_score::{FramedScore, ScoreForce};
 use crate::start::{check, positive, steps};
@@ -115,7 +115,7 @@ impl<const D: usize> Job<'_, D> {
             basis: options.basis,
             spacing,
         };
-        let mut body = (Movers::of().elastic)(parts, job.material)?;
+        let mut body = (Compiled::of().elastic)(parts, job.material)?;
         let driven = drive(body.as_mut(), job.frame, plan, &mut Journal::none(), self.observer)?;
         let knowledge = Knowledge {
             masses: None,

@@ -5,6 +5,7 @@ mod case;
 mod chosen;
 mod comparison;
 mod config;
+mod dispatch;
 mod error;
 mod exchanges;
 mod files;
@@ -26,6 +27,7 @@ mod trials;
 mod variants;
 
 pub use config::{Cases, Experiment, Key, ReducedRuns};
+pub use dispatch::{run_experiment, train_experiment};
 pub use error::ExperimentError;
 pub use files::names;
 pub use options::{All, ChoiceName, ManifoldName, QuadratureName, SampleCount, UpdateName};

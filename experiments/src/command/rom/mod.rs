@@ -7,8 +7,7 @@ mod train;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
-use mpm_rom::experiment::{Experiment, ExperimentError, names, read_results};
-use mpm_rom::full_order::SceneDocument;
+use mpm_rom::experiment::{Experiment, names, read_results};
 
 use super::file_kind::FileKind;
 use crate::{CommandError, interrupt};
@@ -48,14 +47,11 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     FileKind::Experiment.check(&task.configuration)?;
     let experiment = Experiment::read(&task.configuration)?;
     interrupt::listen();
-    let execute: fn(&Experiment, &Path) -> Result<(), CommandError> = match (dimension(&experiment)?, training) {
-        (2, true) => train::execute::<2>,
-        (3, true) => train::execute::<3>,
-        (2, false) => run::execute::<2>,
-        (3, false) => run::execute::<3>,
-        (dimension, _) => return Err(ExperimentError::Dimension { dimension }.into()),
-    };
-    execute(&experiment, &task.out)
+    if training {
+        train::execute(&experiment, &task.out)
+    } else {
+        run::execute(&experiment, &task.out)
+    }
 }
 
 /// Whether a directory is that of a reduced-order model.
@@ -68,10 +64,4 @@ pub fn report(directory: &Path) -> Result<(), CommandError> {
     let experiment = Experiment::read(&directory.join(names::CONFIG))?;
     let rows = read_results(&experiment, directory)?;
     run::report(&experiment, directory, &rows)
-}
-
-/// The dimension of the experiment's scene.
-fn dimension(experiment: &Experiment) -> Result<usize, CommandError> {
-    let document = SceneDocument::read(&experiment.scene_file()).map_err(ExperimentError::from)?;
-    Ok(experiment.scene_of(&document, &experiment.cases.train[0])?.dimension)
 }

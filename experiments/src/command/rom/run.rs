@@ -2,16 +2,16 @@
 
 use std::path::Path;
 
-use mpm_rom::experiment::{Experiment, ReducedRow, SuperResolved, run};
+use mpm_rom::experiment::{Experiment, ReducedRow, SuperResolved, run_experiment};
 
 use super::figures;
 use crate::progress::CountProgress;
 use crate::{CommandError, console, interrupt};
 
 /// Reduced runs of all test cases, their table and figures.
-pub fn execute<const D: usize>(experiment: &Experiment, directory: &Path) -> Result<(), CommandError> {
+pub fn execute(experiment: &Experiment, directory: &Path) -> Result<(), CommandError> {
     let progress = CountProgress::new("run");
-    let result = run::<D>(experiment, directory, &mut |done, runs| {
+    let result = run_experiment(experiment, directory, &mut |done, runs| {
         progress.set(done, runs);
         !interrupt::requested()
     });

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Duration;
 
-use mpm_rom::experiment::{Experiment, Trained, Watch, train};
+use mpm_rom::experiment::{Experiment, Trained, Watch, train_experiment};
 use mpm_rom::training::EpochReport;
 
 use super::figures;
@@ -13,10 +13,10 @@ use crate::progress::TrainingProgress;
 use crate::{CommandError, console};
 
 /// Full-order runs, training of all networks, the curves of their losses.
-pub fn execute<const D: usize>(experiment: &Experiment, directory: &Path) -> Result<(), CommandError> {
+pub fn execute(experiment: &Experiment, directory: &Path) -> Result<(), CommandError> {
     let memory = MemoryGauge::begin();
     let mut progress = TrainingProgress::new();
-    let result = train::<D>(experiment, directory, &mut progress);
+    let result = train_experiment(experiment, directory, &mut progress);
     progress.clear();
     for trained in result? {
         let (place, title) = match trained.name.as_str() {
