@@ -21,11 +21,12 @@ where
 
     /// F_p ← (I + Δt Σ_i v_i ∇w_ipᵀ) F_p, then whatever the medium admits of it.
     pub(crate) fn deform_particles(&mut self, dt: f64) {
-        if M::DEFORMS {
-            self.grid_to_particles::<false, true>(dt, 1.0);
-            if self.volume_averaging {
-                self.average_volume_ratios();
-            }
+        if !M::DEFORMS {
+            return;
+        }
+        self.grid_to_particles::<false, true>(dt, 1.0);
+        if self.volume_averaging {
+            self.average_volume_ratios();
         }
     }
 

@@ -39,6 +39,20 @@ where
         self.evaluate_node_forces()?;
         let speed = self.update_grid(dt, damping, control.speed_limit(h, dt))?;
         self.constrain_grid(dt);
+        self.update_particles(dt, damping);
+        self.time += dt;
+        Ok(StepReport {
+            time_step: dt,
+            active_nodes: self.basis.node_count(),
+            displacement: speed * dt / h,
+        })
+    }
+
+    /// Move the particles and, unless they have deformed already, deform them.
+    fn update_particles(&mut self, dt: f64, damping: f64) {
+        if !M::DEFORMS {
+            return self.move_particles(dt, damping);
+        }
         match self.stress_update {
             StressUpdate::First => self.move_particles(dt, damping),
             StressUpdate::Last if self.volume_averaging => {
@@ -55,12 +69,6 @@ where
                 self.particles.positions = moved;
             }
         }
-        self.time += dt;
-        Ok(StepReport {
-            time_step: dt,
-            active_nodes: self.basis.node_count(),
-            displacement: speed * dt / h,
-        })
     }
 
     /// Δt, by the wave speed of the medium and the speed of the particles.

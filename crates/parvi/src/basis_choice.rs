@@ -65,6 +65,13 @@ impl<'a, const D: usize> Parts<'a, D> {
     {
         let failed = |error| SampleError::in_step(0, error);
         let (basis, certificate) = (make().map_err(failed)?, make().map_err(failed)?);
+        if M::DEFORMS {
+            // The paper has two transfers.
+            return Ok(match self.transfer {
+                TransferChoice::Apic => self.with(medium, Apic, basis, certificate),
+                _ => self.with(medium, Pic, basis, certificate),
+            });
+        }
         Ok(match self.transfer {
             TransferChoice::Pic => self.with(medium, Pic, basis, certificate),
             TransferChoice::Apic => self.with(medium, Apic, basis, certificate),

@@ -1,4 +1,4 @@
-//! The samplers of d = 1…8, which are compiled in this crate, once for all crates that call them: a program that samples a density of its own
+//! The samplers of d = 1…6, with the feature `seven-and-eight` of d = 1…8, which are compiled in this crate, once for all crates that call them: a program that samples a density of its own
 //! is built in a second or two.
 
 use mpm_materials::{IsothermalGas, Material};
@@ -53,7 +53,7 @@ mod table {
     use super::Compiled;
 
     /// The largest dimension that is compiled ahead.
-    pub(super) const LARGEST: usize = 8;
+    pub(super) const LARGEST: usize = if cfg!(feature = "seven-and-eight") { 8 } else { 6 };
 
     static TABLE: [&(dyn Any + Send + Sync); LARGEST] = [
         &Compiled::<1>::HERE,
@@ -62,7 +62,9 @@ mod table {
         &Compiled::<4>::HERE,
         &Compiled::<5>::HERE,
         &Compiled::<6>::HERE,
+        #[cfg(feature = "seven-and-eight")]
         &Compiled::<7>::HERE,
+        #[cfg(feature = "seven-and-eight")]
         &Compiled::<8>::HERE,
     ];
 
