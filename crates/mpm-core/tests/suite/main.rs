@@ -18,6 +18,7 @@ mod golden_counters;
 mod grid_oracle;
 mod naive_step;
 mod optional_fields;
+mod product_grid;
 mod sparse_memory;
 mod step_control;
 mod step_oracle;

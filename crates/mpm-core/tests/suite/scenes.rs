@@ -10,7 +10,7 @@ use rand_distr::{Distribution, StandardNormal};
 /// line here.
 macro_rules! every_basis {
     ($check:ident, $dimension:literal) => {{
-        use mpm_core::{SimplexLattice, SplineGrid, UniformBasis};
+        use mpm_core::{ProductGrid, SimplexLattice, SplineDegree, SplineGrid, UniformBasis};
         use mpm_kernels::{Cubic, Gimp, Linear, Quadratic};
         $check::<$dimension, _>("linear", |o, h| SplineGrid::<Linear, 2, $dimension>::new(o, h).unwrap());
         $check::<$dimension, _>("quadratic", |o, h| {
@@ -24,6 +24,9 @@ macro_rules! every_basis {
         });
         $check::<$dimension, _>("Kuhn lattice", |o, h| SimplexLattice::<$dimension>::kuhn(o, h).unwrap());
         $check::<$dimension, _>("cubic", |o, h| SplineGrid::<Cubic, 4, $dimension>::new(o, h).unwrap());
+        $check::<$dimension, _>("quadratic by a loop", |o, h| {
+            ProductGrid::<$dimension>::new(SplineDegree::Quadratic, o, h).unwrap()
+        });
     }};
 }
 

@@ -1,6 +1,8 @@
 //! Vectors and matrices. One theme per file.
 
-mod algebra;
+#[macro_use]
 mod common;
+
+mod algebra;
 mod decompositions;
 mod hostile_input;

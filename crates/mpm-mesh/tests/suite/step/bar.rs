@@ -6,8 +6,8 @@ use mpm_core::{Boundaries, Contact, Flip, Mpm, NoBodyForce, Particles, Side, Wal
 use mpm_materials::{ElasticModuli, LinearElastic};
 use mpm_mesh::MeshBasis;
 
-use super::basis_scenes::line;
 use super::{control, solid};
+use crate::basis_scenes::line;
 
 const LENGTH: f64 = 25.0;
 const YOUNG: f64 = 100.0;

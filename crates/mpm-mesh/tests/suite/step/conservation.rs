@@ -1,6 +1,6 @@
 //! Momentum, angular momentum with affine transfers, and the same bits on any number of threads.
 
-use super::basis_scenes::{cloud, cube, generator};
+use crate::basis_scenes::{cloud, cube, generator};
 use mpm_core::{Apic, Basis, Flip, Masses, Mls, Mpm, NoBodyForce, Particles, Pic, Transfer};
 use mpm_materials::{ElasticModuli, NeoHookean};
 use mpm_mesh::MeshBasis;

@@ -1,6 +1,6 @@
 //! The step on a mesh against the textbook: every transfer, sums over all vertices, weights by their definition.
 
-use super::basis_scenes::{cloud, cube, generator, naive_weights};
+use crate::basis_scenes::{cloud, cube, generator, naive_weights};
 use mpm_core::{AffineFlip, Apic, Flip, Masses, Mls, Mpm, NoBodyForce, Particles, Pic, Transfer};
 use mpm_materials::{ElasticModuli, NeoHookean};
 use mpm_mesh::{MeshBasis, SampleWeight, SimplexMesh};

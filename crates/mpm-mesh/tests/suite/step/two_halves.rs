@@ -4,9 +4,9 @@ use mpm_core::{Apic, Mpm, NoBodyForce, Particles};
 use mpm_materials::{ElasticModuli, NeoHookean};
 use mpm_mesh::MeshBasis;
 
-use super::basis_scenes::cube;
 use super::conservation::momenta;
 use super::{control, solid};
+use crate::basis_scenes::cube;
 
 /// Steps here, and those of the paper.
 const STEPS: usize = 4000;
