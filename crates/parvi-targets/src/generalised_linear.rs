@@ -64,8 +64,14 @@ impl<L: Link, const D: usize> Target<D> for Posterior<L, D> {
     /// Σ b_i ℓ′(b_i x_iᵀβ) x_i + a − precision ∘ β.
     fn score(&self, x: &[f64; D]) -> [f64; D] {
         let mut score = std::array::from_fn(|k| self.linear[k] - self.precision[k] * x[k]);
-        for row in &self.rows {
-            vector::accumulate(&mut score, L::slope(vector::dot(row, x)), row);
+        if D > 1 {
+            self.add_slopes(&self.rows, x, &mut score);
+            return score;
+        }
+        for rows in self.rows.chunks(generalised_linear_batch::summed_together::<D>()) {
+            let mut sum = [0.0; D];
+            self.add_slopes(rows, x, &mut sum);
+            vector::accumulate(&mut score, 1.0, &sum);
         }
         score
     }
@@ -76,6 +82,15 @@ impl<L: Link, const D: usize> Target<D> for Posterior<L, D> {
 
     fn log_densities(&self, xs: &[[f64; D]], out: &mut [f64]) {
         generalised_linear_batch::log_densities(self, xs, out);
+    }
+}
+
+impl<L: Link, const D: usize> Posterior<L, D> {
+    /// Σ_i ℓ′(b_i x_iᵀβ) b_i x_i of some rows.
+    fn add_slopes(&self, rows: &[[f64; D]], x: &[f64; D], sum: &mut [f64; D]) {
+        for row in rows {
+            vector::accumulate(sum, L::slope(vector::dot(row, x)), row);
+        }
     }
 }
 

@@ -18,6 +18,12 @@ const BLOCK: usize = 128;
 /// Particles of a group whose coefficients stay in registers while rows go by.
 const LANE: usize = 8;
 
+/// Rows that are summed before their sum is added to the others': fewer in D = 1, where a sum of thousands of terms of one sign is all
+/// there is.
+pub(crate) const fn summed_together<const D: usize>() -> usize {
+    if D == 1 { 16 } else { BLOCK }
+}
+
 /// What a thread needs for one group.
 struct Buffers {
     /// GROUP × D, column by column.
@@ -79,18 +85,21 @@ impl Buffers {
             #[inline(always)]
             || {
                 for first in (0..GROUP).step_by(LANE) {
-                    let mut sums = [[0.0; LANE]; D];
-                    for (row, slopes) in rows.iter().zip(slopes.chunks_exact(GROUP)) {
-                        let slopes = &slopes[first..first + LANE];
-                        for axis in 0..D {
-                            for l in 0..LANE {
-                                sums[axis][l] = slopes[l].mul_add(row[axis], sums[axis][l]);
+                    let pieces = rows.chunks(summed_together::<D>());
+                    for (rows, slopes) in pieces.zip(slopes.chunks(GROUP * summed_together::<D>())) {
+                        let mut sums = [[0.0; LANE]; D];
+                        for (row, slopes) in rows.iter().zip(slopes.chunks_exact(GROUP)) {
+                            let slopes = &slopes[first..first + LANE];
+                            for axis in 0..D {
+                                for l in 0..LANE {
+                                    sums[axis][l] = slopes[l].mul_add(row[axis], sums[axis][l]);
+                                }
                             }
                         }
-                    }
-                    for axis in 0..D {
-                        for l in 0..LANE {
-                            scores[axis * GROUP + first + l] += sums[axis][l];
+                        for axis in 0..D {
+                            for l in 0..LANE {
+                                scores[axis * GROUP + first + l] += sums[axis][l];
+                            }
                         }
                     }
                 }
