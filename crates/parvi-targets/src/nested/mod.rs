@@ -3,6 +3,7 @@
 
 mod eggbox;
 mod log_gamma;
+mod log_gamma_part;
 mod shells;
 
 pub use eggbox::Eggbox;
