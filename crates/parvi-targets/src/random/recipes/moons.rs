@@ -1,14 +1,17 @@
 //! Two moons.
 
-use super::parts::{bend, boxed, long_first, on_axes, pushed, soft_uniform};
+use super::parts::{bend, boxed, long_first, on_axes, pushed};
 use crate::random::dice::Dice;
 use crate::{Affine, AxisLaw, BoxedLaw, MixtureLaw, TargetError};
 
-/// Two pieces 0.06 to 0.15 thick and bent to opposite sides, the arm of one within the other, of unequal masses.
+/// Two pieces 0.04 to 0.1 thick and bent to opposite sides, the arm of one within the other, of unequal masses.
+///
+/// One is y = −c x² for |x| ≤ 1, the other y = c (x − 1)² − c − g: the first is above by 2 c x (1 − x) + g where both are, so that
+/// the gap is at least g there, and a little less beyond the soft ends.
 pub fn law<const D: usize>(dice: &mut Dice) -> Result<BoxedLaw<D>, TargetError> {
-    let along = soft_uniform(dice)?;
-    let curvature = dice.between(0.7, 1.1);
-    let (thin, thick) = (dice.scale(0.06, 0.15), dice.scale(0.2, 0.8));
+    let along = AxisLaw::soft_uniform(dice.scale(0.03, 0.06))?;
+    let (curvature, gap) = (dice.between(0.8, 1.5), dice.between(0.6, 0.8));
+    let (thin, thick) = (dice.scale(0.04, 0.1), dice.scale(0.2, 0.8));
     let mass = dice.between(0.2, 0.8);
     let mut parts = Vec::new();
     for (side, mass) in [(1.0, mass), (-1.0, 1.0 - mass)] {
@@ -19,7 +22,7 @@ pub fn law<const D: usize>(dice: &mut Dice) -> Result<BoxedLaw<D>, TargetError> 
             _ => thick,
         });
         let mut shift = [0.0; D];
-        (shift[0], shift[1]) = (0.5 * side, -0.3 * side);
+        (shift[0], shift[1]) = (0.5 * side, -0.5 * side * (curvature + gap));
         let maps = vec![
             Box::new(Affine::scales([0.0; D], scales)?) as _,
             bend(0, 1, side * curvature)?,

@@ -13,7 +13,7 @@ pub fn law<const D: usize>(dice: &mut Dice) -> Result<BoxedLaw<D>, TargetError> 
         soft_uniform(dice)?
     };
     let base = on_axes(|axis| if axis == 0 { along } else { AxisLaw::Normal })?;
-    let length = dice.between(1.2, 2.0);
+    let length = dice.between(1.5, 3.0);
     let mut maps = vec![long_first::<D>(dice, length, [0.05, 0.25])?];
     let mut shift = [0.0; D];
     if D >= 3 && dice.chance(0.5) {
@@ -26,7 +26,7 @@ pub fn law<const D: usize>(dice: &mut Dice) -> Result<BoxedLaw<D>, TargetError> 
             shift[0] = length + dice.between(0.3, 1.0);
             maps.push(Box::new(Affine::scales(shift, [1.0; D])?));
         }
-        let twist: BoxedBijection<D> = Box::new(Twist::by_radius::<D>([0, 1], dice.signed(0.7, 1.5))?);
+        let twist: BoxedBijection<D> = Box::new(Twist::by_radius::<D>([0, 1], dice.signed(1.0, 2.2))?);
         maps.push(twist);
     }
     Ok(pushed(base, maps))
