@@ -8,8 +8,9 @@ use crate::regression::DEFAULT_PRIOR_STANDARD_DEVIATION;
 use crate::synthetic::synthetic_counts;
 use crate::wells::{WELLS_SMALL_ROWS, wells};
 use crate::{
-    Banana, CatalogueTarget, CountData, Cross, Funnel, Gaussian, GaussianMixture, Link, Logarithm, Logit, Probit,
-    Regression, RegressionData, RegressionTable, Response, Ring, Rosenbrock, Schools, StudentT, TargetError,
+    Banana, CatalogueTarget, CountData, Cross, Eggbox, Funnel, Gaussian, GaussianMixture, GaussianShells, Link,
+    LogGamma, Logarithm, Logit, Probit, RandomTarget, Regression, RegressionData, RegressionTable, Response, Ring,
+    Rosenbrock, Schools, StudentT, TargetError,
 };
 
 /// A target of the catalogue, whichever it is.
@@ -121,6 +122,9 @@ fn build_here<const D: usize>(name: &str, parameters: &Parameters) -> Result<Box
             parameters.width.unwrap_or(0.2),
         )?)),
         "schools" => Ok(Box::new(Schools::<D>::new()?)),
+        "random" => Ok(Box::new(RandomTarget::<D>::new(parameters.target_seed.unwrap_or(0))?)),
+        "shells" => Ok(Box::new(GaussianShells::<D>::new()?)),
+        "log-gamma" => Ok(Box::new(LogGamma::<D>::new()?)),
         "wells" => regression::<Logit, D>(name, wells(D, None)?, parameters),
         "wells-small" => regression::<Logit, D>(name, wells(D, Some(WELLS_SMALL_ROWS))?, parameters),
         "probit" => {
@@ -204,6 +208,7 @@ fn build_planar(name: &str, parameters: &Parameters) -> Result<BoxedTarget<2>, T
             parameters.radius.unwrap_or(2.0),
             parameters.width.unwrap_or(0.2),
         )?),
+        "eggbox" => Box::new(Eggbox::new()?),
         "mixture-4" => Box::new(GaussianMixture::<2>::four_equal(parameters.width.unwrap_or(0.5))?),
         _ => return Err(unknown_target(name)),
     })

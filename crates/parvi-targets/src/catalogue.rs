@@ -27,6 +27,8 @@ pub struct Parameters {
     pub degrees_of_freedom: Option<f64>,
     /// The prior's standard deviation for every coefficient of a regression; `f64::INFINITY` for a flat prior.
     pub prior_standard_deviation: Option<f64>,
+    /// The seed of a random target.
+    pub target_seed: Option<u64>,
     /// The CSV file of a regression.
     pub data: Option<PathBuf>,
 }
@@ -43,10 +45,12 @@ impl Parameters {
             ("degrees-of-freedom", self.degrees_of_freedom),
             ("prior-sd", self.prior_standard_deviation),
         ];
+        let seed = self.target_seed.map(|seed| ("target-seed", seed.to_string()));
         let data = self.data.as_ref().map(|path| ("data", path.display().to_string()));
         numbers
             .into_iter()
             .filter_map(|(name, value)| value.map(|value| (name, value.to_string())))
+            .chain(seed)
             .chain(data)
             .collect()
     }
@@ -122,6 +126,8 @@ pub struct TargetInfo {
     pub moments: bool,
     /// The number of its named modes; 1 for a unimodal target.
     pub modes: usize,
+    /// Whether log ∫ p is known exactly.
+    pub log_evidence: bool,
 }
 
 impl TargetInfo {
@@ -213,6 +219,7 @@ const fn closed(
         unit_cube_transport: true,
         moments: true,
         modes,
+        log_evidence: true,
     }
 }
 
@@ -232,6 +239,7 @@ const fn regression(
         unit_cube_transport: false,
         moments: false,
         modes: 1,
+        log_evidence: false,
     }
 }
 
@@ -242,7 +250,7 @@ const PRIOR: ParameterInfo = parameter(
 );
 const MIXTURE_WIDTH: ParameterInfo = parameter("width", "0.5", "standard deviation of each mode");
 
-static CATALOGUE: [TargetInfo; 17] = [
+static CATALOGUE: [TargetInfo; 21] = [
     closed(
         "gaussian",
         any_from(1),
@@ -333,6 +341,44 @@ static CATALOGUE: [TargetInfo; 17] = [
         &[],
         1,
     ),
+    TargetInfo {
+        moments: false,
+        ..closed(
+            "random",
+            any_from(1),
+            "a random shape, place, direction and scale: push-forwards, mixtures and products of simple laws",
+            &[parameter("target-seed", "0", "the seed that makes it")],
+            1,
+        )
+    },
+    TargetInfo {
+        moments: false,
+        unit_cube_transport: false,
+        ..closed(
+            "eggbox",
+            Dimensions::Fixed(2),
+            "likelihood exp((2 + cos(x1/2) cos(x2/2))^5), x uniform on [0, 10 pi]^2, in y = log x/(10 pi - x)",
+            &[],
+            1,
+        )
+    },
+    closed(
+        "shells",
+        any_from(2),
+        "two Gaussian shells of radius 2 and width 0.1 about -3.5 e1 and 3.5 e1, prior density 12^-d",
+        &[],
+        2,
+    ),
+    TargetInfo {
+        moments: false,
+        ..closed(
+            "log-gamma",
+            any_from(2),
+            "log-gamma and normal laws of width 1/30 about 1/3 and 2/3 in the unit cube, in y = log x/(1 - x)",
+            &[],
+            4,
+        )
+    },
     regression(
         "wells",
         Dimensions::Range {

@@ -23,8 +23,10 @@ mod logarithm;
 mod logit;
 mod minibatch;
 mod mixture;
+mod nested;
 mod normal_tail;
 mod probit;
+mod random;
 mod reference;
 mod regression;
 mod regression_sum;
@@ -63,7 +65,12 @@ pub use logarithm::Logarithm;
 pub use logit::Logit;
 pub use minibatch::MinibatchScore;
 pub use mixture::GaussianMixture;
+pub use nested::{Eggbox, GaussianShells, LogGamma};
 pub use probit::Probit;
+pub use random::{
+    Affine, AxisLaw, Bijection, BoxedBijection, BoxedLaw, Law, MixtureLaw, Neck, ProductLaw, Profile, PushForward,
+    RandomFamily, RandomTarget, Shear, Skew, Twist,
+};
 pub use reference::{ImportanceSample, ReferenceMoments, ReferenceOptions, reference_draws, reference_moments};
 pub use regression::{
     DEFAULT_PRIOR_STANDARD_DEVIATION, LogisticRegression, PoissonRegression, ProbitRegression, Regression,

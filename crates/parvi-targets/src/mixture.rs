@@ -222,6 +222,11 @@ impl<const D: usize> CatalogueTarget<D> for GaussianMixture<D> {
     fn modes(&self) -> &[Mode<D>] {
         &self.modes
     }
+
+    /// The density is normalised.
+    fn log_evidence(&self) -> Option<f64> {
+        Some(0.0)
+    }
 }
 
 fn on_axis<const D: usize>(axis: usize, position: f64) -> [f64; D] {

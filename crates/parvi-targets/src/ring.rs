@@ -100,7 +100,7 @@ impl Ring {
 /// ∫_t^∞ e^(−s²/2) ds = √(2π) Φ(−t) = √(π/2) Q(½, ½t²) for t > 0, Q the upper regularised incomplete gamma function.
 ///
 /// Not by way of erfc: the one of statrs 0.19 has a relative error of 1e-10 around ½.
-fn half_mass(t: f64) -> f64 {
+pub(crate) fn half_mass(t: f64) -> f64 {
     let square = 0.5 * t * t;
     let tail = if square == 0.0 {
         1.0
@@ -181,6 +181,11 @@ impl CatalogueTarget<2> for Ring {
             mean: [0.0; 2],
             covariance: Matrix([[self.variance, 0.0], [0.0, self.variance]]),
         })
+    }
+
+    /// The density is normalised.
+    fn log_evidence(&self) -> Option<f64> {
+        Some(0.0)
     }
 }
 

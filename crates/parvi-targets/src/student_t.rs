@@ -121,6 +121,11 @@ impl<const D: usize> CatalogueTarget<D> for StudentT<D> {
             covariance: Matrix::diagonal(&[nu / (nu - 2.0); D]),
         })
     }
+
+    /// The density is normalised.
+    fn log_evidence(&self) -> Option<f64> {
+        Some(0.0)
+    }
 }
 
 /// The point x = z √(ν/W) with W the χ²_ν quantile of `u[0]` and z the normal quantiles of the D entries after it.

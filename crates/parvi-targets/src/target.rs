@@ -119,4 +119,9 @@ pub trait CatalogueTarget<const D: usize>: Target<D> {
     fn modes(&self) -> &[Mode<D>] {
         &[]
     }
+
+    /// log ∫ p of the density as [`log_density`](Target::log_density) gives it, where it is known exactly; 0 for a normalised one.
+    fn log_evidence(&self) -> Option<f64> {
+        None
+    }
 }

@@ -47,6 +47,9 @@ fn entry(info: &TargetInfo, width: usize) -> String {
     if info.modes > 1 {
         known.push(format!("{} modes with their masses", info.modes));
     }
+    if info.log_evidence {
+        known.push("log evidence".to_owned());
+    }
     text.push_str(&format!("{indent}known: {}\n", known.join(", ")));
     text
 }

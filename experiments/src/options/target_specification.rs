@@ -37,6 +37,10 @@ pub struct TargetParameters {
     #[arg(long, value_name = "NU", allow_negative_numbers = true)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub degrees_of_freedom: Option<f64>,
+    /// Seed that makes the target (random)
+    #[arg(long, value_name = "SEED")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub target_seed: Option<u64>,
     /// Standard deviation of the Gaussian prior of each coefficient (wells, wells-small, probit, poisson, logistic)
     #[arg(long, value_name = "SD", allow_negative_numbers = true)]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -58,6 +62,7 @@ impl TargetParameters {
             radius: self.radius,
             degrees_of_freedom: self.degrees_of_freedom,
             prior_standard_deviation: self.prior_sd,
+            target_seed: self.target_seed,
             data: self.data.clone(),
         }
     }
@@ -153,6 +158,9 @@ impl TargetSpecification {
             if let Some(value) = value {
                 label.push_str(&format!("-{name}{value}"));
             }
+        }
+        if let Some(seed) = parameters.target_seed {
+            label.push_str(&format!("-seed{seed}"));
         }
         if let Some(stem) = parameters.data.as_deref().and_then(|path| path.file_stem()) {
             label.push_str(&format!("-{}", stem.to_string_lossy()));

@@ -29,14 +29,14 @@ proptest! {
 
     #[test]
     fn in_the_plane(x in prop::array::uniform2(coordinate())) {
-        for name in ["gaussian", "banana", "ring", "mixture-4", "mixture-2", "mixture-3", "funnel", "student-t", "rosenbrock", "scales", "cross", "probit", "poisson"] {
+        for name in ["gaussian", "banana", "ring", "mixture-4", "mixture-2", "mixture-3", "funnel", "student-t", "rosenbrock", "scales", "cross", "random", "eggbox", "shells", "log-gamma", "probit", "poisson"] {
             check(&build::<2>(name, &Parameters::default()).unwrap(), x)?;
         }
     }
 
     #[test]
     fn in_five_dimensions(x in prop::array::uniform5(coordinate())) {
-        for name in ["gaussian", "mixture-2", "mixture-3", "funnel", "student-t", "wells-small", "rosenbrock", "scales", "cross", "schools", "probit", "poisson"] {
+        for name in ["gaussian", "mixture-2", "mixture-3", "funnel", "student-t", "wells-small", "rosenbrock", "scales", "cross", "schools", "random", "shells", "log-gamma", "probit", "poisson"] {
             check(&build::<5>(name, &Parameters::default()).unwrap(), x)?;
         }
     }

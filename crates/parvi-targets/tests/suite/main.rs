@@ -11,4 +11,6 @@ mod frames;
 mod generalised_linear;
 mod logistic;
 mod minibatch;
+mod nested_problems;
+mod random_targets;
 mod student_t;

@@ -12,7 +12,7 @@ pub enum Requirement {
     SmoothLow,
     /// One mode, light tails, d ≥ 5.
     SmoothHigh,
-    /// The funnel, Student's t and mixtures.
+    /// The funnel, Student's t, mixtures, and what may be any of these: random targets and the eggbox.
     Difficult,
 }
 
@@ -22,8 +22,8 @@ impl Requirement {
 
     /// The class of a target.
     pub fn of(target: &TargetSpecification) -> Result<Self, CommandError> {
-        let heavy_tails = matches!(target.name.as_str(), "funnel" | "student-t");
-        Ok(if heavy_tails || target_info(&target.name)?.modes > 1 {
+        let difficult = matches!(target.name.as_str(), "funnel" | "student-t" | "random" | "eggbox");
+        Ok(if difficult || target_info(&target.name)?.modes > 1 {
             Self::Difficult
         } else if target.dimension()? <= 4 {
             Self::SmoothLow

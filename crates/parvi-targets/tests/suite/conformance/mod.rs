@@ -1,6 +1,7 @@
 //! What every target of the catalogue promises, checked for each of them in several dimensions.
 
 mod closed_form;
+mod evidence;
 mod mixtures;
 mod normalisation;
 mod posteriors;

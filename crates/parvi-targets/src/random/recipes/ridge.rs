@@ -1,0 +1,32 @@
+//! Thin curved ridges.
+
+use super::parts::{bend, long_first, on_axes, pushed, soft_uniform, wave};
+use crate::random::dice::Dice;
+use crate::{AxisLaw, BoxedLaw, TargetError};
+
+/// A long piece, 1 to 2 along and 0.03 to 0.4 across, that bends or waves into one or more of the other axes; sometimes a
+/// second bend follows the first.
+pub fn law<const D: usize>(dice: &mut Dice) -> Result<BoxedLaw<D>, TargetError> {
+    let along = if dice.chance(0.5) {
+        AxisLaw::Normal
+    } else {
+        soft_uniform(dice)?
+    };
+    let base = on_axes(|axis| if axis == 0 { along } else { AxisLaw::Normal })?;
+    let length = dice.between(1.0, 2.0);
+    let mut maps = vec![long_first::<D>(dice, length, [0.03, 0.4])?];
+    for axis in 1..D {
+        if axis > 1 && dice.chance(0.5) {
+            continue;
+        }
+        maps.push(if dice.chance(0.5) {
+            bend(0, axis, dice.signed(0.2, 0.8))?
+        } else {
+            wave(dice, 0, axis)?
+        });
+    }
+    if D >= 3 && dice.chance(0.5) {
+        maps.push(bend(1, 2, dice.signed(0.2, 0.6))?);
+    }
+    Ok(pushed(base, maps))
+}
