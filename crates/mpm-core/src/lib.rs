@@ -36,7 +36,7 @@ pub use control::{StepControl, StepReport};
 pub use error::MpmError;
 pub use grid::SplineGrid;
 pub use lattice::SimplexLattice;
-pub use medium::{Continuum, Medium, StressImpulse};
+pub use medium::{Continuum, DeformsLast, Medium, StressImpulse};
 pub use mpm::Mpm;
 pub use particles::{Masses, Particles};
 pub use product_grid::{ProductGrid, SplineDegree};

@@ -22,6 +22,7 @@ where
     /// but that a [`VelocityFilter`](crate::VelocityFilter) may have acted; with [`StressUpdate::First`] they may have deformed, too.
     pub fn step(&mut self, control: &StepControl) -> Result<StepReport, MpmError> {
         control.check()?;
+        self.check_order()?;
         self.particles
             .check_lengths(T::AFFINE, M::DEFORMS, self.medium.rate_dependent())?;
         let h = self.basis.spacing();
@@ -31,10 +32,7 @@ where
         self.rebuild()?;
         self.filter_velocities(dt);
         self.evaluate_particle_forces()?;
-        if self.stress_update == StressUpdate::First {
-            self.momentum_to_grid(dt);
-            self.deform_particles(dt);
-        }
+        self.deform_first(dt);
         self.particles_to_grid(dt);
         self.evaluate_node_forces()?;
         let speed = self.update_grid(dt, damping, control.speed_limit(h, dt))?;
@@ -48,10 +46,36 @@ where
         })
     }
 
+    /// Whether the body is told an order that its medium has.
+    fn check_order(&self) -> Result<(), MpmError> {
+        if M::ORDER_IS_FIXED && (self.stress_update != StressUpdate::Last || self.volume_averaging) {
+            return Err(MpmError::InvalidParameter {
+                field: "stress_update",
+                value: f64::from(self.stress_update as u8),
+                expected: "the last one (1), without averaged volumes, for a medium that deforms last",
+            });
+        }
+        Ok(())
+    }
+
+    /// Deform the particles before forces are taken, where that is the order.
+    fn deform_first(&mut self, dt: f64) {
+        if M::ORDER_IS_FIXED {
+            return;
+        }
+        if self.stress_update == StressUpdate::First {
+            self.momentum_to_grid(dt);
+            self.deform_particles(dt);
+        }
+    }
+
     /// Move the particles and, unless they have deformed already, deform them.
     fn update_particles(&mut self, dt: f64, damping: f64) {
         if !M::DEFORMS {
             return self.move_particles(dt, damping);
+        }
+        if M::ORDER_IS_FIXED {
+            return self.move_and_deform_particles(dt, damping);
         }
         match self.stress_update {
             StressUpdate::First => self.move_particles(dt, damping),

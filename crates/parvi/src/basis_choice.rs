@@ -1,8 +1,8 @@
 //! From basis and transfer, chosen at run time, to their types: all code of the mechanics is generated here, once per dimension.
 
 use mpm_core::{
-    Apic, Continuum, Flip, Medium, Mpm, MpmError, Particles, Pic, ProductGrid, SimplexLattice, SplineDegree,
-    SplineGrid, Transfer, UniformBasis,
+    Apic, Continuum, DeformsLast, Flip, Medium, Mpm, MpmError, Particles, Pic, ProductGrid, SimplexLattice,
+    SplineDegree, SplineGrid, Transfer, UniformBasis,
 };
 use mpm_kernels::{Cubic, Linear, Quadratic};
 use mpm_materials::{IsothermalGas, Material};
@@ -36,7 +36,7 @@ impl<'a, const D: usize> Parts<'a, D> {
 
     /// The elastic body of the paper's algorithms.
     pub fn elastic(self, law: &'a dyn Material<D>) -> Ready<'a, D> {
-        self.of(Continuum { law })
+        self.of(DeformsLast(Continuum { law }))
     }
 
     fn of<M: Medium<D, State = ()> + 'a>(self, medium: M) -> Ready<'a, D> {

@@ -5,7 +5,7 @@ use mpm_materials::{IsothermalGas, Material};
 use parvi_targets::{CatalogueTarget, Frame, Target};
 
 use crate::basis_choice::{Parts, Ready};
-use crate::{Method, MpmOptions, Observer, Run, SampleError, Samples};
+use crate::{Method, MpmOptions, Observer, PaperOptions, Run, SampleError, Samples};
 
 /// [`sample`](crate::sample).
 type Sample<const D: usize> =
@@ -15,6 +15,10 @@ type Sample<const D: usize> =
 type SampleByMpm<const D: usize> =
     fn(&MpmOptions, &dyn Target<D>, &Frame<D>, &Run, &mut dyn Observer) -> Result<Samples<D>, SampleError>;
 
+/// [`PaperOptions::sample`].
+type SampleByPaper<const D: usize> =
+    fn(&PaperOptions, &dyn Target<D>, &Frame<D>, &Run, &mut dyn Observer) -> Result<Samples<D>, SampleError>;
+
 /// What is compiled for a dimension.
 pub(crate) struct Compiled<const D: usize> {
     /// A body of gas, for the calibrated sampler.
@@ -23,6 +27,8 @@ pub(crate) struct Compiled<const D: usize> {
     pub elastic: for<'a> fn(Parts<'a, D>, &'a dyn Material<D>) -> Ready<'a, D>,
     /// The calibrated sampler.
     pub mpm: SampleByMpm<D>,
+    /// The paper's algorithms.
+    pub paper: SampleByPaper<D>,
     /// Any method.
     pub sample: Sample<D>,
 }
@@ -33,6 +39,7 @@ impl<const D: usize> Compiled<D> {
         gas: |parts, gas| parts.of_gas(gas),
         elastic: |parts, law| parts.elastic(law),
         mpm: crate::mpm::sample,
+        paper: crate::paper::sample,
         sample: crate::sample_here,
     };
 

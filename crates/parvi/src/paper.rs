@@ -39,24 +39,35 @@ impl PaperOptions {
         run: &Run,
         observer: &mut dyn Observer,
     ) -> Result<Samples<D>, SampleError> {
-        let moduli = ElasticModuli::new(self.youngs_modulus, self.poissons_ratio)?;
-        let (neo_hookean, linear) = (NeoHookean::new(moduli), LinearElastic::new(moduli));
-        run.checked_particles()?;
-        let default = defaults::spacing::<D>(self.basis, run.particles);
-        let spacing = positive("spacing", self.spacing, default)?;
-        let job = Job {
-            options: self,
-            target,
-            frame,
-            run,
-            material: match self.elasticity {
-                Elasticity::NeoHookean => &neo_hookean,
-                Elasticity::Linear => &linear,
-            },
-            observer,
-        };
-        job.run(spacing)
+        (Compiled::of().paper)(self, target, frame, run, observer)
     }
+}
+
+/// [`PaperOptions::sample`].
+pub(crate) fn sample<const D: usize>(
+    options: &PaperOptions,
+    target: &dyn Target<D>,
+    frame: &Frame<D>,
+    run: &Run,
+    observer: &mut dyn Observer,
+) -> Result<Samples<D>, SampleError> {
+    let moduli = ElasticModuli::new(options.youngs_modulus, options.poissons_ratio)?;
+    let (neo_hookean, linear) = (NeoHookean::new(moduli), LinearElastic::new(moduli));
+    run.checked_particles()?;
+    let default = defaults::spacing::<D>(options.basis, run.particles);
+    let spacing = positive("spacing", options.spacing, default)?;
+    let job = Job {
+        options,
+        target,
+        frame,
+        run,
+        material: match options.elasticity {
+            Elasticity::NeoHookean => &neo_hookean,
+            Elasticity::Linear => &linear,
+        },
+        observer,
+    };
+    job.run(spacing)
 }
 
 impl<const D: usize> Job<'_, D> {

@@ -1,6 +1,7 @@
 //! What the particles are made of: the stress impulse of a step, and whether it needs a deformation gradient.
 
 mod continuum;
+mod deforms_last;
 mod gas;
 
 use std::ops::Range;
@@ -9,6 +10,7 @@ use mpm_kernels::Columns;
 use mpm_tensor::Matrix;
 
 pub use continuum::Continuum;
+pub use deforms_last::DeformsLast;
 
 use crate::{MpmError, Particles};
 
@@ -42,6 +44,10 @@ pub trait Medium<const D: usize>: Sync {
 
     /// Whether the medium reads F_p; without it F_p is neither stored nor updated.
     const DEFORMS: bool;
+
+    /// Whether particles deform last and without averaged volumes, whatever else a body could be told ([`DeformsLast`]); other orders are then
+    /// not even compiled.
+    const ORDER_IS_FIXED: bool = false;
 
     /// Whether the stress reads the velocity gradient; without, it is not stored.
     fn rate_dependent(&self) -> bool {

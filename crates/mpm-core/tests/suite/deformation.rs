@@ -1,6 +1,9 @@
 //! When and how particles deform: the orders of a step, averaged volume ratios, moving least squares, materials with memory.
 
-use mpm_core::{Apic, Basis, Continuum, Flip, Mls, Mpm, Particles, Pic, SplineGrid, StressUpdate, Transfer};
+use mpm_core::{
+    Apic, Basis, Continuum, DeformsLast, Flip, Mls, Mpm, NoBodyForce, Particles, Pic, SplineGrid, StressUpdate,
+    Transfer,
+};
 use mpm_kernels::{Cubic, Linear, Quadratic, SecondMoment, Spline};
 use mpm_materials::{DeformationError, ElasticModuli, Law, NeoHookean};
 use mpm_tensor::Matrix;
@@ -201,4 +204,33 @@ fn states_travel_with_their_particles() {
     let sorted = body.particles.in_creation_order(&body.particles.states);
     assert!(sorted.iter().zip(&positions).all(|(state, x)| state.1 == x[0]));
     assert!(bits(&body.particles.positions) != bits(&positions) && body.basis.node_count() > 0);
+}
+
+#[test]
+fn a_medium_with_a_fixed_order_moves_as_without_and_refuses_other_orders() {
+    let cloud = uniform_cloud::<2>(200, 1.0, 4);
+    let grid = || SplineGrid::<Quadratic, 3, 2>::new([0.0; 2], 0.2).unwrap();
+    let particles = || Particles::at_rest(cloud.clone(), 1.0).with_elastic_state(vec![1.0 / 200.0; 200]);
+    let mut free_order = Mpm::new(particles(), grid(), Apic, neo_hookean::<2>(10.0), NoBodyForce);
+    let mut fixed = Mpm::new(
+        particles(),
+        grid(),
+        Apic,
+        DeformsLast(neo_hookean::<2>(10.0)),
+        NoBodyForce,
+    );
+    free_order.particles.velocities = cloud.iter().map(|x| [x[1], -x[0]]).collect();
+    fixed.particles.velocities.clone_from(&free_order.particles.velocities);
+    for _ in 0..5 {
+        free_order.step(&free(0.01)).unwrap();
+        fixed.step(&free(0.01)).unwrap();
+    }
+    assert_eq!(free_order.particles.positions, fixed.particles.positions);
+    assert_eq!(
+        free_order.particles.deformation_gradients,
+        fixed.particles.deformation_gradients
+    );
+    fixed.stress_update = StressUpdate::First;
+    let error = fixed.step(&free(0.01)).unwrap_err().to_string();
+    assert!(error.contains("stress_update"), "{error}");
 }
