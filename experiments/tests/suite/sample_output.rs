@@ -140,3 +140,17 @@ fn targets_are_listed() {
     assert!(output.status.success(), "{}", stderr(&output));
     insta::assert_snapshot!(stdout(&output));
 }
+
+#[test]
+fn columns_of_a_regression_have_the_names_of_its_data() {
+    let directory = tempfile::tempdir().unwrap();
+    let rows: String = (0..40)
+        .map(|k| format!("{},{},{}\n", (k % 3 == 0) as u8, (k * 7) % 11, (k * 5) % 13))
+        .collect();
+    std::fs::write(directory.path().join("d.csv"), format!("y,age,dose\n{rows}")).unwrap();
+    let line = "sample --target logistic --data d.csv --particles 20 --steps 2 --out x.csv";
+    let output = parvi(directory.path(), line);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let text = std::fs::read_to_string(directory.path().join("x.csv")).unwrap();
+    assert_eq!(text.lines().next(), Some("intercept,age,dose"));
+}
