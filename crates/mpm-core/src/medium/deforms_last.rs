@@ -6,7 +6,7 @@ use super::Medium;
 use crate::{MpmError, Particles};
 
 /// A medium whose particles deform in the pass that moves them, without averaged volumes: the default of a step
-/// ([`StressUpdate::Last`](crate::StressUpdate::Last)) and nothing else, so that a body of it takes half as long to compile. A step that is told
+/// ([`StressUpdate::Last`](crate::StressUpdate::Last)) and nothing else, so that no other order is compiled for it. A step that is told
 /// otherwise is refused.
 #[derive(Clone, Copy, Debug)]
 pub struct DeformsLast<M>(
