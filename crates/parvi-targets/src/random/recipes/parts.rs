@@ -31,6 +31,16 @@ pub fn simple<const D: usize>(dice: &mut Dice) -> Result<BoxedLaw<D>, TargetErro
     }
 }
 
+/// A law that may be stretched along the first axis: normal across it, normal or flat along it.
+pub fn line<const D: usize>(dice: &mut Dice) -> Result<BoxedLaw<D>, TargetError> {
+    let along = if dice.chance(0.5) {
+        AxisLaw::Normal
+    } else {
+        soft_uniform(dice)?
+    };
+    on_axes(|axis| if axis == 0 { along } else { AxisLaw::Normal })
+}
+
 /// Scales: the first axis `along`, the others drawn from a range.
 pub fn long_first<const D: usize>(
     dice: &mut Dice,

@@ -1,18 +1,13 @@
 //! Thin curved ridges.
 
-use super::parts::{bend, long_first, on_axes, pushed, soft_uniform, wave};
+use super::parts::{bend, line, long_first, pushed, wave};
 use crate::random::dice::Dice;
-use crate::{AxisLaw, BoxedLaw, TargetError};
+use crate::{BoxedLaw, TargetError};
 
 /// A long piece, 1 to 2 along and 0.03 to 0.4 across, that bends or waves into one or more of the other axes; sometimes a
 /// second bend follows the first.
 pub fn law<const D: usize>(dice: &mut Dice) -> Result<BoxedLaw<D>, TargetError> {
-    let along = if dice.chance(0.5) {
-        AxisLaw::Normal
-    } else {
-        soft_uniform(dice)?
-    };
-    let base = on_axes(|axis| if axis == 0 { along } else { AxisLaw::Normal })?;
+    let base = line(dice)?;
     let length = dice.between(1.0, 2.0);
     let mut maps = vec![long_first::<D>(dice, length, [0.03, 0.4])?];
     for axis in 1..D {

@@ -1,18 +1,13 @@
 //! Spirals and helices.
 
-use super::parts::{long_first, on_axes, pushed, soft_uniform};
+use super::parts::{line, long_first, pushed};
 use crate::random::dice::Dice;
-use crate::{Affine, AxisLaw, BoxedBijection, BoxedLaw, TargetError, Twist};
+use crate::{Affine, BoxedBijection, BoxedLaw, TargetError, Twist};
 
 /// A long piece wound up by its distance from a centre: two arms where it lies across the centre, one where it lies beside it.
 /// From three dimensions on, half of them are wound along a third axis instead.
 pub fn law<const D: usize>(dice: &mut Dice) -> Result<BoxedLaw<D>, TargetError> {
-    let along = if dice.chance(0.5) {
-        AxisLaw::Normal
-    } else {
-        soft_uniform(dice)?
-    };
-    let base = on_axes(|axis| if axis == 0 { along } else { AxisLaw::Normal })?;
+    let base = line(dice)?;
     let length = dice.between(1.5, 3.0);
     let mut maps = vec![long_first::<D>(dice, length, [0.05, 0.25])?];
     let mut shift = [0.0; D];
