@@ -28,11 +28,22 @@ pub fn spacing<const D: usize>(basis: BasisChoice, particles: usize) -> f64 {
     at_512 * (particles as f64 / 512.0).powf(-1.0 / (d + 5.0))
 }
 
-/// Factor of the spacing where the target is stiffer within than without by `tails`: particles far out are few, and on a lattice too fine for
-/// them have no neighbours to push them outwards.
-pub fn tail_factor(tails: f64) -> f64 {
-    tails.clamp(1.0, 2.0).powf(1.5)
+/// Spacing of a polish: 1.4 of the central one for a normal law, whose particles lie well already and are to keep their tails, and finer as the target is bent or in
+/// pieces, by its entropy power N = e^{2 h(p)/D}/(2πe) over that of the normal law of the same covariance.
+///
+/// 1.4 N was found on random shapes in d = 2 and 4, where the best spacing fell from 1.5 to 0.12 of the central one.
+pub fn polish_spacing<const D: usize>(basis: BasisChoice, particles: usize, entropy_power: f64) -> f64 {
+    1.4 * entropy_power.clamp(1e-3, 1.0) * spacing::<D>(basis, particles)
 }
+
+/// Steps of the first round of a polish.
+pub const POLISH_STEPS: usize = 4;
+
+/// Rounds of a polish, at most, each of twice as many steps as the one before.
+pub const POLISH_ROUNDS: usize = 4;
+
+/// Variance of a pool, over that of as many independent draws as there are particles, above which a polish goes on after its first round.
+pub const LARGEST_POOL_NOISE: f64 = 0.1;
 
 /// Δt for spacing h: 0.6 h, but no more than 0.6 until 0.23 h is, from h = 2.6 on.
 pub fn time_step(spacing: f64) -> f64 {

@@ -1,7 +1,7 @@
 #![doc = include_str!("../README.md")]
 
+mod ais;
 mod basis_choice;
-mod bodies;
 pub mod certificate;
 mod checkpoint;
 mod cholesky;
@@ -11,10 +11,10 @@ pub mod defaults;
 mod drive;
 mod exact;
 mod extent;
+mod free_body;
 mod framed_score;
 mod guard;
 mod kronecker;
-mod mapped_target;
 mod method;
 mod moment_correction;
 mod moving;
@@ -24,19 +24,18 @@ mod mpm_body;
 mod nuts;
 mod on_mesh;
 mod paper;
-mod piece;
 mod point_set_error;
-mod refinement;
+mod polish;
 mod residual;
 mod rotation;
 mod run;
 mod start;
+mod stein_discrepancy;
 mod stein_thinning;
 mod stiffness;
 mod support_points;
-mod survey;
+mod surveyed;
 mod svgd;
-mod triangular_map;
 
 pub use certificate::{Certificate, Expectation, MomentEstimate, Outcome, expectation};
 pub use checkpoint::Checkpoint;
@@ -72,6 +71,7 @@ fn sample_here<const D: usize>(
     let frame = target.frame();
     match method {
         Method::Mpm(options) => options.sample(target, &frame, run, observer),
+        Method::Ais(options) => options.sample(target, &frame, run, observer),
         Method::OnMesh(on_mesh) => on_mesh.sample(target, run, observer),
         Method::Paper(options) => options.sample(target, &frame, run, observer),
         Method::Svgd(options) => options.sample(target, &frame, run, observer),

@@ -5,7 +5,8 @@ use mpm_materials::{ElasticModuli, LinearElastic, Material, NeoHookean};
 use parvi_targets::{Frame, Target};
 
 use crate::basis_choice::Parts;
-use crate::bodies::{Knowledge, judged};
+
+use crate::certificate::Certificate;
 use crate::checkpoint::Journal;
 use crate::compiled::Compiled;
 use crate::drive::{Plan, PlannedStep, drive};
@@ -128,14 +129,10 @@ impl<const D: usize> Job<'_, D> {
         };
         let mut body = (Compiled::of().elastic)(parts, job.material)?;
         let driven = drive(body.as_mut(), job.frame, plan, &mut Journal::none(), self.observer)?;
-        let knowledge = Knowledge {
-            masses: None,
-            mass_errors: vec![0.0],
-            mass_left_out: 0.0,
-            alpha: alpha.last(),
-            certificate: true,
-            surveyed: false,
-        };
-        Ok(judged(vec![driven], &knowledge))
+        let certificate = Some(Certificate::of_scores(&driven, alpha.last()));
+        Ok(Samples {
+            certificate,
+            ..driven.samples
+        })
     }
 }

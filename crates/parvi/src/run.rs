@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use mpm_core::MpmError;
 use mpm_mesh::MeshError;
+use parvi_pool::{Pool, PoolError};
 
 use crate::{Certificate, PointSetError};
 
@@ -65,7 +66,7 @@ impl Default for Start {
 /// What a run returns.
 #[derive(Clone, Debug, Default)]
 pub struct Samples<const D: usize> {
-    /// Particle positions in the target's own coordinates, in the order in which the particles were started; body after body.
+    /// Particle positions in the target's own coordinates, in the order in which the particles were started.
     pub positions: Vec<[f64; D]>,
     /// Weights that sum to one; `None` when all are equal.
     pub weights: Option<Vec<f64>>,
@@ -73,20 +74,30 @@ pub struct Samples<const D: usize> {
     pub steps: usize,
     /// Evaluations of the score at one point, in total.
     pub score_evaluations: u64,
+    /// Evaluations of the log density at one point, in total.
+    pub density_evaluations: u64,
     /// Scores that were not finite on the way and have been replaced.
     pub scores_replaced: u64,
     /// Galerkin–Stein residual relative to its value for i.i.d. draws (1 = as good as i.i.d.; smaller is better).
     pub residual: Option<f64>,
-    /// Spacing h in the frame's units: the central one, where it varies; of several bodies the largest's.
+    /// Spacing h in the frame's units: the central one, where it varies.
     pub spacing: Option<f64>,
-    /// Nodes with mass in the last step, of all bodies.
+    /// Nodes with mass in the last step.
     pub active_nodes: Option<usize>,
-    /// Bodies that moved, each on a separate piece of the target.
+    /// Bodies that moved.
     pub bodies: Option<usize>,
     /// Bytes held by particles and grid at the end of the run.
     pub storage_bytes: Option<usize>,
     /// Trajectories of a Markov chain that left the level of energy, the warm-up's not counted; where the method has such.
     pub divergences: Option<usize>,
+    /// log Z of the target's normalising constant Z, where the method estimates it.
+    pub log_evidence: Option<f64>,
+    /// Its standard error.
+    pub log_evidence_error: Option<f64>,
+    /// Shape k̂ of the tail of the importance weights, where there are such and they have one: above 0.7 nothing that rests on them is to be relied on.
+    pub pareto_k: Option<f64>,
+    /// Everything that was evaluated, weighed; where the method keeps it.
+    pub pool: Option<Box<Pool<D>>>,
     /// How good the particles are, as far as the method can tell.
     pub certificate: Option<Certificate>,
     /// History, one entry every `trace_every` steps.
@@ -239,6 +250,9 @@ pub enum SampleError {
         /// What is wrong with it.
         reason: String,
     },
+    /// Nothing could be weighed.
+    #[error(transparent)]
+    Pool(#[from] PoolError),
     /// The method is not part of this build.
     #[error("method `{method}`: built without {feature}: rebuild with --features {feature}")]
     NotBuilt {

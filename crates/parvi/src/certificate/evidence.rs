@@ -1,4 +1,4 @@
-//! What one body knows about its own accuracy, and what several know together.
+//! What the scores know about a body's accuracy.
 
 use mpm_tensor::vector;
 
@@ -10,8 +10,7 @@ const EXPLAINED: f64 = 0.1;
 /// Means and second moments about `centre` of one body's particles, in the user's coordinates.
 #[derive(Clone, Debug)]
 pub(crate) struct Evidence<const D: usize> {
-    /// Its share of all particles.
-    pub share: f64,
+    particles: usize,
     centre: [f64; D],
     first: [Expectation; D],
     second: [Expectation; D],
@@ -21,7 +20,7 @@ pub(crate) struct Evidence<const D: usize> {
 impl<const D: usize> Evidence<D> {
     /// From particles at `positions` (in the coordinates in which the scores are gradients), which the user sees at `seen`. Where there is no
     /// regression, the estimates are the averages and nothing is explained.
-    pub fn new(positions: &[[f64; D]], scores: &[[f64; D]], seen: &[[f64; D]], share: f64) -> Self {
+    pub fn new(positions: &[[f64; D]], scores: &[[f64; D]], seen: &[[f64; D]]) -> Self {
         let mut centre = [0.0; D];
         for x in seen {
             vector::accumulate(&mut centre, 1.0 / seen.len() as f64, x);
@@ -32,7 +31,7 @@ impl<const D: usize> Evidence<D> {
                 expectation(&values)
             };
             Self {
-                share,
+                particles: seen.len(),
                 centre,
                 first: std::array::from_fn(|a| of(&|x| x[a] - centre[a])),
                 second: std::array::from_fn(|a| of(&|x| (x[a] - centre[a]).powi(2))),
@@ -61,6 +60,32 @@ impl<const D: usize> Evidence<D> {
     pub fn degree(&self) -> usize {
         self.degree
     }
+
+    /// For every axis: with c the average and ê, q̂ the estimates of E\[x − c\] and E\[(x − c)²\], m̂ = c + ê and σ̂² = q̂ − ê².
+    pub fn moments(&self) -> Vec<MomentEstimate> {
+        let rate = (self.particles as f64).sqrt().recip();
+        let of_axis = |a: usize| {
+            let (first, second) = (&self.first[a], &self.second[a]);
+            let mean = self.centre[a] + first.average;
+            let deviation = second.average.sqrt();
+            let shift = first.estimate - first.average;
+            let deviation_estimate = (second.estimate - shift * shift).max(0.0).sqrt();
+            let mean_unexplained = first.unexplained / deviation;
+            let deviation_unexplained = second.unexplained / (2.0 * second.average);
+            MomentEstimate {
+                mean,
+                mean_estimate: mean + shift,
+                mean_standard_error: shift.hypot(rate * mean_unexplained * deviation),
+                mean_unexplained,
+                standard_deviation: deviation,
+                standard_deviation_estimate: deviation_estimate,
+                standard_deviation_standard_error: (deviation_estimate - deviation)
+                    .hypot(rate * deviation_unexplained * deviation),
+                standard_deviation_unexplained: deviation_unexplained,
+            }
+        };
+        (0..D).map(of_axis).collect()
+    }
 }
 
 /// Mean and standard deviation of a coordinate, and what the scores say about them.
@@ -68,15 +93,15 @@ impl<const D: usize> Evidence<D> {
 pub struct MomentEstimate {
     /// Mean of the particles.
     pub mean: f64,
-    /// The target's mean by the scores.
+    /// The target's mean by the pool or by the scores.
     pub mean_estimate: f64,
-    /// Standard error of `mean`: the difference between both, and what is unexplained as if from independent draws.
+    /// Standard error of `mean`: the difference between both, and what is unexplained as if from independent draws, or the standard error of the pool.
     pub mean_standard_error: f64,
-    /// Standard deviation, in units of `standard_deviation`, of what the scores leave unexplained of the coordinate.
+    /// Standard deviation, in units of `standard_deviation`, of what is unexplained of the coordinate: over √M it is the standard error of the estimate.
     pub mean_unexplained: f64,
     /// Standard deviation of the particles.
     pub standard_deviation: f64,
-    /// The target's standard deviation by the scores.
+    /// The target's standard deviation by the pool or by the scores.
     pub standard_deviation_estimate: f64,
     /// Standard error of `standard_deviation`, as that of the mean.
     pub standard_deviation_standard_error: f64,
@@ -99,45 +124,4 @@ impl MomentEstimate {
     pub fn standard_deviation_error(&self) -> f64 {
         (self.standard_deviation / self.standard_deviation_estimate - 1.0).abs()
     }
-}
-
-/// The moments of all bodies together, for every axis. With shares w_k, centres c_k and δ_k = c_k − m:
-/// m̂ = Σ w_k (c_k + ê_k), σ̂² = Σ w_k (q̂_k + 2 δ_k ê_k + δ_k²) − (m̂ − m)², ê and q̂ the bodies' estimates of E\[x − c\] and E\[(x − c)²\].
-pub(crate) fn moments<const D: usize>(bodies: &[Evidence<D>], particles: usize) -> Vec<MomentEstimate> {
-    let total: f64 = bodies.iter().map(|body| body.share).sum();
-    let sum =
-        |of: &dyn Fn(&Evidence<D>) -> f64| -> f64 { bodies.iter().map(|body| body.share / total * of(body)).sum() };
-    let of_axis = |a: usize| {
-        let mean = sum(&|body| body.centre[a] + body.first[a].average);
-        let offset = |body: &Evidence<D>| body.centre[a] - mean;
-        let mean_estimate = mean + sum(&|body| body.first[a].estimate - body.first[a].average);
-        let square = |first: &dyn Fn(&Evidence<D>) -> (f64, f64)| {
-            sum(&|body| {
-                let (first, second) = first(body);
-                second + 2.0 * offset(body) * first + offset(body).powi(2)
-            })
-        };
-        let variance = square(&|body| (body.first[a].average, body.second[a].average));
-        let variance_estimate = square(&|body| (body.first[a].estimate, body.second[a].estimate));
-        let variance_estimate = variance_estimate - (mean_estimate - mean).powi(2);
-        let deviation = variance.sqrt();
-        let deviation_estimate = variance_estimate.max(0.0).sqrt();
-        let mean_unexplained = sum(&|body| body.first[a].unexplained) / deviation;
-        let of_variance =
-            sum(&|body| body.second[a].unexplained + 2.0 * offset(body).abs() * body.first[a].unexplained);
-        let deviation_unexplained = of_variance / (2.0 * variance);
-        let rate = (particles as f64).sqrt().recip();
-        MomentEstimate {
-            mean,
-            mean_estimate,
-            mean_standard_error: (mean_estimate - mean).hypot(rate * mean_unexplained * deviation),
-            mean_unexplained,
-            standard_deviation: deviation,
-            standard_deviation_estimate: deviation_estimate,
-            standard_deviation_standard_error: (deviation_estimate - deviation)
-                .hypot(rate * deviation_unexplained * deviation),
-            standard_deviation_unexplained: deviation_unexplained,
-        }
-    };
-    (0..D).map(of_axis).collect()
 }

@@ -5,7 +5,7 @@ use std::fmt;
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outcome {
-    /// The particles are at rest, and the scores vouch for every mean and standard deviation.
+    /// Fresh importance weights vouch for the evidence, and the pool for every mean and standard deviation of the particles.
     Converged,
     /// The particles are at rest, but something speaks against them or nothing speaks for them.
     Stalled(Doubt),
@@ -45,18 +45,28 @@ pub enum Doubt {
         /// Residual over that of independent draws.
         ratio: f64,
     },
-    /// The masses of separate pieces are uncertain.
-    Masses {
-        /// Standard error that they bring into a mean, in standard deviations.
+    /// The importance weights have a tail that no estimate can rest on.
+    HeavyTail {
+        /// Shape k̂ of the tail.
+        pareto_k: f64,
+    },
+    /// The log evidence is uncertain.
+    Evidence {
+        /// Its standard error.
         error: f64,
+    },
+    /// The pool is too small for so many particles.
+    Noise {
+        /// Its variance over that of as many independent draws as there are particles.
+        variance: f64,
+    },
+    /// Fresh points met what no kernel had covered.
+    Uncovered {
+        /// Its mass.
+        mass: f64,
     },
     /// Nothing has looked for other pieces of the target, of which the particles would know nothing.
     NotSurveyed,
-    /// Pieces of the target have no particles, since there are too few.
-    LeftOut {
-        /// The mass of these pieces.
-        mass: f64,
-    },
     /// The particles stand for p^α, and the scores judge p.
     Tempered {
         /// α of the last steps.
@@ -65,6 +75,15 @@ pub enum Doubt {
 }
 
 impl Outcome {
+    /// By the drift and by what else speaks against the particles.
+    pub(crate) fn of(drift: f64, doubt: Option<Doubt>) -> Self {
+        if super::exceeds(drift, super::LARGEST_DRIFT) {
+            Self::BudgetExhausted { drift }
+        } else {
+            doubt.map_or(Self::Converged, Self::Stalled)
+        }
+    }
+
     /// `converged`, `stalled` or `budget exhausted`.
     pub fn name(&self) -> &'static str {
         match self {
@@ -102,15 +121,20 @@ impl fmt::Display for Doubt {
                 "the scores cannot vouch for the mean and spread of x{axis}: a share of {share:.2} is unexplained"
             ),
             Self::Residual { ratio } => write!(f, "the residual is {ratio:.2} of that of independent draws"),
-            Self::Masses { error } => write!(
+            Self::HeavyTail { pareto_k } => write!(
                 f,
-                "the masses of separate pieces leave a standard error of {error:.3} standard deviations in a mean"
+                "the importance weights have a heavy tail, of shape {pareto_k:.2}, and more may have been missed"
+            ),
+            Self::Evidence { error } => write!(f, "the log evidence has a standard error of {error:.2}"),
+            Self::Noise { variance } => write!(
+                f,
+                "the weighted pool has {variance:.2} of the variance of as many independent draws as there are particles"
+            ),
+            Self::Uncovered { mass } => write!(
+                f,
+                "fresh points met a mass of {mass:.3} that nothing had covered before, and more may have been missed"
             ),
             Self::NotSurveyed => write!(f, "without a survey nothing has looked for other pieces of the target"),
-            Self::LeftOut { mass } => write!(
-                f,
-                "pieces of the target with a mass of {mass:.3} have no particles, since there are too few"
-            ),
             Self::Tempered { alpha } => write!(
                 f,
                 "the particles stand for the density to the power of {alpha}, and the scores judge the density itself"

@@ -1,5 +1,6 @@
 //! The methods and their options.
 
+mod ais_options;
 mod mesh_options;
 mod mpm_options;
 mod nuts_options;
@@ -9,6 +10,7 @@ mod stein_thinning_options;
 mod support_points_options;
 mod svgd_options;
 
+pub use ais_options::AisOptions;
 pub use mesh_options::{MeshOptions, OnMesh};
 pub use mpm_options::{MomentCorrection, MpmOptions, NonFiniteScores, ScoreLocation};
 pub use nuts_options::NutsOptions;
@@ -49,6 +51,8 @@ pub enum TransferChoice {
 pub enum Method {
     /// Calibrated isothermal gas (the default).
     Mpm(MpmOptions),
+    /// Adaptive importance sampling, condensed.
+    Ais(AisOptions),
     /// Calibrated isothermal gas within a mesh, in 2 and 3 dimensions.
     OnMesh(OnMesh),
     /// Algorithms 1 (PIC) and 2 (APIC) of the MPM-ParVI paper.

@@ -49,14 +49,16 @@ pub struct MpmOptions {
     pub spacing: Option<f64>,
     /// How the spacing varies around h from step to step.
     pub spacing_schedule: SpacingSchedule,
-    /// Look at the target before the body moves: find its place, its scales and its separate pieces, and place a body on each. Without,
-    /// one body moves in the given frame from the given start.
+    /// Weigh evaluations of the log density until they represent the target, condense M particles from them, and let the material even these out as
+    /// far as that brings them nearer. Without, a body moves in the given frame from the given start, and nothing knows whether it has found everything.
     pub survey: bool,
-    /// Steps in all, settling included; ≥ 1.
+    /// Evaluations of the survey, of all kinds, at most; `None`: [`PoolOptions`](parvi_pool::PoolOptions) has the default.
+    pub evaluations: Option<u64>,
+    /// Steps of a round, settling included; ≥ 1.
     pub steps: Option<usize>,
-    /// Rounds, at most; ≥ 1. A round is made of `steps`; another one follows while the particles are still on their way at its end, in a frame
-    /// of their own if they have outgrown the old one, and at half of the spacing where the target is rough (docs/theory.md, §14). `None`: 3, but
-    /// one where `steps` are given.
+    /// Rounds, at most. After a survey a round evens out what is condensed, and another one follows while that helps (0: none; default 4). Without one (≥ 1) another one follows while
+    /// the particles are still on their way, in a frame of their own if they have outgrown the old one, and at half of the spacing where the target is rough (docs/theory.md, §14); default 3,
+    /// but one where `steps` are given.
     pub rounds: Option<usize>,
     /// Time step Δt at the central spacing; > 0. It follows the spacing drawn, and is shortened where the target is stiff.
     pub time_step: Option<f64>,
@@ -83,8 +85,8 @@ pub struct MpmOptions {
     pub certificate: bool,
     /// Where the run leaves its state, and goes on from if it was stopped.
     pub checkpoint: Option<Checkpoint>,
-    /// Give separate pieces of the target equally many particles, with weights for their masses, instead of equal weights: light pieces are
-    /// better resolved then, and the effective sample size is smaller.
+    /// Give light parts of the target more particles than their share, with weights, instead of equal weights: they are better resolved then, and the effective
+    /// sample size is smaller. Of use after a survey only.
     pub weighted: bool,
     /// Measure residual and energy every so many steps (0: only at the end).
     pub trace_every: usize,
@@ -96,6 +98,7 @@ impl Default for MpmOptions {
             basis: BasisChoice::default(),
             transfer: TransferChoice::default(),
             survey: true,
+            evaluations: None,
             spacing: None,
             spacing_schedule: SpacingSchedule::default(),
             steps: None,

@@ -1,4 +1,4 @@
-//! When a body is worth moving on at a finer spacing: the target is rough in its frame, and the particles get better by it.
+//! How far particles are from Stein's identity, and how rough a target is where they are.
 
 use mpm_tensor::vector;
 
@@ -7,16 +7,13 @@ use crate::stein_thinning::{Candidate, SteinKernel};
 /// A target is rough where E|s|²/D, the mean curvature of −log p by Stein's identity, exceeds this; it is 1 for N(0, I).
 const ROUGH: f64 = 3.0;
 
-/// More particles than these are not compared, at a cost of their square.
+/// Of more particles than these every second, third, … is taken, since the cost is their square.
 const LARGEST_COUNT: usize = 1 << 12;
-
-/// The spacing of a round over that of the one before.
-pub(crate) const FINER: f64 = 0.5;
 
 /// Whether a finer spacing is worth trying for particles with these scores, in coordinates of the frame.
 pub(crate) fn is_rough<const D: usize>(scores: &[[f64; D]]) -> bool {
     let square: f64 = scores.iter().map(vector::norm_squared).sum();
-    scores.len() <= LARGEST_COUNT && square > ROUGH * (D * scores.len()) as f64
+    square > ROUGH * (D * scores.len()) as f64
 }
 
 /// The squared kernel Stein discrepancy of equally weighted particles (V-statistic): the mean of the Stein kernel of the inverse multiquadric,
@@ -25,7 +22,7 @@ pub(crate) fn is_rough<const D: usize>(scores: &[[f64; D]]) -> bool {
 /// Source: J. Gorham, L. Mackey, *Measuring sample quality with kernels*, ICML 2017, §3–4.
 pub(crate) fn squared_stein_discrepancy<const D: usize>(positions: &[[f64; D]], scores: &[[f64; D]]) -> f64 {
     let kernel = SteinKernel::isotropic::<D>();
-    let pairs = positions.iter().zip(scores);
+    let pairs = positions.iter().zip(scores).step_by(positions.len().div_ceil(LARGEST_COUNT));
     let points: Vec<Candidate<D>> = pairs.map(|(x, s)| Candidate::isotropic(x, s)).collect();
     let row = |p: usize| -> f64 {
         let below: f64 = points[..p].iter().map(|other| kernel.value(&points[p], other)).sum();

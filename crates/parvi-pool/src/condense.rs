@@ -1,0 +1,140 @@
+//! M particles of equal mass from a measure: support points.
+
+use mpm_tensor::{Matrix, vector};
+
+use crate::anderson::Anderson;
+use crate::measure::Measure;
+use crate::mixture::{Kernel, Mixture};
+use crate::support_points::SupportPoints;
+use crate::weights::systematic;
+
+/// Iterations at most.
+const ITERATIONS: usize = 50;
+
+/// Of these with the whole measure; the others with so many equally weighted points per particle, if that is much less.
+const FINE_ITERATIONS: usize = 25;
+const COARSE: usize = 8;
+/// The largest move, in units of the spread, at which they end.
+const TOLERANCE: f64 = 1e-3;
+
+/// How far beside its point a particle begins, in units of the particles' distance.
+const BESIDE: f64 = 0.2;
+
+/// Share of all |c| that the lightest points may take with them.
+const LEFT_OUT: f64 = 1e-4;
+
+/// M points of least energy distance from a measure, every axis in units of its standard deviation.
+///
+/// The convex–concave procedure of S. Mak, V. R. Joseph, *Support points*, Ann. Stat. 46, 2018, Eq. (22): the energy is Σ_m c_m |x − y_m| of the points of
+/// positive weight, which is convex, and −|x − ·| of all others, particles and points of negative weight, which is concave and taken by its slope:
+/// x ← (Σ₊ c_m/|x − y_m|)⁻¹ (Σ₊ c_m y_m/|x − y_m| − Σ₋ c_m (x − y_m)/|x − y_m| + 1/M Σ_j (x − x_j)/|x − x_j|). It starts from a resample in the order of a tree of
+/// bisected boxes, so that every part of space gets its share of the particles. Empty where nothing has weight.
+pub fn condense<const D: usize>(measure: &Measure<D>, count: usize, offset: f64) -> Vec<[f64; D]> {
+    let (mut scaled, mean, scales) = standardised(measure);
+    if scaled.is_empty() {
+        return Vec::new();
+    }
+    bisect(&mut scaled);
+    let sample: Vec<[f64; D]> = scaled.iter().map(|(x, _)| *x).collect();
+    let weights: Vec<f64> = scaled.iter().map(|(_, c)| *c).collect();
+    // A particle on a point of the sample would stay there, and equal particles do not push each other: every one begins beside its point.
+    let beside = Mixture::new(vec![Kernel {
+        centre: [0.0; D],
+        factor: Matrix::IDENTITY * (BESIDE * (count.max(1) as f64).powf(-1.0 / D as f64)),
+        share: 1.0,
+    }]);
+    let shifts = beside.map_or_else(Vec::new, |law| law.draws(count, 0));
+    let positive: Vec<f64> = weights.iter().map(|c| c.max(0.0)).collect();
+    let chosen = systematic(&positive, count, offset);
+    let mut moving: Vec<[f64; D]> = chosen
+        .iter()
+        .zip(&shifts)
+        .map(|(&index, shift)| vector::add(&sample[index], shift))
+        .collect();
+    // Far iterations need no more than an equally weighted few.
+    let few = systematic(&positive, COARSE * count, offset);
+    let few: Vec<[f64; D]> = few.iter().map(|&index| sample[index]).collect();
+    if 2 * few.len() < sample.len() {
+        let equal = vec![1.0; few.len()];
+        iterate(&SupportPoints::new(&few, &equal), ITERATIONS - FINE_ITERATIONS, &mut moving);
+    }
+    iterate(&SupportPoints::new(&sample, &weights), FINE_ITERATIONS, &mut moving);
+    let back = |x: &[f64; D]| std::array::from_fn(|a| mean[a] + scales[a] * x[a]);
+    moving.iter().map(back).collect()
+}
+
+/// So many iterations, or until nothing moves any more.
+fn iterate<const D: usize>(support: &SupportPoints<D>, iterations: usize, moving: &mut Vec<[f64; D]>) {
+    let mut anderson = Anderson::default();
+    for _ in 0..iterations {
+        let images = support.moved(moving);
+        let moves = moving.iter().zip(&images).map(|(x, y)| vector::distance(x, y));
+        let largest = moves.fold(0.0, f64::max);
+        let next = anderson.next(moving.as_flattened().to_vec(), images.as_flattened());
+        *moving = next.as_chunks().0.to_vec();
+        if largest < TOLERANCE {
+            break;
+        }
+    }
+}
+
+/// All points but the lightest, in units of the standard deviations about the mean, with mean and deviations.
+#[allow(clippy::type_complexity)]
+fn standardised<const D: usize>(measure: &Measure<D>) -> (Vec<([f64; D], f64)>, [f64; D], [f64; D]) {
+    let sound = |&(y, c): &(&[f64; D], &f64)| *c != 0.0 && c.is_finite() && vector::is_finite(y);
+    let all = measure.points.iter().zip(&measure.weights).filter(sound);
+    let mut kept: Vec<([f64; D], f64)> = all.map(|(y, c)| (*y, *c)).collect();
+    let mut sizes: Vec<f64> = kept.iter().map(|(_, c)| c.abs()).collect();
+    sizes.sort_unstable_by(f64::total_cmp);
+    let total: f64 = sizes.iter().sum();
+    let mut sum = 0.0;
+    let light = sizes.iter().find(|&&size| {
+        sum += size;
+        sum >= LEFT_OUT * total
+    });
+    let least = light.copied().unwrap_or(0.0);
+    kept.retain(|(_, c)| c.abs() >= least);
+    let (mean, deviation) = measure.mean_and_deviation();
+    let scales = deviation.map(|s| if s > 0.0 && s.is_finite() { s } else { 1.0 });
+    for (y, _) in &mut kept {
+        *y = std::array::from_fn(|a| (y[a] - mean[a]) / scales[a]);
+    }
+    (kept, mean, scales)
+}
+
+/// Orders points so that near ones stand near: halves along the longest axis, and so on.
+fn bisect<const D: usize>(points: &mut [([f64; D], f64)]) {
+    if points.len() < 3 || D == 0 {
+        return;
+    }
+    let extent = |axis: usize| {
+        let (low, high) = points
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (x, _)| {
+                (low.min(x[axis]), high.max(x[axis]))
+            });
+        high - low
+    };
+    let axis = (0..D).max_by(|&a, &b| extent(a).total_cmp(&extent(b))).unwrap_or(0);
+    let middle = points.len() / 2;
+    points.select_nth_unstable_by(middle, |a, b| a.0[axis].total_cmp(&b.0[axis]));
+    let (low, high) = points.split_at_mut(middle);
+    bisect(low);
+    bisect(high);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pieces_keep_their_masses() {
+        let points: Vec<[f64; 1]> = (0..100)
+            .map(|i| [f64::from(i % 2) * 10.0 + f64::from(i) * 0.001])
+            .collect();
+        let weights: Vec<f64> = (0..100).map(|i| if i % 2 == 0 { 0.25 } else { 0.75 }).collect();
+        let particles = condense(&Measure::new(points.clone(), weights), 40, 0.5);
+        assert_eq!(particles.iter().filter(|x| x[0] > 5.0).count(), 30);
+        assert!(condense(&Measure::new(points, vec![0.0; 100]), 40, 0.5).is_empty());
+    }
+}

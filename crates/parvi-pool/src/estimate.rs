@@ -1,0 +1,181 @@
+//! The finished pool: everything evaluated with its weights, and what follows from them.
+
+use mpm_tensor::{Matrix, vector};
+use parvi_targets::Frame;
+
+use crate::condense::condense;
+use crate::density::Density;
+use crate::fold::Fold;
+use crate::measure::Measure;
+use crate::mixture::Mixture;
+use crate::referee::Verdict;
+use crate::sample::moments;
+use crate::weights::effective_size;
+
+/// An expectation with its standard error.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Estimate {
+    /// The value.
+    pub value: f64,
+    /// Its standard error, by the spread of the weights.
+    pub standard_error: f64,
+}
+
+/// Every point at which log p was evaluated, with weights.
+#[derive(Clone, Debug)]
+pub struct Pool<const D: usize> {
+    /// Positions in the target's coordinates.
+    pub positions: Vec<[f64; D]>,
+    /// log p there; −∞ where it is not a number to count with.
+    pub log_densities: Vec<f64>,
+    /// Weights that sum to one.
+    pub weights: Vec<f64>,
+    /// What stands for the target: the points with control variates, for moments and for condensation.
+    pub measure: Measure<D>,
+    /// log Z from all points.
+    pub log_evidence: f64,
+    /// Its standard error: by the spread of the weights, or by how far the folds are apart, if that is more.
+    pub log_evidence_error: f64,
+    /// What fresh points of the frozen proposal say.
+    pub verdict: Verdict,
+    /// The frozen proposal, in frame coordinates.
+    pub proposal: Option<Mixture<D>>,
+    /// Points at which log p was evaluated.
+    pub density_evaluations: u64,
+    /// Points at which the score was evaluated.
+    pub score_evaluations: u64,
+    /// Values that were not finite or too large.
+    pub values_replaced: u64,
+}
+
+impl<const D: usize> Pool<D> {
+    /// Joins the folds, every one of which estimates Z by itself: in the weights they count by their effective sizes, in the measure by the inverse of its variance.
+    pub(crate) fn new(
+        folds: [Fold<D>; 2],
+        fresh: Fold<D>,
+        covered: &[bool],
+        frame: &Frame<D>,
+        density: &Density<'_, D>,
+        particles: usize,
+    ) -> Self {
+        let fresh_logs = fresh.log_weights();
+        let points = fresh.positions.len() as f64;
+        let verdict = Verdict::of(
+            &fresh_logs.iter().map(|l| l + points.ln()).collect::<Vec<f64>>(),
+            covered,
+        );
+        let proposal = fresh.rounds.first().map(|(_, proposal)| proposal.clone());
+        let [first, second] = folds;
+        let all = [first, second, fresh];
+        let (log_evidence, log_evidence_error, mut measure) = joined(&all, verdict.effective_share, particles);
+        for y in &mut measure.points {
+            *y = frame.to_target(y);
+        }
+        let sizes: Vec<f64> = all.iter().map(Fold::effective_size).collect();
+        let total: f64 = sizes.iter().sum();
+        let (mut positions, mut log_densities, mut logs) = (Vec::new(), Vec::new(), Vec::new());
+        for (fold, size) in all.into_iter().zip(&sizes) {
+            let share = (size / total).ln();
+            logs.extend(fold.log_weights().iter().map(|l| l + share));
+            positions.extend(fold.positions.iter().map(|z| frame.to_target(z)));
+            log_densities.extend(fold.log_densities.iter().map(|l| l - frame.log_determinant()));
+        }
+        let mut weights = crate::weights::tempered(&logs, 1.0);
+        let sum: f64 = weights.iter().sum();
+        weights.iter_mut().for_each(|w| *w /= sum);
+        Self {
+            positions,
+            log_densities,
+            weights,
+            measure,
+            log_evidence,
+            log_evidence_error,
+            verdict,
+            proposal,
+            density_evaluations: density.density_evaluations,
+            score_evaluations: density.score_evaluations,
+            values_replaced: density.replaced,
+        }
+    }
+
+    /// The entropy power e^{2 h/D}/(2πe) of the target over that of the normal law of its covariance, h its entropy: 1 for a normal law, and less the more bent
+    /// it is or the more pieces it has. e^{−2 KL/D}, KL = Σ w (log p − log Z − log N) (C. E. Shannon, *A mathematical theory of communication*, 1948, §21).
+    pub fn entropy_power(&self) -> f64 {
+        let (mean, covariance) = self.moments();
+        let Ok(normal) = Frame::new(mean, covariance) else {
+            return 1.0;
+        };
+        let constant = normal.log_determinant() + 0.5 * D as f64 * std::f64::consts::TAU.ln() - self.log_evidence;
+        let excess = |x: &[f64; D], log: f64| log + constant + 0.5 * vector::norm_squared(&normal.to_reference(x));
+        let points = self.positions.iter().zip(&self.log_densities).zip(&self.weights);
+        let weighted = points.filter(|((_, log), w)| **w > 0.0 && log.is_finite());
+        let divergence: f64 = weighted.map(|((x, log), w)| w * excess(x, *log)).sum();
+        (-2.0 * divergence / D as f64).exp()
+    }
+
+    /// Kish's effective size of the weights.
+    pub fn effective_size(&self) -> f64 {
+        effective_size(&self.weights)
+    }
+
+    /// Mean and covariance.
+    pub fn moments(&self) -> ([f64; D], Matrix<D>) {
+        moments(&self.positions, &self.weights)
+    }
+
+    /// E\[f\] under the target, with control variates.
+    pub fn expectation(&self, f: impl Fn(&[f64; D]) -> f64) -> Estimate {
+        self.measure.expectation(f)
+    }
+
+    /// The quantile of one coordinate; NaN for an axis that is none.
+    pub fn quantile(&self, axis: usize, probability: f64) -> f64 {
+        if axis >= D {
+            return f64::NAN;
+        }
+        let mut order: Vec<usize> = (0..self.positions.len()).filter(|&i| self.weights[i] > 0.0).collect();
+        order.sort_by(|&a, &b| self.positions[a][axis].total_cmp(&self.positions[b][axis]));
+        let mut sum = 0.0;
+        for &index in &order {
+            sum += self.weights[index];
+            if sum >= probability {
+                return self.positions[index][axis];
+            }
+        }
+        order.last().map_or(f64::NAN, |&index| self.positions[index][axis])
+    }
+
+    /// M particles of equal mass: support points of the weighted pool.
+    pub fn condense(&self, count: usize) -> Vec<[f64; D]> {
+        condense(&self.measure, count, 0.5)
+    }
+}
+
+/// The folds' evidences with a standard error, and their measures, by the inverse of the variances; seeds are the folds' numbers.
+///
+/// The last fold is of fresh points, which shaped no proposal: its evidence is unbiased. That of the others is not quite, the less so the smaller the effective `share` of the
+/// fresh points is, so that in the evidence their variances count 1/share times.
+fn joined<const D: usize>(folds: &[Fold<D>], share: f64, particles: usize) -> (f64, f64, Measure<D>) {
+    let each = folds.iter().zip(0..);
+    let each: Vec<(f64, Measure<D>)> = each
+        .filter_map(|(fold, seed)| Measure::of_fold(fold, particles, seed))
+        .collect();
+    let doubtful = |(k, (log, measure)): (usize, &(f64, Measure<D>))| {
+        let factor = if k + 1 == folds.len() { 1.0 } else { share.max(1e-6).recip() };
+        (*log, (factor * measure.variance).max(f64::MIN_POSITIVE))
+    };
+    let parts: Vec<(f64, f64)> = each.iter().enumerate().map(doubtful).collect();
+    let precision: f64 = parts.iter().map(|(_, variance)| variance.recip()).sum();
+    let top = parts.iter().map(|(log, _)| *log).fold(f64::NEG_INFINITY, f64::max);
+    let evidences = parts.iter().map(|(log, variance)| (log - top).exp() / variance);
+    let log = top + (evidences.sum::<f64>() / precision).ln();
+    let squares = parts.iter().map(|(part, variance)| (part - log).powi(2) / variance);
+    let inflation = squares.sum::<f64>() / (parts.len().max(2) - 1) as f64;
+    let error = (inflation.max(1.0) / precision).sqrt();
+    let measures = each.into_iter().map(|(_, measure)| measure);
+    let measure = measures.reduce(|all, next| {
+        let share = all.variance / (all.variance + next.variance);
+        all.mixed(share, next)
+    });
+    (log, error, measure.unwrap_or_default())
+}

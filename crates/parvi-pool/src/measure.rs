@@ -1,0 +1,203 @@
+//! What stands for the target when all weights are put together: a signed measure.
+
+use mpm_tensor::vector;
+
+use crate::condense::condense;
+use crate::estimate::Estimate;
+use crate::fold::Fold;
+use crate::lanes::{Group, LANES, Lanes, packed};
+use crate::weights::{tempered, top};
+
+/// Free draws of a last proposal, per point wanted.
+const FREE: usize = 16;
+
+/// Control variates are worth their draws where they take this much of the variance away.
+const WORTH: f64 = 0.2;
+
+/// Points with weights, some of them negative, that sum to one: the integral of f against the target is Σ c f(y).
+///
+/// In every fold the last proposal q serves as a control variate (A. Owen, Y. Zhou, *Safe and effective importance sampling*, J. Am. Stat. Assoc. 95, 2000, §2):
+/// ∫ p f / Z ≈ Σ_i (p(x_i)/Z − β q(x_i)) / S(x_i) f(x_i) + β/K Σ_k f(y_k), S(x) = Σ_t n_t q_t(x), with K draws y of q, which cost no evaluation.
+/// Z = Ẑ / (1 + β (Σ_i q(x_i)/S(x_i) − 1)) makes the weights sum to one; β in [0, 1] makes Σ c_i² least. The nearer q is to p, the smaller the c_i are.
+#[derive(Clone, Debug, Default)]
+pub struct Measure<const D: usize> {
+    /// Where the mass is.
+    pub points: Vec<[f64; D]>,
+    /// c; they sum to one.
+    pub weights: Vec<f64>,
+    /// Whether the target was evaluated there; else the point is a free draw, and certain.
+    pub evaluated: Vec<bool>,
+    /// Σ c² r over the points that were evaluated, r = (1 + |z|²/D)/2 at |z| standard deviations from the mean: what 1/n is for n independent draws.
+    pub variance: f64,
+}
+
+impl<const D: usize> Measure<D> {
+    /// Of points with weights that sum to one.
+    pub fn new(points: Vec<[f64; D]>, weights: Vec<f64>) -> Self {
+        let mut measure = Self {
+            evaluated: vec![true; points.len()],
+            points,
+            weights,
+            variance: 0.0,
+        };
+        let reaches = measure.reaches(&measure.points);
+        measure.variance = measure.weights.iter().zip(&reaches).map(|(c, r)| c * c * r).sum();
+        measure
+    }
+
+    /// Of what one fold knows, in the frame's coordinates, and the evidence that goes with it; for `wanted` points to be condensed from it.
+    pub(crate) fn of_fold(fold: &Fold<D>, wanted: usize, seed: u64) -> Option<(f64, Self)> {
+        let logs = fold.log_weights();
+        let top = top(&logs);
+        let mut weights = tempered(&logs, 1.0);
+        let sum: f64 = weights.iter().sum();
+        if !(sum > 0.0 && sum.is_finite()) {
+            return None;
+        }
+        weights.iter_mut().for_each(|w| *w /= sum);
+        let evidence = top + sum.ln();
+        let plain = Self::new(fold.positions.clone(), weights);
+        let Some(core) = fold.rounds.last().and_then(|(_, last)| last.core()) else {
+            return Some((evidence, plain));
+        };
+        let control = fold.weights_of(&core);
+        let reach = plain.reaches(&plain.points);
+        let dot = |a: &[f64], b: &[f64]| -> f64 {
+            let products = a.iter().zip(b).zip(&reach);
+            products.map(|((a, b), r)| a * b * r).sum()
+        };
+        let (product, own) = (dot(&plain.weights, &control), dot(&control, &control));
+        let beta = (product / own).clamp(0.0, 1.0);
+        let correction = 1.0 + beta * (control.iter().sum::<f64>() - 1.0);
+        let weights: Vec<f64> = plain.weights.iter().zip(&control).map(|(w, q)| w * correction - beta * q).collect();
+        let draws = core.draws(FREE * wanted, seed);
+        let of_draws = plain.reaches(&draws).iter().sum::<f64>() * (beta / draws.len() as f64).powi(2);
+        let variance = dot(&weights, &weights);
+        if !(variance + of_draws < (1.0 - WORTH) * plain.variance) {
+            return Some((evidence, plain));
+        }
+        let mut measure = Self {
+            weights,
+            variance,
+            ..plain
+        };
+        measure.weights.extend(vec![beta / draws.len() as f64; draws.len()]);
+        measure.evaluated.extend(vec![false; draws.len()]);
+        measure.points.extend(draws);
+        Some((evidence - correction.ln(), measure))
+    }
+
+    /// How much every point means to second moments: (1 + |z|²/D)/2, z its distance from the mean in standard deviations.
+    fn reaches(&self, points: &[[f64; D]]) -> Vec<f64> {
+        let (mean, deviation) = self.mean_and_deviation();
+        let of = |y: &[f64; D]| {
+            let r2: f64 = (0..D).map(|a| ((y[a] - mean[a]) / deviation[a]).powi(2)).sum();
+            0.5 + 0.5 * r2 / D as f64
+        };
+        points.iter().map(of).collect()
+    }
+
+    /// Adds `share` times another measure to `1 − share` times this one.
+    pub(crate) fn mixed(mut self, share: f64, other: Self) -> Self {
+        self.variance = (1.0 - share).powi(2) * self.variance + share * share * other.variance;
+        self.weights.iter_mut().for_each(|c| *c *= 1.0 - share);
+        self.weights.extend(other.weights.iter().map(|c| share * c));
+        self.points.extend(other.points);
+        self.evaluated.extend(other.evaluated);
+        self
+    }
+
+    /// Positive weights only, each by its square root: light parts count for more.
+    pub fn flattened(&self) -> Self {
+        let roots: Vec<f64> = self.weights.iter().map(|c| c.max(0.0).sqrt()).collect();
+        let total: f64 = roots.iter().sum();
+        Self::new(self.points.clone(), roots.iter().map(|root| root / total).collect())
+    }
+
+    /// M particles of equal mass: support points.
+    pub fn condense(&self, count: usize) -> Vec<[f64; D]> {
+        condense(self, count, 0.5)
+    }
+
+    /// The mass that is nearer to a particle than to any other one, for every particle; none negative, and their sum is one.
+    pub fn shares(&self, particles: &[[f64; D]]) -> Vec<f64> {
+        let nearest = |y: &[f64; D]| {
+            let distances = particles.iter().map(|x| vector::distance_squared(x, y));
+            distances.enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| index)
+        };
+        let owners = mpm_parallel::collect(self.points.len(), 256, &|index| nearest(&self.points[index]));
+        let mut shares = vec![0.0; particles.len()];
+        for (owner, c) in owners.into_iter().zip(&self.weights) {
+            if let Some(owner) = owner {
+                shares[owner] += c;
+            }
+        }
+        let total: f64 = shares.iter().map(|share: &f64| share.max(0.0)).sum();
+        shares.iter().map(|share| share.max(0.0) / total).collect()
+    }
+
+    /// Σ c f(y).
+    pub fn integral(&self, f: impl Fn(&[f64; D]) -> f64) -> f64 {
+        let weighted = self.points.iter().zip(&self.weights).filter(|(_, c)| **c != 0.0);
+        weighted.map(|(y, c)| c * f(y)).sum()
+    }
+
+    /// Σ c f(y) with its standard error (Σ c² (f − f̄)²)^½ over the points that were evaluated.
+    pub fn expectation(&self, f: impl Fn(&[f64; D]) -> f64) -> Estimate {
+        let value = self.integral(&f);
+        let points = self.points.iter().zip(&self.weights).zip(&self.evaluated);
+        let uncertain = points.filter(|((_, c), evaluated)| **evaluated && **c != 0.0);
+        let variance: f64 = uncertain.map(|((y, c), _)| (c * (f(y) - value)).powi(2)).sum();
+        Estimate {
+            value,
+            standard_error: variance.sqrt(),
+        }
+    }
+
+    /// Mean and standard deviation of every coordinate.
+    pub fn mean_and_deviation(&self) -> ([f64; D], [f64; D]) {
+        let mean: [f64; D] = std::array::from_fn(|a| self.integral(|y| y[a]));
+        let variance = |a: usize| self.integral(|y| (y[a] - mean[a]).powi(2));
+        (mean, std::array::from_fn(|a| variance(a).max(0.0).sqrt()))
+    }
+
+    /// 2 E|x − Y| − E|x − x′| of particles x against this measure, coordinates divided by `scales`: the energy distance up to a constant of the measure.
+    pub fn energy(&self, particles: &[[f64; D]], scales: &[f64; D]) -> f64 {
+        let scaled = |points: &[[f64; D]]| -> Vec<[f64; D]> {
+            points.iter().map(|x| std::array::from_fn(|a| x[a] / scales[a])).collect()
+        };
+        let (own, groups) = (scaled(particles), packed(&scaled(&self.points)));
+        let weights = in_lanes(&self.weights);
+        let equal = in_lanes(&vec![1.0 / own.len() as f64; own.len()]);
+        let own_groups = packed(&own);
+        let of = |index: usize| {
+            2.0 * mean_distance(&own[index], &groups, &weights) - mean_distance(&own[index], &own_groups, &equal)
+        };
+        let each = mpm_parallel::collect(own.len(), 16, &of);
+        each.iter().sum::<f64>() / own.len() as f64
+    }
+}
+
+/// Weights in groups; the last group is filled up with zeros.
+pub(crate) fn in_lanes(weights: &[f64]) -> Vec<Lanes> {
+    let lanes = |chunk: &[f64]| std::array::from_fn(|lane| chunk.get(lane).copied().unwrap_or(0.0));
+    weights.chunks(LANES).map(lanes).collect()
+}
+
+/// Σ c |x − y|.
+fn mean_distance<const D: usize>(x: &[f64; D], groups: &[Group<D>], weights: &[Lanes]) -> f64 {
+    let mut sums = [0.0; LANES];
+    for (group, weights) in groups.iter().zip(weights) {
+        let mut squares = [0.0; LANES];
+        for axis in 0..D {
+            for lane in 0..LANES {
+                let apart = group[axis][lane] - x[axis];
+                squares[lane] = vector::multiply_add(apart, apart, squares[lane]);
+            }
+        }
+        for lane in 0..LANES {
+            sums[lane] += weights[lane] * squares[lane].sqrt();
+        }
+    }
+    sums.iter().sum()
+}

@@ -1,0 +1,120 @@
+//! The calibrated sampler without a survey: one body that moves in the given frame from the given start.
+
+use parvi_targets::{Frame, Target};
+
+use crate::certificate::{Certificate, LARGEST_DRIFT};
+use crate::checkpoint::Journal;
+use crate::drive::Driven;
+use crate::extent::Extent;
+use crate::mpm_body::Body;
+use crate::start::{check, positive};
+use crate::stein_discrepancy::{is_rough, squared_stein_discrepancy};
+use crate::{MpmOptions, Observer, Run, SampleError, Samples, defaults};
+
+/// Spacing of a refining round over that of the one before.
+const FINER: f64 = 0.5;
+
+/// Where a body moves, and from where.
+struct Departure<const D: usize> {
+    frame: Frame<D>,
+    positions: Vec<[f64; D]>,
+    spacing: f64,
+}
+
+/// Rounds until the body is at rest, and further ones at half of the spacing as long as a rough target gains by them.
+pub(crate) fn sample<const D: usize>(
+    options: &MpmOptions,
+    target: &dyn Target<D>,
+    frame: &Frame<D>,
+    run: &Run,
+    journal: &mut Journal,
+    observer: &mut dyn Observer,
+) -> Result<Samples<D>, SampleError> {
+    let default = defaults::spacing::<D>(options.basis, run.particles);
+    let mut departure = Departure {
+        frame: *frame,
+        positions: run.start_positions()?,
+        spacing: positive("spacing", options.spacing, default)?,
+    };
+    let mut rounds = 0..checked_rounds(options)?;
+    let mut moved = |departure: &Departure<D>, number| {
+        if let Some(body) = journal.finished() {
+            return Ok(body);
+        }
+        let body = Body {
+            options,
+            target,
+            frame: &departure.frame,
+            run,
+            number,
+            positions: departure.positions.clone(),
+            journal,
+            observer,
+        };
+        let body = body.run(departure.spacing)?;
+        journal.finish(&body)?;
+        Ok::<_, SampleError>(body)
+    };
+    let mut body = moved(&departure, rounds.next().unwrap_or(0))?;
+    let (mut evaluations, mut steps) = (body.samples.score_evaluations, body.samples.steps);
+    while body.drift > LARGEST_DRIFT
+        && let Some(round) = rounds.next()
+    {
+        departure = departure.further(body, 1.0);
+        body = moved(&departure, round)?;
+        evaluations += body.samples.score_evaluations;
+        steps += body.samples.steps;
+    }
+    while options.spacing.is_none()
+        && is_rough(&body.scores)
+        && let Some(round) = rounds.next()
+    {
+        let finer = departure.further(body.clone(), FINER);
+        let candidate = moved(&finer, round)?;
+        evaluations += candidate.samples.score_evaluations;
+        steps += candidate.samples.steps;
+        if discrepancy(&candidate) >= discrepancy(&body) {
+            break;
+        }
+        (departure, body) = (finer, candidate);
+    }
+    let alpha = options.annealing.last();
+    let certificate = options.certificate.then(|| Certificate::of_scores(&body, alpha));
+    Ok(Samples {
+        certificate,
+        score_evaluations: evaluations,
+        steps,
+        ..body.samples
+    })
+}
+
+/// Rounds, at most: one where the number of steps is given and that of rounds is not.
+fn checked_rounds(options: &MpmOptions) -> Result<usize, SampleError> {
+    let default = if options.steps.is_some() { 1 } else { defaults::ROUNDS };
+    let rounds = options.rounds.unwrap_or(default);
+    check("rounds", rounds as f64, rounds >= 1, "at least 1")?;
+    Ok(rounds)
+}
+
+fn discrepancy<const D: usize>(body: &Driven<D>) -> f64 {
+    squared_stein_discrepancy(&body.positions, &body.scores)
+}
+
+impl<const D: usize> Departure<D> {
+    /// On from where the body has come, in a frame of the particles' own mean and covariance where they have outgrown the old one, and at a
+    /// spacing that is finer by a factor.
+    fn further(&self, body: Driven<D>, finer: f64) -> Self {
+        let (mut frame, mut positions) = (self.frame, body.positions);
+        if Extent::of(&positions).outgrows_the_frame()
+            && let Ok(own) = Frame::of_points(&body.samples.positions, None)
+        {
+            positions = body.samples.positions.iter().map(|x| own.to_reference(x)).collect();
+            frame = own;
+        }
+        Self {
+            frame,
+            positions,
+            spacing: self.spacing * finer,
+        }
+    }
+}

@@ -1,0 +1,84 @@
+//! The calibrated sampler on a target that is surveyed: everything evaluated is weighed, M particles are condensed from it, and the material
+//! evens them out as far as that brings them nearer.
+
+use mpm_tensor::Matrix;
+use parvi_pool::{Kernel, Mixture, Pool, PoolError, PoolOptions, explore};
+use parvi_targets::{Frame, Target};
+use rand::RngExt;
+
+use crate::certificate::Certificate;
+use crate::checkpoint::Journal;
+use crate::polish::{Polish, Polished};
+use crate::start::Stream;
+use crate::{MpmOptions, Observer, Progress, Run, SampleError, Samples, Start};
+
+/// A pool whose energy distance is known no better than that of so many times fewer independent draws than particles is none.
+const WORTHLESS: f64 = 30.0;
+
+/// `None` where nothing could be weighed.
+pub(crate) fn sample<const D: usize>(
+    options: &MpmOptions,
+    target: &dyn Target<D>,
+    frame: &Frame<D>,
+    run: &Run,
+    journal: &mut Journal,
+    observer: &mut dyn Observer,
+) -> Result<Option<Samples<D>>, SampleError> {
+    let Some(pool) = surveyed(options, target, frame, run, observer)? else {
+        return Ok(None);
+    };
+    let polish = Polish::new(options, target, &pool, run)?;
+    let Polished { best, spent, steps } = polish.run(journal, observer)?;
+    let mut samples = best.samples;
+    samples.steps = steps;
+    samples.score_evaluations = spent + pool.score_evaluations;
+    samples.density_evaluations = pool.density_evaluations;
+    samples.weights = options.weighted.then(|| pool.measure.shares(&samples.positions));
+    samples.certificate = options
+        .certificate
+        .then(|| Certificate::of_pool(&pool, &samples, best.drift, best.kinetic_energy));
+    samples.log_evidence = Some(pool.log_evidence);
+    samples.log_evidence_error = Some(pool.log_evidence_error);
+    samples.pareto_k = pool.verdict.pareto_k;
+    samples.pool = Some(Box::new(pool));
+    Ok(Some(samples))
+}
+
+/// Everything that was evaluated, weighed.
+fn surveyed<const D: usize>(
+    options: &MpmOptions,
+    target: &dyn Target<D>,
+    frame: &Frame<D>,
+    run: &Run,
+    observer: &mut dyn Observer,
+) -> Result<Option<Pool<D>>, SampleError> {
+    let pool_options = PoolOptions {
+        evaluations: options.evaluations,
+        ..PoolOptions::default()
+    };
+    let seed = run.generator(Stream::Survey.of_body(0)).random();
+    let given: Vec<Mixture<D>> = start_law(&run.start).into_iter().collect();
+    let mut watch = |_: &parvi_pool::Round| observer.after_step(Progress { step: 0, steps: 0 });
+    let explored = explore(target, frame, &given, run.particles, seed, &pool_options, &mut watch);
+    match explored {
+        Ok(pool) => {
+            let known = pool.measure.variance * (run.particles as f64) < WORTHLESS;
+            Ok(known.then_some(pool))
+        }
+        Err(PoolError::NowhereFinite) => Ok(None),
+        Err(PoolError::Interrupted { .. }) => Err(SampleError::Interrupted { step: 0 }),
+        Err(error) => Err(error.into()),
+    }
+}
+
+/// The law of the start, where the run has one of its own.
+fn start_law<const D: usize>(start: &Start) -> Option<Mixture<D>> {
+    if *start == Start::default() {
+        return None;
+    }
+    Mixture::new(vec![Kernel {
+        centre: [start.mean; D],
+        factor: Matrix::IDENTITY * start.standard_deviation,
+        share: 1.0,
+    }])
+}
