@@ -1,0 +1,74 @@
+//! Points, their log densities, and the density of everything that drew them.
+
+use crate::density::Density;
+use crate::lanes::{Group, LANES, Lanes, packed};
+use crate::mixture::Mixture;
+use crate::weights::{effective_size, tempered};
+
+/// Points that one series of proposals drew, weighed by the mixture of all of these (deterministic mixture weights).
+///
+/// With n_t points of proposal q_t and N = Σ n_t, a point weighs p(x) / Σ_t (n_t/N) q_t(x): A. B. Owen, Y. Zhou, *Safe and effective importance
+/// sampling*, J. Am. Stat. Assoc. 95, 2000; J.-M. Cornuet, J.-M. Marin, A. Mira, C. P. Robert, *Adaptive multiple importance sampling*, Scand. J. Stat. 39, 2012.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Fold<const D: usize> {
+    pub positions: Vec<[f64; D]>,
+    /// log p; −∞ where it is not a number to count with.
+    pub log_densities: Vec<f64>,
+    /// Σ_t n_t q_t(x).
+    sums: Vec<Lanes>,
+    groups: Vec<Group<D>>,
+    pub rounds: Vec<(usize, Mixture<D>)>,
+}
+
+impl<const D: usize> Fold<D> {
+    pub fn new() -> Self {
+        Self {
+            positions: Vec::new(),
+            log_densities: Vec::new(),
+            sums: Vec::new(),
+            groups: Vec::new(),
+            rounds: Vec::new(),
+        }
+    }
+
+    /// Draws about `count` points (whole groups) from a proposal, evaluates and adds them. Returns the effective size of the new points alone,
+    /// weighed by their own proposal alone, over their number.
+    pub fn draw(&mut self, density: &mut Density<'_, D>, proposal: Mixture<D>, count: usize, seed: u64) -> f64 {
+        let count = count.div_ceil(LANES) * LANES;
+        let points = proposal.draws(count, seed);
+        let values = density.log_densities(&points);
+        let groups = packed(&points);
+        let count = points.len() as f64;
+        proposal.add_density(&self.groups, count, &mut self.sums);
+        let mut own = proposal.densities(&groups);
+        let solo = log_ratios(&values, &own);
+        for value in own.as_flattened_mut() {
+            *value *= count;
+        }
+        for (earlier_count, earlier) in &self.rounds {
+            earlier.add_density(&groups, *earlier_count as f64, &mut own);
+        }
+        self.rounds.push((points.len(), proposal));
+        self.positions.extend(points);
+        self.log_densities.extend(values);
+        self.groups.extend(groups);
+        self.sums.extend(own);
+        effective_size(&tempered(&solo, 1.0)) / count.max(1.0)
+    }
+
+    /// log p(x) − log Σ_t n_t q_t(x): their exponentials sum to the estimate of the evidence.
+    pub fn log_weights(&self) -> Vec<f64> {
+        log_ratios(&self.log_densities, &self.sums)
+    }
+
+    /// The effective size of all weights.
+    pub fn effective_size(&self) -> f64 {
+        effective_size(&tempered(&self.log_weights(), 1.0))
+    }
+}
+
+/// log p − log q, −∞ where p vanishes.
+fn log_ratios(logs: &[f64], densities: &[Lanes]) -> Vec<f64> {
+    let ratio = |(log, density): (&f64, &f64)| log - density.max(f64::MIN_POSITIVE).ln();
+    logs.iter().zip(densities.as_flattened()).map(ratio).collect()
+}

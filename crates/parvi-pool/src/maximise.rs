@@ -1,0 +1,141 @@
+//! Kernels refined by expectation maximisation.
+
+use mpm_tensor::{Matrix, vector};
+
+use crate::lanes::{LANES, packed};
+use crate::mixture::{HALF_FREEDOM, Kernel, Mixture};
+use crate::sample::{Sample, root};
+use crate::weights::effective_size;
+
+/// Points a kernel's first covariance counts for.
+const PRIOR: f64 = 12.0;
+
+/// Responsibilities below this are left out.
+const SMALLEST: f64 = 1e-4;
+
+/// Groups of points that one task sums over.
+const CHUNK: usize = 32;
+
+/// A few steps of expectation maximisation of Σ w log q(x) over shares, centres and covariances of the mixture of t_ν kernels.
+///
+/// With responsibilities ρ and u = (ν + D)/(ν + r²): share ∝ Σ wρ, c = Σ wρu x / Σ wρu, Σ = (Σ wρu (x−c)(x−c)ᵀ + n₀ Ψ) / (Σ wρ + n₀), Ψ the kernel's
+/// first covariance, n₀ = 12. G. J. McLachlan, D. Peel, *Finite Mixture Models*, 2000, §7.5; for importance sampling O. Cappé, R. Douc, A. Guillin,
+/// J.-M. Marin, C. P. Robert, *Adaptive importance sampling in general mixture classes*, Stat. Comput. 18, 2008.
+pub(super) fn maximised<const D: usize>(sample: &Sample<D>, start: Mixture<D>, iterations: usize) -> Mixture<D> {
+    let groups = packed(&sample.points);
+    let first: Vec<Matrix<D>> = start
+        .kernels()
+        .iter()
+        .map(|k| k.factor * k.factor.transpose())
+        .collect();
+    // Weights in numbers of independent points.
+    let unit = effective_size(&sample.weights) / sample.weights.iter().sum::<f64>();
+    let mut mixture = start;
+    for _ in 0..iterations {
+        let sums = summed(sample, &groups, &mixture, unit);
+        let kernels = sums.iter().zip(&first).zip(mixture.kernels());
+        let kernels = kernels.map(|((sums, first), old)| sums.kernel(old, first)).collect();
+        match Mixture::new(kernels) {
+            Some(next) if next.kernels().len() == first.len() => mixture = next,
+            _ => break,
+        }
+    }
+    mixture
+}
+
+/// The sums over all points, for every kernel.
+fn summed<const D: usize>(
+    sample: &Sample<D>,
+    groups: &[crate::lanes::Group<D>],
+    mixture: &Mixture<D>,
+    unit: f64,
+) -> Vec<Sums<D>> {
+    let nu = 2.0 * f64::from(HALF_FREEDOM);
+    let count = mixture.kernels().len();
+    let part = |(groups, weights): (&[crate::lanes::Group<D>], &[f64])| {
+        let mut sums = vec![Sums::<D>::default(); count];
+        let mut shares = vec![([0.0; LANES], [0.0; LANES]); count];
+        for (group, weights) in groups.iter().zip(weights.chunks(LANES)) {
+            let mut total = [f64::MIN_POSITIVE; LANES];
+            mixture.each_kernel(group, |k, squares, density| {
+                shares[k] = (*squares, *density);
+                for lane in 0..LANES {
+                    total[lane] += density[lane];
+                }
+            });
+            let least = total.map(|total| SMALLEST * total);
+            for (k, (squares, density)) in shares.iter().enumerate() {
+                for lane in 0..weights.len() {
+                    if density[lane] > least[lane] {
+                        let centre = &mixture.kernels()[k].centre;
+                        let apart = std::array::from_fn(|axis| group[axis][lane] - centre[axis]);
+                        let mass = unit * weights[lane] * density[lane] / total[lane];
+                        sums[k].add(mass, mass * (nu + D as f64) / (nu + squares[lane]), &apart);
+                    }
+                }
+            }
+        }
+        sums
+    };
+    let tasks = groups.chunks(CHUNK).zip(sample.weights.chunks(CHUNK * LANES));
+    let parts: Vec<Vec<Sums<D>>> = mpm_parallel::map(tasks, &part);
+    let mut sums = vec![Sums::default(); count];
+    for part in &parts {
+        for (sum, part) in sums.iter_mut().zip(part) {
+            sum.merge(part);
+        }
+    }
+    sums
+}
+
+/// The sums of one kernel over the points: Σ wρ, Σ wρu, Σ wρu x, Σ wρu x xᵀ.
+#[derive(Clone, Copy)]
+struct Sums<const D: usize> {
+    mass: f64,
+    scaled: f64,
+    first: [f64; D],
+    second: Matrix<D>,
+}
+
+impl<const D: usize> Default for Sums<D> {
+    fn default() -> Self {
+        Self {
+            mass: 0.0,
+            scaled: 0.0,
+            first: [0.0; D],
+            second: Matrix::ZERO,
+        }
+    }
+}
+
+impl<const D: usize> Sums<D> {
+    /// A point `x` from the centre with w ρ and w ρ u.
+    fn add(&mut self, mass: f64, scaled: f64, x: &[f64; D]) {
+        self.mass += mass;
+        self.scaled += scaled;
+        vector::accumulate(&mut self.first, scaled, x);
+        for i in 0..D {
+            vector::accumulate(&mut self.second.0[i], scaled * x[i], x);
+        }
+    }
+
+    /// The kernel that these sums ask for.
+    fn kernel(&self, old: &Kernel<D>, first: &Matrix<D>) -> Kernel<D> {
+        let shift = vector::scale(&self.first, 1.0 / (self.scaled + f64::MIN_POSITIVE));
+        let about_centre = self.second + Matrix::outer(&shift, &shift) * (-self.scaled);
+        let covariance = (about_centre + *first * PRIOR) * (1.0 / (self.mass + PRIOR));
+        Kernel {
+            centre: vector::add(&old.centre, &shift),
+            factor: root(&covariance.symmetric_part()),
+            // No kernel dies out.
+            share: self.mass + 0.1,
+        }
+    }
+
+    fn merge(&mut self, other: &Self) {
+        self.mass += other.mass;
+        self.scaled += other.scaled;
+        vector::accumulate(&mut self.first, 1.0, &other.first);
+        self.second += other.second;
+    }
+}

@@ -1,0 +1,124 @@
+//! What a pool is asked for, and what it says on the way.
+
+/// Options of a pool.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PoolOptions {
+    /// Evaluations of all kinds (log densities and scores) at most; by default 25, 45, 80, 140 or 200 per particle in d = 2…6 and above, and at least 8,000.
+    pub evaluations: Option<u64>,
+    /// Effective size at which the pool is large enough, per particle.
+    pub effective_size: f64,
+    /// Scores sharpen the kernels where a round's effective share is below this.
+    pub sharpen_below: f64,
+}
+
+impl Default for PoolOptions {
+    fn default() -> Self {
+        Self {
+            evaluations: None,
+            effective_size: 10.0,
+            sharpen_below: 0.1,
+        }
+    }
+}
+
+/// Sizes that follow from the options.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Plan {
+    pub evaluations: u64,
+    /// Points of the first proposal, and of every round.
+    pub first: usize,
+    pub round: usize,
+    /// Fresh points at least.
+    pub referee: usize,
+    /// Effective size at which adaptation ends, and the whole ends.
+    pub adapted: f64,
+    pub goal: f64,
+}
+
+impl PoolOptions {
+    /// Sizes for this many particles.
+    pub(super) fn plan<const D: usize>(&self, particles: usize) -> Result<Plan, PoolError> {
+        let check = |field, value: f64, allowed: bool, expected| {
+            if allowed {
+                Ok(())
+            } else {
+                Err(PoolError::InvalidOption { field, value, expected })
+            }
+        };
+        check(
+            "particles",
+            particles as f64,
+            particles >= 2 && u32::try_from(particles).is_ok(),
+            "from 2 to 2^32 - 1",
+        )?;
+        let size = self.effective_size;
+        check(
+            "effective size",
+            size,
+            size > 0.0 && size.is_finite(),
+            "positive and finite",
+        )?;
+        check(
+            "sharpen below",
+            self.sharpen_below,
+            !self.sharpen_below.is_nan(),
+            "a number",
+        )?;
+        check("dimensions", D as f64, (1..=19).contains(&D), "from 1 to 19")?;
+        let per_particle = [10, 15, 25, 45, 80, 140, 200][D.min(6)];
+        let default = (per_particle * particles as u64).max(8_000);
+        let round = 250 * D + particles / 2;
+        Ok(Plan {
+            evaluations: self.evaluations.unwrap_or(default),
+            first: round * 3 / 2,
+            round,
+            referee: round,
+            adapted: 0.5 * size * particles as f64,
+            goal: size * particles as f64,
+        })
+    }
+}
+
+/// A round of a pool.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Round {
+    /// Number, from 1.
+    pub number: usize,
+    /// Evaluations so far, of all kinds.
+    pub evaluations: u64,
+    /// Effective size before the round.
+    pub effective_size: f64,
+    /// Effective size of the round's points alone over their number.
+    pub share: f64,
+    /// Kernels of a proposal.
+    pub kernels: usize,
+    /// Their width over the fitted one.
+    pub width: f64,
+    /// Whether scores sharpened the kernels.
+    pub sharpened: bool,
+}
+
+/// Why there is no pool.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PoolError {
+    /// An option is outside its range.
+    #[error("{field} = {value}: must be {expected}")]
+    InvalidOption {
+        /// The option's name.
+        field: &'static str,
+        /// The value given.
+        value: f64,
+        /// What is allowed.
+        expected: &'static str,
+    },
+    /// No point was found at which the log density is finite.
+    #[error("the log density is finite at none of the first points")]
+    NowhereFinite,
+    /// The observer stopped the exploration.
+    #[error("interrupted after round {round}")]
+    Interrupted {
+        /// Rounds done.
+        round: usize,
+    },
+}

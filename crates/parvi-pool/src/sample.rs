@@ -1,0 +1,96 @@
+//! Weighted points that a proposal is fitted to.
+
+use mpm_tensor::{Cholesky, Matrix, vector};
+
+use crate::weights::systematic;
+
+/// Distinct points with the number of times that each was resampled.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Sample<const D: usize> {
+    pub points: Vec<[f64; D]>,
+    pub weights: Vec<f64>,
+}
+
+impl<const D: usize> Sample<D> {
+    /// `count` of these points by systematic resampling.
+    pub fn resampled(points: &[[f64; D]], weights: &[f64], count: usize, offset: f64) -> Self {
+        let mut sample = Self {
+            points: Vec::new(),
+            weights: Vec::new(),
+        };
+        let mut last = None;
+        for index in systematic(weights, count, offset) {
+            match sample.weights.last_mut().filter(|_| last == Some(index)) {
+                Some(weight) => *weight += 1.0,
+                None => {
+                    sample.points.push(points[index]);
+                    sample.weights.push(1.0);
+                }
+            }
+            last = Some(index);
+        }
+        sample
+    }
+
+    /// Takes the points of another sample in.
+    pub fn join(&mut self, other: Self) {
+        self.points.extend(other.points);
+        self.weights.extend(other.weights);
+    }
+
+    /// Every third point for a check, the others to learn from.
+    pub fn split(&self) -> [Self; 2] {
+        let part = |checks: bool| {
+            let taken = || (0..self.points.len()).filter(move |i| (i % 3 == 1) == checks);
+            Self {
+                points: taken().map(|i| self.points[i]).collect(),
+                weights: taken().map(|i| self.weights[i]).collect(),
+            }
+        };
+        [part(false), part(true)]
+    }
+
+    /// Mean and covariance.
+    pub fn moments(&self) -> ([f64; D], Matrix<D>) {
+        moments(&self.points, &self.weights)
+    }
+}
+
+/// Mean and covariance of weighted points.
+pub(super) fn moments<const D: usize>(points: &[[f64; D]], weights: &[f64]) -> ([f64; D], Matrix<D>) {
+    let total: f64 = weights.iter().sum();
+    let weighted = || points.iter().zip(weights).filter(|(_, w)| **w > 0.0);
+    let mut mean = [0.0; D];
+    for (x, w) in weighted() {
+        vector::accumulate(&mut mean, w / total, x);
+    }
+    let mut covariance = Matrix::ZERO;
+    for (x, w) in weighted() {
+        let x = vector::subtract(x, &mean);
+        for i in 0..D {
+            vector::accumulate(&mut covariance.0[i], x[i] * w / total, &x);
+        }
+    }
+    (mean, covariance)
+}
+
+/// The Cholesky factor of a covariance, with as little of its diagonal added as makes it definite.
+pub(super) fn root<const D: usize>(covariance: &Matrix<D>) -> Matrix<D> {
+    let variance = |i: usize| {
+        Some(covariance.0[i][i])
+            .filter(|v| (1e-200..1e200).contains(v))
+            .unwrap_or(1e-200)
+    };
+    let mut ridge = 1e-12;
+    while ridge < 1.0 {
+        let mut matrix = *covariance;
+        for i in 0..D {
+            matrix.0[i][i] = (1.0 + ridge) * variance(i);
+        }
+        if let Ok(factor) = Cholesky::new(&matrix) {
+            return *factor.lower();
+        }
+        ridge *= 100.0;
+    }
+    Matrix::diagonal(&std::array::from_fn(|i| variance(i).sqrt()))
+}

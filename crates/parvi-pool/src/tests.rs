@@ -1,0 +1,154 @@
+//! What weights guarantee.
+
+use std::ops::ControlFlow;
+
+use mpm_tensor::Matrix;
+use parvi_targets::{Frame, Gaussian, Target};
+
+use crate::density::Density;
+use crate::fold::Fold;
+use crate::*;
+
+fn pool_of<const D: usize>(target: &dyn Target<D>, particles: usize, seed: u64) -> Result<Pool<D>, PoolError> {
+    let options = PoolOptions::default();
+    explore(target, &Frame::identity(), &[], particles, seed, &options, &mut |_| {
+        ControlFlow::Continue(())
+    })
+}
+
+/// A log density given by a function; its score is zero.
+struct Given<F>(F);
+
+impl<F: Fn(&[f64; 2]) -> f64 + Sync> Target<2> for Given<F> {
+    fn log_density(&self, x: &[f64; 2]) -> f64 {
+        self.0(x)
+    }
+    fn score(&self, _x: &[f64; 2]) -> [f64; 2] {
+        [f64::NAN, f64::INFINITY]
+    }
+}
+
+#[test]
+fn weights_over_two_proposals_are_unbiased() {
+    let target = Gaussian::<2>::standard();
+    let frame = Frame::identity();
+    let law = |centre, width| {
+        Mixture::new(vec![Kernel {
+            centre,
+            factor: Matrix::IDENTITY * width,
+            share: 1.0,
+        }])
+        .unwrap()
+    };
+    let runs = 200;
+    let mean = (0..runs)
+        .map(|seed| {
+            let mut density = Density::new(&target, &frame);
+            let mut fold = Fold::new();
+            fold.draw(&mut density, law([1.0, 0.0], 0.8), 64, seed);
+            fold.draw(&mut density, law([-1.0, 0.5], 1.2), 128, 1000 + seed);
+            fold.log_weights().iter().map(|l| l.exp()).sum::<f64>()
+        })
+        .sum::<f64>()
+        / runs as f64;
+    assert!((mean - 1.0).abs() < 0.005, "{mean}");
+}
+
+#[test]
+fn a_mixture_integrates_to_one_and_its_draws_are_its_own() {
+    // E_q[q'/q] = 1 for any normalised q'.
+    let kernel = |x: f64, width: f64| Kernel {
+        centre: [x, 0.0, -x],
+        factor: Matrix::IDENTITY * width,
+        share: width,
+    };
+    let wide = Mixture::new(vec![kernel(0.0, 2.0), kernel(1.0, 1.0)]).unwrap();
+    let other = Mixture::new(vec![kernel(0.5, 1.0)]).unwrap();
+    let groups = lanes::packed(&wide.draws(1 << 14, 3));
+    let (q, p) = (wide.densities(&groups), other.densities(&groups));
+    let ratios = p.as_flattened().iter().zip(q.as_flattened()).map(|(p, q)| p / q);
+    let mean = ratios.sum::<f64>() / f64::from(1 << 14);
+    assert!((mean - 1.0).abs() < 2e-3, "{mean}");
+}
+
+#[test]
+fn the_evidence_of_a_normal_law_is_one() {
+    for seed in 0..3 {
+        let pool = pool_of(&Gaussian::<2>::standard(), 300, seed).unwrap();
+        let verdict = pool.verdict;
+        assert!(
+            verdict.log_evidence.abs() < 4.0 * verdict.log_evidence_error,
+            "{verdict:?}"
+        );
+        assert!(pool.log_evidence.abs() < 0.02, "{}", pool.log_evidence);
+        let square = pool.expectation(|x| x[0] * x[0]);
+        assert!((square.value - 1.0).abs() < 5.0 * square.standard_error, "{square:?}");
+        assert!(pool.quantile(1, 0.5).abs() < 0.1);
+    }
+}
+
+#[test]
+fn the_same_bits_on_any_number_of_threads() {
+    let target = Gaussian::<4>::autoregressive(0.8).unwrap();
+    let run = |threads| {
+        let workers = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        workers.install(|| {
+            let pool = pool_of(&target, 100, 5).unwrap();
+            let particles = pool.condense(100);
+            (pool.weights, pool.verdict, particles)
+        })
+    };
+    assert!(run(1) == run(2));
+}
+
+#[test]
+fn densities_that_are_no_numbers_are_survived() {
+    let hostile = Given(|x: &[f64; 2]| {
+        let l = -0.5 * (x[0] * x[0] + x[1] * x[1]);
+        match (x[0] * 1e3) as i64 % 7 {
+            0 => f64::NAN,
+            1 => f64::INFINITY,
+            2 => 1e300,
+            3 => f64::NEG_INFINITY,
+            4 => -1e300,
+            _ => l,
+        }
+    });
+    let pool = pool_of(&hostile, 100, 1).unwrap();
+    assert!(pool.values_replaced > 0);
+    assert!(pool.weights.iter().all(|w| w.is_finite()));
+    assert!(pool.condense(100).as_flattened().iter().all(|c| c.is_finite()));
+    let nowhere = pool_of(&Given(|_: &[f64; 2]| f64::NAN), 100, 1);
+    assert_eq!(nowhere.err(), Some(PoolError::NowhereFinite));
+}
+
+#[test]
+fn options_out_of_range_are_refused() {
+    let target = Gaussian::<2>::standard();
+    let refused = pool_of(&target, 1, 0);
+    assert!(matches!(
+        refused.err(),
+        Some(PoolError::InvalidOption { field: "particles", .. })
+    ));
+}
+
+#[test]
+fn even_particles_are_a_proposal() {
+    let target = Gaussian::<2>::standard();
+    let frame = Frame::identity();
+    let points = Mixture::new(vec![Kernel {
+        centre: [0.0; 2],
+        factor: Matrix::IDENTITY,
+        share: 1.0,
+    }])
+    .unwrap()
+    .draws(500, 1);
+    let mut fold = Fold::new();
+    let share = fold.draw(
+        &mut Density::new(&target, &frame),
+        material(&points, 0.5).unwrap(),
+        2000,
+        2,
+    );
+    assert!(share > 0.8, "{share}");
+}
