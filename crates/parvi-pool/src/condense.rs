@@ -132,7 +132,8 @@ impl<const D: usize> Procedure<D> {
 
     /// Moves all points once; returns the largest move.
     fn iterate(&self, points: &mut Vec<[f64; D]>) -> f64 {
-        let moved: Vec<[f64; D]> = mpm_parallel::collect(points.len(), TOGETHER, &|index| self.moved(&points[index], points));
+        let moved: Vec<[f64; D]> =
+            mpm_parallel::collect(points.len(), TOGETHER, &|index| self.moved(&points[index], points));
         let moves = points.iter().zip(&moved).map(|(x, y)| vector::distance(x, y));
         let largest = moves.fold(0.0, f64::max);
         *points = moved;

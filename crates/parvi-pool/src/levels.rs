@@ -30,6 +30,11 @@ pub(super) fn level_sample<const D: usize>(fold: &Fold<D>, count: usize, offset:
             low = middle
         }
     }
-    let points: Vec<[f64; D]> = order[..high].iter().map(|&i| fold.positions[i]).collect();
-    Sample::resampled(&points, &weights_of(high), count, offset)
+    let chosen = &order[..high];
+    let level = Sample {
+        points: chosen.iter().map(|&i| fold.positions[i]).collect(),
+        weights: weights_of(high),
+        logs: vec![0.0; high],
+    };
+    level.resampled(count, offset)
 }

@@ -7,16 +7,16 @@ pub struct PoolOptions {
     pub evaluations: Option<u64>,
     /// Effective size at which the pool is large enough, per particle.
     pub effective_size: f64,
-    /// Scores sharpen the kernels where a round's effective share is below this.
-    pub sharpen_below: f64,
+    /// Walks enrich what proposals are fitted to where a round's effective share is below this.
+    pub enrich_below: f64,
 }
 
 impl Default for PoolOptions {
     fn default() -> Self {
         Self {
             evaluations: None,
-            effective_size: 10.0,
-            sharpen_below: 0.1,
+            effective_size: 8.0,
+            enrich_below: 0.25,
         }
     }
 }
@@ -59,9 +59,9 @@ impl PoolOptions {
             "positive and finite",
         )?;
         check(
-            "sharpen below",
-            self.sharpen_below,
-            !self.sharpen_below.is_nan(),
+            "enrich below",
+            self.enrich_below,
+            !self.enrich_below.is_nan(),
             "a number",
         )?;
         check("dimensions", D as f64, (1..=19).contains(&D), "from 1 to 19")?;
@@ -94,8 +94,8 @@ pub struct Round {
     pub kernels: usize,
     /// Their width over the fitted one.
     pub width: f64,
-    /// Whether scores sharpened the kernels.
-    pub sharpened: bool,
+    /// Whether walks enriched what the proposals were fitted to.
+    pub enriched: bool,
 }
 
 /// Why there is no pool.

@@ -1,0 +1,84 @@
+//! What a proposal is fitted to: resampled points of a fold, more of them by walks, and a few from a level set.
+
+use rand::RngExt;
+use rand::rngs::ChaCha8Rng;
+
+use crate::density::Density;
+use crate::enrich::{enriched, tempered_logs};
+use crate::fold::Fold;
+use crate::levels::level_sample;
+use crate::sample::Sample;
+use crate::weights::{effective_size, tempered, tempering};
+
+/// Weights are tempered to an effective size of this share of the points, but at most to `LARGEST_TEMPERED`.
+const TEMPERED_SHARE: f64 = 0.1;
+const LARGEST_TEMPERED: f64 = 400.0;
+
+/// and to no more than so many times the effective size without tempering, but at least to `SMALLEST_TEMPERED` per dimension.
+const LARGEST_GROWTH: f64 = 4.0;
+const SMALLEST_TEMPERED: f64 = 25.0;
+
+/// Points resampled at least and at most.
+const POINTS: [usize; 2] = [500, 10_000];
+
+/// Walks at least, and moves of each at least.
+const WALKS: usize = 50;
+const MOVES: usize = 6;
+
+/// A sample from the tempered weights, and one from a level set.
+pub(super) struct Learned<const D: usize> {
+    pub sample: Sample<D>,
+    pub level: Sample<D>,
+}
+
+/// What these folds teach; `walking`: evaluations that walks may take, 0 for none; `exploring`: the level set's share.
+pub(super) fn learn<const D: usize>(
+    source: &[&Fold<D>],
+    exploring: f64,
+    walking: usize,
+    density: &mut Density<'_, D>,
+    rng: &mut ChaCha8Rng,
+) -> Learned<D> {
+    let (points, values, logs) = joined(source);
+    let size = effective_size(&tempered(&logs, 1.0));
+    // Beyond a few times what is there, tempering would bring back what the rounds have left behind.
+    let wanted = (LARGEST_GROWTH * size).max(SMALLEST_TEMPERED * D as f64);
+    let gamma = tempering(
+        &logs,
+        wanted.min(LARGEST_TEMPERED).min(TEMPERED_SHARE * logs.len() as f64),
+    );
+    let weights = tempered(&logs, gamma);
+    let all = Sample {
+        logs: tempered_logs(&points, &values, source, gamma),
+        points,
+        weights,
+    };
+    let size = 2.0 * effective_size(&all.weights);
+    let count = (size as usize).clamp(POINTS[0], POINTS[1]);
+    let sample = if walking == 0 {
+        all.resampled(count, rng.random())
+    } else {
+        let walks = (size as usize).clamp(WALKS, (walking / MOVES).max(WALKS));
+        let starts = all.resampled(walks, rng.random()).repeated();
+        enriched(starts, source, gamma, walking / walks, density, rng)
+    };
+    let each = (exploring * count as f64) as usize / source.len();
+    let mut level = Sample::default();
+    for fold in source {
+        level.join(level_sample(fold, each, rng.random()));
+    }
+    Learned { sample, level }
+}
+
+/// Points, log densities and log weights of all folds; each estimates Z by itself, and they count by their effective sizes.
+fn joined<const D: usize>(source: &[&Fold<D>]) -> (Vec<[f64; D]>, Vec<f64>, Vec<f64>) {
+    let total: f64 = source.iter().map(|fold| fold.effective_size()).sum();
+    let (mut points, mut values, mut logs) = (Vec::new(), Vec::new(), Vec::new());
+    for fold in source {
+        let share = (fold.effective_size() / total).ln();
+        points.extend_from_slice(&fold.positions);
+        values.extend_from_slice(&fold.log_densities);
+        logs.extend(fold.log_weights().iter().map(|log| log + share));
+    }
+    (points, values, logs)
+}
