@@ -7,13 +7,13 @@ use crate::density::Density;
 use crate::fold::Fold;
 use crate::learn::learn;
 use crate::mixture::Mixture;
-use crate::options::{Plan, PoolError, PoolOptions, Round};
+use crate::options::{Plan, PoolError, Round};
 use crate::propose::{Form, best_form, proposal};
 use crate::scout::{Scouted, scout};
 
 /// Share of the points fitted to that come from a level set, and where the last round's effective share is above the bound.
-const EXPLORING: f64 = 0.05;
-const EXPLORING_LITTLE: f64 = 0.03;
+const EXPLORING: f64 = 0.12;
+const EXPLORING_LITTLE: f64 = 0.05;
 const GOOD_SHARE: f64 = 0.4;
 
 /// Effective share above which another round could gain nothing.
@@ -97,15 +97,9 @@ impl<const D: usize> Adaptation<D> {
         number: usize,
         density: &mut Density<'_, D>,
         plan: &Plan,
-        options: &PoolOptions,
         rng: &mut ChaCha8Rng,
     ) -> Result<Round, PoolError> {
-        let walks = number > 1 && self.share < options.enrich_below;
-        let walking = if walks {
-            (WALKING * plan.evaluations as f64) as usize
-        } else {
-            0
-        };
+        let walking = if number > 1 { plan.walking(self.share, self.sizes[1], WALKING) } else { 0 };
         let exploring = if self.share > GOOD_SHARE {
             EXPLORING_LITTLE
         } else {
@@ -138,7 +132,7 @@ impl<const D: usize> Adaptation<D> {
             share,
             kernels: form.kernels,
             width: form.width,
-            enriched: walks,
+            enriched: walking > 0,
         })
     }
 }

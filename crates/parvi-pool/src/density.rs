@@ -1,6 +1,8 @@
 //! The target as the pool sees it: in coordinates of the frame, every evaluation counted, nothing trusted.
 
-use mpm_tensor::vector;
+use std::collections::HashMap;
+
+use mpm_tensor::{Matrix, vector};
 use parvi_targets::{Frame, Target};
 
 /// Log densities beyond this size are taken for no numbers.
@@ -24,6 +26,8 @@ pub(super) struct Density<'a, const D: usize> {
     pub tape: Vec<f64>,
     /// Values of the tape that have been used.
     read: usize,
+    /// −∇² log p where it is known, by the bits of the point.
+    precisions: HashMap<[u64; D], Matrix<D>>,
 }
 
 impl<'a, const D: usize> Density<'a, D> {
@@ -37,6 +41,7 @@ impl<'a, const D: usize> Density<'a, D> {
             replaced: 0,
             tape,
             read: 0,
+            precisions: HashMap::new(),
         }
     }
 
@@ -110,6 +115,22 @@ impl<'a, const D: usize> Density<'a, D> {
     fn record(&mut self, values: &[f64]) {
         self.tape.extend_from_slice(values);
         self.read += values.len();
+    }
+
+    /// The points at which −∇² log p is not known.
+    pub fn without_precision(&self, points: &[[f64; D]]) -> Vec<usize> {
+        let is_unknown = |&i: &usize| !self.precisions.contains_key(&points[i].map(f64::to_bits));
+        (0..points.len()).filter(is_unknown).collect()
+    }
+
+    /// Remembers −∇² log p at a point.
+    pub fn keep_precision(&mut self, point: &[f64; D], precision: Matrix<D>) {
+        self.precisions.insert(point.map(f64::to_bits), precision);
+    }
+
+    /// −∇² log p as remembered; zero where it is not known.
+    pub fn precision(&self, point: &[f64; D]) -> Matrix<D> {
+        self.precisions.get(&point.map(f64::to_bits)).copied().unwrap_or(Matrix::ZERO)
     }
 
     /// Evaluations of all kinds.

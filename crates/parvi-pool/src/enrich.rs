@@ -1,10 +1,11 @@
 //! Samples enriched by moves: where few draws hit, a walk from those that did is the cheaper way to learn the shape of the target.
 
-use mpm_tensor::vector;
+use mpm_tensor::{Matrix, vector};
 use parvi_targets::normal_quantile;
 use rand::RngExt;
 use rand::rngs::ChaCha8Rng;
 
+use crate::curvature::sharpened;
 use crate::density::Density;
 use crate::fold::Fold;
 use crate::lanes::packed;
@@ -34,7 +35,13 @@ pub(super) fn enriched<const D: usize>(
     let mut points = sample.points.clone();
     let weights = sample.weights.clone();
     let mut logs = sample.logs.clone();
-    let factors: Vec<_> = local_covariances(&sample, &points, 12 * D).iter().map(root).collect();
+    let families = sample.families.clone();
+    let covariances = local_covariances(&sample, &points, 4 * D);
+    let factors: Vec<Matrix<D>> = covariances
+        .iter()
+        .zip(&sample.precisions)
+        .map(|(covariance, precision)| root(&sharpened(covariance, &precision.unwrap_or(Matrix::ZERO))))
+        .collect();
     let mut length = 2.4 / (D as f64).sqrt();
     for _ in 0..moves {
         let trials: Vec<[f64; D]> = points
@@ -60,6 +67,8 @@ pub(super) fn enriched<const D: usize>(
         sample.points.extend_from_slice(&points);
         sample.weights.extend_from_slice(&weights);
         sample.logs.extend_from_slice(&logs);
+        sample.families.extend_from_slice(&families);
+        sample.precisions.extend(families.iter().map(|_| None));
     }
     sample
 }

@@ -9,14 +9,18 @@ use crate::fold::Fold;
 use crate::lanes::{LANES, packed};
 use crate::learn::learn;
 use crate::mixture::{Kernel, Mixture};
-use crate::options::{Plan, PoolOptions};
-use crate::propose::{WHOLE, best_form, proposal};
+use crate::options::Plan;
+use crate::propose::{best_form, proposal};
 
 /// Share of the points fitted to that come from a level set.
-const EXPLORING: f64 = 0.03;
+const EXPLORING: f64 = 0.06;
 
 /// Share of the evaluations that walks may take.
 const WALKING: f64 = 0.2;
+
+/// Earlier proposals of each fold that are frozen too, and their share.
+const EARLIER: usize = 2;
+const EARLIER_SHARE: f64 = 0.4;
 
 /// The fold of fresh points, and whether they are covered.
 pub(super) struct Frozen<const D: usize> {
@@ -29,16 +33,11 @@ pub(super) fn freeze<const D: usize>(
     adapted: &Adaptation<D>,
     density: &mut Density<'_, D>,
     plan: &Plan,
-    options: &PoolOptions,
     rng: &mut ChaCha8Rng,
 ) -> Frozen<D> {
     let source = [&adapted.folds[0], &adapted.folds[1]];
-    let walks = adapted.share < options.enrich_below;
-    let walking = if walks {
-        (WALKING * plan.evaluations as f64) as usize
-    } else {
-        0
-    };
+    let size: f64 = source.iter().map(|fold| fold.effective_size()).sum();
+    let walking = plan.walking(adapted.share, size, WALKING);
     let mut learned = learn(&source, EXPLORING, walking, density, rng);
     let form = best_form(&learned.sample, adapted.form, rng);
     learned.sample.join(learned.level);
@@ -49,8 +48,7 @@ pub(super) fn freeze<const D: usize>(
             covered: Vec::new(),
         };
     };
-    let whole = frozen.kernels().last().copied();
-    let size: f64 = source.iter().map(|fold| fold.effective_size()).sum();
+    let (frozen, wholes) = with_earlier(frozen, &source);
     let pilot = fresh.draw(density, frozen.clone(), plan.referee, rng.random());
     // As many more as the effective size still lacks.
     let lacking = (plan.goal - size - pilot * plan.referee as f64).max(0.0) / pilot.max(0.01);
@@ -59,21 +57,44 @@ pub(super) fn freeze<const D: usize>(
     if more >= LANES {
         fresh.draw(density, frozen, more, rng.random());
     }
-    let covered = covered(&fresh, whole);
+    let covered = covered(&fresh, wholes);
     Frozen { fresh, covered }
 }
 
-/// Whether at the fresh points the kernel that stands for the sample as a whole is less than half of the frozen proposal.
-fn covered<const D: usize>(fresh: &Fold<D>, whole: Option<Kernel<D>>) -> Vec<bool> {
+/// This proposal together with the last ones of both folds: a hole of one fit is none of all. Also the kernels that stand for samples as a whole.
+fn with_earlier<const D: usize>(last: Mixture<D>, source: &[&Fold<D>; 2]) -> (Mixture<D>, Vec<Kernel<D>>) {
+    let mut kernels = Vec::new();
+    let mut wholes = Vec::new();
+    let mut add = |proposal: &Mixture<D>, share: f64| {
+        kernels.extend(proposal.kernels().iter().map(|kernel| Kernel {
+            share: share * kernel.share,
+            ..*kernel
+        }));
+        wholes.extend(proposal.kernels().last().map(|kernel| Kernel {
+            share: share * kernel.share,
+            ..*kernel
+        }));
+    };
+    for fold in source {
+        let first = fold.rounds.len().saturating_sub(EARLIER);
+        let share = EARLIER_SHARE / (2 * (fold.rounds.len() - first)) as f64;
+        fold.rounds[first..].iter().for_each(|(_, proposal)| add(proposal, share));
+    }
+    add(&last, 1.0 - EARLIER_SHARE);
+    (Mixture::new(kernels).unwrap_or(last), wholes)
+}
+
+/// Whether at the fresh points the kernels that stand for samples as a whole are less than half of the frozen proposal.
+fn covered<const D: usize>(fresh: &Fold<D>, wholes: Vec<Kernel<D>>) -> Vec<bool> {
     let groups = packed(&fresh.positions);
-    let (Some((_, frozen)), Some(whole)) = (fresh.rounds.first(), whole.and_then(|whole| Mixture::new(vec![whole])))
-    else {
+    let share: f64 = wholes.iter().map(|kernel| kernel.share).sum();
+    let (Some((_, frozen)), Some(whole)) = (fresh.rounds.first(), Mixture::new(wholes)) else {
         return vec![false; fresh.positions.len()];
     };
     let (all, whole) = (frozen.densities(&groups), whole.densities(&groups));
     let pairs = all.as_flattened().iter().zip(whole.as_flattened());
     pairs
         .take(fresh.positions.len())
-        .map(|(all, whole)| WHOLE * whole < 0.5 * all)
+        .map(|(all, whole)| share * whole < 0.5 * all)
         .collect()
 }

@@ -1,12 +1,15 @@
 //! What a proposal is fitted to: resampled points of a fold, more of them by walks, and a few from a level set.
 
+use mpm_tensor::Matrix;
 use rand::RngExt;
 use rand::rngs::ChaCha8Rng;
 
+use crate::curvature::precisions;
 use crate::density::Density;
 use crate::enrich::{enriched, tempered_logs};
 use crate::fold::Fold;
 use crate::levels::level_sample;
+use crate::neighbours::local_covariances;
 use crate::sample::Sample;
 use crate::weights::{effective_size, tempered, tempering};
 
@@ -23,7 +26,10 @@ const POINTS: [usize; 2] = [500, 10_000];
 
 /// Walks at least, and moves of each at least.
 const WALKS: usize = 50;
-const MOVES: usize = 6;
+const MOVES: usize = 3;
+
+/// Neighbours per dimension that bound the length of a move.
+const NEIGHBOURS: usize = 4;
 
 /// A sample from the tempered weights, and one from a level set.
 pub(super) struct Learned<const D: usize> {
@@ -50,6 +56,8 @@ pub(super) fn learn<const D: usize>(
     let weights = tempered(&logs, gamma);
     let all = Sample {
         logs: tempered_logs(&points, &values, source, gamma),
+        families: (0..points.len()).collect(),
+        precisions: vec![Some(Matrix::ZERO); points.len()],
         points,
         weights,
     };
@@ -58,9 +66,14 @@ pub(super) fn learn<const D: usize>(
     let sample = if walking == 0 {
         all.resampled(count, rng.random())
     } else {
-        let walks = (size as usize).clamp(WALKS, (walking / MOVES).max(WALKS));
-        let starts = all.resampled(walks, rng.random()).repeated();
-        enriched(starts, source, gamma, walking / walks, density, rng)
+        let walks = (size as usize).clamp(WALKS, (walking / (D + 1 + MOVES)).max(WALKS));
+        let mut starts = all.resampled(walks, rng.random());
+        let covariances = local_covariances(&starts, &starts.points, NEIGHBOURS * D);
+        let before = density.evaluations();
+        let found = precisions(density, &starts.points, &covariances);
+        starts.precisions = found.into_iter().map(|precision| Some(precision * gamma)).collect();
+        let moves = walking.saturating_sub((density.evaluations() - before) as usize) / walks;
+        enriched(starts.repeated(), source, gamma, moves, density, rng)
     };
     let each = (exploring * count as f64) as usize / source.len();
     let mut level = Sample::default();

@@ -1,5 +1,7 @@
 //! Exploring by levels: points spread evenly over where the density is above a level.
 
+use mpm_tensor::Matrix;
+
 use crate::fold::Fold;
 use crate::sample::Sample;
 use crate::weights::{effective_size, tempered};
@@ -35,6 +37,8 @@ pub(super) fn level_sample<const D: usize>(fold: &Fold<D>, count: usize, offset:
         points: chosen.iter().map(|&i| fold.positions[i]).collect(),
         weights: weights_of(high),
         logs: vec![0.0; high],
+        families: chosen.to_vec(),
+        precisions: vec![Some(Matrix::ZERO); high],
     };
     level.resampled(count, offset)
 }

@@ -7,6 +7,7 @@
 mod adapt;
 mod ascent;
 mod condense;
+mod curvature;
 mod density;
 mod enrich;
 mod estimate;
@@ -79,12 +80,12 @@ pub fn explore<const D: usize>(
     let mut number = 0;
     while !adaptation.is_over(&plan, density.evaluations()) {
         number += 1;
-        let round = adaptation.round(number, &mut density, &plan, options, &mut rng)?;
+        let round = adaptation.round(number, &mut density, &plan, &mut rng)?;
         if observer(&round, &density.tape).is_break() {
             return Err(PoolError::Interrupted { round: number });
         }
     }
-    let frozen = freeze(&adaptation, &mut density, &plan, options, &mut rng);
+    let frozen = freeze(&adaptation, &mut density, &plan, &mut rng);
     Ok(Pool::new(
         adaptation.folds,
         frozen.fresh,

@@ -1,10 +1,11 @@
 //! The next proposal: Student kernels fitted to a sample, as many and as wide as points that did not shape them like best.
 
-use mpm_tensor::vector;
+use mpm_tensor::{Matrix, vector};
 use parvi_targets::normal_quantile;
 use rand::RngExt;
 use rand::rngs::ChaCha8Rng;
 
+use crate::curvature::sharpened;
 use crate::lanes::packed;
 use crate::maximise::maximised;
 use crate::mixture::{HALF_FREEDOM, Kernel, Mixture};
@@ -22,12 +23,12 @@ const WIDTHS: [f64; 6] = [0.9, 1.0, 1.1, 1.2, 1.35, 1.6];
 
 /// Most kernels of one proposal, and the points that each of them needs.
 const MOST_KERNELS: usize = 800;
-const POINTS_PER_KERNEL: usize = 12;
+const POINTS_PER_KERNEL: usize = 8;
 
 /// Shares of the kernels twice and four times as wide, and of one as wide as the whole sample (whose root is stretched by the last number).
 const WIDER: f64 = 0.08;
 const WIDEST: f64 = 0.003;
-pub(super) const WHOLE: f64 = 0.05;
+const WHOLE: f64 = 0.05;
 const WHOLE_WIDTH: f64 = 1.5;
 
 /// How many kernels a proposal has and how wide they are, over what the fit says.
@@ -39,9 +40,13 @@ pub(super) struct Form {
 
 /// Kernels about resampled points, with covariances from their neighbours, refined.
 fn fitted<const D: usize>(sample: &Sample<D>, count: usize, rng: &mut ChaCha8Rng) -> Option<Mixture<D>> {
-    let centres = sample.resampled(count, rng.random()).points;
+    let chosen = sample.seats().resampled(count, rng.random());
     let neighbours = (12 * D).max(sample.points.len() / (2 * count.max(1)));
-    let covariances = local_covariances(sample, &centres, neighbours);
+    let covariances: Vec<Matrix<D>> = local_covariances(sample, &chosen.points, neighbours)
+        .iter()
+        .zip(&chosen.precisions)
+        .map(|(covariance, precision)| sharpened(covariance, &precision.unwrap_or(Matrix::ZERO)))
+        .collect();
     // The covariance of t_ν is ν/(ν − 2) of its scale matrix.
     let normal = (1.0 - 1.0 / f64::from(HALF_FREEDOM)).sqrt();
     let kernel = |(centre, covariance)| {
@@ -53,7 +58,7 @@ fn fitted<const D: usize>(sample: &Sample<D>, count: usize, rng: &mut ChaCha8Rng
             share: 1.0,
         }
     };
-    let kernels = centres.iter().zip(&covariances).map(kernel).collect();
+    let kernels = chosen.points.iter().zip(&covariances).map(kernel).collect();
     Some(maximised(sample, Mixture::new(kernels)?, ITERATIONS))
 }
 
@@ -88,7 +93,7 @@ pub(super) fn best_form<const D: usize>(sample: &Sample<D>, last: Option<Form>, 
     let groups = packed(&check.points);
     let most = (sample.points.len() / POINTS_PER_KERNEL).clamp(1, MOST_KERNELS);
     let mut counts = match last {
-        Some(form) => [form.kernels / 2, form.kernels, 2 * form.kernels]
+        Some(form) => [form.kernels / 2, form.kernels, 2 * form.kernels, 4 * form.kernels]
             .map(|count| count.clamp(1, most))
             .to_vec(),
         None => std::iter::successors(Some(1), |count| Some(3 * count))
