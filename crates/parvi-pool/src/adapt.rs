@@ -26,9 +26,9 @@ const PATIENCE: usize = 2;
 /// Standard errors by which the folds' log Z may differ.
 const AGREEMENT: f64 = 3.0;
 
-/// Shares of the evaluations that scouts, one fold's walks in one round, and all rounds together may take.
+/// Shares of the evaluations that scouts, the walks of one round, and all rounds together may take.
 const SCOUTING: f64 = 0.05;
-const WALKING: f64 = 0.025;
+const WALKING: f64 = 0.05;
 const ADAPTING: f64 = 0.5;
 
 /// The two folds while they adapt.
@@ -38,6 +38,8 @@ pub(super) struct Adaptation<const D: usize> {
     pub form: Option<Form>,
     /// Effective share of the last round.
     pub share: f64,
+    /// Whether a proposal was fitted to points of the fold that it drew for.
+    pub mingled: bool,
     best: f64,
     without_advance: usize,
     /// Effective sizes before the last round and after it.
@@ -71,6 +73,7 @@ impl<const D: usize> Adaptation<D> {
             folds,
             form: None,
             share: 0.0,
+            mingled: false,
             best: 0.0,
             without_advance: 0,
             sizes: [0.0, size],
@@ -81,7 +84,8 @@ impl<const D: usize> Adaptation<D> {
     pub fn is_over(&self, plan: &Plan, spent: u64) -> bool {
         let used_up = spent as f64 > ADAPTING * plan.evaluations as f64;
         let collapsed = self.sizes[1] < 0.7 * self.sizes[0];
-        let settled = self.share > BEST_SHARE || self.without_advance >= PATIENCE || self.sizes[1] > plan.adapted;
+        let in_reach = (plan.goal - self.sizes[1]) < self.share * (plan.evaluations.saturating_sub(spent)) as f64;
+        let settled = self.share > BEST_SHARE || in_reach && self.without_advance >= PATIENCE || !self.mingled && self.sizes[1] > plan.adapted;
         used_up || settled && !collapsed && self.agree()
     }
 
@@ -106,15 +110,17 @@ impl<const D: usize> Adaptation<D> {
             EXPLORING
         };
         let mut share = 0.0;
-        for side in 0..2 {
-            let [one, other] = &mut self.folds;
-            let (fold, source) = if side == 0 { (one, other) } else { (other, one) };
-            let mut learned = learn(&[source], exploring, walking, density, rng);
-            let form = best_form(&learned.sample, self.form, rng);
-            learned.sample.join(learned.level);
-            let proposal = proposal(&learned.sample, form, rng).ok_or(PoolError::NowhereFinite)?;
-            self.form = Some(form);
-            share += 0.5 * fold.draw(density, proposal, plan.round / 2, rng.random());
+        if walking > 0 {
+            self.mingled = true;
+            let proposal = self.proposal(&[0, 1], exploring, walking, density, rng)?;
+            for fold in &mut self.folds {
+                share += 0.5 * fold.draw(density, proposal.clone(), plan.round / 2, rng.random());
+            }
+        } else {
+            for side in 0..2 {
+                let proposal = self.proposal(&[1 - side], exploring, 0, density, rng)?;
+                share += 0.5 * self.folds[side].draw(density, proposal, plan.round / 2, rng.random());
+            }
         }
         self.share = share;
         self.without_advance = if share > ADVANCE * self.best {
@@ -134,5 +140,22 @@ impl<const D: usize> Adaptation<D> {
             width: form.width,
             enriched: walking > 0,
         })
+    }
+
+    /// A proposal fitted to the points of these folds, after walks of so many evaluations.
+    fn proposal(
+        &mut self,
+        sources: &[usize],
+        exploring: f64,
+        walking: usize,
+        density: &mut Density<'_, D>,
+        rng: &mut ChaCha8Rng,
+    ) -> Result<Mixture<D>, PoolError> {
+        let source: Vec<&Fold<D>> = sources.iter().map(|&side| &self.folds[side]).collect();
+        let mut learned = learn(&source, exploring, walking, density, rng);
+        let form = best_form(&learned.sample, self.form, rng);
+        learned.sample.join(learned.level);
+        self.form = Some(form);
+        proposal(&learned.sample, form, rng).ok_or(PoolError::NowhereFinite)
     }
 }

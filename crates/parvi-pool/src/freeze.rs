@@ -37,6 +37,8 @@ pub(super) fn freeze<const D: usize>(
 ) -> Frozen<D> {
     let source = [&adapted.folds[0], &adapted.folds[1]];
     let size: f64 = source.iter().map(|fold| fold.effective_size()).sum();
+    // Weights of points that shaped the proposals of their own fold are biased: only fresh points count.
+    let size = if adapted.mingled { 0.0 } else { size };
     let walking = plan.walking(adapted.share, size, WALKING);
     let mut learned = learn(&source, EXPLORING, walking, density, rng);
     let form = best_form(&learned.sample, adapted.form, rng);

@@ -28,6 +28,9 @@ const POINTS: [usize; 2] = [500, 10_000];
 const WALKS: usize = 50;
 const MOVES: usize = 3;
 
+/// Share of the walks that begin in a level set.
+const LEVEL_WALKS: f64 = 0.3;
+
 /// Neighbours per dimension that bound the length of a move.
 const NEIGHBOURS: usize = 4;
 
@@ -63,24 +66,29 @@ pub(super) fn learn<const D: usize>(
     };
     let size = 2.0 * effective_size(&all.weights);
     let count = (size as usize).clamp(POINTS[0], POINTS[1]);
-    let sample = if walking == 0 {
-        all.resampled(count, rng.random())
-    } else {
-        let walks = (size as usize).clamp(WALKS, (walking / (D + 1 + MOVES)).max(WALKS));
-        let mut starts = all.resampled(walks, rng.random());
-        let covariances = local_covariances(&starts, &starts.points, NEIGHBOURS * D);
-        let before = density.evaluations();
-        let found = precisions(density, &starts.points, &covariances);
-        starts.precisions = found.into_iter().map(|precision| Some(precision * gamma)).collect();
-        let moves = walking.saturating_sub((density.evaluations() - before) as usize) / walks;
-        enriched(starts.repeated(), source, gamma, moves, density, rng)
-    };
-    let each = (exploring * count as f64) as usize / source.len();
     let mut level = Sample::default();
-    for fold in source {
-        level.join(level_sample(fold, each, rng.random()));
+    let mut add_level = |count: usize| {
+        for fold in source {
+            level.join(level_sample(fold, count / source.len(), rng.random()));
+        }
+        level.logs = tempered_logs(&level.points, &level.logs, source, gamma);
+    };
+    if walking == 0 {
+        add_level((exploring * count as f64) as usize);
+        let sample = all.resampled(count, rng.random());
+        return Learned { sample, level };
     }
-    Learned { sample, level }
+    let walks = (size as usize).clamp(WALKS, (walking / (D + 1 + MOVES)).max(WALKS));
+    add_level((LEVEL_WALKS * walks as f64) as usize);
+    let mut starts = all.resampled(walks - level.points.len().min(walks), rng.random());
+    starts.join(level);
+    let covariances = local_covariances(&starts, &starts.points, NEIGHBOURS * D);
+    let before = density.evaluations();
+    let found = precisions(density, &starts.points, &covariances);
+    starts.precisions = found.into_iter().map(|precision| Some(precision * gamma)).collect();
+    let moves = walking.saturating_sub((density.evaluations() - before) as usize) / walks;
+    let sample = enriched(starts.repeated(), source, gamma, moves, density, rng);
+    Learned { sample, level: Sample::default() }
 }
 
 /// Points, log densities and log weights of all folds; each estimates Z by itself, and they count by their effective sizes.

@@ -36,7 +36,7 @@ pub(super) fn level_sample<const D: usize>(fold: &Fold<D>, count: usize, offset:
     let level = Sample {
         points: chosen.iter().map(|&i| fold.positions[i]).collect(),
         weights: weights_of(high),
-        logs: vec![0.0; high],
+        logs: chosen.iter().map(|&i| fold.log_densities[i]).collect(),
         families: chosen.to_vec(),
         precisions: vec![Some(Matrix::ZERO); high],
     };

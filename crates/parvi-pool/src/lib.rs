@@ -45,6 +45,7 @@ use rand::rngs::ChaCha8Rng;
 
 use adapt::Adaptation;
 use density::Density;
+use fold::Fold;
 use freeze::freeze;
 
 /// Stream of the pool's random numbers.
@@ -86,8 +87,9 @@ pub fn explore<const D: usize>(
         }
     }
     let frozen = freeze(&adaptation, &mut density, &plan, &mut rng);
+    let folds = if adaptation.mingled { Default::default() } else { adaptation.folds };
     Ok(Pool::new(
-        adaptation.folds,
+        folds,
         frozen.fresh,
         &frozen.covered,
         frame,

@@ -23,7 +23,7 @@ const WIDTHS: [f64; 6] = [0.9, 1.0, 1.1, 1.2, 1.35, 1.6];
 
 /// Most kernels of one proposal, and the points that each of them needs.
 const MOST_KERNELS: usize = 800;
-const POINTS_PER_KERNEL: usize = 8;
+const POINTS_PER_KERNEL: usize = 4;
 
 /// Shares of the kernels twice and four times as wide, and of one as wide as the whole sample (whose root is stretched by the last number).
 const WIDER: f64 = 0.08;
