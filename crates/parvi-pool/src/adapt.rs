@@ -28,8 +28,8 @@ const AGREEMENT: f64 = 3.0;
 
 /// Shares of the evaluations that scouts, the walks of one round, and all rounds together may take.
 const SCOUTING: f64 = 0.05;
-const WALKING: f64 = 0.05;
-const ADAPTING: f64 = 0.5;
+const WALKING: f64 = 0.02;
+const ADAPTING: f64 = 0.75;
 
 /// The two folds while they adapt.
 pub(super) struct Adaptation<const D: usize> {
@@ -38,8 +38,8 @@ pub(super) struct Adaptation<const D: usize> {
     pub form: Option<Form>,
     /// Effective share of the last round.
     pub share: f64,
-    /// Whether a proposal was fitted to points of the fold that it drew for.
-    pub mingled: bool,
+    /// Effective shares of the folds' rounds.
+    pub shares: [Vec<f64>; 2],
     best: f64,
     without_advance: usize,
     /// Effective sizes before the last round and after it.
@@ -73,7 +73,7 @@ impl<const D: usize> Adaptation<D> {
             folds,
             form: None,
             share: 0.0,
-            mingled: false,
+            shares: [vec![0.0; 1 + given.len()], vec![0.0; 1 + given.len()]],
             best: 0.0,
             without_advance: 0,
             sizes: [0.0, size],
@@ -85,7 +85,7 @@ impl<const D: usize> Adaptation<D> {
         let used_up = spent as f64 > ADAPTING * plan.evaluations as f64;
         let collapsed = self.sizes[1] < 0.7 * self.sizes[0];
         let in_reach = (plan.goal - self.sizes[1]) < self.share * (plan.evaluations.saturating_sub(spent)) as f64;
-        let settled = self.share > BEST_SHARE || in_reach && self.without_advance >= PATIENCE || !self.mingled && self.sizes[1] > plan.adapted;
+        let settled = self.share > BEST_SHARE || in_reach && self.without_advance >= PATIENCE || self.sizes[1] > plan.adapted;
         used_up || settled && !collapsed && self.agree()
     }
 
@@ -110,17 +110,11 @@ impl<const D: usize> Adaptation<D> {
             EXPLORING
         };
         let mut share = 0.0;
-        if walking > 0 {
-            self.mingled = true;
-            let proposal = self.proposal(&[0, 1], exploring, walking, density, rng)?;
-            for fold in &mut self.folds {
-                share += 0.5 * fold.draw(density, proposal.clone(), plan.round / 2, rng.random());
-            }
-        } else {
-            for side in 0..2 {
-                let proposal = self.proposal(&[1 - side], exploring, 0, density, rng)?;
-                share += 0.5 * self.folds[side].draw(density, proposal, plan.round / 2, rng.random());
-            }
+        for side in 0..2 {
+            let proposal = self.proposal(1 - side, exploring, walking, density, rng)?;
+            let drawn = self.folds[side].draw(density, proposal, plan.round / 2, rng.random());
+            self.shares[side].push(drawn);
+            share += 0.5 * drawn;
         }
         self.share = share;
         self.without_advance = if share > ADVANCE * self.best {
@@ -142,18 +136,17 @@ impl<const D: usize> Adaptation<D> {
         })
     }
 
-    /// A proposal fitted to the points of these folds, after walks of so many evaluations.
+    /// A proposal fitted to the points of this fold, after walks of so many evaluations.
     fn proposal(
         &mut self,
-        sources: &[usize],
+        side: usize,
         exploring: f64,
         walking: usize,
         density: &mut Density<'_, D>,
         rng: &mut ChaCha8Rng,
     ) -> Result<Mixture<D>, PoolError> {
-        let source: Vec<&Fold<D>> = sources.iter().map(|&side| &self.folds[side]).collect();
-        let mut learned = learn(&source, exploring, walking, density, rng);
-        let form = best_form(&learned.sample, self.form, rng);
+        let mut learned = learn(&[&self.folds[side]], exploring, walking, density, rng);
+        let form = best_form(&learned.sample, self.form, walking > 0, rng);
         learned.sample.join(learned.level);
         self.form = Some(form);
         proposal(&learned.sample, form, rng).ok_or(PoolError::NowhereFinite)

@@ -16,10 +16,10 @@ use crate::propose::{best_form, proposal};
 const EXPLORING: f64 = 0.06;
 
 /// Share of the evaluations that walks may take.
-const WALKING: f64 = 0.2;
+const WALKING: f64 = 0.05;
 
 /// Earlier proposals of each fold that are frozen too, and their share.
-const EARLIER: usize = 2;
+const EARLIER: usize = 6;
 const EARLIER_SHARE: f64 = 0.4;
 
 /// The fold of fresh points, and whether they are covered.
@@ -37,11 +37,9 @@ pub(super) fn freeze<const D: usize>(
 ) -> Frozen<D> {
     let source = [&adapted.folds[0], &adapted.folds[1]];
     let size: f64 = source.iter().map(|fold| fold.effective_size()).sum();
-    // Weights of points that shaped the proposals of their own fold are biased: only fresh points count.
-    let size = if adapted.mingled { 0.0 } else { size };
     let walking = plan.walking(adapted.share, size, WALKING);
     let mut learned = learn(&source, EXPLORING, walking, density, rng);
-    let form = best_form(&learned.sample, adapted.form, rng);
+    let form = best_form(&learned.sample, adapted.form, walking > 0, rng);
     learned.sample.join(learned.level);
     let mut fresh = Fold::new();
     let Some(frozen) = proposal(&learned.sample, form, rng) else {
@@ -50,7 +48,7 @@ pub(super) fn freeze<const D: usize>(
             covered: Vec::new(),
         };
     };
-    let (frozen, wholes) = with_earlier(frozen, &source);
+    let (frozen, wholes) = with_earlier(frozen, adapted);
     let pilot = fresh.draw(density, frozen.clone(), plan.referee, rng.random());
     // As many more as the effective size still lacks.
     let lacking = (plan.goal - size - pilot * plan.referee as f64).max(0.0) / pilot.max(0.01);
@@ -64,7 +62,7 @@ pub(super) fn freeze<const D: usize>(
 }
 
 /// This proposal together with the last ones of both folds: a hole of one fit is none of all. Also the kernels that stand for samples as a whole.
-fn with_earlier<const D: usize>(last: Mixture<D>, source: &[&Fold<D>; 2]) -> (Mixture<D>, Vec<Kernel<D>>) {
+fn with_earlier<const D: usize>(last: Mixture<D>, adapted: &Adaptation<D>) -> (Mixture<D>, Vec<Kernel<D>>) {
     let mut kernels = Vec::new();
     let mut wholes = Vec::new();
     let mut add = |proposal: &Mixture<D>, share: f64| {
@@ -77,10 +75,13 @@ fn with_earlier<const D: usize>(last: Mixture<D>, source: &[&Fold<D>; 2]) -> (Mi
             ..*kernel
         }));
     };
-    for fold in source {
+    let rounds = adapted.folds.iter().zip(&adapted.shares).flat_map(|(fold, shares)| {
         let first = fold.rounds.len().saturating_sub(EARLIER);
-        let share = EARLIER_SHARE / (2 * (fold.rounds.len() - first)) as f64;
-        fold.rounds[first..].iter().for_each(|(_, proposal)| add(proposal, share));
+        fold.rounds[first..].iter().zip(&shares[first..])
+    });
+    let total: f64 = rounds.clone().map(|(_, share)| share).sum();
+    for ((_, proposal), share) in rounds {
+        add(proposal, EARLIER_SHARE * share / total.max(f64::MIN_POSITIVE));
     }
     add(&last, 1.0 - EARLIER_SHARE);
     (Mixture::new(kernels).unwrap_or(last), wholes)

@@ -87,9 +87,8 @@ pub fn explore<const D: usize>(
         }
     }
     let frozen = freeze(&adaptation, &mut density, &plan, &mut rng);
-    let folds = if adaptation.mingled { Default::default() } else { adaptation.folds };
     Ok(Pool::new(
-        folds,
+        adaptation.folds,
         frozen.fresh,
         &frozen.covered,
         frame,

@@ -88,11 +88,12 @@ fn defended<const D: usize>(sample: &Sample<D>, fitted: &Mixture<D>, width: f64)
 /// The form under which points set aside come out best, by the least Σ w (p/q)^{1/2}: between the likelihood, which cares little for
 /// points that q forgets, and the variance of the weights, which hangs on a few of them. As many kernels as the last time, half or twice as many; any number
 /// the first time.
-pub(super) fn best_form<const D: usize>(sample: &Sample<D>, last: Option<Form>, rng: &mut ChaCha8Rng) -> Form {
+pub(super) fn best_form<const D: usize>(sample: &Sample<D>, last: Option<Form>, walked: bool, rng: &mut ChaCha8Rng) -> Form {
     let [training, check] = sample.split();
     let groups = packed(&check.points);
     let most = (sample.points.len() / POINTS_PER_KERNEL).clamp(1, MOST_KERNELS);
     let mut counts = match last {
+        _ if walked => vec![sample.seats().points.len()],
         Some(form) => [form.kernels / 2, form.kernels, 2 * form.kernels, 4 * form.kernels]
             .map(|count| count.clamp(1, most))
             .to_vec(),
