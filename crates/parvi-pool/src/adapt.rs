@@ -26,9 +26,9 @@ const PATIENCE: usize = 2;
 /// Standard errors by which the folds' log Z may differ.
 const AGREEMENT: f64 = 3.0;
 
-/// Shares of the evaluations that scouts, the walks of one round, and all rounds together may take.
+/// Shares of the evaluations that scouts, the scores of one round, and all rounds together may take.
 const SCOUTING: f64 = 0.05;
-const WALKING: f64 = 0.02;
+const SHARPENING: f64 = 0.02;
 const ADAPTING: f64 = 0.75;
 
 /// The two folds while they adapt.
@@ -103,7 +103,7 @@ impl<const D: usize> Adaptation<D> {
         plan: &Plan,
         rng: &mut ChaCha8Rng,
     ) -> Result<Round, PoolError> {
-        let walking = if number > 1 { plan.walking(self.share, self.sizes[1], WALKING) } else { 0 };
+        let sharpening = if number > 1 { plan.sharpening(self.share, self.sizes[1], SHARPENING) } else { 0 };
         let exploring = if self.share > GOOD_SHARE {
             EXPLORING_LITTLE
         } else {
@@ -111,7 +111,7 @@ impl<const D: usize> Adaptation<D> {
         };
         let mut share = 0.0;
         for side in 0..2 {
-            let proposal = self.proposal(1 - side, exploring, walking, density, rng)?;
+            let proposal = self.proposal(1 - side, exploring, sharpening, density, rng)?;
             let drawn = self.folds[side].draw(density, proposal, plan.round / 2, rng.random());
             self.shares[side].push(drawn);
             share += 0.5 * drawn;
@@ -132,7 +132,7 @@ impl<const D: usize> Adaptation<D> {
             share,
             kernels: form.kernels,
             width: form.width,
-            enriched: walking > 0,
+            sharpened: sharpening > 0,
         })
     }
 
@@ -141,12 +141,12 @@ impl<const D: usize> Adaptation<D> {
         &mut self,
         side: usize,
         exploring: f64,
-        walking: usize,
+        sharpening: usize,
         density: &mut Density<'_, D>,
         rng: &mut ChaCha8Rng,
     ) -> Result<Mixture<D>, PoolError> {
-        let mut learned = learn(&[&self.folds[side]], exploring, walking, density, rng);
-        let form = best_form(&learned.sample, self.form, walking > 0, rng);
+        let mut learned = learn(&[&self.folds[side]], exploring, sharpening, density, rng);
+        let form = best_form(&learned.sample, self.form, sharpening > 0, rng);
         learned.sample.join(learned.level);
         self.form = Some(form);
         proposal(&learned.sample, form, rng).ok_or(PoolError::NowhereFinite)

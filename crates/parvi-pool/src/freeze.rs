@@ -16,7 +16,7 @@ use crate::propose::{best_form, proposal};
 const EXPLORING: f64 = 0.06;
 
 /// Share of the evaluations that walks may take.
-const WALKING: f64 = 0.05;
+const SHARPENING: f64 = 0.05;
 
 /// Earlier proposals of each fold that are frozen too, and their share.
 const EARLIER: usize = 6;
@@ -37,9 +37,9 @@ pub(super) fn freeze<const D: usize>(
 ) -> Frozen<D> {
     let source = [&adapted.folds[0], &adapted.folds[1]];
     let size: f64 = source.iter().map(|fold| fold.effective_size()).sum();
-    let walking = plan.walking(adapted.share, size, WALKING);
-    let mut learned = learn(&source, EXPLORING, walking, density, rng);
-    let form = best_form(&learned.sample, adapted.form, walking > 0, rng);
+    let sharpening = plan.sharpening(adapted.share, size, SHARPENING);
+    let mut learned = learn(&source, EXPLORING, sharpening, density, rng);
+    let form = best_form(&learned.sample, adapted.form, sharpening > 0, rng);
     learned.sample.join(learned.level);
     let mut fresh = Fold::new();
     let Some(frozen) = proposal(&learned.sample, form, rng) else {

@@ -1,4 +1,4 @@
-//! What a proposal is fitted to: resampled points of a fold, more of them by walks, and a few from a level set.
+//! What a proposal is fitted to: resampled points of a fold, the curvature at some of them, and a few from a level set.
 
 use mpm_tensor::Matrix;
 use rand::RngExt;
@@ -6,12 +6,12 @@ use rand::rngs::ChaCha8Rng;
 
 use crate::curvature::precisions;
 use crate::density::Density;
-use crate::enrich::{enriched, tempered_logs};
 use crate::fold::Fold;
+use crate::lanes::{LANES, packed};
 use crate::levels::level_sample;
 use crate::neighbours::local_covariances;
 use crate::sample::Sample;
-use crate::weights::{effective_size, tempered, tempering};
+use crate::weights::{effective_size, systematic, tempered, tempering};
 
 /// Weights are tempered to an effective size of this share of the points, but at most to `LARGEST_TEMPERED`.
 const TEMPERED_SHARE: f64 = 0.1;
@@ -24,13 +24,6 @@ const SMALLEST_TEMPERED: f64 = 25.0;
 /// Points resampled at least and at most.
 const POINTS: [usize; 2] = [500, 10_000];
 
-/// Walks at least, and moves of each at least.
-const WALKS: usize = 50;
-const MOVES: usize = 3;
-
-/// Share of the walks that begin in a level set.
-const LEVEL_WALKS: f64 = 0.3;
-
 /// Neighbours per dimension that bound the length of a move.
 const NEIGHBOURS: usize = 4;
 
@@ -40,11 +33,11 @@ pub(super) struct Learned<const D: usize> {
     pub level: Sample<D>,
 }
 
-/// What these folds teach; `walking`: evaluations that walks may take, 0 for none; `exploring`: the level set's share.
+/// What these folds teach; `sharpening`: scores that the curvature at places for kernels may take, 0 for none; `exploring`: the level set's share.
 pub(super) fn learn<const D: usize>(
     source: &[&Fold<D>],
     exploring: f64,
-    walking: usize,
+    sharpening: usize,
     density: &mut Density<'_, D>,
     rng: &mut ChaCha8Rng,
 ) -> Learned<D> {
@@ -73,21 +66,23 @@ pub(super) fn learn<const D: usize>(
         }
         level.logs = tempered_logs(&level.points, &level.logs, source, gamma);
     };
-    if walking == 0 {
+    if sharpening == 0 {
         add_level((exploring * count as f64) as usize);
         let sample = all.resampled(count, rng.random());
         return Learned { sample, level };
     }
-    let walks = (size as usize).clamp(WALKS, (walking / (D + 1 + MOVES)).max(WALKS));
-    add_level((LEVEL_WALKS * walks as f64) as usize);
-    let mut starts = all.resampled(walks - level.points.len().min(walks), rng.random());
-    starts.join(level);
-    let covariances = local_covariances(&starts, &starts.points, NEIGHBOURS * D);
-    let before = density.evaluations();
-    let found = precisions(density, &starts.points, &covariances);
-    starts.precisions = found.into_iter().map(|precision| Some(precision * gamma)).collect();
-    let moves = walking.saturating_sub((density.evaluations() - before) as usize) / walks;
-    let sample = enriched(starts.repeated(), source, gamma, moves, density, rng);
+    add_level((exploring * count as f64) as usize);
+    let mut sample = all.resampled(count, rng.random());
+    sample.join(level);
+    let mut seats = systematic(&sample.weights, sharpening / (D + 1), rng.random());
+    seats.dedup();
+    let points: Vec<[f64; D]> = seats.iter().map(|&i| sample.points[i]).collect();
+    let covariances = local_covariances(&sample, &points, NEIGHBOURS * D);
+    let found = precisions(density, &points, &covariances);
+    sample.precisions = vec![None; sample.points.len()];
+    for (i, precision) in seats.into_iter().zip(found) {
+        sample.precisions[i] = Some(precision * gamma);
+    }
     Learned { sample, level: Sample::default() }
 }
 
@@ -102,4 +97,26 @@ fn joined<const D: usize>(source: &[&Fold<D>]) -> (Vec<[f64; D]>, Vec<f64>, Vec<
         logs.extend(fold.log_weights().iter().map(|log| log + share));
     }
     (points, values, logs)
+}
+
+/// γ log p + (1 − γ) log q at points where log p is known, q the mixture of the folds.
+fn tempered_logs<const D: usize>(
+    points: &[[f64; D]],
+    values: &[f64],
+    source: &[&Fold<D>],
+    gamma: f64,
+) -> Vec<f64> {
+    if gamma >= 1.0 {
+        return values.to_vec();
+    }
+    let groups = packed(points);
+    let folds = 1.0 / source.len() as f64;
+    let mut densities = vec![[0.0; LANES]; groups.len()];
+    for fold in source {
+        fold.add_density(&groups, folds / fold.positions.len() as f64, &mut densities);
+    }
+    let pairs = values.iter().zip(densities.as_flattened());
+    pairs
+        .map(|(log, q)| gamma * log + (1.0 - gamma) * q.max(f64::MIN_POSITIVE).ln())
+        .collect()
 }

@@ -9,7 +9,6 @@ mod ascent;
 mod condense;
 mod curvature;
 mod density;
-mod enrich;
 mod estimate;
 mod fold;
 mod freeze;

@@ -22,7 +22,7 @@ impl Default for PoolOptions {
 const GOOD_SHARE: f64 = 0.6;
 
 /// Share of what walks can spare that they may cost.
-const WALKING: f64 = 0.4;
+const SHARPENING: f64 = 0.4;
 
 /// Sizes that follow from the options.
 #[derive(Clone, Copy, Debug)]
@@ -79,10 +79,10 @@ impl PoolOptions {
 impl Plan {
     /// Evaluations that walks may take before the next proposal, at most this share of all: a part of what the effective size that is lacking would cost at
     /// the present share beyond what it would cost at a good one.
-    pub(super) fn walking(&self, share: f64, size: f64, most: f64) -> usize {
+    pub(super) fn sharpening(&self, share: f64, size: f64, most: f64) -> usize {
         let lacking = (self.goal - size).max(0.0);
         let cost = lacking * (1.0 / share.max(1e-3) - 1.0 / GOOD_SHARE);
-        (WALKING * cost).clamp(0.0, most * self.evaluations as f64) as usize
+        (SHARPENING * cost).clamp(0.0, most * self.evaluations as f64) as usize
     }
 }
 
@@ -101,8 +101,8 @@ pub struct Round {
     pub kernels: usize,
     /// Their width over the fitted one.
     pub width: f64,
-    /// Whether walks enriched what the proposals were fitted to.
-    pub enriched: bool,
+    /// Whether walks sharpened what the proposals were fitted to.
+    pub sharpened: bool,
 }
 
 /// Why there is no pool.

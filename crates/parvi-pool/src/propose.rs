@@ -19,7 +19,7 @@ const JITTER: f64 = 0.7;
 const ITERATIONS: usize = 6;
 
 /// Widths that are tried, over the fitted ones.
-const WIDTHS: [f64; 6] = [0.9, 1.0, 1.1, 1.2, 1.35, 1.6];
+const WIDTHS: [f64; 7] = [0.9, 1.0, 1.1, 1.2, 1.35, 1.6, 2.0];
 
 /// Most kernels of one proposal, and the points that each of them needs.
 const MOST_KERNELS: usize = 800;
@@ -27,7 +27,6 @@ const POINTS_PER_KERNEL: usize = 4;
 
 /// Shares of the kernels twice and four times as wide, and of one as wide as the whole sample (whose root is stretched by the last number).
 const WIDER: f64 = 0.08;
-const WIDEST: f64 = 0.003;
 const WHOLE: f64 = 0.05;
 const WHOLE_WIDTH: f64 = 1.5;
 
@@ -47,14 +46,16 @@ fn fitted<const D: usize>(sample: &Sample<D>, count: usize, rng: &mut ChaCha8Rng
         .zip(&chosen.precisions)
         .map(|(covariance, precision)| sharpened(covariance, &precision.unwrap_or(Matrix::ZERO)))
         .collect();
+    let sharpened_at_all = sample.precisions.iter().any(Option::is_none);
     // The covariance of t_ν is ν/(ν − 2) of its scale matrix.
     let normal = (1.0 - 1.0 / f64::from(HALF_FREEDOM)).sqrt();
+    let jitter = if sharpened_at_all { 0.0 } else { JITTER };
     let kernel = |(centre, covariance)| {
         let factor = root(covariance);
-        let z = std::array::from_fn(|_| JITTER * normal_quantile(rng.random_range(1e-9..1.0)));
+        let z = std::array::from_fn(|_| jitter * normal_quantile(rng.random_range(1e-9..1.0)));
         Kernel {
             centre: vector::add(centre, &factor.apply(&z)),
-            factor: factor * (normal * (1.0 - JITTER * JITTER).sqrt()),
+            factor: factor * (normal * (1.0 - jitter * jitter).sqrt()),
             share: 1.0,
         }
     };
@@ -78,9 +79,8 @@ fn defended<const D: usize>(sample: &Sample<D>, fitted: &Mixture<D>, width: f64)
         factor: root(&covariance) * WHOLE_WIDTH,
         share: WHOLE,
     };
-    let all = widened(1.0 - WIDER - WIDEST - WHOLE, 1.0)
-        .chain(widened(WIDER, 2.0))
-        .chain(widened(WIDEST, 4.0))
+    let all = widened(1.0 - WIDER  - WHOLE, 1.0)
+        .chain(widened(WIDER, 2.5).step_by(2))
         .chain([whole]);
     Mixture::new(all.collect())
 }
