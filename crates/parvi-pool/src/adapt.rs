@@ -27,9 +27,12 @@ const PATIENCE: usize = 2;
 const AGREEMENT: f64 = 3.0;
 
 /// Shares of the evaluations that scouts, the scores of one round, and all rounds together may take.
-const SCOUTING: f64 = 0.05;
+const SCOUTING: f64 = 0.1;
 const SHARPENING: f64 = 0.02;
 const ADAPTING: f64 = 0.75;
+
+/// Share of the last effective share that a round must have to be kept.
+const NEARLY: f64 = 0.4;
 
 /// The two folds while they adapt.
 pub(super) struct Adaptation<const D: usize> {
@@ -87,6 +90,16 @@ impl<const D: usize> Adaptation<D> {
         let in_reach = (plan.goal - self.sizes[1]) < self.share * (plan.evaluations.saturating_sub(spent)) as f64;
         let settled = self.share > BEST_SHARE || in_reach && self.without_advance >= PATIENCE || self.sizes[1] > plan.adapted;
         used_up || settled && !collapsed && self.agree()
+    }
+
+    /// Forgets the rounds before the first whose share was nearly as large as the last one's: what few heavy points the others had taught the later proposals too much.
+    pub fn forget_beginnings(&mut self) {
+        for (fold, shares) in self.folds.iter_mut().zip(&mut self.shares) {
+            let enough = NEARLY * shares.last().copied().unwrap_or(0.0);
+            let first = shares.iter().position(|&share| share >= enough).unwrap_or(0);
+            fold.forget(first);
+            shares.drain(..first);
+        }
     }
 
     /// Whether the folds' estimates of log Z differ by no more than their standard errors explain.

@@ -66,6 +66,17 @@ impl<const D: usize> Fold<D> {
         log_ratios(&self.log_densities, &self.sums)
     }
 
+    /// Forgets the first rounds, their points and their proposals.
+    pub fn forget(&mut self, rounds: usize) {
+        let points: usize = self.rounds.drain(..rounds).map(|(count, _)| count).sum();
+        self.positions.drain(..points);
+        self.log_densities.drain(..points);
+        self.groups.drain(..points / LANES);
+        let mut sums = vec![[0.0; LANES]; self.groups.len()];
+        self.add_density(&self.groups, 1.0, &mut sums);
+        self.sums = sums;
+    }
+
     /// log Z by the weights of this fold, and its standard error.
     pub fn log_evidence(&self) -> (f64, f64) {
         let logs = self.log_weights();

@@ -30,7 +30,7 @@ pub(super) struct Frozen<const D: usize> {
 
 /// Fits a proposal to the points of both folds and draws from it until the effective size suffices or the evaluations are used up.
 pub(super) fn freeze<const D: usize>(
-    adapted: &Adaptation<D>,
+    adapted: &mut Adaptation<D>,
     density: &mut Density<'_, D>,
     plan: &Plan,
     rng: &mut ChaCha8Rng,
@@ -41,6 +41,8 @@ pub(super) fn freeze<const D: usize>(
     let mut learned = learn(&source, EXPLORING, sharpening, density, rng);
     let form = best_form(&learned.sample, adapted.form, sharpening > 0, rng);
     learned.sample.join(learned.level);
+    adapted.forget_beginnings();
+    let size: f64 = adapted.folds.iter().map(Fold::effective_size).sum();
     let mut fresh = Fold::new();
     let Some(frozen) = proposal(&learned.sample, form, rng) else {
         return Frozen {
@@ -51,7 +53,7 @@ pub(super) fn freeze<const D: usize>(
     let (frozen, wholes) = with_earlier(frozen, adapted);
     let pilot = fresh.draw(density, frozen.clone(), plan.referee, rng.random());
     // As many more as the effective size still lacks.
-    let lacking = (plan.goal - size - pilot * plan.referee as f64).max(0.0) / pilot.max(0.01);
+    let lacking = (plan.goal - size.min(plan.adapted) - pilot * plan.referee as f64).max(0.0) / pilot.max(0.01);
     let rest = plan.evaluations.saturating_sub(density.evaluations()) as f64;
     let more = lacking.min(rest) as usize;
     if more >= LANES {

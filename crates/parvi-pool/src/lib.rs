@@ -85,7 +85,7 @@ pub fn explore<const D: usize>(
             return Err(PoolError::Interrupted { round: number });
         }
     }
-    let frozen = freeze(&adaptation, &mut density, &plan, &mut rng);
+    let frozen = freeze(&mut adaptation, &mut density, &plan, &mut rng);
     Ok(Pool::new(
         adaptation.folds,
         frozen.fresh,

@@ -8,9 +8,15 @@ use crate::mixture::{Kernel, Mixture};
 use crate::sample::root;
 
 /// Scouts that set out together; they are the last ones if none of them finds a summit that is not known.
-const TOGETHER: usize = 4;
+const TOGETHER: usize = 8;
 
-/// Widths of the kernels at a summit, over the normal approximation there, and their shares; the wide law has the rest.
+/// Scouts that set out first; where they meet at one summit, no others follow.
+const FIRST: usize = 4;
+
+/// Share of the wide law where they do not.
+const WIDE: f64 = 0.5;
+
+/// Widths of the kernels at a summit, over the normal approximation there, and their shares where the scouts met; the wide law has the rest.
 const STRETCHES: [(f64, f64); 3] = [(1.1, 0.45), (3.0, 0.25), (10.0, 0.1)];
 
 /// Log masses below the largest by more than this are left out.
@@ -44,9 +50,10 @@ pub(super) fn scout<const D: usize>(density: &mut Density<'_, D>, evaluations: u
     if let Some(first) = starts.first_mut() {
         *first = [0.0; D];
     }
+    let first = FIRST.min(starts.len());
     let mut summits: Vec<Summit<D>> = Vec::new();
     let (before, mut rounds) = (density.evaluations(), 0);
-    for starts in starts.chunks(TOGETHER) {
+    for starts in starts[..first].chunks(FIRST).chain(starts[first..].chunks(TOGETHER)) {
         let known = summits.len();
         for start in starts {
             let found = ascend(density, start).filter(|found| !summits.iter().any(|summit| summit.is_near(found)));
@@ -73,8 +80,10 @@ pub(super) fn scout<const D: usize>(density: &mut Density<'_, D>, evaluations: u
         .map(|(summit, log)| (summit, (log - top).exp()))
         .collect();
     let total: f64 = heavy.iter().map(|(_, mass)| mass).sum();
+    let narrow = if agree { 1.0 } else { (1.0 - WIDE) / STRETCHES.iter().map(|(_, share)| share).sum::<f64>() };
     let (mut kernels, mut rest) = (Vec::new(), 1.0);
     for (stretch, share) in STRETCHES.iter().filter(|_| !heavy.is_empty()) {
+        let share = narrow * share;
         rest -= share;
         kernels.extend(heavy.iter().map(|(summit, mass)| Kernel {
             centre: summit.point,
