@@ -5,19 +5,23 @@ use mpm_tensor::{Matrix, vector};
 use crate::ascent::{Summit, ascend};
 use crate::density::Density;
 use crate::mixture::{Kernel, Mixture};
-use crate::sample::root;
+use crate::sample::{moments, root};
 
 /// Scouts that set out together; they are the last ones if none of them finds a summit that is not known.
-const TOGETHER: usize = 8;
+const TOGETHER: usize = 6;
 
-/// Scouts that set out first; where they meet at one summit, no others follow.
-const FIRST: usize = 4;
+/// Distances from a summit, in standard deviations of the normal approximation there, at which scouts set out.
+const RINGS: [f64; 3] = [5.0, 12.0, 30.0];
 
-/// Share of the wide law where they do not.
+/// Widths of the kernels at a summit, over the normal approximation there, and their shares.
+const STRETCHES: [(f64, f64); 3] = [(1.1, 0.55), (3.0, 0.3), (10.0, 0.15)];
+
+/// Share of the kernels at a summit that is the only one, and of all others where there are several.
+const NARROW: f64 = 0.8;
 const WIDE: f64 = 0.5;
 
-/// Widths of the kernels at a summit, over the normal approximation there, and their shares where the scouts met; the wide law has the rest.
-const STRETCHES: [(f64, f64); 3] = [(1.1, 0.45), (3.0, 0.25), (10.0, 0.1)];
+/// Width of the kernel that stands for all summits, over their spread.
+const APART: f64 = 1.5;
 
 /// Log masses below the largest by more than this are left out.
 const LIGHTEST: f64 = 20.0;
@@ -41,58 +45,30 @@ fn wide<const D: usize>() -> Vec<Kernel<D>> {
         .to_vec()
 }
 
-/// Scouts from the centre of the frame and from points of the wide law, as long as they find summits and have not spent `evaluations`; and the wide law
-/// together with kernels at the summits, half of whose shares are equal and half follow Laplace's masses p(x) (2π)^{D/2} / √det H.
+/// Scouts, and the first proposal: the wide law, kernels at the summits, and one as wide as the summits lie apart.
 pub(super) fn scout<const D: usize>(density: &mut Density<'_, D>, evaluations: u64, seed: u64) -> Option<Scouted<D>> {
-    let law = Mixture::new(wide())?;
-    let most = (evaluations as usize / (D + 2)).max(TOGETHER);
-    let mut starts = law.draws(most, seed);
-    if let Some(first) = starts.first_mut() {
-        *first = [0.0; D];
-    }
-    let first = FIRST.min(starts.len());
-    let mut summits: Vec<Summit<D>> = Vec::new();
-    let (before, mut rounds) = (density.evaluations(), 0);
-    for starts in starts[..first].chunks(FIRST).chain(starts[first..].chunks(TOGETHER)) {
-        let known = summits.len();
-        for start in starts {
-            let found = ascend(density, start).filter(|found| !summits.iter().any(|summit| summit.is_near(found)));
-            summits.extend(found);
-        }
-        rounds += 1;
-        if summits.len() == known
-            || rounds == 1 && known + 1 == summits.len()
-            || density.evaluations() > before + evaluations
-        {
-            break;
-        }
-    }
+    let summits = summits(density, evaluations, seed)?;
     let agree = summits.len() == 1;
-    let log_masses: Vec<f64> = summits
-        .iter()
-        .map(|s| s.log_density - 0.5 * s.log_determinant)
-        .collect();
-    let top = log_masses.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let heavy: Vec<(Summit<D>, f64)> = summits
-        .into_iter()
-        .zip(log_masses)
-        .filter(|(_, log)| *log > top - LIGHTEST)
-        .map(|(summit, log)| (summit, (log - top).exp()))
-        .collect();
-    let total: f64 = heavy.iter().map(|(_, mass)| mass).sum();
-    let narrow = if agree { 1.0 } else { (1.0 - WIDE) / STRETCHES.iter().map(|(_, share)| share).sum::<f64>() };
-    let (mut kernels, mut rest) = (Vec::new(), 1.0);
-    for (stretch, share) in STRETCHES.iter().filter(|_| !heavy.is_empty()) {
-        let share = narrow * share;
-        rest -= share;
-        kernels.extend(heavy.iter().map(|(summit, mass)| Kernel {
-            centre: summit.point,
-            factor: root(&summit.covariance) * *stretch,
-            share: share * 0.5 * (mass / total + 1.0 / heavy.len() as f64),
-        }));
+    let mut kernels = about(&summits);
+    let narrow = match (summits.len(), agree) {
+        (0, _) => 0.0,
+        (_, true) => NARROW,
+        (_, false) => 1.0 - WIDE,
+    };
+    kernels.iter_mut().for_each(|kernel| kernel.share *= narrow);
+    let mut far = wide();
+    if summits.len() > 1 {
+        let points: Vec<[f64; D]> = summits.iter().map(|summit| summit.point).collect();
+        let (mean, covariance) = moments(&points, &vec![1.0; points.len()]);
+        far.push(Kernel {
+            centre: mean,
+            factor: root(&covariance) * APART,
+            share: 1.0,
+        });
     }
-    kernels.extend(wide().into_iter().map(|kernel| Kernel {
-        share: rest * kernel.share,
+    let total: f64 = far.iter().map(|kernel| kernel.share).sum();
+    kernels.extend(far.into_iter().map(|kernel| Kernel {
+        share: (1.0 - narrow) * kernel.share / total,
         ..kernel
     }));
     Some(Scouted {
@@ -101,10 +77,59 @@ pub(super) fn scout<const D: usize>(density: &mut Density<'_, D>, evaluations: u
     })
 }
 
+/// Where scouts came to rest: from the centre of the frame, from points of the wide law and from rings about the summits that are known, as long as they
+/// find others and have not spent `evaluations`.
+fn summits<const D: usize>(density: &mut Density<'_, D>, evaluations: u64, seed: u64) -> Option<Vec<Summit<D>>> {
+    let law = Mixture::new(wide())?;
+    let batches = evaluations as usize / (TOGETHER * (D + 2)) + 2;
+    let mut starts = law.draws(batches * TOGETHER, seed).into_iter();
+    let mut summits: Vec<Summit<D>> = Vec::new();
+    let before = density.evaluations();
+    for batch in 0..batches {
+        let known = summits.len();
+        for scout in 0..TOGETHER {
+            let drawn = starts.next()?;
+            let start = match (batch, scout) {
+                (0, 0) => [0.0; D],
+                (0, _) => drawn,
+                (_, scout) if scout % 2 == 0 || known == 0 => drawn,
+                _ => summits[(batch * TOGETHER + scout) / 2 % known].ringed(&drawn, RINGS[(batch + scout / 2) % RINGS.len()]),
+            };
+            let found = ascend(density, &start).filter(|found| !summits.iter().any(|summit| summit.is_near(found)));
+            summits.extend(found);
+        }
+        let settled = summits.len() == known || summits.is_empty();
+        if settled || density.evaluations() > before + evaluations {
+            break;
+        }
+    }
+    Some(summits)
+}
+
+/// Kernels at summits, half of whose shares are equal and half follow Laplace's masses p(x) (2π)^{D/2} / √det H.
+fn about<const D: usize>(summits: &[Summit<D>]) -> Vec<Kernel<D>> {
+    let log_mass = |summit: &Summit<D>| summit.log_density - 0.5 * summit.log_determinant;
+    let top = summits.iter().map(log_mass).fold(f64::NEG_INFINITY, f64::max);
+    let heavy: Vec<&Summit<D>> = summits.iter().filter(|summit| log_mass(summit) > top - LIGHTEST).collect();
+    let total: f64 = heavy.iter().map(|summit| (log_mass(summit) - top).exp()).sum();
+    let kernel = |summit: &Summit<D>, (stretch, share): (f64, f64)| Kernel {
+        centre: summit.point,
+        factor: root(&summit.covariance) * stretch,
+        share: share * 0.5 * ((log_mass(summit) - top).exp() / total + 1.0 / heavy.len() as f64),
+    };
+    heavy.iter().flat_map(|summit| STRETCHES.map(|stretch| kernel(summit, stretch))).collect()
+}
+
 impl<const D: usize> Summit<D> {
     /// Whether another summit is within a standard deviation of this one, and as high.
     fn is_near(&self, other: &Self) -> bool {
         let apart = vector::subtract(&other.point, &self.point);
         vector::dot(&apart, &self.precision.apply(&apart)) < 1.0 && (self.log_density - other.log_density).abs() < 1.0
+    }
+
+    /// A place in the direction of `towards`, so many standard deviations from here.
+    fn ringed(&self, towards: &[f64; D], ring: f64) -> [f64; D] {
+        let direction = vector::scale(towards, ring / vector::norm(towards).max(f64::MIN_POSITIVE));
+        vector::add(&self.point, &root(&self.covariance).apply(&direction))
     }
 }
