@@ -1,75 +1,49 @@
-//! Local precisions from scores: kernels as narrow as the target is.
+//! Local precisions from scores, and what they leave of a covariance.
 
-use mpm_tensor::{Matrix, SymmetricEigen, vector};
+use mpm_tensor::{Matrix, SymmetricEigen};
 
 use crate::density::Density;
-use crate::mixture::Kernel;
 use crate::sample::root;
 
 /// Step of the differences of scores, in standard deviations of the local covariance.
 const STEP: f64 = 1e-3;
 
-/// A kernel's covariance over that of the local normal approximation.
-const INFLATION: f64 = 1.3;
+/// Least variance over that of the given covariance: differences of scores take a kink for an infinite curvature.
+const NARROWEST: f64 = 1e-4;
 
-/// Least variance over that of the local covariance: differences of scores take a kink for an infinite curvature.
-const NARROWEST: f64 = 0.01;
-
-/// Share of the Newton step by which a centre moves uphill, and the longest move in standard deviations of the local covariance.
-const UPHILL: f64 = 0.5;
-
-/// Kernels about these centres with covariances (C⁻¹ + γ [−∇² log p]₊)⁻¹ · 1.3, C the given local covariance, γ the power to which the weights are raised,
-/// [·]₊ the positive part in coordinates in which C is I; centres half a Newton step uphill. Takes D + 1 scores per centre.
-pub(super) fn sharpened<const D: usize>(
+/// −∇² log p at these points, from D + 1 scores each; steps go along the columns of the roots of the local covariances. A point asked for the second time costs nothing.
+pub(super) fn precisions<const D: usize>(
     density: &mut Density<'_, D>,
-    centres: &[[f64; D]],
+    points: &[[f64; D]],
     covariances: &[Matrix<D>],
-    gamma: f64,
-) -> Vec<Kernel<D>> {
-    let factors: Vec<Matrix<D>> = covariances.iter().map(root).collect();
-    let mut places = Vec::with_capacity(centres.len() * (D + 1));
-    for (centre, factor) in centres.iter().zip(&factors) {
-        places.push(*centre);
+) -> Vec<Matrix<D>> {
+    let unknown: Vec<usize> = density.without_precision(points);
+    let factors: Vec<Matrix<D>> = unknown.iter().map(|&i| root(&covariances[i]) * STEP).collect();
+    let mut places = Vec::with_capacity(unknown.len() * (D + 1));
+    for (&i, factor) in unknown.iter().zip(&factors) {
+        places.push(points[i]);
         for axis in 0..D {
-            let column = std::array::from_fn(|row| factor.0[row][axis]);
-            places.push(vector::add_scaled(centre, STEP, &column));
+            places.push(std::array::from_fn(|row| points[i][row] + factor.0[row][axis]));
         }
     }
     let scores = density.scores(&places);
-    let kernel = |((centre, factor), scores): ((&[f64; D], &Matrix<D>), &[[f64; D]])| {
-        let here = factor.apply_transposed(&scores[0]);
-        let mut hessian = Matrix::<D>::ZERO;
-        for axis in 0..D {
-            let there = factor.apply_transposed(&scores[axis + 1]);
-            for row in 0..D {
-                hessian.0[row][axis] = (here[row] - there[row]) / STEP;
-            }
-        }
-        let plain = Kernel {
-            centre: *centre,
-            factor: *factor,
-            share: 1.0,
-        };
-        let Some(eigen) = SymmetricEigen::new(&hessian.symmetric_part()) else {
-            return plain;
-        };
-        let local = eigen.map(|q| (1.0 / (1.0 + gamma * q.max(0.0))).max(NARROWEST));
-        let step = vector::scale(&local.apply(&here), UPHILL * gamma);
-        let step = vector::scale(&step, 1.0 / vector::norm(&step).max(1.0));
-        let covariance = (*factor * (local * INFLATION) * factor.transpose()).symmetric_part();
-        if !(covariance.is_finite() && vector::is_finite(&step)) {
-            return plain;
-        }
-        Kernel {
-            centre: vector::add(centre, &factor.apply(&step)),
-            factor: root(&covariance),
-            share: 1.0,
-        }
+    for ((&i, factor), scores) in unknown.iter().zip(&factors).zip(scores.chunks(D + 1)) {
+        // Columns −H L, hence H = −(H L) L⁻¹.
+        let along = Matrix::from_fn(|row, axis| scores[0][row] - scores[axis + 1][row]);
+        let precision = factor.lower_triangular_inverse().map(|inverse| (along * inverse).symmetric_part());
+        density.keep_precision(&points[i], precision.filter(Matrix::is_finite).unwrap_or(Matrix::ZERO));
+    }
+    points.iter().map(|point| density.precision(point)).collect()
+}
+
+/// (C⁻¹ + H₊)⁻¹, where H₊ is the positive part of H in coordinates in which C is I.
+pub(super) fn sharpened<const D: usize>(covariance: &Matrix<D>, precision: &Matrix<D>) -> Matrix<D> {
+    let factor = root(covariance);
+    let local = (factor.transpose() * *precision * factor).symmetric_part();
+    let Some(eigen) = SymmetricEigen::new(&local) else {
+        return *covariance;
     };
-    centres
-        .iter()
-        .zip(&factors)
-        .zip(scores.chunks(D + 1))
-        .map(kernel)
-        .collect()
+    let left = eigen.map(|q| (1.0 / (1.0 + q.max(0.0))).max(NARROWEST));
+    let sharpened = (factor * left * factor.transpose()).symmetric_part();
+    if sharpened.is_finite() { sharpened } else { *covariance }
 }

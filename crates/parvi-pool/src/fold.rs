@@ -45,15 +45,20 @@ impl<const D: usize> Fold<D> {
         for value in own.as_flattened_mut() {
             *value *= count;
         }
-        for (earlier_count, earlier) in &self.rounds {
-            earlier.add_density(&groups, *earlier_count as f64, &mut own);
-        }
+        self.add_density(&groups, 1.0, &mut own);
         self.rounds.push((points.len(), proposal));
         self.positions.extend(points);
         self.log_densities.extend(values);
         self.groups.extend(groups);
         self.sums.extend(own);
         effective_size(&tempered(&solo, 1.0)) / count.max(1.0)
+    }
+
+    /// Adds `factor` · Σ_t n_t q_t(x) to `sums` for every point.
+    pub fn add_density(&self, groups: &[Group<D>], factor: f64, sums: &mut [Lanes]) {
+        for (count, proposal) in &self.rounds {
+            proposal.add_density(groups, factor * *count as f64, sums);
+        }
     }
 
     /// log p(x) − log Σ_t n_t q_t(x): their exponentials sum to the estimate of the evidence.
@@ -66,6 +71,28 @@ impl<const D: usize> Fold<D> {
         let densities = q.densities(&self.groups);
         let pairs = densities.as_flattened().iter().zip(self.sums.as_flattened());
         pairs.map(|(q, sum)| q / sum.max(f64::MIN_POSITIVE)).collect()
+    }
+
+    /// Forgets the first rounds, their points and their proposals.
+    pub fn forget(&mut self, rounds: usize) {
+        let points: usize = self.rounds.drain(..rounds).map(|(count, _)| count).sum();
+        self.positions.drain(..points);
+        self.log_densities.drain(..points);
+        self.groups.drain(..points / LANES);
+        let mut sums = vec![[0.0; LANES]; self.groups.len()];
+        self.add_density(&self.groups, 1.0, &mut sums);
+        self.sums = sums;
+    }
+
+    /// log Z by the weights of this fold, and its standard error.
+    pub fn log_evidence(&self) -> (f64, f64) {
+        let logs = self.log_weights();
+        let top = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let weights = tempered(&logs, 1.0);
+        let sum: f64 = weights.iter().sum();
+        let squares: f64 = weights.iter().map(|w| w * w).sum();
+        let variance = (squares / (sum * sum) - 1.0 / weights.len() as f64).max(0.0);
+        (top + sum.ln(), variance.sqrt())
     }
 
     /// The effective size of all weights.

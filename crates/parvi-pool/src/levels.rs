@@ -1,5 +1,7 @@
 //! Exploring by levels: points spread evenly over where the density is above a level.
 
+use mpm_tensor::Matrix;
+
 use crate::fold::Fold;
 use crate::sample::Sample;
 use crate::weights::{effective_size, tempered};
@@ -30,6 +32,13 @@ pub(super) fn level_sample<const D: usize>(fold: &Fold<D>, count: usize, offset:
             low = middle
         }
     }
-    let points: Vec<[f64; D]> = order[..high].iter().map(|&i| fold.positions[i]).collect();
-    Sample::resampled(&points, &weights_of(high), count, offset)
+    let chosen = &order[..high];
+    let level = Sample {
+        points: chosen.iter().map(|&i| fold.positions[i]).collect(),
+        weights: weights_of(high),
+        logs: chosen.iter().map(|&i| fold.log_densities[i]).collect(),
+        families: chosen.to_vec(),
+        precisions: vec![Some(Matrix::ZERO); high],
+    };
+    level.resampled(count, offset)
 }

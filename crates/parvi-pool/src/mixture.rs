@@ -25,7 +25,7 @@ struct Coefficients<const D: usize> {
     height: f64,
 }
 
-/// A normalised mixture of Student kernels with ν = 8 degrees of freedom.
+/// A normalised mixture of Student kernels with ν = 16 degrees of freedom.
 ///
 /// t_ν(x; c, L Lᵀ) = Γ((ν+D)/2) / (Γ(ν/2) (πν)^{D/2} det L) · (1 + |L⁻¹(x − c)|²/ν)^{−(ν+D)/2}: polynomial in |z|², so that no exponential has to
 /// be taken, and with tails that a target lighter than t_ν never outgrows.
@@ -38,7 +38,7 @@ pub struct Mixture<const D: usize> {
 }
 
 /// ν/2 of all kernels.
-pub(super) const HALF_FREEDOM: u32 = 4;
+pub(super) const HALF_FREEDOM: u32 = 8;
 
 /// Groups of points that one task evaluates.
 const TILE: usize = 32;
@@ -88,6 +88,11 @@ impl<const D: usize> Mixture<D> {
     pub(crate) fn with_core(mut self, count: usize) -> Self {
         self.core = count.min(self.kernels.len());
         self
+    }
+
+    /// Number of the fitted kernels.
+    pub(crate) fn core_count(&self) -> usize {
+        self.core
     }
 
     /// The mixture of the fitted kernels alone.

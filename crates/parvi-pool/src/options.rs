@@ -7,19 +7,22 @@ pub struct PoolOptions {
     pub evaluations: Option<u64>,
     /// Effective size at which the pool is large enough, per particle.
     pub effective_size: f64,
-    /// Scores sharpen the kernels where a round's effective share is below this.
-    pub sharpen_below: f64,
 }
 
 impl Default for PoolOptions {
     fn default() -> Self {
         Self {
             evaluations: None,
-            effective_size: 10.0,
-            sharpen_below: 0.1,
+            effective_size: 8.0,
         }
     }
 }
+
+/// Effective share of a proposal that walks would hardly better.
+const GOOD_SHARE: f64 = 0.6;
+
+/// Share of what walks can spare that they may cost.
+const SHARPENING: f64 = 0.4;
 
 /// Sizes that follow from the options.
 #[derive(Clone, Copy, Debug)]
@@ -58,12 +61,6 @@ impl PoolOptions {
             size > 0.0 && size.is_finite(),
             "positive and finite",
         )?;
-        check(
-            "sharpen below",
-            self.sharpen_below,
-            !self.sharpen_below.is_nan(),
-            "a number",
-        )?;
         check("dimensions", D as f64, (1..=19).contains(&D), "from 1 to 19")?;
         let per_particle = [10, 15, 25, 45, 80, 140, 200][D.min(6)];
         let default = (per_particle * particles as u64).max(8_000);
@@ -76,6 +73,16 @@ impl PoolOptions {
             adapted: 0.5 * size * particles as f64,
             goal: size * particles as f64,
         })
+    }
+}
+
+impl Plan {
+    /// Evaluations that walks may take before the next proposal, at most this share of all: a part of what the effective size that is lacking would cost at
+    /// the present share beyond what it would cost at a good one.
+    pub(super) fn sharpening(&self, share: f64, size: f64, most: f64) -> usize {
+        let lacking = (self.goal - size).max(0.0);
+        let cost = lacking * (1.0 / share.max(1e-3) - 1.0 / GOOD_SHARE);
+        (SHARPENING * cost).clamp(0.0, most * self.evaluations as f64) as usize
     }
 }
 
@@ -94,7 +101,7 @@ pub struct Round {
     pub kernels: usize,
     /// Their width over the fitted one.
     pub width: f64,
-    /// Whether scores sharpened the kernels.
+    /// Whether walks sharpened what the proposals were fitted to.
     pub sharpened: bool,
 }
 

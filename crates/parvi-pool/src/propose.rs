@@ -1,5 +1,4 @@
-//! The next proposal: Student kernels about resampled points, with covariances from neighbours or scores, refined, and as many and as wide as
-//! points that did not shape them like best.
+//! The next proposal: Student kernels fitted to a sample, as many and as wide as points that did not shape them like best.
 
 use mpm_tensor::{Matrix, vector};
 use parvi_targets::normal_quantile;
@@ -7,7 +6,6 @@ use rand::RngExt;
 use rand::rngs::ChaCha8Rng;
 
 use crate::curvature::sharpened;
-use crate::density::Density;
 use crate::lanes::packed;
 use crate::maximise::maximised;
 use crate::mixture::{HALF_FREEDOM, Kernel, Mixture};
@@ -18,18 +16,18 @@ use crate::sample::{Sample, root};
 const JITTER: f64 = 0.7;
 
 /// Steps of expectation maximisation.
-const ITERATIONS: usize = 4;
+const ITERATIONS: usize = 6;
 
 /// Widths that are tried, over the fitted ones.
-const WIDTHS: [f64; 5] = [0.9, 1.0, 1.15, 1.35, 1.6];
+const WIDTHS: [f64; 7] = [0.9, 1.0, 1.1, 1.2, 1.35, 1.6, 2.0];
 
-/// Fewest and most kernels of one proposal.
-const KERNELS: [usize; 2] = [8, 400];
+/// Most kernels of one proposal, and the points that each of them needs.
+const MOST_KERNELS: usize = 800;
+const POINTS_PER_KERNEL: usize = 4;
 
 /// Shares of the kernels twice and four times as wide, and of one as wide as the whole sample (whose root is stretched by the last number).
 const WIDER: f64 = 0.08;
-const WIDEST: f64 = 0.003;
-pub(super) const WHOLE: f64 = 0.05;
+const WHOLE: f64 = 0.05;
 const WHOLE_WIDTH: f64 = 1.5;
 
 /// How many kernels a proposal has and how wide they are, over what the fit says.
@@ -39,42 +37,30 @@ pub(super) struct Form {
     pub width: f64,
 }
 
-/// The kernels of one proposal before widening.
-fn kernels<const D: usize>(
-    sample: &Sample<D>,
-    count: usize,
-    rng: &mut ChaCha8Rng,
-    scores: Option<(&mut Density<'_, D>, f64)>,
-) -> Option<Mixture<D>> {
-    let chosen = Sample::resampled(&sample.points, &sample.weights, count, rng.random());
-    let repeated = chosen.points.iter().zip(&chosen.weights);
-    let centres: Vec<[f64; D]> = repeated
-        .flat_map(|(x, n)| std::iter::repeat_n(*x, *n as usize))
+/// Kernels about resampled points, with covariances from their neighbours, refined.
+fn fitted<const D: usize>(sample: &Sample<D>, count: usize, rng: &mut ChaCha8Rng) -> Option<Mixture<D>> {
+    let chosen = sample.seats().resampled(count, rng.random());
+    let neighbours = (12 * D).max(sample.points.len() / (2 * count.max(1)));
+    let covariances: Vec<Matrix<D>> = local_covariances(sample, &chosen.points, neighbours)
+        .iter()
+        .zip(&chosen.precisions)
+        .map(|(covariance, precision)| sharpened(covariance, &precision.unwrap_or(Matrix::ZERO)))
         .collect();
-    let covariances = local_covariances(sample, &centres, 12 * D);
+    let sharpened_at_all = sample.precisions.iter().any(Option::is_none);
     // The covariance of t_ν is ν/(ν − 2) of its scale matrix.
     let normal = (1.0 - 1.0 / f64::from(HALF_FREEDOM)).sqrt();
-    let jittered: Vec<Kernel<D>> = centres
-        .iter()
-        .zip(&covariances)
-        .map(|(centre, covariance)| {
-            let factor = root(covariance);
-            let z = std::array::from_fn(|_| JITTER * normal_quantile(rng.random_range(1e-9..1.0)));
-            Kernel {
-                centre: vector::add(centre, &factor.apply(&z)),
-                factor: factor * (normal * (1.0 - JITTER * JITTER).sqrt()),
-                share: 1.0,
-            }
-        })
-        .collect();
-    let start = match scores {
-        Some((density, gamma)) => {
-            let centres: Vec<[f64; D]> = jittered.iter().map(|kernel| kernel.centre).collect();
-            sharpened(density, &centres, &covariances, gamma)
+    let jitter = if sharpened_at_all { 0.0 } else { JITTER };
+    let kernel = |(centre, covariance)| {
+        let factor = root(covariance);
+        let z = std::array::from_fn(|_| jitter * normal_quantile(rng.random_range(1e-9..1.0)));
+        Kernel {
+            centre: vector::add(centre, &factor.apply(&z)),
+            factor: factor * (normal * (1.0 - jitter * jitter).sqrt()),
+            share: 1.0,
         }
-        None => jittered,
     };
-    Some(maximised(sample, Mixture::new(start)?, ITERATIONS))
+    let kernels = chosen.points.iter().zip(&covariances).map(kernel).collect();
+    Some(maximised(sample, Mixture::new(kernels)?, ITERATIONS))
 }
 
 /// The kernels at this width, some twice as wide, and the whole sample as one kernel: what keeps weights bounded.
@@ -93,55 +79,63 @@ fn defended<const D: usize>(sample: &Sample<D>, fitted: &Mixture<D>, width: f64)
         factor: root(&covariance) * WHOLE_WIDTH,
         share: WHOLE,
     };
-    let all = widened(1.0 - WIDER - WIDEST - WHOLE, 1.0)
-        .chain(widened(WIDER, 2.0))
-        .chain(widened(WIDEST, 4.0))
+    let all = widened(1.0 - WIDER  - WHOLE, 1.0)
+        .chain(widened(WIDER, 2.5).step_by(2))
         .chain([whole]);
     Some(Mixture::new(all.collect())?.with_core(fitted.len()))
 }
 
-/// The form near the last one under which the points set aside are likeliest, Σ w log q(x).
-pub(super) fn best_form<const D: usize>(sample: &Sample<D>, last: Form, rng: &mut ChaCha8Rng) -> Form {
+/// The form under which points set aside come out best, by the least Σ w (p/q)^{1/2}: between the likelihood, which cares little for
+/// points that q forgets, and the variance of the weights, which hangs on a few of them. As many kernels as the last time, half or twice as many; any number
+/// the first time.
+pub(super) fn best_form<const D: usize>(sample: &Sample<D>, last: Option<Form>, walked: bool, rng: &mut ChaCha8Rng) -> Form {
     let [training, check] = sample.split();
     let groups = packed(&check.points);
-    let (mut best, mut form) = (f64::NEG_INFINITY, last);
-    for count in [last.kernels / 2, last.kernels, 2 * last.kernels] {
-        let count = count.clamp(KERNELS[0], KERNELS[1]);
-        let Some(fitted) = kernels(&training, (2 * count / 3).max(2), rng, None) else {
+    let most = (sample.points.len() / POINTS_PER_KERNEL).clamp(1, MOST_KERNELS);
+    let mut counts = match last {
+        _ if walked => vec![sample.seats().points.len()],
+        Some(form) => [form.kernels / 2, form.kernels, 2 * form.kernels, 4 * form.kernels]
+            .map(|count| count.clamp(1, most))
+            .to_vec(),
+        None => std::iter::successors(Some(1), |count| Some(3 * count))
+            .take_while(|&count| count <= most)
+            .collect(),
+    };
+    counts.dedup();
+    let (mut least, mut form) = (
+        f64::INFINITY,
+        Form {
+            kernels: counts[0],
+            width: 1.0,
+        },
+    );
+    for kernels in counts {
+        let Some(fitted) = fitted(&training, (2 * kernels).div_ceil(3), rng) else {
             continue;
         };
         for width in WIDTHS {
             let Some(proposal) = defended(&training, &fitted, width) else {
                 continue;
             };
-            let densities = proposal.densities(&groups);
-            let logs = densities.as_flattened().iter().map(|q| q.max(f64::MIN_POSITIVE).ln());
-            let score: f64 = check.weights.iter().zip(logs).map(|(w, log)| w * log).sum();
-            if score > best {
-                (best, form) = (score, Form { kernels: count, width });
+            let score = misfit(&check, proposal.densities(&groups).as_flattened());
+            if score < least {
+                (least, form) = (score, Form { kernels, width });
             }
         }
     }
     form
 }
 
-/// The proposal of this form; with scores at the centres where `scores` hands the density and the power of the weights.
-pub(super) fn proposal<const D: usize>(
-    sample: &Sample<D>,
-    form: Form,
-    rng: &mut ChaCha8Rng,
-    scores: Option<(&mut Density<'_, D>, f64)>,
-) -> Option<Mixture<D>> {
-    let fitted = kernels(sample, form.kernels, rng, scores)?;
-    defended(sample, &fitted, form.width)
+/// log Σ w (p/q)^{1/2} − log Σ w, up to a constant of p.
+fn misfit<const D: usize>(sample: &Sample<D>, densities: &[f64]) -> f64 {
+    let logs = sample.logs.iter().zip(densities);
+    let logs: Vec<f64> = logs.map(|(p, q)| 0.5 * (p - q.max(f64::MIN_POSITIVE).ln())).collect();
+    let top = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let sum: f64 = sample.weights.iter().zip(&logs).map(|(w, l)| w * (l - top).exp()).sum();
+    top + (sum / sample.weights.iter().sum::<f64>()).ln()
 }
 
-/// Before anything is known: one kernel as wide as the frame, one four and one sixteen times as wide.
-pub(super) fn first<const D: usize>() -> Option<Mixture<D>> {
-    let wide = |(width, share): (f64, f64)| Kernel {
-        centre: [0.0; D],
-        factor: Matrix::IDENTITY * width,
-        share,
-    };
-    Mixture::new([(1.0, 0.3), (4.0, 0.5), (16.0, 0.2)].map(wide).to_vec())
+/// The proposal of this form.
+pub(super) fn proposal<const D: usize>(sample: &Sample<D>, form: Form, rng: &mut ChaCha8Rng) -> Option<Mixture<D>> {
+    defended(sample, &fitted(sample, form.kernels, rng)?, form.width)
 }

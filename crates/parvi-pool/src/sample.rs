@@ -4,27 +4,38 @@ use mpm_tensor::{Cholesky, Matrix, vector};
 
 use crate::weights::systematic;
 
-/// Distinct points with the number of times that each was resampled.
+/// Points with weights, and the logarithm of the density that they follow, up to a constant.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Sample<const D: usize> {
     pub points: Vec<[f64; D]>,
     pub weights: Vec<f64>,
+    pub logs: Vec<f64>,
+    /// Points of one family stem from the same point.
+    pub families: Vec<usize>,
+    /// What curvature adds to the precision of a kernel there; no kernel begins where there is `None`.
+    pub precisions: Vec<Option<Matrix<D>>>,
 }
 
 impl<const D: usize> Sample<D> {
-    /// `count` of these points by systematic resampling.
-    pub fn resampled(points: &[[f64; D]], weights: &[f64], count: usize, offset: f64) -> Self {
+    /// `count` of these points by systematic resampling, each with the number of times that it was chosen.
+    pub fn resampled(&self, count: usize, offset: f64) -> Self {
         let mut sample = Self {
             points: Vec::new(),
             weights: Vec::new(),
+            logs: Vec::new(),
+            families: Vec::new(),
+            precisions: Vec::new(),
         };
         let mut last = None;
-        for index in systematic(weights, count, offset) {
+        for index in systematic(&self.weights, count, offset) {
             match sample.weights.last_mut().filter(|_| last == Some(index)) {
                 Some(weight) => *weight += 1.0,
                 None => {
-                    sample.points.push(points[index]);
+                    sample.points.push(self.points[index]);
                     sample.weights.push(1.0);
+                    sample.logs.push(self.logs[index]);
+                    sample.families.push(self.families[index]);
+                    sample.precisions.push(self.precisions[index]);
                 }
             }
             last = Some(index);
@@ -32,22 +43,48 @@ impl<const D: usize> Sample<D> {
         sample
     }
 
+    /// Every point as often as its weight says, each with weight one.
+    pub fn repeated(&self) -> Self {
+        let of = |i: usize| std::iter::repeat_n(i, self.weights[i] as usize);
+        let indices: Vec<usize> = (0..self.points.len()).flat_map(of).collect();
+        Self {
+            points: indices.iter().map(|&i| self.points[i]).collect(),
+            weights: vec![1.0; indices.len()],
+            logs: indices.iter().map(|&i| self.logs[i]).collect(),
+            families: indices.iter().map(|&i| self.families[i]).collect(),
+            precisions: indices.iter().map(|&i| self.precisions[i]).collect(),
+        }
+    }
+
     /// Takes the points of another sample in.
     pub fn join(&mut self, other: Self) {
         self.points.extend(other.points);
         self.weights.extend(other.weights);
+        self.logs.extend(other.logs);
+        self.families.extend(other.families);
+        self.precisions.extend(other.precisions);
     }
 
-    /// Every third point for a check, the others to learn from.
+    /// The points about which kernels may begin.
+    pub fn seats(&self) -> Self {
+        self.part(|i| self.precisions[i].is_some())
+    }
+
+    /// Every third family for a check, the others to learn from.
     pub fn split(&self) -> [Self; 2] {
-        let part = |checks: bool| {
-            let taken = || (0..self.points.len()).filter(move |i| (i % 3 == 1) == checks);
-            Self {
-                points: taken().map(|i| self.points[i]).collect(),
-                weights: taken().map(|i| self.weights[i]).collect(),
-            }
-        };
-        [part(false), part(true)]
+        [false, true].map(|checks| self.part(|i| (self.families[i] % 3 == 1) == checks))
+    }
+
+    /// The points that `is_taken` takes.
+    fn part(&self, is_taken: impl Fn(usize) -> bool) -> Self {
+        let taken: Vec<usize> = (0..self.points.len()).filter(|&i| is_taken(i)).collect();
+        Self {
+            points: taken.iter().map(|&i| self.points[i]).collect(),
+            weights: taken.iter().map(|&i| self.weights[i]).collect(),
+            logs: taken.iter().map(|&i| self.logs[i]).collect(),
+            families: taken.iter().map(|&i| self.families[i]).collect(),
+            precisions: taken.iter().map(|&i| self.precisions[i]).collect(),
+        }
     }
 
     /// Mean and covariance.

@@ -11,9 +11,16 @@ use crate::*;
 
 fn pool_of<const D: usize>(target: &dyn Target<D>, particles: usize, seed: u64) -> Result<Pool<D>, PoolError> {
     let options = PoolOptions::default();
-    explore(target, &Frame::identity(), &[], particles, seed, &options, &mut |_| {
-        ControlFlow::Continue(())
-    })
+    explore(
+        target,
+        &Frame::identity(),
+        &[],
+        Vec::new(),
+        particles,
+        seed,
+        &options,
+        &mut |_, _| ControlFlow::Continue(()),
+    )
 }
 
 /// A log density given by a function; its score is zero.
@@ -43,7 +50,7 @@ fn weights_over_two_proposals_are_unbiased() {
     let runs = 200;
     let mean = (0..runs)
         .map(|seed| {
-            let mut density = Density::new(&target, &frame);
+            let mut density = Density::new(&target, &frame, Vec::new());
             let mut fold = Fold::new();
             fold.draw(&mut density, law([1.0, 0.0], 0.8), 64, seed);
             fold.draw(&mut density, law([-1.0, 0.5], 1.2), 128, 1000 + seed);
@@ -145,7 +152,7 @@ fn even_particles_are_a_proposal() {
     .draws(500, 1);
     let mut fold = Fold::new();
     let share = fold.draw(
-        &mut Density::new(&target, &frame),
+        &mut Density::new(&target, &frame, Vec::new()),
         material(&points, 0.5).unwrap(),
         2000,
         2,

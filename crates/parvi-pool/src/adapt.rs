@@ -1,0 +1,167 @@
+//! The rounds: two folds of points take turns.
+
+use rand::RngExt;
+use rand::rngs::ChaCha8Rng;
+
+use crate::density::Density;
+use crate::fold::Fold;
+use crate::learn::learn;
+use crate::mixture::Mixture;
+use crate::options::{Plan, PoolError, Round};
+use crate::propose::{Form, best_form, proposal};
+use crate::scout::{Scouted, scout};
+
+/// Share of the points fitted to that come from a level set, and where the last round's effective share is above the bound.
+const EXPLORING: f64 = 0.12;
+const EXPLORING_LITTLE: f64 = 0.05;
+const GOOD_SHARE: f64 = 0.4;
+
+/// Effective share above which another round could gain nothing.
+const BEST_SHARE: f64 = 0.8;
+
+/// A round is an advance where its share is larger than all before by this factor; adaptation ends after so many rounds without one.
+const ADVANCE: f64 = 1.2;
+const PATIENCE: usize = 2;
+
+/// Standard errors by which the folds' log Z may differ.
+const AGREEMENT: f64 = 3.0;
+
+/// Shares of the evaluations that scouts, the scores of one round, and all rounds together may take.
+const SCOUTING: f64 = 0.1;
+const SHARPENING: f64 = 0.02;
+const ADAPTING: f64 = 0.75;
+
+/// Share of the last effective share that a round must have to be kept.
+const NEARLY: f64 = 0.4;
+
+/// The two folds while they adapt.
+pub(super) struct Adaptation<const D: usize> {
+    pub folds: [Fold<D>; 2],
+    /// Form of the last proposal.
+    pub form: Option<Form>,
+    /// Effective share of the last round.
+    pub share: f64,
+    /// Effective shares of the folds' rounds.
+    pub shares: [Vec<f64>; 2],
+    best: f64,
+    without_advance: usize,
+    /// Effective sizes before the last round and after it.
+    sizes: [f64; 2],
+}
+
+impl<const D: usize> Adaptation<D> {
+    /// Scouts, and the first points of both folds: of the scouts' proposal, and of those given.
+    pub fn begin(
+        density: &mut Density<'_, D>,
+        given: &[Mixture<D>],
+        plan: &Plan,
+        rng: &mut ChaCha8Rng,
+    ) -> Result<Self, PoolError> {
+        let Scouted { proposal, agree } = scout(density, (SCOUTING * plan.evaluations as f64) as u64, rng.random())
+            .ok_or(PoolError::NowhereFinite)?;
+        let mut folds = [Fold::new(), Fold::new()];
+        let count = if agree { plan.round / 2 } else { plan.first };
+        for fold in &mut folds {
+            fold.draw(density, proposal.clone(), count / 2, rng.random());
+            for proposal in given {
+                fold.draw(density, proposal.clone(), count / 4, rng.random());
+            }
+        }
+        let finite = |fold: &Fold<D>| fold.log_densities.iter().any(|l| l.is_finite());
+        if !folds.iter().all(finite) {
+            return Err(PoolError::NowhereFinite);
+        }
+        let size = folds.iter().map(Fold::effective_size).sum();
+        Ok(Self {
+            folds,
+            form: None,
+            share: 0.0,
+            shares: [vec![0.0; 1 + given.len()], vec![0.0; 1 + given.len()]],
+            best: 0.0,
+            without_advance: 0,
+            sizes: [0.0, size],
+        })
+    }
+
+    /// Whether further rounds would gain nothing, or must leave what is left of the evaluations to fresh points.
+    pub fn is_over(&self, plan: &Plan, spent: u64) -> bool {
+        let used_up = spent as f64 > ADAPTING * plan.evaluations as f64;
+        let collapsed = self.sizes[1] < 0.7 * self.sizes[0];
+        let in_reach = (plan.goal - self.sizes[1]) < self.share * (plan.evaluations.saturating_sub(spent)) as f64;
+        let settled = self.share > BEST_SHARE || in_reach && self.without_advance >= PATIENCE || self.sizes[1] > plan.adapted;
+        used_up || settled && !collapsed && self.agree()
+    }
+
+    /// Forgets the rounds before the first whose share was nearly as large as the last one's: what few heavy points the others had taught the later proposals too much.
+    pub fn forget_beginnings(&mut self) {
+        for (fold, shares) in self.folds.iter_mut().zip(&mut self.shares) {
+            let enough = NEARLY * shares.last().copied().unwrap_or(0.0);
+            let first = shares.iter().position(|&share| share >= enough).unwrap_or(0);
+            fold.forget(first);
+            shares.drain(..first);
+        }
+    }
+
+    /// Whether the folds' estimates of log Z differ by no more than their standard errors explain.
+    fn agree(&self) -> bool {
+        let [(one, one_error), (other, other_error)] = [&self.folds[0], &self.folds[1]].map(Fold::log_evidence);
+        (one - other).abs() <= AGREEMENT * one_error.hypot(other_error)
+    }
+
+    /// A proposal for each fold from the other's points, and points of it.
+    pub fn round(
+        &mut self,
+        number: usize,
+        density: &mut Density<'_, D>,
+        plan: &Plan,
+        rng: &mut ChaCha8Rng,
+    ) -> Result<Round, PoolError> {
+        let sharpening = if number > 1 { plan.sharpening(self.share, self.sizes[1], SHARPENING) } else { 0 };
+        let exploring = if self.share > GOOD_SHARE {
+            EXPLORING_LITTLE
+        } else {
+            EXPLORING
+        };
+        let mut share = 0.0;
+        for side in 0..2 {
+            let proposal = self.proposal(1 - side, exploring, sharpening, density, rng)?;
+            let drawn = self.folds[side].draw(density, proposal, plan.round / 2, rng.random());
+            self.shares[side].push(drawn);
+            share += 0.5 * drawn;
+        }
+        self.share = share;
+        self.without_advance = if share > ADVANCE * self.best {
+            0
+        } else {
+            self.without_advance + 1
+        };
+        self.best = self.best.max(share);
+        self.sizes = [self.sizes[1], self.folds.iter().map(Fold::effective_size).sum()];
+        let form = self.form.unwrap_or(Form { kernels: 0, width: 1.0 });
+        Ok(Round {
+            number,
+            evaluations: density.evaluations(),
+            effective_size: self.sizes[1],
+            share,
+            kernels: form.kernels,
+            width: form.width,
+            sharpened: sharpening > 0,
+        })
+    }
+
+    /// A proposal fitted to the points of this fold, after walks of so many evaluations.
+    fn proposal(
+        &mut self,
+        side: usize,
+        exploring: f64,
+        sharpening: usize,
+        density: &mut Density<'_, D>,
+        rng: &mut ChaCha8Rng,
+    ) -> Result<Mixture<D>, PoolError> {
+        let mut learned = learn(&[&self.folds[side]], exploring, sharpening, density, rng);
+        let form = best_form(&learned.sample, self.form, sharpening > 0, rng);
+        learned.sample.join(learned.level);
+        self.form = Some(form);
+        proposal(&learned.sample, form, rng).ok_or(PoolError::NowhereFinite)
+    }
+}

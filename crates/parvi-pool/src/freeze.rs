@@ -1,0 +1,107 @@
+//! The end: a proposal from both folds together, frozen, and fresh points of it, which had no part in it.
+
+use rand::RngExt;
+use rand::rngs::ChaCha8Rng;
+
+use crate::adapt::Adaptation;
+use crate::density::Density;
+use crate::fold::Fold;
+use crate::lanes::{LANES, packed};
+use crate::learn::learn;
+use crate::mixture::{Kernel, Mixture};
+use crate::options::Plan;
+use crate::propose::{best_form, proposal};
+
+/// Share of the points fitted to that come from a level set.
+const EXPLORING: f64 = 0.06;
+
+/// Share of the evaluations that walks may take.
+const SHARPENING: f64 = 0.05;
+
+/// Earlier proposals of each fold that are frozen too, and their share.
+const EARLIER: usize = 6;
+const EARLIER_SHARE: f64 = 0.4;
+
+/// The fold of fresh points, and whether they are covered.
+pub(super) struct Frozen<const D: usize> {
+    pub fresh: Fold<D>,
+    pub covered: Vec<bool>,
+}
+
+/// Fits a proposal to the points of both folds and draws from it until the effective size suffices or the evaluations are used up.
+pub(super) fn freeze<const D: usize>(
+    adapted: &mut Adaptation<D>,
+    density: &mut Density<'_, D>,
+    plan: &Plan,
+    rng: &mut ChaCha8Rng,
+) -> Frozen<D> {
+    let source = [&adapted.folds[0], &adapted.folds[1]];
+    let size: f64 = source.iter().map(|fold| fold.effective_size()).sum();
+    let sharpening = plan.sharpening(adapted.share, size, SHARPENING);
+    let mut learned = learn(&source, EXPLORING, sharpening, density, rng);
+    let form = best_form(&learned.sample, adapted.form, sharpening > 0, rng);
+    learned.sample.join(learned.level);
+    adapted.forget_beginnings();
+    let size: f64 = adapted.folds.iter().map(Fold::effective_size).sum();
+    let mut fresh = Fold::new();
+    let Some(frozen) = proposal(&learned.sample, form, rng) else {
+        return Frozen {
+            fresh,
+            covered: Vec::new(),
+        };
+    };
+    let (frozen, wholes) = with_earlier(frozen, adapted);
+    let pilot = fresh.draw(density, frozen.clone(), plan.referee, rng.random());
+    // As many more as the effective size still lacks.
+    let lacking = (plan.goal - size.min(plan.adapted) - pilot * plan.referee as f64).max(0.0) / pilot.max(0.01);
+    let rest = plan.evaluations.saturating_sub(density.evaluations()) as f64;
+    let more = lacking.min(rest) as usize;
+    if more >= LANES {
+        fresh.draw(density, frozen, more, rng.random());
+    }
+    let covered = covered(&fresh, wholes);
+    Frozen { fresh, covered }
+}
+
+/// This proposal together with the last ones of both folds: a hole of one fit is none of all. Also the kernels that stand for samples as a whole.
+fn with_earlier<const D: usize>(last: Mixture<D>, adapted: &Adaptation<D>) -> (Mixture<D>, Vec<Kernel<D>>) {
+    let mut kernels = Vec::new();
+    let mut wholes = Vec::new();
+    let mut add = |proposal: &Mixture<D>, share: f64| {
+        kernels.extend(proposal.kernels().iter().map(|kernel| Kernel {
+            share: share * kernel.share,
+            ..*kernel
+        }));
+        wholes.extend(proposal.kernels().last().map(|kernel| Kernel {
+            share: share * kernel.share,
+            ..*kernel
+        }));
+    };
+    add(&last, 1.0 - EARLIER_SHARE);
+    let rounds = adapted.folds.iter().zip(&adapted.shares).flat_map(|(fold, shares)| {
+        let first = fold.rounds.len().saturating_sub(EARLIER);
+        fold.rounds[first..].iter().zip(&shares[first..])
+    });
+    let total: f64 = rounds.clone().map(|(_, share)| share).sum();
+    for ((_, proposal), share) in rounds {
+        add(proposal, EARLIER_SHARE * share / total.max(f64::MIN_POSITIVE));
+    }
+    let core = last.core_count();
+    let all = Mixture::new(kernels).map(|all| all.with_core(core));
+    (all.unwrap_or(last), wholes)
+}
+
+/// Whether at the fresh points the kernels that stand for samples as a whole are less than half of the frozen proposal.
+fn covered<const D: usize>(fresh: &Fold<D>, wholes: Vec<Kernel<D>>) -> Vec<bool> {
+    let groups = packed(&fresh.positions);
+    let share: f64 = wholes.iter().map(|kernel| kernel.share).sum();
+    let (Some((_, frozen)), Some(whole)) = (fresh.rounds.first(), Mixture::new(wholes)) else {
+        return vec![false; fresh.positions.len()];
+    };
+    let (all, whole) = (frozen.densities(&groups), whole.densities(&groups));
+    let pairs = all.as_flattened().iter().zip(whole.as_flattened());
+    pairs
+        .take(fresh.positions.len())
+        .map(|(all, whole)| share * whole < 0.5 * all)
+        .collect()
+}

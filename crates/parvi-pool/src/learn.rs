@@ -1,0 +1,122 @@
+//! What a proposal is fitted to: resampled points of a fold, the curvature at some of them, and a few from a level set.
+
+use mpm_tensor::Matrix;
+use rand::RngExt;
+use rand::rngs::ChaCha8Rng;
+
+use crate::curvature::precisions;
+use crate::density::Density;
+use crate::fold::Fold;
+use crate::lanes::{LANES, packed};
+use crate::levels::level_sample;
+use crate::neighbours::local_covariances;
+use crate::sample::Sample;
+use crate::weights::{effective_size, systematic, tempered, tempering};
+
+/// Weights are tempered to an effective size of this share of the points, but at most to `LARGEST_TEMPERED`.
+const TEMPERED_SHARE: f64 = 0.1;
+const LARGEST_TEMPERED: f64 = 400.0;
+
+/// and to no more than so many times the effective size without tempering, but at least to `SMALLEST_TEMPERED` per dimension.
+const LARGEST_GROWTH: f64 = 4.0;
+const SMALLEST_TEMPERED: f64 = 25.0;
+
+/// Points resampled at least and at most.
+const POINTS: [usize; 2] = [500, 10_000];
+
+/// Neighbours per dimension that bound the length of a move.
+const NEIGHBOURS: usize = 4;
+
+/// A sample from the tempered weights, and one from a level set.
+pub(super) struct Learned<const D: usize> {
+    pub sample: Sample<D>,
+    pub level: Sample<D>,
+}
+
+/// What these folds teach; `sharpening`: scores that the curvature at places for kernels may take, 0 for none; `exploring`: the level set's share.
+pub(super) fn learn<const D: usize>(
+    source: &[&Fold<D>],
+    exploring: f64,
+    sharpening: usize,
+    density: &mut Density<'_, D>,
+    rng: &mut ChaCha8Rng,
+) -> Learned<D> {
+    let (points, values, logs) = joined(source);
+    let size = effective_size(&tempered(&logs, 1.0));
+    // Beyond a few times what is there, tempering would bring back what the rounds have left behind.
+    let wanted = (LARGEST_GROWTH * size).max(SMALLEST_TEMPERED * D as f64);
+    let gamma = tempering(
+        &logs,
+        wanted.min(LARGEST_TEMPERED).min(TEMPERED_SHARE * logs.len() as f64),
+    );
+    let weights = tempered(&logs, gamma);
+    let all = Sample {
+        logs: tempered_logs(&points, &values, source, gamma),
+        families: (0..points.len()).collect(),
+        precisions: vec![Some(Matrix::ZERO); points.len()],
+        points,
+        weights,
+    };
+    let size = 2.0 * effective_size(&all.weights);
+    let count = (size as usize).clamp(POINTS[0], POINTS[1]);
+    let mut level = Sample::default();
+    let mut add_level = |count: usize| {
+        for fold in source {
+            level.join(level_sample(fold, count / source.len(), rng.random()));
+        }
+        level.logs = tempered_logs(&level.points, &level.logs, source, gamma);
+    };
+    if sharpening == 0 {
+        add_level((exploring * count as f64) as usize);
+        let sample = all.resampled(count, rng.random());
+        return Learned { sample, level };
+    }
+    add_level((exploring * count as f64) as usize);
+    let mut sample = all.resampled(count, rng.random());
+    sample.join(level);
+    let mut seats = systematic(&sample.weights, sharpening / (D + 1), rng.random());
+    seats.dedup();
+    let points: Vec<[f64; D]> = seats.iter().map(|&i| sample.points[i]).collect();
+    let covariances = local_covariances(&sample, &points, NEIGHBOURS * D);
+    let found = precisions(density, &points, &covariances);
+    sample.precisions = vec![None; sample.points.len()];
+    for (i, precision) in seats.into_iter().zip(found) {
+        sample.precisions[i] = Some(precision * gamma);
+    }
+    Learned { sample, level: Sample::default() }
+}
+
+/// Points, log densities and log weights of all folds; each estimates Z by itself, and they count by their effective sizes.
+fn joined<const D: usize>(source: &[&Fold<D>]) -> (Vec<[f64; D]>, Vec<f64>, Vec<f64>) {
+    let total: f64 = source.iter().map(|fold| fold.effective_size()).sum();
+    let (mut points, mut values, mut logs) = (Vec::new(), Vec::new(), Vec::new());
+    for fold in source {
+        let share = (fold.effective_size() / total).ln();
+        points.extend_from_slice(&fold.positions);
+        values.extend_from_slice(&fold.log_densities);
+        logs.extend(fold.log_weights().iter().map(|log| log + share));
+    }
+    (points, values, logs)
+}
+
+/// γ log p + (1 − γ) log q at points where log p is known, q the mixture of the folds.
+fn tempered_logs<const D: usize>(
+    points: &[[f64; D]],
+    values: &[f64],
+    source: &[&Fold<D>],
+    gamma: f64,
+) -> Vec<f64> {
+    if gamma >= 1.0 {
+        return values.to_vec();
+    }
+    let groups = packed(points);
+    let folds = 1.0 / source.len() as f64;
+    let mut densities = vec![[0.0; LANES]; groups.len()];
+    for fold in source {
+        fold.add_density(&groups, folds / fold.positions.len() as f64, &mut densities);
+    }
+    let pairs = values.iter().zip(densities.as_flattened());
+    pairs
+        .map(|(log, q)| gamma * log + (1.0 - gamma) * q.max(f64::MIN_POSITIVE).ln())
+        .collect()
+}

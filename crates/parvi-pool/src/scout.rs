@@ -1,0 +1,135 @@
+//! Scouts: the first proposal, from summits and the curvature there.
+
+use mpm_tensor::{Matrix, vector};
+
+use crate::ascent::{Summit, ascend};
+use crate::density::Density;
+use crate::mixture::{Kernel, Mixture};
+use crate::sample::{moments, root};
+
+/// Scouts that set out together; they are the last ones if none of them finds a summit that is not known.
+const TOGETHER: usize = 6;
+
+/// Distances from a summit, in standard deviations of the normal approximation there, at which scouts set out.
+const RINGS: [f64; 3] = [5.0, 12.0, 30.0];
+
+/// Widths of the kernels at a summit, over the normal approximation there, and their shares.
+const STRETCHES: [(f64, f64); 3] = [(1.1, 0.55), (3.0, 0.3), (10.0, 0.15)];
+
+/// Share of the kernels at a summit that is the only one, and of all others where there are several.
+const NARROW: f64 = 0.8;
+const WIDE: f64 = 0.5;
+
+/// Width of the kernel that stands for all summits, over their spread.
+const APART: f64 = 1.5;
+
+/// Log masses below the largest by more than this are left out.
+const LIGHTEST: f64 = 20.0;
+
+/// What the scouts say.
+pub(super) struct Scouted<const D: usize> {
+    /// The first proposal.
+    pub proposal: Mixture<D>,
+    /// Whether all of them met at one summit.
+    pub agree: bool,
+}
+
+/// Before anything is known: one kernel as wide as the frame, one four and one sixteen times as wide.
+fn wide<const D: usize>() -> Vec<Kernel<D>> {
+    [(1.0, 0.3), (4.0, 0.5), (16.0, 0.2)]
+        .map(|(width, share): (f64, f64)| Kernel {
+            centre: [0.0; D],
+            factor: Matrix::IDENTITY * width,
+            share,
+        })
+        .to_vec()
+}
+
+/// Scouts, and the first proposal: the wide law, kernels at the summits, and one as wide as the summits lie apart.
+pub(super) fn scout<const D: usize>(density: &mut Density<'_, D>, evaluations: u64, seed: u64) -> Option<Scouted<D>> {
+    let summits = summits(density, evaluations, seed)?;
+    let agree = summits.len() == 1;
+    let mut kernels = about(&summits);
+    let narrow = match (summits.len(), agree) {
+        (0, _) => 0.0,
+        (_, true) => NARROW,
+        (_, false) => 1.0 - WIDE,
+    };
+    kernels.iter_mut().for_each(|kernel| kernel.share *= narrow);
+    let mut far = wide();
+    if summits.len() > 1 {
+        let points: Vec<[f64; D]> = summits.iter().map(|summit| summit.point).collect();
+        let (mean, covariance) = moments(&points, &vec![1.0; points.len()]);
+        far.push(Kernel {
+            centre: mean,
+            factor: root(&covariance) * APART,
+            share: 1.0,
+        });
+    }
+    let total: f64 = far.iter().map(|kernel| kernel.share).sum();
+    kernels.extend(far.into_iter().map(|kernel| Kernel {
+        share: (1.0 - narrow) * kernel.share / total,
+        ..kernel
+    }));
+    Some(Scouted {
+        proposal: Mixture::new(kernels)?,
+        agree,
+    })
+}
+
+/// Where scouts came to rest: from the centre of the frame, from points of the wide law and from rings about the summits that are known, as long as they
+/// find others and have not spent `evaluations`.
+fn summits<const D: usize>(density: &mut Density<'_, D>, evaluations: u64, seed: u64) -> Option<Vec<Summit<D>>> {
+    let law = Mixture::new(wide())?;
+    let batches = evaluations as usize / (TOGETHER * (D + 2)) + 2;
+    let mut starts = law.draws(batches * TOGETHER, seed).into_iter();
+    let mut summits: Vec<Summit<D>> = Vec::new();
+    let before = density.evaluations();
+    for batch in 0..batches {
+        let known = summits.len();
+        for scout in 0..TOGETHER {
+            let drawn = starts.next()?;
+            let start = match (batch, scout) {
+                (0, 0) => [0.0; D],
+                (0, _) => drawn,
+                (_, scout) if scout % 2 == 0 || known == 0 => drawn,
+                _ => summits[(batch * TOGETHER + scout) / 2 % known].ringed(&drawn, RINGS[(batch + scout / 2) % RINGS.len()]),
+            };
+            let found = ascend(density, &start).filter(|found| !summits.iter().any(|summit| summit.is_near(found)));
+            summits.extend(found);
+        }
+        let settled = summits.len() == known || summits.is_empty();
+        if settled || density.evaluations() > before + evaluations {
+            break;
+        }
+    }
+    Some(summits)
+}
+
+/// Kernels at summits, half of whose shares are equal and half follow Laplace's masses p(x) (2π)^{D/2} / √det H.
+fn about<const D: usize>(summits: &[Summit<D>]) -> Vec<Kernel<D>> {
+    let log_mass = |summit: &Summit<D>| summit.log_density - 0.5 * summit.log_determinant;
+    let top = summits.iter().map(log_mass).fold(f64::NEG_INFINITY, f64::max);
+    let heavy: Vec<&Summit<D>> = summits.iter().filter(|summit| log_mass(summit) > top - LIGHTEST).collect();
+    let total: f64 = heavy.iter().map(|summit| (log_mass(summit) - top).exp()).sum();
+    let kernel = |summit: &Summit<D>, (stretch, share): (f64, f64)| Kernel {
+        centre: summit.point,
+        factor: root(&summit.covariance) * stretch,
+        share: share * 0.5 * ((log_mass(summit) - top).exp() / total + 1.0 / heavy.len() as f64),
+    };
+    heavy.iter().flat_map(|summit| STRETCHES.map(|stretch| kernel(summit, stretch))).collect()
+}
+
+impl<const D: usize> Summit<D> {
+    /// Whether another summit is within a standard deviation of this one, and as high.
+    fn is_near(&self, other: &Self) -> bool {
+        let apart = vector::subtract(&other.point, &self.point);
+        vector::dot(&apart, &self.precision.apply(&apart)) < 1.0 && (self.log_density - other.log_density).abs() < 1.0
+    }
+
+    /// A place in the direction of `towards`, so many standard deviations from here.
+    fn ringed(&self, towards: &[f64; D], ring: f64) -> [f64; D] {
+        let direction = vector::scale(towards, ring / vector::norm(towards).max(f64::MIN_POSITIVE));
+        vector::add(&self.point, &root(&self.covariance).apply(&direction))
+    }
+}
