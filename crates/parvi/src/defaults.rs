@@ -42,8 +42,14 @@ pub const POLISH_STEPS: usize = 4;
 /// Rounds of a polish, at most, each of twice as many steps as the one before.
 pub const POLISH_ROUNDS: usize = 4;
 
-/// Variance of a pool, over that of as many independent draws as there are particles, above which a polish goes on after its first round.
-pub const LARGEST_POOL_NOISE: f64 = 0.1;
+/// Variance of a pool, over that of as many independent draws as there are particles, from which on particles that were condensed from it are polished: a polish takes away no more
+/// than this, and M^{−1/D} is what even the best M particles have, but for a factor of the order of one.
+pub fn least_polished_noise<const D: usize>(particles: usize) -> f64 {
+    (particles as f64).powf(-1.0 / D as f64)
+}
+
+/// The same variance from which on a polish goes on after its first round.
+pub const LARGEST_POOL_NOISE: f64 = 0.3;
 
 /// Δt for spacing h: 0.6 h, but no more than 0.6 until 0.23 h is, from h = 2.6 on.
 pub fn time_step(spacing: f64) -> f64 {

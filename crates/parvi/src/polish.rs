@@ -64,12 +64,16 @@ impl<'a, const D: usize> Polish<'a, D> {
     /// which do not follow it, are farther from it than from the target by ν. So a candidate is taken if its energy distance to the pool exceeds theirs by less
     /// than 2ν, and if its kernel Stein discrepancy is no larger.
     pub fn run(&self, journal: &mut Journal, observer: &mut dyn Observer) -> Result<Polished<D>, SampleError> {
-        let mut best = self.condensed()?;
+        let noise = self.pool.measure.variance * self.run.particles as f64;
+        let rounds = match self.options.rounds {
+            None if self.options.steps.is_none() && noise < defaults::least_polished_noise::<D>(self.run.particles) => 0,
+            rounds => rounds.unwrap_or(defaults::POLISH_ROUNDS),
+        };
+        let mut best = self.condensed(rounds > 0)?;
         let spread = mean_distance(&best.samples.positions, &self.scales);
         let allowed = self.energy(&best) + 2.0 * self.pool.measure.variance * spread;
-        let noise = self.pool.measure.variance * self.run.particles as f64;
         let (mut spent, mut steps, mut planned) = (best.samples.score_evaluations, 0, defaults::POLISH_STEPS);
-        for round in 0..self.options.rounds.unwrap_or(defaults::POLISH_ROUNDS) {
+        for round in 0..rounds {
             let candidate = self.moved(&best, self.options.steps.unwrap_or(planned), round, journal, observer)?;
             spent += candidate.samples.score_evaluations;
             steps += candidate.samples.steps;
@@ -86,8 +90,8 @@ impl<'a, const D: usize> Polish<'a, D> {
         Ok(Polished { best, spent, steps })
     }
 
-    /// The particles that the pool is condensed to, with their scores.
-    fn condensed(&self) -> Result<Driven<D>, SampleError> {
+    /// The particles that the pool is condensed to, with their scores where they are asked for.
+    fn condensed(&self, with_scores: bool) -> Result<Driven<D>, SampleError> {
         let count = self.run.particles;
         let seen = if self.options.weighted {
             self.pool.measure.flattened().condense(count)
@@ -97,9 +101,10 @@ impl<'a, const D: usize> Polish<'a, D> {
         let positions: Vec<[f64; D]> = seen.iter().map(|x| self.frame.to_reference(x)).collect();
         let mut score = FramedScore::new(self.target, &self.frame);
         score.non_finite = self.options.non_finite_scores;
-        let mut scores = vec![[0.0; D]; count];
+        let mut scores = vec![[0.0; D]; if with_scores { count } else { 0 }];
+        let asked = &positions[..scores.len()];
         score
-            .evaluate(&positions, &mut scores)
+            .evaluate(asked, &mut scores)
             .map_err(|error| SampleError::in_step(0, error))?;
         Ok(Driven {
             samples: Samples {

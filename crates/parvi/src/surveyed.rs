@@ -1,6 +1,8 @@
 //! The calibrated sampler on a target that is surveyed: everything evaluated is weighed, M particles are condensed from it, and the material
 //! evens them out as far as that brings them nearer.
 
+use std::ops::ControlFlow;
+
 use mpm_tensor::Matrix;
 use parvi_pool::{Kernel, Mixture, Pool, PoolError, PoolOptions, explore};
 use parvi_targets::{Frame, Target};
@@ -24,7 +26,7 @@ pub(crate) fn sample<const D: usize>(
     journal: &mut Journal,
     observer: &mut dyn Observer,
 ) -> Result<Option<Samples<D>>, SampleError> {
-    let Some(pool) = surveyed(options, target, frame, run, observer)? else {
+    let Some(pool) = surveyed(options, target, frame, run, journal, observer)? else {
         return Ok(None);
     };
     let polish = Polish::new(options, target, &pool, run)?;
@@ -50,6 +52,7 @@ fn surveyed<const D: usize>(
     target: &dyn Target<D>,
     frame: &Frame<D>,
     run: &Run,
+    journal: &mut Journal,
     observer: &mut dyn Observer,
 ) -> Result<Option<Pool<D>>, SampleError> {
     let pool_options = PoolOptions {
@@ -58,8 +61,19 @@ fn surveyed<const D: usize>(
     };
     let seed = run.generator(Stream::Survey.of_body(0)).random();
     let given: Vec<Mixture<D>> = start_law(&run.start).into_iter().collect();
-    let mut watch = |_: &parvi_pool::Round| observer.after_step(Progress { step: 0, steps: 0 });
-    let explored = explore(target, frame, &given, run.particles, seed, &pool_options, &mut watch);
+    let mut refused = None;
+    let tape = journal.tape();
+    let mut watch = |_: &parvi_pool::Round, tape: &[f64]| {
+        if let Err(error) = journal.keep_tape(tape) {
+            refused = Some(error);
+            return ControlFlow::Break(());
+        }
+        observer.after_step(Progress { step: 0, steps: 0 })
+    };
+    let explored = explore(target, frame, &given, tape, run.particles, seed, &pool_options, &mut watch);
+    if let Some(error) = refused {
+        return Err(error);
+    }
     match explored {
         Ok(pool) => {
             let known = pool.measure.variance * (run.particles as f64) < WORTHLESS;

@@ -6,14 +6,14 @@ use super::{Certificate, Doubt, MomentEstimate, Outcome, doubt_of_moments, excee
 use crate::Samples;
 use crate::extent::Extent;
 
-/// Above this shape of the weights' tail no estimate that rests on them is to be relied on.
-pub const LARGEST_PARETO_K: f64 = 0.7;
+/// Above this shape of the weights' tail nothing is called converged; from 0.7 on no estimate that rests on them is to be relied on.
+pub const LARGEST_PARETO_K: f64 = 0.65;
 
 /// The largest standard error of the log evidence of a run that is called converged.
-pub const LARGEST_LOG_EVIDENCE_ERROR: f64 = 0.1;
+pub const LARGEST_LOG_EVIDENCE_ERROR: f64 = 0.05;
 
 /// The largest variance of the pool then, over that of as many independent draws as there are particles.
-pub const LARGEST_POOL_VARIANCE: f64 = 0.3;
+pub const LARGEST_POOL_VARIANCE: f64 = 0.2;
 
 /// The largest mass then that fresh points met and no kernel had covered.
 pub const LARGEST_MASS_UNCOVERED: f64 = 0.02;

@@ -27,11 +27,13 @@ pub struct Checkpoint {
     pub every: usize,
 }
 
-/// What the file holds. What leads to the bodies (survey, start) is computed again.
+/// What the file holds. What leads to the bodies is computed again, from the values on the tape where there is a survey.
 #[derive(Serialize, Deserialize)]
 struct Saved {
     /// What the run was asked for.
     identity: String,
+    /// Values of the target that the survey asked for, in their order.
+    tape: Vec<f64>,
     /// All bodies that have come to their end so far.
     finished: Vec<SavedBody>,
     /// The state of the one that moves.
@@ -53,6 +55,7 @@ impl Journal {
             checkpoint: None,
             saved: Saved {
                 identity: String::new(),
+                tape: Vec::new(),
                 finished: Vec::new(),
                 moving: None,
             },
@@ -87,6 +90,7 @@ impl Journal {
         let saved = match File::open(path) {
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => Saved {
                 identity,
+                tape: Vec::new(),
                 finished: Vec::new(),
                 moving: None,
             },
@@ -107,6 +111,20 @@ impl Journal {
             saved,
             replayed: 0,
         })
+    }
+
+    /// What a survey evaluated before.
+    pub fn tape(&self) -> Vec<f64> {
+        self.saved.tape.clone()
+    }
+
+    /// What a survey has evaluated so far.
+    pub fn keep_tape(&mut self, tape: &[f64]) -> Result<(), SampleError> {
+        if self.checkpoint.is_some() && tape.len() > self.saved.tape.len() {
+            self.saved.tape = tape.to_vec();
+            self.write()?;
+        }
+        Ok(())
     }
 
     /// The next body of the run, if it came to its end before.
@@ -186,7 +204,7 @@ impl Journal {
 }
 
 /// What a checkpoint begins with; its checksum and content follow.
-const MAGIC: &[u8] = b"parvi checkpoint 1\n";
+const MAGIC: &[u8] = b"parvi checkpoint 2\n";
 
 /// The content of a file, if it is a whole one.
 fn read(mut file: File) -> Result<Saved, String> {
