@@ -81,6 +81,20 @@ pub(crate) struct ScoreForce<'a, const D: usize> {
     pub stiffness: Option<Stiffness<D>>,
 }
 
+impl<'a, const D: usize> ScoreForce<'a, D> {
+    /// At the particles, as it is.
+    pub fn at_particles(score: FramedScore<'a, D>) -> Self {
+        Self {
+            score,
+            alpha: 1.0,
+            location: ScoreLocation::Particles,
+            mass_weighted: true,
+            mass_floor: 0.0,
+            stiffness: None,
+        }
+    }
+}
+
 impl<const D: usize> BodyForce<D> for ScoreForce<'_, D> {
     fn location(&self) -> ForceLocation {
         match self.location {

@@ -4,6 +4,8 @@ use parvi_targets::{Frame, Target};
 
 use crate::checkpoint::Journal;
 use crate::compiled::Compiled;
+use crate::mpm_body::Motion;
+use crate::start::positive;
 use crate::{MpmOptions, Observer, Run, SampleError, Samples, free_body, surveyed};
 
 /// [`MpmOptions::sample`].
@@ -15,8 +17,9 @@ pub(crate) fn sample<const D: usize>(
     observer: &mut dyn Observer,
 ) -> Result<Samples<D>, SampleError> {
     run.checked_particles()?;
-    options.spacing_schedule.check()?;
-    options.settling.check()?;
+    let spacing = positive("spacing", options.spacing, 1.0)?;
+    Motion::of(options, run.particles, spacing)?;
+    run.checked_start()?;
     let mut journal = Journal::open(options, target, frame, run)?;
     let surveys = options.survey && options.annealing.last() == 1.0;
     let known = if surveys {

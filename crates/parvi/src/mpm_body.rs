@@ -14,7 +14,7 @@ use crate::kronecker::Kronecker;
 use crate::rotation::random_rotation;
 use crate::start::{Stream, check, positive, steps};
 use crate::stiffness::Stiffness;
-use crate::{MpmOptions, Observer, Run, SampleError, TransferChoice, defaults};
+use crate::{Annealing, MpmOptions, Observer, Run, SampleError, TransferChoice, defaults};
 
 /// One body, and what every layer of the dispatch hands on.
 pub(crate) struct Body<'a, const D: usize> {
@@ -33,25 +33,8 @@ impl<const D: usize> Body<'_, D> {
     /// Move it, at spacing h.
     pub fn run(self, spacing: f64) -> Result<Driven<D>, SampleError> {
         let (options, run) = (self.options, self.run);
-        if let TransferChoice::Flip(share) = options.transfer {
-            check("FLIP share", share, (0.0..=1.0).contains(&share), "in [0, 1]")?;
-        }
-        let steps = steps(options.steps, defaults::steps(run.particles))?;
-        let friction = options.friction.unwrap_or(defaults::FRICTION);
-        check(
-            "friction",
-            friction,
-            friction >= 0.0 && friction.is_finite(),
-            "at least 0 and finite",
-        )?;
-        let time_step = positive("time step", options.time_step, defaults::time_step(spacing))?;
-        let control = StepControl {
-            time_step,
-            courant: 1.0,
-            displacement: positive("displacement limit", Some(options.displacement_limit), 0.0)?,
-            friction,
-        };
-        let alpha = options.annealing.checked()?;
+        let Motion { steps, control, alpha } = Motion::of(options, run.particles, spacing)?;
+        let time_step = control.time_step;
         let moving = options.settling.last_full_step(steps);
 
         let particles = Particles::at_rest(self.positions, 1.0);
@@ -85,12 +68,9 @@ impl<const D: usize> Body<'_, D> {
         let mut score = FramedScore::new(self.target, self.frame);
         score.non_finite = options.non_finite_scores;
         let force = ScoreForce {
-            score,
-            alpha: 1.0,
             location: options.score_location,
-            mass_weighted: true,
-            mass_floor: 0.0,
             stiffness: Some(Stiffness::default()),
+            ..ScoreForce::at_particles(score)
         };
         let parts = Parts {
             particles,
@@ -101,6 +81,41 @@ impl<const D: usize> Body<'_, D> {
         };
         let mut body = (Compiled::of().gas)(parts, gas)?;
         drive(body.as_mut(), self.frame, plan, self.journal, self.observer)
+    }
+}
+
+/// What the options say about the motion of a body, with defaults filled in.
+pub(crate) struct Motion {
+    steps: usize,
+    control: StepControl,
+    alpha: Annealing,
+}
+
+impl Motion {
+    /// At spacing h; an option out of range is an error that names it.
+    pub fn of(options: &MpmOptions, particles: usize, spacing: f64) -> Result<Self, SampleError> {
+        if let TransferChoice::Flip(share) = options.transfer {
+            check("FLIP share", share, (0.0..=1.0).contains(&share), "in [0, 1]")?;
+        }
+        options.spacing_schedule.check()?;
+        options.settling.check()?;
+        let friction = options.friction.unwrap_or(defaults::FRICTION);
+        check(
+            "friction",
+            friction,
+            friction >= 0.0 && friction.is_finite(),
+            "at least 0 and finite",
+        )?;
+        Ok(Self {
+            steps: steps(options.steps, defaults::steps(particles))?,
+            control: StepControl {
+                time_step: positive("time step", options.time_step, defaults::time_step(spacing))?,
+                courant: 1.0,
+                displacement: positive("displacement limit", Some(options.displacement_limit), 0.0)?,
+                friction,
+            },
+            alpha: options.annealing.checked()?,
+        })
     }
 }
 

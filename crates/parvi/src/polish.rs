@@ -1,12 +1,16 @@
 //! Particles evened out by the material, as far as that brings them nearer to what the pool knows.
 
+use mpm_core::Particles;
+use mpm_materials::IsothermalGas;
 use mpm_tensor::vector;
 use parvi_pool::Pool;
 use parvi_targets::{Frame, Target};
 
+use crate::basis_choice::Parts;
 use crate::checkpoint::Journal;
+use crate::compiled::Compiled;
 use crate::drive::Driven;
-use crate::framed_score::FramedScore;
+use crate::framed_score::{FramedScore, ScoreForce};
 use crate::mpm_body::Body;
 use crate::start::positive;
 use crate::stein_discrepancy::squared_stein_discrepancy;
@@ -69,7 +73,7 @@ impl<'a, const D: usize> Polish<'a, D> {
             None if self.options.steps.is_none() && noise < defaults::least_polished_noise::<D>(self.run.particles) => 0,
             rounds => rounds.unwrap_or(defaults::POLISH_ROUNDS),
         };
-        let mut best = self.condensed(rounds > 0)?;
+        let mut best = self.condensed()?;
         let spread = mean_distance(&best.samples.positions, &self.scales);
         let allowed = self.energy(&best) + 2.0 * self.pool.measure.variance * spread;
         let (mut spent, mut steps, mut planned) = (best.samples.score_evaluations, 0, defaults::POLISH_STEPS);
@@ -90,8 +94,8 @@ impl<'a, const D: usize> Polish<'a, D> {
         Ok(Polished { best, spent, steps })
     }
 
-    /// The particles that the pool is condensed to, with their scores where they are asked for.
-    fn condensed(&self, with_scores: bool) -> Result<Driven<D>, SampleError> {
+    /// The particles that the pool is condensed to, with their scores and the residual of these; without them for adaptive importance sampling alone.
+    fn condensed(&self) -> Result<Driven<D>, SampleError> {
         let count = self.run.particles;
         let seen = if self.options.weighted {
             self.pool.measure.flattened().condense(count)
@@ -99,25 +103,46 @@ impl<'a, const D: usize> Polish<'a, D> {
             self.pool.condense(count)
         };
         let positions: Vec<[f64; D]> = seen.iter().map(|x| self.frame.to_reference(x)).collect();
-        let mut score = FramedScore::new(self.target, &self.frame);
-        score.non_finite = self.options.non_finite_scores;
-        let mut scores = vec![[0.0; D]; if with_scores { count } else { 0 }];
-        let asked = &positions[..scores.len()];
-        score
-            .evaluate(asked, &mut scores)
-            .map_err(|error| SampleError::in_step(0, error))?;
-        Ok(Driven {
+        let mut condensed = Driven {
             samples: Samples {
                 positions: seen,
-                score_evaluations: score.evaluations,
-                scores_replaced: score.replaced,
                 ..Samples::default()
             },
+            scores: Vec::new(),
             positions,
-            scores,
             drift: 0.0,
             kinetic_energy: 0.0,
-        })
+        };
+        if self.options.rounds != Some(0) {
+            self.score(&mut condensed)?;
+        }
+        Ok(condensed)
+    }
+
+    /// Scores and residual of particles that have not moved.
+    fn score(&self, condensed: &mut Driven<D>) -> Result<(), SampleError> {
+        let mut score = FramedScore::new(self.target, &self.frame);
+        score.non_finite = self.options.non_finite_scores;
+        let parts = Parts {
+            particles: Particles::at_rest(condensed.positions.clone(), 1.0),
+            force: ScoreForce::at_particles(score),
+            transfer: self.options.transfer,
+            basis: self.options.basis,
+            spacing: self.spacing,
+        };
+        let mut body = (Compiled::of().gas)(parts, IsothermalGas::new(1.0)?)?;
+        let failed = |error| SampleError::in_step(0, error);
+        let mut scores = vec![[0.0; D]; condensed.positions.len()];
+        body.force()
+            .score
+            .evaluate(&condensed.positions, &mut scores)
+            .map_err(failed)?;
+        let residual = body.residual(&[0.0; D], self.spacing, &scores).map_err(failed)?;
+        let (score, samples) = (&body.force().score, &mut condensed.samples);
+        (samples.score_evaluations, samples.scores_replaced) = (score.evaluations, score.replaced);
+        (samples.residual, samples.spacing) = (Some(residual.ratio()), Some(self.spacing));
+        condensed.scores = scores;
+        Ok(())
     }
 
     /// A body that begins where `from` is.

@@ -5,7 +5,7 @@ use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 use rand_distr::{Distribution, StandardNormal};
 
-use crate::{Run, SampleError, StartDraws};
+use crate::{Run, SampleError, Start, StartDraws};
 
 /// The independent random choices of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,9 +43,8 @@ impl Run {
         Ok(count)
     }
 
-    /// Draws from the start law, in frame coordinates.
-    pub(crate) fn start_positions<const D: usize>(&self) -> Result<Vec<[f64; D]>, SampleError> {
-        let count = self.checked_particles()?;
+    /// The start law, checked to be one.
+    pub(crate) fn checked_start(&self) -> Result<Start, SampleError> {
         let sd = self.start.standard_deviation;
         check(
             "start standard deviation",
@@ -54,9 +53,20 @@ impl Run {
             "positive and finite",
         )?;
         check("start mean", self.start.mean, self.start.mean.is_finite(), "finite")?;
+        Ok(self.start)
+    }
+
+    /// Draws from the start law, in frame coordinates.
+    pub(crate) fn start_positions<const D: usize>(&self) -> Result<Vec<[f64; D]>, SampleError> {
+        let count = self.checked_particles()?;
+        let Start {
+            mean,
+            standard_deviation,
+            ..
+        } = self.checked_start()?;
         let mut positions = self.standard_positions::<D>(count, 0)?;
         for c in positions.as_flattened_mut() {
-            *c = self.start.mean + sd * *c;
+            *c = mean + standard_deviation * *c;
         }
         Ok(positions)
     }

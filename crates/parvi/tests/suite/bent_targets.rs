@@ -1,4 +1,4 @@
-//! Targets that no affine frame makes Gaussian: a triangular map does, or leaves them alone.
+//! Targets that are bent, long, thin or heavy.
 
 use parvi::{Method, MpmOptions, Run, Samples, Silent, Start, sample};
 use parvi_metrics::{Cloud, CloudMoments, EnergyReference, Standardiser, mean_pair_distance};
@@ -62,9 +62,8 @@ fn check<const D: usize>(target: &dyn CatalogueTarget<D>, axes: usize, tolerance
         }
         let reached = energy_ratio(target, &samples.positions);
         assert!(reached < ratio, "{} {start:?}: {reached}", target.name());
-        let price = samples.score_evaluations as f64 / PARTICLES as f64;
+        let price = (samples.score_evaluations + samples.density_evaluations) as f64 / PARTICLES as f64;
         assert!(price < 110.0, "{} {start:?}: {price}", target.name());
-        assert_eq!(samples.bodies, Some(1));
     }
 }
 
@@ -81,26 +80,24 @@ fn rosenbrock_chains_are_better_than_independent_draws() {
 }
 
 #[test]
-fn a_long_thin_banana_is_one_body_and_one_run() {
+fn a_long_thin_banana_is_filled() {
     check(&Banana::new(2.0, 0.2).expect("scales"), 2, 0.1, 0.2);
 }
 
 #[test]
-fn a_ring_keeps_its_affine_frame() {
+fn a_ring_has_its_centre_in_the_middle() {
     let target = Ring::new(2.0, 0.2).expect("radii");
     for start in [(0.0, 1.0), (3.0, 0.1)] {
         let samples = from_start(&target, start);
-        // A map would show an arc, whose mean is not the centre.
         let found = moments(&samples.positions);
         assert!(found.mean.iter().all(|c| c.abs() < 0.05), "{start:?}: {:?}", found.mean);
     }
 }
 
 #[test]
-fn a_cross_is_moved_on_at_a_finer_spacing() {
+fn a_cross_is_better_than_independent_draws() {
     let target = Cross::<3>::new(2.0, 0.2).expect("scales");
     let samples = from_start(&target, (0.0, 1.0));
-    assert!(samples.steps > 97, "{}", samples.steps);
     let reached = energy_ratio(&target, &samples.positions);
     assert!(reached < 0.5, "{reached}");
 }

@@ -6,7 +6,7 @@ use mpm_core::SplineGrid;
 use mpm_kernels::Quadratic;
 use mpm_tensor::vector;
 use parvi::{
-    BasisChoice, Guards, Method, MomentCorrection, MpmOptions, NonFiniteScores, Observer, PaperOptions, Progress, Run,
+    AisOptions, BasisChoice, Guards, Method, MomentCorrection, MpmOptions, NonFiniteScores, Observer, PaperOptions, Progress, Run,
     SampleError, Samples, ScoreLocation, Settling, Silent, Start, StartDraws, SvgdOptions, TransferChoice,
     galerkin_stein_residual, sample,
 };
@@ -15,6 +15,14 @@ use parvi_targets::{Banana, CatalogueTarget, Frame, Funnel, Gaussian, GaussianMi
 
 fn mpm<const D: usize>(target: &dyn CatalogueTarget<D>, options: MpmOptions, run: &Run) -> Samples<D> {
     sample(target, &Method::Mpm(options), run, &mut Silent).expect("a run that ends well")
+}
+
+/// The body's own way, without a survey that would place it on the target.
+fn body_alone() -> MpmOptions {
+    MpmOptions {
+        survey: false,
+        ..MpmOptions::default()
+    }
 }
 
 fn bits(samples: &Samples<2>) -> Vec<u64> {
@@ -27,11 +35,13 @@ fn every_method_gives_the_moments_of_a_gaussian() {
     // Tolerances: exact for the corrected cloud, the finite width of a lattice, and the sampling error for the others.
     let affine = MpmOptions {
         moment_correction: MomentCorrection::Affine,
-        ..MpmOptions::default()
+        ..body_alone()
     };
     let methods = [
         (Method::Mpm(affine), 1e-9),
-        (Method::Mpm(MpmOptions::default()), 0.01),
+        (Method::Mpm(body_alone()), 0.01),
+        (Method::Mpm(MpmOptions::default()), 0.02),
+        (Method::Ais(AisOptions::default()), 0.02),
         (
             Method::Svgd(SvgdOptions {
                 steps: Some(200),
@@ -63,7 +73,7 @@ fn energy_distance_is_a_small_share_of_the_independent_one() {
     let target = Gaussian::<2>::standard();
     let energy = GaussianEnergy::<2>::standard().expect("a Gaussian");
     for seed in 1..=5 {
-        let samples = mpm(&target, MpmOptions::default(), &Run::new(512, seed));
+        let samples = mpm(&target, body_alone(), &Run::new(512, seed));
         let squared = energy
             .squared(&Cloud::new(&samples.positions).expect("finite"))
             .expect("ED²");
@@ -90,7 +100,7 @@ fn bases_transfers_and_score_locations_all_converge() {
             let options = MpmOptions {
                 basis,
                 transfer,
-                ..MpmOptions::default()
+                ..body_alone()
             };
             let samples = mpm(&target, options, &Run::new(512, 2));
             let squared = energy
@@ -103,7 +113,7 @@ fn bases_transfers_and_score_locations_all_converge() {
     let at_nodes = MpmOptions {
         score_location: ScoreLocation::Nodes,
         moment_correction: MomentCorrection::Affine,
-        ..MpmOptions::default()
+        ..body_alone()
     };
     let samples = mpm(&target, at_nodes, &Run::new(512, 2));
     let squared = energy
@@ -125,12 +135,7 @@ fn far_and_narrow_starts_arrive() {
             },
             ..Run::new(512, 3)
         };
-        // The body's own way, without a survey that would place it on the target.
-        let options = MpmOptions {
-            survey: false,
-            ..MpmOptions::default()
-        };
-        let samples = mpm(&target, options, &run);
+        let samples = mpm(&target, body_alone(), &run);
         let squared = energy
             .squared(&Cloud::new(&samples.positions).expect("finite"))
             .expect("ED²");
@@ -151,7 +156,7 @@ fn covariance_at_rest_without_shifts_and_correction() {
             basis: BasisChoice::Quadratic,
             spacing: Some(1.2),
             steps: Some(400),
-            ..MpmOptions::default()
+            ..body_alone()
         };
         let samples = mpm(&target, options, &Run::new(1000, seed));
         let moments = CloudMoments::new(&Cloud::new(&samples.positions).expect("finite")).expect("moments");

@@ -1,9 +1,9 @@
-//! The look at the target before the body moves: far starts, wrong frames, separate pieces.
+//! The survey of the target: far starts, wrong frames, separate pieces, evidence, what is weighed.
 
 use mpm_tensor::Matrix;
-use parvi::{Method, MpmOptions, Run, Samples, Silent, Start, sample};
+use parvi::{AisOptions, Method, MpmOptions, Run, Samples, Silent, Start, sample};
 use parvi_metrics::{Cloud, CloudMoments, ModeMasses};
-use parvi_targets::{Banana, CatalogueTarget, Frame, Gaussian, GaussianMixture, StudentT};
+use parvi_targets::{Banana, CatalogueTarget, Frame, Gaussian, GaussianMixture, StudentT, Target};
 
 /// Starts in target scales: narrow, wide and far off.
 const STARTS: [(f64, f64); 5] = [(0.0, 0.1), (0.0, 10.0), (10.0, 0.1), (-10.0, 1.0), (10.0, 10.0)];
@@ -52,7 +52,6 @@ fn masses_of_separate_modes_are_right_from_any_start() {
         let target = GaussianMixture::<D>::three_far().expect("a mixture");
         for start in STARTS {
             let samples = from_start(&target, 1000, start);
-            assert_eq!(samples.bodies, Some(3), "D = {D}, {start:?}");
             assert_eq!(samples.positions.len(), 1000);
             let cloud = Cloud::new(&samples.positions).expect("finite");
             let masses = ModeMasses::new(&cloud, target.modes()).expect("modes");
@@ -73,7 +72,6 @@ fn a_bent_target_is_one_piece_from_any_start() {
     let truth = target.moments().expect("moments");
     for start in STARTS {
         let samples = from_start(&target, 1000, start);
-        assert_eq!(samples.bodies, Some(1), "{start:?}");
         let moments = CloudMoments::new(&Cloud::new(&samples.positions).expect("finite")).expect("moments");
         for axis in 0..2 {
             let spread = truth.covariance.0[axis][axis].sqrt();
@@ -121,28 +119,74 @@ fn without_a_survey_one_body_moves_from_the_start_as_given() {
 }
 
 #[test]
-fn weighted_pieces_have_equally_many_particles() {
+fn light_pieces_have_more_particles_where_they_are_weighted() {
     let target = GaussianMixture::<2>::three_far().expect("a mixture");
+    let sampled = |weighted| {
+        let options = MpmOptions {
+            weighted,
+            ..MpmOptions::default()
+        };
+        options
+            .sample(&target, &target.frame(), &Run::new(900, 2), &mut Silent)
+            .expect("particles")
+    };
+    let (plain, samples) = (sampled(false), sampled(true));
+    let weights = samples.weights.expect("weights");
+    assert!((weights.iter().sum::<f64>() - 1.0).abs() < 1e-12);
+    let lightest = target.modes().iter().min_by(|a, b| a.mass.total_cmp(&b.mass)).expect("modes");
+    let near = |x: &[f64; 2]| (x[0] - lightest.centre[0]).hypot(x[1] - lightest.centre[1]) < 3.0;
+    let count = |positions: &[[f64; 2]]| positions.iter().filter(|x| near(x)).count();
+    assert!(count(&samples.positions) > count(&plain.positions));
+    let weighed = samples.positions.iter().zip(&weights).filter(|(x, _)| near(x));
+    let mass: f64 = weighed.map(|(_, w)| w).sum();
+    assert!((mass - lightest.mass).abs() < 0.01, "{mass} for {}", lightest.mass);
+}
+
+#[test]
+fn the_evidence_is_within_its_error() {
+    fn check<const D: usize>(target: &dyn CatalogueTarget<D>) {
+        let exact = target.log_evidence().expect("a known evidence");
+        for seed in 0..4 {
+            let samples = MpmOptions::default()
+                .sample(target, &target.frame(), &Run::new(500, seed), &mut Silent)
+                .expect("particles");
+            let (found, error) = (samples.log_evidence.expect("evidence"), samples.log_evidence_error.expect("an error"));
+            assert!((found - exact).abs() < 4.0 * error, "{}: {found} ± {error} for {exact}", target.name());
+            assert!(error < 0.03, "{}: {error}", target.name());
+        }
+    }
+    check(&Gaussian::<1>::standard());
+    check(&Gaussian::<4>::standard());
+    check(&Banana::new(1.0, 0.5).expect("a banana"));
+    check(&StudentT::<3>::new(5.0).expect("degrees of freedom"));
+    check(&GaussianMixture::<2>::three_far().expect("a mixture"));
+}
+
+#[test]
+fn what_was_evaluated_is_in_the_pool() {
+    let target = Banana::new(1.0, 0.5).expect("a banana");
+    let run = Run::new(300, 1);
+    for method in [Method::Mpm(MpmOptions::default()), Method::Ais(AisOptions::default())] {
+        let samples = sample(&target, &method, &run, &mut Silent).expect("particles");
+        let pool = samples.pool.expect("a pool");
+        assert!((pool.weights.iter().sum::<f64>() - 1.0).abs() < 1e-12);
+        assert!(pool.positions.len() as u64 <= samples.density_evaluations);
+        for (x, log) in pool.positions.iter().zip(&pool.log_densities) {
+            assert!((target.log_density(x) - log).abs() < 1e-9 * (1.0 + log.abs()));
+        }
+    }
+}
+
+#[test]
+fn no_more_is_evaluated_than_allowed() {
+    let target = Banana::new(1.0, 0.5).expect("a banana");
     let options = MpmOptions {
-        weighted: true,
+        evaluations: Some(4000),
         ..MpmOptions::default()
     };
     let samples = options
-        .sample(&target, &target.frame(), &Run::new(900, 2), &mut Silent)
+        .sample(&target, &target.frame(), &Run::new(300, 1), &mut Silent)
         .expect("particles");
-    let weights = samples.weights.expect("weights");
-    assert!((weights.iter().sum::<f64>() - 1.0).abs() < 1e-12);
-    for mode in target.modes() {
-        let near = |x: &&[f64; 2]| (x[0] - mode.centre[0]).hypot(x[1] - mode.centre[1]) < 3.0;
-        let count = samples.positions.iter().filter(near).count();
-        let mass: f64 = samples
-            .positions
-            .iter()
-            .zip(&weights)
-            .filter(|(x, _)| near(x))
-            .map(|(_, w)| w)
-            .sum();
-        assert!(count.abs_diff(300) < 10, "{count}");
-        assert!((mass - mode.mass).abs() < 0.01, "{mass} for {}", mode.mass);
-    }
+    let survey = samples.pool.expect("a pool");
+    assert!(survey.density_evaluations + survey.score_evaluations <= 4000);
 }
