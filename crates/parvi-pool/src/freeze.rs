@@ -22,10 +22,16 @@ const SHARPENING: f64 = 0.05;
 const EARLIER: usize = 6;
 const EARLIER_SHARE: f64 = 0.4;
 
+/// Effective share over that of the last rounds below which fresh points have met something that the rounds had not.
+const SURPRISE: f64 = 0.4;
+
 /// The fold of fresh points, and whether they are covered.
 pub(super) struct Frozen<const D: usize> {
     pub fresh: Fold<D>,
     pub covered: Vec<bool>,
+    /// Effective share of the fresh points, and whether it says that adaptation ended too early.
+    pub share: f64,
+    pub surprised: bool,
 }
 
 /// Fits a proposal to the points of both folds and draws from it until the effective size suffices or the evaluations are used up.
@@ -48,6 +54,8 @@ pub(super) fn freeze<const D: usize>(
         return Frozen {
             fresh,
             covered: Vec::new(),
+            share: 0.0,
+            surprised: false,
         };
     };
     let (frozen, wholes) = with_earlier(frozen, adapted);
@@ -59,8 +67,14 @@ pub(super) fn freeze<const D: usize>(
     if more >= LANES {
         fresh.draw(density, frozen, more, rng.random());
     }
-    let covered = covered(&fresh, wholes);
-    Frozen { fresh, covered }
+    let share = fresh.effective_size() / fresh.positions.len().max(1) as f64;
+    let [before, after] = [pilot.min(adapted.share), share];
+    Frozen {
+        covered: covered(&fresh, wholes),
+        fresh,
+        share,
+        surprised: after < SURPRISE * before,
+    }
 }
 
 /// This proposal together with the last ones of both folds: a hole of one fit is none of all. Also the kernels that stand for samples as a whole.
