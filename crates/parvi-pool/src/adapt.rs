@@ -26,6 +26,9 @@ const PATIENCE: usize = 2;
 /// Standard errors by which the folds' log Z may differ.
 const AGREEMENT: f64 = 3.0;
 
+/// Rounds before scores are taken: what neighbours alone teach may do.
+const UNSHARPENED: usize = 2;
+
 /// Shares of the evaluations that scouts, the scores of one round, and all rounds together may take.
 const SCOUTING: f64 = 0.1;
 const SHARPENING: f64 = 0.02;
@@ -129,7 +132,7 @@ impl<const D: usize> Adaptation<D> {
         plan: &Plan,
         rng: &mut ChaCha8Rng,
     ) -> Result<Round, PoolError> {
-        let sharpening = if number > 1 { plan.sharpening(self.share, self.sizes[1], SHARPENING) } else { 0 };
+        let sharpening = if number > UNSHARPENED { plan.sharpening(self.share, self.sizes[1], SHARPENING) } else { 0 };
         let exploring = if self.share > GOOD_SHARE {
             EXPLORING_LITTLE
         } else {

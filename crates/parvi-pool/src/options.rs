@@ -13,7 +13,7 @@ impl Default for PoolOptions {
     fn default() -> Self {
         Self {
             evaluations: None,
-            effective_size: 8.0,
+            effective_size: 7.5,
         }
     }
 }
