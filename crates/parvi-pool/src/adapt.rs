@@ -90,7 +90,8 @@ impl<const D: usize> Adaptation<D> {
     pub fn is_over(&self, plan: &Plan, spent: u64) -> bool {
         let collapsed = self.sizes[1] < 0.7 * self.sizes[0];
         let in_reach = (plan.goal - self.sizes[1]) < self.share * (plan.evaluations.saturating_sub(spent)) as f64;
-        let settled = self.share > BEST_SHARE || in_reach && self.without_advance >= PATIENCE || self.sizes[1] > plan.adapted;
+        let settled =
+            self.share > BEST_SHARE || in_reach && self.without_advance >= PATIENCE || self.sizes[1] > plan.adapted;
         self.is_used_up(plan, spent) || settled && !collapsed && self.agree()
     }
 
@@ -132,7 +133,11 @@ impl<const D: usize> Adaptation<D> {
         plan: &Plan,
         rng: &mut ChaCha8Rng,
     ) -> Result<Round, PoolError> {
-        let sharpening = if number > UNSHARPENED { plan.sharpening(self.share, self.sizes[1], SHARPENING) } else { 0 };
+        let sharpening = if number > UNSHARPENED {
+            plan.sharpening(self.share, self.sizes[1], SHARPENING)
+        } else {
+            0
+        };
         let exploring = if self.share > GOOD_SHARE {
             EXPLORING_LITTLE
         } else {
@@ -165,7 +170,7 @@ impl<const D: usize> Adaptation<D> {
         })
     }
 
-    /// A proposal fitted to the points of this fold, after walks of so many evaluations.
+    /// A proposal fitted to the points of this fold, with so many scores.
     fn proposal(
         &mut self,
         side: usize,

@@ -15,7 +15,7 @@ use crate::propose::{best_form, proposal};
 /// Share of the points fitted to that come from a level set.
 const EXPLORING: f64 = 0.06;
 
-/// Share of the evaluations that walks may take.
+/// Share of the evaluations that scores for it may take.
 const SHARPENING: f64 = 0.05;
 
 /// Earlier proposals of each fold that are frozen too, and their share.

@@ -52,7 +52,6 @@ pub(super) fn learn<const D: usize>(
     let weights = tempered(&logs, gamma);
     let all = Sample {
         logs: tempered_logs(&points, &values, source, gamma),
-        families: (0..points.len()).collect(),
         precisions: vec![Some(Matrix::ZERO); points.len()],
         points,
         weights,
@@ -83,7 +82,10 @@ pub(super) fn learn<const D: usize>(
     for (i, precision) in seats.into_iter().zip(found) {
         sample.precisions[i] = Some(precision * gamma);
     }
-    Learned { sample, level: Sample::default() }
+    Learned {
+        sample,
+        level: Sample::default(),
+    }
 }
 
 /// Points, log densities and log weights of all folds; each estimates Z by itself, and they count by their effective sizes.
@@ -100,12 +102,7 @@ fn joined<const D: usize>(source: &[&Fold<D>]) -> (Vec<[f64; D]>, Vec<f64>, Vec<
 }
 
 /// γ log p + (1 − γ) log q at points where log p is known, q the mixture of the folds.
-fn tempered_logs<const D: usize>(
-    points: &[[f64; D]],
-    values: &[f64],
-    source: &[&Fold<D>],
-    gamma: f64,
-) -> Vec<f64> {
+fn tempered_logs<const D: usize>(points: &[[f64; D]], values: &[f64], source: &[&Fold<D>], gamma: f64) -> Vec<f64> {
     if gamma >= 1.0 {
         return values.to_vec();
     }

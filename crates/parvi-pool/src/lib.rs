@@ -93,13 +93,7 @@ pub fn explore<const D: usize>(
         adaptation.absorb(frozen.fresh, frozen.share);
     };
     let disagreement = disagreement(&adaptation.folds, &frozen.fresh);
-    let mut pool = Pool::new(
-        adaptation.folds,
-        frozen.fresh,
-        &frozen.covered,
-        frame,
-        &density,
-    );
+    let mut pool = Pool::new(adaptation.folds, frozen.fresh, &frozen.covered, frame, &density);
     let error = &mut pool.verdict.log_evidence_error;
     *error = error.hypot(disagreement);
     Ok(pool)

@@ -18,10 +18,10 @@ impl Default for PoolOptions {
     }
 }
 
-/// Effective share of a proposal that walks would hardly better.
+/// Effective share of a proposal that curvature would hardly better.
 const GOOD_SHARE: f64 = 0.6;
 
-/// Share of what walks can spare that they may cost.
+/// Share of what scores can spare that they may cost.
 const SHARPENING: f64 = 0.4;
 
 /// Sizes that follow from the options.
@@ -77,7 +77,7 @@ impl PoolOptions {
 }
 
 impl Plan {
-    /// Evaluations that walks may take before the next proposal, at most this share of all: a part of what the effective size that is lacking would cost at
+    /// Scores that may be taken before the next proposal, at most this share of all: a part of what the effective size that is lacking would cost at
     /// the present share beyond what it would cost at a good one.
     pub(super) fn sharpening(&self, share: f64, size: f64, most: f64) -> usize {
         let lacking = (self.goal - size).max(0.0);
@@ -101,7 +101,7 @@ pub struct Round {
     pub kernels: usize,
     /// Their width over the fitted one.
     pub width: f64,
-    /// Whether walks sharpened what the proposals were fitted to.
+    /// Whether scores sharpened the kernels.
     pub sharpened: bool,
 }
 

@@ -119,14 +119,20 @@ fn apart<const D: usize>(summits: &[Summit<D>], drawn: &[f64; D]) -> [f64; D] {
 fn about<const D: usize>(summits: &[Summit<D>]) -> Vec<Kernel<D>> {
     let log_mass = |summit: &Summit<D>| summit.log_density - 0.5 * summit.log_determinant;
     let top = summits.iter().map(log_mass).fold(f64::NEG_INFINITY, f64::max);
-    let heavy: Vec<&Summit<D>> = summits.iter().filter(|summit| log_mass(summit) > top - LIGHTEST).collect();
+    let heavy: Vec<&Summit<D>> = summits
+        .iter()
+        .filter(|summit| log_mass(summit) > top - LIGHTEST)
+        .collect();
     let total: f64 = heavy.iter().map(|summit| (log_mass(summit) - top).exp()).sum();
     let kernel = |summit: &Summit<D>, (stretch, share): (f64, f64)| Kernel {
         centre: summit.point,
         factor: root(&summit.covariance) * stretch,
         share: share * 0.5 * ((log_mass(summit) - top).exp() / total + 1.0 / heavy.len() as f64),
     };
-    heavy.iter().flat_map(|summit| STRETCHES.map(|stretch| kernel(summit, stretch))).collect()
+    heavy
+        .iter()
+        .flat_map(|summit| STRETCHES.map(|stretch| kernel(summit, stretch)))
+        .collect()
 }
 
 impl<const D: usize> Summit<D> {
