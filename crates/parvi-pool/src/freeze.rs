@@ -50,7 +50,8 @@ pub(super) fn freeze<const D: usize>(
     adapted.forget_beginnings();
     let size: f64 = adapted.folds.iter().map(Fold::effective_size).sum();
     let mut fresh = Fold::new();
-    let Some(frozen) = proposal(&learned.sample, form, rng) else {
+    let last = || adapted.folds[0].rounds.last().map(|(_, last)| last.clone());
+    let Some(frozen) = proposal(&learned.sample, form, rng).or_else(last) else {
         return Frozen {
             fresh,
             covered: Vec::new(),

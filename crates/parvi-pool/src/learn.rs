@@ -65,12 +65,11 @@ pub(super) fn learn<const D: usize>(
         }
         level.logs = tempered_logs(&level.points, &level.logs, source, gamma);
     };
+    add_level((exploring * count as f64) as usize);
     if sharpening == 0 {
-        add_level((exploring * count as f64) as usize);
         let sample = all.resampled(count, rng.random());
         return Learned { sample, level };
     }
-    add_level((exploring * count as f64) as usize);
     let mut sample = all.resampled(count, rng.random());
     sample.join(level);
     let mut seats = systematic(&sample.weights, sharpening / (D + 1), rng.random());

@@ -24,6 +24,9 @@ const GOOD_SHARE: f64 = 0.6;
 /// Share of what scores can spare that they may cost.
 const SHARPENING: f64 = 0.4;
 
+/// Kernels that scores sharpen at least, if any.
+const FEWEST_KERNELS: usize = 20;
+
 /// Sizes that follow from the options.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plan {
@@ -33,6 +36,8 @@ pub(super) struct Plan {
     pub round: usize,
     /// Fresh points at least.
     pub referee: usize,
+    /// Scores that are worth taking.
+    pub fewest_scores: usize,
     /// Effective size at which adaptation ends, and the whole ends.
     pub adapted: f64,
     pub goal: f64,
@@ -70,6 +75,7 @@ impl PoolOptions {
             first: round * 3 / 2,
             round,
             referee: round,
+            fewest_scores: FEWEST_KERNELS * (D + 1),
             adapted: 0.5 * size * particles as f64,
             goal: size * particles as f64,
         })
@@ -82,7 +88,12 @@ impl Plan {
     pub(super) fn sharpening(&self, share: f64, size: f64, most: f64) -> usize {
         let lacking = (self.goal - size).max(0.0);
         let cost = lacking * (1.0 / share.max(1e-3) - 1.0 / GOOD_SHARE);
-        (SHARPENING * cost).clamp(0.0, most * self.evaluations as f64) as usize
+        let scores = (SHARPENING * cost).min(most * self.evaluations as f64);
+        if scores < self.fewest_scores as f64 {
+            0
+        } else {
+            scores as usize
+        }
     }
 }
 
