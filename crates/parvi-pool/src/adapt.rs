@@ -26,6 +26,9 @@ const PATIENCE: usize = 2;
 /// Standard errors by which the folds' log Z may differ.
 const AGREEMENT: f64 = 3.0;
 
+/// Rounds before scores are taken: what neighbours alone teach may do.
+const UNSHARPENED: usize = 2;
+
 /// Shares of the evaluations that scouts, the scores of one round, and all rounds together may take.
 const SCOUTING: f64 = 0.1;
 const SHARPENING: f64 = 0.02;
@@ -85,11 +88,20 @@ impl<const D: usize> Adaptation<D> {
 
     /// Whether further rounds would gain nothing, or must leave what is left of the evaluations to fresh points.
     pub fn is_over(&self, plan: &Plan, spent: u64) -> bool {
-        let used_up = spent as f64 > ADAPTING * plan.evaluations as f64;
         let collapsed = self.sizes[1] < 0.7 * self.sizes[0];
         let in_reach = (plan.goal - self.sizes[1]) < self.share * (plan.evaluations.saturating_sub(spent)) as f64;
-        let settled = self.share > BEST_SHARE || in_reach && self.without_advance >= PATIENCE || self.sizes[1] > plan.adapted;
-        used_up || settled && !collapsed && self.agree()
+        let settled =
+            self.share > BEST_SHARE || in_reach && self.without_advance >= PATIENCE || self.sizes[1] > plan.adapted;
+        self.is_used_up(plan, spent) || settled && !collapsed && self.agree()
+    }
+
+    /// Takes fresh points in after all: they met what the rounds had not.
+    pub fn absorb(&mut self, fresh: Fold<D>, share: f64) {
+        let side = usize::from(self.folds[1].effective_size() < self.folds[0].effective_size());
+        self.shares[side].extend(fresh.rounds.iter().map(|_| share));
+        self.folds[side].absorb(fresh);
+        (self.share, self.best, self.without_advance) = (share, 0.0, 0);
+        self.sizes = [0.0, self.folds.iter().map(Fold::effective_size).sum()];
     }
 
     /// Forgets the rounds before the first whose share was nearly as large as the last one's: what few heavy points the others had taught the later proposals too much.
@@ -100,6 +112,11 @@ impl<const D: usize> Adaptation<D> {
             fold.forget(first);
             shares.drain(..first);
         }
+    }
+
+    /// Whether what is left of the evaluations is for fresh points.
+    pub fn is_used_up(&self, plan: &Plan, spent: u64) -> bool {
+        spent as f64 > ADAPTING * plan.evaluations as f64
     }
 
     /// Whether the folds' estimates of log Z differ by no more than their standard errors explain.
@@ -116,7 +133,11 @@ impl<const D: usize> Adaptation<D> {
         plan: &Plan,
         rng: &mut ChaCha8Rng,
     ) -> Result<Round, PoolError> {
-        let sharpening = if number > 1 { plan.sharpening(self.share, self.sizes[1], SHARPENING) } else { 0 };
+        let sharpening = if number > UNSHARPENED {
+            plan.sharpening(self.share, self.sizes[1], SHARPENING)
+        } else {
+            0
+        };
         let exploring = if self.share > GOOD_SHARE {
             EXPLORING_LITTLE
         } else {
@@ -149,7 +170,7 @@ impl<const D: usize> Adaptation<D> {
         })
     }
 
-    /// A proposal fitted to the points of this fold, after walks of so many evaluations.
+    /// A proposal fitted to the points of this fold, with so many scores.
     fn proposal(
         &mut self,
         side: usize,

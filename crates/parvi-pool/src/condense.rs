@@ -14,6 +14,9 @@ const ITERATIONS: usize = 50;
 /// Of these with the whole measure; the others with so many equally weighted points per particle, if that is much less.
 const FINE_ITERATIONS: usize = 25;
 const COARSE: usize = 8;
+/// Particles that are condensed together; of more than these space is cut into pieces.
+const LARGEST_PIECE: usize = 1024;
+
 /// The largest move, in units of the spread, at which they end.
 const TOLERANCE: f64 = 1e-3;
 
@@ -46,21 +49,42 @@ pub fn condense<const D: usize>(measure: &Measure<D>, count: usize, offset: f64)
     let shifts = beside.map_or_else(Vec::new, |law| law.draws(count, 0));
     let positive: Vec<f64> = weights.iter().map(|c| c.max(0.0)).collect();
     let chosen = systematic(&positive, count, offset);
-    let mut moving: Vec<[f64; D]> = chosen
-        .iter()
-        .zip(&shifts)
-        .map(|(&index, shift)| vector::add(&sample[index], shift))
-        .collect();
-    // Far iterations need no more than an equally weighted few.
-    let few = systematic(&positive, COARSE * count, offset);
-    let few: Vec<[f64; D]> = few.iter().map(|&index| sample[index]).collect();
-    if 2 * few.len() < sample.len() {
-        let equal = vec![1.0; few.len()];
-        iterate(&SupportPoints::new(&few, &equal), ITERATIONS - FINE_ITERATIONS, &mut moving);
+    // Pieces of space, so that the cost is that of many small measures.
+    let pieces = count.div_ceil(LARGEST_PIECE).next_power_of_two();
+    let ends: Vec<usize> = (1..=pieces).map(|piece| piece * sample.len() / pieces).collect();
+    let mut moving = Vec::with_capacity(count);
+    let (mut first, mut taken) = (0, 0);
+    for end in ends {
+        let own = chosen[taken..].partition_point(|&index| index < end);
+        let begin = |k: usize| vector::add(&sample[chosen[k]], &shifts[k]);
+        let particles = (taken..taken + own).map(begin).collect();
+        let points = &sample[first..end];
+        let few = systematic(&positive[first..end], COARSE * own, offset);
+        let few: Vec<[f64; D]> = few.iter().map(|&index| points[index]).collect();
+        // Noise may take the mass of a small piece below nothing.
+        let (mass, own_positive) = (weights[first..end].iter().sum::<f64>(), &positive[first..end]);
+        let sound = 2.0 * mass > own_positive.iter().sum();
+        let own_weights = if sound { &weights[first..end] } else { own_positive };
+        moving.extend(drawn_to(points, own_weights, &few, particles));
+        (first, taken) = (end, taken + own);
     }
-    iterate(&SupportPoints::new(&sample, &weights), FINE_ITERATIONS, &mut moving);
     let back = |x: &[f64; D]| std::array::from_fn(|a| mean[a] + scales[a] * x[a]);
     moving.iter().map(back).collect()
+}
+
+/// Particles drawn to weighted points; far iterations need no more than an equally weighted `few`.
+fn drawn_to<const D: usize>(
+    points: &[[f64; D]],
+    weights: &[f64],
+    few: &[[f64; D]],
+    mut particles: Vec<[f64; D]>,
+) -> Vec<[f64; D]> {
+    if 2 * few.len() < points.len() {
+        let equal = vec![1.0; few.len()];
+        iterate(&SupportPoints::new(few, &equal), ITERATIONS - FINE_ITERATIONS, &mut particles);
+    }
+    iterate(&SupportPoints::new(points, weights), FINE_ITERATIONS, &mut particles);
+    particles
 }
 
 /// So many iterations, or until nothing moves any more.

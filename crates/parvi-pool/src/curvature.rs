@@ -30,7 +30,9 @@ pub(super) fn precisions<const D: usize>(
     for ((&i, factor), scores) in unknown.iter().zip(&factors).zip(scores.chunks(D + 1)) {
         // Columns −H L, hence H = −(H L) L⁻¹.
         let along = Matrix::from_fn(|row, axis| scores[0][row] - scores[axis + 1][row]);
-        let precision = factor.lower_triangular_inverse().map(|inverse| (along * inverse).symmetric_part());
+        let precision = factor
+            .lower_triangular_inverse()
+            .map(|inverse| (along * inverse).symmetric_part());
         density.keep_precision(&points[i], precision.filter(Matrix::is_finite).unwrap_or(Matrix::ZERO));
     }
     points.iter().map(|point| density.precision(point)).collect()

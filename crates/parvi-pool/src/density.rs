@@ -130,7 +130,10 @@ impl<'a, const D: usize> Density<'a, D> {
 
     /// −∇² log p as remembered; zero where it is not known.
     pub fn precision(&self, point: &[f64; D]) -> Matrix<D> {
-        self.precisions.get(&point.map(f64::to_bits)).copied().unwrap_or(Matrix::ZERO)
+        self.precisions
+            .get(&point.map(f64::to_bits))
+            .copied()
+            .unwrap_or(Matrix::ZERO)
     }
 
     /// Evaluations of all kinds.

@@ -73,6 +73,17 @@ impl<const D: usize> Fold<D> {
         pairs.map(|(q, sum)| q / sum.max(f64::MIN_POSITIVE)).collect()
     }
 
+    /// Takes the points and the proposals of another fold in.
+    pub fn absorb(&mut self, mut other: Self) {
+        self.add_density(&other.groups, 1.0, &mut other.sums);
+        other.add_density(&self.groups, 1.0, &mut self.sums);
+        self.positions.extend(other.positions);
+        self.log_densities.extend(other.log_densities);
+        self.groups.extend(other.groups);
+        self.sums.extend(other.sums);
+        self.rounds.extend(other.rounds);
+    }
+
     /// Forgets the first rounds, their points and their proposals.
     pub fn forget(&mut self, rounds: usize) {
         let points: usize = self.rounds.drain(..rounds).map(|(count, _)| count).sum();

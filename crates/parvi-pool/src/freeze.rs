@@ -15,17 +15,23 @@ use crate::propose::{best_form, proposal};
 /// Share of the points fitted to that come from a level set.
 const EXPLORING: f64 = 0.06;
 
-/// Share of the evaluations that walks may take.
+/// Share of the evaluations that scores for it may take.
 const SHARPENING: f64 = 0.05;
 
 /// Earlier proposals of each fold that are frozen too, and their share.
 const EARLIER: usize = 6;
 const EARLIER_SHARE: f64 = 0.4;
 
+/// Effective share over that of the last rounds below which fresh points have met something that the rounds had not.
+const SURPRISE: f64 = 0.4;
+
 /// The fold of fresh points, and whether they are covered.
 pub(super) struct Frozen<const D: usize> {
     pub fresh: Fold<D>,
     pub covered: Vec<bool>,
+    /// Effective share of the fresh points, and whether it says that adaptation ended too early.
+    pub share: f64,
+    pub surprised: bool,
 }
 
 /// Fits a proposal to the points of both folds and draws from it until the effective size suffices or the evaluations are used up.
@@ -44,10 +50,13 @@ pub(super) fn freeze<const D: usize>(
     adapted.forget_beginnings();
     let size: f64 = adapted.folds.iter().map(Fold::effective_size).sum();
     let mut fresh = Fold::new();
-    let Some(frozen) = proposal(&learned.sample, form, rng) else {
+    let last = || adapted.folds[0].rounds.last().map(|(_, last)| last.clone());
+    let Some(frozen) = proposal(&learned.sample, form, rng).or_else(last) else {
         return Frozen {
             fresh,
             covered: Vec::new(),
+            share: 0.0,
+            surprised: false,
         };
     };
     let (frozen, wholes) = with_earlier(frozen, adapted);
@@ -59,8 +68,14 @@ pub(super) fn freeze<const D: usize>(
     if more >= LANES {
         fresh.draw(density, frozen, more, rng.random());
     }
-    let covered = covered(&fresh, wholes);
-    Frozen { fresh, covered }
+    let share = fresh.effective_size() / fresh.positions.len().max(1) as f64;
+    let [before, after] = [pilot.min(adapted.share), share];
+    Frozen {
+        covered: covered(&fresh, wholes),
+        fresh,
+        share,
+        surprised: after < SURPRISE * before,
+    }
 }
 
 /// This proposal together with the last ones of both folds: a hole of one fit is none of all. Also the kernels that stand for samples as a whole.

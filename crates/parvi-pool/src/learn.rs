@@ -52,7 +52,6 @@ pub(super) fn learn<const D: usize>(
     let weights = tempered(&logs, gamma);
     let all = Sample {
         logs: tempered_logs(&points, &values, source, gamma),
-        families: (0..points.len()).collect(),
         precisions: vec![Some(Matrix::ZERO); points.len()],
         points,
         weights,
@@ -66,12 +65,11 @@ pub(super) fn learn<const D: usize>(
         }
         level.logs = tempered_logs(&level.points, &level.logs, source, gamma);
     };
+    add_level((exploring * count as f64) as usize);
     if sharpening == 0 {
-        add_level((exploring * count as f64) as usize);
         let sample = all.resampled(count, rng.random());
         return Learned { sample, level };
     }
-    add_level((exploring * count as f64) as usize);
     let mut sample = all.resampled(count, rng.random());
     sample.join(level);
     let mut seats = systematic(&sample.weights, sharpening / (D + 1), rng.random());
@@ -83,7 +81,10 @@ pub(super) fn learn<const D: usize>(
     for (i, precision) in seats.into_iter().zip(found) {
         sample.precisions[i] = Some(precision * gamma);
     }
-    Learned { sample, level: Sample::default() }
+    Learned {
+        sample,
+        level: Sample::default(),
+    }
 }
 
 /// Points, log densities and log weights of all folds; each estimates Z by itself, and they count by their effective sizes.
@@ -100,12 +101,7 @@ fn joined<const D: usize>(source: &[&Fold<D>]) -> (Vec<[f64; D]>, Vec<f64>, Vec<
 }
 
 /// γ log p + (1 − γ) log q at points where log p is known, q the mixture of the folds.
-fn tempered_logs<const D: usize>(
-    points: &[[f64; D]],
-    values: &[f64],
-    source: &[&Fold<D>],
-    gamma: f64,
-) -> Vec<f64> {
+fn tempered_logs<const D: usize>(points: &[[f64; D]], values: &[f64], source: &[&Fold<D>], gamma: f64) -> Vec<f64> {
     if gamma >= 1.0 {
         return values.to_vec();
     }

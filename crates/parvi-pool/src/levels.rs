@@ -37,7 +37,6 @@ pub(super) fn level_sample<const D: usize>(fold: &Fold<D>, count: usize, offset:
         points: chosen.iter().map(|&i| fold.positions[i]).collect(),
         weights: weights_of(high),
         logs: chosen.iter().map(|&i| fold.log_densities[i]).collect(),
-        families: chosen.to_vec(),
         precisions: vec![Some(Matrix::ZERO); high],
     };
     level.resampled(count, offset)

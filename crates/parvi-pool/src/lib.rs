@@ -82,20 +82,41 @@ pub fn explore<const D: usize>(
     let mut density = Density::new(target, frame, tape);
     let mut adaptation = Adaptation::begin(&mut density, given, &plan, &mut rng)?;
     let mut number = 0;
-    while !adaptation.is_over(&plan, density.evaluations()) {
-        number += 1;
-        let round = adaptation.round(number, &mut density, &plan, &mut rng)?;
-        if observer(&round, &density.tape).is_break() {
-            return Err(PoolError::Interrupted { round: number });
+    let frozen = loop {
+        while !adaptation.is_over(&plan, density.evaluations()) {
+            number += 1;
+            let round = adaptation.round(number, &mut density, &plan, &mut rng)?;
+            if observer(&round, &density.tape).is_break() {
+                return Err(PoolError::Interrupted { round: number });
+            }
         }
-    }
-    let frozen = freeze(&mut adaptation, &mut density, &plan, &mut rng);
-    Ok(Pool::new(
+        let frozen = freeze(&mut adaptation, &mut density, &plan, &mut rng);
+        if !frozen.surprised || adaptation.is_used_up(&plan, density.evaluations()) {
+            break frozen;
+        }
+        adaptation.absorb(frozen.fresh, frozen.share);
+    };
+    let disagreement = disagreement(&adaptation.folds, &frozen.fresh);
+    let mut pool = Pool::new(
         adaptation.folds,
         frozen.fresh,
         &frozen.covered,
         frame,
         &density,
         particles,
-    ))
+    );
+    let error = &mut pool.log_evidence_error;
+    *error = error.hypot(disagreement);
+    Ok(pool)
+}
+
+/// What separates the folds' estimates of log Z from the fresh points' beyond their own standard errors: √(Δ² − σ²)₊ of the fold that is farther off.
+fn disagreement<const D: usize>(folds: &[Fold<D>; 2], fresh: &Fold<D>) -> f64 {
+    let (log_evidence, error) = fresh.log_evidence();
+    let excess = folds.iter().map(|fold| {
+        let (other, other_error) = fold.log_evidence();
+        (log_evidence - other).powi(2) - error.powi(2) - other_error.powi(2)
+    });
+    let excess = excess.filter(|excess| excess.is_finite()).fold(0.0, f64::max);
+    excess.sqrt()
 }

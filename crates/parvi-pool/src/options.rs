@@ -13,16 +13,19 @@ impl Default for PoolOptions {
     fn default() -> Self {
         Self {
             evaluations: None,
-            effective_size: 8.0,
+            effective_size: 7.5,
         }
     }
 }
 
-/// Effective share of a proposal that walks would hardly better.
+/// Effective share of a proposal that curvature would hardly better.
 const GOOD_SHARE: f64 = 0.6;
 
-/// Share of what walks can spare that they may cost.
+/// Share of what scores can spare that they may cost.
 const SHARPENING: f64 = 0.4;
+
+/// Kernels that scores sharpen at least, if any.
+const FEWEST_KERNELS: usize = 20;
 
 /// Sizes that follow from the options.
 #[derive(Clone, Copy, Debug)]
@@ -33,6 +36,8 @@ pub(super) struct Plan {
     pub round: usize,
     /// Fresh points at least.
     pub referee: usize,
+    /// Scores that are worth taking.
+    pub fewest_scores: usize,
     /// Effective size at which adaptation ends, and the whole ends.
     pub adapted: f64,
     pub goal: f64,
@@ -70,6 +75,7 @@ impl PoolOptions {
             first: round * 3 / 2,
             round,
             referee: round,
+            fewest_scores: FEWEST_KERNELS * (D + 1),
             adapted: 0.5 * size * particles as f64,
             goal: size * particles as f64,
         })
@@ -77,12 +83,17 @@ impl PoolOptions {
 }
 
 impl Plan {
-    /// Evaluations that walks may take before the next proposal, at most this share of all: a part of what the effective size that is lacking would cost at
+    /// Scores that may be taken before the next proposal, at most this share of all: a part of what the effective size that is lacking would cost at
     /// the present share beyond what it would cost at a good one.
     pub(super) fn sharpening(&self, share: f64, size: f64, most: f64) -> usize {
         let lacking = (self.goal - size).max(0.0);
         let cost = lacking * (1.0 / share.max(1e-3) - 1.0 / GOOD_SHARE);
-        (SHARPENING * cost).clamp(0.0, most * self.evaluations as f64) as usize
+        let scores = (SHARPENING * cost).min(most * self.evaluations as f64);
+        if scores < self.fewest_scores as f64 {
+            0
+        } else {
+            scores as usize
+        }
     }
 }
 
@@ -101,7 +112,7 @@ pub struct Round {
     pub kernels: usize,
     /// Their width over the fitted one.
     pub width: f64,
-    /// Whether walks sharpened what the proposals were fitted to.
+    /// Whether scores sharpened the kernels.
     pub sharpened: bool,
 }
 

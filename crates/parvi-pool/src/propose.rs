@@ -46,10 +46,10 @@ fn fitted<const D: usize>(sample: &Sample<D>, count: usize, rng: &mut ChaCha8Rng
         .zip(&chosen.precisions)
         .map(|(covariance, precision)| sharpened(covariance, &precision.unwrap_or(Matrix::ZERO)))
         .collect();
-    let sharpened_at_all = sample.precisions.iter().any(Option::is_none);
+    let sharpens = sample.precisions.iter().any(Option::is_none);
     // The covariance of t_ν is ν/(ν − 2) of its scale matrix.
     let normal = (1.0 - 1.0 / f64::from(HALF_FREEDOM)).sqrt();
-    let jitter = if sharpened_at_all { 0.0 } else { JITTER };
+    let jitter = if sharpens { 0.0 } else { JITTER };
     let kernel = |(centre, covariance)| {
         let factor = root(covariance);
         let z = std::array::from_fn(|_| jitter * normal_quantile(rng.random_range(1e-9..1.0)));
@@ -79,7 +79,7 @@ fn defended<const D: usize>(sample: &Sample<D>, fitted: &Mixture<D>, width: f64)
         factor: root(&covariance) * WHOLE_WIDTH,
         share: WHOLE,
     };
-    let all = widened(1.0 - WIDER  - WHOLE, 1.0)
+    let all = widened(1.0 - WIDER - WHOLE, 1.0)
         .chain(widened(WIDER, 2.5).step_by(2))
         .chain([whole]);
     Some(Mixture::new(all.collect())?.with_core(fitted.len()))
@@ -87,13 +87,18 @@ fn defended<const D: usize>(sample: &Sample<D>, fitted: &Mixture<D>, width: f64)
 
 /// The form under which points set aside come out best, by the least Σ w (p/q)^{1/2}: between the likelihood, which cares little for
 /// points that q forgets, and the variance of the weights, which hangs on a few of them. As many kernels as the last time, half or twice as many; any number
-/// the first time.
-pub(super) fn best_form<const D: usize>(sample: &Sample<D>, last: Option<Form>, walked: bool, rng: &mut ChaCha8Rng) -> Form {
+/// the first time, and one at every place of known curvature where scores sharpen them.
+pub(super) fn best_form<const D: usize>(
+    sample: &Sample<D>,
+    last: Option<Form>,
+    sharpens: bool,
+    rng: &mut ChaCha8Rng,
+) -> Form {
     let [training, check] = sample.split();
     let groups = packed(&check.points);
     let most = (sample.points.len() / POINTS_PER_KERNEL).clamp(1, MOST_KERNELS);
     let mut counts = match last {
-        _ if walked => vec![sample.seats().points.len()],
+        _ if sharpens => vec![sample.seats().points.len()],
         Some(form) => [form.kernels / 2, form.kernels, 2 * form.kernels, 4 * form.kernels]
             .map(|count| count.clamp(1, most))
             .to_vec(),

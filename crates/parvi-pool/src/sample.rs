@@ -10,8 +10,6 @@ pub(super) struct Sample<const D: usize> {
     pub points: Vec<[f64; D]>,
     pub weights: Vec<f64>,
     pub logs: Vec<f64>,
-    /// Points of one family stem from the same point.
-    pub families: Vec<usize>,
     /// What curvature adds to the precision of a kernel there; no kernel begins where there is `None`.
     pub precisions: Vec<Option<Matrix<D>>>,
 }
@@ -23,7 +21,6 @@ impl<const D: usize> Sample<D> {
             points: Vec::new(),
             weights: Vec::new(),
             logs: Vec::new(),
-            families: Vec::new(),
             precisions: Vec::new(),
         };
         let mut last = None;
@@ -34,7 +31,6 @@ impl<const D: usize> Sample<D> {
                     sample.points.push(self.points[index]);
                     sample.weights.push(1.0);
                     sample.logs.push(self.logs[index]);
-                    sample.families.push(self.families[index]);
                     sample.precisions.push(self.precisions[index]);
                 }
             }
@@ -43,25 +39,11 @@ impl<const D: usize> Sample<D> {
         sample
     }
 
-    /// Every point as often as its weight says, each with weight one.
-    pub fn repeated(&self) -> Self {
-        let of = |i: usize| std::iter::repeat_n(i, self.weights[i] as usize);
-        let indices: Vec<usize> = (0..self.points.len()).flat_map(of).collect();
-        Self {
-            points: indices.iter().map(|&i| self.points[i]).collect(),
-            weights: vec![1.0; indices.len()],
-            logs: indices.iter().map(|&i| self.logs[i]).collect(),
-            families: indices.iter().map(|&i| self.families[i]).collect(),
-            precisions: indices.iter().map(|&i| self.precisions[i]).collect(),
-        }
-    }
-
     /// Takes the points of another sample in.
     pub fn join(&mut self, other: Self) {
         self.points.extend(other.points);
         self.weights.extend(other.weights);
         self.logs.extend(other.logs);
-        self.families.extend(other.families);
         self.precisions.extend(other.precisions);
     }
 
@@ -70,9 +52,9 @@ impl<const D: usize> Sample<D> {
         self.part(|i| self.precisions[i].is_some())
     }
 
-    /// Every third family for a check, the others to learn from.
+    /// Every third point for a check, the others to learn from.
     pub fn split(&self) -> [Self; 2] {
-        [false, true].map(|checks| self.part(|i| (self.families[i] % 3 == 1) == checks))
+        [false, true].map(|checks| self.part(|i| (i % 3 == 1) == checks))
     }
 
     /// The points that `is_taken` takes.
@@ -82,7 +64,6 @@ impl<const D: usize> Sample<D> {
             points: taken.iter().map(|&i| self.points[i]).collect(),
             weights: taken.iter().map(|&i| self.weights[i]).collect(),
             logs: taken.iter().map(|&i| self.logs[i]).collect(),
-            families: taken.iter().map(|&i| self.families[i]).collect(),
             precisions: taken.iter().map(|&i| self.precisions[i]).collect(),
         }
     }

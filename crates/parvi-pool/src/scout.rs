@@ -7,8 +7,9 @@ use crate::density::Density;
 use crate::mixture::{Kernel, Mixture};
 use crate::sample::{moments, root};
 
-/// Scouts that set out together; they are the last ones if none of them finds a summit that is not known.
-const TOGETHER: usize = 6;
+/// Scouts end after so many that found nothing new, and so many for every summit known: what share of scouts would find another is then below 1/(2n) or so.
+const FEWEST: usize = 6;
+const IDLE: usize = 2;
 
 /// Distances from a summit, in standard deviations of the normal approximation there, at which scouts set out.
 const RINGS: [f64; 3] = [5.0, 12.0, 30.0];
@@ -58,13 +59,7 @@ pub(super) fn scout<const D: usize>(density: &mut Density<'_, D>, evaluations: u
     kernels.iter_mut().for_each(|kernel| kernel.share *= narrow);
     let mut far = wide();
     if summits.len() > 1 {
-        let points: Vec<[f64; D]> = summits.iter().map(|summit| summit.point).collect();
-        let (mean, covariance) = moments(&points, &vec![1.0; points.len()]);
-        far.push(Kernel {
-            centre: mean,
-            factor: root(&covariance) * APART,
-            share: 1.0,
-        });
+        far.push(spread(&summits));
     }
     let total: f64 = far.iter().map(|kernel| kernel.share).sum();
     kernels.extend(far.into_iter().map(|kernel| Kernel {
@@ -81,43 +76,63 @@ pub(super) fn scout<const D: usize>(density: &mut Density<'_, D>, evaluations: u
 /// find others and have not spent `evaluations`.
 fn summits<const D: usize>(density: &mut Density<'_, D>, evaluations: u64, seed: u64) -> Option<Vec<Summit<D>>> {
     let law = Mixture::new(wide())?;
-    let batches = evaluations as usize / (TOGETHER * (D + 2)) + 2;
-    let mut starts = law.draws(batches * TOGETHER, seed).into_iter();
     let mut summits: Vec<Summit<D>> = Vec::new();
-    let before = density.evaluations();
-    for batch in 0..batches {
+    let (before, mut idle) = (density.evaluations(), 0);
+    let starts = law.draws(evaluations as usize / (D + 2) + FEWEST, seed);
+    for (scout, drawn) in starts.into_iter().enumerate() {
         let known = summits.len();
-        for scout in 0..TOGETHER {
-            let drawn = starts.next()?;
-            let start = match (batch, scout) {
-                (0, 0) => [0.0; D],
-                (0, _) => drawn,
-                (_, scout) if scout % 2 == 0 || known == 0 => drawn,
-                _ => summits[(batch * TOGETHER + scout) / 2 % known].ringed(&drawn, RINGS[(batch + scout / 2) % RINGS.len()]),
-            };
-            let found = ascend(density, &start).filter(|found| !summits.iter().any(|summit| summit.is_near(found)));
-            summits.extend(found);
-        }
-        let settled = summits.len() == known || summits.is_empty();
-        if settled || density.evaluations() > before + evaluations {
+        let start = match scout % 3 {
+            _ if scout == 0 => [0.0; D],
+            1 if known > 0 => summits[scout / 3 % known].ringed(&drawn, RINGS[scout / 3 % RINGS.len()]),
+            2 if known > 1 => apart(&summits, &drawn),
+            _ => drawn,
+        };
+        let found = ascend(density, &start).filter(|found| !summits.iter().any(|summit| summit.is_near(found)));
+        summits.extend(found);
+        idle = if summits.len() > known { 0 } else { idle + 1 };
+        if idle >= FEWEST.max(IDLE * summits.len()) || density.evaluations() > before + evaluations {
             break;
         }
     }
     Some(summits)
 }
 
+/// The normal law of the summits' places, wider.
+fn spread<const D: usize>(summits: &[Summit<D>]) -> Kernel<D> {
+    let points: Vec<[f64; D]> = summits.iter().map(|summit| summit.point).collect();
+    let (mean, covariance) = moments(&points, &vec![1.0; points.len()]);
+    Kernel {
+        centre: mean,
+        factor: root(&covariance) * APART,
+        share: 1.0,
+    }
+}
+
+/// A place where the summits' spread, stretched to the length of a normal law's draws, has `drawn` in the direction.
+fn apart<const D: usize>(summits: &[Summit<D>], drawn: &[f64; D]) -> [f64; D] {
+    let Kernel { centre, factor, .. } = spread(summits);
+    let direction = vector::scale(drawn, (D as f64).sqrt() / vector::norm(drawn).max(f64::MIN_POSITIVE));
+    vector::add(&centre, &factor.apply(&direction))
+}
+
 /// Kernels at summits, half of whose shares are equal and half follow Laplace's masses p(x) (2π)^{D/2} / √det H.
 fn about<const D: usize>(summits: &[Summit<D>]) -> Vec<Kernel<D>> {
     let log_mass = |summit: &Summit<D>| summit.log_density - 0.5 * summit.log_determinant;
     let top = summits.iter().map(log_mass).fold(f64::NEG_INFINITY, f64::max);
-    let heavy: Vec<&Summit<D>> = summits.iter().filter(|summit| log_mass(summit) > top - LIGHTEST).collect();
+    let heavy: Vec<&Summit<D>> = summits
+        .iter()
+        .filter(|summit| log_mass(summit) > top - LIGHTEST)
+        .collect();
     let total: f64 = heavy.iter().map(|summit| (log_mass(summit) - top).exp()).sum();
     let kernel = |summit: &Summit<D>, (stretch, share): (f64, f64)| Kernel {
         centre: summit.point,
         factor: root(&summit.covariance) * stretch,
         share: share * 0.5 * ((log_mass(summit) - top).exp() / total + 1.0 / heavy.len() as f64),
     };
-    heavy.iter().flat_map(|summit| STRETCHES.map(|stretch| kernel(summit, stretch))).collect()
+    heavy
+        .iter()
+        .flat_map(|summit| STRETCHES.map(|stretch| kernel(summit, stretch)))
+        .collect()
 }
 
 impl<const D: usize> Summit<D> {

@@ -36,6 +36,9 @@ pub fn polish_spacing<const D: usize>(basis: BasisChoice, particles: usize, entr
     1.4 * entropy_power.clamp(1e-3, 1.0) * spacing::<D>(basis, particles)
 }
 
+/// Particles that a survey is made for, at most: more of them are condensed from the same pool, and the material evens out what that cannot.
+pub const LARGEST_POOL: usize = 4096;
+
 /// Steps of the first round of a polish.
 pub const POLISH_STEPS: usize = 4;
 

@@ -12,7 +12,7 @@ use crate::certificate::Certificate;
 use crate::checkpoint::Journal;
 use crate::polish::{Polish, Polished};
 use crate::start::Stream;
-use crate::{MpmOptions, Observer, Progress, Run, SampleError, Samples, Start};
+use crate::{MpmOptions, Observer, Progress, Run, SampleError, Samples, Start, defaults};
 
 /// A pool whose energy distance is known no better than that of so many times fewer independent draws than particles is none.
 const WORTHLESS: f64 = 30.0;
@@ -70,13 +70,14 @@ fn surveyed<const D: usize>(
         }
         observer.after_step(Progress { step: 0, steps: 0 })
     };
-    let explored = explore(target, frame, &given, tape, run.particles, seed, &pool_options, &mut watch);
+    let count = run.particles.min(defaults::LARGEST_POOL);
+    let explored = explore(target, frame, &given, tape, count, seed, &pool_options, &mut watch);
     if let Some(error) = refused {
         return Err(error);
     }
     match explored {
         Ok(pool) => {
-            let known = pool.measure.variance * (run.particles as f64) < WORTHLESS;
+            let known = pool.measure.variance * (count as f64) < WORTHLESS;
             Ok(known.then_some(pool))
         }
         Err(PoolError::NowhereFinite) => Ok(None),

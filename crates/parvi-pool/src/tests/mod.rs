@@ -1,9 +1,12 @@
 //! What weights guarantee.
 
+mod folds;
+mod tape;
+
 use std::ops::ControlFlow;
 
 use mpm_tensor::Matrix;
-use parvi_targets::{Frame, Gaussian, Target};
+use parvi_targets::{CatalogueTarget, Frame, Gaussian, RandomFamily, RandomTarget, Target};
 
 use crate::density::Density;
 use crate::fold::Fold;
@@ -106,6 +109,28 @@ fn the_same_bits_on_any_number_of_threads() {
         })
     };
     assert!(run(1) == run(2));
+}
+
+#[test]
+fn scales_that_the_frame_does_not_know_are_found() {
+    let scales = [1e-2, 0.3, 1e2];
+    let covariance = Matrix::from_fn(|i, j| scales[i] * scales[j] * 0.7_f64.powi(i.abs_diff(j) as i32));
+    let target = Gaussian::<3>::new([20.0, -3.0, 50.0], covariance).unwrap();
+    let pool = pool_of(&target, 300, 1).unwrap();
+    assert!(pool.log_evidence.abs() < 0.02, "{}", pool.log_evidence);
+    assert!(pool.density_evaluations + pool.score_evaluations < 12 * 300);
+    let (_, found) = pool.moments();
+    for axis in 0..3 {
+        assert!((found.0[axis][axis].sqrt() / scales[axis] - 1.0).abs() < 0.05);
+    }
+}
+
+#[test]
+fn separate_modes_have_their_masses() {
+    let target = RandomTarget::<2>::of_family(RandomFamily::Modes, 5).unwrap();
+    let pool = pool_of(&target, 500, 2).unwrap();
+    let error = pool.log_evidence - target.log_evidence().unwrap();
+    assert!(error.abs() < 0.05, "{error}");
 }
 
 #[test]

@@ -1,0 +1,35 @@
+//! Rounds that a fold takes in and forgets.
+
+use mpm_tensor::Matrix;
+use parvi_targets::{Frame, Gaussian};
+
+use crate::density::Density;
+use crate::fold::Fold;
+use crate::{Kernel, Mixture};
+
+#[test]
+fn a_fold_that_forgets_weighs_as_if_the_rest_were_all() {
+    let target = Gaussian::<2>::standard();
+    let frame = Frame::identity();
+    let law = |width| {
+        Mixture::new(vec![Kernel {
+            centre: [0.3, 0.0],
+            factor: Matrix::IDENTITY * width,
+            share: 1.0,
+        }])
+        .unwrap()
+    };
+    let mut density = Density::new(&target, &frame, Vec::new());
+    let [mut both, mut second] = [Fold::new(), Fold::new()];
+    both.draw(&mut density, law(2.0), 40, 1);
+    both.draw(&mut density, law(1.1), 64, 2);
+    second.draw(&mut density, law(1.1), 64, 2);
+    let mut joined = second.clone();
+    let mut first = Fold::new();
+    first.draw(&mut density, law(2.0), 40, 1);
+    joined.absorb(first);
+    let sum = |fold: &Fold<2>| fold.log_weights().iter().map(|l| l.exp()).sum::<f64>();
+    assert!((sum(&joined) - sum(&both)).abs() < 1e-12);
+    both.forget(1);
+    assert_eq!(both.log_weights(), second.log_weights());
+}
