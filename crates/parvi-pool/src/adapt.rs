@@ -116,7 +116,7 @@ impl<const D: usize> Adaptation<D> {
 
     /// Whether what is left of the evaluations is for fresh points.
     pub fn is_used_up(&self, plan: &Plan, spent: u64) -> bool {
-        spent as f64 > ADAPTING * plan.evaluations as f64
+        (spent as f64) + plan.round as f64 > ADAPTING * plan.evaluations as f64
     }
 
     /// Whether the folds' estimates of log Z differ by no more than their standard errors explain.

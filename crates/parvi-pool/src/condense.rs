@@ -17,6 +17,9 @@ const COARSE: usize = 8;
 /// Particles that are condensed together; of more than these space is cut into pieces.
 const LARGEST_PIECE: usize = 1024;
 
+/// How far acceleration may carry a particle beyond its own move, in units of that.
+const LARGEST_EXCESS: f64 = 1.0;
+
 /// The largest move, in units of the spread, at which they end.
 const TOLERANCE: f64 = 1e-3;
 
@@ -47,8 +50,8 @@ pub fn condense<const D: usize>(measure: &Measure<D>, count: usize, offset: f64)
         share: 1.0,
     }]);
     let shifts = beside.map_or_else(Vec::new, |law| law.draws(count, 0));
-    let positive: Vec<f64> = weights.iter().map(|c| c.max(0.0)).collect();
-    let chosen = systematic(&positive, count, offset);
+    let rises = rises(&weights);
+    let chosen = systematic(&rises, count, offset);
     // Pieces of space, so that the cost is that of many small measures.
     let pieces = count.div_ceil(LARGEST_PIECE).next_power_of_two();
     let ends: Vec<usize> = (1..=pieces).map(|piece| piece * sample.len() / pieces).collect();
@@ -59,17 +62,29 @@ pub fn condense<const D: usize>(measure: &Measure<D>, count: usize, offset: f64)
         let begin = |k: usize| vector::add(&sample[chosen[k]], &shifts[k]);
         let particles = (taken..taken + own).map(begin).collect();
         let points = &sample[first..end];
-        let few = systematic(&positive[first..end], COARSE * own, offset);
+        let few = systematic(&rises[first..end], COARSE * own, offset);
         let few: Vec<[f64; D]> = few.iter().map(|&index| points[index]).collect();
         // Noise may take the mass of a small piece below nothing.
-        let (mass, own_positive) = (weights[first..end].iter().sum::<f64>(), &positive[first..end]);
-        let sound = 2.0 * mass > own_positive.iter().sum();
-        let own_weights = if sound { &weights[first..end] } else { own_positive };
+        let (mass, risen) = (weights[first..end].iter().sum::<f64>(), &rises[first..end]);
+        let sound = 2.0 * mass > risen.iter().sum();
+        let own_weights = if sound { &weights[first..end] } else { risen };
         moving.extend(drawn_to(points, own_weights, &few, particles));
         (first, taken) = (end, taken + own);
     }
     let back = |x: &[f64; D]| std::array::from_fn(|a| mean[a] + scales[a] * x[a]);
     moving.iter().map(back).collect()
+}
+
+/// What every weight adds to the largest sum so far: none negative, and along the order as much in every stretch as the weights have, but for a few of them.
+fn rises(weights: &[f64]) -> Vec<f64> {
+    let (mut sum, mut largest) = (0.0_f64, 0.0_f64);
+    let rise = |c: &f64| {
+        sum += c;
+        let rise = (sum - largest).max(0.0);
+        largest = largest.max(sum);
+        rise
+    };
+    weights.iter().map(rise).collect()
 }
 
 /// Particles drawn to weighted points; far iterations need no more than an equally weighted `few`.
@@ -95,7 +110,12 @@ fn iterate<const D: usize>(support: &SupportPoints<D>, iterations: usize, moving
         let moves = moving.iter().zip(&images).map(|(x, y)| vector::distance(x, y));
         let largest = moves.fold(0.0, f64::max);
         let next = anderson.next(moving.as_flattened().to_vec(), images.as_flattened());
-        *moving = next.as_chunks().0.to_vec();
+        for ((x, image), next) in moving.iter_mut().zip(&images).zip(next.as_chunks().0) {
+            // No particle goes much farther than its own move: none jumps to another piece.
+            let (own, beyond) = (vector::distance(x, image), vector::subtract(next, image));
+            let share = (LARGEST_EXCESS * own / vector::norm(&beyond).max(f64::MIN_POSITIVE)).min(1.0);
+            *x = vector::add_scaled(image, share, &beyond);
+        }
         if largest < TOLERANCE {
             break;
         }

@@ -145,6 +145,17 @@ impl<const D: usize> Pool<D> {
         order.last().map_or(f64::NAN, |&index| self.positions[index][axis])
     }
 
+    /// What stands for √p: light parts count for more.
+    pub fn flattened(&self) -> Measure<D> {
+        let rooted = |(w, log): (&f64, &f64)| {
+            if *w > 0.0 && log.is_finite() { w.ln() - 0.5 * log } else { f64::NEG_INFINITY }
+        };
+        let logs: Vec<f64> = self.weights.iter().zip(&self.log_densities).map(rooted).collect();
+        let weights = crate::weights::tempered(&logs, 1.0);
+        let total: f64 = weights.iter().sum();
+        Measure::new(self.positions.clone(), weights.iter().map(|w| w / total).collect())
+    }
+
     /// M particles of equal mass: support points of the weighted pool.
     pub fn condense(&self, count: usize) -> Vec<[f64; D]> {
         condense(&self.measure, count, 0.5)

@@ -43,7 +43,8 @@ pub(super) fn freeze<const D: usize>(
 ) -> Frozen<D> {
     let source = [&adapted.folds[0], &adapted.folds[1]];
     let size: f64 = source.iter().map(|fold| fold.effective_size()).sum();
-    let sharpening = plan.sharpening(adapted.share, size, SHARPENING);
+    let rest = |density: &Density<'_, D>| plan.evaluations.saturating_sub(density.evaluations()) as usize / LANES * LANES;
+    let sharpening = plan.sharpening(adapted.share, size, SHARPENING).min(rest(density) / 4);
     let mut learned = learn(&source, EXPLORING, sharpening, density, rng);
     let form = best_form(&learned.sample, adapted.form, sharpening > 0, rng);
     learned.sample.join(learned.level);
@@ -60,11 +61,11 @@ pub(super) fn freeze<const D: usize>(
         };
     };
     let (frozen, wholes) = with_earlier(frozen, adapted);
-    let pilot = fresh.draw(density, frozen.clone(), plan.referee, rng.random());
+    let count = plan.referee.min(rest(density));
+    let pilot = fresh.draw(density, frozen.clone(), count, rng.random());
     // As many more as the effective size still lacks.
-    let lacking = (plan.goal - size.min(plan.adapted) - pilot * plan.referee as f64).max(0.0) / pilot.max(0.01);
-    let rest = plan.evaluations.saturating_sub(density.evaluations()) as f64;
-    let more = lacking.min(rest) as usize;
+    let lacking = (plan.goal - size.min(plan.adapted) - pilot * count as f64).max(0.0) / pilot.max(0.01);
+    let more = (lacking as usize).min(rest(density));
     if more >= LANES {
         fresh.draw(density, frozen, more, rng.random());
     }

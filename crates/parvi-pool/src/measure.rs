@@ -108,13 +108,6 @@ impl<const D: usize> Measure<D> {
         self
     }
 
-    /// Positive weights only, each by its square root: light parts count for more.
-    pub fn flattened(&self) -> Self {
-        let roots: Vec<f64> = self.weights.iter().map(|c| c.max(0.0).sqrt()).collect();
-        let total: f64 = roots.iter().sum();
-        Self::new(self.points.clone(), roots.iter().map(|root| root / total).collect())
-    }
-
     /// M particles of equal mass: support points.
     pub fn condense(&self, count: usize) -> Vec<[f64; D]> {
         condense(self, count, 0.5)

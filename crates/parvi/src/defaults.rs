@@ -39,6 +39,10 @@ pub fn polish_spacing<const D: usize>(basis: BasisChoice, particles: usize, entr
 /// Particles that a survey is made for, at most: more of them are condensed from the same pool, and the material evens out what that cannot.
 pub const LARGEST_POOL: usize = 4096;
 
+/// Entropy power of the target, over that of the normal law of its covariance, below which the moments of condensed particles are left as they are: a target that is so bent, or in so many
+/// pieces, gains nothing by a shift of all particles.
+pub const LEAST_CORRECTED_ENTROPY_POWER: f64 = 0.5;
+
 /// Steps of the first round of a polish.
 pub const POLISH_STEPS: usize = 4;
 

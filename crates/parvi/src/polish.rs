@@ -11,6 +11,7 @@ use crate::checkpoint::Journal;
 use crate::compiled::Compiled;
 use crate::drive::Driven;
 use crate::framed_score::{FramedScore, ScoreForce};
+use crate::moment_correction::correct_moments;
 use crate::mpm_body::Body;
 use crate::start::positive;
 use crate::stein_discrepancy::squared_stein_discrepancy;
@@ -74,8 +75,7 @@ impl<'a, const D: usize> Polish<'a, D> {
             rounds => rounds.unwrap_or(defaults::POLISH_ROUNDS),
         };
         let mut best = self.condensed()?;
-        let spread = mean_distance(&best.samples.positions, &self.scales);
-        let allowed = self.energy(&best) + 2.0 * self.pool.measure.variance * spread;
+        let allowed = self.allowed(&best);
         let (mut spent, mut steps, mut planned) = (best.samples.score_evaluations, 0, defaults::POLISH_STEPS);
         for round in 0..rounds {
             let candidate = self.moved(&best, self.options.steps.unwrap_or(planned), round, journal, observer)?;
@@ -98,12 +98,12 @@ impl<'a, const D: usize> Polish<'a, D> {
     fn condensed(&self) -> Result<Driven<D>, SampleError> {
         let count = self.run.particles;
         let seen = if self.options.weighted {
-            self.pool.measure.flattened().condense(count)
+            self.pool.flattened().condense(count)
         } else {
             self.pool.condense(count)
         };
         let positions: Vec<[f64; D]> = seen.iter().map(|x| self.frame.to_reference(x)).collect();
-        let mut condensed = Driven {
+        let condensed = Driven {
             samples: Samples {
                 positions: seen,
                 ..Samples::default()
@@ -113,14 +113,25 @@ impl<'a, const D: usize> Polish<'a, D> {
             drift: 0.0,
             kinetic_energy: 0.0,
         };
-        if self.options.rounds != Some(0) {
-            self.score(&mut condensed)?;
+        if self.options.rounds == Some(0) {
+            return Ok(condensed);
         }
-        Ok(condensed)
+        let correction = if self.pool.entropy_power() < defaults::LEAST_CORRECTED_ENTROPY_POWER || self.options.weighted {
+            MomentCorrection::Off
+        } else {
+            self.options.moment_correction
+        };
+        let mut scored = self.scored(condensed.clone(), correction)?;
+        if correction != MomentCorrection::Off && self.energy(&scored) > self.allowed(&condensed) {
+            let spent = scored.samples.score_evaluations;
+            scored = self.scored(condensed, MomentCorrection::Off)?;
+            scored.samples.score_evaluations += spent;
+        }
+        Ok(scored)
     }
 
-    /// Scores and residual of particles that have not moved.
-    fn score(&self, condensed: &mut Driven<D>) -> Result<(), SampleError> {
+    /// Scores and residual of particles that no material has moved, with their moments put right.
+    fn scored(&self, mut condensed: Driven<D>, correction: MomentCorrection) -> Result<Driven<D>, SampleError> {
         let mut score = FramedScore::new(self.target, &self.frame);
         score.non_finite = self.options.non_finite_scores;
         let parts = Parts {
@@ -133,16 +144,16 @@ impl<'a, const D: usize> Polish<'a, D> {
         let mut body = (Compiled::of().gas)(parts, IsothermalGas::new(1.0)?)?;
         let failed = |error| SampleError::in_step(0, error);
         let mut scores = vec![[0.0; D]; condensed.positions.len()];
-        body.force()
-            .score
-            .evaluate(&condensed.positions, &mut scores)
-            .map_err(failed)?;
+        let score = &mut body.force().score;
+        correct_moments(correction, &mut condensed.positions, score, &mut scores).map_err(failed)?;
+        body.particles().positions.clone_from(&condensed.positions);
         let residual = body.residual(&[0.0; D], self.spacing, &scores).map_err(failed)?;
         let (score, samples) = (&body.force().score, &mut condensed.samples);
         (samples.score_evaluations, samples.scores_replaced) = (score.evaluations, score.replaced);
         (samples.residual, samples.spacing) = (Some(residual.ratio()), Some(self.spacing));
+        samples.positions = condensed.positions.iter().map(|z| self.frame.to_target(z)).collect();
         condensed.scores = scores;
-        Ok(())
+        Ok(condensed)
     }
 
     /// A body that begins where `from` is.
@@ -175,6 +186,12 @@ impl<'a, const D: usize> Polish<'a, D> {
         let body = body.run(self.spacing)?;
         journal.finish(&body)?;
         Ok(body)
+    }
+
+    /// The largest energy of particles that may be nearer to the target than these, which were condensed.
+    fn allowed(&self, condensed: &Driven<D>) -> f64 {
+        let spread = mean_distance(&condensed.samples.positions, &self.scales);
+        self.energy(condensed) + 2.0 * self.pool.measure.variance * spread
     }
 
     fn energy(&self, body: &Driven<D>) -> f64 {

@@ -4,7 +4,7 @@
 use std::ops::ControlFlow;
 
 use mpm_tensor::Matrix;
-use parvi_pool::{Kernel, Mixture, Pool, PoolError, PoolOptions, explore};
+use parvi_pool::{Kernel, Mixture, Pool, PoolError, PoolOptions, Round, explore};
 use parvi_targets::{Frame, Target};
 use rand::RngExt;
 
@@ -63,12 +63,15 @@ fn surveyed<const D: usize>(
     let given: Vec<Mixture<D>> = start_law(&run.start).into_iter().collect();
     let mut refused = None;
     let tape = journal.tape();
-    let mut watch = |_: &parvi_pool::Round, tape: &[f64]| {
+    let mut watch = |round: &Round, tape: &[f64]| {
         if let Err(error) = journal.keep_tape(tape) {
             refused = Some(error);
             return ControlFlow::Break(());
         }
-        observer.after_step(Progress { step: 0, steps: 0 })
+        observer.after_step(Progress {
+            step: round.number,
+            steps: round.number + 1,
+        })
     };
     let count = run.particles.min(defaults::LARGEST_POOL);
     let explored = explore(target, frame, &given, tape, count, seed, &pool_options, &mut watch);
@@ -81,7 +84,7 @@ fn surveyed<const D: usize>(
             Ok(known.then_some(pool))
         }
         Err(PoolError::NowhereFinite) => Ok(None),
-        Err(PoolError::Interrupted { .. }) => Err(SampleError::Interrupted { step: 0 }),
+        Err(PoolError::Interrupted { round }) => Err(SampleError::Interrupted { step: round }),
         Err(error) => Err(error.into()),
     }
 }

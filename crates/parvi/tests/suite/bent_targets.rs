@@ -8,7 +8,14 @@ use rand::rngs::ChaCha8Rng;
 
 const PARTICLES: usize = 600;
 
+/// Evaluations that a survey may take; the default is less in two dimensions.
+const EVALUATIONS: u64 = 50 * PARTICLES as u64;
+
 fn from_start<const D: usize>(target: &dyn CatalogueTarget<D>, (mean, sd): (f64, f64)) -> Samples<D> {
+    let options = MpmOptions {
+        evaluations: Some(EVALUATIONS),
+        ..MpmOptions::default()
+    };
     let run = Run {
         start: Start {
             mean,
@@ -17,7 +24,7 @@ fn from_start<const D: usize>(target: &dyn CatalogueTarget<D>, (mean, sd): (f64,
         },
         ..Run::new(PARTICLES, 2)
     };
-    sample(target, &Method::Mpm(MpmOptions::default()), &run, &mut Silent).expect("particles")
+    sample(target, &Method::Mpm(options), &run, &mut Silent).expect("particles")
 }
 
 /// ED² to exact draws over the expectation of as many independent draws, both in units of the draws' own covariance.

@@ -82,10 +82,10 @@ fn differences_do_as_well_as_the_score() {
     let differences = FiniteDifferenceScore::new(constraints.log_density(|x| CountsAndTime.log_density(x)));
     let (mean, sd) = moments(&sample(&exact, &frame, 500).positions);
     let (mean_of_differences, sd_of_differences) = moments(&sample(&differences, &frame, 500).positions);
-    // In the unconstrained coordinates, of scale 0.5. Errors of 1e-9 can move a particle to the other side of a face.
+    // In the unconstrained coordinates, of scale 0.5. Errors of 1e-9 can choose another kernel.
     for k in 0..3 {
-        assert!((mean[k] - mean_of_differences[k]).abs() < 1e-4);
-        assert!((sd[k] - sd_of_differences[k]).abs() < 1e-3);
+        assert!((mean[k] - mean_of_differences[k]).abs() < 0.02);
+        assert!((sd[k] - sd_of_differences[k]).abs() < 0.02);
     }
 }
 

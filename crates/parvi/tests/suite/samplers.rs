@@ -378,9 +378,13 @@ impl Observer for StopAfter {
 #[test]
 fn the_observer_stops_a_run() {
     let target = Gaussian::<2>::standard();
-    for method in [Method::Mpm(MpmOptions::default()), Method::Svgd(SvgdOptions::default())] {
-        let error = sample(&target, &method, &Run::new(50, 0), &mut StopAfter(3)).unwrap_err();
-        assert_eq!(error, SampleError::Interrupted { step: 3 });
+    for (method, step) in [
+        (Method::Mpm(MpmOptions::default()), 1),
+        (Method::Mpm(body_alone()), 3),
+        (Method::Svgd(SvgdOptions::default()), 3),
+    ] {
+        let error = sample(&target, &method, &Run::new(50, 0), &mut StopAfter(step)).unwrap_err();
+        assert_eq!(error, SampleError::Interrupted { step });
     }
 }
 
@@ -390,7 +394,7 @@ fn the_trace_has_the_steps_asked_for() {
     let options = MpmOptions {
         trace_every: 10,
         steps: Some(40),
-        ..MpmOptions::default()
+        ..body_alone()
     };
     let samples = mpm(&target, options, &Run::new(300, 1));
     let steps: Vec<usize> = samples.trace.iter().map(|point| point.step).collect();
@@ -461,7 +465,7 @@ fn quasi_random_starts_have_the_moments_asked_for_and_are_not_the_yardstick() {
             steps: Some(1),
             time_step: Some(1e-9),
             moment_correction: MomentCorrection::Off,
-            ..MpmOptions::default()
+            ..body_alone()
         };
         let start = Start {
             mean: 2.0,

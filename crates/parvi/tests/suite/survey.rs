@@ -34,7 +34,7 @@ fn a_frame_that_is_wrong_by_orders_of_magnitude_is_found() {
         let moments = CloudMoments::new(&Cloud::new(&samples.positions).expect("finite")).expect("moments");
         for i in 0..3 {
             assert!(
-                (moments.mean[i] - centre[i]).abs() < 0.01 * scales[i],
+                (moments.mean[i] - centre[i]).abs() < 1e-6 * scales[i],
                 "{factor}: {:?}",
                 moments.mean
             );
