@@ -38,22 +38,25 @@ impl<const D: usize> SupportPoints<D> {
         }
     }
 
-    /// Where the procedure of Mak and Joseph moves every particle.
-    pub fn moved(&self, particles: &[[f64; D]]) -> Vec<[f64; D]> {
+    /// Where the procedure of Mak and Joseph moves every particle, and 2 E|x − Y| − E|x − x′| before it.
+    pub fn moved(&self, particles: &[[f64; D]]) -> (Vec<[f64; D]>, f64) {
         let of = |x: &[f64; D]| {
-            let (sum, pull) = pulp::Arch::new().dispatch(|| self.pull(x));
-            let push = repulsion(x, particles);
+            let (sum, pull, distance) = pulp::Arch::new().dispatch(|| self.pull(x));
+            let (push, others) = repulsion(x, particles);
             let pull = std::array::from_fn(|axis| f64::from(pull[axis]) + push[axis]);
-            vector::add_scaled(x, 1.0 / f64::from(sum).max(f64::MIN_POSITIVE), &pull)
+            let moved = vector::add_scaled(x, 1.0 / f64::from(sum).max(f64::MIN_POSITIVE), &pull);
+            (moved, 2.0 * f64::from(distance) - others)
         };
-        mpm_parallel::collect(particles.len(), TOGETHER, &|index| of(&particles[index]))
+        let each = mpm_parallel::collect(particles.len(), TOGETHER, &|index| of(&particles[index]));
+        let energy = each.iter().map(|(_, energy)| energy).sum::<f64>() / particles.len().max(1) as f64;
+        (each.into_iter().map(|(moved, _)| moved).collect(), energy)
     }
 
-    /// Σ₊ c/|y − x| and Σ c (y − x)/|y − x|.
+    /// Σ₊ c/|y − x|, Σ c (y − x)/|y − x| and Σ c |y − x|.
     #[inline(always)]
-    fn pull(&self, x: &[f64; D]) -> (f32, [f32; D]) {
+    fn pull(&self, x: &[f64; D]) -> (f32, [f32; D], f32) {
         let x = x.map(|coordinate| coordinate as f32);
-        let (mut sums, mut pulls) = ([0.0; LANES], [[0.0; LANES]; D]);
+        let (mut sums, mut pulls, mut distances) = ([0.0; LANES], [[0.0; LANES]; D], [0.0; LANES]);
         for (group, weights) in self.groups.iter().zip(&self.weights) {
             let (mut squares, mut apart) = ([self.softening; LANES], [[0.0; LANES]; D]);
             for axis in 0..D {
@@ -66,6 +69,7 @@ impl<const D: usize> SupportPoints<D> {
             for lane in 0..LANES {
                 inverse[lane] = weights[lane] / squares[lane].sqrt();
                 sums[lane] += inverse[lane].max(0.0);
+                distances[lane] += inverse[lane] * squares[lane];
             }
             for axis in 0..D {
                 for lane in 0..LANES {
@@ -73,21 +77,26 @@ impl<const D: usize> SupportPoints<D> {
                 }
             }
         }
-        (sums.iter().sum(), pulls.map(|lanes| lanes.iter().sum()))
+        (
+            sums.iter().sum(),
+            pulls.map(|lanes| lanes.iter().sum()),
+            distances.iter().sum(),
+        )
     }
 }
 
-/// 1/M Σ_j (x − x_j)/|x − x_j|.
-fn repulsion<const D: usize>(x: &[f64; D], particles: &[[f64; D]]) -> [f64; D] {
-    let mut push = [0.0; D];
+/// 1/M Σ_j (x − x_j)/|x − x_j| and 1/M Σ_j |x − x_j|.
+fn repulsion<const D: usize>(x: &[f64; D], particles: &[[f64; D]]) -> ([f64; D], f64) {
+    let (mut push, mut sum) = ([0.0; D], 0.0);
     for other in particles {
         let apart = vector::subtract(x, other);
         let distance = vector::norm(&apart);
+        sum += distance;
         if distance > 0.0 {
             vector::accumulate(&mut push, 1.0 / (distance * particles.len() as f64), &apart);
         }
     }
-    push
+    (push, sum / particles.len() as f64)
 }
 
 #[cfg(test)]
@@ -102,7 +111,7 @@ mod tests {
         let weights: Vec<f64> = (0..11).map(|m| if m == 4 { -1.0 } else { f64::from(m + 1) }).collect();
         let total: f64 = weights.iter().sum();
         let start = [[0.1, 0.2, 0.3], [-0.5, 0.4, 0.0], [0.9, -0.9, 0.2]];
-        let moved = SupportPoints::new(&points, &weights).moved(&start);
+        let (moved, _) = SupportPoints::new(&points, &weights).moved(&start);
         for (x, y) in start.iter().zip(&moved) {
             let (mut positive, mut sum) = (0.0, [0.0; 3]);
             for (s, c) in points.iter().zip(&weights) {
