@@ -46,11 +46,18 @@ pub enum CommandError {
     #[error("--{}: {}", .0.name, .0.reason)]
     Flag(#[from] OptionError),
     /// The extension of the output file is not one that can be written.
-    #[error("--out {}: the extension must be .csv or .npy", .path.display())]
+    #[error("--{flag} {}: the extension must be .csv or .npy", .path.display())]
     OutputExtension {
+        /// The flag, without dashes in front.
+        flag: &'static str,
         /// The file asked for.
         path: PathBuf,
     },
+    /// A pool was asked for, and nothing could be weighed.
+    #[error(
+        "--pool: nothing could be weighed, so that there is no pool; the particles are those of a body without a survey"
+    )]
+    NoPool,
     /// A number that should be finite is not.
     #[error("{what} is not finite: {value}")]
     NotFinite {

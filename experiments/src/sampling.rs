@@ -19,13 +19,21 @@ pub struct Outcome {
     pub steps: usize,
     /// Evaluations of the score at one point.
     pub score_evaluations: u64,
+    /// Evaluations of the log density at one point.
+    pub density_evaluations: u64,
+    /// log Z, where the method estimates it.
+    pub log_evidence: Option<f64>,
+    /// Its standard error.
+    pub log_evidence_error: Option<f64>,
+    /// Shape of the tail of the importance weights.
+    pub pareto_k: Option<f64>,
     /// Residual relative to i.i.d. draws.
     pub residual: Option<f64>,
     /// Grid spacing in frame units.
     pub spacing: Option<f64>,
     /// Nodes with mass in the last step.
     pub active_nodes: Option<usize>,
-    /// Bodies that moved, each on a separate piece of the target.
+    /// Bodies that moved.
     pub bodies: Option<usize>,
     /// Bytes held by particles and grid.
     pub storage_bytes: Option<usize>,
@@ -35,6 +43,8 @@ pub struct Outcome {
     pub scores_replaced: u64,
     /// How good the particles are, as far as the method can tell.
     pub certificate: Option<Certificate>,
+    /// Everything that was evaluated, weighed, with log p; where the method keeps it.
+    pub pool: Option<Particles>,
     /// History.
     pub trace: Vec<TracePoint>,
     /// Time of the sampler alone, in seconds.
@@ -48,6 +58,10 @@ impl Outcome {
             particles,
             steps: 0,
             score_evaluations: 0,
+            density_evaluations: 0,
+            log_evidence: None,
+            log_evidence_error: None,
+            pareto_k: None,
             residual: None,
             spacing: None,
             active_nodes: None,
@@ -56,10 +70,20 @@ impl Outcome {
             divergences: None,
             scores_replaced: 0,
             certificate: None,
+            pool: None,
             trace: Vec::new(),
             wall_seconds,
         }
     }
+
+    /// Evaluations of all kinds.
+    pub fn evaluations(&self) -> u64 {
+        self.density_evaluations + self.score_evaluations
+    }
+}
+
+fn finite(value: Option<f64>) -> Option<f64> {
+    value.filter(|value| value.is_finite())
 }
 
 /// Samples a target of the catalogue.
@@ -96,14 +120,22 @@ pub fn sample_target<const D: usize>(
         particles,
         steps: samples.steps,
         score_evaluations: samples.score_evaluations,
-        residual: samples.residual.filter(|value| value.is_finite()),
-        spacing: samples.spacing.filter(|value| value.is_finite()),
+        density_evaluations: samples.density_evaluations,
+        log_evidence: finite(samples.log_evidence),
+        log_evidence_error: finite(samples.log_evidence_error),
+        pareto_k: finite(samples.pareto_k),
+        residual: finite(samples.residual),
+        spacing: finite(samples.spacing),
         active_nodes: samples.active_nodes,
         bodies: samples.bodies,
         storage_bytes: samples.storage_bytes,
         divergences: samples.divergences,
         scores_replaced: samples.scores_replaced,
         certificate: samples.certificate,
+        pool: samples.pool.map(|pool| {
+            let points = Particles::new(&pool.positions, Some(&pool.weights));
+            points.with_log_densities(pool.log_densities)
+        }),
         trace: samples.trace,
         wall_seconds,
     })

@@ -2,7 +2,7 @@
 
 use parvi::{NutsOptions, Pool, SteinThinningOptions, SupportPointsOptions};
 
-use super::{MethodName, MethodOptions, OptionError, ParticleCount, PoolChoice, StepCount, WarmUp};
+use super::{MethodOptions, OptionError, ParticleCount, PoolChoice, StepCount, WarmUp};
 
 impl MethodOptions {
     /// The No-U-Turn sampler.
@@ -17,15 +17,15 @@ impl MethodOptions {
     }
 
     /// Stein thinning.
-    pub(super) fn stein_thinning(&self) -> SteinThinningOptions {
-        SteinThinningOptions {
-            pool: match self.pool {
+    pub(super) fn stein_thinning(&self) -> Result<SteinThinningOptions, OptionError> {
+        Ok(SteinThinningOptions {
+            pool: match self.pool_choice()? {
                 None => Pool::default(),
                 Some(PoolChoice::Exact) => Pool::Exact,
                 Some(PoolChoice::Nuts) => Pool::Nuts(self.nuts()),
             },
             pool_size: self.pool_size.map(ParticleCount::get),
-        }
+        })
     }
 
     /// Support points.
@@ -35,21 +35,6 @@ impl MethodOptions {
             pool_size: self.pool_size.map(ParticleCount::get),
             steps: self.steps.map(StepCount::get),
             tolerance: self.tolerance.unwrap_or(default.tolerance),
-        }
-    }
-
-    /// Refuses options of the No-U-Turn sampler where Stein thinning does not use it.
-    pub(super) fn check_pool(&self, method: MethodName) -> Result<(), OptionError> {
-        if method != MethodName::SteinThinning || self.pool == Some(PoolChoice::Nuts) {
-            return Ok(());
-        }
-        let of_chains = |owners: &[MethodName]| owners.contains(&MethodName::Nuts);
-        match self.given().into_iter().find(|(_, _, owners)| of_chains(owners)) {
-            None => Ok(()),
-            Some((name, value, _)) => Err(OptionError {
-                name: name.to_owned(),
-                reason: format!("{value} needs the pool `nuts`"),
-            }),
         }
     }
 }

@@ -16,6 +16,10 @@ pub struct Bounded<const LEAST: i64, const MOST: i64>(i64);
 pub type ParticleCount = Bounded<2, 100_000_000>;
 /// A number of steps.
 pub type StepCount = Bounded<1, 100_000_000>;
+/// A number of rounds.
+pub type RoundCount = Bounded<0, 100_000_000>;
+/// A number of evaluations.
+pub type EvaluationCount = Bounded<1, 1_000_000_000_000>;
 /// A number of draws to throw away.
 pub type WarmUp = Bounded<0, 100_000_000>;
 /// A dimension d.

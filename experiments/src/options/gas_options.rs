@@ -1,8 +1,8 @@
 //! The options of the sampler, on a lattice or a grid and on a mesh, from the flags.
 
-use parvi::{MeshOptions, MpmOptions, OnMesh, Settling, SpacingSchedule, TransferChoice};
+use parvi::{Annealing, MeshOptions, MpmOptions, OnMesh, Settling, SpacingSchedule, TransferChoice};
 
-use super::{Basis, Limit, MethodOptions, OptionError, StepCount, Switch, Transfer};
+use super::{Basis, EvaluationCount, Limit, MethodOptions, OptionError, RoundCount, Switch, Transfer};
 
 /// What the sampler on a mesh knows.
 const ON_MESH: [&str; 10] = [
@@ -37,6 +37,7 @@ impl MethodOptions {
             time_step: self.time_step.or(default.time_step),
             friction: self.friction.or(default.friction),
             survey: self.survey.map_or(default.survey, Switch::is_on),
+            evaluations: self.evaluations(),
             shifts: self.shifts.map_or(default.shifts, Switch::is_on),
             rotation: self.rotation.map_or(default.rotation, Switch::is_on),
             spacing_schedule: SpacingSchedule {
@@ -48,7 +49,7 @@ impl MethodOptions {
             moment_correction: self.moment_correction.map_or(default.moment_correction, Into::into),
             score_location: self.score.map_or(default.score_location, Into::into),
             displacement_limit,
-            rounds: self.rounds.map(StepCount::get).or(default.rounds),
+            rounds: self.rounds.map(RoundCount::get).or(default.rounds),
             non_finite_scores: self.non_finite.map_or(default.non_finite_scores, Into::into),
             annealing: self.annealing().unwrap_or(default.annealing),
             certificate: self.certificate.map_or(default.certificate, Switch::is_on),
@@ -82,6 +83,20 @@ impl MethodOptions {
             trace_every: self.trace_every,
         };
         Ok(OnMesh { file, options })
+    }
+
+    /// Evaluations of a survey, at most.
+    pub(super) fn evaluations(&self) -> Option<u64> {
+        self.evaluations.map(EvaluationCount::get).map(|count| count as u64)
+    }
+
+    /// Whether the calibrated sampler surveys: it does not for p^α.
+    pub(super) fn surveys(&self) -> bool {
+        let whole = match self.annealing() {
+            None => true,
+            Some(Annealing::Constant(alpha) | Annealing::Geometric { to: alpha, .. }) => alpha == 1.0,
+        };
+        self.survey != Some(Switch::Off) && whole
     }
 
     fn settling(&self, default: Settling) -> Settling {

@@ -1,10 +1,13 @@
 //! Which options belong to which method.
 
+use std::path::PathBuf;
+
 use super::{MethodName, MethodOptions, OptionError};
 
 /// The methods that have an option.
 pub(super) type Owners = &'static [MethodName];
 const GAS: Owners = &[MethodName::Mpm];
+const WEIGHED: Owners = &[MethodName::Mpm, MethodName::Ais];
 const PAPER: Owners = &[MethodName::PaperPic, MethodName::PaperApic];
 const GRID: Owners = &[MethodName::Mpm, MethodName::PaperPic, MethodName::PaperApic];
 const STEIN: Owners = &[MethodName::Svgd];
@@ -16,11 +19,12 @@ const STEPPED: Owners = &[
     MethodName::SupportPoints,
 ];
 const CHAIN: Owners = &[MethodName::Nuts, MethodName::SteinThinning];
-const CHOICE: Owners = &[MethodName::SteinThinning];
+const POOLED: Owners = &[MethodName::Mpm, MethodName::Ais, MethodName::SteinThinning];
 const CONDENSED: Owners = &[MethodName::SteinThinning, MethodName::SupportPoints];
 const REST: Owners = &[MethodName::SupportPoints];
 const STARTED: Owners = &[
     MethodName::Mpm,
+    MethodName::Ais,
     MethodName::PaperPic,
     MethodName::PaperApic,
     MethodName::Svgd,
@@ -44,15 +48,17 @@ impl MethodOptions {
         fn text<T: ToString>(value: &Option<T>) -> Option<String> {
             value.as_ref().map(T::to_string)
         }
+        let file = |path: &Option<PathBuf>| path.as_ref().map(|path| path.display().to_string());
         let all = [
             ("steps", text(&self.steps), STEPPED),
             ("basis", text(&self.basis), GRID),
-            ("mesh", self.mesh.as_ref().map(|path| path.display().to_string()), GAS),
+            ("mesh", file(&self.mesh), GAS),
             ("spacing", text(&self.spacing), GRID),
             ("time-step", text(&self.time_step), GRID),
             ("score", text(&self.score), GRID),
             ("displacement-limit", text(&self.displacement_limit), GRID),
             ("survey", text(&self.survey), GAS),
+            ("evaluations", text(&self.evaluations), WEIGHED),
             ("shifts", text(&self.shifts), GAS),
             ("rotation", text(&self.rotation), GAS),
             ("spacing-range", text(&self.spacing_range), GAS),
@@ -83,7 +89,7 @@ impl MethodOptions {
             ("chains", text(&self.chains), CHAIN),
             ("thinning", text(&self.thinning), CHAIN),
             ("target-acceptance", text(&self.target_acceptance), CHAIN),
-            ("pool", text(&self.pool), CHOICE),
+            ("pool", file(&self.pool), POOLED),
             ("pool-size", text(&self.pool_size), CONDENSED),
             ("tolerance", text(&self.tolerance), REST),
             ("start-mean", text(&self.start_mean), STARTED),

@@ -12,6 +12,8 @@ pub enum MethodName {
     /// Material point method with the calibrated gas law
     #[default]
     Mpm,
+    /// Adaptive importance sampling, condensed to particles
+    Ais,
     /// Algorithm 1 of the MPM-ParVI paper
     PaperPic,
     /// Algorithm 2 of the MPM-ParVI paper
@@ -32,8 +34,9 @@ pub enum MethodName {
 
 impl MethodName {
     /// All methods.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Mpm,
+        Self::Ais,
         Self::PaperPic,
         Self::PaperApic,
         Self::Svgd,
@@ -48,6 +51,7 @@ impl MethodName {
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Mpm => "mpm",
+            Self::Ais => "ais",
             Self::PaperPic => "paper-pic",
             Self::PaperApic => "paper-apic",
             Self::Svgd => "svgd",

@@ -3,12 +3,12 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use parvi::{Method, Start, SvgdOptions};
+use parvi::{AisOptions, Method, Start, SvgdOptions};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    Basis, Correction, Draws, Limit, Material, MethodName, NonFinite, OptionError, ParticleCount, PoolChoice, Score,
-    StepCount, Switch, Transfer, WarmUp,
+    Basis, Correction, Draws, EvaluationCount, Limit, Material, MethodName, NonFinite, OptionError, ParticleCount,
+    RoundCount, Score, StepCount, Switch, Transfer, WarmUp,
 };
 
 /// Options of the methods; `None`: the method's own default.
@@ -16,7 +16,7 @@ use super::{
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
 #[command(next_help_heading = "Options of the method")]
 pub struct MethodOptions {
-    /// Steps; support-points: at most (mpm, paper-*, svgd, support-points)
+    /// Steps; mpm: of a round; support-points: at most (mpm, paper-*, svgd, support-points)
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
     pub steps: Option<StepCount>,
     /// Background basis (mpm, paper-*)
@@ -37,9 +37,15 @@ pub struct MethodOptions {
     /// Largest displacement per step in units of the spacing, or `off` (paper-*; mpm: a number)
     #[arg(long, value_name = "C|off", allow_negative_numbers = true)]
     pub displacement_limit: Option<Limit>,
-    /// Look for the target's place, scales and pieces before the body moves (mpm)
-    #[arg(long)]
+    /// Weigh evaluations of the log density and condense the particles from them, which the material evens out; off: a body moves from its start in the target's frame (mpm)
+    #[arg(
+        long,
+        help = "Weigh evaluations of the log density and condense the particles from them, which the material evens out; off: a body moves from its start in the target's frame (mpm) [default: on]"
+    )]
     pub survey: Option<Switch>,
+    /// Evaluations of the survey, of all kinds, at most (mpm, ais)
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    pub evaluations: Option<EvaluationCount>,
     /// Move the basis' origin and draw its spacing every step (mpm)
     #[arg(long)]
     pub shifts: Option<Switch>,
@@ -70,13 +76,13 @@ pub struct MethodOptions {
     /// Friction, per unit of time (mpm)
     #[arg(long, value_name = "GAMMA", allow_negative_numbers = true)]
     pub friction: Option<f64>,
-    /// Rounds of the steps, at most, while the particles are still on their way (mpm) [default: 3, with --steps: 1]
+    /// Rounds of the steps, at most: after a survey while they bring the particles nearer, 0: none; without one while they are still on their way (mpm) [default: 4; with --survey off: 3, with --steps too: 1]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
-    pub rounds: Option<StepCount>,
-    /// Equally many particles for each separate piece of the target, with weights (mpm)
+    pub rounds: Option<RoundCount>,
+    /// More particles than their share for light parts of the target, with weights; after a survey (mpm)
     #[arg(
         long,
-        help = "Equally many particles for each separate piece of the target, with weights (mpm) [default: off]"
+        help = "More particles than their share for light parts of the target, with weights; after a survey (mpm) [default: off]"
     )]
     pub weighted: Option<Switch>,
     /// What is done about a score that is not finite (mpm) [default: pull-back]
@@ -133,22 +139,22 @@ pub struct MethodOptions {
     /// Acceptance that the step size is tuned to, between 0 and 1 (nuts, stein-thinning with --pool nuts)
     #[arg(long, value_name = "A", allow_negative_numbers = true)]
     pub target_acceptance: Option<f64>,
-    /// What the draws are chosen from (stein-thinning)
-    #[arg(long)]
-    pub pool: Option<PoolChoice>,
+    /// What the draws are chosen from, `exact` or `nuts` (stein-thinning); file for the weighted pool (mpm, ais)
+    #[arg(long, value_name = "exact|nuts|FILE.csv|.npy")]
+    pub pool: Option<PathBuf>,
     /// Size of the bigger sample, at least the number of particles (stein-thinning, support-points)
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub pool_size: Option<ParticleCount>,
     /// End when no point moves farther, in units of the sample's spread (support-points)
     #[arg(long, value_name = "TOL", allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
-    /// Mean of every coordinate at the start, in units of the target's scale (mpm, paper-*, svgd, nuts)
+    /// Mean of every coordinate at the start, in units of the target's scale (mpm, ais, paper-*, svgd, nuts)
     #[arg(long, value_name = "MEAN", allow_negative_numbers = true)]
     pub start_mean: Option<f64>,
-    /// Standard deviation of every coordinate at the start (mpm, paper-*, svgd, nuts)
+    /// Standard deviation of every coordinate at the start (mpm, ais, paper-*, svgd, nuts)
     #[arg(long, value_name = "SD", allow_negative_numbers = true)]
     pub start_sd: Option<f64>,
-    /// How the particles are drawn from their initial law (mpm, paper-*, svgd, nuts)
+    /// How the particles are drawn from their initial law (mpm, ais, paper-*, svgd, nuts)
     #[arg(long)]
     pub start_draws: Option<Draws>,
     /// Measure residual and energy every so many steps; set by the studies.
@@ -166,11 +172,17 @@ impl MethodOptions {
         self.check_fit(name)?;
         self.check_ranges()?;
         self.check_pairs()?;
+        if name == MethodName::Mpm {
+            self.check_survey()?;
+        }
         self.check_pool(name)?;
         let steps = self.steps.map(StepCount::get);
         Ok(match name {
             MethodName::Mpm if self.basis == Some(Basis::Mesh) => Method::OnMesh(self.on_mesh(steps)?),
             MethodName::Mpm => Method::Mpm(self.mpm(steps)?),
+            MethodName::Ais => Method::Ais(AisOptions {
+                evaluations: self.evaluations(),
+            }),
             MethodName::PaperPic | MethodName::PaperApic if self.basis == Some(Basis::Mesh) => {
                 return Err(OptionError::misfit("basis", "mesh", name.as_str()));
             }
@@ -188,7 +200,7 @@ impl MethodOptions {
             MethodName::Iid => Method::Iid,
             MethodName::Sobol => Method::Sobol,
             MethodName::Nuts => Method::Nuts(self.nuts()),
-            MethodName::SteinThinning => Method::SteinThinning(self.stein_thinning()),
+            MethodName::SteinThinning => Method::SteinThinning(self.stein_thinning()?),
             MethodName::SupportPoints => Method::SupportPoints(self.support_points()),
         })
     }

@@ -3,7 +3,7 @@
 use parvi::{Method, SampleError};
 use serde::{Deserialize, Serialize};
 
-use super::{MethodName, MethodOptions, OptionError, PoolChoice};
+use super::{MethodName, MethodOptions, OptionError};
 
 /// `{ name = "mpm", options = { spacing = 0.5 } }`; options that do not fit the method are refused while reading.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -32,16 +32,21 @@ impl TryFrom<Stated> for MethodSpecification {
     type Error = OptionError;
 
     fn try_from(stated: Stated) -> Result<Self, OptionError> {
-        stated.options.method(stated.name)?;
-        Ok(Self {
-            name: stated.name,
-            label: stated.label,
-            options: stated.options,
-        })
+        Self::new(stated.name, stated.label, stated.options)
     }
 }
 
 impl MethodSpecification {
+    /// A method with options that fit it.
+    ///
+    /// # Errors
+    /// An option that does not fit, or that no study has.
+    pub fn new(name: MethodName, label: Option<String>, options: MethodOptions) -> Result<Self, OptionError> {
+        options.method(name)?;
+        options.check_study(name)?;
+        Ok(Self { name, label, options })
+    }
+
     /// A method with its default options.
     pub fn plain(name: MethodName) -> Self {
         Self {
@@ -61,8 +66,7 @@ impl MethodSpecification {
     /// # Errors
     /// [`SampleError::NotBuilt`].
     pub fn check_built(&self) -> Result<(), SampleError> {
-        let needs_nuts = self.name == MethodName::Nuts || self.options.pool == Some(PoolChoice::Nuts);
-        if needs_nuts && cfg!(not(feature = "nuts")) {
+        if self.options.uses_chains(self.name) && cfg!(not(feature = "nuts")) {
             return Err(SampleError::NotBuilt {
                 method: "nuts",
                 feature: "nuts",

@@ -12,9 +12,10 @@ mod option_checks;
 mod option_error;
 mod option_values;
 mod paper_options;
+mod pool_option;
 mod target_specification;
 
-pub use bounded::{Bounded, Dimension, ParticleCount, StepCount, WarmUp};
+pub use bounded::{Bounded, Dimension, EvaluationCount, ParticleCount, RoundCount, StepCount, WarmUp};
 pub use limit::Limit;
 pub use method_name::MethodName;
 pub use method_options::MethodOptions;

@@ -81,4 +81,24 @@ impl MethodOptions {
             _ => Ok(()),
         }
     }
+
+    /// Refuses options of a survey where there is none.
+    pub(super) fn check_survey(&self) -> Result<(), OptionError> {
+        if self.surveys() {
+            return Ok(());
+        }
+        let none = self.rounds.filter(|rounds| rounds.get() == 0);
+        let given = [
+            ("evaluations", self.evaluations.map(|count| count.to_string())),
+            ("rounds", none.map(|count| count.to_string())),
+            ("pool", self.pool.as_ref().map(|file| file.display().to_string())),
+        ];
+        match given.into_iter().find_map(|(name, value)| Some((name, value?))) {
+            None => Ok(()),
+            Some((name, value)) => Err(OptionError {
+                name: name.to_owned(),
+                reason: format!("{value} needs a survey"),
+            }),
+        }
+    }
 }

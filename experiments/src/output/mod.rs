@@ -22,18 +22,21 @@ pub enum ParticleFormat {
 }
 
 impl ParticleFormat {
-    /// The format that the extension of `path` stands for (upper or lower case).
+    /// The format that the extension of `path` stands for (upper or lower case); `flag` asked for the file.
     ///
     /// # Errors
     /// [`CommandError::OutputExtension`] for any other extension.
-    pub fn of(path: &Path) -> Result<Self, CommandError> {
+    pub fn of(flag: &'static str, path: &Path) -> Result<Self, CommandError> {
         let extension = path
             .extension()
             .map(|extension| extension.to_string_lossy().to_lowercase());
         match extension.as_deref() {
             Some("csv") => Ok(Self::Csv),
             Some("npy") => Ok(Self::Npy),
-            _ => Err(CommandError::OutputExtension { path: path.to_owned() }),
+            _ => Err(CommandError::OutputExtension {
+                flag,
+                path: path.to_owned(),
+            }),
         }
     }
 }
@@ -49,7 +52,7 @@ impl ParticleFile {
     pub fn create(path: impl Into<PathBuf>) -> Result<Self, CommandError> {
         let path = path.into();
         Ok(Self {
-            format: ParticleFormat::of(&path)?,
+            format: ParticleFormat::of("out", &path)?,
             file: AtomicFile::create(path)?,
         })
     }

@@ -2,12 +2,18 @@
 
 use parvi::Samples;
 
-/// M points in d dimensions, row by row, with weights where they differ.
+/// The name of the column of weights.
+pub const WEIGHT: &str = "weight";
+/// The name of the column of log p.
+pub const LOG_DENSITY: &str = "log_density";
+
+/// M points in d dimensions, row by row, with weights where they differ, and log p where it is noted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Particles {
     dimension: usize,
     coordinates: Vec<f64>,
     weights: Option<Vec<f64>>,
+    log_densities: Option<Vec<f64>>,
 }
 
 impl Particles {
@@ -17,6 +23,7 @@ impl Particles {
             dimension: D,
             coordinates: positions.as_flattened().to_vec(),
             weights: weights.map(<[f64]>::to_vec),
+            log_densities: None,
         }
     }
 
@@ -28,6 +35,15 @@ impl Particles {
             dimension,
             coordinates,
             weights,
+            log_densities: None,
+        }
+    }
+
+    /// The same with log p at every point.
+    pub fn with_log_densities(self, log_densities: Vec<f64>) -> Self {
+        Self {
+            log_densities: Some(log_densities),
+            ..self
         }
     }
 
@@ -72,6 +88,18 @@ impl Particles {
             Some(weights) => weights.get(index).copied().unwrap_or(0.0),
             None => 1.0 / self.len() as f64,
         }
+    }
+
+    /// log p at the points, where it is noted; −∞ where it is not a number to count with.
+    pub fn log_densities(&self) -> Option<&[f64]> {
+        self.log_densities.as_deref()
+    }
+
+    /// What stands beside the coordinates, as names with one value per point: the weights where they differ, then log p where it is noted.
+    pub fn further_columns(&self) -> Vec<(&'static str, &[f64])> {
+        let weights = self.weights().map(|values| (WEIGHT, values));
+        let log_densities = self.log_densities().map(|values| (LOG_DENSITY, values));
+        weights.into_iter().chain(log_densities).collect()
     }
 
     /// The points as arrays; `None` if the dimension is another.

@@ -4,24 +4,21 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use super::Particles;
+use super::particles::{LOG_DENSITY, WEIGHT};
 use crate::CommandError;
 
-/// The name of the last column where weights differ.
-const WEIGHT: &str = "weight";
-
-/// Writes a header (and `weight` where weights differ) and one particle per row.
+/// Writes a header and one particle per row: its coordinates, its weight where weights differ, log p where it is noted.
 ///
-/// Columns are called by `names`, which are quoted where they have to be; x1,…,xD where there are none, and a coordinate named `weight` too.
+/// Columns are called by `names`, which are quoted where they have to be; x1,…,xD where there are none, and for a coordinate that is called like one of the further columns.
 /// Numbers are the shortest that read back to the same bits.
 pub fn write(particles: &Particles, names: &[String], writer: &mut dyn Write) -> io::Result<()> {
     let name = |axis: usize| match names.get(axis) {
-        Some(name) if name != WEIGHT => name.clone(),
+        Some(name) if ![WEIGHT, LOG_DENSITY].contains(&name.as_str()) => name.clone(),
         _ => format!("x{}", axis + 1),
     };
     let mut header: Vec<String> = (0..particles.dimension()).map(name).collect();
-    if particles.weights().is_some() {
-        header.push(WEIGHT.to_owned());
-    }
+    let further = particles.further_columns();
+    header.extend(further.iter().map(|(name, _)| (*name).to_owned()));
     csv::Writer::from_writer(&mut *writer).write_record(header)?;
     for (index, row) in particles.rows().enumerate() {
         for (axis, value) in row.iter().enumerate() {
@@ -30,15 +27,15 @@ pub fn write(particles: &Particles, names: &[String], writer: &mut dyn Write) ->
             }
             write!(writer, "{value:?}")?;
         }
-        if particles.weights().is_some() {
-            write!(writer, ",{:?}", particles.weight(index))?;
+        for (_, values) in &further {
+            write!(writer, ",{:?}", values.get(index).copied().unwrap_or(0.0))?;
         }
         writeln!(writer)?;
     }
     Ok(())
 }
 
-/// Reads what [`write`](fn@write) writes.
+/// Reads what [`write`](fn@write) writes of particles without log p.
 ///
 /// # Errors
 /// [`CommandError::ResultsUnreadable`] with the line of a row that does not fit.
@@ -98,6 +95,12 @@ mod tests {
     fn weights_are_the_last_column() {
         let particles = Particles::new(&[[1.5], [2.5]], Some(&[0.25, 0.75]));
         assert_eq!(text(&particles), "x1,weight\n1.5,0.25\n2.5,0.75\n");
+    }
+
+    #[test]
+    fn a_pool_has_weights_and_log_densities() {
+        let pool = Particles::new(&[[1.5], [2.5]], Some(&[1.0, 0.0])).with_log_densities(vec![-0.5, f64::NEG_INFINITY]);
+        assert_eq!(text(&pool), "x1,weight,log_density\n1.5,1.0,-0.5\n2.5,0.0,-inf\n");
     }
 
     #[test]

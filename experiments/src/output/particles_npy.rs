@@ -1,4 +1,4 @@
-//! Particles as a NumPy array: f64, M × D, or M × (D+1) with the weights last.
+//! Particles as a NumPy array: f64, M × D, with further columns for the weights where they differ and for log p where it is noted.
 
 use std::io::{self, Write};
 
@@ -8,7 +8,8 @@ use super::Particles;
 
 /// Writes the array in row-major order.
 pub fn write(particles: &Particles, writer: &mut dyn Write) -> io::Result<()> {
-    let columns = particles.dimension() + usize::from(particles.weights().is_some());
+    let further = particles.further_columns();
+    let columns = particles.dimension() + further.len();
     let shape = [particles.len() as u64, columns as u64];
     let mut array = npyz::WriteOptions::new()
         .default_dtype()
@@ -17,8 +18,8 @@ pub fn write(particles: &Particles, writer: &mut dyn Write) -> io::Result<()> {
         .begin_nd()?;
     for (index, row) in particles.rows().enumerate() {
         array.extend(row.iter().copied())?;
-        if particles.weights().is_some() {
-            array.push(&particles.weight(index))?;
+        for (_, values) in &further {
+            array.push(&values.get(index).copied().unwrap_or(0.0))?;
         }
     }
     array.finish()
@@ -45,5 +46,11 @@ mod tests {
     fn weights_are_the_last_column() {
         let particles = Particles::new(&[[1.0], [2.0]], Some(&[0.25, 0.75]));
         assert_eq!(read(&particles), (vec![2, 2], vec![1.0, 0.25, 2.0, 0.75]));
+    }
+
+    #[test]
+    fn a_pool_has_two_columns_more() {
+        let pool = Particles::new(&[[1.0], [2.0]], Some(&[1.0, 0.0])).with_log_densities(vec![-0.5, -1.5]);
+        assert_eq!(read(&pool), (vec![2, 3], vec![1.0, 1.0, -0.5, 2.0, 0.0, -1.5]));
     }
 }

@@ -104,6 +104,7 @@ pub fn method_style(method: &str) -> Option<SeriesStyle> {
         "sobol" => (PALETTE[5], Marker::TriangleDown),
         "iid" => (PALETTE[7], Marker::Cross),
         "nuts" => (PALETTE[3], Marker::Plus),
+        "ais" => (PALETTE[1], Marker::Plus),
         "reference" => (PALETTE[6], Marker::Ring),
         _ => return None,
     };
@@ -151,7 +152,7 @@ mod tests {
     fn no_two_series_look_alike() {
         let names: Vec<String> = (0..20).map(|i| format!("s{i}")).collect();
         let mut all: Vec<&str> = names.iter().map(String::as_str).collect();
-        all.extend(["mpm", "svgd", "iid", "sobol", "paper-pic", "paper-apic", "nuts"]);
+        all.extend(["mpm", "svgd", "iid", "sobol", "paper-pic", "paper-apic", "nuts", "ais"]);
         let styles = styles(&all);
         for (index, style) in styles.iter().enumerate() {
             assert!(!styles[..index].contains(style), "{}: {style:?}", all[index]);

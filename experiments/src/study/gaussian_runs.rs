@@ -55,6 +55,7 @@ impl definition::Case for Case {
         let (count, steps) = (self.particles as f64, self.method.options.steps.map(StepCount::get));
         let sampling = match self.method.name {
             MethodName::Iid | MethodName::Sobol => 0.0,
+            MethodName::Ais => 100.0 * count,
             MethodName::Svgd => steps.unwrap_or(500) as f64 * 3e-3 * count * count,
             MethodName::Nuts => 10.0 * (count + 2e3),
             MethodName::SteinThinning => 5e-3 * count * self.pool_size(),
@@ -113,6 +114,8 @@ pub struct Row {
     pub steps: Option<usize>,
     /// Evaluations of the score at one point.
     pub score_evaluations: Option<u64>,
+    /// Evaluations of the log density at one point.
+    pub density_evaluations: Option<u64>,
     /// Spacing h used, in standard deviations.
     pub spacing: Option<f64>,
     /// Nodes with mass in the last step.
@@ -187,6 +190,7 @@ pub fn run_case(case: &Case, observer: &mut CaseObserver) -> Result<Row, Command
         energy_level: energy_level(case.dim, case.particles)?,
         steps: None,
         score_evaluations: None,
+        density_evaluations: None,
         spacing: None,
         active_nodes: None,
         wall_seconds: None,
@@ -197,6 +201,7 @@ pub fn run_case(case: &Case, observer: &mut CaseObserver) -> Result<Row, Command
             row.energy_distance_squared = Some(energy);
             row.steps = Some(outcome.steps);
             row.score_evaluations = Some(outcome.score_evaluations);
+            row.density_evaluations = Some(outcome.density_evaluations);
             row.spacing = outcome.spacing;
             row.active_nodes = outcome.active_nodes;
             row.wall_seconds = Some(outcome.wall_seconds);

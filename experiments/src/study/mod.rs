@@ -14,6 +14,7 @@ mod gaussian_runs;
 mod manifest;
 mod moments;
 mod quickstart;
+mod random_targets;
 mod results;
 mod runner;
 mod scaling;
@@ -60,7 +61,7 @@ impl Kind {
 }
 
 /// All kinds.
-static KINDS: [Kind; 12] = [
+static KINDS: [Kind; 13] = [
     Kind::of::<quickstart::Quickstart>(),
     Kind::of::<scaling::Scaling>(),
     Kind::of::<time_error::TimeError>(),
@@ -70,6 +71,7 @@ static KINDS: [Kind; 12] = [
     Kind::of::<basis_comparison::BasisComparison>(),
     Kind::of::<spacing_particles::SpacingParticles>(),
     Kind::of::<catalogue::Catalogue>(),
+    Kind::of::<random_targets::RandomTargets>(),
     Kind::of::<stability::Stability>(),
     Kind::of::<time_to_equal_error::TimeToEqualError>(),
     Kind::of::<scenes::Scenes>(),

@@ -10,8 +10,8 @@ seeds = [1, 2, 3]
 dims = [1, 2]
 particles = [64, 16]
 methods = [
-    { name = "mpm", options = { steps = 20 } },
-    { name = "mpm", label = "mpm, linear", options = { steps = 20, basis = "linear" }, largest-particles = 20 },
+    { name = "mpm", options = { survey = "off", steps = 20 } },
+    { name = "mpm", label = "mpm, linear", options = { survey = "off", steps = 20, basis = "linear" }, largest-particles = 20 },
     { name = "iid" },
     { name = "sobol" },
     { name = "svgd", largest-particles = 16, options = { steps = 5 } },
@@ -28,8 +28,8 @@ start = { mean = 0.7, standard-deviation = 0.6 }
 steps = [1, 4, 16, 64]
 repeats = 2
 largest-ratio = 1e-3
-method = { name = "mpm" }
-rivals = [{ name = "svgd" }, { name = "mpm", label = "again" }]
+method = { name = "mpm", options = { survey = "off" } }
+rivals = [{ name = "svgd" }, { name = "mpm", label = "again", options = { survey = "off" } }]
 "#;
 
 const BASIS_COMPARISON: &str = r#"
@@ -40,14 +40,14 @@ particles = 64
 bases = ["quadratic", "linear"]
 spacings = [0.5, 1.0, 2.0]
 steps = [20, 5]
-method = { name = "mpm", options = { moment-correction = "off" } }
+method = { name = "mpm", options = { survey = "off", moment-correction = "off" } }
 "#;
 
 const SPACING_PARTICLES: &str = r#"
 kind = "spacing-particles"
 seeds = [1, 2]
 particles = [64, 32, 16]
-method = { name = "mpm", options = { basis = "linear", steps = 20 } }
+method = { name = "mpm", options = { survey = "off", basis = "linear", steps = 20 } }
 series = [{ dim = 1, spacings = [0.8, 0.2, 0.4] }, { dim = 2, spacings = [0.5, 1.0] }]
 "#;
 
@@ -184,7 +184,7 @@ fn bad_time_to_level() {
         &["rivals.options.steps", "`steps`"],
     );
     refused(
-        "method = { name = \"mpm\" }",
+        "method = { name = \"mpm\", options = { survey = \"off\" } }",
         "method = { name = \"mpm\", options = { start-mean = 1.0 } }",
         &["method.options.start-mean", "`start`"],
     );
@@ -239,22 +239,22 @@ fn bad_basis_comparison() {
     refused("[20, 5]", "[]", &["steps", "empty"]);
     refused("[20, 5]", "[20, 0]", &["line 8", "0 is out of range"]);
     refused(
-        "{ moment-correction = \"off\" }",
+        "{ survey = \"off\", moment-correction = \"off\" }",
         "{ spacing = 1.0 }",
         &["method.options.spacing", "`spacings`"],
     );
     refused(
-        "{ moment-correction = \"off\" }",
+        "{ survey = \"off\", moment-correction = \"off\" }",
         "{ basis = \"cubic\" }",
         &["method.options.basis", "`bases`"],
     );
     refused(
-        "{ moment-correction = \"off\" }",
+        "{ survey = \"off\", moment-correction = \"off\" }",
         "{ steps = 3 }",
         &["method.options.steps", "`steps`"],
     );
     refused(
-        "{ name = \"mpm\", options = { moment-correction = \"off\" } }",
+        "{ name = \"mpm\", options = { survey = \"off\", moment-correction = \"off\" } }",
         "{ name = \"svgd\" }",
         &["basis", "svgd"],
     );
@@ -292,7 +292,7 @@ fn bad_spacing_particles() {
     refused("dim = 2, spacings", "dim = 2, spacing", &["line 6", "`spacing`"]);
     refused("steps = 20", "spacing = 0.5", &["method.options.spacing", "`series`"]);
     refused(
-        "{ name = \"mpm\", options = { basis = \"linear\", steps = 20 } }",
+        "{ name = \"mpm\", options = { survey = \"off\", basis = \"linear\", steps = 20 } }",
         "{ name = \"iid\" }",
         &["spacing", "iid"],
     );

@@ -1,12 +1,14 @@
 //! The command `parvi`, from the outside. One theme per file.
 
 mod gaussian_studies;
+mod random_targets;
 mod rom;
 mod sample_bad_input;
 mod sample_checkpoint;
 mod sample_diagnostics;
 mod sample_interrupted;
 mod sample_output;
+mod sample_pool;
 mod scene_studies;
 mod simulate;
 mod studies;

@@ -24,9 +24,18 @@ fn a_gaussian_converges_and_its_moments_are_known() {
     assert_eq!(found["outcome"], "converged");
     assert_eq!(number(&found["effective_sample_size"]), 500.0);
     assert!(number(&found["kernel_stein_discrepancy"]) < 0.1);
+    let log_evidence_error = number(&found["log_evidence_error"]);
+    assert!(log_evidence_error < 0.1, "{found}");
+    assert!(
+        number(&found["log_evidence"]).abs() < 4.0 * log_evidence_error,
+        "{found}"
+    );
+    assert!(number(&found["pareto_k"]) < 0.7, "{found}");
+    assert_eq!(found["pool"]["points"], found["density_evaluations"]);
+    assert!(number(&found["pool"]["effective_size"]) > 1000.0, "{found}");
     for coordinate in found["coordinates"].as_array().unwrap() {
-        assert!(number(&coordinate["mean"]["estimate"]).abs() < 1e-9);
-        assert!((number(&coordinate["standard_deviation"]["estimate"]) - 1.0).abs() < 1e-6);
+        assert!(number(&coordinate["mean"]["estimate"]).abs() < 0.05);
+        assert!((number(&coordinate["standard_deviation"]["estimate"]) - 1.0).abs() < 0.05);
         let tail = &coordinate["quantiles"][0];
         assert_eq!(number(&tail["level"]), 0.01);
         let error = number(&tail["standard_error"]);
@@ -37,22 +46,22 @@ fn a_gaussian_converges_and_its_moments_are_known() {
 #[test]
 fn methods_without_a_certificate_are_diagnosed_by_the_scores() {
     let found = diagnostics("--target student-t --dim 1 --particles 400 --method iid");
-    assert!(found["outcome"].is_null());
+    for key in ["outcome", "pool", "log_evidence", "pareto_k"] {
+        assert!(found[key].is_null(), "{key}");
+    }
     let mean = &found["coordinates"][0]["mean"];
     assert!(number(&mean["estimate"]).abs() < 1e-3, "{mean}");
     assert!(number(&mean["standard_error"]) > 1e-3);
 }
 
 #[test]
-fn pieces_are_named_on_standard_error_and_may_be_weighted() {
+fn light_parts_may_have_weights() {
     let directory = tempfile::tempdir().unwrap();
     let line = "sample --target mixture-3 --dim 2 --particles 300 --weighted on --out x.csv";
     let output = parvi(directory.path(), line);
     assert!(output.status.success(), "{}", stderr(&output));
-    assert!(stderr(&output).contains("separate pieces"), "{}", stderr(&output));
-    assert!(value(&output, "mass_error").is_some());
     let header = std::fs::read_to_string(directory.path().join("x.csv")).unwrap();
-    assert!(header.starts_with("x1,x2,weight"), "{header}");
+    assert!(header.starts_with("x1,x2,weight\n"), "{header}");
 }
 
 #[test]

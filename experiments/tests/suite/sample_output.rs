@@ -76,10 +76,10 @@ fn standard_output_has_the_keys_of_the_contract() {
     let directory = tempfile::tempdir().unwrap();
     let output = parvi(
         directory.path(),
-        "sample --target gaussian --dim 2 --particles 200 --steps 5 --out x.csv",
+        "sample --target gaussian --dim 2 --particles 200 --steps 5 --rounds 1 --out x.csv",
     );
     assert!(output.status.success(), "{}", stderr(&output));
-    insta::assert_snapshot!(keys(&stdout(&output)).join(" "), @"method steps score_evaluations wall_seconds residual spacing active_nodes bodies storage_bytes peak_memory_bytes outcome mean_error sd_error unexplained drift target dim particles seed");
+    insta::assert_snapshot!(keys(&stdout(&output)).join(" "), @"method steps score_evaluations density_evaluations log_evidence log_evidence_error pareto_k wall_seconds residual spacing active_nodes bodies storage_bytes peak_memory_bytes outcome mean_error sd_error unexplained drift target dim particles seed");
     assert_eq!(value(&output, "method").unwrap(), "mpm");
     assert_eq!(value(&output, "steps").unwrap(), "5");
     assert!(value(&output, "spacing").unwrap().parse::<f64>().unwrap() > 0.0);
@@ -88,7 +88,7 @@ fn standard_output_has_the_keys_of_the_contract() {
         directory.path(),
         "sample --target gaussian --dim 2 --particles 200 --method iid --out x.csv",
     );
-    insta::assert_snapshot!(keys(&stdout(&output)).join(" "), @"method steps score_evaluations wall_seconds peak_memory_bytes target dim particles seed");
+    insta::assert_snapshot!(keys(&stdout(&output)).join(" "), @"method steps score_evaluations density_evaluations wall_seconds peak_memory_bytes target dim particles seed");
     assert_eq!(value(&output, "steps").unwrap(), "0");
     assert_eq!(value(&output, "score_evaluations").unwrap(), "0");
 }
@@ -98,6 +98,7 @@ fn the_same_seed_gives_the_same_file_on_any_number_of_threads() {
     let directory = tempfile::tempdir().unwrap();
     let mut methods = vec![
         "mpm",
+        "ais",
         "paper-pic",
         "paper-apic",
         "svgd",
@@ -110,7 +111,7 @@ fn the_same_seed_gives_the_same_file_on_any_number_of_threads() {
         methods.push("nuts");
     }
     for method in methods {
-        let steps = if matches!(method, "iid" | "sobol" | "nuts" | "stein-thinning") {
+        let steps = if matches!(method, "ais" | "iid" | "sobol" | "nuts" | "stein-thinning") {
             ""
         } else {
             "--steps 8"

@@ -28,7 +28,7 @@ fn covariance_spacing() {
         kind = "covariance-spacing"
         seeds = [0, 1]
         particles = 200
-        method = { name = "mpm", options = { shifts = "off", moment-correction = "off", steps = 100 } }
+        method = { name = "mpm", options = { survey = "off", shifts = "off", moment-correction = "off", steps = 100 } }
         series = [
             { dim = 1, spacings = [0.5, 1.0], judged-spacing = 1.0, bound = 0.5 },
             { dim = 2, spacings = [1.2, 0.6] },
@@ -49,7 +49,7 @@ fn scaling() {
         target = "gaussian"
         steps = 2
         repeats = 2
-        method = { name = "mpm" }
+        method = { name = "mpm", options = { survey = "off" } }
         [particles-sweep]
         dims = [1, 2]
         particles = [100, 200, 400]

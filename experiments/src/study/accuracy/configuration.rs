@@ -50,13 +50,9 @@ impl TryFrom<Stated> for Entry {
     type Error = OptionError;
 
     fn try_from(stated: Stated) -> Result<Self, OptionError> {
-        stated.options.method(stated.name)?;
+        let method = MethodSpecification::new(stated.name, stated.label, stated.options)?;
         Ok(Self {
-            method: MethodSpecification {
-                name: stated.name,
-                label: stated.label,
-                options: stated.options,
-            },
+            method,
             largest_particles: stated.largest_particles,
         })
     }

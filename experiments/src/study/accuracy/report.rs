@@ -151,9 +151,10 @@ fn costs(study: &Accuracy, rows: &[Row], document: &mut Document) {
     document.heading("Costs");
     let quantities: [(&str, Quantity); 3] = [
         ("Wall time of the sampler in seconds, medians over the seeds.", SECONDS),
-        ("Score evaluations per particle.", |row| {
-            Some(row.score_evaluations? as f64 / row.particles as f64)
-        }),
+        (
+            "Evaluations per particle, of the score and of the log density.",
+            |row| Some((row.score_evaluations? + row.density_evaluations?) as f64 / row.particles as f64),
+        ),
         ("Active nodes in the last step.", |row| {
             row.active_nodes.map(|count| count as f64)
         }),

@@ -169,7 +169,7 @@ fn start_table(
         "sd (relative)",
         "mode mass",
         "residual",
-        "scores",
+        "evaluations",
         "time (s)",
     ];
     header.extend(details.map(str::to_owned));
@@ -190,7 +190,7 @@ fn start_table(
             |row| row.deviation_error,
             |row| row.mass_error,
             |row| row.residual,
-            |row| row.score_evaluations.map(|count| count as f64),
+            Row::evaluations,
             |row| row.wall_seconds,
         ];
         line.extend(quantities.map(|quantity| optional_number(median(&here, quantity))));

@@ -54,6 +54,8 @@ pub struct Row {
     pub steps: Option<usize>,
     /// Evaluations of the score at one point.
     pub score_evaluations: Option<u64>,
+    /// Evaluations of the log density at one point.
+    pub density_evaluations: Option<u64>,
     /// Time of the sampler alone.
     pub wall_seconds: Option<f64>,
 }
@@ -96,8 +98,14 @@ impl Row {
             residual: None,
             steps: None,
             score_evaluations: None,
+            density_evaluations: None,
             wall_seconds: None,
         })
+    }
+
+    /// Evaluations of all kinds, where both are known.
+    pub fn evaluations(&self) -> Option<f64> {
+        Some((self.score_evaluations? + self.density_evaluations?) as f64)
     }
 
     /// Notes what the sampler says.
@@ -107,6 +115,7 @@ impl Row {
         self.residual = outcome.residual;
         self.steps = Some(outcome.steps);
         self.score_evaluations = Some(outcome.score_evaluations);
+        self.density_evaluations = Some(outcome.density_evaluations);
         self.wall_seconds = Some(outcome.wall_seconds);
     }
 
@@ -146,6 +155,7 @@ impl Row {
             residual: None,
             steps: None,
             score_evaluations: None,
+            density_evaluations: None,
             wall_seconds: None,
         }
     }

@@ -55,6 +55,7 @@ pub struct Row {
     residual: Option<f64>,
     active_nodes: Option<usize>,
     score_evaluations: Option<u64>,
+    density_evaluations: Option<u64>,
     wall_seconds: Option<f64>,
 }
 
@@ -121,6 +122,7 @@ impl Study for CovarianceSpacing {
             residual: None,
             active_nodes: None,
             score_evaluations: None,
+            density_evaluations: None,
             wall_seconds: None,
         };
         match attempt(sampling::sample(&target, &method, &run, observer))? {
@@ -133,6 +135,7 @@ impl Study for CovarianceSpacing {
                 row.residual = outcome.residual;
                 row.active_nodes = outcome.active_nodes;
                 row.score_evaluations = Some(outcome.score_evaluations);
+                row.density_evaluations = Some(outcome.density_evaluations);
                 row.wall_seconds = Some(outcome.wall_seconds);
             }
         }

@@ -90,6 +90,7 @@ pub struct Row {
     particles: usize,
     steps: Option<usize>,
     score_evaluations: Option<u64>,
+    density_evaluations: Option<u64>,
     residual: Option<f64>,
     spacing: Option<f64>,
     active_nodes: Option<usize>,
@@ -116,6 +117,7 @@ impl Row {
             particles,
             steps: None,
             score_evaluations: None,
+            density_evaluations: None,
             residual: None,
             spacing: None,
             active_nodes: None,
@@ -208,6 +210,7 @@ impl Quickstart {
                 table_file::write(outcome.trace.iter().map(TraceRow::from), &case.trace_file(directory))?;
                 row.steps = Some(outcome.steps);
                 row.score_evaluations = Some(outcome.score_evaluations);
+                row.density_evaluations = Some(outcome.density_evaluations);
                 row.residual = outcome.residual;
                 row.spacing = outcome.spacing;
                 row.active_nodes = outcome.active_nodes;

@@ -132,6 +132,8 @@ fn runs_table(rows: &[Row], document: &mut Document) {
         "M",
         "steps",
         "scores",
+        "densities",
+        "evaluations",
         "residual",
         "h",
         "active nodes",
@@ -154,6 +156,12 @@ fn runs_table(rows: &[Row], document: &mut Document) {
                 row.particles.to_string(),
                 count(row.steps.map(|steps| steps as u64)),
                 count(row.score_evaluations),
+                count(row.density_evaluations),
+                count(
+                    row.score_evaluations
+                        .zip(row.density_evaluations)
+                        .map(|(scores, densities)| scores + densities),
+                ),
                 optional_number(row.residual),
                 optional_number(row.spacing),
                 count(row.active_nodes.map(|nodes| nodes as u64)),

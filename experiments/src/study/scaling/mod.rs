@@ -72,6 +72,7 @@ pub struct Row {
     steps: Option<usize>,
     active_nodes: Option<usize>,
     score_evaluations: Option<u64>,
+    density_evaluations: Option<u64>,
     storage_bytes: Option<usize>,
     memory_peak_bytes: Option<u64>,
     wall_seconds_per_step: Option<f64>,
@@ -99,6 +100,7 @@ impl Row {
             steps: None,
             active_nodes: None,
             score_evaluations: None,
+            density_evaluations: None,
             storage_bytes: None,
             memory_peak_bytes: None,
             wall_seconds_per_step: None,
@@ -112,6 +114,7 @@ impl Row {
         self.steps = Some(outcome.steps);
         self.active_nodes = outcome.active_nodes;
         self.score_evaluations = Some(outcome.score_evaluations);
+        self.density_evaluations = Some(outcome.density_evaluations);
         self.storage_bytes = outcome.storage_bytes;
     }
 }

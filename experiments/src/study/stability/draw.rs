@@ -138,6 +138,7 @@ pub fn draw(seed: u64, index: usize, places: &[Place]) -> Case {
         ..MethodOptions::default()
     };
     if method == MethodName::Mpm {
+        options.survey = Some(Switch::Off);
         let transfer = one_of(draws, &[Transfer::Pic, Transfer::Apic, Transfer::Flip]);
         options.transfer = Some(transfer);
         options.flip_share = (transfer == Transfer::Flip).then_some(draws.random());

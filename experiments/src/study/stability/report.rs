@@ -19,7 +19,7 @@ pub fn report(study: &Stability, rows: &[Row], directory: &StudyDirectory) -> Re
     document.paragraph(format!(
         "{} random configurations of seed {}: target, dimension, basis, spacing (0.1 to 10 times the default), time step (0.1 to 30 \
          times), start (mean 0 to 10, standard deviation 0.1 to 10), 2 to 2,000 particles, 5 to 100 steps, and the options of the \
-         method, in a frame that is 10⁻³ to 10³ times as large as the target's and in half of the cases turned. A run diverged \
+         method (`mpm` without a survey), in a frame that is 10⁻³ to 10³ times as large as the target's and in half of the cases turned. A run diverged \
          if it ended with an error, or if a particle escaped: is ten times farther out than start and target together could explain.",
         study.cases, study.seed,
     ));

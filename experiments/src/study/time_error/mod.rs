@@ -1,4 +1,4 @@
-//! Study `time-error`: error against wall time and score evaluations, all methods on all targets.
+//! Study `time-error`: error against wall time and evaluations, all methods on all targets.
 //!
 //! The yardstick is a set of independent exact draws of the same size M; where a target has none, they are drawn
 //! from its reference draws. A run that diverges is a row with its reason.
@@ -72,6 +72,7 @@ pub struct Row {
     steps: Option<usize>,
     seed: u64,
     score_evaluations: Option<u64>,
+    density_evaluations: Option<u64>,
     wall_seconds: Option<f64>,
     energy_distance_squared: Option<f64>,
     /// Expectation of the same for M independent draws.
@@ -89,6 +90,13 @@ pub struct Row {
 impl results::Row for Row {
     fn case(&self) -> &str {
         &self.case
+    }
+}
+
+impl Row {
+    /// Evaluations of all kinds, where both are known.
+    fn evaluations(&self) -> Option<f64> {
+        Some((self.score_evaluations? + self.density_evaluations?) as f64)
     }
 }
 
@@ -138,6 +146,7 @@ fn run_case(case: &Case, yardstick: &dyn Yardstick, observer: &mut CaseObserver)
         steps: case.steps,
         seed: case.seed,
         score_evaluations: None,
+        density_evaluations: None,
         wall_seconds: None,
         energy_distance_squared: None,
         energy_level: yardstick.mean_distance() / case.particles as f64,
@@ -161,6 +170,7 @@ fn run_case(case: &Case, yardstick: &dyn Yardstick, observer: &mut CaseObserver)
         row.note = "drawn from the importance sample".to_owned();
     }
     row.score_evaluations = Some(finished.outcome.score_evaluations);
+    row.density_evaluations = Some(finished.outcome.density_evaluations);
     row.wall_seconds = Some(finished.outcome.wall_seconds);
     row.residual = finished.outcome.residual;
     match finished.errors {

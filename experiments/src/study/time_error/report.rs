@@ -15,16 +15,16 @@ type Quantity = fn(&Row) -> Option<f64>;
 const ENERGY: Quantity = |row| row.energy_distance_squared;
 const SLICED: Quantity = |row| row.sliced_wasserstein;
 const SECONDS: Quantity = |row| row.wall_seconds;
-const SCORES: Quantity = |row| row.score_evaluations.map(|count| count as f64);
+const EVALUATIONS: Quantity = Row::evaluations;
 
 /// Tables and figures.
 pub fn report(study: &TimeError, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
-    let mut document = Document::new("Error against wall time and score evaluations");
+    let mut document = Document::new("Error against wall time and evaluations");
     document.paragraph(format!(
         "M = {} particles, {} seeds; medians over the seeds. ED² is the squared energy distance, exact against Gaussians and \
          against {} quasi-random reference points else; SW₂ is the sliced Wasserstein distance over {} directions. Regressions are measured in posterior standard deviations \
          per axis. The yardstick is the error of M independent draws: for ED² its expectation E‖Y − Y'‖/M, else the median \
-         over the seeds (draws from the importance sample where a target has no exact ones).",
+         over the seeds (draws from the importance sample where a target has no exact ones). Evaluations are those of the score and of the log density at a point together.",
         study.particles,
         study.seeds.len(),
         study.reference_points,
@@ -73,7 +73,7 @@ fn figures(
     ];
     let costs = [
         ("time", "wall time", "wall time (s)", SECONDS),
-        ("scores", "score evaluations", "score evaluations", SCORES),
+        ("evaluations", "evaluations", "evaluations", EVALUATIONS),
     ];
     for (error_file, error_name, y_label, error) in errors {
         for (cost_file, cost_name, x_label, cost) in costs {
@@ -112,7 +112,7 @@ fn figures(
     Ok(())
 }
 
-/// One curve per method; independent draws are a level instead, and draws have no place on an axis of score evaluations.
+/// One curve per method; independent draws are a level instead, and draws have no place on an axis of evaluations.
 fn curves(study: &TimeError, rows: &[Row], target: &str, cost: Quantity, error: Quantity) -> Vec<TimeErrorCurve> {
     let mut curves = Vec::new();
     for method in study.methods.iter().filter(|method| method.name != MethodName::Iid) {
@@ -156,7 +156,7 @@ fn target_table(study: &TimeError, rows: &[Row], target: &str, document: &mut Do
         "mean (sd)",
         "sd (relative)",
         "mode mass",
-        "scores",
+        "evaluations",
         "time (s)",
     ];
     let mut table = Vec::new();
@@ -176,7 +176,7 @@ fn target_table(study: &TimeError, rows: &[Row], target: &str, document: &mut Do
             optional_number(setting.median(|row| row.mean_error)),
             optional_number(setting.median(|row| row.deviation_error)),
             optional_number(setting.median(|row| row.mass_error)),
-            optional_number(setting.median(SCORES)),
+            optional_number(setting.median(EVALUATIONS)),
             optional_number(setting.median(SECONDS)),
         ]);
     }

@@ -33,6 +33,8 @@ pub struct Row {
     pub size: Option<usize>,
     /// Their score evaluations.
     pub score_evaluations: Option<f64>,
+    /// Their evaluations of the log density.
+    pub density_evaluations: Option<f64>,
     /// Their squared energy distance; empty if half of them diverged.
     pub energy_distance_squared: Option<f64>,
     /// Their time.
@@ -68,6 +70,7 @@ impl Row {
             goal: None,
             size: None,
             score_evaluations: None,
+            density_evaluations: None,
             energy_distance_squared: None,
             wall_seconds: None,
             wall_seconds_least: None,
@@ -81,6 +84,7 @@ impl Row {
     pub fn take(&mut self, last: &Medians) {
         self.size = Some(last.size).filter(|size| *size > 0);
         self.score_evaluations = last.score_evaluations;
+        self.density_evaluations = last.density_evaluations;
         self.energy_distance_squared = Some(last.energy_distance_squared).filter(|energy| energy.is_finite());
         let [least, median, most] = last.wall_seconds.map(Some);
         (self.wall_seconds_least, self.wall_seconds, self.wall_seconds_most) = (least, median, most);
@@ -90,6 +94,11 @@ impl Row {
     pub fn missed(&mut self, before: &Medians) {
         self.missed_size = Some(before.size);
         self.wall_seconds_missed = Some(before.seconds());
+    }
+
+    /// Evaluations of all kinds.
+    pub fn evaluations(&self) -> Option<f64> {
+        Some(self.score_evaluations? + self.density_evaluations?)
     }
 
     /// ED² relative to as many independent draws as there are particles.

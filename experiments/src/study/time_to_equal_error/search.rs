@@ -14,6 +14,8 @@ pub struct Trial {
     pub seed: u64,
     /// Evaluations of the score at one point, those of a warm-up included.
     pub score_evaluations: Option<u64>,
+    /// Evaluations of the log density at one point.
+    pub density_evaluations: Option<u64>,
     /// Time of the sampler, its warm-up included.
     pub wall_seconds: f64,
     /// Squared energy distance, for independent draws its expectation; `None`: diverged.
@@ -27,6 +29,8 @@ pub struct Medians {
     pub size: usize,
     /// Score evaluations, of the runs that did not diverge.
     pub score_evaluations: Option<f64>,
+    /// Evaluations of the log density, of the same runs.
+    pub density_evaluations: Option<f64>,
     /// Least, median and largest time.
     pub wall_seconds: [f64; 3],
     /// Squared energy distance; infinite if half of the runs or more diverged.
@@ -44,13 +48,14 @@ impl Medians {
         let walls = summarize(&walls)?;
         let energies: Vec<f64> = here.iter().filter_map(|trial| trial.energy_distance_squared).collect();
         let diverged = here.len() - energies.len();
-        let scores: Vec<f64> = here
-            .iter()
-            .filter_map(|trial| Some(trial.score_evaluations? as f64))
-            .collect();
+        let median = |count: fn(&Trial) -> Option<u64>| {
+            let counts: Vec<f64> = here.iter().filter_map(|trial| Some(count(trial)? as f64)).collect();
+            summarize(&counts).ok().map(|summary| summary.median)
+        };
         Ok(Self {
             size,
-            score_evaluations: summarize(&scores).ok().map(|summary| summary.median),
+            score_evaluations: median(|trial| trial.score_evaluations),
+            density_evaluations: median(|trial| trial.density_evaluations),
             wall_seconds: [walls.minimum, walls.median, walls.maximum],
             energy_distance_squared: if 2 * diverged >= here.len() {
                 f64::INFINITY
@@ -130,6 +135,7 @@ mod tests {
             size,
             seed: 0,
             score_evaluations: Some(size as u64),
+            density_evaluations: Some(0),
             wall_seconds,
             energy_distance_squared: energy,
         }

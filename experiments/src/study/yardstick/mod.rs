@@ -42,6 +42,8 @@ pub enum Coordinates {
     /// have units of their own, are measured in standard deviations per axis, against points resampled systematically from an
     /// importance sample.
     Own,
+    /// Standard deviations per axis of the points that stand for the target, as for [`Standardised`](Self::Standardised).
+    Scaled,
     /// Those in which the target has mean zero and unit covariance. A target without a map from the unit cube is represented by the
     /// weighted points of an importance sample.
     Standardised,

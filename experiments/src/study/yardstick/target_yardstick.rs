@@ -46,11 +46,11 @@ impl<const D: usize> TargetYardstick<D> {
             sample,
         } = match options.coordinates {
             Coordinates::Own => own_representation(&target, options)?,
-            Coordinates::Standardised => standardised_representation(&target, options)?,
+            Coordinates::Scaled | Coordinates::Standardised => standardised_representation(&target, options)?,
         };
         let coordinates = match (options.coordinates, &sample) {
             (Coordinates::Own, None) => None,
-            (Coordinates::Own, Some(_)) => Some(Standardiser::per_axis(&moments)?),
+            (Coordinates::Own, Some(_)) | (Coordinates::Scaled, _) => Some(Standardiser::per_axis(&moments)?),
             (Coordinates::Standardised, _) => Some(Standardiser::whitening(&moments)?),
         };
         let points = match &coordinates {
@@ -136,19 +136,35 @@ fn own_representation<const D: usize>(
     })
 }
 
-/// As [`Coordinates::Standardised`] says.
+/// Moments of points of equal weight.
+fn of_points<const D: usize>(points: &[[f64; D]]) -> Moments<D> {
+    let weights = vec![1.0; points.len()];
+    let draws = WeightedDraws {
+        points: points.to_vec(),
+        weights,
+    };
+    draws.moments()
+}
+
+/// As [`Coordinates::Scaled`] and [`Coordinates::Standardised`] say.
 fn standardised_representation<const D: usize>(
     target: &BoxedTarget<D>,
     options: &YardstickOptions,
 ) -> Result<Representation<D>, CommandError> {
     if let Some(transport) = target.unit_cube_transport() {
-        return Ok(Representation {
-            points: quasi_random(transport, options.points, options.seed)?,
-            weights: None,
-            moments: target.moments().unwrap_or_else(|| Moments {
+        let points = quasi_random(transport, options.points, options.seed)?;
+        let moments = match (options.coordinates, target.moments()) {
+            (Coordinates::Scaled, _) => of_points(&points),
+            (_, Some(moments)) => moments,
+            (_, None) => Moments {
                 mean: *target.frame().centre(),
                 covariance: target.frame().covariance(),
-            }),
+            },
+        };
+        return Ok(Representation {
+            points,
+            weights: None,
+            moments,
             sample: None,
         });
     }

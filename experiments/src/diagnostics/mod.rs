@@ -1,13 +1,17 @@
 //! What a user asks of particles: moments and quantiles with errors, and how far they are from Stein's identity.
 
-use parvi::{Certificate, Expectation, MomentEstimate, Samples, expectation};
+mod moments;
+
 use parvi_metrics::{Cloud, InverseMultiquadric, effective_sample_size, kernel_stein_discrepancy, quantiles};
-use parvi_targets::{BoxedTarget, CatalogueTarget, Frame};
+use parvi_targets::{BoxedTarget, Frame};
 use serde::Serialize;
+
+use moments::{Moment, of_certificate, of_expectations};
 
 use crate::CommandError;
 use crate::dispatch::{TargetTask, with_target};
 use crate::options::TargetSpecification;
+use crate::output::Particles;
 use crate::sampling::Outcome;
 
 /// Levels of the quantiles.
@@ -27,14 +31,44 @@ pub struct Diagnostics {
     outcome: Option<&'static str>,
     /// Why it is not `converged`.
     reason: Option<String>,
+    /// Evaluations of the score at one point.
+    score_evaluations: u64,
+    /// Evaluations of the log density at one point.
+    density_evaluations: u64,
+    /// log of the target's normalising constant, where the method estimates it.
+    log_evidence: Option<f64>,
+    /// Its standard error.
+    log_evidence_error: Option<f64>,
+    /// Shape of the tail of the importance weights; above 0.7 nothing that rests on them is to be relied on.
+    pareto_k: Option<f64>,
+    /// Everything that was evaluated, weighed; where the method keeps it.
+    pool: Option<PoolSize>,
     /// Galerkin–Stein residual relative to independent draws.
     residual: Option<f64>,
-    /// Standard error that the masses of separate pieces bring into a mean, in standard deviations; to these the residual is blind.
-    mass_error: Option<f64>,
     /// Kernel Stein discrepancy (inverse multiquadric) in the particles' own standardised coordinates.
     kernel_stein_discrepancy: Option<f64>,
     /// One entry for each coordinate.
     coordinates: Vec<Coordinate>,
+}
+
+/// The size of a weighted pool.
+#[derive(Debug, Serialize)]
+struct PoolSize {
+    points: usize,
+    /// (Σ w)² / Σ w².
+    effective_size: f64,
+}
+
+impl PoolSize {
+    fn of(pool: &Particles) -> Result<Self, CommandError> {
+        Ok(Self {
+            points: pool.len(),
+            effective_size: match pool.weights() {
+                Some(weights) => effective_sample_size(weights)?,
+                None => pool.len() as f64,
+            },
+        })
+    }
 }
 
 #[derive(Debug, Serialize)]
@@ -43,18 +77,6 @@ struct Coordinate {
     mean: Moment,
     standard_deviation: Moment,
     quantiles: Vec<Quantile>,
-}
-
-/// A moment of the particles.
-#[derive(Debug, Serialize)]
-struct Moment {
-    value: f64,
-    /// The target's by the scores; `null` where they do not tell.
-    estimate: Option<f64>,
-    /// Standard error of `value`.
-    standard_error: Option<f64>,
-    /// Share of its spread that the scores leave unexplained.
-    unexplained: Option<f64>,
 }
 
 #[derive(Debug, Serialize)]
@@ -101,8 +123,13 @@ impl TargetTask for Diagnose<'_> {
             effective_sample_size: size,
             outcome: certificate.map(|certificate| certificate.outcome.name()),
             reason: certificate.and_then(|certificate| certificate.outcome.reason()),
+            score_evaluations: self.outcome.score_evaluations,
+            density_evaluations: self.outcome.density_evaluations,
+            log_evidence: self.outcome.log_evidence,
+            log_evidence_error: self.outcome.log_evidence_error,
+            pareto_k: self.outcome.pareto_k,
+            pool: self.outcome.pool.as_ref().map(PoolSize::of).transpose()?,
             residual: self.outcome.residual,
-            mass_error: certificate.and_then(|certificate| certificate.mass_error),
             kernel_stein_discrepancy: discrepancy(target, &points, weights)?,
             coordinates: coordinates
                 .map(|(axis, ((mean, standard_deviation), quantiles))| Coordinate {
@@ -114,64 +141,6 @@ impl TargetTask for Diagnose<'_> {
                 .collect(),
         })
     }
-}
-
-/// Mean and standard deviation of every coordinate, as the certificate has them.
-fn of_certificate(certificate: &Certificate) -> Vec<(Moment, Moment)> {
-    let of = |value, estimate, standard_error, unexplained| Moment {
-        value,
-        estimate: Some(estimate),
-        standard_error: Some(standard_error),
-        unexplained: Some(unexplained),
-    };
-    let both = |m: &MomentEstimate| {
-        let mean = of(m.mean, m.mean_estimate, m.mean_standard_error, m.mean_unexplained);
-        let deviation = of(
-            m.standard_deviation,
-            m.standard_deviation_estimate,
-            m.standard_deviation_standard_error,
-            m.standard_deviation_unexplained,
-        );
-        (mean, deviation)
-    };
-    certificate.moments.iter().map(both).collect()
-}
-
-/// The same from the scores at the particles of any method.
-fn of_expectations<const D: usize>(
-    target: &dyn CatalogueTarget<D>,
-    points: &[[f64; D]],
-    weights: Option<&[f64]>,
-) -> Vec<(Moment, Moment)> {
-    let samples = Samples {
-        positions: points.to_vec(),
-        weights: weights.map(<[f64]>::to_vec),
-        ..Samples::default()
-    };
-    let share = |p: usize| weights.map_or(1.0 / points.len() as f64, |weights| weights[p]);
-    let average =
-        |value: &dyn Fn(&[f64; D]) -> f64| -> f64 { points.iter().enumerate().map(|(p, x)| share(p) * value(x)).sum() };
-    let both = |axis: usize| {
-        let mean = average(&|x| x[axis]);
-        let deviation = average(&|x| (x[axis] - mean).powi(2)).sqrt();
-        let first = expectation(&target, &samples, |x| x[axis]);
-        let second = expectation(&target, &samples, |x| (x[axis] - mean).powi(2));
-        let of_mean = Moment {
-            value: mean,
-            estimate: first.map(|found| found.estimate),
-            standard_error: first.map(|found| found.standard_error),
-            unexplained: first.as_ref().map(Expectation::unexplained_share),
-        };
-        let shift = first.map_or(0.0, |found| found.estimate - mean);
-        let of_deviation = Moment {
-            value: deviation,
-            estimate: second.map(|found| (found.estimate - shift * shift).max(0.0).sqrt()),
-            standard_error: second.map(|found| found.standard_error / (2.0 * deviation)),
-            unexplained: second.map(|found| found.unexplained / (2.0 * deviation * deviation)),
-        };
-        (of_mean, of_deviation)
-    };
-    (0..D).map(both).collect()
 }
 
 /// The quantiles of every coordinate.

@@ -1,0 +1,43 @@
+//! The files of a run.
+
+use std::path::{Path, PathBuf};
+
+use super::Arguments;
+use crate::CommandError;
+use crate::options::OptionError;
+
+/// Refuses one file in two roles.
+pub fn check(arguments: &Arguments) -> Result<(), CommandError> {
+    let files = [
+        ("out", Some(&arguments.out)),
+        ("pool", arguments.options.pool_file(arguments.method)),
+        ("diagnostics", arguments.diagnostics.as_ref()),
+        ("checkpoint", arguments.checkpoint.as_ref()),
+        ("data", arguments.parameters.data.as_ref()),
+    ];
+    let given: Vec<_> = files
+        .into_iter()
+        .filter_map(|(name, path)| Some((name, path?, place(path?))))
+        .collect();
+    for (k, (name, path, own)) in given.iter().enumerate() {
+        if let Some((other, ..)) = given[..k].iter().find(|(.., place)| place == own) {
+            return Err(OptionError {
+                name: (*name).to_owned(),
+                reason: format!("{} is the file of --{other}", path.display()),
+            }
+            .into());
+        }
+    }
+    Ok(())
+}
+
+/// A path in the one form that two spellings of it share, whether or not its file exists.
+fn place(path: &Path) -> PathBuf {
+    let directory = path.parent().filter(|parent| !parent.as_os_str().is_empty());
+    let directory = directory.unwrap_or(Path::new(".")).canonicalize();
+    match (path.canonicalize(), directory, path.file_name()) {
+        (Ok(whole), _, _) => whole,
+        (_, Ok(directory), Some(name)) => directory.join(name),
+        _ => path.to_owned(),
+    }
+}

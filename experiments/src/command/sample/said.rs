@@ -1,0 +1,80 @@
+//! What a run says on standard output and standard error.
+
+use super::Arguments;
+use crate::console;
+use crate::sampling::Outcome;
+
+/// The key of the rise of the process's resident memory while it sampled; Linux only.
+pub const PEAK_MEMORY_KEY: &str = "peak_memory_bytes";
+
+/// What a user should know before trusting the particles.
+pub fn warn(outcome: &Outcome) {
+    if outcome.scores_replaced > 0 {
+        console::notice(&format!(
+            "{} scores on the way were not finite; the particles were pulled back to where they are",
+            outcome.scores_replaced
+        ));
+    }
+    let Some(certificate) = &outcome.certificate else {
+        return;
+    };
+    if let Some(reason) = certificate.outcome.reason() {
+        console::notice(&format!("{}: {reason}", certificate.outcome.name()));
+    }
+}
+
+/// What the certificate says.
+fn certificate_pairs(outcome: &Outcome) -> Vec<(&'static str, String)> {
+    let Some(certificate) = &outcome.certificate else {
+        return Vec::new();
+    };
+    let numbers = [
+        ("mean_error", certificate.mean_error()),
+        ("sd_error", certificate.standard_deviation_error()),
+        ("unexplained", certificate.unexplained()),
+        ("drift", Some(certificate.drift)),
+    ];
+    let mut pairs = vec![("outcome", certificate.outcome.name().to_owned())];
+    pairs.extend(certificate.outcome.reason().map(|reason| ("reason", reason)));
+    pairs.extend(
+        numbers
+            .into_iter()
+            .filter_map(|(key, value)| Some((key, value?.to_string()))),
+    );
+    pairs
+}
+
+/// What standard output says; a key without a value is left out.
+pub fn pairs(arguments: &Arguments, outcome: &Outcome, peak_memory: Option<u64>) -> Vec<(&'static str, String)> {
+    let mut pairs = vec![
+        ("method", arguments.method.to_string()),
+        ("steps", outcome.steps.to_string()),
+        ("score_evaluations", outcome.score_evaluations.to_string()),
+        ("density_evaluations", outcome.density_evaluations.to_string()),
+    ];
+    let optional = [
+        ("log_evidence", outcome.log_evidence.map(|value| value.to_string())),
+        (
+            "log_evidence_error",
+            outcome.log_evidence_error.map(|value| value.to_string()),
+        ),
+        ("pareto_k", outcome.pareto_k.map(|value| value.to_string())),
+        ("wall_seconds", Some(format!("{:.6}", outcome.wall_seconds))),
+        ("residual", outcome.residual.map(|value| value.to_string())),
+        ("spacing", outcome.spacing.map(|value| value.to_string())),
+        ("active_nodes", outcome.active_nodes.map(|value| value.to_string())),
+        ("bodies", outcome.bodies.map(|value| value.to_string())),
+        ("storage_bytes", outcome.storage_bytes.map(|value| value.to_string())),
+        ("divergences", outcome.divergences.map(|value| value.to_string())),
+        (PEAK_MEMORY_KEY, peak_memory.map(|value| value.to_string())),
+    ];
+    pairs.extend(optional.into_iter().filter_map(|(key, value)| Some((key, value?))));
+    pairs.extend(certificate_pairs(outcome));
+    pairs.extend([
+        ("target", arguments.target.clone()),
+        ("dim", outcome.particles.dimension().to_string()),
+        ("particles", outcome.particles.len().to_string()),
+        ("seed", arguments.seed.to_string()),
+    ]);
+    pairs
+}

@@ -1,0 +1,88 @@
+//! The weighted pool as a file.
+
+use crate::support::{assert_refused, files, parvi, stderr, value};
+
+#[test]
+fn the_pool_has_a_row_per_evaluation() {
+    let directory = tempfile::tempdir().unwrap();
+    let line = "sample --target banana --particles 60 --method ais --evaluations 4000 --out x.csv --pool p.csv";
+    let output = parvi(directory.path(), line);
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert_eq!(files(directory.path()), ["p.csv", "x.csv"]);
+    let text = std::fs::read_to_string(directory.path().join("p.csv")).unwrap();
+    let mut lines = text.lines();
+    assert_eq!(lines.next(), Some("x1,x2,weight,log_density"));
+    let rows: Vec<Vec<f64>> = lines
+        .map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect())
+        .collect();
+    assert_eq!(rows.len().to_string(), value(&output, "density_evaluations").unwrap());
+    assert!(rows.len() <= 4000, "{}", rows.len());
+    let sum: f64 = rows.iter().map(|row| row[2]).sum();
+    assert!((sum - 1.0).abs() < 1e-9, "{sum}");
+    let log_evidence: f64 = value(&output, "log_evidence").unwrap().parse().unwrap();
+    assert!(log_evidence.abs() < 0.3, "{log_evidence}");
+
+    let array_line = line.replace("p.csv", "p.npy");
+    assert!(parvi(directory.path(), &array_line).status.success());
+    let bytes = std::fs::read(directory.path().join("p.npy")).unwrap();
+    let array = npyz::NpyFile::new(bytes.as_slice()).unwrap();
+    assert_eq!(array.shape(), [rows.len() as u64, 4]);
+    assert_eq!(array.into_vec::<f64>().unwrap(), rows.concat());
+}
+
+#[test]
+fn columns_of_a_pool_have_the_names_of_its_data() {
+    let directory = tempfile::tempdir().unwrap();
+    let rows: String = (0..40)
+        .map(|k| format!("{},{},{}\n", (k % 3 == 0) as u8, (k * 7) % 11, (k * 5) % 13))
+        .collect();
+    std::fs::write(directory.path().join("d.csv"), format!("y,age,dose\n{rows}")).unwrap();
+    let line = "sample --target logistic --data d.csv --particles 20 --rounds 0 --out x.csv --pool p.csv";
+    let output = parvi(directory.path(), line);
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert_eq!(value(&output, "steps").unwrap(), "0");
+    let text = std::fs::read_to_string(directory.path().join("p.csv")).unwrap();
+    assert_eq!(text.lines().next(), Some("intercept,age,dose,weight,log_density"));
+}
+
+#[test]
+fn pools_that_cannot_be() {
+    let directory = tempfile::tempdir().unwrap();
+    let refused = |flags: &str, parts: &[&str]| {
+        let line = format!("sample --target banana --particles 60 --out x.csv {flags}");
+        let output = parvi(directory.path(), &line);
+        assert_refused(&output, parts);
+        assert_eq!(files(directory.path()), [""; 0], "{flags}");
+    };
+    refused("--pool p.csv --survey off", &["--pool", "p.csv", "needs a survey"]);
+    refused("--pool p.csv --alpha 0.5", &["--pool", "p.csv", "needs a survey"]);
+    refused("--pool p.txt", &["--pool p.txt", ".csv", ".npy"]);
+    refused("--pool nuts", &["--pool nuts", ".csv", ".npy"]);
+    refused("--pool ./x.csv", &["--pool", "the file of --out"]);
+    refused("--pool missing/p.csv", &["missing/p.csv"]);
+    refused("--pool p.csv --method svgd", &["--pool", "p.csv", "svgd"]);
+    refused(
+        "--pool p.csv --method stein-thinning",
+        &["--pool", "p.csv", "`exact` or `nuts`"],
+    );
+}
+
+#[test]
+fn options_of_a_survey() {
+    let directory = tempfile::tempdir().unwrap();
+    let refused = |flags: &str, parts: &[&str]| {
+        let line = format!("sample --target banana --particles 60 --out x.csv {flags}");
+        assert_refused(&parvi(directory.path(), &line), parts);
+    };
+    refused("--evaluations 0", &["--evaluations", "0", "from 1"]);
+    refused("--evaluations -5", &["--evaluations", "-5"]);
+    refused(
+        "--evaluations 500 --survey off",
+        &["--evaluations", "500", "needs a survey"],
+    );
+    refused("--evaluations 500 --method svgd", &["--evaluations", "500", "svgd"]);
+    refused("--rounds 0 --survey off", &["--rounds", "0", "needs a survey"]);
+    refused("--method ais --steps 5", &["--steps", "5", "ais"]);
+    refused("--method ais --survey on", &["--survey", "on", "ais"]);
+    refused("--method ais --checkpoint state", &["--checkpoint", "state", "ais"]);
+}
