@@ -28,7 +28,8 @@ impl Anderson {
             if dot(&residual, &residual) > 4.0 * dot(last_residual, last_residual) {
                 self.differences.clear();
             }
-            self.differences.push((minus(&x, last_x), minus(&residual, last_residual)));
+            self.differences
+                .push((minus(&x, last_x), minus(&residual, last_residual)));
         }
         let excess = self.differences.len().saturating_sub(DEPTH);
         self.differences.drain(..excess);
@@ -56,7 +57,10 @@ impl Anderson {
             normal.0[i][i] *= 1.0 + PENALTY;
         }
         let solved = Cholesky::new(&normal).map(|factor| factor.solve(&right));
-        solved.ok().filter(|gamma| gamma.iter().all(|g| g.is_finite())).unwrap_or([0.0; DEPTH])
+        solved
+            .ok()
+            .filter(|gamma| gamma.iter().all(|g| g.is_finite()))
+            .unwrap_or([0.0; DEPTH])
     }
 }
 

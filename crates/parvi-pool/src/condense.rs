@@ -96,7 +96,11 @@ fn drawn_to<const D: usize>(
 ) -> Vec<[f64; D]> {
     if 2 * few.len() < points.len() {
         let equal = vec![1.0; few.len()];
-        iterate(&SupportPoints::new(few, &equal), ITERATIONS - FINE_ITERATIONS, &mut particles);
+        iterate(
+            &SupportPoints::new(few, &equal),
+            ITERATIONS - FINE_ITERATIONS,
+            &mut particles,
+        );
     }
     iterate(&SupportPoints::new(points, weights), FINE_ITERATIONS, &mut particles);
     particles

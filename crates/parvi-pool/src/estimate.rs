@@ -148,7 +148,11 @@ impl<const D: usize> Pool<D> {
     /// What stands for √p: light parts count for more.
     pub fn flattened(&self) -> Measure<D> {
         let rooted = |(w, log): (&f64, &f64)| {
-            if *w > 0.0 && log.is_finite() { w.ln() - 0.5 * log } else { f64::NEG_INFINITY }
+            if *w > 0.0 && log.is_finite() {
+                w.ln() - 0.5 * log
+            } else {
+                f64::NEG_INFINITY
+            }
         };
         let logs: Vec<f64> = self.weights.iter().zip(&self.log_densities).map(rooted).collect();
         let weights = crate::weights::tempered(&logs, 1.0);
@@ -172,7 +176,11 @@ fn joined<const D: usize>(folds: &[Fold<D>], share: f64, particles: usize) -> (f
         .filter_map(|(fold, seed)| Measure::of_fold(fold, particles, seed))
         .collect();
     let doubtful = |(k, (log, measure)): (usize, &(f64, Measure<D>))| {
-        let factor = if k + 1 == folds.len() { 1.0 } else { share.max(1e-6).recip() };
+        let factor = if k + 1 == folds.len() {
+            1.0
+        } else {
+            share.max(1e-6).recip()
+        };
         (*log, (factor * measure.variance).max(f64::MIN_POSITIVE))
     };
     let parts: Vec<(f64, f64)> = each.iter().enumerate().map(doubtful).collect();

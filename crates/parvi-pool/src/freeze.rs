@@ -43,7 +43,8 @@ pub(super) fn freeze<const D: usize>(
 ) -> Frozen<D> {
     let source = [&adapted.folds[0], &adapted.folds[1]];
     let size: f64 = source.iter().map(|fold| fold.effective_size()).sum();
-    let rest = |density: &Density<'_, D>| plan.evaluations.saturating_sub(density.evaluations()) as usize / LANES * LANES;
+    let rest =
+        |density: &Density<'_, D>| plan.evaluations.saturating_sub(density.evaluations()) as usize / LANES * LANES;
     let sharpening = plan.sharpening(adapted.share, size, SHARPENING).min(rest(density) / 4);
     let mut learned = learn(&source, EXPLORING, sharpening, density, rng);
     let form = best_form(&learned.sample, adapted.form, sharpening > 0, rng);

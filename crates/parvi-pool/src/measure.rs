@@ -70,7 +70,12 @@ impl<const D: usize> Measure<D> {
         let (product, own) = (dot(&plain.weights, &control), dot(&control, &control));
         let beta = (product / own).clamp(0.0, 1.0);
         let correction = 1.0 + beta * (control.iter().sum::<f64>() - 1.0);
-        let weights: Vec<f64> = plain.weights.iter().zip(&control).map(|(w, q)| w * correction - beta * q).collect();
+        let weights: Vec<f64> = plain
+            .weights
+            .iter()
+            .zip(&control)
+            .map(|(w, q)| w * correction - beta * q)
+            .collect();
         let draws = core.draws(FREE * wanted, seed);
         let of_draws = plain.reaches(&draws).iter().sum::<f64>() * (beta / draws.len() as f64).powi(2);
         let variance = dot(&weights, &weights);
@@ -117,7 +122,10 @@ impl<const D: usize> Measure<D> {
     pub fn shares(&self, particles: &[[f64; D]]) -> Vec<f64> {
         let nearest = |y: &[f64; D]| {
             let distances = particles.iter().map(|x| vector::distance_squared(x, y));
-            distances.enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| index)
+            distances
+                .enumerate()
+                .min_by(|a, b| a.1.total_cmp(&b.1))
+                .map(|(index, _)| index)
         };
         let owners = mpm_parallel::collect(self.points.len(), 256, &|index| nearest(&self.points[index]));
         let mut shares = vec![0.0; particles.len()];
@@ -216,7 +224,9 @@ mod tests {
     #[test]
     fn the_energy_is_that_of_all_pairs() {
         let wave = |n: usize, rate: f64| (rate * n as f64).sin();
-        let points: Vec<[f64; 3]> = (0..40).map(|n| [wave(n, 1.0), wave(n, 2.3), 2.0 * wave(n, 0.7)]).collect();
+        let points: Vec<[f64; 3]> = (0..40)
+            .map(|n| [wave(n, 1.0), wave(n, 2.3), 2.0 * wave(n, 0.7)])
+            .collect();
         let weights: Vec<f64> = (0..40).map(|n| (1.0 + wave(n, 3.0) * 1.2) / 40.0).collect();
         let total: f64 = weights.iter().sum();
         let weights: Vec<f64> = weights.iter().map(|c| c / total).collect();

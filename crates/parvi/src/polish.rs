@@ -71,7 +71,9 @@ impl<'a, const D: usize> Polish<'a, D> {
     pub fn run(&self, journal: &mut Journal, observer: &mut dyn Observer) -> Result<Polished<D>, SampleError> {
         let noise = self.pool.measure.variance * self.run.particles as f64;
         let rounds = match self.options.rounds {
-            None if self.options.steps.is_none() && noise < defaults::least_polished_noise::<D>(self.run.particles) => 0,
+            None if self.options.steps.is_none() && noise < defaults::least_polished_noise::<D>(self.run.particles) => {
+                0
+            }
             rounds => rounds.unwrap_or(defaults::POLISH_ROUNDS),
         };
         let mut best = self.condensed()?;
@@ -116,7 +118,8 @@ impl<'a, const D: usize> Polish<'a, D> {
         if self.options.rounds == Some(0) {
             return Ok(condensed);
         }
-        let correction = if self.pool.entropy_power() < defaults::LEAST_CORRECTED_ENTROPY_POWER || self.options.weighted {
+        let correction = if self.pool.entropy_power() < defaults::LEAST_CORRECTED_ENTROPY_POWER || self.options.weighted
+        {
             MomentCorrection::Off
         } else {
             self.options.moment_correction
@@ -209,5 +212,8 @@ fn mean_distance<const D: usize>(particles: &[[f64; D]], scales: &[f64; D]) -> f
     let scaled = |x: &[f64; D]| -> [f64; D] { std::array::from_fn(|a| x[a] / scales[a]) };
     let (half, rest) = particles.split_at(particles.len() / 2);
     let pairs = half.iter().zip(rest.iter().rev());
-    pairs.map(|(x, y)| vector::distance(&scaled(x), &scaled(y))).sum::<f64>() / half.len().max(1) as f64
+    pairs
+        .map(|(x, y)| vector::distance(&scaled(x), &scaled(y)))
+        .sum::<f64>()
+        / half.len().max(1) as f64
 }

@@ -22,7 +22,10 @@ pub(crate) fn is_rough<const D: usize>(scores: &[[f64; D]]) -> bool {
 /// Source: J. Gorham, L. Mackey, *Measuring sample quality with kernels*, ICML 2017, §3–4.
 pub(crate) fn squared_stein_discrepancy<const D: usize>(positions: &[[f64; D]], scores: &[[f64; D]]) -> f64 {
     let kernel = SteinKernel::isotropic::<D>();
-    let pairs = positions.iter().zip(scores).step_by(positions.len().div_ceil(LARGEST_COUNT));
+    let pairs = positions
+        .iter()
+        .zip(scores)
+        .step_by(positions.len().div_ceil(LARGEST_COUNT));
     let points: Vec<Candidate<D>> = pairs.map(|(x, s)| Candidate::isotropic(x, s)).collect();
     let row = |p: usize| -> f64 {
         let below: f64 = points[..p].iter().map(|other| kernel.value(&points[p], other)).sum();

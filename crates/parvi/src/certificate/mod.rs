@@ -8,8 +8,8 @@ mod outcome;
 mod stein_polynomials;
 
 pub use control_variates::Expectation;
-pub use evidence::MomentEstimate;
 use evidence::Evidence;
+pub use evidence::MomentEstimate;
 pub use expectation::expectation;
 pub use outcome::{Doubt, Outcome};
 

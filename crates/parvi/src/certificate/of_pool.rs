@@ -20,7 +20,12 @@ pub const LARGEST_MASS_UNCOVERED: f64 = 0.02;
 
 impl Certificate {
     /// The verdict of the pool on particles that were condensed from it.
-    pub(crate) fn of_pool<const D: usize>(pool: &Pool<D>, samples: &Samples<D>, drift: f64, kinetic_energy: f64) -> Self {
+    pub(crate) fn of_pool<const D: usize>(
+        pool: &Pool<D>,
+        samples: &Samples<D>,
+        drift: f64,
+        kinetic_energy: f64,
+    ) -> Self {
         let moments = moments(pool, samples);
         let variance = pool.measure.variance * samples.positions.len() as f64;
         let doubt = if exceeds(pool.verdict.pareto_k.unwrap_or(0.0), LARGEST_PARETO_K) {

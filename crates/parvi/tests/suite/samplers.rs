@@ -6,9 +6,9 @@ use mpm_core::SplineGrid;
 use mpm_kernels::Quadratic;
 use mpm_tensor::vector;
 use parvi::{
-    AisOptions, BasisChoice, Guards, Method, MomentCorrection, MpmOptions, NonFiniteScores, Observer, PaperOptions, Progress, Run,
-    SampleError, Samples, ScoreLocation, Settling, Silent, Start, StartDraws, SvgdOptions, TransferChoice,
-    galerkin_stein_residual, sample,
+    AisOptions, BasisChoice, Guards, Method, MomentCorrection, MpmOptions, NonFiniteScores, Observer, PaperOptions,
+    Progress, Run, SampleError, Samples, ScoreLocation, Settling, Silent, Start, StartDraws, SvgdOptions,
+    TransferChoice, galerkin_stein_residual, sample,
 };
 use parvi_metrics::{Cloud, CloudMoments, GaussianEnergy};
 use parvi_targets::{Banana, CatalogueTarget, Frame, Funnel, Gaussian, GaussianMixture, Ring, StudentT, Target};

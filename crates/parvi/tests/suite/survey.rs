@@ -133,7 +133,11 @@ fn light_pieces_have_more_particles_where_they_are_weighted() {
     let (plain, samples) = (sampled(false), sampled(true));
     let weights = samples.weights.expect("weights");
     assert!((weights.iter().sum::<f64>() - 1.0).abs() < 1e-12);
-    let lightest = target.modes().iter().min_by(|a, b| a.mass.total_cmp(&b.mass)).expect("modes");
+    let lightest = target
+        .modes()
+        .iter()
+        .min_by(|a, b| a.mass.total_cmp(&b.mass))
+        .expect("modes");
     let near = |x: &[f64; 2]| (x[0] - lightest.centre[0]).hypot(x[1] - lightest.centre[1]) < 3.0;
     let count = |positions: &[[f64; 2]]| positions.iter().filter(|x| near(x)).count();
     assert!(count(&samples.positions) > count(&plain.positions));
@@ -150,8 +154,15 @@ fn the_evidence_is_within_its_error() {
             let samples = MpmOptions::default()
                 .sample(target, &target.frame(), &Run::new(500, seed), &mut Silent)
                 .expect("particles");
-            let (found, error) = (samples.log_evidence.expect("evidence"), samples.log_evidence_error.expect("an error"));
-            assert!((found - exact).abs() < 4.0 * error, "{}: {found} ± {error} for {exact}", target.name());
+            let (found, error) = (
+                samples.log_evidence.expect("evidence"),
+                samples.log_evidence_error.expect("an error"),
+            );
+            assert!(
+                (found - exact).abs() < 4.0 * error,
+                "{}: {found} ± {error} for {exact}",
+                target.name()
+            );
             assert!(error < 0.03, "{}: {error}", target.name());
         }
     }
