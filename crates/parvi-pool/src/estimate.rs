@@ -1,5 +1,7 @@
 //! The finished pool: everything evaluated with its weights, and what follows from them.
 
+use std::fmt;
+
 use mpm_tensor::{Matrix, vector};
 use parvi_targets::Frame;
 
@@ -22,7 +24,7 @@ pub struct Estimate {
 }
 
 /// Every point at which log p was evaluated, with weights.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Pool<const D: usize> {
     /// Positions in the target's coordinates.
     pub positions: Vec<[f64; D]>,
@@ -46,6 +48,19 @@ pub struct Pool<const D: usize> {
     pub score_evaluations: u64,
     /// Values that were not finite or too large.
     pub values_replaced: u64,
+}
+
+/// How much it holds and what it says, without the points.
+impl<const D: usize> fmt::Debug for Pool<D> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Pool")
+            .field("points", &self.positions.len())
+            .field("effective_size", &self.effective_size())
+            .field("log_evidence", &self.log_evidence)
+            .field("log_evidence_error", &self.log_evidence_error)
+            .field("verdict", &self.verdict)
+            .finish_non_exhaustive()
+    }
 }
 
 impl<const D: usize> Pool<D> {

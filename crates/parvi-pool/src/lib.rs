@@ -1,8 +1,4 @@
-//! The pool: adaptive importance sampling over everything that was ever evaluated.
-//!
-//! Two folds of points take turns. The proposal of one is fitted to the points of the other: so no proposal bends towards the points that it is to weigh, and the
-//! weights of everything evaluated, early points included, stay those of fresh points. At the end the proposals are frozen, and points that shaped none of them
-//! give the evidence.
+#![doc = include_str!("../README.md")]
 
 mod adapt;
 mod anderson;

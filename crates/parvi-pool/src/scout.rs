@@ -8,8 +8,8 @@ use crate::mixture::{Kernel, Mixture};
 use crate::sample::{moments, root};
 
 /// Scouts end after so many that found nothing new, and so many for every summit known: what share of scouts would find another is then below 1/(2n) or so.
-const FEWEST: usize = 6;
-const IDLE: usize = 2;
+const FEWEST: usize = 16;
+const IDLE: usize = 4;
 
 /// Distances from a summit, in standard deviations of the normal approximation there, at which scouts set out.
 const RINGS: [f64; 3] = [5.0, 12.0, 30.0];
