@@ -76,13 +76,19 @@ fn standard_output_has_the_keys_of_the_contract() {
     let directory = tempfile::tempdir().unwrap();
     let output = parvi(
         directory.path(),
-        "sample --target gaussian --dim 2 --particles 200 --steps 5 --rounds 1 --out x.csv",
+        "sample --target gaussian --dim 2 --particles 200 --survey off --steps 5 --out x.csv",
     );
     assert!(output.status.success(), "{}", stderr(&output));
-    insta::assert_snapshot!(keys(&stdout(&output)).join(" "), @"method steps score_evaluations density_evaluations log_evidence log_evidence_error pareto_k wall_seconds residual spacing active_nodes bodies storage_bytes peak_memory_bytes outcome mean_error sd_error unexplained drift target dim particles seed");
+    insta::assert_snapshot!(keys(&stdout(&output)).join(" "), @"method steps score_evaluations density_evaluations wall_seconds residual spacing active_nodes bodies storage_bytes peak_memory_bytes outcome reason mean_error sd_error unexplained drift target dim particles seed");
     assert_eq!(value(&output, "method").unwrap(), "mpm");
     assert_eq!(value(&output, "steps").unwrap(), "5");
     assert!(value(&output, "spacing").unwrap().parse::<f64>().unwrap() > 0.0);
+
+    let output = parvi(
+        directory.path(),
+        "sample --target gaussian --dim 2 --particles 200 --method ais --out x.csv",
+    );
+    insta::assert_snapshot!(keys(&stdout(&output)).join(" "), @"method steps score_evaluations density_evaluations log_evidence log_evidence_error pareto_k wall_seconds peak_memory_bytes outcome mean_error sd_error unexplained drift target dim particles seed");
 
     let output = parvi(
         directory.path(),

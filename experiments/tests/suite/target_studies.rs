@@ -74,7 +74,7 @@ fn catalogue() {
             );
         }
         if row["method"] == "mpm" && row["target"] == "gaussian-d2-r0.9" && row["start_mean"] == "0.0" {
-            assert!(ratio < 0.5 && number(row, "mean_error") < 0.01, "{row:?}");
+            assert!(ratio < 0.5 && number(row, "mean_error") < 0.1, "{row:?}");
         }
     }
     let unsupported: Vec<_> = rows.iter().filter(|row| row["status"] == "unsupported").collect();

@@ -20,7 +20,8 @@ pub fn report(study: &RandomTargets, rows: &[Row], directory: &StudyDirectory) -
         "M = {} particles on {} random targets per dimension, of seeds from {} on; the methods {}. ED² is the squared energy distance \
          from {} quasi-random draws, in standard deviations per axis, over its expectation E‖Y − Y'‖/M for M independent draws. \
          Evaluations are those of the score and of the log density at a point together. A claim is the outcome `converged`, and \
-         false where ED² is above 1.",
+         false where ED² is above 1. `better than` counts the targets on which \
+         ED² is smaller; equal ones count for neither.",
         study.particles,
         study.target_seeds.count,
         study.target_seeds.first,
