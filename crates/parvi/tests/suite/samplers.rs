@@ -176,6 +176,11 @@ fn same_seed_same_bits_on_any_number_of_threads() {
     let methods = [
         Method::Mpm(MpmOptions {
             steps: Some(12),
+            ..body_alone()
+        }),
+        Method::Mpm(MpmOptions {
+            steps: Some(4),
+            rounds: Some(1),
             ..MpmOptions::default()
         }),
         Method::Paper(PaperOptions {
@@ -195,10 +200,10 @@ fn same_seed_same_bits_on_any_number_of_threads() {
                 .build()
                 .expect("a pool");
             // Enough for several parts; SVGD takes time by the square.
-            let particles = if matches!(method, Method::Svgd(_)) {
-                4_000
-            } else {
-                30_000
+            let particles = match &method {
+                Method::Svgd(_) => 4_000,
+                Method::Mpm(options) if options.survey => 2_000,
+                _ => 30_000,
             };
             let run = Run::new(particles, seed);
             pool.install(|| bits(&sample(&target, &method, &run, &mut Silent).expect("samples")))
