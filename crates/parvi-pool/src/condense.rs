@@ -3,6 +3,7 @@
 use mpm_tensor::{Matrix, vector};
 
 use crate::anderson::Anderson;
+use crate::compiled::Compiled;
 use crate::measure::Measure;
 use crate::mixture::{Kernel, Mixture};
 use crate::support_points::SupportPoints;
@@ -36,6 +37,10 @@ const LEFT_OUT: f64 = 1e-4;
 /// x ← (Σ₊ c_m/|x − y_m|)⁻¹ (Σ₊ c_m y_m/|x − y_m| − Σ₋ c_m (x − y_m)/|x − y_m| + 1/M Σ_j (x − x_j)/|x − x_j|). It starts from a resample in the order of a tree of
 /// bisected boxes, so that every part of space gets its share of the particles. Empty where nothing has weight.
 pub fn condense<const D: usize>(measure: &Measure<D>, count: usize, offset: f64) -> Vec<[f64; D]> {
+    (Compiled::of().condense)(measure, count, offset)
+}
+
+pub(crate) fn condense_here<const D: usize>(measure: &Measure<D>, count: usize, offset: f64) -> Vec<[f64; D]> {
     let (mut scaled, mean, scales) = standardised(measure);
     if scaled.is_empty() {
         return Vec::new();

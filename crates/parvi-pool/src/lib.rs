@@ -3,6 +3,7 @@
 mod adapt;
 mod anderson;
 mod ascent;
+mod compiled;
 mod condense;
 mod curvature;
 mod density;
@@ -63,6 +64,20 @@ pub type Observer<'a> = dyn FnMut(&Round, &[f64]) -> ControlFlow<()> + 'a;
 /// [`PoolError`]: an option out of range, a target that is nowhere finite, or the observer's stop.
 #[allow(clippy::too_many_arguments)]
 pub fn explore<const D: usize>(
+    target: &dyn Target<D>,
+    frame: &Frame<D>,
+    given: &[Mixture<D>],
+    tape: Vec<f64>,
+    particles: usize,
+    seed: u64,
+    options: &PoolOptions,
+    observer: &mut Observer<'_>,
+) -> Result<Pool<D>, PoolError> {
+    (compiled::Compiled::of().explore)(target, frame, given, tape, particles, seed, options, observer)
+}
+
+#[allow(clippy::too_many_arguments)]
+fn explore_here<const D: usize>(
     target: &dyn Target<D>,
     frame: &Frame<D>,
     given: &[Mixture<D>],

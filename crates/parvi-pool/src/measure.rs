@@ -79,7 +79,8 @@ impl<const D: usize> Measure<D> {
         let draws = core.draws(FREE * wanted, seed);
         let of_draws = plain.reaches(&draws).iter().sum::<f64>() * (beta / draws.len() as f64).powi(2);
         let variance = dot(&weights, &weights);
-        if !(variance + of_draws < (1.0 - WORTH) * plain.variance) {
+        let gains = variance + of_draws < (1.0 - WORTH) * plain.variance;
+        if !gains {
             return Some((evidence, plain));
         }
         let mut measure = Self {

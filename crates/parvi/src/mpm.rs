@@ -1,5 +1,6 @@
 //! The calibrated sampler.
 
+use parvi_pool::PoolError;
 use parvi_targets::{Frame, Target};
 
 use crate::checkpoint::Journal;
@@ -29,6 +30,7 @@ pub(crate) fn sample<const D: usize>(
     };
     let samples = match known {
         Some(samples) => samples,
+        None if surveys && options.rounds == Some(0) => return Err(PoolError::NowhereFinite.into()),
         None => free_body::sample(options, target, frame, run, &mut journal, observer)?,
     };
     journal.close();

@@ -31,7 +31,7 @@ fn a_gaussian_converges_and_its_moments_are_known() {
         "{found}"
     );
     assert!(number(&found["pareto_k"]) < 0.7, "{found}");
-    assert_eq!(found["pool"]["points"], found["density_evaluations"]);
+    assert!(number(&found["pool"]["points"]) <= number(&found["density_evaluations"]));
     assert!(number(&found["pool"]["effective_size"]) > 1000.0, "{found}");
     for coordinate in found["coordinates"].as_array().unwrap() {
         assert!(number(&coordinate["mean"]["estimate"]).abs() < 0.05);

