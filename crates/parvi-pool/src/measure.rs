@@ -166,7 +166,7 @@ impl<const D: usize> Measure<D> {
 
     /// 2 E|x − Y| − E|x − x′| of particles x against this measure, coordinates divided by `scales`: the energy distance up to a constant of the measure.
     ///
-    /// |x| is c_D times the mean of |⟨u, x⟩| over directions u, c_D = √π Γ((D + 1)/2)/Γ(D/2), so that the distance is that of projections, here on [`DIRECTIONS`] of
+    /// |x| is c_D times the mean of |⟨u, x⟩| over directions u, c_D = √π Γ((D + 1)/2)/Γ(D/2), so that the distance is that of projections, here on 128 of
     /// them, always the same: O((M + N) log (M + N)) each (A. Feuerverger, 1993; L. Baringhaus, C. Franz, *On a new multivariate two-sample test*, J. Multivar. Anal. 88, 2004).
     pub fn energy(&self, particles: &[[f64; D]], scales: &[f64; D]) -> f64 {
         let own = 1.0 / particles.len() as f64;
