@@ -7,7 +7,7 @@ use parvi_targets::Frame;
 
 use crate::condense::condense;
 use crate::density::Density;
-use crate::fold::Fold;
+use crate::fold::{Fold, joined};
 use crate::measure::Measure;
 use crate::mixture::Mixture;
 use crate::referee::Verdict;
@@ -82,25 +82,17 @@ impl<const D: usize> Pool<D> {
         let proposal = fresh.rounds.first().map(|(_, proposal)| proposal.clone());
         let [first, second] = folds;
         let all = [first, second, fresh];
-        let (log_evidence, log_evidence_error, mut measure) = joined(&all, verdict.effective_share, particles);
+        let (log_evidence, log_evidence_error, mut measure) = together(&all, verdict.effective_share, particles);
         for y in &mut measure.points {
             *y = frame.to_target(y);
         }
-        let sizes: Vec<f64> = all.iter().map(Fold::effective_size).collect();
-        let total: f64 = sizes.iter().sum();
-        let (mut positions, mut log_densities, mut logs) = (Vec::new(), Vec::new(), Vec::new());
-        for (fold, size) in all.into_iter().zip(&sizes) {
-            let share = (size / total).ln();
-            logs.extend(fold.log_weights().iter().map(|l| l + share));
-            positions.extend(fold.positions.iter().map(|z| frame.to_target(z)));
-            log_densities.extend(fold.log_densities.iter().map(|l| l - frame.log_determinant()));
-        }
+        let (positions, log_densities, logs) = joined(&all.each_ref());
         let mut weights = crate::weights::tempered(&logs, 1.0);
         let sum: f64 = weights.iter().sum();
         weights.iter_mut().for_each(|w| *w /= sum);
         Self {
-            positions,
-            log_densities,
+            positions: positions.iter().map(|z| frame.to_target(z)).collect(),
+            log_densities: log_densities.iter().map(|l| l - frame.log_determinant()).collect(),
             weights,
             measure,
             log_evidence,
@@ -184,8 +176,8 @@ impl<const D: usize> Pool<D> {
 /// The folds' evidences with a standard error, and their measures, by the inverse of the variances; seeds are the folds' numbers.
 ///
 /// The last fold is of fresh points, which shaped no proposal: its evidence is unbiased. That of the others is not quite, the less so the smaller the effective `share` of the
-/// fresh points is, so that in the evidence their variances count 1/share times.
-fn joined<const D: usize>(folds: &[Fold<D>], share: f64, particles: usize) -> (f64, f64, Measure<D>) {
+/// fresh points is, so that in the evidence their variances count 1/share times, and what separates them from the fresh points' beyond their errors adds to the error.
+fn together<const D: usize>(folds: &[Fold<D>; 3], share: f64, particles: usize) -> (f64, f64, Measure<D>) {
     let each = folds.iter().zip(0..);
     let each: Vec<(f64, Measure<D>)> = each
         .filter_map(|(fold, seed)| Measure::of_fold(fold, particles, seed))
@@ -205,11 +197,22 @@ fn joined<const D: usize>(folds: &[Fold<D>], share: f64, particles: usize) -> (f
     let log = top + (evidences.sum::<f64>() / precision).ln();
     let squares = parts.iter().map(|(part, variance)| (part - log).powi(2) / variance);
     let inflation = squares.sum::<f64>() / (parts.len().max(2) - 1) as f64;
-    let error = (inflation.max(1.0) / precision).sqrt();
+    let error = (inflation.max(1.0) / precision).sqrt().hypot(disagreement(folds));
     let measures = each.into_iter().map(|(_, measure)| measure);
     let measure = measures.reduce(|all, next| {
         let share = all.variance / (all.variance + next.variance);
         all.mixed(share, next)
     });
     (log, error, measure.unwrap_or_default())
+}
+
+/// What separates the folds' estimates of log Z from the fresh points' beyond their own standard errors: √(Δ² − σ²)₊ of the fold that is farther off.
+fn disagreement<const D: usize>([first, second, fresh]: &[Fold<D>; 3]) -> f64 {
+    let (log_evidence, error) = fresh.log_evidence();
+    let excess = [first, second].map(|fold| {
+        let (other, other_error) = fold.log_evidence();
+        (log_evidence - other).powi(2) - error.powi(2) - other_error.powi(2)
+    });
+    let excess = excess.into_iter().filter(|excess| excess.is_finite());
+    excess.fold(0.0, f64::max).sqrt()
 }

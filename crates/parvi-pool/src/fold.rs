@@ -3,7 +3,7 @@
 use crate::density::Density;
 use crate::lanes::{Group, LANES, Lanes, packed};
 use crate::mixture::Mixture;
-use crate::weights::{effective_size, tempered};
+use crate::weights::{effective_size, tempered, top};
 
 /// Points that one series of proposals drew, weighed by the mixture of all of these (deterministic mixture weights).
 ///
@@ -22,13 +22,7 @@ pub(super) struct Fold<const D: usize> {
 
 impl<const D: usize> Fold<D> {
     pub fn new() -> Self {
-        Self {
-            positions: Vec::new(),
-            log_densities: Vec::new(),
-            sums: Vec::new(),
-            groups: Vec::new(),
-            rounds: Vec::new(),
-        }
+        Self::default()
     }
 
     /// Draws about `count` points (whole groups) from a proposal, evaluates and adds them. Returns the effective size of the new points alone,
@@ -98,18 +92,31 @@ impl<const D: usize> Fold<D> {
     /// log Z by the weights of this fold, and its standard error.
     pub fn log_evidence(&self) -> (f64, f64) {
         let logs = self.log_weights();
-        let top = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let weights = tempered(&logs, 1.0);
         let sum: f64 = weights.iter().sum();
         let squares: f64 = weights.iter().map(|w| w * w).sum();
         let variance = (squares / (sum * sum) - 1.0 / weights.len() as f64).max(0.0);
-        (top + sum.ln(), variance.sqrt())
+        (top(&logs) + sum.ln(), variance.sqrt())
     }
 
     /// The effective size of all weights.
     pub fn effective_size(&self) -> f64 {
         effective_size(&tempered(&self.log_weights(), 1.0))
     }
+}
+
+/// Points, log densities and log weights of several folds; each estimates Z by itself, and they count by their effective sizes.
+pub(super) fn joined<const D: usize>(folds: &[&Fold<D>]) -> (Vec<[f64; D]>, Vec<f64>, Vec<f64>) {
+    let sizes: Vec<f64> = folds.iter().map(|fold| fold.effective_size()).collect();
+    let total: f64 = sizes.iter().sum();
+    let (mut points, mut values, mut logs) = (Vec::new(), Vec::new(), Vec::new());
+    for (fold, size) in folds.iter().zip(sizes) {
+        let share = (size / total).ln();
+        points.extend_from_slice(&fold.positions);
+        values.extend_from_slice(&fold.log_densities);
+        logs.extend(fold.log_weights().iter().map(|log| log + share));
+    }
+    (points, values, logs)
 }
 
 /// log p − log q, −∞ where p vanishes.

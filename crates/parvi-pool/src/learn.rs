@@ -6,7 +6,7 @@ use rand::rngs::ChaCha8Rng;
 
 use crate::curvature::precisions;
 use crate::density::Density;
-use crate::fold::Fold;
+use crate::fold::{Fold, joined};
 use crate::lanes::{LANES, packed};
 use crate::levels::level_sample;
 use crate::neighbours::local_covariances;
@@ -59,18 +59,15 @@ pub(super) fn learn<const D: usize>(
     let size = 2.0 * effective_size(&all.weights);
     let count = (size as usize).clamp(POINTS[0], POINTS[1]);
     let mut level = Sample::default();
-    let mut add_level = |count: usize| {
-        for fold in source {
-            level.join(level_sample(fold, count / source.len(), rng.random()));
-        }
-        level.logs = tempered_logs(&level.points, &level.logs, source, gamma);
-    };
-    add_level((exploring * count as f64) as usize);
+    for fold in source {
+        let share = (exploring * count as f64) as usize / source.len();
+        level.join(level_sample(fold, share, rng.random()));
+    }
+    level.logs = tempered_logs(&level.points, &level.logs, source, gamma);
+    let mut sample = all.resampled(count, rng.random());
     if sharpening == 0 {
-        let sample = all.resampled(count, rng.random());
         return Learned { sample, level };
     }
-    let mut sample = all.resampled(count, rng.random());
     sample.join(level);
     let mut seats = systematic(&sample.weights, sharpening / (D + 1), rng.random());
     seats.dedup();
@@ -85,19 +82,6 @@ pub(super) fn learn<const D: usize>(
         sample,
         level: Sample::default(),
     }
-}
-
-/// Points, log densities and log weights of all folds; each estimates Z by itself, and they count by their effective sizes.
-fn joined<const D: usize>(source: &[&Fold<D>]) -> (Vec<[f64; D]>, Vec<f64>, Vec<f64>) {
-    let total: f64 = source.iter().map(|fold| fold.effective_size()).sum();
-    let (mut points, mut values, mut logs) = (Vec::new(), Vec::new(), Vec::new());
-    for fold in source {
-        let share = (fold.effective_size() / total).ln();
-        points.extend_from_slice(&fold.positions);
-        values.extend_from_slice(&fold.log_densities);
-        logs.extend(fold.log_weights().iter().map(|log| log + share));
-    }
-    (points, values, logs)
 }
 
 /// γ log p + (1 − γ) log q at points where log p is known, q the mixture of the folds.

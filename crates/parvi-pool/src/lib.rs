@@ -45,7 +45,6 @@ use rand::rngs::ChaCha8Rng;
 
 use adapt::Adaptation;
 use density::Density;
-use fold::Fold;
 use freeze::freeze;
 
 /// Stream of the pool's random numbers.
@@ -107,27 +106,12 @@ fn explore_here<const D: usize>(
         }
         adaptation.absorb(frozen.fresh, frozen.share);
     };
-    let disagreement = disagreement(&adaptation.folds, &frozen.fresh);
-    let mut pool = Pool::new(
+    Ok(Pool::new(
         adaptation.folds,
         frozen.fresh,
         &frozen.covered,
         frame,
         &density,
         particles,
-    );
-    let error = &mut pool.log_evidence_error;
-    *error = error.hypot(disagreement);
-    Ok(pool)
-}
-
-/// What separates the folds' estimates of log Z from the fresh points' beyond their own standard errors: √(Δ² − σ²)₊ of the fold that is farther off.
-fn disagreement<const D: usize>(folds: &[Fold<D>; 2], fresh: &Fold<D>) -> f64 {
-    let (log_evidence, error) = fresh.log_evidence();
-    let excess = folds.iter().map(|fold| {
-        let (other, other_error) = fold.log_evidence();
-        (log_evidence - other).powi(2) - error.powi(2) - other_error.powi(2)
-    });
-    let excess = excess.filter(|excess| excess.is_finite()).fold(0.0, f64::max);
-    excess.sqrt()
+    ))
 }

@@ -4,7 +4,7 @@ use mpm_tensor::vector;
 
 use crate::mixture::{Kernel, Mixture};
 use crate::pareto::pareto_k;
-use crate::weights::{effective_size, tempered};
+use crate::weights::{effective_size, tempered, top};
 
 /// What fresh points of a frozen proposal say.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,7 +28,6 @@ impl Verdict {
     /// The verdict on log weights log p/q and on which points no narrow kernel covers.
     pub(super) fn of(log_weights: &[f64], covered: &[bool]) -> Self {
         let n = log_weights.len() as f64;
-        let top = log_weights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let weights = tempered(log_weights, 1.0);
         let mean = weights.iter().sum::<f64>() / n;
         let variance = weights.iter().map(|w| (w - mean).powi(2)).sum::<f64>() / (n * (n - 1.0));
@@ -39,7 +38,7 @@ impl Verdict {
             .map(|(w, _)| w)
             .sum();
         Self {
-            log_evidence: top + mean.ln(),
+            log_evidence: top(log_weights) + mean.ln(),
             log_evidence_error: variance.sqrt() / mean,
             effective_share: effective_size(&weights) / n,
             pareto_k: pareto_k(&weights),

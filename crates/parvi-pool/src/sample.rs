@@ -17,12 +17,7 @@ pub(super) struct Sample<const D: usize> {
 impl<const D: usize> Sample<D> {
     /// `count` of these points by systematic resampling, each with the number of times that it was chosen.
     pub fn resampled(&self, count: usize, offset: f64) -> Self {
-        let mut sample = Self {
-            points: Vec::new(),
-            weights: Vec::new(),
-            logs: Vec::new(),
-            precisions: Vec::new(),
-        };
+        let mut sample = Self::default();
         let mut last = None;
         for index in systematic(&self.weights, count, offset) {
             match sample.weights.last_mut().filter(|_| last == Some(index)) {
