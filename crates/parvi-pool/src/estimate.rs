@@ -9,7 +9,6 @@ use crate::condense::condense;
 use crate::density::Density;
 use crate::fold::{Fold, joined};
 use crate::measure::Measure;
-use crate::mixture::Mixture;
 use crate::referee::Verdict;
 use crate::sample::moments;
 use crate::weights::effective_size;
@@ -40,8 +39,6 @@ pub struct Pool<const D: usize> {
     pub log_evidence_error: f64,
     /// What fresh points of the frozen proposal say.
     pub verdict: Verdict,
-    /// The frozen proposal, in frame coordinates.
-    pub proposal: Option<Mixture<D>>,
     /// Points at which log p was evaluated.
     pub density_evaluations: u64,
     /// Points at which the score was evaluated.
@@ -79,7 +76,6 @@ impl<const D: usize> Pool<D> {
             &fresh_logs.iter().map(|l| l + points.ln()).collect::<Vec<f64>>(),
             covered,
         );
-        let proposal = fresh.rounds.first().map(|(_, proposal)| proposal.clone());
         let [first, second] = folds;
         let all = [first, second, fresh];
         let (log_evidence, log_evidence_error, mut measure) = together(&all, verdict.effective_share, particles);
@@ -98,7 +94,6 @@ impl<const D: usize> Pool<D> {
             log_evidence,
             log_evidence_error,
             verdict,
-            proposal,
             density_evaluations: density.density_evaluations,
             score_evaluations: density.score_evaluations,
             values_replaced: density.replaced,

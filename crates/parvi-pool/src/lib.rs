@@ -35,7 +35,7 @@ pub use measure::Measure;
 pub use mixture::{Kernel, Mixture};
 pub use options::{PoolError, PoolOptions, Round};
 pub use pareto::pareto_k;
-pub use referee::{Verdict, material};
+pub use referee::Verdict;
 
 use std::ops::ControlFlow;
 

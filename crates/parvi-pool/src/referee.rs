@@ -1,8 +1,5 @@
 //! The evidence by fresh points of a frozen proposal, which did not shape it.
 
-use mpm_tensor::vector;
-
-use crate::mixture::{Kernel, Mixture};
 use crate::pareto::pareto_k;
 use crate::weights::{effective_size, tempered, top};
 
@@ -46,20 +43,4 @@ impl Verdict {
             points: log_weights.len(),
         }
     }
-}
-
-/// A mixture of normal-like kernels about the particles of a body, each b times the covariance root `factor` of the whole: centres shrunk towards the mean so that the
-/// whole keeps its covariance, √(1 − b²). What particles that lie evenly propose.
-pub fn material<const D: usize>(particles: &[[f64; D]], bandwidth: f64) -> Option<Mixture<D>> {
-    let equal = vec![1.0; particles.len()];
-    let (mean, covariance) = crate::sample::moments(particles, &equal);
-    let factor = crate::sample::root(&covariance);
-    let shrink = (1.0 - bandwidth * bandwidth).max(0.0).sqrt();
-    let normal = (1.0 - 1.0 / f64::from(crate::mixture::HALF_FREEDOM)).sqrt();
-    let kernel = |x: &[f64; D]| Kernel {
-        centre: vector::add_scaled(&mean, shrink, &vector::subtract(x, &mean)),
-        factor: factor * (bandwidth * normal),
-        share: 1.0,
-    };
-    Mixture::new(particles.iter().map(kernel).collect())
 }

@@ -163,24 +163,3 @@ fn options_out_of_range_are_refused() {
         Some(PoolError::InvalidOption { field: "particles", .. })
     ));
 }
-
-#[test]
-fn even_particles_are_a_proposal() {
-    let target = Gaussian::<2>::standard();
-    let frame = Frame::identity();
-    let points = Mixture::new(vec![Kernel {
-        centre: [0.0; 2],
-        factor: Matrix::IDENTITY,
-        share: 1.0,
-    }])
-    .unwrap()
-    .draws(500, 1);
-    let mut fold = Fold::new();
-    let share = fold.draw(
-        &mut Density::new(&target, &frame, Vec::new()),
-        material(&points, 0.5).unwrap(),
-        2000,
-        2,
-    );
-    assert!(share > 0.8, "{share}");
-}
