@@ -22,7 +22,7 @@ pub struct Estimate {
     pub standard_error: f64,
 }
 
-/// Every point at which log p was evaluated, with weights.
+/// The points of all proposals but those of the first rounds that had few effective points and of the scouts, with weights.
 #[derive(Clone)]
 pub struct Pool<const D: usize> {
     /// Positions in the target's coordinates.

@@ -6,7 +6,7 @@ use crate::checkpoint::Journal;
 use crate::{AisOptions, MpmOptions, Observer, Run, SampleError, Samples, surveyed};
 
 impl AisOptions {
-    /// M support points of the weighted pool of everything that was evaluated, which is in [`Samples::pool`].
+    /// M support points of the weighted pool, which is in [`Samples::pool`].
     ///
     /// # Errors
     /// [`SampleError`]: an option out of range, a target that is nowhere finite or where nothing could be weighed, or the observer's stop.

@@ -1,4 +1,4 @@
-//! The calibrated sampler on a target that is surveyed: everything evaluated is weighed, M particles are condensed from it, and the material
+//! The calibrated sampler on a target that is surveyed: evaluations are weighed, M particles are condensed from it, and the material
 //! evens them out as far as that brings them nearer.
 
 use std::ops::ControlFlow;
@@ -46,7 +46,7 @@ pub(crate) fn sample<const D: usize>(
     Ok(Some(samples))
 }
 
-/// Everything that was evaluated, weighed.
+/// What was evaluated, weighed.
 fn surveyed<const D: usize>(
     options: &MpmOptions,
     target: &dyn Target<D>,
