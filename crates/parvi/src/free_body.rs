@@ -38,10 +38,7 @@ pub(crate) fn sample<const D: usize>(
     };
     let mut rounds = 0..checked_rounds(options)?;
     let mut moved = |departure: &Departure<D>, number| {
-        if let Some(body) = journal.finished() {
-            return Ok(body);
-        }
-        let body = Body {
+        Body {
             options,
             target,
             frame: &departure.frame,
@@ -50,10 +47,8 @@ pub(crate) fn sample<const D: usize>(
             positions: departure.positions.clone(),
             journal,
             observer,
-        };
-        let body = body.run(departure.spacing)?;
-        journal.finish(&body)?;
-        Ok::<_, SampleError>(body)
+        }
+        .run(departure.spacing)
     };
     let mut body = moved(&departure, rounds.next().unwrap_or(0))?;
     let (mut evaluations, mut steps) = (body.samples.score_evaluations, body.samples.steps);
@@ -73,7 +68,7 @@ pub(crate) fn sample<const D: usize>(
         let candidate = moved(&finer, round)?;
         evaluations += candidate.samples.score_evaluations;
         steps += candidate.samples.steps;
-        if discrepancy(&candidate) >= discrepancy(&body) {
+        if squared_stein_discrepancy(&candidate) >= squared_stein_discrepancy(&body) {
             break;
         }
         (departure, body) = (finer, candidate);
@@ -94,10 +89,6 @@ fn checked_rounds(options: &MpmOptions) -> Result<usize, SampleError> {
     let rounds = options.rounds.unwrap_or(default);
     check("rounds", rounds as f64, rounds >= 1, "at least 1")?;
     Ok(rounds)
-}
-
-fn discrepancy<const D: usize>(body: &Driven<D>) -> f64 {
-    squared_stein_discrepancy(&body.positions, &body.scores)
 }
 
 impl<const D: usize> Departure<D> {

@@ -30,8 +30,11 @@ pub(crate) struct Body<'a, const D: usize> {
 }
 
 impl<const D: usize> Body<'_, D> {
-    /// Move it, at spacing h.
+    /// Move it, at spacing h; or take it from the journal, if it came to its end before.
     pub fn run(self, spacing: f64) -> Result<Driven<D>, SampleError> {
+        if let Some(body) = self.journal.finished() {
+            return Ok(body);
+        }
         let (options, run) = (self.options, self.run);
         let Motion { steps, control, alpha } = Motion::of(options, run.particles, spacing)?;
         let time_step = control.time_step;
@@ -80,7 +83,9 @@ impl<const D: usize> Body<'_, D> {
             spacing,
         };
         let mut body = (Compiled::of().gas)(parts, gas)?;
-        drive(body.as_mut(), self.frame, plan, self.journal, self.observer)
+        let driven = drive(body.as_mut(), self.frame, plan, self.journal, self.observer)?;
+        self.journal.finish(&driven)?;
+        Ok(driven)
     }
 }
 

@@ -28,6 +28,7 @@ pub(crate) struct Polish<'a, const D: usize> {
     spacing: f64,
     /// Standard deviations of the pool, the units of energy distances.
     scales: [f64; D],
+    entropy_power: f64,
 }
 
 /// The best particles, and what all candidates took.
@@ -47,15 +48,16 @@ impl<'a, const D: usize> Polish<'a, D> {
         run: &'a Run,
     ) -> Result<Self, SampleError> {
         let (mean, covariance) = pool.moments();
-        let frame = Frame::new(mean, covariance).or_else(|_| {
-            let spread = pool.measure.mean_and_deviation().1;
-            Frame::from_scales(mean, spread.map(|s| if s > 0.0 { s } else { 1.0 }))
-        });
-        let default = defaults::polish_spacing::<D>(options.basis, run.particles, pool.entropy_power());
+        let scales = pool.measure.mean_and_deviation().1;
+        let frame = Frame::new(mean, covariance)
+            .or_else(|_| Frame::from_scales(mean, scales.map(|s| if s > 0.0 { s } else { 1.0 })));
+        let entropy_power = pool.entropy_power();
+        let default = defaults::polish_spacing::<D>(options.basis, run.particles, entropy_power);
         Ok(Self {
             spacing: positive("spacing", options.spacing, default)?,
             frame: frame.unwrap_or_else(|_| Frame::identity()),
-            scales: pool.measure.mean_and_deviation().1,
+            scales,
+            entropy_power,
             options,
             target,
             pool,
@@ -69,21 +71,32 @@ impl<'a, const D: usize> Polish<'a, D> {
     /// which do not follow it, are farther from it than from the target by ν. So a candidate is taken if its energy distance to the pool exceeds theirs by less
     /// than 2ν, and if its kernel Stein discrepancy is no larger.
     pub fn run(&self, journal: &mut Journal, observer: &mut dyn Observer) -> Result<Polished<D>, SampleError> {
+        let condensed = self.condensed();
+        if self.options.rounds == Some(0) {
+            return Ok(Polished {
+                best: condensed,
+                spent: 0,
+                steps: 0,
+            });
+        }
         let noise = self.pool.measure.variance * self.run.particles as f64;
+        let can_gain = self.options.steps.is_some() || noise >= defaults::least_polished_noise::<D>(self.run.particles);
         let rounds = match self.options.rounds {
-            None if self.options.steps.is_none() && noise < defaults::least_polished_noise::<D>(self.run.particles) => {
-                0
-            }
+            // The material knows of equal masses only.
+            _ if self.options.weighted => 0,
+            None if !can_gain => 0,
             rounds => rounds.unwrap_or(defaults::POLISH_ROUNDS),
         };
-        let mut best = self.condensed()?;
-        let allowed = self.allowed(&best);
+        let spread = mean_distance(&condensed.samples.positions, &self.scales);
+        let allowed = self.energy(&condensed) + 2.0 * self.pool.measure.variance * spread;
+        let mut best = self.corrected(condensed, allowed)?;
         let (mut spent, mut steps, mut planned) = (best.samples.score_evaluations, 0, defaults::POLISH_STEPS);
         for round in 0..rounds {
             let candidate = self.moved(&best, self.options.steps.unwrap_or(planned), round, journal, observer)?;
             spent += candidate.samples.score_evaluations;
             steps += candidate.samples.steps;
-            let nearer = self.energy(&candidate) < allowed && discrepancy(&candidate) <= discrepancy(&best);
+            let nearer = self.energy(&candidate) < allowed
+                && squared_stein_discrepancy(&candidate) <= squared_stein_discrepancy(&best);
             if !nearer {
                 break;
             }
@@ -96,40 +109,38 @@ impl<'a, const D: usize> Polish<'a, D> {
         Ok(Polished { best, spent, steps })
     }
 
-    /// The particles that the pool is condensed to, with their scores and the residual of these; without them for adaptive importance sampling alone.
-    fn condensed(&self) -> Result<Driven<D>, SampleError> {
+    /// The particles that the pool is condensed to, without scores.
+    fn condensed(&self) -> Driven<D> {
         let count = self.run.particles;
         let seen = if self.options.weighted {
             self.pool.flattened().condense(count)
         } else {
             self.pool.condense(count)
         };
-        let positions: Vec<[f64; D]> = seen.iter().map(|x| self.frame.to_reference(x)).collect();
-        let condensed = Driven {
+        Driven {
+            positions: seen.iter().map(|x| self.frame.to_reference(x)).collect(),
             samples: Samples {
                 positions: seen,
                 ..Samples::default()
             },
             scores: Vec::new(),
-            positions,
             drift: 0.0,
             kinetic_energy: 0.0,
-        };
-        if self.options.rounds == Some(0) {
-            return Ok(condensed);
         }
-        let correction = if self.pool.entropy_power() < defaults::LEAST_CORRECTED_ENTROPY_POWER || self.options.weighted
-        {
-            MomentCorrection::Off
-        } else {
-            self.options.moment_correction
-        };
-        let mut scored = self.scored(condensed.clone(), correction)?;
-        if correction != MomentCorrection::Off && self.energy(&scored) > self.allowed(&condensed) {
-            let spent = scored.samples.score_evaluations;
-            scored = self.scored(condensed, MomentCorrection::Off)?;
-            scored.samples.score_evaluations += spent;
+    }
+
+    /// The same with scores, and with the moments put right where that is asked for, the target is nearly normal and the pool does not object.
+    fn corrected(&self, condensed: Driven<D>, allowed: f64) -> Result<Driven<D>, SampleError> {
+        let corrects = self.entropy_power >= defaults::LEAST_CORRECTED_ENTROPY_POWER && !self.options.weighted;
+        if !corrects || self.options.moment_correction == MomentCorrection::Off {
+            return self.scored(condensed, MomentCorrection::Off);
         }
+        let corrected = self.scored(condensed.clone(), self.options.moment_correction)?;
+        if self.energy(&corrected) <= allowed {
+            return Ok(corrected);
+        }
+        let mut scored = self.scored(condensed, MomentCorrection::Off)?;
+        scored.samples.score_evaluations += corrected.samples.score_evaluations;
         Ok(scored)
     }
 
@@ -168,15 +179,12 @@ impl<'a, const D: usize> Polish<'a, D> {
         journal: &mut Journal,
         observer: &mut dyn Observer,
     ) -> Result<Driven<D>, SampleError> {
-        if let Some(body) = journal.finished() {
-            return Ok(body);
-        }
         let options = MpmOptions {
             steps: Some(steps),
             moment_correction: MomentCorrection::Off,
             ..self.options.clone()
         };
-        let body = Body {
+        Body {
             options: &options,
             target: self.target,
             frame: &self.frame,
@@ -185,26 +193,13 @@ impl<'a, const D: usize> Polish<'a, D> {
             positions: from.positions.clone(),
             journal,
             observer,
-        };
-        let body = body.run(self.spacing)?;
-        journal.finish(&body)?;
-        Ok(body)
-    }
-
-    /// The largest energy of particles that may be nearer to the target than these, which were condensed.
-    fn allowed(&self, condensed: &Driven<D>) -> f64 {
-        let spread = mean_distance(&condensed.samples.positions, &self.scales);
-        self.energy(condensed) + 2.0 * self.pool.measure.variance * spread
+        }
+        .run(self.spacing)
     }
 
     fn energy(&self, body: &Driven<D>) -> f64 {
         self.pool.measure.energy(&body.samples.positions, &self.scales)
     }
-}
-
-/// The squared kernel Stein discrepancy in the body's coordinates.
-fn discrepancy<const D: usize>(body: &Driven<D>) -> f64 {
-    squared_stein_discrepancy(&body.positions, &body.scores)
 }
 
 /// E|x − x′| over the particles, coordinates divided by `scales`.

@@ -2,6 +2,7 @@
 
 use mpm_tensor::vector;
 
+use crate::drive::Driven;
 use crate::stein_thinning::{Candidate, SteinKernel};
 
 /// A target is rough where E|s|²/D, the mean curvature of −log p by Stein's identity, exceeds this; it is 1 for N(0, I).
@@ -16,11 +17,15 @@ pub(crate) fn is_rough<const D: usize>(scores: &[[f64; D]]) -> bool {
     square > ROUGH * (D * scores.len()) as f64
 }
 
-/// The squared kernel Stein discrepancy of equally weighted particles (V-statistic): the mean of the Stein kernel of the inverse multiquadric,
+/// The squared kernel Stein discrepancy of equally weighted particles in the coordinates in which they moved (V-statistic): the mean of the Stein kernel of the inverse multiquadric,
 /// with Γ = I, over all pairs.
 ///
 /// Source: J. Gorham, L. Mackey, *Measuring sample quality with kernels*, ICML 2017, §3–4.
-pub(crate) fn squared_stein_discrepancy<const D: usize>(positions: &[[f64; D]], scores: &[[f64; D]]) -> f64 {
+pub(crate) fn squared_stein_discrepancy<const D: usize>(body: &Driven<D>) -> f64 {
+    discrepancy(&body.positions, &body.scores)
+}
+
+fn discrepancy<const D: usize>(positions: &[[f64; D]], scores: &[[f64; D]]) -> f64 {
     let kernel = SteinKernel::isotropic::<D>();
     let pairs = positions
         .iter()
@@ -50,7 +55,7 @@ mod tests {
         let scores: Vec<[f64; 2]> = positions.iter().map(|x| target.score(x)).collect();
         let cloud = Cloud::new(&positions).unwrap();
         let oracle = kernel_stein_discrepancy(&cloud, &scores, &InverseMultiquadric::new(1.0, -0.5).unwrap()).unwrap();
-        let found = squared_stein_discrepancy(&positions, &scores);
+        let found = discrepancy(&positions, &scores);
         assert!(
             (found / oracle.squared - 1.0).abs() < 1e-12,
             "{found} {}",
