@@ -8,6 +8,7 @@ use crate::exact::exact_draws;
 use crate::start::{check, steps};
 use crate::stein_thinning::GreedyChoice;
 use crate::support_points::ConvexConcave;
+use crate::view::Moment;
 use crate::{
     Observer, Pool, Progress, Run, SampleError, Samples, SteinThinningOptions, SupportPointsOptions, defaults,
 };
@@ -100,10 +101,19 @@ impl SupportPointsOptions {
         };
         let procedure = ConvexConcave::new(&scaled(POOL_STREAM, size)?)?;
         let mut positions = scaled(START_STREAM, count)?;
+        let in_target = |x: &[f64; D]| std::array::from_fn(|a| x[a] * scales[a]);
+        let seen_after = |step: usize| Moment {
+            step,
+            steps,
+            time: step as f64,
+            ..Moment::default()
+        };
         let mut step = 0;
+        seen_after(step).show_points(&positions, &in_target, observer)?;
         while step < steps {
             let displacement = procedure.iterate(&mut positions);
             step += 1;
+            seen_after(step).show_points(&positions, &in_target, observer)?;
             if observer.after_step(Progress { step, steps }).is_break() {
                 return Err(SampleError::Interrupted { step });
             }
@@ -111,9 +121,8 @@ impl SupportPointsOptions {
                 break;
             }
         }
-        let in_target = |x: [f64; D]| std::array::from_fn(|a| x[a] * scales[a]);
         Ok(Samples {
-            positions: finite(positions.into_iter().map(in_target).collect(), step)?,
+            positions: finite(positions.iter().map(in_target).collect(), step)?,
             steps: step,
             ..Samples::default()
         })

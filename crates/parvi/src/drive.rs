@@ -10,6 +10,7 @@ use crate::framed_score::FramedScore;
 use crate::guard::{Guard, Progressed, check_energy};
 use crate::moment_correction::correct_moments;
 use crate::moving::Moving;
+use crate::view::Moment;
 use crate::{MomentCorrection, NonFiniteScores, Observer, Progress, SampleError, Samples, TracePoint};
 
 /// One step of a plan.
@@ -29,6 +30,10 @@ pub(crate) struct PlannedStep<const D: usize> {
 
 /// What the loop is to do.
 pub(crate) struct Plan<P> {
+    /// The body's number in the run, from 0.
+    pub body: usize,
+    /// Steps of the bodies before it.
+    pub earlier_steps: usize,
     /// Steps.
     pub steps: usize,
     /// The central spacing h, which residuals are measured at.
@@ -89,6 +94,14 @@ where
         (score.evaluations, score.replaced) = (evaluations, replaced);
         (step, time, earlier) = (state.step, state.so_far.time, state.so_far.earlier);
     }
+    let moment = Moment {
+        body: plan.body,
+        steps,
+        earlier_steps: plan.earlier_steps,
+        ..Moment::default()
+    };
+    let seen_after = |step, time| Moment { step, time, ..moment };
+    seen_after(step - 1, time).show(body.particles(), frame, observer)?;
     while step <= steps {
         let failed = |error| SampleError::in_step(step, error);
         let so_far = Progressed {
@@ -109,6 +122,7 @@ where
                 state.restore(body);
                 (step, time) = (state.step, state.so_far.time);
                 trace.retain(|point| point.step < step);
+                seen_after(step - 1, time).show(body.particles(), frame, observer)?;
                 continue;
             }
         };
@@ -136,6 +150,7 @@ where
         if step == late {
             earlier = Extent::of(&body.particles().positions);
         }
+        seen_after(step, time).show(body.particles(), frame, observer)?;
         if observer.after_step(Progress { step, steps }).is_break() {
             return Err(SampleError::Interrupted { step });
         }

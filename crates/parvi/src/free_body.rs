@@ -37,26 +37,27 @@ pub(crate) fn sample<const D: usize>(
         spacing: positive("spacing", options.spacing, default)?,
     };
     let mut rounds = 0..checked_rounds(options)?;
-    let mut moved = |departure: &Departure<D>, number| {
+    let mut moved = |departure: &Departure<D>, number, earlier_steps| {
         Body {
             options,
             target,
             frame: &departure.frame,
             run,
             number,
+            earlier_steps,
             positions: departure.positions.clone(),
             journal,
             observer,
         }
         .run(departure.spacing)
     };
-    let mut body = moved(&departure, rounds.next().unwrap_or(0))?;
+    let mut body = moved(&departure, rounds.next().unwrap_or(0), 0)?;
     let (mut evaluations, mut steps) = (body.samples.score_evaluations, body.samples.steps);
     while body.drift > LARGEST_DRIFT
         && let Some(round) = rounds.next()
     {
         departure = departure.further(body, 1.0);
-        body = moved(&departure, round)?;
+        body = moved(&departure, round, steps)?;
         evaluations += body.samples.score_evaluations;
         steps += body.samples.steps;
     }
@@ -65,7 +66,7 @@ pub(crate) fn sample<const D: usize>(
         && let Some(round) = rounds.next()
     {
         let finer = departure.further(body.clone(), FINER);
-        let candidate = moved(&finer, round)?;
+        let candidate = moved(&finer, round, steps)?;
         evaluations += candidate.samples.score_evaluations;
         steps += candidate.samples.steps;
         if squared_stein_discrepancy(&candidate) >= squared_stein_discrepancy(&body) {

@@ -36,6 +36,7 @@ mod stiffness;
 mod support_points;
 mod surveyed;
 mod svgd;
+mod view;
 
 pub use certificate::{Certificate, Expectation, MomentEstimate, Outcome, expectation};
 pub use checkpoint::Checkpoint;
@@ -46,6 +47,7 @@ pub use residual::{Residual, galerkin_stein_residual};
 pub use run::*;
 pub use stein_thinning::stein_thinning;
 pub use support_points::{SupportPoints, support_points};
+pub use view::ParticleView;
 
 use parvi_targets::CatalogueTarget;
 

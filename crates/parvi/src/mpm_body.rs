@@ -24,6 +24,8 @@ pub(crate) struct Body<'a, const D: usize> {
     pub run: &'a Run,
     /// The body's number, for its own random choices.
     pub number: usize,
+    /// Steps of the bodies before it.
+    pub earlier_steps: usize,
     pub positions: Vec<[f64; D]>,
     pub journal: &'a mut Journal,
     pub observer: &'a mut dyn Observer,
@@ -47,6 +49,8 @@ impl<const D: usize> Body<'_, D> {
         let mut rotations = run.generator(Stream::Rotations.of_body(self.number));
         let (schedule, settling) = (&options.spacing_schedule, &options.settling);
         let plan = Plan {
+            body: self.number,
+            earlier_steps: self.earlier_steps,
             steps,
             spacing,
             step: |step| {

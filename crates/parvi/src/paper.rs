@@ -88,6 +88,8 @@ impl<const D: usize> Job<'_, D> {
         let volumes = vec![1.0 / positions.len() as f64; positions.len()];
         let particles = Particles::at_rest(positions, 1.0).with_elastic_state(volumes);
         let plan = Plan {
+            body: 0,
+            earlier_steps: 0,
             steps,
             spacing,
             step: |step| PlannedStep {

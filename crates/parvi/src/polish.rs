@@ -92,7 +92,13 @@ impl<'a, const D: usize> Polish<'a, D> {
         let mut best = self.corrected(condensed, allowed)?;
         let (mut spent, mut steps, mut planned) = (best.samples.score_evaluations, 0, defaults::POLISH_STEPS);
         for round in 0..rounds {
-            let candidate = self.moved(&best, self.options.steps.unwrap_or(planned), round, journal, observer)?;
+            let candidate = self.moved(
+                &best,
+                self.options.steps.unwrap_or(planned),
+                (round, steps),
+                journal,
+                observer,
+            )?;
             spent += candidate.samples.score_evaluations;
             steps += candidate.samples.steps;
             let nearer = self.energy(&candidate) < allowed
@@ -175,7 +181,7 @@ impl<'a, const D: usize> Polish<'a, D> {
         &self,
         from: &Driven<D>,
         steps: usize,
-        number: usize,
+        (number, earlier_steps): (usize, usize),
         journal: &mut Journal,
         observer: &mut dyn Observer,
     ) -> Result<Driven<D>, SampleError> {
@@ -190,6 +196,7 @@ impl<'a, const D: usize> Polish<'a, D> {
             frame: &self.frame,
             run: self.run,
             number,
+            earlier_steps,
             positions: from.positions.clone(),
             journal,
             observer,

@@ -7,7 +7,7 @@ use mpm_core::MpmError;
 use mpm_mesh::MeshError;
 use parvi_pool::{Pool, PoolError};
 
-use crate::{Certificate, PointSetError};
+use crate::{Certificate, ParticleView, PointSetError};
 
 /// Size, seed and start of a run; the same for every method.
 #[derive(Clone, Debug, PartialEq)]
@@ -134,6 +134,17 @@ pub struct Progress {
 pub trait Observer {
     /// Called after every step.
     fn after_step(&mut self, progress: Progress) -> ControlFlow<()>;
+
+    /// Called with the particles where a body begins and after every step that moved them, before [`after_step`](Self::after_step).
+    ///
+    /// `mpm` shows the bodies that move from the start, or even out what was condensed from a pool; `mpm` on a mesh, the paper's methods, `svgd` and `support-points`
+    /// show their particles. Methods that do not move particles (`iid`, `sobol`, `nuts`, `stein-thinning`, `ais`, and `mpm` where the pool needs no evening out) show none:
+    /// their only picture is [`Samples::positions`].
+    ///
+    /// Who does not look pays nothing: the view computes what it is asked for. The default looks at nothing.
+    fn see(&mut self, _particles: &ParticleView<'_>) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
 }
 
 /// Watches nothing.

@@ -7,6 +7,7 @@ use rand::seq::index;
 use crate::drive::finite;
 use crate::framed_score::FramedScore;
 use crate::start::{check, positive, steps};
+use crate::view::Moment;
 use crate::{Observer, Progress, Run, SampleError, Samples, SvgdOptions, TracePoint, defaults};
 
 /// The median of pairwise distances is taken over at most this many particles.
@@ -44,6 +45,14 @@ impl SvgdOptions {
             let mut generator = run.generator(2);
             index::sample(&mut generator, positions.len(), positions.len().min(MEDIAN_SAMPLE)).into_vec()
         };
+        let to_target = |z: &[f64; D]| frame.to_target(z);
+        let seen_after = |step: usize| Moment {
+            step,
+            steps,
+            time: step as f64 * rate,
+            ..Moment::default()
+        };
+        seen_after(0).show_points(&positions, &to_target, observer)?;
         for step in 1..=steps {
             score
                 .evaluate(&positions, &mut scores)
@@ -61,6 +70,7 @@ impl SvgdOptions {
                     displacement: moved,
                 });
             }
+            seen_after(step).show_points(&positions, &to_target, observer)?;
             if observer.after_step(Progress { step, steps }).is_break() {
                 return Err(SampleError::Interrupted { step });
             }

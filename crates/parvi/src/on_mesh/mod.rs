@@ -19,6 +19,7 @@ use crate::framed_score::{FramedScore, ScoreForce};
 use crate::residual::galerkin_stein_residual_at;
 use crate::start::{Stream, check, positive, steps};
 use crate::stiffness::Stiffness;
+use crate::view::Moment;
 use crate::{
     MeshOptions, NonFiniteScores, Observer, OnMesh, Progress, Run, SampleError, Samples, ScoreLocation, TracePoint,
     defaults,
@@ -106,6 +107,13 @@ impl MeshOptions {
         let mut body: Body<D> = Mpm::new(particles, meshes, Pic, IsothermalGas::new(1.0)?, force).with_boundary(wall);
         let mut trace = Vec::new();
         let mut time = 0.0;
+        let seen_after = |step, time| Moment {
+            step,
+            steps,
+            time,
+            ..Moment::default()
+        };
+        seen_after(0, time).show(&body.particles, &frame, observer)?;
         for step in 1..=steps {
             let failed = |error| SampleError::in_step(step, error);
             body.basis.chosen = self.choice(step, steps, &mut generator);
@@ -133,6 +141,7 @@ impl MeshOptions {
                     displacement: report.displacement,
                 });
             }
+            seen_after(step, time).show(&body.particles, &frame, observer)?;
             if observer.after_step(Progress { step, steps }).is_break() {
                 return Err(SampleError::Interrupted { step });
             }

@@ -3,6 +3,7 @@
 mod bent_targets;
 #[cfg(feature = "nuts")]
 mod nuts;
+mod observed;
 mod on_mesh;
 mod own_targets;
 mod robustness;
