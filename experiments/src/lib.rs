@@ -13,6 +13,7 @@ mod interrupt;
 mod machine;
 pub mod options;
 pub mod output;
+pub mod pictures;
 pub mod plots;
 mod progress;
 pub mod sampling;

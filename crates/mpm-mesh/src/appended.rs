@@ -1,6 +1,6 @@
-//! Arrays of VTK XML files as raw appended data, the binary form that ParaView reads fastest.
+//! VTK XML files: arrays as raw appended data, the binary form that ParaView reads fastest, and collections of files.
 
-/// The arrays of an unstructured grid: the text of a file has an element for each, which says where it begins in a block of data behind the text.
+/// The arrays of a grid or of points: the text of a file has an element for each, which says where it begins in a block of data behind the text.
 ///
 /// Format: VTK XML, version 1.0, little endian; every array is a 64-bit count of bytes followed by the bytes
 /// (<https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html>).
@@ -16,7 +16,7 @@ impl Appended {
         let offset = self.bytes.len();
         self.bytes.extend((content.len() as u64).to_le_bytes());
         self.bytes.extend(content);
-        let name = name.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;");
+        let name = escaped(name);
         format!(
             "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"appended\" offset=\"{offset}\"/>\n"
         )
@@ -36,12 +36,41 @@ impl Appended {
 
     /// A file of the arrays, whose elements are in `grid`, the text between `<UnstructuredGrid>` and its end.
     pub fn file(&self, grid: &str) -> Vec<u8> {
+        self.file_of("UnstructuredGrid", grid)
+    }
+
+    /// A `.vtp` file of the arrays, whose elements are in `points`, the text between `<PolyData>` and its end.
+    pub fn poly_data(&self, points: &str) -> Vec<u8> {
+        self.file_of("PolyData", points)
+    }
+
+    fn file_of(&self, kind: &str, content: &str) -> Vec<u8> {
         let text = format!(
             "<?xml version=\"1.0\"?>\n\
-             <VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n\
-             <UnstructuredGrid>\n{grid}</UnstructuredGrid>\n\
+             <VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n\
+             <{kind}>\n{content}</{kind}>\n\
              <AppendedData encoding=\"raw\">\n_"
         );
         [text.as_bytes(), &self.bytes, b"\n</AppendedData>\n</VTKFile>\n"].concat()
     }
+}
+
+/// A `.pvd` file, the collection that ParaView opens to see files as one animation: the time of each and its name, which is taken relative to the collection.
+pub fn collection<'a>(files: impl IntoIterator<Item = (f64, &'a str)>) -> String {
+    let mut text = String::from(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n  <Collection>\n",
+    );
+    for (time, file) in files {
+        text.push_str(&format!(
+            "    <DataSet timestep=\"{time:?}\" part=\"0\" file=\"{}\"/>\n",
+            escaped(file)
+        ));
+    }
+    text.push_str("  </Collection>\n</VTKFile>\n");
+    text
+}
+
+/// Text as the value of an attribute.
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
 }

@@ -18,7 +18,7 @@ mod search;
 mod vtu;
 
 pub use adjacency::Lists;
-pub use appended::Appended;
+pub use appended::{Appended, collection};
 pub use basis::{MeshBasis, Outside, WeightAt};
 pub use boundary::BoundaryFacet;
 pub use edge_lengths::EdgeLengths;

@@ -1,6 +1,9 @@
 //! Files of particles, written whole or not at all.
 
+mod array_npy;
 mod atomic_file;
+mod directory;
+pub mod frames;
 mod particles;
 pub mod particles_csv;
 pub mod particles_npy;
@@ -8,6 +11,8 @@ pub mod particles_npy;
 use std::path::{Path, PathBuf};
 
 pub use atomic_file::{AtomicFile, PARTIAL_SUFFIX};
+pub use directory::OutputDirectory;
+pub use frames::FrameWriter;
 pub use particles::Particles;
 
 use crate::CommandError;

@@ -6,7 +6,7 @@ use super::Arguments;
 use crate::CommandError;
 use crate::options::OptionError;
 
-/// Refuses one file in two roles.
+/// Refuses one path in two roles; frames and pictures may share a directory.
 pub fn check(arguments: &Arguments) -> Result<(), CommandError> {
     let files = [
         ("out", Some(&arguments.out)),
@@ -14,13 +14,18 @@ pub fn check(arguments: &Arguments) -> Result<(), CommandError> {
         ("diagnostics", arguments.diagnostics.as_ref()),
         ("checkpoint", arguments.checkpoint.as_ref()),
         ("data", arguments.parameters.data.as_ref()),
+        ("frames", arguments.frames.as_ref()),
+        ("plots", arguments.plots.as_ref()),
     ];
     let given: Vec<_> = files
         .into_iter()
         .filter_map(|(name, path)| Some((name, path?, place(path?))))
         .collect();
     for (k, (name, path, own)) in given.iter().enumerate() {
-        if let Some((other, ..)) = given[..k].iter().find(|(.., place)| place == own) {
+        let others = given[..k]
+            .iter()
+            .filter(|(other, ..)| (*other, *name) != ("frames", "plots"));
+        if let Some((other, ..)) = others.into_iter().find(|(.., place)| place == own) {
             return Err(OptionError {
                 name: (*name).to_owned(),
                 reason: format!("{} is the file of --{other}", path.display()),

@@ -2,6 +2,7 @@
 
 mod files;
 mod said;
+mod watch;
 
 use std::path::PathBuf;
 
@@ -13,10 +14,12 @@ use crate::machine::MemoryGauge;
 use crate::options::{
     Dimension, MethodName, MethodOptions, OptionError, ParticleCount, StepCount, TargetParameters, TargetSpecification,
 };
-use crate::output::{AtomicFile, ParticleFile, ParticleFormat};
+use crate::output::{AtomicFile, FrameWriter, OutputDirectory, ParticleFile, ParticleFormat};
+use crate::pictures::{History, Subject};
 use crate::progress::StepProgress;
 use crate::sampling;
 use crate::{CommandError, console, interrupt};
+use watch::Watch;
 
 pub use said::PEAK_MEMORY_KEY;
 
@@ -56,6 +59,21 @@ pub struct Arguments {
         allow_negative_numbers = true
     )]
     checkpoint_every: StepCount,
+    /// Directory for frames of the particles on their way and at the end: .npy, and .vtp with a .pvd for ParaView
+    #[arg(long, value_name = "DIR")]
+    frames: Option<PathBuf>,
+    /// Write a frame of every K-th step
+    #[arg(
+        long,
+        value_name = "K",
+        default_value = "10",
+        requires = "frames",
+        allow_negative_numbers = true
+    )]
+    every: StepCount,
+    /// Directory for pictures of the particles: marginals, corner plot, trace, and for d = 2 the cloud at six moments
+    #[arg(long, value_name = "DIR")]
+    plots: Option<PathBuf>,
     #[command(flatten)]
     parameters: TargetParameters,
     #[command(flatten)]
@@ -64,7 +82,7 @@ pub struct Arguments {
 
 /// Samples and writes; nothing stands under the file's name unless all of it is finite.
 pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
-    let method = with_checkpoint(arguments.options.method(arguments.method)?, arguments)?;
+    let method = with_checkpoint(traced(arguments).method(arguments.method)?, arguments)?;
     let pool = arguments.options.pool_file(arguments.method);
     ParticleFormat::of("out", &arguments.out)?;
     if let Some(path) = pool {
@@ -83,15 +101,29 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
         Some(_) => target.coordinate_names(),
         None => Vec::new(),
     };
+    let directory = |flag, path: &Option<PathBuf>| {
+        let path = path.as_deref();
+        path.map(|path| OutputDirectory::create(flag, path)).transpose()
+    };
+    let frames = directory("frames", &arguments.frames)?;
+    let plots = directory("plots", &arguments.plots)?;
     let file = ParticleFile::create(&arguments.out)?;
     let pool = pool.map(ParticleFile::create).transpose()?;
     let diagnostics = arguments.diagnostics.as_ref().map(AtomicFile::create).transpose()?;
     interrupt::listen();
-    let mut progress = StepProgress::new();
+    // Where the checkpoint exists, frames of an earlier process are those of this run.
+    let goes_on = arguments.checkpoint.as_ref().is_some_and(|path| path.exists());
+    let frames = frames.map(|directory| FrameWriter::new(directory, arguments.every.get(), names.clone(), goes_on));
+    let mut watch = Watch {
+        progress: StepProgress::new(),
+        frames: frames.transpose()?,
+        history: plots.is_some().then(History::default),
+    };
     let memory = MemoryGauge::begin();
-    let outcome = sampling::sample(&target, &method, &run, &mut progress).map_err(of_flags)?;
+    let sampled = sampling::sample(&target, &method, &run, &mut watch);
     let peak_memory = memory.peak_bytes();
-    progress.clear();
+    watch.progress.clear();
+    let outcome = sampled.map_err(|error| watch.reason(of_flags(error)))?;
     if let Some(mut diagnostics) = diagnostics {
         let content = diagnose(&target, &outcome)?;
         diagnostics.fill(|writer| Ok(serde_json::to_writer_pretty(writer, &content)?))?;
@@ -102,7 +134,29 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     if let Some(file) = pool {
         file.write(outcome.pool.as_ref().ok_or(CommandError::NoPool)?, &names)?;
     }
-    console::print_pairs(&said::pairs(arguments, &outcome, peak_memory))
+    let mut pairs = said::pairs(arguments, &outcome, peak_memory);
+    if let Some(frames) = watch.frames {
+        let count = frames.finish(&outcome.particles, outcome.steps)?;
+        if count == 1 {
+            console::notice("--frames: no particles have moved; the only frame is that of what the run returned");
+        }
+        pairs.push(("frames", count.to_string()));
+    }
+    if let (Some(directory), Some(history)) = (&plots, &watch.history) {
+        let subject = Subject {
+            target: &target,
+            mesh: arguments.options.mesh.as_deref(),
+            method: arguments.method.as_str(),
+            outcome: &outcome,
+            history,
+            untraced: arguments
+                .checkpoint
+                .as_ref()
+                .map(|_| "a run with a checkpoint has none"),
+        };
+        pairs.push(("plots", subject.draw(directory)?.join(",")));
+    }
+    console::print_pairs(&pairs)
 }
 
 /// An error of a target that a flag asks for is one of this flag.
@@ -114,6 +168,21 @@ fn of_flags(error: CommandError) -> CommandError {
         },
         error => error,
     }
+}
+
+/// Records of the trace that a picture shows.
+const RECORDS: usize = 25;
+/// Steps that a method which is not told how many takes, about: only those between two records hang on it.
+const USUAL_STEPS: usize = 100;
+
+/// The options, with a trace where there are to be pictures of it. A checkpoint has no room for one.
+fn traced(arguments: &Arguments) -> MethodOptions {
+    let mut options = arguments.options.clone();
+    if arguments.plots.is_some() && arguments.checkpoint.is_none() {
+        let steps = options.steps.map_or(USUAL_STEPS, StepCount::get);
+        options.trace_every = (steps / RECORDS).max(1);
+    }
+    options
 }
 
 /// The method with the checkpoint that was asked for.

@@ -301,3 +301,45 @@ fn snapshots_colour_particles_by_class() {
     plot.panels.clear();
     assert!(matches!(snapshots(&plot), Err(PlotError::Empty { .. })));
 }
+
+#[test]
+fn a_strip_has_a_panel_for_each_moment_on_common_axes() {
+    let moments: Vec<Vec<Vec<f64>>> = (0..6)
+        .map(|k| {
+            let moved = |row: Vec<f64>| row.iter().map(|c| c + 0.5 * f64::from(k)).collect();
+            points(100, 2).into_iter().map(moved).collect()
+        })
+        .collect();
+    let titles: Vec<String> = (0..6).map(|k| format!("step {k}")).collect();
+    let panels: Vec<StripPanel<'_>> = moments
+        .iter()
+        .zip(&titles)
+        .map(|(points, title)| StripPanel {
+            title,
+            particles: PointCloud::equal(points),
+        })
+        .collect();
+    let draws = points(2000, 2);
+    let strip_of = |panels| {
+        strip(&StripPlot {
+            title: "Strip",
+            panels,
+            labels: &[],
+            reference: Reference::Draws(PointCloud::equal(&draws)),
+            reference_label: "",
+        })
+    };
+    for count in 1..=6 {
+        let svg = strip_of(&panels[..count]).unwrap();
+        assert_well_formed(&svg);
+        assert!((0..count).all(|k| svg.contains(&format!("step {k}<"))));
+        assert!(svg.contains("50, 90, 99 %"));
+    }
+    assert!(matches!(strip_of(&[]), Err(PlotError::Empty { .. })));
+    let flat = vec![vec![1.0]; 3];
+    let panel = StripPanel {
+        title: "",
+        particles: PointCloud::equal(&flat),
+    };
+    assert!(matches!(strip_of(&[panel]), Err(PlotError::Dimension { .. })));
+}

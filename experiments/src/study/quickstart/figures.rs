@@ -2,19 +2,19 @@
 
 use parvi_targets::BoxedTarget;
 
-use super::configuration::Part;
 use super::{Case, Quickstart};
 use crate::CommandError;
 use crate::dispatch::{TargetTask, with_target};
 use crate::output::{Particles, particles_csv};
 use crate::plots::{
-    AxisKind, CloudPlot, CornerPlot, HistogramPlot, PairDensity, PointCloud, Reference, ReferenceLevel, TracePanel,
-    TracePlot, TraceSeries, cloud, corner, histogram, trace,
+    CloudPlot, CornerPlot, HistogramPlot, PairDensity, PointCloud, Reference, TracePlot, cloud, corner, histogram,
+    trace,
 };
 use crate::statistics::DensityGrid;
 use crate::study::directory::StudyDirectory;
 use crate::study::document::Document;
 use crate::study::table_file;
+use crate::study::trace_panels::TraceQuantity;
 use crate::study::trace_row::TraceRow;
 
 /// Corner plot and marginals of the posterior over the reference draws.
@@ -105,57 +105,22 @@ pub fn traces(study: &Quickstart, directory: &StudyDirectory, document: &mut Doc
     if runs.is_empty() {
         return Ok(());
     }
+    let labelled: Vec<(String, Vec<TraceRow>)> = runs
+        .into_iter()
+        .map(|(part, rows)| (part.target.label(), rows))
+        .collect();
+    let quantities = [
+        TraceQuantity::Residual,
+        TraceQuantity::KineticEnergy,
+        TraceQuantity::PotentialEnergy,
+    ];
     let plot = TracePlot {
         title: String::new(),
         x_label: "step".to_owned(),
-        panels: vec![
-            TracePanel {
-                y_label: "residual (1: independent draws)".to_owned(),
-                y_axis: AxisKind::Automatic,
-                series: series(&runs, |row| row.residual),
-                levels: vec![ReferenceLevel {
-                    value: 1.0,
-                    label: "independent draws".to_owned(),
-                }],
-            },
-            TracePanel {
-                y_label: "kinetic energy".to_owned(),
-                y_axis: AxisKind::Automatic,
-                series: series(&runs, |row| Some(row.kinetic_energy)),
-                levels: Vec::new(),
-            },
-            TracePanel {
-                y_label: "potential energy above its least value".to_owned(),
-                y_axis: AxisKind::Linear,
-                series: above_least(series(&runs, |row| row.potential_energy)),
-                levels: Vec::new(),
-            },
-        ],
+        panels: quantities.map(|quantity| quantity.panel(&labelled)).into(),
     };
     let caption = "Galerkin–Stein residual and energies (frame coordinates, total mass 1) against the steps.";
     document.figure(directory, "traces.svg", caption, trace(&plot))
-}
-
-fn series(runs: &[(&Part, Vec<TraceRow>)], value: impl Fn(&TraceRow) -> Option<f64>) -> Vec<TraceSeries> {
-    let one = |(part, rows): &(&Part, Vec<TraceRow>)| {
-        let points = rows.iter().filter_map(|row| Some((row.step as f64, value(row)?)));
-        let (step, value) = points.unzip();
-        TraceSeries {
-            label: part.target.label(),
-            step,
-            value,
-        }
-    };
-    runs.iter().map(one).filter(|series| !series.step.is_empty()).collect()
-}
-
-/// Potentials are known up to a constant of the target.
-fn above_least(mut all: Vec<TraceSeries>) -> Vec<TraceSeries> {
-    for series in &mut all {
-        let least = series.value.iter().copied().fold(f64::INFINITY, f64::min);
-        series.value.iter_mut().for_each(|value| *value -= least);
-    }
-    all
 }
 
 fn rows(particles: &Particles) -> Vec<Vec<f64>> {

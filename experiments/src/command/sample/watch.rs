@@ -1,0 +1,44 @@
+//! What looks at the particles of a run on their way: progress, frames and pictures.
+
+use std::ops::ControlFlow;
+
+use parvi::{Observer, ParticleView, Progress};
+
+use crate::CommandError;
+use crate::output::FrameWriter;
+use crate::pictures::History;
+use crate::progress::StepProgress;
+
+/// Several observers as one.
+pub struct Watch {
+    /// The bar, and Ctrl-C.
+    pub progress: StepProgress,
+    /// Where frames are asked for.
+    pub frames: Option<FrameWriter>,
+    /// Where pictures are asked for.
+    pub history: Option<History>,
+}
+
+impl Watch {
+    /// The error of a run, or what stopped it here.
+    pub fn reason(&mut self, error: CommandError) -> CommandError {
+        let failure = self.frames.as_mut().and_then(FrameWriter::failure);
+        failure.unwrap_or(error)
+    }
+}
+
+impl Observer for Watch {
+    fn after_step(&mut self, progress: Progress) -> ControlFlow<()> {
+        self.progress.after_step(progress)
+    }
+
+    fn see(&mut self, view: &ParticleView<'_>) -> ControlFlow<()> {
+        if let Some(history) = &mut self.history {
+            history.see(view)?;
+        }
+        match &mut self.frames {
+            Some(frames) => frames.see(view),
+            None => ControlFlow::Continue(()),
+        }
+    }
+}

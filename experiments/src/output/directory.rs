@@ -1,0 +1,55 @@
+//! Directories that a run fills beside its main file.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::CommandError;
+use crate::options::OptionError;
+
+/// A directory for files of a run; one that was made for it and has stayed empty is removed again.
+pub struct OutputDirectory {
+    path: PathBuf,
+    /// Whether it was made here.
+    made: bool,
+}
+
+impl OutputDirectory {
+    /// Makes the directory that `flag` asks for, where there is none, with those above it.
+    ///
+    /// # Errors
+    /// [`CommandError::Flag`] for a path that is no directory, [`CommandError::File`] for one that cannot be made.
+    pub fn create(flag: &'static str, path: &Path) -> Result<Self, CommandError> {
+        if path.exists() && !path.is_dir() {
+            return Err(OptionError {
+                name: flag.to_owned(),
+                reason: format!("{} is a file, and a directory is needed", path.display()),
+            }
+            .into());
+        }
+        let made = !path.exists();
+        fs::create_dir_all(path).map_err(|error| CommandError::file("make the directory", path, error))?;
+        Ok(Self {
+            path: path.to_owned(),
+            made,
+        })
+    }
+
+    /// A file in it.
+    pub fn file(&self, name: &str) -> PathBuf {
+        self.path.join(name)
+    }
+
+    /// The directory.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+}
+
+impl Drop for OutputDirectory {
+    fn drop(&mut self) {
+        if self.made {
+            // Refused, as it should be, unless it is empty.
+            let _ = fs::remove_dir(&self.path);
+        }
+    }
+}

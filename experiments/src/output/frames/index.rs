@@ -1,0 +1,86 @@
+//! Which frames there are.
+
+use std::path::Path;
+
+use mpm_mesh::collection;
+use serde::{Deserialize, Serialize};
+
+use super::names;
+use crate::CommandError;
+use crate::output::AtomicFile;
+
+/// A frame in the index.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Entry {
+    /// What its files are called by.
+    pub frame: String,
+    /// Steps of the run.
+    pub step: usize,
+    /// Number of the body; empty for what the run returned.
+    pub body: Option<usize>,
+    /// Pseudo-time of the body; empty for what the run returned.
+    pub pseudo_time: Option<f64>,
+}
+
+/// Writes the tables of the frames: `frames.csv` and, for ParaView, `frames.pvd`, whose times are the steps; what the run returned is one step behind the last one.
+///
+/// # Errors
+/// [`CommandError::File`].
+pub fn write(directory: &Path, entries: &[Entry]) -> Result<(), CommandError> {
+    let path = directory.join(names::TABLE);
+    let failed = |error: csv::Error| CommandError::file("write", &path, std::io::Error::other(error));
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    for entry in entries {
+        writer.serialize(entry).map_err(failed)?;
+    }
+    let table = writer
+        .into_inner()
+        .map_err(|error| CommandError::file("write", &path, error.into_error()))?;
+    let files: Vec<(f64, String)> = entries
+        .iter()
+        .zip(times(entries))
+        .map(|(entry, time)| (time, names::vtp(&entry.frame)))
+        .collect();
+    let files = files.iter().map(|(time, file)| (*time, file.as_str()));
+    AtomicFile::write(directory.join(names::COLLECTION), collection(files))?;
+    AtomicFile::write(&path, table)
+}
+
+/// The time of every frame in the animation.
+fn times(entries: &[Entry]) -> Vec<f64> {
+    let mut last = None;
+    let time = |entry: &Entry| {
+        let time = match (entry.body, last) {
+            (Some(_), _) => entry.step as f64,
+            (None, Some(last)) => last + 1.0,
+            (None, None) => 0.0,
+        };
+        last = Some(time);
+        time
+    };
+    entries.iter().map(time).collect()
+}
+
+/// The time of the animation that what the run returned has behind these frames.
+pub fn time_of_returned(entries: &[Entry]) -> f64 {
+    entries.last().map_or(0.0, |entry| entry.step as f64 + 1.0)
+}
+
+/// The frames that an earlier process left, without what a run returned; `None` where there is no table.
+///
+/// # Errors
+/// [`CommandError::ResultsUnreadable`].
+pub fn read(directory: &Path) -> Result<Option<Vec<Entry>>, CommandError> {
+    let path = directory.join(names::TABLE);
+    if !path.exists() {
+        return Ok(None);
+    }
+    let unreadable = |error: csv::Error| CommandError::ResultsUnreadable {
+        file: path.display().to_string(),
+        message: error.to_string(),
+    };
+    let mut reader = csv::Reader::from_path(&path).map_err(unreadable)?;
+    let mut entries: Vec<Entry> = reader.deserialize().collect::<Result<_, _>>().map_err(unreadable)?;
+    entries.retain(|entry| entry.body.is_some());
+    Ok(Some(entries))
+}

@@ -1,0 +1,224 @@
+//! What is known of a target beside its particles: exact marginals and joint densities.
+
+use std::path::Path;
+
+use mpm_mesh::{CellSearch, read_msh};
+use parvi_targets::{BoxedTarget, CatalogueTarget};
+use rand::SeedableRng;
+use rand::rngs::ChaCha8Rng;
+
+use crate::CommandError;
+use crate::dispatch::TargetTask;
+use crate::plots::{Curve, PairDensity, PointCloud, Reference};
+use crate::statistics::DensityGrid;
+
+/// Exact draws behind densities, at most.
+const DRAWS: usize = 20_000;
+/// Fewer of these make no density.
+const FEWEST_DRAWS: usize = 1_000;
+/// Proposals for draws within a mesh, at most.
+const PROPOSALS: usize = 400_000;
+/// Nodes per axis of a quadrature, tried one after the other; odd, so that every second one is a grid of its own.
+const NODES: [usize; 2] = [201, 801];
+/// How far the integrals over all and over every second node may differ.
+const TOLERANCE: f64 = 1e-3;
+/// The domain of a quadrature over the box that holds nearly all of the mass.
+const WIDER: f64 = 1.5;
+
+/// The density that particles are compared with.
+pub enum Known {
+    /// Exact draws.
+    Draws(Vec<Vec<f64>>),
+    /// Densities by quadrature.
+    Quadrature {
+        /// One per coordinate.
+        marginals: Vec<Option<Curve>>,
+        /// The joint density in the plane.
+        pairs: Vec<PairDensity>,
+    },
+    /// Nothing, and why.
+    Nothing(String),
+}
+
+impl Known {
+    /// As a figure takes it, with the draws of the first coordinates that it shows.
+    pub fn reference<'a>(&'a self, draws: &'a [Vec<f64>]) -> Reference<'a> {
+        match self {
+            Self::Draws(_) => Reference::Draws(PointCloud::equal(draws)),
+            Self::Quadrature { marginals, pairs } => Reference::Exact { marginals, pairs },
+            Self::Nothing(_) => Reference::None,
+        }
+    }
+
+    /// The draws, if there are any.
+    pub fn draws(&self) -> &[Vec<f64>] {
+        match self {
+            Self::Draws(draws) => draws,
+            _ => &[],
+        }
+    }
+}
+
+/// Looks for it: by quadrature for d = 1, 2, else from exact draws, which also serve where the quadrature does not settle, and within a mesh.
+pub struct Look<'a> {
+    /// The file of the mesh that the density is kept to.
+    pub mesh: Option<&'a Path>,
+}
+
+impl TargetTask for Look<'_> {
+    type Output = Known;
+
+    fn run<const D: usize>(self, target: BoxedTarget<D>) -> Result<Known, CommandError> {
+        let target = target.as_ref();
+        if let Some(path) = self.mesh {
+            let inside = within::<D>(path);
+            let drawn = inside.and_then(|search| draws(target, |x| search.locate(x, None).is_some()));
+            return Ok(drawn.map_or_else(
+                || Known::Nothing("the target has no exact draws, or too few of them are within the mesh".to_owned()),
+                Known::Draws,
+            ));
+        }
+        if let Some(known) = quadrature(target) {
+            return Ok(known);
+        }
+        Ok(draws(target, |_| true).map_or_else(|| Known::Nothing(reason::<D>()), Known::Draws))
+    }
+}
+
+fn reason<const D: usize>() -> String {
+    if D <= 2 {
+        "the target has no exact draws, and a quadrature does not settle".to_owned()
+    } else {
+        format!("the target has no exact draws, and d = {D} is too much for a quadrature")
+    }
+}
+
+/// The mesh of a file, for d = 2 and 3.
+fn within<const D: usize>(path: &Path) -> Option<CellSearch<D>> {
+    if const { D == 2 || D == 3 } {
+        let mesh = read_msh::<D>(&std::fs::read(path).ok()?).ok()?;
+        return Some(CellSearch::new(mesh));
+    }
+    None
+}
+
+/// Exact draws that are `inside`.
+fn draws<const D: usize>(target: &dyn CatalogueTarget<D>, inside: impl Fn(&[f64; D]) -> bool) -> Option<Vec<Vec<f64>>> {
+    let source = target.exact_draws()?;
+    let mut generator = ChaCha8Rng::seed_from_u64(0);
+    let all = std::iter::repeat_with(|| source.draw(&mut generator)).take(PROPOSALS);
+    let kept = all.filter(|x| x.iter().all(|c| c.is_finite()) && inside(x));
+    let draws: Vec<Vec<f64>> = kept.take(DRAWS).map(|x| x.to_vec()).collect();
+    (draws.len() >= FEWEST_DRAWS).then_some(draws)
+}
+
+/// Marginals, and for d = 2 the joint density, on the first grid that settles.
+fn quadrature<const D: usize>(target: &dyn CatalogueTarget<D>) -> Option<Known> {
+    if D > 2 {
+        return None;
+    }
+    let range = |axis: usize| {
+        let [low, high] = target.domain().get(axis).copied().unwrap_or([0.0, 1.0]);
+        let (middle, half) = (0.5 * (low + high), 0.5 * WIDER * (high - low));
+        (middle - half, middle + half)
+    };
+    let grids = NODES.iter().map(|&nodes| {
+        let rows = if D == 1 { 1 } else { nodes };
+        DensityGrid::evaluate(range(0), range(1), (nodes, rows), |x, y| {
+            let mut point = [0.0; D];
+            for (coordinate, value) in point.iter_mut().zip([x, y]) {
+                *coordinate = value;
+            }
+            target.log_density(&point)
+        })
+    });
+    let grid = grids.map(exponentiated).find(settled)?;
+    let marginals = (0..D).map(|axis| marginal(&grid, axis)).collect();
+    let pair = PairDensity {
+        horizontal: 0,
+        vertical: 1,
+        grid,
+    };
+    Some(Known::Quadrature {
+        marginals,
+        pairs: if D == 2 { vec![pair] } else { Vec::new() },
+    })
+}
+
+/// From logarithms to values, the largest 1; what is not a number counts as zero.
+fn exponentiated(mut grid: DensityGrid) -> DensityGrid {
+    let finite = grid.values.iter().copied().filter(|value| value.is_finite());
+    let most = finite.fold(f64::NEG_INFINITY, f64::max);
+    for value in &mut grid.values {
+        *value = if value.is_finite() { (*value - most).exp() } else { 0.0 };
+    }
+    grid
+}
+
+/// Whether the integral over every second node is the same.
+fn settled(grid: &DensityGrid) -> bool {
+    let columns = grid.x.len();
+    let sum = |step: usize| {
+        let rows = (0..grid.y.len()).step_by(step);
+        let values = rows.flat_map(|row| (0..columns).step_by(step).map(move |column| row * columns + column));
+        let cell = step * if grid.y.len() > 1 { step } else { 1 };
+        values.map(|node| grid.values[node]).sum::<f64>() * cell as f64
+    };
+    let (all, half) = (sum(1), sum(2));
+    all > 0.0 && (half / all - 1.0).abs() < TOLERANCE
+}
+
+/// The density of one coordinate, by the trapezoidal rule over the other one and then itself; the ends of the grid, where nothing is, count whole.
+fn marginal(grid: &DensityGrid, axis: usize) -> Option<Curve> {
+    let (columns, rows) = (grid.x.len(), grid.y.len());
+    let nodes = if axis == 0 { &grid.x } else { &grid.y };
+    let sum = |index: usize| -> f64 {
+        if axis == 0 {
+            (0..rows).map(|row| grid.values[row * columns + index]).sum()
+        } else {
+            grid.values[index * columns..(index + 1) * columns].iter().sum()
+        }
+    };
+    let sums: Vec<f64> = (0..nodes.len()).map(sum).collect();
+    let spacing = nodes.get(1)? - nodes.first()?;
+    let total = sums.iter().sum::<f64>() * spacing;
+    Some(Curve {
+        x: nodes.clone(),
+        y: sums.into_iter().map(|value| value / total).collect(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use parvi_targets::{Gaussian, Ring};
+    use statrs::distribution::{Continuous, Normal};
+
+    use super::*;
+
+    #[test]
+    fn quadrature_gives_the_marginals_of_a_gaussian() {
+        let target = Gaussian::<2>::autoregressive(0.8).unwrap();
+        let Some(Known::Quadrature { marginals, pairs }) = quadrature(&target) else {
+            panic!("a quadrature that settles");
+        };
+        let normal = Normal::new(0.0, 1.0).unwrap();
+        for curve in marginals {
+            let curve = curve.unwrap();
+            for (x, y) in curve.x.iter().zip(curve.y) {
+                assert!((y - normal.pdf(*x)).abs() < 1e-4, "{x}: {y}");
+            }
+        }
+        assert_eq!(pairs.len(), 1);
+        let line = quadrature(&Gaussian::<1>::standard());
+        assert!(
+            matches!(line, Some(Known::Quadrature { marginals, pairs }) if marginals.len() == 1 && pairs.is_empty())
+        );
+        assert!(quadrature(&Gaussian::<3>::standard()).is_none());
+    }
+
+    #[test]
+    fn a_density_that_no_grid_resolves_is_not_integrated() {
+        assert!(quadrature(&Ring::new(2.0, 1e-4).unwrap()).is_none());
+        assert!(quadrature(&Ring::new(2.0, 0.2).unwrap()).is_some());
+    }
+}

@@ -1,0 +1,225 @@
+//! Pictures of one run: marginals, pairs of coordinates, the history of its quantities and of the cloud.
+
+mod history;
+mod known;
+
+use std::path::Path;
+
+pub use self::history::History;
+use self::known::{Known, Look};
+use crate::dispatch::with_target;
+use crate::options::TargetSpecification;
+use crate::output::{AtomicFile, OutputDirectory, Particles};
+use crate::plots::{
+    CornerPlot, HistogramPlot, PlotError, PointCloud, StripPanel, StripPlot, TracePlot, corner, histogram, strip, trace,
+};
+use crate::sampling::Outcome;
+use crate::study::{TraceQuantity, TraceRow};
+use crate::{CommandError, console};
+
+/// The file of the marginals.
+pub const HISTOGRAM: &str = "histogram.svg";
+/// The file of the pairs of coordinates.
+pub const CORNER: &str = "corner.svg";
+/// The file of the quantities' history.
+pub const TRACE: &str = "trace.svg";
+/// The file of the cloud's history.
+pub const STRIP: &str = "strip.svg";
+
+/// Coordinates of a corner plot, at most.
+const CORNER_COORDINATES: usize = 6;
+/// Panels of the strip.
+const MOMENTS: usize = 6;
+
+/// What the pictures are of.
+pub struct Subject<'a> {
+    /// The target.
+    pub target: &'a TargetSpecification,
+    /// The file of the mesh that the density is kept to.
+    pub mesh: Option<&'a Path>,
+    /// The method's name.
+    pub method: &'a str,
+    /// What the run gave.
+    pub outcome: &'a Outcome,
+    /// The cloud on its way.
+    pub history: &'a History,
+    /// Why the run has no trace, if it was not to have one.
+    pub untraced: Option<&'a str>,
+}
+
+impl Subject<'_> {
+    /// Draws into a directory and returns the names of the files. What cannot be drawn is said on standard error, and a file of its name is removed.
+    ///
+    /// # Errors
+    /// What the target refuses, and files that cannot be written.
+    pub fn draw(&self, directory: &OutputDirectory) -> Result<Vec<&'static str>, CommandError> {
+        let known = with_target(self.target, Look { mesh: self.mesh })?;
+        if let Known::Nothing(reason) = &known {
+            console::notice(&format!("--plots: no exact marginals and no contours: {reason}"));
+        }
+        let dimension = self.outcome.particles.dimension();
+        let mut written = Vec::new();
+        let mut write = |name: &'static str, drawing: Drawing| -> Result<(), CommandError> {
+            let path = directory.file(name);
+            match drawing {
+                Drawing::Done(Ok(svg)) => {
+                    AtomicFile::write(path, svg)?;
+                    written.push(name);
+                    return Ok(());
+                }
+                Drawing::Done(Err(error)) => console::notice(&format!("--plots: {name} was not drawn: {error}")),
+                Drawing::LeftOut(Some(reason)) => console::notice(&format!("--plots: no {name}: {reason}")),
+                Drawing::LeftOut(None) => {}
+            }
+            match std::fs::remove_file(&path) {
+                Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+                    Err(CommandError::file("remove", path, error))
+                }
+                _ => Ok(()),
+            }
+        };
+        write(HISTOGRAM, Drawing::Done(self.histogram(&known)))?;
+        let corner = match dimension {
+            1 => Drawing::LeftOut(None),
+            _ => Drawing::Done(self.corner(&known)),
+        };
+        write(CORNER, corner)?;
+        write(TRACE, self.trace())?;
+        let strip = match dimension {
+            2 => self.strip(&known),
+            _ => Drawing::LeftOut(None),
+        };
+        write(STRIP, strip)?;
+        Ok(written)
+    }
+
+    fn title(&self) -> String {
+        format!(
+            "{}: {} particles of {}",
+            self.target.label(),
+            self.outcome.particles.len(),
+            self.method
+        )
+    }
+
+    fn histogram(&self, known: &Known) -> Result<String, PlotError> {
+        let points = rows(&self.outcome.particles);
+        histogram(&HistogramPlot {
+            title: &self.title(),
+            particles: self.weighted(&points),
+            labels: &self.target.coordinate_names(),
+            reference: known.reference(known.draws()),
+            reference_label: label(known),
+        })
+    }
+
+    fn corner(&self, known: &Known) -> Result<String, PlotError> {
+        let dimension = self.outcome.particles.dimension();
+        let shown = dimension.min(CORNER_COORDINATES);
+        if shown < dimension {
+            console::notice(&format!(
+                "--plots: {CORNER} shows the first {shown} of {dimension} coordinates"
+            ));
+        }
+        let cut = |all: Vec<Vec<f64>>| -> Vec<Vec<f64>> {
+            let cut = |mut row: Vec<f64>| {
+                row.truncate(shown);
+                row
+            };
+            all.into_iter().map(cut).collect()
+        };
+        let points = cut(rows(&self.outcome.particles));
+        let draws = cut(known.draws().to_vec());
+        let mut labels = self.target.coordinate_names();
+        labels.truncate(shown);
+        corner(&CornerPlot {
+            title: &self.title(),
+            particles: self.weighted(&points),
+            labels: &labels,
+            reference: known.reference(&draws),
+            reference_label: label(known),
+        })
+    }
+
+    fn trace(&self) -> Drawing {
+        let rows: Vec<TraceRow> = self.outcome.trace.iter().map(TraceRow::from).collect();
+        if rows.is_empty() {
+            let reason = self.untraced.unwrap_or("the run has no trace of steps");
+            return Drawing::LeftOut(Some(reason.to_owned()));
+        }
+        let runs = [(self.method.to_owned(), rows)];
+        let mut panels: Vec<_> = TraceQuantity::ALL.map(|quantity| quantity.panel(&runs)).into();
+        // A quantity that the method does not have is zero or not there.
+        panels.retain(|panel| {
+            panel
+                .series
+                .iter()
+                .flat_map(|series| &series.value)
+                .any(|&value| value != 0.0)
+        });
+        Drawing::Done(trace(&TracePlot {
+            title: self.title(),
+            // Of several rounds it is that of the one whose particles were returned.
+            x_label: if self.history.rounds() > 1 {
+                "step of the round returned"
+            } else {
+                "step"
+            }
+            .to_owned(),
+            panels,
+        }))
+    }
+
+    fn strip(&self, known: &Known) -> Drawing {
+        let moments = self.history.selected(MOMENTS - 1);
+        if moments.is_empty() {
+            return Drawing::LeftOut(Some("no particles have moved".to_owned()));
+        }
+        let titles: Vec<String> = moments.iter().map(|moment| format!("step {}", moment.step)).collect();
+        let returned = rows(&self.outcome.particles);
+        let mut panels: Vec<StripPanel<'_>> = moments
+            .iter()
+            .zip(&titles)
+            .map(|(moment, title)| StripPanel {
+                title,
+                particles: PointCloud::equal(&moment.points),
+            })
+            .collect();
+        panels.push(StripPanel {
+            title: "returned",
+            particles: self.weighted(&returned),
+        });
+        Drawing::Done(strip(&StripPlot {
+            title: &self.title(),
+            panels: &panels,
+            labels: &self.target.coordinate_names(),
+            reference: known.reference(known.draws()),
+            reference_label: label(known),
+        }))
+    }
+
+    /// Points with the weights of the particles.
+    fn weighted<'a>(&'a self, points: &'a [Vec<f64>]) -> PointCloud<'a> {
+        PointCloud {
+            points,
+            weights: self.outcome.particles.weights(),
+        }
+    }
+}
+
+/// A figure, or why there is none, where that is worth a word.
+enum Drawing {
+    Done(Result<String, PlotError>),
+    LeftOut(Option<String>),
+}
+
+fn label(known: &Known) -> &'static str {
+    match known {
+        Known::Draws(_) => "target (exact draws)",
+        _ => "target",
+    }
+}
+
+fn rows(particles: &Particles) -> Vec<Vec<f64>> {
+    particles.rows().map(<[f64]>::to_vec).collect()
+}

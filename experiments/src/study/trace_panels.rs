@@ -1,0 +1,81 @@
+//! The quantities of a run's history as panels of a figure.
+
+use super::trace_row::TraceRow;
+use crate::plots::{AxisKind, ReferenceLevel, TracePanel, TraceSeries};
+
+/// A quantity of [`TraceRow`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TraceQuantity {
+    /// Galerkin–Stein residual.
+    Residual,
+    /// ½ Σ m |v|².
+    KineticEnergy,
+    /// −E\[log p\], above its least value: it is known up to a constant of the target.
+    PotentialEnergy,
+    /// Largest displacement of a step before it was limited; in units of h where there is a grid.
+    Displacement,
+}
+
+impl TraceQuantity {
+    /// All quantities.
+    pub const ALL: [Self; 4] = [
+        Self::Residual,
+        Self::KineticEnergy,
+        Self::PotentialEnergy,
+        Self::Displacement,
+    ];
+
+    /// Its panel for labelled runs; a run without values of it is left out.
+    pub fn panel(self, runs: &[(String, Vec<TraceRow>)]) -> TracePanel {
+        let label = match self {
+            Self::Residual => "residual (1: independent draws)",
+            Self::KineticEnergy => "kinetic energy",
+            Self::PotentialEnergy => "potential energy above its least value",
+            Self::Displacement => "largest displacement of a step before limits",
+        };
+        let level = ReferenceLevel {
+            value: 1.0,
+            label: "independent draws".to_owned(),
+        };
+        TracePanel {
+            y_label: label.to_owned(),
+            y_axis: if self == Self::PotentialEnergy {
+                AxisKind::Linear
+            } else {
+                AxisKind::Automatic
+            },
+            series: runs
+                .iter()
+                .filter_map(|(label, rows)| self.series(label, rows))
+                .collect(),
+            levels: if self == Self::Residual {
+                vec![level]
+            } else {
+                Vec::new()
+            },
+        }
+    }
+
+    fn value(self, row: &TraceRow) -> Option<f64> {
+        match self {
+            Self::Residual => row.residual,
+            Self::KineticEnergy => Some(row.kinetic_energy),
+            Self::PotentialEnergy => row.potential_energy,
+            Self::Displacement => Some(row.displacement),
+        }
+    }
+
+    fn series(self, label: &str, rows: &[TraceRow]) -> Option<TraceSeries> {
+        let points = rows.iter().filter_map(|row| Some((row.step as f64, self.value(row)?)));
+        let (step, mut value): (Vec<f64>, Vec<f64>) = points.unzip();
+        if self == Self::PotentialEnergy {
+            let least = value.iter().copied().fold(f64::INFINITY, f64::min);
+            value.iter_mut().for_each(|value| *value -= least);
+        }
+        (!step.is_empty()).then(|| TraceSeries {
+            label: label.to_owned(),
+            step,
+            value,
+        })
+    }
+}
