@@ -51,20 +51,23 @@ pub(super) fn learn<const D: usize>(
     );
     let weights = tempered(&logs, gamma);
     let all = Sample {
-        logs: tempered_logs(&points, &values, source, gamma),
+        logs: values,
         precisions: vec![Some(Matrix::ZERO); points.len()],
         points,
         weights,
     };
     let size = 2.0 * effective_size(&all.weights);
     let count = (size as usize).clamp(POINTS[0], POINTS[1]);
+    let mut sample = all.resampled(count, rng.random());
+    let lowest = sample.logs.iter().copied().fold(f64::INFINITY, f64::min);
     let mut level = Sample::default();
     for fold in source {
         let share = (exploring * count as f64) as usize / source.len();
-        level.join(level_sample(fold, share, rng.random()));
+        level.join(level_sample(fold, lowest, share, rng.random()));
     }
-    level.logs = tempered_logs(&level.points, &level.logs, source, gamma);
-    let mut sample = all.resampled(count, rng.random());
+    for learned in [&mut sample, &mut level] {
+        learned.logs = tempered_logs(&learned.points, &learned.logs, source, gamma);
+    }
     if sharpening == 0 {
         return Learned { sample, level };
     }
