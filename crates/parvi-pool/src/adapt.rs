@@ -98,7 +98,8 @@ impl<const D: usize> Adaptation<D> {
     /// Takes fresh points in after all: they met what the rounds had not.
     pub fn absorb(&mut self, fresh: Fold<D>, share: f64) {
         let side = usize::from(self.folds[1].effective_size() < self.folds[0].effective_size());
-        self.shares[side].extend(fresh.rounds.iter().map(|_| share));
+        // What was frozen holds the proposals before it and is not to be frozen again with them: no share.
+        self.shares[side].extend(fresh.rounds.iter().map(|_| 0.0));
         self.folds[side].absorb(fresh);
         (self.share, self.best, self.without_advance) = (share, 0.0, 0);
         self.sizes = [0.0, self.folds.iter().map(Fold::effective_size).sum()];

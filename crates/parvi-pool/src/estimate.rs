@@ -8,8 +8,9 @@ use parvi_targets::Frame;
 use crate::condense::condense;
 use crate::density::Density;
 use crate::fold::{Fold, joined};
+use crate::freeze::Frozen;
 use crate::measure::Measure;
-use crate::referee::Verdict;
+use crate::referee::{Objection, Verdict};
 use crate::sample::moments;
 use crate::weights::effective_size;
 
@@ -63,26 +64,22 @@ impl<const D: usize> fmt::Debug for Pool<D> {
 impl<const D: usize> Pool<D> {
     /// Joins the folds, every one of which estimates Z by itself: in the weights they count by their effective sizes, in the measure by the inverse of its variance.
     pub(crate) fn new(
-        folds: [Fold<D>; 2],
-        fresh: Fold<D>,
-        covered: &[bool],
+        folds: &[Fold<D>; 2],
+        frozen: &Frozen<D>,
         frame: &Frame<D>,
         density: &Density<'_, D>,
         particles: usize,
     ) -> Self {
-        let fresh_logs = fresh.log_weights();
+        let fresh = &frozen.fresh;
         let points = fresh.positions.len() as f64;
-        let verdict = Verdict::of(
-            &fresh_logs.iter().map(|l| l + points.ln()).collect::<Vec<f64>>(),
-            covered,
-        );
-        let [first, second] = folds;
-        let all = [first, second, fresh];
-        let (log_evidence, log_evidence_error, mut measure) = together(&all, verdict.effective_share, particles);
+        let fresh_logs: Vec<f64> = fresh.log_weights().iter().map(|l| l + points.ln()).collect();
+        let verdict = Verdict::of(&fresh_logs, &frozen.covered);
+        let all = [&folds[0], &folds[1], fresh];
+        let (log_evidence, log_evidence_error, mut measure) = together(all, verdict.effective_share, particles);
         for y in &mut measure.points {
             *y = frame.to_target(y);
         }
-        let (positions, log_densities, logs) = joined(&all.each_ref());
+        let (positions, log_densities, logs) = joined(&all);
         let mut weights = crate::weights::tempered(&logs, 1.0);
         let sum: f64 = weights.iter().sum();
         weights.iter_mut().for_each(|w| *w /= sum);
@@ -113,6 +110,12 @@ impl<const D: usize> Pool<D> {
         let weighted = points.filter(|((_, log), w)| **w > 0.0 && log.is_finite());
         let divergence: f64 = weighted.map(|((x, log), w)| w * excess(x, *log)).sum();
         (-2.0 * divergence / D as f64).exp()
+    }
+
+    /// The first reason, if any, not to rely on these weights for so many particles.
+    pub fn objection(&self, particles: usize) -> Option<Objection> {
+        let variance = self.measure.variance * particles as f64;
+        self.verdict.objection(self.log_evidence_error, variance)
     }
 
     /// Kish's effective size of the weights.
@@ -172,7 +175,7 @@ impl<const D: usize> Pool<D> {
 ///
 /// The last fold is of fresh points, which shaped no proposal: its evidence is unbiased. That of the others is not quite, the less so the smaller the effective `share` of the
 /// fresh points is, so that in the evidence their variances count 1/share times, and what separates them from the fresh points' beyond their errors adds to the error.
-fn together<const D: usize>(folds: &[Fold<D>; 3], share: f64, particles: usize) -> (f64, f64, Measure<D>) {
+fn together<const D: usize>(folds: [&Fold<D>; 3], share: f64, particles: usize) -> (f64, f64, Measure<D>) {
     let each = folds.iter().zip(0..);
     let each: Vec<(f64, Measure<D>)> = each
         .filter_map(|(fold, seed)| Measure::of_fold(fold, particles, seed))
@@ -202,7 +205,7 @@ fn together<const D: usize>(folds: &[Fold<D>; 3], share: f64, particles: usize) 
 }
 
 /// What separates the folds' estimates of log Z from the fresh points' beyond their own standard errors: √(Δ² − σ²)₊ of the fold that is farther off.
-fn disagreement<const D: usize>([first, second, fresh]: &[Fold<D>; 3]) -> f64 {
+fn disagreement<const D: usize>([first, second, fresh]: [&Fold<D>; 3]) -> f64 {
     let (log_evidence, error) = fresh.log_evidence();
     let excess = [first, second].map(|fold| {
         let (other, other_error) = fold.log_evidence();

@@ -35,7 +35,7 @@ pub use measure::Measure;
 pub use mixture::{Kernel, Mixture};
 pub use options::{PoolError, PoolOptions, Round};
 pub use pareto::pareto_k;
-pub use referee::Verdict;
+pub use referee::{Objection, Verdict};
 
 use std::ops::ControlFlow;
 
@@ -86,14 +86,16 @@ fn explore_here<const D: usize>(
     options: &PoolOptions,
     observer: &mut Observer<'_>,
 ) -> Result<Pool<D>, PoolError> {
-    let plan = options.plan::<D>(particles)?;
+    let mut plan = options.plan::<D>(particles)?;
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     rng.set_stream(STREAM);
     let mut density = Density::new(target, frame, tape);
     let mut adaptation = Adaptation::begin(&mut density, given, &plan, &mut rng)?;
     let mut number = 0;
-    let frozen = loop {
-        while !adaptation.is_over(&plan, density.evaluations()) {
+    let mut is_due = false;
+    loop {
+        while is_due || !adaptation.is_over(&plan, density.evaluations()) {
+            is_due = false;
             number += 1;
             let round = adaptation.round(number, &mut density, &plan, &mut rng)?;
             if observer(&round, &density.tape).is_break() {
@@ -102,16 +104,12 @@ fn explore_here<const D: usize>(
         }
         let frozen = freeze(&mut adaptation, &mut density, &plan, &mut rng);
         if !frozen.surprised || adaptation.is_used_up(&plan, density.evaluations()) {
-            break frozen;
+            let pool = Pool::new(&adaptation.folds, &frozen, frame, &density, particles);
+            if pool.objection(particles).is_none() || !plan.extend() {
+                return Ok(pool);
+            }
+            is_due = true;
         }
         adaptation.absorb(frozen.fresh, frozen.share);
-    };
-    Ok(Pool::new(
-        adaptation.folds,
-        frozen.fresh,
-        &frozen.covered,
-        frame,
-        &density,
-        particles,
-    ))
+    }
 }

@@ -3,7 +3,8 @@
 /// Options of a pool.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PoolOptions {
-    /// Evaluations of all kinds (log densities and scores) at most; by default 25, 45, 80, 140 or 200 per particle in d = 2…6 and above, and at least 8,000.
+    /// Evaluations of all kinds (log densities and scores) at most. By default 15, 25, 45, 80, 140 or 200 per particle in d = 1…6 and above and at least 8,000,
+    /// and as long as there is an [`Objection`](crate::Objection) twice as many again, up to 200 per particle and at least 20,000.
     pub evaluations: Option<u64>,
     /// Effective size at which the pool is large enough, per particle.
     pub effective_size: f64,
@@ -31,6 +32,8 @@ const FEWEST_KERNELS: usize = 20;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plan {
     pub evaluations: u64,
+    /// What these may be extended to.
+    pub most: u64,
     /// Points of the first proposal, and of every round.
     pub first: usize,
     pub round: usize,
@@ -69,9 +72,11 @@ impl PoolOptions {
         check("dimensions", D as f64, (1..=19).contains(&D), "from 1 to 19")?;
         let per_particle = [10, 15, 25, 45, 80, 140, 200][D.min(6)];
         let default = (per_particle * particles as u64).max(8_000);
+        let most = (200 * particles as u64).max(20_000);
         let round = 250 * D + particles / 2;
         Ok(Plan {
             evaluations: self.evaluations.unwrap_or(default),
+            most: self.evaluations.unwrap_or(most),
             first: round * 3 / 2,
             round,
             referee: round,
@@ -83,6 +88,13 @@ impl PoolOptions {
 }
 
 impl Plan {
+    /// Twice as many evaluations, as far as there may be more.
+    pub(super) fn extend(&mut self) -> bool {
+        let before = self.evaluations;
+        self.evaluations = (2 * before).min(self.most);
+        self.evaluations > before
+    }
+
     /// Scores that may be taken before the next proposal, at most this share of all: a part of what the effective size that is lacking would cost at
     /// the present share beyond what it would cost at a good one.
     pub(super) fn sharpening(&self, share: f64, size: f64, most: f64) -> usize {

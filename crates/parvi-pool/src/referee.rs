@@ -3,6 +3,28 @@
 use crate::pareto::pareto_k;
 use crate::weights::{effective_size, tempered, top};
 
+/// Above this shape of the weights' tail no estimate is relied on; from 0.7 on none is to be.
+const LARGEST_PARETO_K: f64 = 0.65;
+
+/// The largest standard error of the log evidence, the largest variance of the measure over that of as many independent draws as there are particles,
+/// and the largest mass that fresh points met and no kernel had covered.
+const LARGEST_LOG_EVIDENCE_ERROR: f64 = 0.05;
+const LARGEST_VARIANCE: f64 = 0.2;
+const LARGEST_MASS_UNCOVERED: f64 = 0.02;
+
+/// Why a pool is not to be relied on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Objection {
+    /// The weights' tail is heavy: its shape k̂ is above 0.65.
+    HeavyTail(f64),
+    /// The standard error of the log evidence is above 0.05.
+    Evidence(f64),
+    /// The variance of the measure over that of as many independent draws as there are particles is above 0.2.
+    Noise(f64),
+    /// Fresh points met more than 0.02 of the mass where no kernel had covered it.
+    Uncovered(f64),
+}
+
 /// What fresh points of a frozen proposal say.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Verdict {
@@ -41,6 +63,24 @@ impl Verdict {
             pareto_k: pareto_k(&weights),
             mass_uncovered: uncovered / (n * mean),
             points: log_weights.len(),
+        }
+    }
+
+    /// The first reason, if any, not to rely on a pool with this verdict, this standard error of log Z and this variance, over that of as many independent
+    /// draws as there are particles.
+    pub(super) fn objection(&self, log_evidence_error: f64, variance: f64) -> Option<Objection> {
+        let exceeds = |value: f64, largest: f64| value.is_nan() || value > largest;
+        let k = self.pareto_k.unwrap_or(0.0);
+        if exceeds(k, LARGEST_PARETO_K) {
+            Some(Objection::HeavyTail(k))
+        } else if exceeds(log_evidence_error, LARGEST_LOG_EVIDENCE_ERROR) {
+            Some(Objection::Evidence(log_evidence_error))
+        } else if exceeds(variance, LARGEST_VARIANCE) {
+            Some(Objection::Noise(variance))
+        } else if exceeds(self.mass_uncovered, LARGEST_MASS_UNCOVERED) {
+            Some(Objection::Uncovered(self.mass_uncovered))
+        } else {
+            None
         }
     }
 }

@@ -1,5 +1,6 @@
 //! What weights guarantee.
 
+mod box_modes;
 mod folds;
 mod tape;
 
@@ -162,4 +163,22 @@ fn options_out_of_range_are_refused() {
         refused.err(),
         Some(PoolError::InvalidOption { field: "particles", .. })
     ));
+}
+
+#[test]
+fn a_pool_that_is_not_to_be_relied_on_evaluates_more() {
+    // Ripples that no kernel follows: the weights' variance stays what it is.
+    let target = Given(|x: &[f64; 2]| -0.5 * (x[0] * x[0] + x[1] * x[1]) + 6.0 * (1e4 * x[0]).sin());
+    let evaluations = |limit| {
+        let options = PoolOptions {
+            evaluations: limit,
+            ..PoolOptions::default()
+        };
+        let frame = Frame::identity();
+        let go_on = &mut |_: &Round, _: &[f64]| ControlFlow::Continue(());
+        let pool = explore(&target, &frame, &[], Vec::new(), 100, 1, &options, go_on).unwrap();
+        pool.density_evaluations + pool.score_evaluations
+    };
+    assert!(evaluations(Some(4_000)) <= 4_000);
+    assert!((15_000..=20_000).contains(&evaluations(None)));
 }
