@@ -5,7 +5,7 @@ use mpm_materials::{IsothermalGas, Material};
 use parvi_targets::{CatalogueTarget, Frame, Target};
 
 use crate::basis_choice::{Parts, Ready};
-use crate::{Method, MpmOptions, Observer, PaperOptions, Run, SampleError, Samples};
+use crate::{Method, MpmOptions, Observer, PaperBody, PaperOptions, Run, SampleError, Samples};
 
 /// [`sample`](crate::sample).
 type Sample<const D: usize> =
@@ -15,9 +15,15 @@ type Sample<const D: usize> =
 type SampleByMpm<const D: usize> =
     fn(&MpmOptions, &dyn Target<D>, &Frame<D>, &Run, &mut dyn Observer) -> Result<Samples<D>, SampleError>;
 
-/// [`PaperOptions::sample`].
-type SampleByPaper<const D: usize> =
-    fn(&PaperOptions, &dyn Target<D>, &Frame<D>, &Run, &mut dyn Observer) -> Result<Samples<D>, SampleError>;
+/// [`PaperOptions::sample_body`].
+type SampleByPaper<const D: usize> = fn(
+    &PaperOptions,
+    &PaperBody<D>,
+    &dyn Target<D>,
+    &Frame<D>,
+    &Run,
+    &mut dyn Observer,
+) -> Result<Samples<D>, SampleError>;
 
 /// What is compiled for a dimension.
 pub(crate) struct Compiled<const D: usize> {

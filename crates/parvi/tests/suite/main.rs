@@ -6,6 +6,8 @@ mod nuts;
 mod observed;
 mod on_mesh;
 mod own_targets;
+mod paper_as_written;
+mod paper_oracle;
 mod robustness;
 mod samplers;
 mod stein_thinning;
