@@ -29,6 +29,7 @@ mod on_mesh;
 mod paper;
 mod point_set_error;
 mod polish;
+mod remembering_gas;
 mod residual;
 mod rotation;
 mod run;

@@ -3,15 +3,20 @@
 
 use mpm_core::{Medium, Mpm, MpmError, Particles, StepReport, Transfer, UniformBasis};
 
+use mpm_materials::Memory;
+
 use crate::drive::PlannedStep;
 use crate::framed_score::ScoreForce;
 use crate::grid_density::grid_densities;
 use crate::residual::{Residual, galerkin_stein_residual};
 
+/// Particles of whatever medium; internal variables only where it has some.
+pub(crate) type Cloud<const D: usize> = Particles<D, Memory>;
+
 /// Particles that a score moves.
 pub(crate) trait Moving<'a, const D: usize> {
     /// Their state.
-    fn particles(&mut self) -> &mut Particles<D>;
+    fn particles(&mut self) -> &mut Cloud<D>;
 
     /// What pulls at them.
     fn force(&mut self) -> &mut ScoreForce<'a, D>;
@@ -46,9 +51,9 @@ impl<'a, const D: usize, B, T, M> Moving<'a, D> for OnBasis<'a, D, B, T, M>
 where
     B: UniformBasis<D>,
     T: Transfer<D>,
-    M: Medium<D, State = ()>,
+    M: Medium<D, State = Memory>,
 {
-    fn particles(&mut self) -> &mut Particles<D> {
+    fn particles(&mut self) -> &mut Cloud<D> {
         &mut self.body.particles
     }
 

@@ -1,7 +1,7 @@
 //! Algorithms 1 (PIC) and 2 (APIC) of the MPM-ParVI paper: a body of some material under the score.
 
 use mpm_core::{Masses, MpmError, Particles, StepControl};
-use mpm_materials::{ElasticModuli, LinearElastic, Material, NeoHookean};
+use mpm_materials::{Law, Material, Memory, Numbered};
 use parvi_targets::{Frame, Target};
 
 use crate::basis_choice::Parts;
@@ -15,8 +15,8 @@ use crate::moving::Moving;
 use crate::node_scores::NodeScores;
 use crate::start::{Stream, check, positive, steps};
 use crate::{
-    Coordinates, Elasticity, MomentCorrection, Observer, PaperOptions, ReferenceVolumes, Run, SampleError, Samples,
-    ScoreLocation, TransferChoice, defaults,
+    Coordinates, MomentCorrection, Observer, PaperOptions, ReferenceVolumes, Run, SampleError, Samples, ScoreLocation,
+    TransferChoice, defaults,
 };
 
 /// What a body of the paper's algorithms is handed beside its options: inputs that depend on the dimension or are code.
@@ -24,6 +24,8 @@ use crate::{
 pub struct PaperBody<'a, const D: usize> {
     /// The material, Ψ of the paper's inputs; `None`: that of the options.
     pub material: Option<&'a dyn Material<D>>,
+    /// A law with memory or rates in the place of a material: `&Numbered(law)`.
+    pub law: Option<&'a dyn Law<D, State = Memory>>,
     /// α in step t of T, (t, T) ↦ α with t from 1: any finite number of either sign. Asked for once per step, in order, before the run. `None`: that of the options.
     pub alpha: Option<&'a dyn Fn(usize, usize) -> f64>,
 }
@@ -70,24 +72,25 @@ pub(crate) fn sample<const D: usize>(
     run: &Run,
     observer: &mut dyn Observer,
 ) -> Result<Samples<D>, SampleError> {
-    let moduli = ElasticModuli::new(options.youngs_modulus, options.poissons_ratio)?;
-    let (neo_hookean, linear) = (NeoHookean::new(moduli), LinearElastic::new(moduli));
-    let own: &dyn Material<D> = match options.elasticity {
-        Elasticity::NeoHookean => &neo_hookean,
-        Elasticity::Linear => &linear,
-    };
     let identity = Frame::identity();
-    let job = Job {
-        options,
-        target,
-        frame: match options.coordinates {
-            Coordinates::Frame => frame,
-            Coordinates::Own => &identity,
-        },
-        run,
-        material: body.material.unwrap_or(own),
+    let mut run_with = |law: &dyn Law<D, State = Memory>| {
+        let job = Job {
+            options,
+            target,
+            frame: match options.coordinates {
+                Coordinates::Frame => frame,
+                Coordinates::Own => &identity,
+            },
+            run,
+            law,
+        };
+        job.run(body.alpha, &mut *observer)
     };
-    job.run(body.alpha, observer)
+    match (body.law, body.material) {
+        (Some(law), _) => run_with(law),
+        (None, Some(material)) => run_with(&Numbered(material)),
+        (None, None) => options.material.with_law(run_with),
+    }
 }
 
 /// One run.
@@ -97,7 +100,7 @@ struct Job<'a, const D: usize> {
     /// The coordinates of the body.
     frame: &'a Frame<D>,
     run: &'a Run,
-    material: &'a dyn Material<D>,
+    law: &'a dyn Law<D, State = Memory>,
 }
 
 impl<const D: usize> Job<'_, D> {
@@ -151,7 +154,16 @@ impl<const D: usize> Job<'_, D> {
             time_step: positive("time step", options.time_step, defaults::time_step(spacing))?,
             courant: optional("Courant number", guards.courant)?,
             displacement: optional("displacement limit", guards.displacement_limit)?,
-            friction: 0.0,
+            friction: {
+                let friction = options.friction;
+                check(
+                    "friction",
+                    friction,
+                    friction >= 0.0 && friction.is_finite(),
+                    "at least 0 and finite",
+                )?;
+                friction
+            },
         })
     }
 
@@ -202,6 +214,12 @@ impl<const D: usize> Job<'_, D> {
             Some(volumes) => volumes,
             None => self.reference_volumes(&particles)?,
         };
+        let virgin = |mass: f64, volume: f64| self.law.virgin(mass / volume);
+        let states = volumes
+            .iter()
+            .enumerate()
+            .map(|(p, &volume)| virgin(masses.get(p), volume))
+            .collect();
         let floor = options.guards.mass_floor;
         check(
             "mass floor",
@@ -219,7 +237,7 @@ impl<const D: usize> Job<'_, D> {
             ..ScoreForce::at_particles(FramedScore::new(self.target, self.frame))
         };
         let parts = Parts {
-            particles: particles.with_elastic_state(volumes),
+            particles: particles.with_states(volumes, states),
             force,
             transfer: if options.affine {
                 TransferChoice::Apic
@@ -229,13 +247,15 @@ impl<const D: usize> Job<'_, D> {
             basis: options.basis,
             spacing,
         };
-        let mut body = (Compiled::of().elastic)(parts, self.material)?;
+        let mut body = (Compiled::of().law)(parts, self.law)?;
         if options.reference_volumes == ReferenceVolumes::OfGrid && run.given.reference_volumes.is_none() {
             let densities = body.grid_densities(spacing);
             let densities = densities.map_err(|error: MpmError| SampleError::in_step(0, error))?;
             let particles = body.particles();
             for (p, (volume, density)) in particles.reference_volumes.iter_mut().zip(densities).enumerate() {
-                *volume = particles.masses.get(p) / density;
+                let mass = particles.masses.get(p);
+                *volume = mass / density;
+                particles.states[p] = virgin(mass, *volume);
             }
         }
         Ok(body)

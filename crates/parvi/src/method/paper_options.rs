@@ -1,13 +1,4 @@
-use super::{Annealing, BasisChoice, ScoreLocation};
-
-/// Elastic law of the paper's algorithms.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Elasticity {
-    /// Small-strain linear elasticity (paper, §3).
-    Linear,
-    /// Compressible Neo-Hookean solid.
-    NeoHookean,
-}
+use super::{Annealing, BasisChoice, PaperMaterial, ScoreLocation};
 
 /// In which coordinates the body moves: those of grid, masses per volume, F and Δt.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -79,12 +70,8 @@ pub struct PaperOptions {
     pub affine: bool,
     /// Background basis.
     pub basis: BasisChoice,
-    /// Elastic law.
-    pub elasticity: Elasticity,
-    /// Young's modulus E > 0.
-    pub youngs_modulus: f64,
-    /// Poisson's ratio ν ∈ (−1, ½).
-    pub poissons_ratio: f64,
+    /// What the body is made of (the paper's energy density Ψ); for a material of one's own see [`PaperBody`](crate::PaperBody).
+    pub material: PaperMaterial,
     /// α(t).
     pub annealing: Annealing,
     /// Force at nodes (Eq. 3, as Algorithms 1 and 2 write it) or at particles (Eq. 5).
@@ -95,6 +82,8 @@ pub struct PaperOptions {
     pub steps: Option<usize>,
     /// Time step Δt.
     pub time_step: Option<f64>,
+    /// Friction γ ≥ 0 (v ← v e^{−γΔt}); 0 in the paper's algorithms. Of APIC nothing else dissipates.
+    pub friction: f64,
     /// Guards.
     pub guards: Guards,
     /// Coordinates that the body moves in.
@@ -118,14 +107,13 @@ impl Default for PaperOptions {
         Self {
             affine: false,
             basis: BasisChoice::Quadratic,
-            elasticity: Elasticity::NeoHookean,
-            youngs_modulus: 1.0,
-            poissons_ratio: 0.3,
+            material: PaperMaterial::default(),
             annealing: Annealing::Constant(1.0),
             score_location: ScoreLocation::Nodes,
             spacing: None,
             steps: None,
             time_step: None,
+            friction: 0.0,
             guards: Guards::default(),
             coordinates: Coordinates::default(),
             reference_volumes: ReferenceVolumes::default(),

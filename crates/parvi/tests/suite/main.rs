@@ -7,6 +7,7 @@ mod observed;
 mod on_mesh;
 mod own_targets;
 mod paper_as_written;
+mod paper_materials;
 mod paper_oracle;
 mod robustness;
 mod samplers;

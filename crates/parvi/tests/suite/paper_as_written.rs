@@ -2,8 +2,8 @@
 
 use mpm_materials::IsothermalGas;
 use parvi::{
-    Annealing, Coordinates, GivenParticles, Guards, Method, PaperBody, PaperOptions, ReferenceVolumes, Run,
-    SampleError, Samples, ScoreLocation, Silent, SvgdOptions, sample,
+    Annealing, Coordinates, GivenParticles, Guards, Method, PaperBody, PaperMaterial, PaperOptions, ReferenceVolumes,
+    Run, SampleError, Samples, ScoreLocation, Silent, SvgdOptions, sample,
 };
 use parvi_targets::{Banana, CatalogueTarget, Frame, Gaussian, Target};
 
@@ -34,7 +34,10 @@ fn as_written_has_no_frame_no_guard_and_the_papers_defaults() {
     assert!(options.affine && options.coordinates == Coordinates::Own && options.guards == Guards::none());
     assert_eq!(options.annealing, Annealing::Constant(1.0));
     assert_eq!(options.score_location, ScoreLocation::Nodes);
-    assert_eq!((options.youngs_modulus, options.poissons_ratio), (1.0, 0.3));
+    assert_eq!(
+        options.material,
+        PaperMaterial::neo_hookean(1.0, 0.3).expect("in range")
+    );
     assert_eq!(options.reference_volumes, ReferenceVolumes::Uniform);
     // The frame that the caller hands over is not looked at.
     let far = Frame::from_scales([5.0, -3.0], [10.0, 0.1]).expect("scales");
@@ -87,7 +90,7 @@ fn a_closure_is_the_schedule_it_computes() {
         let closure = |step: usize, steps: usize| annealing.at(step, steps);
         let body = PaperBody {
             alpha: Some(&closure),
-            material: None,
+            ..PaperBody::default()
         };
         let by_closure = gentle().sample_body(&body, &target(), &frame, &run, &mut Silent);
         assert_eq!(
@@ -98,7 +101,7 @@ fn a_closure_is_the_schedule_it_computes() {
     }
     let nowhere = PaperBody::<2> {
         alpha: Some(&|step, _| if step == 4 { f64::NAN } else { 1.0 }),
-        material: None,
+        ..PaperBody::default()
     };
     let error = gentle().sample_body(&nowhere, &target(), &frame, &run, &mut Silent);
     assert!(matches!(error, Err(SampleError::InvalidOption { field: "alpha", .. })));
@@ -186,7 +189,7 @@ fn volumes_by_density_are_those_of_the_law_or_of_the_grid() {
         let gas = IsothermalGas::CALIBRATED.with_reference_density(1.0).expect("positive");
         let body = PaperBody {
             material: Some(&gas),
-            alpha: None,
+            ..PaperBody::default()
         };
         let samples = options.sample_body(&body, &Gaussian::<2>::standard(), &Frame::identity(), &run, &mut Silent);
         samples.expect("samples").positions

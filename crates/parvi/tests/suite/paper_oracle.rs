@@ -1,6 +1,6 @@
 //! Algorithms 1 and 2 as the paper writes them, beside a second program of theirs on dense arrays that shares nothing with the first.
 
-use mpm_materials::{ElasticModuli, IsothermalGas, LinearElastic, Material, NeoHookean};
+use mpm_materials::{ElasticModuli, IsothermalGas, Law, LinearCauchy, LinearElastic, Memory, NeoHookean, Numbered};
 use mpm_tensor::Matrix;
 use parvi::{Annealing, GivenParticles, PaperBody, PaperOptions, Run, ScoreLocation, Silent};
 use parvi_targets::{Frame, Target};
@@ -25,7 +25,7 @@ struct Inputs {
 /// Nodes h k with |k_a| ≤ 8.
 const REACH: i64 = 8;
 
-/// K and K' of Eq. 34.
+/// K and K′ of Eq. 34.
 fn kernel(r: f64) -> [f64; 2] {
     match r.abs() {
         s if s < 0.5 => [0.75 - s * s, -2.0 * r],
@@ -129,22 +129,32 @@ fn neo_hookean(f: &[f64], d: usize) -> Vec<f64> {
     let mut tau = times_transpose(f, f, d);
     let pressure = LAMBDA * determinant(f, d).ln();
     for (k, entry) in tau.iter_mut().enumerate() {
-        *entry = MU * *entry + if k % (d + 1) == 0 { pressure - MU } else { 0.0 };
+        *entry = MU * *entry + if k.is_multiple_of(d + 1) { pressure - MU } else { 0.0 };
     }
     tau
 }
 
 /// P = 2μ ε + λ tr ε I with ε = ½ (F + Fᵀ) − I.
 fn linear(f: &[f64], d: usize) -> Vec<f64> {
-    let strain = |k: usize| 0.5 * (f[k] + f[k % d * d + k / d]) - if k % (d + 1) == 0 { 1.0 } else { 0.0 };
+    let strain = |k: usize| 0.5 * (f[k] + f[k % d * d + k / d]) - if k.is_multiple_of(d + 1) { 1.0 } else { 0.0 };
     let trace: f64 = (0..d).map(|a| strain(a * (d + 1))).sum();
-    let first = |k: usize| 2.0 * MU * strain(k) + if k % (d + 1) == 0 { LAMBDA * trace } else { 0.0 };
+    let first = |k: usize| 2.0 * MU * strain(k) + if k.is_multiple_of(d + 1) { LAMBDA * trace } else { 0.0 };
     times_transpose(&(0..d * d).map(first).collect::<Vec<_>>(), f, d)
+}
+
+/// Eq. 19 with the Cauchy stress, τ = J σ: σ = 2μ ε + λ tr ε I.
+fn linear_cauchy(f: &[f64], d: usize) -> Vec<f64> {
+    let strain = |k: usize| 0.5 * (f[k] + f[k % d * d + k / d]) - if k.is_multiple_of(d + 1) { 1.0 } else { 0.0 };
+    let trace: f64 = (0..d).map(|a| strain(a * (d + 1))).sum();
+    let sigma = |k: usize| 2.0 * MU * strain(k) + if k.is_multiple_of(d + 1) { LAMBDA * trace } else { 0.0 };
+    (0..d * d).map(|k| determinant(f, d) * sigma(k)).collect()
 }
 
 /// Ψ = −κ ρ₀ ln J, κ ρ₀ = 0.7.
 fn gas(_: &[f64], d: usize) -> Vec<f64> {
-    (0..d * d).map(|k| if k % (d + 1) == 0 { -0.7 } else { 0.0 }).collect()
+    (0..d * d)
+        .map(|k| if k.is_multiple_of(d + 1) { -0.7 } else { 0.0 })
+        .collect()
 }
 
 struct Quartic;
@@ -178,13 +188,20 @@ fn agrees<const D: usize>() {
     let moduli = ElasticModuli::new(1.5, 0.2).expect("in range");
     let (neo_hookean_law, linear_law) = (NeoHookean::new(moduli), LinearElastic::new(moduli));
     let gas_law = IsothermalGas::new(0.7).expect("positive");
-    let gas_law = gas_law.with_reference_density(1.0).expect("positive");
-    type Law<'a, const D: usize> = (&'a dyn Material<D>, fn(&[f64], usize) -> Vec<f64>);
-    let laws: [Law<D>; 3] = [(&neo_hookean_law, neo_hookean), (&linear_law, linear), (&gas_law, gas)];
+    let gas_law = Numbered(gas_law.with_reference_density(1.0).expect("positive"));
+    let (neo_hookean_law, linear_law) = (Numbered(neo_hookean_law), Numbered(linear_law));
+    let cauchy_law = Numbered(LinearCauchy::new(moduli));
+    type WithStress<'a, const D: usize> = (&'a dyn Law<D, State = Memory>, fn(&[f64], usize) -> Vec<f64>);
+    let laws: [WithStress<D>; 4] = [
+        (&neo_hookean_law, neo_hookean),
+        (&linear_law, linear),
+        (&cauchy_law, linear_cauchy),
+        (&gas_law, gas),
+    ];
     // A frame that would change everything if it were looked at.
     let covariance = Matrix::from_fn(|i, j| if i == j { 3.0 } else { 1.0 });
     let frame = Frame::new([0.4; D], covariance).expect("a covariance");
-    for (material, stress) in laws {
+    for (law, stress) in laws {
         for (apic, at_nodes) in [(false, false), (false, true), (true, false), (true, true)] {
             let (count, mut number) = (24, scattered(D));
             let inputs = Inputs {
@@ -235,8 +252,8 @@ fn agrees<const D: usize>() {
                 reference_volumes: Some(inputs.v0.clone()),
             };
             let body = PaperBody {
-                material: Some(material),
-                alpha: None,
+                law: Some(law),
+                ..PaperBody::default()
             };
             let samples = options.sample_body(&body, &Quartic, &frame, &run, &mut Silent);
             let samples = samples.unwrap_or_else(|error| panic!("D = {D}, APIC {apic}, nodes {at_nodes}: {error}"));
