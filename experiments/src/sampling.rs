@@ -19,6 +19,8 @@ pub struct Outcome {
     pub steps: usize,
     /// Evaluations of the score at one point.
     pub score_evaluations: u64,
+    /// Evaluations of the score at one point that only judged the particles, where they are counted apart.
+    pub judging_evaluations: u64,
     /// Evaluations of the log density at one point.
     pub density_evaluations: u64,
     /// log Z, where the method estimates it.
@@ -58,6 +60,7 @@ impl Outcome {
             particles,
             steps: 0,
             score_evaluations: 0,
+            judging_evaluations: 0,
             density_evaluations: 0,
             log_evidence: None,
             log_evidence_error: None,
@@ -76,7 +79,7 @@ impl Outcome {
         }
     }
 
-    /// Evaluations of all kinds.
+    /// Evaluations of all kinds that the particles rest on.
     pub fn evaluations(&self) -> u64 {
         self.density_evaluations + self.score_evaluations
     }
@@ -120,6 +123,7 @@ pub fn sample_target<const D: usize>(
         particles,
         steps: samples.steps,
         score_evaluations: samples.score_evaluations,
+        judging_evaluations: samples.judging_evaluations,
         density_evaluations: samples.density_evaluations,
         log_evidence: finite(samples.log_evidence),
         log_evidence_error: finite(samples.log_evidence_error),

@@ -147,13 +147,23 @@ impl<const D: usize> Particles<D> {
             deformation_gradients: vec![Matrix::IDENTITY; self.len()],
             reference_volumes,
             states,
+            ..self.remembering()
+        }
+    }
+
+    /// The same particles for a program whose other media have internal variables of type `S`; of these there are none.
+    pub fn remembering<S>(self) -> Particles<D, S> {
+        Particles {
+            states: Vec::new(),
+            scratch: Scratch::default(),
             positions: self.positions,
             velocities: self.velocities,
             masses: self.masses,
             affine: self.affine,
+            deformation_gradients: self.deformation_gradients,
+            reference_volumes: self.reference_volumes,
             velocity_gradients: self.velocity_gradients,
             identities: self.identities,
-            scratch: Scratch::default(),
         }
     }
 }

@@ -23,6 +23,11 @@ pub trait Law<const D: usize>: Sync {
         false
     }
 
+    /// The internal variables of a particle that has not deformed yet, of `reference_density` mass per reference volume; the default ones unless the law's stress depends on the mass.
+    fn virgin(&self, _reference_density: f64) -> Self::State {
+        Self::State::default()
+    }
+
     /// Takes a trial F to an admissible one and updates the state: the return mapping. The identity for hyperelastic
     /// laws.
     ///

@@ -1,5 +1,7 @@
 #![doc = include_str!("../README.md")]
 
+mod any_law;
+mod deforming_gas;
 mod drucker_prager;
 mod elastic_moduli;
 mod error;
@@ -7,7 +9,9 @@ mod exponential;
 mod fixed_corotated;
 mod hencky;
 mod isothermal_gas;
+mod kelvin_voigt;
 mod law;
+mod linear_cauchy;
 mod linear_elastic;
 mod log_strain;
 mod material;
@@ -19,13 +23,17 @@ mod stretch;
 mod tait_fluid;
 mod tracked_gas;
 
+pub use any_law::{AnyLaw, Memory, Numbered, Remembered};
+pub use deforming_gas::{DeformingGas, GasState};
 pub use drucker_prager::{DruckerPrager, DruckerPragerState};
 pub use elastic_moduli::ElasticModuli;
 pub use error::{DeformationError, ParameterError};
 pub use fixed_corotated::FixedCorotated;
 pub use hencky::Hencky;
 pub use isothermal_gas::IsothermalGas;
+pub use kelvin_voigt::KelvinVoigt;
 pub use law::Law;
+pub use linear_cauchy::LinearCauchy;
 pub use linear_elastic::LinearElastic;
 pub use material::Material;
 pub use neo_hookean::NeoHookean;

@@ -5,10 +5,11 @@ use mpm_core::{
     SplineDegree, SplineGrid, Transfer, UniformBasis,
 };
 use mpm_kernels::{Cubic, Linear, Quadratic};
-use mpm_materials::{IsothermalGas, Material};
+use mpm_materials::{AnyLaw, IsothermalGas, Law, Memory};
 
 use crate::framed_score::ScoreForce;
 use crate::moving::{Moving, OnBasis};
+use crate::remembering_gas::RememberingGas;
 use crate::{BasisChoice, SampleError, TransferChoice};
 
 /// The largest dimension with splines that are compiled for their width. Beyond, a stencil has 32 to 65,536 nodes, and code for each of the
@@ -18,9 +19,9 @@ const LARGEST_UNROLLED: usize = 4;
 /// A body that is ready to move.
 pub(crate) type Ready<'a, const D: usize> = Result<Box<dyn Moving<'a, D> + 'a>, SampleError>;
 
-/// A body before its basis is known.
-pub(crate) struct Parts<'a, const D: usize> {
-    pub particles: Particles<D>,
+/// A body before its basis is known; `S` are the internal variables of its medium.
+pub(crate) struct Parts<'a, const D: usize, S = ()> {
+    pub particles: Particles<D, S>,
     pub force: ScoreForce<'a, D>,
     pub transfer: TransferChoice,
     pub basis: BasisChoice,
@@ -31,15 +32,24 @@ pub(crate) struct Parts<'a, const D: usize> {
 impl<'a, const D: usize> Parts<'a, D> {
     /// The gas of the calibrated sampler.
     pub fn of_gas(self, gas: IsothermalGas) -> Ready<'a, D> {
-        self.of(gas)
+        let parts = Parts {
+            particles: self.particles.remembering(),
+            force: self.force,
+            transfer: self.transfer,
+            basis: self.basis,
+            spacing: self.spacing,
+        };
+        parts.of(RememberingGas(gas))
+    }
+}
+
+impl<'a, const D: usize> Parts<'a, D, Memory> {
+    /// The body of the paper's algorithms, of any material.
+    pub fn of_law(self, law: &'a dyn Law<D, State = Memory>) -> Ready<'a, D> {
+        self.of(DeformsLast(Continuum { law: AnyLaw(law) }))
     }
 
-    /// The elastic body of the paper's algorithms.
-    pub fn elastic(self, law: &'a dyn Material<D>) -> Ready<'a, D> {
-        self.of(DeformsLast(Continuum { law }))
-    }
-
-    fn of<M: Medium<D, State = ()> + 'a>(self, medium: M) -> Ready<'a, D> {
+    fn of<M: Medium<D, State = Memory> + 'a>(self, medium: M) -> Ready<'a, D> {
         let (origin, h) = ([0.0; D], self.spacing);
         let degree = match self.basis {
             BasisChoice::Lattice => return self.on(medium, || SimplexLattice::<D>::permutohedral(origin, h)),
@@ -61,7 +71,7 @@ impl<'a, const D: usize> Parts<'a, D> {
     fn on<B, M>(self, medium: M, make: impl Fn() -> Result<B, MpmError>) -> Ready<'a, D>
     where
         B: UniformBasis<D> + 'a,
-        M: Medium<D, State = ()> + 'a,
+        M: Medium<D, State = Memory> + 'a,
     {
         let failed = |error| SampleError::in_step(0, error);
         let (basis, certificate) = (make().map_err(failed)?, make().map_err(failed)?);
@@ -83,7 +93,7 @@ impl<'a, const D: usize> Parts<'a, D> {
     where
         B: UniformBasis<D> + 'a,
         T: Transfer<D> + 'a,
-        M: Medium<D, State = ()> + 'a,
+        M: Medium<D, State = Memory> + 'a,
     {
         let body = Mpm::new(self.particles, basis, transfer, medium, self.force);
         Box::new(OnBasis { body, certificate })

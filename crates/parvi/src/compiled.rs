@@ -1,11 +1,11 @@
 //! The samplers of d = 1…6, with the feature `seven-and-eight` of d = 1…8, which are compiled in this crate, once for all crates that call them: a program that samples a density of its own
 //! is built in a second or two.
 
-use mpm_materials::{IsothermalGas, Material};
+use mpm_materials::{IsothermalGas, Law, Memory};
 use parvi_targets::{CatalogueTarget, Frame, Target};
 
 use crate::basis_choice::{Parts, Ready};
-use crate::{Method, MpmOptions, Observer, PaperOptions, Run, SampleError, Samples};
+use crate::{Method, MpmOptions, Observer, PaperBody, PaperOptions, Run, SampleError, Samples};
 
 /// [`sample`](crate::sample).
 type Sample<const D: usize> =
@@ -15,16 +15,25 @@ type Sample<const D: usize> =
 type SampleByMpm<const D: usize> =
     fn(&MpmOptions, &dyn Target<D>, &Frame<D>, &Run, &mut dyn Observer) -> Result<Samples<D>, SampleError>;
 
-/// [`PaperOptions::sample`].
-type SampleByPaper<const D: usize> =
-    fn(&PaperOptions, &dyn Target<D>, &Frame<D>, &Run, &mut dyn Observer) -> Result<Samples<D>, SampleError>;
+/// [`PaperOptions::sample_body`].
+type SampleByPaper<const D: usize> = fn(
+    &PaperOptions,
+    &PaperBody<D>,
+    &dyn Target<D>,
+    &Frame<D>,
+    &Run,
+    &mut dyn Observer,
+) -> Result<Samples<D>, SampleError>;
+
+/// A body of a law with whatever memory.
+type BodyOfLaw<const D: usize> = for<'a> fn(Parts<'a, D, Memory>, &'a dyn Law<D, State = Memory>) -> Ready<'a, D>;
 
 /// What is compiled for a dimension.
 pub(crate) struct Compiled<const D: usize> {
     /// A body of gas, for the calibrated sampler.
     pub gas: for<'a> fn(Parts<'a, D>, IsothermalGas) -> Ready<'a, D>,
-    /// An elastic body, for the paper's algorithms.
-    pub elastic: for<'a> fn(Parts<'a, D>, &'a dyn Material<D>) -> Ready<'a, D>,
+    /// A body of any material, for the paper's algorithms.
+    pub law: BodyOfLaw<D>,
     /// The calibrated sampler.
     pub mpm: SampleByMpm<D>,
     /// The paper's algorithms.
@@ -37,7 +46,7 @@ impl<const D: usize> Compiled<D> {
     /// Generated where it is named.
     const HERE: Self = Self {
         gas: |parts, gas| parts.of_gas(gas),
-        elastic: |parts, law| parts.elastic(law),
+        law: |parts, law| parts.of_law(law),
         mpm: crate::mpm::sample,
         paper: crate::paper::sample,
         sample: crate::sample_here,

@@ -1,8 +1,9 @@
 //! The score as a body force in the coordinates of the frame.
 
-use mpm_core::{BodyForce, ForceLocation, MpmError, Sites};
+use mpm_core::{BodyForce, ForceLocation, Masses, MpmError, Sites};
 use parvi_targets::{Frame, Target};
 
+use crate::node_scores::NodeScores;
 use crate::stiffness::Stiffness;
 use crate::{NonFiniteScores, ScoreLocation};
 
@@ -73,10 +74,16 @@ pub(crate) struct ScoreForce<'a, const D: usize> {
     pub alpha: f64,
     /// At the particles as a force per unit mass (paper, Eq. 5), or at the nodes (Eq. 3).
     pub location: ScoreLocation,
-    /// At the nodes: f_i = m_i α s(x_i), a force per unit mass, instead of α s(x_i).
+    /// A force per unit mass, m_i α s(x_i) at the nodes and m_p α s(x_p) at the particles, instead of α s(x_i) and α s(x_p).
     pub mass_weighted: bool,
+    /// m_p in the order of creation, which a force at particles that is not weighted by mass is divided by.
+    pub masses: Masses,
     /// At the nodes: those lighter than this receive no force.
     pub mass_floor: f64,
+    /// Scores at the nodes by node, where they are kept.
+    pub node_scores: Option<NodeScores<D>>,
+    /// Points evaluated for the force of steps, and not to judge the particles.
+    pub moving_evaluations: u64,
     /// Where it is to be known (at the particles), how stiff the target is.
     pub stiffness: Option<Stiffness<D>>,
 }
@@ -89,9 +96,31 @@ impl<'a, const D: usize> ScoreForce<'a, D> {
             alpha: 1.0,
             location: ScoreLocation::Particles,
             mass_weighted: true,
+            masses: Masses::Equal(1.0),
             mass_floor: 0.0,
+            node_scores: None,
+            moving_evaluations: 0,
             stiffness: None,
         }
+    }
+
+    /// Tell the force which grid the nodes of the next step are of.
+    pub fn stand_on(&mut self, origin: &[f64; D], spacing: f64) {
+        if let Some(known) = &mut self.node_scores {
+            known.stand_on(origin, spacing);
+        }
+    }
+
+    /// α s(x_i), or what it is to be instead, from the score s(x_i).
+    fn at_node(&self, mass: f64, score: &[f64; D]) -> [f64; D] {
+        let scale = if mass <= self.mass_floor {
+            0.0
+        } else if self.mass_weighted {
+            self.alpha * mass
+        } else {
+            self.alpha
+        };
+        score.map(|c| scale * c)
     }
 }
 
@@ -104,13 +133,21 @@ impl<const D: usize> BodyForce<D> for ScoreForce<'_, D> {
     }
 
     fn at_particles(&mut self, sites: &Sites<D>, accelerations: &mut [[f64; D]]) -> Result<(), MpmError> {
+        let before = self.score.evaluations;
         self.score.evaluate(sites.positions, accelerations)?;
+        self.moving_evaluations += self.score.evaluations - before;
         if let Some(stiffness) = &mut self.stiffness {
             stiffness.record(sites.positions, accelerations);
         }
         if self.alpha != 1.0 {
-            for acceleration in accelerations {
+            for acceleration in accelerations.iter_mut() {
                 *acceleration = acceleration.map(|c| self.alpha * c);
+            }
+        }
+        if !self.mass_weighted {
+            for (acceleration, &identity) in accelerations.iter_mut().zip(sites.identities) {
+                let mass = self.masses.get(identity as usize);
+                *acceleration = acceleration.map(|c| c / mass);
             }
         }
         Ok(())
@@ -122,17 +159,14 @@ impl<const D: usize> BodyForce<D> for ScoreForce<'_, D> {
         masses: impl Fn(usize) -> f64,
         forces: &mut [[f64; D]],
     ) -> Result<(), MpmError> {
-        self.score.evaluate(positions, forces)?;
+        let before = self.score.evaluations;
+        match &mut self.node_scores {
+            Some(known) => known.evaluate(&mut self.score, positions, forces)?,
+            None => self.score.evaluate(positions, forces)?,
+        }
+        self.moving_evaluations += self.score.evaluations - before;
         for (node, force) in forces.iter_mut().enumerate() {
-            let mass = masses(node);
-            let scale = if mass <= self.mass_floor {
-                0.0
-            } else if self.mass_weighted {
-                self.alpha * mass
-            } else {
-                self.alpha
-            };
-            *force = force.map(|c| scale * c);
+            *force = self.at_node(masses(node), force);
         }
         Ok(())
     }

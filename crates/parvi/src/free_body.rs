@@ -30,10 +30,11 @@ pub(crate) fn sample<const D: usize>(
     journal: &mut Journal,
     observer: &mut dyn Observer,
 ) -> Result<Samples<D>, SampleError> {
+    run.given.check_taken("mpm", true)?;
     let default = defaults::spacing::<D>(options.basis, run.particles);
     let mut departure = Departure {
         frame: *frame,
-        positions: run.start_positions()?,
+        positions: run.begin(frame)?,
         spacing: positive("spacing", options.spacing, default)?,
     };
     let mut rounds = 0..checked_rounds(options)?;

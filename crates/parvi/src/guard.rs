@@ -3,11 +3,11 @@
 
 use std::collections::VecDeque;
 
-use mpm_core::{Particles, StepReport};
+use mpm_core::StepReport;
 
 use crate::drive::PlannedStep;
 use crate::extent::Extent;
-use crate::moving::Moving;
+use crate::moving::{Cloud, Moving};
 use crate::stiffness::Stiffness;
 
 /// Steps between two states that are kept.
@@ -24,7 +24,7 @@ const EXPLOSION: f64 = 25.0;
 pub(crate) struct State<const D: usize> {
     /// The step to come, from 1.
     pub step: usize,
-    pub particles: Particles<D>,
+    pub particles: Cloud<D>,
     pub stiffness: Option<Stiffness<D>>,
     pub so_far: Progressed<D>,
     /// Factor of Δt.
@@ -137,7 +137,7 @@ impl<const D: usize> Guard<D> {
 
 /// Whether a step's kinetic energy is beyond what the displacement limit lets nodes carry.
 pub(crate) fn check_energy<const D: usize>(
-    particles: &Particles<D>,
+    particles: &Cloud<D>,
     planned: &PlannedStep<D>,
     report: &StepReport,
 ) -> Result<(), String> {

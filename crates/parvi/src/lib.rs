@@ -13,6 +13,8 @@ mod exact;
 mod extent;
 mod framed_score;
 mod free_body;
+mod given;
+mod grid_density;
 mod guard;
 mod kronecker;
 mod method;
@@ -20,12 +22,14 @@ mod moment_correction;
 mod moving;
 mod mpm;
 mod mpm_body;
+mod node_scores;
 #[cfg(feature = "nuts")]
 mod nuts;
 mod on_mesh;
 mod paper;
 mod point_set_error;
 mod polish;
+mod remembering_gas;
 mod residual;
 mod rotation;
 mod run;
@@ -41,7 +45,9 @@ mod view;
 pub use certificate::{Certificate, Expectation, MomentEstimate, Outcome, expectation};
 pub use checkpoint::Checkpoint;
 pub use exact::{independent_draws, sobol_points};
+pub use given::GivenParticles;
 pub use method::*;
+pub use paper::PaperBody;
 pub use point_set_error::PointSetError;
 pub use residual::{Residual, galerkin_stein_residual};
 pub use run::*;
@@ -71,6 +77,9 @@ fn sample_here<const D: usize>(
     observer: &mut dyn Observer,
 ) -> Result<Samples<D>, SampleError> {
     let frame = target.frame();
+    if !matches!(method, Method::Mpm(_) | Method::Paper(_) | Method::Svgd(_)) {
+        run.given.check_taken(method.name(), false)?;
+    }
     match method {
         Method::Mpm(options) => options.sample(target, &frame, run, observer),
         Method::Ais(options) => options.sample(target, &frame, run, observer),

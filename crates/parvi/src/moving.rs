@@ -3,14 +3,20 @@
 
 use mpm_core::{Medium, Mpm, MpmError, Particles, StepReport, Transfer, UniformBasis};
 
+use mpm_materials::Memory;
+
 use crate::drive::PlannedStep;
 use crate::framed_score::ScoreForce;
+use crate::grid_density::grid_densities;
 use crate::residual::{Residual, galerkin_stein_residual};
+
+/// Particles of whatever medium; internal variables only where it has some.
+pub(crate) type Cloud<const D: usize> = Particles<D, Memory>;
 
 /// Particles that a score moves.
 pub(crate) trait Moving<'a, const D: usize> {
     /// Their state.
-    fn particles(&mut self) -> &mut Particles<D>;
+    fn particles(&mut self) -> &mut Cloud<D>;
 
     /// What pulls at them.
     fn force(&mut self) -> &mut ScoreForce<'a, D>;
@@ -28,6 +34,9 @@ pub(crate) trait Moving<'a, const D: usize> {
     /// a step.
     fn residual(&mut self, origin: &[f64; D], spacing: f64, scores: &[[f64; D]]) -> Result<Residual, MpmError>;
 
+    /// ρ_h(x_p) = Σ_i w_ip m_i / h^D, the density on the grid of spacing h with a node at the origin, in the present order.
+    fn grid_densities(&mut self, spacing: f64) -> Result<Vec<f64>, MpmError>;
+
     /// Bytes held.
     fn storage_bytes(&self) -> usize;
 }
@@ -42,9 +51,9 @@ impl<'a, const D: usize, B, T, M> Moving<'a, D> for OnBasis<'a, D, B, T, M>
 where
     B: UniformBasis<D>,
     T: Transfer<D>,
-    M: Medium<D, State = ()>,
+    M: Medium<D, State = Memory>,
 {
-    fn particles(&mut self) -> &mut Particles<D> {
+    fn particles(&mut self) -> &mut Cloud<D> {
         &mut self.body.particles
     }
 
@@ -61,6 +70,7 @@ where
     fn step(&mut self, planned: &PlannedStep<D>) -> Result<StepReport, MpmError> {
         let point = self.body.basis.cell_point(&planned.origin, planned.spacing);
         self.body.basis.place(point, planned.spacing)?;
+        self.body.body_force.stand_on(&planned.origin, planned.spacing);
         self.body.step(&planned.control)
     }
 
@@ -72,6 +82,12 @@ where
         let point = self.certificate.cell_point(&origin.map(|c| (c + 0.5).fract()), spacing);
         self.certificate.place(point, spacing)?;
         galerkin_stein_residual(&mut self.certificate, &self.body.particles.positions, scores)
+    }
+
+    fn grid_densities(&mut self, spacing: f64) -> Result<Vec<f64>, MpmError> {
+        self.certificate.place([0.0; D], spacing)?;
+        let particles = &self.body.particles;
+        grid_densities(&mut self.certificate, &particles.positions, &particles.masses)
     }
 
     fn storage_bytes(&self) -> usize {

@@ -21,8 +21,10 @@ pub(crate) fn sample<const D: usize>(
     let spacing = positive("spacing", options.spacing, 1.0)?;
     Motion::of(options, run.particles, spacing)?;
     run.checked_start()?;
-    let mut journal = Journal::open(options, target, frame, run)?;
     let surveys = options.survey && options.annealing.last() == 1.0;
+    let name = if surveys { "mpm with a survey" } else { "mpm" };
+    run.given.check_taken(name, !surveys)?;
+    let mut journal = Journal::open(options, target, frame, run)?;
     let known = if surveys {
         surveyed::sample(options, target, frame, run, &mut journal, observer)?
     } else {

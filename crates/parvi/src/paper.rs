@@ -1,38 +1,42 @@
-//! Algorithms 1 (PIC) and 2 (APIC) of the MPM-ParVI paper: an elastic body under the score.
+//! Algorithms 1 (PIC) and 2 (APIC) of the MPM-ParVI paper: a body of some material under the score.
 
-use mpm_core::{Particles, StepControl};
-use mpm_materials::{ElasticModuli, LinearElastic, Material, NeoHookean};
+use mpm_core::{Masses, MpmError, Particles, StepControl};
+use mpm_materials::{Law, Material, Memory, Numbered};
 use parvi_targets::{Frame, Target};
 
 use crate::basis_choice::Parts;
-
 use crate::certificate::Certificate;
 use crate::checkpoint::Journal;
 use crate::compiled::Compiled;
 use crate::drive::{Plan, PlannedStep, drive};
 use crate::framed_score::{FramedScore, ScoreForce};
-use crate::start::{check, positive, steps};
+use crate::kronecker::Kronecker;
+use crate::moving::Moving;
+use crate::node_scores::NodeScores;
+use crate::start::{Stream, check, positive, steps};
 use crate::{
-    Elasticity, MomentCorrection, Observer, PaperOptions, Run, SampleError, Samples, TransferChoice, defaults,
+    Coordinates, MomentCorrection, Observer, PaperOptions, ReferenceVolumes, Run, SampleError, Samples, ScoreLocation,
+    TransferChoice, defaults,
 };
 
-/// What every layer of the dispatch hands on.
-pub(crate) struct Job<'a, const D: usize> {
-    pub options: &'a PaperOptions,
-    target: &'a dyn Target<D>,
-    frame: &'a Frame<D>,
-    run: &'a Run,
-    material: &'a dyn Material<D>,
-    observer: &'a mut dyn Observer,
+/// What a body of the paper's algorithms is handed beside its options: inputs that depend on the dimension or are code.
+#[derive(Clone, Copy, Default)]
+pub struct PaperBody<'a, const D: usize> {
+    /// The material, Ψ of the paper's inputs; `None`: that of the options.
+    pub material: Option<&'a dyn Material<D>>,
+    /// A law with memory or rates in the place of a material: `&Numbered(law)`.
+    pub law: Option<&'a dyn Law<D, State = Memory>>,
+    /// α in step t of T, (t, T) ↦ α with t from 1: any finite number of either sign. Asked for once per step, in order, before the run. `None`: that of the options.
+    pub alpha: Option<&'a dyn Fn(usize, usize) -> f64>,
 }
 
 impl PaperOptions {
-    /// Run the paper's algorithm on `target` in the coordinates of `frame`.
+    /// Run the paper's algorithm on `target`; `frame` is the unit of everything, unless the options want the target's own coordinates.
     ///
-    /// Every particle has mass 1/M and reference volume 1/M, so the body's reference density is one.
+    /// Masses are 1/M, velocities 0 and reference volumes those of the options, unless [`Run::given`] has others.
     ///
     /// # Errors
-    /// [`SampleError`]: an option out of range, a score or a deformation that is not finite, or the observer's stop.
+    /// [`SampleError`]: an option or a given particle out of range, a score or a deformation that is not finite, or the observer's stop.
     pub fn sample<const D: usize>(
         &self,
         target: &dyn Target<D>,
@@ -40,69 +44,182 @@ impl PaperOptions {
         run: &Run,
         observer: &mut dyn Observer,
     ) -> Result<Samples<D>, SampleError> {
-        (Compiled::of().paper)(self, target, frame, run, observer)
+        self.sample_body(&PaperBody::default(), target, frame, run, observer)
+    }
+
+    /// As [`sample`](Self::sample), with a material and a schedule of α of one's own.
+    ///
+    /// # Errors
+    /// As [`sample`](Self::sample).
+    pub fn sample_body<const D: usize>(
+        &self,
+        body: &PaperBody<D>,
+        target: &dyn Target<D>,
+        frame: &Frame<D>,
+        run: &Run,
+        observer: &mut dyn Observer,
+    ) -> Result<Samples<D>, SampleError> {
+        (Compiled::of().paper)(self, body, target, frame, run, observer)
     }
 }
 
-/// [`PaperOptions::sample`].
+/// [`PaperOptions::sample_body`].
 pub(crate) fn sample<const D: usize>(
     options: &PaperOptions,
+    body: &PaperBody<D>,
     target: &dyn Target<D>,
     frame: &Frame<D>,
     run: &Run,
     observer: &mut dyn Observer,
 ) -> Result<Samples<D>, SampleError> {
-    let moduli = ElasticModuli::new(options.youngs_modulus, options.poissons_ratio)?;
-    let (neo_hookean, linear) = (NeoHookean::new(moduli), LinearElastic::new(moduli));
-    run.checked_particles()?;
-    let default = defaults::spacing::<D>(options.basis, run.particles);
-    let spacing = positive("spacing", options.spacing, default)?;
-    let job = Job {
-        options,
-        target,
-        frame,
-        run,
-        material: match options.elasticity {
-            Elasticity::NeoHookean => &neo_hookean,
-            Elasticity::Linear => &linear,
-        },
-        observer,
+    let identity = Frame::identity();
+    let mut run_with = |law: &dyn Law<D, State = Memory>| {
+        let job = Job {
+            options,
+            target,
+            frame: match options.coordinates {
+                Coordinates::Frame => frame,
+                Coordinates::Own => &identity,
+            },
+            run,
+            law,
+        };
+        job.run(body.alpha, &mut *observer)
     };
-    job.run(spacing)
+    match (body.law, body.material) {
+        (Some(law), _) => run_with(law),
+        (None, Some(material)) => run_with(&Numbered(material)),
+        (None, None) => options.material.with_law(run_with),
+    }
+}
+
+/// One run.
+struct Job<'a, const D: usize> {
+    options: &'a PaperOptions,
+    target: &'a dyn Target<D>,
+    /// The coordinates of the body.
+    frame: &'a Frame<D>,
+    run: &'a Run,
+    law: &'a dyn Law<D, State = Memory>,
 }
 
 impl<const D: usize> Job<'_, D> {
-    fn run(self, spacing: f64) -> Result<Samples<D>, SampleError> {
-        let (job, options) = (&self, self.options);
+    fn run(
+        &self,
+        alpha: Option<&dyn Fn(usize, usize) -> f64>,
+        observer: &mut dyn Observer,
+    ) -> Result<Samples<D>, SampleError> {
+        let options = self.options;
+        self.run.checked_particles()?;
+        let default = defaults::spacing::<D>(options.basis, self.run.particles);
+        let spacing = positive("spacing", options.spacing, default)?;
         let steps = steps(options.steps, defaults::PAPER_STEPS)?;
-        let optional = |field, value: Option<f64>| value.map_or(Ok(f64::INFINITY), |_| positive(field, value, 0.0));
-        let control = StepControl {
-            time_step: positive("time step", options.time_step, defaults::time_step(spacing))?,
-            courant: optional("Courant number", options.guards.courant)?,
-            displacement: optional("displacement limit", options.guards.displacement_limit)?,
-            friction: 0.0,
-        };
-        let alpha = options.annealing.checked()?;
+        let control = self.control(spacing)?;
+        let alphas = self.alphas(alpha, steps)?;
+        let last_alpha = alphas[steps - 1];
+        let mut origins = self.origins()?;
 
-        let positions = job.run.start_positions()?;
-        let volumes = vec![1.0 / positions.len() as f64; positions.len()];
-        let particles = Particles::at_rest(positions, 1.0).with_elastic_state(volumes);
+        let mut body = self.body(spacing)?;
         let plan = Plan {
             body: 0,
             earlier_steps: 0,
             steps,
             spacing,
             step: |step| PlannedStep {
-                origin: [0.0; D],
+                origin: origins(step),
                 spacing,
                 rotation: None,
-                alpha: alpha.at(step, steps),
+                alpha: alphas[step - 1],
                 control,
             },
             retries: 0,
             moment_correction: MomentCorrection::Off,
             trace_every: options.trace_every,
         };
+        let driven = drive(body.as_mut(), self.frame, plan, &mut Journal::none(), observer)?;
+        let certificate = options.certificate.then(|| Certificate::of_scores(&driven, last_alpha));
+        let moving = body.force().moving_evaluations;
+        Ok(Samples {
+            certificate,
+            score_evaluations: moving,
+            judging_evaluations: driven.samples.score_evaluations - moving,
+            ..driven.samples
+        })
+    }
+
+    fn control(&self, spacing: f64) -> Result<StepControl, SampleError> {
+        let (options, guards) = (self.options, &self.options.guards);
+        let optional = |field, value: Option<f64>| value.map_or(Ok(f64::INFINITY), |_| positive(field, value, 0.0));
+        Ok(StepControl {
+            time_step: positive("time step", options.time_step, defaults::time_step(spacing))?,
+            courant: optional("Courant number", guards.courant)?,
+            displacement: optional("displacement limit", guards.displacement_limit)?,
+            friction: {
+                let friction = options.friction;
+                check(
+                    "friction",
+                    friction,
+                    friction >= 0.0 && friction.is_finite(),
+                    "at least 0 and finite",
+                )?;
+                friction
+            },
+        })
+    }
+
+    /// α of every step.
+    fn alphas(&self, own: Option<&dyn Fn(usize, usize) -> f64>, steps: usize) -> Result<Vec<f64>, SampleError> {
+        let schedule = self.options.annealing.of_either_sign()?;
+        let alpha = |step| match own {
+            Some(own) => own(step, steps),
+            None => schedule.at(step, steps),
+        };
+        let alphas: Vec<f64> = (1..=steps).map(alpha).collect();
+        for &alpha in &alphas {
+            check("alpha", alpha, alpha.is_finite(), "finite")?;
+        }
+        Ok(alphas)
+    }
+
+    /// Where the grid of a step has its origin, in coordinates of its unit cell; asked for in order.
+    fn origins(&self) -> Result<impl FnMut(usize) -> [f64; D], SampleError> {
+        let renewal = self.options.grid_renewal;
+        let every = renewal.unwrap_or(usize::MAX);
+        check("steps of a grid", every as f64, every >= 1, "at least 1")?;
+        let mut places = Kronecker::<D>::new(&mut self.run.generator(Stream::Places.of_body(0)));
+        let mut origin = [0.0; D];
+        Ok(move |step: usize| {
+            if step > 1 && (step - 1).is_multiple_of(every) {
+                origin = places.next_point().0;
+            }
+            origin
+        })
+    }
+
+    /// The body at its start.
+    fn body(&self, spacing: f64) -> Result<Box<dyn Moving<'_, D> + '_>, SampleError> {
+        let (options, run) = (self.options, self.run);
+        let positions = run.begin(self.frame)?;
+        let count = positions.len();
+        let mut particles = Particles::at_rest(positions, 1.0);
+        if let Some(velocities) = run.given.velocities_in(self.frame) {
+            particles.velocities = velocities;
+        }
+        if let Some(masses) = &run.given.masses {
+            particles.masses = Masses::Each(masses.clone());
+        }
+        let masses = particles.masses.clone();
+        let mean_mass = (0..count).map(|p| masses.get(p)).sum::<f64>() / count as f64;
+        let volumes = match run.given.reference_volumes_in(self.frame) {
+            Some(volumes) => volumes,
+            None => self.reference_volumes(&particles)?,
+        };
+        let virgin = |mass: f64, volume: f64| self.law.virgin(mass / volume);
+        let states = volumes
+            .iter()
+            .enumerate()
+            .map(|(p, &volume)| virgin(masses.get(p), volume))
+            .collect();
         let floor = options.guards.mass_floor;
         check(
             "mass floor",
@@ -110,16 +227,17 @@ impl<const D: usize> Job<'_, D> {
             floor >= 0.0 && floor.is_finite(),
             "at least 0 and finite",
         )?;
+        let nodal = options.score_location == ScoreLocation::Nodes;
         let force = ScoreForce {
-            score: FramedScore::new(job.target, job.frame),
-            alpha: 1.0,
             location: options.score_location,
             mass_weighted: options.guards.mass_weighted_force,
-            mass_floor: floor / job.run.particles as f64,
-            stiffness: None,
+            masses,
+            mass_floor: floor * mean_mass,
+            node_scores: (nodal && options.cached_scores).then(NodeScores::default),
+            ..ScoreForce::at_particles(FramedScore::new(self.target, self.frame))
         };
         let parts = Parts {
-            particles,
+            particles: particles.with_states(volumes, states),
             force,
             transfer: if options.affine {
                 TransferChoice::Apic
@@ -129,12 +247,39 @@ impl<const D: usize> Job<'_, D> {
             basis: options.basis,
             spacing,
         };
-        let mut body = (Compiled::of().elastic)(parts, job.material)?;
-        let driven = drive(body.as_mut(), job.frame, plan, &mut Journal::none(), self.observer)?;
-        let certificate = Some(Certificate::of_scores(&driven, alpha.last()));
-        Ok(Samples {
-            certificate,
-            ..driven.samples
-        })
+        let mut body = (Compiled::of().law)(parts, self.law)?;
+        if options.reference_volumes == ReferenceVolumes::OfGrid && run.given.reference_volumes.is_none() {
+            let densities = body.grid_densities(spacing);
+            let densities = densities.map_err(|error: MpmError| SampleError::in_step(0, error))?;
+            let particles = body.particles();
+            for (p, (volume, density)) in particles.reference_volumes.iter_mut().zip(densities).enumerate() {
+                let mass = particles.masses.get(p);
+                *volume = mass / density;
+                particles.states[p] = virgin(mass, *volume);
+            }
+        }
+        Ok(body)
+    }
+
+    /// V⁰_p of the options; those of the grid are filled in once there is one.
+    fn reference_volumes(&self, particles: &Particles<D>) -> Result<Vec<f64>, SampleError> {
+        let count = particles.len();
+        if self.options.reference_volumes != ReferenceVolumes::OfStartDensity {
+            return Ok(vec![1.0 / count as f64; count]);
+        }
+        if self.run.given.positions.is_some() {
+            return Err(SampleError::NotTaken {
+                method: "paper",
+                field: "reference volumes of the start's density, which given positions do not have",
+            });
+        }
+        let start = self.run.checked_start()?;
+        let variance = start.standard_deviation * start.standard_deviation;
+        let norm = (2.0 * std::f64::consts::PI * variance).powf(0.5 * D as f64);
+        let volume = |(p, z): (usize, &[f64; D])| {
+            let square: f64 = z.iter().map(|c| (c - start.mean) * (c - start.mean)).sum();
+            particles.masses.get(p) * norm * (0.5 * square / variance).exp()
+        };
+        Ok(particles.positions.iter().enumerate().map(volume).collect())
     }
 }

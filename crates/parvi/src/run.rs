@@ -7,7 +7,7 @@ use mpm_core::MpmError;
 use mpm_mesh::MeshError;
 use parvi_pool::{Pool, PoolError};
 
-use crate::{Certificate, ParticleView, PointSetError};
+use crate::{Certificate, GivenParticles, ParticleView, PointSetError};
 
 /// Size, seed and start of a run; the same for every method.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,6 +18,8 @@ pub struct Run {
     pub seed: u64,
     /// Where the particles begin.
     pub start: Start,
+    /// What is given of them instead of drawn.
+    pub given: GivenParticles,
 }
 
 impl Run {
@@ -27,6 +29,7 @@ impl Run {
             particles,
             seed,
             start: Start::default(),
+            given: GivenParticles::default(),
         }
     }
 }
@@ -74,6 +77,8 @@ pub struct Samples<const D: usize> {
     pub steps: usize,
     /// Evaluations of the score at one point, in total.
     pub score_evaluations: u64,
+    /// Evaluations of the score at one point that only judge the particles of the paper's algorithms (trace, residual, certificate) and are not among the others.
+    pub judging_evaluations: u64,
     /// Evaluations of the log density at one point, in total.
     pub density_evaluations: u64,
     /// Scores that were not finite on the way and have been replaced.
@@ -183,6 +188,38 @@ pub enum SampleError {
         value: f64,
         /// What is allowed.
         expected: &'static str,
+    },
+    /// A list of given particles does not fit their number.
+    #[error("{field}: {length} numbers are given, {particles} particles need {columns} each")]
+    GivenLength {
+        /// What is given.
+        field: &'static str,
+        /// Numbers given.
+        length: usize,
+        /// M.
+        particles: usize,
+        /// Numbers per particle.
+        columns: usize,
+    },
+    /// A given number is outside its range.
+    #[error("{field}: particle {particle} has {value}, must be {expected}")]
+    GivenValue {
+        /// What is given.
+        field: &'static str,
+        /// Number of the particle, from 0.
+        particle: usize,
+        /// The value given.
+        value: f64,
+        /// What is allowed.
+        expected: &'static str,
+    },
+    /// A method does not take what is given of the particles.
+    #[error("method `{method}` does not take {field}")]
+    NotTaken {
+        /// Method.
+        method: &'static str,
+        /// What is given.
+        field: &'static str,
     },
     /// The target gave a score that is not finite.
     #[error("step {step}: the score of the target at x = {position:?} is {score:?}, which is not finite")]

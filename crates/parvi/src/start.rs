@@ -1,6 +1,6 @@
 //! Where the particles begin, and what a run may ask for.
 
-use parvi_targets::{CatalogueTarget, Gaussian, SobolSequence};
+use parvi_targets::{CatalogueTarget, Frame, Gaussian, SobolSequence};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 use rand_distr::{Distribution, StandardNormal};
@@ -54,6 +54,16 @@ impl Run {
         )?;
         check("start mean", self.start.mean, self.start.mean.is_finite(), "finite")?;
         Ok(self.start)
+    }
+
+    /// Where the particles begin, in coordinates of a frame: as given, or drawn from the start law.
+    pub(crate) fn begin<const D: usize>(&self, frame: &Frame<D>) -> Result<Vec<[f64; D]>, SampleError> {
+        let count = self.checked_particles()?;
+        self.given.check::<D>(count)?;
+        match self.given.positions_in(frame) {
+            Some(positions) => Ok(positions),
+            None => self.start_positions(),
+        }
     }
 
     /// Draws from the start law, in frame coordinates.

@@ -36,7 +36,8 @@ impl SvgdOptions {
                 "positive and finite",
             )?;
         }
-        let mut positions = run.start_positions::<D>()?;
+        run.given.check_taken("svgd", true)?;
+        let mut positions = run.begin(frame)?;
         let mut score = FramedScore::new(target, frame);
         let mut scores = vec![[0.0; D]; positions.len()];
         let mut adam = Adam::new(positions.len(), rate);

@@ -88,12 +88,12 @@ trait State {
 }
 
 /// A body in coordinates of its frame, in whatever order.
-struct InFrame<'a, const D: usize> {
-    particles: &'a Particles<D>,
+struct InFrame<'a, const D: usize, S> {
+    particles: &'a Particles<D, S>,
     frame: &'a Frame<D>,
 }
 
-impl<const D: usize> State for InFrame<'_, D> {
+impl<const D: usize, S: Copy + Send + Sync> State for InFrame<'_, D, S> {
     fn dimension(&self) -> usize {
         D
     }
@@ -188,9 +188,9 @@ pub(crate) struct Moment {
 
 impl Moment {
     /// Shows a body in coordinates of a frame.
-    pub fn show<const D: usize>(
+    pub fn show<const D: usize, S: Copy + Send + Sync>(
         self,
-        particles: &Particles<D>,
+        particles: &Particles<D, S>,
         frame: &Frame<D>,
         observer: &mut dyn Observer,
     ) -> Result<(), SampleError> {

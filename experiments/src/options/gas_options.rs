@@ -1,6 +1,6 @@
 //! The options of the sampler, on a lattice or a grid and on a mesh, from the flags.
 
-use parvi::{Annealing, MeshOptions, MpmOptions, OnMesh, Settling, SpacingSchedule, TransferChoice};
+use parvi::{MeshOptions, MpmOptions, OnMesh, Settling, SpacingSchedule, TransferChoice};
 
 use super::{Basis, EvaluationCount, Limit, MethodOptions, OptionError, RoundCount, Switch, Transfer};
 
@@ -92,10 +92,7 @@ impl MethodOptions {
 
     /// Whether the calibrated sampler surveys: it does not for p^α.
     pub(super) fn surveys(&self) -> bool {
-        let whole = match self.annealing() {
-            None => true,
-            Some(Annealing::Constant(alpha) | Annealing::Geometric { to: alpha, .. }) => alpha == 1.0,
-        };
+        let whole = self.annealing().is_none_or(|alpha| alpha.last() == 1.0);
         self.survey != Some(Switch::Off) && whole
     }
 

@@ -21,6 +21,7 @@ impl MethodOptions {
             time_step: self.time_step.or(default.time_step),
             guards: self.guards(),
             trace_every: self.trace_every,
+            ..default
         }
     }
 

@@ -2,8 +2,9 @@
 #![allow(non_snake_case)]
 
 use mpm_materials::{
-    DeformationError, DruckerPrager, DruckerPragerState, ElasticModuli, FixedCorotated, Hencky, IsothermalGas, Law,
-    LinearElastic, Material, NeoHookean, SofteningHencky, SofteningState, TaitFluid,
+    DeformationError, DeformingGas, DruckerPrager, DruckerPragerState, ElasticModuli, FixedCorotated, GasState, Hencky,
+    IsothermalGas, KelvinVoigt, Law, LinearCauchy, LinearElastic, Material, NeoHookean, SofteningHencky,
+    SofteningState, TaitFluid,
 };
 use mpm_tensor::Matrix;
 use proptest::prelude::*;
@@ -65,6 +66,16 @@ fn all_survive<const D: usize>(numbers: &[f64]) -> Result<(), TestCaseError> {
     material_survives::<D>(&FixedCorotated::new(moduli), numbers)?;
     material_survives::<D>(&Hencky::new(moduli), numbers)?;
     material_survives::<D>(&gas, numbers)?;
+    survives::<D, _>(&LinearCauchy::new(moduli), (), numbers)?;
+    for viscosity in [0.0, 0.1] {
+        survives::<D, _>(&KelvinVoigt::new(moduli, viscosity).expect("in range"), (), numbers)?;
+    }
+    let breathing = DeformingGas {
+        gas: IsothermalGas::CALIBRATED,
+    };
+    for reference_density in [1.0, numbers[0]] {
+        survives::<D, _>(&breathing, GasState { reference_density }, numbers)?;
+    }
     let metal = SofteningHencky::new(moduli, 0.1, 0.0, 1e3).expect("in range");
     let spoiled = SofteningState {
         accumulated_plastic_strain: numbers[0],

@@ -5,3 +5,4 @@ mod conformance;
 mod fluid;
 mod hostile_input;
 mod inelastic;
+mod visco_elastic;

@@ -152,7 +152,8 @@ impl<const D: usize> TryFrom<SavedState> for State<D> {
                 Masses::Equal(saved.mass),
                 affine,
                 saved.identities,
-            )?,
+            )?
+            .remembering(),
             stiffness: saved.stiffness.map(|stiffness| Stiffness {
                 estimate: stiffness.estimate,
                 stride: stiffness.stride,

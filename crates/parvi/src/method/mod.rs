@@ -1,9 +1,11 @@
 //! The methods and their options.
 
 mod ais_options;
+mod annealing;
 mod mesh_options;
 mod mpm_options;
 mod nuts_options;
+mod paper_material;
 mod paper_options;
 mod schedule;
 mod stein_thinning_options;
@@ -11,11 +13,13 @@ mod support_points_options;
 mod svgd_options;
 
 pub use ais_options::AisOptions;
+pub use annealing::Annealing;
 pub use mesh_options::{MeshOptions, OnMesh};
 pub use mpm_options::{MomentCorrection, MpmOptions, NonFiniteScores, ScoreLocation};
 pub use nuts_options::NutsOptions;
-pub use paper_options::{Elasticity, Guards, PaperOptions};
-pub use schedule::{Annealing, Settling, SpacingSchedule};
+pub use paper_material::PaperMaterial;
+pub use paper_options::{Coordinates, Guards, PaperOptions, ReferenceVolumes};
+pub use schedule::{Settling, SpacingSchedule};
 pub use stein_thinning_options::{Pool, SteinThinningOptions};
 pub use support_points_options::SupportPointsOptions;
 pub use svgd_options::SvgdOptions;
@@ -69,4 +73,22 @@ pub enum Method {
     SteinThinning(SteinThinningOptions),
     /// The M points with the least energy distance to a bigger sample.
     SupportPoints(SupportPointsOptions),
+}
+
+impl Method {
+    /// What errors call it.
+    pub(crate) fn name(&self) -> &'static str {
+        match self {
+            Self::Mpm(_) => "mpm",
+            Self::Ais(_) => "ais",
+            Self::OnMesh(_) => "mpm on a mesh",
+            Self::Paper(_) => "paper",
+            Self::Svgd(_) => "svgd",
+            Self::Iid => "iid",
+            Self::Sobol => "sobol",
+            Self::Nuts(_) => "nuts",
+            Self::SteinThinning(_) => "stein-thinning",
+            Self::SupportPoints(_) => "support-points",
+        }
+    }
 }

@@ -1,12 +1,26 @@
-use super::{Annealing, BasisChoice, ScoreLocation};
+use super::{Annealing, BasisChoice, PaperMaterial, ScoreLocation};
 
-/// Elastic law of the paper's algorithms.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Elasticity {
-    /// Small-strain linear elasticity (paper, §3).
-    Linear,
-    /// Compressible Neo-Hookean solid.
-    NeoHookean,
+/// In which coordinates the body moves: those of grid, masses per volume, F and Δt.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Coordinates {
+    /// Those of the frame, in which the target has unit scale.
+    #[default]
+    Frame,
+    /// The target's own (the paper): the identity frame, nothing is whitened. The start's law and the spacing are then in the target's own units.
+    Own,
+}
+
+/// The volumes V⁰_p that the stress of undeformed particles acts on, in the coordinates of the body, where they are not given
+/// ([`GivenParticles::reference_volumes`](crate::GivenParticles::reference_volumes)).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ReferenceVolumes {
+    /// V⁰_p = 1/M.
+    #[default]
+    Uniform,
+    /// V⁰_p = m_p / p⁰(X_p), p⁰ the density of the run's start law: what the particle stands for of space. Not for given positions, whose law is not known.
+    OfStartDensity,
+    /// V⁰_p = m_p / ρ_h(X_p), ρ_h(X_p) = Σ_i w_ip m_i / h^D the density on the grid (Stomakhin et al. 2013).
+    OfGrid,
 }
 
 /// Guards that the paper's algorithms need to stay finite; each can be switched off.
@@ -14,7 +28,7 @@ pub enum Elasticity {
 pub struct Guards {
     /// Nodes lighter than this share of the mean particle mass receive no force (0: off).
     pub mass_floor: f64,
-    /// Multiply the force by the nodal mass, which makes it a force per unit mass (the paper: `false`).
+    /// Multiply the force by the mass, m_i at nodes and m_p at particles, which makes it a force per unit mass (the paper, Eq. 3 and 5: `false`).
     pub mass_weighted_force: bool,
     /// Limit Δt by the wave speed and the particle velocity: Δt ≤ C h / (c + |v|) (`None`: off).
     pub courant: Option<f64>,
@@ -35,7 +49,7 @@ impl Default for Guards {
 }
 
 impl Guards {
-    /// The algorithms exactly as the paper writes them.
+    /// None of them, as the paper has it. For the algorithms exactly as the paper writes them see [`PaperOptions::as_written`].
     pub fn none() -> Self {
         Self {
             mass_floor: 0.0,
@@ -46,19 +60,18 @@ impl Guards {
     }
 }
 
-/// Options of the paper's Algorithms 1 and 2.
+/// Options of the paper's Algorithms 1 and 2 (Huang, arXiv 2407.20287).
+///
+/// [`as_written`](Self::as_written) has them to the letter. Every departure from that is one option: [`coordinates`](Self::coordinates) and the four of
+/// [`guards`](Self::guards). The defaults have them all, since few runs stay finite without.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PaperOptions {
     /// Algorithm 2 (APIC) instead of Algorithm 1 (PIC).
     pub affine: bool,
     /// Background basis.
     pub basis: BasisChoice,
-    /// Elastic law.
-    pub elasticity: Elasticity,
-    /// Young's modulus E > 0.
-    pub youngs_modulus: f64,
-    /// Poisson's ratio ν ∈ (−1, ½).
-    pub poissons_ratio: f64,
+    /// What the body is made of (the paper's energy density Ψ); for a material of one's own see [`PaperBody`](crate::PaperBody).
+    pub material: PaperMaterial,
     /// α(t).
     pub annealing: Annealing,
     /// Force at nodes (Eq. 3, as Algorithms 1 and 2 write it) or at particles (Eq. 5).
@@ -69,8 +82,22 @@ pub struct PaperOptions {
     pub steps: Option<usize>,
     /// Time step Δt.
     pub time_step: Option<f64>,
+    /// Friction γ ≥ 0 (v ← v e^{−γΔt}); 0 in the paper's algorithms. Of APIC nothing else dissipates.
+    pub friction: f64,
     /// Guards.
     pub guards: Guards,
+    /// Coordinates that the body moves in.
+    pub coordinates: Coordinates,
+    /// V⁰_p.
+    pub reference_volumes: ReferenceVolumes,
+    /// Take a new grid, whose origin is drawn anew, every so many steps (paper, §3: "a new grid is used (every several iterations)"); `None`: one grid, with nodes at
+    /// the integer multiples of h, serves the whole run.
+    pub grid_renewal: Option<usize>,
+    /// Evaluate the score at each node once, for as long as the grid stands; the same bits as without. A score that is estimated anew with every call is then that of its
+    /// first estimate.
+    pub cached_scores: bool,
+    /// Judge the particles at the end, which takes M evaluations of the score ([`Samples::judging_evaluations`](crate::Samples::judging_evaluations)).
+    pub certificate: bool,
     /// Measure residual and energy every so many steps (0: only at the end).
     pub trace_every: usize,
 }
@@ -80,16 +107,33 @@ impl Default for PaperOptions {
         Self {
             affine: false,
             basis: BasisChoice::Quadratic,
-            elasticity: Elasticity::NeoHookean,
-            youngs_modulus: 1.0,
-            poissons_ratio: 0.3,
+            material: PaperMaterial::default(),
             annealing: Annealing::Constant(1.0),
             score_location: ScoreLocation::Nodes,
             spacing: None,
             steps: None,
             time_step: None,
+            friction: 0.0,
             guards: Guards::default(),
+            coordinates: Coordinates::default(),
+            reference_volumes: ReferenceVolumes::default(),
+            grid_renewal: None,
+            cached_scores: true,
+            certificate: true,
             trace_every: 0,
+        }
+    }
+}
+
+impl PaperOptions {
+    /// Algorithm 1, or 2 if `affine`, exactly as the paper writes them: the target's own coordinates, f_i = α ∇log p(x_i) at the nodes {h k : k ∈ ℤᴰ} as it stands (Eq. 3),
+    /// no guard; V⁰_p = 1/M, Neo-Hookean E = 1, ν = 0.3, α = 1. Masses 1/M and velocities 0, unless a run gives others.
+    pub fn as_written(affine: bool) -> Self {
+        Self {
+            affine,
+            guards: Guards::none(),
+            coordinates: Coordinates::Own,
+            ..Self::default()
         }
     }
 }

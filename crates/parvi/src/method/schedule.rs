@@ -1,6 +1,6 @@
-//! How spacing, time step and the score's factor vary over a run.
+//! How spacing and time step vary over a run.
 
-use crate::start::{check, positive};
+use crate::start::check;
 use crate::{SampleError, defaults};
 
 /// The spacing of step n of N around the central spacing h: h c^{(1 − (n−1)/(N s))₊} r^{u_n − ½}, u_n ∈ [0, 1) the last coordinate
@@ -99,50 +99,5 @@ impl Settling {
     /// Whether the basis varies in this step.
     pub(crate) fn varies(&self, step: usize, steps: usize) -> bool {
         self.shifts || self.left(step, steps) >= 1.0
-    }
-}
-
-/// Factor α(t) before the external force.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Annealing {
-    /// The same in every step.
-    Constant(f64),
-    /// Geometric from the first value in the first step to the second in the last.
-    Geometric {
-        /// α in the first step.
-        from: f64,
-        /// α in the last step.
-        to: f64,
-    },
-}
-
-impl Annealing {
-    /// The same schedule, if every α is positive and finite.
-    pub(crate) fn checked(self) -> Result<Self, SampleError> {
-        let (from, to) = match self {
-            Self::Constant(alpha) => (alpha, alpha),
-            Self::Geometric { from, to } => (from, to),
-        };
-        positive("alpha", Some(from), 0.0)?;
-        positive("alpha", Some(to), 0.0)?;
-        Ok(self)
-    }
-
-    /// α of the last steps.
-    pub(crate) fn last(self) -> f64 {
-        match self {
-            Self::Constant(alpha) | Self::Geometric { to: alpha, .. } => alpha,
-        }
-    }
-
-    /// α in step `step` of `steps`, counted from 1.
-    pub(crate) fn at(self, step: usize, steps: usize) -> f64 {
-        match self {
-            Self::Constant(alpha) => alpha,
-            Self::Geometric { from, to } => {
-                let progress = (step - 1) as f64 / (steps - 1).max(1) as f64;
-                from.powf(1.0 - progress) * to.powf(progress)
-            }
-        }
     }
 }

@@ -21,8 +21,7 @@ use crate::start::{Stream, check, positive, steps};
 use crate::stiffness::Stiffness;
 use crate::view::Moment;
 use crate::{
-    MeshOptions, NonFiniteScores, Observer, OnMesh, Progress, Run, SampleError, Samples, ScoreLocation, TracePoint,
-    defaults,
+    MeshOptions, NonFiniteScores, Observer, OnMesh, Progress, Run, SampleError, Samples, TracePoint, defaults,
 };
 
 /// The gas within its wall.
@@ -95,12 +94,8 @@ impl MeshOptions {
         let mut score = FramedScore::new(target, &frame);
         score.non_finite = self.non_finite_scores;
         let force = ScoreForce {
-            score,
-            alpha: 1.0,
-            location: ScoreLocation::Particles,
-            mass_weighted: true,
-            mass_floor: 0.0,
             stiffness: Some(Stiffness::default()),
+            ..ScoreForce::at_particles(score)
         };
         let start = start::uniform_in(&mesh, count, &mut run.generator(Stream::Start.of_body(0)));
         let particles = Particles::at_rest(start, 1.0);

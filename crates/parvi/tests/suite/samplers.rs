@@ -6,8 +6,8 @@ use mpm_core::SplineGrid;
 use mpm_kernels::Quadratic;
 use mpm_tensor::vector;
 use parvi::{
-    AisOptions, BasisChoice, Guards, Method, MomentCorrection, MpmOptions, NonFiniteScores, Observer, PaperOptions,
-    Progress, Run, SampleError, Samples, ScoreLocation, Settling, Silent, Start, StartDraws, SvgdOptions,
+    AisOptions, BasisChoice, Guards, Method, MomentCorrection, MpmOptions, NonFiniteScores, Observer, PaperMaterial,
+    PaperOptions, Progress, Run, SampleError, Samples, ScoreLocation, Settling, Silent, Start, StartDraws, SvgdOptions,
     TransferChoice, galerkin_stein_residual, sample,
 };
 use parvi_metrics::{Cloud, CloudMoments, GaussianEnergy};
@@ -360,12 +360,16 @@ fn options_out_of_range_are_named() {
             "{error}"
         );
     }
-    let elastic = PaperOptions {
-        poissons_ratio: 0.5,
+    let error = PaperMaterial::neo_hookean(1.0, 0.5).unwrap_err();
+    assert!(error.to_string().contains("Poisson"), "{error}");
+    let rough = PaperOptions {
+        friction: -1.0,
         ..PaperOptions::default()
     };
-    let error = sample(&target, &Method::Paper(elastic), &run, &mut Silent).unwrap_err();
-    assert!(error.to_string().contains("Poisson"), "{error}");
+    match sample(&target, &Method::Paper(rough), &run, &mut Silent) {
+        Err(SampleError::InvalidOption { field, .. }) => assert_eq!(field, "friction"),
+        other => panic!("{other:?}"),
+    }
 }
 
 struct StopAfter(usize);

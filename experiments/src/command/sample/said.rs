@@ -52,7 +52,9 @@ pub fn pairs(arguments: &Arguments, outcome: &Outcome, peak_memory: Option<u64>)
         ("score_evaluations", outcome.score_evaluations.to_string()),
         ("density_evaluations", outcome.density_evaluations.to_string()),
     ];
+    let judging = Some(outcome.judging_evaluations).filter(|&count| count > 0);
     let optional = [
+        ("judging_evaluations", judging.map(|count| count.to_string())),
         ("log_evidence", outcome.log_evidence.map(|value| value.to_string())),
         (
             "log_evidence_error",

@@ -1,0 +1,100 @@
+//! The isothermal gas as a law of F for particles of any mass and volume.
+
+use mpm_tensor::Matrix;
+
+use crate::material::{check_volume_ratio, log_volume_ratio};
+use crate::{DeformationError, IsothermalGas, Law};
+
+/// What [`DeformingGas`] remembers of a particle.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct GasState {
+    /// ρ₀ = m/V⁰; 0 is a vacuum.
+    pub reference_density: f64,
+}
+
+/// The isothermal gas as a constitutive law of the deformation gradient, Ψ(F) = −κ (m/V⁰) ln det F per reference volume: τ = −κ (m/V⁰) I, V⁰ τ = −κ m I.
+///
+/// With it, and with α ∇log p as a force per unit mass, a step made for solids rests where κ ∇log ρ = α ∇log p: the one law whose rest state is the target (κ = α = 1). The stress of a
+/// particle does not depend on F at all as long as det F > 0, which is why [`IsothermalGas`] stores none, and it does not depend on V⁰ either. ρ₀ is the particle's own and comes from
+/// [`Law::virgin`]; [`TrackedGas`](crate::TrackedGas) has one for all particles.
+///
+/// **Defined for det F > 0 only.** Source: that of [`IsothermalGas`]; P = ∂Ψ/∂F = −κ (m/V⁰) F⁻ᵀ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DeformingGas {
+    /// κ.
+    pub gas: IsothermalGas,
+}
+
+#[allow(non_snake_case)]
+impl<const D: usize> Law<D> for DeformingGas {
+    type State = GasState;
+
+    fn virgin(&self, reference_density: f64) -> GasState {
+        GasState { reference_density }
+    }
+
+    #[inline]
+    fn advance(&self, trial: &Matrix<D>, _state: &mut GasState) -> Matrix<D> {
+        *trial
+    }
+
+    #[inline]
+    fn energy_density(&self, F: &Matrix<D>, state: &GasState) -> f64 {
+        -self.gas.pressure(state.reference_density) * log_volume_ratio(F)
+    }
+
+    #[inline]
+    fn kirchhoff_stress(&self, F: &Matrix<D>, state: &GasState, _velocity_gradient: &Matrix<D>) -> Matrix<D> {
+        Matrix::diagonal(&[-self.pressure(F, state); D])
+    }
+
+    /// c = √(κ ρ₀ / `reference_density`), which is √κ.
+    #[inline]
+    fn wave_speed(&self, F: &Matrix<D>, state: &GasState, reference_density: f64) -> f64 {
+        (self.pressure(F, state) / reference_density).sqrt()
+    }
+
+    fn check(&self, F: &Matrix<D>) -> Result<(), DeformationError> {
+        check_volume_ratio(F).map(|_| ())
+    }
+}
+
+#[allow(non_snake_case)]
+impl DeformingGas {
+    /// κ ρ₀, the Kirchhoff pressure; NaN unless det F is positive and finite.
+    #[inline]
+    fn pressure<const D: usize>(&self, F: &Matrix<D>, state: &GasState) -> f64 {
+        let J = F.determinant();
+        if J > 0.0 && J < f64::INFINITY {
+            self.gas.pressure(state.reference_density)
+        } else {
+            f64::NAN
+        }
+    }
+}
+
+#[cfg(test)]
+#[allow(non_snake_case)]
+mod tests {
+    use super::*;
+    use crate::Material;
+
+    #[test]
+    fn it_is_the_tracked_gas_of_the_particles_own_density() {
+        let gas = IsothermalGas::new(1.5).expect("positive");
+        let law = DeformingGas { gas };
+        let F = Matrix([[1.3, 0.2], [-0.1, 0.7]]);
+        for density in [0.3, 4.0] {
+            let tracked = gas.with_reference_density(density).expect("positive");
+            let state = Law::<2>::virgin(&law, density);
+            let stress = law.kirchhoff_stress(&F, &state, &Matrix::ZERO);
+            assert_eq!(stress, Material::kirchhoff_stress(&tracked, &F));
+            assert_eq!(law.energy_density(&F, &state), Material::energy_density(&tracked, &F));
+            assert_eq!(law.wave_speed(&F, &state, density), gas.wave_speed());
+        }
+        let inverted = Matrix::diagonal(&[1.0, -2.0]);
+        assert!(law.check(&inverted).is_err());
+        let stress = law.kirchhoff_stress(&inverted, &GasState::default(), &Matrix::ZERO);
+        assert!(stress.trace().is_nan());
+    }
+}

@@ -1,0 +1,103 @@
+//! Linear elasticity between small strain and Cauchy stress.
+
+use mpm_tensor::Matrix;
+
+use crate::material::check_finite;
+use crate::stretch::largest_squared_stretch;
+use crate::{DeformationError, ElasticModuli, Law};
+
+/// Linear elasticity as the MPM-ParVI paper has it: the **Cauchy** stress σ = λ tr ε I + 2μ ε with ε = ½ (F + Fᵀ) − I, so τ = J σ, J = det F.
+///
+/// [`LinearElastic`](crate::LinearElastic) has the same right side as the first Piola–Kirchhoff stress; both agree to first order in F − I. τ is symmetric, so that angular momentum is
+/// kept, but a rotation is taken for a strain, and P = J σ F⁻ᵀ is not the derivative of an energy: beyond small strain a closed cycle of deformations may gain or lose work. Any finite F
+/// is admissible, also one turned inside out (J ≤ 0), where the sign of τ turns.
+///
+/// Source: Huang, arXiv 2407.20287, Eq. 19, with σ in Eq. 30; λ and μ by Eq. 23.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinearCauchy {
+    /// λ and μ.
+    pub moduli: ElasticModuli,
+}
+
+impl LinearCauchy {
+    /// The material with these moduli.
+    pub fn new(moduli: ElasticModuli) -> Self {
+        Self { moduli }
+    }
+}
+
+#[allow(non_snake_case)]
+impl<const D: usize> Law<D> for LinearCauchy {
+    type State = ();
+
+    #[inline]
+    fn advance(&self, trial: &Matrix<D>, _state: &mut ()) -> Matrix<D> {
+        *trial
+    }
+
+    /// μ ε : ε + λ/2 (tr ε)², of which the stress is the derivative for small strain only.
+    #[inline]
+    fn energy_density(&self, F: &Matrix<D>, _state: &()) -> f64 {
+        let strain = (*F - Matrix::IDENTITY).symmetric_part();
+        let trace = strain.trace();
+        self.moduli.shear_modulus() * strain.contract(&strain)
+            + 0.5 * self.moduli.first_lame_parameter() * trace * trace
+    }
+
+    #[inline]
+    fn kirchhoff_stress(&self, F: &Matrix<D>, _state: &(), _velocity_gradient: &Matrix<D>) -> Matrix<D> {
+        let J = F.determinant();
+        let strain = (*F - Matrix::IDENTITY).symmetric_part();
+        let mut stress = strain * (2.0 * self.moduli.shear_modulus() * J);
+        let pressure = self.moduli.first_lame_parameter() * strain.trace() * J;
+        for i in 0..D {
+            stress.0[i][i] += pressure;
+        }
+        stress
+    }
+
+    /// ρ₀ c² = |J| Λ (|λ| + 2μ) with a bound of the largest stretch Λ of F.
+    ///
+    /// Along a nᵀ, with g = Fᵀ n, the traction of δP is J (λ (g · a) n + μ (g · n) a + μ (a · n) g), no longer than |J| |g| (|λ| + 2μ), and |g| ≤ Λ. At rest that is the speed of pressure waves for λ ≥ 0.
+    #[inline]
+    fn wave_speed(&self, F: &Matrix<D>, _state: &(), reference_density: f64) -> f64 {
+        let modulus = self.moduli.first_lame_parameter().abs() + 2.0 * self.moduli.shear_modulus();
+        let stretch = largest_squared_stretch(F).sqrt();
+        (F.determinant().abs() * stretch * modulus / reference_density).sqrt()
+    }
+
+    fn check(&self, F: &Matrix<D>) -> Result<(), DeformationError> {
+        check_finite(F)
+    }
+}
+
+#[cfg(test)]
+#[allow(non_snake_case)]
+mod tests {
+    use super::*;
+
+    fn law() -> LinearCauchy {
+        LinearCauchy::new(ElasticModuli::from_lame(3.0, 2.0).expect("in range"))
+    }
+
+    #[test]
+    fn a_stretch_gives_the_hand_calculation() {
+        // ε = diag(0.5, 0), σ = diag(3.5, 1.5), J = 1.5.
+        let stress = law().kirchhoff_stress(&Matrix::diagonal(&[1.5, 1.0]), &(), &Matrix::ZERO);
+        assert!((stress - Matrix::diagonal(&[5.25, 2.25])).frobenius_norm() < 1e-15);
+        assert_eq!(law().energy_density(&Matrix::diagonal(&[1.5, 1.0]), &()), 0.5 + 0.375);
+    }
+
+    #[test]
+    fn a_body_turned_inside_out_has_a_stress_of_the_other_sign() {
+        let stress = law().kirchhoff_stress(&Matrix([[-0.5]]), &(), &Matrix::ZERO);
+        assert_eq!(stress, Matrix([[7.0 * -1.5 * -0.5]]));
+        assert!(Law::<1>::check(&law(), &Matrix([[-0.5]])).is_ok());
+        assert!(Law::<1>::check(&law(), &Matrix([[f64::NAN]])).is_err());
+    }
+
+    #[test]
+    fn waves_at_rest_are_those_of_hooke() {
+        assert!((law().wave_speed(&Matrix::<3>::IDENTITY, &(), 7.0) - 1.0).abs() < 1e-15);
+    }
+}
