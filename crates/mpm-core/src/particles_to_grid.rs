@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use mpm_kernels::Deposit;
+use mpm_tensor::vector::scale;
 
 use crate::transfer::{CellSums, GridNode, Prepare, Transfer};
 use crate::{Basis, BodyForce, Boundary, ForceLocation, Medium, Mpm, Particles, StressImpulse};
@@ -75,7 +76,7 @@ where
             let mass = particles.masses.get(p);
             let mut impulse = [0.0; D];
             if pulled {
-                impulse = accelerations[p].map(|g| dt * mass * g);
+                impulse = scale(&accelerations[p], dt * mass);
             }
             let stress = if M::DEFORMS {
                 stress.copied().unwrap_or_else(unprepared)
@@ -84,7 +85,7 @@ where
             };
             let mut value = Deposit {
                 scalar: mass,
-                vector: velocities[p].map(|v| mass * v),
+                vector: scale(&velocities[p], mass),
             };
             if T::INCREMENTAL {
                 let force = Deposit {
