@@ -4,6 +4,7 @@ use mpm_kernels::{Interpolated, Wanted, deformed};
 use mpm_tensor::vector::multiply_add;
 
 use crate::transfer::{CellField, Changes, Moving, MovingParticle, Numbered, Transfer, Velocities, gather_cells};
+use crate::volume_averaging::average_volume_ratios;
 use crate::{Basis, BodyForce, Boundary, Medium, Mpm};
 
 impl<const D: usize, B, T, M, F, C> Mpm<D, B, T, M, F, C>
@@ -14,36 +15,36 @@ where
     F: BodyForce<D>,
     C: Boundary<D>,
 {
-    /// v_p = Σ_i w_ip v_i, B_p = Σ_i w_ip v_i (x_i − x_p)ᵀ, x_p ← x_p + Δt Σ_i w_ip v_i.
-    pub(crate) fn move_particles(&mut self, dt: f64, damping: f64) {
-        self.grid_to_particles::<true, false>(dt, damping);
-    }
-
+    /// v_p = Σ_i w_ip v_i, B_p = Σ_i w_ip v_i (x_i − x_p)ᵀ, x_p ← x_p + Δt Σ_i w_ip v_i; in the same pass, where the medium deforms,
     /// F_p ← (I + Δt Σ_i v_i ∇w_ipᵀ) F_p, then whatever the medium admits of it.
-    pub(crate) fn deform_particles(&mut self, dt: f64) {
-        if !M::DEFORMS {
-            return;
-        }
-        self.grid_to_particles::<false, true>(dt, 1.0);
-        if self.volume_averaging {
-            self.average_volume_ratios();
-        }
-    }
-
-    /// [`move_particles`](Self::move_particles) and [`deform_particles`](Self::deform_particles) in one pass.
     pub(crate) fn move_and_deform_particles(&mut self, dt: f64, damping: f64) {
-        self.grid_to_particles::<true, true>(dt, damping);
+        self.grid_to_particles::<true>(true, true, dt, damping);
     }
 
-    /// G2P. With volume averaging the trial deformation gradient is left for [`average_volume_ratios`](Self::average_volume_ratios).
-    fn grid_to_particles<const MOVE: bool, const DEFORM: bool>(&mut self, dt: f64, damping: f64) {
+    /// [`move_and_deform_particles`](Self::move_and_deform_particles) without the deformation.
+    pub(crate) fn move_particles(&mut self, dt: f64, damping: f64) {
+        self.grid_to_particles::<false>(true, false, dt, damping);
+    }
+
+    /// [`move_and_deform_particles`](Self::move_and_deform_particles) without the motion.
+    pub(crate) fn deform_particles(&mut self, dt: f64) {
+        self.grid_to_particles::<false>(false, true, dt, 1.0);
+        if self.volume_averaging {
+            let nodes = &mut self.node_volumes;
+            average_volume_ratios(&self.basis, &self.medium, &mut self.particles, nodes);
+        }
+    }
+
+    /// G2P. Both parts at once are a pass of their own, in which nothing is asked per particle; either alone is the other pass, which computes both and writes
+    /// one, so that a third need not be compiled. With volume averaging the trial deformation gradient is left for [`average_volume_ratios`].
+    fn grid_to_particles<const BOTH: bool>(&mut self, moves: bool, deforms: bool, dt: f64, damping: f64) {
         let (basis, nodes, transfer) = (&self.basis, self.nodes.as_slice(), self.transfer.over(dt));
         let (medium, admit) = (&self.medium, !self.volume_averaging);
         let rate_dependent = medium.rate_dependent();
         let velocity = Velocities::<_, D>(nodes);
         let change = Changes::<_, D> { nodes, damping };
         let update = move |particle: MovingParticle<D, M::State>, seen: &Interpolated<D>, change: &[f64; D]| {
-            if MOVE {
+            if BOTH || moves {
                 *particle.velocity = transfer.particle_velocity(&seen.value, change, particle.velocity, damping);
                 for a in 0..D {
                     particle.position[a] = multiply_add(dt, seen.value[a], particle.position[a]);
@@ -53,7 +54,7 @@ where
                 }
             }
             #[allow(non_snake_case)]
-            if let Some((F, state)) = particle.deformation {
+            if let (true, Some((F, state))) = (BOTH || deforms, particle.deformation) {
                 let trial = deformed(F, &seen.gradient, dt);
                 *F = if admit { medium.advance(&trial, state) } else { trial };
                 if let (true, Some(velocity_gradient)) = (rate_dependent, particle.velocity_gradient) {
@@ -65,28 +66,26 @@ where
             basis,
             Moving::of(&mut self.particles),
             move |data: &mut Moving<D, M::State>, particles, numbers, first, fields: &mut [CellField; 2]| {
-                // In here and not captured, so that they are known when this is compiled.
-                let incremental = MOVE && T::INCREMENTAL;
-                let (affine, deforms) = (MOVE && T::AFFINE, DEFORM && M::DEFORMS);
+                // In here and not captured, so that it is known when this is compiled.
                 let wanted = Wanted {
-                    gradient: deforms,
+                    gradient: M::DEFORMS,
                     least_squares: T::MOVING_LEAST_SQUARES,
-                    moment: affine,
+                    moment: T::AFFINE,
                 };
                 let (size, value) = (numbers.len(), Wanted::default());
                 let [velocities, changes] = fields;
                 if !B::LONE_PARTICLES {
                     velocities.collect(numbers, velocity);
-                    if incremental {
+                    if T::INCREMENTAL {
                         changes.collect(numbers, change);
                     }
                 }
                 for p in particles {
-                    let particle = data.particle(p - first, affine, deforms);
+                    let particle = data.particle(p - first, T::AFFINE, M::DEFORMS);
                     let x = *particle.position;
                     let mut changed = [0.0; D];
                     let seen = if B::LONE_PARTICLES {
-                        if incremental {
+                        if T::INCREMENTAL {
                             let changes = Numbered { field: change, numbers };
                             changed = basis.interpolate(p, &x, value, &changes).value;
                         }
@@ -100,7 +99,7 @@ where
                             },
                         )
                     } else {
-                        if incremental {
+                        if T::INCREMENTAL {
                             changed = basis.interpolate(p, &x, value, &changes.nodes(size)).value;
                         }
                         basis.interpolate(p, &x, wanted, &velocities.nodes(size))

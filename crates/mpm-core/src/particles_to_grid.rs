@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use mpm_kernels::Deposit;
+use mpm_tensor::vector::scale;
 
 use crate::transfer::{CellSums, GridNode, Prepare, Transfer};
 use crate::{Basis, BodyForce, Boundary, ForceLocation, Medium, Mpm, Particles, StressImpulse};
@@ -12,6 +13,8 @@ struct Stresses<'a, M: Medium<D>, const D: usize> {
     particles: &'a Particles<D, M::State>,
     medium: &'a M,
     time_step: f64,
+    /// Whether forces act; the stresses of a pass without are zero.
+    forces: bool,
 }
 
 impl<M: Medium<D>, const D: usize> Clone for Stresses<'_, M, D> {
@@ -27,8 +30,20 @@ impl<M: Medium<D>, const D: usize> Prepare for Stresses<'_, M, D> {
     const WANTED: bool = M::DEFORMS;
 
     fn prepare(&self, range: Range<usize>, to: &mut Vec<M::Impulse>) {
-        self.medium.impulses(self.particles, range, self.time_step, to);
+        if self.forces {
+            self.medium.impulses(self.particles, range, self.time_step, to);
+        } else {
+            to.clear();
+            to.resize(range.len(), M::Impulse::ZERO);
+        }
     }
+}
+
+/// Stresses are prepared for every particle; a constant in the place of this call would be a choice among numbers at each of them.
+#[cold]
+#[inline(never)]
+fn unprepared<const D: usize, I: StressImpulse<D>>() -> I {
+    I::ZERO
 }
 
 impl<const D: usize, B, T, M, F, C> Mpm<D, B, T, M, F, C>
@@ -43,24 +58,34 @@ where
     ///
     /// Moving least squares have w_ip D_p⁻¹ (x_i − x_p) in the place of ∇w_ip.
     pub(crate) fn particles_to_grid(&mut self, dt: f64) {
+        self.scatter(dt, true);
+    }
+
+    /// P2G with all forces, or with none.
+    fn scatter(&mut self, dt: f64, forces: bool) {
         let (particles, medium, basis) = (&self.particles, &self.medium, &self.basis);
         let (velocities, accelerations) = (&particles.velocities[..], &self.accelerations[..]);
-        let pulled = self.body_force.location() == ForceLocation::Particles;
+        let pulled = forces && self.body_force.location() == ForceLocation::Particles;
         let stresses = Stresses {
             particles,
             medium,
             time_step: dt,
+            forces,
         };
         let deposit = move |p: usize, x: &[f64; D], stress: Option<&M::Impulse>, cell: &mut CellSums<B, T::Node, D>| {
             let mass = particles.masses.get(p);
             let mut impulse = [0.0; D];
             if pulled {
-                impulse = accelerations[p].map(|g| dt * mass * g);
+                impulse = scale(&accelerations[p], dt * mass);
             }
-            let stress = stress.copied().unwrap_or_else(|| medium.impulse(particles, p, dt));
+            let stress = if M::DEFORMS {
+                stress.copied().unwrap_or_else(unprepared)
+            } else {
+                medium.impulse(particles, p, dt)
+            };
             let mut value = Deposit {
                 scalar: mass,
-                vector: velocities[p].map(|v| mass * v),
+                vector: scale(&velocities[p], mass),
             };
             if T::INCREMENTAL {
                 let force = Deposit {
@@ -73,7 +98,9 @@ where
                 } else {
                     basis.deposit(p, x, &value, &(), &(), &mut cell.sums());
                 }
-                basis.deposit(p, x, &force, &(), &stress, &mut cell.impulses());
+                if forces {
+                    basis.deposit(p, x, &force, &(), &stress, &mut cell.impulses());
+                }
                 return;
             }
             for a in 0..D {
@@ -95,25 +122,7 @@ where
 
     /// The velocities of the nodes without any force: mass and momentum alone, then the boundary.
     pub(crate) fn momentum_to_grid(&mut self, dt: f64) {
-        if !M::DEFORMS {
-            return; // nothing deforms with them
-        }
-        let (particles, basis) = (&self.particles, &self.basis);
-        let deposit = move |p: usize, x: &[f64; D], _: Option<&()>, cell: &mut CellSums<B, T::Node, D>| {
-            let mass = particles.masses.get(p);
-            let value = Deposit {
-                scalar: mass,
-                vector: particles.velocities[p].map(|v| mass * v),
-            };
-            if T::AFFINE {
-                let affine = particles.affine[p] * mass;
-                basis.deposit(p, x, &value, &affine, &(), &mut cell.sums());
-            } else {
-                basis.deposit(p, x, &value, &(), &(), &mut cell.sums());
-            }
-        };
-        self.nodes
-            .scatter_packed(basis, &particles.positions, false, (), deposit);
+        self.scatter(dt, false);
         for node in self.nodes.as_mut_slice() {
             node.advance(&[0.0; D], 1.0, f64::INFINITY);
         }

@@ -94,9 +94,9 @@ impl<const D: usize> ProductGrid<D> {
         for a in 0..D {
             let u = self.nodes.coordinate(x, a);
             let base = match self.degree {
-                SplineDegree::Linear => rows.take(a, &Linear::row(u), h),
-                SplineDegree::Quadratic => rows.take(a, &Quadratic::row(u), h),
-                SplineDegree::Cubic => rows.take(a, &Cubic::row(u), h),
+                SplineDegree::Linear => rows.take(a, &Linear.row(u), h),
+                SplineDegree::Quadratic => rows.take(a, &Quadratic.row(u), h),
+                SplineDegree::Cubic => rows.take(a, &Cubic.row(u), h),
             };
             rows.offsets[a] = h * (base as f64 - u);
         }

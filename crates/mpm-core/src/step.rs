@@ -2,8 +2,8 @@
 
 use crate::transfer::{GridNode, Transfer, advance};
 use crate::{
-    Basis, BodyForce, Boundary, ForceLocation, GridMotion, Medium, Mpm, MpmError, Sites, StepControl, StepReport,
-    StressUpdate,
+    Basis, BodyForce, Boundary, ForceLocation, GridMotion, Medium, Mpm, MpmError, Particles, Sites, StepControl,
+    StepReport, StressUpdate,
 };
 
 impl<const D: usize, B, T, M, F, C> Mpm<D, B, T, M, F, C>
@@ -26,12 +26,17 @@ where
         self.particles
             .check_lengths(T::AFFINE, M::DEFORMS, self.medium.rate_dependent())?;
         let h = self.basis.spacing();
-        let dt = self.choose_time_step(control, h)?;
+        let dt = choose_time_step(&self.medium, &self.particles, control, h)?;
         let damping = control.damping(dt);
 
-        self.rebuild()?;
+        rebuild(&mut self.basis, &mut self.particles)?;
         self.filter_velocities(dt);
-        self.evaluate_particle_forces()?;
+        evaluate_particle_forces(
+            &mut self.body_force,
+            &self.particles,
+            self.time,
+            &mut self.accelerations,
+        )?;
         self.deform_first(dt);
         self.particles_to_grid(dt);
         self.evaluate_node_forces()?;
@@ -60,7 +65,7 @@ where
 
     /// Deform the particles before forces are taken, where that is the order.
     fn deform_first(&mut self, dt: f64) {
-        if M::ORDER_IS_FIXED {
+        if !M::DEFORMS || M::ORDER_IS_FIXED {
             return;
         }
         if self.stress_update == StressUpdate::First {
@@ -71,10 +76,7 @@ where
 
     /// Move the particles and, unless they have deformed already, deform them.
     fn update_particles(&mut self, dt: f64, damping: f64) {
-        if !M::DEFORMS {
-            return self.move_particles(dt, damping);
-        }
-        if M::ORDER_IS_FIXED {
+        if !M::DEFORMS || M::ORDER_IS_FIXED {
             return self.move_and_deform_particles(dt, damping);
         }
         match self.stress_update {
@@ -95,30 +97,6 @@ where
         }
     }
 
-    /// Δt, by the wave speed of the medium and the speed of the particles.
-    fn choose_time_step(&self, control: &StepControl, h: f64) -> Result<f64, MpmError> {
-        let wave_speed = self.medium.wave_speed(&self.particles);
-        let wave_speed = wave_speed.map_err(|error| self.particles.name(error))?;
-        let speed = if control.courant.is_finite() {
-            self.particles.largest_speed()
-        } else {
-            0.0 // no limit asks for it
-        };
-        control.next_time_step(h, wave_speed, speed)
-    }
-
-    /// Sort the particles by cell where they are far from it, and number the nodes they touch.
-    fn rebuild(&mut self) -> Result<(), MpmError> {
-        self.basis
-            .sort(&self.particles.positions)
-            .map_err(|error| self.particles.name(error))?;
-        let schedule = self.basis.schedule();
-        if !schedule.keeps_order() {
-            self.particles.reorder(schedule.order());
-        }
-        self.basis.activate(&self.particles.positions)
-    }
-
     /// Forget what nodes do not see of the velocities, where a filter is given and its time has come.
     fn filter_velocities(&mut self, dt: f64) {
         if let Some(filter) = &mut self.velocity_filter {
@@ -131,23 +109,6 @@ where
                 &mut particles.velocities,
             );
         }
-    }
-
-    /// Force per unit mass at the particles.
-    fn evaluate_particle_forces(&mut self) -> Result<(), MpmError> {
-        if self.body_force.location() == ForceLocation::Particles {
-            self.accelerations.resize(self.particles.len(), [0.0; D]);
-            let sites = Sites {
-                positions: &self.particles.positions,
-                velocities: &self.particles.velocities,
-                identities: self.particles.identities(),
-                time: self.time,
-            };
-            self.body_force
-                .at_particles(&sites, &mut self.accelerations)
-                .map_err(|error| self.particles.name(error))?;
-        }
-        Ok(())
     }
 
     /// Force at the nodes themselves.
@@ -185,4 +146,60 @@ where
             self.boundary.constrain(&self.basis, &motion, self.nodes.as_mut_slice());
         }
     }
+}
+
+// What follows does not hang on all types of a body, and is compiled for those that it hangs on.
+
+/// Δt, by the wave speed of the medium and the speed of the particles.
+fn choose_time_step<const D: usize, M: Medium<D>>(
+    medium: &M,
+    particles: &Particles<D, M::State>,
+    control: &StepControl,
+    h: f64,
+) -> Result<f64, MpmError> {
+    let wave_speed = medium.wave_speed(particles);
+    let wave_speed = wave_speed.map_err(|error| particles.name(error))?;
+    let speed = if control.courant.is_finite() {
+        particles.largest_speed()
+    } else {
+        0.0 // no limit asks for it
+    };
+    control.next_time_step(h, wave_speed, speed)
+}
+
+/// Sort the particles by cell where they are far from it, and number the nodes they touch.
+fn rebuild<const D: usize, B: Basis<D>, S: Copy + Send + Sync>(
+    basis: &mut B,
+    particles: &mut Particles<D, S>,
+) -> Result<(), MpmError> {
+    basis
+        .sort(&particles.positions)
+        .map_err(|error| particles.name(error))?;
+    let schedule = basis.schedule();
+    if !schedule.keeps_order() {
+        particles.reorder(schedule.order());
+    }
+    basis.activate(&particles.positions)
+}
+
+/// Force per unit mass at the particles.
+fn evaluate_particle_forces<const D: usize, F: BodyForce<D>, S: Copy + Send + Sync>(
+    body_force: &mut F,
+    particles: &Particles<D, S>,
+    time: f64,
+    accelerations: &mut Vec<[f64; D]>,
+) -> Result<(), MpmError> {
+    if body_force.location() == ForceLocation::Particles {
+        accelerations.resize(particles.len(), [0.0; D]);
+        let sites = Sites {
+            positions: &particles.positions,
+            velocities: &particles.velocities,
+            identities: particles.identities(),
+            time,
+        };
+        body_force
+            .at_particles(&sites, accelerations)
+            .map_err(|error| particles.name(error))?;
+    }
+    Ok(())
 }

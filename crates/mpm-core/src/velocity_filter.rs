@@ -1,6 +1,7 @@
 //! Forgetting what the grid does not see of the particles' velocities.
 
 use mpm_kernels::Deposit;
+use mpm_tensor::vector::scale;
 
 use crate::transfer::{CellSums, GridNode, NodeSums, VelocityNode, gather};
 use crate::{Basis, Masses, MpmError};
@@ -94,7 +95,7 @@ impl<const D: usize> VelocityFilter<D> {
             let mass = masses.get(p);
             let value = Deposit {
                 scalar: mass,
-                vector: unseen[p].map(|u| mass * u),
+                vector: scale(&unseen[p], mass),
             };
             basis.deposit(p, x, &value, &(), &(), &mut cell.sums());
         };

@@ -24,8 +24,8 @@ pub(crate) struct AxisGroup<const W: usize> {
 impl<const W: usize> AxisGroup<W> {
     /// The rows touched from the grid coordinates `u` on a grid of spacing h.
     #[inline(always)]
-    pub fn new<S: Spline<W>>(u: Lanes, h: f64, inverse_h: f64) -> Self {
-        let rows = S::rows(u);
+    pub fn new<S: Spline<W>>(kernel: &S, u: Lanes, h: f64, inverse_h: f64) -> Self {
+        let rows = kernel.rows(u);
         let first = rows.base - u;
         let offsets: [Lanes; W] = std::array::from_fn(|j| (first + j as f64) * h);
         let first_moments: [Lanes; W] = std::array::from_fn(|j| rows.weights[j] * offsets[j]);

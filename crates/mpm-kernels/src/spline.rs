@@ -10,10 +10,10 @@ pub trait Spline<const W: usize>: Copy + Default + Send + Sync + 'static {
     const NAME: &'static str;
 
     /// N(r), r in units of the spacing.
-    fn value(r: f64) -> f64;
+    fn value(&self, r: f64) -> f64;
 
     /// dN/dr.
-    fn derivative(r: f64) -> f64;
+    fn derivative(&self, r: f64) -> f64;
 
     /// D_p = Σ_i w_ip (x_i − x_p)(x_i − x_p)ᵀ.
     const SECOND_MOMENT: SecondMoment;
@@ -22,13 +22,13 @@ pub trait Spline<const W: usize>: Copy + Default + Send + Sync + 'static {
     const IS_QUADRATIC: bool = false;
 
     /// All nodes touched from four grid coordinates u = x/h side by side, |u| < 2⁵¹, with values and derivatives. Beyond, and for NaN,
-    /// the rows are without meaning.
-    fn rows(u: Lanes) -> Rows<W>;
+    /// the rows are without meaning. The first of them is that of the default, whatever else varies among kernels of a kind.
+    fn rows(&self, u: Lanes) -> Rows<W>;
 
     /// [`rows`](Self::rows) of one coordinate.
     #[inline(always)]
-    fn row(u: f64) -> Row<W> {
-        let rows = Self::rows(Lanes::splat(u));
+    fn row(&self, u: f64) -> Row<W> {
+        let rows = self.rows(Lanes::splat(u));
         let first = |lanes: Lanes| lanes.to_array()[0];
         Row {
             base: first(rows.base) as i64,
@@ -90,16 +90,16 @@ impl Spline<2> for Linear {
     const NAME: &'static str = "linear";
     const SECOND_MOMENT: SecondMoment = SecondMoment::Gradient;
 
-    fn value(r: f64) -> f64 {
+    fn value(&self, r: f64) -> f64 {
         (1.0 - r.abs()).max(0.0)
     }
 
-    fn derivative(r: f64) -> f64 {
+    fn derivative(&self, r: f64) -> f64 {
         if r.abs() < 1.0 { -r.signum() } else { 0.0 }
     }
 
     #[inline(always)]
-    fn rows(u: Lanes) -> Rows<2> {
+    fn rows(&self, u: Lanes) -> Rows<2> {
         let base = round(u - 0.5);
         let f = u - base;
         Rows {
@@ -119,7 +119,7 @@ impl Spline<3> for Quadratic {
     const SECOND_MOMENT: SecondMoment = SecondMoment::Constant(0.25);
     const IS_QUADRATIC: bool = true;
 
-    fn value(r: f64) -> f64 {
+    fn value(&self, r: f64) -> f64 {
         let r = r.abs();
         if r < 0.5 {
             0.75 - r * r
@@ -130,7 +130,7 @@ impl Spline<3> for Quadratic {
         }
     }
 
-    fn derivative(r: f64) -> f64 {
+    fn derivative(&self, r: f64) -> f64 {
         let s = r.abs();
         if s < 0.5 {
             -2.0 * r
@@ -142,7 +142,7 @@ impl Spline<3> for Quadratic {
     }
 
     #[inline(always)]
-    fn rows(u: Lanes) -> Rows<3> {
+    fn rows(&self, u: Lanes) -> Rows<3> {
         let base = round(u) - 1.0;
         let f = u - base; // in [½, 3/2]: distance to the first node
         let (left, right) = (1.5 - f, f - 0.5);
@@ -163,7 +163,7 @@ impl Spline<4> for Cubic {
     const NAME: &'static str = "cubic";
     const SECOND_MOMENT: SecondMoment = SecondMoment::Constant(1.0 / 3.0);
 
-    fn value(r: f64) -> f64 {
+    fn value(&self, r: f64) -> f64 {
         let r = r.abs();
         if r < 1.0 {
             (0.5 * r - 1.0) * r * r + 2.0 / 3.0
@@ -174,7 +174,7 @@ impl Spline<4> for Cubic {
         }
     }
 
-    fn derivative(r: f64) -> f64 {
+    fn derivative(&self, r: f64) -> f64 {
         let s = r.abs();
         if s < 1.0 {
             (1.5 * s - 2.0) * r
@@ -186,7 +186,7 @@ impl Spline<4> for Cubic {
     }
 
     #[inline(always)]
-    fn rows(u: Lanes) -> Rows<4> {
+    fn rows(&self, u: Lanes) -> Rows<4> {
         let base = round(u - 0.5) - 1.0;
         let f = u - base; // in [1, 2]: distance to the first node
         let (left, right) = (2.0 - f, f - 1.0);

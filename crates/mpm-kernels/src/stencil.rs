@@ -67,7 +67,7 @@ impl<const D: usize> UniformGrid<D> {
         let mut first = 0;
         while first < D {
             let u = self.coordinates(x, first);
-            let (distances, bits) = (u.abs().to_array(), (S::rows(u).base + TO_BITS).to_array());
+            let (distances, bits) = (u.abs().to_array(), (S::default().rows(u).base + TO_BITS).to_array());
             for a in first..D.min(first + LANES) {
                 inside &= distances[a % LANES] < LIMIT;
                 node[a] = bits[a % LANES].to_bits() as i32;
@@ -81,7 +81,7 @@ impl<const D: usize> UniformGrid<D> {
     /// [`first_node`](Self::first_node) but without its checks. Lanes beyond the last axis have no meaning.
     #[inline(always)]
     pub fn first_nodes<S: Spline<W>, const W: usize>(&self, x: &[f64; D]) -> Lanes {
-        S::rows(self.coordinates(x, 0)).base
+        S::default().rows(self.coordinates(x, 0)).base
     }
 
     /// Position of the node with index i.
@@ -147,13 +147,19 @@ impl<const W: usize, const D: usize> Stencil<W, D> {
     /// Nodes in a stencil: Wᴰ.
     pub const SIZE: usize = W.pow(D as u32);
 
-    /// The stencil of position `x` on `grid`.
+    /// The stencil of position `x` on `grid` with the kernel that `S` is by default.
     #[inline(always)]
     pub fn new<S: Spline<W>>(x: &[f64; D], grid: &UniformGrid<D>) -> Self {
+        Self::of(&S::default(), x, grid)
+    }
+
+    /// The stencil of position `x` on `grid` with a kernel.
+    #[inline(always)]
+    pub fn of<S: Spline<W>>(kernel: &S, x: &[f64; D], grid: &UniformGrid<D>) -> Self {
         let mut axes = [Axis::NONE; D];
         let mut first = 0;
         while first < D {
-            let group = AxisGroup::new::<S>(grid.coordinates(x, first), grid.spacing, grid.inverse_spacing);
+            let group = AxisGroup::new(kernel, grid.coordinates(x, first), grid.spacing, grid.inverse_spacing);
             for a in first..D.min(first + LANES) {
                 let of = |lanes: Lanes| lanes.to_array()[a % LANES];
                 axes[a] = Axis {

@@ -2,27 +2,25 @@
 
 use std::io::{self, Write};
 
-use npyz::WriterBuilder;
-
 use super::Particles;
+use super::array_npy::header;
 
 /// Writes the array in row-major order.
 pub fn write(particles: &Particles, writer: &mut dyn Write) -> io::Result<()> {
     let further = particles.further_columns();
     let columns = particles.dimension() + further.len();
     let shape = [particles.len() as u64, columns as u64];
-    let mut array = npyz::WriteOptions::new()
-        .default_dtype()
-        .shape(&shape)
-        .writer(writer)
-        .begin_nd()?;
+    writer.write_all(&header(&shape))?;
     for (index, row) in particles.rows().enumerate() {
-        array.extend(row.iter().copied())?;
+        for value in row {
+            writer.write_all(&value.to_le_bytes())?;
+        }
         for (_, values) in &further {
-            array.push(&values.get(index).copied().unwrap_or(0.0))?;
+            let value = values.get(index).copied().unwrap_or(0.0);
+            writer.write_all(&value.to_le_bytes())?;
         }
     }
-    array.finish()
+    Ok(())
 }
 
 #[cfg(test)]

@@ -9,8 +9,6 @@ mod sort;
 mod template;
 mod tile;
 
-use std::marker::PhantomData;
-
 use mpm_kernels::{
     Columns, Deposit, Entry, Interpolated, Layout, NodeField, NodeSink, QuadraticCube, Spline, Stencil, UniformGrid,
     Wanted,
@@ -28,7 +26,7 @@ use crate::{Basis, MpmError, Schedule, UniformBasis};
 /// The nodes {origin + h i : i ∈ ℤᴰ} with tensor-product B-splines of kernel `S`; only touched nodes are stored.
 #[derive(Clone, Debug)]
 pub struct SplineGrid<S, const W: usize, const D: usize> {
-    kernel: PhantomData<S>,
+    kernel: S,
     nodes: UniformGrid<D>,
     /// Where particles may be.
     limits: Option<([f64; D], [f64; D])>,
@@ -82,7 +80,7 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
             )
         }
         let mut grid = Self {
-            kernel: PhantomData,
+            kernel: S::default(),
             nodes: UniformGrid::new(origin, h),
             limits: None,
             template: Template::new(W),
@@ -107,6 +105,11 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
         };
         grid.place(origin, h)?;
         Ok(grid)
+    }
+
+    /// The same grid with another kernel of its kind.
+    pub fn with_kernel(self, kernel: S) -> Self {
+        Self { kernel, ..self }
     }
 
     /// The same grid, which refuses particles outside the box from `lower` to `upper`.
@@ -137,7 +140,7 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
     /// The stencil of a particle, with its nodes at their places in the tile.
     #[inline(always)]
     fn stencil(&self, particle: usize, x: &[f64; D]) -> Stencil<W, D> {
-        Stencil::new::<S>(x, &self.nodes).at(self.layout(particle))
+        Stencil::of(&self.kernel, x, &self.nodes).at(self.layout(particle))
     }
 }
 
@@ -264,7 +267,7 @@ impl<S: Spline<W>, const W: usize, const D: usize> Basis<D> for SplineGrid<S, W,
 
     #[inline(always)]
     fn affine_direction(&self, _: usize, x: &[f64; D], entry: &Entry<D>) -> [f64; D] {
-        match Stencil::<W, D>::new::<S>(x, &self.nodes).second_moments() {
+        match Stencil::<W, D>::of(&self.kernel, x, &self.nodes).second_moments() {
             None => entry.gradient,
             Some(moments) => std::array::from_fn(|a| entry.weight * entry.offset[a] / moments[a]),
         }

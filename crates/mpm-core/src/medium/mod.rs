@@ -16,11 +16,16 @@ use crate::{MpmError, Particles};
 
 /// Impulses per node that are linear in ∇w_ip: a pressure (`f64`) or a full stress (`Matrix<D>`).
 pub trait StressImpulse<const D: usize>: Columns<D> + Send + Sync {
+    /// No stress.
+    const ZERO: Self;
+
     /// As a full stress.
     fn matrix(&self) -> Matrix<D>;
 }
 
 impl<const D: usize> StressImpulse<D> for f64 {
+    const ZERO: Self = 0.0;
+
     #[inline(always)]
     fn matrix(&self) -> Matrix<D> {
         Matrix::IDENTITY * *self
@@ -28,6 +33,8 @@ impl<const D: usize> StressImpulse<D> for f64 {
 }
 
 impl<const D: usize> StressImpulse<D> for Matrix<D> {
+    const ZERO: Self = Matrix::ZERO;
+
     #[inline(always)]
     fn matrix(&self) -> Matrix<D> {
         *self

@@ -66,7 +66,7 @@ fn averaged_volume_ratios_are_those_of_the_formula() {
         .particles
         .in_creation_order(&plain.particles.deformation_gradients);
     let weight = |x: &[f64; 2], i: i32, j: i32| {
-        Quadratic::value(x[0] / 0.2 - f64::from(i)) * Quadratic::value(x[1] / 0.2 - f64::from(j))
+        Quadratic.value(x[0] / 0.2 - f64::from(i)) * Quadratic.value(x[1] / 0.2 - f64::from(j))
     };
     let result = averaged
         .particles

@@ -16,7 +16,11 @@ macro_rules! every_basis {
         $check::<$dimension, _>("quadratic", |o, h| {
             SplineGrid::<Quadratic, 3, $dimension>::new(o, h).unwrap()
         });
-        $check::<$dimension, _>("GIMP", |o, h| SplineGrid::<Gimp<2>, 3, $dimension>::new(o, h).unwrap());
+        $check::<$dimension, _>("GIMP", |o, h| {
+            SplineGrid::<Gimp, 3, $dimension>::new(o, h)
+                .unwrap()
+                .with_kernel(Gimp::new(2))
+        });
         $check::<$dimension, _>("turned lattice", |o, h| {
             let mut lattice = SimplexLattice::<$dimension>::permutohedral(o, h).unwrap();
             lattice.turn(&$crate::scenes::reflection());

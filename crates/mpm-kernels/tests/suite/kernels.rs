@@ -3,8 +3,8 @@ use mpm_kernels::{Cubic, Deposit, Gimp, Linear, Quadratic, SecondMoment, Spline,
 use mpm_tensor::vector::maximum_norm;
 use proptest::prelude::*;
 
-fn kernel_conforms<const W: usize, S: Spline<W>>(u: f64) {
-    let row = S::row(u);
+fn kernel_conforms<const W: usize, S: Spline<W>>(kernel: S, u: f64) {
+    let row = kernel.row(u);
     let sum: f64 = row.weights.iter().sum();
     let slope: f64 = row.derivatives.iter().sum();
     let first: f64 = (0..W).map(|j| row.weights[j] * (row.base + j as i64) as f64).sum();
@@ -18,14 +18,14 @@ fn kernel_conforms<const W: usize, S: Spline<W>>(u: f64) {
     for j in 0..W {
         let r = u - (row.base + j as i64) as f64;
         assert!(row.weights[j] >= -f64::EPSILON * u.abs());
-        assert!((row.weights[j] - S::value(r)).abs() < 1e-14);
+        assert!((row.weights[j] - kernel.value(r)).abs() < 1e-14);
         let step = 1e-6;
-        let difference = (S::value(r + step) - S::value(r - step)) / (2.0 * step);
+        let difference = (kernel.value(r + step) - kernel.value(r - step)) / (2.0 * step);
         let kink = W == 2 && (r.abs() < 2.0 * step || (r.abs() - 1.0).abs() < 2.0 * step);
         if !kink {
-            assert!((S::derivative(r) - difference).abs() < 1e-5, "{} at {r}", S::NAME);
+            assert!((kernel.derivative(r) - difference).abs() < 1e-5, "{} at {r}", S::NAME);
             assert!(
-                (row.derivatives[j] - S::derivative(r)).abs() < 1e-12,
+                (row.derivatives[j] - kernel.derivative(r)).abs() < 1e-12,
                 "{} at {r}",
                 S::NAME
             );
@@ -39,8 +39,8 @@ fn kernel_conforms<const W: usize, S: Spline<W>>(u: f64) {
     }
 }
 
-fn stencil_conforms<const W: usize, const D: usize, S: Spline<W>>(x: [f64; D], origin: [f64; D], h: f64) {
-    let stencil = Stencil::<W, D>::new::<S>(&x, &UniformGrid::new(origin, h));
+fn stencil_conforms<const W: usize, const D: usize, S: Spline<W>>(kernel: S, x: [f64; D], origin: [f64; D], h: f64) {
+    let stencil = Stencil::<W, D>::of(&kernel, &x, &UniformGrid::new(origin, h));
     let mut seen = 0;
     let (mut sum, mut mean, mut slope) = (0.0, [0.0; D], [0.0; D]);
     stencil.for_each(|index, entry| {
@@ -55,16 +55,16 @@ fn stencil_conforms<const W: usize, const D: usize, S: Spline<W>>(x: [f64; D], o
         }
         let r: [f64; D] =
             std::array::from_fn(|a| (x[a] - origin[a]) / h - (stencil.base()[a] + digits[a] as i64) as f64);
-        let weight: f64 = r.iter().map(|&r| S::value(r)).product();
+        let weight: f64 = r.iter().map(|&r| kernel.value(r)).product();
         assert!((entry.weight - weight).abs() < 1e-12);
         for a in 0..D {
             if W > 2 {
                 let gradient: f64 = (0..D)
                     .map(|b| {
                         if a == b {
-                            S::derivative(r[b]) / h
+                            kernel.derivative(r[b]) / h
                         } else {
-                            S::value(r[b])
+                            kernel.value(r[b])
                         }
                     })
                     .product();
@@ -111,27 +111,27 @@ fn stencil_conforms<const W: usize, const D: usize, S: Spline<W>>(x: [f64; D], o
 proptest! {
     #[test]
     fn kernels(u in -1e3..1e3f64) {
-        kernel_conforms::<2, Linear>(u);
-        kernel_conforms::<3, Quadratic>(u);
-        kernel_conforms::<4, Cubic>(u);
-        kernel_conforms::<3, Gimp<1>>(u);
-        kernel_conforms::<3, Gimp<2>>(u);
-        kernel_conforms::<3, Gimp<5>>(u);
+        kernel_conforms::<2, _>(Linear, u);
+        kernel_conforms::<3, _>(Quadratic, u);
+        kernel_conforms::<4, _>(Cubic, u);
+        kernel_conforms::<3, _>(Gimp::new(1), u);
+        kernel_conforms::<3, _>(Gimp::new(2), u);
+        kernel_conforms::<3, _>(Gimp::new(5), u);
     }
 
     #[test]
     fn stencils(x in prop::array::uniform4(-20.0..20.0f64), o in prop::array::uniform4(-1.0..1.0f64), h in 0.05..3.0f64) {
-        stencil_conforms::<2, 1, Linear>([x[0]], [o[0]], h);
-        stencil_conforms::<3, 1, Quadratic>([x[0]], [o[0]], h);
-        stencil_conforms::<3, 2, Quadratic>([x[0], x[1]], [o[0], o[1]], h);
-        stencil_conforms::<4, 3, Cubic>([x[0], x[1], x[2]], [o[0], o[1], o[2]], h);
-        stencil_conforms::<3, 3, Gimp<2>>([x[0], x[1], x[2]], [o[0], o[1], o[2]], h);
-        stencil_conforms::<2, 4, Linear>(x, o, h);
-        stencil_conforms::<3, 4, Quadratic>(x, o, h);
+        stencil_conforms::<2, 1, _>(Linear, [x[0]], [o[0]], h);
+        stencil_conforms::<3, 1, _>(Quadratic, [x[0]], [o[0]], h);
+        stencil_conforms::<3, 2, _>(Quadratic, [x[0], x[1]], [o[0], o[1]], h);
+        stencil_conforms::<4, 3, _>(Cubic, [x[0], x[1], x[2]], [o[0], o[1], o[2]], h);
+        stencil_conforms::<3, 3, _>(Gimp::new(2), [x[0], x[1], x[2]], [o[0], o[1], o[2]], h);
+        stencil_conforms::<2, 4, _>(Linear, x, o, h);
+        stencil_conforms::<3, 4, _>(Quadratic, x, o, h);
         let (x, o) = ([x[0], x[1], x[2], x[3], 0.3 * x[0], -x[1]], [o[0], o[1], o[2], o[3], o[0], o[1]]);
-        stencil_conforms::<2, 6, Linear>(x, o, h);
-        stencil_conforms::<3, 6, Quadratic>(x, o, h);
-        stencil_conforms::<3, 5, Quadratic>([x[0], x[1], x[2], x[3], x[4]], [o[0], o[1], o[2], o[3], o[4]], h);
+        stencil_conforms::<2, 6, _>(Linear, x, o, h);
+        stencil_conforms::<3, 6, _>(Quadratic, x, o, h);
+        stencil_conforms::<3, 5, _>(Quadratic, [x[0], x[1], x[2], x[3], x[4]], [o[0], o[1], o[2], o[3], o[4]], h);
     }
 
     #[test]
@@ -150,10 +150,10 @@ proptest! {
 fn nodes_and_half_way_points_are_no_exception() {
     for k in -6..=6 {
         let u = f64::from(k) * 0.5;
-        kernel_conforms::<2, Linear>(u);
-        kernel_conforms::<3, Quadratic>(u);
-        kernel_conforms::<4, Cubic>(u);
-        kernel_conforms::<3, Gimp<2>>(u);
+        kernel_conforms::<2, _>(Linear, u);
+        kernel_conforms::<3, _>(Quadratic, u);
+        kernel_conforms::<4, _>(Cubic, u);
+        kernel_conforms::<3, _>(Gimp::new(2), u);
     }
 }
 
@@ -161,9 +161,9 @@ fn nodes_and_half_way_points_are_no_exception() {
 fn one_particle_per_axis_and_cell_makes_gimp_the_quadratic_spline() {
     for k in -400..400 {
         let r = 0.005 * f64::from(k) + 1e-4;
-        assert!((Gimp::<1>::value(r) - Quadratic::value(r)).abs() < 1e-15);
-        assert!((Gimp::<1>::derivative(r) - Quadratic::derivative(r)).abs() < 1e-15);
-        let (ours, theirs) = (Gimp::<1>::row(r), Quadratic::row(r));
+        assert!((Gimp::new(1).value(r) - Quadratic.value(r)).abs() < 1e-15);
+        assert!((Gimp::new(1).derivative(r) - Quadratic.derivative(r)).abs() < 1e-15);
+        let (ours, theirs) = (Gimp::new(1).row(r), Quadratic.row(r));
         assert_eq!(ours.base, theirs.base);
         for j in 0..3 {
             assert!((ours.weights[j] - theirs.weights[j]).abs() < 1e-15);
@@ -175,18 +175,21 @@ fn one_particle_per_axis_and_cell_makes_gimp_the_quadratic_spline() {
 /// The definition: the mean of the hat over a particle, by the midpoint rule.
 #[test]
 fn gimp_is_the_mean_of_the_hat_over_a_particle() {
-    fn check<const N: usize>() {
+    fn check(per_axis: u32) {
         let points = 20_000;
         for k in -40..40 {
             let r = 0.04 * f64::from(k) + 0.003;
-            let place = |i: i32| r + ((f64::from(i) + 0.5) / f64::from(points) - 0.5) / N as f64;
-            let mean = (0..points).map(|i| Linear::value(place(i))).sum::<f64>() / f64::from(points);
-            assert!((Gimp::<N>::value(r) - mean).abs() < 1e-8, "{N}, {r}: {mean}");
+            let place = |i: i32| r + ((f64::from(i) + 0.5) / f64::from(points) - 0.5) / f64::from(per_axis);
+            let mean = (0..points).map(|i| Linear.value(place(i))).sum::<f64>() / f64::from(points);
+            assert!(
+                (Gimp::new(per_axis).value(r) - mean).abs() < 1e-8,
+                "{per_axis}, {r}: {mean}"
+            );
         }
     }
-    check::<1>();
-    check::<2>();
-    check::<3>();
+    check(1);
+    check(2);
+    check(3);
 }
 
 #[test]

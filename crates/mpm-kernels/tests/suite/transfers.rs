@@ -148,8 +148,8 @@ fn interpolations<const W: usize, const D: usize, S: Spline<W>>(stencil: &Stenci
     }
 }
 
-fn transfers<const W: usize, const D: usize, S: Spline<W>>(x: &[f64], h: f64) {
-    let stencil = Stencil::<W, D>::new::<S>(&std::array::from_fn(|a| x[a]), &UniformGrid::new([0.1; D], h));
+fn transfers<const W: usize, const D: usize, S: Spline<W>>(kernel: S, x: &[f64], h: f64) {
+    let stencil = Stencil::<W, D>::of(&kernel, &std::array::from_fn(|a| x[a]), &UniformGrid::new([0.1; D], h));
     let affine = Matrix::from_fn(|a, b| 0.3 * h * (a as f64 - 1.5 * b as f64));
     let flux = Matrix::from_fn(|a, b| h * (0.2 + a as f64 * 0.7 - b as f64));
     deposits::<W, D, S>(&stencil, &affine, &flux);
@@ -165,20 +165,20 @@ proptest! {
 
     #[test]
     fn transfers_are_sums_over_entries(x in prop::collection::vec(-20.0..20.0f64, 6), h in 0.05..3.0f64) {
-        transfers::<2, 1, Linear>(&x, h);
-        transfers::<2, 2, Linear>(&x, h);
-        transfers::<2, 3, Linear>(&x, h);
-        transfers::<2, 6, Linear>(&x, h);
-        transfers::<3, 1, Quadratic>(&x, h);
-        transfers::<3, 2, Quadratic>(&x, h);
-        transfers::<3, 3, Quadratic>(&x, h);
-        transfers::<3, 4, Quadratic>(&x, h);
-        transfers::<3, 5, Quadratic>(&x, h);
-        transfers::<4, 1, Cubic>(&x, h);
-        transfers::<4, 2, Cubic>(&x, h);
-        transfers::<4, 3, Cubic>(&x, h);
-        transfers::<3, 2, Gimp<2>>(&x, h);
-        transfers::<3, 3, Gimp<2>>(&x, h);
-        transfers::<3, 4, Gimp<1>>(&x, h);
+        transfers::<2, 1, _>(Linear, &x, h);
+        transfers::<2, 2, _>(Linear, &x, h);
+        transfers::<2, 3, _>(Linear, &x, h);
+        transfers::<2, 6, _>(Linear, &x, h);
+        transfers::<3, 1, _>(Quadratic, &x, h);
+        transfers::<3, 2, _>(Quadratic, &x, h);
+        transfers::<3, 3, _>(Quadratic, &x, h);
+        transfers::<3, 4, _>(Quadratic, &x, h);
+        transfers::<3, 5, _>(Quadratic, &x, h);
+        transfers::<4, 1, _>(Cubic, &x, h);
+        transfers::<4, 2, _>(Cubic, &x, h);
+        transfers::<4, 3, _>(Cubic, &x, h);
+        transfers::<3, 2, _>(Gimp::new(2), &x, h);
+        transfers::<3, 3, _>(Gimp::new(2), &x, h);
+        transfers::<3, 4, _>(Gimp::new(1), &x, h);
     }
 }

@@ -70,14 +70,11 @@ fn on_grid<const D: usize>(
     grid: Grid<D>,
 ) -> Result<Box<dyn Motion<D>>, SceneFault> {
     match table.basis {
-        BasisName::Linear => with_spline::<Linear, 2, D>(parts, grid),
-        BasisName::Quadratic => with_spline::<Quadratic, 3, D>(parts, grid),
-        BasisName::Cubic => with_spline::<Cubic, 4, D>(parts, grid),
+        BasisName::Linear => with_spline(parts, grid.of_spline(Linear)?),
+        BasisName::Quadratic => with_spline(parts, grid.of_spline(Quadratic)?),
+        BasisName::Cubic => with_spline(parts, grid.of_spline(Cubic)?),
         BasisName::Gimp => match parts.scene.bodies.first().map(|body| body.per_axis()) {
-            Some(1) => with_share::<Gimp<1>, 3, D>(parts, grid),
-            Some(2) => with_share::<Gimp<2>, 3, D>(parts, grid),
-            Some(3) => with_share::<Gimp<3>, 3, D>(parts, grid),
-            Some(4) => with_share::<Gimp<4>, 3, D>(parts, grid),
+            Some(per_axis @ 1..=4) => with_share(parts, grid.of_spline(Gimp::new(per_axis))?),
             other => Err(SceneFault::value(
                 "bodies.particles_per_axis",
                 other.unwrap_or(0),
@@ -110,28 +107,28 @@ fn particles<const D: usize>(population: &Population<D>, laws: &Laws) -> Result<
     Ok(particles)
 }
 
-fn with_spline<S: Spline<W> + Sync + 'static, const W: usize, const D: usize>(
+fn with_spline<S: Spline<W>, const W: usize, const D: usize>(
     parts: Parts<D>,
-    grid: Grid<D>,
+    grid: SplineGrid<S, W, D>,
 ) -> Result<Box<dyn Motion<D>>, SceneFault> {
     match parts.scene.transfer.kind {
-        TransferKind::Pic | TransferKind::Flip => with_share::<S, W, D>(parts, grid),
+        TransferKind::Pic | TransferKind::Flip => with_share(parts, grid),
         TransferKind::AffineFlip => {
             let transfer = AffineFlip(share(parts.scene));
-            with_transfer(parts, grid.of_spline::<S, W>()?, transfer)
+            with_transfer(parts, grid, transfer)
         }
-        TransferKind::Apic => with_transfer(parts, grid.of_spline::<S, W>()?, Apic),
-        TransferKind::Mls => with_transfer(parts, grid.of_spline::<S, W>()?, Mls),
+        TransferKind::Apic => with_transfer(parts, grid, Apic),
+        TransferKind::Mls => with_transfer(parts, grid, Mls),
     }
 }
 
 /// FLIP with its share. PIC is FLIP without one: a step less to compile for every basis and dimension.
-fn with_share<S: Spline<W> + Sync + 'static, const W: usize, const D: usize>(
+fn with_share<const D: usize, B: SecondMoments<D> + 'static>(
     parts: Parts<D>,
-    grid: Grid<D>,
+    basis: B,
 ) -> Result<Box<dyn Motion<D>>, SceneFault> {
     let transfer = share(parts.scene);
-    with_transfer(parts, grid.of_spline::<S, W>()?, transfer)
+    with_transfer(parts, basis, transfer)
 }
 
 fn share(scene: &Scene) -> Flip {
@@ -156,9 +153,10 @@ fn higher_order(scene: &Scene) -> Option<(usize, f64)> {
 }
 
 impl<const D: usize> Grid<D> {
-    fn of_spline<S: Spline<W>, const W: usize>(self) -> Result<SplineGrid<S, W, D>, SceneFault> {
+    fn of_spline<S: Spline<W>, const W: usize>(self, kernel: S) -> Result<SplineGrid<S, W, D>, SceneFault> {
         let grid = SplineGrid::<S, W, D>::new(self.room.lower, self.spacing);
         grid.and_then(|grid| grid.with_limits(self.room.lower, self.room.upper))
+            .map(|grid| grid.with_kernel(kernel))
             .map_err(refused)
     }
 }
@@ -175,10 +173,7 @@ fn on_mesh<const D: usize>(
     };
     let basis = MeshBasis::new(mesh).map_err(invalid)?.with_outside(outside);
     match parts.scene.transfer.kind {
-        TransferKind::Pic | TransferKind::Flip => {
-            let transfer = share(parts.scene);
-            with_transfer(parts, basis, transfer)
-        }
+        TransferKind::Pic | TransferKind::Flip => with_share(parts, basis),
         TransferKind::AffineFlip => {
             let transfer = AffineFlip(share(parts.scene));
             with_transfer(parts, basis, transfer)
