@@ -5,7 +5,7 @@ use rand::rngs::ChaCha8Rng;
 
 use crate::density::Density;
 use crate::fold::Fold;
-use crate::learn::learn;
+use crate::learn::{Spending, learn};
 use crate::mixture::Mixture;
 use crate::options::{Plan, PoolError, Round};
 use crate::propose::{Form, best_form, proposal};
@@ -29,8 +29,9 @@ const AGREEMENT: f64 = 3.0;
 /// Rounds before scores are taken: what neighbours alone teach may do.
 const UNSHARPENED: usize = 2;
 
-/// Shares of the evaluations that scouts, the scores of one round, and all rounds together may take.
+/// Shares of the evaluations that scouts, the walks and the scores of one round, and all rounds together may take.
 const SCOUTING: f64 = 0.1;
+const WALKING: f64 = 0.05;
 const SHARPENING: f64 = 0.02;
 const ADAPTING: f64 = 0.75;
 
@@ -144,9 +145,14 @@ impl<const D: usize> Adaptation<D> {
         } else {
             EXPLORING
         };
+        let spending = Spending {
+            exploring,
+            sharpening,
+            walking: (0.5 * WALKING * plan.evaluations as f64) as u64,
+        };
         let mut share = 0.0;
         for side in 0..2 {
-            let proposal = self.proposal(1 - side, exploring, sharpening, density, rng)?;
+            let proposal = self.proposal(1 - side, spending, density, rng)?;
             let drawn = self.folds[side].draw(density, proposal, plan.round / 2, rng.random());
             self.shares[side].push(drawn);
             share += 0.5 * drawn;
@@ -171,17 +177,16 @@ impl<const D: usize> Adaptation<D> {
         })
     }
 
-    /// A proposal fitted to the points of this fold, with so many scores.
+    /// A proposal fitted to the points of this fold.
     fn proposal(
         &mut self,
         side: usize,
-        exploring: f64,
-        sharpening: usize,
+        spending: Spending,
         density: &mut Density<'_, D>,
         rng: &mut ChaCha8Rng,
     ) -> Result<Mixture<D>, PoolError> {
-        let mut learned = learn(&[&self.folds[side]], exploring, sharpening, density, rng);
-        let form = best_form(&learned.sample, self.form, sharpening > 0, rng);
+        let mut learned = learn(&[&self.folds[side]], spending, density, rng);
+        let form = best_form(&learned.sample, self.form, spending.sharpening > 0, rng);
         learned.sample.join(learned.level);
         self.form = Some(form);
         proposal(&learned.sample, form, rng).ok_or(PoolError::NowhereFinite)

@@ -11,6 +11,7 @@ use crate::lanes::{LANES, packed};
 use crate::levels::level_sample;
 use crate::neighbours::local_covariances;
 use crate::sample::Sample;
+use crate::walk::outposts;
 use crate::weights::{effective_size, systematic, tempered, tempering};
 
 /// Weights are tempered to an effective size of this share of the points, but at most to `LARGEST_TEMPERED`.
@@ -33,11 +34,21 @@ pub(super) struct Learned<const D: usize> {
     pub level: Sample<D>,
 }
 
-/// What these folds teach; `sharpening`: scores that the curvature at places for kernels may take, 0 for none; `exploring`: the level set's share.
+/// What may be spent on learning beside the points that are there.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Spending {
+    /// The level set's share of the points learned from.
+    pub exploring: f64,
+    /// Scores that the curvature at places for kernels may take, 0 for none.
+    pub sharpening: usize,
+    /// Evaluations that walks along ridges may take.
+    pub walking: u64,
+}
+
+/// What these folds teach.
 pub(super) fn learn<const D: usize>(
     source: &[&Fold<D>],
-    exploring: f64,
-    sharpening: usize,
+    spending: Spending,
     density: &mut Density<'_, D>,
     rng: &mut ChaCha8Rng,
 ) -> Learned<D> {
@@ -62,17 +73,24 @@ pub(super) fn learn<const D: usize>(
     let lowest = sample.logs.iter().copied().fold(f64::INFINITY, f64::min);
     let mut level = Sample::default();
     for fold in source {
-        let share = (exploring * count as f64) as usize / source.len();
+        let share = (spending.exploring * count as f64) as usize / source.len();
         level.join(level_sample(fold, lowest, share, rng.random()));
+        level.join(outposts(
+            fold,
+            &sample,
+            lowest,
+            spending.walking / source.len() as u64,
+            density,
+        ));
     }
     for learned in [&mut sample, &mut level] {
         learned.logs = tempered_logs(&learned.points, &learned.logs, source, gamma);
     }
-    if sharpening == 0 {
+    if spending.sharpening == 0 {
         return Learned { sample, level };
     }
     sample.join(level);
-    let mut seats = systematic(&sample.weights, sharpening / (D + 1), rng.random());
+    let mut seats = systematic(&sample.weights, spending.sharpening / (D + 1), rng.random());
     seats.dedup();
     let points: Vec<[f64; D]> = seats.iter().map(|&i| sample.points[i]).collect();
     let covariances = local_covariances(&sample, &points, NEIGHBOURS * D);

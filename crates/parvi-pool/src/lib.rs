@@ -27,6 +27,7 @@ mod scout;
 mod support_points;
 #[cfg(test)]
 mod tests;
+mod walk;
 mod weights;
 
 pub use condense::condense;

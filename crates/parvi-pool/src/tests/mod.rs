@@ -2,6 +2,7 @@
 
 mod box_modes;
 mod folds;
+mod ridge;
 mod tape;
 
 use std::ops::ControlFlow;
