@@ -28,6 +28,9 @@ const POINTS: [usize; 2] = [500, 10_000];
 /// Neighbours per dimension that bound the length of a move.
 const NEIGHBOURS: usize = 4;
 
+/// How far below the highest log density of the sample level sets and walks may go, over how far the lowest one is.
+const DEPTH: f64 = 2.0;
+
 /// A sample from the tempered weights, and one from a level set.
 pub(super) struct Learned<const D: usize> {
     pub sample: Sample<D>,
@@ -71,6 +74,8 @@ pub(super) fn learn<const D: usize>(
     let count = (size as usize).clamp(POINTS[0], POINTS[1]);
     let mut sample = all.resampled(count, rng.random());
     let lowest = sample.logs.iter().copied().fold(f64::INFINITY, f64::min);
+    let highest = sample.logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let lowest = highest - DEPTH * (highest - lowest);
     let mut level = Sample::default();
     for fold in source {
         let share = (spending.exploring * count as f64) as usize / source.len();
