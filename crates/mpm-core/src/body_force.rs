@@ -53,7 +53,7 @@ pub trait BodyForce<const D: usize>: Sync {
     fn at_nodes(
         &mut self,
         _positions: &[[f64; D]],
-        _masses: impl Fn(usize) -> f64,
+        _masses: &dyn Fn(usize) -> f64,
         _forces: &mut [[f64; D]],
     ) -> Result<(), MpmError> {
         Ok(())

@@ -1,5 +1,6 @@
 //! One step of the material point method, phase by phase.
 
+use crate::diagnosis::what_is_not_finite;
 use crate::transfer::{GridNode, Transfer, advance};
 use crate::{
     Basis, BodyForce, Boundary, ForceLocation, GridMotion, Medium, Mpm, MpmError, Particles, Sites, StepControl,
@@ -39,7 +40,13 @@ where
         )?;
         self.deform_first(dt);
         self.particles_to_grid(dt);
-        self.evaluate_node_forces()?;
+        evaluate_node_forces(
+            &mut self.body_force,
+            &self.basis,
+            self.nodes.as_slice(),
+            &mut self.node_positions,
+            &mut self.node_forces,
+        )?;
         let speed = self.update_grid(dt, damping, control.speed_limit(h, dt))?;
         self.constrain_grid(dt);
         self.update_particles(dt, damping);
@@ -111,25 +118,21 @@ where
         }
     }
 
-    /// Force at the nodes themselves.
-    fn evaluate_node_forces(&mut self) -> Result<(), MpmError> {
-        if self.body_force.location() == ForceLocation::Nodes {
-            self.basis.node_positions(&mut self.node_positions);
-            let nodes = self.nodes.as_slice();
-            self.node_forces.resize(nodes.len(), [0.0; D]);
-            self.body_force
-                .at_nodes(&self.node_positions, |i| nodes[i].mass(), &mut self.node_forces)?;
-        }
-        Ok(())
-    }
-
     /// v_i ← damping (v_i + Δt f_i / m_i), shortened to the limit; returns the largest speed before.
     fn update_grid(&mut self, dt: f64, damping: f64, speed_limit: f64) -> Result<f64, MpmError> {
         let pulled = self.body_force.location() == ForceLocation::Nodes;
         let forces = pulled.then_some((self.node_forces.as_slice(), dt));
         let square = advance(self.nodes.as_mut_slice(), forces, damping, speed_limit);
         if square.is_nan() {
-            return Err(self.what_is_not_finite());
+            self.basis.node_positions(&mut self.node_positions);
+            let nodes = self.nodes.as_slice();
+            return Err(what_is_not_finite(
+                self.body_force.location(),
+                &self.particles,
+                &self.accelerations,
+                (&self.node_positions, &self.node_forces),
+                &|node| *nodes[node].velocity(),
+            ));
         }
         Ok(square.sqrt())
     }
@@ -148,9 +151,10 @@ where
     }
 }
 
-// What follows does not hang on all types of a body, and is compiled for those that it hangs on.
+// What follows does not hang on all types of a body, and is compiled once for those that it hangs on; called once per step, it is not copied into it.
 
 /// Δt, by the wave speed of the medium and the speed of the particles.
+#[inline(never)]
 fn choose_time_step<const D: usize, M: Medium<D>>(
     medium: &M,
     particles: &Particles<D, M::State>,
@@ -168,6 +172,7 @@ fn choose_time_step<const D: usize, M: Medium<D>>(
 }
 
 /// Sort the particles by cell where they are far from it, and number the nodes they touch.
+#[inline(never)]
 fn rebuild<const D: usize, B: Basis<D>, S: Copy + Send + Sync>(
     basis: &mut B,
     particles: &mut Particles<D, S>,
@@ -183,6 +188,7 @@ fn rebuild<const D: usize, B: Basis<D>, S: Copy + Send + Sync>(
 }
 
 /// Force per unit mass at the particles.
+#[inline(never)]
 fn evaluate_particle_forces<const D: usize, F: BodyForce<D>, S: Copy + Send + Sync>(
     body_force: &mut F,
     particles: &Particles<D, S>,
@@ -200,6 +206,23 @@ fn evaluate_particle_forces<const D: usize, F: BodyForce<D>, S: Copy + Send + Sy
         body_force
             .at_particles(&sites, accelerations)
             .map_err(|error| particles.name(error))?;
+    }
+    Ok(())
+}
+
+/// Force at the nodes themselves.
+#[inline(never)]
+fn evaluate_node_forces<const D: usize, F: BodyForce<D>, N: GridNode<D>>(
+    body_force: &mut F,
+    basis: &impl Basis<D>,
+    nodes: &[N],
+    positions: &mut Vec<[f64; D]>,
+    forces: &mut Vec<[f64; D]>,
+) -> Result<(), MpmError> {
+    if body_force.location() == ForceLocation::Nodes {
+        basis.node_positions(positions);
+        forces.resize(nodes.len(), [0.0; D]);
+        body_force.at_nodes(positions, &|i| nodes[i].mass(), forces)?;
     }
     Ok(())
 }

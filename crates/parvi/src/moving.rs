@@ -79,9 +79,13 @@ where
     }
 
     fn residual(&mut self, origin: &[f64; D], spacing: f64, scores: &[[f64; D]]) -> Result<Residual, MpmError> {
-        let point = self.certificate.cell_point(&origin.map(|c| (c + 0.5).fract()), spacing);
-        self.certificate.place(point, spacing)?;
-        galerkin_stein_residual(&mut self.certificate, &self.body.particles.positions, scores)
+        residual_on(
+            &mut self.certificate,
+            &self.body.particles.positions,
+            origin,
+            spacing,
+            scores,
+        )
     }
 
     fn grid_densities(&mut self, spacing: f64) -> Result<Vec<f64>, MpmError> {
@@ -93,4 +97,18 @@ where
     fn storage_bytes(&self) -> usize {
         self.body.storage_bytes()
     }
+}
+
+/// [`Moving::residual`], which neither transfer nor medium matter to.
+#[inline(never)]
+fn residual_on<const D: usize, B: UniformBasis<D>>(
+    certificate: &mut B,
+    positions: &[[f64; D]],
+    origin: &[f64; D],
+    spacing: f64,
+    scores: &[[f64; D]],
+) -> Result<Residual, MpmError> {
+    let point = certificate.cell_point(&origin.map(|c| (c + 0.5).fract()), spacing);
+    certificate.place(point, spacing)?;
+    galerkin_stein_residual(certificate, positions, scores)
 }

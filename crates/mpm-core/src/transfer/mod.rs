@@ -67,6 +67,7 @@ pub trait GridNode<const D: usize>: Sum {
 const PIECE: usize = 1 << 12;
 
 /// [`GridNode::advance`] of all nodes, with forces at them over a time step where there are such; the largest square.
+#[inline(never)]
 pub(crate) fn advance<N: GridNode<D>, const D: usize>(
     nodes: &mut [N],
     forces: Option<(&[[f64; D]], f64)>,

@@ -65,7 +65,7 @@ fn a_body_force_is_asked_only_where_it_acts() {
         fn at_nodes(
             &mut self,
             positions: &[[f64; 3]],
-            masses: impl Fn(usize) -> f64,
+            masses: &dyn Fn(usize) -> f64,
             forces: &mut [[f64; 3]],
         ) -> Result<(), mpm_core::MpmError> {
             self.nodes += 1;

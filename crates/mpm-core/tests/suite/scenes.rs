@@ -140,7 +140,7 @@ impl<const D: usize> BodyForce<D> for Pull<'_, D> {
     fn at_nodes(
         &mut self,
         positions: &[[f64; D]],
-        masses: impl Fn(usize) -> f64,
+        masses: &dyn Fn(usize) -> f64,
         forces: &mut [[f64; D]],
     ) -> Result<(), MpmError> {
         for (node, (x, force)) in positions.iter().zip(forces).enumerate() {
