@@ -11,11 +11,6 @@ use crate::options::{Plan, PoolError, Round};
 use crate::propose::{Form, best_form, proposal};
 use crate::scout::{Scouted, scout};
 
-/// Share of the points fitted to that come from a level set, and where the last round's effective share is above the bound.
-const EXPLORING: f64 = 0.12;
-const EXPLORING_LITTLE: f64 = 0.05;
-const GOOD_SHARE: f64 = 0.4;
-
 /// Effective share above which another round could gain nothing.
 const BEST_SHARE: f64 = 0.8;
 
@@ -140,13 +135,7 @@ impl<const D: usize> Adaptation<D> {
         } else {
             0
         };
-        let exploring = if self.share > GOOD_SHARE {
-            EXPLORING_LITTLE
-        } else {
-            EXPLORING
-        };
         let spending = Spending {
-            exploring,
             sharpening,
             walking: (0.5 * WALKING * plan.evaluations as f64) as u64,
         };

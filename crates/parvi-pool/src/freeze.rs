@@ -12,9 +12,6 @@ use crate::mixture::{Kernel, Mixture};
 use crate::options::Plan;
 use crate::propose::{best_form, proposal};
 
-/// Share of the points fitted to that come from a level set.
-const EXPLORING: f64 = 0.06;
-
 /// Share of the evaluations that scores for it may take.
 const SHARPENING: f64 = 0.05;
 
@@ -47,7 +44,6 @@ pub(super) fn freeze<const D: usize>(
         |density: &Density<'_, D>| plan.evaluations.saturating_sub(density.evaluations()) as usize / LANES * LANES;
     let sharpening = plan.sharpening(adapted.share, size, SHARPENING).min(rest(density) / 4);
     let spending = Spending {
-        exploring: EXPLORING,
         sharpening,
         walking: (rest(density) / 8) as u64,
     };

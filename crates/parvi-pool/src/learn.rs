@@ -28,6 +28,9 @@ const POINTS: [usize; 2] = [500, 10_000];
 /// Neighbours per dimension that bound the length of a move.
 const NEIGHBOURS: usize = 4;
 
+/// Share of the points learned from that come from a level set.
+const EXPLORING: f64 = 0.12;
+
 /// How far below the highest log density of the sample level sets and walks may go, over how far the lowest one is.
 const DEPTH: f64 = 2.0;
 
@@ -40,8 +43,6 @@ pub(super) struct Learned<const D: usize> {
 /// What may be spent on learning beside the points that are there.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Spending {
-    /// The level set's share of the points learned from.
-    pub exploring: f64,
     /// Scores that the curvature at places for kernels may take, 0 for none.
     pub sharpening: usize,
     /// Evaluations that walks along ridges may take.
@@ -78,7 +79,7 @@ pub(super) fn learn<const D: usize>(
     let lowest = highest - DEPTH * (highest - lowest);
     let mut level = Sample::default();
     for fold in source {
-        let share = (spending.exploring * count as f64) as usize / source.len();
+        let share = (EXPLORING * count as f64) as usize / source.len();
         level.join(level_sample(fold, lowest, share, rng.random()));
         level.join(outposts(
             fold,
