@@ -2,7 +2,7 @@
 
 use mpm_tensor::Matrix;
 
-use crate::material::{check_volume_ratio, log_volume_ratio};
+use crate::material::{check_volume_ratio, log_volume_ratio, volume_alone};
 use crate::{DeformationError, IsothermalGas, Law};
 
 /// What [`DeformingGas`] remembers of a particle.
@@ -18,7 +18,7 @@ pub struct GasState {
 /// particle does not depend on F at all as long as det F > 0, which is why [`IsothermalGas`] stores none, and it does not depend on V⁰ either. ρ₀ is the particle's own and comes from
 /// [`Law::virgin`]; [`TrackedGas`](crate::TrackedGas) has one for all particles.
 ///
-/// **Defined for det F > 0 only.** Source: that of [`IsothermalGas`]; P = ∂Ψ/∂F = −κ (m/V⁰) F⁻ᵀ.
+/// Only the volume is remembered, as by [`TaitFluid`](crate::TaitFluid). **Defined for det F > 0 only.** Source: that of [`IsothermalGas`]; P = ∂Ψ/∂F = −κ (m/V⁰) F⁻ᵀ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DeformingGas {
     /// κ.
@@ -33,9 +33,10 @@ impl<const D: usize> Law<D> for DeformingGas {
         GasState { reference_density }
     }
 
+    /// J^(1/D) I: a gas shears without end, and of a sheared F rounding would leave no determinant.
     #[inline]
     fn advance(&self, trial: &Matrix<D>, _state: &mut GasState) -> Matrix<D> {
-        *trial
+        volume_alone(trial)
     }
 
     #[inline]

@@ -156,6 +156,23 @@ pub(crate) fn log_volume_ratio<const D: usize>(F: &Matrix<D>) -> f64 {
     if J > 0.0 && J < f64::INFINITY { J.ln() } else { f64::NAN }
 }
 
+/// J^(1/D) I, which has the volume of F and no shear; F itself unless J is positive and finite.
+#[allow(non_snake_case)]
+#[inline]
+pub(crate) fn volume_alone<const D: usize>(F: &Matrix<D>) -> Matrix<D> {
+    let J = F.determinant();
+    if !(J > 0.0 && J < f64::INFINITY) {
+        return *F;
+    }
+    let stretch = match D {
+        1 => J,
+        2 => J.sqrt(),
+        3 => J.cbrt(),
+        _ => J.powf(1.0 / D as f64),
+    };
+    Matrix::diagonal(&[stretch; D])
+}
+
 /// F⁻ᵀ; all NaN if F has no inverse.
 #[allow(non_snake_case)]
 pub(crate) fn inverse_transpose<const D: usize>(F: &Matrix<D>) -> Matrix<D> {

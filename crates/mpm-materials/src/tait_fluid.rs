@@ -3,7 +3,7 @@
 use mpm_tensor::Matrix;
 
 use crate::error::{not_negative, positive};
-use crate::material::check_volume_ratio;
+use crate::material::{check_volume_ratio, volume_alone};
 use crate::{DeformationError, Law, ParameterError};
 
 /// The exponent γ of the equation of state, that of water.
@@ -121,18 +121,10 @@ impl<const D: usize> Law<D> for TaitFluid {
 
     #[inline]
     fn advance(&self, trial: &Matrix<D>, _state: &mut ()) -> Matrix<D> {
-        let J = trial.determinant();
-        if !(J > 0.0 && J < f64::INFINITY) {
-            return *trial;
+        if self.forgets_expansion && trial.determinant() > 1.0 && trial.determinant() < f64::INFINITY {
+            return Matrix::IDENTITY;
         }
-        let J = if self.forgets_expansion && J > 1.0 { 1.0 } else { J };
-        let stretch = match D {
-            1 => J,
-            2 => J.sqrt(),
-            3 => J.cbrt(),
-            _ => J.powf(1.0 / D as f64),
-        };
-        Matrix::diagonal(&[stretch; D])
+        volume_alone(trial)
     }
 
     #[inline]

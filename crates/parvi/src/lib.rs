@@ -37,6 +37,7 @@ mod start;
 mod stein_discrepancy;
 mod stein_thinning;
 mod stiffness;
+mod stretch_limit;
 mod support_points;
 mod surveyed;
 mod svgd;

@@ -14,6 +14,7 @@ use crate::kronecker::Kronecker;
 use crate::moving::Moving;
 use crate::node_scores::NodeScores;
 use crate::start::{Stream, check, positive, steps};
+use crate::stretch_limit::StretchLimited;
 use crate::{
     Coordinates, MomentCorrection, Observer, PaperOptions, ReferenceVolumes, Run, SampleError, Samples, ScoreLocation,
     TransferChoice, defaults,
@@ -73,7 +74,20 @@ pub(crate) fn sample<const D: usize>(
     observer: &mut dyn Observer,
 ) -> Result<Samples<D>, SampleError> {
     let identity = Frame::identity();
+    let limit = options.guards.stretch_limit;
+    let expected = "above 1 and finite";
+    check(
+        "stretch limit",
+        limit.unwrap_or(2.0),
+        limit.is_none_or(|k| k > 1.0 && k.is_finite()),
+        expected,
+    )?;
     let mut run_with = |law: &dyn Law<D, State = Memory>| {
+        let limited = limit.map(|limit| StretchLimited { law, limit });
+        let law = match &limited {
+            Some(limited) => limited,
+            None => law,
+        };
         let job = Job {
             options,
             target,

@@ -7,8 +7,8 @@ use parvi::{AisOptions, Method, Start, SvgdOptions};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    Basis, Correction, Draws, EvaluationCount, Limit, Material, MethodName, NonFinite, OptionError, ParticleCount,
-    RoundCount, Score, StepCount, Switch, Transfer, WarmUp,
+    AlphaSchedule, Basis, Correction, Draws, EvaluationCount, FrameName, Limit, Material, MethodName, NonFinite,
+    OptionError, ParticleCount, RoundCount, Score, StepCount, Switch, Transfer, WarmUp,
 };
 
 /// Options of the methods; `None`: the method's own default.
@@ -73,7 +73,7 @@ pub struct MethodOptions {
     /// Share of FLIP in --transfer flip, from 0 to 1 (mpm)
     #[arg(long, value_name = "A", allow_negative_numbers = true)]
     pub flip_share: Option<f64>,
-    /// Friction, per unit of time (mpm)
+    /// Friction, per unit of time (mpm, paper-*)
     #[arg(long, value_name = "GAMMA", allow_negative_numbers = true)]
     pub friction: Option<f64>,
     /// Rounds of the steps, at most: after a survey while they bring the particles nearer, 0: none; without one while they are still on their way (mpm) [default: 4; with --survey off: 3, with --steps too: 1]
@@ -88,19 +88,60 @@ pub struct MethodOptions {
     /// What is done about a score that is not finite (mpm) [default: pull-back]
     #[arg(long)]
     pub non_finite: Option<NonFinite>,
-    /// Judge the particles at the end (mpm)
-    #[arg(long, help = "Judge the particles at the end (mpm) [default: on]")]
+    /// Judge the particles at the end (mpm, paper-*)
+    #[arg(long, help = "Judge the particles at the end (mpm, paper-*) [default: on]")]
     pub certificate: Option<Switch>,
-    /// Elastic law (paper-*)
+    /// The algorithms exactly as the paper writes them: the target's own coordinates, no guard; every departure can be set beside it (paper-*)
+    #[arg(long, num_args = 0..=1, default_missing_value = "on")]
+    pub as_written: Option<Switch>,
+    /// Coordinates that the body moves in; identity: the target's own, also those of spacing and start (paper-*)
+    #[arg(
+        long,
+        help = "Coordinates that the body moves in; identity: the target's own, also those of spacing and start (paper-*) [default: target; with --as-written: identity]"
+    )]
+    pub frame: Option<FrameName>,
+    /// Constitutive law, by the names of the scenes (paper-*) [default: neo-hookean]
     #[arg(long)]
     pub material: Option<Material>,
-    /// Young's modulus (paper-*)
-    #[arg(long, value_name = "E", allow_negative_numbers = true)]
+    /// Young's modulus E [1] (paper-*: solids)
+    #[arg(long, value_name = "E", alias = "young-modulus", allow_negative_numbers = true)]
+    #[serde(alias = "young-modulus")]
     pub youngs_modulus: Option<f64>,
-    /// Poisson's ratio (paper-*)
-    #[arg(long, value_name = "NU", allow_negative_numbers = true)]
+    /// Poisson's ratio [0.3] (paper-*: solids)
+    #[arg(long, value_name = "NU", alias = "poisson-ratio", allow_negative_numbers = true)]
+    #[serde(alias = "poisson-ratio")]
     pub poissons_ratio: Option<f64>,
-    /// Constant factor before the score (mpm, paper-*)
+    /// Yield stress at first, as |dev tau| [0.1] (paper-*: softening-hencky)
+    #[arg(long, value_name = "KAPPA", allow_negative_numbers = true)]
+    pub peak_yield_stress: Option<f64>,
+    /// Yield stress that softening ends at [the first one: perfect plasticity] (paper-*: softening-hencky)
+    #[arg(long, value_name = "KAPPA", allow_negative_numbers = true)]
+    pub residual_yield_stress: Option<f64>,
+    /// Rate of softening, per plastic strain [0] (paper-*: softening-hencky)
+    #[arg(long, value_name = "ETA", allow_negative_numbers = true)]
+    pub softening_rate: Option<f64>,
+    /// Friction angle in degrees [30] (paper-*: drucker-prager)
+    #[arg(long, value_name = "PHI", allow_negative_numbers = true)]
+    pub friction_angle: Option<f64>,
+    /// Cohesion, a stress [0] (paper-*: drucker-prager)
+    #[arg(long, value_name = "C", allow_negative_numbers = true)]
+    pub cohesion: Option<f64>,
+    /// Density at rest, mass per reference volume [1] (paper-*: tait-fluid)
+    #[arg(long, value_name = "RHO", allow_negative_numbers = true)]
+    pub density: Option<f64>,
+    /// Speed of sound at rest [1] (paper-*: tait-fluid)
+    #[arg(long, value_name = "C", allow_negative_numbers = true)]
+    pub sound_speed: Option<f64>,
+    /// Viscosity, stress times time [0.1; tait-fluid: 0] (paper-*: kelvin-voigt, tait-fluid)
+    #[arg(long, value_name = "ETA", allow_negative_numbers = true)]
+    pub viscosity: Option<f64>,
+    /// Forget volumes above that of rest [off] (paper-*: tait-fluid)
+    #[arg(long)]
+    pub forgets_expansion: Option<Switch>,
+    /// Pressure per density kappa; at rest the density is p^(alpha/kappa) [1] (paper-*: isothermal-gas)
+    #[arg(long, value_name = "KAPPA", allow_negative_numbers = true)]
+    pub pressure_per_density: Option<f64>,
+    /// Constant factor before the score; paper-*: of either sign (mpm, paper-*)
     #[arg(long, allow_negative_numbers = true)]
     pub alpha: Option<f64>,
     /// Factor before the score in the first step, with --alpha-to (mpm, paper-*)
@@ -109,6 +150,24 @@ pub struct MethodOptions {
     /// Factor before the score in the last step, mpm: when settling begins, with --alpha-from (mpm, paper-*)
     #[arg(long, value_name = "ALPHA", allow_negative_numbers = true)]
     pub alpha_to: Option<f64>,
+    /// How the factor goes from the one to the other [geometric] (mpm, paper-*)
+    #[arg(long)]
+    pub alpha_schedule: Option<AlphaSchedule>,
+    /// Times that a cyclic schedule goes from the one to the other [4] (mpm, paper-*)
+    #[arg(long, value_name = "C", allow_negative_numbers = true)]
+    pub alpha_cycles: Option<StepCount>,
+    /// A new grid, with its origin drawn anew, every so many steps; default: one grid, with nodes at the integer multiples of the spacing (paper-*)
+    #[arg(long, value_name = "STEPS", allow_negative_numbers = true)]
+    pub grid_renewal: Option<StepCount>,
+    /// Masses of the particles: `equal`, 1/M each, or a file with a column of them [equal] (paper-*)
+    #[arg(long, value_name = "equal|FILE.csv|.npy")]
+    pub masses: Option<PathBuf>,
+    /// Reference volumes: `uniform`, 1/M each; `start-density`, mass over density of the start's law; `grid`, mass over density on the grid; or a file with a column of them [uniform] (paper-*)
+    #[arg(long, value_name = "uniform|start-density|grid|FILE.csv|.npy")]
+    pub volumes: Option<PathBuf>,
+    /// Velocities at the start: `zero`, or a file with a column per dimension [zero] (paper-*)
+    #[arg(long, value_name = "zero|FILE.csv|.npy")]
+    pub velocities: Option<PathBuf>,
     /// All guards at once; single guards can be set beside it (paper-*)
     #[arg(long)]
     pub guards: Option<Switch>,
@@ -121,6 +180,9 @@ pub struct MethodOptions {
     /// Courant number that limits the time step, or `off` (paper-*)
     #[arg(long, value_name = "C|off", allow_negative_numbers = true)]
     pub courant: Option<Limit>,
+    /// Largest principal stretch of a particle and, inverted, the least, or `off` [1000] (paper-*)
+    #[arg(long, value_name = "K|off", allow_negative_numbers = true)]
+    pub stretch_limit: Option<Limit>,
     /// Step size of the optimiser (svgd)
     #[arg(long, value_name = "SIZE", allow_negative_numbers = true)]
     pub step_size: Option<f64>,
@@ -148,6 +210,18 @@ pub struct MethodOptions {
     /// End when no point moves farther, in units of the sample's spread (support-points)
     #[arg(long, value_name = "TOL", allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
+    /// File of the positions at the start, a row per particle, in the target's own coordinates (mpm with --survey off, paper-*, svgd)
+    #[arg(long, value_name = "FILE.csv|.npy")]
+    pub start: Option<PathBuf>,
+    /// Target whose draws the particles start at, in its own coordinates: the paper's p0 by name (mpm with --survey off, paper-*, svgd)
+    #[arg(long, value_name = "TARGET")]
+    pub start_law: Option<String>,
+    /// Mean of a normal law to start from, in the target's own coordinates (mpm with --survey off, paper-*, svgd)
+    #[arg(long, value_name = "M1,M2,...", allow_hyphen_values = true)]
+    pub start_centre: Option<String>,
+    /// Its covariance, the rows between semicolons [identity] (mpm with --survey off, paper-*, svgd)
+    #[arg(long, value_name = "C11,C12,...;C21,...", allow_hyphen_values = true)]
+    pub start_covariance: Option<String>,
     /// Mean of every coordinate at the start, in units of the target's scale (mpm, ais, paper-*, svgd, nuts)
     #[arg(long, value_name = "MEAN", allow_negative_numbers = true)]
     pub start_mean: Option<f64>,
@@ -172,8 +246,10 @@ impl MethodOptions {
         self.check_fit(name)?;
         self.check_ranges()?;
         self.check_pairs()?;
+        self.check_starts(name)?;
         if name == MethodName::Mpm {
             self.check_survey()?;
+            self.check_attraction()?;
         }
         self.check_pool(name)?;
         let steps = self.steps.map(StepCount::get);
@@ -186,8 +262,8 @@ impl MethodOptions {
             MethodName::PaperPic | MethodName::PaperApic if self.basis == Some(Basis::Mesh) => {
                 return Err(OptionError::misfit("basis", "mesh", name.as_str()));
             }
-            MethodName::PaperPic => Method::Paper(self.paper(steps, false)),
-            MethodName::PaperApic => Method::Paper(self.paper(steps, true)),
+            MethodName::PaperPic => Method::Paper(self.paper(steps, false)?),
+            MethodName::PaperApic => Method::Paper(self.paper(steps, true)?),
             MethodName::Svgd => {
                 let default = SvgdOptions::default();
                 Method::Svgd(SvgdOptions {

@@ -5,6 +5,7 @@ mod bounded;
 mod gas_options;
 mod given_options;
 mod limit;
+mod material_options;
 mod method_name;
 mod method_options;
 mod method_specification;
@@ -13,6 +14,7 @@ mod option_error;
 mod option_values;
 mod paper_options;
 mod pool_option;
+mod start_options;
 mod target_specification;
 
 pub use bounded::{Bounded, Dimension, EvaluationCount, ParticleCount, RoundCount, StepCount, WarmUp};
@@ -21,5 +23,7 @@ pub use method_name::MethodName;
 pub use method_options::MethodOptions;
 pub use method_specification::MethodSpecification;
 pub use option_error::OptionError;
-pub use option_values::{Basis, Correction, Draws, Material, NonFinite, PoolChoice, Score, Switch, Transfer};
+pub use option_values::{
+    AlphaSchedule, Basis, Correction, Draws, FrameName, Material, NonFinite, PoolChoice, Score, Switch, Transfer,
+};
 pub use target_specification::{TargetParameters, TargetSpecification};

@@ -3,7 +3,7 @@
 use std::fmt::{self, Display, Formatter};
 
 use clap::ValueEnum;
-use parvi::{BasisChoice, Elasticity, MomentCorrection, NonFiniteScores, ScoreLocation, StartDraws};
+use parvi::{BasisChoice, MomentCorrection, NonFiniteScores, ScoreLocation, StartDraws};
 use serde::{Deserialize, Serialize};
 
 /// Background basis.
@@ -146,23 +146,52 @@ impl From<NonFinite> for NonFiniteScores {
     }
 }
 
-/// Elastic law of the paper's algorithms.
+/// Constitutive law of the paper's algorithms, by the names of the scenes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Material {
     /// Compressible Neo-Hookean solid
     NeoHookean,
-    /// Small-strain linear elasticity
+    /// Linear elasticity of the Cauchy stress, as the paper has it
+    LinearCauchy,
+    /// Linear elasticity of the first Piola-Kirchhoff stress
     LinearElastic,
+    /// Fixed corotated solid
+    FixedCorotated,
+    /// Linear elasticity in logarithmic strain
+    Hencky,
+    /// Visco-elasticity: a Neo-Hookean spring beside a dashpot
+    KelvinVoigt,
+    /// J2 (von Mises) plasticity, perfect or softening
+    SofteningHencky,
+    /// Drucker-Prager plasticity: sand
+    DruckerPrager,
+    /// Weakly compressible, viscous fluid
+    TaitFluid,
+    /// Isothermal gas as a law of F, whose rest state is the target
+    IsothermalGas,
 }
 
-impl From<Material> for Elasticity {
-    fn from(material: Material) -> Self {
-        match material {
-            Material::NeoHookean => Self::NeoHookean,
-            Material::LinearElastic => Self::Linear,
-        }
-    }
+/// The coordinates that the paper's algorithms work in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum FrameName {
+    /// Those in which the target has unit scale
+    Target,
+    /// The target's own
+    Identity,
+}
+
+/// How the factor before the score goes from --alpha-from to --alpha-to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum AlphaSchedule {
+    /// Geometric
+    Geometric,
+    /// Linear
+    Linear,
+    /// Linear, several times, see --alpha-cycles
+    Cyclic,
 }
 
 /// What Stein thinning chooses from.
@@ -220,6 +249,18 @@ impl Display for Score {
 }
 
 impl Display for NonFinite {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        word(self, formatter)
+    }
+}
+
+impl Display for FrameName {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        word(self, formatter)
+    }
+}
+
+impl Display for AlphaSchedule {
     fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
         word(self, formatter)
     }

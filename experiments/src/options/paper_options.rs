@@ -1,49 +1,81 @@
 //! The options of the paper's algorithms, from the flags.
 
-use parvi::{Annealing, Guards, PaperOptions};
+use parvi::{Annealing, Coordinates, Guards, PaperOptions, ReferenceVolumes};
 
-use super::{Basis, Limit, MethodOptions, Switch};
+use super::{AlphaSchedule, Basis, FrameName, Limit, MethodOptions, OptionError, StepCount, Switch};
 
 impl MethodOptions {
     /// Algorithm 1, or 2 if `affine`.
-    pub(super) fn paper(&self, steps: Option<usize>, affine: bool) -> PaperOptions {
-        let default = PaperOptions::default();
-        PaperOptions {
-            affine,
+    pub(super) fn paper(&self, steps: Option<usize>, affine: bool) -> Result<PaperOptions, OptionError> {
+        let default = match self.as_written {
+            Some(Switch::On) => PaperOptions::as_written(affine),
+            _ => PaperOptions {
+                affine,
+                ..PaperOptions::default()
+            },
+        };
+        Ok(PaperOptions {
             basis: self.basis.and_then(Basis::uniform).unwrap_or(default.basis),
-            elasticity: self.material.map_or(default.elasticity, Into::into),
-            youngs_modulus: self.youngs_modulus.unwrap_or(default.youngs_modulus),
-            poissons_ratio: self.poissons_ratio.unwrap_or(default.poissons_ratio),
+            material: self.paper_material()?,
             annealing: self.annealing().unwrap_or(default.annealing),
             score_location: self.score.map_or(default.score_location, Into::into),
             spacing: self.spacing.or(default.spacing),
             steps: steps.or(default.steps),
             time_step: self.time_step.or(default.time_step),
-            guards: self.guards(),
+            friction: self.friction.unwrap_or(default.friction),
+            guards: self.guards(default.guards),
+            coordinates: match self.frame {
+                Some(FrameName::Identity) => Coordinates::Own,
+                Some(FrameName::Target) => Coordinates::Frame,
+                None => default.coordinates,
+            },
+            reference_volumes: self.volume_rule().unwrap_or(default.reference_volumes),
+            grid_renewal: self.grid_renewal.map(StepCount::get),
+            certificate: self.certificate.map_or(default.certificate, Switch::is_on),
             trace_every: self.trace_every,
             ..default
-        }
+        })
     }
 
     /// α over the steps, where one is given.
     pub(super) fn annealing(&self) -> Option<Annealing> {
         match (self.alpha, self.alpha_from, self.alpha_to) {
             (Some(alpha), _, _) => Some(Annealing::Constant(alpha)),
-            (None, Some(from), Some(to)) => Some(Annealing::Geometric { from, to }),
+            (None, Some(from), Some(to)) => Some(match self.alpha_schedule {
+                None | Some(AlphaSchedule::Geometric) => Annealing::Geometric { from, to },
+                Some(AlphaSchedule::Linear) => Annealing::Linear { from, to },
+                Some(AlphaSchedule::Cyclic) => Annealing::Cyclic {
+                    from,
+                    to,
+                    cycles: self.alpha_cycles.map_or(4, StepCount::get),
+                },
+            }),
             _ => None,
         }
     }
 
-    fn guards(&self) -> Guards {
+    /// How reference volumes are found, where a word says it.
+    pub(super) fn volume_rule(&self) -> Option<ReferenceVolumes> {
+        match self.volumes.as_ref()?.to_str()? {
+            "uniform" => Some(ReferenceVolumes::Uniform),
+            "start-density" => Some(ReferenceVolumes::OfStartDensity),
+            "grid" => Some(ReferenceVolumes::OfGrid),
+            _ => None,
+        }
+    }
+
+    fn guards(&self, default: Guards) -> Guards {
         let base = match self.guards {
             Some(Switch::Off) => Guards::none(),
-            _ => Guards::default(),
+            Some(Switch::On) => Guards::default(),
+            None => default,
         };
         Guards {
             mass_floor: self.mass_floor.unwrap_or(base.mass_floor),
             mass_weighted_force: self.mass_weighted_force.map_or(base.mass_weighted_force, Switch::is_on),
             courant: self.courant.map_or(base.courant, Limit::value),
             displacement_limit: self.displacement_limit.map_or(base.displacement_limit, Limit::value),
+            stretch_limit: self.stretch_limit.map_or(base.stretch_limit, Limit::value),
         }
     }
 }

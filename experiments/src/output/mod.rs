@@ -4,6 +4,7 @@ mod array_npy;
 mod atomic_file;
 mod directory;
 pub mod frames;
+mod number_table;
 mod particles;
 pub mod particles_csv;
 pub mod particles_npy;
@@ -13,6 +14,7 @@ use std::path::{Path, PathBuf};
 pub use atomic_file::{AtomicFile, PARTIAL_SUFFIX};
 pub use directory::OutputDirectory;
 pub use frames::FrameWriter;
+pub use number_table::NumberTable;
 pub use particles::Particles;
 
 use crate::CommandError;

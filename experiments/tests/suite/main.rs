@@ -9,6 +9,7 @@ mod sample_diagnostics;
 mod sample_frames;
 mod sample_interrupted;
 mod sample_output;
+mod sample_paper;
 mod sample_plots;
 mod sample_pool;
 mod scene_studies;

@@ -103,8 +103,8 @@ fn flags_that_do_not_fit_the_method() {
         &["--youngs-modulus", "2", "mpm"],
     );
     refused(
-        "--target banana --particles 64 --method paper-pic --friction 1",
-        &["--friction", "1", "paper-pic"],
+        "--target banana --particles 64 --method paper-pic --friction -1",
+        &["--friction", "-1", "at least 0"],
     );
     refused(
         "--target banana --particles 64 --flip-share 0.9",

@@ -35,6 +35,8 @@ pub struct Guards {
     /// Largest displacement of a node per step in units of h (`None`: off). Below 1/(2d) no particle can be turned inside
     /// out in a step: quadratic B-splines give |Δt ∂v_a/∂x_b| ≤ 2 · limit.
     pub displacement_limit: Option<f64>,
+    /// Principal stretches of F are kept in [1/k, k], k > 1, and det F > 0 (`None`: off): without, a material that yields is crushed or sheared until det F is nothing but rounding.
+    pub stretch_limit: Option<f64>,
 }
 
 impl Default for Guards {
@@ -44,6 +46,7 @@ impl Default for Guards {
             mass_weighted_force: true,
             courant: Some(0.5),
             displacement_limit: Some(0.2),
+            stretch_limit: Some(1e3),
         }
     }
 }
@@ -56,13 +59,14 @@ impl Guards {
             mass_weighted_force: false,
             courant: None,
             displacement_limit: None,
+            stretch_limit: None,
         }
     }
 }
 
 /// Options of the paper's Algorithms 1 and 2 (Huang, arXiv 2407.20287).
 ///
-/// [`as_written`](Self::as_written) has them to the letter. Every departure from that is one option: [`coordinates`](Self::coordinates) and the four of
+/// [`as_written`](Self::as_written) has them to the letter. Every departure from that is one option: [`coordinates`](Self::coordinates) and those of
 /// [`guards`](Self::guards). The defaults have them all, since few runs stay finite without.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PaperOptions {

@@ -6,7 +6,7 @@ use super::Arguments;
 use crate::CommandError;
 use crate::options::OptionError;
 
-/// Refuses one path in two roles; frames and pictures may share a directory.
+/// Refuses one path in two roles; frames and pictures may share a directory, and files that are only read may be one.
 pub fn check(arguments: &Arguments) -> Result<(), CommandError> {
     let files = [
         ("out", Some(&arguments.out)),
@@ -16,7 +16,12 @@ pub fn check(arguments: &Arguments) -> Result<(), CommandError> {
         ("data", arguments.parameters.data.as_ref()),
         ("frames", arguments.frames.as_ref()),
         ("plots", arguments.plots.as_ref()),
+        ("start", arguments.options.start.as_ref()),
+        ("masses", arguments.options.masses.as_ref()),
+        ("volumes", arguments.options.volumes.as_ref()),
+        ("velocities", arguments.options.velocities.as_ref()),
     ];
+    let is_read = |name: &str| ["data", "start", "masses", "volumes", "velocities"].contains(&name);
     let given: Vec<_> = files
         .into_iter()
         .filter_map(|(name, path)| Some((name, path?, place(path?))))
@@ -24,7 +29,7 @@ pub fn check(arguments: &Arguments) -> Result<(), CommandError> {
     for (k, (name, path, own)) in given.iter().enumerate() {
         let others = given[..k]
             .iter()
-            .filter(|(other, ..)| (*other, *name) != ("frames", "plots"));
+            .filter(|(other, ..)| (*other, *name) != ("frames", "plots") && !(is_read(other) && is_read(name)));
         if let Some((other, ..)) = others.into_iter().find(|(.., place)| place == own) {
             return Err(OptionError {
                 name: (*name).to_owned(),

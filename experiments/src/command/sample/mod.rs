@@ -1,6 +1,7 @@
 //! `parvi sample`: particles of one target by one method, into one file.
 
 mod files;
+mod given;
 mod said;
 mod watch;
 
@@ -14,7 +15,7 @@ use crate::machine::MemoryGauge;
 use crate::options::{
     Dimension, MethodName, MethodOptions, OptionError, ParticleCount, StepCount, TargetParameters, TargetSpecification,
 };
-use crate::output::{AtomicFile, FrameWriter, OutputDirectory, ParticleFile, ParticleFormat};
+use crate::output::{AtomicFile, FrameWriter, NumberTable, OutputDirectory, ParticleFile, ParticleFormat};
 use crate::pictures::{History, Subject};
 use crate::progress::StepProgress;
 use crate::sampling;
@@ -32,9 +33,14 @@ pub struct Arguments {
     /// Dimension from 1 to 8, where the target leaves it free
     #[arg(long, value_name = "D", allow_negative_numbers = true)]
     dim: Option<Dimension>,
-    /// Number of particles, at least 2
-    #[arg(long, value_name = "M", allow_negative_numbers = true)]
-    particles: ParticleCount,
+    /// Number of particles, at least 2; may be left out where --start has them
+    #[arg(
+        long,
+        value_name = "M",
+        required_unless_present = "start",
+        allow_negative_numbers = true
+    )]
+    particles: Option<ParticleCount>,
     /// Method
     #[arg(long, value_enum, default_value_t)]
     method: MethodName,
@@ -94,9 +100,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
         dim: arguments.dim,
         parameters: arguments.parameters.clone(),
     };
-    let mut run = Run::new(arguments.particles.get(), arguments.seed);
+    let dimension = target.dimension().map_err(|error| of_flags(error.into()))?;
+    let mut run = Run::new(particles(arguments)?, arguments.seed);
     run.start = arguments.options.start();
-    target.dimension().map_err(|error| of_flags(error.into()))?;
+    run.given = given::given(arguments, dimension, &run)?;
     let names = match arguments.parameters.data {
         Some(_) => target.coordinate_names(),
         None => Vec::new(),
@@ -159,9 +166,22 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     console::print_pairs(&pairs)
 }
 
-/// An error of a target that a flag asks for is one of this flag.
+/// M, as said or as many as the file of the start has.
+fn particles(arguments: &Arguments) -> Result<usize, CommandError> {
+    match (arguments.particles, arguments.options.start_file()) {
+        (Some(count), _) => Ok(count.get()),
+        (None, Some(file)) => Ok(NumberTable::read("start", file)?.rows()),
+        (None, None) => Err(OptionError::out_of_range("particles", "nothing", "a number of at least 2").into()),
+    }
+}
+
+/// An error of a target, or of particles, that a flag asks for is one of this flag.
 fn of_flags(error: CommandError) -> CommandError {
     match error {
+        CommandError::Sample(error) => match given::flag_of(&error) {
+            Some(error) => error.into(),
+            None => error.into(),
+        },
         CommandError::Target(error) => match OptionError::of_target(&error) {
             Some(error) => error.into(),
             None => error.into(),

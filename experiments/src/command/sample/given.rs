@@ -1,0 +1,231 @@
+//! What the flags give of the particles at the start.
+
+use std::path::Path;
+
+use mpm_tensor::Matrix;
+use parvi::{GivenParticles, Run, SampleError, independent_draws, sobol_points};
+use parvi_targets::{BoxedTarget, CatalogueTarget, Gaussian};
+
+use super::Arguments;
+use crate::CommandError;
+use crate::dispatch::{TargetTask, with_target};
+use crate::options::{Dimension, OptionError, TargetSpecification};
+use crate::output::NumberTable;
+
+/// Reads the files, and draws from the start's law where it has a name or a covariance; `dimension` is that of the target.
+///
+/// # Errors
+/// A file that does not fit the target or the number of particles, or a law that cannot be drawn from.
+pub fn given(arguments: &Arguments, dimension: usize, run: &Run) -> Result<GivenParticles, CommandError> {
+    let (options, particles) = (&arguments.options, run.particles);
+    let read = |flag: &'static str, path: Option<&Path>, columns: usize| {
+        path.map(|path| read(flag, path, particles, columns)).transpose()
+    };
+    let mut given = GivenParticles {
+        positions: read("start", options.start_file(), dimension)?,
+        velocities: read("velocities", options.velocities_file(), dimension)?,
+        masses: read("masses", options.masses_file(), 1)?,
+        reference_volumes: read("volumes", options.volumes_file(), 1)?,
+    };
+    let volumes = options.volumes_of_start();
+    let drawn = if let Some(name) = &options.start_law {
+        let law = TargetSpecification::plain(name, Dimension::new(dimension as i64));
+        law.dimension().map_err(|error| of_law(error.to_string()))?;
+        Some(with_target(
+            &law,
+            Draw {
+                run,
+                volumes,
+                law: None,
+            },
+        )?)
+    } else if let Some(centre) = &options.start_centre {
+        let law = NormalLaw::parse(centre, options.start_covariance.as_deref(), dimension)?;
+        let any = TargetSpecification::plain("gaussian", Dimension::new(dimension as i64));
+        let law = Some(&law);
+        Some(with_target(&any, Draw { run, volumes, law })?)
+    } else {
+        None
+    };
+    if let Some(drawn) = drawn {
+        given.positions = Some(drawn.positions);
+        if let Some(densities) = drawn.densities {
+            let mass = |p: usize| given.masses.as_ref().map_or(1.0 / particles as f64, |masses| masses[p]);
+            given.reference_volumes = Some(
+                densities
+                    .iter()
+                    .enumerate()
+                    .map(|(p, density)| mass(p) / density)
+                    .collect(),
+            );
+        }
+    }
+    Ok(given)
+}
+
+/// The numbers of a file: so many rows and columns.
+fn read(flag: &str, path: &Path, rows: usize, columns: usize) -> Result<Vec<f64>, OptionError> {
+    let table = NumberTable::read(flag, path)?;
+    let (found, wanted, what) = match () {
+        () if table.columns != columns => (table.columns, columns, "columns"),
+        () if table.rows() != rows => (table.rows(), rows, "rows"),
+        () => return Ok(table.numbers),
+    };
+    Err(OptionError {
+        name: flag.to_owned(),
+        reason: format!("{} has {found} {what}, must have {wanted}", path.display()),
+    })
+}
+
+fn of_law(reason: String) -> CommandError {
+    OptionError {
+        name: "start-law".to_owned(),
+        reason,
+    }
+    .into()
+}
+
+/// N(centre, covariance) in the target's own coordinates.
+struct NormalLaw {
+    centre: Vec<f64>,
+    /// Row by row.
+    covariance: Vec<f64>,
+}
+
+impl NormalLaw {
+    fn parse(centre: &str, covariance: Option<&str>, dimension: usize) -> Result<Self, OptionError> {
+        let numbers = |flag: &str, text: &str| -> Result<Vec<f64>, OptionError> {
+            let number = |cell: &str| {
+                cell.trim()
+                    .parse::<f64>()
+                    .ok()
+                    .filter(|number| number.is_finite())
+                    .ok_or_else(|| OptionError {
+                        name: flag.to_owned(),
+                        reason: format!("'{cell}' is not a finite number"),
+                    })
+            };
+            let numbers: Vec<f64> = text.split(',').map(number).collect::<Result<_, _>>()?;
+            if numbers.len() == dimension {
+                return Ok(numbers);
+            }
+            Err(OptionError {
+                name: flag.to_owned(),
+                reason: format!(
+                    "'{text}' has {} numbers, the target has {dimension} dimensions",
+                    numbers.len()
+                ),
+            })
+        };
+        let centre = numbers("start-centre", centre)?;
+        let rows: Vec<Vec<f64>> = match covariance {
+            None => (0..dimension)
+                .map(|i| (0..dimension).map(|j| f64::from(u8::from(i == j))).collect())
+                .collect(),
+            Some(text) => {
+                let rows = text.split(';').map(|row| numbers("start-covariance", row));
+                rows.collect::<Result<_, _>>()?
+            }
+        };
+        if rows.len() != dimension {
+            return Err(OptionError {
+                name: "start-covariance".to_owned(),
+                reason: format!("there are {} rows, the target has {dimension} dimensions", rows.len()),
+            });
+        }
+        Ok(Self {
+            centre,
+            covariance: rows.concat(),
+        })
+    }
+
+    fn gaussian<const D: usize>(&self) -> Result<Gaussian<D>, CommandError> {
+        let covariance = Matrix::from_fn(|i, j| self.covariance[D * i + j]);
+        let law = Gaussian::new(std::array::from_fn(|a| self.centre[a]), covariance);
+        law.map_err(|error| {
+            let reason = error.to_string();
+            let name = "start-covariance".to_owned();
+            OptionError { name, reason }.into()
+        })
+    }
+}
+
+/// Draws from a target, or from a normal law in its place.
+struct Draw<'a> {
+    run: &'a Run,
+    /// Whether densities are asked for.
+    volumes: bool,
+    law: Option<&'a NormalLaw>,
+}
+
+/// What was drawn.
+struct Drawn {
+    /// M × D, row by row.
+    positions: Vec<f64>,
+    /// Normalised densities there, where they are asked for.
+    densities: Option<Vec<f64>>,
+}
+
+impl TargetTask for Draw<'_> {
+    type Output = Drawn;
+
+    fn run<const D: usize>(self, target: BoxedTarget<D>) -> Result<Drawn, CommandError> {
+        match self.law {
+            None => self.drawn::<D>(target.as_ref()),
+            Some(law) => self.drawn::<D>(&law.gaussian::<D>()?),
+        }
+    }
+}
+
+impl Draw<'_> {
+    /// Quasi-random points of the law where it has them and nothing else is asked for, else independent draws.
+    fn drawn<const D: usize>(&self, law: &dyn CatalogueTarget<D>) -> Result<Drawn, CommandError> {
+        let quiet = self.run.start.draws == parvi::StartDraws::QuasiRandom && law.unit_cube_transport().is_some();
+        let samples = if quiet {
+            sobol_points(law, self.run)
+        } else {
+            independent_draws(law, self.run)
+        };
+        let positions = samples.map_err(|error| of_law(error.to_string()))?.positions;
+        let densities = if self.volumes {
+            let evidence = law.log_evidence().ok_or_else(|| {
+                of_law(format!(
+                    "the density of {} is not known, which --volumes start-density needs",
+                    law.name()
+                ))
+            })?;
+            Some(
+                positions
+                    .iter()
+                    .map(|x| (law.log_density(x) - evidence).exp())
+                    .collect(),
+            )
+        } else {
+            None
+        };
+        Ok(Drawn {
+            positions: positions.as_flattened().to_vec(),
+            densities,
+        })
+    }
+}
+
+/// The flag behind what a sampler refuses of given particles.
+pub fn flag_of(error: &SampleError) -> Option<OptionError> {
+    let field = match error {
+        SampleError::GivenValue { field, .. }
+        | SampleError::GivenLength { field, .. }
+        | SampleError::NotTaken { field, .. } => *field,
+        _ => return None,
+    };
+    let name = match field {
+        "start positions" => "start",
+        "velocities" => "velocities",
+        "masses" => "masses",
+        _ => "volumes",
+    };
+    Some(OptionError {
+        name: name.to_owned(),
+        reason: error.to_string(),
+    })
+}

@@ -1,0 +1,123 @@
+//! Tables of numbers that a user hands over: .csv with a header or without, .npy.
+
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+use crate::options::OptionError;
+
+/// Rows of as many numbers each.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NumberTable {
+    /// Numbers per row, at least 1.
+    pub columns: usize,
+    /// All of them, row by row.
+    pub numbers: Vec<f64>,
+}
+
+impl NumberTable {
+    /// Reads the file of a flag. A first line of a .csv that holds anything but numbers is a header; an .npy is f64, of one axis (a column) or of two.
+    ///
+    /// # Errors
+    /// [`OptionError`] of the flag, with the line where it can be told.
+    pub fn read(flag: &str, path: &Path) -> Result<Self, OptionError> {
+        let extension = path
+            .extension()
+            .map(|extension| extension.to_string_lossy().to_lowercase());
+        let table = match extension.as_deref() {
+            Some("csv") => read_csv(path),
+            Some("npy") => read_npy(path),
+            _ => Err("the extension must be .csv or .npy".to_owned()),
+        };
+        table.map_err(|reason| OptionError {
+            name: flag.to_owned(),
+            reason: format!("{}: {reason}", path.display()),
+        })
+    }
+
+    /// Rows.
+    pub fn rows(&self) -> usize {
+        self.numbers.len() / self.columns
+    }
+}
+
+fn read_csv(path: &Path) -> Result<NumberTable, String> {
+    let mut reader = csv::ReaderBuilder::new()
+        .has_headers(false)
+        .trim(csv::Trim::All)
+        .from_path(path)
+        .map_err(|error| error.to_string())?;
+    let (mut columns, mut numbers) = (0, Vec::new());
+    for (row, record) in reader.records().enumerate() {
+        let record = record.map_err(|error| error.to_string())?;
+        let line = record.position().map_or(row as u64 + 1, csv::Position::line);
+        columns = record.len();
+        let is_header = row == 0 && record.iter().any(|cell| cell.parse::<f64>().is_err());
+        if is_header {
+            continue;
+        }
+        for cell in &record {
+            let number = cell.parse();
+            numbers.push(number.map_err(|_| format!("line {line}: '{cell}' is not a number"))?);
+        }
+    }
+    if numbers.is_empty() {
+        return Err("it holds no numbers".to_owned());
+    }
+    Ok(NumberTable { columns, numbers })
+}
+
+fn read_npy(path: &Path) -> Result<NumberTable, String> {
+    let file = File::open(path).map_err(|error| error.to_string())?;
+    let array = npyz::NpyFile::new(BufReader::new(file)).map_err(|error| error.to_string())?;
+    let columns = match *array.shape() {
+        [_] => 1,
+        [_, columns] => columns as usize,
+        ref shape => return Err(format!("an array of the shape {shape:?} is no table")),
+    };
+    if array.order() != npyz::Order::C {
+        return Err("the array is stored column by column; save it in C order".to_owned());
+    }
+    let numbers = array.into_vec::<f64>().map_err(|error| error.to_string())?;
+    if numbers.is_empty() {
+        return Err("it holds no numbers".to_owned());
+    }
+    Ok(NumberTable { columns, numbers })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table(name: &str, text: &str) -> Result<NumberTable, String> {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        NumberTable::read("start", &path).map_err(|error| error.reason.rsplit("x.").next().unwrap().to_owned())
+    }
+
+    #[test]
+    fn a_header_is_no_row() {
+        let expected = NumberTable {
+            columns: 2,
+            numbers: vec![0.5, -1.0, 2.0, 3e-7],
+        };
+        assert_eq!(table("x.csv", "x1,x2\n0.5,-1\n2,3e-7\n"), Ok(expected.clone()));
+        assert_eq!(table("x.csv", "0.5, -1\n2, 3e-7\n"), Ok(expected.clone()));
+        assert_eq!(expected.rows(), 2);
+    }
+
+    #[test]
+    fn what_cannot_be_read_is_named_with_its_line() {
+        let reason = |name: &str, text: &str| table(name, text).unwrap_err();
+        assert_eq!(reason("x.csv", "x1\n1\ntwo\n"), "csv: line 3: 'two' is not a number");
+        assert!(
+            reason("x.csv", "x1,x2\n1,2\n3\n").contains("line: 3"),
+            "{}",
+            reason("x.csv", "x1,x2\n1,2\n3\n")
+        );
+        assert_eq!(reason("x.csv", "x1,x2\n"), "csv: it holds no numbers");
+        assert_eq!(reason("x.txt", "1\n"), "txt: the extension must be .csv or .npy");
+        assert!(!reason("x.npy", "no array").is_empty());
+    }
+}

@@ -1,0 +1,272 @@
+//! `parvi sample` with the paper's algorithms: as written, every law, every input, and what is refused of them.
+
+use std::collections::HashMap;
+use std::path::Path;
+
+use crate::support::{assert_refused, files, parvi, stderr, stdout};
+
+/// Runs `sample` and returns what it printed and the particles.
+fn sampled(directory: &Path, flags: &str) -> (HashMap<String, String>, String) {
+    let output = parvi(directory, &format!("sample {flags} --out x.csv"));
+    assert!(output.status.success(), "{flags}: {}", stderr(&output));
+    let particles = std::fs::read_to_string(directory.join("x.csv")).unwrap();
+    let pair = |line: &str| line.split_once('=').map(|(key, value)| (key.to_owned(), value.to_owned()));
+    (stdout(&output).lines().filter_map(pair).collect(), particles)
+}
+
+/// Runs `sample` beside the given files and asserts that it is refused and leaves nothing else.
+fn refused_beside(contents: &[(&str, &str)], flags: &str, parts: &[&str]) {
+    let directory = tempfile::tempdir().unwrap();
+    for (name, text) in contents {
+        std::fs::write(directory.path().join(name), text).unwrap();
+    }
+    let output = parvi(directory.path(), &format!("sample {flags} --out x.csv"));
+    assert_refused(&output, parts);
+    let mut expected: Vec<&str> = contents.iter().map(|(name, _)| *name).collect();
+    expected.sort_unstable();
+    assert_eq!(files(directory.path()), expected, "{flags}");
+}
+
+fn refused(flags: &str, parts: &[&str]) {
+    refused_beside(&[], flags, parts);
+}
+
+const GENTLE: &str = "--target gaussian --dim 2 --correlation 0.5 --particles 60 --steps 5 --time-step 0.02 --alpha 1e-3";
+
+#[test]
+fn as_written_is_the_identity_frame_without_guards() {
+    let directory = tempfile::tempdir().unwrap();
+    for method in ["paper-pic", "paper-apic"] {
+        let (said, written) = sampled(directory.path(), &format!("{GENTLE} --method {method} --as-written"));
+        assert_eq!(said["steps"], "5");
+        let flags = format!("{GENTLE} --method {method} --frame identity --guards off");
+        assert_eq!(sampled(directory.path(), &flags).1, written);
+        let (_, framed) = sampled(directory.path(), &format!("{GENTLE} --method {method} --guards off"));
+        assert_ne!(framed, written, "the frame is a departure");
+        let flags = format!("{GENTLE} --method {method} --as-written --mass-weighted-force on");
+        assert_ne!(sampled(directory.path(), &flags).1, written, "each departure stands beside it");
+    }
+}
+
+#[test]
+fn ten_thousand_particles_cost_some_hundred_scores() {
+    let directory = tempfile::tempdir().unwrap();
+    let flags = "--target banana --particles 10000 --method paper-pic --steps 200";
+    let (said, _) = sampled(directory.path(), flags);
+    let evaluations: u64 = said["score_evaluations"].parse().unwrap();
+    assert!(evaluations <= 1_000, "{evaluations}");
+    assert_eq!(said["judging_evaluations"], "10000");
+    let (said, _) = sampled(directory.path(), &format!("{flags} --certificate off"));
+    assert!(!said.contains_key("outcome"));
+}
+
+#[test]
+fn every_material_by_its_name() {
+    let directory = tempfile::tempdir().unwrap();
+    let materials = [
+        "neo-hookean --youngs-modulus 2 --poisson-ratio 0.1",
+        "linear-cauchy",
+        "linear-elastic --young-modulus 2",
+        "fixed-corotated",
+        "hencky --poissons-ratio -0.2",
+        "kelvin-voigt --viscosity 0.2",
+        "softening-hencky --peak-yield-stress 0.2 --residual-yield-stress 0.1 --softening-rate 2",
+        "drucker-prager --friction-angle 35 --cohesion 0.01",
+        "tait-fluid --density 1 --sound-speed 1 --viscosity 0.05 --forgets-expansion on",
+        "isothermal-gas --pressure-per-density 1",
+    ];
+    let mut ends: Vec<String> = Vec::new();
+    for material in materials {
+        let flags = format!("--target banana --particles 100 --steps 30 --method paper-apic --material {material}");
+        let (_, particles) = sampled(directory.path(), &flags);
+        assert!(!ends.contains(&particles), "{material}");
+        ends.push(particles);
+    }
+}
+
+#[test]
+fn parameters_that_a_law_does_not_have_or_refuses_are_named() {
+    let with = |flags: &str, parts: &[&str]| {
+        refused(
+            &format!("--target banana --particles 64 --method paper-pic --material {flags}"),
+            parts,
+        );
+    };
+    with("rubber", &["--material", "rubber", "neo-hookean"]);
+    with("hencky --viscosity 1", &["--viscosity", "1", "`hencky`"]);
+    with("isothermal-gas --youngs-modulus 1", &["--youngs-modulus", "1", "`isothermal-gas`"]);
+    with("kelvin-voigt --viscosity -1", &["--viscosity", "-1", "at least 0"]);
+    with("tait-fluid --density 0", &["--density", "0", "positive"]);
+    with("tait-fluid --sound-speed -1", &["--sound-speed", "-1", "positive"]);
+    with("drucker-prager --friction-angle 90", &["--friction-angle", "90", "degrees"]);
+    with("drucker-prager --cohesion -1", &["--cohesion", "-1"]);
+    with("softening-hencky --peak-yield-stress 0", &["--peak-yield-stress", "0"]);
+    with(
+        "softening-hencky --peak-yield-stress 1 --residual-yield-stress 2",
+        &["--residual-yield-stress", "2", "peak 1"],
+    );
+    with("softening-hencky --softening-rate -1", &["--softening-rate", "-1"]);
+    with("isothermal-gas --pressure-per-density 0", &["--pressure-per-density", "0"]);
+    with("neo-hookean --poissons-ratio 0.5", &["--poissons-ratio", "0.5"]);
+    with("neo-hookean --stretch-limit 1", &["--stretch-limit", "1", "above 1"]);
+}
+
+#[test]
+fn alpha_of_either_sign_with_a_schedule() {
+    let directory = tempfile::tempdir().unwrap();
+    let base = "--target gaussian --dim 2 --particles 60 --steps 8 --method paper-pic";
+    let mut ends: Vec<String> = Vec::new();
+    for alpha in [
+        "--alpha 1",
+        "--alpha -1",
+        "--alpha-from 0.1 --alpha-to 1",
+        "--alpha-from -0.1 --alpha-to -1",
+        "--alpha-from -0.5 --alpha-to 1 --alpha-schedule linear",
+        "--alpha-from 0 --alpha-to 1 --alpha-schedule cyclic",
+        "--alpha-from 0 --alpha-to 1 --alpha-schedule cyclic --alpha-cycles 2",
+        "--alpha 1 --grid-renewal 3",
+        "--alpha 1 --friction 2",
+    ] {
+        let (_, particles) = sampled(directory.path(), &format!("{base} {alpha}"));
+        assert!(!ends.contains(&particles), "{alpha}");
+        ends.push(particles);
+    }
+    let with = |flags: &str, parts: &[&str]| refused(&format!("{base} {flags}"), parts);
+    with("--alpha nan", &["--alpha", "NaN", "finite"]);
+    with("--alpha-from -1 --alpha-to 1", &["--alpha-to", "1", "sign"]);
+    with("--alpha-schedule linear", &["--alpha-schedule", "linear", "alpha-from"]);
+    with(
+        "--alpha-from 1 --alpha-to 2 --alpha-cycles 2",
+        &["--alpha-cycles", "2", "cyclic"],
+    );
+    with("--grid-renewal 0", &["--grid-renewal", "0"]);
+    refused("--target banana --particles 64 --alpha -1", &["--alpha", "-1", "above 0"]);
+}
+
+#[test]
+fn a_start_from_a_file_is_where_the_particles_begin() {
+    let directory = tempfile::tempdir().unwrap();
+    let points = "x1,x2\n0.5,-0.25\n1,0\n-0.5,0.75\n";
+    std::fs::write(directory.path().join("start.csv"), points).unwrap();
+    let still = "--target gaussian --dim 2 --start start.csv --steps 1";
+    for method in [
+        "--method paper-pic --time-step 1e-12",
+        "--method paper-apic --as-written --time-step 1e-12",
+        "--method svgd --step-size 1e-12",
+        "--survey off --time-step 1e-12 --moment-correction off",
+    ] {
+        let (said, particles) = sampled(directory.path(), &format!("{still} {method}"));
+        assert_eq!(said["particles"], "3");
+        for (row, expected) in particles.lines().zip(points.lines()).skip(1) {
+            for (cell, expected) in row.split(',').zip(expected.split(',')) {
+                let (x, expected): (f64, f64) = (cell.parse().unwrap(), expected.parse().unwrap());
+                assert!((x - expected).abs() < 1e-6, "{method}: {row}");
+            }
+        }
+    }
+    // The particles of a run are a start for the next, as .npy too.
+    let first = parvi(directory.path(), "sample --target banana --particles 50 --out a.npy");
+    assert!(first.status.success());
+    sampled(directory.path(), "--target banana --start a.npy --method paper-pic --steps 3");
+}
+
+#[test]
+fn masses_volumes_and_velocities_are_those_of_the_files() {
+    let directory = tempfile::tempdir().unwrap();
+    let write = |name: &str, row: &dyn Fn(usize) -> String| {
+        let rows: Vec<String> = (0..60).map(row).collect();
+        std::fs::write(directory.path().join(name), rows.join("\n")).unwrap();
+    };
+    write("same.csv", &|_| (1.0f64 / 60.0).to_string());
+    write("zero.csv", &|_| "0,0".to_owned());
+    write("masses.csv", &|p| (0.01 + 0.0003 * p as f64).to_string());
+    write("velocities.csv", &|p| format!("{},0.1", 0.01 * p as f64));
+    let base = format!("{GENTLE} --method paper-pic --as-written");
+    let (_, default) = sampled(directory.path(), &base);
+    for same in [
+        "--masses equal --volumes uniform --velocities zero",
+        "--masses same.csv --volumes same.csv --velocities zero.csv",
+    ] {
+        assert_eq!(sampled(directory.path(), &format!("{base} {same}")).1, default, "{same}");
+    }
+    let mut ends = vec![default];
+    for other in [
+        "--masses masses.csv",
+        "--volumes masses.csv",
+        "--velocities velocities.csv",
+        "--volumes start-density --alpha 1e-5 --time-step 1e-3",
+        "--volumes grid --alpha 1e-5 --time-step 1e-3",
+        "--start-law gaussian",
+        "--start-centre -0.5,1",
+        "--start-centre 0.5,1 --start-covariance 0.5,0.1;0.1,0.3",
+    ] {
+        // The last of two equal flags would be refused: those of the base make room.
+        let base = if other.contains("--alpha") {
+            "--target gaussian --dim 2 --correlation 0.5 --particles 60 --steps 5 --method paper-pic --as-written"
+        } else {
+            &base
+        };
+        let (_, particles) = sampled(directory.path(), &format!("{base} {other}"));
+        assert!(!ends.contains(&particles), "{other}");
+        ends.push(particles);
+    }
+}
+
+#[test]
+fn files_of_particles_that_make_no_sense_are_named() {
+    let two = "0,0\n1,1\n";
+    let with = |name: &str, text: &str, flags: &str, parts: &[&str]| {
+        let flags = format!("--target gaussian --dim 2 --method paper-pic {flags}");
+        refused_beside(&[("start.csv", two), (name, text)], &flags, parts);
+    };
+    let given = "--start start.csv";
+    with("s.csv", "0,0,0\n1,1,1\n", "--start s.csv", &["--start", "s.csv", "3 columns", "2"]);
+    with("s.csv", "0,0\nnan,1\n", "--start s.csv", &["--start", "particle 1", "NaN"]);
+    with("s.csv", "x,y\n0,0\none,1\n", "--start s.csv", &["--start", "line 3", "one"]);
+    with("s.txt", two, "--start s.txt", &["--start", "s.txt", ".csv or .npy"]);
+    with("s.csv", "0,0\n", "--start s.csv", &["particles", "1"]);
+    with("s.csv", two, "--start none.csv", &["--start", "none.csv"]);
+    with("s.csv", two, "--start s.csv --particles 5", &["--start", "2 rows", "5"]);
+    with("m.csv", "1\n-1\n", &format!("{given} --masses m.csv"), &["--masses", "particle 1", "-1"]);
+    with("m.csv", "1\n0\n", &format!("{given} --volumes m.csv"), &["--volumes", "particle 1", "0"]);
+    with("m.csv", "1\n1\n1\n", &format!("{given} --masses m.csv"), &["--masses", "3 rows", "2"]);
+    with("v.csv", "1\n1\n", &format!("{given} --velocities v.csv"), &["--velocities", "1 columns", "2"]);
+    with("v.csv", "0,0\ninf,0\n", &format!("{given} --velocities v.csv"), &["--velocities", "inf"]);
+    with("s.csv", two, &format!("{given} --volumes start-density"), &["--volumes", "start-density"]);
+    with("s.csv", two, &format!("{given} --start-law gaussian"), &["--start-law", "--start"]);
+    with("s.csv", two, &format!("{given} --start-mean 1"), &["--start-mean", "1", "--start"]);
+    let law = |flags: &str, parts: &[&str]| {
+        refused(
+            &format!("--target gaussian --dim 3 --particles 20 --method paper-pic {flags}"),
+            parts,
+        );
+    };
+    law("--start-law banana", &["--start-law", "banana", "3"]);
+    law("--start-law doughnut", &["--start-law", "doughnut"]);
+    law("--start-centre 1,2", &["--start-centre", "1,2", "3 dimensions"]);
+    law("--start-centre 1,2,x", &["--start-centre", "x"]);
+    law("--start-covariance 1", &["--start-covariance", "--start-centre"]);
+    law(
+        "--start-centre 0,0,0 --start-covariance 1,0,0;0,1,0",
+        &["--start-covariance", "2 rows"],
+    );
+    law(
+        "--start-centre 0,0,0 --start-covariance 1,0,0;0,1,0;0,0,-1",
+        &["--start-covariance", "positive"],
+    );
+    refused_beside(
+        &[("start.csv", two)],
+        "--target gaussian --dim 2 --start start.csv",
+        &["--start", "--survey off"],
+    );
+    refused_beside(
+        &[("start.csv", two)],
+        "--target gaussian --dim 2 --start start.csv --method iid",
+        &["--start", "iid"],
+    );
+    refused_beside(
+        &[("x.csv", two)],
+        "--target gaussian --dim 2 --start x.csv --method paper-pic",
+        &["--start", "x.csv", "--out"],
+    );
+}
