@@ -18,33 +18,34 @@ where
     /// v_p = Σ_i w_ip v_i, B_p = Σ_i w_ip v_i (x_i − x_p)ᵀ, x_p ← x_p + Δt Σ_i w_ip v_i; in the same pass, where the medium deforms,
     /// F_p ← (I + Δt Σ_i v_i ∇w_ipᵀ) F_p, then whatever the medium admits of it.
     pub(crate) fn move_and_deform_particles(&mut self, dt: f64, damping: f64) {
-        self.grid_to_particles::<true>(true, true, dt, damping);
+        self.grid_to_particles::<true, true>(dt, damping);
     }
 
     /// [`move_and_deform_particles`](Self::move_and_deform_particles) without the deformation.
     pub(crate) fn move_particles(&mut self, dt: f64, damping: f64) {
-        self.grid_to_particles::<false>(true, false, dt, damping);
+        self.grid_to_particles::<true, false>(dt, damping);
     }
 
     /// [`move_and_deform_particles`](Self::move_and_deform_particles) without the motion.
     pub(crate) fn deform_particles(&mut self, dt: f64) {
-        self.grid_to_particles::<false>(false, true, dt, 1.0);
+        self.grid_to_particles::<false, true>(dt, 1.0);
         if self.volume_averaging {
             let nodes = &mut self.node_volumes;
             average_volume_ratios(&self.basis, &self.medium, &mut self.particles, nodes);
         }
     }
 
-    /// G2P. Both parts at once are a pass of their own, in which nothing is asked per particle; either alone is the other pass, which computes both and writes
-    /// one, so that a third need not be compiled. With volume averaging the trial deformation gradient is left for [`average_volume_ratios`].
-    fn grid_to_particles<const BOTH: bool>(&mut self, moves: bool, deforms: bool, dt: f64, damping: f64) {
+    /// G2P. With volume averaging the trial deformation gradient is left for [`average_volume_ratios`].
+    ///
+    /// One pass that computes everything and writes a part is compiled sooner, but made the modified order on a mesh a fifth slower.
+    fn grid_to_particles<const MOVE: bool, const DEFORM: bool>(&mut self, dt: f64, damping: f64) {
         let (basis, nodes, transfer) = (&self.basis, self.nodes.as_slice(), self.transfer.over(dt));
         let (medium, admit) = (&self.medium, !self.volume_averaging);
         let rate_dependent = medium.rate_dependent();
         let velocity = Velocities::<_, D>(nodes);
         let change = Changes::<_, D> { nodes, damping };
         let update = move |particle: MovingParticle<D, M::State>, seen: &Interpolated<D>, change: &[f64; D]| {
-            if BOTH || moves {
+            if MOVE {
                 *particle.velocity = transfer.particle_velocity(&seen.value, change, particle.velocity, damping);
                 for a in 0..D {
                     particle.position[a] = multiply_add(dt, seen.value[a], particle.position[a]);
@@ -54,7 +55,7 @@ where
                 }
             }
             #[allow(non_snake_case)]
-            if let (true, Some((F, state))) = (BOTH || deforms, particle.deformation) {
+            if let Some((F, state)) = particle.deformation {
                 let trial = deformed(F, &seen.gradient, dt);
                 *F = if admit { medium.advance(&trial, state) } else { trial };
                 if let (true, Some(velocity_gradient)) = (rate_dependent, particle.velocity_gradient) {
@@ -66,26 +67,28 @@ where
             basis,
             Moving::of(&mut self.particles),
             move |data: &mut Moving<D, M::State>, particles, numbers, first, fields: &mut [CellField; 2]| {
-                // In here and not captured, so that it is known when this is compiled.
+                // In here and not captured, so that they are known when this is compiled.
+                let incremental = MOVE && T::INCREMENTAL;
+                let (affine, deforms) = (MOVE && T::AFFINE, DEFORM && M::DEFORMS);
                 let wanted = Wanted {
-                    gradient: M::DEFORMS,
+                    gradient: deforms,
                     least_squares: T::MOVING_LEAST_SQUARES,
-                    moment: T::AFFINE,
+                    moment: affine,
                 };
                 let (size, value) = (numbers.len(), Wanted::default());
                 let [velocities, changes] = fields;
                 if !B::LONE_PARTICLES {
                     velocities.collect(numbers, velocity);
-                    if T::INCREMENTAL {
+                    if incremental {
                         changes.collect(numbers, change);
                     }
                 }
                 for p in particles {
-                    let particle = data.particle(p - first, T::AFFINE, M::DEFORMS);
+                    let particle = data.particle(p - first, affine, deforms);
                     let x = *particle.position;
                     let mut changed = [0.0; D];
                     let seen = if B::LONE_PARTICLES {
-                        if T::INCREMENTAL {
+                        if incremental {
                             let changes = Numbered { field: change, numbers };
                             changed = basis.interpolate(p, &x, value, &changes).value;
                         }
@@ -99,7 +102,7 @@ where
                             },
                         )
                     } else {
-                        if T::INCREMENTAL {
+                        if incremental {
                             changed = basis.interpolate(p, &x, value, &changes.nodes(size)).value;
                         }
                         basis.interpolate(p, &x, wanted, &velocities.nodes(size))
