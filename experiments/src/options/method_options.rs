@@ -186,8 +186,8 @@ impl MethodOptions {
             MethodName::PaperPic | MethodName::PaperApic if self.basis == Some(Basis::Mesh) => {
                 return Err(OptionError::misfit("basis", "mesh", name.as_str()));
             }
-            MethodName::PaperPic => Method::Paper(self.paper(steps, false)),
-            MethodName::PaperApic => Method::Paper(self.paper(steps, true)),
+            MethodName::PaperPic => Method::Paper(self.paper(steps, false)?),
+            MethodName::PaperApic => Method::Paper(self.paper(steps, true)?),
             MethodName::Svgd => {
                 let default = SvgdOptions::default();
                 Method::Svgd(SvgdOptions {

@@ -3,7 +3,7 @@
 use std::fmt::{self, Display, Formatter};
 
 use clap::ValueEnum;
-use parvi::{BasisChoice, Elasticity, MomentCorrection, NonFiniteScores, ScoreLocation, StartDraws};
+use parvi::{BasisChoice, MomentCorrection, NonFiniteScores, ScoreLocation, StartDraws};
 use serde::{Deserialize, Serialize};
 
 /// Background basis.
@@ -154,15 +154,6 @@ pub enum Material {
     NeoHookean,
     /// Small-strain linear elasticity
     LinearElastic,
-}
-
-impl From<Material> for Elasticity {
-    fn from(material: Material) -> Self {
-        match material {
-            Material::NeoHookean => Self::NeoHookean,
-            Material::LinearElastic => Self::Linear,
-        }
-    }
 }
 
 /// What Stein thinning chooses from.

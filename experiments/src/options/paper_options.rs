@@ -1,19 +1,18 @@
 //! The options of the paper's algorithms, from the flags.
 
-use parvi::{Annealing, Guards, PaperOptions};
+use mpm_materials::{ElasticModuli, LinearElastic};
+use parvi::{Annealing, Guards, PaperMaterial, PaperOptions};
 
-use super::{Basis, Limit, MethodOptions, Switch};
+use super::{Basis, Limit, Material, MethodOptions, OptionError, Switch};
 
 impl MethodOptions {
     /// Algorithm 1, or 2 if `affine`.
-    pub(super) fn paper(&self, steps: Option<usize>, affine: bool) -> PaperOptions {
+    pub(super) fn paper(&self, steps: Option<usize>, affine: bool) -> Result<PaperOptions, OptionError> {
         let default = PaperOptions::default();
-        PaperOptions {
+        Ok(PaperOptions {
             affine,
             basis: self.basis.and_then(Basis::uniform).unwrap_or(default.basis),
-            elasticity: self.material.map_or(default.elasticity, Into::into),
-            youngs_modulus: self.youngs_modulus.unwrap_or(default.youngs_modulus),
-            poissons_ratio: self.poissons_ratio.unwrap_or(default.poissons_ratio),
+            material: self.paper_material()?,
             annealing: self.annealing().unwrap_or(default.annealing),
             score_location: self.score.map_or(default.score_location, Into::into),
             spacing: self.spacing.or(default.spacing),
@@ -22,7 +21,20 @@ impl MethodOptions {
             guards: self.guards(),
             trace_every: self.trace_every,
             ..default
-        }
+        })
+    }
+
+    /// What the body is made of.
+    fn paper_material(&self) -> Result<PaperMaterial, OptionError> {
+        let (modulus, ratio) = (self.youngs_modulus.unwrap_or(1.0), self.poissons_ratio.unwrap_or(0.3));
+        let moduli = ElasticModuli::new(modulus, ratio).map_err(|error| OptionError {
+            name: "youngs-modulus".to_owned(),
+            reason: error.to_string(),
+        })?;
+        Ok(match self.material {
+            None | Some(Material::NeoHookean) => PaperMaterial::NeoHookean(mpm_materials::NeoHookean::new(moduli)),
+            Some(Material::LinearElastic) => PaperMaterial::LinearElastic(LinearElastic::new(moduli)),
+        })
     }
 
     /// α over the steps, where one is given.
