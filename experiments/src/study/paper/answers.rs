@@ -39,7 +39,7 @@ pub fn variants(bodies: &[Finding]) -> Vec<String> {
 
 /// Per target: the base, the best of all settings, and the rivals.
 fn when(findings: &Findings, bodies: &[Finding], document: &mut Document) -> Result<(), CommandError> {
-    for variant in variants(bodies) {
+    let line = |variant: String| {
         let here: Vec<&Row> = bodies
             .iter()
             .map(|(_, row)| *row)
@@ -51,11 +51,14 @@ fn when(findings: &Findings, bodies: &[Finding], document: &mut Document) -> Res
                 .count()
         };
         let ended = here.iter().filter(|row| row.status == Status::Finished).count();
-        document.paragraph(format!(
-            "- {variant}: {ended} of {} runs reach the end, {} with ED² of at most 10 times that of independent draws, {} with at most as much.",
-            here.len(), within(10.0), within(1.0),
-        ));
-    }
+        let counts = [here.len(), ended, within(10.0), within(1.0)];
+        std::iter::once(variant)
+            .chain(counts.map(|count| count.to_string()))
+            .collect::<Vec<String>>()
+    };
+    document.paragraph("All runs: how many reach the end, and how many there have an ED² of at most 10 times, and at most once, that of independent draws.");
+    let lines: Vec<Vec<String>> = variants(bodies).into_iter().map(line).collect();
+    document.table(&["variant", "runs", "ended", "ED² ≤ 10", "ED² ≤ 1"], &lines);
     let base = findings.of(findings.study.base_cases()?);
     let rivals = findings.of(findings.study.rival_cases()?);
     let all_groups: Vec<(String, Vec<&Row>)> = groups(&base).into_iter().chain(groups(&rivals)).collect();
@@ -122,26 +125,37 @@ fn laws(findings: &[Finding], document: &mut Document) {
 }
 
 fn transient(bodies: &[Finding], document: &mut Document) {
-    for variant in variants(bodies) {
-        let here = || bodies.iter().map(|(_, row)| *row).filter(|row| row.variant == variant);
-        let seen: Vec<&Row> = here().filter(|row| row.best_step.is_some()).collect();
+    let line = |variant: String| {
+        let here = bodies.iter().map(|(_, row)| *row).filter(|row| row.variant == variant);
+        let seen: Vec<&Row> = here.filter(|row| row.best_step.is_some()).collect();
         let earlier = seen
             .iter()
             .filter(|row| row.best_step.is_some_and(|step| step < row.steps))
             .count();
-        let worse = seen.iter().filter(|row| row.start_ratio() <= row.best_ratio()).count();
-        let gains: Vec<Row> = seen
+        let never = seen.iter().filter(|row| row.start_ratio() <= row.best_ratio()).count();
+        let ended: Vec<&Row> = seen.iter().filter(|row| row.ratio().is_some()).copied().collect();
+        let good = seen
             .iter()
-            .filter(|row| row.ratio().is_some())
-            .map(|row| (*row).clone())
-            .collect();
-        let gain = median(&gains, |row| Some(row.ratio()? / row.best_ratio()?)).filter(|gain| gain.is_finite());
-        document.paragraph(format!(
-            "- {variant}: of {} runs that were seen after the start, {earlier} are best before their last step; {worse} are never better than their start. Of those that reach the end, \
-             the final ED² is in the median {} times the least.",
-            seen.len(), cell(gain),
-        ));
-    }
+            .filter(|row| row.best_ratio().is_some_and(|ratio| ratio <= 1.0))
+            .count();
+        let gain = median(ended.iter().copied(), |row| Some(row.ratio()? / row.best_ratio()?));
+        let counts = [seen.len(), earlier, never, good].map(|count| count.to_string());
+        [vec![variant], counts.to_vec(), vec![cell(gain)]].concat()
+    };
+    document.paragraph(
+        "Of the runs that were seen after their start: those that are best before their last step, those that are never better than their start, and those that have an ED² of at most 1 on the way; \
+         and the final ED² over the least, the median of those that reach the end.",
+    );
+    let lines: Vec<Vec<String>> = variants(bodies).into_iter().map(line).collect();
+    let header = [
+        "variant",
+        "seen",
+        "best before the end",
+        "never better than the start",
+        "≤ 1 on the way",
+        "end / least",
+    ];
+    document.table(&header, &lines);
 }
 
 fn annealing(findings: &[Finding], document: &mut Document) {
@@ -168,9 +182,9 @@ fn annealing(findings: &[Finding], document: &mut Document) {
         let pairs =
             of(schedule).filter_map(|one| Some((one.1, of(first.body.schedule).find(|other| same(one, other))?.1)));
         let name = of(schedule).next().map_or("", |(_, row)| row.schedule.as_str());
-        let [better, ties, worse] = against(pairs);
+        let [better, ties, worse, neither] = against(pairs);
         document.paragraph(format!(
-            "- α {name}: better than the constant one in {better} runs, as good in {ties}, worse in {worse}."
+            "- α {name}: better than the constant one in {better} runs, as good in {ties}, worse in {worse}; in {neither} both diverged."
         ));
     }
     settings(findings, document);

@@ -64,7 +64,7 @@ pub fn strength(alpha: &[Finding], stiffness: &[Finding]) -> MultiplesPlot {
                 .filter(|(_, row)| (&row.variant, &row.method) == (&title.0, &title.1))
                 .collect();
             panels.push(MultiplesPanel {
-                title: format!("{name}; {}, {}", title.1, title.0),
+                title: format!("{name}: {}, {}", title.1.replace("algorithm ", ""), title.0),
                 series: lines(&here, x, &|row| row.target.clone(), Row::ratio),
                 guides: Vec::new(),
                 levels: vec![ReferenceLevel {
@@ -75,6 +75,9 @@ pub fn strength(alpha: &[Finding], stiffness: &[Finding]) -> MultiplesPlot {
             titles.push(title);
         }
     }
+    // Where all runs diverged there is nothing to draw.
+    let drawable = |panel: &MultiplesPanel| panel.series.iter().any(|line| line.y.iter().any(|y| y.is_finite()));
+    panels.retain(drawable);
     MultiplesPlot {
         title: String::new(),
         x_label: "α or E".to_owned(),
@@ -82,7 +85,7 @@ pub fn strength(alpha: &[Finding], stiffness: &[Finding]) -> MultiplesPlot {
         x_axis: AxisKind::Logarithmic,
         y_axis: AxisKind::Logarithmic,
         panels,
-        notes: vec!["Medians over the seeds; a gap where more than half of the runs diverged.".to_owned()],
+        notes: vec!["By algorithm and variant; medians over the seeds. What diverged has no mark, and no panel where that is all.".to_owned()],
     }
 }
 

@@ -140,6 +140,9 @@ fn against_rivals(findings: &Findings, document: &mut Document) -> Result<(), Co
             }
         }
     }
-    document.table(&["variant", "method", "rival", "better", "ties", "worse"], &lines);
+    document.table(
+        &["variant", "method", "rival", "better", "ties", "worse", "both diverged"],
+        &lines,
+    );
     Ok(())
 }

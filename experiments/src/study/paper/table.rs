@@ -150,18 +150,17 @@ pub fn settings(findings: &[Finding], document: &mut Document) {
     document.table(&header, &groups(findings).iter().map(line).collect::<Vec<_>>());
 }
 
-/// How many runs are better than, as good as and worse than their counterparts; a run without particles is infinitely far.
-pub fn against<'a>(pairs: impl IntoIterator<Item = (&'a Row, &'a Row)>) -> [usize; 3] {
-    let mut counts = [0; 3];
+/// How many runs are better than, as good as and worse than their counterparts, and of how many pairs both gave nothing; a run without particles is worse than any other.
+pub fn against<'a>(pairs: impl IntoIterator<Item = (&'a Row, &'a Row)>) -> [usize; 4] {
+    let mut counts = [0; 4];
     for (row, other) in pairs {
-        let (own, theirs) = (
-            row.ratio().unwrap_or(f64::INFINITY),
-            other.ratio().unwrap_or(f64::INFINITY),
-        );
-        let place = match () {
-            () if own * TIE < theirs => 0,
-            () if own <= theirs * TIE => 1,
-            () => 2,
+        let place = match (row.ratio(), other.ratio()) {
+            (None, None) => 3,
+            (None, Some(_)) => 2,
+            (Some(_), None) => 0,
+            (Some(own), Some(theirs)) if own * TIE < theirs => 0,
+            (Some(own), Some(theirs)) if own <= theirs * TIE => 1,
+            (Some(_), Some(_)) => 2,
         };
         counts[place] += 1;
     }
