@@ -117,17 +117,20 @@ pub fn settings(findings: &[Finding], document: &mut Document) {
         let good = all()
             .filter(|row| row.ratio().is_some_and(|ratio| ratio <= 1.0))
             .count();
+        // Rivals are not looked at on their way.
+        let seen = all().any(|row| !row.variant.is_empty());
+        let on_the_way = if seen {
+            cell(median(all(), Row::best_ratio))
+        } else {
+            MISSING.to_owned()
+        };
         let least = all().filter_map(Row::ratio).min_by(f64::total_cmp);
         let mut line = vec![
             label.clone(),
             format!("{ended}/{}", rows.len()),
             cell(median(all(), Row::ratio)),
         ];
-        line.extend([
-            optional_number(least),
-            cell(median(all(), Row::best_ratio)),
-            good.to_string(),
-        ]);
+        line.extend([optional_number(least), on_the_way, good.to_string()]);
         let ends: [Quantity; 3] = [|row| row.final_sliced, |row| row.final_mean, |row| row.final_deviation];
         line.extend(ends.map(|quantity| cell(median(all(), quantity))));
         let costs: [Quantity; 2] = [|row| row.evaluations.map(|count| count as f64), |row| row.wall_seconds];
