@@ -2,25 +2,27 @@
 
 use std::io::{self, Write};
 
+use npyz::WriterBuilder;
+
 use super::Particles;
-use super::array_npy::header;
 
 /// Writes the array in row-major order.
 pub fn write(particles: &Particles, writer: &mut dyn Write) -> io::Result<()> {
     let further = particles.further_columns();
     let columns = particles.dimension() + further.len();
     let shape = [particles.len() as u64, columns as u64];
-    writer.write_all(&header(&shape))?;
+    let mut array = npyz::WriteOptions::new()
+        .default_dtype()
+        .shape(&shape)
+        .writer(writer)
+        .begin_nd()?;
     for (index, row) in particles.rows().enumerate() {
-        for value in row {
-            writer.write_all(&value.to_le_bytes())?;
-        }
+        array.extend(row.iter().copied())?;
         for (_, values) in &further {
-            let value = values.get(index).copied().unwrap_or(0.0);
-            writer.write_all(&value.to_le_bytes())?;
+            array.push(&values.get(index).copied().unwrap_or(0.0))?;
         }
     }
-    Ok(())
+    array.finish()
 }
 
 #[cfg(test)]

@@ -13,6 +13,7 @@ mod document;
 mod gaussian_runs;
 mod manifest;
 mod moments;
+mod paper;
 mod quickstart;
 mod random_targets;
 mod results;
@@ -64,7 +65,7 @@ impl Kind {
 }
 
 /// All kinds.
-static KINDS: [Kind; 13] = [
+static KINDS: [Kind; 14] = [
     Kind::of::<quickstart::Quickstart>(),
     Kind::of::<scaling::Scaling>(),
     Kind::of::<time_error::TimeError>(),
@@ -76,6 +77,7 @@ static KINDS: [Kind; 13] = [
     Kind::of::<catalogue::Catalogue>(),
     Kind::of::<random_targets::RandomTargets>(),
     Kind::of::<stability::Stability>(),
+    Kind::of::<paper::Paper>(),
     Kind::of::<time_to_equal_error::TimeToEqualError>(),
     Kind::of::<scenes::Scenes>(),
 ];

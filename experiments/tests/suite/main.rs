@@ -1,6 +1,7 @@
 //! The command `parvi`, from the outside. One theme per file.
 
 mod gaussian_studies;
+mod paper_study;
 mod random_targets;
 mod rom;
 mod sample_bad_input;

@@ -1,0 +1,148 @@
+//! The report of the study `paper`.
+
+use super::answers::{answers, variants};
+use super::row::Row;
+use super::table::{Finding, Findings, TIE, against, settings};
+use super::{Paper, figure};
+use crate::CommandError;
+use crate::plots::{dots, multiples};
+use crate::study::attempt::Status;
+use crate::study::definition::Report;
+use crate::study::directory::StudyDirectory;
+use crate::study::document::{Document, MISSING};
+
+/// Tables and figures.
+pub fn report(study: &Paper, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
+    let findings = Findings::new(study, rows);
+    let all = findings.of(study.all_cases()?);
+    let bodies: Vec<Finding> = all.into_iter().filter(|(case, _)| case.rival.is_none()).collect();
+    let mut document = Document::new("What Algorithms 1 and 2 of the MPM-ParVI paper reach");
+    document.paragraph(format!(
+        "Huang, arXiv 2407.20287, has no experiments; these are some. `as written`: the target's own coordinates, the force of Eq. 3, no guard. `guards on, frame`: this project's defaults. \
+         The start is N({}, {}²) in every coordinate of the body. ED² is the squared energy distance from the target over its expectation E‖Y − Y'‖/M for M independent draws, so these have 1; \
+         `on the way` is the least ED² among every {}th step after the start. A run ends, and has diverged, where something is not finite or a mean or standard deviation is off by more than {} \
+         standard deviations. Medians take a run without particles for infinitely far, ∞. Mean and sd are the largest errors in standard deviations. Evaluations are of the score: each node once.",
+        study.start_mean, study.start_sd, study.look_every, study.reach,
+    ));
+    document.heading("Failures");
+    failures(&bodies, &mut document);
+    document.heading("Ties and losses");
+    against_rivals(&findings, &mut document)?;
+    answers(&findings, &bodies, &mut document)?;
+    document.heading("Figures");
+    let (alpha, stiffness) = (findings.sweep("alpha")?, findings.sweep("youngs-modulus")?);
+    let caption = "ED² at the end over the factor α of the force and over Young's modulus E.";
+    document.figure(
+        directory,
+        "strength.svg",
+        caption,
+        multiples(&figure::strength(&alpha, &stiffness)),
+    )?;
+    let caption = "The base: start, best configuration on the way, and end.";
+    let base = findings.of(study.base_cases()?);
+    document.figure(directory, "transient.svg", caption, dots(&figure::transient(&base)))?;
+    let caption = "Time per step over the number of particles.";
+    document.figure(
+        directory,
+        "cost.svg",
+        caption,
+        multiples(&figure::cost(&findings.sweep("cost")?)),
+    )?;
+    document.heading("Base and rivals");
+    settings(&base, &mut document);
+    settings(&findings.of(study.rival_cases()?), &mut document);
+    for sweep in &study.sweeps {
+        let name = sweep.name.as_deref().unwrap_or_default();
+        if !["material", "schedule", "cost"].contains(&name) {
+            document.heading(&format!("Case `{name}`"));
+            settings(&findings.sweep(name)?, &mut document);
+        }
+    }
+    let count = |choose: fn(&Row) -> bool| rows.iter().filter(|row| choose(row)).count().to_string();
+    let summary = vec![
+        ("study", "paper".to_owned()),
+        ("cases", rows.len().to_string()),
+        ("diverged", count(|row| row.status == Status::Diverged)),
+        (
+            "as_good_as_independent",
+            count(|row| !row.variant.is_empty() && row.ratio().is_some_and(|ratio| ratio <= 1.0)),
+        ),
+    ];
+    Ok(Report { document, summary })
+}
+
+/// How many runs diverge, why and when.
+fn failures(bodies: &[Finding], document: &mut Document) {
+    let reasons = ["not finite", "outside range", "turned inside out", "other"];
+    let mut lines = Vec::new();
+    for variant in variants(bodies) {
+        for method in ["algorithm 1", "algorithm 2"] {
+            let here: Vec<&Row> = bodies
+                .iter()
+                .map(|(_, row)| *row)
+                .filter(|row| row.variant == variant && row.method == method)
+                .collect();
+            let failed: Vec<&&Row> = here.iter().filter(|row| row.status != Status::Finished).collect();
+            let mut steps: Vec<usize> = failed.iter().filter_map(|row| row.failed_step).collect();
+            steps.sort_unstable();
+            let share = 100.0 * failed.len() as f64 / here.len().max(1) as f64;
+            let mut line = vec![
+                variant.clone(),
+                method.to_owned(),
+                here.len().to_string(),
+                failed.len().to_string(),
+                format!("{share:.1}"),
+            ];
+            line.extend(reasons.map(|reason| failed.iter().filter(|row| row.reason == reason).count().to_string()));
+            line.push(steps.get(steps.len() / 2).map_or(MISSING.to_owned(), usize::to_string));
+            line.push(steps.last().map_or(MISSING.to_owned(), usize::to_string));
+            if !here.is_empty() {
+                lines.push(line);
+            }
+        }
+    }
+    let header = ["variant", "method", "runs", "diverged", "%"];
+    let header: Vec<&str> = header
+        .into_iter()
+        .chain(reasons)
+        .chain(["median step", "last step"])
+        .collect();
+    document.table(&header, &lines);
+}
+
+/// The base beside its rivals, run by run.
+fn against_rivals(findings: &Findings, document: &mut Document) -> Result<(), CommandError> {
+    let base = findings.of(findings.study.base_cases()?);
+    let rivals = findings.of(findings.study.rival_cases()?);
+    document.paragraph(format!(
+        "Runs of the base beside those of a rival on the same target with the same seed: better, tie (ED² within a factor of {TIE}), worse. A run that diverged is worse than one that did not.",
+    ));
+    let mut lines = Vec::new();
+    for variant in variants(&base) {
+        for method in ["algorithm 1", "algorithm 2"] {
+            for rival in &findings.study.rivals {
+                let here = base
+                    .iter()
+                    .map(|(_, row)| *row)
+                    .filter(|row| row.variant == variant && row.method == method);
+                let pairs = here.filter_map(|row| {
+                    let same = |other: &&Row| {
+                        other.method == rival.label()
+                            && (&other.target, other.seed, other.particles) == (&row.target, row.seed, row.particles)
+                    };
+                    Some((row, rivals.iter().map(|(_, row)| *row).find(same)?))
+                });
+                let counts = against(pairs);
+                if counts.iter().sum::<usize>() > 0 {
+                    let names = [variant.clone(), method.to_owned(), rival.label().to_owned()];
+                    lines.push(names.into_iter().chain(counts.map(|count| count.to_string())).collect());
+                }
+            }
+        }
+    }
+    document.table(
+        &["variant", "method", "rival", "better", "ties", "worse", "both diverged"],
+        &lines,
+    );
+    Ok(())
+}
