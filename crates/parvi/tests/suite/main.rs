@@ -9,6 +9,7 @@ mod own_targets;
 mod paper_as_written;
 mod paper_materials;
 mod paper_oracle;
+mod paper_rest;
 mod robustness;
 mod samplers;
 mod stein_thinning;
