@@ -10,7 +10,10 @@ fn sampled(directory: &Path, flags: &str) -> (HashMap<String, String>, String) {
     let output = parvi(directory, &format!("sample {flags} --out x.csv"));
     assert!(output.status.success(), "{flags}: {}", stderr(&output));
     let particles = std::fs::read_to_string(directory.join("x.csv")).unwrap();
-    let pair = |line: &str| line.split_once('=').map(|(key, value)| (key.to_owned(), value.to_owned()));
+    let pair = |line: &str| {
+        line.split_once('=')
+            .map(|(key, value)| (key.to_owned(), value.to_owned()))
+    };
     (stdout(&output).lines().filter_map(pair).collect(), particles)
 }
 
@@ -31,7 +34,8 @@ fn refused(flags: &str, parts: &[&str]) {
     refused_beside(&[], flags, parts);
 }
 
-const GENTLE: &str = "--target gaussian --dim 2 --correlation 0.5 --particles 60 --steps 5 --time-step 0.02 --alpha 1e-3";
+const GENTLE: &str =
+    "--target gaussian --dim 2 --correlation 0.5 --particles 60 --steps 5 --time-step 0.02 --alpha 1e-3";
 
 #[test]
 fn as_written_is_the_identity_frame_without_guards() {
@@ -44,7 +48,11 @@ fn as_written_is_the_identity_frame_without_guards() {
         let (_, framed) = sampled(directory.path(), &format!("{GENTLE} --method {method} --guards off"));
         assert_ne!(framed, written, "the frame is a departure");
         let flags = format!("{GENTLE} --method {method} --as-written --mass-weighted-force on");
-        assert_ne!(sampled(directory.path(), &flags).1, written, "each departure stands beside it");
+        assert_ne!(
+            sampled(directory.path(), &flags).1,
+            written,
+            "each departure stands beside it"
+        );
     }
 }
 
@@ -94,11 +102,17 @@ fn parameters_that_a_law_does_not_have_or_refuses_are_named() {
     };
     with("rubber", &["--material", "rubber", "neo-hookean"]);
     with("hencky --viscosity 1", &["--viscosity", "1", "`hencky`"]);
-    with("isothermal-gas --youngs-modulus 1", &["--youngs-modulus", "1", "`isothermal-gas`"]);
+    with(
+        "isothermal-gas --youngs-modulus 1",
+        &["--youngs-modulus", "1", "`isothermal-gas`"],
+    );
     with("kelvin-voigt --viscosity -1", &["--viscosity", "-1", "at least 0"]);
     with("tait-fluid --density 0", &["--density", "0", "positive"]);
     with("tait-fluid --sound-speed -1", &["--sound-speed", "-1", "positive"]);
-    with("drucker-prager --friction-angle 90", &["--friction-angle", "90", "degrees"]);
+    with(
+        "drucker-prager --friction-angle 90",
+        &["--friction-angle", "90", "degrees"],
+    );
     with("drucker-prager --cohesion -1", &["--cohesion", "-1"]);
     with("softening-hencky --peak-yield-stress 0", &["--peak-yield-stress", "0"]);
     with(
@@ -106,7 +120,10 @@ fn parameters_that_a_law_does_not_have_or_refuses_are_named() {
         &["--residual-yield-stress", "2", "peak 1"],
     );
     with("softening-hencky --softening-rate -1", &["--softening-rate", "-1"]);
-    with("isothermal-gas --pressure-per-density 0", &["--pressure-per-density", "0"]);
+    with(
+        "isothermal-gas --pressure-per-density 0",
+        &["--pressure-per-density", "0"],
+    );
     with("neo-hookean --poissons-ratio 0.5", &["--poissons-ratio", "0.5"]);
     with("neo-hookean --stretch-limit 1", &["--stretch-limit", "1", "above 1"]);
 }
@@ -140,7 +157,10 @@ fn alpha_of_either_sign_with_a_schedule() {
         &["--alpha-cycles", "2", "cyclic"],
     );
     with("--grid-renewal 0", &["--grid-renewal", "0"]);
-    refused("--target banana --particles 64 --alpha -1", &["--alpha", "-1", "above 0"]);
+    refused(
+        "--target banana --particles 64 --alpha -1",
+        &["--alpha", "-1", "above 0"],
+    );
 }
 
 #[test]
@@ -167,7 +187,10 @@ fn a_start_from_a_file_is_where_the_particles_begin() {
     // The particles of a run are a start for the next, as .npy too.
     let first = parvi(directory.path(), "sample --target banana --particles 50 --out a.npy");
     assert!(first.status.success());
-    sampled(directory.path(), "--target banana --start a.npy --method paper-pic --steps 3");
+    sampled(
+        directory.path(),
+        "--target banana --start a.npy --method paper-pic --steps 3",
+    );
 }
 
 #[test]
@@ -187,7 +210,11 @@ fn masses_volumes_and_velocities_are_those_of_the_files() {
         "--masses equal --volumes uniform --velocities zero",
         "--masses same.csv --volumes same.csv --velocities zero.csv",
     ] {
-        assert_eq!(sampled(directory.path(), &format!("{base} {same}")).1, default, "{same}");
+        assert_eq!(
+            sampled(directory.path(), &format!("{base} {same}")).1,
+            default,
+            "{same}"
+        );
     }
     let mut ends = vec![default];
     for other in [
@@ -220,21 +247,76 @@ fn files_of_particles_that_make_no_sense_are_named() {
         refused_beside(&[("start.csv", two), (name, text)], &flags, parts);
     };
     let given = "--start start.csv";
-    with("s.csv", "0,0,0\n1,1,1\n", "--start s.csv", &["--start", "s.csv", "3 columns", "2"]);
-    with("s.csv", "0,0\nnan,1\n", "--start s.csv", &["--start", "particle 1", "NaN"]);
-    with("s.csv", "x,y\n0,0\none,1\n", "--start s.csv", &["--start", "line 3", "one"]);
+    with(
+        "s.csv",
+        "0,0,0\n1,1,1\n",
+        "--start s.csv",
+        &["--start", "s.csv", "3 columns", "2"],
+    );
+    with(
+        "s.csv",
+        "0,0\nnan,1\n",
+        "--start s.csv",
+        &["--start", "particle 1", "NaN"],
+    );
+    with(
+        "s.csv",
+        "x,y\n0,0\none,1\n",
+        "--start s.csv",
+        &["--start", "line 3", "one"],
+    );
     with("s.txt", two, "--start s.txt", &["--start", "s.txt", ".csv or .npy"]);
     with("s.csv", "0,0\n", "--start s.csv", &["particles", "1"]);
     with("s.csv", two, "--start none.csv", &["--start", "none.csv"]);
     with("s.csv", two, "--start s.csv --particles 5", &["--start", "2 rows", "5"]);
-    with("m.csv", "1\n-1\n", &format!("{given} --masses m.csv"), &["--masses", "particle 1", "-1"]);
-    with("m.csv", "1\n0\n", &format!("{given} --volumes m.csv"), &["--volumes", "particle 1", "0"]);
-    with("m.csv", "1\n1\n1\n", &format!("{given} --masses m.csv"), &["--masses", "3 rows", "2"]);
-    with("v.csv", "1\n1\n", &format!("{given} --velocities v.csv"), &["--velocities", "1 columns", "2"]);
-    with("v.csv", "0,0\ninf,0\n", &format!("{given} --velocities v.csv"), &["--velocities", "inf"]);
-    with("s.csv", two, &format!("{given} --volumes start-density"), &["--volumes", "start-density"]);
-    with("s.csv", two, &format!("{given} --start-law gaussian"), &["--start-law", "--start"]);
-    with("s.csv", two, &format!("{given} --start-mean 1"), &["--start-mean", "1", "--start"]);
+    with(
+        "m.csv",
+        "1\n-1\n",
+        &format!("{given} --masses m.csv"),
+        &["--masses", "particle 1", "-1"],
+    );
+    with(
+        "m.csv",
+        "1\n0\n",
+        &format!("{given} --volumes m.csv"),
+        &["--volumes", "particle 1", "0"],
+    );
+    with(
+        "m.csv",
+        "1\n1\n1\n",
+        &format!("{given} --masses m.csv"),
+        &["--masses", "3 rows", "2"],
+    );
+    with(
+        "v.csv",
+        "1\n1\n",
+        &format!("{given} --velocities v.csv"),
+        &["--velocities", "1 columns", "2"],
+    );
+    with(
+        "v.csv",
+        "0,0\ninf,0\n",
+        &format!("{given} --velocities v.csv"),
+        &["--velocities", "inf"],
+    );
+    with(
+        "s.csv",
+        two,
+        &format!("{given} --volumes start-density"),
+        &["--volumes", "start-density"],
+    );
+    with(
+        "s.csv",
+        two,
+        &format!("{given} --start-law gaussian"),
+        &["--start-law", "--start"],
+    );
+    with(
+        "s.csv",
+        two,
+        &format!("{given} --start-mean 1"),
+        &["--start-mean", "1", "--start"],
+    );
     let law = |flags: &str, parts: &[&str]| {
         refused(
             &format!("--target gaussian --dim 3 --particles 20 --method paper-pic {flags}"),
