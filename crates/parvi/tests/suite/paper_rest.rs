@@ -8,7 +8,7 @@ use parvi_targets::{Frame, Gaussian};
 fn stretch_at_rest(moduli: ElasticModuli, strength: f64, deviation: f64) -> f64 {
     let force = |stretch: f64| {
         let stress =
-            moduli.shear_modulus * (stretch - 1.0 / stretch) + moduli.first_lame_parameter * stretch.ln() / stretch;
+            moduli.shear_modulus() * (stretch - 1.0 / stretch) + moduli.first_lame_parameter() * stretch.ln() / stretch;
         stress + strength * deviation * deviation * stretch
     };
     let (mut low, mut high) = (1e-6, 1.0);
