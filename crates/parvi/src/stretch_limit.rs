@@ -14,27 +14,15 @@ pub(crate) struct StretchLimited<'a, const D: usize> {
     pub limit: f64,
 }
 
-/// What is added to an F that is singular, over its size.
-const LEAST: f64 = 1e-13;
-
-/// U, σ and V, if U and V are rotations, or reflections.
-#[allow(non_snake_case)]
-fn decomposed<const D: usize>(F: &Matrix<D>) -> Option<SingularValues<D>> {
-    let is_orthogonal = |found: &SingularValues<D>| (found.left.determinant() * found.right.determinant()).abs() > 0.5;
-    SingularValues::new(F).filter(is_orthogonal)
-}
-
 /// F with its stretches within [1/k, k]; F itself where they are, or where it is not finite.
 #[allow(non_snake_case)]
 fn limited<const D: usize>(F: &Matrix<D>, limit: f64) -> Matrix<D> {
     // No stretch is above |F|, and the product of all but the least is at most |F|^(D−1).
     let (norm, J) = (F.frobenius_norm(), F.determinant());
-    if norm <= limit && J * limit >= norm.powi(D as i32 - 1) {
+    if norm <= limit && J > 0.0 && J * limit >= norm.powi(D as i32 - 1) {
         return *F;
     }
-    // A stretch of zero has no axis of its own: one beside it has.
-    let beside = *F + Matrix::IDENTITY * (LEAST * norm.max(limit.recip()));
-    let Some(SingularValues { left, values, right }) = decomposed(F).or_else(|| decomposed(&beside)) else {
+    let Some(SingularValues { left, values, right }) = SingularValues::new(F) else {
         return *F;
     };
     let turned = D > 0 && left.determinant() * right.determinant() < 0.0;

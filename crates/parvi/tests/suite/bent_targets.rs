@@ -8,7 +8,7 @@ use rand::rngs::ChaCha8Rng;
 
 const PARTICLES: usize = 600;
 
-fn from_start<const D: usize>(target: &dyn CatalogueTarget<D>, (mean, sd): (f64, f64)) -> Samples<D> {
+fn from_start<const D: usize>(target: &dyn CatalogueTarget<D>, (mean, sd): (f64, f64), seed: u64) -> Samples<D> {
     let options = MpmOptions {
         evaluations: Some(80 * PARTICLES as u64),
         ..MpmOptions::default()
@@ -19,7 +19,7 @@ fn from_start<const D: usize>(target: &dyn CatalogueTarget<D>, (mean, sd): (f64,
             standard_deviation: sd,
             ..Start::default()
         },
-        ..Run::new(PARTICLES, 2)
+        ..Run::new(PARTICLES, seed)
     };
     sample(target, &Method::Mpm(options), &run, &mut Silent).expect("particles")
 }
@@ -47,27 +47,37 @@ fn moments<const D: usize>(points: &[[f64; D]]) -> Moments<D> {
         .moments()
 }
 
-/// On the axes before `axes` means within 0.05 standard deviations of the truth and standard deviations within `tolerance`, from near and
-/// far, at a price below 110 evaluations per particle and with an ED² below `ratio` of that of independent draws.
+const SEEDS: std::ops::Range<u64> = 2..6;
+
+/// On the axes before `axes` means within 0.05 standard deviations of the truth and standard deviations within `tolerance`, and an ED² below `ratio` of that of
+/// independent draws, in the mean over the seeds: one run's tail is what its few farthest points make of it. From near and far, each run at a price below 110 evaluations per particle.
 fn check<const D: usize>(target: &dyn CatalogueTarget<D>, axes: usize, tolerance: f64, ratio: f64) {
     let truth = target.moments().expect("moments");
+    let share = 1.0 / SEEDS.count() as f64;
     for start in [(0.0, 1.0), (3.0, 0.1)] {
-        let samples = from_start(target, start);
-        let found = moments(&samples.positions);
-        for axis in 0..axes {
-            let spread = truth.covariance.0[axis][axis].sqrt();
-            let shift = (found.mean[axis] - truth.mean[axis]) / spread;
-            let widening = found.covariance.0[axis][axis].sqrt() / spread - 1.0;
-            assert!(
-                shift.abs() < 0.05 && widening.abs() < tolerance,
-                "{} {start:?}, axis {axis}: {shift} {widening}",
-                target.name()
-            );
+        let (mut shifts, mut widenings, mut reached) = ([0.0; D], [0.0; D], 0.0);
+        for seed in SEEDS {
+            let samples = from_start(target, start, seed);
+            let found = moments(&samples.positions);
+            for axis in 0..axes {
+                let spread = truth.covariance.0[axis][axis].sqrt();
+                shifts[axis] += share * (found.mean[axis] - truth.mean[axis]) / spread;
+                widenings[axis] += share * (found.covariance.0[axis][axis].sqrt() / spread - 1.0);
+            }
+            reached += share * energy_ratio(target, &samples.positions);
+            let price = (samples.score_evaluations + samples.density_evaluations) as f64 / PARTICLES as f64;
+            assert!(price < 110.0, "{} {start:?}: {price}", target.name());
         }
-        let reached = energy_ratio(target, &samples.positions);
-        assert!(reached < ratio, "{} {start:?}: {reached}", target.name());
-        let price = (samples.score_evaluations + samples.density_evaluations) as f64 / PARTICLES as f64;
-        assert!(price < 110.0, "{} {start:?}: {price}", target.name());
+        let name = target.name();
+        assert!(
+            shifts.iter().all(|shift| shift.abs() < 0.05),
+            "{name} {start:?}: {shifts:?}"
+        );
+        assert!(
+            widenings.iter().all(|widening| widening.abs() < tolerance),
+            "{name} {start:?}: {widenings:?}"
+        );
+        assert!(reached < ratio, "{name} {start:?}: {reached}");
     }
 }
 
@@ -93,7 +103,7 @@ fn a_long_thin_banana_is_filled() {
 fn a_ring_has_its_centre_in_the_middle() {
     let target = Ring::new(2.0, 0.2).expect("radii");
     for start in [(0.0, 1.0), (3.0, 0.1)] {
-        let samples = from_start(&target, start);
+        let samples = from_start(&target, start, 2);
         let found = moments(&samples.positions);
         assert!(found.mean.iter().all(|c| c.abs() < 0.05), "{start:?}: {:?}", found.mean);
     }
@@ -102,7 +112,7 @@ fn a_ring_has_its_centre_in_the_middle() {
 #[test]
 fn a_cross_is_better_than_independent_draws() {
     let target = Cross::<3>::new(2.0, 0.2).expect("scales");
-    let samples = from_start(&target, (0.0, 1.0));
+    let samples = from_start(&target, (0.0, 1.0), 2);
     let reached = energy_ratio(&target, &samples.positions);
     assert!(reached < 0.5, "{reached}");
 }
