@@ -8,8 +8,9 @@ use crate::lanes::{LANES, packed};
 use crate::neighbours::local_covariances;
 use crate::sample::{Sample, root};
 
-/// Walks of one proposal, each in both directions, and hops of one walk at most.
+/// Walks of one proposal, each in both directions, out of so many places that weigh most, and hops of one walk at most.
 const WALKS: usize = 4;
+const PLACES: usize = 200;
 const HOPS: usize = 24;
 
 /// Length of a hop over the local standard deviation along the ridge.
@@ -31,7 +32,7 @@ const NEIGHBOURS: usize = 4;
 const STRAIGHT: f64 = 0.3;
 
 /// Points on ridges of log p, no lower than `lowest`, that the proposals of the fold have not covered: from the points that weigh most, hops along the widest axis
-/// of their neighbours and then of −∇² log p, each corrected by Newton steps across (predictor and corrector: E. Allgower, K. Georg, *Numerical continuation methods*, 1990, §3.3).
+/// of their neighbours and then of −∇² log p, each corrected by Newton steps across (predictor and corrector: E. Allgower, K. Georg, *Numerical continuation methods*, 1990).
 pub(super) fn outposts<const D: usize>(
     fold: &Fold<D>,
     sample: &Sample<D>,
@@ -47,6 +48,7 @@ pub(super) fn outposts<const D: usize>(
         .filter(|&i| logs[i] > threshold && fold.log_densities[i] >= lowest)
         .collect();
     heavy.sort_by(|&a, &b| logs[b].total_cmp(&logs[a]).then(a.cmp(&b)));
+    heavy.truncate(PLACES);
     let factor = root(&sample.moments().1);
     let whitener = factor.lower_triangular_inverse().unwrap_or(Matrix::IDENTITY);
     let mut walker = Walker {
