@@ -103,42 +103,42 @@ pub struct MethodOptions {
     /// Constitutive law, by the names of the scenes (paper-*) [default: neo-hookean]
     #[arg(long)]
     pub material: Option<Material>,
-    /// Young's modulus E [1] (paper-*: solids)
+    /// Young's modulus E (paper-*: solids) [default: 1]
     #[arg(long, value_name = "E", alias = "young-modulus", allow_negative_numbers = true)]
     #[serde(alias = "young-modulus")]
     pub youngs_modulus: Option<f64>,
-    /// Poisson's ratio [0.3] (paper-*: solids)
+    /// Poisson's ratio (paper-*: solids) [default: 0.3]
     #[arg(long, value_name = "NU", alias = "poisson-ratio", allow_negative_numbers = true)]
     #[serde(alias = "poisson-ratio")]
     pub poissons_ratio: Option<f64>,
-    /// Yield stress at first, as |dev tau| [0.1] (paper-*: softening-hencky)
+    /// Yield stress at first, as |dev tau| (paper-*: softening-hencky) [default: 0.1]
     #[arg(long, value_name = "KAPPA", allow_negative_numbers = true)]
     pub peak_yield_stress: Option<f64>,
-    /// Yield stress that softening ends at [the first one: perfect plasticity] (paper-*: softening-hencky)
+    /// Yield stress that softening ends at (paper-*: softening-hencky) [default: the first one: perfect plasticity]
     #[arg(long, value_name = "KAPPA", allow_negative_numbers = true)]
     pub residual_yield_stress: Option<f64>,
-    /// Rate of softening, per plastic strain [0] (paper-*: softening-hencky)
+    /// Rate of softening, per plastic strain (paper-*: softening-hencky) [default: 0]
     #[arg(long, value_name = "ETA", allow_negative_numbers = true)]
     pub softening_rate: Option<f64>,
-    /// Friction angle in degrees [30] (paper-*: drucker-prager)
+    /// Friction angle in degrees (paper-*: drucker-prager) [default: 30]
     #[arg(long, value_name = "PHI", allow_negative_numbers = true)]
     pub friction_angle: Option<f64>,
-    /// Cohesion, a stress [0] (paper-*: drucker-prager)
+    /// Cohesion, a stress (paper-*: drucker-prager) [default: 0]
     #[arg(long, value_name = "C", allow_negative_numbers = true)]
     pub cohesion: Option<f64>,
-    /// Density at rest, mass per reference volume [1] (paper-*: tait-fluid)
+    /// Density at rest, mass per reference volume (paper-*: tait-fluid) [default: 1]
     #[arg(long, value_name = "RHO", allow_negative_numbers = true)]
     pub density: Option<f64>,
-    /// Speed of sound at rest [1] (paper-*: tait-fluid)
+    /// Speed of sound at rest (paper-*: tait-fluid) [default: 1]
     #[arg(long, value_name = "C", allow_negative_numbers = true)]
     pub sound_speed: Option<f64>,
-    /// Viscosity, stress times time [0.1; tait-fluid: 0] (paper-*: kelvin-voigt, tait-fluid)
+    /// Viscosity, stress times time (paper-*: kelvin-voigt, tait-fluid) [default: 0.1; tait-fluid: 0]
     #[arg(long, value_name = "ETA", allow_negative_numbers = true)]
     pub viscosity: Option<f64>,
-    /// Forget volumes above that of rest [off] (paper-*: tait-fluid)
+    /// Forget volumes above that of rest (paper-*: tait-fluid) [default: off]
     #[arg(long)]
     pub forgets_expansion: Option<Switch>,
-    /// Pressure per density kappa; at rest the density is p^(alpha/kappa) [1] (paper-*: isothermal-gas)
+    /// Pressure per density kappa; at rest the density is p^(alpha/kappa) (paper-*: isothermal-gas) [default: 1]
     #[arg(long, value_name = "KAPPA", allow_negative_numbers = true)]
     pub pressure_per_density: Option<f64>,
     /// Constant factor before the score; paper-*: of either sign (mpm, paper-*)
@@ -150,22 +150,22 @@ pub struct MethodOptions {
     /// Factor before the score in the last step, mpm: when settling begins, with --alpha-from (mpm, paper-*)
     #[arg(long, value_name = "ALPHA", allow_negative_numbers = true)]
     pub alpha_to: Option<f64>,
-    /// How the factor goes from the one to the other [geometric] (mpm, paper-*)
+    /// How the factor goes from the one to the other (mpm, paper-*) [default: geometric]
     #[arg(long)]
     pub alpha_schedule: Option<AlphaSchedule>,
-    /// Times that a cyclic schedule goes from the one to the other [4] (mpm, paper-*)
+    /// Times that a cyclic schedule goes from the one to the other (mpm, paper-*) [default: 4]
     #[arg(long, value_name = "C", allow_negative_numbers = true)]
     pub alpha_cycles: Option<StepCount>,
     /// A new grid, with its origin drawn anew, every so many steps; default: one grid, with nodes at the integer multiples of the spacing (paper-*)
     #[arg(long, value_name = "STEPS", allow_negative_numbers = true)]
     pub grid_renewal: Option<StepCount>,
-    /// Masses of the particles: `equal`, 1/M each, or a file with a column of them [equal] (paper-*)
+    /// Masses of the particles: `equal`, 1/M each, or a file with a column of them (paper-*) [default: equal]
     #[arg(long, value_name = "equal|FILE.csv|.npy")]
     pub masses: Option<PathBuf>,
-    /// Reference volumes: `uniform`, 1/M each; `start-density`, mass over density of the start's law; `grid`, mass over density on the grid; or a file with a column of them [uniform] (paper-*)
+    /// Reference volumes: `uniform`, 1/M each; `start-density`, mass over density of the start's law; `grid`, mass over density on the grid; or a file with a column of them (paper-*) [default: uniform]
     #[arg(long, value_name = "uniform|start-density|grid|FILE.csv|.npy")]
     pub volumes: Option<PathBuf>,
-    /// Velocities at the start: `zero`, or a file with a column per dimension [zero] (paper-*)
+    /// Velocities at the start: `zero`, or a file with a column per dimension (paper-*) [default: zero]
     #[arg(long, value_name = "zero|FILE.csv|.npy")]
     pub velocities: Option<PathBuf>,
     /// All guards at once; single guards can be set beside it (paper-*)
@@ -180,7 +180,7 @@ pub struct MethodOptions {
     /// Courant number that limits the time step, or `off` (paper-*)
     #[arg(long, value_name = "C|off", allow_negative_numbers = true)]
     pub courant: Option<Limit>,
-    /// Largest principal stretch of a particle and, inverted, the least, or `off` [1000] (paper-*)
+    /// Largest principal stretch of a particle and, inverted, the least, or `off` (paper-*) [default: 1000]
     #[arg(long, value_name = "K|off", allow_negative_numbers = true)]
     pub stretch_limit: Option<Limit>,
     /// Step size of the optimiser (svgd)
@@ -219,7 +219,7 @@ pub struct MethodOptions {
     /// Mean of a normal law to start from, in the target's own coordinates (mpm with --survey off, paper-*, svgd)
     #[arg(long, value_name = "M1,M2,...", allow_hyphen_values = true)]
     pub start_centre: Option<String>,
-    /// Its covariance, the rows between semicolons [identity] (mpm with --survey off, paper-*, svgd)
+    /// Its covariance, the rows between semicolons (mpm with --survey off, paper-*, svgd) [default: identity]
     #[arg(long, value_name = "C11,C12,...;C21,...", allow_hyphen_values = true)]
     pub start_covariance: Option<String>,
     /// Mean of every coordinate at the start, in units of the target's scale (mpm, ais, paper-*, svgd, nuts)
