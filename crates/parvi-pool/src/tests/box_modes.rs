@@ -10,7 +10,7 @@ use crate::{Kernel, Mixture};
 
 /// Four observations N((θ₁, θ₂), S), S of standard deviations θ₃², θ₄² and correlation tanh θ₅, under a uniform law on (−3, 3)⁵; x = logit((θ + 3)/6).
 ///
-/// G. Papamakarios, D. Sterratt, I. Murray, *Sequential neural likelihood*, AISTATS 2019, §A.1.
+/// G. Papamakarios, D. Sterratt, I. Murray, *Sequential neural likelihood*, AISTATS 2019.
 struct BoxModes([[f64; 2]; 4]);
 
 impl BoxModes {
