@@ -48,7 +48,8 @@ pub(super) fn ascend<const D: usize>(density: &mut Density<'_, D>, start: &[f64;
     let mut point = *start;
     let mut summit = None;
     for _ in 0..STEPS {
-        let (score, curvature) = local(density, &point);
+        let length = DIFFERENCE * vector::maximum_norm(&point).max(1.0);
+        let (score, curvature) = local(density, &point, &Matrix::IDENTITY, length);
         let Some(here) = Summit::new(point, log_density, &curvature) else {
             break;
         };
@@ -73,14 +74,20 @@ pub(super) fn ascend<const D: usize>(density: &mut Density<'_, D>, start: &[f64;
     summit
 }
 
-/// The score, and −∇² log p from differences of scores.
-fn local<const D: usize>(density: &mut Density<'_, D>, point: &[f64; D]) -> ([f64; D], Matrix<D>) {
-    let length = DIFFERENCE * vector::maximum_norm(point).max(1.0);
-    let mut places = vec![*point; D + 1];
+/// The score, and −∇² log p from differences of scores over `length` along the axes, in the coordinates z of x = `factor` z.
+pub(super) fn local<const D: usize>(
+    density: &mut Density<'_, D>,
+    z: &[f64; D],
+    factor: &Matrix<D>,
+    length: f64,
+) -> ([f64; D], Matrix<D>) {
+    let mut places = vec![*z; D + 1];
     for axis in 0..D {
         places[axis + 1][axis] += length;
     }
+    let places: Vec<[f64; D]> = places.iter().map(|z| factor.apply(z)).collect();
     let scores = density.scores(&places);
+    let scores: Vec<[f64; D]> = scores.iter().map(|score| factor.transpose().apply(score)).collect();
     let curvature = Matrix::from_fn(|row, axis| (scores[0][row] - scores[axis + 1][row]) / length);
     (scores[0], curvature.symmetric_part())
 }

@@ -2,6 +2,7 @@
 
 use mpm_tensor::{Matrix, SymmetricEigen, vector};
 
+use crate::ascent::local;
 use crate::density::Density;
 use crate::fold::Fold;
 use crate::lanes::{LANES, packed};
@@ -138,19 +139,7 @@ impl<const D: usize> Walker<'_, '_, D> {
 
     /// The Newton step across `direction`, no longer than a hop, and the axis of the least curvature.
     fn across(&mut self, z: &[f64; D], direction: &[f64; D], hop: f64) -> Option<([f64; D], [f64; D])> {
-        let length = DIFFERENCE * hop;
-        let mut places = vec![*z; D + 1];
-        for axis in 0..D {
-            places[axis + 1][axis] += length;
-        }
-        let places: Vec<[f64; D]> = places.iter().map(|z| self.factor.apply(z)).collect();
-        let scores: Vec<[f64; D]> = self
-            .density
-            .scores(&places)
-            .iter()
-            .map(|s| self.factor.transpose().apply(s))
-            .collect();
-        let curvature = Matrix::from_fn(|row, axis| (scores[0][row] - scores[axis + 1][row]) / length).symmetric_part();
+        let (score, curvature) = local(self.density, z, &self.factor, DIFFERENCE * hop);
         let eigen = SymmetricEigen::new(&curvature)?;
         let least = (0..D).min_by(|&a, &b| eigen.values[a].total_cmp(&eigen.values[b]))?;
         let ridge = std::array::from_fn(|row| eigen.vectors.0[row][least]);
@@ -158,7 +147,7 @@ impl<const D: usize> Walker<'_, '_, D> {
         let across = SymmetricEigen::new(&(projector * curvature * projector).symmetric_part())?;
         let step = across
             .map(|q| 1.0 / q.abs().max(1.0 / (hop * hop)))
-            .apply(&projector.apply(&scores[0]));
+            .apply(&projector.apply(&score));
         let step = projector.apply(&step);
         let step = vector::scale(&step, (hop / vector::norm(&step).max(f64::MIN_POSITIVE)).min(1.0));
         vector::is_finite(&step).then_some((step, ridge))
