@@ -164,7 +164,7 @@ fn bad_studies_of_the_paper() {
     refused(
         "from = 0.1, to = 1.0",
         "from = -0.1, to = 1.0",
-        &["case.schedule.schedules", "one sign"],
+        &["case.schedule.schedules", "same sign"],
     );
     refused("alpha = -1.0", "alpha = nan", &["case.alpha.schedules", "finite"]);
     refused(

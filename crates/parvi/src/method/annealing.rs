@@ -54,7 +54,10 @@ impl Annealing {
     }
 
     /// The same schedule, if every α is finite and the schedule has a meaning.
-    pub(crate) fn of_either_sign(self) -> Result<Self, SampleError> {
+    ///
+    /// # Errors
+    /// [`SampleError::InvalidOption`] for the value that is out of its range.
+    pub fn of_either_sign(self) -> Result<Self, SampleError> {
         let [from, to] = self.ends();
         check("alpha", from, from.is_finite(), "finite")?;
         check("alpha", to, to.is_finite(), "finite")?;

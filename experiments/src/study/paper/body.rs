@@ -151,20 +151,7 @@ impl Schedule {
 
     /// What is wrong with it.
     pub fn fault(self) -> Option<String> {
-        let (from, to, cycles) = match self {
-            Self::Constant { alpha } => (alpha, alpha, 1),
-            Self::Geometric { from, to } | Self::Linear { from, to } => (from, to, 1),
-            Self::Cyclic { from, to, cycles } => (from, to, cycles),
-        };
-        let geometric = matches!(self, Self::Geometric { .. });
-        match () {
-            () if !(from.is_finite() && to.is_finite()) => Some(format!("α from {from} to {to} must be finite")),
-            () if geometric && from * to <= 0.0 => {
-                Some(format!("α from {from} to {to} must be of one sign, and not 0"))
-            }
-            () if cycles == 0 => Some("0 cycles: must be at least 1".to_owned()),
-            () => None,
-        }
+        self.annealing().of_either_sign().err().map(|error| error.to_string())
     }
 
     fn text(self) -> String {
