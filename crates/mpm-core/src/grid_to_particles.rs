@@ -41,7 +41,7 @@ where
     fn grid_to_particles<const MOVE: bool, const DEFORM: bool>(&mut self, dt: f64, damping: f64) {
         let (basis, nodes, transfer) = (&self.basis, self.nodes.as_slice(), self.transfer.over(dt));
         let (medium, admit) = (&self.medium, !self.volume_averaging);
-        let rate_dependent = medium.rate_dependent();
+        let (rate_dependent, takes_moments) = (medium.rate_dependent(), transfer.takes_moments());
         let velocity = Velocities::<_, D>(nodes);
         let change = Changes::<_, D> { nodes, damping };
         let update = move |particle: MovingParticle<D, M::State>, seen: &Interpolated<D>, change: &[f64; D]| {
@@ -50,7 +50,7 @@ where
                 for a in 0..D {
                     particle.position[a] = multiply_add(dt, seen.value[a], particle.position[a]);
                 }
-                if let Some(affine) = particle.affine {
+                if let (true, Some(affine)) = (takes_moments, particle.affine) {
                     *affine = seen.moment;
                 }
             }

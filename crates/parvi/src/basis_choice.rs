@@ -1,13 +1,14 @@
 //! From basis and transfer, chosen at run time, to their types: all code of the mechanics is generated here, once per dimension.
 
 use mpm_core::{
-    Apic, Continuum, DeformsLast, Flip, Medium, Mpm, MpmError, Particles, Pic, ProductGrid, SimplexLattice,
-    SplineDegree, SplineGrid, Transfer, UniformBasis,
+    Continuum, DeformsLast, Medium, Mpm, MpmError, Particles, Pic, ProductGrid, SimplexLattice, SplineDegree,
+    SplineGrid, Transfer, UniformBasis,
 };
 use mpm_kernels::{Cubic, Linear, Quadratic};
 use mpm_materials::{AnyLaw, IsothermalGas, Law, Memory};
 
 use crate::framed_score::ScoreForce;
+use crate::in_cell::{AffineOrFlip, InCell};
 use crate::moving::{Moving, OnBasis};
 use crate::remembering_gas::RememberingGas;
 use crate::{BasisChoice, SampleError, TransferChoice};
@@ -75,17 +76,14 @@ impl<'a, const D: usize> Parts<'a, D, Memory> {
     {
         let failed = |error| SampleError::in_step(0, error);
         let (basis, certificate) = (make().map_err(failed)?, make().map_err(failed)?);
-        if M::DEFORMS {
-            // The paper has two transfers.
-            return Ok(match self.transfer {
-                TransferChoice::Apic => self.with(medium, Apic, basis, certificate),
-                _ => self.with(medium, Pic, basis, certificate),
-            });
-        }
-        Ok(match self.transfer {
-            TransferChoice::Pic => self.with(medium, Pic, basis, certificate),
-            TransferChoice::Apic => self.with(medium, Apic, basis, certificate),
-            TransferChoice::Flip(share) => self.with(medium, Flip::blend(share), basis, certificate),
+        let affine = self.transfer == TransferChoice::Apic;
+        Ok(if M::DEFORMS {
+            self.with(medium, InCell { affine }, basis, certificate)
+        } else if self.transfer == TransferChoice::Pic {
+            self.with(medium, Pic, basis, certificate)
+        } else {
+            let transfer = AffineOrFlip::new(self.transfer);
+            self.with(medium, transfer, basis, certificate)
         })
     }
 

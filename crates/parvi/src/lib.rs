@@ -16,6 +16,7 @@ mod free_body;
 mod given;
 mod grid_density;
 mod guard;
+mod in_cell;
 mod kronecker;
 mod method;
 mod moment_correction;

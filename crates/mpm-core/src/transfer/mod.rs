@@ -100,6 +100,12 @@ pub trait Transfer<const D: usize>: Copy + Send + Sync {
     /// Whether nodes keep v_iⁿ beside v_iⁿ⁺¹ ([`GridNode::change`]); otherwise impulse and momentum may be added as one.
     const INCREMENTAL: bool;
 
+    /// Whether particles take B_p in this run, of a transfer that is `AFFINE`; otherwise theirs stays as it is. Zero from the start, APIC is PIC.
+    #[inline(always)]
+    fn takes_moments(&self) -> bool {
+        true
+    }
+
     /// The transfer in a step of length Δt; most do not depend on it.
     #[inline(always)]
     fn over(&self, _time_step: f64) -> Self {
