@@ -8,7 +8,7 @@ use mpm_kernels::{Cubic, Linear, Quadratic};
 use mpm_materials::{AnyLaw, IsothermalGas, Law, Memory};
 
 use crate::framed_score::ScoreForce;
-use crate::in_cell::{AffineOrFlip, InCell};
+use crate::in_cell::InCell;
 use crate::moving::{Moving, OnBasis};
 use crate::remembering_gas::RememberingGas;
 use crate::{BasisChoice, SampleError, TransferChoice};
@@ -76,13 +76,10 @@ impl<'a, const D: usize> Parts<'a, D, Memory> {
     {
         let failed = |error| SampleError::in_step(0, error);
         let (basis, certificate) = (make().map_err(failed)?, make().map_err(failed)?);
-        let affine = self.transfer == TransferChoice::Apic;
-        Ok(if M::DEFORMS {
-            self.with(medium, InCell { affine }, basis, certificate)
-        } else if self.transfer == TransferChoice::Pic {
+        Ok(if !M::DEFORMS && self.transfer == TransferChoice::Pic {
             self.with(medium, Pic, basis, certificate)
         } else {
-            let transfer = AffineOrFlip::new(self.transfer);
+            let transfer = InCell::new(self.transfer);
             self.with(medium, transfer, basis, certificate)
         })
     }

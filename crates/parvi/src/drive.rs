@@ -9,9 +9,10 @@ use crate::extent::Extent;
 use crate::framed_score::FramedScore;
 use crate::guard::{Guard, Progressed, check_energy};
 use crate::moment_correction::correct_moments;
-use crate::moving::Moving;
+use crate::moving::{Cloud, Moving};
 use crate::view::Moment;
-use crate::{MomentCorrection, NonFiniteScores, Observer, Progress, SampleError, Samples, TracePoint};
+use crate::watching::Watching;
+use crate::{MomentCorrection, NonFiniteScores, Observer, Progress, SampleError, Samples, TracePoint, Watched};
 
 /// One step of a plan.
 #[derive(Clone, Copy, Debug)]
@@ -29,7 +30,7 @@ pub(crate) struct PlannedStep<const D: usize> {
 }
 
 /// What the loop is to do.
-pub(crate) struct Plan<P> {
+pub(crate) struct Plan<'a, P, const D: usize> {
     /// The body's number in the run, from 0.
     pub body: usize,
     /// Steps of the bodies before it.
@@ -46,6 +47,10 @@ pub(crate) struct Plan<P> {
     pub moment_correction: MomentCorrection,
     /// Record the state every so many steps (0: never).
     pub trace_every: usize,
+    /// Find the best configuration on the way.
+    pub watching: Option<Watching<D>>,
+    /// The energy that the body stores.
+    pub internal_energy: Option<&'a dyn Fn(&Cloud<D>) -> f64>,
 }
 
 /// Particles at the end of their steps.
@@ -67,20 +72,21 @@ pub(crate) struct Driven<const D: usize> {
 pub(crate) fn drive<P, const D: usize>(
     body: &mut dyn Moving<'_, D>,
     frame: &Frame<D>,
-    mut plan: Plan<P>,
+    mut plan: Plan<P, D>,
     journal: &mut Journal,
     observer: &mut dyn Observer,
 ) -> Result<Driven<D>, SampleError>
 where
     P: FnMut(usize) -> PlannedStep<D>,
 {
-    let (steps, spacing) = (plan.steps, plan.spacing);
+    let (mut steps, spacing) = (plan.steps, plan.spacing);
     let late = steps - steps.div_ceil(10);
     let mut scores = vec![[0.0; D]; body.particles().len()];
     let mut trace: Vec<TracePoint> = Vec::new();
     let mut guard = Guard::new(plan.retries);
     let mut earlier = Extent::of(&body.particles().positions);
     let (mut step, mut time, mut active_nodes, mut origin) = (1, 0.0, 0, [0.0; D]);
+    let mut ended = false;
     if let Some(state) = journal.moving()? {
         for skipped in 1..state.step {
             body.turn(&(plan.step)(skipped));
@@ -102,6 +108,10 @@ where
     };
     let seen_after = |step, time| Moment { step, time, ..moment };
     seen_after(step - 1, time).show(body.particles(), frame, observer)?;
+    if let Some(watching) = &mut plan.watching {
+        let failed = |error| SampleError::in_step(step - 1, error);
+        watching.look(step - 1, body, frame, spacing).map_err(failed)?;
+    }
     while step <= steps {
         let failed = |error| SampleError::in_step(step, error);
         let so_far = Progressed {
@@ -144,6 +154,7 @@ where
                 residual: Some(residual.ratio()),
                 kinetic_energy: body.particles().kinetic_energy(),
                 potential_energy,
+                internal_energy: plan.internal_energy.map(|of| of(body.particles())),
                 displacement: report.displacement,
             });
         }
@@ -153,6 +164,12 @@ where
         seen_after(step, time).show(body.particles(), frame, observer)?;
         if observer.after_step(Progress { step, steps }).is_break() {
             return Err(SampleError::Interrupted { step });
+        }
+        if let Some(watching) = plan.watching.as_mut().filter(|watching| watching.is_due(step, steps)) {
+            let ends = watching.look(step, body, frame, spacing).map_err(failed)?;
+            if ends && step < steps {
+                (steps, ended) = (step, true);
+            }
         }
         step += 1;
     }
@@ -181,6 +198,14 @@ where
         bodies: Some(1),
         storage_bytes: Some(storage_bytes),
         trace,
+        density_evaluations: plan
+            .watching
+            .as_ref()
+            .map_or(0, |watching| watching.density_evaluations),
+        watched: plan.watching.map(|watching| Watched {
+            ended,
+            ..watching.into_seen()
+        }),
         ..Samples::default()
     };
     Ok(Driven {

@@ -43,6 +43,7 @@ mod support_points;
 mod surveyed;
 mod svgd;
 mod view;
+mod watching;
 
 pub use certificate::{Certificate, Expectation, MomentEstimate, Outcome, expectation};
 pub use checkpoint::Checkpoint;

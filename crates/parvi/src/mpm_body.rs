@@ -14,7 +14,7 @@ use crate::kronecker::Kronecker;
 use crate::rotation::random_rotation;
 use crate::start::{Stream, check, positive, steps};
 use crate::stiffness::Stiffness;
-use crate::{Annealing, MpmOptions, Observer, Run, SampleError, TransferChoice, defaults};
+use crate::{Annealing, MpmOptions, Observer, Run, SampleError, defaults};
 
 /// One body, and what every layer of the dispatch hands on.
 pub(crate) struct Body<'a, const D: usize> {
@@ -71,6 +71,8 @@ impl<const D: usize> Body<'_, D> {
             retries: RETRIES,
             moment_correction: options.moment_correction,
             trace_every: options.trace_every,
+            watching: None,
+            internal_energy: None,
         };
         let mut score = FramedScore::new(self.target, self.frame);
         score.non_finite = options.non_finite_scores;
@@ -103,9 +105,7 @@ pub(crate) struct Motion {
 impl Motion {
     /// At spacing h; an option out of range is an error that names it.
     pub fn of(options: &MpmOptions, particles: usize, spacing: f64) -> Result<Self, SampleError> {
-        if let TransferChoice::Flip(share) = options.transfer {
-            check("FLIP share", share, (0.0..=1.0).contains(&share), "in [0, 1]")?;
-        }
+        options.transfer.checked()?;
         options.spacing_schedule.check()?;
         options.settling.check()?;
         let friction = options.friction.unwrap_or(defaults::FRICTION);

@@ -11,10 +11,11 @@ use crate::compiled::Compiled;
 use crate::drive::{Plan, PlannedStep, drive};
 use crate::framed_score::{FramedScore, ScoreForce};
 use crate::kronecker::Kronecker;
-use crate::moving::Moving;
+use crate::moving::{Cloud, Moving};
 use crate::node_scores::NodeScores;
 use crate::start::{Stream, check, positive, steps};
 use crate::stretch_limit::StretchLimited;
+use crate::watching::Watching;
 use crate::{
     Coordinates, MomentCorrection, Observer, PaperOptions, ReferenceVolumes, Run, SampleError, Samples, ScoreLocation,
     TransferChoice, defaults,
@@ -134,6 +135,15 @@ impl<const D: usize> Job<'_, D> {
         let mut origins = self.origins()?;
 
         let mut body = self.body(spacing)?;
+        let stored = |particles: &Cloud<D>| -> f64 {
+            let of = |p: usize| {
+                let density = self
+                    .law
+                    .energy_density(&particles.deformation_gradients[p], &particles.states[p]);
+                particles.reference_volumes[p] * density
+            };
+            (0..particles.len()).map(of).sum()
+        };
         let plan = Plan {
             body: 0,
             earlier_steps: 0,
@@ -149,6 +159,8 @@ impl<const D: usize> Job<'_, D> {
             retries: 0,
             moment_correction: MomentCorrection::Off,
             trace_every: options.trace_every,
+            watching: options.watch.map(Watching::new).transpose()?,
+            internal_energy: Some(&stored),
         };
         let driven = drive(body.as_mut(), self.frame, plan, &mut Journal::none(), observer)?;
         let certificate = options.certificate.then(|| Certificate::of_scores(&driven, last_alpha));
@@ -253,11 +265,11 @@ impl<const D: usize> Job<'_, D> {
         let parts = Parts {
             particles: particles.with_states(volumes, states),
             force,
-            transfer: if options.affine {
-                TransferChoice::Apic
-            } else {
-                TransferChoice::Pic
-            },
+            transfer: match (options.affine, options.flip_share) {
+                (true, share) => TransferChoice::AffineFlip(share),
+                (false, share) => TransferChoice::Flip(share),
+            }
+            .checked()?,
             basis: options.basis,
             spacing,
         };

@@ -107,6 +107,35 @@ pub struct Samples<const D: usize> {
     pub certificate: Option<Certificate>,
     /// History, one entry every `trace_every` steps.
     pub trace: Vec<TracePoint>,
+    /// What a watch saw on the way, where there was one.
+    pub watched: Option<Watched<D>>,
+}
+
+/// What a [`Watch`](crate::Watch) saw of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Watched<const D: usize> {
+    /// Step after which the configuration was the best; 0: that of the start.
+    pub step: usize,
+    /// What the monitor said of it.
+    pub value: f64,
+    /// Its positions, as [`Samples::positions`].
+    pub positions: Vec<[f64; D]>,
+    /// All looks: the step, and what the monitor said.
+    pub history: Vec<(usize, f64)>,
+    /// Whether the watch ended the run: the monitor had stopped getting better.
+    pub ended: bool,
+}
+
+impl<const D: usize> Default for Watched<D> {
+    fn default() -> Self {
+        Self {
+            step: 0,
+            value: f64::INFINITY,
+            positions: Vec::new(),
+            history: Vec::new(),
+            ended: false,
+        }
+    }
 }
 
 /// State of a run at one step.
@@ -122,6 +151,8 @@ pub struct TracePoint {
     pub kinetic_energy: f64,
     /// −E\[log p\] over the particles, in frame coordinates, up to a constant of the target; where it was measured.
     pub potential_energy: Option<f64>,
+    /// Σ V⁰ Ψ(F), the energy stored in the body (total mass 1), where its material stores one.
+    pub internal_energy: Option<f64>,
     /// Largest displacement of a node in this step, in units of h.
     pub displacement: f64,
 }

@@ -22,10 +22,11 @@ pub(crate) fn is_rough<const D: usize>(scores: &[[f64; D]]) -> bool {
 ///
 /// Source: J. Gorham, L. Mackey, *Measuring sample quality with kernels*, ICML 2017, §3–4.
 pub(crate) fn squared_stein_discrepancy<const D: usize>(body: &Driven<D>) -> f64 {
-    discrepancy(&body.positions, &body.scores)
+    squared_discrepancy(&body.positions, &body.scores)
 }
 
-fn discrepancy<const D: usize>(positions: &[[f64; D]], scores: &[[f64; D]]) -> f64 {
+/// [`squared_stein_discrepancy`] of points with their scores.
+pub(crate) fn squared_discrepancy<const D: usize>(positions: &[[f64; D]], scores: &[[f64; D]]) -> f64 {
     let kernel = SteinKernel::isotropic::<D>();
     let pairs = positions
         .iter()
@@ -55,7 +56,7 @@ mod tests {
         let scores: Vec<[f64; 2]> = positions.iter().map(|x| target.score(x)).collect();
         let cloud = Cloud::new(&positions).unwrap();
         let oracle = kernel_stein_discrepancy(&cloud, &scores, &InverseMultiquadric::new(1.0, -0.5).unwrap()).unwrap();
-        let found = discrepancy(&positions, &scores);
+        let found = squared_discrepancy(&positions, &scores);
         assert!(
             (found / oracle.squared - 1.0).abs() < 1e-12,
             "{found} {}",

@@ -67,6 +67,7 @@ impl SvgdOptions {
                     time: step as f64 * rate,
                     residual: None,
                     kinetic_energy: 0.0,
+                    internal_energy: None,
                     potential_energy: Some(score.potential_energy(&positions)),
                     displacement: moved,
                 });

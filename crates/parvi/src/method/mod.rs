@@ -11,6 +11,7 @@ mod schedule;
 mod stein_thinning_options;
 mod support_points_options;
 mod svgd_options;
+mod watch;
 
 pub use ais_options::AisOptions;
 pub use annealing::Annealing;
@@ -23,6 +24,10 @@ pub use schedule::{Settling, SpacingSchedule};
 pub use stein_thinning_options::{Pool, SteinThinningOptions};
 pub use support_points_options::SupportPointsOptions;
 pub use svgd_options::SvgdOptions;
+pub use watch::{Monitor, Watch};
+
+use crate::SampleError;
+use crate::start::check;
 
 /// Background basis of the mechanics.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -48,6 +53,21 @@ pub enum TransferChoice {
     Apic,
     /// FLIP blend with share `a` ∈ [0, 1] of FLIP.
     Flip(f64),
+    /// The same with a velocity gradient per particle (affine FLIP, Fei et al. 2021).
+    AffineFlip(f64),
+}
+
+impl TransferChoice {
+    /// The transfer, if its share of FLIP is one.
+    pub(crate) fn checked(self) -> Result<Self, SampleError> {
+        match self {
+            Self::Pic | Self::Apic => {}
+            Self::Flip(share) | Self::AffineFlip(share) => {
+                check("FLIP share", share, (0.0..=1.0).contains(&share), "in [0, 1]")?;
+            }
+        }
+        Ok(self)
+    }
 }
 
 /// A method together with its options.

@@ -1,4 +1,4 @@
-use super::{Annealing, BasisChoice, PaperMaterial, ScoreLocation};
+use super::{Annealing, BasisChoice, PaperMaterial, ScoreLocation, Watch};
 
 /// In which coordinates the body moves: those of grid, masses per volume, F and Δt.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -72,6 +72,8 @@ impl Guards {
 pub struct PaperOptions {
     /// Algorithm 2 (APIC) instead of Algorithm 1 (PIC).
     pub affine: bool,
+    /// Share a ∈ [0, 1] of FLIP in the new velocities (paper, footnote 2: hybrid of PIC and FLIP): v_p ← (1−a) Σ w_ip v_iⁿ⁺¹ + a (v_p + Σ w_ip (v_iⁿ⁺¹ − v_iⁿ)); 0 in the algorithms.
+    pub flip_share: f64,
     /// Background basis.
     pub basis: BasisChoice,
     /// What the body is made of (the paper's energy density Ψ); for a material of one's own see [`PaperBody`](crate::PaperBody).
@@ -104,12 +106,15 @@ pub struct PaperOptions {
     pub certificate: bool,
     /// Measure residual and energy every so many steps (0: only at the end).
     pub trace_every: usize,
+    /// Find the best configuration on the way, beside the last one.
+    pub watch: Option<Watch>,
 }
 
 impl Default for PaperOptions {
     fn default() -> Self {
         Self {
             affine: false,
+            flip_share: 0.0,
             basis: BasisChoice::Quadratic,
             material: PaperMaterial::default(),
             annealing: Annealing::Constant(1.0),
@@ -125,6 +130,7 @@ impl Default for PaperOptions {
             cached_scores: true,
             certificate: true,
             trace_every: 0,
+            watch: None,
         }
     }
 }

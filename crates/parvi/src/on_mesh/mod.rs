@@ -132,6 +132,7 @@ impl MeshOptions {
                     time,
                     residual: Some(residual(&mut body, &inner).map_err(failed)?),
                     kinetic_energy: body.particles.kinetic_energy(),
+                    internal_energy: None,
                     potential_energy: Some(body.body_force.score.potential_energy(&body.particles.positions)),
                     displacement: report.displacement,
                 });

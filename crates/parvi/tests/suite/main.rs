@@ -10,6 +10,7 @@ mod paper_as_written;
 mod paper_materials;
 mod paper_oracle;
 mod paper_rest;
+mod paper_watch;
 mod robustness;
 mod samplers;
 mod stein_thinning;

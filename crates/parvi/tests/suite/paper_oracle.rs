@@ -1,4 +1,4 @@
-//! Algorithms 1 and 2 as the paper writes them, beside a second program of theirs on dense arrays that shares nothing with the first.
+//! Algorithms 1 and 2 as the paper writes them, and their hybrid with FLIP, beside a second program of theirs on dense arrays that shares nothing with the first.
 
 use mpm_materials::{ElasticModuli, IsothermalGas, Law, LinearCauchy, LinearElastic, Memory, NeoHookean, Numbered};
 use mpm_tensor::Matrix;
@@ -13,6 +13,8 @@ struct Inputs {
     steps: usize,
     alpha: f64,
     apic: bool,
+    /// Share of FLIP (footnote 2).
+    flip: f64,
     at_nodes: bool,
     x: Vec<f64>,
     v: Vec<f64>,
@@ -43,7 +45,7 @@ fn score(x: &[f64]) -> Vec<f64> {
 /// Steps (1) to (7) of Algorithm 1, or of 2, T times; every particle against every node.
 #[rustfmt::skip]
 fn oracle(given: &Inputs) -> Vec<f64> {
-    let Inputs { d, h, dt, steps, alpha, apic, at_nodes, stress, .. } = *given;
+    let Inputs { d, h, dt, steps, alpha, apic, flip, at_nodes, stress, .. } = *given;
     let (m, v0, side) = (&given.m, &given.v0, 2 * REACH as usize + 1);
     let (count, (mut x, mut v)) = (m.len(), (given.x.clone(), given.v.clone()));
     let (mut b, mut f) = (vec![0.0; count * d * d], vec![0.0; count * d * d]);
@@ -96,8 +98,10 @@ fn oracle(given: &Inputs) -> Vec<f64> {
                 f[p * d * d + k] += dt * (0..d).map(|c| gradient[k / d * d + c] * before[c * d + k % d]).sum::<f64>();
             }
             for a in 0..d {
-                v[p * d + a] = pairs[p].iter().map(|(i, w, _)| w * velocity[i * d + a]).sum();
-                x[p * d + a] += dt * v[p * d + a];
+                let seen: f64 = pairs[p].iter().map(|(i, w, _)| w * velocity[i * d + a]).sum();
+                let before: f64 = pairs[p].iter().map(|(i, w, _)| w * momentum[i * d + a] / mass[*i]).sum();
+                v[p * d + a] = (1.0 - flip) * seen + flip * (v[p * d + a] + seen - before);
+                x[p * d + a] += dt * seen;
             }
         }
     }
@@ -202,7 +206,11 @@ fn agrees<const D: usize>() {
     let covariance = Matrix::from_fn(|i, j| if i == j { 3.0 } else { 1.0 });
     let frame = Frame::new([0.4; D], covariance).expect("a covariance");
     for (law, stress) in laws {
-        for (apic, at_nodes) in [(false, false), (false, true), (true, false), (true, true)] {
+        let transfers = [(false, 0.0), (true, 0.0), (false, 0.7), (true, 0.7)];
+        for ((apic, flip), at_nodes) in transfers
+            .into_iter()
+            .flat_map(|transfer| [(transfer, false), (transfer, true)])
+        {
             let (count, mut number) = (24, scattered(D));
             let inputs = Inputs {
                 d: D,
@@ -211,6 +219,7 @@ fn agrees<const D: usize>() {
                 steps: 20,
                 alpha: [2e-3, 5e-4, 1e-4][D - 1],
                 apic,
+                flip,
                 at_nodes,
                 // Near nodes, where none of the others that a particle touches is very light: there the forces of Eq. 3 are largest.
                 x: (0..count * D)
@@ -242,6 +251,7 @@ fn agrees<const D: usize>() {
                 } else {
                     ScoreLocation::Particles
                 },
+                flip_share: flip,
                 ..PaperOptions::as_written(apic)
             };
             let mut run = Run::new(count, 0);
@@ -256,7 +266,8 @@ fn agrees<const D: usize>() {
                 ..PaperBody::default()
             };
             let samples = options.sample_body(&body, &Quartic, &frame, &run, &mut Silent);
-            let samples = samples.unwrap_or_else(|error| panic!("D = {D}, APIC {apic}, nodes {at_nodes}: {error}"));
+            let samples =
+                samples.unwrap_or_else(|error| panic!("D = {D}, APIC {apic}, FLIP {flip}, nodes {at_nodes}: {error}"));
             let expected = oracle(&inputs);
             let distance = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             let pulled = distance(&expected, &oracle(&Inputs { alpha: 0.0, ..inputs }));
@@ -266,7 +277,10 @@ fn agrees<const D: usize>() {
                 "moved by {moved}, {pulled} of it by the score"
             );
             let off = distance(samples.positions.as_flattened(), &expected);
-            assert!(off < 1e-12, "D = {D}, APIC {apic}, nodes {at_nodes}: off by {off:e}");
+            assert!(
+                off < 1e-12,
+                "D = {D}, APIC {apic}, FLIP {flip}, nodes {at_nodes}: off by {off:e}"
+            );
         }
     }
 }
