@@ -49,8 +49,44 @@ pub struct Outcome {
     pub pool: Option<Particles>,
     /// History.
     pub trace: Vec<TracePoint>,
+    /// What a watch saw on the way.
+    pub watched: Option<Watched>,
     /// Time of the sampler alone, in seconds.
     pub wall_seconds: f64,
+}
+
+/// The best configuration of a run, and all looks; as [`parvi::Watched`].
+#[derive(Clone, Debug)]
+pub struct Watched {
+    /// The best configuration.
+    pub best: Particles,
+    /// Step after which it stood.
+    pub best_step: usize,
+    /// What the monitor said of it.
+    pub best_value: f64,
+    /// All looks: the step, and what the monitor said.
+    pub history: Vec<(usize, f64)>,
+    /// Whether the watch ended the run.
+    pub ended: bool,
+}
+
+impl Watched {
+    /// What the monitor said of the last configuration.
+    pub fn last_value(&self) -> f64 {
+        self.history.last().map_or(f64::NAN, |look| look.1)
+    }
+}
+
+impl<const D: usize> From<parvi::Watched<D>> for Watched {
+    fn from(seen: parvi::Watched<D>) -> Self {
+        Self {
+            best: Particles::new(&seen.positions, None),
+            best_step: seen.step,
+            best_value: seen.value,
+            history: seen.history,
+            ended: seen.ended,
+        }
+    }
 }
 
 impl Outcome {
@@ -75,6 +111,7 @@ impl Outcome {
             certificate: None,
             pool: None,
             trace: Vec::new(),
+            watched: None,
             wall_seconds,
         }
     }
@@ -141,6 +178,7 @@ pub fn sample_target<const D: usize>(
             points.with_log_densities(pool.log_densities)
         }),
         trace: samples.trace,
+        watched: samples.watched.map(Watched::from),
         wall_seconds,
     })
 }

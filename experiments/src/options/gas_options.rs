@@ -27,6 +27,7 @@ impl MethodOptions {
             Some(Transfer::Pic) => TransferChoice::Pic,
             Some(Transfer::Apic) => TransferChoice::Apic,
             Some(Transfer::Flip) => TransferChoice::Flip(self.flip_share.unwrap_or(0.95)),
+            Some(Transfer::AffineFlip) => TransferChoice::AffineFlip(self.flip_share.unwrap_or(0.95)),
         };
         let displacement_limit = self.displacement_limit_of_gas(default.displacement_limit)?;
         Ok(MpmOptions {

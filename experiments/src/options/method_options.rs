@@ -7,8 +7,8 @@ use parvi::{AisOptions, Method, Start, SvgdOptions};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    AlphaSchedule, Basis, Correction, Draws, EvaluationCount, FrameName, Limit, Material, MethodName, NonFinite,
-    OptionError, ParticleCount, RoundCount, Score, StepCount, Switch, Transfer, WarmUp,
+    AlphaSchedule, Basis, Correction, Draws, EvaluationCount, FrameName, Limit, Material, MethodName, MonitorName,
+    NonFinite, OptionError, ParticleCount, RoundCount, Score, StepCount, Switch, Transfer, WarmUp,
 };
 
 /// Options of the methods; `None`: the method's own default.
@@ -70,7 +70,7 @@ pub struct MethodOptions {
     /// Velocity transfer (mpm)
     #[arg(long)]
     pub transfer: Option<Transfer>,
-    /// Share of FLIP in --transfer flip, from 0 to 1 (mpm)
+    /// Share of FLIP in the velocities, from 0 to 1 (mpm with --transfer flip or affine-flip, paper-*) [default: 0.95; paper-*: 0]
     #[arg(long, value_name = "A", allow_negative_numbers = true)]
     pub flip_share: Option<f64>,
     /// Friction, per unit of time (mpm, paper-*)
@@ -168,6 +168,18 @@ pub struct MethodOptions {
     /// Velocities at the start: `zero`, or a file with a column per dimension (paper-*) [default: zero]
     #[arg(long, value_name = "zero|FILE.csv|.npy")]
     pub velocities: Option<PathBuf>,
+    /// What is watched on the way to find the best configuration (paper-*) [default with --best, --monitor-every or --patience: stein]
+    #[arg(long)]
+    pub monitor: Option<MonitorName>,
+    /// Look every so many steps (paper-*) [default: 10]
+    #[arg(long, value_name = "STEPS", allow_negative_numbers = true)]
+    pub monitor_every: Option<StepCount>,
+    /// End the run after so many looks in a row that were not better than the best one by a hundredth (paper-*) [default: take all steps]
+    #[arg(long, value_name = "LOOKS", allow_negative_numbers = true)]
+    pub patience: Option<StepCount>,
+    /// File of the best configuration on the way, .csv or .npy (paper-*)
+    #[arg(long, value_name = "FILE.csv|.npy")]
+    pub best: Option<PathBuf>,
     /// All guards at once; single guards can be set beside it (paper-*)
     #[arg(long)]
     pub guards: Option<Switch>,
@@ -245,7 +257,7 @@ impl MethodOptions {
     pub fn method(&self, name: MethodName) -> Result<Method, OptionError> {
         self.check_fit(name)?;
         self.check_ranges()?;
-        self.check_pairs()?;
+        self.check_pairs(name)?;
         self.check_starts(name)?;
         if name == MethodName::Mpm {
             self.check_survey()?;

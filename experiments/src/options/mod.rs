@@ -24,6 +24,7 @@ pub use method_options::MethodOptions;
 pub use method_specification::MethodSpecification;
 pub use option_error::OptionError;
 pub use option_values::{
-    AlphaSchedule, Basis, Correction, Draws, FrameName, Material, NonFinite, PoolChoice, Score, Switch, Transfer,
+    AlphaSchedule, Basis, Correction, Draws, FrameName, Material, MonitorName, NonFinite, PoolChoice, Score, Switch,
+    Transfer,
 };
 pub use target_specification::{TargetParameters, TargetSpecification};

@@ -1,6 +1,6 @@
 //! Ranges of options, and which of them need or exclude each other.
 
-use super::{AlphaSchedule, Basis, Limit, MethodOptions, OptionError, Transfer};
+use super::{AlphaSchedule, Basis, Limit, MethodName, MethodOptions, OptionError, Transfer};
 
 /// A range for numbers.
 type Range = (fn(f64) -> bool, &'static str);
@@ -55,7 +55,7 @@ impl MethodOptions {
     }
 
     /// Options that need or exclude each other.
-    pub(super) fn check_pairs(&self) -> Result<(), OptionError> {
+    pub(super) fn check_pairs(&self, method: MethodName) -> Result<(), OptionError> {
         if let Some(mesh) = &self.mesh
             && self.basis != Some(Basis::Mesh)
         {
@@ -71,9 +71,10 @@ impl MethodOptions {
             })
         };
         if let Some(share) = self.flip_share
-            && self.transfer != Some(Transfer::Flip)
+            && method == MethodName::Mpm
+            && !matches!(self.transfer, Some(Transfer::Flip | Transfer::AffineFlip))
         {
-            return refuse("flip-share", share, "needs the transfer `flip`");
+            return refuse("flip-share", share, "needs the transfer `flip` or `affine-flip`");
         }
         if let (Some(from), Some(to)) = (self.alpha_from, self.alpha_to)
             && matches!(self.alpha_schedule, None | Some(AlphaSchedule::Geometric))

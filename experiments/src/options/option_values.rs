@@ -3,7 +3,7 @@
 use std::fmt::{self, Display, Formatter};
 
 use clap::ValueEnum;
-use parvi::{BasisChoice, MomentCorrection, NonFiniteScores, ScoreLocation, StartDraws};
+use parvi::{BasisChoice, MomentCorrection, Monitor, NonFiniteScores, ScoreLocation, StartDraws};
 use serde::{Deserialize, Serialize};
 
 /// Background basis.
@@ -103,6 +103,31 @@ pub enum Transfer {
     Apic,
     /// A blend of FLIP and PIC, see --flip-share
     Flip,
+    /// A blend of affine FLIP and affine particle in cell, see --flip-share
+    AffineFlip,
+}
+
+/// What is watched of a body on its way.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum MonitorName {
+    /// Kernel Stein discrepancy
+    #[default]
+    Stein,
+    /// Minus the mean log density of the target at the particles
+    LogDensity,
+    /// Minus the mean log density of the particles on the grid
+    ParticleDensity,
+}
+
+impl From<MonitorName> for Monitor {
+    fn from(name: MonitorName) -> Self {
+        match name {
+            MonitorName::Stein => Self::SteinDiscrepancy,
+            MonitorName::LogDensity => Self::LogDensity,
+            MonitorName::ParticleDensity => Self::ParticleDensity,
+        }
+    }
 }
 
 /// Where the score is evaluated.
@@ -237,6 +262,12 @@ impl Display for Draws {
 }
 
 impl Display for Transfer {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        word(self, formatter)
+    }
+}
+
+impl Display for MonitorName {
     fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
         word(self, formatter)
     }

@@ -1,6 +1,6 @@
 //! The options of the paper's algorithms, from the flags.
 
-use parvi::{Annealing, Coordinates, Guards, PaperOptions, ReferenceVolumes};
+use parvi::{Annealing, Coordinates, Guards, PaperOptions, ReferenceVolumes, Watch};
 
 use super::{AlphaSchedule, Basis, FrameName, Limit, MethodOptions, OptionError, StepCount, Switch};
 
@@ -16,6 +16,7 @@ impl MethodOptions {
         };
         Ok(PaperOptions {
             basis: self.basis.and_then(Basis::uniform).unwrap_or(default.basis),
+            flip_share: self.flip_share.unwrap_or(default.flip_share),
             material: self.paper_material()?,
             annealing: self.annealing().unwrap_or(default.annealing),
             score_location: self.score.map_or(default.score_location, Into::into),
@@ -33,7 +34,20 @@ impl MethodOptions {
             grid_renewal: self.grid_renewal.map(StepCount::get),
             certificate: self.certificate.map_or(default.certificate, Switch::is_on),
             trace_every: self.trace_every,
+            watch: self.watch(),
             ..default
+        })
+    }
+
+    /// The watch, where a flag asks for one.
+    fn watch(&self) -> Option<Watch> {
+        let asked =
+            self.monitor.is_some() || self.monitor_every.is_some() || self.patience.is_some() || self.best.is_some();
+        let default = Watch::default();
+        asked.then(|| Watch {
+            monitor: self.monitor.unwrap_or_default().into(),
+            every: self.monitor_every.map_or(default.every, StepCount::get),
+            patience: self.patience.map(StepCount::get),
         })
     }
 

@@ -11,9 +11,10 @@ use crate::dispatch::with_target;
 use crate::options::TargetSpecification;
 use crate::output::{AtomicFile, OutputDirectory, Particles};
 use crate::plots::{
-    CornerPlot, HistogramPlot, PlotError, PointCloud, StripPanel, StripPlot, TracePlot, corner, histogram, strip, trace,
+    AxisKind, CornerPlot, HistogramPlot, PlotError, PointCloud, StripPanel, StripPlot, TracePanel, TracePlot,
+    TraceSeries, corner, histogram, strip, trace,
 };
-use crate::sampling::Outcome;
+use crate::sampling::{Outcome, Watched};
 use crate::study::{TraceQuantity, TraceRow};
 use crate::{CommandError, console};
 
@@ -147,8 +148,10 @@ impl Subject<'_> {
             let reason = self.untraced.unwrap_or("the run has no trace of steps");
             return Drawing::LeftOut(Some(reason.to_owned()));
         }
+        let watched = self.outcome.watched.as_ref().map(|seen| self.watched(seen));
         let runs = [(self.method.to_owned(), rows)];
         let mut panels: Vec<_> = TraceQuantity::ALL.map(|quantity| quantity.panel(&runs)).into();
+        panels.extend(watched);
         // A quantity that the method does not have is zero or not there.
         panels.retain(|panel| {
             panel
@@ -168,6 +171,21 @@ impl Subject<'_> {
             .to_owned(),
             panels,
         }))
+    }
+
+    /// What the monitor said.
+    fn watched(&self, seen: &Watched) -> TracePanel {
+        let (step, value) = seen.history.iter().map(|look| (look.0 as f64, look.1)).unzip();
+        TracePanel {
+            y_label: format!("monitor, least after step {}", seen.best_step),
+            y_axis: AxisKind::Linear,
+            series: vec![TraceSeries {
+                label: self.method.to_owned(),
+                step,
+                value,
+            }],
+            levels: Vec::new(),
+        }
     }
 
     fn strip(&self, known: &Known) -> Drawing {

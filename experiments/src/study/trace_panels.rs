@@ -12,16 +12,19 @@ pub enum TraceQuantity {
     KineticEnergy,
     /// −E\[log p\], above its least value: it is known up to a constant of the target.
     PotentialEnergy,
+    /// Σ V⁰ Ψ(F).
+    InternalEnergy,
     /// Largest displacement of a step before it was limited; in units of h where there is a grid.
     Displacement,
 }
 
 impl TraceQuantity {
     /// All quantities.
-    pub const ALL: [Self; 4] = [
+    pub const ALL: [Self; 5] = [
         Self::Residual,
         Self::KineticEnergy,
         Self::PotentialEnergy,
+        Self::InternalEnergy,
         Self::Displacement,
     ];
 
@@ -31,6 +34,7 @@ impl TraceQuantity {
             Self::Residual => "residual (1: independent draws)",
             Self::KineticEnergy => "kinetic energy",
             Self::PotentialEnergy => "potential energy above its least value",
+            Self::InternalEnergy => "energy stored in the body",
             Self::Displacement => "largest displacement of a step before limits",
         };
         let level = ReferenceLevel {
@@ -39,7 +43,7 @@ impl TraceQuantity {
         };
         TracePanel {
             y_label: label.to_owned(),
-            y_axis: if self == Self::PotentialEnergy {
+            y_axis: if matches!(self, Self::PotentialEnergy | Self::InternalEnergy) {
                 AxisKind::Linear
             } else {
                 AxisKind::Automatic
@@ -61,6 +65,7 @@ impl TraceQuantity {
             Self::Residual => row.residual,
             Self::KineticEnergy => Some(row.kinetic_energy),
             Self::PotentialEnergy => row.potential_energy,
+            Self::InternalEnergy => row.internal_energy,
             Self::Displacement => Some(row.displacement),
         }
     }

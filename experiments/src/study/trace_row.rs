@@ -16,6 +16,8 @@ pub struct TraceRow {
     pub kinetic_energy: f64,
     /// Potential energy.
     pub potential_energy: Option<f64>,
+    /// Energy stored in the body, where it stores one.
+    pub internal_energy: Option<f64>,
     /// Largest displacement of a node in units of h.
     pub displacement: f64,
 }
@@ -28,6 +30,7 @@ impl From<&TracePoint> for TraceRow {
             residual: point.residual,
             kinetic_energy: point.kinetic_energy,
             potential_energy: point.potential_energy,
+            internal_energy: point.internal_energy,
             displacement: point.displacement,
         }
     }

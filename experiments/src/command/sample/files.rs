@@ -11,6 +11,7 @@ pub fn check(arguments: &Arguments) -> Result<(), CommandError> {
     let files = [
         ("out", Some(&arguments.out)),
         ("pool", arguments.options.pool_file(arguments.method)),
+        ("best", arguments.options.best.as_ref()),
         ("diagnostics", arguments.diagnostics.as_ref()),
         ("checkpoint", arguments.checkpoint.as_ref()),
         ("data", arguments.parameters.data.as_ref()),

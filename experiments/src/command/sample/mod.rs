@@ -94,6 +94,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     if let Some(path) = pool {
         ParticleFormat::of("pool", path)?;
     }
+    if let Some(path) = &arguments.options.best {
+        ParticleFormat::of("best", path)?;
+    }
     files::check(arguments)?;
     let target = TargetSpecification {
         name: arguments.target.clone(),
@@ -116,6 +119,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let plots = directory("plots", &arguments.plots)?;
     let file = ParticleFile::create(&arguments.out)?;
     let pool = pool.map(ParticleFile::create).transpose()?;
+    let best = arguments.options.best.as_ref();
+    let best = best.map(ParticleFile::create).transpose()?;
     let diagnostics = arguments.diagnostics.as_ref().map(AtomicFile::create).transpose()?;
     interrupt::listen();
     // Where the checkpoint exists, frames of an earlier process are those of this run.
@@ -140,6 +145,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     said::warn(&outcome);
     if let Some(file) = pool {
         file.write(outcome.pool.as_ref().ok_or(CommandError::NoPool)?, &names)?;
+    }
+    if let (Some(file), Some(watched)) = (best, &outcome.watched) {
+        file.write(&watched.best, &names)?;
     }
     let mut pairs = said::pairs(arguments, &outcome, peak_memory);
     if let Some(frames) = watch.frames {

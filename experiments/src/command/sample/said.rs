@@ -2,7 +2,7 @@
 
 use super::Arguments;
 use crate::console;
-use crate::sampling::Outcome;
+use crate::sampling::{Outcome, Watched};
 
 /// The key of the rise of the process's resident memory while it sampled; Linux only.
 pub const PEAK_MEMORY_KEY: &str = "peak_memory_bytes";
@@ -53,6 +53,7 @@ pub fn pairs(arguments: &Arguments, outcome: &Outcome, peak_memory: Option<u64>)
         ("density_evaluations", outcome.density_evaluations.to_string()),
     ];
     let judging = Some(outcome.judging_evaluations).filter(|&count| count > 0);
+    let watched = |key: fn(&Watched) -> String| outcome.watched.as_ref().map(key);
     let optional = [
         ("judging_evaluations", judging.map(|count| count.to_string())),
         ("log_evidence", outcome.log_evidence.map(|value| value.to_string())),
@@ -62,6 +63,10 @@ pub fn pairs(arguments: &Arguments, outcome: &Outcome, peak_memory: Option<u64>)
         ),
         ("pareto_k", outcome.pareto_k.map(|value| value.to_string())),
         ("wall_seconds", Some(format!("{:.6}", outcome.wall_seconds))),
+        ("best_step", watched(|seen| seen.best_step.to_string())),
+        ("best_monitor", watched(|seen| seen.best_value.to_string())),
+        ("last_monitor", watched(|seen| seen.last_value().to_string())),
+        ("ended_early", watched(|seen| seen.ended.to_string())),
         ("residual", outcome.residual.map(|value| value.to_string())),
         ("spacing", outcome.spacing.map(|value| value.to_string())),
         ("active_nodes", outcome.active_nodes.map(|value| value.to_string())),
