@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use mpm_scenes::document;
 use serde::Deserialize;
 
 use super::ExperimentError;
@@ -212,7 +211,7 @@ impl Experiment {
             None => Self {
                 file: file.to_owned(),
                 text: text.to_owned(),
-                ..document::parse(text, file)?
+                ..mpm_document::parse(text, file)?
             },
         };
         experiment.check()?;

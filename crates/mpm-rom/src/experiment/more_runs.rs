@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use mpm_scenes::document;
 use serde::Deserialize;
 
 use super::config::ReducedRuns;
@@ -37,8 +36,8 @@ struct Kind {
 impl MoreRuns {
     /// The document, if it has the key `trained_as`.
     pub fn parse(text: &str, file: &Path) -> Result<Option<Self>, ExperimentError> {
-        match document::parse::<Kind>(text, file)?.trained_as {
-            Some(_) => Ok(Some(document::parse(text, file)?)),
+        match mpm_document::parse::<Kind>(text, file)?.trained_as {
+            Some(_) => Ok(Some(mpm_document::parse(text, file)?)),
             None => Ok(None),
         }
     }
