@@ -2,9 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use mpm_rom::experiment::ExperimentError;
-use mpm_scenes::document::DocumentError;
-use mpm_scenes::{SceneError, SimulationError};
+use mpm_document::DocumentError;
 use parvi::SampleError;
 use parvi_metrics::MetricError;
 use parvi_targets::TargetError;
@@ -24,15 +22,20 @@ pub enum CommandError {
     /// A sampler gave no particles.
     #[error(transparent)]
     Sample(#[from] SampleError),
-    /// A scene cannot be run.
+    /// What a library says that not every build has: of a scene, a simulation, an experiment with a reduced-order model.
     #[error(transparent)]
-    Scene(#[from] SceneError),
-    /// A simulation ended before its time.
+    Library(Box<dyn std::error::Error + Send + Sync>),
+    /// Ctrl-C, as such a library says it.
     #[error(transparent)]
-    Simulation(#[from] SimulationError),
-    /// An experiment with a reduced-order model cannot begin or go on.
-    #[error(transparent)]
-    Experiment(Box<ExperimentError>),
+    Stopped(Box<dyn std::error::Error + Send + Sync>),
+    /// The build lacks a part of the command.
+    #[error("{asked}: built without {feature}: cargo build --features {feature}")]
+    LeftOut {
+        /// What was asked for.
+        asked: &'static str,
+        /// The feature that has it.
+        feature: &'static str,
+    },
     /// A metric refused its input.
     #[error(transparent)]
     Metric(#[from] MetricError),
@@ -145,16 +148,9 @@ impl CommandError {
 
     /// Whether the command was interrupted rather than failed.
     pub fn is_interruption(&self) -> bool {
-        match self {
-            Self::Interrupted { .. } | Self::Sample(SampleError::Interrupted { .. }) => true,
-            Self::Experiment(error) => matches!(**error, ExperimentError::Stopped),
-            _ => false,
-        }
-    }
-}
-
-impl From<ExperimentError> for CommandError {
-    fn from(error: ExperimentError) -> Self {
-        Self::Experiment(Box::new(error))
+        matches!(
+            self,
+            Self::Interrupted { .. } | Self::Stopped(_) | Self::Sample(SampleError::Interrupted { .. })
+        )
     }
 }

@@ -11,6 +11,8 @@ mod dispatch;
 mod error;
 mod interrupt;
 mod machine;
+#[cfg(feature = "mechanics")]
+mod mechanics;
 pub mod options;
 pub mod output;
 pub mod pictures;

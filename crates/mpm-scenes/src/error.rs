@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use mpm_document::DocumentError;
 use serde::Serialize;
 
-use crate::document::DocumentError;
 use crate::toml_value;
 
 /// A scene that cannot be run, and why.

@@ -1,7 +1,6 @@
 #![doc = include_str!("../README.md")]
 
 mod background;
-pub mod document;
 mod error;
 pub mod fill;
 mod held;

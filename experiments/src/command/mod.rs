@@ -1,10 +1,14 @@
 //! The command line: one subcommand per file.
 
 mod file_kind;
+#[cfg(any(test, not(all(feature = "mechanics", feature = "rom"))))]
+mod left_out;
 mod report;
+#[cfg(feature = "rom")]
 mod rom;
 mod run;
 pub(crate) mod sample;
+#[cfg(feature = "mechanics")]
 mod simulate;
 mod targets;
 
@@ -13,6 +17,10 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 
 use crate::{CommandError, console, interrupt};
+#[cfg(not(feature = "rom"))]
+use left_out::rom;
+#[cfg(not(feature = "mechanics"))]
+use left_out::simulate;
 
 /// Particle-based variational inference by the material point method.
 #[derive(Parser)]

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use mpm_scenes::document::{self, DocumentError};
+use mpm_document::DocumentError;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use toml::Spanned;
@@ -36,8 +36,8 @@ impl Configuration {
     }
 
     fn from_text(file: String, text: String) -> Result<Self, CommandError> {
-        let kind: Kind = document::parse(&text, Path::new(&file))?;
-        let table: toml::Table = document::parse(&text, Path::new(&file))?;
+        let kind: Kind = mpm_document::parse(&text, Path::new(&file))?;
+        let table: toml::Table = mpm_document::parse(&text, Path::new(&file))?;
         Ok(Self {
             kind: kind.kind,
             hash: fingerprint(&canonical(&table)),
@@ -68,7 +68,7 @@ impl Configuration {
 
     /// The configuration as its kind understands it. Unknown keys are errors.
     pub fn parse<T: DeserializeOwned>(&self) -> Result<T, CommandError> {
-        Ok(document::parse(&self.text, Path::new(&self.file))?)
+        Ok(mpm_document::parse(&self.text, Path::new(&self.file))?)
     }
 
     /// The error for a kind that does not exist.

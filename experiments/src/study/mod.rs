@@ -19,6 +19,7 @@ mod random_targets;
 mod results;
 mod runner;
 mod scaling;
+#[cfg(feature = "mechanics")]
 mod scenes;
 mod spacing_particles;
 mod stability;
@@ -57,6 +58,20 @@ impl Kind {
         }
     }
 
+    /// A kind that this build lacks.
+    #[cfg(not(feature = "mechanics"))]
+    const fn of_scenes() -> Self {
+        const LEFT_OUT: CommandError = CommandError::LeftOut {
+            asked: "a study of scenes",
+            feature: "mechanics",
+        };
+        Self {
+            name: "scenes",
+            run: |_, _| Err(LEFT_OUT),
+            report: |_, _| Err(LEFT_OUT),
+        }
+    }
+
     /// The kind of a configuration.
     fn find(configuration: &Configuration) -> Result<&'static Self, CommandError> {
         let known = KINDS.iter().find(|kind| kind.name == configuration.kind());
@@ -79,7 +94,10 @@ static KINDS: [Kind; 14] = [
     Kind::of::<stability::Stability>(),
     Kind::of::<paper::Paper>(),
     Kind::of::<time_to_equal_error::TimeToEqualError>(),
+    #[cfg(feature = "mechanics")]
     Kind::of::<scenes::Scenes>(),
+    #[cfg(not(feature = "mechanics"))]
+    Kind::of_scenes(),
 ];
 
 /// Runs the study that a configuration describes.

@@ -1,8 +1,11 @@
 //! The command `parvi`, from the outside. One theme per file.
 
 mod gaussian_studies;
+#[cfg(not(any(feature = "mechanics", feature = "rom")))]
+mod left_out;
 mod paper_study;
 mod random_targets;
+#[cfg(feature = "rom")]
 mod rom;
 mod sample_bad_input;
 mod sample_checkpoint;
@@ -13,7 +16,9 @@ mod sample_output;
 mod sample_paper;
 mod sample_plots;
 mod sample_pool;
+#[cfg(feature = "mechanics")]
 mod scene_studies;
+#[cfg(feature = "mechanics")]
 mod simulate;
 mod studies;
 mod study_bad_input;

@@ -2,14 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use mpm_scenes::document;
 use serde::Deserialize;
 
 use super::ExperimentError;
 use super::beside::Choice;
-use super::more_runs::MoreRuns;
-use super::options::{All, ChoiceName, ManifoldName, QuadratureName, SampleCount, UpdateName};
-use super::sampling::MOST_TRIED;
+use super::options::{All, ChoiceName, MOST_TRIED, ManifoldName, QuadratureName, SampleCount, UpdateName};
 use super::variants::Variant;
 use crate::full_order::FramesBetween;
 use crate::online::{Inverted, OnlineError, Options, Quadrature, SampleChoice, SampleWeights, Search, Update};
@@ -193,32 +190,6 @@ impl ReducedRuns {
 }
 
 impl Experiment {
-    /// Reads and checks a file.
-    ///
-    /// # Errors
-    /// [`ExperimentError::File`], [`ExperimentError::Syntax`], [`ExperimentError::Field`].
-    pub fn read(file: &Path) -> Result<Self, ExperimentError> {
-        let text = std::fs::read_to_string(file).map_err(|source| ExperimentError::file("read", file, source))?;
-        Self::parse(&text, file)
-    }
-
-    /// As [`read`](Self::read), of a text; `file` is where it lies. A text with `trained_as` is completed by the file that it names.
-    ///
-    /// # Errors
-    /// As [`read`](Self::read).
-    pub fn parse(text: &str, file: &Path) -> Result<Self, ExperimentError> {
-        let experiment = match MoreRuns::parse(text, file)? {
-            Some(more) => more.completed(file)?,
-            None => Self {
-                file: file.to_owned(),
-                text: text.to_owned(),
-                ..document::parse(text, file)?
-            },
-        };
-        experiment.check()?;
-        Ok(experiment)
-    }
-
     /// The file of the scene that is trained on.
     pub fn scene_file(&self) -> PathBuf {
         self.beside(&self.scene)
@@ -238,7 +209,8 @@ impl Experiment {
         self.file.parent().unwrap_or(Path::new("")).join(file)
     }
 
-    fn check(&self) -> Result<(), ExperimentError> {
+    /// Refuses what does not fit together.
+    pub(super) fn check(&self) -> Result<(), ExperimentError> {
         let refuse = |field: String, message: String| Err(self.field(field, message));
         for (name, cases) in [("cases.train", &self.cases.train), ("cases.test", &self.cases.test)] {
             if cases.is_empty() {

@@ -1,6 +1,6 @@
 use std::path::Path;
 
-use mpm_scenes::document::DocumentError;
+use mpm_document::DocumentError;
 use mpm_scenes::{SceneError, SimulationError};
 
 use crate::deformation_map::DeformationMapError;

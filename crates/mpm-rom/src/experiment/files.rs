@@ -54,6 +54,9 @@ impl Experiment {
     }
 }
 
+/// What the names of the directories begin with that hold networks of which the best is kept.
+pub(super) const START: &str = "start_";
+
 /// A text file, whole or not at all.
 pub(super) fn write(file: &Path, text: &str) -> Result<(), ExperimentError> {
     Ok(write_whole(file, text.as_bytes())?)

@@ -12,6 +12,7 @@ mod files;
 mod frame_files;
 mod more_runs;
 mod options;
+mod read;
 mod read_results;
 mod reduced;
 mod results;
@@ -21,8 +22,10 @@ mod starts;
 mod super_resolution;
 #[cfg(test)]
 mod tests;
+mod train;
 mod trained;
 mod training_states;
+mod trial_runs;
 mod trials;
 mod variants;
 
@@ -35,5 +38,6 @@ pub use read_results::read_results;
 pub use reduced::run;
 pub use results::{FrameRow, ReducedRow};
 pub use super_resolution::SuperResolved;
-pub use trained::{Start, Trained, Watch, train};
+pub use train::train;
+pub use trained::{Start, Trained, Watch};
 pub use variants::Variant;

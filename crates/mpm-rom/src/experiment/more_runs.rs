@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use mpm_scenes::document;
 use serde::Deserialize;
 
 use super::config::ReducedRuns;
@@ -14,7 +13,7 @@ use super::{Cases, Experiment, ExperimentError};
 pub(super) struct MoreRuns {
     title: String,
     /// The file of that experiment, which lies beside this one.
-    trained_as: PathBuf,
+    pub trained_as: PathBuf,
     #[serde(default)]
     cases: TestCases,
     #[serde(default)]
@@ -37,33 +36,26 @@ struct Kind {
 impl MoreRuns {
     /// The document, if it has the key `trained_as`.
     pub fn parse(text: &str, file: &Path) -> Result<Option<Self>, ExperimentError> {
-        match document::parse::<Kind>(text, file)?.trained_as {
-            Some(_) => Ok(Some(document::parse(text, file)?)),
+        match mpm_document::parse::<Kind>(text, file)?.trained_as {
+            Some(_) => Ok(Some(mpm_document::parse(text, file)?)),
             None => Ok(None),
         }
     }
 
-    /// The other experiment with this title, and these test cases and runs.
-    pub fn completed(self, file: &Path) -> Result<Experiment, ExperimentError> {
-        let field = |message: String| ExperimentError::Field {
-            file: file.display().to_string(),
-            field: "trained_as".to_owned(),
-            message,
-        };
+    /// The file of the other experiment; `file` is that of this one.
+    pub fn other_file(&self, file: &Path) -> Result<PathBuf, ExperimentError> {
         // Paths are seen from the file, so that both have to lie in one place.
         let name = self.trained_as.display();
         if self.trained_as.file_name() != Some(self.trained_as.as_os_str()) {
-            return Err(field(format!(
-                "{name}: a file beside this one is needed, by its name alone"
-            )));
+            let message = format!("{name}: a file beside this one is needed, by its name alone");
+            return Err(refused(file, message));
         }
-        let other = file.with_file_name(&self.trained_as);
-        let text = std::fs::read_to_string(&other).map_err(|source| field(format!("{}: {source}", other.display())))?;
-        if Self::parse(&text, &other)?.is_some() {
-            return Err(field(format!("{name} names a further file itself")));
-        }
-        let trained = Experiment::parse(&text, &other)?;
-        Ok(Experiment {
+        Ok(file.with_file_name(&self.trained_as))
+    }
+
+    /// The other experiment with this title, and these test cases and runs.
+    pub fn completed(self, trained: Experiment, file: &Path) -> Experiment {
+        Experiment {
             title: self.title,
             cases: Cases {
                 test: self.cases.test.unwrap_or(trained.cases.test),
@@ -72,6 +64,15 @@ impl MoreRuns {
             run: self.run,
             file: file.to_owned(),
             ..trained
-        })
+        }
+    }
+}
+
+/// What is wrong with the name of the other file.
+pub(super) fn refused(file: &Path, message: String) -> ExperimentError {
+    ExperimentError::Field {
+        file: file.display().to_string(),
+        field: "trained_as".to_owned(),
+        message,
     }
 }

@@ -2,6 +2,9 @@
 
 use serde::Deserialize;
 
+/// Larger numbers of sample points are not tried: choices then differ little. The first one is taken.
+pub(super) const MOST_TRIED: usize = 24;
+
 /// How many sample points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(untagged, expecting = "expected a number of points or \"all\"")]

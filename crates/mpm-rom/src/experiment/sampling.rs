@@ -5,6 +5,7 @@ use std::rc::Rc;
 use mpm_scenes::Scene;
 
 use super::chosen::{Best, Chosen};
+use super::options::MOST_TRIED;
 use super::trials::Trials;
 use super::{ChoiceName, Experiment, ExperimentError, ManifoldName};
 use crate::full_order::SceneDocument;
@@ -18,9 +19,6 @@ const DISTANCES: [f64; 5] = [0.002, 0.0, 0.005, 0.01, 0.02];
 
 /// The distances for a cubature, all of them: near the way it has to be exact, and farther off it must know the way back.
 const CUBATURE_DISTANCES: [f64; 2] = [0.002, 0.02];
-
-/// Larger numbers of sample points are not tried: choices then differ little. The first one is taken.
-pub(super) const MOST_TRIED: usize = 24;
 
 /// Training runs and what is needed to step from their frames.
 pub(super) struct Sampling<'a, const D: usize> {

@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use mpm_scenes::output::write_whole;
 
-use super::files::{self, names};
+use super::files::{self, START, names};
 use super::sampling::Sampling;
 use super::trained::{Start, Trained, Watch, train_network};
 use super::{Experiment, ExperimentError};
@@ -89,11 +89,8 @@ impl Start {
 
 /// Where the network of a start is.
 fn directory_name(number: u64) -> String {
-    format!("{PREFIX}{number}")
+    format!("{START}{number}")
 }
-
-/// What the names of these directories begin with.
-pub(super) const PREFIX: &str = "start_";
 
 /// One row per start.
 fn table(starts: &[Start]) -> String {

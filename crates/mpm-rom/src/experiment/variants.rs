@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-use super::{Experiment, ExperimentError, starts};
+use super::files::START;
+use super::{Experiment, ExperimentError};
 use crate::training::Training;
 
 /// Another network: its name, and the keys of `[training]` that differ.
@@ -32,12 +33,12 @@ impl Experiment {
         let mut names = HashSet::new();
         for (number, Variant { name, changes }) in self.variants.iter().enumerate() {
             let field = format!("variants.{number}");
-            let taken = name.starts_with(starts::PREFIX);
+            let taken = name.starts_with(START);
             let sound = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
             if name.is_empty() || taken || !name.chars().all(sound) || !names.insert(name) {
                 let message = format!(
                     "`{name}`: letters, digits, - and _, and a name of its own, not {}…",
-                    starts::PREFIX
+                    START
                 );
                 return refuse(&format!("{field}.name"), message);
             }

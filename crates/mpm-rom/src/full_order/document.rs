@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use mpm_scenes::document::{self, DocumentError};
+use mpm_document::DocumentError;
 use mpm_scenes::{Scene, SceneError, SceneFault};
 use toml::Table;
 pub use toml::Value;
@@ -36,7 +36,7 @@ impl SceneDocument {
     /// [`FullOrderError::Syntax`].
     pub fn parse(text: &str, file: &Path) -> Result<Self, FullOrderError> {
         Ok(Self {
-            table: document::parse(text, file)?,
+            table: mpm_document::parse(text, file)?,
             text: text.to_owned(),
             file: file.to_owned(),
         })

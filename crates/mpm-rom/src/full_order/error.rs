@@ -1,4 +1,4 @@
-use mpm_scenes::document::DocumentError;
+use mpm_document::DocumentError;
 use mpm_scenes::{SceneError, SimulationError};
 
 use crate::snapshots::SnapshotsError;

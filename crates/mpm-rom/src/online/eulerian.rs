@@ -3,7 +3,7 @@
 use mpm_tensor::{Matrix, vector};
 use rayon::prelude::*;
 
-use super::lagrangian::Instant;
+use super::instant::Instant;
 use super::nodes::Nodes;
 use super::quadrature::QuadraturePoints;
 use super::support::Support;

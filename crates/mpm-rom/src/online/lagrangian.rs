@@ -1,9 +1,10 @@
 //! Quadrature at material points.
 
+use super::instant::Instant;
 use super::neighbours::{NeighbourList, Search};
 use super::nodes::Nodes;
 use super::quadrature::QuadraturePoints;
-use super::{Inverted, OnlineError, ReducedBody};
+use super::{OnlineError, ReducedBody};
 use crate::deformation_map::{DeformationMap, MaterialPoints};
 use crate::manifold::{Evaluation, Manifold, Wanted};
 
@@ -18,18 +19,6 @@ pub(super) struct Lagrangian<const D: usize> {
     evaluation: Evaluation<D>,
     /// How often the list has been made.
     pub refreshes: u64,
-}
-
-/// What a quadrature is told of the instant.
-pub(super) struct Instant<'a, const D: usize> {
-    pub latent: &'a [f64],
-    pub rates: &'a [f64],
-    pub time: f64,
-    pub step: u64,
-    /// x_p of the sample points.
-    pub samples: &'a [[f64; D]],
-    /// What happens at J ≤ 0.
-    pub inverted: Inverted,
 }
 
 impl<const D: usize> Lagrangian<D> {

@@ -7,6 +7,7 @@ mod design;
 mod error;
 mod eulerian;
 mod greedy;
+mod instant;
 mod known_points;
 mod lagrangian;
 mod model;

@@ -3,7 +3,7 @@
 use mpm_materials::Material;
 use mpm_tensor::{Matrix, Polar, SymmetricEigen};
 
-use super::lagrangian::Instant;
+use super::instant::Instant;
 use super::{Inverted, OnlineError};
 
 /// The least stretch of a limited F.

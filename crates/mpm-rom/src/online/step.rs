@@ -6,7 +6,8 @@ use mpm_tensor::vector;
 
 use super::coordinates::Coordinates;
 use super::eulerian::Eulerian;
-use super::lagrangian::{Instant, Lagrangian};
+use super::instant::Instant;
+use super::lagrangian::Lagrangian;
 use super::nodes::Nodes;
 use super::quadrature::QuadraturePoints;
 use super::{OnlineError, Options, Quadrature, ReducedBody, Timings, Update};

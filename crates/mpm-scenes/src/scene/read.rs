@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::Scene;
-use crate::{SceneError, SceneFault, document};
+use crate::{SceneError, SceneFault};
 
 impl Scene {
     /// Reads and checks a scene.
@@ -27,7 +27,7 @@ impl Scene {
     /// # Errors
     /// As [`read`](Self::read).
     pub fn parse(text: &str, file: &Path) -> Result<Self, SceneError> {
-        let scene = document::parse(text, file).map_err(SceneFault::from);
+        let scene = mpm_document::parse(text, file).map_err(SceneFault::from);
         let checked = scene.and_then(|mut scene: Self| {
             scene.file = file.to_owned();
             scene.text = text.to_owned();

@@ -1,6 +1,8 @@
 //! `parvi rom`: the reduced-order model, trained and run.
 
+mod error;
 mod figures;
+mod progress;
 mod run;
 mod train;
 
@@ -52,11 +54,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     } else {
         run::execute(&experiment, &task.out)
     }
-}
-
-/// Whether a directory is that of a reduced-order model.
-pub fn holds_model(directory: &Path) -> bool {
-    directory.join(names::MODEL).exists()
 }
 
 /// Figures and means of the reduced runs of a directory again.

@@ -5,7 +5,7 @@ use std::path::Path;
 use mpm_rom::experiment::{Experiment, ReducedRow, SuperResolved, run_experiment};
 
 use super::figures;
-use crate::progress::CountProgress;
+use super::progress::CountProgress;
 use crate::{CommandError, console, interrupt};
 
 /// Reduced runs of all test cases, their table and figures.

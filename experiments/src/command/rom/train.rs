@@ -1,15 +1,13 @@
 //! `parvi rom train`.
 
-use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Duration;
 
-use mpm_rom::experiment::{Experiment, Trained, Watch, train_experiment};
-use mpm_rom::training::EpochReport;
+use mpm_rom::experiment::{Experiment, Trained, train_experiment};
 
 use super::figures;
+use super::progress::TrainingProgress;
 use crate::machine::MemoryGauge;
-use crate::progress::TrainingProgress;
 use crate::{CommandError, console};
 
 /// Full-order runs, training of all networks, the curves of their losses.
@@ -61,18 +59,4 @@ fn pairs(trained: &Trained, memory: &MemoryGauge) -> Vec<(&'static str, String)>
         pairs.push(("peak_memory_bytes", bytes.to_string()));
     }
     pairs
-}
-
-impl Watch for TrainingProgress {
-    fn after_run(&mut self, done: usize, runs: usize) -> ControlFlow<()> {
-        self.run(done, runs)
-    }
-
-    fn after_epoch(&mut self, report: &EpochReport) -> ControlFlow<()> {
-        self.epoch(report.epoch + 1, report.epochs, report.terms.total())
-    }
-
-    fn after_trial(&mut self) -> ControlFlow<()> {
-        self.trial()
-    }
 }

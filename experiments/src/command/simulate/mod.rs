@@ -9,7 +9,7 @@ use clap::Args;
 use mpm_scenes::{Outcome, Scene, Summary, ValidationRow};
 
 use super::file_kind::FileKind;
-use crate::progress::SimulationProgress;
+use crate::mechanics::SimulationProgress;
 use crate::{CommandError, console, interrupt};
 
 /// What to simulate and where.

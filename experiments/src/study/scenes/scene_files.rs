@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use mpm_scenes::document::{self, DocumentError};
+use mpm_document::DocumentError;
 use mpm_scenes::{Scene, SceneError, SceneFault};
 use toml::{Table, Value};
 
@@ -47,7 +47,7 @@ impl SceneFiles {
             let path = directory.join(&name);
             let refuse = |message: String| family.refuse("scene", format!("{}: {message}", path.display()));
             let text = std::fs::read_to_string(&path).map_err(|error| refuse(error.to_string()))?;
-            let table = document::parse::<Table>(&text, &path);
+            let table = mpm_document::parse::<Table>(&text, &path);
             let table = table.map_err(|error| family.refuse("scene", error.to_string()))?;
             files.tables.insert(name, table);
         }

@@ -1,4 +1,4 @@
-//! TOML documents, and the one way in which all of the project says what is wrong with them.
+#![doc = include_str!("../README.md")]
 
 use std::path::{Path, PathBuf};
 

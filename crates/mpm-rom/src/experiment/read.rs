@@ -1,0 +1,43 @@
+//! From the file to the experiment.
+
+use std::path::Path;
+
+use super::more_runs::{MoreRuns, refused};
+use super::{Experiment, ExperimentError};
+
+impl Experiment {
+    /// Reads and checks a file.
+    ///
+    /// # Errors
+    /// [`ExperimentError::File`], [`ExperimentError::Syntax`], [`ExperimentError::Field`].
+    pub fn read(file: &Path) -> Result<Self, ExperimentError> {
+        let text = std::fs::read_to_string(file).map_err(|source| ExperimentError::file("read", file, source))?;
+        Self::parse(&text, file)
+    }
+
+    /// As [`read`](Self::read), of a text; `file` is where it lies. A text with `trained_as` is completed by the file that it names.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    pub fn parse(text: &str, file: &Path) -> Result<Self, ExperimentError> {
+        let experiment = match MoreRuns::parse(text, file)? {
+            Some(more) => {
+                let other = more.other_file(file)?;
+                let text = std::fs::read_to_string(&other)
+                    .map_err(|source| refused(file, format!("{}: {source}", other.display())))?;
+                if MoreRuns::parse(&text, &other)?.is_some() {
+                    let message = format!("{} names a further file itself", more.trained_as.display());
+                    return Err(refused(file, message));
+                }
+                more.completed(Self::parse(&text, &other)?, file)
+            }
+            None => Self {
+                file: file.to_owned(),
+                text: text.to_owned(),
+                ..mpm_document::parse(text, file)?
+            },
+        };
+        experiment.check()?;
+        Ok(experiment)
+    }
+}

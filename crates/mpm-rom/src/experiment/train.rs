@@ -1,0 +1,73 @@
+//! From full-order data to models.
+
+use std::path::Path;
+use std::time::Instant;
+
+use super::files::names;
+use super::starts::best_start;
+use super::trained::{Trained, Watch, train_network};
+use super::variants::directory_of;
+use super::{Experiment, ExperimentError};
+use crate::full_order::{self, FullOrderError, Kept, SceneDocument};
+use crate::snapshots::Snapshots;
+
+/// Runs the scene for all training cases, trains the network and its variants, and writes the models. What the directory holds of it already is not done again.
+///
+/// # Errors
+/// [`ExperimentError`]; [`ExperimentError::Stopped`] where the watch broke.
+pub fn train<const D: usize>(
+    experiment: &Experiment,
+    directory: &Path,
+    watch: &mut dyn Watch,
+) -> Result<Vec<Trained>, ExperimentError> {
+    experiment.occupy(directory)?;
+    let start = Instant::now();
+    let snapshots = training_data::<D>(experiment, directory, watch)?;
+    let data_time = start.elapsed();
+    let networks = experiment.trainings()?.into_iter();
+    networks
+        .map(|(name, training)| {
+            let directory = directory_of(directory, name);
+            std::fs::create_dir_all(&directory)
+                .map_err(|source| ExperimentError::file("create", &directory, source))?;
+            let trained = match experiment.starts {
+                1 => train_network(&snapshots, &training, &directory, watch)?,
+                _ => best_start(experiment, &snapshots, &training, &directory, watch)?,
+            };
+            Ok(Trained {
+                name: name.to_owned(),
+                data_time,
+                ..trained
+            })
+        })
+        .collect()
+}
+
+/// The snapshots of the training runs, from the directory or from the scene.
+fn training_data<const D: usize>(
+    experiment: &Experiment,
+    directory: &Path,
+    watch: &mut dyn Watch,
+) -> Result<Snapshots<D>, ExperimentError> {
+    let file = directory.join(names::TRAINING_DATA);
+    if file.exists() {
+        return Ok(Snapshots::read(&file)?);
+    }
+    let document = SceneDocument::read(&experiment.scene_file())?;
+    let values = &experiment.cases.train;
+    let cases: Vec<_> = values
+        .iter()
+        .map(|values| experiment.case(values))
+        .collect::<Result<_, _>>()?;
+    let after_run = |done| watch.after_run(done, values.len());
+    let kept = Kept {
+        points: experiment.recorded_points,
+        between: experiment.frames_between,
+    };
+    let snapshots = match full_order::collect(&document, &experiment.parameters, &cases, &kept, after_run) {
+        Err(FullOrderError::Stopped { .. }) => return Err(ExperimentError::Stopped),
+        collected => collected.map_err(|error| experiment.blamed(error))?,
+    };
+    snapshots.write(&file)?;
+    Ok(snapshots)
+}

@@ -1,0 +1,106 @@
+//! Bars of trainings and of reduced runs.
+
+use std::ops::ControlFlow;
+
+use indicatif::ProgressBar;
+use mpm_rom::experiment::Watch;
+use mpm_rom::training::EpochReport;
+
+use crate::progress::{style, unless_interrupted};
+
+/// The bar of a training: full-order runs, then epochs.
+pub struct TrainingProgress {
+    bar: ProgressBar,
+    phase: Phase,
+}
+
+/// What the bar of a training counts.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Phase {
+    Runs,
+    Epochs,
+    Trials,
+}
+
+impl TrainingProgress {
+    /// A bar that appears with the first run or epoch.
+    pub fn new() -> Self {
+        let bar = ProgressBar::new(0).with_style(style("{bar:30} run {pos}/{len}, {eta} left"));
+        Self {
+            bar,
+            phase: Phase::Runs,
+        }
+    }
+
+    /// Takes the bar off the screen.
+    pub fn clear(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+impl Default for TrainingProgress {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Watch for TrainingProgress {
+    fn after_run(&mut self, done: usize, runs: usize) -> ControlFlow<()> {
+        self.bar.set_length(runs as u64);
+        self.bar.set_position(done as u64);
+        unless_interrupted()
+    }
+
+    fn after_epoch(&mut self, report: &EpochReport) -> ControlFlow<()> {
+        let done = report.epoch + 1;
+        if self.phase != Phase::Epochs {
+            self.phase = Phase::Epochs;
+            self.bar
+                .set_style(style("{bar:30} epoch {pos}/{len}, loss {msg}, {eta} left"));
+            self.bar.set_length(report.epochs);
+            self.bar.set_position(done);
+            self.bar.reset_eta();
+        }
+        self.bar.set_position(done);
+        if !self.bar.is_hidden() {
+            self.bar.set_message(format!("{:.3e}", report.terms.total()));
+        }
+        unless_interrupted()
+    }
+
+    fn after_trial(&mut self) -> ControlFlow<()> {
+        if self.phase != Phase::Trials {
+            self.phase = Phase::Trials;
+            self.bar.set_style(style("trial run {pos}"));
+            self.bar.set_position(0);
+        }
+        self.bar.inc(1);
+        unless_interrupted()
+    }
+}
+
+/// The bar of a number of like things.
+pub struct CountProgress {
+    bar: ProgressBar,
+}
+
+impl CountProgress {
+    /// A bar for things of this name, which appears with the first one done.
+    pub fn new(name: &str) -> Self {
+        let style = style(&format!("{{bar:30}} {name} {{pos}}/{{len}}, {{eta}} left"));
+        Self {
+            bar: ProgressBar::new(0).with_style(style),
+        }
+    }
+
+    /// So many of so many are done.
+    pub fn set(&self, done: usize, count: usize) {
+        self.bar.set_length(count as u64);
+        self.bar.set_position(done as u64);
+    }
+
+    /// Takes the bar off the screen.
+    pub fn clear(&self) {
+        self.bar.finish_and_clear();
+    }
+}
