@@ -352,3 +352,39 @@ fn files_of_particles_that_make_no_sense_are_named() {
         &["--start", "x.csv", "--out"],
     );
 }
+
+#[test]
+fn the_best_configuration_has_a_file_and_patience_ends_a_run() {
+    let directory = tempfile::tempdir().unwrap();
+    let run =
+        "--target gaussian --dim 2 --particles 100 --method paper-apic --friction 2 --steps 400 --certificate off";
+    let (said, last) = sampled(directory.path(), &format!("{run} --best best.csv --monitor-every 20"));
+    assert_eq!((said["steps"].as_str(), said["ended_early"].as_str()), ("400", "false"));
+    let best = std::fs::read_to_string(directory.path().join("best.csv")).unwrap();
+    assert_eq!(best.lines().count(), 101);
+    let number = |key: &str| said[key].parse::<f64>().unwrap();
+    assert!(number("best_monitor") <= number("last_monitor"));
+    assert_eq!(best == last, number("best_step") == 400.0);
+    let (said, ended) = sampled(directory.path(), &format!("{run} --monitor log-density --patience 2"));
+    assert_eq!(said["ended_early"], "true");
+    let steps: usize = said["steps"].parse().unwrap();
+    assert!(steps < 400, "{steps}");
+    let told = run.replace("400", &said["steps"]);
+    let (hybrid_off, same) = sampled(directory.path(), &format!("{told} --flip-share 0"));
+    assert_eq!(same, ended);
+    assert!(!hybrid_off.contains_key("best_step"));
+    assert_ne!(sampled(directory.path(), &format!("{told} --flip-share 0.9")).1, ended);
+}
+
+#[test]
+fn watches_that_make_no_sense_are_refused() {
+    let run = "--target gaussian --dim 2 --particles 20 --method paper-pic";
+    refused(&format!("{run} --monitor size"), &["--monitor", "size"]);
+    refused(&format!("{run} --patience 0"), &["--patience", "0"]);
+    refused(&format!("{run} --monitor-every 0"), &["--monitor-every", "0"]);
+    refused(&format!("{run} --best best.txt"), &["--best", "best.txt"]);
+    refused(&format!("{run} --best x.csv"), &["--out", "x.csv"]);
+    refused(&format!("{run} --flip-share 1.5"), &["--flip-share", "1.5"]);
+    let other = "--target gaussian --dim 2 --particles 20 --method svgd";
+    refused(&format!("{other} --monitor stein"), &["--monitor", "svgd"]);
+}
