@@ -5,7 +5,7 @@ use crate::adjacency::{Lists, Union};
 
 /// The first ring of every cell: N¹ = its vertices and all vertices that an edge joins to one of them, in ascending order.
 ///
-/// Equally the vertices of all cells that share a vertex with the cell (Cao et al. 2024, §3.1).
+/// Equally the vertices of all cells that share a vertex with the cell (Cao et al. 2024, §2.3.2, Fig. 1).
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Rings {
     lists: Lists,

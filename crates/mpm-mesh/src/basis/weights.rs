@@ -93,7 +93,8 @@ impl<const D: usize> MeshBasis<D> {
     #[inline(always)]
     fn collect(&self, cell: u32, lanes: &mut RingLanes<D>) {
         let (ring, joined) = (self.stencils.ring(cell), self.stencils.joined(cell));
-        lanes.collect(self.mesh().vertices(), ring, joined, self.weight);
+        let mesh = self.mesh();
+        lanes.collect(mesh.vertices(), mesh.cell(cell as usize), ring, joined, self.weight);
     }
 
     /// The fit at `x` with the ring of a cell; where `x` is outside of it, with b of the nearest point.

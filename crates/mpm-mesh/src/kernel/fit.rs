@@ -13,7 +13,7 @@ use super::spline::quadratic;
 const LEAST_SPREAD: f64 = 1.0 / 16.0;
 const LEAST_SAMPLED: f64 = 1e-3;
 
-/// What a particle needs, beside d′_pi, for its weights and gradients (Cao et al. 2024, Eqs. 14–17): M_p⁻¹ of
+/// What a particle needs, beside d′_pi, for its weights and gradients (Cao et al. 2024, Eqs. 22 and 29): M_p⁻¹ of
 /// M_p = Σ_i d′_pi P_i P_iᵀ with P_i = [1, r_i], r_i = x_i − x_p, in blocks \[α, βᵀ; β, Γ\], so that
 /// w_ip = d′_pi (α + β·r_i) and the diffuse gradient, which is not ∇ of the weight, is d′_pi (β + Γ r_i).
 ///

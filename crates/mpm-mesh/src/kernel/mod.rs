@@ -17,4 +17,8 @@ pub enum SampleWeight {
     Continuous,
     /// d′_pi = N₂(‖x_i − x_p‖ / h). The ring changes from cell to cell and the weights jump: a control, for tests and figures.
     DistanceAlone,
+    /// d′_pi = N₂(‖x_i − x_p‖ / h) for the D + 1 vertices of the particle's cell and 0 for all others. A fit of as many nodes as it has
+    /// coefficients interpolates: weights are the barycentric coordinates and gradients theirs, the piecewise linear functions of the finite element method,
+    /// whose gradients jump at faces. A control: what UMLS-MPM improves on.
+    CellAlone,
 }

@@ -20,10 +20,10 @@ pub(crate) struct RingLanes<const D: usize> {
 }
 
 impl<const D: usize> RingLanes<D> {
-    /// Collect a ring: its vertices, and for each of them the set of the cell's vertices that it is joined to or is, vertex n being
+    /// Collect the ring of a cell: its vertices, and for each of them the set of the cell's vertices that it is joined to or is, vertex n being
     /// bit n.
     #[inline(always)]
-    pub fn collect(&mut self, vertices: &[[f64; D]], ring: &[u32], joined: &[u8], weight: SampleWeight) {
+    pub fn collect(&mut self, vertices: &[[f64; D]], cell: &[u32], ring: &[u32], joined: &[u8], weight: SampleWeight) {
         self.groups.clear();
         for (ring, joined) in ring.chunks(LANES).zip(joined.chunks(LANES)) {
             let mut positions = [[0.0; LANES]; D];
@@ -33,7 +33,8 @@ impl<const D: usize> RingLanes<D> {
                 let set = match weight {
                     _ if lane >= ring.len() => 0,
                     SampleWeight::Continuous => joined[lane],
-                    SampleWeight::DistanceAlone => u8::MAX,
+                    SampleWeight::CellAlone if !cell.contains(&ring[lane]) => 0,
+                    SampleWeight::DistanceAlone | SampleWeight::CellAlone => u8::MAX,
                 };
                 let is_joined = |n: usize| f64::from(set >> n & 1);
                 base[lane] = is_joined(0);

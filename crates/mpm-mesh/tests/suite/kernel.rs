@@ -178,6 +178,33 @@ fn weights_and_gradients_are_those_of_the_definitions() {
     check(cube::<3>(3, 10.0, 0.15, 6), 30.0);
 }
 
+/// A fit to the vertices of the cell alone gives their barycentric coordinates and ∇λ, whatever the sample weights.
+#[test]
+fn the_cell_alone_gives_hat_functions() {
+    fn check<const D: usize>(mesh: SimplexMesh<D>, reach: f64) {
+        let basis = MeshBasis::new(&mesh)
+            .unwrap()
+            .with_sample_weight(SampleWeight::CellAlone);
+        for x in cloud::<D>(30, 0.0, reach, 8) {
+            let cell = basis.search().locate(&x, None).unwrap().cell;
+            let frame = basis.mesh().frame(cell as usize);
+            let coordinates = frame.coordinates(&x);
+            let mut expected = vec![(0.0, [0.0; D]); basis.mesh().vertices().len()];
+            for (k, &vertex) in basis.mesh().cell(cell as usize).iter().enumerate() {
+                let rest = 1.0 - coordinates.iter().sum::<f64>();
+                let share = if k == 0 { rest } else { coordinates[k - 1] };
+                expected[vertex as usize] = (share, frame.gradient(k));
+            }
+            let found = by_vertex(basis.mesh(), &basis.weights_from(cell, &x));
+            let error = difference(&found, &expected, basis.kernel_width());
+            assert!(error < 1e-11, "D = {D}, {x:?}: {error}");
+        }
+    }
+    check(line(&[0.0, 0.4, 1.3, 1.7, 2.6, 3.0]), 3.0);
+    check(cube::<2>(5, 0.2, 0.25, 5), 1.0);
+    check(cube::<3>(3, 10.0, 0.15, 6), 30.0);
+}
+
 /// Σ w = 1, Σ w x_i = x, Σ g = 0 and Σ g x_iᵀ = I, coordinates counted from the middle of the mesh.
 fn reproduces<const D: usize>(cells: usize, jitter: f64, seed: u64) {
     let basis = MeshBasis::new(&cube::<D>(cells, 1.0, jitter, seed)).unwrap();

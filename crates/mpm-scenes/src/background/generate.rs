@@ -3,14 +3,16 @@
 use std::any::Any;
 
 use mpm_mesh::generate::{
-    EdgeTarget, GenerationError, ball, cuboid, cyclic_sizes, disk, outlines, rectangle, segments, slope,
-    triangle_lattice, wavy_channel,
+    EdgeTarget, GenerationError, Refinement, Scatter, SizeField, ball, cuboid, cyclic_sizes, disk_outline, outlines,
+    rectangle_outline, scattered, segments, slope, triangle_lattice, wavy_channel_outline,
 };
 use mpm_mesh::{SimplexMesh, read_msh};
+use rand::rngs::ChaCha8Rng;
+use rand::{RngExt, SeedableRng};
 
 use crate::SceneFault;
 use crate::rotation::Rotation;
-use crate::scene::{MeshShapeTable, MeshTable, Scene, ShapeTable};
+use crate::scene::{DelaunayTable, MeshShapeTable, MeshTable, RefinementTable, Scene, ShapeTable};
 
 /// The mesh of a scene without an outer layer.
 pub(super) fn inner<const D: usize>(
@@ -22,7 +24,7 @@ pub(super) fn inner<const D: usize>(
         (Some(_), _) => read::<D>(scene, table)?,
         (None, Some(shape)) => {
             let refused = |error| SceneFault::value("mesh.generate", shape, format!("a mesh: {error}"));
-            generate(shape).map_err(refused)?
+            generate(shape, table.delaunay.as_ref(), table.angle.to_radians()).map_err(refused)?
         }
         (None, None) => return Err(SceneFault::missing("mesh.generate", "given unless file is")),
     };
@@ -52,11 +54,16 @@ fn read<const D: usize>(scene: &Scene, table: &MeshTable) -> Result<SimplexMesh<
     read_msh(&bytes).map_err(|error| SceneFault::value("mesh.file", file, format!("a mesh of the scene: {error}")))
 }
 
-/// The mesh that a table describes.
-fn generate<const D: usize>(table: &MeshShapeTable) -> Result<SimplexMesh<D>, GenerationError> {
-    let plane = |size: f64| EdgeTarget {
-        length: size,
-        angle: 0.0,
+/// The mesh that a table describes, with random points where there is a table for them, and edges inside along an angle in radians.
+fn generate<const D: usize>(
+    table: &MeshShapeTable,
+    delaunay: Option<&DelaunayTable>,
+    angle: f64,
+) -> Result<SimplexMesh<D>, GenerationError> {
+    let length = table.size();
+    let plane = |polygons: Vec<Vec<[f64; 2]>>| match delaunay {
+        None => as_dimension(outlines(&polygons, &EdgeTarget { length, angle })?),
+        Some(delaunay) => as_dimension(of_random_points(&polygons, length, delaunay, angle)?),
     };
     match table {
         MeshShapeTable::Segments {
@@ -69,14 +76,7 @@ fn generate<const D: usize>(table: &MeshShapeTable) -> Result<SimplexMesh<D>, Ge
             let sizes = cyclic_sizes(end - start, count as usize, pattern)?;
             as_dimension(segments(*start, &sizes)?)
         }
-        MeshShapeTable::Rectangle { lower, upper, size } => as_dimension(rectangle(*lower, *upper, &plane(*size))?),
         MeshShapeTable::Lattice { lower, upper, size } => as_dimension(triangle_lattice(*lower, *upper, *size)?),
-        MeshShapeTable::Polygon { corners, holes, size } => {
-            let all: Vec<_> = std::iter::once(corners).chain(holes).cloned().collect();
-            as_dimension(outlines(&all, &plane(*size))?)
-        }
-        MeshShapeTable::Disk { centre, radius, size } => as_dimension(disk(*centre, *radius, &plane(*size))?),
-        MeshShapeTable::Channel { height, size } => as_dimension(wavy_channel(*height, &plane(*size))?),
         MeshShapeTable::Box { lower, upper, size } => as_dimension(cuboid(*lower, *upper, *size)?),
         MeshShapeTable::Slope {
             height,
@@ -86,7 +86,32 @@ fn generate<const D: usize>(table: &MeshShapeTable) -> Result<SimplexMesh<D>, Ge
             size,
         } => as_dimension(slope(*height, *crest, *base, *width, *size)?),
         MeshShapeTable::Ball { centre, radius, size } => as_dimension(ball(*centre, *radius, *size)?),
+        MeshShapeTable::Rectangle { lower, upper, .. } => plane(vec![rectangle_outline(*lower, *upper)?]),
+        MeshShapeTable::Polygon { corners, holes, .. } => {
+            plane(std::iter::once(corners).chain(holes).cloned().collect())
+        }
+        MeshShapeTable::Disk { centre, radius, size } => plane(vec![disk_outline(*centre, *radius, *size)?]),
+        MeshShapeTable::Channel { height, size } => plane(vec![wavy_channel_outline(*height, *size)?]),
     }
+}
+
+/// A Delaunay mesh of random points between polygons.
+fn of_random_points(
+    polygons: &[Vec<[f64; 2]>],
+    length: f64,
+    table: &DelaunayTable,
+    angle: f64,
+) -> Result<SimplexMesh<2>, GenerationError> {
+    let refinement = |place: &RefinementTable| Refinement {
+        centre: place.centre,
+        radius: place.radius,
+        size: place.size,
+        growth: place.growth,
+    };
+    let field = SizeField::new(length, table.refine.iter().map(refinement).collect())?;
+    let mut generator = ChaCha8Rng::seed_from_u64(table.seed);
+    let sweeps = table.sweeps;
+    scattered(polygons, &field, Scatter { sweeps, angle }, &mut || generator.random())
 }
 
 /// The mesh as one of D dimensions, which it is.
@@ -153,7 +178,8 @@ pub(crate) fn of_shape<const D: usize>(
         },
         _ => return Err(refused()),
     };
-    generate(&table).map_err(|error| SceneFault::value(field, shape, format!("a shape that has a mesh: {error}")))
+    generate(&table, None, 0.0)
+        .map_err(|error| SceneFault::value(field, shape, format!("a shape that has a mesh: {error}")))
 }
 
 fn corner<const E: usize>(list: &[f64]) -> Option<[f64; E]> {

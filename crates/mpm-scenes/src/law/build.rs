@@ -16,6 +16,9 @@ use crate::values::positive;
 /// [`SceneFault::Value`] for a density that is not positive or a parameter that the law refuses.
 pub fn build(field: &str, table: &MaterialTable) -> Result<AnyLaw, SceneFault> {
     positive(&format!("{field}.density"), table.density())?;
+    if let MaterialTable::SofteningHencky(metal) = table {
+        positive(&format!("{field}.norm_per_strength"), metal.norm_per_strength)?;
+    }
     law(table).map_err(|error| refused(field, error))
 }
 
@@ -28,8 +31,8 @@ fn law(table: &MaterialTable) -> Result<AnyLaw, ParameterError> {
         MaterialTable::Hencky(solid) => AnyLaw::Hencky(Hencky::new(moduli(solid)?)),
         MaterialTable::SofteningHencky(metal) => AnyLaw::SofteningHencky(SofteningHencky::new(
             ElasticModuli::new(metal.young_modulus, metal.poisson_ratio)?,
-            metal.peak_yield_stress,
-            metal.residual_yield_stress.unwrap_or(metal.peak_yield_stress),
+            metal.norm_per_strength * metal.peak_yield_stress,
+            metal.norm_per_strength * metal.residual_yield_stress.unwrap_or(metal.peak_yield_stress),
             metal.softening_rate,
         )?),
         MaterialTable::DruckerPrager(sand) => {

@@ -17,6 +17,7 @@ impl<const D: usize> Loads<D> {
         let mut loads = Self::default();
         if !scene.gravity.is_empty() {
             loads.gravity = Some(vector("gravity", &scene.gravity)?);
+            loads.gravity_ramp = scene.gravity_ramp;
         }
         for (index, table) in scene.loads.iter().enumerate() {
             let field = |key: &str| format!("loads[{index}].{key}");

@@ -10,6 +10,8 @@ use crate::{LawState, ManufacturedSolution};
 pub struct Loads<const D: usize> {
     /// Acceleration of all particles; zero for none.
     pub gravity: Option<[f64; D]>,
+    /// Time T up to which gravity grows as t / T; 0 for none.
+    pub gravity_ramp: f64,
     /// Loads on some.
     pub direct: Vec<DirectLoad<D>>,
     /// Body forces of manufactured solutions.
@@ -31,6 +33,9 @@ impl<const D: usize> Loads<D> {
     /// The acceleration of a particle.
     fn acceleration(&self, identity: usize, x: &[f64; D], velocity: &[f64; D], time: f64) -> [f64; D] {
         let mut sum = self.gravity.unwrap_or([0.0; D]);
+        if time < self.gravity_ramp {
+            sum = vector::scale(&sum, time / self.gravity_ramp);
+        }
         for load in &self.direct {
             if let Some(acceleration) = load.accelerations.get(identity) {
                 vector::accumulate(&mut sum, load.share(time), acceleration);
@@ -88,7 +93,7 @@ impl<const D: usize> Loads<D> {
         .sum()
     }
 
-    /// −Σ_p m_p g · x_p, with its zero at the origin.
+    /// −Σ_p m_p g · x_p, with its zero at the origin and the whole of g.
     pub fn gravity_energy(&self, particles: &Particles<D, LawState>) -> f64 {
         let Some(gravity) = &self.gravity else { return 0.0 };
         let each = particles.positions.iter().enumerate();

@@ -5,7 +5,7 @@ use mpm_core::{
     Transfer, VelocityFilter,
 };
 use mpm_kernels::{Cubic, Gimp, Linear, Quadratic, Spline};
-use mpm_mesh::{MeshBasis, Outside, SimplexMesh};
+use mpm_mesh::{MeshBasis, Outside, SampleWeight, SimplexMesh};
 use mpm_tensor::Matrix;
 
 use super::basis::SecondMoments;
@@ -15,7 +15,9 @@ use crate::background::Background;
 use crate::law::{self, LawState, Laws};
 use crate::loads::Loads;
 use crate::population::Population;
-use crate::scene::{BasisName, Discretisation, GridTable, MeshTable, Scene, StressUpdateName, TransferKind};
+use crate::scene::{
+    BasisName, Discretisation, GridTable, KernelName, MeshTable, Scene, StressUpdateName, TransferKind,
+};
 use crate::shape::Bounds;
 
 /// Share of FLIP unless a scene says otherwise, or names a rate.
@@ -171,7 +173,13 @@ fn on_mesh<const D: usize>(
         0.0 => Outside::Refuse,
         reach => Outside::Extrapolate { reach },
     };
-    let basis = MeshBasis::new(mesh).map_err(invalid)?.with_outside(outside);
+    let weight = match table.kernel {
+        KernelName::Umls => SampleWeight::Continuous,
+        KernelName::WithoutDiminishing => SampleWeight::DistanceAlone,
+        KernelName::Hat => SampleWeight::CellAlone,
+    };
+    let basis = MeshBasis::new(mesh).map_err(invalid)?;
+    let basis = basis.with_outside(outside).with_sample_weight(weight);
     match parts.scene.transfer.kind {
         TransferKind::Pic | TransferKind::Flip => with_share(parts, basis),
         TransferKind::AffineFlip => {

@@ -36,6 +36,10 @@ pub struct SolidTable {
     pub poisson_ratio: f64,
 }
 
+fn one() -> f64 {
+    1.0
+}
+
 /// Parameters of `softening-hencky`.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -46,7 +50,10 @@ pub struct MetalTable {
     pub young_modulus: f64,
     /// ν.
     pub poisson_ratio: f64,
-    /// κ_p, as ‖dev τ‖: √(2/3) times the uniaxial yield stress.
+    /// a in ‖dev τ‖ = a κ where the material yields. Default 1; √(2/3) where κ is the uniaxial yield stress.
+    #[serde(default = "one")]
+    pub norm_per_strength: f64,
+    /// κ_p.
     pub peak_yield_stress: f64,
     /// κ_r. Default κ_p: perfect plasticity.
     pub residual_yield_stress: Option<f64>,

@@ -12,6 +12,14 @@ pub struct MeshTable {
     pub file: Option<PathBuf>,
     /// Instead of `file`: a mesh that is made.
     pub generate: Option<MeshShapeTable>,
+    /// The points inside are random, instead of those of a relaxed lattice; of `rectangle`, `polygon`, `disk` and `channel` only.
+    pub delaunay: Option<DelaunayTable>,
+    /// Direction in degrees of edges inside, while the boundary stays; of the same kinds only. Default 0.
+    #[serde(default)]
+    pub angle: f64,
+    /// The shape functions.
+    #[serde(default)]
+    pub kernel: KernelName,
     /// A turn of the mesh; two dimensions only.
     pub rotation: Option<RotationTable>,
     /// Whether cells are added around the mesh: mirrored ones at walls, others elsewhere. Default true.
@@ -24,6 +32,58 @@ pub struct MeshTable {
 
 fn yes() -> bool {
     true
+}
+
+/// `mesh.kernel`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum KernelName {
+    /// UMLS-MPM: least squares over the first ring with the diminishing function η (Cao et al. 2024, Eq. 32).
+    #[default]
+    Umls,
+    /// The same without η: weights jump at faces. A control.
+    WithoutDiminishing,
+    /// Piecewise linear functions, whose gradients jump at faces. A control.
+    Hat,
+}
+
+/// `mesh.delaunay`: a Delaunay mesh of random points.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DelaunayTable {
+    /// Seed of the points. Default 0.
+    #[serde(default)]
+    pub seed: u64,
+    /// Rounds in which points move to the mean of their neighbours and are triangulated anew. Default 2.
+    #[serde(default = "two")]
+    pub sweeps: usize,
+    /// Places with shorter edges. Default: none.
+    #[serde(default)]
+    pub refine: Vec<RefinementTable>,
+}
+
+fn two() -> usize {
+    2
+}
+
+/// An entry of `mesh.delaunay.refine`: edges of length size + growth · max(0, |x − centre| − radius), where that is less than the size of the mesh.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RefinementTable {
+    /// c.
+    pub centre: [f64; 2],
+    /// Default 0.
+    #[serde(default)]
+    pub radius: f64,
+    /// The length near c.
+    pub size: f64,
+    /// Default 0.2.
+    #[serde(default = "fifth")]
+    pub growth: f64,
+}
+
+fn fifth() -> f64 {
+    0.2
 }
 
 /// A turn about a point, in the plane.
@@ -148,6 +208,14 @@ impl MeshShapeTable {
             | Self::Slope { size, .. }
             | Self::Ball { size, .. } => *size,
         }
+    }
+
+    /// Whether it is a plane domain between polygons, whose points inside may be chosen.
+    pub fn is_between_polygons(&self) -> bool {
+        matches!(
+            self,
+            Self::Rectangle { .. } | Self::Polygon { .. } | Self::Disk { .. } | Self::Channel { .. }
+        )
     }
 
     /// Its number of axes.

@@ -27,7 +27,7 @@ pub use boundary::{
 pub use discretisation::{BasisName, Discretisation, DomainTable, GridTable, TransferKind, TransferTable};
 pub use load::LoadTable;
 pub use material::{FluidTable, GasTable, MaterialTable, MetalTable, SandTable, SolidTable};
-pub use mesh::{MeshShapeTable, MeshTable, RotationTable};
+pub use mesh::{DelaunayTable, KernelName, MeshShapeTable, MeshTable, RefinementTable, RotationTable};
 pub use output::{OutputTable, ProbeTable, ValidationTable};
 pub use region::ShapeTable;
 pub use time::{StressUpdateName, TimeTable};
@@ -46,6 +46,9 @@ pub struct Scene {
     /// Acceleration of gravity; none if empty.
     #[serde(default)]
     pub gravity: Vec<f64>,
+    /// Time T over which gravity grows as t / T. Default 0: all of it from the start.
+    #[serde(default)]
+    pub gravity_ramp: f64,
     /// Averaging of volume ratios over cells (F-bar), against locking of nearly incompressible materials.
     #[serde(default)]
     pub volume_averaging: bool,

@@ -73,6 +73,26 @@ fn errors_name_the_field_and_the_value() {
             &["mesh.rotation.centre = [0.0]: must be 2 finite numbers"],
         ),
         (
+            generate,
+            "generate = { kind = \"lattice\", lower = [0.0, 0.0], upper = [1.0, 1.0], size = 0.2 }\ndelaunay = {}",
+            &["mesh.delaunay = ", "left out unless mesh.generate is a rectangle"],
+        ),
+        (
+            generate,
+            "file = \"a.msh\"\nangle = 3.0",
+            &["mesh.angle = 3.0", "left out unless mesh.generate is a rectangle"],
+        ),
+        (
+            generate,
+            &format!("{generate}\ndelaunay = {{ refine = [{{ centre = [0.0, 0.0], size = 0.0 }}] }}"),
+            &["mesh.delaunay.refine[0].size = 0.0: must be positive"],
+        ),
+        (
+            generate,
+            &format!("{generate}\nkernel = \"spline\""),
+            &["unknown variant `spline`", "of [mesh]"],
+        ),
+        (
             "spacing = 0.05",
             "spacing = 0.0",
             &["bodies.block.spacing = 0.0: must be positive"],

@@ -55,7 +55,7 @@ fn rows(segments: &[[[f64; 2]; 2]], height: f64) -> Vec<(i64, Vec<f64>)> {
 }
 
 /// Segments by the square of a grid that they pass through.
-struct NearSegments<'a> {
+pub(super) struct NearSegments<'a> {
     segments: &'a [[[f64; 2]; 2]],
     lower: [f64; 2],
     width: f64,
@@ -65,7 +65,7 @@ struct NearSegments<'a> {
 
 impl<'a> NearSegments<'a> {
     /// A grid of squares of the given width; queries may not reach further.
-    fn new(segments: &'a [[[f64; 2]; 2]], width: f64) -> Self {
+    pub fn new(segments: &'a [[[f64; 2]; 2]], width: f64) -> Self {
         let ends = || segments.iter().flatten();
         let lower: [f64; 2] = [0, 1].map(|axis| ends().fold(f64::INFINITY, |low, end| low.min(end[axis])));
         let upper: [f64; 2] = [0, 1].map(|axis| ends().fold(f64::NEG_INFINITY, |high, end| high.max(end[axis])));
@@ -102,7 +102,7 @@ impl<'a> NearSegments<'a> {
     }
 
     /// Whether a segment is nearer than `limit` ≤ the grid's width.
-    fn is_near(&self, point: &[f64; 2], limit: f64) -> bool {
+    pub fn is_near(&self, point: &[f64; 2], limit: f64) -> bool {
         let mut bins = self.between(point.map(|x| x - limit), point.map(|x| x + limit));
         bins.any(|bin| {
             let mut segments = self.bins.get(bin).iter().map(|&k| &self.segments[k as usize]);

@@ -5,13 +5,17 @@ mod delaunay;
 mod lattice;
 mod outline;
 mod relax;
+mod scattered;
 mod shapes;
+mod size_field;
 mod triangle_lattice;
 
 pub use self::ampersand::ampersand;
 pub(super) use self::delaunay::Triangulation;
 pub(super) use self::outline::{encloses, squared_distance_to_segment};
-pub use self::shapes::{disk, polygon, rectangle, wavy_channel};
+pub use self::scattered::{Scatter, scattered};
+pub use self::shapes::{disk, disk_outline, polygon, rectangle, rectangle_outline, wavy_channel, wavy_channel_outline};
+pub use self::size_field::{Refinement, SizeField};
 pub use self::triangle_lattice::triangle_lattice;
 
 use self::outline::Outline;

@@ -2,7 +2,12 @@
 
 use mpm_tensor::vector::{distance, distance_squared, is_finite};
 
+use super::size_field::SizeField;
+use crate::adjacency::Lists;
 use crate::generate::GenerationError;
+
+/// Parts of an edge's way, per edge that it takes, in which a size field is summed.
+const PARTS: f64 = 16.0;
 
 /// The boundary of a domain: points, and edges between them of about the target length.
 pub struct Outline {
@@ -32,6 +37,32 @@ impl Outline {
             outline.edges.push([last, first]);
         }
         Ok(outline)
+    }
+
+    /// Divides every edge into parts of the same ∫ ds / h, as many as in [`new`](Self::new) where h is constant.
+    pub fn graded(outlines: &[Vec<[f64; 2]>], size: &SizeField) -> Result<Self, GenerationError> {
+        let mut divided = Vec::with_capacity(outlines.len());
+        for (number, corners) in outlines.iter().enumerate() {
+            check(number, corners)?;
+            let mut points = Vec::new();
+            let following = corners.iter().skip(1).chain(&corners[..1]);
+            for (a, b) in corners.iter().zip(following) {
+                let steps = (PARTS * distance(a, b) / size.least()).ceil().max(1.0);
+                GenerationError::check_count(size.least(), steps / PARTS)?;
+                let sums = size.edges_along(a, b, steps as usize);
+                let parts = (sums[sums.len() - 1] - 0.2).ceil().max(1.0);
+                for part in 0..parts as usize {
+                    let goal = sums[sums.len() - 1] * part as f64 / parts;
+                    let next = sums.partition_point(|&sum| sum <= goal).clamp(1, sums.len() - 1);
+                    let within = (goal - sums[next - 1]) / (sums[next] - sums[next - 1]);
+                    let share = ((next - 1) as f64 + within) / steps;
+                    points.push(std::array::from_fn(|axis| a[axis] + share * (b[axis] - a[axis])));
+                }
+            }
+            divided.push(points);
+        }
+        // Every part is its own edge from here on.
+        Self::new(&divided, f64::INFINITY)
     }
 
     /// Lowest and highest coordinates.
@@ -84,12 +115,58 @@ pub fn squared_distance_to_segment(point: &[f64; 2], a: &[f64; 2], b: &[f64; 2])
     distance_squared(point, &[a[0] + share * edge[0], a[1] + share * edge[1]])
 }
 
+/// The segments of closed polygons by the stripe across y that they pass through, to tell fast what is inside.
+pub struct Rows<'a> {
+    segments: &'a [[[f64; 2]; 2]],
+    lower: f64,
+    height: f64,
+    stripes: Lists,
+}
+
+impl<'a> Rows<'a> {
+    /// Stripes of a height.
+    pub fn new(segments: &'a [[[f64; 2]; 2]], height: f64) -> Self {
+        let ys = || segments.iter().flatten().map(|end| end[1]);
+        let (lower, upper) = (
+            ys().fold(f64::INFINITY, f64::min),
+            ys().fold(f64::NEG_INFINITY, f64::max),
+        );
+        let stripe = |y: f64| ((y - lower) / height) as usize;
+        let pairs: Vec<(usize, u32)> = (0u32..)
+            .zip(segments)
+            .flat_map(|(number, [a, b])| {
+                (stripe(a[1].min(b[1]))..=stripe(a[1].max(b[1]))).map(move |stripe| (stripe, number))
+            })
+            .collect();
+        Self {
+            segments,
+            lower,
+            height,
+            stripes: Lists::from_pairs(stripe(upper) + 1, pairs.into_iter()),
+        }
+    }
+
+    /// As [`encloses`], of the segments in the point's stripe.
+    pub fn encloses(&self, point: &[f64; 2]) -> bool {
+        let stripe = (point[1] - self.lower) / self.height;
+        if !(stripe >= 0.0 && (stripe as usize) < self.stripes.len()) {
+            return false;
+        }
+        let near = self.stripes.get(stripe as usize).iter();
+        near.filter(|&&number| crosses(&self.segments[number as usize], point))
+            .count()
+            % 2
+            == 1
+    }
+}
+
 /// Whether a point lies within an odd number of the closed polygons that segments make up.
 pub fn encloses(segments: &[[[f64; 2]; 2]], point: &[f64; 2]) -> bool {
-    let crossed = segments.iter().filter(|[a, b]| {
-        // Upwards or downwards across the line through the point, to the right of it.
-        let share = (point[1] - a[1]) / (b[1] - a[1]);
-        (a[1] <= point[1]) != (b[1] <= point[1]) && a[0] + share * (b[0] - a[0]) > point[0]
-    });
-    crossed.count() % 2 == 1
+    segments.iter().filter(|segment| crosses(segment, point)).count() % 2 == 1
+}
+
+/// Whether a segment crosses the line from a point to the right, upwards or downwards.
+fn crosses([a, b]: &[[f64; 2]; 2], point: &[f64; 2]) -> bool {
+    let share = (point[1] - a[1]) / (b[1] - a[1]);
+    (a[1] <= point[1]) != (b[1] <= point[1]) && a[0] + share * (b[0] - a[0]) > point[0]
 }

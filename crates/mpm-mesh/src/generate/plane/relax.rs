@@ -57,6 +57,21 @@ pub fn relax(points: &mut Vec<[f64; 2]>, outline: &Outline, length: f64) -> Resu
     Ok(Triangulation::new(points, &outline.edges)?.inside)
 }
 
+/// One round: points after those of the outline move to the mean of their neighbours; `size` is the length of edges at a point.
+pub fn smooth(
+    points: &mut [[f64; 2]],
+    outline: &Outline,
+    size: impl Fn(&[f64; 2]) -> f64,
+) -> Result<(), GenerationError> {
+    let triangles = Triangulation::new(points, &outline.edges)?.inside;
+    let stars = stars(points.len(), &triangles);
+    for vertex in outline.points.len()..points.len() {
+        let length = size(&points[vertex]);
+        to_mean_of_neighbours(points, &triangles, stars.get(vertex), vertex as u32, length);
+    }
+    Ok(())
+}
+
 /// An edge inside the domain.
 struct Edge {
     ends: [usize; 2],

@@ -16,49 +16,70 @@ pub fn polygon(corners: &[[f64; 2]], target: &EdgeTarget) -> Result<SimplexMesh<
     outlines(&[corners.to_vec()], target)
 }
 
+/// The corners of the rectangle between two of them.
+///
+/// # Errors
+/// [`GenerationError::InvalidParameter`] unless `lower` is less than `upper` along both axes.
+pub fn rectangle_outline(lower: [f64; 2], upper: [f64; 2]) -> Result<Vec<[f64; 2]>, GenerationError> {
+    GenerationError::check_positive("width", upper[0] - lower[0])?;
+    GenerationError::check_positive("height", upper[1] - lower[1])?;
+    Ok(vec![lower, [upper[0], lower[1]], upper, [lower[0], upper[1]]])
+}
+
 /// A mesh of the rectangle between two corners; see [`outlines`].
 ///
 /// # Errors
-/// [`GenerationError::InvalidParameter`] unless `lower` is less than `upper` along both axes; as [`outlines`].
+/// As [`rectangle_outline`] and [`outlines`].
 pub fn rectangle(lower: [f64; 2], upper: [f64; 2], target: &EdgeTarget) -> Result<SimplexMesh<2>, GenerationError> {
-    GenerationError::check_positive("width", upper[0] - lower[0])?;
-    GenerationError::check_positive("height", upper[1] - lower[1])?;
-    polygon(&[lower, [upper[0], lower[1]], upper, [lower[0], upper[1]]], target)
+    polygon(&rectangle_outline(lower, upper)?, target)
 }
 
-/// A mesh of the regular polygon inscribed in a circle whose sides are nearest to the target, of at least six; see
-/// [`outlines`].
+/// The regular polygon inscribed in a circle whose sides are nearest to `length`, of at least six.
 ///
 /// # Errors
-/// [`GenerationError::InvalidParameter`] unless the radius is positive; as [`outlines`].
-pub fn disk(centre: [f64; 2], radius: f64, target: &EdgeTarget) -> Result<SimplexMesh<2>, GenerationError> {
+/// [`GenerationError::InvalidParameter`] unless radius and length are positive.
+pub fn disk_outline(centre: [f64; 2], radius: f64, length: f64) -> Result<Vec<[f64; 2]>, GenerationError> {
     GenerationError::check_positive("radius", radius)?;
-    GenerationError::check_positive("length", target.length)?;
-    let sides = (TAU * radius / target.length).round().max(6.0);
-    GenerationError::check_count(target.length, sides)?;
-    let corners: Vec<[f64; 2]> = (0..sides as usize)
-        .map(|k| {
-            let (sine, cosine) = (TAU * k as f64 / sides).sin_cos();
-            [centre[0] + radius * cosine, centre[1] + radius * sine]
-        })
-        .collect();
-    polygon(&corners, target)
+    GenerationError::check_positive("length", length)?;
+    let sides = (TAU * radius / length).round().max(6.0);
+    GenerationError::check_count(length, sides)?;
+    let corner = |k: usize| {
+        let (sine, cosine) = (TAU * k as f64 / sides).sin_cos();
+        [centre[0] + radius * cosine, centre[1] + radius * sine]
+    };
+    Ok((0..sides as usize).map(corner).collect())
 }
 
-/// A mesh of the wavy channel of Cao et al. (2024), §3.4: 0 ≤ y ≤ `height`, of width 2, with the left wall at
-/// x = sin(π y / 5) sin(π y / 20) for 0 < y ≤ 20 and x = 0 above, the right one at x + 2. The walls are polygons with corners at equal
-/// distances along the curve.
+/// A mesh of the polygon of [`disk_outline`]; see [`outlines`].
 ///
 /// # Errors
-/// [`GenerationError::InvalidParameter`] unless the height is positive; as [`outlines`].
-pub fn wavy_channel(height: f64, target: &EdgeTarget) -> Result<SimplexMesh<2>, GenerationError> {
+/// As [`disk_outline`] and [`outlines`].
+pub fn disk(centre: [f64; 2], radius: f64, target: &EdgeTarget) -> Result<SimplexMesh<2>, GenerationError> {
+    polygon(&disk_outline(centre, radius, target.length)?, target)
+}
+
+/// The outline of the wavy channel of Cao et al. (2024), §3.4: 0 ≤ y ≤ `height`, of width 2, with the left wall at
+/// x = sin(π y / 5) sin(π y / 20) for 0 < y ≤ 20 and x = 0 above, the right one at x + 2 (Eq. 36). The walls are polygons with corners at equal
+/// distances of about `length` along the curve.
+///
+/// # Errors
+/// [`GenerationError::InvalidParameter`] unless height and length are positive.
+pub fn wavy_channel_outline(height: f64, length: f64) -> Result<Vec<[f64; 2]>, GenerationError> {
     GenerationError::check_positive("height", height)?;
-    GenerationError::check_positive("length", target.length)?;
+    GenerationError::check_positive("length", length)?;
     // Two triangles per vertex, on an area of 2 · height.
-    GenerationError::check_count(target.length, 4.0 * height / target.length.powi(2))?;
-    let left = wall(height, target.length);
+    GenerationError::check_count(length, 4.0 * height / length.powi(2))?;
+    let left = wall(height, length);
     let right = left.iter().rev().map(|&[x, y]| [x + 2.0, y]);
-    polygon(&left.iter().copied().chain(right).collect::<Vec<_>>(), target)
+    Ok(left.iter().copied().chain(right).collect())
+}
+
+/// A mesh of the channel of [`wavy_channel_outline`]; see [`outlines`].
+///
+/// # Errors
+/// As [`wavy_channel_outline`] and [`outlines`].
+pub fn wavy_channel(height: f64, target: &EdgeTarget) -> Result<SimplexMesh<2>, GenerationError> {
+    polygon(&wavy_channel_outline(height, target.length)?, target)
 }
 
 /// Points on the left wall from y = 0 to `height`, about `length` apart along it.

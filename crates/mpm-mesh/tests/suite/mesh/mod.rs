@@ -10,4 +10,5 @@ mod random;
 mod refused;
 mod rings;
 mod samples;
+mod scattered;
 mod vtu;

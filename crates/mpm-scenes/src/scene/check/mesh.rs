@@ -1,6 +1,6 @@
 //! The background: a grid or a mesh.
 
-use crate::scene::{Discretisation, MeshTable, RotationTable, Scene};
+use crate::scene::{Discretisation, MeshShapeTable, MeshTable, RotationTable, Scene};
 use crate::values::{not_negative, positive, vector, within};
 use crate::{SceneFault, rotation};
 
@@ -64,7 +64,30 @@ fn check_mesh<const D: usize>(mesh: &MeshTable) -> Result<(), SceneFault> {
             ));
         }
     }
+    check_points_inside(mesh)?;
     Scene::check_rotation::<D>("mesh.rotation", mesh.rotation.as_ref())?;
     not_negative("mesh.reach", mesh.reach)?;
     within("mesh.reach", mesh.reach, mesh.reach.is_finite(), "finite").map(|_| ())
+}
+
+/// Random or turned points are a matter of the plane kinds between polygons.
+fn check_points_inside(mesh: &MeshTable) -> Result<(), SceneFault> {
+    within("mesh.angle", mesh.angle, mesh.angle.is_finite(), "finite")?;
+    let polygons = mesh.generate.as_ref().is_some_and(MeshShapeTable::is_between_polygons);
+    let of_polygons = "left out unless mesh.generate is a rectangle, polygon, disk or channel";
+    if !polygons && mesh.angle != 0.0 {
+        return Err(SceneFault::value("mesh.angle", mesh.angle, of_polygons));
+    }
+    let Some(delaunay) = &mesh.delaunay else { return Ok(()) };
+    if !polygons {
+        return Err(SceneFault::value("mesh.delaunay", delaunay, of_polygons));
+    }
+    for (index, place) in delaunay.refine.iter().enumerate() {
+        let field = |key: &str| format!("mesh.delaunay.refine[{index}].{key}");
+        positive(&field("size"), place.size)?;
+        positive(&field("growth"), place.growth)?;
+        not_negative(&field("radius"), place.radius)?;
+        vector::<2>(&field("centre"), &place.centre)?;
+    }
+    Ok(())
 }
