@@ -1,5 +1,6 @@
 //! Squared energy distance between two clouds, and against a fixed reference sample.
 
+use crate::compiled::Compiled;
 use crate::error::finite;
 use crate::lanes::Lanes;
 use crate::pair_sum::{Packed, PackedWeights, PairFunction, cross_sum, squared_distances, symmetric_sum};
@@ -38,13 +39,31 @@ pub fn mean_pair_distance<const D: usize>(cloud: &Cloud<'_, D>) -> Result<f64, M
     let value = if D == 1 {
         SortedSample::along_axis(cloud, 0).mean_absolute_difference()
     } else {
-        let function = Distance {
-            rows: cloud.points(),
-            columns: &Packed::new(cloud.points()),
-        };
-        symmetric_sum(&function, &PackedWeights::new(cloud))
+        (Compiled::of().pair_distances)(cloud)
     };
     finite(NAME, value)
+}
+
+/// Σ_ij w_i w_j ‖x_i − x_j‖.
+pub(crate) fn pair_distances<const D: usize>(cloud: &Cloud<'_, D>) -> f64 {
+    let function = Distance {
+        rows: cloud.points(),
+        columns: &Packed::new(cloud.points()),
+    };
+    symmetric_sum(&function, &PackedWeights::new(cloud))
+}
+
+/// Σ_ij w_i u_j ‖x_i − y_j‖ for points y_j of weights u_j.
+pub(crate) fn cross_distances<const D: usize>(
+    cloud: &Cloud<'_, D>,
+    points: &Packed<D>,
+    weights: &PackedWeights,
+) -> f64 {
+    let function = Distance {
+        rows: cloud.points(),
+        columns: points,
+    };
+    cross_sum(&function, &PackedWeights::new(cloud), weights)
 }
 
 /// Squared energy distance between two clouds, both as they are (V-statistics):
@@ -68,12 +87,7 @@ pub fn energy_distance_squared<const D: usize>(
         let (first, second) = (SortedSample::along_axis(first, 0), SortedSample::along_axis(second, 0));
         return finite(NAME, squared_in_one_dimension(&first, &second));
     }
-    let columns = Packed::new(second.points());
-    let function = Distance {
-        rows: first.points(),
-        columns: &columns,
-    };
-    let cross = cross_sum(&function, &PackedWeights::new(first), &PackedWeights::new(second));
+    let cross = (Compiled::of().cross_distances)(first, &Packed::new(second.points()), &PackedWeights::new(second));
     finite(
         NAME,
         2.0 * cross - mean_pair_distance(first)? - mean_pair_distance(second)?,
@@ -146,11 +160,7 @@ impl<const D: usize> EnergyReference<D> {
                 plain - self.mean_distance * (1.0 - self.share)
             }
             Storage::Space { points, weights } => {
-                let function = Distance {
-                    rows: cloud.points(),
-                    columns: points,
-                };
-                let cross = cross_sum(&function, &PackedWeights::new(cloud), weights);
+                let cross = (Compiled::of().cross_distances)(cloud, points, weights);
                 2.0 * cross - mean_pair_distance(cloud)? - self.mean_distance
             }
         };

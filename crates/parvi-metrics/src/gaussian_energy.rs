@@ -2,6 +2,7 @@
 
 use mpm_tensor::{Matrix, SymmetricEigen};
 
+use crate::compiled::Compiled;
 use crate::error::finite;
 use crate::norm_expectation::NormExpectation;
 use crate::summation::chunked_sum;
@@ -33,14 +34,7 @@ impl<const D: usize> GaussianEnergy<D> {
     /// [`MetricError::InvalidEntry`] for a mean that is not finite, [`MetricError::InvalidCovariance`] for a covariance
     /// that is not symmetric (to 1e-12 of its largest entry) and positive definite.
     pub fn new(mean: [f64; D], covariance: &Matrix<D>) -> Result<Self, MetricError> {
-        let eigen = checked_eigen(&mean, covariance)?;
-        let twice = eigen.values.map(|value| 2.0 * value);
-        let mean_distance = NormExpectation::new(twice, 0.0).map_or(f64::INFINITY, |table| table.evaluate(&[0.0; D]));
-        Ok(Self {
-            mean,
-            eigen,
-            mean_distance: finite(NAME, mean_distance)?,
-        })
+        (Compiled::of().gaussian)(mean, covariance)
     }
 
     /// The standard Gaussian N(0, I), whose E‖Y − Y'‖ is 2 Γ((d+1)/2) / Γ(d/2).
@@ -100,12 +94,32 @@ impl<const D: usize> GaussianEnergy<D> {
     /// # Errors
     /// [`MetricError::Overflow`] if a squared distance exceeds the range of `f64`.
     pub fn squared(&self, cloud: &Cloud<'_, D>) -> Result<f64, MetricError> {
-        let (table, squares) = self.table(cloud)?;
-        let cross = chunked_sum(cloud.len(), |index| {
-            cloud.weight(index) * table.evaluate(&squares[index])
-        });
-        finite(NAME, 2.0 * cross - mean_pair_distance(cloud)? - self.mean_distance)
+        (Compiled::of().gaussian_energy)(self, cloud)
     }
+}
+
+/// [`GaussianEnergy::new`].
+pub(crate) fn gaussian<const D: usize>(
+    mean: [f64; D],
+    covariance: &Matrix<D>,
+) -> Result<GaussianEnergy<D>, MetricError> {
+    let eigen = checked_eigen(&mean, covariance)?;
+    let twice = eigen.values.map(|value| 2.0 * value);
+    let mean_distance = NormExpectation::new(twice, 0.0).map_or(f64::INFINITY, |table| table.evaluate(&[0.0; D]));
+    Ok(GaussianEnergy {
+        mean,
+        eigen,
+        mean_distance: finite(NAME, mean_distance)?,
+    })
+}
+
+/// [`GaussianEnergy::squared`].
+pub(crate) fn squared<const D: usize>(energy: &GaussianEnergy<D>, cloud: &Cloud<'_, D>) -> Result<f64, MetricError> {
+    let (table, squares) = energy.table(cloud)?;
+    let cross = chunked_sum(cloud.len(), |index| {
+        cloud.weight(index) * table.evaluate(&squares[index])
+    });
+    finite(NAME, 2.0 * cross - mean_pair_distance(cloud)? - energy.mean_distance)
 }
 
 /// The eigenvalues and axes of a checked covariance.

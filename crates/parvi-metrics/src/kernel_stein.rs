@@ -2,6 +2,7 @@
 
 use parvi_targets::Target;
 
+use crate::compiled::Compiled;
 use crate::error::finite;
 use crate::lanes::{LANES, Lanes};
 use crate::pair_sum::{Packed, PackedWeights, PairFunction, symmetric_sum};
@@ -116,12 +117,7 @@ pub fn kernel_stein_discrepancy<const D: usize>(
             }
         }
     }
-    let squared = if kernel.exponent == -0.5 {
-        stein_sum::<D, true>(cloud, scores, kernel)
-    } else {
-        stein_sum::<D, false>(cloud, scores, kernel)
-    };
-    let squared = finite(NAME, squared)?;
+    let squared = finite(NAME, (Compiled::of().stein)(cloud, scores, kernel))?;
     let (power, inverse) = kernel.power::<false>(kernel.offset * kernel.offset);
     let diagonal = sum(scores.iter().enumerate().map(|(index, score)| {
         let value = power * (mpm_tensor::vector::norm_squared(score) - 2.0 * kernel.exponent * D as f64 * inverse);
@@ -149,6 +145,15 @@ pub fn target_stein_discrepancy<const D: usize>(
     let mut scores = vec![[0.0; D]; cloud.len()];
     target.scores(cloud.points(), &mut scores);
     kernel_stein_discrepancy(cloud, &scores, kernel)
+}
+
+/// The squared discrepancy, with a root in place of the power where the exponent is −½.
+pub(crate) fn stein<const D: usize>(cloud: &Cloud<'_, D>, scores: &[[f64; D]], kernel: &InverseMultiquadric) -> f64 {
+    if kernel.exponent == -0.5 {
+        stein_sum::<D, true>(cloud, scores, kernel)
+    } else {
+        stein_sum::<D, false>(cloud, scores, kernel)
+    }
 }
 
 fn stein_sum<const D: usize, const HALF: bool>(

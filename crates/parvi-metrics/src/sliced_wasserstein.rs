@@ -1,5 +1,6 @@
 //! The sliced Wasserstein distance: exact transport on the line, averaged over directions.
 
+use crate::compiled::Compiled;
 use crate::error::finite;
 use crate::sorted::SortedSample;
 use crate::summation::sum;
@@ -41,11 +42,7 @@ pub struct SlicedReference<const D: usize> {
 impl<const D: usize> SlicedReference<D> {
     /// Projects and sorts the reference: O(L N log N).
     pub fn new(reference: &Cloud<'_, D>, directions: Directions<D>) -> Self {
-        let projections = mpm_parallel::map(directions.vectors().iter(), &|direction| project(reference, direction));
-        Self {
-            directions,
-            projections,
-        }
+        (Compiled::of().slices)(reference, directions)
     }
 
     /// The sliced Wasserstein distance of a cloud from the reference, as [`sliced_wasserstein`] gives it.
@@ -53,10 +50,27 @@ impl<const D: usize> SlicedReference<D> {
     /// # Errors
     /// [`MetricError::Overflow`] if a squared distance exceeds the range of `f64`.
     pub fn distance(&self, cloud: &Cloud<'_, D>) -> Result<f64, MetricError> {
-        average(&self.directions, |index, direction| {
-            transport_cost(&project(cloud, direction), &self.projections[index], square)
-        })
+        (Compiled::of().sliced)(self, cloud)
     }
+}
+
+/// [`SlicedReference::new`].
+pub(crate) fn slices<const D: usize>(reference: &Cloud<'_, D>, directions: Directions<D>) -> SlicedReference<D> {
+    let projections = mpm_parallel::map(directions.vectors().iter(), &|direction| project(reference, direction));
+    SlicedReference {
+        directions,
+        projections,
+    }
+}
+
+/// [`SlicedReference::distance`].
+pub(crate) fn distance<const D: usize>(
+    reference: &SlicedReference<D>,
+    cloud: &Cloud<'_, D>,
+) -> Result<f64, MetricError> {
+    average(&reference.directions, |index, direction| {
+        transport_cost(&project(cloud, direction), &reference.projections[index], square)
+    })
 }
 
 fn square(x: f64) -> f64 {

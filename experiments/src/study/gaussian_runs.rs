@@ -3,21 +3,84 @@
 use parvi::{Method, Run};
 use parvi_metrics::{Cloud, GaussianEnergy};
 use parvi_targets::BoxedTarget;
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use super::attempt::{Attempt, Status, attempt};
-use super::definition;
+use super::definition::{self, Report, Study};
+use super::directory::StudyDirectory;
 use super::document::Document;
 use super::results::{self, single_line};
 use crate::CommandError;
 use crate::dispatch::{TargetTask, with_target};
 use crate::options::{
-    Basis, Dimension, MethodName, MethodSpecification, ParticleCount, StepCount, TargetSpecification,
+    Basis, Bounded, Dimension, MethodName, MethodSpecification, ParticleCount, StepCount, TargetSpecification,
 };
 use crate::output::Particles;
 use crate::progress::CaseObserver;
 use crate::sampling::{self, Outcome};
 use crate::statistics::summarize;
+
+/// The configuration of a study all of whose cases are such runs.
+pub trait GaussianPlan: DeserializeOwned + Sync {
+    /// One run per seed.
+    fn seeds(&self) -> &[u64];
+
+    /// Threads; `None`: as many as the environment gives.
+    fn threads(&self) -> Option<Bounded<1, 1024>>;
+
+    /// As [`Study::cases`].
+    ///
+    /// # Errors
+    /// Parts of the configuration that do not fit together.
+    fn cases(&self) -> Result<Vec<Case>, CommandError>;
+}
+
+/// A study all of whose cases are such runs.
+pub trait GaussianStudy: GaussianPlan {
+    /// The `kind` in the configuration.
+    const KIND: &'static str;
+
+    /// As [`Study::report`].
+    ///
+    /// # Errors
+    /// Figures or files that cannot be made.
+    fn report(&self, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError>;
+}
+
+impl<S: GaussianStudy> Study for S {
+    type Case = Case;
+    type Row = Row;
+    type Shared = ();
+
+    const KIND: &'static str = S::KIND;
+
+    fn seeds(&self) -> Vec<u64> {
+        GaussianPlan::seeds(self).to_vec()
+    }
+
+    fn threads(&self) -> Option<usize> {
+        GaussianPlan::threads(self).map(Bounded::get)
+    }
+
+    fn cases(&self) -> Result<Vec<Case>, CommandError> {
+        GaussianPlan::cases(self)
+    }
+
+    fn run(
+        &self,
+        case: &Case,
+        (): &mut (),
+        _directory: &StudyDirectory,
+        observer: &mut CaseObserver,
+    ) -> Result<Row, CommandError> {
+        run_case(case, observer)
+    }
+
+    fn report(&self, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
+        GaussianStudy::report(self, rows, directory)
+    }
+}
 
 /// One run.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,7 +5,7 @@ use serde::Deserialize;
 use crate::CommandError;
 use crate::options::{Bounded, Dimension, MethodName, MethodOptions, MethodSpecification, OptionError, ParticleCount};
 use crate::study::checks::{distinct, not_empty, refusal};
-use crate::study::gaussian_runs::Case;
+use crate::study::gaussian_runs::{Case, GaussianPlan};
 
 /// All methods in all dimensions at all numbers of particles.
 #[derive(Clone, Debug, Deserialize)]
@@ -16,7 +16,7 @@ pub struct Accuracy {
     /// One run per seed.
     pub seeds: Vec<u64>,
     /// Threads; absent: as many as the environment gives.
-    pub threads: Option<Bounded<1, 1024>>,
+    threads: Option<Bounded<1, 1024>>,
     /// d.
     pub dims: Vec<Dimension>,
     /// M.
@@ -58,9 +58,17 @@ impl TryFrom<Stated> for Entry {
     }
 }
 
-impl Accuracy {
+impl GaussianPlan for Accuracy {
+    fn seeds(&self) -> &[u64] {
+        &self.seeds
+    }
+
+    fn threads(&self) -> Option<Bounded<1, 1024>> {
+        self.threads
+    }
+
     /// The cases, dimension by dimension, few particles first.
-    pub fn all_cases(&self) -> Result<Vec<Case>, CommandError> {
+    fn cases(&self) -> Result<Vec<Case>, CommandError> {
         not_empty("seeds", &self.seeds)?;
         not_empty("dims", &self.dims)?;
         not_empty("particles", &self.particles)?;

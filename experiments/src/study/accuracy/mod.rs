@@ -9,41 +9,13 @@ mod report;
 
 pub use configuration::Accuracy;
 
-use super::definition::{Report, Study};
+use super::definition::Report;
 use super::directory::StudyDirectory;
-use super::gaussian_runs::{Case, Row, run_case};
+use super::gaussian_runs::{GaussianStudy, Row};
 use crate::CommandError;
-use crate::options::Bounded;
-use crate::progress::CaseObserver;
 
-impl Study for Accuracy {
-    type Case = Case;
-    type Row = Row;
-    type Shared = ();
-
+impl GaussianStudy for Accuracy {
     const KIND: &'static str = "accuracy";
-
-    fn seeds(&self) -> Vec<u64> {
-        self.seeds.clone()
-    }
-
-    fn threads(&self) -> Option<usize> {
-        self.threads.map(Bounded::get)
-    }
-
-    fn cases(&self) -> Result<Vec<Case>, CommandError> {
-        self.all_cases()
-    }
-
-    fn run(
-        &self,
-        case: &Case,
-        (): &mut (),
-        _directory: &StudyDirectory,
-        observer: &mut CaseObserver,
-    ) -> Result<Row, CommandError> {
-        run_case(case, observer)
-    }
 
     fn report(&self, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
         report::report(self, rows, directory)

@@ -5,7 +5,7 @@ use serde::Deserialize;
 use crate::CommandError;
 use crate::options::{Basis, Bounded, Dimension, MethodSpecification, ParticleCount, StepCount};
 use crate::study::checks::{distinct, not_empty, options_fit, positive, unset};
-use crate::study::gaussian_runs::{Case, default_spacing};
+use crate::study::gaussian_runs::{Case, GaussianPlan, default_spacing};
 
 /// All bases at several spacings and numbers of steps.
 #[derive(Clone, Debug, Deserialize)]
@@ -16,7 +16,7 @@ pub struct BasisComparison {
     /// One run per seed.
     pub seeds: Vec<u64>,
     /// Threads; absent: as many as the environment gives.
-    pub threads: Option<Bounded<1, 1024>>,
+    threads: Option<Bounded<1, 1024>>,
     /// d.
     pub dims: Vec<Dimension>,
     /// M.
@@ -38,9 +38,19 @@ impl BasisComparison {
         steps.sort_unstable();
         steps
     }
+}
+
+impl GaussianPlan for BasisComparison {
+    fn seeds(&self) -> &[u64] {
+        &self.seeds
+    }
+
+    fn threads(&self) -> Option<Bounded<1, 1024>> {
+        self.threads
+    }
 
     /// The cases, dimension by dimension.
-    pub fn all_cases(&self) -> Result<Vec<Case>, CommandError> {
+    fn cases(&self) -> Result<Vec<Case>, CommandError> {
         not_empty("seeds", &self.seeds)?;
         not_empty("dims", &self.dims)?;
         not_empty("bases", &self.bases)?;

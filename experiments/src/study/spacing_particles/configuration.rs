@@ -5,7 +5,7 @@ use serde::Deserialize;
 use crate::CommandError;
 use crate::options::{Bounded, Dimension, MethodSpecification, ParticleCount};
 use crate::study::checks::{distinct, not_empty, options_fit, positive, unset};
-use crate::study::gaussian_runs::Case;
+use crate::study::gaussian_runs::{Case, GaussianPlan};
 
 /// All pairs of a spacing and a number of particles, one series of spacings per dimension.
 #[derive(Clone, Debug, Deserialize)]
@@ -16,7 +16,7 @@ pub struct SpacingParticles {
     /// One run per seed.
     pub seeds: Vec<u64>,
     /// Threads; absent: as many as the environment gives.
-    pub threads: Option<Bounded<1, 1024>>,
+    threads: Option<Bounded<1, 1024>>,
     /// M.
     pub particles: Vec<ParticleCount>,
     /// The sampler; its spacing comes from the series.
@@ -51,9 +51,19 @@ impl SpacingParticles {
         counts.sort_unstable();
         counts
     }
+}
+
+impl GaussianPlan for SpacingParticles {
+    fn seeds(&self) -> &[u64] {
+        &self.seeds
+    }
+
+    fn threads(&self) -> Option<Bounded<1, 1024>> {
+        self.threads
+    }
 
     /// The cases, dimension by dimension.
-    pub fn all_cases(&self) -> Result<Vec<Case>, CommandError> {
+    fn cases(&self) -> Result<Vec<Case>, CommandError> {
         not_empty("seeds", &self.seeds)?;
         not_empty("particles", &self.particles)?;
         not_empty("series", &self.series)?;
