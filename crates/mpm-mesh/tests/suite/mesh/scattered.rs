@@ -46,7 +46,6 @@ fn domains_are_covered_with_cells_of_the_stated_quality() {
                     "conforms to its boundary"
                 );
                 let (quality, lengths) = (mesh.quality_summary(), mesh.edge_lengths());
-                println!("{quality:?} {lengths:?}");
                 assert!(
                     quality.worst.smallest_angle.to_degrees() > 18.0,
                     "{sweeps} {seed} {quality:?}"
