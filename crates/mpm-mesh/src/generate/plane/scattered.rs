@@ -37,7 +37,7 @@ pub struct Scatter {
 /// Edges of the polygons are divided into parts of the same ∫ ds / h. Points inside come one by one at random distances of
 /// 1 to 2 times 0.71 h and directions around those that there are (Poisson disks, Bridson 2007, doi 10.1145/1278780.1278807), none closer than that to
 /// another and than 0.6 h to the boundary, until none fits; `random` gives numbers in [0, 1). Constrained Delaunay triangulation joins
-/// them. Over 40 meshes of four domains edges were 0.43 to 1.67 h long, 0.97 to 1.01 h on average, and no angle was below 23.9°.
+/// them. On the domains of the tests edges are 0.4 to 1.75 h long, within 6 % of h on average, and no angle is below 22°.
 ///
 /// # Errors
 /// [`GenerationError`], if the outlines bound no domain.

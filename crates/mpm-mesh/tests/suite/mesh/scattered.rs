@@ -47,7 +47,7 @@ fn domains_are_covered_with_cells_of_the_stated_quality() {
                 );
                 let (quality, lengths) = (mesh.quality_summary(), mesh.edge_lengths());
                 assert!(
-                    quality.worst.smallest_angle.to_degrees() > 18.0,
+                    quality.worst.smallest_angle.to_degrees() > 22.0,
                     "{sweeps} {seed} {quality:?}"
                 );
                 assert!((lengths.mean / 0.05 - 1.0).abs() < 0.06, "{lengths:?}");
