@@ -87,3 +87,26 @@ fn refused(field: &str, error: ParameterError) -> SceneFault {
         range.strip_prefix("be ").unwrap_or(range),
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn metal(keys: &str) -> Result<AnyLaw, SceneFault> {
+        let solid = "law = \"softening-hencky\"\ndensity = 1.0\nyoung_modulus = 10.0\npoisson_ratio = 0.3\nsoftening_rate = 2.0\n";
+        let table: MaterialTable = toml::from_str(&format!("{solid}{keys}")).expect("a table");
+        build("materials.metal", &table)
+    }
+
+    #[test]
+    fn strengths_are_counted_in_norms_of_the_stress() {
+        let law = |keys| metal(keys).expect("a law");
+        let scaled = law("norm_per_strength = 0.5\npeak_yield_stress = 0.4\nresidual_yield_stress = 0.2\n");
+        assert_eq!(scaled, law("peak_yield_stress = 0.2\nresidual_yield_stress = 0.1\n"));
+        for bad in ["0.0", "-1.0", "nan", "inf"] {
+            let error = metal(&format!("norm_per_strength = {bad}\npeak_yield_stress = 0.4\n"));
+            let error = error.expect_err("refused").to_string();
+            assert!(error.starts_with("materials.metal.norm_per_strength"), "{error}");
+        }
+    }
+}

@@ -45,6 +45,11 @@ fn errors_name_the_file_the_field_and_the_value() {
             &["gravity = [-10.0]: must be 2 finite numbers"],
         ),
         (
+            "gravity = [0.0, -10.0]",
+            "gravity = [0.0, -10.0]\ngravity_ramp = -1.0",
+            &["gravity_ramp = -1.0: must be at least 0"],
+        ),
+        (
             "young_modulus = 1e5",
             "young_modulus = -1e5",
             &["materials.rubber.young_modulus = -100000.0: must be positive"],

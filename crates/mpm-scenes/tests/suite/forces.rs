@@ -109,3 +109,17 @@ velocity = [0.0, -{speed}]
         assert!(last.is_some_and(|momentum| momentum > 0.0), "{last:?}");
     }
 }
+
+/// A free body of mass M under g t / T has the momentum M g t² / 2T, and gains M g per time after T.
+#[test]
+fn gravity_grows_up_to_its_ramp() {
+    let heavy = "dimension = 1\ngravity = [0.2]\ngravity_ramp = 1.0\n";
+    let fallen = series(&[(SWING, ""), (WALL, ""), ("dimension = 1\n", heavy)], "");
+    let column = |name| fallen.column(name).expect("a column");
+    let (time, momentum) = (column("time"), column("momentum_x"));
+    for (t, p) in time.iter().zip(&momentum) {
+        let exact = 10.0 * 0.2 * if *t < 1.0 { 0.5 * t * t } else { t - 0.5 };
+        assert!((p - exact).abs() < 0.03, "t = {t}: {p} in place of {exact}");
+    }
+    assert!(momentum[20] > 2.9);
+}

@@ -25,6 +25,7 @@ impl Scene {
     }
 
     fn check_in<const D: usize>(&self) -> Result<(), SceneFault> {
+        not_negative("gravity_ramp", self.gravity_ramp)?;
         if !self.gravity.is_empty() {
             vector::<D>("gravity", &self.gravity)?;
         }
