@@ -1,6 +1,7 @@
 //! M particles of equal mass from a measure: support points.
 
 use mpm_tensor::{Matrix, vector};
+use parvi_targets::Frame;
 
 use crate::anderson::Anderson;
 use crate::compiled::Compiled;
@@ -30,7 +31,7 @@ const BESIDE: f64 = 0.2;
 /// Share of all |c| that the lightest points may take with them.
 const LEFT_OUT: f64 = 1e-4;
 
-/// M points of least energy distance from a measure, every axis in units of its standard deviation.
+/// M points of least energy distance from a measure, in the coordinates of its [`frame`](Measure::frame).
 ///
 /// The convex–concave procedure of S. Mak, V. R. Joseph, *Support points*, Ann. Stat. 46, 2018, Eq. (22): the energy is Σ_m c_m |x − y_m| of the points of
 /// positive weight, which is convex, and −|x − ·| of all others, particles and points of negative weight, which is concave and taken by its slope:
@@ -42,7 +43,7 @@ pub fn condense<const D: usize>(measure: &Measure<D>, count: usize, offset: f64)
 }
 
 pub(crate) fn condense_here<const D: usize>(measure: &Measure<D>, count: usize, offset: f64) -> Vec<[f64; D]> {
-    let (mut scaled, mean, scales) = standardised(measure);
+    let (mut scaled, frame) = standardised(measure);
     if scaled.is_empty() {
         return Vec::new();
     }
@@ -77,8 +78,7 @@ pub(crate) fn condense_here<const D: usize>(measure: &Measure<D>, count: usize, 
         moving.extend(drawn_to(points, own_weights, &few, particles));
         (first, taken) = (end, taken + own);
     }
-    let back = |x: &[f64; D]| std::array::from_fn(|a| mean[a] + scales[a] * x[a]);
-    moving.iter().map(back).collect()
+    moving.iter().map(|z| frame.to_target(z)).collect()
 }
 
 /// What every weight adds to the largest sum so far: none negative, and along the order as much in every stretch as the weights have, but for a few of them.
@@ -139,9 +139,9 @@ fn iterate<const D: usize>(support: &SupportPoints<D>, iterations: usize, moving
     }
 }
 
-/// All points but the lightest, in units of the standard deviations about the mean, with mean and deviations.
+/// All points but the lightest, in the coordinates of a frame, with the frame.
 #[allow(clippy::type_complexity)]
-fn standardised<const D: usize>(measure: &Measure<D>) -> (Vec<([f64; D], f64)>, [f64; D], [f64; D]) {
+fn standardised<const D: usize>(measure: &Measure<D>) -> (Vec<([f64; D], f64)>, Frame<D>) {
     let sound = |&(y, c): &(&[f64; D], &f64)| *c != 0.0 && c.is_finite() && vector::is_finite(y);
     let all = measure.points.iter().zip(&measure.weights).filter(sound);
     let mut kept: Vec<([f64; D], f64)> = all.map(|(y, c)| (*y, *c)).collect();
@@ -155,12 +155,11 @@ fn standardised<const D: usize>(measure: &Measure<D>) -> (Vec<([f64; D], f64)>, 
     });
     let least = light.copied().unwrap_or(0.0);
     kept.retain(|(_, c)| c.abs() >= least);
-    let (mean, deviation) = measure.mean_and_deviation();
-    let scales = deviation.map(|s| if s > 0.0 && s.is_finite() { s } else { 1.0 });
+    let frame = measure.frame();
     for (y, _) in &mut kept {
-        *y = std::array::from_fn(|a| (y[a] - mean[a]) / scales[a]);
+        *y = frame.to_reference(y);
     }
-    (kept, mean, scales)
+    (kept, frame)
 }
 
 /// Orders points so that near ones stand near: halves along the longest axis, and so on.

@@ -1,7 +1,7 @@
 //! What stands for the target when all weights are put together: a signed measure.
 
-use mpm_tensor::vector;
-use parvi_targets::{SobolSequence, normal_quantile};
+use mpm_tensor::{Matrix, vector};
+use parvi_targets::{Frame, SobolSequence, normal_quantile};
 
 use crate::condense::condense;
 use crate::estimate::Estimate;
@@ -28,7 +28,7 @@ pub struct Measure<const D: usize> {
     pub weights: Vec<f64>,
     /// Whether the target was evaluated there; else the point is a free draw, and certain.
     pub evaluated: Vec<bool>,
-    /// Σ c² r over the points that were evaluated, r = (1 + |z|²/D)/2 at |z| standard deviations from the mean: what 1/n is for n independent draws.
+    /// Σ c² r over the points that were evaluated, r = (1 + |z|²/D)/2 at z of [`frame`](Self::frame): what 1/n is for n independent draws.
     pub variance: f64,
 }
 
@@ -94,14 +94,22 @@ impl<const D: usize> Measure<D> {
         Some((evidence - correction.ln(), measure))
     }
 
-    /// How much every point means to second moments: (1 + |z|²/D)/2, z its distance from the mean in standard deviations.
+    /// How much every point means to second moments: (1 + |z|²/D)/2, z its coordinates in the frame.
     fn reaches(&self, points: &[[f64; D]]) -> Vec<f64> {
-        let (mean, deviation) = self.mean_and_deviation();
-        let of = |y: &[f64; D]| {
-            let r2: f64 = (0..D).map(|a| ((y[a] - mean[a]) / deviation[a]).powi(2)).sum();
-            0.5 + 0.5 * r2 / D as f64
-        };
+        let frame = self.frame();
+        let of = |y: &[f64; D]| 0.5 + 0.5 * vector::norm_squared(&frame.to_reference(y)) / D as f64;
         points.iter().map(of).collect()
+    }
+
+    /// The coordinates in which this has mean zero and covariance I: distances in them are the same whatever the target's axes and units are. Where the
+    /// covariance is singular they have standard deviation one on every axis, and where there is no such thing either they are the target's own.
+    pub fn frame(&self) -> Frame<D> {
+        let by_axes = |_| {
+            let (mean, deviation) = self.mean_and_deviation();
+            Frame::from_scales(mean, deviation.map(|s| if s > 0.0 { s } else { 1.0 }))
+        };
+        let frame = Frame::of_points(&self.points, Some(&self.weights)).or_else(by_axes);
+        frame.unwrap_or_else(|_| Frame::identity())
     }
 
     /// Adds `share` times another measure to `1 − share` times this one.
@@ -164,14 +172,15 @@ impl<const D: usize> Measure<D> {
         (mean, std::array::from_fn(|a| variance(a).max(0.0).sqrt()))
     }
 
-    /// 2 E|x − Y| − E|x − x′| of particles x against this measure, coordinates divided by `scales`: the energy distance up to a constant of the measure.
+    /// 2 E|x − Y| − E|x − x′| of particles x against this measure, in the coordinates of a frame: the energy distance up to a constant of the measure.
     ///
     /// |x| is c_D times the mean of |⟨u, x⟩| over directions u, c_D = √π Γ((D + 1)/2)/Γ(D/2), so that the distance is that of projections, here on 128 of
     /// them, always the same: O((M + N) log (M + N)) each (A. Feuerverger, 1993; L. Baringhaus, C. Franz, *On a new multivariate two-sample test*, J. Multivar. Anal. 88, 2004).
-    pub fn energy(&self, particles: &[[f64; D]], scales: &[f64; D]) -> f64 {
+    pub fn energy(&self, particles: &[[f64; D]], frame: &Frame<D>) -> f64 {
         let own = 1.0 / particles.len() as f64;
+        let inverse = frame.factor().lower_triangular_inverse().unwrap_or(Matrix::IDENTITY);
         let along = |u: &[f64; D]| {
-            let u: [f64; D] = std::array::from_fn(|a| u[a] / scales[a]);
+            let u = inverse.transpose().apply(u);
             let of_measure = self.points.iter().zip(&self.weights).filter(|(_, c)| **c != 0.0);
             let of_measure = of_measure.map(|(y, c)| (vector::dot(&u, y), *c, 0.0));
             let of_particles = particles.iter().map(|x| (vector::dot(&u, x), 0.0, own));
@@ -232,18 +241,16 @@ mod tests {
         let total: f64 = weights.iter().sum();
         let weights: Vec<f64> = weights.iter().map(|c| c / total).collect();
         let particles: Vec<[f64; 3]> = (0..15).map(|n| [wave(n, 0.3), wave(n, 1.9), wave(n, 2.9)]).collect();
-        let scales = [0.5, 1.0, 2.0];
-        let distance = |x: &[f64; 3], y: &[f64; 3]| {
-            let apart: [f64; 3] = std::array::from_fn(|a| (x[a] - y[a]) / scales[a]);
-            vector::norm(&apart)
-        };
+        let covariance = Matrix([[0.25, 0.3, 0.0], [0.3, 1.0, -0.5], [0.0, -0.5, 4.0]]);
+        let frame = Frame::new([0.1, 0.2, 0.3], covariance).unwrap();
+        let distance = |x: &[f64; 3], y: &[f64; 3]| vector::distance(&frame.to_reference(x), &frame.to_reference(y));
         let mean = |x: &[f64; 3]| -> f64 {
             let to_measure: f64 = points.iter().zip(&weights).map(|(y, c)| c * distance(x, y)).sum();
             let to_others: f64 = particles.iter().map(|y| distance(x, y)).sum();
             2.0 * to_measure - to_others / 15.0
         };
         let wanted = particles.iter().map(mean).sum::<f64>() / 15.0;
-        let found = Measure::new(points.clone(), weights.clone()).energy(&particles, &scales);
+        let found = Measure::new(points.clone(), weights.clone()).energy(&particles, &frame);
         assert!((found / wanted - 1.0).abs() < 0.02, "{found} {wanted}");
     }
 

@@ -23,11 +23,9 @@ pub(crate) struct Polish<'a, const D: usize> {
     target: &'a dyn Target<D>,
     pool: &'a Pool<D>,
     run: &'a Run,
-    /// The coordinates in which the body moves: those in which the pool has mean zero and covariance I.
+    /// The coordinates in which the body moves and energy distances are taken: those in which the pool has mean zero and covariance I.
     frame: Frame<D>,
     spacing: f64,
-    /// Standard deviations of the pool, the units of energy distances.
-    scales: [f64; D],
     entropy_power: f64,
 }
 
@@ -47,16 +45,11 @@ impl<'a, const D: usize> Polish<'a, D> {
         pool: &'a Pool<D>,
         run: &'a Run,
     ) -> Result<Self, SampleError> {
-        let (mean, covariance) = pool.moments();
-        let scales = pool.measure.mean_and_deviation().1;
-        let frame = Frame::new(mean, covariance)
-            .or_else(|_| Frame::from_scales(mean, scales.map(|s| if s > 0.0 { s } else { 1.0 })));
         let entropy_power = pool.entropy_power();
         let default = defaults::polish_spacing::<D>(options.basis, run.particles, entropy_power);
         Ok(Self {
             spacing: positive("spacing", options.spacing, default)?,
-            frame: frame.unwrap_or_else(|_| Frame::identity()),
-            scales,
+            frame: pool.measure.frame(),
             entropy_power,
             options,
             target,
@@ -87,7 +80,7 @@ impl<'a, const D: usize> Polish<'a, D> {
             None if !can_gain => 0,
             rounds => rounds.unwrap_or(defaults::POLISH_ROUNDS),
         };
-        let spread = mean_distance(&condensed.samples.positions, &self.scales);
+        let spread = mean_distance(&condensed.positions);
         let allowed = self.energy(&condensed) + 2.0 * self.pool.measure.variance * spread;
         let mut best = self.corrected(condensed, allowed)?;
         let (mut spent, mut steps, mut planned) = (best.samples.score_evaluations, 0, defaults::POLISH_STEPS);
@@ -205,17 +198,13 @@ impl<'a, const D: usize> Polish<'a, D> {
     }
 
     fn energy(&self, body: &Driven<D>) -> f64 {
-        self.pool.measure.energy(&body.samples.positions, &self.scales)
+        self.pool.measure.energy(&body.samples.positions, &self.frame)
     }
 }
 
-/// E|x − x′| over the particles, coordinates divided by `scales`.
-fn mean_distance<const D: usize>(particles: &[[f64; D]], scales: &[f64; D]) -> f64 {
-    let scaled = |x: &[f64; D]| -> [f64; D] { std::array::from_fn(|a| x[a] / scales[a]) };
+/// E|z − z′| over the particles.
+fn mean_distance<const D: usize>(particles: &[[f64; D]]) -> f64 {
     let (half, rest) = particles.split_at(particles.len() / 2);
     let pairs = half.iter().zip(rest.iter().rev());
-    pairs
-        .map(|(x, y)| vector::distance(&scaled(x), &scaled(y)))
-        .sum::<f64>()
-        / half.len().max(1) as f64
+    pairs.map(|(x, y)| vector::distance(x, y)).sum::<f64>() / half.len().max(1) as f64
 }
