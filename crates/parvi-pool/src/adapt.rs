@@ -5,11 +5,13 @@ use rand::rngs::ChaCha8Rng;
 
 use crate::density::Density;
 use crate::fold::Fold;
+use crate::lanes::LANES;
 use crate::learn::{Spending, learn};
 use crate::mixture::Mixture;
 use crate::options::{Plan, PoolError, Round};
 use crate::propose::{Form, best_form, proposal};
 use crate::scout::{Scouted, scout};
+use crate::search::search;
 
 /// Effective share above which another round could gain nothing.
 const BEST_SHARE: f64 = 0.8;
@@ -30,6 +32,10 @@ const WALKING: f64 = 0.05;
 const SHARPENING: f64 = 0.02;
 const ADAPTING: f64 = 0.75;
 
+/// Share of the evaluations that are drawn at a time in search of what the rounds have not met, and how many times that all searches may take.
+const SEARCHING: f64 = 0.1;
+const SEARCHES: u64 = 5;
+
 /// Share of the last effective share that a round must have to be kept.
 const NEARLY: f64 = 0.4;
 
@@ -44,6 +50,8 @@ pub(super) struct Adaptation<const D: usize> {
     pub shares: [Vec<f64>; 2],
     best: f64,
     without_advance: usize,
+    /// Evaluations that searches have taken.
+    searched: u64,
     /// Effective sizes before the last round and after it.
     sizes: [f64; 2],
 }
@@ -78,6 +86,7 @@ impl<const D: usize> Adaptation<D> {
             shares: [vec![0.0; 1 + given.len()], vec![0.0; 1 + given.len()]],
             best: 0.0,
             without_advance: 0,
+            searched: 0,
             sizes: [0.0, size],
         })
     }
@@ -89,6 +98,31 @@ impl<const D: usize> Adaptation<D> {
         let settled =
             self.share > BEST_SHARE || in_reach && self.without_advance >= PATIENCE || self.sizes[1] > plan.adapted;
         self.is_used_up(plan, spent) || settled && !collapsed && self.agree()
+    }
+
+    /// Looks for what the rounds have not met; whether there is something, and the rounds are to go on.
+    pub fn search(&mut self, density: &mut Density<'_, D>, plan: &Plan, rng: &mut ChaCha8Rng) -> bool {
+        let count = (SEARCHING * plan.evaluations as f64) as usize / (2 * LANES) * 2 * LANES;
+        let allowed = (SEARCHES * count as u64).saturating_sub(self.searched);
+        if allowed < count as u64 || self.is_used_up(plan, density.evaluations()) {
+            return false;
+        }
+        let before = density.evaluations();
+        let found = search(&mut self.folds, density, count, allowed, rng);
+        self.searched += density.evaluations() - before;
+        let found = found.inspect(|found| {
+            for fold in &mut self.folds {
+                fold.draw(density, found.clone(), plan.round / 4, rng.random());
+            }
+        });
+        for (fold, shares) in self.folds.iter().zip(&mut self.shares) {
+            shares.resize(fold.rounds.len(), 0.0);
+        }
+        if found.is_some() {
+            (self.best, self.without_advance) = (0.0, 0);
+            self.sizes = [0.0, self.folds.iter().map(Fold::effective_size).sum()];
+        }
+        found.is_some()
     }
 
     /// Takes fresh points in after all: they met what the rounds had not.

@@ -39,8 +39,12 @@ pub(super) struct Summit<const D: usize> {
 /// From `start` uphill: x ← x + t |H|⁻¹ s with the score s and H = −∇² log p, t the first of 1, 0.3, 0.09, … that raises log p sufficiently.
 ///
 /// Y. Dauphin et al., *Identifying and attacking the saddle point problem*, NIPS 2014, for |H|; J. Nocedal, S. J. Wright, *Numerical Optimization*, 2nd ed., §3.1
-/// for the lengths. D + 1 scores and a few densities a step. `None` where the start has no density or no curvature.
-pub(super) fn ascend<const D: usize>(density: &mut Density<'_, D>, start: &[f64; D]) -> Option<Summit<D>> {
+/// for the lengths. D + 1 scores and a few densities a step. `None` where the start has no density or no curvature, and where the way meets a place that is known.
+pub(super) fn ascend<const D: usize>(
+    density: &mut Density<'_, D>,
+    start: &[f64; D],
+    is_known: impl Fn(&[f64; D], f64) -> bool,
+) -> Option<Summit<D>> {
     let mut log_density = density.log_densities(&[*start])[0];
     if !log_density.is_finite() {
         return None;
@@ -67,6 +71,7 @@ pub(super) fn ascend<const D: usize>(density: &mut Density<'_, D>, start: &[f64;
             (there >= log_density + SUFFICIENT_RISE * length * rise).then_some((place, there))
         });
         match reached {
+            Some((place, log)) if is_known(&place, log) => return None,
             Some(reached) => (point, log_density) = reached,
             None => break,
         }
@@ -97,16 +102,33 @@ impl<const D: usize> Summit<D> {
         let eigen = SymmetricEigen::new(curvature)?;
         let largest = eigen.values.iter().fold(0.0_f64, |most, q| most.max(q.abs()));
         let least = (FLATTEST * largest).max(1.0 / (REACH * REACH));
-        let kept = |q: f64| q.abs().max(least);
-        let summit = Self {
-            point,
-            log_density,
-            precision: eigen.map(kept),
-            covariance: eigen.map(|q| 1.0 / kept(q)),
-            log_determinant: eigen.values.iter().map(|&q| kept(q).ln()).sum(),
-        };
+        let summit = Self::of(point, log_density, &eigen, |q| q.abs().max(least));
         let sound = largest > 0.0 && summit.precision.is_finite() && summit.covariance.is_finite();
         sound.then_some(summit)
+    }
+
+    /// With a precision of these eigenvectors and of what is `kept` of the eigenvalues.
+    fn of(point: [f64; D], log_density: f64, eigen: &SymmetricEigen<D>, kept: impl Fn(f64) -> f64) -> Self {
+        Self {
+            point,
+            log_density,
+            precision: eigen.map(&kept),
+            covariance: eigen.map(|q| 1.0 / kept(q)),
+            log_determinant: eigen.values.iter().map(|&q| kept(q).ln()).sum(),
+        }
+    }
+
+    /// The same with no standard deviation above `widest`.
+    pub fn no_wider_than(self, widest: f64) -> Option<Self> {
+        let eigen = SymmetricEigen::new(&self.precision)?;
+        Some(Self::of(self.point, self.log_density, &eigen, |q| {
+            q.max(1.0 / (widest * widest))
+        }))
+    }
+
+    /// Laplace's log ∫ p about it: log p + D/2 log 2π − ½ log det H.
+    pub fn log_mass(&self) -> f64 {
+        self.log_density + 0.5 * (D as f64 * std::f64::consts::TAU.ln() - self.log_determinant)
     }
 }
 
@@ -122,7 +144,7 @@ mod tests {
         let target = Gaussian::new([10.0, 2.0, 3.0], covariance).unwrap();
         let frame = Frame::identity();
         let mut density = Density::new(&target, &frame, Vec::new());
-        let summit = ascend(&mut density, &[-10.0, -10.0, 10.0]).unwrap();
+        let summit = ascend(&mut density, &[-10.0, -10.0, 10.0], |_, _| false).unwrap();
         assert!(
             target.log_density(&[10.0, 2.0, 3.0]) - summit.log_density < REST,
             "{summit:?}"
@@ -138,7 +160,7 @@ mod tests {
         let target = Banana::new(1.0, 0.5).unwrap();
         let frame = Frame::identity();
         for start in [[5.0, 5.0], [-3.0, 0.0], [0.0, 20.0]] {
-            let summit = ascend(&mut Density::new(&target, &frame, Vec::new()), &start).unwrap();
+            let summit = ascend(&mut Density::new(&target, &frame, Vec::new()), &start, |_, _| false).unwrap();
             assert!(
                 summit.log_density > target.log_density(&[0.0, -1.0]) - 1.0,
                 "{start:?}: {summit:?}"
@@ -150,6 +172,23 @@ mod tests {
     fn a_start_without_a_density_is_no_start() {
         let target = Gaussian::<1>::standard();
         let frame = Frame::identity();
-        assert!(ascend(&mut Density::new(&target, &frame, Vec::new()), &[f64::NAN]).is_none());
+        assert!(
+            ascend(&mut Density::new(&target, &frame, Vec::new()), &[f64::NAN], |_, _| {
+                false
+            })
+            .is_none()
+        );
+    }
+
+    #[test]
+    fn a_way_that_meets_what_is_known_ends_there() {
+        let target = Gaussian::<2>::standard();
+        let frame = Frame::identity();
+        let mut density = Density::new(&target, &frame, Vec::new());
+        assert!(ascend(&mut density, &[3.0, 4.0], |_, _| true).is_none());
+        let summit = ascend(&mut density, &[3.0, 4.0], |_, _| false).unwrap();
+        assert!(summit.log_mass().abs() < 1e-6, "{summit:?}");
+        let narrow = summit.no_wider_than(0.5).unwrap();
+        assert!((narrow.covariance.0[0][0] - 0.25).abs() < 1e-12 && (narrow.log_mass() - 0.25_f64.ln()).abs() < 1e-6);
     }
 }

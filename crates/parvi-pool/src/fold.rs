@@ -67,6 +67,11 @@ impl<const D: usize> Fold<D> {
         pairs.map(|(q, sum)| q / sum.max(f64::MIN_POSITIVE)).collect()
     }
 
+    /// The fitted kernels of the last proposal that has any.
+    pub fn core(&self) -> Option<Mixture<D>> {
+        self.rounds.iter().rev().find_map(|(_, proposal)| proposal.core())
+    }
+
     /// Takes the points and the proposals of another fold in.
     pub fn absorb(&mut self, mut other: Self) {
         self.add_density(&other.groups, 1.0, &mut other.sums);

@@ -24,6 +24,7 @@ mod propose;
 mod referee;
 mod sample;
 mod scout;
+mod search;
 mod support_points;
 #[cfg(test)]
 mod tests;
@@ -102,6 +103,10 @@ fn explore_here<const D: usize>(
             if observer(&round, &density.tape).is_break() {
                 return Err(PoolError::Interrupted { round: number });
             }
+        }
+        if adaptation.search(&mut density, &plan, &mut rng) {
+            is_due = true;
+            continue;
         }
         let frozen = freeze(&mut adaptation, &mut density, &plan, &mut rng);
         if !frozen.surprised || adaptation.is_used_up(&plan, density.evaluations()) {

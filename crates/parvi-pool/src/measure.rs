@@ -58,7 +58,7 @@ impl<const D: usize> Measure<D> {
         weights.iter_mut().for_each(|w| *w /= sum);
         let evidence = top + sum.ln();
         let plain = Self::new(fold.positions.clone(), weights);
-        let Some(core) = fold.rounds.last().and_then(|(_, last)| last.core()) else {
+        let Some(core) = fold.core() else {
             return Some((evidence, plain));
         };
         let control = fold.weights_of(&core);

@@ -36,7 +36,7 @@ pub(super) struct Scouted<const D: usize> {
 }
 
 /// Before anything is known: one kernel as wide as the frame, one four and one sixteen times as wide.
-fn wide<const D: usize>() -> Vec<Kernel<D>> {
+pub(super) fn wide<const D: usize>() -> Vec<Kernel<D>> {
     [(1.0, 0.3), (4.0, 0.5), (16.0, 0.2)]
         .map(|(width, share): (f64, f64)| Kernel {
             centre: [0.0; D],
@@ -87,7 +87,8 @@ fn summits<const D: usize>(density: &mut Density<'_, D>, evaluations: u64, seed:
             2 if known > 1 => apart(&summits, &drawn),
             _ => drawn,
         };
-        let found = ascend(density, &start).filter(|found| !summits.iter().any(|summit| summit.is_near(found)));
+        let found =
+            ascend(density, &start, |_, _| false).filter(|found| !summits.iter().any(|summit| summit.is_near(found)));
         summits.extend(found);
         idle = if summits.len() > known { 0 } else { idle + 1 };
         if idle >= FEWEST.max(IDLE * summits.len()) || density.evaluations() > before + evaluations {
@@ -116,18 +117,17 @@ fn apart<const D: usize>(summits: &[Summit<D>], drawn: &[f64; D]) -> [f64; D] {
 }
 
 /// Kernels at summits, half of whose shares are equal and half follow Laplace's masses p(x) (2π)^{D/2} / √det H.
-fn about<const D: usize>(summits: &[Summit<D>]) -> Vec<Kernel<D>> {
-    let log_mass = |summit: &Summit<D>| summit.log_density - 0.5 * summit.log_determinant;
-    let top = summits.iter().map(log_mass).fold(f64::NEG_INFINITY, f64::max);
+pub(super) fn about<const D: usize>(summits: &[Summit<D>]) -> Vec<Kernel<D>> {
+    let top = summits.iter().map(Summit::log_mass).fold(f64::NEG_INFINITY, f64::max);
     let heavy: Vec<&Summit<D>> = summits
         .iter()
-        .filter(|summit| log_mass(summit) > top - LIGHTEST)
+        .filter(|summit| summit.log_mass() > top - LIGHTEST)
         .collect();
-    let total: f64 = heavy.iter().map(|summit| (log_mass(summit) - top).exp()).sum();
+    let total: f64 = heavy.iter().map(|summit| (summit.log_mass() - top).exp()).sum();
     let kernel = |summit: &Summit<D>, (stretch, share): (f64, f64)| Kernel {
         centre: summit.point,
         factor: root(&summit.covariance) * stretch,
-        share: share * 0.5 * ((log_mass(summit) - top).exp() / total + 1.0 / heavy.len() as f64),
+        share: share * 0.5 * ((summit.log_mass() - top).exp() / total + 1.0 / heavy.len() as f64),
     };
     heavy
         .iter()

@@ -2,6 +2,7 @@
 
 mod box_modes;
 mod folds;
+mod needles;
 mod ridge;
 mod tape;
 
@@ -120,7 +121,9 @@ fn scales_that_the_frame_does_not_know_are_found() {
     let target = Gaussian::<3>::new([20.0, -3.0, 50.0], covariance).unwrap();
     let pool = pool_of(&target, 300, 1).unwrap();
     assert!(pool.log_evidence.abs() < 0.02, "{}", pool.log_evidence);
-    assert!(pool.density_evaluations + pool.score_evaluations < 16 * 300);
+    // A tenth of the 8,000 that it may take goes to the search for other pieces.
+    let evaluations = pool.density_evaluations + pool.score_evaluations;
+    assert!(evaluations < 16 * 300 + 800, "{evaluations}");
     let (_, found) = pool.moments();
     for axis in 0..3 {
         assert!((found.0[axis][axis].sqrt() / scales[axis] - 1.0).abs() < 0.05);

@@ -1,0 +1,187 @@
+//! Searches for pieces that no proposal has met: scouts set out from where the density most exceeds what is covered.
+
+use mpm_tensor::{Matrix, SymmetricEigen, vector};
+use rand::RngExt;
+use rand::rngs::ChaCha8Rng;
+
+use crate::ascent::{Summit, ascend};
+use crate::density::Density;
+use crate::fold::Fold;
+use crate::lanes::packed;
+use crate::mixture::{Kernel, Mixture};
+use crate::sample::{moments, root};
+use crate::scout::{about, wide};
+use crate::weights::tempered;
+
+/// Widths of the wide law over the spread of what is known, and their shares.
+const WIDTHS: [(f64, f64); 2] = [(1.25, 0.4), (2.5, 0.15)];
+
+/// The same for a round kernel, over the largest spread along any direction.
+const ROUND: (f64, f64) = (1.1, 0.25);
+
+/// Share of the wide law that is as wide as the frame.
+const OF_FRAME: f64 = 0.2;
+
+/// What the wide law is taken to cover, over what it would by its share: tails that are heavier than a kernel's surprise nobody.
+const FLOOR: f64 = 1e-3;
+
+/// p/(Z q) beyond which a point is worth a scout, and a summit is new.
+const SURPRISING: f64 = 2.0;
+const UNCOVERED: f64 = 5.0;
+
+/// Least mass of a piece that is worth a proposal, by Laplace's approximation.
+const LIGHTEST: f64 = 5e-3;
+
+/// Widest standard deviation at a summit, over the largest spread of what is known: a flat top has no curvature to say how wide it is.
+const WIDEST: f64 = 0.5;
+
+/// Scouts end after so many that found nothing new.
+const IDLE: usize = 24;
+
+/// Draws `count` points at a time of a wide law into the folds and sends scouts from them, as long as these find something and `evaluations` last.
+/// Kernels about the summits that no proposal covered, if there are any.
+///
+/// What is drawn costs one density each, and is weighed like every other point: in few dimensions that meets a narrow piece more cheaply than ways uphill from
+/// everywhere do.
+pub(super) fn search<const D: usize>(
+    folds: &mut [Fold<D>; 2],
+    density: &mut Density<'_, D>,
+    count: usize,
+    evaluations: u64,
+    rng: &mut ChaCha8Rng,
+) -> Option<Mixture<D>> {
+    let until = density.evaluations() + evaluations;
+    let mut covered = Covered::by(folds)?;
+    let mut found: Vec<Summit<D>> = Vec::new();
+    while density.evaluations() + count as u64 <= until {
+        let (law, spread) = law(folds, &found)?;
+        covered.set_floor(&law)?;
+        let (mut points, mut logs) = (Vec::new(), Vec::new());
+        for fold in folds.iter_mut() {
+            let first = fold.positions.len();
+            fold.draw(density, law.clone(), count / 2, rng.random());
+            points.extend_from_slice(&fold.positions[first..]);
+            logs.extend_from_slice(&fold.log_densities[first..]);
+        }
+        let new = covered.explore(density, &points, &logs, WIDEST * spread);
+        if new.is_empty() {
+            break;
+        }
+        found.extend(new);
+    }
+    Mixture::new(about(&found))
+}
+
+/// As wide as all that is known, and wider; and the largest spread of what is known along any direction.
+fn law<const D: usize>(folds: &[Fold<D>; 2], found: &[Summit<D>]) -> Option<(Mixture<D>, f64)> {
+    let [one, other] = folds
+        .each_ref()
+        .map(|fold| moments(&fold.positions, &tempered(&fold.log_weights(), 1.0)));
+    let centre = std::array::from_fn(|a| 0.5 * (one.0[a] + other.0[a]));
+    let mut covariance = (one.1 + other.1) * 0.5;
+    for summit in found {
+        let apart = vector::subtract(&summit.point, &centre);
+        covariance += Matrix::outer(&apart, &apart) * (1.0 / (1.0 + found.len() as f64));
+    }
+    let largest = SymmetricEigen::new(&covariance)?.values.into_iter().fold(0.0, f64::max);
+    let (factor, spread) = (root(&covariance), largest.sqrt());
+    let kernel = |factor, share| Kernel { centre, factor, share };
+    let mut kernels = WIDTHS.map(|(width, share)| kernel(factor * width, share)).to_vec();
+    kernels.push(kernel(Matrix::IDENTITY * (ROUND.0 * spread), ROUND.1));
+    kernels.extend(scaled(&wide(), OF_FRAME));
+    // No kernel of it is fitted.
+    Some((Mixture::new(kernels)?.with_core(0), spread))
+}
+
+/// Kernels with their shares times a factor.
+fn scaled<const D: usize>(kernels: &[Kernel<D>], factor: f64) -> impl Iterator<Item = Kernel<D>> {
+    kernels.iter().map(move |kernel| Kernel {
+        share: factor * kernel.share,
+        ..*kernel
+    })
+}
+
+/// A model Z Σ share · t of the target from the fitted kernels and from those about new summits, and a floor: shares do not sum to one.
+struct Covered<const D: usize> {
+    log_evidence: f64,
+    kernels: Vec<Kernel<D>>,
+    floor: Vec<Kernel<D>>,
+    mixture: Mixture<D>,
+    log_total: f64,
+}
+
+impl<const D: usize> Covered<D> {
+    /// What the last proposals of the folds cover.
+    fn by(folds: &[Fold<D>; 2]) -> Option<Self> {
+        let cores: Vec<Mixture<D>> = folds.iter().filter_map(Fold::core).collect();
+        let kernels: Vec<Kernel<D>> = cores.iter().flat_map(|core| scaled(core.kernels(), 0.5)).collect();
+        Some(Self {
+            log_evidence: 0.5 * (folds[0].log_evidence().0 + folds[1].log_evidence().0),
+            mixture: Mixture::new(kernels.clone())?,
+            log_total: 0.0,
+            floor: Vec::new(),
+            kernels,
+        })
+    }
+
+    fn set_floor(&mut self, law: &Mixture<D>) -> Option<()> {
+        self.floor = scaled(law.kernels(), FLOOR).collect();
+        self.update()
+    }
+
+    fn update(&mut self) -> Option<()> {
+        let all: Vec<Kernel<D>> = self.kernels.iter().chain(&self.floor).copied().collect();
+        self.log_total = all.iter().map(|kernel| kernel.share).sum::<f64>().ln();
+        self.mixture = Mixture::new(all)?;
+        Some(())
+    }
+
+    /// log p/(Z q) at points where log p is known.
+    fn surprises(&self, points: &[[f64; D]], logs: &[f64]) -> Vec<f64> {
+        let densities = self.mixture.densities(&packed(points));
+        let expected = |q: &f64| self.log_evidence + self.log_total + q.max(f64::MIN_POSITIVE).ln();
+        let pairs = logs.iter().zip(densities.as_flattened());
+        pairs.map(|(log, q)| log - expected(q)).collect()
+    }
+
+    /// Sends scouts from the most surprising points, and covers what they find.
+    fn explore(
+        &mut self,
+        density: &mut Density<'_, D>,
+        points: &[[f64; D]],
+        logs: &[f64],
+        widest: f64,
+    ) -> Vec<Summit<D>> {
+        let mut found = Vec::new();
+        let mut surprises = self.surprises(points, logs);
+        let mut idle = 0;
+        while idle < IDLE {
+            let most = (0..points.len()).max_by(|&a, &b| surprises[a].total_cmp(&surprises[b]));
+            let Some(start) = most.filter(|&index| surprises[index] > SURPRISING.ln()) else {
+                break;
+            };
+            surprises[start] = f64::NEG_INFINITY;
+            idle += 1;
+            let is_known = |place: &[f64; D], log: f64| self.surprises(&[*place], &[log])[0] < SURPRISING.ln();
+            let reached = ascend(density, &points[start], is_known);
+            let Some(summit) = reached.and_then(|summit| summit.no_wider_than(widest)) else {
+                continue;
+            };
+            let log_mass = summit.log_mass() - self.log_evidence;
+            let surprise = self.surprises(&[summit.point], &[summit.log_density])[0];
+            if surprise < UNCOVERED.ln() || log_mass < LIGHTEST.ln() {
+                continue;
+            }
+            self.kernels.extend(scaled(&about(&[summit]), log_mass.exp()));
+            if self.update().is_none() {
+                break;
+            }
+            for (old, new) in surprises.iter_mut().zip(self.surprises(points, logs)) {
+                *old = old.min(new);
+            }
+            found.push(summit);
+            idle = 0;
+        }
+        found
+    }
+}

@@ -1,0 +1,47 @@
+//! Narrow pieces far from a wide one, which no way uphill leads to.
+
+use mpm_tensor::vector;
+use parvi_targets::Target;
+
+use super::pool_of;
+
+/// A normal law of width 0.5 about (−1, …) and equally heavy ones of widths 0.06 and 0.05.
+struct Needles<const D: usize>([[f64; D]; 3]);
+
+const WIDTHS: [f64; 3] = [0.5, 0.06, 0.05];
+
+impl<const D: usize> Needles<D> {
+    fn logs(&self, x: &[f64; D]) -> [f64; 3] {
+        std::array::from_fn(|k| {
+            let z = vector::distance_squared(x, &self.0[k]) / WIDTHS[k].powi(2);
+            -0.5 * z - D as f64 * (WIDTHS[k].ln() + 0.5 * std::f64::consts::TAU.ln()) - 3_f64.ln()
+        })
+    }
+}
+
+impl<const D: usize> Target<D> for Needles<D> {
+    fn log_density(&self, x: &[f64; D]) -> f64 {
+        let logs = self.logs(x);
+        let top = logs.into_iter().fold(f64::NEG_INFINITY, f64::max);
+        top + logs.iter().map(|l| (l - top).exp()).sum::<f64>().ln()
+    }
+
+    fn score(&self, x: &[f64; D]) -> [f64; D] {
+        let log = self.log_density(x);
+        let mut score = [0.0; D];
+        for (k, own) in self.logs(x).into_iter().enumerate() {
+            let slope = vector::subtract(&self.0[k], x);
+            vector::accumulate(&mut score, (own - log).exp() / WIDTHS[k].powi(2), &slope);
+        }
+        score
+    }
+}
+
+#[test]
+fn needles_are_found_by_every_seed() {
+    let target = Needles([[-1.0, 0.3], [2.1, 1.4], [1.3, -2.2]]);
+    for seed in 0..4 {
+        let pool = pool_of(&target, 1000, seed).unwrap();
+        assert!(pool.log_evidence.abs() < 0.05, "{seed}: {pool:?}");
+    }
+}
