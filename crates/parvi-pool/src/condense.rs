@@ -10,14 +10,12 @@ use crate::mixture::{Kernel, Mixture};
 use crate::support_points::SupportPoints;
 use crate::weights::systematic;
 
-/// Iterations at most.
-const ITERATIONS: usize = 50;
+/// Passes over space, which is cut into pieces so that the cost is that of many small measures: particles of one piece at most, iterations with few equally
+/// weighted points, and iterations with all of them. The last pass mends the seams of the first.
+const PASSES: [(usize, usize, usize); 2] = [(256, 25, 8), (1024, 0, 3)];
 
-/// Of these with the whole measure; the others with so many equally weighted points per particle, if that is much less.
-const FINE_ITERATIONS: usize = 25;
+/// Those few points, per particle.
 const COARSE: usize = 8;
-/// Particles that are condensed together; of more than these space is cut into pieces.
-const LARGEST_PIECE: usize = 1024;
 
 /// What rounding may add to an energy.
 const ROUNDING: f64 = 1e-5;
@@ -59,24 +57,31 @@ pub(crate) fn condense_here<const D: usize>(measure: &Measure<D>, count: usize, 
     let shifts = beside.map_or_else(Vec::new, |law| law.draws(count, 0));
     let rises = rises(&weights);
     let chosen = systematic(&rises, count, offset);
-    // Pieces of space, so that the cost is that of many small measures.
-    let pieces = count.div_ceil(LARGEST_PIECE).next_power_of_two();
-    let ends: Vec<usize> = (1..=pieces).map(|piece| piece * sample.len() / pieces).collect();
-    let mut moving = Vec::with_capacity(count);
-    let (mut first, mut taken) = (0, 0);
-    for end in ends {
-        let own = chosen[taken..].partition_point(|&index| index < end);
-        let begin = |k: usize| vector::add(&sample[chosen[k]], &shifts[k]);
-        let particles = (taken..taken + own).map(begin).collect();
-        let points = &sample[first..end];
-        let few = systematic(&rises[first..end], COARSE * own, offset);
-        let few: Vec<[f64; D]> = few.iter().map(|&index| points[index]).collect();
-        // Noise may take the mass of a small piece below nothing.
-        let (mass, risen) = (weights[first..end].iter().sum::<f64>(), &rises[first..end]);
-        let sound = 2.0 * mass > risen.iter().sum();
-        let own_weights = if sound { &weights[first..end] } else { risen };
-        moving.extend(drawn_to(points, own_weights, &few, particles));
-        (first, taken) = (end, taken + own);
+    let begin = |(&index, shift): (&usize, &[f64; D])| vector::add(&sample[index], shift);
+    let mut moving: Vec<[f64; D]> = chosen.iter().zip(&shifts).map(begin).collect();
+    let mut last = 0;
+    for (most, far, near) in PASSES {
+        let pieces = count.div_ceil(most).next_power_of_two();
+        if pieces == last {
+            break;
+        }
+        last = pieces;
+        let (mut first, mut taken) = (0, 0);
+        for end in (1..=pieces).map(|piece| piece * sample.len() / pieces) {
+            let own = chosen[taken..].partition_point(|&index| index < end);
+            let (points, particles) = (&sample[first..end], &mut moving[taken..taken + own]);
+            let risen = &rises[first..end];
+            // Noise may take the mass of a small piece below nothing.
+            let sound = 2.0 * weights[first..end].iter().sum::<f64>() > risen.iter().sum();
+            let own_weights = if sound { &weights[first..end] } else { risen };
+            if far > 0 && 2 * COARSE * own < points.len() {
+                let few = systematic(risen, COARSE * own, offset);
+                let few: Vec<[f64; D]> = few.iter().map(|&index| points[index]).collect();
+                iterate(&SupportPoints::new(&few, &vec![1.0; few.len()]), far, particles);
+            }
+            iterate(&SupportPoints::new(points, own_weights), near, particles);
+            (first, taken) = (end, taken + own);
+        }
     }
     moving.iter().map(|z| frame.to_target(z)).collect()
 }
@@ -93,27 +98,8 @@ fn rises(weights: &[f64]) -> Vec<f64> {
     weights.iter().map(rise).collect()
 }
 
-/// Particles drawn to weighted points; far iterations need no more than an equally weighted `few`.
-fn drawn_to<const D: usize>(
-    points: &[[f64; D]],
-    weights: &[f64],
-    few: &[[f64; D]],
-    mut particles: Vec<[f64; D]>,
-) -> Vec<[f64; D]> {
-    if 2 * few.len() < points.len() {
-        let equal = vec![1.0; few.len()];
-        iterate(
-            &SupportPoints::new(few, &equal),
-            ITERATIONS - FINE_ITERATIONS,
-            &mut particles,
-        );
-    }
-    iterate(&SupportPoints::new(points, weights), FINE_ITERATIONS, &mut particles);
-    particles
-}
-
 /// So many iterations, or until nothing moves any more.
-fn iterate<const D: usize>(support: &SupportPoints<D>, iterations: usize, moving: &mut Vec<[f64; D]>) {
+fn iterate<const D: usize>(support: &SupportPoints<D>, iterations: usize, moving: &mut [[f64; D]]) {
     let mut anderson = Anderson::default();
     let mut least = f64::INFINITY;
     // What the procedure itself, which never fails to lower the energy, would have made.
@@ -123,7 +109,7 @@ fn iterate<const D: usize>(support: &SupportPoints<D>, iterations: usize, moving
         if energy > least + ROUNDING * least.abs()
             && let Some(plain) = plain.take()
         {
-            *moving = plain;
+            moving.copy_from_slice(&plain);
             anderson = Anderson::default();
             continue;
         }
@@ -131,7 +117,7 @@ fn iterate<const D: usize>(support: &SupportPoints<D>, iterations: usize, moving
         let moves = moving.iter().zip(&images).map(|(x, y)| vector::distance(x, y));
         let largest = moves.fold(0.0, f64::max);
         let next = anderson.next(moving.as_flattened().to_vec(), images.as_flattened());
-        *moving = next.as_chunks().0.to_vec();
+        moving.copy_from_slice(next.as_chunks().0);
         plain = Some(images);
         if largest < TOLERANCE {
             break;

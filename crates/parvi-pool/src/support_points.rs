@@ -67,7 +67,7 @@ impl<const D: usize> SupportPoints<D> {
             }
             let mut inverse = [0.0; LANES];
             for lane in 0..LANES {
-                inverse[lane] = weights[lane] / squares[lane].sqrt();
+                inverse[lane] = weights[lane] * inverse_root(squares[lane]);
                 sums[lane] += inverse[lane].max(0.0);
                 distances[lane] += inverse[lane] * squares[lane];
             }
@@ -83,6 +83,16 @@ impl<const D: usize> SupportPoints<D> {
             distances.iter().sum(),
         )
     }
+}
+
+/// 1/√x of a normal positive number to 5e-6 of it: a guess from the bits, and two of Newton's steps.
+///
+/// C. Lomont, *Fast inverse square root*, 2003. A root and a division take three times as long.
+#[inline(always)]
+fn inverse_root(x: f32) -> f32 {
+    let guess = f32::from_bits(0x5f37_5a86 - (x.to_bits() >> 1));
+    let newton = |y: f32| y * (1.5 - 0.5 * x * y * y);
+    newton(newton(guess))
 }
 
 /// 1/M Σ_j (x − x_j)/|x − x_j| and 1/M Σ_j |x − x_j|.
