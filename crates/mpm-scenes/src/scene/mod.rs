@@ -27,7 +27,7 @@ pub use boundary::{
 pub use discretisation::{BasisName, Discretisation, DomainTable, GridTable, TransferKind, TransferTable};
 pub use load::LoadTable;
 pub use material::{FluidTable, GasTable, MaterialTable, MetalTable, SandTable, SolidTable};
-pub use mesh::{DelaunayTable, KernelName, MeshShapeTable, MeshTable, RefinementTable, RotationTable};
+pub use mesh::{DelaunayTable, KernelName, MeshShapeTable, MeshTable, RefinementTable, RotationTable, WidthName};
 pub use output::{OutputTable, ProbeTable, ValidationTable};
 pub use region::ShapeTable;
 pub use time::{StressUpdateName, TimeTable};
