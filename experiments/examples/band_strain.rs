@@ -3,12 +3,12 @@
 //! Printed per frame: the instant, the mean of the plastic strain q over the body, and its mean in the bands, Σ q² V / Σ q V. For the same slip the latter
 //! goes with the inverse of the bands' width.
 
-#[expect(dead_code, reason = "positions are for others")]
-mod frames;
-
 use std::io::Write;
 
-use frames::{Frame, Result};
+use mpm_scenes::output::Frame;
+
+/// Anything may go wrong in an example.
+type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
 
 fn main() -> Result<()> {
     let frames: Vec<String> = std::env::args().skip(1).collect();
@@ -18,7 +18,7 @@ fn main() -> Result<()> {
     let mut output = std::io::stdout().lock();
     writeln!(output, "time,mean,in_bands")?;
     for path in &frames {
-        let frame = Frame::read(path)?;
+        let frame = Frame::read(path.as_ref())?;
         let (strains, volumes) = (frame.field("plastic_strain")?, frame.field("volume")?);
         let (mut volume, mut first, mut second) = (0.0, 0.0, 0.0);
         for (q, v) in strains.iter().zip(&volumes) {

@@ -3,11 +3,12 @@
 //! FIELD is a scalar of the particles, as in `plastic_strain`; BOUNDS, up to four numbers with commas, divide it into classes; EXTENT is
 //! `x_lower,y_lower,x_upper,y_upper`; COLUMNS is how many frames stand in a row.
 
-mod frames;
-
-use frames::{Frame, Result};
+use mpm_scenes::output::Frame;
 use parvi_experiments::output::AtomicFile;
 use parvi_experiments::plots::{SnapshotPanel, SnapshotsPlot, snapshots};
+
+/// Anything may go wrong in an example.
+type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
 
 fn main() -> Result<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -17,14 +18,14 @@ fn main() -> Result<()> {
     let extent: [f64; 4] = numbers(extent)?.try_into().map_err(|_| "EXTENT has four numbers")?;
     let (mut panels, mut spacing) = (Vec::new(), 1.0);
     for path in frames {
-        let frame = Frame::read(path)?;
+        let frame = Frame::read(path.as_ref())?;
         let volumes = frame.field("volume")?;
         let in_space = frame.field("position")?.chunks_exact(3).any(|x| x[2] != 0.0);
         let dimension = if in_space { 3.0 } else { 2.0 };
         spacing = (volumes.iter().sum::<f64>() / volumes.len() as f64).powf(1.0 / dimension);
         panels.push(SnapshotPanel {
             title: format!("t = {} s", (frame.time()? * 1e4).round() / 1e4),
-            positions: frame.plane()?,
+            positions: plane(&frame)?,
             values: frame.field(field)?,
         });
     }
@@ -47,4 +48,10 @@ fn main() -> Result<()> {
 
 fn numbers(list: &str) -> Result<Vec<f64>> {
     list.split(',').map(|number| Ok(number.trim().parse()?)).collect()
+}
+
+/// x and y of the particles.
+fn plane(frame: &Frame) -> Result<Vec<[f64; 2]>> {
+    let positions = frame.field("position")?;
+    Ok(positions.chunks_exact(3).map(|x| [x[0], x[1]]).collect())
 }

@@ -3,13 +3,14 @@
 //! Around every particle a linear function is fitted to the pressures of the particles within RADIUS, with their volumes as weights. Printed per frame:
 //! the instant, the root mean square difference of the particles' own pressures to their fits, and that of the pressure itself.
 
-mod frames;
-
 use std::collections::HashMap;
 use std::io::Write;
 
-use frames::{Frame, Result};
+use mpm_scenes::output::Frame;
 use mpm_tensor::Matrix;
+
+/// Anything may go wrong in an example.
+type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
 
 fn main() -> Result<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -20,7 +21,7 @@ fn main() -> Result<()> {
     let mut output = std::io::stdout().lock();
     writeln!(output, "time,noise,pressure")?;
     for path in frames {
-        let frame = Frame::read(path)?;
+        let frame = Frame::read(path.as_ref())?;
         let (noise, pressure) = noise(&frame, radius)?;
         writeln!(output, "{},{noise},{pressure}", frame.time()?)?;
     }
@@ -29,7 +30,7 @@ fn main() -> Result<()> {
 
 /// Root mean squares of p_k − fit and of p_k over the volume.
 fn noise(frame: &Frame, radius: f64) -> Result<(f64, f64)> {
-    let (positions, pressures, volumes) = (frame.plane()?, frame.field("pressure")?, frame.field("volume")?);
+    let (positions, pressures, volumes) = (plane(&frame)?, frame.field("pressure")?, frame.field("volume")?);
     let bin = |x: &[f64; 2]| x.map(|c| (c / radius).floor() as i64);
     let mut bins: HashMap<[i64; 2], Vec<usize>> = HashMap::new();
     for (k, x) in positions.iter().enumerate() {
@@ -60,4 +61,10 @@ fn noise(frame: &Frame, radius: f64) -> Result<(f64, f64)> {
         volume += volumes[k];
     }
     Ok(((noise / volume).sqrt(), (square / volume).sqrt()))
+}
+
+/// x and y of the particles.
+fn plane(frame: &Frame) -> Result<Vec<[f64; 2]>> {
+    let positions = frame.field("position")?;
+    Ok(positions.chunks_exact(3).map(|x| [x[0], x[1]]).collect())
 }

@@ -19,11 +19,11 @@ mod vtu;
 
 pub use adjacency::Lists;
 pub use appended::{Appended, collection};
-pub use basis::{MeshBasis, Outside, WeightAt};
+pub use basis::{KernelWidth, MeshBasis, Outside, WeightAt};
 pub use boundary::BoundaryFacet;
 pub use edge_lengths::EdgeLengths;
 pub use error::MeshError;
-pub use gmsh::{MshError, MshFormat, Place, read_msh, write_msh};
+pub use gmsh::{MshError, MshFormat, NamedMesh, Place, read_msh, read_named_msh, write_msh};
 pub use hat::HatBasis;
 pub use kernel::SampleWeight;
 pub use mesh::{Frame, NO_CELL, SimplexMesh};

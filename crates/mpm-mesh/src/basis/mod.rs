@@ -10,7 +10,7 @@ mod weights;
 
 use mpm_core::{Basis, CellSort, MpmError, Schedule};
 use mpm_kernels::{Columns, Deposit, Entry, Interpolated, NodeField, NodeSink, Wanted};
-use mpm_tensor::vector::subtract;
+use mpm_tensor::vector::{distance, subtract};
 
 use self::curve::AlongCurve;
 use self::stencils::Stencils;
@@ -33,6 +33,18 @@ pub enum Outside {
     },
 }
 
+/// h of the sample weights N₂(‖x_i − x_p‖ / h).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum KernelWidth {
+    /// The longest edge of the mesh, for all particles (Cao et al. 2024, §4).
+    #[default]
+    LongestEdge,
+    /// h(x) = Σ_n b_n(x) h_n over the vertices n of the cell, h_n the longest edge at vertex n: continuous, so weights and gradients stay so, and never less
+    /// than the distance to a vertex of the cell, so that a fit exists. Where edges are equal it is their length. (The sizing field that §4 of the paper
+    /// leaves to later work; the choice is ours.)
+    Local,
+}
+
 /// UMLS-MPM (Cao et al. 2024, doi 10.1007/s00466-024-02524-x): a particle's nodes are the first ring of its cell, its
 /// weights and gradients those of a moving least squares fit with sample weights [`SampleWeight::Continuous`].
 ///
@@ -50,6 +62,8 @@ pub struct MeshBasis<const D: usize> {
     outside: Outside,
     longest_edge: f64,
     shortest_edge: f64,
+    /// h_n by vertex; empty where h is the longest edge.
+    widths: Vec<f64>,
     /// Cells of the particles in schedule order.
     particle_cells: Vec<u32>,
     particles: Vec<ParticleFit<D>>,
@@ -95,6 +109,7 @@ impl<const D: usize> MeshBasis<D> {
             outside: Outside::default(),
             longest_edge: lengths.longest,
             shortest_edge: lengths.shortest,
+            widths: Vec::new(),
             particle_cells: Vec::new(),
             particles: Vec::new(),
             samples: Vec::new(),
@@ -111,6 +126,15 @@ impl<const D: usize> MeshBasis<D> {
     /// The same basis with other sample weights.
     pub fn with_sample_weight(mut self, weight: SampleWeight) -> Self {
         self.weight = weight;
+        self
+    }
+
+    /// The same basis with another width of the sample weights.
+    pub fn with_kernel_width(mut self, width: KernelWidth) -> Self {
+        self.widths = match width {
+            KernelWidth::LongestEdge => Vec::new(),
+            KernelWidth::Local => longest_edges(self.mesh()),
+        };
         self
     }
 
@@ -150,10 +174,34 @@ impl<const D: usize> MeshBasis<D> {
         &self.particle_cells
     }
 
-    /// h of the sample weights: the longest edge.
+    /// The largest h of the sample weights: the longest edge.
     pub fn kernel_width(&self) -> f64 {
         self.longest_edge
     }
+
+    /// h at a point of a cell, by its barycentric coordinates from vertex 1 on.
+    #[inline(always)]
+    fn width_at(&self, cell: u32, barycentric: &[f64; D]) -> f64 {
+        if self.widths.is_empty() {
+            return self.longest_edge;
+        }
+        let vertices = self.mesh().cell(cell as usize);
+        let first = 1.0 - barycentric.iter().sum::<f64>();
+        let shares = std::iter::once(&first).chain(barycentric);
+        let each = shares.zip(vertices);
+        each.map(|(share, &vertex)| share * self.widths[vertex as usize]).sum()
+    }
+}
+
+/// The longest edge at each vertex; 0 where there is none.
+fn longest_edges<const D: usize>(mesh: &SimplexMesh<D>) -> Vec<f64> {
+    let neighbours = mesh.vertex_neighbours();
+    let (vertices, lists) = (mesh.vertices(), neighbours.iter());
+    let longest = |(x, list): (&[f64; D], &[u32])| {
+        let lengths = list.iter().map(|&other| distance(x, &vertices[other as usize]));
+        lengths.fold(0.0, f64::max)
+    };
+    vertices.iter().zip(lists).map(longest).collect()
 }
 
 impl<const D: usize> Basis<D> for MeshBasis<D> {
@@ -256,7 +304,7 @@ impl<const D: usize> Basis<D> for MeshBasis<D> {
             + self.cell_sort.storage_bytes()
             + words.iter().map(|v| v.capacity() * 4).sum::<usize>()
             + self.particles.capacity() * size_of::<ParticleFit<D>>()
-            + (self.samples.capacity() + self.cell_node_starts.capacity()) * 8
+            + (self.samples.capacity() + self.cell_node_starts.capacity() + self.widths.capacity()) * 8
             + self.marks.capacity()
     }
 }

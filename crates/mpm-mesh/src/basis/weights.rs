@@ -104,7 +104,8 @@ impl<const D: usize> MeshBasis<D> {
         if !self.search.is_inside(&barycentric) {
             barycentric = self.search.nearest_in_cell(cell, x).located.barycentric;
         }
-        lanes.fit(x, &barycentric, 1.0 / self.longest_edge, samples)
+        let width = self.width_at(cell, &barycentric);
+        lanes.fit(x, &barycentric, 1.0 / width, samples)
     }
 
     /// Visit place in the ring, d′ and position of the nodes of a particle.

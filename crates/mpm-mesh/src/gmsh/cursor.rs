@@ -74,6 +74,23 @@ impl<'a> Cursor<'a> {
         found.parse().map_err(|_| self.malformed(mark, expected, found))
     }
 
+    /// The next text between quotes, without them.
+    pub fn quoted(&mut self, expected: &'static str) -> Result<&'a str, MshError> {
+        let mark = self.at + self.white_space();
+        let rest = &self.bytes[mark..];
+        let Some(inner) = rest.strip_prefix(b"\"") else {
+            return Err(match self.word(expected) {
+                Ok(found) => self.malformed(mark, expected, found),
+                Err(error) => error,
+            });
+        };
+        let length = inner.iter().position(|&byte| byte == b'"');
+        let length = length.ok_or_else(|| self.truncated(expected))?;
+        let text = std::str::from_utf8(&inner[..length]);
+        self.at = mark + length + 2;
+        text.map_err(|_| self.malformed(mark, expected, "bytes that are no text"))
+    }
+
     /// The given word is next.
     pub fn expect(&mut self, word: &'static str) -> Result<(), MshError> {
         let mark = self.mark();

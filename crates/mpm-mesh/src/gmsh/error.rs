@@ -94,6 +94,14 @@ pub enum MshError {
         /// D.
         dimension: usize,
     },
+    /// An element of a physical group is no facet of a cell.
+    #[error("element {element} of the physical group `{group}` is no facet of a cell")]
+    StrayFacet {
+        /// Tag of the element.
+        element: u64,
+        /// Name of the group, or its tag.
+        group: String,
+    },
     /// Vertices differ in a coordinate beyond the dimension.
     #[error("node {tag} has {axis} = {value}, others {expected}: the mesh does not have dimension {dimension}")]
     OutOfPlane {

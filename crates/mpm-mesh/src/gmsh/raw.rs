@@ -5,6 +5,8 @@ use std::collections::HashMap;
 use super::MshError;
 use super::cursor::Cursor;
 use super::element_types::{ElementType, element_type, simplex};
+use super::groups::Groups;
+use super::named::{NamedMesh, TaggedFacet, name_facets};
 use crate::{SimplexMesh, mesh::signed_volume};
 
 /// Coordinates beyond the dimension may differ by this share of the mesh's extent: rounding of what wrote them.
@@ -20,6 +22,10 @@ pub struct Raw {
     cells: Vec<u64>,
     /// Tags of the cells.
     elements: Vec<u64>,
+    /// Elements of one dimension less that are in physical groups.
+    facets: Vec<TaggedFacet>,
+    /// The groups.
+    pub groups: Groups,
 }
 
 impl Raw {
@@ -44,8 +50,29 @@ impl Raw {
         self.cells.extend(nodes);
     }
 
+    /// Adds a facet by the tags of its nodes; nothing where it is in no group (0: none).
+    pub fn add_facet(&mut self, element: u64, nodes: &[u64], groups: &[i64]) {
+        let groups: Vec<i64> = groups.iter().copied().filter(|&group| group != 0).collect();
+        if !groups.is_empty() {
+            let nodes = nodes.to_vec();
+            self.facets.push(TaggedFacet { element, nodes, groups });
+        }
+    }
+
+    /// The mesh with the groups of its facets.
+    pub fn named_mesh<const D: usize>(&self) -> Result<NamedMesh<D>, MshError> {
+        let (mesh, cells) = self.mesh_and_nodes::<D>()?;
+        let facets = name_facets::<D>(&self.facets, &self.groups, &self.numbers, &cells)?;
+        Ok(NamedMesh { mesh, facets })
+    }
+
     /// The mesh, clockwise triangles turned if all are.
-    pub fn into_mesh<const D: usize>(self) -> Result<SimplexMesh<D>, MshError> {
+    pub fn mesh<const D: usize>(&self) -> Result<SimplexMesh<D>, MshError> {
+        Ok(self.mesh_and_nodes()?.0)
+    }
+
+    /// The mesh, and the nodes of its cells.
+    fn mesh_and_nodes<const D: usize>(&self) -> Result<(SimplexMesh<D>, Vec<u32>), MshError> {
         if self.cells.is_empty() {
             let (_, name) = simplex(D);
             return Err(MshError::NoCells { name, dimension: D });
@@ -70,7 +97,7 @@ impl Raw {
         {
             cells.chunks_exact_mut(D + 1).for_each(|cell| cell.swap(0, 1));
         }
-        Ok(SimplexMesh::from_used(&vertices, &cells)?)
+        Ok((SimplexMesh::from_used(&vertices, &cells)?, cells))
     }
 
     /// The vertices agree in the coordinates from D on.
@@ -98,8 +125,19 @@ impl Raw {
     }
 }
 
-/// The type of elements that begin at a mark, and whether they are cells: those of lower dimension are not, others refused.
-pub fn check_kind<const D: usize>(kind: u64, mark: usize, cursor: &Cursor) -> Result<(ElementType, bool), MshError> {
+/// What elements are to a mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// Its cells.
+    Cell,
+    /// Simplices with straight edges of one dimension less.
+    Facet,
+    /// What it has no use for.
+    Other,
+}
+
+/// The type of elements that begin at a mark, and what they are: those of lower dimension are no cells, others refused.
+pub fn check_kind<const D: usize>(kind: u64, mark: usize, cursor: &Cursor) -> Result<(ElementType, Role), MshError> {
     let unsupported = |name| MshError::UnsupportedElement {
         kind,
         name,
@@ -107,9 +145,11 @@ pub fn check_kind<const D: usize>(kind: u64, mark: usize, cursor: &Cursor) -> Re
         place: cursor.place(mark),
     };
     let found = element_type(kind).ok_or_else(|| unsupported("unknown"))?;
-    let cell = kind == simplex(D).0;
-    if found.dimension >= D && !cell {
-        return Err(unsupported(found.name));
-    }
-    Ok((found, cell))
+    let role = match found.dimension {
+        _ if kind == simplex(D).0 => Role::Cell,
+        dimension if dimension >= D => return Err(unsupported(found.name)),
+        dimension if dimension + 1 == D && found.node_count == D => Role::Facet,
+        _ => Role::Other,
+    };
+    Ok((found, role))
 }

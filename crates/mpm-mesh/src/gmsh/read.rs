@@ -2,13 +2,13 @@
 
 use super::cursor::{Cursor, Encoding};
 use super::raw::Raw;
-use super::{MshError, version_2, version_4};
+use super::{MshError, NamedMesh, version_2, version_4};
 use crate::{MeshError, SimplexMesh};
 
 /// Reads the mesh in the bytes of a `.msh` file, of version 2.2 or 4.1, text or binary of either byte order.
 ///
-/// Cells are the elements of dimension D with straight edges: segments (type 1), triangles (2), tetrahedra (4); elements of lower dimension,
-/// physical groups and everything else is passed over. Vertices are numbered in the order of the file, without nodes that
+/// Cells are the elements of dimension D with straight edges: segments (type 1), triangles (2), tetrahedra (4); everything else is passed over
+/// ([`read_named_msh`] keeps physical groups). Vertices are numbered in the order of the file, without nodes that
 /// belong to no cell; tags of nodes may have gaps and any order. In two dimensions all vertices have the same z, in one the same
 /// y and z. Where all cells are negatively oriented (triangles clockwise), all are turned; where some are, the mesh is
 /// refused.
@@ -18,6 +18,18 @@ use crate::{MeshError, SimplexMesh};
 /// # Errors
 /// [`MshError`], with the line or the byte where it was seen.
 pub fn read_msh<const D: usize>(bytes: &[u8]) -> Result<SimplexMesh<D>, MshError> {
+    read_sections::<D>(bytes)?.mesh()
+}
+
+/// As [`read_msh`], with the physical groups of facets: elements of one dimension less (points, segments, triangles) that are in a group.
+///
+/// # Errors
+/// [`MshError`], also for an element of a group that is no facet of a cell.
+pub fn read_named_msh<const D: usize>(bytes: &[u8]) -> Result<NamedMesh<D>, MshError> {
+    read_sections::<D>(bytes)?.named_mesh()
+}
+
+fn read_sections<const D: usize>(bytes: &[u8]) -> Result<Raw, MshError> {
     if !(1..=3).contains(&D) {
         return Err(MeshError::UnsupportedDimension { dimension: D }.into());
     }
@@ -43,6 +55,14 @@ pub fn read_msh<const D: usize>(bytes: &[u8]) -> Result<SimplexMesh<D>, MshError
                 }
                 cursor.expect("$EndElements")?;
             }
+            "$PhysicalNames" => {
+                raw.groups.read_names(&mut cursor)?;
+                cursor.expect("$EndPhysicalNames")?;
+            }
+            "$Entities" if matches!(version, Version::Four) => {
+                raw.groups.read_entities(&mut cursor)?;
+                cursor.expect("$EndEntities")?;
+            }
             other => {
                 let name = other.strip_prefix('$');
                 let name = name.ok_or_else(|| cursor.malformed(mark, "the name of a section", other))?;
@@ -55,7 +75,7 @@ pub fn read_msh<const D: usize>(bytes: &[u8]) -> Result<SimplexMesh<D>, MshError
             return Err(MshError::MissingSection { name });
         }
     }
-    raw.into_mesh()
+    Ok(raw)
 }
 
 /// What the second number of the header has to be.

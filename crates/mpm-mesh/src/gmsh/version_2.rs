@@ -2,7 +2,7 @@
 
 use super::MshError;
 use super::cursor::{Cursor, Encoding};
-use super::raw::{Raw, check_kind};
+use super::raw::{Raw, Role, check_kind};
 
 pub fn read_nodes(cursor: &mut Cursor, raw: &mut Raw) -> Result<(), MshError> {
     for _ in 0..count(cursor, "the number of nodes")? {
@@ -14,7 +14,7 @@ pub fn read_nodes(cursor: &mut Cursor, raw: &mut Raw) -> Result<(), MshError> {
 }
 
 /// As text: tag, type, number of tags, tags, nodes. As bytes: type, number of elements, number of tags, and for each element its tag,
-/// tags and nodes.
+/// tags and nodes. The first tag is that of the physical group, 0 for none.
 pub fn read_elements<const D: usize>(cursor: &mut Cursor, raw: &mut Raw) -> Result<(), MshError> {
     let mut left = count(cursor, "the number of elements")?;
     let mut nodes = Vec::new();
@@ -26,7 +26,7 @@ pub fn read_elements<const D: usize>(cursor: &mut Cursor, raw: &mut Raw) -> Resu
         } else {
             0
         };
-        let (kind, cell) = check_kind::<D>(cursor.integer("the type of an element")?, mark, cursor)?;
+        let (kind, role) = check_kind::<D>(cursor.integer("the type of an element")?, mark, cursor)?;
         let block = if text {
             1
         } else {
@@ -42,15 +42,19 @@ pub fn read_elements<const D: usize>(cursor: &mut Cursor, raw: &mut Raw) -> Resu
             } else {
                 cursor.integer("the tag of an element")?
             };
-            for _ in 0..tag_count {
-                cursor.signed_integer("a tag")?;
+            let mut group = 0;
+            for place in 0..tag_count {
+                let found = cursor.signed_integer("a tag")?;
+                group = if place == 0 { found } else { group };
             }
             nodes.clear();
             for _ in 0..kind.node_count {
                 nodes.push(cursor.integer("the tag of a node")?);
             }
-            if cell {
-                raw.add_cell(tag, &nodes);
+            match role {
+                Role::Cell => raw.add_cell(tag, &nodes),
+                Role::Facet => raw.add_facet(tag, &nodes, &[group]),
+                Role::Other => {}
             }
         }
         left -= block;

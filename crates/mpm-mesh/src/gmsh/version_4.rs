@@ -2,7 +2,7 @@
 
 use super::MshError;
 use super::cursor::{Cursor, Encoding};
-use super::raw::{Raw, check_kind};
+use super::raw::{Raw, Role, check_kind};
 
 /// Blocks of: dimension, tag of the entity, whether parametric, count; tags; positions, and as many parameters as the
 /// entity has dimensions.
@@ -31,17 +31,20 @@ pub fn read_elements<const D: usize>(cursor: &mut Cursor, raw: &mut Raw) -> Resu
     let mut nodes = Vec::new();
     for _ in 0..block_count(cursor)? {
         let mark = cursor.mark();
-        cursor.integer("the dimension of an entity")?;
-        cursor.signed_integer("the tag of an entity")?;
-        let (kind, cell) = check_kind::<D>(cursor.integer("the type of elements")?, mark, cursor)?;
+        let dimension = cursor.integer("the dimension of an entity")?;
+        let entity = cursor.signed_integer("the tag of an entity")?;
+        let groups = raw.groups.of_entity(dimension, entity).to_vec();
+        let (kind, role) = check_kind::<D>(cursor.integer("the type of elements")?, mark, cursor)?;
         for _ in 0..cursor.size("a number of elements")? {
             let tag = cursor.size("the tag of an element")?;
             nodes.clear();
             for _ in 0..kind.node_count {
                 nodes.push(cursor.size("the tag of a node")?);
             }
-            if cell {
-                raw.add_cell(tag, &nodes);
+            match role {
+                Role::Cell => raw.add_cell(tag, &nodes),
+                Role::Facet => raw.add_facet(tag, &nodes, &groups),
+                Role::Other => {}
             }
         }
     }

@@ -4,7 +4,7 @@
 
 use crate::basis_scenes::{cloud, cube, generator, line, naive_weights};
 use mpm_mesh::generate::{EdgeTarget, ampersand, ball, cuboid, disk, rectangle, with_outer_layer};
-use mpm_mesh::{MeshBasis, NO_CELL, SampleWeight, SimplexMesh, WeightAt};
+use mpm_mesh::{KernelWidth, MeshBasis, NO_CELL, SampleWeight, SimplexMesh, WeightAt};
 use mpm_tensor::Matrix;
 use proptest::prelude::*;
 use rand::RngExt;
@@ -300,5 +300,83 @@ fn inner_weights_are_hardly_negative() {
         // A miss: the outer layer of a cuboid has edges of 2.3 lengths and flat cells, and the cells inside it do not reach the bound.
         let bound = if name == "cuboid and layer" { -0.02 } else { -0.01 };
         assert!(inside > bound, "{name}: {inside}");
+    }
+}
+
+/// A mesh whose cells grow from 1 to 8.
+fn growing() -> SimplexMesh<1> {
+    let mut nodes = vec![0.0];
+    for k in 0..20 {
+        nodes.push(nodes[k] + 8f64.powf(k as f64 / 19.0));
+    }
+    line(&nodes)
+}
+
+#[test]
+fn a_local_width_keeps_weights_continuous_and_linear_fields() {
+    fn check<const D: usize>(mesh: SimplexMesh<D>) {
+        let basis = MeshBasis::new(&mesh).unwrap().with_kernel_width(KernelWidth::Local);
+        let jump = largest_jump(&basis, 5, |_| true);
+        assert!(jump < 1e-11, "D = {D}: {jump}");
+        let mut random = generator(6);
+        for cell in 0..basis.mesh().cell_count() {
+            let shares: [f64; 4] = std::array::from_fn(|_| random.random());
+            let total: f64 = shares[..=D].iter().sum();
+            let mut x = [0.0; D];
+            for (share, &vertex) in shares.iter().zip(basis.mesh().cell(cell)) {
+                (0..D).for_each(|a| x[a] += share / total * basis.mesh().vertices()[vertex as usize][a]);
+            }
+            let (mut sum, mut first, mut gradient) = (0.0, [0.0; D], Matrix::<D>::ZERO);
+            for weight in basis.weights_from(cell as u32, &x) {
+                sum += weight.entry.weight;
+                (0..D).for_each(|a| first[a] += weight.entry.weight * weight.entry.offset[a]);
+                gradient += Matrix::outer(&weight.entry.gradient, &weight.entry.offset);
+            }
+            let linear = first
+                .iter()
+                .fold((gradient - Matrix::IDENTITY).maximum_norm(), |most, c| {
+                    most.max(c.abs())
+                });
+            assert!((sum - 1.0).abs() < 1e-11 && linear < 1e-9, "D = {D}: {sum}, {linear}");
+        }
+    }
+    check(growing());
+    check(cube::<2>(6, 0.3, 0.25, 3));
+    check(cube::<3>(4, 2.0, 0.15, 4));
+}
+
+/// Two cells away in the coarse part a node still counts, in the fine part none does that is farther than the local edges reach.
+#[test]
+fn a_local_width_is_that_of_the_cells_around() {
+    let mesh = growing();
+    let least = |width| {
+        let basis = MeshBasis::new(&mesh).unwrap().with_kernel_width(width);
+        let second_moment = |x: f64| {
+            let weights = basis.weights_at(&[x]).unwrap();
+            weights
+                .iter()
+                .map(|w| w.entry.weight * w.entry.offset[0].powi(2))
+                .sum::<f64>()
+        };
+        second_moment(5.0)
+    };
+    let [global, local] = [KernelWidth::LongestEdge, KernelWidth::Local].map(least);
+    assert!(local < 0.7 * global, "{local}, {global}");
+}
+
+#[test]
+fn on_equal_cells_a_local_width_changes_nothing() {
+    let nodes: Vec<f64> = (0..9).map(f64::from).collect();
+    let global = MeshBasis::new(&line(&nodes)).unwrap();
+    let local = global.clone().with_kernel_width(KernelWidth::Local);
+    for k in 0..80 {
+        let x = [0.1 * f64::from(k) + 0.03];
+        assert!(
+            difference(
+                &by_vertex(global.mesh(), &global.weights_at(&x).unwrap()),
+                &by_vertex(local.mesh(), &local.weights_at(&x).unwrap()),
+                1.0
+            ) < 1e-14
+        );
     }
 }

@@ -1,12 +1,13 @@
 //! From the tables of a scene to meshes.
 
 use std::any::Any;
+use std::collections::BTreeMap;
 
 use mpm_mesh::generate::{
     EdgeTarget, GenerationError, Refinement, Scatter, SizeField, ball, cuboid, cyclic_sizes, disk_outline, outlines,
     rectangle_outline, scattered, segments, slope, triangle_lattice, wavy_channel_outline,
 };
-use mpm_mesh::{SimplexMesh, read_msh};
+use mpm_mesh::{NamedMesh, SimplexMesh, read_named_msh};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
@@ -14,34 +15,39 @@ use crate::SceneFault;
 use crate::rotation::Rotation;
 use crate::scene::{DelaunayTable, MeshShapeTable, MeshTable, RefinementTable, Scene, ShapeTable};
 
-/// The mesh of a scene without an outer layer.
+/// The mesh of a scene without an outer layer, and the groups of its facets.
 pub(super) fn inner<const D: usize>(
     scene: &Scene,
     table: &MeshTable,
     rotation: Option<&Rotation<D>>,
-) -> Result<SimplexMesh<D>, SceneFault> {
-    let mesh = match (&table.file, &table.generate) {
+) -> Result<NamedMesh<D>, SceneFault> {
+    let NamedMesh { mesh, facets } = match (&table.file, &table.generate) {
         (Some(_), _) => read::<D>(scene, table)?,
         (None, Some(shape)) => {
             let refused = |error| SceneFault::value("mesh.generate", shape, format!("a mesh: {error}"));
-            generate(shape, table.delaunay.as_ref(), table.angle.to_radians()).map_err(refused)?
+            let mesh = generate(shape, table.delaunay.as_ref(), table.angle.to_radians()).map_err(refused)?;
+            let facets = BTreeMap::new();
+            NamedMesh { mesh, facets }
         }
         (None, None) => return Err(SceneFault::missing("mesh.generate", "given unless file is")),
     };
-    let Some(rotation) = rotation else { return Ok(mesh) };
+    let Some(rotation) = rotation else {
+        return Ok(NamedMesh { mesh, facets });
+    };
     let vertices = mesh.vertices().iter().map(|x| rotation.apply(x)).collect();
     let cells = mesh.cells().flatten().copied().collect();
-    SimplexMesh::new(vertices, cells).map_err(|error| {
+    let mesh = SimplexMesh::new(vertices, cells).map_err(|error| {
         SceneFault::value(
             "mesh.rotation",
             &table.rotation,
             format!("one that keeps the mesh valid: {error}"),
         )
-    })
+    })?;
+    Ok(NamedMesh { mesh, facets })
 }
 
 /// The mesh of a file of Gmsh, beside the scene.
-fn read<const D: usize>(scene: &Scene, table: &MeshTable) -> Result<SimplexMesh<D>, SceneFault> {
+fn read<const D: usize>(scene: &Scene, table: &MeshTable) -> Result<NamedMesh<D>, SceneFault> {
     let Some(file) = &table.file else {
         return Err(SceneFault::missing("mesh.file", "given"));
     };
@@ -51,7 +57,8 @@ fn read<const D: usize>(scene: &Scene, table: &MeshTable) -> Result<SimplexMesh<
         .map_or_else(|| file.clone(), |directory| directory.join(file));
     let bytes = std::fs::read(&path)
         .map_err(|error| SceneFault::value("mesh.file", file, format!("a file that can be read: {error}")))?;
-    read_msh(&bytes).map_err(|error| SceneFault::value("mesh.file", file, format!("a mesh of the scene: {error}")))
+    read_named_msh(&bytes)
+        .map_err(|error| SceneFault::value("mesh.file", file, format!("a mesh of the scene: {error}")))
 }
 
 /// The mesh that a table describes, with random points where there is a table for them, and edges inside along an angle in radians.

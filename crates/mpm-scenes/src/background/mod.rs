@@ -3,7 +3,9 @@
 mod generate;
 mod layer;
 
-use mpm_mesh::SimplexMesh;
+use std::collections::BTreeMap;
+
+use mpm_mesh::{NamedMesh, SimplexMesh};
 
 use crate::scene::{Discretisation, Scene};
 use crate::shape::Bounds;
@@ -31,6 +33,8 @@ pub(crate) enum Background<const D: usize> {
         spacing: f64,
         /// The domain, or the box around the mesh without its layer.
         room: Bounds<D>,
+        /// Facets of the mesh without its layer by the names of their groups: D vertices each.
+        groups: BTreeMap<String, Vec<u32>>,
     },
 }
 
@@ -56,7 +60,10 @@ impl<const D: usize> Background<D> {
             (Discretisation::Grid(_), None) => return Err(SceneFault::missing("domain", "given with a [grid]")),
         };
         let rotation = rotation::build::<D>("mesh.rotation", table.rotation.as_ref())?;
-        let inner = generate::inner::<D>(scene, table, rotation.as_ref())?;
+        let NamedMesh {
+            mesh: inner,
+            facets: groups,
+        } = generate::inner::<D>(scene, table, rotation.as_ref())?;
         let room = domain.unwrap_or_else(|| bounds(&inner));
         let whole = if table.outer_layer {
             layer::around(scene, &inner, &room)?
@@ -69,6 +76,7 @@ impl<const D: usize> Background<D> {
             whole,
             spacing,
             room,
+            groups,
         })
     }
 

@@ -1,6 +1,7 @@
 //! The files of a run.
 
 mod earlier_frames;
+mod frame;
 mod pvd;
 mod series_file;
 mod validation_file;
@@ -8,6 +9,7 @@ mod vtu;
 mod whole_file;
 
 pub use earlier_frames::{remove_file, remove_frames};
+pub use frame::{Frame, frame_files};
 pub use pvd::write_index;
 pub use series_file::{SeriesFile, read_series};
 pub use validation_file::write_validation;

@@ -20,4 +20,7 @@ pub mod vibrating_bar;
 #[cfg(test)]
 mod dual;
 
-pub use registry::{MANUFACTURED, REFERENCES, check, manufactured, validate};
+pub use registry::{MANUFACTURED, REFERENCES, check, displacement, manufactured, validate};
+
+/// u(X, t), as many components as X has.
+pub type Displacement = Box<dyn Fn(&[f64], f64) -> Vec<f64>>;

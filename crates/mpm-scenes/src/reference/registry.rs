@@ -2,8 +2,8 @@
 
 use super::parts::{Rows, Run};
 use super::{
-    axis_aligned, cantilever, channel, conservation, dam_break, expansion, generalized_vortex, needs, slope_run_out,
-    tilted_cantilever, two_disks, vibrating_bar,
+    Displacement, axis_aligned, cantilever, channel, conservation, dam_break, expansion, generalized_vortex, needs,
+    slope_run_out, tilted_cantilever, two_disks, vibrating_bar,
 };
 use crate::{ManufacturedSolution, Scene, SceneFault, Series, Snapshot};
 
@@ -172,6 +172,14 @@ pub fn check(name: &str, scene: &Scene) -> Result<(), SceneFault> {
 /// [`SceneFault::Value`] for a name that is none of [`REFERENCES`], or a scene that the reference does not describe.
 pub fn validate(name: &str, scene: &Scene, series: &Series, last: &Snapshot) -> Rows {
     (named(name)?.validate)(&Run { scene, series, last })
+}
+
+/// The exact displacement of all particles of a scene, where its reference has one.
+pub fn displacement(scene: &Scene) -> Option<Displacement> {
+    match scene.validation.as_ref()?.reference.as_str() {
+        "umls-bar" | "vibrating-bar" => vibrating_bar::displacement(scene),
+        _ => None,
+    }
 }
 
 /// The manufactured solution `name` for the material of this scene.

@@ -36,7 +36,7 @@ impl<'a, const D: usize> Body<'a, D> {
         let refused = |fault| scene.error(fault);
         let background = Background::build(scene).map_err(refused)?;
         let start = Population::<D>::fill_on(scene, &background).map_err(refused)?;
-        let (boundaries, moving) = boundary::build::<D>(scene, background.room()).map_err(refused)?;
+        let (boundaries, moving) = boundary::build::<D>(scene, &background).map_err(refused)?;
         let kinematics = Kinematics::of(scene, &start).map_err(refused)?;
         let motion = dispatch::build(scene, &start, background, boundaries).map_err(refused)?;
         check_step(scene, &*motion)?;

@@ -5,6 +5,8 @@ use std::sync::Arc;
 use mpm_core::{Boundaries, Contact, Obstacle, Plane, PrescribedVelocity, SignedDistance};
 use mpm_tensor::vector as algebra;
 
+use super::tagged::{self, Tagged};
+use crate::background::Background;
 use crate::scene::{self, Scene, WallCondition};
 use crate::shape::{self, Bounds, Shape};
 use crate::values::vector;
@@ -49,13 +51,13 @@ impl<const D: usize> MovingObstacles<D> {
 /// [`SceneFault::Value`] for tables that [`Scene::read`] refuses.
 pub(super) fn build<const D: usize>(
     scene: &Scene,
-    room: &Bounds<D>,
+    background: &Background<D>,
 ) -> Result<(Boundaries<D>, MovingObstacles<D>), SceneFault> {
     let walls = scene
         .walls
         .iter()
         .enumerate()
-        .map(|(index, table)| wall(room, index, table));
+        .map(|(index, table)| wall(background.room(), index, table));
     let (mut obstacles, mut moving) = (Vec::new(), Vec::new());
     for (index, table) in scene.obstacles.iter().enumerate() {
         let field = format!("obstacles[{index}]");
@@ -73,10 +75,14 @@ pub(super) fn build<const D: usize>(
         };
         obstacles.push(obstacle(shape, contact, velocity));
     }
+    let Tagged {
+        obstacles: tagged,
+        mut prescribed,
+    } = tagged::build(scene, background)?;
+    obstacles.extend(tagged);
     let held = HeldRegion::<D>::of(scene)?.into_iter();
-    let held = held.map(|region| Box::new(region) as Box<dyn PrescribedVelocity<D>>);
-    let boundaries =
-        Boundaries::with_planes(walls.collect::<Result<_, _>>()?, obstacles).with_prescribed(held.collect());
+    prescribed.extend(held.map(|region| Box::new(region) as Box<dyn PrescribedVelocity<D>>));
+    let boundaries = Boundaries::with_planes(walls.collect::<Result<_, _>>()?, obstacles).with_prescribed(prescribed);
     Ok((boundaries, MovingObstacles(moving)))
 }
 

@@ -5,7 +5,7 @@ use mpm_core::{
     Transfer, VelocityFilter,
 };
 use mpm_kernels::{Cubic, Gimp, Linear, Quadratic, Spline};
-use mpm_mesh::{MeshBasis, Outside, SampleWeight, SimplexMesh};
+use mpm_mesh::{KernelWidth, MeshBasis, Outside, SampleWeight, SimplexMesh};
 use mpm_tensor::Matrix;
 
 use super::basis::SecondMoments;
@@ -16,7 +16,7 @@ use crate::law::{self, LawState, Laws};
 use crate::loads::Loads;
 use crate::population::Population;
 use crate::scene::{
-    BasisName, Discretisation, GridTable, KernelName, MeshTable, Scene, StressUpdateName, TransferKind,
+    BasisName, Discretisation, GridTable, KernelName, MeshTable, Scene, StressUpdateName, TransferKind, WidthName,
 };
 use crate::shape::Bounds;
 
@@ -178,7 +178,11 @@ fn on_mesh<const D: usize>(
         KernelName::WithoutDiminishing => SampleWeight::DistanceAlone,
         KernelName::Hat => SampleWeight::CellAlone,
     };
-    let basis = MeshBasis::new(mesh).map_err(invalid)?;
+    let width = match table.width {
+        WidthName::LongestEdge => KernelWidth::LongestEdge,
+        WidthName::Local => KernelWidth::Local,
+    };
+    let basis = MeshBasis::new(mesh).map_err(invalid)?.with_kernel_width(width);
     let basis = basis.with_outside(outside).with_sample_weight(weight);
     match parts.scene.transfer.kind {
         TransferKind::Pic | TransferKind::Flip => with_share(parts, basis),

@@ -16,6 +16,7 @@ mod schedule;
 mod simulate;
 mod snapshot;
 mod summary;
+mod tagged;
 
 pub use error::SimulationError;
 pub use frames::{Effort, frames};

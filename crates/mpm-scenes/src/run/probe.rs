@@ -16,6 +16,8 @@ pub(super) struct Probe<const D: usize> {
     name: String,
     /// Numbers of the particles, and where they were at t = 0.
     particles: Vec<(usize, [f64; D])>,
+    /// The share of their mass whose front is followed.
+    share: Option<f64>,
 }
 
 impl<const D: usize> Probe<D> {
@@ -41,6 +43,7 @@ impl<const D: usize> Probe<D> {
         Ok(Self {
             name: table.name.clone(),
             particles,
+            share: table.share,
         })
     }
 
@@ -53,6 +56,9 @@ impl<const D: usize> Probe<D> {
             .collect();
         for (a, b) in upper_triangle::<D>() {
             columns.push(format!("{}_stress_{}{}", self.name, axes[a], axes[b]));
+        }
+        if self.share.is_some() {
+            columns.extend(axes.iter().map(|axis| format!("{}_share_{axis}", self.name)));
         }
         columns
     }
@@ -81,8 +87,32 @@ impl<const D: usize> Probe<D> {
         values.extend(displacement.map(|c| c / total));
         values.extend(velocity.map(|c| c / total));
         values.extend(upper_triangle::<D>().map(|(a, b)| stress.0[a][b] / total));
+        if let Some(share) = self.share {
+            values.extend((0..D).map(|axis| {
+                let chosen = self.particles.iter().map(|&(number, _)| places[number]);
+                front(
+                    chosen.map(|p| (particles.positions[p][axis], particles.masses.get(p))),
+                    share,
+                )
+            }));
+        }
         values
     }
+}
+
+/// The least x with Σ m over the (x_k, m_k) with x_k ≤ x at least `share` Σ m.
+fn front(masses: impl Iterator<Item = (f64, f64)>, share: f64) -> f64 {
+    let mut masses: Vec<(f64, f64)> = masses.collect();
+    masses.sort_by(|(x, _), (y, _)| x.total_cmp(y));
+    let total: f64 = masses.iter().map(|(_, mass)| mass).sum();
+    let (mut sum, mut last) = (0.0, f64::NAN);
+    for (x, mass) in masses {
+        (sum, last) = (sum + mass, x);
+        if sum >= share * total {
+            break;
+        }
+    }
+    last
 }
 
 /// Pairs a ≤ b of axes.
@@ -96,4 +126,19 @@ fn nearest<const D: usize>(scene: &Scene, all: &Population<D>, point: &[f64; D],
     let chosen = (0..all.positions.len()).filter(|&p| body.is_none_or(|body| all.bodies[p] as usize == body));
     let distance = |p: usize| algebra::distance_squared(&all.positions[p], point);
     chosen.min_by(|&p, &q| distance(p).total_cmp(&distance(q))).unwrap_or(0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::front;
+
+    #[test]
+    fn the_front_is_where_the_share_of_the_mass_ends() {
+        let masses = [(3.0, 1.0), (1.0, 2.0), (2.0, 1.0)];
+        let front = |share| front(masses.into_iter(), share);
+        assert_eq!(
+            [0.4, 0.5, 0.6, 0.75, 0.76, 1.0].map(front),
+            [1.0, 1.0, 2.0, 2.0, 3.0, 3.0]
+        );
+    }
 }

@@ -60,7 +60,7 @@ pub enum Side {
 }
 
 /// `walls.condition`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum WallCondition {
     /// Holds the body: v = 0.

@@ -20,6 +20,9 @@ pub struct MeshTable {
     /// The shape functions.
     #[serde(default)]
     pub kernel: KernelName,
+    /// How far the shape functions reach; with `kernel = "umls"` and `"without-diminishing"`.
+    #[serde(default)]
+    pub width: WidthName,
     /// A turn of the mesh; two dimensions only.
     pub rotation: Option<RotationTable>,
     /// Whether cells are added around the mesh: mirrored ones at walls, others elsewhere. Default true.
@@ -45,6 +48,17 @@ pub enum KernelName {
     WithoutDiminishing,
     /// Piecewise linear functions, whose gradients jump at faces. A control.
     Hat,
+}
+
+/// `mesh.width`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum WidthName {
+    /// With the longest edge of the mesh, everywhere (Cao et al. 2024, §4).
+    #[default]
+    LongestEdge,
+    /// With the longest edges around the particle.
+    Local,
 }
 
 /// `mesh.delaunay`: a Delaunay mesh of random points.

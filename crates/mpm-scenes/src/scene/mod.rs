@@ -5,6 +5,7 @@ mod body;
 mod boundary;
 mod check;
 mod discretisation;
+mod facets;
 mod load;
 mod material;
 mod mesh;
@@ -25,9 +26,10 @@ pub use boundary::{
     AxisName, Contact, HeldTable, KinematicTable, ObstacleTable, Side, TurningTable, WallCondition, WallTable,
 };
 pub use discretisation::{BasisName, Discretisation, DomainTable, GridTable, TransferKind, TransferTable};
+pub use facets::FacetTable;
 pub use load::LoadTable;
 pub use material::{FluidTable, GasTable, MaterialTable, MetalTable, SandTable, SolidTable};
-pub use mesh::{DelaunayTable, KernelName, MeshShapeTable, MeshTable, RefinementTable, RotationTable};
+pub use mesh::{DelaunayTable, KernelName, MeshShapeTable, MeshTable, RefinementTable, RotationTable, WidthName};
 pub use output::{OutputTable, ProbeTable, ValidationTable};
 pub use region::ShapeTable;
 pub use time::{StressUpdateName, TimeTable};
@@ -70,6 +72,9 @@ pub struct Scene {
     /// Walls on planes across the axes.
     #[serde(default)]
     pub walls: Vec<WallTable>,
+    /// Conditions on named facets of the mesh.
+    #[serde(default)]
+    pub facets: Vec<FacetTable>,
     /// Rigid obstacles of any shape.
     #[serde(default)]
     pub obstacles: Vec<ObstacleTable>,

@@ -16,7 +16,7 @@ pub struct OutputTable {
     pub checkpoint_interval: Option<f64>,
 }
 
-/// `[[probes]]`: the mean displacement, velocity and stress of some particles as columns of the series.
+/// `[[probes]]`: the mean displacement, velocity and stress of some particles as columns of the series, and how far their mass reaches.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ProbeTable {
@@ -28,6 +28,8 @@ pub struct ProbeTable {
     pub region: Option<ShapeTable>,
     /// The body whose particles it looks at. Default: all.
     pub body: Option<String>,
+    /// A share in (0, 1] of their mass: for each axis the least coordinate that so much of it is not beyond. Default: no such columns.
+    pub share: Option<f64>,
 }
 
 /// `[validation]`: the reference solution that the run is compared with.

@@ -3,6 +3,7 @@
 mod bad_meshes;
 mod bad_scenes;
 mod document;
+mod facets;
 mod failures;
 mod forces;
 mod kinematic;

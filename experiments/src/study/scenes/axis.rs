@@ -30,7 +30,11 @@ pub struct Choice {
     #[serde(default)]
     pub label: String,
     /// Values by dotted keys.
+    #[serde(default)]
     pub set: Table,
+    /// Dotted keys that are removed once all is set.
+    #[serde(default)]
+    pub drop: Vec<String>,
 }
 
 /// A combination of choices.
@@ -42,6 +46,8 @@ pub struct Combination {
     pub label: String,
     /// Values by dotted keys, later ones over earlier ones.
     pub set: Vec<(String, Value)>,
+    /// Dotted keys that are removed once all is set.
+    pub drop: Vec<String>,
 }
 
 impl Axis {
@@ -66,28 +72,30 @@ impl Axis {
         Choice {
             label,
             set: Table::from_iter([(key.to_owned(), value.clone())]),
+            drop: Vec::new(),
         }
     }
 }
 
-/// All combinations, the last axis fastest; `x` is the dotted key of the horizontal axis.
+/// All combinations, the last axis fastest; `x` are the dotted keys of the horizontal axis.
 ///
 /// # Errors
 /// What is wrong with which axis, in words.
-pub fn combinations(axes: &[Axis], x: &str) -> Result<Vec<Combination>, String> {
+pub fn combinations(axes: &[Axis], x: &[String]) -> Result<Vec<Combination>, String> {
     let mut combinations = vec![Combination::default()];
     for (index, axis) in axes.iter().enumerate() {
         let choices = axis.labelled().map_err(|message| format!("axes.{index} {message}"))?;
         let along_x = choices
             .iter()
             .flat_map(|choice| choice.set.keys())
-            .any(|key| holds(key, x));
+            .any(|key| x.iter().any(|x| holds(key, x)));
         let silent = along_x || axis.worst;
         let extended = combinations.iter().flat_map(|known| {
             choices.iter().map(|choice| Combination {
                 name: joined(&known.name, &named(choice)),
                 label: joined(&known.label, if silent { "" } else { &choice.label }),
                 set: known.set.iter().cloned().chain(choice.set.clone()).collect(),
+                drop: [&known.drop[..], &choice.drop].concat(),
             })
         });
         combinations = extended.collect();
@@ -152,17 +160,21 @@ mod tests {
         let axes = axes(
             r#"axes = [
                 { key = "grid.basis", values = ["linear", "cubic"] },
-                { choices = [{ label = "FLIP", set = { "transfer" = { kind = "flip" } } }, { set = { "transfer.kind" = "apic" } }] },
+                { choices = [{ label = "FLIP", set = { "transfer" = { kind = "flip" } }, drop = ["mesh"] }, { set = { "transfer.kind" = "apic" } }] },
                 { key = "time.end", values = [1, 2], worst = true },
                 { key = "bodies.0.shape.upper", values = [[1.0, 2.0], [1.0, 4.0]] },
             ]"#,
         );
-        let all = combinations(&axes, "bodies.0.shape.upper.1").unwrap();
+        let all = combinations(&axes, &["bodies.0.shape.upper.1".to_owned()]).unwrap();
         assert_eq!(all.len(), 16);
         let labels: Vec<&str> = all.iter().step_by(4).map(|one| one.label.as_str()).collect();
         assert_eq!(labels, ["linear, FLIP", "linear", "cubic, FLIP", "cubic"]);
         assert_eq!(all[5].name, "linear, kind = apic, end = 1, upper = [1.0, 4.0]");
         assert_eq!(all[5].set.len(), 4);
+        assert_eq!(
+            (all[0].drop.as_slice(), all[5].drop.len()),
+            (&["mesh".to_owned()][..], 0)
+        );
     }
 
     #[test]
@@ -170,7 +182,7 @@ mod tests {
         let axes =
             axes("axes = [{ key = \"a.speed.0\", values = [0.1] }, { key = \"b\", label = \"v\", values = [2.5] }]");
         assert_eq!(
-            combinations(&axes, "grid.spacing").unwrap()[0].label,
+            combinations(&axes, &["grid.spacing".to_owned()]).unwrap()[0].label,
             "speed = 0.1, v = 2.5"
         );
     }
@@ -185,7 +197,7 @@ mod tests {
                 "needs either",
             ),
         ] {
-            let message = combinations(&axes(text), "x").unwrap_err();
+            let message = combinations(&axes(text), &["x".to_owned()]).unwrap_err();
             assert!(message.contains(part), "{message}");
         }
     }

@@ -49,8 +49,8 @@ pub struct Family {
     /// What differs between the runs.
     #[serde(default)]
     pub axes: Vec<Axis>,
-    /// The dotted key of a number of the scene: the horizontal axis.
-    pub x: Option<String>,
+    /// The dotted key of a number of the scene: the horizontal axis. Of several the first that is there.
+    pub x: Option<Keys>,
     /// The label of that axis, with its unit.
     pub x_label: Option<String>,
     /// The label of the vertical axis, with its unit.
@@ -63,6 +63,32 @@ pub struct Family {
     /// Parts of the labels of the series that are judged; empty: all.
     #[serde(default)]
     pub judged: Vec<String>,
+    /// Columns of the runs' series that are drawn over time, a panel each.
+    #[serde(default)]
+    pub history: Vec<HistoryPanel>,
+    /// The x of the runs whose history is drawn; empty: all.
+    #[serde(default)]
+    pub drawn: Vec<f64>,
+}
+
+/// A dotted key, or several.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(untagged)]
+pub enum Keys {
+    /// One.
+    One(String),
+    /// Several.
+    Several(Vec<String>),
+}
+
+/// A panel of the figure of histories.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct HistoryPanel {
+    /// A column of the series, or a sum of some: `kinetic_energy + strain_energy`.
+    pub column: String,
+    /// Its label, with the unit.
+    pub label: String,
 }
 
 impl Scenes {
@@ -98,7 +124,7 @@ impl Scenes {
     pub fn all_cases(&self) -> Result<Vec<Case>, CommandError> {
         let mut cases = Vec::new();
         for family in self.resolved()? {
-            let combinations = combinations(&family.axes, family.x_key());
+            let combinations = combinations(&family.axes, family.x_keys());
             for combination in combinations.map_err(|message| family.refuse("axes", message))? {
                 cases.push(Case::new(&family, combination));
             }
@@ -129,10 +155,13 @@ impl Family {
         if self.name.is_empty() || !self.name.chars().all(simple) {
             return Err(self.refuse("name", "must be made of letters, digits and dashes"));
         }
-        for (field, value) in [("scene", &self.scene), ("x", &self.x), ("x-label", &self.x_label)] {
-            if value.is_none() {
-                return Err(self.refuse(field, "is missing"));
-            }
+        let given = [
+            ("scene", self.scene.is_some()),
+            ("x", !self.x_keys().is_empty()),
+            ("x-label", self.x_label.is_some()),
+        ];
+        if let Some((field, _)) = given.iter().find(|(_, given)| !given) {
+            return Err(self.refuse(field, "is missing"));
         }
         not_empty(&format!("families.{}.axes", self.name), &self.axes)?;
         self.read
@@ -140,9 +169,13 @@ impl Family {
             .map_err(|(field, message)| self.refuse(field, message))
     }
 
-    /// The dotted key of the horizontal axis.
-    pub fn x_key(&self) -> &str {
-        self.x.as_deref().unwrap_or_default()
+    /// The dotted keys of the horizontal axis.
+    pub fn x_keys(&self) -> &[String] {
+        match &self.x {
+            None => &[],
+            Some(Keys::One(key)) => std::slice::from_ref(key),
+            Some(Keys::Several(keys)) => keys,
+        }
     }
 
     /// The error for a field of the family.

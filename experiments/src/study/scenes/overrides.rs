@@ -43,6 +43,18 @@ fn put_within(place: &mut Value, name: &str, key: &str, value: Value) -> Result<
     }
 }
 
+/// Removes what is at a dotted key; nothing where there is nothing.
+pub fn remove(scene: &mut Table, key: &str) {
+    match split(key) {
+        (name, None) => drop(scene.remove(name)),
+        (first, Some(rest)) => {
+            if let Some(Value::Table(inner)) = scene.get_mut(first) {
+                remove(inner, rest);
+            }
+        }
+    }
+}
+
 /// The number at a dotted key.
 pub fn number(scene: &Table, key: &str) -> Option<f64> {
     let (first, rest) = split(key);
@@ -95,6 +107,20 @@ mod tests {
         assert_eq!(number(&scene, "grid.spacing"), None);
         assert_eq!(number(&scene, "bodies.0.shape.upper.9"), None);
         assert_eq!(number(&scene, "bodies.0.shape"), None);
+    }
+
+    #[test]
+    fn what_was_removed_is_gone() {
+        let mut scene = scene();
+        for key in ["grid.basis", "walls.0", "bodies.0", "time.end"] {
+            remove(&mut scene, key);
+        }
+        assert_eq!(number(&scene, "grid.spacing"), Some(1.0));
+        assert_eq!(number(&scene, "bodies.0.shape.upper.0"), Some(1.0));
+        remove(&mut scene, "grid.spacing");
+        assert_eq!(number(&scene, "grid.spacing"), None);
+        remove(&mut scene, "bodies");
+        assert!(!scene.contains_key("bodies"));
     }
 
     #[test]

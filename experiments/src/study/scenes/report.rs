@@ -2,11 +2,12 @@
 
 use super::configuration::{Family, Scenes};
 use super::figure;
+use super::history;
 use super::judgement::{Judgement, Verdict, orders};
 use super::row::Row;
 use super::series::{MeasuredSeries, series};
 use crate::CommandError;
-use crate::plots::multiples;
+use crate::plots::{multiples, trace};
 use crate::study::definition::Report;
 use crate::study::directory::StudyDirectory;
 use crate::study::document::{Document, MISSING, number, optional_number};
@@ -77,6 +78,11 @@ fn section(
     let name = format!("{}.svg", family.name);
     let caption = format!("{}: {}.", family.title, family.y_label);
     document.figure(directory, &name, &caption, multiples(&figure::plot(family, series)))?;
+    if let Some(plot) = history::plot(family, rows, directory)? {
+        let name = format!("{}_history.svg", family.name);
+        let caption = format!("{}: over time.", family.title);
+        document.figure(directory, &name, &caption, trace(&plot))?;
+    }
     let order = |judgement: &Judgement| matches!(judgement, Judgement::Order { .. });
     if family.judgements.iter().any(order) {
         document.table(

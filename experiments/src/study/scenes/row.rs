@@ -34,6 +34,9 @@ pub struct Row {
     pub particles: Option<usize>,
     /// The scene's fingerprint; its run is in `raw/` under this name.
     pub scene: String,
+    /// That of the run that it is compared with; empty where there is none.
+    #[serde(default)]
+    pub against: String,
     /// Time of the run; none where a part of it was there before.
     pub wall_seconds: Option<f64>,
 }

@@ -22,14 +22,23 @@ pub struct SceneFiles {
 /// The scene of a case, ready to run.
 #[derive(Clone, Debug)]
 pub struct CaseScene {
+    /// The scene.
+    pub own: PreparedScene,
+    /// That which it is compared with.
+    pub against: Option<PreparedScene>,
+    /// The number on the horizontal axis.
+    pub x: f64,
+}
+
+/// A scene with changes.
+#[derive(Clone, Debug)]
+pub struct PreparedScene {
     /// All its keys.
     pub table: Table,
     /// The scene.
     pub scene: Scene,
     /// A fingerprint of all its keys and values.
     pub fingerprint: String,
-    /// The number on the horizontal axis.
-    pub x: f64,
 }
 
 impl SceneFiles {
@@ -40,54 +49,93 @@ impl SceneFiles {
     pub fn read(families: &[Family], directory: &Path) -> Result<Self, CommandError> {
         let mut files = Self::default();
         for family in families {
-            let name = family.scene.clone().unwrap_or_default();
-            if files.tables.contains_key(&name) {
-                continue;
+            let other = family.read.against.as_ref().and_then(|other| other.scene.as_ref());
+            for (field, name) in [("scene", family.scene.as_ref()), ("read.against.scene", other)] {
+                if let Some(name) = name {
+                    files
+                        .add(name, directory)
+                        .map_err(|message| family.refuse(field, message))?;
+                }
             }
-            let path = directory.join(&name);
-            let refuse = |message: String| family.refuse("scene", format!("{}: {message}", path.display()));
-            let text = std::fs::read_to_string(&path).map_err(|error| refuse(error.to_string()))?;
-            let table = mpm_document::parse::<Table>(&text, &path);
-            let table = table.map_err(|error| family.refuse("scene", error.to_string()))?;
-            files.tables.insert(name, table);
         }
         Ok(files)
     }
 
-    /// The family's scene with the changes of family and case.
+    /// Reads one scene, if it has not been; an error is in words.
+    fn add(&mut self, name: &str, directory: &Path) -> Result<(), String> {
+        if self.tables.contains_key(name) {
+            return Ok(());
+        }
+        let path = directory.join(name);
+        let text = std::fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
+        let table = mpm_document::parse::<Table>(&text, &path).map_err(|error| error.to_string())?;
+        self.tables.insert(name.to_owned(), table);
+        Ok(())
+    }
+
+    /// The family's scene with the changes of family and case, and the one that it is compared with.
     ///
     /// # Errors
     /// A change that has no place, what the reader of scenes refuses, or an x that is no number; with family and case.
     pub fn scene(&self, case: &Case) -> Result<CaseScene, CommandError> {
         let name = case.family.scene.as_deref().unwrap_or_default();
-        let mut table = self.tables.get(name).cloned().unwrap_or_default();
         let family = case.family.set.iter();
         let own = case.combination.set.iter().map(|(key, value)| (key, value));
-        for (key, value) in family.chain(own) {
-            let put = overrides::put(&mut table, key, value.clone());
-            put.map_err(|message| case.refuse(format!("`{key}`: {message}")))?;
-        }
-        let x = overrides::number(&table, case.family.x_key()).filter(|x| x.is_finite());
-        let x = x.ok_or_else(|| {
+        let table = self.tables.get(name).cloned().unwrap_or_default();
+        let table = changed(table, family.chain(own), &case.combination.drop);
+        let own = prepared(table.map_err(|message| case.refuse(message))?, name, case)?;
+        let keys = case.family.x_keys();
+        let x = keys.iter().find_map(|key| overrides::number(&own.table, key));
+        let x = x.filter(|x| x.is_finite()).ok_or_else(|| {
             case.family
-                .refuse("x", format!("`{}` is no number of the scene", case.family.x_key()))
+                .refuse("x", format!("`{}` is no number of the scene", keys.join("`, `")))
         })?;
-        let text = toml::to_string(&Value::Table(table.clone())).map_err(|error| case.refuse(error.to_string()))?;
-        let scene = Scene::parse(&text, Path::new(name)).map_err(|error| case.refuse(refusal_text(error)))?;
-        if case.family.read.quantity.is_some() && scene.validation.is_none() {
+        if case.family.read.quantity.is_some() && own.scene.validation.is_none() {
             return Err(case
                 .family
                 .refuse("read.quantity", "the scene has no `validation.reference`"));
         }
-        let shift = case.family.read.shift(&table);
+        let shift = case.family.read.shift(&own.table);
         shift.map_err(|(field, message)| case.family.refuse(field, message))?;
-        Ok(CaseScene {
-            scene,
-            fingerprint: fingerprint(&text),
-            table,
-            x,
-        })
+        let against = match &case.family.read.against {
+            None => None,
+            Some(other) => {
+                let table = match &other.scene {
+                    Some(name) => self.tables.get(name).cloned().unwrap_or_default(),
+                    None => own.table.clone(),
+                };
+                let table = changed(table, other.set.iter(), &other.drop);
+                let table = table.map_err(|message| case.family.refuse("read.against", message))?;
+                Some(prepared(table, other.scene.as_deref().unwrap_or(name), case)?)
+            }
+        };
+        Ok(CaseScene { own, against, x })
     }
+}
+
+/// A table with values put and keys removed; an error is in words.
+fn changed<'a>(
+    mut table: Table,
+    set: impl Iterator<Item = (&'a String, &'a Value)>,
+    drop: &[String],
+) -> Result<Table, String> {
+    for (key, value) in set {
+        overrides::put(&mut table, key, value.clone()).map_err(|message| format!("`{key}`: {message}"))?;
+    }
+    for key in drop {
+        overrides::remove(&mut table, key);
+    }
+    Ok(table)
+}
+
+fn prepared(table: Table, name: &str, case: &Case) -> Result<PreparedScene, CommandError> {
+    let text = toml::to_string(&Value::Table(table.clone())).map_err(|error| case.refuse(error.to_string()))?;
+    let scene = Scene::parse(&text, Path::new(name)).map_err(|error| case.refuse(refusal_text(error)))?;
+    Ok(PreparedScene {
+        scene,
+        fingerprint: fingerprint(&text),
+        table,
+    })
 }
 
 /// What the reader of scenes says, without the line, which is one of the changed text.

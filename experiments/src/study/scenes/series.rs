@@ -98,6 +98,7 @@ mod tests {
             steps: None,
             particles: None,
             scene: String::new(),
+            against: String::new(),
             wall_seconds: None,
         }
     }

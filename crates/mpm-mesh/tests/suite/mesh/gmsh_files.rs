@@ -1,6 +1,6 @@
 //! `.msh` files that Gmsh wrote, and round trips of our own.
 
-use mpm_mesh::{MshFormat, SimplexMesh, read_msh, write_msh};
+use mpm_mesh::{MshError, MshFormat, SimplexMesh, read_msh, read_named_msh, write_msh};
 use mpm_tensor::vector::distance;
 
 use super::conformance;
@@ -53,6 +53,67 @@ fn check_files<const D: usize>(name: &'static str, files: &[&[u8]; 4], volume: f
     for mesh in meshes {
         conformance::check(&sample(name, mesh, volume, 1));
     }
+}
+
+/// The curves x = 0 and y = 0 of the plate, and the face z = 0 of the brick, in all four formats.
+#[test]
+fn physical_groups_are_named_facets() {
+    let length = |x: &[f64; 2]| x[0].abs().min(x[1].abs());
+    for file in PLATE {
+        let named = read_named_msh::<2>(file).expect("a mesh");
+        assert_eq!(named.facets.keys().collect::<Vec<_>>(), ["wall"]);
+        let wall = &named.facets["wall"];
+        assert_eq!(wall.len(), 2 * 8);
+        assert!(wall.iter().all(|&v| length(&named.mesh.vertices()[v as usize]) < 1e-12));
+        assert_eq!(Ok(&named.mesh), read_msh(file).as_ref());
+    }
+    for file in BRICK {
+        let named = read_named_msh::<3>(file).expect("a mesh");
+        let area = |facet: &[u32]| {
+            let [a, b, c] = [0, 1, 2].map(|k| named.mesh.vertices()[facet[k] as usize]);
+            assert!([a, b, c].iter().all(|x| x[2].abs() < 1e-12));
+            0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs()
+        };
+        let total: f64 = named.facets["floor"].chunks_exact(3).map(area).sum();
+        assert!((total - 1.0).abs() < 1e-12, "{total}");
+    }
+    assert!(read_named_msh::<1>(BAR[0]).expect("a mesh").facets.is_empty());
+}
+
+#[test]
+fn groups_without_names_have_their_tags_and_strays_are_refused() {
+    let file = |segment: &str| {
+        format!(
+            "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n9 5 5 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 1 1 0\n$EndNodes\n\
+             $Elements\n3\n1 2 2 6 1 1 2 3\n2 2 2 6 1 2 4 3\n{segment}\n$EndElements\n"
+        )
+    };
+    let named = read_named_msh::<2>(file("7 1 2 3 1 4 2").as_bytes()).expect("a mesh");
+    assert_eq!(named.facets["3"], [3, 1]);
+    assert!(
+        read_named_msh::<2>(file("7 1 2 0 1 1 4").as_bytes())
+            .expect("a mesh")
+            .facets
+            .is_empty()
+    );
+    for stray in ["7 1 2 3 1 1 4", "7 1 2 3 1 9 2", "7 1 2 3 1 8 2"] {
+        let group = "3".to_owned();
+        let refused = Err(MshError::StrayFacet { element: 7, group });
+        assert_eq!(read_named_msh::<2>(file(stray).as_bytes()), refused, "{stray}");
+        assert!(read_msh::<2>(file(stray).as_bytes()).is_ok());
+    }
+}
+
+#[test]
+fn names_without_quotes_are_refused_at_their_line() {
+    let text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n1 1 wall\n$EndPhysicalNames\n";
+    let refused = read_msh::<2>(text.as_bytes()).expect_err("no quotes");
+    assert!(refused.to_string().starts_with("line 6: `wall`"), "{refused}");
+    let cut = read_msh::<2>(&text.as_bytes()[..55]).expect_err("cut");
+    assert!(
+        matches!(cut, MshError::Truncated { .. } | MshError::Malformed { .. }),
+        "{cut}"
+    );
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use crate::scene::{Contact, Scene, WallCondition};
 use crate::shape::Bounds;
 use crate::values::{not_negative, positive, vector};
-use crate::{SceneFault, kinematics, plane, shape};
+use crate::{SceneFault, kinematics, plane, shape, velocity};
 
 impl Scene {
     pub(super) fn check_boundaries<const D: usize>(&self) -> Result<(), SceneFault> {
@@ -26,6 +26,37 @@ impl Scene {
                 "condition = \"friction\"",
             )?;
             check_motion::<D>(&field, wall.velocity.as_ref(), wall.friction)?;
+        }
+        let from_file = self.mesh.as_ref().is_some_and(|mesh| mesh.file.is_some());
+        for (index, table) in self.facets.iter().enumerate() {
+            let field = |key: &str| format!("facets[{index}].{key}");
+            if !from_file {
+                return Err(SceneFault::value(
+                    field("group"),
+                    &table.group,
+                    "left out without a mesh.file",
+                ));
+            }
+            let prescribed = table.condition == WallCondition::Prescribed;
+            match &table.velocity {
+                None if prescribed => {
+                    let expected = "given with condition = \"prescribed\"";
+                    return Err(SceneFault::missing(field("velocity"), expected));
+                }
+                Some(_) if !prescribed => {
+                    let expected = "\"prescribed\", since there is a velocity";
+                    return Err(SceneFault::value(field("condition"), table.condition, expected));
+                }
+                velocity => drop(velocity::build::<D>(&field("velocity"), velocity.as_ref(), self)?),
+            }
+            let rough = table.condition == WallCondition::Friction;
+            check_presence(
+                field("friction"),
+                table.friction.as_ref(),
+                rough,
+                "condition = \"friction\"",
+            )?;
+            check_motion::<D>(&field, None, table.friction)?;
         }
         for (index, obstacle) in self.obstacles.iter().enumerate() {
             let field = |key: &str| format!("obstacles[{index}].{key}");

@@ -43,6 +43,11 @@ impl Scene {
                 }
             }
             self.check_body_name(field("body"), probe.body.as_ref())?;
+            if let Some(share) = probe.share
+                && !(share > 0.0 && share <= 1.0)
+            {
+                return Err(SceneFault::value(field("share"), share, "in (0, 1]"));
+            }
         }
         match &self.validation {
             Some(validation) => reference::check(&validation.reference, self),

@@ -1,0 +1,191 @@
+//! Conditions on named facets of a mesh from a file.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use mpm_mesh::SimplexMesh;
+use mpm_mesh::generate::{EdgeTarget, disk};
+use mpm_scenes::{Scene, Snapshot, frames};
+
+/// A disk of radius 1 whose boundary is the physical group `rim`, as a file of version 2.2.
+fn file() -> String {
+    let target = EdgeTarget {
+        length: 0.2,
+        angle: 0.3,
+    };
+    let mesh: SimplexMesh<2> = disk([0.0; 2], 1.0, &target).expect("a disk");
+    let mut text = String::from(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n1 4 \"rim\"\n$EndPhysicalNames\n$Nodes\n",
+    );
+    let _ = writeln!(text, "{}", mesh.vertices().len());
+    for (tag, [x, y]) in (1..).zip(mesh.vertices()) {
+        let _ = writeln!(text, "{tag} {x:e} {y:e} 0");
+    }
+    let boundary = mesh.boundary();
+    let _ = writeln!(text, "$EndNodes\n$Elements\n{}", boundary.len() + mesh.cell_count());
+    for (tag, facet) in (1..).zip(&boundary) {
+        let [a, b] = facet.vertices.map(|vertex| vertex + 1);
+        let _ = writeln!(text, "{tag} 1 2 4 1 {a} {b}");
+    }
+    for (tag, cell) in (boundary.len() + 1..).zip(mesh.cells()) {
+        let _ = writeln!(text, "{tag} 2 2 0 1 {} {} {}", cell[0] + 1, cell[1] + 1, cell[2] + 1);
+    }
+    text + "$EndElements\n"
+}
+
+const SCENE: &str = r#"
+title = "disk"
+dimension = 2
+
+[mesh]
+file = "disk.msh"
+
+[transfer]
+kind = "flip"
+flip_share = 1.0
+
+[time]
+end = 0.2
+
+[materials.water]
+law = "tait-fluid"
+density = 1.0
+sound_speed = 10.0
+
+[[bodies]]
+name = "water"
+material = "water"
+shape = { kind = "sphere", centre = [0.0, 0.0], radius = 0.99 }
+spacing = 0.05
+velocity = { kind = "linear", centre = [0.0, 0.0], gradient = [[0.0, 1.5], [0.0, 0.0]] }
+
+[[facets]]
+group = "rim"
+condition = "prescribed"
+velocity = { kind = "linear", centre = [0.0, 0.0], gradient = [[0.0, 1.5], [0.0, 0.0]] }
+
+[output]
+interval = 0.2
+"#;
+
+fn scene(directory: &Path, changes: &[(&str, &str)]) -> Result<Scene, mpm_scenes::SceneError> {
+    std::fs::write(directory.join("disk.msh"), file()).expect("writable");
+    let mut text = SCENE.to_owned();
+    for (old, new) in changes {
+        assert!(text.contains(old), "{old}");
+        text = text.replace(old, new);
+    }
+    Scene::parse(&text, &directory.join("scene.toml"))
+}
+
+/// The frame of the end.
+fn end(changes: &[(&str, &str)]) -> Snapshot {
+    let directory = tempfile::tempdir().expect("a directory");
+    let scene = scene(directory.path(), changes).expect("a scene");
+    let mut last = Snapshot::default();
+    frames(&scene, &mut |snapshot| last = snapshot).expect("a run");
+    last
+}
+
+/// A fluid that moves through the mesh as one: the rim that goes with it does not disturb it, whatever its shape. (Fields that are linear: `run::tagged`.)
+#[test]
+fn a_body_that_moves_with_its_curved_boundary_is_not_disturbed() {
+    let velocity = "velocity = { kind = \"linear\", centre = [0.0, 0.0], gradient = [[0.0, 1.5], [0.0, 0.0]] }";
+    let last = end(&[(velocity, "velocity = [0.3, -0.2]")]);
+    let places = last
+        .reference_positions
+        .chunks_exact(2)
+        .zip(last.positions.chunks_exact(2));
+    for ((start, x), v) in places.zip(last.velocities.chunks_exact(2)) {
+        let off = (x[0] - start[0] - 0.06).abs().max((x[1] - start[1] + 0.04).abs());
+        assert!(off < 1e-12, "{start:?}: {x:?}");
+        assert!(
+            (v[0] - 0.3).abs() < 1e-11 && (v[1] + 0.2).abs() < 1e-11,
+            "{start:?}: {v:?}"
+        );
+    }
+    assert!(last.volume_ratios.iter().all(|ratio| (ratio - 1.0).abs() < 1e-12));
+}
+
+/// Without the condition the rim is free; with a rim at rest the fluid there stays behind.
+#[test]
+fn the_rim_matters() {
+    let slowest = |changes: &[(&str, &str)]| {
+        let last = end(changes);
+        let pairs = last.positions.chunks_exact(2).zip(last.velocities.chunks_exact(2));
+        let lag = pairs.map(|(x, v)| (v[0] - 1.5 * x[1]).abs() / 1.5);
+        lag.fold(0.0, f64::max)
+    };
+    let velocity =
+        "velocity = { kind = \"linear\", centre = [0.0, 0.0], gradient = [[0.0, 1.5], [0.0, 0.0]] }\n\n[output]";
+    let held = slowest(&[
+        ("condition = \"prescribed\"", "condition = \"fixed\""),
+        (velocity, "[output]"),
+    ]);
+    assert!(held > 0.3, "{held}");
+}
+
+/// A fluid that falls within the disk: a wall that it slides along keeps it inside, and a rough one too.
+#[test]
+fn a_rim_that_lets_slide_keeps_the_body_inside() {
+    for condition in ["condition = \"slip\"", "condition = \"friction\"\nfriction = 0.3"] {
+        let last = end(&[
+            ("condition = \"prescribed\"", condition),
+            (
+                "velocity = { kind = \"linear\", centre = [0.0, 0.0], gradient = [[0.0, 1.5], [0.0, 0.0]] }\n\n[output]",
+                "[output]",
+            ),
+            (
+                "velocity = { kind = \"linear\", centre = [0.0, 0.0], gradient = [[0.0, 1.5], [0.0, 0.0]] }\n\n[[facets]]",
+                "velocity = [0.0, -1.0]\n\n[[facets]]",
+            ),
+            ("radius = 0.99", "radius = 0.6"),
+            ("end = 0.2", "end = 0.8"),
+            ("interval = 0.2", "interval = 0.8"),
+        ]);
+        let farthest = last
+            .positions
+            .chunks_exact(2)
+            .map(|x| x[0].hypot(x[1]))
+            .fold(0.0, f64::max);
+        assert!(farthest < 1.02, "{condition}: {farthest}");
+    }
+}
+
+#[test]
+fn groups_that_name_nothing_are_refused() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let unknown = scene(directory.path(), &[("group = \"rim\"", "group = \"rum\"")]).expect("read without the mesh");
+    let error = frames(&unknown, &mut |_| {}).expect_err("no such group").to_string();
+    assert!(
+        error.contains("facets[0].group = \"rum\"") && error.ends_with("mesh.file: rim"),
+        "{error}"
+    );
+    let refused = |changes: &[(&str, &str)]| scene(directory.path(), changes).expect_err("refused").to_string();
+    let velocity =
+        "velocity = { kind = \"linear\", centre = [0.0, 0.0], gradient = [[0.0, 1.5], [0.0, 0.0]] }\n\n[output]";
+    for (changes, part) in [
+        (
+            vec![(
+                "file = \"disk.msh\"",
+                "generate = { kind = \"disk\", centre = [0.0, 0.0], radius = 1.0, size = 0.2 }",
+            )],
+            "facets[0].group = \"rim\": must be left out without a mesh.file",
+        ),
+        (vec![(velocity, "[output]")], "facets[0].velocity"),
+        (
+            vec![("condition = \"prescribed\"", "condition = \"fixed\"")],
+            "facets[0].condition",
+        ),
+        (
+            vec![
+                ("condition = \"prescribed\"", "condition = \"friction\""),
+                (velocity, "[output]"),
+            ],
+            "facets[0].friction",
+        ),
+    ] {
+        let message = refused(&changes);
+        assert!(message.contains(part), "{message}");
+    }
+}
