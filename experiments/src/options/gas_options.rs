@@ -64,10 +64,10 @@ impl MethodOptions {
     pub(super) fn on_mesh(&self, steps: Option<usize>) -> Result<OnMesh, OptionError> {
         let default = MeshOptions::default();
         let Some(file) = self.mesh.clone() else {
-            return Err(OptionError {
-                name: "basis".to_owned(),
-                reason: "mesh needs --mesh FILE.msh beside it".to_owned(),
-            });
+            return Err(OptionError::new(
+                "basis",
+                "mesh needs --mesh FILE.msh beside it".to_owned(),
+            ));
         };
         let misfit = self.given().into_iter().find(|(name, ..)| !ON_MESH.contains(name));
         if let Some((name, value, _)) = misfit {

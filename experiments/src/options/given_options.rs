@@ -22,7 +22,6 @@ const CHAIN: Owners = &[MethodName::Nuts, MethodName::SteinThinning];
 const POOLED: Owners = &[MethodName::Mpm, MethodName::Ais, MethodName::SteinThinning];
 const CONDENSED: Owners = &[MethodName::SteinThinning, MethodName::SupportPoints];
 const REST: Owners = &[MethodName::SupportPoints];
-const BODIES: Owners = &[MethodName::Mpm, MethodName::PaperPic, MethodName::PaperApic];
 const MOVED: Owners = &[
     MethodName::Mpm,
     MethodName::PaperPic,
@@ -75,11 +74,11 @@ impl MethodOptions {
             ("moment-correction", text(&self.moment_correction), GAS),
             ("transfer", text(&self.transfer), GAS),
             ("flip-share", text(&self.flip_share), GRID),
-            ("friction", text(&self.friction), BODIES),
+            ("friction", text(&self.friction), GRID),
             ("rounds", text(&self.rounds), GAS),
             ("weighted", text(&self.weighted), GAS),
             ("non-finite", text(&self.non_finite), GAS),
-            ("certificate", text(&self.certificate), BODIES),
+            ("certificate", text(&self.certificate), GRID),
             ("material", text(&self.material), PAPER),
             ("youngs-modulus", text(&self.youngs_modulus), PAPER),
             ("poissons-ratio", text(&self.poissons_ratio), PAPER),

@@ -33,20 +33,6 @@ pub enum MethodName {
 }
 
 impl MethodName {
-    /// All methods.
-    pub const ALL: [Self; 10] = [
-        Self::Mpm,
-        Self::Ais,
-        Self::PaperPic,
-        Self::PaperApic,
-        Self::Svgd,
-        Self::Iid,
-        Self::Sobol,
-        Self::Nuts,
-        Self::SteinThinning,
-        Self::SupportPoints,
-    ];
-
     /// The name as typed.
     pub fn as_str(self) -> &'static str {
         match self {
@@ -82,7 +68,7 @@ mod tests {
 
     #[test]
     fn the_names_are_those_of_the_command_line() {
-        for method in MethodName::ALL {
+        for &method in MethodName::value_variants() {
             assert_eq!(MethodName::from_str(method.as_str(), false), Ok(method));
         }
     }

@@ -4,6 +4,7 @@ mod baseline_options;
 mod bounded;
 mod gas_options;
 mod given_options;
+mod law;
 mod limit;
 mod material_options;
 mod method_name;
@@ -18,6 +19,7 @@ mod start_options;
 mod target_specification;
 
 pub use bounded::{Bounded, Dimension, EvaluationCount, ParticleCount, RoundCount, StepCount, WarmUp};
+pub use law::Parameter;
 pub use limit::Limit;
 pub use method_name::MethodName;
 pub use method_options::MethodOptions;

@@ -229,82 +229,25 @@ pub enum PoolChoice {
     Nuts,
 }
 
-/// The word of a value, as it is typed.
-fn word(value: &impl ValueEnum, formatter: &mut Formatter<'_>) -> fmt::Result {
-    match value.to_possible_value() {
-        Some(possible) => write!(formatter, "{}", possible.get_name()),
-        None => Ok(()),
-    }
+/// Writes values as the words that are typed.
+macro_rules! display_as_typed {
+    ($($words:ty),*) => {$(
+        impl Display for $words {
+            fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+                self.to_possible_value().map_or(Ok(()), |word| formatter.write_str(word.get_name()))
+            }
+        }
+    )*};
 }
 
-impl Display for Basis {
-    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
-        word(self, formatter)
-    }
-}
-
-impl Display for Switch {
-    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
-        word(self, formatter)
-    }
-}
-
-impl Display for Correction {
-    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
-        word(self, formatter)
-    }
-}
-
-impl Display for Draws {
-    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
-        word(self, formatter)
-    }
-}
-
-impl Display for Transfer {
-    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
-        word(self, formatter)
-    }
-}
-
-impl Display for MonitorName {
-    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
-        word(self, formatter)
-    }
-}
-
-impl Display for Score {
-    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
-        word(self, formatter)
-    }
-}
-
-impl Display for NonFinite {
-    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
-        word(self, formatter)
-    }
-}
-
-impl Display for FrameName {
-    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
-        word(self, formatter)
-    }
-}
-
-impl Display for AlphaSchedule {
-    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
-        word(self, formatter)
-    }
-}
-
-impl Display for Material {
-    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
-        word(self, formatter)
-    }
-}
-
-impl Display for PoolChoice {
-    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
-        word(self, formatter)
-    }
-}
+display_as_typed!(
+    Basis,
+    Switch,
+    Correction,
+    Draws,
+    Transfer,
+    MonitorName,
+    Score,
+    NonFinite
+);
+display_as_typed!(FrameName, AlphaSchedule, Material, PoolChoice);

@@ -37,10 +37,10 @@ impl MethodOptions {
     /// Refuses a file for a pool, which belongs to a single run.
     pub(super) fn check_study(&self, method: MethodName) -> Result<(), OptionError> {
         match self.pool_file(method) {
-            Some(file) => Err(OptionError {
-                name: "pool".to_owned(),
-                reason: format!("{}: a study writes no pools, `parvi sample` does", file.display()),
-            }),
+            Some(file) => Err(OptionError::new(
+                "pool",
+                format!("{}: a study writes no pools, `parvi sample` does", file.display()),
+            )),
             None => Ok(()),
         }
     }
@@ -53,10 +53,7 @@ impl MethodOptions {
         let of_chains = |owners: &[MethodName]| owners.contains(&MethodName::Nuts);
         match self.given().into_iter().find(|(_, _, owners)| of_chains(owners)) {
             None => Ok(()),
-            Some((name, value, _)) => Err(OptionError {
-                name: name.to_owned(),
-                reason: format!("{value} needs the pool `nuts`"),
-            }),
+            Some((name, value, _)) => Err(OptionError::new(name, format!("{value} needs the pool `nuts`"))),
         }
     }
 }

@@ -23,7 +23,7 @@ pub fn run<S: Study>(configuration: &Configuration, out: &Path) -> Result<(), Co
     }
     let directory = StudyDirectory::claim(out, configuration)?;
     in_threads(study.threads(), || {
-        let mut results = ResultsFile::<S::Row>::open(&directory.results())?;
+        let mut results = ResultsFile::<S::Row>::open(&directory.results(), S::COLUMNS)?;
         study.check_earlier(results.rows()).map_err(located)?;
         note_start(&study, configuration, &directory)?;
         run_missing(&study, &cases, &directory, &mut results).map_err(located)?;

@@ -277,11 +277,8 @@ impl Paper {
     /// In the target's own coordinates, where the energy distance to a Gaussian is exact.
     pub fn yardstick(&self) -> YardstickOptions {
         YardstickOptions {
-            points: self.reference_points.get(),
-            seed: self.reference_seed,
             directions: self.directions.get(),
-            coordinates: Coordinates::Own,
-            independent_sets: None,
+            ..YardstickOptions::of_energy(self.reference_points.get(), self.reference_seed, Coordinates::Own)
         }
     }
 }
