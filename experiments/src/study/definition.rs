@@ -58,11 +58,15 @@ pub trait Study: DeserializeOwned + Sync {
         Ok(())
     }
 
-    /// The seeds, for the manifest.
-    fn seeds(&self) -> Vec<u64>;
+    /// The seeds, for the manifest, where `seed` or `seeds` of the configuration do not say them.
+    fn seeds(&self) -> Vec<u64> {
+        Vec::new()
+    }
 
-    /// The number of threads; `None`: as many as the environment gives.
-    fn threads(&self) -> Option<usize>;
+    /// The number of threads, where `threads` of the configuration does not say it; `None`: as many as the environment gives.
+    fn threads(&self) -> Option<usize> {
+        None
+    }
 
     /// All cases, in the order in which they run.
     ///

@@ -13,7 +13,7 @@ use super::run_row::RunRow;
 use crate::CommandError;
 use crate::dispatch::{TargetTask, with_target};
 use crate::options::{
-    Basis, Bounded, Dimension, MethodName, MethodSpecification, ParticleCount, StepCount, TargetSpecification,
+    Basis, Dimension, MethodName, MethodSpecification, ParticleCount, StepCount, TargetSpecification,
 };
 use crate::output::Particles;
 use crate::progress::CaseObserver;
@@ -23,12 +23,6 @@ use crate::sampling::{self, Outcome};
 pub trait GaussianStudy: DeserializeOwned + Sync {
     /// The `kind` in the configuration.
     const KIND: &'static str;
-
-    /// One run per seed.
-    fn seeds(&self) -> &[u64];
-
-    /// Threads; `None`: as many as the environment gives.
-    fn threads(&self) -> Option<Bounded<1, 1024>>;
 
     /// As [`Study::cases`].
     ///
@@ -51,14 +45,6 @@ impl<S: GaussianStudy> Study for S {
     const KIND: &'static str = S::KIND;
     const COLUMNS: &'static str = "case status reason dim particles series spacing_factor requested_spacing requested_steps seed \
          energy_distance_squared energy_level steps score_evaluations density_evaluations spacing active_nodes wall_seconds";
-
-    fn seeds(&self) -> Vec<u64> {
-        GaussianStudy::seeds(self).to_vec()
-    }
-
-    fn threads(&self) -> Option<usize> {
-        GaussianStudy::threads(self).map(Bounded::get)
-    }
 
     fn cases(&self) -> Result<Vec<Case>, CommandError> {
         GaussianStudy::cases(self)

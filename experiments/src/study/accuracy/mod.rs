@@ -24,8 +24,8 @@ pub struct Accuracy {
     _kind: String,
     /// One run per seed.
     seeds: Vec<u64>,
-    /// Threads; absent: as many as the environment gives.
-    threads: Option<Bounded<1, 1024>>,
+    #[serde(rename = "threads")]
+    _threads: Option<Bounded<1, 1024>>,
     /// d.
     dims: Vec<Dimension>,
     /// M.
@@ -69,14 +69,6 @@ impl TryFrom<Stated> for Entry {
 
 impl GaussianStudy for Accuracy {
     const KIND: &'static str = "accuracy";
-
-    fn seeds(&self) -> &[u64] {
-        &self.seeds
-    }
-
-    fn threads(&self) -> Option<Bounded<1, 1024>> {
-        self.threads
-    }
 
     /// The cases, dimension by dimension, few particles first.
     fn cases(&self) -> Result<Vec<Case>, CommandError> {

@@ -24,8 +24,8 @@ pub struct BasisComparison {
     _kind: String,
     /// One run per seed.
     seeds: Vec<u64>,
-    /// Threads; absent: as many as the environment gives.
-    threads: Option<Bounded<1, 1024>>,
+    #[serde(rename = "threads")]
+    _threads: Option<Bounded<1, 1024>>,
     /// d.
     dims: Vec<Dimension>,
     /// M.
@@ -49,14 +49,6 @@ impl BasisComparison {
 
 impl GaussianStudy for BasisComparison {
     const KIND: &'static str = "basis-comparison";
-
-    fn seeds(&self) -> &[u64] {
-        &self.seeds
-    }
-
-    fn threads(&self) -> Option<Bounded<1, 1024>> {
-        self.threads
-    }
 
     /// The cases, dimension by dimension.
     fn cases(&self) -> Result<Vec<Case>, CommandError> {

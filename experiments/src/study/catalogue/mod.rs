@@ -31,8 +31,8 @@ pub struct Catalogue {
     _kind: String,
     /// One run per seed.
     seeds: Vec<u64>,
-    /// Threads; absent: as many as the environment gives.
-    threads: Option<Bounded<1, 1024>>,
+    #[serde(rename = "threads")]
+    _threads: Option<Bounded<1, 1024>>,
     /// M.
     particles: ParticleCount,
     /// Dimensions; of each target those that it has.
@@ -134,8 +134,43 @@ impl Catalogue {
         Ok(targets)
     }
 
+    /// The level of the sliced Wasserstein distance is that of as many draws as there are particles.
+    fn yardstick(&self) -> YardstickOptions {
+        YardstickOptions {
+            points: self.reference_points.get(),
+            seed: self.reference_seed,
+            directions: self.directions.get(),
+            coordinates: Coordinates::Standardised,
+            independent_sets: Some(IndependentSets {
+                count: self.draws.get(),
+                size: self.particles.get(),
+            }),
+        }
+    }
+
+    /// The method that the requirements are for.
+    fn judged(&self) -> Option<&MethodSpecification> {
+        self.methods.first()
+    }
+}
+
+/// The error of a target that the configuration names.
+fn wrong_target(error: TargetError) -> CommandError {
+    refusal("targets", error.to_string())
+}
+
+impl Study for Catalogue {
+    type Case = Case;
+    type Row = RunRow;
+    type Shared = CurrentYardstick;
+
+    const KIND: &'static str = "catalogue";
+    const COLUMNS: &'static str = "case status reason outcome target dim method start_mean start_sd particles seed energy_distance_squared \
+         energy_level sliced_wasserstein sliced_level mean_error deviation_error mass_error residual steps score_evaluations \
+         density_evaluations wall_seconds";
+
     /// The cases, target by target, so that a target's reference is made once.
-    fn all_cases(&self) -> Result<Vec<Case>, CommandError> {
+    fn cases(&self) -> Result<Vec<Case>, CommandError> {
         not_empty("seeds", &self.seeds)?;
         not_empty("dims", &self.dims)?;
         not_empty("starts", &self.starts)?;
@@ -176,53 +211,6 @@ impl Catalogue {
         }
         distinct("targets, dims, methods, starts or seeds", &cases)?;
         Ok(cases)
-    }
-
-    /// The level of the sliced Wasserstein distance is that of as many draws as there are particles.
-    fn yardstick(&self) -> YardstickOptions {
-        YardstickOptions {
-            points: self.reference_points.get(),
-            seed: self.reference_seed,
-            directions: self.directions.get(),
-            coordinates: Coordinates::Standardised,
-            independent_sets: Some(IndependentSets {
-                count: self.draws.get(),
-                size: self.particles.get(),
-            }),
-        }
-    }
-
-    /// The method that the requirements are for.
-    fn judged(&self) -> Option<&MethodSpecification> {
-        self.methods.first()
-    }
-}
-
-/// The error of a target that the configuration names.
-fn wrong_target(error: TargetError) -> CommandError {
-    refusal("targets", error.to_string())
-}
-
-impl Study for Catalogue {
-    type Case = Case;
-    type Row = RunRow;
-    type Shared = CurrentYardstick;
-
-    const KIND: &'static str = "catalogue";
-    const COLUMNS: &'static str = "case status reason outcome target dim method start_mean start_sd particles seed energy_distance_squared \
-         energy_level sliced_wasserstein sliced_level mean_error deviation_error mass_error residual steps score_evaluations \
-         density_evaluations wall_seconds";
-
-    fn seeds(&self) -> Vec<u64> {
-        self.seeds.clone()
-    }
-
-    fn threads(&self) -> Option<usize> {
-        self.threads.map(Bounded::get)
-    }
-
-    fn cases(&self) -> Result<Vec<Case>, CommandError> {
-        self.all_cases()
     }
 
     fn run(

@@ -27,8 +27,8 @@ pub struct CovarianceSpacing {
     _kind: String,
     /// Seeds of the start, one case each.
     seeds: Vec<u64>,
-    /// Threads; absent: as many as the environment gives.
-    threads: Option<Bounded<1, 1024>>,
+    #[serde(rename = "threads")]
+    _threads: Option<Bounded<1, 1024>>,
     /// M.
     particles: ParticleCount,
     /// The sampler; its spacing comes from the series.
@@ -96,14 +96,6 @@ impl Study for CovarianceSpacing {
     const KIND: &'static str = "covariance-spacing";
     const COLUMNS: &'static str = "case status reason dim particles spacing seed steps covariance_error mean_error residual active_nodes \
          score_evaluations density_evaluations wall_seconds";
-
-    fn seeds(&self) -> Vec<u64> {
-        self.seeds.clone()
-    }
-
-    fn threads(&self) -> Option<usize> {
-        self.threads.map(Bounded::get)
-    }
 
     fn cases(&self) -> Result<Vec<Case>, CommandError> {
         self.check()?;

@@ -19,8 +19,8 @@ use crate::study::yardstick::{Coordinates, YardstickOptions};
 pub struct Paper {
     #[serde(rename = "kind")]
     _kind: String,
-    /// Threads; absent: as many as the environment gives.
-    pub threads: Option<Bounded<1, 1024>>,
+    #[serde(rename = "threads")]
+    _threads: Option<Bounded<1, 1024>>,
     /// Mean of every coordinate at the start, in units of the body's coordinates.
     pub start_mean: f64,
     /// Standard deviation of every coordinate at the start.

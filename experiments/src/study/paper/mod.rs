@@ -29,7 +29,7 @@ use super::directory::StudyDirectory;
 use super::results::single_line;
 use super::yardstick::{CurrentYardstick, Yardstick, measured, measured_run};
 use crate::CommandError;
-use crate::options::{Bounded, MethodSpecification, TargetSpecification};
+use crate::options::{MethodSpecification, TargetSpecification};
 use crate::progress::CaseObserver;
 use crate::sampling;
 
@@ -94,10 +94,6 @@ impl Study for Paper {
 
     fn seeds(&self) -> Vec<u64> {
         self.all_seeds()
-    }
-
-    fn threads(&self) -> Option<usize> {
-        self.threads.map(Bounded::get)
     }
 
     fn cases(&self) -> Result<Vec<Case>, CommandError> {

@@ -33,8 +33,8 @@ pub struct Quickstart {
     _kind: String,
     /// Seed of both runs.
     seed: u64,
-    /// Threads; absent: as many as the environment gives.
-    threads: Option<Bounded<1, 1024>>,
+    #[serde(rename = "threads")]
+    _threads: Option<Bounded<1, 1024>>,
     /// Steps between two entries of the trace.
     trace_every: Bounded<1, 1_000_000>,
     /// The posterior.
@@ -166,14 +166,6 @@ impl Study for Quickstart {
     const KIND: &'static str = "quickstart";
     const COLUMNS: &'static str = "case status reason target dim method particles steps score_evaluations density_evaluations residual \
          spacing active_nodes storage_bytes effective_sample_size wall_seconds";
-
-    fn seeds(&self) -> Vec<u64> {
-        vec![self.seed]
-    }
-
-    fn threads(&self) -> Option<usize> {
-        self.threads.map(Bounded::get)
-    }
 
     fn cases(&self) -> Result<Vec<Case>, CommandError> {
         self.check()?;

@@ -33,8 +33,8 @@ pub struct RandomTargets {
     _kind: String,
     /// Seed of every run.
     seed: u64,
-    /// Threads; absent: as many as the environment gives.
-    threads: Option<Bounded<1, 1024>>,
+    #[serde(rename = "threads")]
+    _threads: Option<Bounded<1, 1024>>,
     /// d.
     dims: Vec<Dimension>,
     /// The seeds that make the targets, in every dimension.
@@ -93,8 +93,23 @@ impl definition::Case for Case {
 }
 
 impl RandomTargets {
+    /// In standard deviations per axis; the sliced distance is not looked at.
+    fn yardstick(&self) -> YardstickOptions {
+        YardstickOptions::of_energy(self.reference_points.get(), self.reference_seed, Coordinates::Scaled)
+    }
+}
+
+impl Study for RandomTargets {
+    type Case = Case;
+    type Row = RunRow;
+    type Shared = CurrentYardstick;
+
+    const KIND: &'static str = "random-targets";
+    const COLUMNS: &'static str = "case status reason dim target_seed method outcome energy_distance_squared energy_level \
+         log_evidence_deviation log_evidence_error score_evaluations density_evaluations wall_seconds";
+
     /// The cases, target by target, so that a target's reference is made once.
-    fn all_cases(&self) -> Result<Vec<Case>, CommandError> {
+    fn cases(&self) -> Result<Vec<Case>, CommandError> {
         not_empty("dims", &self.dims)?;
         not_empty("methods", &self.methods)?;
         let mut cases = Vec::new();
@@ -115,33 +130,6 @@ impl RandomTargets {
         }
         distinct("dims or methods", &cases)?;
         Ok(cases)
-    }
-
-    /// In standard deviations per axis; the sliced distance is not looked at.
-    fn yardstick(&self) -> YardstickOptions {
-        YardstickOptions::of_energy(self.reference_points.get(), self.reference_seed, Coordinates::Scaled)
-    }
-}
-
-impl Study for RandomTargets {
-    type Case = Case;
-    type Row = RunRow;
-    type Shared = CurrentYardstick;
-
-    const KIND: &'static str = "random-targets";
-    const COLUMNS: &'static str = "case status reason dim target_seed method outcome energy_distance_squared energy_level \
-         log_evidence_deviation log_evidence_error score_evaluations density_evaluations wall_seconds";
-
-    fn seeds(&self) -> Vec<u64> {
-        vec![self.seed]
-    }
-
-    fn threads(&self) -> Option<usize> {
-        self.threads.map(Bounded::get)
-    }
-
-    fn cases(&self) -> Result<Vec<Case>, CommandError> {
-        self.all_cases()
     }
 
     fn run(

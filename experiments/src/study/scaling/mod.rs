@@ -76,52 +76,6 @@ struct NodesSweep {
     interval: [f64; 2],
 }
 
-impl Scaling {
-    /// The cases of both sweeps, cheap ones first within each dimension.
-    fn all_cases(&self) -> Result<Vec<Case>, CommandError> {
-        let [low, high] = self.nodes_sweep.interval;
-        if !(low < high && (high - low).is_finite()) {
-            return Err(refusal("nodes-sweep.box", format!("[{low}, {high}] is no interval")));
-        }
-        let sweep = &self.particles_sweep;
-        if sweep.largest_work.is_nan() || sweep.largest_work <= 0.0 {
-            let message = format!("{} must be above 0", sweep.largest_work);
-            return Err(refusal("particles-sweep.largest-work", message));
-        }
-        for &dim in sweep.dims.iter().chain(&self.nodes_sweep.dims) {
-            TargetSpecification::plain(&self.target, Some(dim)).dimension()?;
-        }
-        let mut cases = Vec::new();
-        for &dim in &sweep.dims {
-            for &particles in &sweep.particles {
-                let work = particles.get() as f64 * 3f64.powi(dim.get() as i32);
-                if work <= sweep.largest_work {
-                    let particles = particles.get();
-                    cases.push(Case {
-                        sweep: Sweep::Particles,
-                        dim,
-                        particles,
-                        nodes_per_axis: None,
-                        spacing: None,
-                    });
-                }
-            }
-        }
-        for &dim in &self.nodes_sweep.dims {
-            for &nodes in &self.nodes_sweep.nodes_per_axis {
-                cases.push(Case {
-                    sweep: Sweep::Nodes,
-                    dim,
-                    particles: self.nodes_sweep.particles.get(),
-                    nodes_per_axis: Some(nodes.get()),
-                    spacing: Some((high - low) / nodes.get() as f64),
-                });
-            }
-        }
-        Ok(cases)
-    }
-}
-
 /// Which sweep a case belongs to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -216,16 +170,48 @@ impl Study for Scaling {
 
     const KIND: &'static str = "scaling";
 
-    fn seeds(&self) -> Vec<u64> {
-        vec![self.seed]
-    }
-
-    fn threads(&self) -> Option<usize> {
-        self.threads.map(Bounded::get)
-    }
-
+    /// The cases of both sweeps, cheap ones first within each dimension.
     fn cases(&self) -> Result<Vec<Case>, CommandError> {
-        self.all_cases()
+        let [low, high] = self.nodes_sweep.interval;
+        if !(low < high && (high - low).is_finite()) {
+            return Err(refusal("nodes-sweep.box", format!("[{low}, {high}] is no interval")));
+        }
+        let sweep = &self.particles_sweep;
+        if sweep.largest_work.is_nan() || sweep.largest_work <= 0.0 {
+            let message = format!("{} must be above 0", sweep.largest_work);
+            return Err(refusal("particles-sweep.largest-work", message));
+        }
+        for &dim in sweep.dims.iter().chain(&self.nodes_sweep.dims) {
+            TargetSpecification::plain(&self.target, Some(dim)).dimension()?;
+        }
+        let mut cases = Vec::new();
+        for &dim in &sweep.dims {
+            for &particles in &sweep.particles {
+                let work = particles.get() as f64 * 3f64.powi(dim.get() as i32);
+                if work <= sweep.largest_work {
+                    let particles = particles.get();
+                    cases.push(Case {
+                        sweep: Sweep::Particles,
+                        dim,
+                        particles,
+                        nodes_per_axis: None,
+                        spacing: None,
+                    });
+                }
+            }
+        }
+        for &dim in &self.nodes_sweep.dims {
+            for &nodes in &self.nodes_sweep.nodes_per_axis {
+                cases.push(Case {
+                    sweep: Sweep::Nodes,
+                    dim,
+                    particles: self.nodes_sweep.particles.get(),
+                    nodes_per_axis: Some(nodes.get()),
+                    spacing: Some((high - low) / nodes.get() as f64),
+                });
+            }
+        }
+        Ok(cases)
     }
 
     fn run(
@@ -259,7 +245,8 @@ impl Study for Scaling {
             }
         }
         specification.options.steps = Some(self.steps);
-        row.memory_peak_bytes = memory::peak_of_own_process(&target, &specification, &run, self.threads());
+        row.memory_peak_bytes =
+            memory::peak_of_own_process(&target, &specification, &run, self.threads.map(Bounded::get));
         let quantiles = statistics::weighted_quantile(&times, None, &[0.0, 0.5, 1.0])?;
         row.wall_seconds_per_step_least = Some(quantiles[0]);
         row.wall_seconds_per_step = Some(quantiles[1]);

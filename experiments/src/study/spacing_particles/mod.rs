@@ -23,8 +23,8 @@ pub struct SpacingParticles {
     _kind: String,
     /// One run per seed.
     seeds: Vec<u64>,
-    /// Threads; absent: as many as the environment gives.
-    threads: Option<Bounded<1, 1024>>,
+    #[serde(rename = "threads")]
+    _threads: Option<Bounded<1, 1024>>,
     /// M.
     particles: Vec<ParticleCount>,
     /// The sampler; its spacing comes from the series.
@@ -61,14 +61,6 @@ impl SpacingParticles {
 
 impl GaussianStudy for SpacingParticles {
     const KIND: &'static str = "spacing-particles";
-
-    fn seeds(&self) -> &[u64] {
-        &self.seeds
-    }
-
-    fn threads(&self) -> Option<Bounded<1, 1024>> {
-        self.threads
-    }
 
     /// The cases, dimension by dimension.
     fn cases(&self) -> Result<Vec<Case>, CommandError> {

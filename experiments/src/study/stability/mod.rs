@@ -32,8 +32,8 @@ pub struct Stability {
     _kind: String,
     /// Seed of all draws; case i depends on it and on i only.
     seed: u64,
-    /// Threads; absent: as many as the environment gives.
-    threads: Option<Bounded<1, 1024>>,
+    #[serde(rename = "threads")]
+    _threads: Option<Bounded<1, 1024>>,
     /// The number of configurations.
     cases: Bounded<1, 10_000_000>,
     /// Dimensions; of each target those that it has.
@@ -43,14 +43,6 @@ pub struct Stability {
 }
 
 impl Stability {
-    /// The cases, in the order of their numbers.
-    fn all_cases(&self) -> Result<Vec<Case>, CommandError> {
-        let places = self.places()?;
-        Ok((0..self.cases.get())
-            .map(|index| draw(self.seed, index, &places))
-            .collect())
-    }
-
     /// The targets with the dimensions that they have among `dims`.
     fn places(&self) -> Result<Vec<Place>, CommandError> {
         not_empty("dims", &self.dims)?;
@@ -88,16 +80,12 @@ impl Study for Stability {
 
     const KIND: &'static str = "stability";
 
-    fn seeds(&self) -> Vec<u64> {
-        vec![self.seed]
-    }
-
-    fn threads(&self) -> Option<usize> {
-        self.threads.map(Bounded::get)
-    }
-
+    /// The cases, in the order of their numbers.
     fn cases(&self) -> Result<Vec<Case>, CommandError> {
-        self.all_cases()
+        let places = self.places()?;
+        Ok((0..self.cases.get())
+            .map(|index| draw(self.seed, index, &places))
+            .collect())
     }
 
     fn run(

@@ -26,8 +26,8 @@ pub struct TimeError {
     _kind: String,
     /// One run per seed.
     seeds: Vec<u64>,
-    /// Threads; absent: as many as the environment gives.
-    threads: Option<Bounded<1, 1024>>,
+    #[serde(rename = "threads")]
+    _threads: Option<Bounded<1, 1024>>,
     /// M.
     particles: ParticleCount,
     /// Numbers of steps for methods that take steps, unless their own options fix them; absent: each takes its own default.
@@ -83,34 +83,6 @@ impl definition::Case for Case {
 }
 
 impl TimeError {
-    /// The cases, target by target, so that a target's reference is made once.
-    fn all_cases(&self) -> Result<Vec<Case>, CommandError> {
-        not_empty("seeds", &self.seeds)?;
-        if let Some(steps) = &self.steps {
-            not_empty("steps", steps)?;
-        }
-        let mut cases = Vec::new();
-        for target in &self.targets {
-            for method in &self.methods {
-                for steps in self.sweep(method) {
-                    for &seed in &self.seeds {
-                        let (target, method) = (target.clone(), method.clone());
-                        let particles = self.particles.get();
-                        cases.push(Case {
-                            target,
-                            method,
-                            particles,
-                            steps,
-                            seed,
-                        });
-                    }
-                }
-            }
-        }
-        distinct("targets, methods, steps or seeds", &cases)?;
-        Ok(cases)
-    }
-
     /// Levels of independent draws are taken from the runs of `iid`.
     fn yardstick(&self) -> YardstickOptions {
         YardstickOptions {
@@ -144,16 +116,32 @@ impl Study for TimeError {
     const COLUMNS: &'static str = "case status note target dim method particles steps seed score_evaluations density_evaluations \
          wall_seconds energy_distance_squared energy_level sliced_wasserstein mean_error deviation_error mass_error residual";
 
-    fn seeds(&self) -> Vec<u64> {
-        self.seeds.clone()
-    }
-
-    fn threads(&self) -> Option<usize> {
-        self.threads.map(Bounded::get)
-    }
-
+    /// The cases, target by target, so that a target's reference is made once.
     fn cases(&self) -> Result<Vec<Case>, CommandError> {
-        self.all_cases()
+        not_empty("seeds", &self.seeds)?;
+        if let Some(steps) = &self.steps {
+            not_empty("steps", steps)?;
+        }
+        let mut cases = Vec::new();
+        for target in &self.targets {
+            for method in &self.methods {
+                for steps in self.sweep(method) {
+                    for &seed in &self.seeds {
+                        let (target, method) = (target.clone(), method.clone());
+                        let particles = self.particles.get();
+                        cases.push(Case {
+                            target,
+                            method,
+                            particles,
+                            steps,
+                            seed,
+                        });
+                    }
+                }
+            }
+        }
+        distinct("targets, methods, steps or seeds", &cases)?;
+        Ok(cases)
     }
 
     fn run(

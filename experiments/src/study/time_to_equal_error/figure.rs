@@ -7,7 +7,7 @@ use crate::CommandError;
 use crate::options::TargetSpecification;
 use crate::output::table_file;
 use crate::plots::{TimeErrorCurve, TimeErrorPanel, TimeErrorPlot, TimeErrorPoint};
-use crate::study::definition;
+use crate::study::definition::{self, Study};
 use crate::study::directory::StudyDirectory;
 
 /// The method with a point per M; chains and independent draws with a point per number of draws; other rivals with a curve for every
@@ -39,7 +39,7 @@ fn curves(
     directory: &StudyDirectory,
 ) -> Result<Vec<TimeErrorCurve>, CommandError> {
     let cases: Vec<Case> = study
-        .all_cases()?
+        .cases()?
         .into_iter()
         .filter(|case| case.target == *target)
         .filter(|case| rows.iter().any(|row| row.case == definition::Case::id(case)))

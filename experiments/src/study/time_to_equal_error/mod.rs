@@ -87,37 +87,6 @@ impl Range {
 }
 
 impl TimeToEqualError {
-    /// The cases: on every target and for every M the method first, then its rivals.
-    fn all_cases(&self) -> Result<Vec<Case>, CommandError> {
-        not_empty("seeds", &self.seeds)?;
-        not_empty("particles", &self.particles)?;
-        not_empty("targets", &self.targets)?;
-        positive("largest-ratio", &[self.largest_ratio])?;
-        self.draws.check("draws")?;
-        self.steps.check("steps")?;
-        for rival in &self.rivals {
-            if !rival.name.iterates() && !matches!(rival.name, MethodName::Nuts | MethodName::Iid) {
-                let message = format!("`{}` has neither steps nor draws that could be doubled", rival.name);
-                return Err(refusal("rivals.name", message));
-            }
-            unset("rivals.options.steps", &rival.options.steps, "steps")?;
-        }
-        let mut cases = Vec::new();
-        for target in &self.targets {
-            for particles in &self.particles {
-                let methods = std::iter::once(&self.method).chain(&self.rivals);
-                cases.extend(methods.enumerate().map(|(index, method)| Case {
-                    target: target.clone(),
-                    particles: particles.get(),
-                    index,
-                    method: method.clone(),
-                }));
-            }
-        }
-        distinct("targets, particles or rivals", &cases)?;
-        Ok(cases)
-    }
-
     /// The sliced distance is not looked at.
     fn yardstick(&self) -> YardstickOptions {
         YardstickOptions::of_energy(
@@ -171,16 +140,35 @@ impl Study for TimeToEqualError {
 
     const KIND: &'static str = "time-to-equal-error";
 
-    fn seeds(&self) -> Vec<u64> {
-        self.seeds.clone()
-    }
-
-    fn threads(&self) -> Option<usize> {
-        self.threads.map(Bounded::get)
-    }
-
+    /// The cases: on every target and for every M the method first, then its rivals.
     fn cases(&self) -> Result<Vec<Case>, CommandError> {
-        self.all_cases()
+        not_empty("seeds", &self.seeds)?;
+        not_empty("particles", &self.particles)?;
+        not_empty("targets", &self.targets)?;
+        positive("largest-ratio", &[self.largest_ratio])?;
+        self.draws.check("draws")?;
+        self.steps.check("steps")?;
+        for rival in &self.rivals {
+            if !rival.name.iterates() && !matches!(rival.name, MethodName::Nuts | MethodName::Iid) {
+                let message = format!("`{}` has neither steps nor draws that could be doubled", rival.name);
+                return Err(refusal("rivals.name", message));
+            }
+            unset("rivals.options.steps", &rival.options.steps, "steps")?;
+        }
+        let mut cases = Vec::new();
+        for target in &self.targets {
+            for particles in &self.particles {
+                let methods = std::iter::once(&self.method).chain(&self.rivals);
+                cases.extend(methods.enumerate().map(|(index, method)| Case {
+                    target: target.clone(),
+                    particles: particles.get(),
+                    index,
+                    method: method.clone(),
+                }));
+            }
+        }
+        distinct("targets, particles or rivals", &cases)?;
+        Ok(cases)
     }
 
     fn run(

@@ -53,33 +53,6 @@ pub struct TimeToLevel {
 }
 
 impl TimeToLevel {
-    /// The cases: in every dimension the method first, then its rivals.
-    fn all_cases(&self) -> Result<Vec<Case>, CommandError> {
-        not_empty("dims", &self.dims)?;
-        not_empty("steps", &self.steps)?;
-        if let Some(pair) = self.steps.windows(2).find(|pair| pair[0] >= pair[1]) {
-            return Err(refusal("steps", format!("{} before {} do not grow", pair[0], pair[1])));
-        }
-        positive("largest-ratio", &[self.largest_ratio])?;
-        self.start.check("start")?;
-        self.check_method("method", &self.method)?;
-        for rival in &self.rivals {
-            self.check_method("rivals", rival)?;
-        }
-        let mut cases = Vec::new();
-        for &dim in &self.dims {
-            let methods = std::iter::once(&self.method).chain(&self.rivals);
-            cases.extend(methods.enumerate().map(|(index, method)| Case {
-                dim,
-                particles: self.particles.get(),
-                index,
-                method: method.clone(),
-            }));
-        }
-        distinct("dims or rivals", &cases)?;
-        Ok(cases)
-    }
-
     /// Refuses a method without steps and options that the study sets for all.
     fn check_method(&self, field: &str, method: &MethodSpecification) -> Result<(), CommandError> {
         if !method.name.iterates() {
@@ -170,16 +143,31 @@ impl Study for TimeToLevel {
 
     const KIND: &'static str = "time-to-level";
 
-    fn seeds(&self) -> Vec<u64> {
-        vec![self.seed]
-    }
-
-    fn threads(&self) -> Option<usize> {
-        self.threads.map(Bounded::get)
-    }
-
+    /// The cases: in every dimension the method first, then its rivals.
     fn cases(&self) -> Result<Vec<Case>, CommandError> {
-        self.all_cases()
+        not_empty("dims", &self.dims)?;
+        not_empty("steps", &self.steps)?;
+        if let Some(pair) = self.steps.windows(2).find(|pair| pair[0] >= pair[1]) {
+            return Err(refusal("steps", format!("{} before {} do not grow", pair[0], pair[1])));
+        }
+        positive("largest-ratio", &[self.largest_ratio])?;
+        self.start.check("start")?;
+        self.check_method("method", &self.method)?;
+        for rival in &self.rivals {
+            self.check_method("rivals", rival)?;
+        }
+        let mut cases = Vec::new();
+        for &dim in &self.dims {
+            let methods = std::iter::once(&self.method).chain(&self.rivals);
+            cases.extend(methods.enumerate().map(|(index, method)| Case {
+                dim,
+                particles: self.particles.get(),
+                index,
+                method: method.clone(),
+            }));
+        }
+        distinct("dims or rivals", &cases)?;
+        Ok(cases)
     }
 
     fn run(
@@ -232,7 +220,7 @@ impl TimeToLevel {
             return Ok(*seconds);
         }
         let first = self
-            .all_cases()?
+            .cases()?
             .into_iter()
             .find(|case| case.dim == dim && case.index == 0);
         let trials = first.map_or(Ok(Vec::new()), |case| table_file::read(&case.trials_file(directory)))?;

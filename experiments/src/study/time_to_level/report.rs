@@ -150,7 +150,7 @@ fn searches(rows: &[Row], document: &mut Document) {
 /// One panel per dimension, one line per method.
 fn plot(study: &TimeToLevel, rows: &[Row], directory: &StudyDirectory) -> Result<MultiplesPlot, CommandError> {
     let mut panels: Vec<MultiplesPanel> = Vec::new();
-    for case in study.all_cases()? {
+    for case in study.cases()? {
         let id = definition::Case::id(&case);
         let Some(row) = rows.iter().find(|row| row.case == id) else {
             continue;
