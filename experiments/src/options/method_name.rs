@@ -35,24 +35,12 @@ pub enum MethodName {
 impl MethodName {
     /// The name as typed.
     pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Mpm => "mpm",
-            Self::Ais => "ais",
-            Self::PaperPic => "paper-pic",
-            Self::PaperApic => "paper-apic",
-            Self::Svgd => "svgd",
-            Self::Iid => "iid",
-            Self::Sobol => "sobol",
-            Self::Nuts => "nuts",
-            Self::SteinThinning => "stein-thinning",
-            Self::SupportPoints => "support-points",
-        }
+        self.kind().name
     }
 
-    /// Whether the method moves all particles by steps from a start, so that studies can vary their number. Draws come at once or one
-    /// after the other.
+    /// Whether the method moves all particles by steps from a start, so that studies can vary their number.
     pub fn iterates(self) -> bool {
-        matches!(self, Self::Mpm | Self::PaperPic | Self::PaperApic | Self::Svgd)
+        self.kind().iterates
     }
 }
 

@@ -50,10 +50,9 @@ impl MethodOptions {
         if method != MethodName::SteinThinning || self.pool_choice()? == Some(PoolChoice::Nuts) {
             return Ok(());
         }
-        let of_chains = |owners: &[MethodName]| owners.contains(&MethodName::Nuts);
-        match self.given().into_iter().find(|(_, _, owners)| of_chains(owners)) {
+        match self.given().find(|(name, _)| MethodName::Nuts.kind().has(name)) {
             None => Ok(()),
-            Some((name, value, _)) => Err(OptionError::new(name, format!("{value} needs the pool `nuts`"))),
+            Some((name, value)) => Err(OptionError::new(name, format!("{value} needs the pool `nuts`"))),
         }
     }
 }

@@ -22,7 +22,7 @@ pub fn write<T: Serialize>(records: impl IntoIterator<Item = T>, path: &Path) ->
     AtomicFile::write(path, text)
 }
 
-/// Reads what [`write`] wrote.
+/// Reads what [`write`](fn@write) wrote.
 pub fn read<T: DeserializeOwned>(path: &Path) -> Result<Vec<T>, CommandError> {
     let unreadable = |error: csv::Error| CommandError::ResultsUnreadable {
         file: path.display().to_string(),

@@ -1,12 +1,36 @@
-//! The options of the paper's algorithms, from the flags.
+//! `paper-pic` and `paper-apic`: Algorithms 1 and 2 of the MPM-ParVI paper.
 
-use parvi::{Annealing, Coordinates, Guards, PaperOptions, ReferenceVolumes, Watch};
+use parvi::{Annealing, Coordinates, Guards, Method, PaperOptions, ReferenceVolumes, Watch};
 
-use super::{AlphaSchedule, Basis, FrameName, Limit, MethodOptions, OptionError, StepCount, Switch};
+use super::MethodKind;
+use crate::options::{AlphaSchedule, Basis, FrameName, Limit, MethodOptions, OptionError, StepCount, Switch};
+
+/// Algorithm 1.
+pub const PIC: MethodKind = MethodKind {
+    name: "paper-pic",
+    options: "steps basis spacing time-step score displacement-limit flip-share friction certificate material youngs-modulus poissons-ratio \
+        as-written frame peak-yield-stress residual-yield-stress softening-rate friction-angle cohesion density sound-speed viscosity \
+        forgets-expansion pressure-per-density grid-renewal masses volumes velocities stretch-limit alpha alpha-from alpha-to \
+        alpha-schedule alpha-cycles monitor monitor-every patience best guards mass-floor mass-weighted-force courant start start-law \
+        start-centre start-covariance start-mean start-sd start-draws",
+    iterates: true,
+    build: |options, steps| Ok(Method::Paper(options.paper(steps, false)?)),
+};
+
+/// Algorithm 2.
+pub const APIC: MethodKind = MethodKind {
+    name: "paper-apic",
+    build: |options, steps| Ok(Method::Paper(options.paper(steps, true)?)),
+    ..PIC
+};
 
 impl MethodOptions {
     /// Algorithm 1, or 2 if `affine`.
-    pub(super) fn paper(&self, steps: Option<usize>, affine: bool) -> Result<PaperOptions, OptionError> {
+    fn paper(&self, steps: Option<usize>, affine: bool) -> Result<PaperOptions, OptionError> {
+        if self.basis == Some(Basis::Mesh) {
+            let name = if affine { APIC.name } else { PIC.name };
+            return Err(OptionError::misfit("basis", "mesh", name));
+        }
         let default = match self.as_written {
             Some(Switch::On) => PaperOptions::as_written(affine),
             _ => PaperOptions {
@@ -52,7 +76,7 @@ impl MethodOptions {
     }
 
     /// α over the steps, where one is given.
-    pub(super) fn annealing(&self) -> Option<Annealing> {
+    pub(in crate::options) fn annealing(&self) -> Option<Annealing> {
         match (self.alpha, self.alpha_from, self.alpha_to) {
             (Some(alpha), _, _) => Some(Annealing::Constant(alpha)),
             (None, Some(from), Some(to)) => Some(match self.alpha_schedule {
@@ -69,7 +93,7 @@ impl MethodOptions {
     }
 
     /// How reference volumes are found, where a word says it.
-    pub(super) fn volume_rule(&self) -> Option<ReferenceVolumes> {
+    pub(in crate::options) fn volume_rule(&self) -> Option<ReferenceVolumes> {
         match self.volumes.as_ref()?.to_str()? {
             "uniform" => Some(ReferenceVolumes::Uniform),
             "start-density" => Some(ReferenceVolumes::OfStartDensity),

@@ -1,26 +1,35 @@
-//! The options of the sampler, on a lattice or a grid and on a mesh, from the flags.
+//! `mpm`: the calibrated gas, on a lattice or a grid and on a mesh.
 
-use parvi::{MeshOptions, MpmOptions, OnMesh, Settling, SpacingSchedule, TransferChoice};
+use parvi::{MeshOptions, Method, MpmOptions, OnMesh, Settling, SpacingSchedule, TransferChoice};
 
-use super::{Basis, EvaluationCount, Limit, MethodOptions, OptionError, RoundCount, Switch, Transfer};
+use super::MethodKind;
+use crate::options::{Basis, EvaluationCount, Limit, MethodOptions, OptionError, RoundCount, Switch, Transfer};
+
+/// The method.
+pub const KIND: MethodKind = MethodKind {
+    name: "mpm",
+    options: "steps basis mesh spacing time-step score displacement-limit survey evaluations shifts rotation spacing-range coarse-start \
+        settling settling-shifts moment-correction transfer flip-share friction rounds weighted non-finite certificate alpha \
+        alpha-from alpha-to alpha-schedule alpha-cycles pool start start-law start-centre start-covariance start-mean start-sd \
+        start-draws",
+    iterates: true,
+    build: |options, steps| {
+        options.check_survey()?;
+        options.check_attraction()?;
+        Ok(match options.basis {
+            Some(Basis::Mesh) => Method::OnMesh(options.on_mesh(steps)?),
+            _ => Method::Mpm(options.mpm(steps)?),
+        })
+    },
+};
 
 /// What the sampler on a mesh knows.
-const ON_MESH: [&str; 10] = [
-    "basis",
-    "mesh",
-    "steps",
-    "time-step",
-    "friction",
-    "shifts",
-    "settling",
-    "settling-shifts",
-    "non-finite",
-    "displacement-limit",
-];
+const ON_MESH: &str =
+    "basis mesh steps time-step friction shifts settling settling-shifts non-finite displacement-limit";
 
 impl MethodOptions {
     /// The calibrated gas.
-    pub(super) fn mpm(&self, steps: Option<usize>) -> Result<MpmOptions, OptionError> {
+    fn mpm(&self, steps: Option<usize>) -> Result<MpmOptions, OptionError> {
         let default = MpmOptions::default();
         let transfer = match self.transfer {
             None => default.transfer,
@@ -61,7 +70,7 @@ impl MethodOptions {
     }
 
     /// The calibrated gas within a mesh.
-    pub(super) fn on_mesh(&self, steps: Option<usize>) -> Result<OnMesh, OptionError> {
+    fn on_mesh(&self, steps: Option<usize>) -> Result<OnMesh, OptionError> {
         let default = MeshOptions::default();
         let Some(file) = self.mesh.clone() else {
             return Err(OptionError::new(
@@ -69,8 +78,8 @@ impl MethodOptions {
                 "mesh needs --mesh FILE.msh beside it".to_owned(),
             ));
         };
-        let misfit = self.given().into_iter().find(|(name, ..)| !ON_MESH.contains(name));
-        if let Some((name, value, _)) = misfit {
+        let is_known = |name: &str| ON_MESH.split(' ').any(|known| known == name);
+        if let Some((name, value)) = self.given().find(|(name, _)| !is_known(name)) {
             return Err(OptionError::misfit(name, &value, "mpm on a mesh"));
         }
         let options = MeshOptions {
@@ -87,12 +96,12 @@ impl MethodOptions {
     }
 
     /// Evaluations of a survey, at most.
-    pub(super) fn evaluations(&self) -> Option<u64> {
+    pub(in crate::options) fn evaluations(&self) -> Option<u64> {
         self.evaluations.map(EvaluationCount::get).map(|count| count as u64)
     }
 
     /// Whether the calibrated sampler surveys: it does not for p^α.
-    pub(super) fn surveys(&self) -> bool {
+    pub(in crate::options) fn surveys(&self) -> bool {
         let whole = self.annealing().is_none_or(|alpha| alpha.last() == 1.0);
         self.survey != Some(Switch::Off) && whole
     }
