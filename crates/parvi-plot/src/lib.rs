@@ -1,12 +1,10 @@
-//! Figures: each a function from plain data to an SVG document, in one style; and the [`statistics`] that they show.
+#![doc = include_str!("../README.md")]
 //!
-//! For figures of particles, of errors and costs, and of runs. It is no general plotting library, and knows nothing of samplers, files or
-//! reports. Begin with [`multiples()`](multiples::multiples), lines over one pair of axes or several, and with [`histogram()`](histogram::histogram).
+//! ## Where to begin
 //!
-//! All figures share [`style`] (sizes in points at print size, a colour-blind-safe palette, a fixed colour and marker per
-//! method) and a small drawing layer: [`svg`] for the document, [`scale`] and [`panel`] for axes, [`legend`], [`contour`] for
-//! lines of equal density. Labels may hold `^{…}` and `_{…}` for superscripts and subscripts. The same data gives the same
-//! bytes; no figure contains NaN; input that cannot be drawn is a [`PlotError`].
+//! With [`multiples()`](multiples::multiples), lines over one pair of axes or several, and [`histogram()`](histogram::histogram). All figures share [`style`]
+//! and a small drawing layer: [`svg`] for the document, [`scale`] and [`panel`] for axes, [`legend`], [`contour`] for lines of equal density. It is no general
+//! plotting library, and knows nothing of samplers, files or reports.
 
 mod chart;
 mod chart_panel;

@@ -28,6 +28,16 @@ impl Rectangle {
     pub fn bottom(&self) -> f64 {
         self.y + self.height
     }
+
+    fn attributes(&self) -> String {
+        format!(
+            "x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"",
+            number(self.x),
+            number(self.y),
+            number(self.width.max(0.0)),
+            number(self.height.max(0.0))
+        )
+    }
 }
 
 /// How a line is drawn.
@@ -116,28 +126,16 @@ impl Drawing {
 
     /// A filled rectangle.
     pub fn filled_rectangle(&mut self, area: Rectangle, fill: &str, opacity: f64) {
-        let _ = writeln!(
-            self.body,
-            "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{fill}\" fill-opacity=\"{}\"/>",
-            number(area.x),
-            number(area.y),
-            number(area.width.max(0.0)),
-            number(area.height.max(0.0)),
-            number(opacity)
-        );
+        self.rectangle(area, &format!("fill=\"{fill}\" fill-opacity=\"{}\"", number(opacity)));
     }
 
     /// The outline of a rectangle.
     pub fn frame(&mut self, area: Rectangle, stroke: Stroke<'_>) {
-        let _ = writeln!(
-            self.body,
-            "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" {}/>",
-            number(area.x),
-            number(area.y),
-            number(area.width.max(0.0)),
-            number(area.height.max(0.0)),
-            stroke.attributes()
-        );
+        self.rectangle(area, &format!("fill=\"none\" {}", stroke.attributes()));
+    }
+
+    fn rectangle(&mut self, area: Rectangle, paint: &str) {
+        let _ = writeln!(self.body, "<rect {} {paint}/>", area.attributes());
     }
 
     /// A text whose baseline starts, ends or is centred at a point; `^{…}` and `_{…}` mark scripts.
@@ -233,12 +231,9 @@ impl Drawing {
         self.clips += 1;
         let _ = writeln!(
             self.body,
-            "<clipPath id=\"panel{0}\"><rect x=\"{1}\" y=\"{2}\" width=\"{3}\" height=\"{4}\"/></clipPath>\n<g clip-path=\"url(#panel{0})\">",
+            "<clipPath id=\"panel{0}\"><rect {1}/></clipPath>\n<g clip-path=\"url(#panel{0})\">",
             self.clips,
-            number(area.x),
-            number(area.y),
-            number(area.width.max(0.0)),
-            number(area.height.max(0.0))
+            area.attributes(),
         );
         content(self);
         self.body.push_str("</g>\n");
