@@ -16,10 +16,9 @@ mod mechanics;
 pub mod options;
 pub mod output;
 pub mod pictures;
-pub mod plots;
 mod progress;
 pub mod sampling;
-pub mod statistics;
 pub mod study;
 
 pub use error::CommandError;
+pub use parvi_plot::{self as plots, statistics};

@@ -11,7 +11,7 @@ use crate::options::TargetSpecification;
 use crate::output::Particles;
 
 /// What a run gave; the fields are those of [`parvi::Samples`].
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Outcome {
     /// The particles, all finite.
     pub particles: Particles,
@@ -94,25 +94,8 @@ impl Outcome {
     pub fn of_draws(particles: Particles, wall_seconds: f64) -> Self {
         Self {
             particles,
-            steps: 0,
-            score_evaluations: 0,
-            judging_evaluations: 0,
-            density_evaluations: 0,
-            log_evidence: None,
-            log_evidence_error: None,
-            pareto_k: None,
-            residual: None,
-            spacing: None,
-            active_nodes: None,
-            bodies: None,
-            storage_bytes: None,
-            divergences: None,
-            scores_replaced: 0,
-            certificate: None,
-            pool: None,
-            trace: Vec::new(),
-            watched: None,
             wall_seconds,
+            ..Self::default()
         }
     }
 

@@ -3,13 +3,13 @@
 use std::fmt::{self, Display, Formatter};
 use std::str::FromStr;
 
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 /// An integer from `LEAST` to `MOST`.
 ///
 /// In a configuration a value outside of the range is an error at its own line and column.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(try_from = "i64", into = "i64")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Deserialize)]
+#[serde(try_from = "i64")]
 pub struct Bounded<const LEAST: i64, const MOST: i64>(i64);
 
 /// A number of particles M.
@@ -43,12 +43,6 @@ impl<const LEAST: i64, const MOST: i64> TryFrom<i64> for Bounded<LEAST, MOST> {
 
     fn try_from(value: i64) -> Result<Self, String> {
         Self::new(value).ok_or_else(|| format!("{value} is out of range: must be from {LEAST} to {MOST}"))
-    }
-}
-
-impl<const LEAST: i64, const MOST: i64> From<Bounded<LEAST, MOST>> for i64 {
-    fn from(value: Bounded<LEAST, MOST>) -> i64 {
-        value.0
     }
 }
 

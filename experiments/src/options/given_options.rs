@@ -1,137 +1,120 @@
-//! Which options belong to which method.
+//! Which options are set, and which of them a method has.
 
 use std::path::PathBuf;
 
 use super::{MethodName, MethodOptions, OptionError};
 
-/// The methods that have an option.
-pub(super) type Owners = &'static [MethodName];
-const GAS: Owners = &[MethodName::Mpm];
-const WEIGHED: Owners = &[MethodName::Mpm, MethodName::Ais];
-const PAPER: Owners = &[MethodName::PaperPic, MethodName::PaperApic];
-const GRID: Owners = &[MethodName::Mpm, MethodName::PaperPic, MethodName::PaperApic];
-const STEIN: Owners = &[MethodName::Svgd];
-const STEPPED: Owners = &[
-    MethodName::Mpm,
-    MethodName::PaperPic,
-    MethodName::PaperApic,
-    MethodName::Svgd,
-    MethodName::SupportPoints,
-];
-const CHAIN: Owners = &[MethodName::Nuts, MethodName::SteinThinning];
-const POOLED: Owners = &[MethodName::Mpm, MethodName::Ais, MethodName::SteinThinning];
-const CONDENSED: Owners = &[MethodName::SteinThinning, MethodName::SupportPoints];
-const REST: Owners = &[MethodName::SupportPoints];
-const BODIES: Owners = &[MethodName::Mpm, MethodName::PaperPic, MethodName::PaperApic];
-const MOVED: Owners = &[
-    MethodName::Mpm,
-    MethodName::PaperPic,
-    MethodName::PaperApic,
-    MethodName::Svgd,
-];
-const STARTED: Owners = &[
-    MethodName::Mpm,
-    MethodName::Ais,
-    MethodName::PaperPic,
-    MethodName::PaperApic,
-    MethodName::Svgd,
-    MethodName::Nuts,
-    MethodName::SteinThinning,
-];
-
 impl MethodOptions {
     /// Refuses options that the method does not have.
     pub(super) fn check_fit(&self, method: MethodName) -> Result<(), OptionError> {
-        for (name, value, owners) in self.given() {
-            if !owners.contains(&method) {
-                return Err(OptionError::misfit(name, &value, method.as_str()));
-            }
+        match self.given().find(|(name, _)| !method.kind().has(name)) {
+            Some((name, value)) => Err(OptionError::misfit(name, &value, method.as_str())),
+            None => Ok(()),
         }
-        Ok(())
     }
 
-    /// The options that are set: name, value as typed, methods that have it.
-    pub(super) fn given(&self) -> Vec<(&'static str, String, Owners)> {
+    /// The options that are set: name, value as typed.
+    pub(super) fn given(&self) -> impl Iterator<Item = (&'static str, String)> {
+        self.all().into_iter().filter_map(|(name, value)| Some((name, value?)))
+    }
+
+    /// All options by name.
+    fn all(&self) -> [(&'static str, Option<String>); 72] {
         fn text<T: ToString>(value: &Option<T>) -> Option<String> {
             value.as_ref().map(T::to_string)
         }
         let file = |path: &Option<PathBuf>| path.as_ref().map(|path| path.display().to_string());
-        let all = [
-            ("steps", text(&self.steps), STEPPED),
-            ("basis", text(&self.basis), GRID),
-            ("mesh", file(&self.mesh), GAS),
-            ("spacing", text(&self.spacing), GRID),
-            ("time-step", text(&self.time_step), GRID),
-            ("score", text(&self.score), GRID),
-            ("displacement-limit", text(&self.displacement_limit), GRID),
-            ("survey", text(&self.survey), GAS),
-            ("evaluations", text(&self.evaluations), WEIGHED),
-            ("shifts", text(&self.shifts), GAS),
-            ("rotation", text(&self.rotation), GAS),
-            ("spacing-range", text(&self.spacing_range), GAS),
-            ("coarse-start", text(&self.coarse_start), GAS),
-            ("settling", text(&self.settling), GAS),
-            ("settling-shifts", text(&self.settling_shifts), GAS),
-            ("moment-correction", text(&self.moment_correction), GAS),
-            ("transfer", text(&self.transfer), GAS),
-            ("flip-share", text(&self.flip_share), GRID),
-            ("friction", text(&self.friction), BODIES),
-            ("rounds", text(&self.rounds), GAS),
-            ("weighted", text(&self.weighted), GAS),
-            ("non-finite", text(&self.non_finite), GAS),
-            ("certificate", text(&self.certificate), BODIES),
-            ("material", text(&self.material), PAPER),
-            ("youngs-modulus", text(&self.youngs_modulus), PAPER),
-            ("poissons-ratio", text(&self.poissons_ratio), PAPER),
-            ("as-written", text(&self.as_written), PAPER),
-            ("frame", text(&self.frame), PAPER),
-            ("peak-yield-stress", text(&self.peak_yield_stress), PAPER),
-            ("residual-yield-stress", text(&self.residual_yield_stress), PAPER),
-            ("softening-rate", text(&self.softening_rate), PAPER),
-            ("friction-angle", text(&self.friction_angle), PAPER),
-            ("cohesion", text(&self.cohesion), PAPER),
-            ("density", text(&self.density), PAPER),
-            ("sound-speed", text(&self.sound_speed), PAPER),
-            ("viscosity", text(&self.viscosity), PAPER),
-            ("forgets-expansion", text(&self.forgets_expansion), PAPER),
-            ("pressure-per-density", text(&self.pressure_per_density), PAPER),
-            ("grid-renewal", text(&self.grid_renewal), PAPER),
-            ("masses", file(&self.masses), PAPER),
-            ("volumes", file(&self.volumes), PAPER),
-            ("velocities", file(&self.velocities), PAPER),
-            ("stretch-limit", text(&self.stretch_limit), PAPER),
-            ("alpha", text(&self.alpha), GRID),
-            ("alpha-from", text(&self.alpha_from), GRID),
-            ("alpha-to", text(&self.alpha_to), GRID),
-            ("alpha-schedule", text(&self.alpha_schedule), GRID),
-            ("alpha-cycles", text(&self.alpha_cycles), GRID),
-            ("monitor", text(&self.monitor), PAPER),
-            ("monitor-every", text(&self.monitor_every), PAPER),
-            ("patience", text(&self.patience), PAPER),
-            ("best", file(&self.best), PAPER),
-            ("guards", text(&self.guards), PAPER),
-            ("mass-floor", text(&self.mass_floor), PAPER),
-            ("mass-weighted-force", text(&self.mass_weighted_force), PAPER),
-            ("courant", text(&self.courant), PAPER),
-            ("step-size", text(&self.step_size), STEIN),
-            ("bandwidth", text(&self.bandwidth), STEIN),
-            ("warm-up", text(&self.warm_up), CHAIN),
-            ("chains", text(&self.chains), CHAIN),
-            ("thinning", text(&self.thinning), CHAIN),
-            ("target-acceptance", text(&self.target_acceptance), CHAIN),
-            ("pool", file(&self.pool), POOLED),
-            ("pool-size", text(&self.pool_size), CONDENSED),
-            ("tolerance", text(&self.tolerance), REST),
-            ("start", file(&self.start), MOVED),
-            ("start-law", text(&self.start_law), MOVED),
-            ("start-centre", text(&self.start_centre), MOVED),
-            ("start-covariance", text(&self.start_covariance), MOVED),
-            ("start-mean", text(&self.start_mean), STARTED),
-            ("start-sd", text(&self.start_sd), STARTED),
-            ("start-draws", text(&self.start_draws), STARTED),
-        ];
-        all.into_iter()
-            .filter_map(|(name, value, owners)| Some((name, value?, owners)))
-            .collect()
+        [
+            ("steps", text(&self.steps)),
+            ("basis", text(&self.basis)),
+            ("mesh", file(&self.mesh)),
+            ("spacing", text(&self.spacing)),
+            ("time-step", text(&self.time_step)),
+            ("score", text(&self.score)),
+            ("displacement-limit", text(&self.displacement_limit)),
+            ("survey", text(&self.survey)),
+            ("evaluations", text(&self.evaluations)),
+            ("shifts", text(&self.shifts)),
+            ("rotation", text(&self.rotation)),
+            ("spacing-range", text(&self.spacing_range)),
+            ("coarse-start", text(&self.coarse_start)),
+            ("settling", text(&self.settling)),
+            ("settling-shifts", text(&self.settling_shifts)),
+            ("moment-correction", text(&self.moment_correction)),
+            ("transfer", text(&self.transfer)),
+            ("flip-share", text(&self.flip_share)),
+            ("friction", text(&self.friction)),
+            ("rounds", text(&self.rounds)),
+            ("weighted", text(&self.weighted)),
+            ("non-finite", text(&self.non_finite)),
+            ("certificate", text(&self.certificate)),
+            ("material", text(&self.material)),
+            ("youngs-modulus", text(&self.youngs_modulus)),
+            ("poissons-ratio", text(&self.poissons_ratio)),
+            ("as-written", text(&self.as_written)),
+            ("frame", text(&self.frame)),
+            ("peak-yield-stress", text(&self.peak_yield_stress)),
+            ("residual-yield-stress", text(&self.residual_yield_stress)),
+            ("softening-rate", text(&self.softening_rate)),
+            ("friction-angle", text(&self.friction_angle)),
+            ("cohesion", text(&self.cohesion)),
+            ("density", text(&self.density)),
+            ("sound-speed", text(&self.sound_speed)),
+            ("viscosity", text(&self.viscosity)),
+            ("forgets-expansion", text(&self.forgets_expansion)),
+            ("pressure-per-density", text(&self.pressure_per_density)),
+            ("grid-renewal", text(&self.grid_renewal)),
+            ("masses", file(&self.masses)),
+            ("volumes", file(&self.volumes)),
+            ("velocities", file(&self.velocities)),
+            ("stretch-limit", text(&self.stretch_limit)),
+            ("alpha", text(&self.alpha)),
+            ("alpha-from", text(&self.alpha_from)),
+            ("alpha-to", text(&self.alpha_to)),
+            ("alpha-schedule", text(&self.alpha_schedule)),
+            ("alpha-cycles", text(&self.alpha_cycles)),
+            ("monitor", text(&self.monitor)),
+            ("monitor-every", text(&self.monitor_every)),
+            ("patience", text(&self.patience)),
+            ("best", file(&self.best)),
+            ("guards", text(&self.guards)),
+            ("mass-floor", text(&self.mass_floor)),
+            ("mass-weighted-force", text(&self.mass_weighted_force)),
+            ("courant", text(&self.courant)),
+            ("step-size", text(&self.step_size)),
+            ("bandwidth", text(&self.bandwidth)),
+            ("warm-up", text(&self.warm_up)),
+            ("chains", text(&self.chains)),
+            ("thinning", text(&self.thinning)),
+            ("target-acceptance", text(&self.target_acceptance)),
+            ("pool", file(&self.pool)),
+            ("pool-size", text(&self.pool_size)),
+            ("tolerance", text(&self.tolerance)),
+            ("start", file(&self.start)),
+            ("start-law", text(&self.start_law)),
+            ("start-centre", text(&self.start_centre)),
+            ("start-covariance", text(&self.start_covariance)),
+            ("start-mean", text(&self.start_mean)),
+            ("start-sd", text(&self.start_sd)),
+            ("start-draws", text(&self.start_draws)),
+        ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::ValueEnum;
+
+    use super::*;
+
+    #[test]
+    fn every_option_is_one_of_some_method_and_no_method_has_others() {
+        let names = MethodOptions::default().all().map(|(name, _)| name);
+        let owned: Vec<&str> = MethodName::value_variants()
+            .iter()
+            .flat_map(|method| method.kind().options.split(' '))
+            .collect();
+        assert!(owned.iter().all(|option| option.is_empty() || names.contains(option)));
+        assert!(names.iter().all(|name| owned.contains(name)));
     }
 }

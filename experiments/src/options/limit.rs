@@ -4,7 +4,7 @@ use std::fmt::{self, Display, Formatter};
 use std::str::FromStr;
 
 use serde::de::{self, Visitor};
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Deserialize, Deserializer};
 
 /// A number, or `off`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,15 +43,6 @@ impl Display for Limit {
         match self {
             Self::Off => write!(formatter, "off"),
             Self::At(value) => write!(formatter, "{value}"),
-        }
-    }
-}
-
-impl Serialize for Limit {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Self::Off => serializer.serialize_str("off"),
-            Self::At(value) => serializer.serialize_f64(*value),
         }
     }
 }

@@ -33,40 +33,14 @@ pub enum MethodName {
 }
 
 impl MethodName {
-    /// All methods.
-    pub const ALL: [Self; 10] = [
-        Self::Mpm,
-        Self::Ais,
-        Self::PaperPic,
-        Self::PaperApic,
-        Self::Svgd,
-        Self::Iid,
-        Self::Sobol,
-        Self::Nuts,
-        Self::SteinThinning,
-        Self::SupportPoints,
-    ];
-
     /// The name as typed.
     pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Mpm => "mpm",
-            Self::Ais => "ais",
-            Self::PaperPic => "paper-pic",
-            Self::PaperApic => "paper-apic",
-            Self::Svgd => "svgd",
-            Self::Iid => "iid",
-            Self::Sobol => "sobol",
-            Self::Nuts => "nuts",
-            Self::SteinThinning => "stein-thinning",
-            Self::SupportPoints => "support-points",
-        }
+        self.kind().name
     }
 
-    /// Whether the method moves all particles by steps from a start, so that studies can vary their number. Draws come at once or one
-    /// after the other.
+    /// Whether the method moves all particles by steps from a start, so that studies can vary their number.
     pub fn iterates(self) -> bool {
-        matches!(self, Self::Mpm | Self::PaperPic | Self::PaperApic | Self::Svgd)
+        self.kind().iterates
     }
 }
 
@@ -82,7 +56,7 @@ mod tests {
 
     #[test]
     fn the_names_are_those_of_the_command_line() {
-        for method in MethodName::ALL {
+        for &method in MethodName::value_variants() {
             assert_eq!(MethodName::from_str(method.as_str(), false), Ok(method));
         }
     }

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use parvi::{AisOptions, Method, Start, SvgdOptions};
-use serde::{Deserialize, Serialize};
+use parvi::{Method, Start};
+use serde::Deserialize;
 
 use super::{
     AlphaSchedule, Basis, Correction, Draws, EvaluationCount, FrameName, Limit, Material, MethodName, MonitorName,
@@ -12,7 +12,7 @@ use super::{
 };
 
 /// Options of the methods; `None`: the method's own default.
-#[derive(Args, Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Args, Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
 #[command(next_help_heading = "Options of the method")]
 pub struct MethodOptions {
@@ -259,38 +259,8 @@ impl MethodOptions {
         self.check_ranges()?;
         self.check_pairs(name)?;
         self.check_starts(name)?;
-        if name == MethodName::Mpm {
-            self.check_survey()?;
-            self.check_attraction()?;
-        }
         self.check_pool(name)?;
-        let steps = self.steps.map(StepCount::get);
-        Ok(match name {
-            MethodName::Mpm if self.basis == Some(Basis::Mesh) => Method::OnMesh(self.on_mesh(steps)?),
-            MethodName::Mpm => Method::Mpm(self.mpm(steps)?),
-            MethodName::Ais => Method::Ais(AisOptions {
-                evaluations: self.evaluations(),
-            }),
-            MethodName::PaperPic | MethodName::PaperApic if self.basis == Some(Basis::Mesh) => {
-                return Err(OptionError::misfit("basis", "mesh", name.as_str()));
-            }
-            MethodName::PaperPic => Method::Paper(self.paper(steps, false)?),
-            MethodName::PaperApic => Method::Paper(self.paper(steps, true)?),
-            MethodName::Svgd => {
-                let default = SvgdOptions::default();
-                Method::Svgd(SvgdOptions {
-                    steps: steps.or(default.steps),
-                    step_size: self.step_size.unwrap_or(default.step_size),
-                    bandwidth: self.bandwidth,
-                    trace_every: self.trace_every,
-                })
-            }
-            MethodName::Iid => Method::Iid,
-            MethodName::Sobol => Method::Sobol,
-            MethodName::Nuts => Method::Nuts(self.nuts()),
-            MethodName::SteinThinning => Method::SteinThinning(self.stein_thinning()?),
-            MethodName::SupportPoints => Method::SupportPoints(self.support_points()),
-        })
+        (name.kind().build)(self, self.steps.map(StepCount::get))
     }
 
     /// Where the particles begin.
@@ -306,8 +276,7 @@ impl MethodOptions {
     /// The flags that say the same on the command line.
     pub fn flags(&self) -> Vec<String> {
         self.given()
-            .into_iter()
-            .flat_map(|(name, value, _)| [format!("--{name}"), value])
+            .flat_map(|(name, value)| [format!("--{name}"), value])
             .collect()
     }
 }

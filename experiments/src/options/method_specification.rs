@@ -1,18 +1,17 @@
 //! A method with its options, as a configuration states it.
 
 use parvi::{Method, SampleError};
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 use super::{MethodName, MethodOptions, OptionError};
 
 /// `{ name = "mpm", options = { spacing = 0.5 } }`; options that do not fit the method are refused while reading.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(try_from = "Stated")]
 pub struct MethodSpecification {
     /// The method.
     pub name: MethodName,
     /// A name of its own in tables and figures, where one method appears with several options.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub label: Option<String>,
     /// Its options.
     pub options: MethodOptions,

@@ -1,23 +1,23 @@
 //! Options of targets and methods, with the same names on the command line and in configurations.
 
-mod baseline_options;
 mod bounded;
-mod gas_options;
 mod given_options;
+mod law;
 mod limit;
 mod material_options;
 mod method_name;
 mod method_options;
 mod method_specification;
+mod methods;
 mod option_checks;
 mod option_error;
 mod option_values;
-mod paper_options;
 mod pool_option;
 mod start_options;
 mod target_specification;
 
 pub use bounded::{Bounded, Dimension, EvaluationCount, ParticleCount, RoundCount, StepCount, WarmUp};
+pub use law::Parameter;
 pub use limit::Limit;
 pub use method_name::MethodName;
 pub use method_options::MethodOptions;

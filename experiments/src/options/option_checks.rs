@@ -59,17 +59,12 @@ impl MethodOptions {
         if let Some(mesh) = &self.mesh
             && self.basis != Some(Basis::Mesh)
         {
-            return Err(OptionError {
-                name: "mesh".to_owned(),
-                reason: format!("{} needs the basis `mesh`", mesh.display()),
-            });
+            return Err(OptionError::new(
+                "mesh",
+                format!("{} needs the basis `mesh`", mesh.display()),
+            ));
         }
-        let refuse = |name: &str, value: f64, reason: &str| {
-            Err(OptionError {
-                name: name.to_owned(),
-                reason: format!("{value} {reason}"),
-            })
-        };
+        let refuse = |name: &str, value: f64, reason: &str| Err(OptionError::new(name, format!("{value} {reason}")));
         if let Some(share) = self.flip_share
             && method == MethodName::Mpm
             && !matches!(self.transfer, Some(Transfer::Flip | Transfer::AffineFlip))
@@ -89,10 +84,10 @@ impl MethodOptions {
         if let Some(schedule) = self.alpha_schedule
             && self.alpha_from.is_none()
         {
-            return Err(OptionError {
-                name: "alpha-schedule".to_owned(),
-                reason: format!("{schedule} needs alpha-from and alpha-to beside it"),
-            });
+            return Err(OptionError::new(
+                "alpha-schedule",
+                format!("{schedule} needs alpha-from and alpha-to beside it"),
+            ));
         }
         if let Some(cycles) = self.alpha_cycles
             && self.alpha_schedule != Some(AlphaSchedule::Cyclic)
@@ -137,10 +132,7 @@ impl MethodOptions {
         ];
         match given.into_iter().find_map(|(name, value)| Some((name, value?))) {
             None => Ok(()),
-            Some((name, value)) => Err(OptionError {
-                name: name.to_owned(),
-                reason: format!("{value} needs a survey"),
-            }),
+            Some((name, value)) => Err(OptionError::new(name, format!("{value} needs a survey"))),
         }
     }
 }

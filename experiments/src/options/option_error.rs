@@ -14,20 +14,22 @@ pub struct OptionError {
 }
 
 impl OptionError {
-    /// An option that a method does not have.
-    pub fn misfit(name: &str, value: &str, method: &str) -> Self {
+    /// What is wrong with an option.
+    pub fn new(name: &str, reason: impl Into<String>) -> Self {
         Self {
             name: name.to_owned(),
-            reason: format!("{value} does not fit method `{method}`"),
+            reason: reason.into(),
         }
+    }
+
+    /// An option that a method does not have.
+    pub fn misfit(name: &str, value: &str, method: &str) -> Self {
+        Self::new(name, format!("{value} does not fit method `{method}`"))
     }
 
     /// A value outside of its range.
     pub fn out_of_range(name: &str, value: impl Display, expected: &str) -> Self {
-        Self {
-            name: name.to_owned(),
-            reason: format!("{value} must be {expected}"),
-        }
+        Self::new(name, format!("{value} must be {expected}"))
     }
 
     /// The flag that asks for a target which there is not; `None` where no flag does, but its data.
@@ -44,10 +46,7 @@ impl OptionError {
             TargetError::UnknownTarget { .. } => "target",
             _ => return None,
         };
-        Some(Self {
-            name: name.to_owned(),
-            reason: error.to_string(),
-        })
+        Some(Self::new(name, error.to_string()))
     }
 }
 

@@ -64,16 +64,6 @@ pub enum Correction {
     Affine,
 }
 
-impl From<Correction> for MomentCorrection {
-    fn from(correction: Correction) -> Self {
-        match correction {
-            Correction::Off => Self::Off,
-            Correction::Mean => Self::Mean,
-            Correction::Affine => Self::Affine,
-        }
-    }
-}
-
 /// How particles are drawn from their initial law.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -82,15 +72,6 @@ pub enum Draws {
     QuasiRandom,
     /// Independent draws
     Independent,
-}
-
-impl From<Draws> for StartDraws {
-    fn from(draws: Draws) -> Self {
-        match draws {
-            Draws::QuasiRandom => Self::QuasiRandom,
-            Draws::Independent => Self::Independent,
-        }
-    }
 }
 
 /// How velocities travel between particles and nodes.
@@ -140,15 +121,6 @@ pub enum Score {
     Nodes,
 }
 
-impl From<Score> for ScoreLocation {
-    fn from(score: Score) -> Self {
-        match score {
-            Score::Particles => Self::Particles,
-            Score::Nodes => Self::Nodes,
-        }
-    }
-}
-
 /// What is done about a particle whose score is not finite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -159,16 +131,6 @@ pub enum NonFinite {
     RejectStep,
     /// End with an error
     Report,
-}
-
-impl From<NonFinite> for NonFiniteScores {
-    fn from(policy: NonFinite) -> Self {
-        match policy {
-            NonFinite::PullBack => Self::PullBack,
-            NonFinite::RejectStep => Self::RejectStep,
-            NonFinite::Report => Self::Report,
-        }
-    }
 }
 
 /// Constitutive law of the paper's algorithms, by the names of the scenes.
@@ -229,82 +191,43 @@ pub enum PoolChoice {
     Nuts,
 }
 
-/// The word of a value, as it is typed.
-fn word(value: &impl ValueEnum, formatter: &mut Formatter<'_>) -> fmt::Result {
-    match value.to_possible_value() {
-        Some(possible) => write!(formatter, "{}", possible.get_name()),
-        None => Ok(()),
-    }
+/// The library's choice of the same name for every word.
+macro_rules! as_in_the_library {
+    ($words:ident => $choices:ident { $($name:ident),* }) => {
+        impl From<$words> for $choices {
+            fn from(word: $words) -> Self {
+                match word {
+                    $($words::$name => Self::$name),*
+                }
+            }
+        }
+    };
 }
 
-impl Display for Basis {
-    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
-        word(self, formatter)
-    }
+as_in_the_library!(Correction => MomentCorrection { Off, Mean, Affine });
+as_in_the_library!(Draws => StartDraws { QuasiRandom, Independent });
+as_in_the_library!(Score => ScoreLocation { Particles, Nodes });
+as_in_the_library!(NonFinite => NonFiniteScores { PullBack, RejectStep, Report });
+
+/// Writes values as the words that are typed.
+macro_rules! display_as_typed {
+    ($($words:ty),*) => {$(
+        impl Display for $words {
+            fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+                self.to_possible_value().map_or(Ok(()), |word| formatter.write_str(word.get_name()))
+            }
+        }
+    )*};
 }
 
-impl Display for Switch {
-    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
-        word(self, formatter)
-    }
-}
-
-impl Display for Correction {
-    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
-        word(self, formatter)
-    }
-}
-
-impl Display for Draws {
-    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
-        word(self, formatter)
-    }
-}
-
-impl Display for Transfer {
-    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
-        word(self, formatter)
-    }
-}
-
-impl Display for MonitorName {
-    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
-        word(self, formatter)
-    }
-}
-
-impl Display for Score {
-    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
-        word(self, formatter)
-    }
-}
-
-impl Display for NonFinite {
-    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
-        word(self, formatter)
-    }
-}
-
-impl Display for FrameName {
-    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
-        word(self, formatter)
-    }
-}
-
-impl Display for AlphaSchedule {
-    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
-        word(self, formatter)
-    }
-}
-
-impl Display for Material {
-    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
-        word(self, formatter)
-    }
-}
-
-impl Display for PoolChoice {
-    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
-        word(self, formatter)
-    }
-}
+display_as_typed!(
+    Basis,
+    Switch,
+    Correction,
+    Draws,
+    Transfer,
+    MonitorName,
+    Score,
+    NonFinite
+);
+display_as_typed!(FrameName, AlphaSchedule, Material, PoolChoice);

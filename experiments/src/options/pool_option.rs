@@ -37,10 +37,10 @@ impl MethodOptions {
     /// Refuses a file for a pool, which belongs to a single run.
     pub(super) fn check_study(&self, method: MethodName) -> Result<(), OptionError> {
         match self.pool_file(method) {
-            Some(file) => Err(OptionError {
-                name: "pool".to_owned(),
-                reason: format!("{}: a study writes no pools, `parvi sample` does", file.display()),
-            }),
+            Some(file) => Err(OptionError::new(
+                "pool",
+                format!("{}: a study writes no pools, `parvi sample` does", file.display()),
+            )),
             None => Ok(()),
         }
     }
@@ -50,13 +50,9 @@ impl MethodOptions {
         if method != MethodName::SteinThinning || self.pool_choice()? == Some(PoolChoice::Nuts) {
             return Ok(());
         }
-        let of_chains = |owners: &[MethodName]| owners.contains(&MethodName::Nuts);
-        match self.given().into_iter().find(|(_, _, owners)| of_chains(owners)) {
+        match self.given().find(|(name, _)| MethodName::Nuts.kind().has(name)) {
             None => Ok(()),
-            Some((name, value, _)) => Err(OptionError {
-                name: name.to_owned(),
-                reason: format!("{value} needs the pool `nuts`"),
-            }),
+            Some((name, value)) => Err(OptionError::new(name, format!("{value} needs the pool `nuts`"))),
         }
     }
 }

@@ -48,25 +48,25 @@ impl MethodOptions {
             return Err(contradiction(name, &value.to_string(), other));
         }
         if let (None, Some(covariance)) = (&self.start_centre, &self.start_covariance) {
-            return Err(OptionError {
-                name: "start-covariance".to_owned(),
-                reason: format!("{covariance} needs --start-centre beside it"),
-            });
+            return Err(OptionError::new(
+                "start-covariance",
+                format!("{covariance} needs --start-centre beside it"),
+            ));
         }
         if let Some((name, Some(value))) = way
             && method == MethodName::Mpm
             && self.surveys()
         {
-            return Err(OptionError {
-                name: (*name).to_owned(),
-                reason: format!("{value} needs --survey off: a survey says where the particles begin"),
-            });
+            return Err(OptionError::new(
+                name,
+                format!("{value} needs --survey off: a survey says where the particles begin"),
+            ));
         }
         if self.start.is_some() && self.volumes_of_start() {
-            return Err(OptionError {
-                name: "volumes".to_owned(),
-                reason: "start-density needs a start law, which a file of positions does not have".to_owned(),
-            });
+            return Err(OptionError::new(
+                "volumes",
+                "start-density needs a start law, which a file of positions does not have".to_owned(),
+            ));
         }
         Ok(())
     }
@@ -84,10 +84,10 @@ impl MethodOptions {
         ];
         match given.into_iter().find_map(|(name, value)| Some((name, value?))) {
             None => Ok(()),
-            Some((name, value)) => Err(OptionError {
-                name: name.to_owned(),
-                reason: format!("{value}: a study gives no particles, `parvi sample` does"),
-            }),
+            Some((name, value)) => Err(OptionError::new(
+                name,
+                format!("{value}: a study gives no particles, `parvi sample` does"),
+            )),
         }
     }
 }
@@ -97,8 +97,5 @@ fn file_unless<'a>(value: &'a Option<PathBuf>, word: &str) -> Option<&'a Path> {
 }
 
 fn contradiction(name: &str, value: &str, other: &str) -> OptionError {
-    OptionError {
-        name: name.to_owned(),
-        reason: format!("{value} contradicts --{other}"),
-    }
+    OptionError::new(name, format!("{value} contradicts --{other}"))
 }

@@ -4,50 +4,41 @@ use std::path::PathBuf;
 
 use clap::Args;
 use parvi_targets::{Parameters, TargetError};
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 use super::Dimension;
 
 /// Parameters of the targets; `None`: the target's own default.
-#[derive(Args, Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Args, Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
 #[command(next_help_heading = "Parameters of the target")]
 pub struct TargetParameters {
     /// Correlation R of neighbouring axes, R^|i-j| (gaussian, scales)
     #[arg(long, value_name = "R", allow_negative_numbers = true)]
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub correlation: Option<f64>,
     /// Curvature b (banana)
     #[arg(long, value_name = "B", allow_negative_numbers = true)]
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub curvature: Option<f64>,
     /// Width: standard deviation across the curve, the ring, an arm or a mode, of the funnel's mouth (banana, ring, mixture-*, funnel, rosenbrock, cross)
     #[arg(long, value_name = "SIGMA", allow_negative_numbers = true)]
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub width: Option<f64>,
     /// Standard deviation along the curve or an arm (rosenbrock, cross)
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub spread: Option<f64>,
     /// Radius of the ring (ring)
     #[arg(long, allow_negative_numbers = true)]
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub radius: Option<f64>,
     /// Degrees of freedom (student-t)
     #[arg(long, value_name = "NU", allow_negative_numbers = true)]
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub degrees_of_freedom: Option<f64>,
     /// Seed that makes the target (random)
     #[arg(long, value_name = "SEED")]
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub target_seed: Option<u64>,
     /// Standard deviation of the Gaussian prior of each coefficient (wells, wells-small, probit, poisson, logistic)
     #[arg(long, value_name = "SD", allow_negative_numbers = true)]
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub prior_sd: Option<f64>,
     /// Data: a header, the 0/1 response (poisson: a count) first, then the covariates (logistic, probit, poisson)
     #[arg(long, value_name = "FILE.csv")]
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub data: Option<PathBuf>,
 }
 
@@ -70,13 +61,12 @@ impl TargetParameters {
 
 /// `{ name = "gaussian", dim = 4, parameters = { correlation = 0.5 } }`; an unknown name or a dimension that the
 /// target does not have is refused while reading.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(try_from = "Stated")]
 pub struct TargetSpecification {
     /// The name in the catalogue.
     pub name: String,
     /// The dimension, where the target leaves it free.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub dim: Option<Dimension>,
     /// The parameters.
     pub parameters: TargetParameters,

@@ -8,6 +8,7 @@ mod number_table;
 mod particles;
 pub mod particles_csv;
 pub mod particles_npy;
+pub mod table_file;
 
 use std::path::{Path, PathBuf};
 

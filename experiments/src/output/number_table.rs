@@ -29,10 +29,7 @@ impl NumberTable {
             Some("npy") => read_npy(path),
             _ => Err("the extension must be .csv or .npy".to_owned()),
         };
-        table.map_err(|reason| OptionError {
-            name: flag.to_owned(),
-            reason: format!("{}: {reason}", path.display()),
-        })
+        table.map_err(|reason| OptionError::new(flag, format!("{}: {reason}", path.display())))
     }
 
     /// Rows.

@@ -8,7 +8,7 @@ pub const WEIGHT: &str = "weight";
 pub const LOG_DENSITY: &str = "log_density";
 
 /// M points in d dimensions, row by row, with weights where they differ, and log p where it is noted.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Particles {
     dimension: usize,
     coordinates: Vec<f64>,
@@ -54,7 +54,7 @@ impl Particles {
 
     /// M.
     pub fn len(&self) -> usize {
-        self.coordinates.len() / self.dimension
+        self.coordinates.len() / self.dimension.max(1)
     }
 
     /// Whether there is no point.
@@ -64,7 +64,7 @@ impl Particles {
 
     /// The points, as slices of length d.
     pub fn rows(&self) -> impl Iterator<Item = &[f64]> {
-        self.coordinates.chunks_exact(self.dimension)
+        self.coordinates.chunks_exact(self.dimension.max(1))
     }
 
     /// All coordinates, one point after the other.

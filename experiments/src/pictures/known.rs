@@ -122,17 +122,19 @@ fn quadrature<const D: usize>(target: &dyn CatalogueTarget<D>) -> Option<Known> 
         let (middle, half) = (0.5 * (low + high), 0.5 * WIDER * (high - low));
         (middle - half, middle + half)
     };
-    let grids = NODES.iter().map(|&nodes| {
+    let mut grids = NODES.iter().map(|&nodes| {
         let rows = if D == 1 { 1 } else { nodes };
-        DensityGrid::evaluate(range(0), range(1), (nodes, rows), |x, y| {
+        let mut grid = DensityGrid::evaluate(range(0), range(1), (nodes, rows), |x, y| {
             let mut point = [0.0; D];
             for (coordinate, value) in point.iter_mut().zip([x, y]) {
                 *coordinate = value;
             }
             target.log_density(&point)
-        })
+        });
+        grid.exponentiate();
+        grid
     });
-    let grid = grids.map(exponentiated).find(settled)?;
+    let grid = grids.find(settled)?;
     let marginals = (0..D).map(|axis| marginal(&grid, axis)).collect();
     let pair = PairDensity {
         horizontal: 0,
@@ -143,16 +145,6 @@ fn quadrature<const D: usize>(target: &dyn CatalogueTarget<D>) -> Option<Known> 
         marginals,
         pairs: if D == 2 { vec![pair] } else { Vec::new() },
     })
-}
-
-/// From logarithms to values, the largest 1; what is not a number counts as zero.
-fn exponentiated(mut grid: DensityGrid) -> DensityGrid {
-    let finite = grid.values.iter().copied().filter(|value| value.is_finite());
-    let most = finite.fold(f64::NEG_INFINITY, f64::max);
-    for value in &mut grid.values {
-        *value = if value.is_finite() { (*value - most).exp() } else { 0.0 };
-    }
-    grid
 }
 
 /// Whether the integral over every second node is the same.

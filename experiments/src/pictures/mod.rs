@@ -11,8 +11,8 @@ use crate::dispatch::with_target;
 use crate::options::TargetSpecification;
 use crate::output::{AtomicFile, OutputDirectory, Particles};
 use crate::plots::{
-    AxisKind, CornerPlot, HistogramPlot, PlotError, PointCloud, StripPanel, StripPlot, TracePanel, TracePlot,
-    TraceSeries, corner, histogram, strip, trace,
+    AxisKind, DensityPlot, PlotError, PointCloud, StripPanel, StripPlot, TracePanel, TracePlot, TraceSeries, corner,
+    histogram, strip, trace,
 };
 use crate::sampling::{Outcome, Watched};
 use crate::study::{TraceQuantity, TraceRow};
@@ -105,7 +105,7 @@ impl Subject<'_> {
 
     fn histogram(&self, known: &Known) -> Result<String, PlotError> {
         let points = rows(&self.outcome.particles);
-        histogram(&HistogramPlot {
+        histogram(&DensityPlot {
             title: &self.title(),
             particles: self.weighted(&points),
             labels: &self.target.coordinate_names(),
@@ -133,7 +133,7 @@ impl Subject<'_> {
         let draws = cut(known.draws().to_vec());
         let mut labels = self.target.coordinate_names();
         labels.truncate(shown);
-        corner(&CornerPlot {
+        corner(&DensityPlot {
             title: &self.title(),
             particles: self.weighted(&points),
             labels: &labels,

@@ -7,10 +7,11 @@ use super::results::single_line;
 use crate::CommandError;
 
 /// How a run ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Status {
     /// With finite particles.
+    #[default]
     Finished,
     /// With positions or scores that are not finite.
     Diverged,

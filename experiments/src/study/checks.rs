@@ -2,9 +2,11 @@
 
 use std::collections::HashSet;
 
+use parvi_targets::Dimensions;
+
 use super::definition::Case;
 use crate::CommandError;
-use crate::options::MethodSpecification;
+use crate::options::{Bounded, MethodSpecification};
 
 /// The error for a field whose value does not fit; the runner adds the file.
 pub fn refusal(field: &str, message: impl Into<String>) -> CommandError {
@@ -54,4 +56,18 @@ pub fn distinct(field: &str, cases: &[impl Case]) -> Result<(), CommandError> {
         Some(id) => Err(refusal(field, format!("two cases are `{id}`"))),
         None => Ok(()),
     }
+}
+
+/// The sizes of a list, small ones first.
+pub fn ascending<const LEAST: i64, const MOST: i64>(sizes: &[Bounded<LEAST, MOST>]) -> Vec<usize> {
+    let mut sizes: Vec<usize> = sizes.iter().map(|size| size.get()).collect();
+    sizes.sort_unstable();
+    sizes
+}
+
+/// The names of all targets but those whose data the user brings.
+pub fn targets_without_data() -> impl Iterator<Item = &'static str> {
+    let infos = parvi_targets::catalogue().iter();
+    let without = infos.filter(|info| info.dimensions != Dimensions::FromData);
+    without.map(|info| info.name)
 }

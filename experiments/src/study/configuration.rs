@@ -17,6 +17,8 @@ pub struct Configuration {
     text: String,
     kind: Spanned<String>,
     hash: String,
+    seeds: Vec<u64>,
+    threads: Option<usize>,
 }
 
 /// The one key that every configuration has.
@@ -41,6 +43,8 @@ impl Configuration {
         Ok(Self {
             kind: kind.kind,
             hash: fingerprint(&canonical(&table)),
+            seeds: whole_numbers(["seed", "seeds"].iter().find_map(|key| table.get(*key))),
+            threads: whole_numbers(table.get("threads")).first().map(|&count| count as usize),
             file,
             text,
         })
@@ -66,6 +70,16 @@ impl Configuration {
         &self.hash
     }
 
+    /// The seeds in `seed` or `seeds`, if it has one of both.
+    pub fn seeds(&self) -> &[u64] {
+        &self.seeds
+    }
+
+    /// The number in `threads`, if it has one.
+    pub fn threads(&self) -> Option<usize> {
+        self.threads
+    }
+
     /// The configuration as its kind understands it. Unknown keys are errors.
     pub fn parse<T: DeserializeOwned>(&self) -> Result<T, CommandError> {
         Ok(mpm_document::parse(&self.text, Path::new(&self.file))?)
@@ -76,6 +90,17 @@ impl Configuration {
         let message = format!("unknown kind `{}`, expected one of {}", self.kind(), known.join(", "));
         DocumentError::at(Path::new(&self.file), &self.text, self.kind.span().start, message).into()
     }
+}
+
+/// A number or a list of them; what is neither is for the kind to refuse.
+fn whole_numbers(value: Option<&toml::Value>) -> Vec<u64> {
+    let list = match value {
+        Some(toml::Value::Array(list)) => list.as_slice(),
+        Some(value) => std::slice::from_ref(value),
+        None => &[],
+    };
+    let numbers = list.iter().filter_map(toml::Value::as_integer);
+    numbers.filter_map(|number| u64::try_from(number).ok()).collect()
 }
 
 /// All keys in alphabetical order, as JSON.
@@ -130,6 +155,15 @@ mod tests {
         assert!(broken.starts_with("c.toml, line 2, "), "{broken}");
         let missing = message("particles = 3");
         assert!(missing.contains("missing field `kind`"), "{missing}");
+    }
+
+    #[test]
+    fn seeds_and_threads_are_those_of_the_file() {
+        let read = |text: &str| Configuration::from_text(String::new(), text.to_owned()).unwrap();
+        let one = read("kind = \"a\"\nseed = 3\nthreads = 2");
+        assert_eq!((one.seeds(), one.threads()), (&[3][..], Some(2)));
+        let many = read("kind = \"a\"\nseeds = [1, 2]\n[part]\nthreads = 4");
+        assert_eq!((many.seeds(), many.threads()), (&[1, 2][..], None));
     }
 
     #[test]

@@ -39,6 +39,9 @@ pub trait Study: DeserializeOwned + Sync {
     /// The `kind` in the configuration.
     const KIND: &'static str;
 
+    /// The columns of results.csv with spaces between, where they are not all that a row has.
+    const COLUMNS: &'static str = "";
+
     /// Reads and checks the files that the configuration names, relative to its own file. Before a run, not for a report.
     ///
     /// # Errors
@@ -55,11 +58,15 @@ pub trait Study: DeserializeOwned + Sync {
         Ok(())
     }
 
-    /// The seeds, for the manifest.
-    fn seeds(&self) -> Vec<u64>;
+    /// The seeds, for the manifest, where `seed` or `seeds` of the configuration do not say them.
+    fn seeds(&self) -> Vec<u64> {
+        Vec::new()
+    }
 
-    /// The number of threads; `None`: as many as the environment gives.
-    fn threads(&self) -> Option<usize>;
+    /// The number of threads, where `threads` of the configuration does not say it; `None`: as many as the environment gives.
+    fn threads(&self) -> Option<usize> {
+        None
+    }
 
     /// All cases, in the order in which they run.
     ///
@@ -86,4 +93,20 @@ pub struct Report {
     pub document: Document,
     /// The most important of it, as `key=value` lines for standard output.
     pub summary: Vec<(&'static str, String)>,
+}
+
+impl Report {
+    /// A page, and nothing but the study's name beside it.
+    pub fn new(kind: &str, document: Document) -> Self {
+        Self {
+            document,
+            summary: vec![("study", kind.to_owned())],
+        }
+    }
+
+    /// The same with a line more.
+    pub fn with(mut self, key: &'static str, value: impl ToString) -> Self {
+        self.summary.push((key, value.to_string()));
+        self
+    }
 }

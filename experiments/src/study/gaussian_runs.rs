@@ -4,67 +4,50 @@ use parvi::{Method, Run};
 use parvi_metrics::{Cloud, GaussianEnergy};
 use parvi_targets::BoxedTarget;
 use serde::de::DeserializeOwned;
-use serde::{Deserialize, Serialize};
 
 use super::attempt::{Attempt, Status, attempt};
 use super::definition::{self, Report, Study};
 use super::directory::StudyDirectory;
-use super::document::Document;
-use super::results::{self, single_line};
+use super::results::single_line;
+use super::run_row::RunRow;
 use crate::CommandError;
 use crate::dispatch::{TargetTask, with_target};
 use crate::options::{
-    Basis, Bounded, Dimension, MethodName, MethodSpecification, ParticleCount, StepCount, TargetSpecification,
+    Basis, Dimension, MethodName, MethodSpecification, ParticleCount, StepCount, TargetSpecification,
 };
 use crate::output::Particles;
 use crate::progress::CaseObserver;
 use crate::sampling::{self, Outcome};
-use crate::statistics::summarize;
 
-/// The configuration of a study all of whose cases are such runs.
-pub trait GaussianPlan: DeserializeOwned + Sync {
-    /// One run per seed.
-    fn seeds(&self) -> &[u64];
-
-    /// Threads; `None`: as many as the environment gives.
-    fn threads(&self) -> Option<Bounded<1, 1024>>;
+/// A study all of whose cases are such runs.
+pub trait GaussianStudy: DeserializeOwned + Sync {
+    /// The `kind` in the configuration.
+    const KIND: &'static str;
 
     /// As [`Study::cases`].
     ///
     /// # Errors
     /// Parts of the configuration that do not fit together.
     fn cases(&self) -> Result<Vec<Case>, CommandError>;
-}
-
-/// A study all of whose cases are such runs.
-pub trait GaussianStudy: GaussianPlan {
-    /// The `kind` in the configuration.
-    const KIND: &'static str;
 
     /// As [`Study::report`].
     ///
     /// # Errors
     /// Figures or files that cannot be made.
-    fn report(&self, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError>;
+    fn report(&self, rows: &[RunRow], directory: &StudyDirectory) -> Result<Report, CommandError>;
 }
 
 impl<S: GaussianStudy> Study for S {
     type Case = Case;
-    type Row = Row;
+    type Row = RunRow;
     type Shared = ();
 
     const KIND: &'static str = S::KIND;
-
-    fn seeds(&self) -> Vec<u64> {
-        GaussianPlan::seeds(self).to_vec()
-    }
-
-    fn threads(&self) -> Option<usize> {
-        GaussianPlan::threads(self).map(Bounded::get)
-    }
+    const COLUMNS: &'static str = "case status reason dim particles series spacing_factor requested_spacing requested_steps seed \
+         energy_distance_squared energy_level steps score_evaluations density_evaluations spacing active_nodes wall_seconds";
 
     fn cases(&self) -> Result<Vec<Case>, CommandError> {
-        GaussianPlan::cases(self)
+        GaussianStudy::cases(self)
     }
 
     fn run(
@@ -73,11 +56,11 @@ impl<S: GaussianStudy> Study for S {
         (): &mut (),
         _directory: &StudyDirectory,
         observer: &mut CaseObserver,
-    ) -> Result<Row, CommandError> {
+    ) -> Result<RunRow, CommandError> {
         run_case(case, observer)
     }
 
-    fn report(&self, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
+    fn report(&self, rows: &[RunRow], directory: &StudyDirectory) -> Result<Report, CommandError> {
         GaussianStudy::report(self, rows, directory)
     }
 }
@@ -146,128 +129,34 @@ impl Case {
     }
 }
 
-/// What a run gave. Columns that begin with `wall` depend on the machine; the others only on the seed.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Row {
-    /// The case's name.
-    pub case: String,
-    /// How the run ended.
-    pub status: Status,
-    /// Why it gave nothing.
-    pub reason: String,
-    /// d.
-    pub dim: usize,
-    /// M.
-    pub particles: usize,
-    /// The method or basis.
-    pub series: String,
-    /// The spacing in units of the default, where it was asked for so.
-    pub spacing_factor: Option<f64>,
-    /// The spacing h asked for.
-    pub requested_spacing: Option<f64>,
-    /// The steps asked for.
-    pub requested_steps: Option<usize>,
-    /// Seed of the run.
-    pub seed: u64,
-    /// Squared energy distance from N(0, I), exact in the expectation over the Gaussian.
-    pub energy_distance_squared: Option<f64>,
-    /// Expectation of the same for M independent draws, E‖Y − Y'‖ / M.
-    pub energy_level: f64,
-    /// Steps taken.
-    pub steps: Option<usize>,
-    /// Evaluations of the score at one point.
-    pub score_evaluations: Option<u64>,
-    /// Evaluations of the log density at one point.
-    pub density_evaluations: Option<u64>,
-    /// Spacing h used, in standard deviations.
-    pub spacing: Option<f64>,
-    /// Nodes with mass in the last step.
-    pub active_nodes: Option<usize>,
-    /// Time of the sampler alone.
-    pub wall_seconds: Option<f64>,
-}
-
-impl results::Row for Row {
-    fn case(&self) -> &str {
-        &self.case
-    }
-}
-
-/// A quantity of a row, where the run has it.
-pub type Quantity = fn(&Row) -> Option<f64>;
-/// Squared energy distance.
-pub const ENERGY: Quantity = |row| row.energy_distance_squared;
-/// Its root, the energy distance.
-pub const ENERGY_ROOT: Quantity = |row| row.energy_distance_squared.map(|value| value.max(0.0).sqrt());
-/// Wall time.
-pub const SECONDS: Quantity = |row| row.wall_seconds;
-/// Active nodes per particle.
-pub const NODES_PER_PARTICLE: Quantity = |row| Some(row.active_nodes? as f64 / row.particles as f64);
-
-/// The values of a quantity in those rows that have it.
-pub fn values(rows: &[&Row], quantity: Quantity) -> Vec<f64> {
-    rows.iter().filter_map(|row| quantity(row)).collect()
-}
-
-/// The median of a quantity over the rows that have it.
-pub fn median(rows: &[&Row], quantity: Quantity) -> Option<f64> {
-    summarize(&values(rows, quantity)).ok().map(|summary| summary.median)
-}
-
-/// The largest value of a quantity in the rows that have it.
-pub fn largest(rows: &[&Row], quantity: Quantity) -> Option<f64> {
-    values(rows, quantity).into_iter().reduce(f64::max)
-}
-
-/// Names the runs that gave nothing, with their reasons; says nothing if there are none.
-pub fn failures(rows: &[Row], document: &mut Document) {
-    let failed: Vec<String> = rows
-        .iter()
-        .filter(|row| row.status != Status::Finished)
-        .map(|row| format!("- `{}`: {}: {}", row.case, row.status.as_str(), row.reason))
-        .collect();
-    if !failed.is_empty() {
-        document.heading("Runs that did not finish");
-        document.paragraph(failed.join("\n"));
+impl Case {
+    /// A case for every seed.
+    pub fn of_seeds<'a>(self, seeds: &'a [u64]) -> impl Iterator<Item = Self> + use<'a> {
+        seeds.iter().map(move |&seed| Self { seed, ..self.clone() })
     }
 }
 
 /// Runs a case: samples N(0, I) and measures the particles. A run that diverges is a row with its reason.
-pub fn run_case(case: &Case, observer: &mut CaseObserver) -> Result<Row, CommandError> {
+fn run_case(case: &Case, observer: &mut CaseObserver) -> Result<RunRow, CommandError> {
     let method = case.method.method(None)?;
     let mut run = Run::new(case.particles, case.seed);
     run.start = case.method.options.start();
-    let steps = case.method.options.steps.map(StepCount::get);
-    let mut row = Row {
-        case: definition::Case::id(case),
-        status: Status::Finished,
-        reason: String::new(),
+    let mut row = RunRow {
         dim: case.dim.get(),
         particles: case.particles,
         series: case.series.clone(),
         spacing_factor: case.spacing_factor,
         requested_spacing: case.method.options.spacing,
-        requested_steps: steps,
-        seed: case.seed,
-        energy_distance_squared: None,
-        energy_level: energy_level(case.dim, case.particles)?,
-        steps: None,
-        score_evaluations: None,
-        density_evaluations: None,
-        spacing: None,
-        active_nodes: None,
-        wall_seconds: None,
+        requested_steps: case.method.options.steps.map(StepCount::get),
+        seed: Some(case.seed),
+        energy_level: Some(energy_level(case.dim, case.particles)?),
+        ..RunRow::new(case)
     };
     match measured(case.dim, &method, &run, observer)? {
-        Attempt::Failed(status, reason) => (row.status, row.reason) = (status, reason),
+        Attempt::Failed(status, reason) => row.fail(status, reason),
         Attempt::Finished((outcome, energy)) => {
+            row.take(&outcome);
             row.energy_distance_squared = Some(energy);
-            row.steps = Some(outcome.steps);
-            row.score_evaluations = Some(outcome.score_evaluations);
-            row.density_evaluations = Some(outcome.density_evaluations);
-            row.spacing = outcome.spacing;
-            row.active_nodes = outcome.active_nodes;
-            row.wall_seconds = Some(outcome.wall_seconds);
         }
     }
     Ok(row)

@@ -17,6 +17,7 @@ mod paper;
 mod quickstart;
 mod random_targets;
 mod results;
+mod run_row;
 mod runner;
 mod scaling;
 #[cfg(feature = "mechanics")]
@@ -24,7 +25,6 @@ mod scenes;
 mod spacing_particles;
 mod stability;
 mod start_law;
-mod table_file;
 mod time_error;
 mod time_to_equal_error;
 mod time_to_level;

@@ -24,15 +24,18 @@ pub struct ResultsFile<R> {
     file: File,
     rows: Vec<R>,
     has_header: bool,
+    /// The columns to write; none: all that a row has.
+    columns: Vec<&'static str>,
 }
 
 impl<R: Row> ResultsFile<R> {
-    /// Opens the file, creates it if there is none, and cuts off a last line that was not written to its end.
+    /// Opens the file, creates it if there is none, and cuts off a last line that was not written to its end. Of rows to come it will hold
+    /// these columns, without any all.
     ///
     /// # Errors
     /// [`CommandError::File`], [`CommandError::DirectoryOccupied`] if another process works on it, or
     /// [`CommandError::ResultsUnreadable`] with the line that does not fit.
-    pub fn open(path: &Path) -> Result<Self, CommandError> {
+    pub fn open(path: &Path, columns: &'static str) -> Result<Self, CommandError> {
         let failed = |operation| move |source| CommandError::file(operation, path, source);
         let mut file = OpenOptions::new()
             .read(true)
@@ -68,6 +71,7 @@ impl<R: Row> ResultsFile<R> {
             has_header: whole > 0,
             path: path.to_owned(),
             file,
+            columns: columns.split_whitespace().collect(),
         })
     }
 
@@ -91,13 +95,7 @@ impl<R: Row> ResultsFile<R> {
     /// Adds a row with one write and waits until it is on the disk.
     pub fn append(&mut self, row: R) -> Result<(), CommandError> {
         let failed = |source| CommandError::file("write", &self.path, source);
-        let mut writer = csv::WriterBuilder::new()
-            .has_headers(!self.has_header)
-            .from_writer(Vec::new());
-        writer
-            .serialize(&row)
-            .map_err(|error| failed(std::io::Error::other(error)))?;
-        let line = writer.into_inner().map_err(|error| failed(error.into_error()))?;
+        let line = self.line(&row).map_err(|error| failed(std::io::Error::other(error)))?;
         self.file
             .write_all(&line)
             .and_then(|()| self.file.sync_data())
@@ -105,6 +103,29 @@ impl<R: Row> ResultsFile<R> {
         self.has_header = true;
         self.rows.push(row);
         Ok(())
+    }
+}
+
+impl<R: Row> ResultsFile<R> {
+    /// The row as a line, after a header where the file has none yet.
+    fn line(&self, row: &R) -> Result<Vec<u8>, csv::Error> {
+        let mut all = csv::Writer::from_writer(Vec::new());
+        all.serialize(row)?;
+        let all = all.into_inner().map_err(|error| error.into_error())?;
+        let mut reader = csv::Reader::from_reader(all.as_slice());
+        let header = reader.headers()?.clone();
+        let is_written = |name: &&str| self.columns.is_empty() || self.columns.contains(name);
+        let mut order: Vec<usize> = (0..header.len()).filter(|&k| is_written(&&header[k])).collect();
+        order.sort_by_key(|&k| self.columns.iter().position(|name| *name == &header[k]));
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        if !self.has_header {
+            writer.write_record(order.iter().map(|&k| &header[k]))?;
+        }
+        for record in reader.records() {
+            let record = record?;
+            writer.write_record(order.iter().map(|&k| &record[k]))?;
+        }
+        writer.into_inner().map_err(|error| error.into_error().into())
     }
 }
 
@@ -154,10 +175,10 @@ mod tests {
     fn rows_survive_closing_the_file() {
         let directory = tempfile::tempdir().unwrap();
         let path = directory.path().join(FILE_NAME);
-        let mut results = ResultsFile::open(&path).unwrap();
+        let mut results = ResultsFile::open(&path, "").unwrap();
         results.append(row("a, with comma", Some(0.1 + 0.2))).unwrap();
         drop(results);
-        let mut results = ResultsFile::open(&path).unwrap();
+        let mut results = ResultsFile::open(&path, "").unwrap();
         results.append(row("b", None)).unwrap();
         drop(results);
         let expected = [row("a, with comma", Some(0.1 + 0.2)), row("b", None)];
@@ -171,7 +192,7 @@ mod tests {
             let directory = tempfile::tempdir().unwrap();
             let path = directory.path().join(FILE_NAME);
             std::fs::write(&path, &whole[..length]).unwrap();
-            let mut results = ResultsFile::open(&path).unwrap();
+            let mut results = ResultsFile::open(&path, "").unwrap();
             for (case, value) in [("a", 1.0), ("b", 2.0)] {
                 if !results.rows().iter().any(|row: &Example| row.case == case) {
                     results.append(row(case, Some(value))).unwrap();
@@ -182,11 +203,30 @@ mod tests {
     }
 
     #[test]
+    fn only_the_columns_asked_for_are_written_in_their_order() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join(FILE_NAME);
+        let mut results = ResultsFile::open(&path, "value case").unwrap();
+        results.append(row("a \"b\", c", Some(0.1))).unwrap();
+        assert_eq!(
+            std::fs::read_to_string(&path).unwrap(),
+            "value,case\n0.1,\"a \"\"b\"\", c\"\n"
+        );
+        let mut cases = ResultsFile::open(&directory.path().join("cases"), "case").unwrap();
+        cases.append(row("a", Some(0.1))).unwrap();
+        drop(cases);
+        assert_eq!(
+            ResultsFile::<Example>::read(&directory.path().join("cases")).unwrap(),
+            [row("a", None)]
+        );
+    }
+
+    #[test]
     fn a_second_writer_is_refused() {
         let directory = tempfile::tempdir().unwrap();
         let path = directory.path().join(FILE_NAME);
-        let _first = ResultsFile::<Example>::open(&path).unwrap();
-        let message = ResultsFile::<Example>::open(&path).err().unwrap().to_string();
+        let _first = ResultsFile::<Example>::open(&path, "").unwrap();
+        let message = ResultsFile::<Example>::open(&path, "").err().unwrap().to_string();
         assert!(message.contains("another process"), "{message}");
     }
 
@@ -195,7 +235,7 @@ mod tests {
         let directory = tempfile::tempdir().unwrap();
         let path = directory.path().join(FILE_NAME);
         std::fs::write(&path, "x,y\n1,2\n").unwrap();
-        let message = ResultsFile::<Example>::open(&path).err().unwrap().to_string();
+        let message = ResultsFile::<Example>::open(&path, "").err().unwrap().to_string();
         assert!(message.contains("missing field `case`"), "{message}");
     }
 }

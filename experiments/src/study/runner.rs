@@ -22,8 +22,8 @@ pub fn run<S: Study>(configuration: &Configuration, out: &Path) -> Result<(), Co
         method.check_built()?;
     }
     let directory = StudyDirectory::claim(out, configuration)?;
-    in_threads(study.threads(), || {
-        let mut results = ResultsFile::<S::Row>::open(&directory.results())?;
+    in_threads(configuration.threads().or(study.threads()), || {
+        let mut results = ResultsFile::<S::Row>::open(&directory.results(), S::COLUMNS)?;
         study.check_earlier(results.rows()).map_err(located)?;
         note_start(&study, configuration, &directory)?;
         run_missing(&study, &cases, &directory, &mut results).map_err(located)?;
@@ -35,7 +35,9 @@ pub fn run<S: Study>(configuration: &Configuration, out: &Path) -> Result<(), Co
 pub fn report<S: Study>(configuration: &Configuration, directory: &StudyDirectory) -> Result<(), CommandError> {
     let study: S = configuration.parse()?;
     let rows = ResultsFile::<S::Row>::read(&directory.results())?;
-    in_threads(study.threads(), || write_report(&study, &rows, directory))
+    in_threads(configuration.threads().or(study.threads()), || {
+        write_report(&study, &rows, directory)
+    })
 }
 
 /// Names the file in errors about fields.
@@ -78,7 +80,11 @@ fn note_start<S: Study>(
         manifest.resumed.push(Provenance::now(threads));
         manifest
     } else {
-        Manifest::new(S::KIND, configuration.hash(), study.seeds(), threads)
+        let mut seeds = configuration.seeds().to_vec();
+        if seeds.is_empty() {
+            seeds = study.seeds();
+        }
+        Manifest::new(S::KIND, configuration.hash(), seeds, threads)
     };
     manifest.write(&path)
 }

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::support::{assert_report, refused, rows, run_study, value};
+use crate::support::{assert_report, number, refused, rows, run_study, value};
 
 const STUDY: &str = r#"
 kind = "random-targets"
@@ -14,12 +14,6 @@ reference-points = 1024
 reference-seed = 1
 methods = [{ name = "ais", options = { evaluations = 3000 } }, { name = "mpm", label = "body", options = { survey = "off", steps = 5 } }, { name = "iid" }]
 "#;
-
-fn number(row: &HashMap<String, String>, name: &str) -> f64 {
-    row[name]
-        .parse()
-        .unwrap_or_else(|_| panic!("{name} is missing in {row:?}"))
-}
 
 #[test]
 fn random_targets() {

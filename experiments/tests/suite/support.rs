@@ -137,3 +137,10 @@ pub fn rows(root: &Path) -> Vec<HashMap<String, String>> {
     let mut reader = csv::Reader::from_path(root.join("out/results.csv")).unwrap();
     reader.deserialize().map(|row| row.unwrap()).collect()
 }
+
+/// A number of a record.
+pub fn number(row: &HashMap<String, String>, name: &str) -> f64 {
+    row[name]
+        .parse()
+        .unwrap_or_else(|_| panic!("{name} is missing in {row:?}"))
+}

@@ -1,9 +1,7 @@
 //! The studies on the catalogue of targets: small versions run to a report, and bad configurations are refused with the field's
 //! name.
 
-use std::collections::HashMap;
-
-use crate::support::{assert_report, refused, rows, run_study, value};
+use crate::support::{assert_report, number, refused, rows, run_study, value};
 
 const CATALOGUE: &str = r#"
 kind = "catalogue"
@@ -25,12 +23,6 @@ seed = 3
 cases = 60
 dims = [1, 2, 3]
 "#;
-
-fn number(row: &HashMap<String, String>, name: &str) -> f64 {
-    row[name]
-        .parse()
-        .unwrap_or_else(|_| panic!("{name} is missing in {row:?}"))
-}
 
 #[test]
 fn catalogue() {

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::support::{assert_refused, assert_report, files, parvi, rows, run_study, value};
+use crate::support::{assert_refused, assert_report, files, number, parvi, rows, run_study, value};
 
 const STUDY: &str = r#"
 kind = "time-to-equal-error"
@@ -17,12 +17,6 @@ targets = [{ name = "gaussian", dim = 2 }, { name = "wells-small" }]
 method = { name = "mpm" }
 rivals = [{ name = "iid" }, { name = "svgd" }]
 "#;
-
-fn number(row: &HashMap<String, String>, name: &str) -> f64 {
-    row[name]
-        .parse()
-        .unwrap_or_else(|_| panic!("{name} is missing in {row:?}"))
-}
 
 fn find<'a>(rows: &'a [HashMap<String, String>], case: &str) -> &'a HashMap<String, String> {
     rows.iter()

@@ -26,6 +26,17 @@ pub fn locate<const D: usize>(node: &[i32; D]) -> ([i32; D], u32) {
     (block, local)
 }
 
+/// Digits of `number` in the mixed radix `radix`, the last fastest.
+pub(super) fn digits<const D: usize>(number: usize, radix: &[usize; D]) -> [usize; D] {
+    let mut rest = number;
+    let mut digits = [0; D];
+    for a in (0..D).rev() {
+        digits[a] = rest % radix[a];
+        rest /= radix[a];
+    }
+    digits
+}
+
 /// Node coordinates of a place in a block; the inverse of [`locate`].
 pub fn node_at<const D: usize>(block: &[i32; D], local: u32) -> [i32; D] {
     let bits = const { edge_bits::<D>() };

@@ -1,6 +1,6 @@
 //! What the stencils of one kernel look like from a block; the same for all blocks.
 
-use super::block::{locate, node_at, reach, slot_count};
+use super::block::{digits, locate, node_at, reach, slot_count};
 use super::tile::{self, has_tiles};
 
 /// Precomputed geometry of stencils with `width` nodes per axis.
@@ -100,15 +100,4 @@ impl<const D: usize> Template<D> {
             + self.segment_starts.capacity() * 4
             + self.touched.iter().map(|t| t.capacity() * 16).sum::<usize>()
     }
-}
-
-/// Digits of `number` in the mixed radix `radix`, the last fastest.
-pub(super) fn digits<const D: usize>(number: usize, radix: &[usize; D]) -> [usize; D] {
-    let mut rest = number;
-    let mut digits = [0; D];
-    for a in (0..D).rev() {
-        digits[a] = rest % radix[a];
-        rest /= radix[a];
-    }
-    digits
 }

@@ -3,8 +3,7 @@
 
 use mpm_kernels::{Lanes, Layout};
 
-use super::block::{edge_bits, locate};
-use super::template::digits;
+use super::block::{digits, edge_bits, locate};
 
 /// Cells around a block that its particles may have moved to.
 pub const RIM: i32 = 1;

@@ -8,7 +8,9 @@ use mpm_rom::training::EpochReport;
 use super::run::groups;
 use crate::CommandError;
 use crate::output::AtomicFile;
-use crate::plots::{AxisKind, LinePlot, LineSeries, TracePanel, TracePlot, TraceSeries, line, trace};
+use crate::plots::{
+    AxisKind, LineSeries, MultiplesPanel, MultiplesPlot, TracePanel, TracePlot, TraceSeries, multiples, trace,
+};
 
 /// A number of an epoch or of a run.
 type Value<T> = fn(&T) -> f64;
@@ -94,15 +96,18 @@ pub fn errors(directory: &Path, title: &str, rows: &[ReducedRow]) -> Result<(), 
         }),
     ];
     for (file, y_label, value) in figures {
-        let plot = LinePlot {
+        let plot = MultiplesPlot {
             title: title.to_owned(),
             x_label: "sample points (mean and range over the test cases)".to_owned(),
             y_label: y_label.to_owned(),
             x_axis: AxisKind::Logarithmic,
-            series: series(rows, value),
-            ..LinePlot::default()
+            panels: vec![MultiplesPanel {
+                series: series(rows, value),
+                ..MultiplesPanel::default()
+            }],
+            ..MultiplesPlot::default()
         };
-        AtomicFile::write(directory.join(file), line(&plot)?)?;
+        AtomicFile::write(directory.join(file), multiples(&plot)?)?;
     }
     Ok(())
 }

@@ -32,11 +32,7 @@ pub fn check(arguments: &Arguments) -> Result<(), CommandError> {
             .iter()
             .filter(|(other, ..)| (*other, *name) != ("frames", "plots") && !(is_read(other) && is_read(name)));
         if let Some((other, ..)) = others.into_iter().find(|(.., place)| place == own) {
-            return Err(OptionError {
-                name: (*name).to_owned(),
-                reason: format!("{} is the file of --{other}", path.display()),
-            }
-            .into());
+            return Err(OptionError::new(name, format!("{} is the file of --{other}", path.display())).into());
         }
     }
     Ok(())

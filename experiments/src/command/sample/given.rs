@@ -71,10 +71,10 @@ fn read(flag: &str, path: &Path, rows: usize, columns: usize) -> Result<Vec<f64>
         () if table.rows() != rows => (table.rows(), rows, "rows"),
         () => return Ok(table.numbers),
     };
-    Err(OptionError {
-        name: flag.to_owned(),
-        reason: format!("{} has {found} {what}, must have {wanted}", path.display()),
-    })
+    Err(OptionError::new(
+        flag,
+        format!("{} has {found} {what}, must have {wanted}", path.display()),
+    ))
 }
 
 fn of_law(reason: String) -> CommandError {
@@ -100,22 +100,19 @@ impl NormalLaw {
                     .parse::<f64>()
                     .ok()
                     .filter(|number| number.is_finite())
-                    .ok_or_else(|| OptionError {
-                        name: flag.to_owned(),
-                        reason: format!("'{cell}' is not a finite number"),
-                    })
+                    .ok_or_else(|| OptionError::new(flag, format!("'{cell}' is not a finite number")))
             };
             let numbers: Vec<f64> = text.split(',').map(number).collect::<Result<_, _>>()?;
             if numbers.len() == dimension {
                 return Ok(numbers);
             }
-            Err(OptionError {
-                name: flag.to_owned(),
-                reason: format!(
+            Err(OptionError::new(
+                flag,
+                format!(
                     "'{text}' has {} numbers, the target has {dimension} dimensions",
                     numbers.len()
                 ),
-            })
+            ))
         };
         let centre = numbers("start-centre", centre)?;
         let rows: Vec<Vec<f64>> = match covariance {
@@ -128,10 +125,10 @@ impl NormalLaw {
             }
         };
         if rows.len() != dimension {
-            return Err(OptionError {
-                name: "start-covariance".to_owned(),
-                reason: format!("there are {} rows, the target has {dimension} dimensions", rows.len()),
-            });
+            return Err(OptionError::new(
+                "start-covariance",
+                format!("there are {} rows, the target has {dimension} dimensions", rows.len()),
+            ));
         }
         Ok(Self {
             centre,
@@ -224,8 +221,5 @@ pub fn flag_of(error: &SampleError) -> Option<OptionError> {
         "masses" => "masses",
         _ => "volumes",
     };
-    Some(OptionError {
-        name: name.to_owned(),
-        reason: error.to_string(),
-    })
+    Some(OptionError::new(name, error.to_string()))
 }

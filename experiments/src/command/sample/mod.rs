@@ -223,10 +223,10 @@ fn with_checkpoint(method: Method, arguments: &Arguments) -> Result<Method, Comm
             }),
             ..options
         })),
-        (Method::OnMesh(_), Some(path)) => Err(OptionError {
-            name: "checkpoint".to_owned(),
-            reason: format!("{}: sampling on a mesh has no checkpoint", path.display()),
-        }
+        (Method::OnMesh(_), Some(path)) => Err(OptionError::new(
+            "checkpoint",
+            format!("{}: sampling on a mesh has no checkpoint", path.display()),
+        )
         .into()),
         (_, Some(path)) => {
             Err(OptionError::misfit("checkpoint", &path.display().to_string(), arguments.method.as_str()).into())

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::names;
 use crate::CommandError;
-use crate::output::AtomicFile;
+use crate::output::{AtomicFile, table_file};
 
 /// A frame in the index.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -27,15 +27,6 @@ pub struct Entry {
 /// # Errors
 /// [`CommandError::File`].
 pub fn write(directory: &Path, entries: &[Entry]) -> Result<(), CommandError> {
-    let path = directory.join(names::TABLE);
-    let failed = |error: csv::Error| CommandError::file("write", &path, std::io::Error::other(error));
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for entry in entries {
-        writer.serialize(entry).map_err(failed)?;
-    }
-    let table = writer
-        .into_inner()
-        .map_err(|error| CommandError::file("write", &path, error.into_error()))?;
     let files: Vec<(f64, String)> = entries
         .iter()
         .zip(times(entries))
@@ -43,7 +34,7 @@ pub fn write(directory: &Path, entries: &[Entry]) -> Result<(), CommandError> {
         .collect();
     let files = files.iter().map(|(time, file)| (*time, file.as_str()));
     AtomicFile::write(directory.join(names::COLLECTION), collection(files))?;
-    AtomicFile::write(&path, table)
+    table_file::write(entries, &directory.join(names::TABLE))
 }
 
 /// The time of every frame in the animation.
@@ -75,12 +66,7 @@ pub fn read(directory: &Path) -> Result<Option<Vec<Entry>>, CommandError> {
     if !path.exists() {
         return Ok(None);
     }
-    let unreadable = |error: csv::Error| CommandError::ResultsUnreadable {
-        file: path.display().to_string(),
-        message: error.to_string(),
-    };
-    let mut reader = csv::Reader::from_path(&path).map_err(unreadable)?;
-    let mut entries: Vec<Entry> = reader.deserialize().collect::<Result<_, _>>().map_err(unreadable)?;
+    let mut entries: Vec<Entry> = table_file::read(&path)?;
     entries.retain(|entry| entry.body.is_some());
     Ok(Some(entries))
 }

@@ -2,20 +2,20 @@
 
 use super::BasisComparison;
 use crate::options::{Basis, Dimension};
-use crate::study::gaussian_runs::{ENERGY, Row, SECONDS, median};
+use crate::study::run_row::{ENERGY, RunRow, SECONDS, median};
 
 /// A basis in one dimension at its best spacing.
 pub struct Choice<'a> {
     /// The best spacing in units of the basis's default.
     pub factor: f64,
     /// Numbers of steps with their runs, few steps first.
-    pub by_steps: Vec<(usize, Vec<&'a Row>)>,
+    pub by_steps: Vec<(usize, Vec<&'a RunRow>)>,
 }
 
 /// The runs of one setting, one per seed.
-pub fn runs(rows: &[Row], dim: Dimension, basis: Basis, factor: f64, steps: usize) -> Vec<&Row> {
+pub fn runs(rows: &[RunRow], dim: Dimension, basis: Basis, factor: f64, steps: usize) -> Vec<&RunRow> {
     let name = basis.to_string();
-    let here = |row: &&Row| {
+    let here = |row: &&RunRow| {
         row.dim == dim.get()
             && row.series == name
             && row.spacing_factor == Some(factor)
@@ -26,7 +26,7 @@ pub fn runs(rows: &[Row], dim: Dimension, basis: Basis, factor: f64, steps: usiz
 
 impl<'a> Choice<'a> {
     /// The spacing with the lowest median error at the largest number of steps; `None` before any of those runs.
-    pub fn of(study: &BasisComparison, rows: &'a [Row], dim: Dimension, basis: Basis) -> Option<Self> {
+    pub fn of(study: &BasisComparison, rows: &'a [RunRow], dim: Dimension, basis: Basis) -> Option<Self> {
         let counts = study.step_counts();
         let &most = counts.last()?;
         let error = |factor: f64| Some((factor, median(&runs(rows, dim, basis, factor, most), ENERGY)?));
@@ -63,7 +63,7 @@ impl<'a> Choice<'a> {
 
     /// The largest number of steps whose median time is at most `seconds`, with its median error.
     pub fn within(&self, seconds: f64) -> Option<(usize, f64)> {
-        let fits = |runs: &[&Row]| median(runs, SECONDS).is_some_and(|time| time <= seconds);
+        let fits = |runs: &[&RunRow]| median(runs, SECONDS).is_some_and(|time| time <= seconds);
         let (steps, runs) = self.by_steps.iter().rev().find(|(_, runs)| fits(runs))?;
         Some((*steps, median(runs, ENERGY)?))
     }

@@ -4,20 +4,93 @@
 //! several spacings and numbers of steps; its best spacing at the largest number of steps stands for it.
 
 mod choice;
-mod configuration;
 mod report;
 
-pub use configuration::BasisComparison;
+use serde::Deserialize;
 
+use super::checks::{ascending, distinct, not_empty, options_fit, positive, unset};
 use super::definition::Report;
 use super::directory::StudyDirectory;
-use super::gaussian_runs::{GaussianStudy, Row};
+use super::gaussian_runs::{Case, GaussianStudy, default_spacing};
+use super::run_row::RunRow;
 use crate::CommandError;
+use crate::options::{Basis, Bounded, Dimension, MethodSpecification, ParticleCount, StepCount};
+
+/// All bases at several spacings and numbers of steps.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct BasisComparison {
+    #[serde(rename = "kind")]
+    _kind: String,
+    /// One run per seed.
+    seeds: Vec<u64>,
+    #[serde(rename = "threads")]
+    _threads: Option<Bounded<1, 1024>>,
+    /// d.
+    dims: Vec<Dimension>,
+    /// M.
+    particles: ParticleCount,
+    /// The bases; the time of the first one is what the others get in the comparison at equal time.
+    bases: Vec<Basis>,
+    /// Spacings in units of each basis's own default.
+    spacings: Vec<f64>,
+    /// Numbers of steps.
+    steps: Vec<StepCount>,
+    /// The sampler with all other options.
+    method: MethodSpecification,
+}
+
+impl BasisComparison {
+    /// The numbers of steps, few first.
+    fn step_counts(&self) -> Vec<usize> {
+        ascending(&self.steps)
+    }
+}
 
 impl GaussianStudy for BasisComparison {
     const KIND: &'static str = "basis-comparison";
 
-    fn report(&self, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
+    /// The cases, dimension by dimension.
+    fn cases(&self) -> Result<Vec<Case>, CommandError> {
+        not_empty("seeds", &self.seeds)?;
+        not_empty("dims", &self.dims)?;
+        not_empty("bases", &self.bases)?;
+        not_empty("spacings", &self.spacings)?;
+        not_empty("steps", &self.steps)?;
+        positive("spacings", &self.spacings)?;
+        let options = &self.method.options;
+        unset("method.options.basis", &options.basis, "bases")?;
+        unset("method.options.spacing", &options.spacing, "spacings")?;
+        unset("method.options.steps", &options.steps, "steps")?;
+        let mut cases = Vec::new();
+        for &dim in &self.dims {
+            for &basis in &self.bases {
+                let default = default_spacing(dim, basis, self.particles.get())?;
+                for &factor in &self.spacings {
+                    for &steps in &self.steps {
+                        let mut method = self.method.clone();
+                        method.options.basis = Some(basis);
+                        method.options.spacing = Some(factor * default);
+                        method.options.steps = Some(steps);
+                        options_fit("method", &method)?;
+                        let case = Case {
+                            dim,
+                            particles: self.particles.get(),
+                            series: basis.to_string(),
+                            method,
+                            spacing_factor: Some(factor),
+                            seed: 0,
+                        };
+                        cases.extend(case.of_seeds(&self.seeds));
+                    }
+                }
+            }
+        }
+        distinct("seeds, dims, bases, spacings or steps", &cases)?;
+        Ok(cases)
+    }
+
+    fn report(&self, rows: &[RunRow], directory: &StudyDirectory) -> Result<Report, CommandError> {
         report::report(self, rows, directory)
     }
 }

@@ -1,17 +1,15 @@
 //! What runs say of themselves, beside what is measured.
 
-use super::row::{Quantity, Row};
-use crate::study::document::{Document, MISSING, number};
+use crate::study::document::{Document, MISSING, line, number, percent};
+use crate::study::run_row::{Quantity, RunRow};
 
-/// The outcome that is a claim: the particles stand for the target.
-const CLAIM: &str = "converged";
 /// The claim holds where no mean is farther off than this, in standard deviations of the target …
 const LARGEST_MEAN_ERROR: f64 = 0.1;
 /// … and no standard deviation by more than this part of it.
 const LARGEST_DEVIATION_ERROR: f64 = 0.1;
 
 /// The largest of the values, and the case it belongs to.
-pub fn worst<'a>(rows: &[&'a Row], quantity: impl Fn(&Row) -> Option<f64>) -> Option<(f64, &'a str)> {
+pub fn worst<'a>(rows: &[&'a RunRow], quantity: impl Fn(&RunRow) -> Option<f64>) -> Option<(f64, &'a str)> {
     rows.iter()
         .filter_map(|row| Some((quantity(row)?, row.case.as_str())))
         .max_by(|left, right| left.0.total_cmp(&right.0))
@@ -19,12 +17,12 @@ pub fn worst<'a>(rows: &[&'a Row], quantity: impl Fn(&Row) -> Option<f64>) -> Op
 
 /// The runs of a method, by what they claim and what is measured.
 pub struct Claims<'a> {
-    runs: Vec<&'a Row>,
+    runs: Vec<&'a RunRow>,
 }
 
 impl<'a> Claims<'a> {
     /// Of the runs of one method.
-    pub fn new(method: &str, rows: &'a [Row]) -> Self {
+    pub fn new(method: &str, rows: &'a [RunRow]) -> Self {
         Self {
             runs: rows.iter().filter(|row| row.method == method).collect(),
         }
@@ -38,21 +36,21 @@ impl<'a> Claims<'a> {
     }
 
     /// Runs that claim to have converged.
-    pub fn claimed(&self) -> Vec<&'a Row> {
-        self.having(claims)
+    pub fn claimed(&self) -> Vec<&'a RunRow> {
+        self.having(RunRow::claims)
     }
 
     /// Claims beyond the bounds; particles that could not be measured are beyond any bound.
-    pub fn false_claims(&self) -> Vec<&'a Row> {
-        self.having(|row| claims(row) && !is_within(row))
+    pub fn false_claims(&self) -> Vec<&'a RunRow> {
+        self.having(|row| row.claims() && !is_within(row))
     }
 
     /// Runs within the bounds that do not claim it.
-    pub fn unclaimed(&self) -> Vec<&'a Row> {
-        self.having(|row| !claims(row) && is_within(row))
+    pub fn unclaimed(&self) -> Vec<&'a RunRow> {
+        self.having(|row| !row.claims() && is_within(row))
     }
 
-    fn having(&self, property: impl Fn(&Row) -> bool) -> Vec<&'a Row> {
+    fn having(&self, property: impl Fn(&RunRow) -> bool) -> Vec<&'a RunRow> {
         self.runs.iter().copied().filter(|row| property(row)).collect()
     }
 
@@ -68,22 +66,12 @@ impl<'a> Claims<'a> {
             100.0 * LARGEST_DEVIATION_ERROR
         );
         document.paragraph(format!(
-            "A run that says `{CLAIM}` claims {within}. The largest errors are those among such runs; the last column counts \
+            "A run that says `converged` claims {within}. The largest errors are those among such runs; the last column counts \
              the runs that are within these bounds without a claim.",
         ));
-        let header = [
-            "target",
-            "runs",
-            "claimed",
-            "share",
-            "worst mean (sd)",
-            "worst sd (relative)",
-            "false claims",
-            "within, not claimed",
-        ];
-        let mut table: Vec<Vec<String>> = targets.iter().map(|target| self.on(target).line(target)).collect();
-        table.push(self.line("all"));
-        document.table(&header, &table);
+        let header = "target | runs | claimed | share | worst mean (sd) | worst sd (relative) | false claims | within, not claimed";
+        let lines = targets.iter().map(|target| self.on(target).line(target));
+        document.table(header, lines.chain([self.line("all")]));
         let false_claims = self.false_claims();
         if false_claims.is_empty() {
             document.paragraph("No claim is false.");
@@ -96,20 +84,16 @@ impl<'a> Claims<'a> {
 
     fn line(&self, name: &str) -> Vec<String> {
         let claimed = self.claimed();
-        let share = match self.runs.len() {
-            0 => MISSING.to_owned(),
-            runs => format!("{:.0} %", 100.0 * claimed.len() as f64 / runs as f64),
-        };
-        vec![
-            name.to_owned(),
-            self.runs.len().to_string(),
-            claimed.len().to_string(),
-            share,
-            largest(&claimed, |row| row.mean_error),
-            largest(&claimed, |row| row.deviation_error),
-            self.false_claims().len().to_string(),
-            self.unclaimed().len().to_string(),
-        ]
+        line(&[
+            &name,
+            &self.runs.len(),
+            &claimed.len(),
+            &percent(claimed.len(), self.runs.len()),
+            &largest(&claimed, |row| row.mean_error),
+            &largest(&claimed, |row| row.deviation_error),
+            &self.false_claims().len(),
+            &self.unclaimed().len(),
+        ])
     }
 
     /// A line per outcome, with the largest errors among the runs that state it.
@@ -120,47 +104,35 @@ impl<'a> Claims<'a> {
         let mut outcomes: Vec<Option<&str>> = self.runs.iter().map(|row| row.outcome.as_deref()).collect();
         outcomes.sort_unstable();
         outcomes.dedup();
-        let header = [
-            "outcome",
-            "runs",
-            "worst mean (sd)",
-            "worst sd (relative)",
-            "worst mode mass",
-            "worst case",
-        ];
         let line = |outcome: &Option<&str>| {
             let here = self.having(|row| row.outcome.as_deref() == *outcome);
-            let larger = |row: &Row| Some(row.mean_error?.max(row.deviation_error?));
-            vec![
-                outcome.unwrap_or(MISSING).to_owned(),
-                here.len().to_string(),
-                largest(&here, |row| row.mean_error),
-                largest(&here, |row| row.deviation_error),
-                largest(&here, |row| row.mass_error),
-                worst(&here, larger).map_or(MISSING.to_owned(), |(_, case)| format!("`{case}`")),
-            ]
+            let larger = |row: &RunRow| Some(row.mean_error?.max(row.deviation_error?));
+            line(&[
+                outcome,
+                &here.len(),
+                &largest(&here, |row| row.mean_error),
+                &largest(&here, |row| row.deviation_error),
+                &largest(&here, |row| row.mass_error),
+                &worst(&here, larger).map(|(_, case)| format!("`{case}`")),
+            ])
         };
-        let table: Vec<Vec<String>> = outcomes.iter().map(line).collect();
-        document.table(&header, &table);
+        let header = "outcome | runs | worst mean (sd) | worst sd (relative) | worst mode mass | worst case";
+        document.table(header, outcomes.iter().map(line));
     }
 }
 
-fn claims(row: &Row) -> bool {
-    row.outcome.as_deref() == Some(CLAIM)
-}
-
-fn is_within(row: &Row) -> bool {
+fn is_within(row: &RunRow) -> bool {
     row.mean_error.is_some_and(|error| error <= LARGEST_MEAN_ERROR)
         && row
             .deviation_error
             .is_some_and(|error| error <= LARGEST_DEVIATION_ERROR)
 }
 
-fn largest(rows: &[&Row], quantity: Quantity) -> String {
-    worst(rows, quantity).map_or(MISSING.to_owned(), |(value, _)| number(value))
+fn largest(rows: &[&RunRow], quantity: Quantity) -> Option<f64> {
+    worst(rows, quantity).map(|(value, _)| value)
 }
 
-fn false_claim(row: &Row) -> String {
+fn false_claim(row: &RunRow) -> String {
     match row.mean_error.zip(row.deviation_error) {
         Some((mean, deviation)) => format!(
             "- `{}`: a mean is off by {} standard deviations, a standard deviation by {} %",
@@ -168,7 +140,7 @@ fn false_claim(row: &Row) -> String {
             number(mean),
             number(100.0 * deviation),
         ),
-        None => format!("- `{}`: {}: {}", row.case, row.status.as_str(), row.reason),
+        None => row.failure(),
     }
 }
 
@@ -177,18 +149,19 @@ mod tests {
     use super::*;
 
     /// A run on `target` that states `outcome` with the errors of a mean and of a standard deviation.
-    fn run(case: &str, target: &str, outcome: Option<&str>, errors: Option<(f64, f64)>) -> Row {
-        Row {
+    fn run(case: &str, target: &str, outcome: Option<&str>, errors: Option<(f64, f64)>) -> RunRow {
+        RunRow {
             case: case.to_owned(),
             target: target.to_owned(),
             outcome: outcome.map(str::to_owned),
             mean_error: errors.map(|errors| errors.0),
             deviation_error: errors.map(|errors| errors.1),
-            ..Row::example("mpm")
+            method: "mpm".to_owned(),
+            ..RunRow::default()
         }
     }
 
-    fn rows() -> Vec<Row> {
+    fn rows() -> Vec<RunRow> {
         vec![
             run("a", "ring", Some("converged"), Some((0.1, 0.02))),
             run("b", "ring", Some("converged"), Some((0.01, 0.1001))),
@@ -196,15 +169,16 @@ mod tests {
             run("d", "funnel", Some("budget exhausted"), Some((3.0, 0.5))),
             run("e", "funnel", Some("converged"), None),
             run("f", "funnel", None, Some((0.0, 0.0))),
-            Row {
+            RunRow {
                 case: "g".to_owned(),
                 outcome: Some("converged".to_owned()),
-                ..Row::example("svgd")
+                method: "svgd".to_owned(),
+                ..RunRow::default()
             },
         ]
     }
 
-    fn cases(rows: Vec<&Row>) -> Vec<&str> {
+    fn cases(rows: Vec<&RunRow>) -> Vec<&str> {
         rows.into_iter().map(|row| row.case.as_str()).collect()
     }
 

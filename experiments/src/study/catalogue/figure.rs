@@ -1,15 +1,15 @@
 //! The figure of the study `catalogue`: what the judged method reaches, target by target, from every start.
 
 use super::Catalogue;
-use super::report::{median, runs};
+use super::report::runs;
 use super::requirement::Requirement;
-use super::row::{ENERGY, Row};
 use crate::CommandError;
 use crate::plots::style::{MARKERS, PALETTE, SeriesStyle};
 use crate::plots::{AxisKind, DotPlot, DotRow, DotSeries};
+use crate::study::run_row::{ENERGY_RATIO, RunRow, median};
 
 /// ED² relative to independent draws, a row per target, a marker per start.
-pub fn plot(study: &Catalogue, rows: &[Row]) -> Result<DotPlot, CommandError> {
+pub fn plot(study: &Catalogue, rows: &[RunRow]) -> Result<DotPlot, CommandError> {
     let targets = study.all_targets()?;
     let mut plot = DotPlot {
         x_label: "ED^{2} relative to independent draws".to_owned(),
@@ -42,7 +42,9 @@ pub fn plot(study: &Catalogue, rows: &[Row]) -> Result<DotPlot, CommandError> {
         };
         let value = |target: &DotRow| {
             let here = runs(rows, &target.label, judged.label(), Some(*start));
-            median(&here, ENERGY).filter(|value| *value > 0.0).unwrap_or(f64::NAN)
+            median(&here, ENERGY_RATIO)
+                .filter(|value| *value > 0.0)
+                .unwrap_or(f64::NAN)
         };
         let values: Vec<f64> = plot.rows.iter().map(value).collect();
         missing += values.iter().filter(|value| value.is_nan()).count();

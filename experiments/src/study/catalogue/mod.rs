@@ -5,25 +5,64 @@
 //! others stand beside it.
 
 mod claims;
-mod configuration;
 mod figure;
 mod report;
 mod requirement;
-mod row;
 
 use parvi::Run;
+use parvi_targets::{Dimensions, TargetError, target_info};
+use serde::Deserialize;
 
-pub use configuration::Catalogue;
-use row::Row;
-
-use super::attempt::Attempt;
+use super::checks::{distinct, not_empty, refusal, targets_without_data, unset};
 use super::definition::{self, Report, Study};
 use super::directory::StudyDirectory;
+use super::run_row::RunRow;
 use super::start_law::StartLaw;
-use super::yardstick::{CurrentYardstick, Yardstick, measured_run};
+use super::yardstick::{Coordinates, CurrentYardstick, IndependentSets, YardstickOptions, run_into};
 use crate::CommandError;
-use crate::options::{Bounded, MethodSpecification, TargetSpecification};
+use crate::options::{Bounded, Dimension, MethodSpecification, ParticleCount, TargetParameters, TargetSpecification};
 use crate::progress::CaseObserver;
+
+/// All methods on all targets from all starts.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Catalogue {
+    #[serde(rename = "kind")]
+    _kind: String,
+    /// One run per seed.
+    seeds: Vec<u64>,
+    #[serde(rename = "threads")]
+    _threads: Option<Bounded<1, 1024>>,
+    /// M.
+    particles: ParticleCount,
+    /// Dimensions; of each target those that it has.
+    dims: Vec<Dimension>,
+    /// Targets by name; absent: every target of the catalogue that needs no data file.
+    targets: Option<Vec<Named>>,
+    /// Where the particles begin.
+    starts: Vec<StartLaw>,
+    /// The methods; the first is judged.
+    methods: Vec<MethodSpecification>,
+    /// Quasi-random points that stand for a target; a power of two keeps their balance.
+    reference_points: Bounded<1000, 10_000_000>,
+    /// Seed of the reference.
+    reference_seed: u64,
+    /// Directions of the sliced Wasserstein distance.
+    directions: Bounded<1, 100_000>,
+    /// Sets of independent draws whose median is the yardstick of that distance.
+    draws: Bounded<1, 1000>,
+}
+
+/// A target in all its dimensions: `{ name = "gaussian", parameters = { correlation = 0.9 } }`.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Named {
+    /// The name in the catalogue.
+    name: String,
+    /// The parameters.
+    #[serde(default)]
+    parameters: TargetParameters,
+}
 
 /// One run.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,23 +98,119 @@ impl definition::Case for Case {
     }
 }
 
+impl Catalogue {
+    /// Every target in each of its dimensions, in the order of the list and then of `dims`.
+    fn all_targets(&self) -> Result<Vec<TargetSpecification>, CommandError> {
+        let plain = |name: &str| Named {
+            name: name.to_owned(),
+            parameters: TargetParameters::default(),
+        };
+        let named = match &self.targets {
+            Some(named) => named.clone(),
+            None => targets_without_data().map(plain).collect(),
+        };
+        let mut targets = Vec::new();
+        for Named { name, parameters } in &named {
+            let here = |dim| TargetSpecification {
+                name: name.clone(),
+                dim,
+                parameters: parameters.clone(),
+            };
+            let dimensions = target_info(name).map_err(wrong_target)?.dimensions;
+            let mut found: Vec<TargetSpecification> = Vec::new();
+            if let Dimensions::Range { minimum, maximum, .. } = dimensions {
+                let inside = |dim: &&Dimension| (minimum..=maximum).contains(&dim.get());
+                found.extend(self.dims.iter().filter(inside).map(|&dim| here(Some(dim))));
+            } else {
+                let only = here(None);
+                let dimension = only.dimension().map_err(wrong_target)?;
+                found.extend(self.dims.iter().any(|dim| dim.get() == dimension).then_some(only));
+            }
+            for target in &found {
+                target.dimension().map_err(wrong_target)?;
+            }
+            targets.extend(found);
+        }
+        Ok(targets)
+    }
+
+    /// The level of the sliced Wasserstein distance is that of as many draws as there are particles.
+    fn yardstick(&self) -> YardstickOptions {
+        YardstickOptions {
+            points: self.reference_points.get(),
+            seed: self.reference_seed,
+            directions: self.directions.get(),
+            coordinates: Coordinates::Standardised,
+            independent_sets: Some(IndependentSets {
+                count: self.draws.get(),
+                size: self.particles.get(),
+            }),
+        }
+    }
+
+    /// The method that the requirements are for.
+    fn judged(&self) -> Option<&MethodSpecification> {
+        self.methods.first()
+    }
+}
+
+/// The error of a target that the configuration names.
+fn wrong_target(error: TargetError) -> CommandError {
+    refusal("targets", error.to_string())
+}
+
 impl Study for Catalogue {
     type Case = Case;
-    type Row = Row;
+    type Row = RunRow;
     type Shared = CurrentYardstick;
 
     const KIND: &'static str = "catalogue";
+    const COLUMNS: &'static str = "case status reason outcome target dim method start_mean start_sd particles seed energy_distance_squared \
+         energy_level sliced_wasserstein sliced_level mean_error deviation_error mass_error residual steps score_evaluations \
+         density_evaluations wall_seconds";
 
-    fn seeds(&self) -> Vec<u64> {
-        self.seeds.clone()
-    }
-
-    fn threads(&self) -> Option<usize> {
-        self.threads.map(Bounded::get)
-    }
-
+    /// The cases, target by target, so that a target's reference is made once.
     fn cases(&self) -> Result<Vec<Case>, CommandError> {
-        self.all_cases()
+        not_empty("seeds", &self.seeds)?;
+        not_empty("dims", &self.dims)?;
+        not_empty("starts", &self.starts)?;
+        not_empty("methods", &self.methods)?;
+        for start in &self.starts {
+            start.check("starts")?;
+        }
+        for method in &self.methods {
+            let options = &method.options;
+            unset("methods.options.start-mean", &options.start_mean, "starts")?;
+            unset("methods.options.start-sd", &options.start_sd, "starts")?;
+        }
+        if let Some(judged) = self.judged().filter(|judged| !judged.name.iterates()) {
+            let message = format!("the first, `{}`, takes no steps, so it has no starts", judged.name);
+            return Err(refusal("methods", message));
+        }
+        let targets = self.all_targets()?;
+        if targets.is_empty() {
+            return Err(refusal("targets", "none of them has one of the dimensions in `dims`"));
+        }
+        let mut cases = Vec::new();
+        for target in &targets {
+            for method in &self.methods {
+                let starts: Vec<Option<StartLaw>> = match method.name.iterates() {
+                    true => self.starts.iter().copied().map(Some).collect(),
+                    false => vec![None],
+                };
+                for start in starts {
+                    cases.extend(self.seeds.iter().map(|&seed| Case {
+                        target: target.clone(),
+                        method: method.clone(),
+                        start,
+                        particles: self.particles.get(),
+                        seed,
+                    }));
+                }
+            }
+        }
+        distinct("targets, dims, methods, starts or seeds", &cases)?;
+        Ok(cases)
     }
 
     fn run(
@@ -84,29 +219,29 @@ impl Study for Catalogue {
         yardstick: &mut CurrentYardstick,
         _directory: &StudyDirectory,
         observer: &mut CaseObserver,
-    ) -> Result<Row, CommandError> {
-        run_case(case, yardstick.of(&case.target, &self.yardstick())?, observer)
+    ) -> Result<RunRow, CommandError> {
+        let yardstick = yardstick.of(&case.target, &self.yardstick())?;
+        let mut row = RunRow {
+            target: case.target.label(),
+            dim: case.target.dimension()?,
+            method: case.method.label().to_owned(),
+            start_mean: case.start.map(|start| start.mean),
+            start_sd: case.start.map(|start| start.standard_deviation),
+            particles: case.particles,
+            seed: Some(case.seed),
+            energy_level: Some(yardstick.mean_distance() / case.particles as f64),
+            sliced_level: yardstick.sliced_level(),
+            ..RunRow::new(case)
+        };
+        let mut run = Run::new(case.particles, case.seed);
+        let start = case.method.options.start();
+        run.start = case.start.map_or(start, |law| law.start(start));
+        let method = case.method.method(None)?;
+        run_into(&mut row, &case.target, &method, &run, yardstick, observer)?;
+        Ok(row)
     }
 
-    fn report(&self, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
+    fn report(&self, rows: &[RunRow], directory: &StudyDirectory) -> Result<Report, CommandError> {
         report::report(self, rows, directory)
     }
-}
-
-fn run_case(case: &Case, yardstick: &dyn Yardstick, observer: &mut CaseObserver) -> Result<Row, CommandError> {
-    let mut row = Row::new(case, yardstick)?;
-    let mut run = Run::new(case.particles, case.seed);
-    let start = case.method.options.start();
-    run.start = case.start.map_or(start, |law| law.start(start));
-    match measured_run(&case.target, &case.method.method(None)?, &run, yardstick, observer)? {
-        Attempt::Finished(finished) => {
-            row.take(&finished.outcome);
-            match finished.errors {
-                Attempt::Finished(errors) => row.measured(&errors),
-                Attempt::Failed(status, reason) => (row.status, row.reason) = (status, reason),
-            }
-        }
-        Attempt::Failed(status, reason) => (row.status, row.reason) = (status, reason),
-    }
-    Ok(row)
 }

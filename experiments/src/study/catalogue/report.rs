@@ -4,19 +4,17 @@ use super::Catalogue;
 use super::claims::{Claims, worst};
 use super::figure::plot;
 use super::requirement::Requirement;
-use super::row::{ENERGY, Quantity, Row, SLICED};
 use crate::CommandError;
 use crate::options::TargetSpecification;
 use crate::plots::dots;
-use crate::statistics::summarize;
-use crate::study::attempt::Status;
-use crate::study::definition::Report;
+use crate::study::definition::{Report, Study};
 use crate::study::directory::StudyDirectory;
-use crate::study::document::{Document, MISSING, number, optional_number};
+use crate::study::document::{Cell, Document, Header, number};
+use crate::study::run_row::{ENERGY_RATIO, EVALUATIONS, Quantity, RunRow, SECONDS, SLICED_RATIO, failures, median};
 use crate::study::start_law::StartLaw;
 
 /// Tables and figure.
-pub fn report(study: &Catalogue, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
+pub fn report(study: &Catalogue, rows: &[RunRow], directory: &StudyDirectory) -> Result<Report, CommandError> {
     let mut document = Document::new("Defaults on every target");
     document.paragraph(format!(
         "M = {} particles, {} seeds, nothing set per target. ED² is the squared energy distance and SW₂ the sliced Wasserstein \
@@ -45,36 +43,48 @@ pub fn report(study: &Catalogue, rows: &[Row], directory: &StudyDirectory) -> Re
     let labels: Vec<String> = targets.iter().map(TargetSpecification::label).collect();
     claims.write(&labels, &mut document);
     let missed: Vec<&Verdict<'_>> = verdicts.iter().filter(|verdict| !verdict.met()).collect();
-    misses(&missed, &mut document);
-    others(judged, rows, &mut document);
+    let misses: Vec<String> = missed.iter().map(|verdict| verdict.miss()).collect();
+    document.list("Cases that miss their bound", &misses, Some("None."));
+    let others = failures(rows.iter().filter(|row| row.method != judged));
+    document.list("Runs of other methods that did not finish", &others, None);
 
-    let summary = vec![
-        ("study", "catalogue".to_owned()),
-        ("cases", rows.len().to_string()),
-        ("judged", verdicts.len().to_string()),
-        ("missed", missed.len().to_string()),
-        ("claimed", claims.claimed().len().to_string()),
-        ("false_claims", claims.false_claims().len().to_string()),
-    ];
-    Ok(Report { document, summary })
+    Ok(Report::new(Catalogue::KIND, document)
+        .with("cases", rows.len())
+        .with("judged", verdicts.len())
+        .with("missed", missed.len())
+        .with("claimed", claims.claimed().len())
+        .with("false_claims", claims.false_claims().len()))
 }
 
 /// A run of the judged method beside what is asked of it.
 struct Verdict<'a> {
-    row: &'a Row,
+    row: &'a RunRow,
     requirement: Requirement,
 }
 
 impl Verdict<'_> {
     fn met(&self) -> bool {
-        ENERGY(self.row).is_some_and(|ratio| ratio <= self.requirement.bound())
+        ENERGY_RATIO(self.row).is_some_and(|ratio| ratio <= self.requirement.bound())
+    }
+
+    /// What is missed, as an item of a list.
+    fn miss(&self) -> String {
+        match ENERGY_RATIO(self.row) {
+            Some(ratio) => format!(
+                "- `{}`: ED² {} of independent draws, at most {}",
+                self.row.case,
+                number(ratio),
+                self.requirement.bound()
+            ),
+            None => self.row.failure(),
+        }
     }
 }
 
 fn verdicts<'a>(
     targets: &[TargetSpecification],
     judged: &str,
-    rows: &'a [Row],
+    rows: &'a [RunRow],
 ) -> Result<Vec<Verdict<'a>>, CommandError> {
     let mut verdicts = Vec::new();
     for target in targets {
@@ -86,22 +96,16 @@ fn verdicts<'a>(
 }
 
 /// The runs of a method on a target from a start; those without a start belong to every one.
-pub fn runs<'a>(rows: &'a [Row], target: &str, method: &str, start: Option<StartLaw>) -> Vec<&'a Row> {
+pub fn runs<'a>(rows: &'a [RunRow], target: &str, method: &str, start: Option<StartLaw>) -> Vec<&'a RunRow> {
     rows.iter()
         .filter(|row| row.target == target && row.method == method)
         .filter(|row| row.start_mean.is_none() || is_from(row, start))
         .collect()
 }
 
-fn is_from(row: &Row, start: Option<StartLaw>) -> bool {
+fn is_from(row: &RunRow, start: Option<StartLaw>) -> bool {
     let law = start.map(|law| (law.mean, law.standard_deviation));
     row.start_mean.zip(row.start_sd) == law
-}
-
-/// The median of a quantity over the runs that have it.
-pub fn median(rows: &[&Row], quantity: Quantity) -> Option<f64> {
-    let values: Vec<f64> = rows.iter().filter_map(|row| quantity(row)).collect();
-    summarize(&values).ok().map(|summary| summary.median)
 }
 
 /// How many cases meet what is asked, by class and by start.
@@ -121,11 +125,7 @@ fn requirements(study: &Catalogue, judged: &str, verdicts: &[Verdict<'_>], docum
     header.extend(["all".to_owned(), "worst".to_owned(), "worst case".to_owned()]);
     let count = |here: &[&Verdict<'_>]| {
         let met = here.iter().filter(|verdict| verdict.met()).count();
-        if here.is_empty() {
-            MISSING.to_owned()
-        } else {
-            format!("{met}/{}", here.len())
-        }
+        (!here.is_empty()).then(|| format!("{met}/{}", here.len())).cell()
     };
     let mut table = Vec::new();
     for class in Requirement::ALL {
@@ -139,14 +139,14 @@ fn requirements(study: &Catalogue, judged: &str, verdicts: &[Verdict<'_>], docum
             line.push(count(&from.collect::<Vec<_>>()));
         }
         line.push(count(&here));
-        let rows: Vec<&Row> = here.iter().map(|verdict| verdict.row).collect();
-        let (value, case) = worst(&rows, ENERGY).map_or((MISSING.to_owned(), MISSING.to_owned()), |(value, case)| {
-            (number(value), format!("`{case}`"))
-        });
-        line.extend([value, case]);
+        let rows: Vec<&RunRow> = here.iter().map(|verdict| verdict.row).collect();
+        let worst = worst(&rows, ENERGY_RATIO);
+        line.extend([
+            worst.map(|(value, _)| value).cell(),
+            worst.map(|(_, case)| format!("`{case}`")).cell(),
+        ]);
         table.push(line);
     }
-    let header: Vec<&str> = header.iter().map(String::as_str).collect();
     document.table(&header, &table);
 }
 
@@ -154,7 +154,7 @@ fn requirements(study: &Catalogue, judged: &str, verdicts: &[Verdict<'_>], docum
 fn start_table(
     study: &Catalogue,
     targets: &[TargetSpecification],
-    rows: &[Row],
+    rows: &[RunRow],
     start: StartLaw,
     document: &mut Document,
 ) -> Result<(), CommandError> {
@@ -163,76 +163,31 @@ fn start_table(
         header.push(format!("ED² {}", method.label()));
         header.push(format!("SW₂ {}", method.label()));
     }
-    let details = [
-        "finished",
-        "mean (sd)",
-        "sd (relative)",
-        "mode mass",
-        "residual",
-        "evaluations",
-        "time (s)",
-    ];
-    header.extend(details.map(str::to_owned));
+    header.extend("finished | mean (sd) | sd (relative) | mode mass | residual | evaluations | time (s)".names());
     let mut table = Vec::new();
     for target in targets {
         let label = target.label();
         let mut line = vec![label.clone(), number(Requirement::of(target)?.bound())];
         for method in &study.methods {
             let here = runs(rows, &label, method.label(), Some(start));
-            line.extend([ENERGY, SLICED].map(|quantity| optional_number(median(&here, quantity))));
+            line.extend([ENERGY_RATIO, SLICED_RATIO].map(|quantity| median(&here, quantity).cell()));
         }
         let judged = study.judged().map_or("", |method| method.label());
         let here = runs(rows, &label, judged, Some(start));
-        let finished = here.iter().filter(|row| row.status == Status::Finished).count();
+        let finished = here.iter().filter(|row| row.finished()).count();
         line.push(format!("{finished}/{}", here.len()));
         let quantities: [Quantity; 6] = [
             |row| row.mean_error,
             |row| row.deviation_error,
             |row| row.mass_error,
             |row| row.residual,
-            Row::evaluations,
-            |row| row.wall_seconds,
+            EVALUATIONS,
+            SECONDS,
         ];
-        line.extend(quantities.map(|quantity| optional_number(median(&here, quantity))));
+        line.extend(quantities.map(|quantity| median(&here, quantity).cell()));
         table.push(line);
     }
     document.paragraph("Medians over the seeds; ED² and SW₂ relative to independent draws.");
-    let header: Vec<&str> = header.iter().map(String::as_str).collect();
     document.table(&header, &table);
     Ok(())
-}
-
-/// Names every case that misses its bound.
-fn misses(missed: &[&Verdict<'_>], document: &mut Document) {
-    document.heading("Cases that miss their bound");
-    if missed.is_empty() {
-        document.paragraph("None.");
-        return;
-    }
-    let line = |verdict: &&Verdict<'_>| {
-        let row = verdict.row;
-        let found = match ENERGY(row) {
-            Some(ratio) => format!(
-                "ED² {} of independent draws, at most {}",
-                number(ratio),
-                verdict.requirement.bound()
-            ),
-            None => format!("{}: {}", row.status.as_str(), row.reason),
-        };
-        format!("- `{}`: {found}", row.case)
-    };
-    document.paragraph(missed.iter().map(line).collect::<Vec<_>>().join("\n"));
-}
-
-/// Names the runs of the other methods that gave nothing.
-fn others(judged: &str, rows: &[Row], document: &mut Document) {
-    let failed: Vec<String> = rows
-        .iter()
-        .filter(|row| row.status != Status::Finished && row.method != judged)
-        .map(|row| format!("- `{}`: {}: {}", row.case, row.status.as_str(), row.reason))
-        .collect();
-    if !failed.is_empty() {
-        document.heading("Runs of other methods that did not finish");
-        document.paragraph(failed.join("\n"));
-    }
 }

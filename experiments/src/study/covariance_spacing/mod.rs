@@ -4,27 +4,76 @@
 //! because forces in the null space of the transfer can remain. The study measures what is left: max_ij |Ĉ − I|_ij of
 //! M particles that were driven to rest without shifts of the grid and without a moment correction.
 
-mod configuration;
 mod report;
 
 use parvi::Run;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
-pub use configuration::CovarianceSpacing;
-
-use super::attempt::{Attempt, Status, attempt};
+use super::attempt::{Attempt, attempt};
+use super::checks::{not_empty, positive, refusal, unset};
 use super::definition::{self, Report, Study};
 use super::directory::StudyDirectory;
 use super::moments::SampleMoments;
-use super::results;
-use crate::options::TargetSpecification;
+use super::run_row::RunRow;
+use crate::options::{Bounded, Dimension, MethodSpecification, ParticleCount, TargetSpecification};
 use crate::progress::CaseObserver;
 use crate::{CommandError, sampling};
+
+/// Resting particles at several spacings, one series per dimension.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct CovarianceSpacing {
+    #[serde(rename = "kind")]
+    _kind: String,
+    /// Seeds of the start, one case each.
+    seeds: Vec<u64>,
+    #[serde(rename = "threads")]
+    _threads: Option<Bounded<1, 1024>>,
+    /// M.
+    particles: ParticleCount,
+    /// The sampler; its spacing comes from the series.
+    method: MethodSpecification,
+    /// One per dimension.
+    series: Vec<Series>,
+}
+
+/// The spacings of one dimension.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct Series {
+    /// d.
+    dim: Dimension,
+    /// Spacings h in standard deviations.
+    spacings: Vec<f64>,
+    /// A spacing at which the error is judged.
+    judged_spacing: Option<f64>,
+    /// The largest covariance error allowed there.
+    bound: Option<f64>,
+}
+
+impl CovarianceSpacing {
+    /// Checks what belongs together.
+    fn check(&self) -> Result<(), CommandError> {
+        not_empty("seeds", &self.seeds)?;
+        let spacing = &self.method.options.spacing;
+        unset("method.options.spacing", spacing, "series.spacings")?;
+        for series in &self.series {
+            positive("spacings", &series.spacings)?;
+            if let Some(judged) = series.judged_spacing
+                && !series.spacings.contains(&judged)
+            {
+                let message = format!("{judged} is not among the spacings of d = {}", series.dim);
+                return Err(refusal("judged-spacing", message));
+            }
+        }
+        Ok(())
+    }
+}
 
 /// One dimension, spacing and seed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Case {
-    dim: crate::options::Dimension,
+    dim: Dimension,
     spacing: f64,
     seed: u64,
 }
@@ -39,46 +88,14 @@ impl definition::Case for Case {
     }
 }
 
-/// What a case gave.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Row {
-    case: String,
-    status: Status,
-    reason: String,
-    dim: usize,
-    particles: usize,
-    spacing: f64,
-    seed: u64,
-    steps: Option<usize>,
-    covariance_error: Option<f64>,
-    mean_error: Option<f64>,
-    residual: Option<f64>,
-    active_nodes: Option<usize>,
-    score_evaluations: Option<u64>,
-    density_evaluations: Option<u64>,
-    wall_seconds: Option<f64>,
-}
-
-impl results::Row for Row {
-    fn case(&self) -> &str {
-        &self.case
-    }
-}
-
 impl Study for CovarianceSpacing {
     type Case = Case;
-    type Row = Row;
+    type Row = RunRow;
     type Shared = ();
 
     const KIND: &'static str = "covariance-spacing";
-
-    fn seeds(&self) -> Vec<u64> {
-        self.seeds.clone()
-    }
-
-    fn threads(&self) -> Option<usize> {
-        self.threads.map(crate::options::Bounded::get)
-    }
+    const COLUMNS: &'static str = "case status reason dim particles spacing seed steps covariance_error mean_error residual active_nodes \
+         score_evaluations density_evaluations wall_seconds";
 
     fn cases(&self) -> Result<Vec<Case>, CommandError> {
         self.check()?;
@@ -101,48 +118,33 @@ impl Study for CovarianceSpacing {
         (): &mut (),
         _directory: &StudyDirectory,
         observer: &mut CaseObserver,
-    ) -> Result<Row, CommandError> {
+    ) -> Result<RunRow, CommandError> {
         let mut specification = self.method.clone();
         specification.options.spacing = Some(case.spacing);
         let method = specification.method(None)?;
         let mut run = Run::new(self.particles.get(), case.seed);
         run.start = specification.options.start();
         let target = TargetSpecification::plain("gaussian", Some(case.dim));
-        let mut row = Row {
-            case: definition::Case::id(case),
-            status: Status::Finished,
-            reason: String::new(),
+        let mut row = RunRow {
             dim: case.dim.get(),
             particles: run.particles,
-            spacing: case.spacing,
-            seed: case.seed,
-            steps: None,
-            covariance_error: None,
-            mean_error: None,
-            residual: None,
-            active_nodes: None,
-            score_evaluations: None,
-            density_evaluations: None,
-            wall_seconds: None,
+            seed: Some(case.seed),
+            ..RunRow::new(case)
         };
         match attempt(sampling::sample(&target, &method, &run, observer))? {
-            Attempt::Failed(status, reason) => (row.status, row.reason) = (status, reason),
+            Attempt::Failed(status, reason) => row.fail(status, reason),
             Attempt::Finished(outcome) => {
                 let moments = SampleMoments::of(&outcome.particles);
-                row.steps = Some(outcome.steps);
+                row.take(&outcome);
                 row.covariance_error = Some(moments.distance_from_identity());
                 row.mean_error = Some(moments.largest_mean());
-                row.residual = outcome.residual;
-                row.active_nodes = outcome.active_nodes;
-                row.score_evaluations = Some(outcome.score_evaluations);
-                row.density_evaluations = Some(outcome.density_evaluations);
-                row.wall_seconds = Some(outcome.wall_seconds);
             }
         }
+        row.spacing = Some(case.spacing);
         Ok(row)
     }
 
-    fn report(&self, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
+    fn report(&self, rows: &[RunRow], directory: &StudyDirectory) -> Result<Report, CommandError> {
         report::report(self, rows, directory)
     }
 }

@@ -1,32 +1,29 @@
 //! The report of the study `covariance-spacing`.
 
-use super::Row;
-use super::configuration::{CovarianceSpacing, Series};
+use super::{CovarianceSpacing, Series};
 use crate::CommandError;
-use crate::plots::{AxisKind, LinePlot, LineSeries, ReferenceLevel, line};
-use crate::statistics::summarize;
-use crate::study::definition::Report;
+use crate::plots::{AxisKind, LineSeries, MultiplesPanel, MultiplesPlot, ReferenceLevel, multiples};
+use crate::study::definition::{Report, Study};
 use crate::study::directory::StudyDirectory;
-use crate::study::document::{Document, MISSING, number, optional_number};
+use crate::study::document::{Cell, Document, MISSING, line};
+use crate::study::run_row::{RunRow, median, values};
 
-/// The covariance errors of one dimension and spacing, over the seeds.
-fn errors(rows: &[Row], series: &Series, spacing: f64) -> Vec<f64> {
-    let here = |row: &&Row| row.dim == series.dim.get() && row.spacing == spacing;
-    rows.iter()
-        .filter(here)
-        .filter_map(|row| row.covariance_error)
-        .collect()
+/// The runs of one dimension and spacing, one per seed.
+fn runs<'a>(rows: &'a [RunRow], series: &Series, spacing: f64) -> Vec<&'a RunRow> {
+    let here = |row: &&RunRow| row.dim == series.dim.get() && row.spacing == Some(spacing);
+    rows.iter().filter(here).collect()
 }
 
 /// The largest error at the judged spacing, and whether it keeps its bound.
-fn judgement(rows: &[Row], series: &Series) -> Option<(f64, f64, f64, bool)> {
+fn judgement(rows: &[RunRow], series: &Series) -> Option<(f64, f64, f64, bool)> {
     let (spacing, bound) = (series.judged_spacing?, series.bound?);
-    let worst = errors(rows, series, spacing).into_iter().reduce(f64::max)?;
+    let errors = values(&runs(rows, series, spacing), |row| row.covariance_error);
+    let worst = errors.into_iter().reduce(f64::max)?;
     Some((spacing, bound, worst, worst <= bound))
 }
 
 /// Tables and figure.
-pub fn report(study: &CovarianceSpacing, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
+pub fn report(study: &CovarianceSpacing, rows: &[RunRow], directory: &StudyDirectory) -> Result<Report, CommandError> {
     let mut document = Document::new("Covariance error of resting particles against the grid spacing");
     document.paragraph(format!(
         "Target N(0, I), M = {} particles, {} seed(s), method `{}` without shifts of the grid and without a moment \
@@ -47,95 +44,81 @@ pub fn report(study: &CovarianceSpacing, rows: &[Row], directory: &StudyDirector
             table.push(vec![
                 series.dim.to_string(),
                 spacing.to_string(),
-                number(worst),
-                number(bound),
+                worst.cell(),
+                bound.cell(),
                 verdict.to_owned(),
             ]);
         }
     }
     let all_kept = !verdicts.is_empty() && verdicts.iter().all(|kept| *kept);
-    document.table(&["d", "h", "largest error", "bound", "verdict"], &table);
+    document.table("d | h | largest error | bound | verdict", &table);
 
     document.heading("Error against spacing");
-    let curves = study
-        .series
-        .iter()
-        .map(|series| curve(rows, series))
-        .collect::<Result<Vec<_>, _>>()?;
-    let mut bounds: Vec<f64> = study.series.iter().filter_map(|series| series.bound).collect();
-    bounds.sort_by(f64::total_cmp);
-    bounds.dedup();
-    let plot = LinePlot {
-        title: String::new(),
-        x_label: "grid spacing h (standard deviations)".to_owned(),
-        y_label: "covariance error max |Ĉ − I|".to_owned(),
-        x_axis: AxisKind::Linear,
-        y_axis: AxisKind::Logarithmic,
-        series: curves,
-        levels: bounds
-            .iter()
-            .map(|&value| ReferenceLevel {
-                value,
-                label: "bound".to_owned(),
-            })
-            .collect(),
-    };
     let caption = "Covariance error of resting particles; medians over the seeds, bars from least to most.";
-    document.figure(directory, "covariance-spacing.svg", caption, line(&plot))?;
+    document.figure(
+        directory,
+        "covariance-spacing.svg",
+        caption,
+        multiples(&plot(study, rows)),
+    )?;
 
     let mut table = Vec::new();
     for series in &study.series {
         for &spacing in &series.spacings {
-            let errors = errors(rows, series, spacing);
-            let median = summarize(&errors).ok().map(|summary| summary.median);
-            let here = |row: &&Row| row.dim == series.dim.get() && row.spacing == spacing;
-            let failed: Vec<&str> = rows
-                .iter()
-                .filter(here)
-                .filter(|row| row.covariance_error.is_none())
-                .map(|row| row.status.as_str())
-                .collect();
-            let nodes = rows.iter().find(here).and_then(|row| row.active_nodes);
-            table.push(vec![
-                series.dim.to_string(),
-                spacing.to_string(),
-                optional_number(median),
-                nodes.map_or(MISSING.to_owned(), |count| count.to_string()),
-                if failed.is_empty() {
-                    MISSING.to_owned()
-                } else {
-                    failed.join(", ")
-                },
-            ]);
+            let here = runs(rows, series, spacing);
+            let failed = here.iter().filter(|row| row.covariance_error.is_none());
+            let failed: Vec<&str> = failed.map(|row| row.status.as_str()).collect();
+            let error = median(&here, |row| row.covariance_error);
+            let nodes = here.first().and_then(|row| row.active_nodes);
+            let failed = if failed.is_empty() {
+                MISSING.to_owned()
+            } else {
+                failed.join(", ")
+            };
+            table.push(line(&[
+                &series.dim.get(),
+                &spacing.to_string(),
+                &error,
+                &nodes,
+                &failed,
+            ]));
         }
     }
-    document.table(&["d", "h", "median error", "active nodes", "failed"], &table);
+    document.table("d | h | median error | active nodes | failed", &table);
 
     let verdict = if all_kept { "pass" } else { "fail" };
-    Ok(Report {
-        document,
-        summary: vec![
-            ("study", "covariance-spacing".to_owned()),
-            ("verdict", verdict.to_owned()),
-        ],
-    })
+    Ok(Report::new(CovarianceSpacing::KIND, document).with("verdict", verdict))
 }
 
-fn curve(rows: &[Row], series: &Series) -> Result<LineSeries, CommandError> {
-    let mut line = LineSeries {
-        label: format!("d = {}", series.dim),
-        ..LineSeries::default()
-    };
-    let mut spacings = series.spacings.clone();
-    spacings.sort_by(f64::total_cmp);
-    for spacing in spacings {
-        let errors = errors(rows, series, spacing);
-        if !errors.is_empty() {
-            let summary = summarize(&errors)?;
-            line.x.push(spacing);
-            line.y.push(summary.median);
-            line.bars.push((summary.minimum, summary.maximum));
+/// The errors against the spacing, a line per dimension.
+fn plot(study: &CovarianceSpacing, rows: &[RunRow]) -> MultiplesPlot {
+    let curve = |series: &Series| {
+        let mut line = LineSeries::named(format!("d = {}", series.dim));
+        let mut spacings = series.spacings.clone();
+        spacings.sort_by(f64::total_cmp);
+        for spacing in spacings {
+            let errors = values(&runs(rows, series, spacing), |row| row.covariance_error);
+            line.push_median(spacing, &errors);
         }
+        line
+    };
+    let mut bounds: Vec<f64> = study.series.iter().filter_map(|series| series.bound).collect();
+    bounds.sort_by(f64::total_cmp);
+    bounds.dedup();
+    let level = |value| ReferenceLevel {
+        value,
+        label: "bound".to_owned(),
+    };
+    MultiplesPlot {
+        x_label: "grid spacing h (standard deviations)".to_owned(),
+        y_label: "covariance error max |Ĉ − I|".to_owned(),
+        x_axis: AxisKind::Linear,
+        y_axis: AxisKind::Logarithmic,
+        panels: vec![MultiplesPanel {
+            series: study.series.iter().map(curve).collect(),
+            levels: bounds.into_iter().map(level).collect(),
+            ..MultiplesPanel::default()
+        }],
+        ..MultiplesPlot::default()
     }
-    Ok(line)
 }

@@ -57,8 +57,8 @@ fn when(findings: &Findings, bodies: &[Finding], document: &mut Document) -> Res
             .collect::<Vec<String>>()
     };
     document.paragraph("All runs: how many reach the end, and how many there have an ED² of at most 10 times, and at most once, that of independent draws.");
-    let lines: Vec<Vec<String>> = variants(bodies).into_iter().map(line).collect();
-    document.table(&["variant", "runs", "ended", "ED² ≤ 10", "ED² ≤ 1"], &lines);
+    let lines = variants(bodies).into_iter().map(line);
+    document.table("variant | runs | ended | ED² ≤ 10 | ED² ≤ 1", lines);
     let base = findings.of(findings.study.base_cases()?);
     let rivals = findings.of(findings.study.rival_cases()?);
     let all_groups: Vec<(String, Vec<&Row>)> = groups(&base).into_iter().chain(groups(&rivals)).collect();
@@ -146,16 +146,8 @@ fn transient(bodies: &[Finding], document: &mut Document) {
         "Of the runs that were seen after their start: those that are best before their last step, those that are never better than their start, and those that have an ED² of at most 1 on the way; \
          and the final ED² over the least, the median of those that reach the end.",
     );
-    let lines: Vec<Vec<String>> = variants(bodies).into_iter().map(line).collect();
-    let header = [
-        "variant",
-        "seen",
-        "best before the end",
-        "never better than the start",
-        "≤ 1 on the way",
-        "end / least",
-    ];
-    document.table(&header, &lines);
+    let header = "variant | seen | best before the end | never better than the start | ≤ 1 on the way | end / least";
+    document.table(header, variants(bodies).into_iter().map(line));
 }
 
 fn annealing(findings: &[Finding], document: &mut Document) {
@@ -221,8 +213,8 @@ fn modes(findings: &Findings, document: &mut Document) -> Result<(), CommandErro
         return Ok(());
     }
     document.paragraph("Largest error of a mode's mass at the end, on the targets of the base with several modes; a run without particles is infinitely far.");
-    let lines: Vec<Vec<String>> = groups(&bodies).into_iter().chain(groups(&rivals)).map(line).collect();
-    document.table(&["setting", "runs", "within 0.05", "median"], &lines);
+    let lines = groups(&bodies).into_iter().chain(groups(&rivals)).map(line);
+    document.table("setting | runs | within 0.05 | median", lines);
     Ok(())
 }
 
@@ -259,6 +251,6 @@ fn cost(findings: &[Finding], document: &mut Document) {
         named("memory", fit(|row| row.storage_bytes.map(|bytes| bytes as f64))),
         named("paper: O((N + M) d + M d²)", paper(["≤ 1", "≤ 1", "1 to 2"])),
     ];
-    document.table(&["quantity", "M", "N", "d", "R²"], &lines);
+    document.table("quantity | M | N | d | R²", &lines);
     settings(findings, document);
 }

@@ -19,8 +19,8 @@ use crate::study::yardstick::{Coordinates, YardstickOptions};
 pub struct Paper {
     #[serde(rename = "kind")]
     _kind: String,
-    /// Threads; absent: as many as the environment gives.
-    pub threads: Option<Bounded<1, 1024>>,
+    #[serde(rename = "threads")]
+    _threads: Option<Bounded<1, 1024>>,
     /// Mean of every coordinate at the start, in units of the body's coordinates.
     pub start_mean: f64,
     /// Standard deviation of every coordinate at the start.
@@ -277,11 +277,8 @@ impl Paper {
     /// In the target's own coordinates, where the energy distance to a Gaussian is exact.
     pub fn yardstick(&self) -> YardstickOptions {
         YardstickOptions {
-            points: self.reference_points.get(),
-            seed: self.reference_seed,
             directions: self.directions.get(),
-            coordinates: Coordinates::Own,
-            independent_sets: None,
+            ..YardstickOptions::of_energy(self.reference_points.get(), self.reference_seed, Coordinates::Own)
         }
     }
 }

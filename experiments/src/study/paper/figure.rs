@@ -32,10 +32,9 @@ fn lines(
         };
         let y = places.iter().map(at).collect();
         series.push(LineSeries {
-            label,
             x: places,
             y,
-            bars: Vec::new(),
+            ..LineSeries::named(label)
         });
     }
     series
@@ -66,11 +65,11 @@ pub fn strength(alpha: &[Finding], stiffness: &[Finding]) -> MultiplesPlot {
             panels.push(MultiplesPanel {
                 title: format!("{name}: {}, {}", title.1.replace("algorithm ", ""), title.0),
                 series: lines(&here, x, &|row| row.target.clone(), Row::ratio),
-                guides: Vec::new(),
                 levels: vec![ReferenceLevel {
                     value: 1.0,
                     label: "independent draws".to_owned(),
                 }],
+                ..MultiplesPanel::default()
             });
             titles.push(title);
         }
@@ -79,13 +78,13 @@ pub fn strength(alpha: &[Finding], stiffness: &[Finding]) -> MultiplesPlot {
     let drawable = |panel: &MultiplesPanel| panel.series.iter().any(|line| line.y.iter().any(|y| y.is_finite()));
     panels.retain(drawable);
     MultiplesPlot {
-        title: String::new(),
         x_label: "α or E".to_owned(),
         y_label: "ED^{2} relative to independent draws".to_owned(),
         x_axis: AxisKind::Logarithmic,
         y_axis: AxisKind::Logarithmic,
         panels,
         notes: vec!["By algorithm and variant; medians over the seeds. What diverged has no mark, and no panel where that is all.".to_owned()],
+        ..MultiplesPlot::default()
     }
 }
 

@@ -1,165 +1,135 @@
 //! What a body is made of, as the study's configuration states it.
 
-use mpm_materials::{
-    DruckerPrager, ElasticModuli, FixedCorotated, Hencky, IsothermalGas, KelvinVoigt, LinearCauchy, LinearElastic,
-    NeoHookean, ParameterError, SofteningHencky, TaitFluid,
-};
+use std::collections::BTreeMap;
+
+use mpm_materials::ParameterError;
 use parvi::PaperMaterial;
 use serde::Deserialize;
 
-/// `{ law = "neo-hookean", youngs-modulus = 1.0, poissons-ratio = 0.3 }`: a law of `mpm-materials` with its parameters.
+use crate::options::{Material, Parameter};
+
+/// `{ law = "neo-hookean", youngs-modulus = 1.0, poissons-ratio = 0.3 }`: a law with all of its stated parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-#[serde(tag = "law", rename_all = "kebab-case")]
-pub enum MaterialTable {
-    /// Compressible Neo-Hookean solid.
-    NeoHookean(Solid),
-    /// Linear elasticity of the Cauchy stress.
-    LinearCauchy(Solid),
-    /// Linear elasticity of the first Piola–Kirchhoff stress.
-    LinearElastic(Solid),
-    /// Fixed corotated solid.
-    FixedCorotated(Solid),
-    /// Hencky's solid.
-    Hencky(Solid),
-    /// Visco-elastic solid.
-    KelvinVoigt(Viscous),
-    /// J2 plasticity.
-    SofteningHencky(Metal),
-    /// Sand.
-    DruckerPrager(Sand),
-    /// Weakly compressible fluid.
-    TaitFluid(Fluid),
-    /// Isothermal gas.
-    IsothermalGas(Gas),
+#[serde(try_from = "Stated")]
+pub struct MaterialTable {
+    law: Material,
+    /// Of the stated parameters in their order; those that the law does not have are 0.
+    values: [f64; MOST],
 }
 
-/// E and ν.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct Solid {
-    youngs_modulus: f64,
-    poissons_ratio: f64,
+/// Stated parameters of a law, at most.
+const MOST: usize = 3;
+
+/// What the configuration says, before it is checked.
+#[derive(Deserialize)]
+struct Stated {
+    law: Material,
+    #[serde(flatten)]
+    values: BTreeMap<String, f64>,
 }
 
-/// E, ν and the viscosity η.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct Viscous {
-    youngs_modulus: f64,
-    poissons_ratio: f64,
-    viscosity: f64,
+impl TryFrom<Stated> for MaterialTable {
+    type Error = String;
+
+    fn try_from(stated: Stated) -> Result<Self, String> {
+        let keys: Vec<&str> = keys(stated.law).map(|(_, key, _)| key).collect();
+        if let Some(key) = stated.values.keys().find(|key| !keys.contains(&key.as_str())) {
+            let expected = keys.join("`, `");
+            return Err(format!(
+                "unknown field `{key}` of the law `{}`, expected `{expected}`",
+                stated.law
+            ));
+        }
+        let mut values = [0.0; MOST];
+        for (value, key) in values.iter_mut().zip(keys) {
+            let found = stated.values.get(key);
+            *value = *found.ok_or_else(|| format!("missing field `{key}` of the law `{}`", stated.law))?;
+        }
+        Ok(Self {
+            law: stated.law,
+            values,
+        })
+    }
 }
 
-/// E, ν and the stress ‖dev τ‖ at which the solid flows.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct Metal {
-    youngs_modulus: f64,
-    poissons_ratio: f64,
-    yield_stress: f64,
-}
-
-/// E, ν and the friction angle φ in degrees.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct Sand {
-    youngs_modulus: f64,
-    poissons_ratio: f64,
-    friction_angle: f64,
-}
-
-/// ρ₀, speed of sound and viscosity.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct Fluid {
-    reference_density: f64,
-    sound_speed: f64,
-    viscosity: f64,
-}
-
-/// κ.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct Gas {
-    pressure_per_density: f64,
+/// The stated parameters of a law with key and symbol.
+fn keys(law: Material) -> impl Iterator<Item = (&'static Parameter, &'static str, &'static str)> {
+    law.parameters()
+        .iter()
+        .filter_map(|parameter| parameter.stated.map(|(key, symbol)| (parameter, key, symbol)))
 }
 
 impl MaterialTable {
+    /// The value of a parameter, where the law states it.
+    fn value(&self, flag: &str) -> Option<f64> {
+        let place = keys(self.law).position(|(parameter, ..)| parameter.flag == flag)?;
+        self.values.get(place).copied()
+    }
+
     /// The material for the sampler.
     ///
     /// # Errors
     /// A parameter that is out of range.
     pub fn material(self) -> Result<PaperMaterial, ParameterError> {
-        let moduli = |solid: Solid| ElasticModuli::new(solid.youngs_modulus, solid.poissons_ratio);
-        let of = ElasticModuli::new;
-        Ok(match self {
-            Self::NeoHookean(solid) => PaperMaterial::NeoHookean(NeoHookean::new(moduli(solid)?)),
-            Self::LinearCauchy(solid) => PaperMaterial::LinearCauchy(LinearCauchy::new(moduli(solid)?)),
-            Self::LinearElastic(solid) => PaperMaterial::LinearElastic(LinearElastic::new(moduli(solid)?)),
-            Self::FixedCorotated(solid) => PaperMaterial::FixedCorotated(FixedCorotated::new(moduli(solid)?)),
-            Self::Hencky(solid) => PaperMaterial::Hencky(Hencky::new(moduli(solid)?)),
-            Self::KelvinVoigt(table) => {
-                let moduli = of(table.youngs_modulus, table.poissons_ratio)?;
-                PaperMaterial::KelvinVoigt(KelvinVoigt::new(moduli, table.viscosity)?)
-            }
-            Self::SofteningHencky(table) => {
-                let moduli = of(table.youngs_modulus, table.poissons_ratio)?;
-                PaperMaterial::SofteningHencky(SofteningHencky::perfect(moduli, table.yield_stress)?)
-            }
-            Self::DruckerPrager(table) => {
-                let moduli = of(table.youngs_modulus, table.poissons_ratio)?;
-                PaperMaterial::DruckerPrager(DruckerPrager::new(moduli, table.friction_angle.to_radians())?)
-            }
-            Self::TaitFluid(table) => {
-                let fluid = TaitFluid::new(table.reference_density, table.sound_speed, table.viscosity)?;
-                PaperMaterial::TaitFluid(fluid)
-            }
-            Self::IsothermalGas(table) => PaperMaterial::IsothermalGas(IsothermalGas::new(table.pressure_per_density)?),
-        })
+        self.law.law(&|parameter| self.value(parameter.flag), false)
     }
 
     /// E, of a solid.
     pub fn youngs_modulus(self) -> Option<f64> {
-        match self {
-            Self::NeoHookean(solid)
-            | Self::LinearCauchy(solid)
-            | Self::LinearElastic(solid)
-            | Self::FixedCorotated(solid)
-            | Self::Hencky(solid) => Some(solid.youngs_modulus),
-            Self::KelvinVoigt(table) => Some(table.youngs_modulus),
-            Self::SofteningHencky(table) => Some(table.youngs_modulus),
-            Self::DruckerPrager(table) => Some(table.youngs_modulus),
-            Self::TaitFluid(_) | Self::IsothermalGas(_) => None,
-        }
+        self.value("youngs-modulus")
     }
 
     /// The law with its parameters, in words.
     pub fn text(self) -> String {
-        let elastic = |law: &str, young: f64, poisson: f64| format!("{law} E={young} ν={poisson}");
-        let solid = |law: &str, solid: Solid| elastic(law, solid.youngs_modulus, solid.poissons_ratio);
-        match self {
-            Self::NeoHookean(table) => solid("neo-hookean", table),
-            Self::LinearCauchy(table) => solid("linear-cauchy", table),
-            Self::LinearElastic(table) => solid("linear-elastic", table),
-            Self::FixedCorotated(table) => solid("fixed-corotated", table),
-            Self::Hencky(table) => solid("hencky", table),
-            Self::KelvinVoigt(table) => {
-                let law = elastic("kelvin-voigt", table.youngs_modulus, table.poissons_ratio);
-                format!("{law} η={}", table.viscosity)
-            }
-            Self::SofteningHencky(table) => {
-                let law = elastic("softening-hencky", table.youngs_modulus, table.poissons_ratio);
-                format!("{law} κ={}", table.yield_stress)
-            }
-            Self::DruckerPrager(table) => {
-                let law = elastic("drucker-prager", table.youngs_modulus, table.poissons_ratio);
-                format!("{law} φ={}°", table.friction_angle)
-            }
-            Self::TaitFluid(table) => format!(
-                "tait-fluid ρ₀={} c={} μ={}",
-                table.reference_density, table.sound_speed, table.viscosity
-            ),
-            Self::IsothermalGas(table) => format!("isothermal-gas κ={}", table.pressure_per_density),
+        let mut text = self.law.to_string();
+        for ((_, key, symbol), value) in keys(self.law).zip(self.values) {
+            let unit = if key == "friction-angle" { "°" } else { "" };
+            text.push_str(&format!(" {symbol}={value}{unit}"));
         }
+        text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table(text: &str) -> Result<MaterialTable, String> {
+        toml::from_str(text).map_err(|error| error.message().to_owned())
+    }
+
+    #[test]
+    fn a_law_takes_exactly_its_parameters() {
+        let sand = table("law = \"drucker-prager\"\nyoungs-modulus = 2\npoissons-ratio = 0.3\nfriction-angle = 30.0");
+        let sand = sand.unwrap();
+        assert_eq!(sand.text(), "drucker-prager E=2 ν=0.3 φ=30°");
+        assert_eq!(sand.youngs_modulus(), Some(2.0));
+        assert!(sand.material().is_ok());
+        let gas = table("law = \"isothermal-gas\"\npressure-per-density = 1.5").unwrap();
+        assert_eq!(
+            (gas.text().as_str(), gas.youngs_modulus()),
+            ("isothermal-gas κ=1.5", None)
+        );
+        for (text, part) in [
+            (
+                "law = \"hencky\"\nyoungs-modulus = 1.0",
+                "missing field `poissons-ratio`",
+            ),
+            (
+                "law = \"isothermal-gas\"\npressure-per-density = 1.0\nviscosity = 1.0",
+                "unknown field `viscosity`",
+            ),
+            ("law = \"jelly\"", "jelly"),
+            ("youngs-modulus = 1.0", "missing field `law`"),
+        ] {
+            let message = table(text).unwrap_err();
+            assert!(message.contains(part), "{message}");
+        }
+    }
+
+    #[test]
+    fn no_law_states_more_than_there_is_room_for() {
+        use clap::ValueEnum;
+        assert!(Material::value_variants().iter().all(|law| keys(*law).count() <= MOST));
     }
 }

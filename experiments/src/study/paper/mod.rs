@@ -27,9 +27,9 @@ use super::checks::refusal;
 use super::definition::{self, Report, Study};
 use super::directory::StudyDirectory;
 use super::results::single_line;
-use super::yardstick::{CurrentYardstick, Yardstick, measured_run};
+use super::yardstick::{CurrentYardstick, Yardstick, measured, measured_run};
 use crate::CommandError;
-use crate::options::{Bounded, MethodSpecification, TargetSpecification};
+use crate::options::{MethodSpecification, TargetSpecification};
 use crate::progress::CaseObserver;
 use crate::sampling;
 
@@ -96,10 +96,6 @@ impl Study for Paper {
         self.all_seeds()
     }
 
-    fn threads(&self) -> Option<usize> {
-        self.threads.map(Bounded::get)
-    }
-
     fn cases(&self) -> Result<Vec<Case>, CommandError> {
         self.all_cases()
     }
@@ -158,20 +154,14 @@ impl Paper {
                     row.active_nodes = outcome.active_nodes;
                     row.storage_bytes = outcome.storage_bytes;
                     row.wall_seconds = Some(seconds);
-                    match yardstick.measure(&outcome.particles) {
-                        Ok(errors) => {
+                    match measured(yardstick, &outcome)? {
+                        Attempt::Finished(errors) => {
                             watch.note(outcome.steps, errors);
                             row.end(&errors);
                         }
-                        Err(CommandError::Metric(error)) => {
-                            row.fail(
-                                Status::Diverged,
-                                "outside range",
-                                Some(outcome.steps),
-                                single_line(error),
-                            );
+                        Attempt::Failed(status, message) => {
+                            row.fail(status, "outside range", Some(outcome.steps), message);
                         }
-                        Err(error) => return Err(error),
                     }
                 }
             }

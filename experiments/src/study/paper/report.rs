@@ -7,9 +7,9 @@ use super::{Paper, figure};
 use crate::CommandError;
 use crate::plots::{dots, multiples};
 use crate::study::attempt::Status;
-use crate::study::definition::Report;
+use crate::study::definition::{Report, Study};
 use crate::study::directory::StudyDirectory;
-use crate::study::document::{Document, MISSING};
+use crate::study::document::{Document, line};
 
 /// Tables and figures.
 pub fn report(study: &Paper, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
@@ -32,22 +32,14 @@ pub fn report(study: &Paper, rows: &[Row], directory: &StudyDirectory) -> Result
     document.heading("Figures");
     let (alpha, stiffness) = (findings.sweep("alpha")?, findings.sweep("youngs-modulus")?);
     let caption = "ED² at the end over the factor α of the force and over Young's modulus E.";
-    document.figure(
-        directory,
-        "strength.svg",
-        caption,
-        multiples(&figure::strength(&alpha, &stiffness)),
-    )?;
+    let drawing = multiples(&figure::strength(&alpha, &stiffness));
+    document.figure(directory, "strength.svg", caption, drawing)?;
     let caption = "The base: start, best configuration on the way, and end.";
     let base = findings.of(study.base_cases()?);
     document.figure(directory, "transient.svg", caption, dots(&figure::transient(&base)))?;
     let caption = "Time per step over the number of particles.";
-    document.figure(
-        directory,
-        "cost.svg",
-        caption,
-        multiples(&figure::cost(&findings.sweep("cost")?)),
-    )?;
+    let drawing = multiples(&figure::cost(&findings.sweep("cost")?));
+    document.figure(directory, "cost.svg", caption, drawing)?;
     document.heading("Base and rivals");
     settings(&base, &mut document);
     settings(&findings.of(study.rival_cases()?), &mut document);
@@ -58,17 +50,12 @@ pub fn report(study: &Paper, rows: &[Row], directory: &StudyDirectory) -> Result
             settings(&findings.sweep(name)?, &mut document);
         }
     }
-    let count = |choose: fn(&Row) -> bool| rows.iter().filter(|row| choose(row)).count().to_string();
-    let summary = vec![
-        ("study", "paper".to_owned()),
-        ("cases", rows.len().to_string()),
-        ("diverged", count(|row| row.status == Status::Diverged)),
-        (
-            "as_good_as_independent",
-            count(|row| !row.variant.is_empty() && row.ratio().is_some_and(|ratio| ratio <= 1.0)),
-        ),
-    ];
-    Ok(Report { document, summary })
+    let count = |choose: fn(&Row) -> bool| rows.iter().filter(|row| choose(row)).count();
+    let as_good = |row: &Row| !row.variant.is_empty() && row.ratio().is_some_and(|ratio| ratio <= 1.0);
+    Ok(Report::new(Paper::KIND, document)
+        .with("cases", rows.len())
+        .with("diverged", count(|row| row.status == Status::Diverged))
+        .with("as_good_as_independent", count(as_good)))
 }
 
 /// How many runs diverge, why and when.
@@ -86,28 +73,18 @@ fn failures(bodies: &[Finding], document: &mut Document) {
             let mut steps: Vec<usize> = failed.iter().filter_map(|row| row.failed_step).collect();
             steps.sort_unstable();
             let share = 100.0 * failed.len() as f64 / here.len().max(1) as f64;
-            let mut line = vec![
-                variant.clone(),
-                method.to_owned(),
-                here.len().to_string(),
-                failed.len().to_string(),
-                format!("{share:.1}"),
-            ];
-            line.extend(reasons.map(|reason| failed.iter().filter(|row| row.reason == reason).count().to_string()));
-            line.push(steps.get(steps.len() / 2).map_or(MISSING.to_owned(), usize::to_string));
-            line.push(steps.last().map_or(MISSING.to_owned(), usize::to_string));
+            let share = format!("{share:.1}");
+            let mut cells = line(&[&variant, &method, &here.len(), &failed.len(), &share]);
+            cells.extend(reasons.map(|reason| failed.iter().filter(|row| row.reason == reason).count().to_string()));
+            cells.extend(line(&[&steps.get(steps.len() / 2), &steps.last()]));
             if !here.is_empty() {
-                lines.push(line);
+                lines.push(cells);
             }
         }
     }
-    let header = ["variant", "method", "runs", "diverged", "%"];
-    let header: Vec<&str> = header
-        .into_iter()
-        .chain(reasons)
-        .chain(["median step", "last step"])
-        .collect();
-    document.table(&header, &lines);
+    let reasons = reasons.join(" | ");
+    let header = format!("variant | method | runs | diverged | % | {reasons} | median step | last step");
+    document.table(header.as_str(), &lines);
 }
 
 /// The base beside its rivals, run by run.
@@ -135,13 +112,18 @@ fn against_rivals(findings: &Findings, document: &mut Document) -> Result<(), Co
                 let counts = against(pairs);
                 if counts.iter().sum::<usize>() > 0 {
                     let names = [variant.clone(), method.to_owned(), rival.label().to_owned()];
-                    lines.push(names.into_iter().chain(counts.map(|count| count.to_string())).collect());
+                    lines.push(
+                        names
+                            .into_iter()
+                            .chain(counts.map(|count| count.to_string()))
+                            .collect::<Vec<_>>(),
+                    );
                 }
             }
         }
     }
     document.table(
-        &["variant", "method", "rival", "better", "ties", "worse", "both diverged"],
+        "variant | method | rival | better | ties | worse | both diverged",
         &lines,
     );
     Ok(())

@@ -8,7 +8,7 @@ use crate::study::yardstick::Errors;
 use crate::study::{definition, results};
 
 /// What a run gave. `wall_seconds` depends on the machine, everything else only on the seeds.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// The case's name.
     pub case: String,
@@ -105,24 +105,8 @@ impl Row {
             steps: case.steps,
             particles: case.particles,
             seed: case.seed,
-            status: Status::Finished,
-            reason: String::new(),
-            failed_step: None,
-            message: String::new(),
             energy_level,
-            start_energy: None,
-            final_energy: None,
-            final_sliced: None,
-            final_mean: None,
-            final_deviation: None,
-            final_mass: None,
-            best_step: None,
-            best_energy: None,
-            best_sliced: None,
-            evaluations: None,
-            active_nodes: None,
-            storage_bytes: None,
-            wall_seconds: None,
+            ..Self::default()
         }
     }
 

@@ -8,7 +8,7 @@ use crate::CommandError;
 use crate::statistics::weighted_quantile;
 use crate::study::attempt::Status;
 use crate::study::definition;
-use crate::study::document::{Document, MISSING, number, optional_number};
+use crate::study::document::{Cell, Document, MISSING, number};
 
 /// Two ED² are equal for the report if neither is more than so many times the other.
 pub const TIE: f64 = 1.1;
@@ -130,27 +130,15 @@ pub fn settings(findings: &[Finding], document: &mut Document) {
             format!("{ended}/{}", rows.len()),
             cell(median(all(), Row::ratio)),
         ];
-        line.extend([optional_number(least), on_the_way, good.to_string()]);
+        line.extend([least.cell(), on_the_way, good.to_string()]);
         let ends: [Quantity; 3] = [|row| row.final_sliced, |row| row.final_mean, |row| row.final_deviation];
         line.extend(ends.map(|quantity| cell(median(all(), quantity))));
         let costs: [Quantity; 2] = [|row| row.evaluations.map(|count| count as f64), |row| row.wall_seconds];
-        line.extend(costs.map(|quantity| optional_number(known_median(rows, quantity))));
+        line.extend(costs.map(|quantity| known_median(rows, quantity).cell()));
         line
     };
-    let header = [
-        "setting",
-        "ended",
-        "ED²",
-        "least",
-        "on the way",
-        "≤ 1",
-        "sliced W2",
-        "mean",
-        "sd",
-        "evaluations",
-        "time (s)",
-    ];
-    document.table(&header, &groups(findings).iter().map(line).collect::<Vec<_>>());
+    let header = "setting | ended | ED² | least | on the way | ≤ 1 | sliced W2 | mean | sd | evaluations | time (s)";
+    document.table(header, groups(findings).iter().map(line));
 }
 
 /// How many runs are better than, as good as and worse than their counterparts, and of how many pairs both gave nothing; a run without particles is worse than any other.

@@ -1,6 +1,6 @@
 //! The posterior's moments beside the reference's, and the verdict.
 
-use super::configuration::Bounds;
+use super::Bounds;
 use super::reference::ReferenceAxis;
 use crate::output::Particles;
 use crate::study::moments::SampleMoments;

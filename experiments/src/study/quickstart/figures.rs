@@ -5,15 +5,11 @@ use parvi_targets::BoxedTarget;
 use super::{Case, Quickstart};
 use crate::CommandError;
 use crate::dispatch::{TargetTask, with_target};
-use crate::output::{Particles, particles_csv};
-use crate::plots::{
-    CloudPlot, CornerPlot, HistogramPlot, PairDensity, PointCloud, Reference, TracePlot, cloud, corner, histogram,
-    trace,
-};
+use crate::output::{Particles, particles_csv, table_file};
+use crate::plots::{DensityPlot, PairDensity, PointCloud, Reference, TracePlot, cloud, corner, histogram, trace};
 use crate::statistics::DensityGrid;
 use crate::study::directory::StudyDirectory;
 use crate::study::document::Document;
-use crate::study::table_file;
 use crate::study::trace_panels::TraceQuantity;
 use crate::study::trace_row::TraceRow;
 
@@ -31,24 +27,15 @@ pub fn posterior(
         points: &points,
         weights: particles.weights(),
     };
-    let reference = Reference::Draws(PointCloud::equal(&draws));
-    let reference_label = "reference";
-    let plot = CornerPlot {
+    let plot = DensityPlot {
         title: "",
         particles: cloud,
         labels: &labels,
-        reference,
-        reference_label,
+        reference: Reference::Draws(PointCloud::equal(&draws)),
+        reference_label: "reference",
     };
     let caption = "The posterior's particles over the reference: lines enclose 50, 90 and 99 % of its mass.";
     document.figure(directory, "posterior-corner.svg", caption, corner(&plot))?;
-    let plot = HistogramPlot {
-        title: "",
-        particles: cloud,
-        labels: &labels,
-        reference,
-        reference_label,
-    };
     let caption =
         "Marginals of the posterior: histogram and kernel density estimate of the particles, and the reference.";
     document.figure(directory, "posterior-marginals.svg", caption, histogram(&plot))
@@ -68,20 +55,18 @@ pub fn picture(
         vertical: 1,
         grid: density,
     }];
-    let plot = CloudPlot {
+    let plot = DensityPlot {
         title: "",
         particles: PointCloud {
             points: &points,
             weights: particles.weights(),
         },
-        particles_label: "",
         labels: &study.picture.target.coordinate_names(),
         reference: Reference::Exact {
             marginals: &[],
             pairs: &pairs,
         },
         reference_label: "",
-        equal_units: true,
     };
     let caption = format!(
         "{} particles of `{}` on the target `{}`; lines enclose 50, 90 and 99 % of its mass.",
@@ -145,15 +130,7 @@ impl TargetTask for DensityTask {
             }
             target.log_density(&point)
         });
-        let most = grid
-            .values
-            .iter()
-            .copied()
-            .filter(|value| value.is_finite())
-            .fold(f64::NEG_INFINITY, f64::max);
-        grid.values
-            .iter_mut()
-            .for_each(|value| *value = if value.is_finite() { (*value - most).exp() } else { 0.0 });
+        grid.exponentiate();
         Ok(grid)
     }
 }

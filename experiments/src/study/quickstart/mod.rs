@@ -1,7 +1,6 @@
 //! Study `quickstart`: a posterior from real data against its reference, and a two-dimensional target for the eye.
 
 mod comparison;
-mod configuration;
 mod figures;
 mod reference;
 mod report;
@@ -9,23 +8,93 @@ mod report;
 use std::time::Instant;
 
 use parvi::Run;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
-use configuration::Part;
-pub use configuration::Quickstart;
 use reference::ReferenceTask;
 
-use super::attempt::{Attempt, Status, attempt};
+use super::attempt::{Attempt, attempt};
+use super::checks::{positive, refusal};
 use super::definition::{self, Report, Study};
 use super::directory::StudyDirectory;
+use super::run_row::RunRow;
 use super::trace_row::TraceRow;
-use super::{results, table_file};
 use crate::CommandError;
 use crate::dispatch::with_target;
-use crate::options::Bounded;
-use crate::output::ParticleFile;
+use crate::options::{Bounded, MethodSpecification, ParticleCount, TargetSpecification};
+use crate::output::{ParticleFile, table_file};
 use crate::progress::CaseObserver;
 use crate::sampling;
+
+/// A posterior against its reference, and a two-dimensional target for the eye.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Quickstart {
+    #[serde(rename = "kind")]
+    _kind: String,
+    /// Seed of both runs.
+    seed: u64,
+    #[serde(rename = "threads")]
+    _threads: Option<Bounded<1, 1024>>,
+    /// Steps between two entries of the trace.
+    trace_every: Bounded<1, 1_000_000>,
+    /// The posterior.
+    posterior: Part,
+    /// Its reference.
+    reference: ReferencePart,
+    /// What the posterior has to keep.
+    bounds: Bounds,
+    /// The target for the eye; d = 2.
+    picture: Part,
+}
+
+/// A target, a method and a size.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct Part {
+    /// Target.
+    target: TargetSpecification,
+    /// Method.
+    method: MethodSpecification,
+    /// M.
+    particles: ParticleCount,
+}
+
+/// Quasi-Monte-Carlo importance sampling with a Student t proposal.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct ReferencePart {
+    /// Points in all.
+    points: Bounded<1024, 100_000_000>,
+    /// Independent scramblings, whose spread gives the standard errors.
+    scramblings: Bounded<2, 1024>,
+    /// Their seed.
+    seed: u64,
+    /// Draws resampled from them that are kept for the figures.
+    draws: Bounded<100, 1_000_000>,
+}
+
+/// The largest errors that count as a pass.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct Bounds {
+    /// Of a mean, in posterior standard deviations.
+    mean: f64,
+    /// Of a standard deviation, relative.
+    standard_deviation: f64,
+}
+
+impl Quickstart {
+    /// Checks what belongs together.
+    fn check(&self) -> Result<(), CommandError> {
+        let dimension = self.picture.target.dimension()?;
+        if dimension != 2 {
+            let message = format!("`{}` has d = {dimension}, must be 2", self.picture.target.label());
+            return Err(refusal("picture.target", message));
+        }
+        positive("bounds.mean", &[self.bounds.mean])?;
+        positive("bounds.standard-deviation", &[self.bounds.standard_deviation])
+    }
+}
 
 /// The three pieces of work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,70 +147,25 @@ impl definition::Case for Case {
     }
 }
 
-/// What a case gave. `wall_seconds` depends on the machine, everything else only on the seeds.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Row {
-    case: String,
-    status: Status,
-    reason: String,
-    target: String,
-    dim: usize,
-    method: String,
-    particles: usize,
-    steps: Option<usize>,
-    score_evaluations: Option<u64>,
-    density_evaluations: Option<u64>,
-    residual: Option<f64>,
-    spacing: Option<f64>,
-    active_nodes: Option<usize>,
-    storage_bytes: Option<usize>,
-    effective_sample_size: Option<f64>,
-    wall_seconds: Option<f64>,
-}
-
-impl results::Row for Row {
-    fn case(&self) -> &str {
-        &self.case
-    }
-}
-
-impl Row {
-    fn new(case: Case, part: &Part, method: &str, particles: usize) -> Result<Self, CommandError> {
-        Ok(Self {
-            case: case.name().to_owned(),
-            status: Status::Finished,
-            reason: String::new(),
-            target: part.target.label(),
-            dim: part.target.dimension()?,
-            method: method.to_owned(),
-            particles,
-            steps: None,
-            score_evaluations: None,
-            density_evaluations: None,
-            residual: None,
-            spacing: None,
-            active_nodes: None,
-            storage_bytes: None,
-            effective_sample_size: None,
-            wall_seconds: None,
-        })
-    }
+/// The row of a case that has not begun.
+fn row(case: Case, part: &Part, method: &str, particles: usize) -> Result<RunRow, CommandError> {
+    Ok(RunRow {
+        target: part.target.label(),
+        dim: part.target.dimension()?,
+        method: method.to_owned(),
+        particles,
+        ..RunRow::new(&case)
+    })
 }
 
 impl Study for Quickstart {
     type Case = Case;
-    type Row = Row;
+    type Row = RunRow;
     type Shared = ();
 
     const KIND: &'static str = "quickstart";
-
-    fn seeds(&self) -> Vec<u64> {
-        vec![self.seed]
-    }
-
-    fn threads(&self) -> Option<usize> {
-        self.threads.map(Bounded::get)
-    }
+    const COLUMNS: &'static str = "case status reason target dim method particles steps score_evaluations density_evaluations residual \
+         spacing active_nodes storage_bytes effective_sample_size wall_seconds";
 
     fn cases(&self) -> Result<Vec<Case>, CommandError> {
         self.check()?;
@@ -154,7 +178,7 @@ impl Study for Quickstart {
         (): &mut (),
         directory: &StudyDirectory,
         observer: &mut CaseObserver,
-    ) -> Result<Row, CommandError> {
+    ) -> Result<RunRow, CommandError> {
         match case {
             Case::Reference => self.run_reference(directory),
             Case::Posterior => self.run_sampler(*case, &self.posterior, directory, observer),
@@ -162,13 +186,13 @@ impl Study for Quickstart {
         }
     }
 
-    fn report(&self, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
+    fn report(&self, rows: &[RunRow], directory: &StudyDirectory) -> Result<Report, CommandError> {
         report::report(self, rows, directory)
     }
 }
 
 impl Quickstart {
-    fn run_reference(&self, directory: &StudyDirectory) -> Result<Row, CommandError> {
+    fn run_reference(&self, directory: &StudyDirectory) -> Result<RunRow, CommandError> {
         let target = &self.posterior.target;
         let begin = Instant::now();
         let task = ReferenceTask {
@@ -177,14 +201,10 @@ impl Quickstart {
         };
         let reference = with_target(target, task)?;
         let wall_seconds = begin.elapsed().as_secs_f64();
-        reference::write(&reference.axes, &moments_file(directory))?;
+        table_file::write(&reference.axes, &moments_file(directory))?;
         ParticleFile::create(Case::Reference.particles_file(directory))?.write(&reference.draws, &[])?;
-        let mut row = Row::new(
-            Case::Reference,
-            &self.posterior,
-            "importance-sampling",
-            self.reference.points.get(),
-        )?;
+        let points = self.reference.points.get();
+        let mut row = row(Case::Reference, &self.posterior, "importance-sampling", points)?;
         row.effective_sample_size = Some(reference.effective_sample_size);
         row.wall_seconds = Some(wall_seconds);
         Ok(row)
@@ -196,26 +216,19 @@ impl Quickstart {
         part: &Part,
         directory: &StudyDirectory,
         observer: &mut CaseObserver,
-    ) -> Result<Row, CommandError> {
+    ) -> Result<RunRow, CommandError> {
         let mut specification = part.method.clone();
         specification.options.trace_every = self.trace_every.get();
         let method = specification.method(None)?;
         let mut run = Run::new(part.particles.get(), self.seed);
         run.start = specification.options.start();
-        let mut row = Row::new(case, part, part.method.label(), run.particles)?;
+        let mut row = row(case, part, part.method.label(), run.particles)?;
         match attempt(sampling::sample(&part.target, &method, &run, observer))? {
-            Attempt::Failed(status, reason) => (row.status, row.reason) = (status, reason),
+            Attempt::Failed(status, reason) => row.fail(status, reason),
             Attempt::Finished(outcome) => {
                 ParticleFile::create(case.particles_file(directory))?.write(&outcome.particles, &[])?;
                 table_file::write(outcome.trace.iter().map(TraceRow::from), &case.trace_file(directory))?;
-                row.steps = Some(outcome.steps);
-                row.score_evaluations = Some(outcome.score_evaluations);
-                row.density_evaluations = Some(outcome.density_evaluations);
-                row.residual = outcome.residual;
-                row.spacing = outcome.spacing;
-                row.active_nodes = outcome.active_nodes;
-                row.storage_bytes = outcome.storage_bytes;
-                row.wall_seconds = Some(outcome.wall_seconds);
+                row.take(&outcome);
             }
         }
         Ok(row)

@@ -1,14 +1,12 @@
-//! The posterior's reference moments and draws, and the file that keeps the moments.
-
-use std::path::Path;
+//! The posterior's reference moments and draws.
 
 use parvi_targets::{BoxedTarget, ImportanceSample, ReferenceOptions};
 use serde::{Deserialize, Serialize};
 
-use super::configuration::ReferencePart;
+use super::ReferencePart;
 use crate::CommandError;
 use crate::dispatch::TargetTask;
-use crate::output::{AtomicFile, Particles};
+use crate::output::Particles;
 
 /// Reference mean and standard deviation of one coordinate with their standard errors.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -75,27 +73,4 @@ impl TargetTask for ReferenceTask<'_> {
             effective_sample_size: known.effective_sample_size,
         })
     }
-}
-
-/// Writes the moments.
-pub fn write(axes: &[ReferenceAxis], path: &Path) -> Result<(), CommandError> {
-    let failed = |error: csv::Error| CommandError::file("write", path, std::io::Error::other(error));
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for axis in axes {
-        writer.serialize(axis).map_err(failed)?;
-    }
-    let text = writer
-        .into_inner()
-        .map_err(|error| CommandError::file("write", path, error.into_error()))?;
-    AtomicFile::write(path, text)
-}
-
-/// Reads what [`write`] wrote.
-pub fn read(path: &Path) -> Result<Vec<ReferenceAxis>, CommandError> {
-    let unreadable = |error: csv::Error| CommandError::ResultsUnreadable {
-        file: path.display().to_string(),
-        message: error.to_string(),
-    };
-    let mut reader = csv::Reader::from_path(path).map_err(unreadable)?;
-    reader.deserialize().collect::<Result<_, _>>().map_err(unreadable)
 }

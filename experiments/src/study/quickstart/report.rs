@@ -1,26 +1,23 @@
 //! The report of the study `quickstart`.
 
 use super::comparison::Comparison;
-use super::{Case, Quickstart, Row, figures, moments_file, reference};
+use super::{Case, Quickstart, figures, moments_file};
 use crate::CommandError;
-use crate::output::particles_csv;
-use crate::study::attempt::Status;
-use crate::study::definition::Report;
+use crate::output::{particles_csv, table_file};
+use crate::study::definition::{Report, Study};
 use crate::study::directory::StudyDirectory;
-use crate::study::document::{Document, MISSING, number, optional_number};
+use crate::study::document::{Cell, Document, line, number};
+use crate::study::run_row::RunRow;
 
 /// Tables, figures and verdict.
-pub fn report(study: &Quickstart, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
+pub fn report(study: &Quickstart, rows: &[RunRow], directory: &StudyDirectory) -> Result<Report, CommandError> {
     let mut document = Document::new("Quickstart: a posterior from real data");
-    let mut summary = vec![("study", "quickstart".to_owned())];
-    let finished = |case: Case| {
-        rows.iter()
-            .any(|row| row.case == case.name() && row.status == Status::Finished)
-    };
+    let mut summary = Vec::new();
+    let finished = |case: Case| rows.iter().any(|row| row.case == case.name() && row.finished());
 
     if finished(Case::Reference) && finished(Case::Posterior) {
         let particles = particles_csv::read(&Case::Posterior.particles_file(directory))?;
-        let comparison = Comparison::new(&particles, &reference::read(&moments_file(directory))?);
+        let comparison = Comparison::new(&particles, &table_file::read(&moments_file(directory))?);
         verdict(study, &comparison, rows, &mut document);
         summary.extend([
             ("largest_mean_error", format!("{:.6}", comparison.largest_mean_error())),
@@ -45,7 +42,10 @@ pub fn report(study: &Quickstart, rows: &[Row], directory: &StudyDirectory) -> R
     document.heading("The way there");
     figures::traces(study, directory, &mut document)?;
     runs_table(rows, &mut document);
-    Ok(Report { document, summary })
+    let report = Report::new(Quickstart::KIND, document);
+    Ok(summary
+        .into_iter()
+        .fold(report, |report, (key, value)| report.with(key, value)))
 }
 
 fn passes(study: &Quickstart, comparison: &Comparison) -> bool {
@@ -56,7 +56,7 @@ fn word(pass: bool) -> &'static str {
     if pass { "pass" } else { "fail" }
 }
 
-fn verdict(study: &Quickstart, comparison: &Comparison, rows: &[Row], document: &mut Document) {
+fn verdict(study: &Quickstart, comparison: &Comparison, rows: &[RunRow], document: &mut Document) {
     let bounds = &study.bounds;
     let within = |pass: bool| if pass { "within" } else { "beyond" };
     let size = rows
@@ -84,24 +84,14 @@ fn verdict(study: &Quickstart, comparison: &Comparison, rows: &[Row], document: 
         study.seed,
         study.reference.points,
         study.reference.scramblings,
-        size.map_or(MISSING.to_owned(), |size| format!("{size:.0}")),
+        size.map(|size| format!("{size:.0}")).cell(),
         number(comparison.largest_reference_error()),
     ));
 }
 
 fn moments_table(comparison: &Comparison, document: &mut Document) {
     document.heading("Posterior moments");
-    let header = [
-        "coefficient",
-        "mean",
-        "reference mean",
-        "± s.e.",
-        "error (sd)",
-        "sd",
-        "reference sd",
-        "± s.e.",
-        "error (%)",
-    ];
+    let header = "coefficient | mean | reference mean | ± s.e. | error (sd) | sd | reference sd | ± s.e. | error (%)";
     let table: Vec<Vec<String>> = comparison
         .axes
         .iter()
@@ -120,54 +110,28 @@ fn moments_table(comparison: &Comparison, document: &mut Document) {
             ]
         })
         .collect();
-    document.table(&header, &table);
+    document.table(header, &table);
 }
 
-fn runs_table(rows: &[Row], document: &mut Document) {
-    let header = [
-        "case",
-        "status",
-        "target",
-        "method",
-        "M",
-        "steps",
-        "scores",
-        "densities",
-        "evaluations",
-        "residual",
-        "h",
-        "active nodes",
-        "time (s)",
-    ];
-    let table: Vec<Vec<String>> = rows
-        .iter()
-        .map(|row| {
-            let note = if row.reason.is_empty() {
-                String::new()
-            } else {
-                format!(": {}", row.reason)
-            };
-            let count = |value: Option<u64>| value.map_or(MISSING.to_owned(), |value| value.to_string());
-            vec![
-                row.case.clone(),
-                format!("{}{note}", row.status.as_str()),
-                row.target.clone(),
-                row.method.clone(),
-                row.particles.to_string(),
-                count(row.steps.map(|steps| steps as u64)),
-                count(row.score_evaluations),
-                count(row.density_evaluations),
-                count(
-                    row.score_evaluations
-                        .zip(row.density_evaluations)
-                        .map(|(scores, densities)| scores + densities),
-                ),
-                optional_number(row.residual),
-                optional_number(row.spacing),
-                count(row.active_nodes.map(|nodes| nodes as u64)),
-                optional_number(row.wall_seconds),
-            ]
-        })
-        .collect();
-    document.table(&header, &table);
+fn runs_table(rows: &[RunRow], document: &mut Document) {
+    let header = "case | status | target | method | M | steps | scores | densities | evaluations | residual | h | active nodes | time (s)";
+    let line = |row: &RunRow| {
+        let both = row.score_evaluations.zip(row.density_evaluations);
+        line(&[
+            &row.case,
+            &row.ending(),
+            &row.target,
+            &row.method,
+            &row.particles,
+            &row.steps,
+            &row.score_evaluations,
+            &row.density_evaluations,
+            &both.map(|(scores, densities)| scores + densities),
+            &row.residual,
+            &row.spacing,
+            &row.active_nodes,
+            &row.wall_seconds,
+        ])
+    };
+    document.table(header, rows.iter().map(line));
 }

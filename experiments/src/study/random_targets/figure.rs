@@ -1,12 +1,12 @@
 //! The figure of the study `random-targets`.
 
 use super::RandomTargets;
-use super::row::Row;
 use crate::options::Dimension;
 use crate::plots::{AxisKind, LineSeries, MultiplesPanel, MultiplesPlot, ReferenceLevel};
+use crate::study::run_row::{ENERGY_RATIO, RunRow};
 
 /// ED² of every method in order of size, one panel per dimension.
-pub fn plot(study: &RandomTargets, rows: &[Row]) -> MultiplesPlot {
+pub fn plot(study: &RandomTargets, rows: &[RunRow]) -> MultiplesPlot {
     MultiplesPlot {
         title: String::new(),
         x_label: "share of the targets (%)".to_owned(),
@@ -20,10 +20,10 @@ pub fn plot(study: &RandomTargets, rows: &[Row]) -> MultiplesPlot {
     }
 }
 
-fn panel(study: &RandomTargets, rows: &[Row], dim: Dimension) -> MultiplesPanel {
+fn panel(study: &RandomTargets, rows: &[RunRow], dim: Dimension) -> MultiplesPanel {
     let line = |label: &str| {
         let here = rows.iter().filter(|row| row.dim == dim.get() && row.method == label);
-        let mut ratios: Vec<f64> = here.filter_map(Row::ratio).collect();
+        let mut ratios: Vec<f64> = here.filter_map(ENERGY_RATIO).collect();
         ratios.sort_by(f64::total_cmp);
         let count = study.target_seeds.count.get() as f64;
         LineSeries {

@@ -3,30 +3,75 @@
 //! A seed makes a [`RandomTarget`](parvi_targets::RandomTarget), of which the methods know nothing, or its rough frame. Particles are
 //! compared with quasi-random draws of it, in standard deviations per axis, and log Z with the exact one.
 
-mod configuration;
 mod figure;
 mod identity_frame;
 mod report;
-mod row;
 
 use parvi::{Method, Run};
 use parvi_targets::BoxedTarget;
+use serde::Deserialize;
 
-use configuration::KnownFrame;
-pub use configuration::RandomTargets;
 use identity_frame::InIdentityFrame;
-use row::Row;
 
-use super::attempt::{Attempt, Status, attempt};
+use super::attempt::{Attempt, attempt};
+use super::checks::{distinct, not_empty};
 use super::definition::{self, Report, Study};
 use super::directory::StudyDirectory;
-use super::results::single_line;
-use super::yardstick::CurrentYardstick;
+use super::run_row::RunRow;
+use super::yardstick::{Coordinates, CurrentYardstick, YardstickOptions, measured};
 use crate::CommandError;
 use crate::dispatch::{TargetTask, with_target};
-use crate::options::{Bounded, MethodSpecification, TargetSpecification};
+use crate::options::{Bounded, Dimension, MethodSpecification, ParticleCount, TargetParameters, TargetSpecification};
 use crate::progress::CaseObserver;
 use crate::sampling::{Outcome, sample_target};
+
+/// All methods on random targets.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct RandomTargets {
+    #[serde(rename = "kind")]
+    _kind: String,
+    /// Seed of every run.
+    seed: u64,
+    #[serde(rename = "threads")]
+    _threads: Option<Bounded<1, 1024>>,
+    /// d.
+    dims: Vec<Dimension>,
+    /// The seeds that make the targets, in every dimension.
+    target_seeds: SeedRange,
+    /// M.
+    particles: ParticleCount,
+    /// What the methods know of place and scale.
+    #[serde(default)]
+    frame: KnownFrame,
+    /// Quasi-random points that stand for a target; a power of two keeps their balance.
+    reference_points: Bounded<1000, 1_000_000>,
+    /// Seed of the reference.
+    reference_seed: u64,
+    /// The methods.
+    methods: Vec<MethodSpecification>,
+}
+
+/// Consecutive seeds.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SeedRange {
+    /// The first.
+    first: u32,
+    /// Their number.
+    count: Bounded<1, 1_000_000>,
+}
+
+/// The frame that methods get.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum KnownFrame {
+    /// x = z: nothing is known.
+    #[default]
+    Identity,
+    /// The target's: a rough guess.
+    Own,
+}
 
 /// A method on a target.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,23 +92,44 @@ impl definition::Case for Case {
     }
 }
 
+impl RandomTargets {
+    /// In standard deviations per axis; the sliced distance is not looked at.
+    fn yardstick(&self) -> YardstickOptions {
+        YardstickOptions::of_energy(self.reference_points.get(), self.reference_seed, Coordinates::Scaled)
+    }
+}
+
 impl Study for RandomTargets {
     type Case = Case;
-    type Row = Row;
+    type Row = RunRow;
     type Shared = CurrentYardstick;
 
     const KIND: &'static str = "random-targets";
+    const COLUMNS: &'static str = "case status reason dim target_seed method outcome energy_distance_squared energy_level \
+         log_evidence_deviation log_evidence_error score_evaluations density_evaluations wall_seconds";
 
-    fn seeds(&self) -> Vec<u64> {
-        vec![self.seed]
-    }
-
-    fn threads(&self) -> Option<usize> {
-        self.threads.map(Bounded::get)
-    }
-
+    /// The cases, target by target, so that a target's reference is made once.
     fn cases(&self) -> Result<Vec<Case>, CommandError> {
-        self.all_cases()
+        not_empty("dims", &self.dims)?;
+        not_empty("methods", &self.methods)?;
+        let mut cases = Vec::new();
+        for &dim in &self.dims {
+            for target_seed in (u64::from(self.target_seeds.first)..).take(self.target_seeds.count.get()) {
+                let mut target = TargetSpecification::plain("random", Some(dim));
+                target.parameters = TargetParameters {
+                    target_seed: Some(target_seed),
+                    ..TargetParameters::default()
+                };
+                cases.extend(self.methods.iter().map(|method| Case {
+                    target: target.clone(),
+                    dim: dim.get(),
+                    target_seed,
+                    method: method.clone(),
+                }));
+            }
+        }
+        distinct("dims or methods", &cases)?;
+        Ok(cases)
     }
 
     fn run(
@@ -72,11 +138,17 @@ impl Study for RandomTargets {
         yardstick: &mut CurrentYardstick,
         _directory: &StudyDirectory,
         observer: &mut CaseObserver,
-    ) -> Result<Row, CommandError> {
+    ) -> Result<RunRow, CommandError> {
         let yardstick = yardstick.of(&case.target, &self.yardstick())?;
         let mut run = Run::new(self.particles.get(), self.seed);
         run.start = case.method.options.start();
-        let mut row = Row::new(case, yardstick.mean_distance() / run.particles as f64);
+        let mut row = RunRow {
+            dim: case.dim,
+            target_seed: Some(case.target_seed),
+            method: case.method.label().to_owned(),
+            energy_level: Some(yardstick.mean_distance() / run.particles as f64),
+            ..RunRow::new(case)
+        };
         let task = Sampled {
             frame: self.frame,
             method: &case.method.method(None)?,
@@ -84,23 +156,18 @@ impl Study for RandomTargets {
             observer,
         };
         match attempt(with_target(&case.target, task))? {
-            Attempt::Failed(status, reason) => (row.status, row.reason) = (status, reason),
+            Attempt::Failed(status, reason) => row.fail(status, reason),
             Attempt::Finished((outcome, log_evidence)) => {
-                row.take(&outcome, log_evidence);
-                match yardstick.measure(&outcome.particles) {
-                    Ok(errors) => row.energy_distance_squared = Some(errors.energy_distance_squared),
-                    // So far out that a distance overflows.
-                    Err(CommandError::Metric(error)) => {
-                        (row.status, row.reason) = (Status::Diverged, single_line(error));
-                    }
-                    Err(error) => return Err(error),
-                }
+                row.take(&outcome);
+                let both = outcome.log_evidence.zip(log_evidence);
+                row.log_evidence_deviation = both.map(|(found, exact)| found - exact);
+                row.measured(measured(yardstick, &outcome)?);
             }
         }
         Ok(row)
     }
 
-    fn report(&self, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
+    fn report(&self, rows: &[RunRow], directory: &StudyDirectory) -> Result<Report, CommandError> {
         report::report(self, rows, directory)
     }
 }

@@ -4,7 +4,6 @@
 //! target at fixed M, where a dense grid would hold N = kᵈ nodes. Each case runs once to warm up and then several times on the clock; the
 //! median counts. The memory is that of one more run in a process of its own.
 
-mod configuration;
 mod memory;
 mod quantity;
 mod report;
@@ -12,22 +11,77 @@ mod report;
 use parvi::Run;
 use serde::{Deserialize, Serialize};
 
-pub use configuration::Scaling;
-
 use super::attempt::{Attempt, Status, attempt};
+use super::checks::refusal;
 use super::definition::{self, Report, Study};
 use super::directory::StudyDirectory;
 use super::results;
-use crate::options::{Bounded, TargetSpecification};
+use crate::options::{Bounded, Dimension, MethodSpecification, ParticleCount, StepCount, TargetSpecification};
 use crate::progress::CaseObserver;
 use crate::sampling::{self, Outcome};
 use crate::{CommandError, statistics};
 
+/// Sizes to measure.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Scaling {
+    #[serde(rename = "kind")]
+    _kind: String,
+    /// Seed of every case.
+    seed: u64,
+    /// Threads; absent: as many as the environment gives.
+    threads: Option<Bounded<1, 1024>>,
+    /// A target of the catalogue that exists in every dimension of the sweeps.
+    target: String,
+    /// Steps of a run.
+    steps: StepCount,
+    /// Runs on the clock per case.
+    repeats: Bounded<1, 1000>,
+    /// The sampler.
+    method: MethodSpecification,
+    /// The sweep over d and M.
+    particles_sweep: ParticlesSweep,
+    /// The sweep over k.
+    nodes_sweep: NodesSweep,
+}
+
+/// All pairs of d and M whose work M · 3ᵈ is within the budget.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct ParticlesSweep {
+    /// d.
+    dims: Vec<Dimension>,
+    /// M.
+    particles: Vec<ParticleCount>,
+    /// The largest M · 3ᵈ, the number of particle–node pairs of a quadratic B-spline, that is run.
+    largest_work: f64,
+    /// Fits use the sizes from here on, so that the fixed cost of a step at small M does not bend them.
+    fit_from: ParticleCount,
+}
+
+/// All pairs of d and k.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct NodesSweep {
+    /// d.
+    dims: Vec<Dimension>,
+    /// M.
+    particles: ParticleCount,
+    /// k.
+    nodes_per_axis: Vec<Bounded<2, 1_000_000>>,
+    /// A second fit uses the k from here on.
+    fit_from: Bounded<2, 1_000_000>,
+    /// The interval per axis, in frame units, that k nodes divide: h = width / k.
+    #[serde(rename = "box")]
+    interval: [f64; 2],
+}
+
 /// Which sweep a case belongs to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Sweep {
     /// Over d and M.
+    #[default]
     Particles,
     /// Over k.
     Nodes,
@@ -37,7 +91,7 @@ pub enum Sweep {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Case {
     sweep: Sweep,
-    dim: crate::options::Dimension,
+    dim: Dimension,
     particles: usize,
     /// k; `None`: the sampler chooses the spacing.
     nodes_per_axis: Option<usize>,
@@ -59,7 +113,7 @@ impl definition::Case for Case {
 }
 
 /// What a case gave. Columns that begin with `wall` or `memory` depend on the machine; the others only on the seed.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     case: String,
     status: Status,
@@ -90,22 +144,12 @@ impl Row {
     fn new(case: &Case) -> Self {
         Self {
             case: definition::Case::id(case),
-            status: Status::Finished,
-            reason: String::new(),
             sweep: case.sweep,
             dim: case.dim.get(),
             particles: case.particles,
             nodes_per_axis: case.nodes_per_axis,
             spacing: case.spacing,
-            steps: None,
-            active_nodes: None,
-            score_evaluations: None,
-            density_evaluations: None,
-            storage_bytes: None,
-            memory_peak_bytes: None,
-            wall_seconds_per_step: None,
-            wall_seconds_per_step_least: None,
-            wall_seconds_per_step_most: None,
+            ..Self::default()
         }
     }
 
@@ -126,16 +170,48 @@ impl Study for Scaling {
 
     const KIND: &'static str = "scaling";
 
-    fn seeds(&self) -> Vec<u64> {
-        vec![self.seed]
-    }
-
-    fn threads(&self) -> Option<usize> {
-        self.threads.map(Bounded::get)
-    }
-
+    /// The cases of both sweeps, cheap ones first within each dimension.
     fn cases(&self) -> Result<Vec<Case>, CommandError> {
-        self.all_cases()
+        let [low, high] = self.nodes_sweep.interval;
+        if !(low < high && (high - low).is_finite()) {
+            return Err(refusal("nodes-sweep.box", format!("[{low}, {high}] is no interval")));
+        }
+        let sweep = &self.particles_sweep;
+        if sweep.largest_work.is_nan() || sweep.largest_work <= 0.0 {
+            let message = format!("{} must be above 0", sweep.largest_work);
+            return Err(refusal("particles-sweep.largest-work", message));
+        }
+        for &dim in sweep.dims.iter().chain(&self.nodes_sweep.dims) {
+            TargetSpecification::plain(&self.target, Some(dim)).dimension()?;
+        }
+        let mut cases = Vec::new();
+        for &dim in &sweep.dims {
+            for &particles in &sweep.particles {
+                let work = particles.get() as f64 * 3f64.powi(dim.get() as i32);
+                if work <= sweep.largest_work {
+                    let particles = particles.get();
+                    cases.push(Case {
+                        sweep: Sweep::Particles,
+                        dim,
+                        particles,
+                        nodes_per_axis: None,
+                        spacing: None,
+                    });
+                }
+            }
+        }
+        for &dim in &self.nodes_sweep.dims {
+            for &nodes in &self.nodes_sweep.nodes_per_axis {
+                cases.push(Case {
+                    sweep: Sweep::Nodes,
+                    dim,
+                    particles: self.nodes_sweep.particles.get(),
+                    nodes_per_axis: Some(nodes.get()),
+                    spacing: Some((high - low) / nodes.get() as f64),
+                });
+            }
+        }
+        Ok(cases)
     }
 
     fn run(
@@ -169,7 +245,8 @@ impl Study for Scaling {
             }
         }
         specification.options.steps = Some(self.steps);
-        row.memory_peak_bytes = memory::peak_of_own_process(&target, &specification, &run, self.threads());
+        row.memory_peak_bytes =
+            memory::peak_of_own_process(&target, &specification, &run, self.threads.map(Bounded::get));
         let quantiles = statistics::weighted_quantile(&times, None, &[0.0, 0.5, 1.0])?;
         row.wall_seconds_per_step_least = Some(quantiles[0]);
         row.wall_seconds_per_step = Some(quantiles[1]);

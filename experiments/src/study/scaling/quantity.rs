@@ -1,7 +1,7 @@
 //! What is measured per case, and its growth with the size that a sweep varies.
 
 use super::{Row, Sweep};
-use crate::plots::{ScalingSeries, exponent_text, scaling_fit};
+use crate::plots::{LineSeries, exponent_text, scaling_fit};
 use crate::study::document::MISSING;
 
 /// A measured quantity.
@@ -52,13 +52,13 @@ pub const QUANTITIES: [Quantity; 5] = [
 
 impl Quantity {
     /// Its values in one dimension of a sweep against the size that the sweep varies.
-    pub fn series(&self, rows: &[Row], sweep: Sweep, dim: usize) -> ScalingSeries {
+    pub fn series(&self, rows: &[Row], sweep: Sweep, dim: usize) -> LineSeries {
         let here = rows.iter().filter(|row| row.sweep == sweep && row.dim == dim);
         let (x, y) = here.filter_map(|row| Some((size(row), (self.value)(row)?))).unzip();
-        ScalingSeries {
-            label: format!("d = {dim}"),
+        LineSeries {
             x,
             y,
+            ..LineSeries::named(format!("d = {dim}"))
         }
     }
 

@@ -1,16 +1,15 @@
 //! The report of the study `scaling`.
 
-use super::configuration::Scaling;
 use super::quantity::{QUANTITIES, Quantity};
-use super::{Row, Sweep};
+use super::{Row, Scaling, Sweep};
 use crate::CommandError;
 use crate::options::Dimension;
-use crate::plots::{ScalingGuide, ScalingPlot, exponent_text, scaling};
-use crate::statistics::fit_power_law;
+use crate::plots::{GuideCurve, ScalingPlot, scaling};
 use crate::study::attempt::Status;
-use crate::study::definition::Report;
+use crate::study::definition::{Report, Study};
 use crate::study::directory::StudyDirectory;
-use crate::study::document::{Document, MISSING, number, optional_number};
+use crate::study::document::{Cell, Document, exponent, line, number};
+use crate::study::run_row::ending;
 
 /// Tables and figures.
 pub fn report(study: &Scaling, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
@@ -31,12 +30,9 @@ pub fn report(study: &Scaling, rows: &[Row], directory: &StudyDirectory) -> Resu
     all_rows(rows, &mut document);
 
     let failed = rows.iter().filter(|row| row.status != Status::Finished).count();
-    let summary = vec![
-        ("study", "scaling".to_owned()),
-        ("cases", rows.len().to_string()),
-        ("failed", failed.to_string()),
-    ];
-    Ok(Report { document, summary })
+    Ok(Report::new(Scaling::KIND, document)
+        .with("cases", rows.len())
+        .with("failed", failed))
 }
 
 fn particles_part(
@@ -76,24 +72,19 @@ fn growth_with_dimension(study: &Scaling, rows: &[Row], document: &mut Document)
          lattice and 3ᵈ with quadratic B-splines. The paper's estimate grows as kᵈ d².",
     );
     let dims: Vec<usize> = sweep.dims.iter().map(|dim| dim.get()).collect();
-    let labels: Vec<String> = dims.iter().map(|dim| format!("d = {dim}")).collect();
-    let mut header = vec!["M"];
-    header.extend(labels.iter().map(String::as_str));
-    header.extend(["exponent of d", "exponent of 3ᵈ"]);
+    let mut header = vec!["M".to_owned()];
+    header.extend(dims.iter().map(|dim| format!("d = {dim}")));
+    header.extend(["exponent of d", "exponent of 3ᵈ"].map(str::to_owned));
     let mut table = Vec::new();
     for particles in sweep.particles.iter().map(|count| count.get()) {
         let times: Vec<Option<f64>> = dims.iter().map(|&dim| time(dim, particles)).collect();
-        let exponent = |size: fn(usize) -> f64| {
-            let known = dims
-                .iter()
-                .zip(&times)
-                .filter_map(|(&dim, time)| Some((size(dim), (*time)?)));
-            let (sizes, values): (Vec<f64>, Vec<f64>) = known.unzip();
-            fit_power_law(&sizes, &values).map_or(MISSING.to_owned(), |law| exponent_text(&law, 0))
+        let growth = |size: fn(usize) -> f64| {
+            let known = dims.iter().zip(&times);
+            exponent(known.filter_map(|(&dim, time)| Some((size(dim), (*time)?))))
         };
         let mut line = vec![particles.to_string()];
-        line.extend(times.iter().copied().map(optional_number));
-        line.extend([exponent(|dim| dim as f64), exponent(|dim| 3f64.powi(dim as i32))]);
+        line.extend(times.iter().map(Cell::cell));
+        line.extend([growth(|dim| dim as f64), growth(|dim| 3f64.powi(dim as i32))]);
         table.push(line);
     }
     document.table(&header, &table);
@@ -137,19 +128,14 @@ fn nodes_part(
 }
 
 fn largest_dense_grid(study: &Scaling) -> String {
-    let nodes = study
-        .nodes_sweep
-        .nodes_per_axis
-        .iter()
-        .map(|nodes| nodes.get())
-        .max()
-        .unwrap_or(0) as f64;
-    let dim = study.nodes_sweep.dims.iter().map(|dim| dim.get()).max().unwrap_or(0);
+    let sweep = &study.nodes_sweep;
+    let nodes = sweep.nodes_per_axis.iter().map(|nodes| nodes.get()).max().unwrap_or(0) as f64;
+    let dim = sweep.dims.iter().map(|dim| dim.get()).max().unwrap_or(0);
     number(nodes.powi(dim as i32))
 }
 
 /// kᵈ through the first point of that dimension, as far as it stays within a thousand times the measurements.
-fn dense_guide(plot: &ScalingPlot, dim: usize) -> Option<ScalingGuide> {
+fn dense_guide(plot: &ScalingPlot, dim: usize) -> Option<GuideCurve> {
     let series = plot.series.iter().find(|series| series.label == format!("d = {dim}"))?;
     let (&first_size, &first_time) = (series.x.first()?, series.y.first()?);
     let (_, &last_size) = (series.x.first()?, series.x.last()?);
@@ -165,9 +151,10 @@ fn dense_guide(plot: &ScalingPlot, dim: usize) -> Option<ScalingGuide> {
         .map(|i| first_size * (reach / first_size).powf(f64::from(i) / 20.0))
         .collect();
     let y = x.iter().map(|&size| power(size)).collect();
-    Some(ScalingGuide {
+    Some(GuideCurve {
         label: format!("dense grid, k^{{{dim}}}"),
         curve: crate::plots::Curve { x, y },
+        dotted: false,
     })
 }
 
@@ -184,13 +171,12 @@ fn plot(quantity: &Quantity, rows: &[Row], sweep: Sweep, dims: &[Dimension], fit
         Sweep::Nodes => ("nodes per axis k", "k"),
     };
     ScalingPlot {
-        title: String::new(),
         x_label: x_label.to_owned(),
         y_label: quantity.axis.to_owned(),
         x_symbol: x_symbol.to_owned(),
         fit_from,
         series: dims.iter().map(|dim| quantity.series(rows, sweep, dim.get())).collect(),
-        guides: Vec::new(),
+        ..ScalingPlot::default()
     }
 }
 
@@ -217,38 +203,21 @@ fn exponent_table(document: &mut Document, rows: &[Row], sweep: Sweep, dims: &[D
 
 fn all_rows(rows: &[Row], document: &mut Document) {
     document.heading("All cases");
-    let header = [
-        "case",
-        "status",
-        "h",
-        "active nodes",
-        "scores",
-        "storage (bytes)",
-        "peak memory (bytes)",
-        "time per step (s)",
-    ];
-    let count = |value: Option<u64>| value.map_or(MISSING.to_owned(), |value| value.to_string());
-    let table: Vec<Vec<String>> = rows
-        .iter()
-        .map(|row| {
-            let note = if row.reason.is_empty() {
-                String::new()
-            } else {
-                format!(": {}", row.reason)
-            };
-            vec![
-                row.case.clone(),
-                format!("{}{note}", row.status.as_str()),
-                optional_number(row.spacing),
-                count(row.active_nodes.map(|nodes| nodes as u64)),
-                count(row.score_evaluations),
-                count(row.storage_bytes.map(|bytes| bytes as u64)),
-                count(row.memory_peak_bytes),
-                optional_number(row.wall_seconds_per_step),
-            ]
-        })
-        .collect();
-    document.table(&header, &table);
+    let line = |row: &Row| {
+        line(&[
+            &row.case,
+            &ending(row.status, &row.reason),
+            &row.spacing,
+            &row.active_nodes,
+            &row.score_evaluations,
+            &row.storage_bytes,
+            &row.memory_peak_bytes,
+            &row.wall_seconds_per_step,
+        ])
+    };
+    let header =
+        "case | status | h | active nodes | scores | storage (bytes) | peak memory (bytes) | time per step (s)";
+    document.table(header, rows.iter().map(line));
 }
 
 fn capitalised(text: &str) -> String {

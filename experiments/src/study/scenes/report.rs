@@ -87,7 +87,7 @@ fn section(
     if family.judgements.iter().any(order) {
         document.table(
             &["series", "orders, coarse to fine", "least squares"],
-            &order_table(series),
+            order_table(series),
         );
     }
     let header = [
@@ -102,7 +102,7 @@ fn section(
         "ended",
     ];
     let here = rows.iter().filter(|row| row.family == family.name);
-    document.table(&header, &here.map(cells).collect::<Vec<_>>());
+    document.table(&header, here.map(cells));
     Ok(())
 }
 

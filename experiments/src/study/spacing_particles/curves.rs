@@ -1,21 +1,21 @@
 //! What the runs say about the best spacing and about the end of the particles' influence.
 
-use super::configuration::Series;
+use super::Series;
 use crate::options::Dimension;
-use crate::study::gaussian_runs::{ENERGY, Row, median};
+use crate::study::run_row::{ENERGY, RunRow, median};
 
 /// More particles help if they lower ED² at least by this factor.
 const HELP: f64 = 0.9;
 
 /// The runs of one dimension, number of particles and spacing.
-pub fn runs(rows: &[Row], dim: Dimension, particles: usize, spacing: f64) -> Vec<&Row> {
+pub fn runs(rows: &[RunRow], dim: Dimension, particles: usize, spacing: f64) -> Vec<&RunRow> {
     let here =
-        |row: &&Row| row.dim == dim.get() && row.particles == particles && row.requested_spacing == Some(spacing);
+        |row: &&RunRow| row.dim == dim.get() && row.particles == particles && row.requested_spacing == Some(spacing);
     rows.iter().filter(here).collect()
 }
 
 /// The spacing with the lowest median ED², and that.
-pub fn best(rows: &[Row], series: &Series, particles: usize) -> Option<(f64, f64)> {
+pub fn best(rows: &[RunRow], series: &Series, particles: usize) -> Option<(f64, f64)> {
     series
         .sorted()
         .into_iter()

@@ -2,21 +2,98 @@
 //!
 //! At a fixed spacing the error falls with M until the grid, not the particles, limits it; at fixed M it has a best spacing.
 
-mod configuration;
 mod curves;
 mod report;
 
-pub use configuration::SpacingParticles;
+use serde::Deserialize;
 
+use super::checks::{ascending, distinct, not_empty, options_fit, positive, unset};
 use super::definition::Report;
 use super::directory::StudyDirectory;
-use super::gaussian_runs::{GaussianStudy, Row};
+use super::gaussian_runs::{Case, GaussianStudy};
+use super::run_row::RunRow;
 use crate::CommandError;
+use crate::options::{Bounded, Dimension, MethodSpecification, ParticleCount};
+
+/// All pairs of a spacing and a number of particles, one series of spacings per dimension.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct SpacingParticles {
+    #[serde(rename = "kind")]
+    _kind: String,
+    /// One run per seed.
+    seeds: Vec<u64>,
+    #[serde(rename = "threads")]
+    _threads: Option<Bounded<1, 1024>>,
+    /// M.
+    particles: Vec<ParticleCount>,
+    /// The sampler; its spacing comes from the series.
+    method: MethodSpecification,
+    /// One per dimension.
+    series: Vec<Series>,
+}
+
+/// The spacings of one dimension.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct Series {
+    /// d.
+    dim: Dimension,
+    /// Spacings h in standard deviations.
+    spacings: Vec<f64>,
+}
+
+impl Series {
+    /// The spacings, fine ones first.
+    fn sorted(&self) -> Vec<f64> {
+        let mut spacings = self.spacings.clone();
+        spacings.sort_by(f64::total_cmp);
+        spacings
+    }
+}
+
+impl SpacingParticles {
+    /// The numbers of particles, few first.
+    fn counts(&self) -> Vec<usize> {
+        ascending(&self.particles)
+    }
+}
 
 impl GaussianStudy for SpacingParticles {
     const KIND: &'static str = "spacing-particles";
 
-    fn report(&self, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
+    /// The cases, dimension by dimension.
+    fn cases(&self) -> Result<Vec<Case>, CommandError> {
+        not_empty("seeds", &self.seeds)?;
+        not_empty("particles", &self.particles)?;
+        not_empty("series", &self.series)?;
+        unset("method.options.spacing", &self.method.options.spacing, "series")?;
+        let mut cases = Vec::new();
+        for series in &self.series {
+            not_empty("series.spacings", &series.spacings)?;
+            positive("series.spacings", &series.spacings)?;
+            for &particles in &self.particles {
+                for &spacing in &series.spacings {
+                    let mut method = self.method.clone();
+                    method.options.spacing = Some(spacing);
+                    options_fit("method", &method)?;
+                    let case = Case {
+                        dim: series.dim,
+                        particles: particles.get(),
+                        series: method.label().to_owned(),
+                        method,
+                        spacing_factor: None,
+                        seed: 0,
+                    };
+                    cases.extend(case.of_seeds(&self.seeds));
+                }
+            }
+        }
+        distinct("seeds, particles or series", &cases)?;
+        Ok(cases)
+    }
+
+    fn report(&self, rows: &[RunRow], directory: &StudyDirectory) -> Result<Report, CommandError> {
         report::report(self, rows, directory)
     }
 }

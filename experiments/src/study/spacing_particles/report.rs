@@ -1,18 +1,18 @@
 //! The report of the study `spacing-particles`.
 
-use super::configuration::{Series, SpacingParticles};
 use super::curves::{Saturation, best, gain, runs, saturation};
+use super::{Series, SpacingParticles};
 use crate::CommandError;
 use crate::plots::{AxisKind, LineSeries, MultiplesPanel, MultiplesPlot, exponent_text, multiples};
-use crate::statistics::{fit_power_law, summarize};
-use crate::study::attempt::Status;
+use crate::statistics::fit_power_law;
 use crate::study::definition::Report;
 use crate::study::directory::StudyDirectory;
-use crate::study::document::{Document, MISSING, number, optional_number};
-use crate::study::gaussian_runs::{ENERGY, ENERGY_ROOT, NODES_PER_PARTICLE, Row, failures, median, values};
+use crate::study::document::{Cell, Document, MISSING, line, number};
+use crate::study::gaussian_runs::GaussianStudy;
+use crate::study::run_row::{ENERGY, ENERGY_ROOT, NODES_PER_PARTICLE, RunRow, failures, median, values};
 
 /// Tables and figure.
-pub fn report(study: &SpacingParticles, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
+pub fn report(study: &SpacingParticles, rows: &[RunRow], directory: &StudyDirectory) -> Result<Report, CommandError> {
     let mut document = Document::new("Spacing and number of particles together");
     document.paragraph(format!(
         "Target N(0, I), method `{}`, {} seeds; medians over the seeds. ED² is the squared energy distance, exact in the \
@@ -22,12 +22,8 @@ pub fn report(study: &SpacingParticles, rows: &[Row], directory: &StudyDirectory
     ));
     document.heading("Figure");
     let caption = "Energy distance against the spacing, by dimension and number of particles.";
-    document.figure(
-        directory,
-        "spacing-particles.svg",
-        caption,
-        multiples(&plot(study, rows)),
-    )?;
+    let drawing = multiples(&plot(study, rows));
+    document.figure(directory, "spacing-particles.svg", caption, drawing)?;
     best_spacings(study, rows, &mut document);
     document.heading("Where the error stops being the particles' and becomes the spacing's");
     document.paragraph(
@@ -39,18 +35,14 @@ pub fn report(study: &SpacingParticles, rows: &[Row], directory: &StudyDirectory
         document.paragraph(format!("**d = {}**: ED² × 10³ by number of particles.", series.dim));
         saturations(study, rows, series, &mut document);
     }
-    failures(rows, &mut document);
-
-    let failed = rows.iter().filter(|row| row.status != Status::Finished).count();
-    let summary = vec![
-        ("study", "spacing-particles".to_owned()),
-        ("cases", rows.len().to_string()),
-        ("failed", failed.to_string()),
-    ];
-    Ok(Report { document, summary })
+    let failed = failures(rows);
+    document.list("Runs that did not finish", &failed, None);
+    Ok(Report::new(SpacingParticles::KIND, document)
+        .with("cases", rows.len())
+        .with("failed", failed.len()))
 }
 
-fn best_spacings(study: &SpacingParticles, rows: &[Row], document: &mut Document) {
+fn best_spacings(study: &SpacingParticles, rows: &[RunRow], document: &mut Document) {
     document.heading("Best spacings");
     document.paragraph("An asterisk marks a best spacing at the edge of the scan, which the fits below leave out.");
     let mut table = Vec::new();
@@ -68,50 +60,35 @@ fn best_spacings(study: &SpacingParticles, rows: &[Row], document: &mut Document
                 spacings.push(spacing);
             }
             let here = runs(rows, series.dim, particles, spacing);
-            table.push(vec![
-                series.dim.to_string(),
-                particles.to_string(),
-                format!("{spacing}{}", if at_the_edge { "*" } else { "" }),
-                number(1e3 * energy),
-                optional_number(median(&here, NODES_PER_PARTICLE)),
-            ]);
+            let named = format!("{spacing}{}", if at_the_edge { "*" } else { "" });
+            let nodes = median(&here, NODES_PER_PARTICLE);
+            table.push(line(&[&series.dim.get(), &particles, &named, &(1e3 * energy), &nodes]));
         }
-        let law = fit_power_law(&counts, &spacings);
-        fits.push(vec![
-            series.dim.to_string(),
-            law.as_ref().map_or(MISSING.to_owned(), |law| exponent_text(law, 0)),
-            optional_number(law.ok().map(|law| law.value(&[512.0]))),
-            counts.len().to_string(),
-        ]);
+        let law = fit_power_law(&counts, &spacings).ok();
+        let exponent = law.as_ref().map(|law| exponent_text(law, 0));
+        let at_512 = law.map(|law| law.value(&[512.0]));
+        fits.push(line(&[&series.dim.get(), &exponent, &at_512, &counts.len()]));
     }
-    document.table(&["d", "M", "best h", "ED² × 10³", "active nodes / M"], &table);
+    document.table("d | M | best h | ED² × 10³ | active nodes / M", &table);
     document.paragraph("Power laws of the best spacing, h ∝ M^b, with 95 % confidence intervals.");
-    document.table(&["d", "b", "h at M = 512", "points"], &fits);
+    document.table("d | b | h at M = 512 | points", &fits);
 }
 
 /// One line per spacing: ED² by number of particles, and where it stops falling.
-fn saturations(study: &SpacingParticles, rows: &[Row], series: &Series, document: &mut Document) {
-    let labels: Vec<String> = study.counts().iter().map(|count| format!("M = {count}")).collect();
-    let mut header = vec!["h"];
-    header.extend(labels.iter().map(String::as_str));
-    header.extend(["b at the end", "more particles do not help"]);
+fn saturations(study: &SpacingParticles, rows: &[RunRow], series: &Series, document: &mut Document) {
+    let mut header = vec!["h".to_owned()];
+    header.extend(study.counts().iter().map(|count| format!("M = {count}")));
+    header.extend(["b at the end", "more particles do not help"].map(str::to_owned));
     let mut table = Vec::new();
     for spacing in series.sorted() {
         let energy = |particles: usize| median(&runs(rows, series.dim, particles, spacing), ENERGY);
-        let known: Vec<(usize, f64)> = study
-            .counts()
-            .into_iter()
-            .filter_map(|particles| Some((particles, energy(particles)?)))
-            .collect();
+        let counts = study.counts().into_iter();
+        let known = counts.filter_map(|particles| Some((particles, energy(particles)?)));
+        let known: Vec<(usize, f64)> = known.collect();
         let mut line = vec![spacing.to_string()];
-        line.extend(
-            study
-                .counts()
-                .into_iter()
-                .map(|particles| optional_number(energy(particles).map(|e| 1e3 * e))),
-        );
-        let gain = gain(&known).map_or(MISSING.to_owned(), |gain| number(gain).replace('-', "−"));
-        line.push(gain);
+        let energies = study.counts().into_iter().map(energy);
+        line.extend(energies.map(|energy| energy.map(|e| 1e3 * e).cell()));
+        line.push(gain(&known).map(|gain| number(gain).replace('-', "−")).cell());
         line.push(match saturation(&known) {
             Some(Saturation::Beyond(particles)) => format!("beyond {particles}"),
             Some(Saturation::NotUpTo(particles)) => format!("they do up to {particles}"),
@@ -123,39 +100,27 @@ fn saturations(study: &SpacingParticles, rows: &[Row], series: &Series, document
 }
 
 /// One panel per dimension, one line per number of particles.
-fn plot(study: &SpacingParticles, rows: &[Row]) -> MultiplesPlot {
+fn plot(study: &SpacingParticles, rows: &[RunRow]) -> MultiplesPlot {
+    let curve = |series: &Series, particles: usize| {
+        let mut line = LineSeries::named(format!("M = {particles}"));
+        for spacing in series.sorted() {
+            let here = runs(rows, series.dim, particles, spacing);
+            line.push_median(spacing, &values(&here, ENERGY_ROOT));
+        }
+        line
+    };
     let panel = |series: &Series| MultiplesPanel {
         title: format!("d = {}", series.dim),
-        series: study
-            .counts()
-            .into_iter()
-            .map(|particles| curve(rows, series, particles))
-            .collect(),
+        series: study.counts().into_iter().map(|count| curve(series, count)).collect(),
         ..MultiplesPanel::default()
     };
     MultiplesPlot {
-        title: String::new(),
         x_label: "spacing h (standard deviations)".to_owned(),
         y_label: "energy distance ED (standard deviations^{½})".to_owned(),
         x_axis: AxisKind::Logarithmic,
         y_axis: AxisKind::Logarithmic,
         panels: study.series.iter().map(panel).collect(),
         notes: vec!["Medians over the seeds; bars from the smallest to the largest.".to_owned()],
+        ..MultiplesPlot::default()
     }
-}
-
-fn curve(rows: &[Row], series: &Series, particles: usize) -> LineSeries {
-    let mut line = LineSeries {
-        label: format!("M = {particles}"),
-        ..LineSeries::default()
-    };
-    for spacing in series.sorted() {
-        let here = runs(rows, series.dim, particles, spacing);
-        if let Ok(summary) = summarize(&values(&here, ENERGY_ROOT)) {
-            line.x.push(spacing);
-            line.y.push(summary.median);
-            line.bars.push((summary.minimum, summary.maximum));
-        }
-    }
-    line
 }

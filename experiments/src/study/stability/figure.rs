@@ -19,20 +19,14 @@ pub fn plot(rows: &[Row]) -> HeatMapPlot {
     let (x_edges, y_edges) = (edges(TIME_STEPS), edges(SPACINGS));
     let panel = |(title, method, guards): (&str, MethodName, Switch)| {
         let here = |row: &&Row| row.method == method && row.guards == Some(guards);
-        let cells: Vec<Option<(usize, usize)>> = rows
-            .iter()
-            .map(|row| {
-                here(&row).then_some(()).and_then(|()| {
-                    Some((
-                        cell(&x_edges, row.time_step_factor)?,
-                        cell(&y_edges, row.spacing_factor)?,
-                    ))
-                })
-            })
-            .collect();
+        let place = |row: &Row| {
+            let column = cell(&x_edges, row.time_step_factor)?;
+            Some((column, cell(&y_edges, row.spacing_factor)?))
+        };
+        let placed: Vec<_> = rows.iter().filter(here).map(|row| (row, place(row))).collect();
         let share = |index: usize| {
-            let place = (index % CELLS, index / CELLS);
-            let inside = || rows.iter().zip(&cells).filter(|(_, cell)| **cell == Some(place));
+            let place = Some((index % CELLS, index / CELLS));
+            let inside = || placed.iter().filter(|(_, found)| *found == place);
             let diverged = inside().filter(|(row, _)| row.diverged()).count();
             let all = inside().count();
             (all > 0).then(|| diverged as f64 / all as f64)

@@ -6,9 +6,9 @@ use super::row::{Ending, Row};
 use crate::CommandError;
 use crate::options::MethodName;
 use crate::plots::heat_map;
-use crate::study::definition::Report;
+use crate::study::definition::{Report, Study};
 use crate::study::directory::StudyDirectory;
-use crate::study::document::{Document, MISSING, number};
+use crate::study::document::{Cell, Document, number};
 
 /// The most refusals of the calibrated sampler that the report names; results.csv has them all.
 const MOST_NAMED: usize = 100;
@@ -32,18 +32,17 @@ pub fn report(study: &Stability, rows: &[Row], directory: &StudyDirectory) -> Re
     document.heading("What decides");
     document.paragraph("Diverged runs in percent of all, by one drawn quantity at a time.");
     breakdowns(rows, &groups, &mut document);
-    faults(rows, &mut document);
+    let is_fault = |row: &&Row| matches!(row.ending, Ending::Panicked | Ending::NotFinite);
+    let faults: Vec<String> = rows.iter().filter(is_fault).map(named).collect();
+    document.list("Panics and numbers that are not finite", &faults, Some("None."));
     refusals(rows, &mut document);
 
-    let count = |ending: Ending| rows.iter().filter(|row| row.ending == ending).count().to_string();
-    let summary = vec![
-        ("study", "stability".to_owned()),
-        ("finite", count(Ending::Finite)),
-        ("refused", count(Ending::Refused)),
-        ("panicked", count(Ending::Panicked)),
-        ("not_finite", count(Ending::NotFinite)),
-    ];
-    Ok(Report { document, summary })
+    let count = |ending: Ending| rows.iter().filter(|row| row.ending == ending).count();
+    Ok(Report::new(Stability::KIND, document)
+        .with("finite", count(Ending::Finite))
+        .with("refused", count(Ending::Refused))
+        .with("panicked", count(Ending::Panicked))
+        .with("not_finite", count(Ending::NotFinite)))
 }
 
 /// The methods, the paper's ones with their guards, in alphabetical order.
@@ -77,17 +76,9 @@ fn endings(rows: &[Row], groups: &[String], document: &mut Document) {
             format!("{:.1}", percent(diverged, here.len())),
         ]
     };
-    let header = [
-        "method",
-        "runs",
-        "finite",
-        "of these escaped",
-        "typed error",
-        "panic",
-        "not finite, no error",
-        "diverged (%)",
-    ];
-    document.table(&header, &groups.iter().map(line).collect::<Vec<_>>());
+    let header =
+        "method | runs | finite | of these escaped | typed error | panic | not finite, no error | diverged (%)";
+    document.table(header, groups.iter().map(line));
 }
 
 fn percent(part: usize, all: usize) -> f64 {
@@ -104,9 +95,6 @@ fn reasons(rows: &[Row], groups: &[String], document: &mut Document) {
         document.paragraph("No run ended with an error.");
         return;
     }
-    let header: Vec<&str> = std::iter::once("error")
-        .chain(groups.iter().map(String::as_str))
-        .collect();
     let line = |reason: &&str| {
         let mut line = vec![(*reason).to_owned()];
         line.extend(groups.iter().map(|group| {
@@ -115,7 +103,7 @@ fn reasons(rows: &[Row], groups: &[String], document: &mut Document) {
         }));
         line
     };
-    document.table(&header, &reasons.iter().map(line).collect::<Vec<_>>());
+    table("error", groups, reasons.iter().map(line).collect(), document);
 }
 
 /// Shares of diverged runs, by one quantity at a time.
@@ -169,11 +157,8 @@ fn shares(label: String, rows: &[Row], groups: &[String], chosen: &dyn Fn(&Row) 
     line.extend(groups.iter().map(|group| {
         let here: Vec<&Row> = of(rows, group).into_iter().filter(|row| chosen(row)).collect();
         let diverged = here.iter().filter(|row| row.diverged()).count();
-        if here.is_empty() {
-            MISSING.to_owned()
-        } else {
-            format!("{:.1}", percent(diverged, here.len()))
-        }
+        let share = (!here.is_empty()).then(|| format!("{:.1}", percent(diverged, here.len())));
+        share.cell()
     }));
     line
 }
@@ -181,20 +166,6 @@ fn shares(label: String, rows: &[Row], groups: &[String], chosen: &dyn Fn(&Row) 
 fn table(name: &str, groups: &[String], lines: Vec<Vec<String>>, document: &mut Document) {
     let header: Vec<&str> = std::iter::once(name).chain(groups.iter().map(String::as_str)).collect();
     document.table(&header, &lines);
-}
-
-/// Names every panic and every result that is not finite.
-fn faults(rows: &[Row], document: &mut Document) {
-    document.heading("Panics and numbers that are not finite");
-    let faults: Vec<&Row> = rows
-        .iter()
-        .filter(|row| matches!(row.ending, Ending::Panicked | Ending::NotFinite))
-        .collect();
-    if faults.is_empty() {
-        document.paragraph("None.");
-    } else {
-        document.paragraph(faults.iter().map(|row| named(row)).collect::<Vec<_>>().join("\n"));
-    }
 }
 
 /// Names the runs of the calibrated sampler that diverged.
@@ -214,7 +185,7 @@ fn refusals(rows: &[Row], document: &mut Document) {
             diverged.len()
         ));
     }
-    let lines: Vec<String> = diverged.iter().take(MOST_NAMED).map(|row| named(row)).collect();
+    let lines: Vec<String> = diverged.into_iter().take(MOST_NAMED).map(named).collect();
     document.paragraph(lines.join("\n"));
 }
 
@@ -234,8 +205,8 @@ fn named(row: &Row) -> String {
         row.basis,
         row.particles,
         number(row.scale),
-        row.start_mean.map_or(MISSING.to_owned(), number),
-        row.start_sd.map_or(MISSING.to_owned(), number),
+        row.start_mean.cell(),
+        row.start_sd.cell(),
         number(row.spacing_factor),
         number(row.time_step_factor),
     )

@@ -3,23 +3,46 @@
 //! The yardstick is a set of independent exact draws of the same size M; where a target has none, they are drawn
 //! from its reference draws. A run that diverges is a row with its reason.
 
-mod configuration;
 mod groups;
 mod report;
 
 use parvi::Run;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
-pub use configuration::TimeError;
-
-use super::attempt::{Attempt, Status};
+use super::checks::{distinct, not_empty};
 use super::definition::{self, Report, Study};
 use super::directory::StudyDirectory;
-use super::results;
-use super::yardstick::{CurrentYardstick, Yardstick, measured_run};
+use super::run_row::RunRow;
+use super::yardstick::{Coordinates, CurrentYardstick, YardstickOptions, run_into};
 use crate::CommandError;
-use crate::options::{Bounded, MethodName, MethodSpecification, TargetSpecification};
+use crate::options::{Bounded, MethodName, MethodSpecification, ParticleCount, StepCount, TargetSpecification};
 use crate::progress::CaseObserver;
+
+/// All methods on all targets.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct TimeError {
+    #[serde(rename = "kind")]
+    _kind: String,
+    /// One run per seed.
+    seeds: Vec<u64>,
+    #[serde(rename = "threads")]
+    _threads: Option<Bounded<1, 1024>>,
+    /// M.
+    particles: ParticleCount,
+    /// Numbers of steps for methods that take steps, unless their own options fix them; absent: each takes its own default.
+    steps: Option<Vec<StepCount>>,
+    /// Quasi-random points that stand for a target; a power of two keeps their balance.
+    reference_points: Bounded<1000, 1_000_000>,
+    /// Seed of the reference points.
+    reference_seed: u64,
+    /// Directions of the sliced Wasserstein distance.
+    directions: Bounded<1, 100_000>,
+    /// Targets.
+    targets: Vec<TargetSpecification>,
+    /// Methods.
+    methods: Vec<MethodSpecification>,
+}
 
 /// One run.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,64 +82,66 @@ impl definition::Case for Case {
     }
 }
 
-/// What a run gave. `wall_seconds` depends on the machine, everything else only on the seed.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Row {
-    case: String,
-    status: Status,
-    note: String,
-    target: String,
-    dim: usize,
-    method: String,
-    particles: usize,
-    steps: Option<usize>,
-    seed: u64,
-    score_evaluations: Option<u64>,
-    density_evaluations: Option<u64>,
-    wall_seconds: Option<f64>,
-    energy_distance_squared: Option<f64>,
-    /// Expectation of the same for M independent draws.
-    energy_level: f64,
-    sliced_wasserstein: Option<f64>,
-    /// Largest error of a mean in standard deviations.
-    mean_error: Option<f64>,
-    /// Largest relative error of a standard deviation.
-    deviation_error: Option<f64>,
-    /// Largest error of a mode's mass.
-    mass_error: Option<f64>,
-    residual: Option<f64>,
-}
-
-impl results::Row for Row {
-    fn case(&self) -> &str {
-        &self.case
+impl TimeError {
+    /// Levels of independent draws are taken from the runs of `iid`.
+    fn yardstick(&self) -> YardstickOptions {
+        YardstickOptions {
+            points: self.reference_points.get(),
+            seed: self.reference_seed,
+            directions: self.directions.get(),
+            coordinates: Coordinates::Own,
+            independent_sets: None,
+        }
     }
-}
 
-impl Row {
-    /// Evaluations of all kinds, where both are known.
-    fn evaluations(&self) -> Option<f64> {
-        Some((self.score_evaluations? + self.density_evaluations?) as f64)
+    /// The numbers of steps of one method; `None`: its own, or draws.
+    fn sweep(&self, method: &MethodSpecification) -> Vec<Option<usize>> {
+        if !method.name.iterates() {
+            return vec![None];
+        }
+        match (method.options.steps, &self.steps) {
+            (Some(steps), _) => vec![Some(steps.get())],
+            (None, Some(steps)) => steps.iter().map(|steps| Some(steps.get())).collect(),
+            (None, None) => vec![None],
+        }
     }
 }
 
 impl Study for TimeError {
     type Case = Case;
-    type Row = Row;
+    type Row = RunRow;
     type Shared = CurrentYardstick;
 
     const KIND: &'static str = "time-error";
+    const COLUMNS: &'static str = "case status note target dim method particles steps seed score_evaluations density_evaluations \
+         wall_seconds energy_distance_squared energy_level sliced_wasserstein mean_error deviation_error mass_error residual";
 
-    fn seeds(&self) -> Vec<u64> {
-        self.seeds.clone()
-    }
-
-    fn threads(&self) -> Option<usize> {
-        self.threads.map(Bounded::get)
-    }
-
+    /// The cases, target by target, so that a target's reference is made once.
     fn cases(&self) -> Result<Vec<Case>, CommandError> {
-        self.all_cases()
+        not_empty("seeds", &self.seeds)?;
+        if let Some(steps) = &self.steps {
+            not_empty("steps", steps)?;
+        }
+        let mut cases = Vec::new();
+        for target in &self.targets {
+            for method in &self.methods {
+                for steps in self.sweep(method) {
+                    for &seed in &self.seeds {
+                        let (target, method) = (target.clone(), method.clone());
+                        let particles = self.particles.get();
+                        cases.push(Case {
+                            target,
+                            method,
+                            particles,
+                            steps,
+                            seed,
+                        });
+                    }
+                }
+            }
+        }
+        distinct("targets, methods, steps or seeds", &cases)?;
+        Ok(cases)
     }
 
     fn run(
@@ -125,63 +150,30 @@ impl Study for TimeError {
         yardstick: &mut CurrentYardstick,
         _directory: &StudyDirectory,
         observer: &mut CaseObserver,
-    ) -> Result<Row, CommandError> {
-        run_case(case, yardstick.of(&case.target, &self.yardstick())?, observer)
+    ) -> Result<RunRow, CommandError> {
+        let yardstick = yardstick.of(&case.target, &self.yardstick())?;
+        let mut row = RunRow {
+            target: case.target.label(),
+            dim: case.target.dimension()?,
+            method: case.method.label().to_owned(),
+            particles: case.particles,
+            seed: Some(case.seed),
+            energy_level: Some(yardstick.mean_distance() / case.particles as f64),
+            ..RunRow::new(case)
+        };
+        let mut run = Run::new(case.particles, case.seed);
+        run.start = case.method.options.start();
+        let method = case.method.method(case.steps)?;
+        let drawn_from_sample = run_into(&mut row, &case.target, &method, &run, yardstick, observer)?;
+        if drawn_from_sample && row.finished() {
+            row.note = "drawn from the importance sample".to_owned();
+        }
+        // Diverged runs keep the steps they were asked for, as finished ones do.
+        row.steps = case.steps;
+        Ok(row)
     }
 
-    fn report(&self, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
+    fn report(&self, rows: &[RunRow], directory: &StudyDirectory) -> Result<Report, CommandError> {
         report::report(self, rows, directory)
     }
-}
-
-fn run_case(case: &Case, yardstick: &dyn Yardstick, observer: &mut CaseObserver) -> Result<Row, CommandError> {
-    let mut row = Row {
-        case: definition::Case::id(case),
-        status: Status::Finished,
-        note: String::new(),
-        target: case.target.label(),
-        dim: case.target.dimension()?,
-        method: case.method.label().to_owned(),
-        particles: case.particles,
-        steps: case.steps,
-        seed: case.seed,
-        score_evaluations: None,
-        density_evaluations: None,
-        wall_seconds: None,
-        energy_distance_squared: None,
-        energy_level: yardstick.mean_distance() / case.particles as f64,
-        sliced_wasserstein: None,
-        mean_error: None,
-        deviation_error: None,
-        mass_error: None,
-        residual: None,
-    };
-    let mut run = Run::new(case.particles, case.seed);
-    run.start = case.method.options.start();
-    let method = case.method.method(case.steps)?;
-    let finished = match measured_run(&case.target, &method, &run, yardstick, observer)? {
-        Attempt::Finished(finished) => finished,
-        Attempt::Failed(status, reason) => {
-            (row.status, row.note) = (status, reason);
-            return Ok(row);
-        }
-    };
-    if finished.from_importance_sample {
-        row.note = "drawn from the importance sample".to_owned();
-    }
-    row.score_evaluations = Some(finished.outcome.score_evaluations);
-    row.density_evaluations = Some(finished.outcome.density_evaluations);
-    row.wall_seconds = Some(finished.outcome.wall_seconds);
-    row.residual = finished.outcome.residual;
-    match finished.errors {
-        Attempt::Finished(errors) => {
-            row.energy_distance_squared = Some(errors.energy_distance_squared);
-            row.sliced_wasserstein = Some(errors.sliced_wasserstein);
-            row.mean_error = Some(errors.mean);
-            row.deviation_error = Some(errors.deviation);
-            row.mass_error = errors.mass;
-        }
-        Attempt::Failed(status, reason) => (row.status, row.note) = (status, reason),
-    }
-    Ok(row)
 }

@@ -1,24 +1,18 @@
 //! The report of the study `time-error`.
 
+use super::TimeError;
 use super::groups::{Setting, energy_level, independent_level, settings};
-use super::{Row, TimeError};
 use crate::CommandError;
 use crate::options::MethodName;
-use crate::plots::{Spread, TimeErrorCurve, TimeErrorPanel, TimeErrorPlot, TimeErrorPoint, time_error};
+use crate::plots::{TimeErrorCurve, TimeErrorPanel, TimeErrorPlot, TimeErrorPoint, time_error};
 use crate::study::attempt::Status;
-use crate::study::definition::Report;
+use crate::study::definition::{Report, Study};
 use crate::study::directory::StudyDirectory;
-use crate::study::document::{Document, MISSING, optional_number};
-
-/// A quantity of a row, where the run has it.
-type Quantity = fn(&Row) -> Option<f64>;
-const ENERGY: Quantity = |row| row.energy_distance_squared;
-const SLICED: Quantity = |row| row.sliced_wasserstein;
-const SECONDS: Quantity = |row| row.wall_seconds;
-const EVALUATIONS: Quantity = Row::evaluations;
+use crate::study::document::{Cell, Document, line};
+use crate::study::run_row::{ENERGY, EVALUATIONS, Quantity, RunRow, SECONDS, SLICED};
 
 /// Tables and figures.
-pub fn report(study: &TimeError, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
+pub fn report(study: &TimeError, rows: &[RunRow], directory: &StudyDirectory) -> Result<Report, CommandError> {
     let mut document = Document::new("Error against wall time and evaluations");
     document.paragraph(format!(
         "M = {} particles, {} seeds; medians over the seeds. ED² is the squared energy distance, exact against Gaussians and \
@@ -42,14 +36,11 @@ pub fn report(study: &TimeError, rows: &[Row], directory: &StudyDirectory) -> Re
         paper_part(study, rows, &mut document);
     }
 
-    let count = |status: Status| rows.iter().filter(|row| row.status == status).count().to_string();
-    let summary = vec![
-        ("study", "time-error".to_owned()),
-        ("finished", count(Status::Finished)),
-        ("diverged", count(Status::Diverged)),
-        ("unsupported", count(Status::Unsupported)),
-    ];
-    Ok(Report { document, summary })
+    let count = |status: Status| rows.iter().filter(|row| row.status == status).count();
+    Ok(Report::new(TimeError::KIND, document)
+        .with("finished", count(Status::Finished))
+        .with("diverged", count(Status::Diverged))
+        .with("unsupported", count(Status::Unsupported)))
 }
 
 fn is_paper(name: MethodName) -> bool {
@@ -62,7 +53,7 @@ fn targets(study: &TimeError) -> Vec<String> {
 
 fn figures(
     study: &TimeError,
-    rows: &[Row],
+    rows: &[RunRow],
     directory: &StudyDirectory,
     document: &mut Document,
 ) -> Result<(), CommandError> {
@@ -91,29 +82,24 @@ fn figures(
                 .filter(|panel: &TimeErrorPanel| !panel.curves.is_empty())
                 .collect();
             let plot = TimeErrorPlot {
-                title: String::new(),
                 x_label: x_label.to_owned(),
                 y_label: y_label.to_owned(),
                 iid_label: "independent draws".to_owned(),
-                spread: Spread::Extremes,
                 panels,
+                ..TimeErrorPlot::default()
             };
             let caption = format!(
                 "{error_name} against {cost_name}, a point per number of steps; medians over the seeds, bars from least to most."
             );
-            document.figure(
-                directory,
-                &format!("{error_file}-{cost_file}.svg"),
-                &caption,
-                time_error(&plot),
-            )?;
+            let name = format!("{error_file}-{cost_file}.svg");
+            document.figure(directory, &name, &caption, time_error(&plot))?;
         }
     }
     Ok(())
 }
 
 /// One curve per method; independent draws are a level instead, and draws have no place on an axis of evaluations.
-fn curves(study: &TimeError, rows: &[Row], target: &str, cost: Quantity, error: Quantity) -> Vec<TimeErrorCurve> {
+fn curves(study: &TimeError, rows: &[RunRow], target: &str, cost: Quantity, error: Quantity) -> Vec<TimeErrorCurve> {
     let mut curves = Vec::new();
     for method in study.methods.iter().filter(|method| method.name != MethodName::Iid) {
         let points: Vec<TimeErrorPoint> = settings(rows, target, method.label())
@@ -137,71 +123,53 @@ fn curves(study: &TimeError, rows: &[Row], target: &str, cost: Quantity, error: 
     curves
 }
 
-fn target_table(study: &TimeError, rows: &[Row], target: &str, document: &mut Document) {
+fn target_table(study: &TimeError, rows: &[RunRow], target: &str, document: &mut Document) {
     let level = energy_level(rows, target);
     let independent = independent_level(rows, target, SLICED);
     document.paragraph(format!(
         "**{target}**: independent draws have ED² {} and SW₂ {}.",
-        optional_number(level),
-        optional_number(independent),
+        level.cell(),
+        independent.cell(),
     ));
-    let header = [
-        "method",
-        "steps",
-        "finished",
-        "ED²",
-        "ED² / i.i.d.",
-        "SW₂",
-        "SW₂ / i.i.d.",
-        "mean (sd)",
-        "sd (relative)",
-        "mode mass",
-        "evaluations",
-        "time (s)",
-    ];
+    let header = "method | steps | finished | ED² | ED² / i.i.d. | SW₂ | SW₂ / i.i.d. | mean (sd) | sd (relative) | mode mass | evaluations | time (s)";
     let mut table = Vec::new();
     for method in &study.methods {
         let settings = settings(rows, target, method.label());
         let Some(setting) = settings.last() else { continue };
         let (energy, sliced) = (setting.median(ENERGY), setting.median(SLICED));
-        let ratio = |value: Option<f64>, level: Option<f64>| value.zip(level).map(|(value, level)| value / level);
-        table.push(vec![
-            method.label().to_owned(),
-            setting.steps.map_or(MISSING.to_owned(), |steps| steps.to_string()),
-            format!("{}/{}", setting.finished(), setting.runs.len()),
-            optional_number(energy),
-            optional_number(ratio(energy, level)),
-            optional_number(sliced),
-            optional_number(ratio(sliced, independent)),
-            optional_number(setting.median(|row| row.mean_error)),
-            optional_number(setting.median(|row| row.deviation_error)),
-            optional_number(setting.median(|row| row.mass_error)),
-            optional_number(setting.median(EVALUATIONS)),
-            optional_number(setting.median(SECONDS)),
-        ]);
+        let finished = format!("{}/{}", setting.finished(), setting.runs.len());
+        let mut cells = line(&[&method.label(), &setting.steps, &finished]);
+        cells.extend(line(&[
+            &energy,
+            &ratio(energy, level),
+            &sliced,
+            &ratio(sliced, independent),
+        ]));
+        let quantities: [Quantity; 5] = [
+            |row| row.mean_error,
+            |row| row.deviation_error,
+            |row| row.mass_error,
+            EVALUATIONS,
+            SECONDS,
+        ];
+        cells.extend(quantities.map(|quantity| setting.median(quantity).cell()));
+        table.push(cells);
     }
-    document.table(&header, &table);
+    document.table(header, &table);
+}
+
+fn ratio(value: Option<f64>, level: Option<f64>) -> Option<f64> {
+    Some(value? / level?)
 }
 
 /// What the paper's two algorithms reach in the plane.
-fn paper_part(study: &TimeError, rows: &[Row], document: &mut Document) {
+fn paper_part(study: &TimeError, rows: &[RunRow], document: &mut Document) {
     document.heading("The paper's algorithms on the two-dimensional targets");
     document.paragraph(
         "Finished runs had finite particles, with the guards of the method's options. The best setting is the number of steps \
          with the smallest median ED²; the last is the largest number of steps.",
     );
-    let header = [
-        "target",
-        "method",
-        "finished",
-        "best steps",
-        "best ED² / i.i.d.",
-        "best SW₂",
-        "last ED² / i.i.d.",
-        "last SW₂",
-        "last mean (sd)",
-        "last sd (relative)",
-    ];
+    let header = "target | method | finished | best steps | best ED² / i.i.d. | best SW₂ | last ED² / i.i.d. | last SW₂ | last mean (sd) | last sd (relative)";
     let mut table = Vec::new();
     let mut failures: Vec<String> = Vec::new();
     for target in targets(study) {
@@ -216,16 +184,14 @@ fn paper_part(study: &TimeError, rows: &[Row], document: &mut Document) {
             let settings = settings(rows, &target, method.label());
             let Some(last) = settings.last() else { continue };
             table.push(paper_row(rows, &target, method.label(), &settings, last));
-            for row in settings
+            let failed = settings
                 .iter()
                 .flat_map(|setting| &setting.runs)
-                .filter(|row| row.status != Status::Finished)
-            {
-                failures.push(format!("- `{}`: {}: {}", row.case, row.status.as_str(), row.note));
-            }
+                .filter(|row| !row.finished());
+            failures.extend(failed.map(|row| row.failure()));
         }
     }
-    document.table(&header, &table);
+    document.table(header, &table);
     if failures.is_empty() {
         document.paragraph("Every run finished with finite particles.");
     } else {
@@ -233,9 +199,9 @@ fn paper_part(study: &TimeError, rows: &[Row], document: &mut Document) {
     }
 }
 
-fn paper_row(rows: &[Row], target: &str, method: &str, settings: &[Setting<'_>], last: &Setting<'_>) -> Vec<String> {
+fn paper_row(rows: &[RunRow], target: &str, method: &str, settings: &[Setting<'_>], last: &Setting<'_>) -> Vec<String> {
     let level = energy_level(rows, target);
-    let ratio = |setting: &Setting<'_>| setting.median(ENERGY).zip(level).map(|(value, level)| value / level);
+    let over_level = |setting: &Setting<'_>| ratio(setting.median(ENERGY), level);
     let best = settings
         .iter()
         .filter_map(|setting| Some((setting, setting.median(ENERGY)?)))
@@ -243,17 +209,16 @@ fn paper_row(rows: &[Row], target: &str, method: &str, settings: &[Setting<'_>],
         .map(|(setting, _)| setting);
     let finished: usize = settings.iter().map(Setting::finished).sum();
     let all: usize = settings.iter().map(|setting| setting.runs.len()).sum();
-    let steps = best.and_then(|setting| setting.steps);
-    vec![
-        target.to_owned(),
-        method.to_owned(),
-        format!("{finished}/{all}"),
-        steps.map_or(MISSING.to_owned(), |steps| steps.to_string()),
-        optional_number(best.and_then(ratio)),
-        optional_number(best.and_then(|setting| setting.median(SLICED))),
-        optional_number(ratio(last)),
-        optional_number(last.median(SLICED)),
-        optional_number(last.median(|row| row.mean_error)),
-        optional_number(last.median(|row| row.deviation_error)),
-    ]
+    line(&[
+        &target,
+        &method,
+        &format!("{finished}/{all}"),
+        &best.and_then(|setting| setting.steps),
+        &best.and_then(over_level),
+        &best.and_then(|setting| setting.median(SLICED)),
+        &over_level(last),
+        &last.median(SLICED),
+        &last.median(|row| row.mean_error),
+        &last.median(|row| row.deviation_error),
+    ])
 }

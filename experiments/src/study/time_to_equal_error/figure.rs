@@ -5,10 +5,10 @@ use super::search::Trial;
 use super::{Case, TimeToEqualError};
 use crate::CommandError;
 use crate::options::TargetSpecification;
-use crate::plots::{Spread, TimeErrorCurve, TimeErrorPanel, TimeErrorPlot, TimeErrorPoint};
-use crate::study::definition;
+use crate::output::table_file;
+use crate::plots::{TimeErrorCurve, TimeErrorPanel, TimeErrorPlot, TimeErrorPoint};
+use crate::study::definition::{self, Study};
 use crate::study::directory::StudyDirectory;
-use crate::study::table_file;
 
 /// The method with a point per M; chains and independent draws with a point per number of draws; other rivals with a curve for every
 /// M, a point per number of steps.
@@ -27,7 +27,6 @@ pub fn plot(study: &TimeToEqualError, rows: &[Row], directory: &StudyDirectory) 
     Ok(TimeErrorPlot {
         x_label: "wall time (s)".to_owned(),
         y_label: "ED²".to_owned(),
-        spread: Spread::Extremes,
         panels,
         ..TimeErrorPlot::default()
     })
@@ -40,7 +39,7 @@ fn curves(
     directory: &StudyDirectory,
 ) -> Result<Vec<TimeErrorCurve>, CommandError> {
     let cases: Vec<Case> = study
-        .all_cases()?
+        .cases()?
         .into_iter()
         .filter(|case| case.target == *target)
         .filter(|case| rows.iter().any(|row| row.case == definition::Case::id(case)))

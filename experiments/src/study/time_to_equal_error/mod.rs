@@ -6,7 +6,6 @@
 //! are needed, n/M for each particle; only the time of their exact sampler is measured. Distances are taken in coordinates in which the
 //! target has mean zero and unit covariance.
 
-mod configuration;
 mod figure;
 mod report;
 mod row;
@@ -16,15 +15,87 @@ mod search;
 
 use std::path::PathBuf;
 
-pub use configuration::TimeToEqualError;
-use row::Row;
+use serde::Deserialize;
 
+use row::Row;
+use search::Doubling;
+
+use super::checks::{distinct, not_empty, positive, refusal, unset};
 use super::definition::{self, Report, Study};
 use super::directory::StudyDirectory;
-use super::yardstick::CurrentYardstick;
+use super::yardstick::{Coordinates, CurrentYardstick, YardstickOptions};
 use crate::CommandError;
-use crate::options::{Bounded, MethodSpecification, TargetSpecification};
+use crate::options::{Bounded, MethodName, MethodSpecification, ParticleCount, TargetSpecification};
 use crate::progress::CaseObserver;
+
+/// A method and its rivals, to the same error on every target.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct TimeToEqualError {
+    #[serde(rename = "kind")]
+    _kind: String,
+    /// One run per seed; all that is compared are medians over them.
+    seeds: Vec<u64>,
+    /// Threads; absent: as many as the environment gives.
+    threads: Option<Bounded<1, 1024>>,
+    /// M, one comparison each.
+    particles: Vec<ParticleCount>,
+    /// Draws that a Markov chain begins with and ends at, doubled in between.
+    draws: Range,
+    /// Steps that a rival of M particles begins with and ends at, doubled in between.
+    steps: Range,
+    /// A rival stops once its median run has taken this many times the time of the method.
+    largest_ratio: f64,
+    /// Quasi-random points that stand for a target; a power of two keeps their balance.
+    reference_points: Bounded<1000, 10_000_000>,
+    /// Seed of the reference.
+    reference_seed: u64,
+    /// Targets.
+    targets: Vec<TargetSpecification>,
+    /// The method whose error is to be reached.
+    method: MethodSpecification,
+    /// What it is compared with.
+    rivals: Vec<MethodSpecification>,
+}
+
+/// `{ from = 1000, to = 128000 }`.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Range {
+    from: Bounded<2, 100_000_000>,
+    to: Bounded<2, 100_000_000>,
+}
+
+impl Range {
+    fn check(self, field: &str) -> Result<(), CommandError> {
+        if self.to < self.from {
+            return Err(refusal(
+                &format!("{field}.to"),
+                format!("{} is below `from` = {}", self.to, self.from),
+            ));
+        }
+        Ok(())
+    }
+
+    /// The sizes from one end to the other.
+    fn doubling(self) -> Doubling {
+        Doubling {
+            first: self.from.get(),
+            last: self.to.get(),
+        }
+    }
+}
+
+impl TimeToEqualError {
+    /// The sliced distance is not looked at.
+    fn yardstick(&self) -> YardstickOptions {
+        YardstickOptions::of_energy(
+            self.reference_points.get(),
+            self.reference_seed,
+            Coordinates::Standardised,
+        )
+    }
+}
 
 /// One method on one target for one M, with all seeds.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,16 +140,35 @@ impl Study for TimeToEqualError {
 
     const KIND: &'static str = "time-to-equal-error";
 
-    fn seeds(&self) -> Vec<u64> {
-        self.seeds.clone()
-    }
-
-    fn threads(&self) -> Option<usize> {
-        self.threads.map(Bounded::get)
-    }
-
+    /// The cases: on every target and for every M the method first, then its rivals.
     fn cases(&self) -> Result<Vec<Case>, CommandError> {
-        self.all_cases()
+        not_empty("seeds", &self.seeds)?;
+        not_empty("particles", &self.particles)?;
+        not_empty("targets", &self.targets)?;
+        positive("largest-ratio", &[self.largest_ratio])?;
+        self.draws.check("draws")?;
+        self.steps.check("steps")?;
+        for rival in &self.rivals {
+            if !rival.name.iterates() && !matches!(rival.name, MethodName::Nuts | MethodName::Iid) {
+                let message = format!("`{}` has neither steps nor draws that could be doubled", rival.name);
+                return Err(refusal("rivals.name", message));
+            }
+            unset("rivals.options.steps", &rival.options.steps, "steps")?;
+        }
+        let mut cases = Vec::new();
+        for target in &self.targets {
+            for particles in &self.particles {
+                let methods = std::iter::once(&self.method).chain(&self.rivals);
+                cases.extend(methods.enumerate().map(|(index, method)| Case {
+                    target: target.clone(),
+                    particles: particles.get(),
+                    index,
+                    method: method.clone(),
+                }));
+            }
+        }
+        distinct("targets, particles or rivals", &cases)?;
+        Ok(cases)
     }
 
     fn run(

@@ -7,9 +7,9 @@ use super::search::Ending;
 use crate::CommandError;
 use crate::options::{MethodName, MethodSpecification};
 use crate::plots::time_error;
-use crate::study::definition::Report;
+use crate::study::definition::{Report, Study};
 use crate::study::directory::StudyDirectory;
-use crate::study::document::{Document, MISSING, number, optional_number};
+use crate::study::document::{Document, MISSING, line, number};
 
 /// Tables and figure.
 pub fn report(study: &TimeToEqualError, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
@@ -48,15 +48,12 @@ pub fn report(study: &TimeToEqualError, rows: &[Row], directory: &StudyDirectory
     document.figure(directory, "time-to-equal-error.svg", caption, time_error(&plot))?;
 
     let rivals = || rows.iter().filter(|row| row.method != label);
-    let count = |ending: Ending| rivals().filter(|row| row.ending == ending).count().to_string();
-    let summary = vec![
-        ("study", "time-to-equal-error".to_owned()),
-        ("reached", count(Ending::Reached)),
-        ("out_of_time", count(Ending::OutOfTime)),
-        ("out_of_sizes", count(Ending::OutOfSizes)),
-        ("unsupported", count(Ending::Unsupported)),
-    ];
-    Ok(Report { document, summary })
+    let count = |ending: Ending| rivals().filter(|row| row.ending == ending).count();
+    Ok(Report::new(TimeToEqualError::KIND, document)
+        .with("reached", count(Ending::Reached))
+        .with("out_of_time", count(Ending::OutOfTime))
+        .with("out_of_sizes", count(Ending::OutOfSizes))
+        .with("unsupported", count(Ending::Unsupported)))
 }
 
 /// The row of a method for a target and M.
@@ -75,52 +72,30 @@ fn comparisons(study: &TimeToEqualError) -> impl Iterator<Item = (String, usize)
 }
 
 fn worth(study: &TimeToEqualError, rows: &[Row], document: &mut Document) {
-    let header = [
-        "target",
-        "M",
-        "ED²",
-        "ED² / i.i.d.",
-        "draws per particle",
-        "evaluations",
-        "time (s)",
-    ];
     let line = |(target, particles): (String, usize)| {
         let row = find(rows, &target, particles, study.method.label());
         let levels = row.and_then(Row::levels);
-        vec![
-            target,
-            particles.to_string(),
-            optional_number(row.and_then(|row| row.energy_distance_squared)),
-            optional_number(levels),
-            optional_number(levels.map(f64::recip)),
-            optional_number(row.and_then(Row::evaluations)),
-            optional_number(row.and_then(|row| row.wall_seconds)),
-        ]
+        line(&[
+            &target,
+            &particles,
+            &row.and_then(|row| row.energy_distance_squared),
+            &levels,
+            &levels.map(f64::recip),
+            &row.and_then(Row::evaluations),
+            &row.and_then(|row| row.wall_seconds),
+        ])
     };
-    let table: Vec<Vec<String>> = comparisons(study).map(line).collect();
-    document.table(&header, &table);
+    let header = "target | M | ED² | ED² / i.i.d. | draws per particle | evaluations | time (s)";
+    document.table(header, comparisons(study).map(line));
 }
 
 /// One line per target and M: what the rival needs, and how many times longer that takes.
 fn against(study: &TimeToEqualError, rows: &[Row], rival: &MethodSpecification, document: &mut Document) {
     let label = study.method.label();
     let size = if rival.name.iterates() { "steps" } else { "draws" };
-    let (own, its, ratio) = (
-        format!("{label} (s)"),
-        format!("{} (s)", rival.label()),
-        format!("{} / {label}", rival.label()),
-    );
-    let header = [
-        "target",
-        "M",
-        size,
-        "ED² / goal",
-        "evaluations",
-        &own,
-        &its,
-        &ratio,
-        "ending",
-    ];
+    let its = rival.label();
+    let header =
+        format!("target | M | {size} | ED² / goal | evaluations | {label} (s) | {its} (s) | {its} / {label} | ending");
     let mut table = Vec::new();
     let mut reasons = Vec::new();
     for (target, particles) in comparisons(study) {
@@ -130,17 +105,17 @@ fn against(study: &TimeToEqualError, rows: &[Row], rival: &MethodSpecification, 
             reasons.push(format!("- {target}, M = {particles}: {}.", row.reason));
         }
         let over_goal = row.and_then(|row| Some(row.energy_distance_squared? / row.goal?));
-        table.push(vec![
-            target,
-            particles.to_string(),
-            sizes(row),
-            optional_number(over_goal),
-            optional_number(row.and_then(Row::evaluations)),
-            optional_number(own),
-            optional_number(row.and_then(|row| row.wall_seconds)),
-            ratios(row, own),
-            row.map_or(MISSING, |row| in_words(row.ending)).to_owned(),
-        ]);
+        table.push(line(&[
+            &target,
+            &particles,
+            &sizes(row),
+            &over_goal,
+            &row.and_then(Row::evaluations),
+            &own,
+            &row.and_then(|row| row.wall_seconds),
+            &ratios(row, own),
+            &row.map(|row| in_words(row.ending)),
+        ]));
     }
     document.paragraph(match rival.name {
         MethodName::Iid => "Draws are what the expectation asks for; their ED² is not measured.".to_owned(),
@@ -149,7 +124,7 @@ fn against(study: &TimeToEqualError, rows: &[Row], rival: &MethodSpecification, 
              for both."
         ),
     });
-    document.table(&header, &table);
+    document.table(header.as_str(), &table);
     if !reasons.is_empty() {
         document.paragraph(reasons.join("\n"));
     }

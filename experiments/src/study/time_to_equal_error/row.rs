@@ -9,7 +9,7 @@ use crate::study::{definition, results};
 
 /// What a case gave, medians over the seeds. Columns that begin with `wall` depend on the machine, and so does where a search ran
 /// out of time; the others depend only on the seeds.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// The case's name.
     pub case: String,
@@ -60,23 +60,12 @@ impl Row {
     pub fn new(case: &Case, mean_distance: f64) -> Result<Self, CommandError> {
         Ok(Self {
             case: definition::Case::id(case),
-            ending: Ending::Reached,
-            reason: String::new(),
             target: case.target.label(),
             dim: case.target.dimension()?,
             particles: case.particles,
             method: case.method.label().to_owned(),
             mean_distance,
-            goal: None,
-            size: None,
-            score_evaluations: None,
-            density_evaluations: None,
-            energy_distance_squared: None,
-            wall_seconds: None,
-            wall_seconds_least: None,
-            wall_seconds_most: None,
-            missed_size: None,
-            wall_seconds_missed: None,
+            ..Self::default()
         })
     }
 

@@ -6,10 +6,10 @@ use super::search::{Ending, Medians, Trial};
 use super::{Case, TimeToEqualError};
 use crate::CommandError;
 use crate::options::MethodName;
+use crate::output::table_file;
 use crate::progress::CaseObserver;
 use crate::study::attempt::{Attempt, Status};
 use crate::study::directory::StudyDirectory;
-use crate::study::table_file;
 use crate::study::yardstick::Yardstick;
 
 /// Runs a case and writes its runs beside the results.

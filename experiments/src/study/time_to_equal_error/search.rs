@@ -88,10 +88,11 @@ pub struct Doubling {
 }
 
 /// How a search ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Ending {
     /// The error was reached.
+    #[default]
     Reached,
     /// A run took longer than allowed without reaching it.
     OutOfTime,

@@ -4,7 +4,6 @@
 //! from the start with T = 1, 2, 3, … steps of the configured list until a run ends at or below the level; its time is that
 //! of this one run. A rival gets as its budget a multiple of the method's time: a lower bound is a result.
 
-mod configuration;
 mod report;
 mod search;
 
@@ -12,16 +11,65 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
-pub use configuration::TimeToLevel;
 use search::Ending;
 
+use super::checks::{distinct, not_empty, positive, refusal, unset};
 use super::definition::{self, Report, Study};
 use super::directory::StudyDirectory;
 use super::gaussian_runs::energy_level;
-use super::{results, table_file};
+use super::results;
+use super::start_law::StartLaw;
 use crate::CommandError;
-use crate::options::{Bounded, Dimension, MethodSpecification};
+use crate::options::{Bounded, Dimension, MethodSpecification, ParticleCount, StepCount};
+use crate::output::table_file;
 use crate::progress::CaseObserver;
+
+/// A method and its rivals, from the same start to the same error.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct TimeToLevel {
+    #[serde(rename = "kind")]
+    _kind: String,
+    /// Seed of every run.
+    seed: u64,
+    /// Threads; absent: as many as the environment gives.
+    threads: Option<Bounded<1, 1024>>,
+    /// d.
+    dims: Vec<Dimension>,
+    /// M.
+    particles: ParticleCount,
+    /// Where all methods begin, away from the target.
+    start: StartLaw,
+    /// Numbers of steps to try, growing; a run begins anew with each.
+    steps: Vec<StepCount>,
+    /// Runs on the clock with the number of steps that reaches the level, where one takes less than a second.
+    repeats: Bounded<1, 1000>,
+    /// A rival stops once a run has taken this many times the time of the method.
+    largest_ratio: f64,
+    /// The method that sets the clock.
+    method: MethodSpecification,
+    /// What it is compared with.
+    rivals: Vec<MethodSpecification>,
+}
+
+impl TimeToLevel {
+    /// Refuses a method without steps and options that the study sets for all.
+    fn check_method(&self, field: &str, method: &MethodSpecification) -> Result<(), CommandError> {
+        if !method.name.iterates() {
+            return Err(refusal(
+                &format!("{field}.name"),
+                format!("`{}` takes no steps", method.name),
+            ));
+        }
+        unset(&format!("{field}.options.steps"), &method.options.steps, "steps")?;
+        unset(
+            &format!("{field}.options.start-mean"),
+            &method.options.start_mean,
+            "start",
+        )?;
+        unset(&format!("{field}.options.start-sd"), &method.options.start_sd, "start")
+    }
+}
 
 /// One method in one dimension.
 #[derive(Clone, Debug, PartialEq)]
@@ -95,16 +143,31 @@ impl Study for TimeToLevel {
 
     const KIND: &'static str = "time-to-level";
 
-    fn seeds(&self) -> Vec<u64> {
-        vec![self.seed]
-    }
-
-    fn threads(&self) -> Option<usize> {
-        self.threads.map(Bounded::get)
-    }
-
+    /// The cases: in every dimension the method first, then its rivals.
     fn cases(&self) -> Result<Vec<Case>, CommandError> {
-        self.all_cases()
+        not_empty("dims", &self.dims)?;
+        not_empty("steps", &self.steps)?;
+        if let Some(pair) = self.steps.windows(2).find(|pair| pair[0] >= pair[1]) {
+            return Err(refusal("steps", format!("{} before {} do not grow", pair[0], pair[1])));
+        }
+        positive("largest-ratio", &[self.largest_ratio])?;
+        self.start.check("start")?;
+        self.check_method("method", &self.method)?;
+        for rival in &self.rivals {
+            self.check_method("rivals", rival)?;
+        }
+        let mut cases = Vec::new();
+        for &dim in &self.dims {
+            let methods = std::iter::once(&self.method).chain(&self.rivals);
+            cases.extend(methods.enumerate().map(|(index, method)| Case {
+                dim,
+                particles: self.particles.get(),
+                index,
+                method: method.clone(),
+            }));
+        }
+        distinct("dims or rivals", &cases)?;
+        Ok(cases)
     }
 
     fn run(
@@ -157,7 +220,7 @@ impl TimeToLevel {
             return Ok(*seconds);
         }
         let first = self
-            .all_cases()?
+            .cases()?
             .into_iter()
             .find(|case| case.dim == dim && case.index == 0);
         let trials = first.map_or(Ok(Vec::new()), |case| table_file::read(&case.trials_file(directory)))?;

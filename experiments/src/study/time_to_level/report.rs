@@ -3,12 +3,12 @@
 use super::search::{Ending, Trial};
 use super::{Case, Row, TimeToLevel};
 use crate::CommandError;
+use crate::output::table_file;
 use crate::plots::{AxisKind, LineSeries, MultiplesPanel, MultiplesPlot, ReferenceLevel, multiples};
 use crate::statistics::summarize;
-use crate::study::definition::{self, Report};
+use crate::study::definition::{self, Report, Study};
 use crate::study::directory::StudyDirectory;
-use crate::study::document::{Document, MISSING, number, optional_number};
-use crate::study::table_file;
+use crate::study::document::{Cell, Document, MISSING, line, number};
 
 /// Tables and figure.
 pub fn report(study: &TimeToLevel, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
@@ -38,14 +38,11 @@ pub fn report(study: &TimeToLevel, rows: &[Row], directory: &StudyDirectory) -> 
     document.heading("All searches");
     searches(rows, &mut document);
 
-    let count = |ending: Ending| rows.iter().filter(|row| row.ending == ending).count().to_string();
-    let summary = vec![
-        ("study", "time-to-level".to_owned()),
-        ("reached", count(Ending::Reached)),
-        ("out_of_time", count(Ending::OutOfTime)),
-        ("out_of_steps", count(Ending::OutOfSteps)),
-    ];
-    Ok(Report { document, summary })
+    let count = |ending: Ending| rows.iter().filter(|row| row.ending == ending).count();
+    Ok(Report::new(TimeToLevel::KIND, document)
+        .with("reached", count(Ending::Reached))
+        .with("out_of_time", count(Ending::OutOfTime))
+        .with("out_of_steps", count(Ending::OutOfSteps)))
 }
 
 /// ED² after the last run, in units of the level.
@@ -74,7 +71,7 @@ fn times(study: &TimeToLevel, rows: &[Row], document: &mut Document) {
     for &dim in &study.dims {
         let find = |label: &str| rows.iter().find(|row| row.dim == dim.get() && row.method == label);
         let clock = find(label);
-        let mut line = vec![dim.to_string(), optional_number(clock.map(|row| row.energy_level))];
+        let mut line = vec![dim.to_string(), clock.map(|row| row.energy_level).cell()];
         line.extend(steps_and_time(clock));
         let clock = clock.filter(|row| row.ending == Ending::Reached);
         for rival in &study.rivals {
@@ -93,7 +90,6 @@ fn times(study: &TimeToLevel, rows: &[Row], document: &mut Document) {
         }
         table.push(line);
     }
-    let header: Vec<&str> = header.iter().map(String::as_str).collect();
     document.table(&header, &table);
     if !bounds.is_empty() {
         document.paragraph(bounds.join("\n"));
@@ -128,53 +124,39 @@ fn bound(row: &Row, clock: &str, ratio: f64) -> String {
 }
 
 fn searches(rows: &[Row], document: &mut Document) {
-    let header = [
-        "d",
-        "method",
-        "ending",
-        "runs",
-        "steps",
-        "ED² / level",
-        "time (s)",
-        "least (s)",
-        "most (s)",
-        "budget (s)",
-    ];
-    let table: Vec<Vec<String>> = rows
-        .iter()
-        .map(|row| {
-            let ending = match row.ending {
-                Ending::Reached => "reached",
-                Ending::OutOfTime => "out of time",
-                Ending::OutOfSteps => "out of steps",
-            };
-            vec![
-                row.dim.to_string(),
-                row.method.clone(),
-                ending.to_owned(),
-                row.runs.to_string(),
-                row.steps.to_string(),
-                optional_number(levels(row)),
-                number(row.wall_seconds),
-                number(row.wall_seconds_least),
-                number(row.wall_seconds_most),
-                optional_number(row.wall_budget_seconds),
-            ]
-        })
-        .collect();
-    document.table(&header, &table);
+    let line = |row: &Row| {
+        let ending = match row.ending {
+            Ending::Reached => "reached",
+            Ending::OutOfTime => "out of time",
+            Ending::OutOfSteps => "out of steps",
+        };
+        line(&[
+            &row.dim,
+            &row.method,
+            &ending,
+            &row.runs,
+            &row.steps,
+            &levels(row),
+            &row.wall_seconds,
+            &row.wall_seconds_least,
+            &row.wall_seconds_most,
+            &row.wall_budget_seconds,
+        ])
+    };
+    let header = "d | method | ending | runs | steps | ED² / level | time (s) | least (s) | most (s) | budget (s)";
+    document.table(header, rows.iter().map(line));
 }
 
 /// One panel per dimension, one line per method.
 fn plot(study: &TimeToLevel, rows: &[Row], directory: &StudyDirectory) -> Result<MultiplesPlot, CommandError> {
     let mut panels: Vec<MultiplesPanel> = Vec::new();
-    for case in study.all_cases()? {
+    for case in study.cases()? {
         let id = definition::Case::id(&case);
         let Some(row) = rows.iter().find(|row| row.case == id) else {
             continue;
         };
         let title = format!("d = {}", case.dim);
-        let line = line(&case, row, &table_file::read(&case.trials_file(directory))?)?;
+        let line = curve(&case, row, &table_file::read(&case.trials_file(directory))?)?;
         match panels.last_mut().filter(|panel| panel.title == title) {
             Some(panel) => panel.series.push(line),
             None => panels.push(MultiplesPanel {
@@ -200,11 +182,8 @@ fn plot(study: &TimeToLevel, rows: &[Row], directory: &StudyDirectory) -> Result
 }
 
 /// The runs of one search: ED² in levels against the time, repeats in one point.
-fn line(case: &Case, row: &Row, trials: &[Trial]) -> Result<LineSeries, CommandError> {
-    let mut line = LineSeries {
-        label: case.method.label().to_owned(),
-        ..LineSeries::default()
-    };
+fn curve(case: &Case, row: &Row, trials: &[Trial]) -> Result<LineSeries, CommandError> {
+    let mut line = LineSeries::named(case.method.label());
     for repeats in trials.chunk_by(|left, right| left.steps == right.steps) {
         let times: Vec<f64> = repeats.iter().map(|trial| trial.wall_seconds).collect();
         let energy = repeats.first().and_then(|trial| trial.energy_distance_squared);

@@ -9,12 +9,13 @@ use crate::progress::CaseObserver;
 use crate::sampling::{self, Outcome};
 use crate::study::attempt::{Attempt, Status, attempt};
 use crate::study::results::single_line;
+use crate::study::run_row::RunRow;
 
 /// What a run gave.
 pub struct MeasuredRun {
     /// The particles and what the sampler says of them.
     pub outcome: Outcome,
-    /// Their errors; a cloud so far out that a distance overflows has diverged as well.
+    /// Their errors.
     pub errors: Attempt<Errors>,
     /// Whether the particles are independent draws from the importance sample of a target without exact ones.
     pub from_importance_sample: bool,
@@ -40,14 +41,46 @@ pub fn measured_run(
             Attempt::Failed(status, reason) => return Ok(Attempt::Failed(status, reason)),
         }
     };
-    let errors = match yardstick.measure(&outcome.particles) {
-        Ok(errors) => Attempt::Finished(errors),
-        Err(CommandError::Metric(error)) => Attempt::Failed(Status::Diverged, single_line(error)),
-        Err(error) => return Err(error),
-    };
     Ok(Attempt::Finished(MeasuredRun {
+        errors: measured(yardstick, &outcome)?,
         outcome,
-        errors,
         from_importance_sample,
     }))
+}
+
+/// The errors of particles; such as are so far out that a distance overflows have diverged.
+///
+/// # Errors
+/// Metrics that cannot be had.
+pub fn measured(yardstick: &dyn Yardstick, outcome: &Outcome) -> Result<Attempt<Errors>, CommandError> {
+    match yardstick.measure(&outcome.particles) {
+        Ok(errors) => Ok(Attempt::Finished(errors)),
+        Err(CommandError::Metric(error)) => Ok(Attempt::Failed(Status::Diverged, single_line(error))),
+        Err(error) => Err(error),
+    }
+}
+
+/// [`measured_run`] noted in a row; whether the particles are independent draws from an importance sample.
+///
+/// # Errors
+/// As for [`measured_run`].
+pub fn run_into(
+    row: &mut RunRow,
+    target: &TargetSpecification,
+    method: &Method,
+    run: &Run,
+    yardstick: &dyn Yardstick,
+    observer: &mut CaseObserver,
+) -> Result<bool, CommandError> {
+    match measured_run(target, method, run, yardstick, observer)? {
+        Attempt::Failed(status, reason) => {
+            row.fail(status, reason);
+            Ok(false)
+        }
+        Attempt::Finished(finished) => {
+            row.take(&finished.outcome);
+            row.measured(finished.errors);
+            Ok(finished.from_importance_sample)
+        }
+    }
 }

@@ -17,7 +17,7 @@ use crate::options::TargetSpecification;
 use crate::output::Particles;
 use crate::sampling::Outcome;
 
-pub use measured_run::measured_run;
+pub use measured_run::{measured, measured_run, run_into};
 use target_yardstick::TargetYardstick;
 
 /// How a target is represented and particles are measured.
@@ -47,6 +47,19 @@ pub enum Coordinates {
     /// Those in which the target has mean zero and unit covariance. A target without a map from the unit cube is represented by the
     /// weighted points of an importance sample.
     Standardised,
+}
+
+impl YardstickOptions {
+    /// So many points of a seed; the sliced distance is not looked at.
+    pub fn of_energy(points: usize, seed: u64, coordinates: Coordinates) -> Self {
+        Self {
+            points,
+            seed,
+            directions: 1,
+            coordinates,
+            independent_sets: None,
+        }
+    }
 }
 
 /// Sets of independent draws.

@@ -1,0 +1,145 @@
+//! Dot plots: one row per setting, its values as markers on one axis, with a bound per row.
+
+use super::data::{PlotError, check_size};
+use super::legend::{LegendEntry, Swatch, draw_legend, noted, titled};
+use super::panel::{AxesParts, Panel, label_lines, x_axis_room, x_ticks};
+use super::scale::{AxisKind, Scale, plottable};
+use super::style::{FIGURE_WIDTH, GRID, GUIDE, MARGIN, SeriesStyle, TEXT_SIZE};
+use super::svg::{Drawing, Rectangle, Stroke};
+use super::text::{Anchor, TextStyle, width};
+
+/// The height of a row.
+const ROW: f64 = 14.0;
+/// The part of a row's height over which its markers are spread, so that equal values stay apart.
+const SPREAD: f64 = 0.62;
+
+/// A row.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct DotRow {
+    /// The setting.
+    pub label: String,
+    /// A value for comparison.
+    pub bound: Option<f64>,
+}
+
+/// A series with one value per row.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DotSeries {
+    /// The text in the legend.
+    pub label: String,
+    /// Colour and marker.
+    pub style: SeriesStyle,
+    /// The values, row by row; those that cannot be drawn are left out.
+    pub values: Vec<f64>,
+}
+
+/// A dot plot.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct DotPlot {
+    /// The title; empty for none.
+    pub title: String,
+    /// The label of the axis, with its unit.
+    pub x_label: String,
+    /// The division of the axis.
+    pub x_axis: AxisKind,
+    /// The rows, from top to bottom.
+    pub rows: Vec<DotRow>,
+    /// The series.
+    pub series: Vec<DotSeries>,
+    /// The text in the legend for the bounds.
+    pub bound_label: String,
+    /// Notes below the figure.
+    pub notes: Vec<String>,
+}
+
+/// Draws a dot plot as an SVG document.
+///
+/// # Errors
+/// [`PlotError::Empty`] if no value can be drawn, [`PlotError::Size`] if a series has not one value per row.
+pub fn dots(plot: &DotPlot) -> Result<String, PlotError> {
+    for series in &plot.series {
+        check_size(|| series.label.clone(), plot.rows.len(), series.values.len())?;
+    }
+    let values = || plot.series.iter().flat_map(|series| series.values.iter().copied());
+    let drawable = |value: &f64| plottable(*value) && (plot.x_axis != AxisKind::Logarithmic || *value > 0.0);
+    if !values().any(|value| drawable(&value)) {
+        return Err(PlotError::Empty {
+            what: "dots".to_owned(),
+        });
+    }
+    let bounds = plot.rows.iter().filter_map(|row| row.bound);
+    let scale = Scale::around(values().chain(bounds), plot.x_axis, 0.04);
+
+    let (mut drawing, mut top) = titled(&plot.title, FIGURE_WIDTH);
+    let labels = plot.rows.iter().map(|row| width(&row.label, TEXT_SIZE));
+    let left = MARGIN + labels.fold(0.0, f64::max).min(0.5 * FIGURE_WIDTH) + 6.0;
+    let legend_room = FIGURE_WIDTH - left - MARGIN;
+    let legend = draw_legend(&mut drawing, (left, top), legend_room, &legend_entries(plot));
+    top += legend + 8.0;
+
+    let axes = Panel {
+        area: Rectangle {
+            x: left,
+            y: top,
+            width: FIGURE_WIDTH - left - MARGIN - 8.0,
+            height: ROW * plot.rows.len() as f64,
+        },
+        x: scale,
+        y: Scale::linear(0.0, 1.0, 0.0),
+    };
+    draw_rows(&mut drawing, &axes, plot);
+    let parts = AxesParts {
+        x_ticks: x_ticks(&scale, axes.area.width, 10.0),
+        x_label: Some(&plot.x_label),
+        ..AxesParts::default()
+    };
+    axes.draw_axes(&mut drawing, &parts);
+    let lines = label_lines(&plot.x_label, parts.x_ticks.exponent, axes.area.width).len();
+    let bottom = axes.area.bottom() + x_axis_room(lines) + 6.0;
+    Ok(noted(drawing, FIGURE_WIDTH, bottom - 4.0, &plot.notes))
+}
+
+/// The series, then the bound.
+fn legend_entries(plot: &DotPlot) -> Vec<LegendEntry<'static>> {
+    let series = plot.series.iter().map(|series| LegendEntry {
+        swatch: Swatch::Series {
+            style: series.style,
+            line: None,
+            markers: true,
+        },
+        label: series.label.clone(),
+    });
+    let bound = LegendEntry {
+        swatch: Swatch::Line(Stroke::dashed(GUIDE, 1.1)),
+        label: plot.bound_label.clone(),
+    };
+    let bounded = plot.rows.iter().any(|row| row.bound.is_some());
+    series.chain(bounded.then_some(bound)).collect()
+}
+
+/// Labels, guides, bounds and markers.
+fn draw_rows(drawing: &mut Drawing, axes: &Panel, plot: &DotPlot) {
+    let area = axes.area;
+    let ticks = x_ticks(&axes.x, area.width, 10.0);
+    axes.draw_grid(drawing, &ticks, &Default::default());
+    let middle = |row: usize| area.y + (row as f64 + 0.5) * ROW;
+    for (index, row) in plot.rows.iter().enumerate() {
+        let y = middle(index);
+        drawing.line((area.x, y), (area.right(), y), Stroke::solid(GRID, 0.6));
+        let at = (area.x - 5.0, y + 0.36 * TEXT_SIZE);
+        drawing.text(at, &row.label, TextStyle::plain(Anchor::End));
+        if let Some(x) = row.bound.and_then(|bound| axes.x_at(bound)) {
+            let (from, to) = ((x, y - 0.5 * ROW), (x, y + 0.5 * ROW));
+            drawing.line(from, to, Stroke::dashed(GUIDE, 1.1));
+        }
+    }
+    let step = SPREAD * ROW / (plot.series.len().max(2) - 1) as f64;
+    for (number, series) in plot.series.iter().enumerate() {
+        let offset = (number as f64 - 0.5 * (plot.series.len() - 1) as f64) * step;
+        for (index, value) in series.values.iter().enumerate() {
+            if let Some(x) = axes.x_at(*value) {
+                drawing.marker((x, middle(index) + offset), series.style);
+            }
+        }
+    }
+}

@@ -1,0 +1,170 @@
+//! Heat maps: shares over the cells of a plane, one panel per setting, with the number in every cell that has room for it.
+
+use super::data::{PlotError, check_size};
+use super::legend::{LegendEntry, Swatch, draw_legend, noted, titled};
+use super::panel::{AxesParts, Panel, TITLE_ROOM, label_lines, label_room, x_axis_room, x_ticks, y_tick_room, y_ticks};
+use super::scale::{AxisKind, Scale};
+use super::style::{ESTIMATE, FIGURE_WIDTH, GRID, MARGIN};
+use super::svg::{Drawing, Rectangle};
+use super::text::{Anchor, TextStyle};
+
+/// The colour of a share of one; smaller shares are as much paler.
+const FULL: &str = ESTIMATE;
+/// The size of the numbers in the cells.
+const CELL_TEXT: f64 = 7.0;
+/// Narrower cells have no number.
+const NARROWEST: f64 = 9.0;
+/// The height of a panel.
+const PANEL_HEIGHT: f64 = 150.0;
+
+/// One setting.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct HeatPanel {
+    /// The setting.
+    pub title: String,
+    /// The shares, from 0 to 1: column by column along the horizontal axis, row after row upwards. `None` or a value that is no
+    /// number: a cell without data, which is grey.
+    pub shares: Vec<Option<f64>>,
+}
+
+/// A figure of heat maps over one plane.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct HeatMapPlot {
+    /// The title; empty for none.
+    pub title: String,
+    /// The label of the horizontal axis, with its unit.
+    pub x_label: String,
+    /// The label of the vertical axis, with its unit.
+    pub y_label: String,
+    /// The edges of the columns, growing.
+    pub x_edges: Vec<f64>,
+    /// The edges of the rows, growing.
+    pub y_edges: Vec<f64>,
+    /// The division of both axes.
+    pub axis: AxisKind,
+    /// The panels, two in a row.
+    pub panels: Vec<HeatPanel>,
+    /// Notes below the figure.
+    pub notes: Vec<String>,
+}
+
+/// Draws heat maps as an SVG document.
+///
+/// # Errors
+/// [`PlotError::Empty`] without panels, cells or data; [`PlotError::Size`] if a panel has not one share per cell.
+pub fn heat_map(plot: &HeatMapPlot) -> Result<String, PlotError> {
+    let cells = plot.x_edges.len().saturating_sub(1) * plot.y_edges.len().saturating_sub(1);
+    for panel in &plot.panels {
+        check_size(|| panel.title.clone(), cells, panel.shares.len())?;
+    }
+    if !plot.panels.iter().any(|panel| panel.shares.iter().any(drawable)) {
+        return Err(PlotError::Empty {
+            what: "cells".to_owned(),
+        });
+    }
+    let scale = |edges: &[f64]| Scale::around(edges.iter().copied(), plot.axis, 0.0);
+    let (x, y) = (scale(&plot.x_edges), scale(&plot.y_edges));
+    let vertical = y_ticks(&y, PANEL_HEIGHT, 5.0);
+    let columns = plot.panels.len().min(2);
+    let rows = plot.panels.len().div_ceil(columns);
+    let tick_room = y_tick_room(&vertical);
+    let label_lines_left = label_lines(&plot.y_label, vertical.exponent, PANEL_HEIGHT).len();
+    let left = MARGIN + tick_room + label_room(label_lines_left);
+    let gap = tick_room + 12.0;
+    let panel_width = (FIGURE_WIDTH - left - MARGIN - 8.0 - gap * (columns - 1) as f64) / columns as f64;
+    let horizontal = x_ticks(&x, panel_width, 10.0);
+
+    let (mut drawing, mut top) = titled(&plot.title, FIGURE_WIDTH);
+    top += draw_legend(
+        &mut drawing,
+        (left, top),
+        FIGURE_WIDTH - left - MARGIN,
+        &legend_entries(),
+    ) + 6.0;
+    for row in 0..rows {
+        let lowest = row + 1 == rows;
+        for column in 0..columns {
+            let Some(panel) = plot.panels.get(row * columns + column) else {
+                continue;
+            };
+            let axes = Panel {
+                area: Rectangle {
+                    x: left + column as f64 * (panel_width + gap),
+                    y: top + TITLE_ROOM,
+                    width: panel_width,
+                    height: PANEL_HEIGHT,
+                },
+                x,
+                y,
+            };
+            draw_cells(&mut drawing, &axes, plot, panel);
+            let parts = AxesParts {
+                x_ticks: horizontal.clone(),
+                y_ticks: vertical.clone(),
+                x_label: Some(if lowest { plot.x_label.as_str() } else { "" }),
+                y_label: if column == 0 { &plot.y_label } else { "" },
+                y_tick_room: Some(tick_room),
+            };
+            axes.draw_axes(&mut drawing, &parts);
+            axes.draw_title(&mut drawing, &panel.title);
+        }
+        let lines = if lowest {
+            label_lines(&plot.x_label, horizontal.exponent, panel_width).len()
+        } else {
+            0
+        };
+        top += TITLE_ROOM + PANEL_HEIGHT + x_axis_room(lines) + 6.0;
+    }
+    Ok(noted(drawing, FIGURE_WIDTH, top - 4.0, &plot.notes))
+}
+
+fn drawable(share: &Option<f64>) -> bool {
+    share.is_some_and(f64::is_finite)
+}
+
+/// The shade of some shares, and of cells without data.
+fn legend_entries() -> Vec<LegendEntry<'static>> {
+    let shade = |share: f64| LegendEntry {
+        swatch: Swatch::Area(FULL, share),
+        label: format!("{:.0} %", 100.0 * share),
+    };
+    let without_data = LegendEntry {
+        swatch: Swatch::Area(GRID, 1.0),
+        label: "no data".to_owned(),
+    };
+    [0.25, 0.5, 0.75, 1.0]
+        .into_iter()
+        .map(shade)
+        .chain([without_data])
+        .collect()
+}
+
+/// The cells of a panel with their percentages.
+fn draw_cells(drawing: &mut Drawing, axes: &Panel, plot: &HeatMapPlot, panel: &HeatPanel) {
+    let columns = plot.x_edges.len().saturating_sub(1);
+    for (index, share) in panel.shares.iter().enumerate() {
+        let (column, row) = (index % columns, index / columns);
+        let corner = |x: usize, y: usize| axes.point(plot.x_edges[x], plot.y_edges[y]);
+        let (Some(low), Some(high)) = (corner(column, row), corner(column + 1, row + 1)) else {
+            continue;
+        };
+        let area = Rectangle {
+            x: low.0,
+            y: high.1,
+            width: high.0 - low.0,
+            height: low.1 - high.1,
+        };
+        let Some(share) = share.filter(|share| share.is_finite()) else {
+            drawing.filled_rectangle(area, GRID, 1.0);
+            continue;
+        };
+        let share = share.clamp(0.0, 1.0);
+        drawing.filled_rectangle(area, FULL, share);
+        if area.width < NARROWEST || area.height < CELL_TEXT {
+            continue;
+        }
+        let at = (0.5 * (low.0 + high.0), 0.5 * (low.1 + high.1) + 0.36 * CELL_TEXT);
+        let text = format!("{:.0}", 100.0 * share);
+        drawing.text(at, &text, TextStyle::sized(CELL_TEXT, Anchor::Middle));
+    }
+}

@@ -1,0 +1,149 @@
+//! Legends, which stand outside the panels and so never cover data, and the notes below a figure.
+
+use super::style::{LINE_WIDTH, MARGIN, SeriesStyle, TEXT_SIZE, TITLE_SIZE};
+use super::svg::{Drawing, Rectangle, Stroke};
+use super::text::{Anchor, TextStyle, width, wrap};
+
+/// What a legend shows before a label.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Swatch<'a> {
+    /// A marker, with a line through it if `line` is set.
+    Series {
+        /// Colour and marker.
+        style: SeriesStyle,
+        /// Whether points are connected, and how.
+        line: Option<&'a str>,
+        /// Whether points are marked.
+        markers: bool,
+    },
+    /// A line of the given colour, width and dash pattern.
+    Line(Stroke<'a>),
+    /// A filled area of the given colour and opacity.
+    Area(&'a str, f64),
+    /// A disc of the given colour.
+    Disc(&'a str),
+}
+
+/// A line of a legend.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LegendEntry<'a> {
+    /// What the entry explains.
+    pub swatch: Swatch<'a>,
+    /// The explanation.
+    pub label: String,
+}
+
+const SWATCH: f64 = 20.0;
+const GAP: f64 = 5.0;
+const COLUMN_GAP: f64 = 14.0;
+const ROW: f64 = 13.0;
+
+/// The width of the widest entry, swatch included.
+pub fn entry_width(entries: &[LegendEntry<'_>]) -> f64 {
+    entries
+        .iter()
+        .map(|entry| SWATCH + GAP + width(&entry.label, TEXT_SIZE))
+        .fold(0.0, f64::max)
+}
+
+/// Draws the entries, column by column in as many columns as fit into `room`, from the point `at` (top left) and returns the
+/// height taken.
+pub fn draw_legend(drawing: &mut Drawing, at: (f64, f64), room: f64, entries: &[LegendEntry<'_>]) -> f64 {
+    let fits = |rows: &usize| {
+        let columns = entries.chunks(*rows);
+        columns.map(|c| entry_width(c) + COLUMN_GAP).sum::<f64>() <= room + COLUMN_GAP
+    };
+    let Some(rows) = (1..=entries.len()).find(|rows| fits(rows) || *rows == entries.len()) else {
+        return 0.0;
+    };
+    let mut x = at.0;
+    for column in entries.chunks(rows) {
+        for (row, entry) in column.iter().enumerate() {
+            let middle = at.1 + (row as f64 + 0.5) * ROW;
+            draw_swatch(drawing, (x, middle), entry.swatch);
+            drawing.text(
+                (x + SWATCH + GAP, middle + 0.36 * TEXT_SIZE),
+                &entry.label,
+                TextStyle::plain(Anchor::Start),
+            );
+        }
+        x += entry_width(column) + COLUMN_GAP;
+    }
+    rows as f64 * ROW
+}
+
+fn draw_swatch(drawing: &mut Drawing, (x, y): (f64, f64), swatch: Swatch<'_>) {
+    let (from, to, middle) = ((x, y), (x + SWATCH, y), (x + 0.5 * SWATCH, y));
+    match swatch {
+        Swatch::Series { style, line, markers } => {
+            if let Some(dash) = line {
+                let stroke = Stroke {
+                    color: style.color,
+                    width: LINE_WIDTH,
+                    dash,
+                };
+                drawing.line(from, to, stroke);
+            }
+            if markers {
+                drawing.marker(middle, style);
+            }
+        }
+        Swatch::Line(stroke) => drawing.line(from, to, stroke),
+        Swatch::Area(color, opacity) => {
+            let area = Rectangle {
+                x,
+                y: y - 4.0,
+                width: SWATCH,
+                height: 8.0,
+            };
+            drawing.filled_rectangle(area, color, opacity);
+        }
+        Swatch::Disc(color) => drawing.discs(&[middle], 2.0, color, 1.0),
+    }
+}
+
+/// A drawing of this width with its title at the top, and where the rest begins.
+pub fn titled(title: &str, width: f64) -> (Drawing, f64) {
+    let mut drawing = Drawing::new(title);
+    let top = MARGIN + draw_title(&mut drawing, (MARGIN, MARGIN), width - 2.0 * MARGIN, title);
+    (drawing, top)
+}
+
+/// Draws the figure's title, wrapped to `room`, and returns the height taken.
+fn draw_title(drawing: &mut Drawing, at: (f64, f64), room: f64, title: &str) -> f64 {
+    let style = TextStyle {
+        bold: true,
+        ..TextStyle::sized(TITLE_SIZE, Anchor::Start)
+    };
+    // Bold letters are about a tenth wider.
+    let lines = wrap(title, room / 1.1, TITLE_SIZE);
+    for (index, line) in lines.iter().enumerate() {
+        let baseline = at.1 + TITLE_SIZE * (0.85 + 1.25 * index as f64);
+        drawing.text((at.0, baseline), line, style);
+    }
+    if lines.is_empty() {
+        0.0
+    } else {
+        lines.len() as f64 * 1.25 * TITLE_SIZE + 3.0
+    }
+}
+
+/// The document of a drawing with notes from `bottom` on.
+pub fn noted(mut drawing: Drawing, width: f64, bottom: f64, notes: &[String]) -> String {
+    let height = draw_notes(&mut drawing, (MARGIN, bottom), width - 2.0 * MARGIN, notes);
+    drawing.finish(width, bottom + height + MARGIN)
+}
+
+/// Draws notes below a figure, each wrapped to `room`, and returns the height taken.
+fn draw_notes(drawing: &mut Drawing, at: (f64, f64), room: f64, notes: &[String]) -> f64 {
+    let lines: Vec<String> = notes.iter().flat_map(|note| wrap(note, room, TEXT_SIZE)).collect();
+    for (index, line) in lines.iter().enumerate() {
+        let baseline = at.1 + 4.0 + TEXT_SIZE * (0.85 + 1.3 * index as f64);
+        drawing.text((at.0, baseline), line, TextStyle::plain(Anchor::Start));
+    }
+    if lines.is_empty() {
+        0.0
+    } else {
+        lines.len() as f64 * 1.3 * TEXT_SIZE + 4.0
+    }
+}

@@ -1,0 +1,131 @@
+//! Small multiples: lines with markers, error bars and guides, one panel per setting, under one legend.
+
+use super::chart::{Chart, Legend, arrangement};
+use super::data::{Curve, PlotError};
+use super::scale::AxisKind;
+use super::series::{ChartPanel, ChartSeries, Connection, ReferenceLevel};
+use super::statistics::summarize;
+
+/// A labelled sequence of points.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct LineSeries {
+    /// The text in the legend.
+    pub label: String,
+    /// The abscissas, in the order in which points are connected.
+    pub x: Vec<f64>,
+    /// The ordinates; a value that is not finite interrupts the line.
+    pub y: Vec<f64>,
+    /// The lower and upper ends of error bars, one pair per point, or empty.
+    pub bars: Vec<(f64, f64)>,
+}
+
+impl LineSeries {
+    /// A line without points yet.
+    pub fn named(label: impl Into<String>) -> Self {
+        Self {
+            label: label.into(),
+            ..Self::default()
+        }
+    }
+
+    /// Adds the median of the values, with a bar from the least to the largest; nothing where there are none.
+    pub fn push_median(&mut self, x: f64, values: &[f64]) {
+        if let Ok(summary) = summarize(values) {
+            self.x.push(x);
+            self.y.push(summary.median);
+            self.bars.push((summary.minimum, summary.maximum));
+        }
+    }
+}
+
+/// A theoretical curve for comparison.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GuideCurve {
+    /// The text in the legend; guides with the same text share an entry.
+    pub label: String,
+    /// The curve.
+    pub curve: Curve,
+    /// Whether it is dotted; else dashed.
+    pub dotted: bool,
+}
+
+/// One setting, e.g. one dimension.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct MultiplesPanel {
+    /// The setting.
+    pub title: String,
+    /// The lines; those with the same label look the same in every panel.
+    pub series: Vec<LineSeries>,
+    /// Curves for comparison.
+    pub guides: Vec<GuideCurve>,
+    /// Horizontal lines for comparison.
+    pub levels: Vec<ReferenceLevel>,
+}
+
+/// A figure of panels whose axes have the same meaning.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct MultiplesPlot {
+    /// The title; empty for none.
+    pub title: String,
+    /// The label of the horizontal axes, with the unit.
+    pub x_label: String,
+    /// The label of the vertical axes, with the unit.
+    pub y_label: String,
+    /// The division of the horizontal axes.
+    pub x_axis: AxisKind,
+    /// The division of the vertical axes.
+    pub y_axis: AxisKind,
+    /// The panels.
+    pub panels: Vec<MultiplesPanel>,
+    /// Notes below the figure.
+    pub notes: Vec<String>,
+}
+
+/// Draws small multiples as an SVG document.
+///
+/// # Errors
+/// [`PlotError::Empty`] if no point can be drawn, [`PlotError::Size`] if lengths differ.
+pub fn multiples(plot: &MultiplesPlot) -> Result<String, PlotError> {
+    draw(plot, 140.0)
+}
+
+/// The same with panels of this height, where there are several.
+pub(super) fn draw(plot: &MultiplesPlot, panel_height: f64) -> Result<String, PlotError> {
+    let all = plot.panels.iter().flat_map(|panel| &panel.series);
+    let legend = Legend::of(all.map(|series| &series.label));
+    let mut panels = Vec::with_capacity(plot.panels.len());
+    for panel in &plot.panels {
+        let lines = panel.series.iter().map(|series| ChartSeries {
+            bars: series.bars.clone(),
+            ..ChartSeries::line(&series.label, legend.style(&series.label), &series.x, &series.y)
+        });
+        let mut drawn: Vec<ChartSeries> = lines.collect();
+        for guide in &panel.guides {
+            let dashes = if guide.dotted {
+                Connection::Dotted
+            } else {
+                Connection::Dashed
+            };
+            drawn.push(ChartSeries::guide(&guide.label, &guide.curve, dashes)?);
+        }
+        panels.push(ChartPanel {
+            title: panel.title.clone(),
+            x_label: plot.x_label.clone(),
+            y_label: plot.y_label.clone(),
+            x_kind: plot.x_axis,
+            y_kind: plot.y_axis,
+            series: drawn,
+            levels: panel.levels.clone(),
+        });
+    }
+    let (columns, width) = arrangement(plot.panels.len());
+    Chart {
+        title: plot.title.clone(),
+        panels,
+        columns,
+        width,
+        panel_height: if columns == 1 { 210.0 } else { panel_height },
+        notes: plot.notes.clone(),
+    }
+    .draw()
+}

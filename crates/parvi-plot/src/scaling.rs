@@ -1,0 +1,134 @@
+//! How a cost grows: measurements on logarithmic axes with fitted power laws.
+
+use crate::statistics::{PowerLaw, fit_power_law};
+
+use super::chart::{Chart, arrangement};
+use super::data::{PlotError, check_size};
+use super::multiples::{GuideCurve, LineSeries};
+use super::scale::AxisKind;
+use super::series::{ChartPanel, ChartSeries, Connection};
+use super::style::styles;
+use super::text::decimal;
+
+/// A figure of costs against a size.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ScalingPlot {
+    /// The title; empty for none.
+    pub title: String,
+    /// The label of the horizontal axis, with its unit.
+    pub x_label: String,
+    /// The label of the vertical axis, with its unit.
+    pub y_label: String,
+    /// The symbol of the size in the legend, e.g. "M".
+    pub x_symbol: String,
+    /// Fits use measurements with x at least this large, so that a fixed cost at small sizes can be left out; 0 for all.
+    pub fit_from: f64,
+    /// The settings; to the label of each the fitted exponent is added.
+    pub series: Vec<LineSeries>,
+    /// Theoretical curves for comparison.
+    pub guides: Vec<GuideCurve>,
+}
+
+/// The power law of one series as the figure fits it: over its positive, finite points with x ≥ `fit_from`; `None` where
+/// fewer than two different sizes are left.
+pub fn scaling_fit(series: &LineSeries, fit_from: f64) -> Option<PowerLaw> {
+    let (x, y) = usable(series, fit_from);
+    fit_power_law(&x, &y).ok()
+}
+
+/// An exponent with its 95 % interval for a reader: "0.98 ± 0.02", or "0.98" without an interval.
+pub fn exponent_text(law: &PowerLaw, index: usize) -> String {
+    let Some(exponent) = law.exponents.get(index) else {
+        return String::new();
+    };
+    match exponent.half_width {
+        Some(half_width) => {
+            let decimals = if half_width < 0.005 { 3 } else { 2 };
+            let value = decimal(exponent.value, decimals);
+            format!("{value} ± {}", decimal(half_width, decimals))
+        }
+        None => decimal(exponent.value, 2),
+    }
+}
+
+fn usable(series: &LineSeries, fit_from: f64) -> (Vec<f64>, Vec<f64>) {
+    let positive = |value: f64| value.is_finite() && value > 0.0;
+    series
+        .x
+        .iter()
+        .zip(&series.y)
+        .filter(|(x, y)| positive(**x) && positive(**y) && **x >= fit_from)
+        .map(|(x, y)| (*x, *y))
+        .unzip()
+}
+
+/// Draws measurements and fits on logarithmic axes as an SVG document. Points that are not positive are left out.
+///
+/// # Errors
+/// [`PlotError::Empty`] if no point can be drawn, [`PlotError::Size`] if lengths differ.
+pub fn scaling(plot: &ScalingPlot) -> Result<String, PlotError> {
+    let names: Vec<&str> = plot.series.iter().map(|s| s.label.as_str()).collect();
+    let mut lines = Vec::new();
+    let mut points = Vec::new();
+    let mut fits = 0;
+    for (series, style) in plot.series.iter().zip(styles(&names)) {
+        check_size(|| series.label.clone(), series.x.len(), series.y.len())?;
+        let (x, y) = usable(series, 0.0);
+        let mut label = series.label.clone();
+        if let Some(law) = scaling_fit(series, plot.fit_from) {
+            label = format!("{label}: b = {}", exponent_text(&law, 0));
+            fits += 1;
+            let fitted = x.iter().copied().filter(|x| *x >= plot.fit_from);
+            let low = fitted.clone().fold(f64::INFINITY, f64::min);
+            let high = fitted.fold(0.0, f64::max);
+            lines.push(ChartSeries {
+                markers: false,
+                ..ChartSeries::line("", style, &[low, high], &[law.value(&[low]), law.value(&[high])])
+            });
+        }
+        points.push(ChartSeries {
+            connection: Connection::None,
+            ..ChartSeries::line(&label, style, &x, &y)
+        });
+    }
+    if points.iter().all(|series| series.x.is_empty()) {
+        return Err(PlotError::Empty {
+            what: "series".to_string(),
+        });
+    }
+    for guide in &plot.guides {
+        lines.push(ChartSeries::guide(&guide.label, &guide.curve, Connection::Dashed)?);
+    }
+    points.extend(lines);
+    let mut notes = Vec::new();
+    if fits > 0 {
+        let symbol = &plot.x_symbol;
+        let range = if plot.fit_from > 0.0 {
+            format!(", {symbol} ≥ {}", plot.fit_from)
+        } else {
+            String::new()
+        };
+        notes.push(format!(
+            "Lines: least-squares fits ∝ {symbol}^{{b}}{range}; b with its 95 % confidence interval."
+        ));
+    }
+    let (columns, width) = arrangement(1);
+    let panel = ChartPanel {
+        title: String::new(),
+        x_label: plot.x_label.clone(),
+        y_label: plot.y_label.clone(),
+        x_kind: AxisKind::Logarithmic,
+        y_kind: AxisKind::Logarithmic,
+        series: points,
+        levels: Vec::new(),
+    };
+    Chart {
+        title: plot.title.clone(),
+        panels: vec![panel],
+        columns,
+        width,
+        panel_height: 220.0,
+        notes,
+    }
+    .draw()
+}

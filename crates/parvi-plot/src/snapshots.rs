@@ -1,0 +1,158 @@
+//! Snapshots of bodies: particles in a plane, coloured by classes of a value, one panel per instant, both axes on one scale.
+
+use super::data::{PlotError, check_size};
+use super::legend::{LegendEntry, Swatch, draw_legend, noted, titled};
+use super::panel::{AxesParts, Panel, TITLE_ROOM, label_lines, label_room, x_axis_room, x_ticks, y_tick_room, y_ticks};
+use super::scale::{AxisKind, Scale, plottable};
+use super::style::{FIGURE_WIDTH, MARGIN};
+use super::svg::{Drawing, Rectangle, Stroke};
+
+/// Colours of classes from low to high, each darker than the one before.
+const CLASSES: [&str; 5] = ["#c6d5e8", "#8fb8de", "#f2b46b", "#d55e00", "#5a1200"];
+
+/// Room for the labels of vertical ticks, at least.
+const LEAST_TICK_ROOM: f64 = 20.0;
+
+/// One instant.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct SnapshotPanel {
+    /// Which one.
+    pub title: String,
+    /// Where the particles are.
+    pub positions: Vec<[f64; 2]>,
+    /// A value of each particle.
+    pub values: Vec<f64>,
+}
+
+/// A figure of snapshots.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct SnapshotsPlot {
+    /// The title; empty for none.
+    pub title: String,
+    /// What the values are, with their unit.
+    pub value_label: String,
+    /// The label of the horizontal axis, with its unit.
+    pub x_label: String,
+    /// The label of the vertical axis, with its unit.
+    pub y_label: String,
+    /// The part of the plane, lowest and highest corner.
+    pub extent: [[f64; 2]; 2],
+    /// Distance between particles: the size they are drawn with.
+    pub spacing: f64,
+    /// Bounds between the classes, up to four, growing.
+    pub bounds: Vec<f64>,
+    /// Panels in a row.
+    pub columns: usize,
+    /// The panels.
+    pub panels: Vec<SnapshotPanel>,
+    /// Notes below the figure.
+    pub notes: Vec<String>,
+}
+
+/// Draws snapshots as an SVG document.
+///
+/// # Errors
+/// [`PlotError::Empty`] without a particle that can be drawn; [`PlotError::Size`] if a panel has not one value per particle.
+pub fn snapshots(plot: &SnapshotsPlot) -> Result<String, PlotError> {
+    for panel in &plot.panels {
+        check_size(|| panel.title.clone(), panel.positions.len(), panel.values.len())?;
+    }
+    let mut all = plot.panels.iter().flat_map(|panel| &panel.positions);
+    if !all.any(|x| plottable(x[0]) && plottable(x[1])) {
+        return Err(PlotError::Empty {
+            what: "particles".to_owned(),
+        });
+    }
+    let [low, high] = plot.extent;
+    let x = Scale::around([low[0], high[0]], AxisKind::Linear, 0.0);
+    let y = Scale::around([low[1], high[1]], AxisKind::Linear, 0.0);
+    let columns = plot.columns.clamp(1, plot.panels.len());
+    let rows = plot.panels.len().div_ceil(columns);
+    // Left margin, gap, width and height with so much room for the labels of vertical ticks.
+    let layout = |room: f64| {
+        let (left, gap) = (MARGIN + room + 4.0 + label_room(1), room + 6.0);
+        let width = (FIGURE_WIDTH - left - MARGIN - 8.0 - gap * (columns - 1) as f64) / columns as f64;
+        let height = (width / (high[0] - low[0]) * (high[1] - low[1])).clamp(20.0, 640.0);
+        (left, gap, width, height)
+    };
+    // What these labels are hangs on the height, which hangs on their room.
+    let (_, _, _, first_height) = layout(LEAST_TICK_ROOM);
+    let (left, gap, width, height) = layout(y_tick_room(&y_ticks(&y, first_height, 5.0)).max(LEAST_TICK_ROOM));
+    let unit = width / (high[0] - low[0]);
+    let (horizontal, vertical) = (x_ticks(&x, width, 4.0), y_ticks(&y, height, 5.0));
+
+    let (mut drawing, mut top) = titled(&plot.title, FIGURE_WIDTH);
+    top += draw_legend(
+        &mut drawing,
+        (left, top),
+        FIGURE_WIDTH - 2.0 * MARGIN - left,
+        &legend(plot),
+    ) + 6.0;
+    for (row, members) in plot.panels.chunks(columns).enumerate() {
+        let lowest = row + 1 == rows;
+        for (column, panel) in members.iter().enumerate() {
+            let area = Rectangle {
+                x: left + column as f64 * (width + gap),
+                y: top + TITLE_ROOM,
+                width,
+                height,
+            };
+            let axes = Panel { area, x, y };
+            draw_particles(&mut drawing, &axes, plot, panel, unit);
+            let parts = AxesParts {
+                x_ticks: horizontal.clone(),
+                y_ticks: vertical.clone(),
+                x_label: Some(if lowest { plot.x_label.as_str() } else { "" }),
+                y_label: if column == 0 { &plot.y_label } else { "" },
+                y_tick_room: Some(y_tick_room(&vertical)),
+            };
+            axes.draw_axes(&mut drawing, &parts);
+            axes.draw_title(&mut drawing, &panel.title);
+        }
+        let lines = if lowest {
+            label_lines(&plot.x_label, horizontal.exponent, width).len()
+        } else {
+            0
+        };
+        top += TITLE_ROOM + height + x_axis_room(lines) + 6.0;
+    }
+    Ok(noted(drawing, FIGURE_WIDTH, top - 4.0, &plot.notes))
+}
+
+/// The class of a value: how many bounds it reaches.
+fn class(plot: &SnapshotsPlot, value: f64) -> usize {
+    let reached = plot.bounds.iter().take_while(|bound| value >= **bound).count();
+    reached.min(CLASSES.len() - 1)
+}
+
+fn legend(plot: &SnapshotsPlot) -> Vec<LegendEntry<'static>> {
+    let count = plot.bounds.len().min(CLASSES.len() - 1);
+    let label = |class: usize| match (class, plot.bounds.get(class)) {
+        (0, None) => plot.value_label.clone(),
+        (0, Some(bound)) => format!("{} < {bound}", plot.value_label),
+        (_, Some(bound)) if class < count => format!("{} to {bound}", plot.bounds[class - 1]),
+        _ => format!("≥ {}", plot.bounds[class - 1]),
+    };
+    let entry = |class: usize| LegendEntry {
+        swatch: Swatch::Area(CLASSES[class], 1.0),
+        label: label(class),
+    };
+    (0..=count).map(entry).collect()
+}
+
+/// The particles of a panel, the lowest class first: squares as short thick lines, one path per class.
+fn draw_particles(drawing: &mut Drawing, axes: &Panel, plot: &SnapshotsPlot, panel: &SnapshotPanel, unit: f64) {
+    let size = (unit * plot.spacing).max(0.6);
+    drawing.clipped(axes.area, |drawing| {
+        for (number, color) in CLASSES.iter().enumerate() {
+            let particles = panel.positions.iter().zip(&panel.values);
+            let members = particles.filter(|(_, value)| class(plot, **value) == number);
+            let square = |(at, _): (&[f64; 2], &f64)| {
+                let (x, y) = axes.point(at[0], at[1])?;
+                Some([(x - 0.5 * size, y), (x + 0.5 * size, y)])
+            };
+            let squares: Vec<_> = members.filter_map(square).collect();
+            drawing.lines(&squares, Stroke::solid(color, size));
+        }
+    });
+}

@@ -1,0 +1,352 @@
+//! Traces, scalings, error curves and lines.
+
+use super::*;
+
+#[test]
+fn traces_break_where_values_end() {
+    let step: Vec<f64> = (0..5000).map(f64::from).collect();
+    let mut value: Vec<f64> = step.iter().map(|s| (-0.01 * s).exp() + 1e-3).collect();
+    value[4000..].fill(f64::NAN);
+    let series = |label: &str| TraceSeries {
+        label: label.to_string(),
+        step: step.clone(),
+        value: value.clone(),
+    };
+    let plot = TracePlot {
+        title: "Run".to_string(),
+        x_label: "step".to_string(),
+        panels: vec![
+            TracePanel {
+                y_label: "residual".to_string(),
+                series: vec![series("mpm"), series("svgd")],
+                levels: vec![ReferenceLevel {
+                    value: 1.0,
+                    label: "i.i.d.".to_string(),
+                }],
+                ..TracePanel::default()
+            },
+            TracePanel {
+                y_label: "energy (nats)".to_string(),
+                ..TracePanel::default()
+            },
+        ],
+    };
+    let svg = trace(&plot).unwrap();
+    assert_well_formed(&svg);
+    for text in ["step", "residual", "energy (nats)", "mpm", "svgd", "i.i.d."] {
+        assert!(svg.contains(text), "{text}");
+    }
+    assert!(svg.len() < 60_000, "long traces are thinned: {}", svg.len());
+    assert!(matches!(trace(&TracePlot::default()), Err(PlotError::Empty { .. })));
+}
+
+#[test]
+fn scalings_state_their_exponents() {
+    let x: Vec<f64> = (2..6).map(|e| 10f64.powi(e)).collect();
+    let y: Vec<f64> = x.iter().map(|x| 1e-8 * x.powf(1.5)).collect();
+    let mut plot = ScalingPlot {
+        x_label: "particles M".to_string(),
+        y_label: "time per step (s)".to_string(),
+        x_symbol: "M".to_string(),
+        series: vec![
+            LineSeries {
+                label: "d = 2".to_string(),
+                x: x.clone(),
+                y,
+                bars: Vec::new(),
+            },
+            LineSeries {
+                label: "single".to_string(),
+                x: vec![100.0],
+                y: vec![1.0],
+                bars: Vec::new(),
+            },
+        ],
+        ..ScalingPlot::default()
+    };
+    plot.guides.push(GuideCurve {
+        label: "dense grid".to_string(),
+        curve: Curve {
+            y: x.iter().map(|x| 1e-6 * x).collect(),
+            x,
+        },
+        dotted: false,
+    });
+    let svg = scaling(&plot).unwrap();
+    assert_well_formed(&svg);
+    assert!(svg.contains("d = 2: b = 1.500 ± 0.000") && svg.contains("dense grid"));
+    assert!(svg.contains(">single<"));
+    plot.series[0].y[0] = -1.0;
+    assert_well_formed(&scaling(&plot).unwrap());
+    plot.series[0].y.pop();
+    assert!(matches!(scaling(&plot), Err(PlotError::Size { .. })));
+    assert!(matches!(scaling(&ScalingPlot::default()), Err(PlotError::Empty { .. })));
+}
+
+#[test]
+fn failed_runs_are_counted_below_the_figure() {
+    let curve = |method: &str, errors: [f64; 3]| TimeErrorCurve {
+        method: method.to_string(),
+        points: vec![TimeErrorPoint {
+            cost: vec![1.0, 1.1, 0.9],
+            error: errors.to_vec(),
+        }],
+    };
+    let panel = |target: &str| TimeErrorPanel {
+        target: target.to_string(),
+        curves: vec![
+            curve("mpm", [1e-3, 2e-3, 0.0]),
+            curve("paper-pic", [f64::NAN, 0.3, f64::INFINITY]),
+            curve("paper-apic", [f64::NAN; 3]),
+        ],
+        iid_level: Some(2e-3),
+    };
+    let mut plot = TimeErrorPlot {
+        x_label: "wall time (s)".to_string(),
+        y_label: "energy distance squared".to_string(),
+        iid_label: "i.i.d. draws".to_string(),
+        panels: vec![panel("ring"), panel("banana")],
+        ..TimeErrorPlot::default()
+    };
+    let svg = time_error(&plot).unwrap();
+    assert_well_formed(&svg);
+    for text in ["ring", "banana", "i.i.d. draws", "paper-pic on ring (2 of 3)"] {
+        assert!(svg.contains(text), "{text}");
+    }
+    plot.panels[0].curves[0].points[0].cost.pop();
+    assert!(matches!(time_error(&plot), Err(PlotError::Size { .. })));
+    assert!(matches!(
+        time_error(&TimeErrorPlot::default()),
+        Err(PlotError::Empty { .. })
+    ));
+}
+
+#[test]
+fn lines_with_bars_on_any_axis() {
+    let plot = |y_axis: AxisKind, series: LineSeries| MultiplesPlot {
+        x_label: "spacing h".to_string(),
+        y_label: "covariance error".to_string(),
+        y_axis,
+        panels: vec![MultiplesPanel {
+            series: vec![series],
+            ..MultiplesPanel::default()
+        }],
+        ..MultiplesPlot::default()
+    };
+    for y_axis in [AxisKind::Automatic, AxisKind::Linear, AxisKind::Logarithmic] {
+        let series = LineSeries {
+            label: "d = 1".to_string(),
+            x: vec![0.2, 0.5, 1.0],
+            y: vec![1e-2, 1e-5, 1e-11],
+            bars: vec![(1e-3, 2e-2), (0.0, 1e-4), (f64::NAN, f64::INFINITY)],
+        };
+        let svg = multiples(&plot(y_axis, series)).unwrap();
+        assert_well_formed(&svg);
+        assert!(svg.contains("spacing h") && svg.contains("covariance error"));
+    }
+    let mut single = LineSeries {
+        x: vec![1.0],
+        y: vec![f64::NAN],
+        ..LineSeries::default()
+    };
+    let drawn = |series: &LineSeries| multiples(&plot(AxisKind::Automatic, series.clone()));
+    assert!(matches!(drawn(&single), Err(PlotError::Empty { .. })));
+    single.y = vec![3.0];
+    assert_well_formed(&drawn(&single).unwrap());
+    single.bars = vec![(0.0, 1.0); 2];
+    assert!(matches!(drawn(&single), Err(PlotError::Size { .. })));
+}
+
+#[test]
+fn small_multiples_share_styles_and_legend() {
+    let series = |label: &str| LineSeries {
+        label: label.to_string(),
+        x: vec![128.0, 512.0, 2048.0],
+        y: vec![0.1, 0.03, 0.01],
+        bars: vec![(0.09, 0.11), (0.02, 0.04), (0.0, 0.02)],
+    };
+    let guide = |label: &str, dotted: bool| GuideCurve {
+        label: label.to_string(),
+        curve: Curve {
+            x: vec![128.0, 2048.0],
+            y: vec![0.1, 0.025],
+        },
+        dotted,
+    };
+    let panel = |title: &str, names: &[&str]| MultiplesPanel {
+        title: title.to_string(),
+        series: names.iter().map(|name| series(name)).collect(),
+        guides: vec![guide("slope −½", false), guide("best slope", true)],
+        levels: vec![ReferenceLevel {
+            value: 0.05,
+            label: "level".to_string(),
+        }],
+    };
+    let mut plot = MultiplesPlot {
+        x_label: "number of particles M".to_string(),
+        y_label: "energy distance ED".to_string(),
+        x_axis: AxisKind::Logarithmic,
+        y_axis: AxisKind::Logarithmic,
+        panels: vec![panel("d = 1", &["mpm", "first"]), panel("d = 2", &["second", "first"])],
+        notes: vec!["Medians over the seeds.".to_string()],
+        ..MultiplesPlot::default()
+    };
+    let svg = multiples(&plot).unwrap();
+    assert_well_formed(&svg);
+    for text in [
+        "d = 1",
+        "d = 2",
+        "mpm",
+        "second",
+        "slope −½",
+        "best slope",
+        "level",
+        "Medians",
+    ] {
+        assert!(svg.contains(text), "{text}");
+    }
+    assert_eq!(svg.matches(">first<").count(), 1, "one entry in the legend");
+    plot.panels[0].guides[0].curve.x.pop();
+    assert!(matches!(multiples(&plot), Err(PlotError::Size { .. })));
+    assert!(matches!(
+        multiples(&MultiplesPlot::default()),
+        Err(PlotError::Empty { .. })
+    ));
+}
+
+#[test]
+fn dots_have_a_row_per_setting() {
+    let style = style::sequence_style;
+    let series = |label: &str, index: usize, values: &[f64]| DotSeries {
+        label: label.to_string(),
+        style: style(index),
+        values: values.to_vec(),
+    };
+    let row = |label: &str, bound: Option<f64>| DotRow {
+        label: label.to_string(),
+        bound,
+    };
+    let mut plot = DotPlot {
+        x_label: "ED^{2}".to_string(),
+        x_axis: AxisKind::Logarithmic,
+        rows: vec![row("ring", Some(0.3)), row("banana & co", None)],
+        series: vec![series("near", 0, &[0.1, 20.0]), series("far", 1, &[-1.0, f64::NAN])],
+        bound_label: "bound".to_string(),
+        notes: vec!["A note.".to_string()],
+        ..DotPlot::default()
+    };
+    let svg = dots(&plot).unwrap();
+    assert_well_formed(&svg);
+    for text in ["ring", "banana &amp; co", "near", "far", "bound", "A note."] {
+        assert!(svg.contains(text), "{text}");
+    }
+    // Two drawn values and two swatches in the legend.
+    assert_eq!(svg.matches("<circle").count(), 3);
+    plot.rows[0].bound = None;
+    assert!(!dots(&plot).unwrap().contains(">bound<"));
+    plot.series[0].values.pop();
+    assert!(matches!(dots(&plot), Err(PlotError::Size { .. })));
+    plot.series.remove(0);
+    assert!(matches!(dots(&plot), Err(PlotError::Empty { .. })));
+}
+
+#[test]
+fn heat_maps_state_the_share_of_every_cell() {
+    let panel = |shares: [Option<f64>; 4]| HeatPanel {
+        title: "guards off".to_string(),
+        shares: shares.to_vec(),
+    };
+    let mut plot = HeatMapPlot {
+        x_label: "time step".to_string(),
+        y_label: "spacing".to_string(),
+        x_edges: vec![0.1, 1.0, 10.0],
+        y_edges: vec![0.01, 0.1, 1.0],
+        axis: AxisKind::Logarithmic,
+        panels: vec![panel([Some(0.0), Some(0.37), None, Some(f64::NAN)]); 3],
+        ..HeatMapPlot::default()
+    };
+    let svg = heat_map(&plot).unwrap();
+    assert_well_formed(&svg);
+    assert_eq!((svg.matches(">37<").count(), svg.matches(">0<").count()), (3, 3));
+    for text in ["guards off", "time step", "spacing", "75 %", "no data"] {
+        assert!(svg.contains(text), "{text}");
+    }
+    plot.panels[0].shares.pop();
+    assert!(matches!(heat_map(&plot), Err(PlotError::Size { .. })));
+    plot.panels = vec![panel([None; 4])];
+    assert!(matches!(heat_map(&plot), Err(PlotError::Empty { .. })));
+    assert!(matches!(
+        heat_map(&HeatMapPlot::default()),
+        Err(PlotError::Empty { .. })
+    ));
+}
+
+#[test]
+fn snapshots_colour_particles_by_class() {
+    let panel = |title: &str, values: Vec<f64>| SnapshotPanel {
+        title: title.to_owned(),
+        positions: vec![[0.5, 0.5], [1.5, 0.5], [9.0, 9.0]],
+        values,
+    };
+    let mut plot = SnapshotsPlot {
+        title: "slope".to_owned(),
+        value_label: "strain".to_owned(),
+        extent: [[0.0, 0.0], [4.0, 2.0]],
+        spacing: 0.5,
+        bounds: vec![1.0, 2.0],
+        columns: 1,
+        panels: vec![panel("start", vec![0.0, 1.5, 3.0]), panel("end", vec![5.0; 3])],
+        ..SnapshotsPlot::default()
+    };
+    let svg = snapshots(&plot).unwrap();
+    assert_well_formed(&svg);
+    for text in ["strain &lt; 1", "1 to 2", "≥ 2", ">start<", ">end<"] {
+        assert!(svg.contains(text), "{text}");
+    }
+    plot.panels[0].values.pop();
+    assert!(matches!(snapshots(&plot), Err(PlotError::Size { .. })));
+    plot.panels.clear();
+    assert!(matches!(snapshots(&plot), Err(PlotError::Empty { .. })));
+}
+
+#[test]
+fn a_strip_has_a_panel_for_each_moment_on_common_axes() {
+    let moments: Vec<Vec<Vec<f64>>> = (0..6)
+        .map(|k| {
+            let moved = |row: Vec<f64>| row.iter().map(|c| c + 0.5 * f64::from(k)).collect();
+            points(100, 2).into_iter().map(moved).collect()
+        })
+        .collect();
+    let titles: Vec<String> = (0..6).map(|k| format!("step {k}")).collect();
+    let panels: Vec<StripPanel<'_>> = moments
+        .iter()
+        .zip(&titles)
+        .map(|(points, title)| StripPanel {
+            title,
+            particles: PointCloud::equal(points),
+        })
+        .collect();
+    let draws = points(2000, 2);
+    let strip_of = |panels| {
+        strip(&StripPlot {
+            title: "Strip",
+            panels,
+            labels: &[],
+            reference: Reference::Draws(PointCloud::equal(&draws)),
+            reference_label: "",
+        })
+    };
+    for count in 1..=6 {
+        let svg = strip_of(&panels[..count]).unwrap();
+        assert_well_formed(&svg);
+        assert!((0..count).all(|k| svg.contains(&format!("step {k}<"))));
+        assert!(svg.contains("50, 90, 99 %"));
+    }
+    assert!(matches!(strip_of(&[]), Err(PlotError::Empty { .. })));
+    let flat = vec![vec![1.0]; 3];
+    let panel = StripPanel {
+        title: "",
+        particles: PointCloud::equal(&flat),
+    };
+    assert!(matches!(strip_of(&[panel]), Err(PlotError::Dimension { .. })));
+}

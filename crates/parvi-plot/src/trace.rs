@@ -1,0 +1,82 @@
+//! Traces of a run: residual, energy and the like against the step.
+
+use super::chart::{Chart, Legend};
+use super::data::PlotError;
+use super::scale::AxisKind;
+use super::series::{ChartPanel, ChartSeries, ReferenceLevel};
+use super::style::FIGURE_WIDTH;
+
+/// One quantity of one run.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct TraceSeries {
+    /// The text in the legend; the same run keeps label and colour across panels.
+    pub label: String,
+    /// The steps.
+    pub step: Vec<f64>,
+    /// The values; one that is not finite interrupts the line.
+    pub value: Vec<f64>,
+}
+
+/// One quantity of all runs.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct TracePanel {
+    /// The label of the vertical axis, with its unit.
+    pub y_label: String,
+    /// The division of the vertical axis: by default logarithmic where all values are positive and their range is wide.
+    pub y_axis: AxisKind,
+    /// The runs.
+    pub series: Vec<TraceSeries>,
+    /// Horizontal lines, e.g. the value for independent draws.
+    pub levels: Vec<ReferenceLevel>,
+}
+
+/// A figure of traces, one panel per quantity.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct TracePlot {
+    /// The title; empty for none.
+    pub title: String,
+    /// The label of the horizontal axis, e.g. "step".
+    pub x_label: String,
+    /// The panels, two in a row.
+    pub panels: Vec<TracePanel>,
+}
+
+/// Draws traces as an SVG document.
+///
+/// # Errors
+/// [`PlotError::Empty`] if no value can be drawn, [`PlotError::Size`] if steps and values differ in number.
+pub fn trace(plot: &TracePlot) -> Result<String, PlotError> {
+    let all = plot.panels.iter().flat_map(|panel| &panel.series);
+    let legend = Legend::of(all.map(|series| &series.label));
+    let line = |series: &TraceSeries| {
+        let label = if legend.len() < 2 { "" } else { &series.label };
+        ChartSeries {
+            // A line of one point is invisible.
+            markers: series.step.len() == 1,
+            ..ChartSeries::line(label, legend.style(&series.label), &series.step, &series.value)
+        }
+    };
+    let panels = plot.panels.iter().map(|panel| ChartPanel {
+        title: String::new(),
+        x_label: plot.x_label.clone(),
+        y_label: panel.y_label.clone(),
+        x_kind: AxisKind::Linear,
+        y_kind: panel.y_axis,
+        series: panel.series.iter().map(line).collect(),
+        levels: panel.levels.clone(),
+    });
+    let columns = plot.panels.len().clamp(1, 2);
+    Chart {
+        title: plot.title.clone(),
+        panels: panels.collect(),
+        columns,
+        width: if columns == 1 {
+            0.76 * FIGURE_WIDTH
+        } else {
+            FIGURE_WIDTH
+        },
+        panel_height: 150.0,
+        notes: Vec::new(),
+    }
+    .draw()
+}

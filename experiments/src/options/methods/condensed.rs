@@ -1,0 +1,38 @@
+//! `stein-thinning` and `support-points`: particles from a bigger sample.
+
+use parvi::{Method, Pool, SteinThinningOptions, SupportPointsOptions};
+
+use super::MethodKind;
+use crate::options::{ParticleCount, PoolChoice};
+
+/// The draws of a bigger sample with the least kernel Stein discrepancy.
+pub const STEIN_THINNING: MethodKind = MethodKind {
+    name: "stein-thinning",
+    options: "warm-up chains thinning target-acceptance pool pool-size start-mean start-sd start-draws",
+    iterates: false,
+    build: |options, _| {
+        Ok(Method::SteinThinning(SteinThinningOptions {
+            pool: match options.pool_choice()? {
+                None => Pool::default(),
+                Some(PoolChoice::Exact) => Pool::Exact,
+                Some(PoolChoice::Nuts) => Pool::Nuts(options.nuts()),
+            },
+            pool_size: options.pool_size.map(ParticleCount::get),
+        }))
+    },
+};
+
+/// The points with the least energy distance to a bigger sample.
+pub const SUPPORT_POINTS: MethodKind = MethodKind {
+    name: "support-points",
+    options: "steps pool-size tolerance",
+    iterates: false,
+    build: |options, steps| {
+        let default = SupportPointsOptions::default();
+        Ok(Method::SupportPoints(SupportPointsOptions {
+            pool_size: options.pool_size.map(ParticleCount::get),
+            steps,
+            tolerance: options.tolerance.unwrap_or(default.tolerance),
+        }))
+    },
+};

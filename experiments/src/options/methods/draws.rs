@@ -1,0 +1,32 @@
+//! `ais`, `iid` and `sobol`: draws that no steps move.
+
+use parvi::{AisOptions, Method};
+
+use super::MethodKind;
+
+/// Adaptive importance sampling.
+pub const AIS: MethodKind = MethodKind {
+    name: "ais",
+    options: "evaluations pool start-mean start-sd start-draws",
+    iterates: false,
+    build: |options, _| {
+        Ok(Method::Ais(AisOptions {
+            evaluations: options.evaluations(),
+        }))
+    },
+};
+
+/// Independent exact draws.
+pub const IID: MethodKind = MethodKind {
+    name: "iid",
+    options: "",
+    iterates: false,
+    build: |_, _| Ok(Method::Iid),
+};
+
+/// Scrambled Sobol points.
+pub const SOBOL: MethodKind = MethodKind {
+    name: "sobol",
+    build: |_, _| Ok(Method::Sobol),
+    ..IID
+};
