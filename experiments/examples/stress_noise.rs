@@ -30,7 +30,7 @@ fn main() -> Result<()> {
 
 /// Root mean squares of p_k − fit and of p_k over the volume.
 fn noise(frame: &Frame, radius: f64) -> Result<(f64, f64)> {
-    let (positions, pressures, volumes) = (plane(&frame)?, frame.field("pressure")?, frame.field("volume")?);
+    let (positions, pressures, volumes) = (plane(frame)?, frame.field("pressure")?, frame.field("volume")?);
     let bin = |x: &[f64; 2]| x.map(|c| (c / radius).floor() as i64);
     let mut bins: HashMap<[i64; 2], Vec<usize>> = HashMap::new();
     for (k, x) in positions.iter().enumerate() {
