@@ -32,8 +32,11 @@ const WALKING: f64 = 0.05;
 const SHARPENING: f64 = 0.02;
 const ADAPTING: f64 = 0.75;
 
-/// Share of the evaluations that are drawn at a time in search of what the rounds have not met, and how many times that all searches may take.
+/// Share of the evaluations that are drawn at a time in search of what the rounds have not met, unless that is more than so large a share of what these took
+/// and of the effective size that is wanted; and how many times that all searches may take.
 const SEARCHING: f64 = 0.1;
+const SEARCHING_OF_SPENT: f64 = 0.5;
+const SEARCHING_OF_GOAL: f64 = 0.2;
 const SEARCHES: u64 = 5;
 
 /// Share of the last effective share that a round must have to be kept.
@@ -102,7 +105,10 @@ impl<const D: usize> Adaptation<D> {
 
     /// Looks for what the rounds have not met; whether there is something, and the rounds are to go on.
     pub fn search(&mut self, density: &mut Density<'_, D>, plan: &Plan, rng: &mut ChaCha8Rng) -> bool {
-        let count = (SEARCHING * plan.evaluations as f64) as usize / (2 * LANES) * 2 * LANES;
+        let spent = density.evaluations() - self.searched;
+        let count = (SEARCHING * plan.evaluations as f64)
+            .min((SEARCHING_OF_SPENT * spent as f64).max(SEARCHING_OF_GOAL * plan.goal));
+        let count = count as usize / (2 * LANES) * 2 * LANES;
         let allowed = (SEARCHES * count as u64).saturating_sub(self.searched);
         if allowed < count as u64 || self.is_used_up(plan, density.evaluations()) {
             return false;

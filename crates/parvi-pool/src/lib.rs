@@ -7,6 +7,7 @@ mod compiled;
 mod condense;
 mod curvature;
 mod density;
+mod energy;
 mod estimate;
 mod fold;
 mod freeze;
@@ -32,6 +33,7 @@ mod walk;
 mod weights;
 
 pub use condense::condense;
+pub use energy::EnergyDistance;
 pub use estimate::{Estimate, Pool};
 pub use measure::Measure;
 pub use mixture::{Kernel, Mixture};

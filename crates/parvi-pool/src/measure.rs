@@ -1,12 +1,11 @@
 //! What stands for the target when all weights are put together: a signed measure.
 
-use mpm_tensor::{Matrix, vector};
-use parvi_targets::{Frame, SobolSequence, normal_quantile};
+use mpm_tensor::vector;
+use parvi_targets::Frame;
 
 use crate::condense::condense;
 use crate::estimate::Estimate;
 use crate::fold::Fold;
-use crate::gamma::log_gamma_of_half;
 use crate::weights::{tempered, top};
 
 /// Free draws of a last proposal, per point wanted.
@@ -171,88 +170,11 @@ impl<const D: usize> Measure<D> {
         let variance = |a: usize| self.integral(|y| (y[a] - mean[a]).powi(2));
         (mean, std::array::from_fn(|a| variance(a).max(0.0).sqrt()))
     }
-
-    /// 2 E|x − Y| − E|x − x′| of particles x against this measure, in the coordinates of a frame: the energy distance up to a constant of the measure.
-    ///
-    /// |x| is c_D times the mean of |⟨u, x⟩| over directions u, c_D = √π Γ((D + 1)/2)/Γ(D/2), so that the distance is that of projections, here on 128 of
-    /// them, always the same: O((M + N) log (M + N)) each (A. Feuerverger, 1993; L. Baringhaus, C. Franz, *On a new multivariate two-sample test*, J. Multivar. Anal. 88, 2004).
-    pub fn energy(&self, particles: &[[f64; D]], frame: &Frame<D>) -> f64 {
-        let own = 1.0 / particles.len() as f64;
-        let inverse = frame.factor().lower_triangular_inverse().unwrap_or(Matrix::IDENTITY);
-        let along = |u: &[f64; D]| {
-            let u = inverse.transpose().apply(u);
-            let of_measure = self.points.iter().zip(&self.weights).filter(|(_, c)| **c != 0.0);
-            let of_measure = of_measure.map(|(y, c)| (vector::dot(&u, y), *c, 0.0));
-            let of_particles = particles.iter().map(|x| (vector::dot(&u, x), 0.0, own));
-            projected_energy(of_measure.chain(of_particles).collect())
-        };
-        let directions = directions::<D>();
-        let each = mpm_parallel::map(directions.iter(), &along);
-        let log_scale = log_gamma_of_half(D as u32 + 1) - log_gamma_of_half(D as u32);
-        std::f64::consts::PI.sqrt() * log_scale.exp() * each.iter().sum::<f64>() / directions.len() as f64
-    }
-}
-
-/// Directions of the projections that energies are taken from.
-const DIRECTIONS: usize = 128;
-
-/// Quasi-random directions; in one dimension there is one.
-fn directions<const D: usize>() -> Vec<[f64; D]> {
-    if D == 1 {
-        return vec![[1.0; D]];
-    }
-    let Ok(sequence) = SobolSequence::scrambled(D, 0) else {
-        return Vec::new();
-    };
-    let direction = |index| {
-        let mut u = [0.0; D];
-        sequence.write(index, &mut u);
-        let z = u.map(normal_quantile);
-        vector::scale(&z, 1.0 / vector::norm(&z))
-    };
-    (0..DIRECTIONS as u32).map(direction).collect()
-}
-
-/// 2 Σ c w |s − t| − Σ w w′ |t − t′| over entries (place, c, w): with C and W the sums up to a place, ∫ (2 C (1 − W) + 2 W (1 − C) − 2 W (1 − W)) ds where all sum to one.
-fn projected_energy(mut entries: Vec<(f64, f64, f64)>) -> f64 {
-    entries.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-    let total: f64 = entries.iter().map(|(_, c, _)| c).sum();
-    let (mut measure, mut particles, mut sum) = (0.0, 0.0, 0.0);
-    for pair in entries.windows(2) {
-        measure += pair[0].1;
-        particles += pair[0].2;
-        let cross = measure * (1.0 - particles) + particles * (total - measure);
-        sum += (pair[1].0 - pair[0].0) * 2.0 * (cross - particles * (1.0 - particles));
-    }
-    sum
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_energy_is_that_of_all_pairs() {
-        let wave = |n: usize, rate: f64| (rate * n as f64).sin();
-        let points: Vec<[f64; 3]> = (0..40)
-            .map(|n| [wave(n, 1.0), wave(n, 2.3), 2.0 * wave(n, 0.7)])
-            .collect();
-        let weights: Vec<f64> = (0..40).map(|n| (1.0 + wave(n, 3.0) * 1.2) / 40.0).collect();
-        let total: f64 = weights.iter().sum();
-        let weights: Vec<f64> = weights.iter().map(|c| c / total).collect();
-        let particles: Vec<[f64; 3]> = (0..15).map(|n| [wave(n, 0.3), wave(n, 1.9), wave(n, 2.9)]).collect();
-        let covariance = Matrix([[0.25, 0.3, 0.0], [0.3, 1.0, -0.5], [0.0, -0.5, 4.0]]);
-        let frame = Frame::new([0.1, 0.2, 0.3], covariance).unwrap();
-        let distance = |x: &[f64; 3], y: &[f64; 3]| vector::distance(&frame.to_reference(x), &frame.to_reference(y));
-        let mean = |x: &[f64; 3]| -> f64 {
-            let to_measure: f64 = points.iter().zip(&weights).map(|(y, c)| c * distance(x, y)).sum();
-            let to_others: f64 = particles.iter().map(|y| distance(x, y)).sum();
-            2.0 * to_measure - to_others / 15.0
-        };
-        let wanted = particles.iter().map(mean).sum::<f64>() / 15.0;
-        let found = Measure::new(points.clone(), weights.clone()).energy(&particles, &frame);
-        assert!((found / wanted - 1.0).abs() < 0.02, "{found} {wanted}");
-    }
 
     #[test]
     fn shares_are_the_masses_nearest_to_the_particles() {

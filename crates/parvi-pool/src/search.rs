@@ -14,10 +14,10 @@ use crate::scout::{about, wide};
 use crate::weights::tempered;
 
 /// Widths of the wide law over the spread of what is known, and their shares.
-const WIDTHS: [(f64, f64); 2] = [(1.25, 0.4), (2.5, 0.15)];
+const WIDTHS: [(f64, f64); 2] = [(1.25, 0.3), (3.0, 0.3)];
 
 /// The same for a round kernel, over the largest spread along any direction.
-const ROUND: (f64, f64) = (1.1, 0.25);
+const ROUND: (f64, f64) = (1.1, 0.2);
 
 /// Share of the wide law that is as wide as the frame.
 const OF_FRAME: f64 = 0.2;

@@ -3,7 +3,7 @@
 use mpm_core::Particles;
 use mpm_materials::IsothermalGas;
 use mpm_tensor::vector;
-use parvi_pool::Pool;
+use parvi_pool::{EnergyDistance, Pool};
 use parvi_targets::{Frame, Target};
 
 use crate::basis_choice::Parts;
@@ -25,6 +25,7 @@ pub(crate) struct Polish<'a, const D: usize> {
     run: &'a Run,
     /// The coordinates in which the body moves and energy distances are taken: those in which the pool has mean zero and covariance I.
     frame: Frame<D>,
+    distance: EnergyDistance<D>,
     spacing: f64,
     entropy_power: f64,
 }
@@ -45,11 +46,13 @@ impl<'a, const D: usize> Polish<'a, D> {
         pool: &'a Pool<D>,
         run: &'a Run,
     ) -> Result<Self, SampleError> {
+        let frame = pool.measure.frame();
         let entropy_power = pool.entropy_power();
         let default = defaults::polish_spacing::<D>(options.basis, run.particles, entropy_power);
         Ok(Self {
             spacing: positive("spacing", options.spacing, default)?,
-            frame: pool.measure.frame(),
+            distance: EnergyDistance::new(&pool.measure, frame),
+            frame,
             entropy_power,
             options,
             target,
@@ -198,7 +201,7 @@ impl<'a, const D: usize> Polish<'a, D> {
     }
 
     fn energy(&self, body: &Driven<D>) -> f64 {
-        self.pool.measure.energy(&body.samples.positions, &self.frame)
+        self.distance.of(&body.samples.positions)
     }
 }
 
