@@ -128,7 +128,7 @@ fn a_run_that_fails_is_a_row() {
     );
 }
 
-/// Errors beside the exact motion and beside a finer run, which is run once; the finer run beside itself has none. Histories are drawn from the series.
+/// Errors beside the exact motion and beside a finer run, which is run once; the finer run beside itself has that of the fit between its particles alone. Histories are drawn from the series.
 #[test]
 fn runs_are_compared_with_others() {
     let study = r#"
@@ -185,7 +185,7 @@ drawn = [1.0]
     let rows = rows(root.path());
     let number = |row: usize| rows[row]["value"].parse::<f64>().unwrap();
     assert!(number(0) > 1e-5 && number(1) > 1e-5);
-    assert!(number(2) > 1e-5 && number(3) < 1e-12, "{rows:?}");
+    assert!(number(2) > 1e-3 && number(3) < 1e-5, "{rows:?}");
     assert!(number(4) > 1e-5 && number(5) == 0.0, "{rows:?}");
     assert!(rows[0]["against"].is_empty() && rows[2]["against"] == rows[3]["scene"]);
     assert_eq!(files(&root.path().join("out/raw")).len(), 4);
