@@ -128,6 +128,69 @@ fn a_run_that_fails_is_a_row() {
     );
 }
 
+/// Errors beside the exact motion and beside a finer run, which is run once; the finer run beside itself has that of the fit between its particles alone. Histories are drawn from the series.
+#[test]
+fn runs_are_compared_with_others() {
+    let study = r#"
+kind = "scenes"
+title = "Bars"
+
+[[families]]
+name = "particles"
+title = "Particles"
+scene = "scenes/bar.toml"
+set = { "output.interval" = 1.0 }
+x = ["mesh.generate.size", "grid.spacing"]
+x-label = "spacing h (m)"
+y-label = "error"
+read = { particles = "displacement-error" }
+judgements = [{ kind = "bound", reference = 0.0, tolerance = 0.01 }]
+history = [{ column = "kinetic_energy + strain_energy", label = "energy (J)" }]
+axes = [
+    { choices = [
+        { label = "grid" },
+        { label = "mesh", set = { mesh = { generate = { kind = "segments", start = 0.0, end = 30.0, size = 1.0 } } }, drop = ["grid"] },
+    ] },
+    { key = "grid.spacing", values = [1.0] },
+]
+
+[[families]]
+name = "finer"
+title = "Beside a finer run"
+like = "particles"
+set = { "output.series_interval" = 0.5 }
+y-label = "difference"
+read = { particles = "displacement-error", against = { label = "fine", set = { "grid.spacing" = 0.5 } } }
+axes = [{ key = "grid.spacing", values = [1.0, 0.5] }]
+
+[[families]]
+name = "centre"
+title = "Centre of mass beside a finer run"
+like = "finer"
+y-label = "difference"
+read = { column = "centre_x", take = "difference", against = { label = "fine", set = { "grid.spacing" = 0.5 } } }
+history = [{ column = "centre_x", label = "centre of mass (m)" }]
+drawn = [1.0]
+"#;
+    let root = root(study);
+    let output = parvi(root.path(), "run study.toml --out out");
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert_eq!(
+        value(&output, "verdict").as_deref(),
+        Some("pass"),
+        "{}",
+        stderr(&output)
+    );
+    assert_report(root.path(), 5);
+    let rows = rows(root.path());
+    let number = |row: usize| rows[row]["value"].parse::<f64>().unwrap();
+    assert!(number(0) > 1e-5 && number(1) > 1e-5);
+    assert!(number(2) > 1e-3 && number(3) < 1e-5, "{rows:?}");
+    assert!(number(4) > 1e-5 && number(5) == 0.0, "{rows:?}");
+    assert!(rows[0]["against"].is_empty() && rows[2]["against"] == rows[3]["scene"]);
+    assert_eq!(files(&root.path().join("out/raw")).len(), 4);
+}
+
 /// Asserts that a study with one text replaced is refused before anything is written.
 fn refused(from: &str, to: &str, parts: &[&str]) {
     let text = STUDY.replacen(from, to, 1);
