@@ -1,4 +1,4 @@
-//! The statistics behind the figures and tables: density estimates, power-law fits, medians and quartiles.
+//! The statistics behind the figures and tables: density estimates, power-law fits, medians, weighted quantiles.
 
 pub mod bandwidth;
 pub mod kernel_density;
