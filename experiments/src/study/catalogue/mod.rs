@@ -18,7 +18,7 @@ use super::definition::{self, Report, Study, Work};
 use super::directory::StudyDirectory;
 use super::run_row::RunRow;
 use super::start_law::StartLaw;
-use super::yardstick::{Coordinates, CurrentYardstick, IndependentSets, YardstickOptions, run_into};
+use super::yardstick::{Coordinates, CurrentYardstick, IndependentSets, YardstickOptions};
 use crate::CommandError;
 use crate::options::{Bounded, Dimension, MethodSpecification, ParticleCount, TargetParameters, TargetSpecification};
 
@@ -230,11 +230,24 @@ impl Study for Catalogue {
         let start = case.method.options.start();
         run.start = case.start.map_or(start, |law| law.start(start));
         let method = case.method.method(None)?;
-        run_into(&mut row, &case.target, &method, &run, yardstick, work.observer)?;
+        row.run(&case.target, &method, &run, yardstick, work.observer)?;
         Ok(row)
     }
 
     fn report(&self, rows: &[RunRow], directory: &StudyDirectory) -> Result<Report, CommandError> {
         report::report(self, rows, directory)
     }
+}
+
+/// The runs of a method on a target from a start; those without a start belong to every one.
+fn runs<'a>(rows: &'a [RunRow], target: &str, method: &str, start: Option<StartLaw>) -> Vec<&'a RunRow> {
+    rows.iter()
+        .filter(|row| row.target == target && row.method == method)
+        .filter(|row| row.start_mean.is_none() || is_from(row, start))
+        .collect()
+}
+
+fn is_from(row: &RunRow, start: Option<StartLaw>) -> bool {
+    let law = start.map(|law| (law.mean, law.standard_deviation));
+    row.start_mean.zip(row.start_sd) == law
 }

@@ -13,7 +13,7 @@ use super::checks::{distinct, not_empty};
 use super::definition::{self, Report, Study, Work};
 use super::directory::StudyDirectory;
 use super::run_row::RunRow;
-use super::yardstick::{Coordinates, CurrentYardstick, YardstickOptions, run_into};
+use super::yardstick::{Coordinates, CurrentYardstick, YardstickOptions};
 use crate::CommandError;
 use crate::options::{Bounded, MethodName, MethodSpecification, ParticleCount, StepCount, TargetSpecification};
 
@@ -157,7 +157,7 @@ impl Study for TimeError {
         let mut run = Run::new(case.particles, case.seed);
         run.start = case.method.options.start();
         let method = case.method.method(case.steps)?;
-        let drawn_from_sample = run_into(&mut row, &case.target, &method, &run, yardstick, work.observer)?;
+        let drawn_from_sample = row.run(&case.target, &method, &run, yardstick, work.observer)?;
         if drawn_from_sample && row.finished() {
             row.note = "drawn from the importance sample".to_owned();
         }
