@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::error::Error;
 use std::path::Path;
 
-use parvi_experiments::output::AtomicFile;
+use parvi_experiments::AtomicFile;
 use parvi_experiments::plots::{AxisKind, HeatMapPlot, HeatPanel, TracePanel, TracePlot, TraceSeries, heat_map, trace};
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;

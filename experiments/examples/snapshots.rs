@@ -4,7 +4,7 @@
 //! `x_lower,y_lower,x_upper,y_upper`; COLUMNS is how many frames stand in a row.
 
 use mpm_scenes::output::Frame;
-use parvi_experiments::output::AtomicFile;
+use parvi_experiments::AtomicFile;
 use parvi_experiments::plots::{SnapshotPanel, SnapshotsPlot, snapshots};
 
 /// Anything may go wrong in an example.

@@ -1,7 +1,7 @@
 //! The `parvi` command: sampling, studies, reports and plots.
 //!
-//! [`command`] parses the command line; [`options`] holds what flags and configurations share; [`sampling`] runs a sampler
-//! on a target of run-time dimension; [`output`] writes particles; [`study`] runs lists of cases into a directory and
+//! [`command`] parses the command line; `options` holds what flags and configurations share; `sampling` runs a sampler
+//! on a target of run-time dimension; `output` writes particles; `study` runs lists of cases into a directory and
 //! reports on them with [`plots`] and [`statistics`].
 
 pub mod command;
@@ -13,12 +13,13 @@ mod interrupt;
 mod machine;
 #[cfg(feature = "mechanics")]
 mod mechanics;
-pub mod options;
-pub mod output;
-pub mod pictures;
+mod options;
+mod output;
+mod pictures;
 mod progress;
-pub mod sampling;
-pub mod study;
+mod sampling;
+mod study;
 
 pub use error::CommandError;
+pub use output::AtomicFile;
 pub use parvi_plot::{self as plots, statistics};

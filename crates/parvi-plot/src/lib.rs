@@ -2,34 +2,34 @@
 //!
 //! ## Where to begin
 //!
-//! With [`multiples()`](multiples::multiples), lines over one pair of axes or several, and [`histogram()`](histogram::histogram). All figures share [`style`]
-//! and a small drawing layer: [`svg`] for the document, [`scale`] and [`panel`] for axes, [`legend`], [`contour`] for lines of equal density. It is no general
-//! plotting library, and knows nothing of samplers, files or reports.
+//! With [`multiples`], lines over one pair of axes or several, and [`histogram`]. All figures share [`style`] and a small drawing layer: `svg` for the
+//! document, `scale` and `panel` for axes, `legend`, `contour` for lines of equal density. It is no general plotting library, and knows nothing of samplers,
+//! files or reports.
 
 mod chart;
 mod chart_panel;
-pub mod cloud;
-pub mod contour;
-pub mod corner;
-pub mod data;
+mod cloud;
+mod contour;
+mod corner;
+mod data;
 mod density_panel;
-pub mod dots;
-pub mod heat_map;
-pub mod histogram;
-pub mod legend;
-pub mod multiples;
-pub mod panel;
-pub mod scale;
-pub mod scaling;
+mod dots;
+mod heat_map;
+mod histogram;
+mod legend;
+mod multiples;
+mod panel;
+mod scale;
+mod scaling;
 mod series;
-pub mod snapshots;
+mod snapshots;
 pub mod statistics;
-pub mod strip;
+mod strip;
 pub mod style;
-pub mod svg;
-pub mod text;
-pub mod time_error;
-pub mod trace;
+mod svg;
+mod text;
+mod time_error;
+mod trace;
 
 #[cfg(test)]
 mod tests;

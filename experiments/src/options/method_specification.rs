@@ -47,15 +47,6 @@ impl MethodSpecification {
         Ok(Self { name, label, options })
     }
 
-    /// A method with its default options.
-    pub fn plain(name: MethodName) -> Self {
-        Self {
-            name,
-            label: None,
-            options: MethodOptions::default(),
-        }
-    }
-
     /// The name in tables and figures.
     pub fn label(&self) -> &str {
         self.label.as_deref().unwrap_or(self.name.as_str())

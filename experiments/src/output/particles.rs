@@ -57,11 +57,6 @@ impl Particles {
         self.coordinates.len() / self.dimension.max(1)
     }
 
-    /// Whether there is no point.
-    pub fn is_empty(&self) -> bool {
-        self.coordinates.is_empty()
-    }
-
     /// The points, as slices of length d.
     pub fn rows(&self) -> impl Iterator<Item = &[f64]> {
         self.coordinates.chunks_exact(self.dimension.max(1))
@@ -70,11 +65,6 @@ impl Particles {
     /// All coordinates, one point after the other.
     pub fn coordinates(&self) -> &[f64] {
         &self.coordinates
-    }
-
-    /// One coordinate of every point.
-    pub fn column(&self, axis: usize) -> Vec<f64> {
-        self.rows().map(|row| row[axis]).collect()
     }
 
     /// Weights that sum to one; `None` when all are equal.

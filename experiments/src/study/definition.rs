@@ -27,6 +27,16 @@ pub trait Case: Sync {
     }
 }
 
+/// What a case is run with.
+pub struct Work<'a, S> {
+    /// What earlier cases left in memory.
+    pub shared: &'a mut S,
+    /// Where raw results go.
+    pub directory: &'a StudyDirectory,
+    /// Watches the runs, and stops them.
+    pub observer: &'a mut CaseObserver,
+}
+
 /// A study: its configuration, which is a list of cases, and the report on their rows.
 pub trait Study: DeserializeOwned + Sync {
     /// A case.
@@ -63,11 +73,6 @@ pub trait Study: DeserializeOwned + Sync {
         Vec::new()
     }
 
-    /// The number of threads, where `threads` of the configuration does not say it; `None`: as many as the environment gives.
-    fn threads(&self) -> Option<usize> {
-        None
-    }
-
     /// All cases, in the order in which they run.
     ///
     /// # Errors
@@ -75,13 +80,10 @@ pub trait Study: DeserializeOwned + Sync {
     fn cases(&self) -> Result<Vec<Self::Case>, CommandError>;
 
     /// Runs a case; raw results go into the directory, the row is appended by the caller.
-    fn run(
-        &self,
-        case: &Self::Case,
-        shared: &mut Self::Shared,
-        directory: &StudyDirectory,
-        observer: &mut CaseObserver,
-    ) -> Result<Self::Row, CommandError>;
+    ///
+    /// # Errors
+    /// What ends the whole study; a run that diverges is a row.
+    fn run(&self, case: &Self::Case, work: Work<'_, Self::Shared>) -> Result<Self::Row, CommandError>;
 
     /// Tables and plots of the rows, which may be a part of all; nothing is sampled.
     fn report(&self, rows: &[Self::Row], directory: &StudyDirectory) -> Result<Report, CommandError>;

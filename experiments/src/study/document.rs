@@ -209,12 +209,6 @@ pub fn number(value: f64) -> String {
     }
 }
 
-/// As [`number`], or [`MISSING`].
-#[cfg(feature = "mechanics")]
-pub fn optional_number(value: Option<f64>) -> String {
-    value.map_or(MISSING.to_owned(), number)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -6,7 +6,7 @@ use parvi_targets::BoxedTarget;
 use serde::de::DeserializeOwned;
 
 use super::attempt::{Attempt, Status, attempt};
-use super::definition::{self, Report, Study};
+use super::definition::{self, Report, Study, Work};
 use super::directory::StudyDirectory;
 use super::results::single_line;
 use super::run_row::RunRow;
@@ -50,14 +50,8 @@ impl<S: GaussianStudy> Study for S {
         GaussianStudy::cases(self)
     }
 
-    fn run(
-        &self,
-        case: &Case,
-        (): &mut (),
-        _directory: &StudyDirectory,
-        observer: &mut CaseObserver,
-    ) -> Result<RunRow, CommandError> {
-        run_case(case, observer)
+    fn run(&self, case: &Case, work: Work<'_, ()>) -> Result<RunRow, CommandError> {
+        run_case(case, work.observer)
     }
 
     fn report(&self, rows: &[RunRow], directory: &StudyDirectory) -> Result<Report, CommandError> {

@@ -1,11 +1,15 @@
 //! What a run gave, as several studies write it.
 
+use parvi::{Method, Run};
 use serde::{Deserialize, Serialize};
 
 use super::attempt::{Attempt, Status};
 use super::definition::Case;
 use super::results;
-use super::yardstick::Errors;
+use super::yardstick::{Errors, Yardstick, measured_run};
+use crate::CommandError;
+use crate::options::TargetSpecification;
+use crate::progress::CaseObserver;
 use crate::sampling::Outcome;
 use crate::statistics::summarize;
 
@@ -125,6 +129,31 @@ impl RunRow {
         Self {
             case: case.id(),
             ..Self::default()
+        }
+    }
+
+    /// Runs a method on a target and notes what comes of it; whether the particles are independent draws from an importance sample.
+    ///
+    /// # Errors
+    /// As for [`measured_run`].
+    pub fn run(
+        &mut self,
+        target: &TargetSpecification,
+        method: &Method,
+        run: &Run,
+        yardstick: &dyn Yardstick,
+        observer: &mut CaseObserver,
+    ) -> Result<bool, CommandError> {
+        match measured_run(target, method, run, yardstick, observer)? {
+            Attempt::Failed(status, reason) => {
+                self.fail(status, reason);
+                Ok(false)
+            }
+            Attempt::Finished(finished) => {
+                self.take(&finished.outcome);
+                self.measured(finished.errors);
+                Ok(finished.from_importance_sample)
+            }
         }
     }
 

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 use std::path::Path;
 
 use super::configuration::Configuration;
-use super::definition::{Case, Study};
+use super::definition::{Case, Study, Work};
 use super::directory::StudyDirectory;
 use super::manifest::{Manifest, Provenance};
 use super::results::{ResultsFile, Row};
@@ -22,7 +22,7 @@ pub fn run<S: Study>(configuration: &Configuration, out: &Path) -> Result<(), Co
         method.check_built()?;
     }
     let directory = StudyDirectory::claim(out, configuration)?;
-    in_threads(configuration.threads().or(study.threads()), || {
+    in_threads(configuration.threads(), || {
         let mut results = ResultsFile::<S::Row>::open(&directory.results(), S::COLUMNS)?;
         study.check_earlier(results.rows()).map_err(located)?;
         note_start(&study, configuration, &directory)?;
@@ -35,9 +35,7 @@ pub fn run<S: Study>(configuration: &Configuration, out: &Path) -> Result<(), Co
 pub fn report<S: Study>(configuration: &Configuration, directory: &StudyDirectory) -> Result<(), CommandError> {
     let study: S = configuration.parse()?;
     let rows = ResultsFile::<S::Row>::read(&directory.results())?;
-    in_threads(configuration.threads().or(study.threads()), || {
-        write_report(&study, &rows, directory)
-    })
+    in_threads(configuration.threads(), || write_report(&study, &rows, directory))
 }
 
 /// Names the file in errors about fields.
@@ -112,7 +110,12 @@ fn run_missing<S: Study>(
         let result = if interrupt::requested() {
             Err(interrupted(results.rows().len(), cases.len()))
         } else {
-            study.run(case, &mut shared, directory, &mut progress.begin(&id, case.cost()))
+            let work = Work {
+                shared: &mut shared,
+                directory,
+                observer: &mut progress.begin(&id, case.cost()),
+            };
+            study.run(case, work)
         };
         match result {
             Ok(row) => results.append(row)?,

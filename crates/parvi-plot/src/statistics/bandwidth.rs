@@ -14,8 +14,6 @@ pub enum Bandwidth {
     SheatherJones,
     /// 0.9 min(σ, IQR / 1.34) n^(−1/5).
     Silverman,
-    /// 1.06 σ n^(−1/5).
-    Scott,
     /// This width, in the units of the data; must be positive.
     Fixed(f64),
 }
@@ -56,7 +54,6 @@ pub fn bandwidth(values: &[f64], weights: Option<&[f64]>, rule: Bandwidth) -> Re
         0.9 * scale * size.powf(-0.2)
     };
     Ok(match rule {
-        Bandwidth::Scott => 1.06 * deviation * size.powf(-0.2),
         Bandwidth::SheatherJones => sheather_jones(values, weights, size, (levels[0], levels[3])).unwrap_or(silverman),
         _ => silverman,
     })
@@ -161,7 +158,7 @@ mod tests {
     fn all_rules_agree_on_a_gaussian() {
         let points = normal_points(2000, 3.0, 2.0);
         let best = 1.06 * 2.0 * 2000f64.powf(-0.2);
-        for rule in [Bandwidth::SheatherJones, Bandwidth::Silverman, Bandwidth::Scott] {
+        for rule in [Bandwidth::SheatherJones, Bandwidth::Silverman] {
             let width = bandwidth(&points, None, rule).unwrap();
             assert!((0.75..1.15).contains(&(width / best)), "{rule:?}: {width}");
         }

@@ -1,10 +1,10 @@
-//! The statistics behind the figures and tables: density estimates, power-law fits, medians and quartiles.
+//! The statistics behind the figures and tables: density estimates, power-law fits, medians, weighted quantiles.
 
-pub mod bandwidth;
-pub mod kernel_density;
-pub mod kernel_density_grid;
-pub mod power_law;
-pub mod summary;
+mod bandwidth;
+mod kernel_density;
+mod kernel_density_grid;
+mod power_law;
+mod summary;
 
 pub use bandwidth::{Bandwidth, bandwidth};
 pub use kernel_density::{DensityGrid, equidistant, kernel_density};

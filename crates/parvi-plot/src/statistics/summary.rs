@@ -1,26 +1,19 @@
-//! Median, quartiles and extremes of a sample.
+//! Median and extremes of a sample, and weighted quantiles.
 
 use super::{StatisticsError, check_finite, check_weighted};
 
-/// The five-number summary of a sample.
+/// Median and extremes of a sample.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Summary {
-    /// The number of values.
-    pub count: usize,
     /// The smallest value.
     pub minimum: f64,
-    /// The quantile at ¼.
-    pub lower_quartile: f64,
-    /// The quantile at ½.
+    /// The value in the middle.
     pub median: f64,
-    /// The quantile at ¾.
-    pub upper_quartile: f64,
     /// The largest value.
     pub maximum: f64,
 }
 
-/// The five-number summary of `values`. A quantile at q interpolates linearly between the order statistics around
-/// position q (n − 1) (Hyndman & Fan 1996, definition 7).
+/// Median and extremes of `values`; of an even number the median is half-way between the two in the middle.
 ///
 /// # Errors
 /// [`StatisticsError::Empty`] without values, [`StatisticsError::NotFinite`] if one is NaN or infinite.
@@ -31,19 +24,11 @@ pub fn summarize(values: &[f64]) -> Result<Summary, StatisticsError> {
     check_finite("values", values)?;
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
-    let quantile = |level: f64| {
-        let position = level * (sorted.len() - 1) as f64;
-        let below = (position.floor() as usize).min(sorted.len() - 1);
-        let above = (below + 1).min(sorted.len() - 1);
-        sorted[below] + (position - below as f64) * (sorted[above] - sorted[below])
-    };
+    let last = sorted.len() - 1;
     Ok(Summary {
-        count: sorted.len(),
         minimum: sorted[0],
-        lower_quartile: quantile(0.25),
-        median: quantile(0.5),
-        upper_quartile: quantile(0.75),
-        maximum: sorted[sorted.len() - 1],
+        median: sorted[last / 2] + 0.5 * (last % 2) as f64 * (sorted[last.div_ceil(2)] - sorted[last / 2]),
+        maximum: sorted[last],
     })
 }
 
@@ -87,19 +72,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn quartiles_follow_definition_seven() {
-        let summary = summarize(&[4.0, 1.0, 3.0, 2.0]).unwrap();
-        assert_eq!(summary.count, 4);
-        assert_eq!((summary.minimum, summary.maximum), (1.0, 4.0));
-        assert_eq!(summary.lower_quartile, 1.75);
-        assert_eq!(summary.median, 2.5);
-        assert_eq!(summary.upper_quartile, 3.25);
-    }
-
-    #[test]
-    fn one_value_is_its_own_summary() {
-        let summary = summarize(&[7.0]).unwrap();
-        assert_eq!((summary.lower_quartile, summary.median), (7.0, 7.0));
+    fn the_median_is_in_the_middle() {
+        let of = |values: &[f64]| {
+            let summary = summarize(values).unwrap();
+            [summary.minimum, summary.median, summary.maximum]
+        };
+        assert_eq!(of(&[4.0, 1.0, 3.0, 2.0]), [1.0, 2.5, 4.0]);
+        assert_eq!(of(&[3.0, 1.0, 9.0]), [1.0, 3.0, 9.0]);
+        assert_eq!(of(&[7.0]), [7.0; 3]);
     }
 
     #[test]

@@ -5,7 +5,7 @@ use std::path::Path;
 use mpm_rom::experiment::{Experiment, ReducedRow};
 use mpm_rom::training::EpochReport;
 
-use super::run::groups;
+use super::groups;
 use crate::CommandError;
 use crate::output::AtomicFile;
 use crate::plots::{

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use mpm_rom::experiment::{Experiment, ReducedRow, SuperResolved, run_experiment};
 
-use super::figures;
 use super::progress::CountProgress;
+use super::{figures, groups};
 use crate::{CommandError, console, interrupt};
 
 /// Reduced runs of all test cases, their table and figures.
@@ -78,17 +78,4 @@ fn variant(row: &ReducedRow) -> String {
     } else {
         format!(" variant={}", row.variant)
     }
-}
-
-/// Rows of runs that were made in the same way, in the order in which these come first.
-pub fn groups(rows: &[ReducedRow]) -> Vec<Vec<&ReducedRow>> {
-    let mut groups: Vec<Vec<&ReducedRow>> = Vec::new();
-    for row in rows {
-        let same = |group: &&mut Vec<&ReducedRow>| group[0].way() == row.way();
-        match groups.iter_mut().find(same) {
-            Some(group) => group.push(row),
-            None => groups.push(vec![row]),
-        }
-    }
-    groups
 }

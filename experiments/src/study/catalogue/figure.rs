@@ -1,8 +1,7 @@
 //! The figure of the study `catalogue`: what the judged method reaches, target by target, from every start.
 
-use super::Catalogue;
-use super::report::runs;
 use super::requirement::Requirement;
+use super::{Catalogue, runs};
 use crate::CommandError;
 use crate::plots::style::{MARKERS, PALETTE, SeriesStyle};
 use crate::plots::{AxisKind, DotPlot, DotRow, DotSeries};

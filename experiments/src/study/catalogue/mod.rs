@@ -14,14 +14,13 @@ use parvi_targets::{Dimensions, TargetError, target_info};
 use serde::Deserialize;
 
 use super::checks::{distinct, not_empty, refusal, targets_without_data, unset};
-use super::definition::{self, Report, Study};
+use super::definition::{self, Report, Study, Work};
 use super::directory::StudyDirectory;
 use super::run_row::RunRow;
 use super::start_law::StartLaw;
-use super::yardstick::{Coordinates, CurrentYardstick, IndependentSets, YardstickOptions, run_into};
+use super::yardstick::{Coordinates, CurrentYardstick, IndependentSets, YardstickOptions};
 use crate::CommandError;
 use crate::options::{Bounded, Dimension, MethodSpecification, ParticleCount, TargetParameters, TargetSpecification};
-use crate::progress::CaseObserver;
 
 /// All methods on all targets from all starts.
 #[derive(Clone, Debug, Deserialize)]
@@ -213,14 +212,8 @@ impl Study for Catalogue {
         Ok(cases)
     }
 
-    fn run(
-        &self,
-        case: &Case,
-        yardstick: &mut CurrentYardstick,
-        _directory: &StudyDirectory,
-        observer: &mut CaseObserver,
-    ) -> Result<RunRow, CommandError> {
-        let yardstick = yardstick.of(&case.target, &self.yardstick())?;
+    fn run(&self, case: &Case, work: Work<'_, CurrentYardstick>) -> Result<RunRow, CommandError> {
+        let yardstick = work.shared.of(&case.target, &self.yardstick())?;
         let mut row = RunRow {
             target: case.target.label(),
             dim: case.target.dimension()?,
@@ -237,11 +230,24 @@ impl Study for Catalogue {
         let start = case.method.options.start();
         run.start = case.start.map_or(start, |law| law.start(start));
         let method = case.method.method(None)?;
-        run_into(&mut row, &case.target, &method, &run, yardstick, observer)?;
+        row.run(&case.target, &method, &run, yardstick, work.observer)?;
         Ok(row)
     }
 
     fn report(&self, rows: &[RunRow], directory: &StudyDirectory) -> Result<Report, CommandError> {
         report::report(self, rows, directory)
     }
+}
+
+/// The runs of a method on a target from a start; those without a start belong to every one.
+fn runs<'a>(rows: &'a [RunRow], target: &str, method: &str, start: Option<StartLaw>) -> Vec<&'a RunRow> {
+    rows.iter()
+        .filter(|row| row.target == target && row.method == method)
+        .filter(|row| row.start_mean.is_none() || is_from(row, start))
+        .collect()
+}
+
+fn is_from(row: &RunRow, start: Option<StartLaw>) -> bool {
+    let law = start.map(|law| (law.mean, law.standard_deviation));
+    row.start_mean.zip(row.start_sd) == law
 }

@@ -1,9 +1,9 @@
 //! The report of the study `catalogue`.
 
-use super::Catalogue;
 use super::claims::{Claims, worst};
 use super::figure::plot;
 use super::requirement::Requirement;
+use super::{Catalogue, is_from, runs};
 use crate::CommandError;
 use crate::options::TargetSpecification;
 use crate::plots::dots;
@@ -93,19 +93,6 @@ fn verdicts<'a>(
         verdicts.extend(here.map(|row| Verdict { row, requirement }));
     }
     Ok(verdicts)
-}
-
-/// The runs of a method on a target from a start; those without a start belong to every one.
-pub fn runs<'a>(rows: &'a [RunRow], target: &str, method: &str, start: Option<StartLaw>) -> Vec<&'a RunRow> {
-    rows.iter()
-        .filter(|row| row.target == target && row.method == method)
-        .filter(|row| row.start_mean.is_none() || is_from(row, start))
-        .collect()
-}
-
-fn is_from(row: &RunRow, start: Option<StartLaw>) -> bool {
-    let law = start.map(|law| (law.mean, law.standard_deviation));
-    row.start_mean.zip(row.start_sd) == law
 }
 
 /// How many cases meet what is asked, by class and by start.

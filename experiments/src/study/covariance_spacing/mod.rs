@@ -11,12 +11,11 @@ use serde::Deserialize;
 
 use super::attempt::{Attempt, attempt};
 use super::checks::{not_empty, positive, refusal, unset};
-use super::definition::{self, Report, Study};
+use super::definition::{self, Report, Study, Work};
 use super::directory::StudyDirectory;
 use super::moments::SampleMoments;
 use super::run_row::RunRow;
 use crate::options::{Bounded, Dimension, MethodSpecification, ParticleCount, TargetSpecification};
-use crate::progress::CaseObserver;
 use crate::{CommandError, sampling};
 
 /// Resting particles at several spacings, one series per dimension.
@@ -112,13 +111,7 @@ impl Study for CovarianceSpacing {
         Ok(cases)
     }
 
-    fn run(
-        &self,
-        case: &Case,
-        (): &mut (),
-        _directory: &StudyDirectory,
-        observer: &mut CaseObserver,
-    ) -> Result<RunRow, CommandError> {
+    fn run(&self, case: &Case, work: Work<'_, ()>) -> Result<RunRow, CommandError> {
         let mut specification = self.method.clone();
         specification.options.spacing = Some(case.spacing);
         let method = specification.method(None)?;
@@ -131,7 +124,7 @@ impl Study for CovarianceSpacing {
             seed: Some(case.seed),
             ..RunRow::new(case)
         };
-        match attempt(sampling::sample(&target, &method, &run, observer))? {
+        match attempt(sampling::sample(&target, &method, &run, work.observer))? {
             Attempt::Failed(status, reason) => row.fail(status, reason),
             Attempt::Finished(outcome) => {
                 let moments = SampleMoments::of(&outcome.particles);

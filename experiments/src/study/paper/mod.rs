@@ -24,7 +24,7 @@ use watch::Watch;
 
 use super::attempt::{Attempt, Status, attempt};
 use super::checks::refusal;
-use super::definition::{self, Report, Study};
+use super::definition::{self, Report, Study, Work};
 use super::directory::StudyDirectory;
 use super::results::single_line;
 use super::yardstick::{CurrentYardstick, Yardstick, measured, measured_run};
@@ -100,21 +100,15 @@ impl Study for Paper {
         self.all_cases()
     }
 
-    fn run(
-        &self,
-        case: &Case,
-        yardstick: &mut CurrentYardstick,
-        _directory: &StudyDirectory,
-        observer: &mut CaseObserver,
-    ) -> Result<Row, CommandError> {
-        let yardstick = yardstick.of(&case.target, &self.yardstick())?;
+    fn run(&self, case: &Case, work: Work<'_, CurrentYardstick>) -> Result<Row, CommandError> {
+        let yardstick = work.shared.of(&case.target, &self.yardstick())?;
         let level = yardstick.mean_distance() / case.particles as f64;
         let mut row = Row::new(case, case.target.dimension()?, level);
         let mut run = Run::new(case.particles, case.seed);
         (run.start.mean, run.start.standard_deviation) = (self.start_mean, self.start_sd);
         match &case.rival {
-            Some(rival) => run_rival(case, &rival.method(None)?, &run, yardstick, observer, &mut row)?,
-            None => self.run_body(case, &run, yardstick, observer, &mut row)?,
+            Some(rival) => run_rival(case, &rival.method(None)?, &run, yardstick, work.observer, &mut row)?,
+            None => self.run_body(case, &run, yardstick, work.observer, &mut row)?,
         }
         Ok(row)
     }

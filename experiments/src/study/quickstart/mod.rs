@@ -14,7 +14,7 @@ use reference::ReferenceTask;
 
 use super::attempt::{Attempt, attempt};
 use super::checks::{positive, refusal};
-use super::definition::{self, Report, Study};
+use super::definition::{self, Report, Study, Work};
 use super::directory::StudyDirectory;
 use super::run_row::RunRow;
 use super::trace_row::TraceRow;
@@ -172,17 +172,11 @@ impl Study for Quickstart {
         Ok(vec![Case::Reference, Case::Posterior, Case::Picture])
     }
 
-    fn run(
-        &self,
-        case: &Case,
-        (): &mut (),
-        directory: &StudyDirectory,
-        observer: &mut CaseObserver,
-    ) -> Result<RunRow, CommandError> {
+    fn run(&self, case: &Case, work: Work<'_, ()>) -> Result<RunRow, CommandError> {
         match case {
-            Case::Reference => self.run_reference(directory),
-            Case::Posterior => self.run_sampler(*case, &self.posterior, directory, observer),
-            Case::Picture => self.run_sampler(*case, &self.picture, directory, observer),
+            Case::Reference => self.run_reference(work.directory),
+            Case::Posterior => self.run_sampler(*case, &self.posterior, work.directory, work.observer),
+            Case::Picture => self.run_sampler(*case, &self.picture, work.directory, work.observer),
         }
     }
 

@@ -15,7 +15,7 @@ use identity_frame::InIdentityFrame;
 
 use super::attempt::{Attempt, attempt};
 use super::checks::{distinct, not_empty};
-use super::definition::{self, Report, Study};
+use super::definition::{self, Report, Study, Work};
 use super::directory::StudyDirectory;
 use super::run_row::RunRow;
 use super::yardstick::{Coordinates, CurrentYardstick, YardstickOptions, measured};
@@ -132,14 +132,8 @@ impl Study for RandomTargets {
         Ok(cases)
     }
 
-    fn run(
-        &self,
-        case: &Case,
-        yardstick: &mut CurrentYardstick,
-        _directory: &StudyDirectory,
-        observer: &mut CaseObserver,
-    ) -> Result<RunRow, CommandError> {
-        let yardstick = yardstick.of(&case.target, &self.yardstick())?;
+    fn run(&self, case: &Case, work: Work<'_, CurrentYardstick>) -> Result<RunRow, CommandError> {
+        let yardstick = work.shared.of(&case.target, &self.yardstick())?;
         let mut run = Run::new(self.particles.get(), self.seed);
         run.start = case.method.options.start();
         let mut row = RunRow {
@@ -153,7 +147,7 @@ impl Study for RandomTargets {
             frame: self.frame,
             method: &case.method.method(None)?,
             run: &run,
-            observer,
+            observer: work.observer,
         };
         match attempt(with_target(&case.target, task))? {
             Attempt::Failed(status, reason) => row.fail(status, reason),

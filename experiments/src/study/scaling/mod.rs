@@ -13,11 +13,10 @@ use serde::{Deserialize, Serialize};
 
 use super::attempt::{Attempt, Status, attempt};
 use super::checks::refusal;
-use super::definition::{self, Report, Study};
+use super::definition::{self, Report, Study, Work};
 use super::directory::StudyDirectory;
 use super::results;
 use crate::options::{Bounded, Dimension, MethodSpecification, ParticleCount, StepCount, TargetSpecification};
-use crate::progress::CaseObserver;
 use crate::sampling::{self, Outcome};
 use crate::{CommandError, statistics};
 
@@ -214,13 +213,7 @@ impl Study for Scaling {
         Ok(cases)
     }
 
-    fn run(
-        &self,
-        case: &Case,
-        (): &mut (),
-        _directory: &StudyDirectory,
-        observer: &mut CaseObserver,
-    ) -> Result<Row, CommandError> {
+    fn run(&self, case: &Case, work: Work<'_, ()>) -> Result<Row, CommandError> {
         let mut specification = self.method.clone();
         specification.options.spacing = case.spacing.or(specification.options.spacing);
         let method = specification.method(Some(self.steps.get()))?;
@@ -231,7 +224,7 @@ impl Study for Scaling {
         let mut row = Row::new(case);
         let mut times = Vec::new();
         for repeat in 0..=self.repeats.get() {
-            let outcome = match attempt(sampling::sample(&target, &method, &run, observer))? {
+            let outcome = match attempt(sampling::sample(&target, &method, &run, work.observer))? {
                 Attempt::Finished(outcome) => outcome,
                 Attempt::Failed(status, reason) => {
                     (row.status, row.reason) = (status, reason);

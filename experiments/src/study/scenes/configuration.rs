@@ -20,8 +20,8 @@ pub struct Scenes {
     _kind: String,
     /// Heads the report.
     pub title: String,
-    /// Threads; absent: as many as the environment gives.
-    pub threads: Option<Bounded<1, 1024>>,
+    #[serde(rename = "threads")]
+    _threads: Option<Bounded<1, 1024>>,
     /// The families.
     pub families: Vec<Family>,
     /// The scenes that the families name, once they are read.

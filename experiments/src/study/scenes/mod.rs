@@ -27,7 +27,7 @@ pub use configuration::Scenes;
 pub use row::Row;
 
 use super::attempt::Status;
-use super::definition::{self, Report, Study};
+use super::definition::{self, Report, Study, Work};
 use super::directory::StudyDirectory;
 use super::results::single_line;
 use crate::CommandError;
@@ -41,14 +41,6 @@ impl Study for Scenes {
     type Shared = ();
 
     const KIND: &'static str = "scenes";
-
-    fn seeds(&self) -> Vec<u64> {
-        Vec::new()
-    }
-
-    fn threads(&self) -> Option<usize> {
-        self.threads.map(crate::options::Bounded::get)
-    }
 
     fn open(&mut self, configuration: &Path) -> Result<(), CommandError> {
         let directory = configuration.parent().unwrap_or(Path::new(""));
@@ -76,17 +68,11 @@ impl Study for Scenes {
         Ok(())
     }
 
-    fn run(
-        &self,
-        case: &Case,
-        (): &mut (),
-        directory: &StudyDirectory,
-        observer: &mut CaseObserver,
-    ) -> Result<Row, CommandError> {
+    fn run(&self, case: &Case, work: Work<'_, ()>) -> Result<Row, CommandError> {
         let prepared = self.files.scene(case)?;
         let mut row = unmeasured(case, &prepared);
         let start = Instant::now();
-        let run = match finished(case, &prepared.own, directory, observer)? {
+        let run = match finished(case, &prepared.own, work.directory, work.observer)? {
             Ok(run) => run,
             Err(reason) => {
                 (row.status, row.reason) = (Status::Diverged, reason);
@@ -98,7 +84,7 @@ impl Study for Scenes {
         (row.steps, row.particles) = (Some(summary.steps), Some(summary.particles));
         let other = match &prepared.against {
             None => None,
-            Some(other) => match finished(case, other, directory, observer)? {
+            Some(other) => match finished(case, other, work.directory, work.observer)? {
                 Ok(run) => Some(run),
                 Err(reason) => {
                     (row.status, row.reason) = (Status::Diverged, format!("what it is compared with: {reason}"));

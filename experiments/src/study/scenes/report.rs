@@ -10,7 +10,7 @@ use crate::CommandError;
 use crate::plots::{multiples, trace};
 use crate::study::definition::Report;
 use crate::study::directory::StudyDirectory;
-use crate::study::document::{Document, MISSING, number, optional_number};
+use crate::study::document::{Cell, Document, MISSING, number};
 
 /// Judgements, then each family with its figure and its numbers.
 pub fn report(study: &Scenes, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
@@ -126,11 +126,11 @@ fn cells(row: &Row) -> Vec<String> {
         },
         row.x.to_string(),
         row.value.map_or(MISSING.to_owned(), |value| digits(value, row)),
-        optional_number(row.reference),
-        optional_number(row.tolerance),
+        row.reference.cell(),
+        row.tolerance.cell(),
         count(row.steps),
         count(row.particles.map(|value| value as u64)),
-        optional_number(row.wall_seconds),
+        row.wall_seconds.cell(),
         match row.value {
             Some(_) => "at the end".to_owned(),
             None => row.reason.clone(),

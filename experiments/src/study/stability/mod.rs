@@ -17,12 +17,11 @@ use row::Row;
 use trial::Trial;
 
 use super::checks::{not_empty, refusal, targets_without_data};
-use super::definition::{Report, Study};
+use super::definition::{Report, Study, Work};
 use super::directory::StudyDirectory;
 use crate::CommandError;
 use crate::dispatch::with_target;
 use crate::options::{Bounded, Dimension};
-use crate::progress::CaseObserver;
 
 /// Random configurations.
 #[derive(Clone, Debug, Deserialize)]
@@ -88,14 +87,14 @@ impl Study for Stability {
             .collect())
     }
 
-    fn run(
-        &self,
-        case: &Case,
-        (): &mut (),
-        _directory: &StudyDirectory,
-        observer: &mut CaseObserver,
-    ) -> Result<Row, CommandError> {
-        with_target(&case.target, Trial { case, observer })
+    fn run(&self, case: &Case, work: Work<'_, ()>) -> Result<Row, CommandError> {
+        with_target(
+            &case.target,
+            Trial {
+                case,
+                observer: work.observer,
+            },
+        )
     }
 
     fn report(&self, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {

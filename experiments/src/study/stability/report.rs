@@ -164,8 +164,7 @@ fn shares(label: String, rows: &[Row], groups: &[String], chosen: &dyn Fn(&Row) 
 }
 
 fn table(name: &str, groups: &[String], lines: Vec<Vec<String>>, document: &mut Document) {
-    let header: Vec<&str> = std::iter::once(name).chain(groups.iter().map(String::as_str)).collect();
-    document.table(&header, &lines);
+    document.table(format!("{name} | {}", groups.join(" | ")).as_str(), lines);
 }
 
 /// Names the runs of the calibrated sampler that diverged.

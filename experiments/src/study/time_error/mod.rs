@@ -10,13 +10,12 @@ use parvi::Run;
 use serde::Deserialize;
 
 use super::checks::{distinct, not_empty};
-use super::definition::{self, Report, Study};
+use super::definition::{self, Report, Study, Work};
 use super::directory::StudyDirectory;
 use super::run_row::RunRow;
-use super::yardstick::{Coordinates, CurrentYardstick, YardstickOptions, run_into};
+use super::yardstick::{Coordinates, CurrentYardstick, YardstickOptions};
 use crate::CommandError;
 use crate::options::{Bounded, MethodName, MethodSpecification, ParticleCount, StepCount, TargetSpecification};
-use crate::progress::CaseObserver;
 
 /// All methods on all targets.
 #[derive(Clone, Debug, Deserialize)]
@@ -144,14 +143,8 @@ impl Study for TimeError {
         Ok(cases)
     }
 
-    fn run(
-        &self,
-        case: &Case,
-        yardstick: &mut CurrentYardstick,
-        _directory: &StudyDirectory,
-        observer: &mut CaseObserver,
-    ) -> Result<RunRow, CommandError> {
-        let yardstick = yardstick.of(&case.target, &self.yardstick())?;
+    fn run(&self, case: &Case, work: Work<'_, CurrentYardstick>) -> Result<RunRow, CommandError> {
+        let yardstick = work.shared.of(&case.target, &self.yardstick())?;
         let mut row = RunRow {
             target: case.target.label(),
             dim: case.target.dimension()?,
@@ -164,7 +157,7 @@ impl Study for TimeError {
         let mut run = Run::new(case.particles, case.seed);
         run.start = case.method.options.start();
         let method = case.method.method(case.steps)?;
-        let drawn_from_sample = run_into(&mut row, &case.target, &method, &run, yardstick, observer)?;
+        let drawn_from_sample = row.run(&case.target, &method, &run, yardstick, work.observer)?;
         if drawn_from_sample && row.finished() {
             row.note = "drawn from the importance sample".to_owned();
         }

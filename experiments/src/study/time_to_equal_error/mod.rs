@@ -21,12 +21,11 @@ use row::Row;
 use search::Doubling;
 
 use super::checks::{distinct, not_empty, positive, refusal, unset};
-use super::definition::{self, Report, Study};
+use super::definition::{self, Report, Study, Work};
 use super::directory::StudyDirectory;
 use super::yardstick::{Coordinates, CurrentYardstick, YardstickOptions};
 use crate::CommandError;
 use crate::options::{Bounded, MethodName, MethodSpecification, ParticleCount, TargetSpecification};
-use crate::progress::CaseObserver;
 
 /// A method and its rivals, to the same error on every target.
 #[derive(Clone, Debug, Deserialize)]
@@ -171,15 +170,9 @@ impl Study for TimeToEqualError {
         Ok(cases)
     }
 
-    fn run(
-        &self,
-        case: &Case,
-        yardstick: &mut CurrentYardstick,
-        directory: &StudyDirectory,
-        observer: &mut CaseObserver,
-    ) -> Result<Row, CommandError> {
-        let yardstick = yardstick.of(&case.target, &self.yardstick())?;
-        run::run(self, case, yardstick, directory, observer)
+    fn run(&self, case: &Case, work: Work<'_, CurrentYardstick>) -> Result<Row, CommandError> {
+        let yardstick = work.shared.of(&case.target, &self.yardstick())?;
+        run::run(self, case, yardstick, work.directory, work.observer)
     }
 
     fn report(&self, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {

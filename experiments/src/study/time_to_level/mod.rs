@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 use search::Ending;
 
 use super::checks::{distinct, not_empty, positive, refusal, unset};
-use super::definition::{self, Report, Study};
+use super::definition::{self, Report, Study, Work};
 use super::directory::StudyDirectory;
 use super::gaussian_runs::energy_level;
 use super::results;
@@ -22,7 +22,6 @@ use super::start_law::StartLaw;
 use crate::CommandError;
 use crate::options::{Bounded, Dimension, MethodSpecification, ParticleCount, StepCount};
 use crate::output::table_file;
-use crate::progress::CaseObserver;
 
 /// A method and its rivals, from the same start to the same error.
 #[derive(Clone, Debug, Deserialize)]
@@ -170,25 +169,19 @@ impl Study for TimeToLevel {
         Ok(cases)
     }
 
-    fn run(
-        &self,
-        case: &Case,
-        clock: &mut Clock,
-        directory: &StudyDirectory,
-        observer: &mut CaseObserver,
-    ) -> Result<Row, CommandError> {
+    fn run(&self, case: &Case, work: Work<'_, Clock>) -> Result<Row, CommandError> {
         let level = energy_level(case.dim, case.particles)?;
         let sets_the_clock = case.index == 0;
         let budget = if sets_the_clock {
             None
         } else {
-            Some(self.largest_ratio * self.clock(case.dim, clock, directory)?)
+            Some(self.largest_ratio * self.clock(case.dim, work.shared, work.directory)?)
         };
-        let (ending, trials) = search::search(self, case, level, budget, observer)?;
-        table_file::write(&trials, &case.trials_file(directory))?;
+        let (ending, trials) = search::search(self, case, level, budget, work.observer)?;
+        table_file::write(&trials, &case.trials_file(work.directory))?;
         let [least, median, most] = search::seconds(&trials)?;
         if sets_the_clock {
-            clock.seconds.push((case.dim, median));
+            work.shared.seconds.push((case.dim, median));
         }
         let last = trials.last();
         Ok(Row {

@@ -9,7 +9,6 @@ use crate::progress::CaseObserver;
 use crate::sampling::{self, Outcome};
 use crate::study::attempt::{Attempt, Status, attempt};
 use crate::study::results::single_line;
-use crate::study::run_row::RunRow;
 
 /// What a run gave.
 pub struct MeasuredRun {
@@ -57,30 +56,5 @@ pub fn measured(yardstick: &dyn Yardstick, outcome: &Outcome) -> Result<Attempt<
         Ok(errors) => Ok(Attempt::Finished(errors)),
         Err(CommandError::Metric(error)) => Ok(Attempt::Failed(Status::Diverged, single_line(error))),
         Err(error) => Err(error),
-    }
-}
-
-/// [`measured_run`] noted in a row; whether the particles are independent draws from an importance sample.
-///
-/// # Errors
-/// As for [`measured_run`].
-pub fn run_into(
-    row: &mut RunRow,
-    target: &TargetSpecification,
-    method: &Method,
-    run: &Run,
-    yardstick: &dyn Yardstick,
-    observer: &mut CaseObserver,
-) -> Result<bool, CommandError> {
-    match measured_run(target, method, run, yardstick, observer)? {
-        Attempt::Failed(status, reason) => {
-            row.fail(status, reason);
-            Ok(false)
-        }
-        Attempt::Finished(finished) => {
-            row.take(&finished.outcome);
-            row.measured(finished.errors);
-            Ok(finished.from_importance_sample)
-        }
     }
 }

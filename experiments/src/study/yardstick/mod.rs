@@ -17,7 +17,7 @@ use crate::options::TargetSpecification;
 use crate::output::Particles;
 use crate::sampling::Outcome;
 
-pub use measured_run::{measured, measured_run, run_into};
+pub use measured_run::{measured, measured_run};
 use target_yardstick::TargetYardstick;
 
 /// How a target is represented and particles are measured.
