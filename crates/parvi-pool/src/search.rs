@@ -54,8 +54,12 @@ pub(super) fn search<const D: usize>(
     let mut covered = Covered::by(folds)?;
     let mut found: Vec<Summit<D>> = Vec::new();
     while density.evaluations() + count as u64 <= until {
-        let (law, spread) = law(folds, &found)?;
-        covered.set_floor(&law)?;
+        let Some((law, spread)) = law(folds, &found) else {
+            break;
+        };
+        if covered.set_floor(&law).is_none() {
+            break;
+        }
         let (mut points, mut logs) = (Vec::new(), Vec::new());
         for fold in folds.iter_mut() {
             let first = fold.positions.len();
