@@ -11,7 +11,7 @@ use crate::support_points::SupportPoints;
 use crate::weights::systematic;
 
 /// Passes over space, which is cut into pieces so that the cost is that of many small measures: particles of one piece at most, iterations with few equally
-/// weighted points, and iterations with all of them. The last pass mends the seams of the first.
+/// weighted points (with all, where there are not many more), and iterations with all of them. The last pass mends the seams of the first.
 const PASSES: [(usize, usize, usize); 2] = [(256, 25, 8), (1024, 0, 3)];
 
 /// Those few points, per particle.
@@ -74,12 +74,14 @@ pub(crate) fn condense_here<const D: usize>(measure: &Measure<D>, count: usize, 
             // Noise may take the mass of a small piece below nothing.
             let sound = 2.0 * weights[first..end].iter().sum::<f64>() > risen.iter().sum();
             let own_weights = if sound { &weights[first..end] } else { risen };
+            let mut iterations = far + near;
             if far > 0 && 2 * COARSE * own < points.len() {
                 let few = systematic(risen, COARSE * own, offset);
                 let few: Vec<[f64; D]> = few.iter().map(|&index| points[index]).collect();
                 iterate(&SupportPoints::new(&few, &vec![1.0; few.len()]), far, particles);
+                iterations = near;
             }
-            iterate(&SupportPoints::new(points, own_weights), near, particles);
+            iterate(&SupportPoints::new(points, own_weights), iterations, particles);
             (first, taken) = (end, taken + own);
         }
     }
@@ -172,6 +174,22 @@ fn bisect<const D: usize>(points: &mut [([f64; D], f64)]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn few_points_per_particle_are_iterated_as_often() {
+        let points: Vec<[f64; 2]> = (0..400)
+            .map(|i| [(f64::from(i) * 0.7).sin(), (f64::from(i) * 1.9).sin()])
+            .collect();
+        let measure = Measure::new(points, vec![1.0 / 400.0; 400]);
+        let mut particles = condense(&measure, 50, 0.5);
+        let frame = measure.frame();
+        particles.iter_mut().for_each(|x| *x = frame.to_reference(x));
+        let scaled: Vec<[f64; 2]> = measure.points.iter().map(|x| frame.to_reference(x)).collect();
+        let (_, reached) = SupportPoints::new(&scaled, &measure.weights).moved(&particles);
+        iterate(&SupportPoints::new(&scaled, &measure.weights), 200, &mut particles);
+        let (_, least) = SupportPoints::new(&scaled, &measure.weights).moved(&particles);
+        assert!(reached < least + 1e-4, "{reached} {least}");
+    }
 
     #[test]
     fn pieces_keep_their_masses() {
