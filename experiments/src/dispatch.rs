@@ -23,8 +23,15 @@ pub fn with_target<T: TargetTask>(specification: &TargetSpecification, task: T) 
         4 => build::<4, T>(specification, task),
         5 => build::<5, T>(specification, task),
         6 => build::<6, T>(specification, task),
+        #[cfg(feature = "seven-and-eight")]
         7 => build::<7, T>(specification, task),
+        #[cfg(feature = "seven-and-eight")]
         8 => build::<8, T>(specification, task),
+        #[cfg(not(feature = "seven-and-eight"))]
+        7 | 8 => Err(CommandError::LeftOut {
+            asked: "a target of 7 or 8 dimensions",
+            feature: "seven-and-eight",
+        }),
         dimension => Err(CommandError::Target(TargetError::DimensionNotAllowed {
             target: specification.name.clone(),
             dimension,

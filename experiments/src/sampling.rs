@@ -29,6 +29,8 @@ pub struct Outcome {
     pub log_evidence_error: Option<f64>,
     /// Shape of the tail of the importance weights.
     pub pareto_k: Option<f64>,
+    /// [`Samples::score_disagreement`](parvi::Samples::score_disagreement).
+    pub score_disagreement: Option<f64>,
     /// Residual relative to i.i.d. draws.
     pub residual: Option<f64>,
     /// Grid spacing in frame units.
@@ -148,6 +150,7 @@ pub fn sample_target<const D: usize>(
         log_evidence: finite(samples.log_evidence),
         log_evidence_error: finite(samples.log_evidence_error),
         pareto_k: finite(samples.pareto_k),
+        score_disagreement: finite(samples.score_disagreement),
         residual: finite(samples.residual),
         spacing: finite(samples.spacing),
         active_nodes: samples.active_nodes,

@@ -13,6 +13,12 @@ pub trait Target<const D: usize>: Sync {
     /// The score s(x) = ∇ log p(x).
     fn score(&self, x: &[f64; D]) -> [f64; D];
 
+    /// Whether log p is known. Without ([`ScoreOnly`](crate::ScoreOnly)), [`log_density`](Self::log_density) is not a number and nothing can be weighed: samplers that only follow
+    /// the score say so, and others refuse.
+    fn has_log_density(&self) -> bool {
+        true
+    }
+
     /// Scores of many points at once: `out[p] = score(xs[p])`.
     ///
     /// Override it where a batch is cheaper than its parts (a regression is one matrix product).
@@ -43,6 +49,10 @@ impl<T: Target<D> + ?Sized, const D: usize> Target<D> for &T {
 
     fn score(&self, x: &[f64; D]) -> [f64; D] {
         (**self).score(x)
+    }
+
+    fn has_log_density(&self) -> bool {
+        (**self).has_log_density()
     }
 
     fn scores(&self, xs: &[[f64; D]], out: &mut [[f64; D]]) {

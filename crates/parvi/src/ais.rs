@@ -18,6 +18,9 @@ impl AisOptions {
         observer: &mut dyn Observer,
     ) -> Result<Samples<D>, SampleError> {
         run.checked_particles()?;
+        if !target.has_log_density() {
+            return Err(SampleError::ScoreOnly { method: "method `ais`" });
+        }
         let options = MpmOptions {
             evaluations: self.evaluations,
             rounds: Some(0),

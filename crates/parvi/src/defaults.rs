@@ -107,3 +107,20 @@ pub const SUPPORT_POINTS_STEPS: usize = 200;
 
 /// Support points are at rest once none moves farther than this, in units of the sample's spread.
 pub const SUPPORT_POINTS_TOLERANCE: f64 = 1e-4;
+
+/// Edge of the cells in which a cached score is interpolated, in units of the frame, before cells are halved.
+pub const CACHE_SPACING: f64 = 1.25;
+
+/// Difference of fresh and cached scores that is tolerated in the root of the mean square, in units of one over the particles' standard deviation: along that it adds up to an error of log p.
+pub const CACHE_TOLERANCE: f64 = 0.005;
+
+/// Share of the particles in a cell from which on it is tested.
+pub const CACHE_TESTED_SHARE: f64 = 1.0 / 256.0;
+
+/// Rounds, at most, that go on with a finer cache of scores.
+pub const CACHE_ROUNDS: usize = 6;
+
+/// Evaluations from which on a cache of scores for M particles is not refined any more.
+pub fn cache_evaluations(particles: usize) -> u64 {
+    (particles as u64 / 10).max(1000)
+}

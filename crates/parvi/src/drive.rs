@@ -146,7 +146,7 @@ where
             let positions = body.particles().positions.clone();
             let score = &mut body.force().score;
             score.evaluate(&positions, &mut scores).map_err(failed)?;
-            let potential_energy = Some(score.potential_energy(&positions));
+            let potential_energy = score.potential_energy(&positions);
             let residual = body.residual(&origin, spacing, &scores).map_err(failed)?;
             trace.push(TracePoint {
                 step,

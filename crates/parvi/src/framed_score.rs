@@ -56,13 +56,16 @@ impl<'a, const D: usize> FramedScore<'a, D> {
         Ok(())
     }
 
-    /// −E\[log p(x)\] over equally weighted points.
-    pub fn potential_energy(&self, zs: &[[f64; D]]) -> f64 {
+    /// −E\[log p(x)\] over equally weighted points, where log p is known.
+    pub fn potential_energy(&self, zs: &[[f64; D]]) -> Option<f64> {
+        if !self.target.has_log_density() {
+            return None;
+        }
         let sum: f64 = zs
             .iter()
             .map(|z| self.target.log_density(&self.frame.to_target(z)))
             .sum();
-        -sum / zs.len() as f64
+        Some(-sum / zs.len() as f64)
     }
 }
 
@@ -127,7 +130,7 @@ impl<'a, const D: usize> ScoreForce<'a, D> {
 impl<const D: usize> BodyForce<D> for ScoreForce<'_, D> {
     fn location(&self) -> ForceLocation {
         match self.location {
-            ScoreLocation::Particles => ForceLocation::Particles,
+            ScoreLocation::Particles | ScoreLocation::Cached => ForceLocation::Particles,
             ScoreLocation::Nodes => ForceLocation::Nodes,
         }
     }

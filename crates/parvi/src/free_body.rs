@@ -2,6 +2,7 @@
 
 use parvi_targets::{Frame, Target};
 
+use crate::cached_scores::CachedScores;
 use crate::certificate::{Certificate, LARGEST_DRIFT};
 use crate::checkpoint::Journal;
 use crate::drive::Driven;
@@ -21,10 +22,12 @@ struct Departure<const D: usize> {
     spacing: f64,
 }
 
-/// Rounds until the body is at rest, and further ones at half of the spacing as long as a rough target gains by them.
+/// Rounds until the body is at rest, further ones as long as `cached` scores, which the target then has, get better, and further ones at half of the spacing as long as a rough target gains
+/// by them.
 pub(crate) fn sample<const D: usize>(
     options: &MpmOptions,
     target: &dyn Target<D>,
+    cached: Option<&CachedScores<'_, D>>,
     frame: &Frame<D>,
     run: &Run,
     journal: &mut Journal,
@@ -37,7 +40,8 @@ pub(crate) fn sample<const D: usize>(
         positions: run.begin(frame)?,
         spacing: positive("spacing", options.spacing, default)?,
     };
-    let mut rounds = 0..checked_rounds(options)?;
+    let last = checked_rounds(options)?;
+    let (mut rounds, finer_caches) = (0..last, last..last + defaults::CACHE_ROUNDS);
     let mut moved = |departure: &Departure<D>, number, earlier_steps| {
         Body {
             options,
@@ -62,6 +66,19 @@ pub(crate) fn sample<const D: usize>(
         evaluations += body.samples.score_evaluations;
         steps += body.samples.steps;
     }
+    if let Some(cached) = cached {
+        let allowed = options
+            .evaluations
+            .unwrap_or_else(|| defaults::cache_evaluations(run.particles));
+        for round in finer_caches {
+            if !cached.test(&body.samples.positions, allowed).refined {
+                break;
+            }
+            departure = departure.further(body, 1.0);
+            body = moved(&departure, round, steps)?;
+            steps += body.samples.steps;
+        }
+    }
     while options.spacing.is_none()
         && is_rough(&body.scores)
         && let Some(round) = rounds.next()
@@ -77,9 +94,15 @@ pub(crate) fn sample<const D: usize>(
     }
     let alpha = options.annealing.last();
     let certificate = options.certificate.then(|| Certificate::of_scores(&body, alpha));
+    let mut disagreement = None;
+    if let Some(cached) = cached {
+        disagreement = Some(cached.test(&body.samples.positions, 0).disagreement);
+        evaluations = cached.evaluations();
+    }
     Ok(Samples {
         certificate,
         score_evaluations: evaluations,
+        score_disagreement: disagreement,
         steps,
         ..body.samples
     })

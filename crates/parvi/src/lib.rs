@@ -2,6 +2,7 @@
 
 mod ais;
 mod basis_choice;
+mod cached_scores;
 pub mod certificate;
 mod checkpoint;
 mod cholesky;
@@ -34,6 +35,7 @@ mod remembering_gas;
 mod residual;
 mod rotation;
 mod run;
+mod score_grid;
 mod start;
 mod stein_discrepancy;
 mod stein_thinning;

@@ -3,11 +3,12 @@
 use parvi_pool::PoolError;
 use parvi_targets::{Frame, Target};
 
+use crate::cached_scores::CachedScores;
 use crate::checkpoint::Journal;
 use crate::compiled::Compiled;
 use crate::mpm_body::Motion;
 use crate::start::positive;
-use crate::{MpmOptions, Observer, Run, SampleError, Samples, free_body, surveyed};
+use crate::{MpmOptions, Observer, Run, SampleError, Samples, ScoreLocation, free_body, surveyed};
 
 /// [`MpmOptions::sample`].
 pub(crate) fn sample<const D: usize>(
@@ -21,7 +22,8 @@ pub(crate) fn sample<const D: usize>(
     let spacing = positive("spacing", options.spacing, 1.0)?;
     Motion::of(options, run.particles, spacing)?;
     run.checked_start()?;
-    let surveys = options.survey && options.annealing.last() == 1.0;
+    let caches = options.score_location == ScoreLocation::Cached;
+    let surveys = options.survey && options.annealing.last() == 1.0 && target.has_log_density() && !caches;
     let name = if surveys { "mpm with a survey" } else { "mpm" };
     run.given.check_taken(name, !surveys)?;
     let mut journal = Journal::open(options, target, frame, run)?;
@@ -33,7 +35,12 @@ pub(crate) fn sample<const D: usize>(
     let samples = match known {
         Some(samples) => samples,
         None if surveys && options.rounds == Some(0) => return Err(PoolError::NowhereFinite.into()),
-        None => free_body::sample(options, target, frame, run, &mut journal, observer)?,
+        None if caches => {
+            let cached = CachedScores::new(target, frame, options.non_finite_scores, &journal.tape())?;
+            journal.keep_evaluations(cached.tape());
+            free_body::sample(options, &cached, Some(&cached), frame, run, &mut journal, observer)?
+        }
+        None => free_body::sample(options, target, None, frame, run, &mut journal, observer)?,
     };
     journal.close();
     Ok(samples)

@@ -52,6 +52,11 @@ pub(crate) fn sample<const D: usize>(
             value: draws as f64 * options.thinning as f64 + options.warm_up as f64 * chains as f64,
             expected: "at most 2^32 - 1",
         })?;
+    if !target.has_log_density() {
+        return Err(SampleError::ScoreOnly {
+            method: "method `nuts`",
+        });
+    }
     let starts = run.start_positions::<D>()?;
     let mut plans = Vec::with_capacity(chains);
     for (chain, z) in starts.iter().take(chains).enumerate() {

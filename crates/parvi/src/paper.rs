@@ -17,8 +17,8 @@ use crate::start::{Stream, check, positive, steps};
 use crate::stretch_limit::StretchLimited;
 use crate::watching::Watching;
 use crate::{
-    Coordinates, MomentCorrection, Observer, PaperOptions, ReferenceVolumes, Run, SampleError, Samples, ScoreLocation,
-    TransferChoice, defaults,
+    Coordinates, MomentCorrection, Monitor, Observer, PaperOptions, ReferenceVolumes, Run, SampleError, Samples,
+    ScoreLocation, TransferChoice, defaults,
 };
 
 /// What a body of the paper's algorithms is handed beside its options: inputs that depend on the dimension or are code.
@@ -74,6 +74,18 @@ pub(crate) fn sample<const D: usize>(
     run: &Run,
     observer: &mut dyn Observer,
 ) -> Result<Samples<D>, SampleError> {
+    if options.score_location == ScoreLocation::Cached {
+        return Err(SampleError::NotTaken {
+            method: "paper",
+            field: "cached scores: at its nodes every score is evaluated once as it is",
+        });
+    }
+    let follows_log_density = options.watch.is_some_and(|watch| watch.monitor == Monitor::LogDensity);
+    if follows_log_density && !target.has_log_density() {
+        return Err(SampleError::ScoreOnly {
+            method: "the monitor of log densities",
+        });
+    }
     let identity = Frame::identity();
     let limit = options.guards.stretch_limit;
     let expected = "above 1 and finite";

@@ -83,6 +83,8 @@ pub struct Samples<const D: usize> {
     pub density_evaluations: u64,
     /// Scores that were not finite on the way and have been replaced.
     pub scores_replaced: u64,
+    /// With cached scores: root of the mean square of their difference from fresh ones at the particles, in units of one over the particles' standard deviation.
+    pub score_disagreement: Option<f64>,
     /// Galerkin–Stein residual relative to its value for i.i.d. draws (1 = as good as i.i.d.; smaller is better).
     pub residual: Option<f64>,
     /// Spacing h in the frame's units: the central one, where it varies.
@@ -279,6 +281,12 @@ pub enum SampleError {
         target: String,
         /// The missing capability.
         needs: &'static str,
+    },
+    /// The method needs log p, and only the score is known.
+    #[error("{method} needs log p, and of this target only the score is known")]
+    ScoreOnly {
+        /// What needs it.
+        method: &'static str,
     },
     /// The mechanics refused the state.
     #[error("step {step}: {source}")]

@@ -68,7 +68,7 @@ impl SvgdOptions {
                     residual: None,
                     kinetic_energy: 0.0,
                     internal_energy: None,
-                    potential_energy: Some(score.potential_energy(&positions)),
+                    potential_energy: score.potential_energy(&positions),
                     displacement: moved,
                 });
             }

@@ -82,7 +82,7 @@ impl<const D: usize> Watching<D> {
             }
             Monitor::LogDensity => {
                 self.density_evaluations += positions.len() as u64;
-                body.force().score.potential_energy(&positions)
+                body.force().score.potential_energy(&positions).unwrap_or(f64::INFINITY)
             }
             Monitor::ParticleDensity => {
                 let densities = body.grid_densities(spacing)?;

@@ -119,6 +119,8 @@ pub enum Score {
     Particles,
     /// At the nodes
     Nodes,
+    /// At the particles, interpolated from a grid whose nodes are evaluated once (of mpm on the lattice)
+    Cached,
 }
 
 /// What is done about a particle whose score is not finite.
@@ -206,7 +208,7 @@ macro_rules! as_in_the_library {
 
 as_in_the_library!(Correction => MomentCorrection { Off, Mean, Affine });
 as_in_the_library!(Draws => StartDraws { QuasiRandom, Independent });
-as_in_the_library!(Score => ScoreLocation { Particles, Nodes });
+as_in_the_library!(Score => ScoreLocation { Particles, Nodes, Cached });
 as_in_the_library!(NonFinite => NonFiniteScores { PullBack, RejectStep, Report });
 
 /// Writes values as the words that are typed.

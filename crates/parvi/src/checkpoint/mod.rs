@@ -5,11 +5,13 @@ mod saved;
 use std::fs::{self, File};
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
+use std::sync::PoisonError;
 
 use parvi_targets::{Frame, Target};
 use serde::{Deserialize, Serialize};
 
 use self::saved::{SavedBody, SavedState};
+use crate::cached_scores::Tape;
 use crate::drive::Driven;
 use crate::guard::{INTERVAL, State};
 use crate::{MpmOptions, Run, SampleError};
@@ -32,7 +34,7 @@ pub struct Checkpoint {
 struct Saved {
     /// What the run was asked for.
     identity: String,
-    /// Values of the target that the survey asked for, in their order.
+    /// Values of the target that the survey asked for, in their order, or places and cached scores.
     tape: Vec<f64>,
     /// All bodies that have come to their end so far.
     finished: Vec<SavedBody>,
@@ -44,6 +46,8 @@ struct Saved {
 pub(crate) struct Journal {
     checkpoint: Option<Checkpoint>,
     saved: Saved,
+    /// A tape that grows elsewhere.
+    evaluations: Option<Tape>,
     /// Bodies that came to their end in this process or an earlier one and were asked for.
     replayed: usize,
 }
@@ -59,6 +63,7 @@ impl Journal {
                 finished: Vec::new(),
                 moving: None,
             },
+            evaluations: None,
             replayed: 0,
         }
     }
@@ -109,6 +114,7 @@ impl Journal {
         Ok(Self {
             checkpoint: Some(checkpoint.clone()),
             saved,
+            evaluations: None,
             replayed: 0,
         })
     }
@@ -116,6 +122,11 @@ impl Journal {
     /// What a survey evaluated before.
     pub fn tape(&self) -> Vec<f64> {
         self.saved.tape.clone()
+    }
+
+    /// From now on the tape is this one, whenever anything is kept.
+    pub fn keep_evaluations(&mut self, tape: Tape) {
+        self.evaluations = Some(tape);
     }
 
     /// What a survey has evaluated so far.
@@ -180,7 +191,12 @@ impl Journal {
     }
 
     /// Replace the file as a whole.
-    fn write(&self) -> Result<(), SampleError> {
+    fn write(&mut self) -> Result<(), SampleError> {
+        if let Some(tape) = &self.evaluations {
+            self.saved
+                .tape
+                .clone_from(&tape.lock().unwrap_or_else(PoisonError::into_inner));
+        }
         let Some(Checkpoint { path, .. }) = &self.checkpoint else {
             return Ok(());
         };
@@ -234,7 +250,7 @@ fn refused(path: &Path, reason: &dyn std::fmt::Display) -> SampleError {
     }
 }
 
-/// Everything that the particles depend on; the target by its log density at a few points.
+/// Everything that the particles depend on; the target by its log density at a few points, or its score.
 fn identity<const D: usize>(options: &MpmOptions, target: &dyn Target<D>, frame: &Frame<D>, run: &Run) -> String {
     let options = MpmOptions {
         checkpoint: None,
@@ -242,7 +258,12 @@ fn identity<const D: usize>(options: &MpmOptions, target: &dyn Target<D>, frame:
     };
     let probe = |offset: f64| {
         let z = std::array::from_fn(|a| offset / (1.0 + a as f64));
-        target.log_density(&frame.to_target(&z)).to_bits()
+        let x = frame.to_target(&z);
+        if target.has_log_density() {
+            target.log_density(&x).to_bits()
+        } else {
+            target.score(&x).iter().sum::<f64>().to_bits()
+        }
     };
     format!(
         "parvi {}, D = {D}, {options:?}, {run:?}, {frame:?}, log densities {:x?}",

@@ -10,6 +10,9 @@ pub enum ScoreLocation {
     /// At the nodes, weighted by nodal mass (paper, Eq. 3); cheaper when nodes are few, but the particles'
     /// covariance shrinks by the variance of the kernel.
     Nodes,
+    /// At the particles, but evaluated at the nodes of a grid of its own only, each once, and interpolated (docs/theory.md, §15): for targets whose score takes seconds. Without a survey,
+    /// which would take more evaluations than the grid. Of the calibrated sampler.
+    Cached,
 }
 
 /// What is done about a particle whose score is not finite.
@@ -52,7 +55,8 @@ pub struct MpmOptions {
     /// Weigh evaluations of the log density until they represent the target, condense M particles from them, and let the material even these out as
     /// far as that brings them nearer. Without, a body moves in the given frame from the given start, and nothing knows whether it has found everything.
     pub survey: bool,
-    /// Evaluations of the survey, of all kinds, at most; `None`: [`PoolOptions`](parvi_pool::PoolOptions) has the default.
+    /// Evaluations of the survey, of all kinds, at most; `None`: [`PoolOptions`](parvi_pool::PoolOptions) has the default. With cached scores: evaluations from which on
+    /// the grid is not refined any more.
     pub evaluations: Option<u64>,
     /// Steps of a round, settling included; ≥ 1.
     pub steps: Option<usize>,

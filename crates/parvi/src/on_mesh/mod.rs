@@ -133,7 +133,7 @@ impl MeshOptions {
                     residual: Some(residual(&mut body, &inner).map_err(failed)?),
                     kinetic_energy: body.particles.kinetic_energy(),
                     internal_energy: None,
-                    potential_energy: Some(body.body_force.score.potential_energy(&body.particles.positions)),
+                    potential_energy: body.body_force.score.potential_energy(&body.particles.positions),
                     displacement: report.displacement,
                 });
             }

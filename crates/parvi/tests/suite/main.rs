@@ -1,6 +1,7 @@
 //! Samplers, from the outside. One theme per file.
 
 mod bent_targets;
+mod cached_scores;
 #[cfg(feature = "nuts")]
 mod nuts;
 mod observed;

@@ -61,6 +61,10 @@ pub fn pairs(arguments: &Arguments, outcome: &Outcome, peak_memory: Option<u64>)
             "log_evidence_error",
             outcome.log_evidence_error.map(|value| value.to_string()),
         ),
+        (
+            "score_disagreement",
+            outcome.score_disagreement.map(|value| value.to_string()),
+        ),
         ("pareto_k", outcome.pareto_k.map(|value| value.to_string())),
         ("wall_seconds", Some(format!("{:.6}", outcome.wall_seconds))),
         ("best_step", watched(|seen| seen.best_step.to_string())),
