@@ -104,20 +104,56 @@ pub fn transient(base: &[Finding]) -> DotPlot {
             }
         }
     }
-    let names = ["start", "best on the way", "end"];
-    let quantities: [Quantity; 3] = [Row::start_ratio, Row::best_ratio, Row::ratio];
-    let series = names
-        .iter()
-        .zip(quantities)
-        .zip(styles(&names))
-        .map(|((name, quantity), style)| DotSeries {
-            label: (*name).to_owned(),
-            style,
-            values: rows
-                .iter()
-                .map(|rows| median(rows.iter().copied(), quantity).unwrap_or(f64::NAN))
-                .collect(),
-        });
+    let quantities: [(&str, Quantity); 3] = [
+        ("start", Row::start_ratio),
+        ("best on the way", Row::best_ratio),
+        ("end", Row::ratio),
+    ];
+    let value = |rows: &Vec<&Row>, quantity| median(rows.iter().copied(), quantity).unwrap_or(f64::NAN);
+    let series =
+        quantities.map(|(name, quantity)| (name.to_owned(), rows.iter().map(|rows| value(rows, quantity)).collect()));
+    ratios(
+        labels,
+        series.into(),
+        "Medians over the seeds; no mark for what more than half of the runs did not reach.",
+    )
+}
+
+/// The end of every material, by algorithm, variant and place of the force.
+pub fn materials(findings: &[Finding]) -> DotPlot {
+    let (mut labels, mut series): (Vec<String>, Vec<String>) = Default::default();
+    let named = |row: &Row| format!("{}, {}, force at {}", row.method, row.variant, row.score);
+    for (_, row) in findings {
+        for (known, name) in [(&mut labels, row.material.clone()), (&mut series, named(row))] {
+            if !known.contains(&name) {
+                known.push(name);
+            }
+        }
+    }
+    let value = |name: &String, material: &String| {
+        let here = findings
+            .iter()
+            .filter(|(_, row)| named(row) == *name && row.material == *material);
+        median(here.map(|(_, row)| *row), Row::ratio).unwrap_or(f64::NAN)
+    };
+    let values = |name: String| {
+        let values: Vec<f64> = labels.iter().map(|material| value(&name, material)).collect();
+        (name, values)
+    };
+    let mut series: Vec<_> = series.into_iter().map(values).collect();
+    // Where all runs diverged there is nothing to draw.
+    series.retain(|(_, values)| values.iter().any(|value| value.is_finite()));
+    ratios(labels, series, "Medians over targets and seeds.")
+}
+
+/// ED² over that of independent draws: a row per label, series by name.
+fn ratios(labels: Vec<String>, series: Vec<(String, Vec<f64>)>, note: &str) -> DotPlot {
+    let names: Vec<&str> = series.iter().map(|(name, _)| name.as_str()).collect();
+    let styles = styles(&names);
+    let series = series
+        .into_iter()
+        .zip(styles)
+        .map(|((label, values), style)| DotSeries { label, style, values });
     DotPlot {
         x_label: "ED^{2} relative to independent draws".to_owned(),
         x_axis: AxisKind::Logarithmic,
@@ -130,7 +166,7 @@ pub fn transient(base: &[Finding]) -> DotPlot {
             })
             .collect(),
         bound_label: "independent draws".to_owned(),
-        notes: vec!["Medians over the seeds; no mark for what more than half of the runs did not reach.".to_owned()],
+        notes: vec![note.to_owned()],
         ..DotPlot::default()
     }
 }

@@ -37,6 +37,11 @@ pub fn report(study: &Paper, rows: &[Row], directory: &StudyDirectory) -> Result
     let caption = "The base: start, best configuration on the way, and end.";
     let base = findings.of(study.base_cases()?);
     document.figure(directory, "transient.svg", caption, dots(&figure::transient(&base)))?;
+    let at_rest = findings.sweep("material-at-rest")?;
+    if !at_rest.is_empty() {
+        let caption = "What bodies of every law rest as, with friction and a force per mass: the isothermal gas has the target for its rest state, and `mpm` moves it freed from F.";
+        document.figure(directory, "laws.svg", caption, dots(&figure::materials(&at_rest)))?;
+    }
     let caption = "Time per step over the number of particles.";
     let drawing = multiples(&figure::cost(&findings.sweep("cost")?));
     document.figure(directory, "cost.svg", caption, drawing)?;
