@@ -11,6 +11,9 @@ use crate::sample::{moments, root};
 const FEWEST: usize = 16;
 const IDLE: usize = 4;
 
+/// Share of the evaluations that scouts may take which they do take where there are several summits: in many dimensions a piece may lie in a direction that few of them set out in.
+const SEVERAL: f64 = 0.2;
+
 /// Distances from a summit, in standard deviations of the normal approximation there, at which scouts set out.
 const RINGS: [f64; 3] = [5.0, 12.0, 30.0];
 
@@ -91,7 +94,9 @@ fn summits<const D: usize>(density: &mut Density<'_, D>, evaluations: u64, seed:
             ascend(density, &start, |_, _| false).filter(|found| !summits.iter().any(|summit| summit.is_near(found)));
         summits.extend(found);
         idle = if summits.len() > known { 0 } else { idle + 1 };
-        if idle >= FEWEST.max(IDLE * summits.len()) || density.evaluations() > before + evaluations {
+        let spent = density.evaluations() - before;
+        let settled = summits.len() == 1 || spent as f64 > SEVERAL * evaluations as f64;
+        if settled && idle >= FEWEST.max(IDLE * summits.len()) || spent > evaluations {
             break;
         }
     }
