@@ -47,6 +47,10 @@ pub trait Basis<const D: usize>: Sync {
         Ok(sorted)
     }
 
+    /// From the next [`activate`](Self::activate) on, whether [`affine_direction`](Self::affine_direction) and what rests on it will be asked for; bases that
+    /// have to compute D_p⁻¹ may leave it out where it is not. Until told, it is.
+    fn expect_affine_directions(&mut self, _read: bool) {}
+
     /// Order of the particles, their cells, and the parts that work side by side.
     fn schedule(&self) -> &Schedule;
 
@@ -76,7 +80,8 @@ pub trait Basis<const D: usize>: Sync {
     }
 
     /// The [`cell_stencil_size`](Self::cell_stencil_size) node numbers that the particles of `cell` touch, by the places of
-    /// [`for_each_node`](Self::for_each_node), [`NO_NODE`] at places that none of them touches; written to `scratch` where they are not stored.
+    /// [`for_each_node`](Self::for_each_node), [`NO_NODE`] at places that none of them touches; a node may have several places, of which only the first is
+    /// visited. Written to `scratch` where they are not stored.
     fn cell_nodes<'a>(&'a self, cell: usize, scratch: &'a mut Vec<u32>) -> &'a [u32];
 
     /// Visit the stencil of a particle, given by its place in the schedule and the position `x` that it was activated with:

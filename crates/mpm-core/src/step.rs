@@ -30,6 +30,7 @@ where
         let dt = choose_time_step(&self.medium, &self.particles, control, h)?;
         let damping = control.damping(dt);
 
+        self.basis.expect_affine_directions(T::AFFINE);
         rebuild(&mut self.basis, &mut self.particles)?;
         self.filter_velocities(dt);
         evaluate_particle_forces(

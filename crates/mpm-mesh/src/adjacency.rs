@@ -21,6 +21,7 @@ impl Default for Lists {
 
 impl Lists {
     /// Number of lists.
+    #[inline(always)]
     pub fn len(&self) -> usize {
         self.starts.len() - 1
     }
@@ -31,6 +32,7 @@ impl Lists {
     }
 
     /// List number `index`.
+    #[inline(always)]
     pub fn get(&self, index: usize) -> &[u32] {
         &self.items[self.starts[index]..self.starts[index + 1]]
     }
@@ -41,11 +43,13 @@ impl Lists {
     }
 
     /// Where list number `index` begins among all items, `index` ≤ `len()`.
+    #[inline(always)]
     pub fn start(&self, index: usize) -> usize {
         self.starts[index]
     }
 
     /// All items, list after list.
+    #[inline(always)]
     pub fn items(&self) -> &[u32] {
         &self.items
     }

@@ -29,6 +29,7 @@ impl Rings {
     }
 
     /// The ring of a cell.
+    #[inline(always)]
     pub fn ring(&self, cell: usize) -> &[u32] {
         self.lists.get(cell)
     }

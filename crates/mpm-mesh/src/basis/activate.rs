@@ -13,9 +13,13 @@ impl<const D: usize> MeshBasis<D> {
         self.marks.resize(vertex_count.next_multiple_of(STRETCH), 0);
         self.numbers.resize(vertex_count, 0);
         let occupied = (0..self.schedule.cell_count()).map(|cell| self.particle_cells[self.schedule.cell(cell).start]);
+        let (stencils, marks) = (&self.stencils, self.marks.as_mut_slice());
+        let mut places = 0;
         for cell in occupied.clone() {
-            for &vertex in self.stencils.ring(cell) {
-                self.marks[vertex as usize] = 1;
+            let nodes = stencils.groups(cell);
+            places += nodes.len();
+            for &vertex in nodes {
+                marks[vertex as usize] = 1;
             }
         }
         self.active.clear();
@@ -29,14 +33,20 @@ impl<const D: usize> MeshBasis<D> {
                 self.active.push(vertex as u32);
             }
         }
-        self.cell_nodes.clear();
         self.cell_node_starts.clear();
         self.cell_node_starts.push(0);
+        self.cell_nodes.resize(places, 0);
+        let (mut nodes, numbers) = (self.cell_nodes.as_mut_slice(), self.numbers.as_slice());
+        let mut start = 0;
         for cell in occupied {
-            let ring = self.stencils.ring(cell).iter();
-            self.cell_nodes
-                .extend(ring.map(|&vertex| self.numbers[vertex as usize]));
-            self.cell_node_starts.push(self.cell_nodes.len());
+            let ring = stencils.groups(cell);
+            let (own, others) = nodes.split_at_mut(ring.len());
+            for (node, &vertex) in own.iter_mut().zip(ring) {
+                *node = numbers[vertex as usize];
+            }
+            nodes = others;
+            start += ring.len();
+            self.cell_node_starts.push(start);
         }
     }
 

@@ -9,7 +9,7 @@ mod transfers;
 mod weights;
 
 use mpm_core::{Basis, CellSort, MpmError, Schedule};
-use mpm_kernels::{Columns, Deposit, Entry, Interpolated, NodeField, NodeSink, Wanted};
+use mpm_kernels::{Columns, Deposit, Entry, Interpolated, Lanes, NodeField, NodeSink, Wanted};
 use mpm_tensor::vector::{distance, subtract};
 
 use self::curve::AlongCurve;
@@ -67,13 +67,15 @@ pub struct MeshBasis<const D: usize> {
     /// Cells of the particles in schedule order.
     particle_cells: Vec<u32>,
     particles: Vec<ParticleFit<D>>,
-    /// d′_pi of all particles.
-    samples: Vec<f64>,
+    /// d′_pi of all particles, in the groups of their rings.
+    samples: Vec<Lanes>,
+    /// Whether D_p⁻¹ is computed.
+    spreads: bool,
     /// Number by vertex; of no meaning where a vertex is not active.
     numbers: Vec<u32>,
     /// Vertex by number, ascending.
     active: Vec<u32>,
-    /// Node numbers of the cells of the schedule, one cell after the other, and where those of a cell begin.
+    /// Node numbers of the cells of the schedule, in the groups of their rings, one cell after the other, and where those of a cell begin.
     cell_nodes: Vec<u32>,
     cell_node_starts: Vec<usize>,
     schedule: Schedule,
@@ -113,6 +115,7 @@ impl<const D: usize> MeshBasis<D> {
             particle_cells: Vec::new(),
             particles: Vec::new(),
             samples: Vec::new(),
+            spreads: true,
             numbers: Vec::new(),
             active: Vec::new(),
             cell_nodes: Vec::new(),
@@ -220,6 +223,10 @@ impl<const D: usize> Basis<D> for MeshBasis<D> {
         self.fit_particles(sorted)
     }
 
+    fn expect_affine_directions(&mut self, read: bool) {
+        self.spreads = read;
+    }
+
     fn schedule(&self) -> &Schedule {
         &self.schedule
     }
@@ -304,7 +311,8 @@ impl<const D: usize> Basis<D> for MeshBasis<D> {
             + self.cell_sort.storage_bytes()
             + words.iter().map(|v| v.capacity() * 4).sum::<usize>()
             + self.particles.capacity() * size_of::<ParticleFit<D>>()
-            + (self.samples.capacity() + self.cell_node_starts.capacity() + self.widths.capacity()) * 8
+            + self.samples.capacity() * size_of::<Lanes>()
+            + (self.cell_node_starts.capacity() + self.widths.capacity()) * 8
             + self.marks.capacity()
     }
 }

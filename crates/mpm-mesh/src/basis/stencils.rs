@@ -1,50 +1,86 @@
 //! What particles of a cell have in common: its first ring, and which vertices of the cell each node of it is joined to.
 
+use mpm_kernels::{LANES, Lanes};
+
+use crate::adjacency::Lists;
 use crate::{Rings, SimplexMesh};
 
-/// The rings of all cells.
+/// The rings of all cells in groups of four nodes: the last node of a ring is repeated to the end of its group.
 #[derive(Clone, Debug)]
 pub(super) struct Stencils {
-    rings: Rings,
-    /// For every node of every ring the set of the cell's vertices that it is joined to or is: vertex n is bit n. The adjacency matrix A, A_ii = 1.
+    rings: Lists,
+    /// For every node of every ring the set of the cell's vertices that it is joined to or is: vertex n is bit n; nothing for what is repeated. The adjacency
+    /// matrix A, A_ii = 1.
     joined: Vec<u8>,
+    /// Vertices, zeros behind their coordinates.
+    vertices: Vec<Lanes>,
+    largest: usize,
 }
 
 impl Stencils {
     pub fn new<const D: usize>(mesh: &SimplexMesh<D>) -> Self {
         let rings = Rings::new(mesh);
         let neighbours = mesh.vertex_neighbours();
-        let mut joined = Vec::with_capacity(rings.lists().items().len());
+        let (mut padded, mut joined, mut largest) = (Lists::default(), Vec::new(), 0);
+        let mut nodes = Vec::new();
         for (cell, ring) in mesh.cells().zip(rings.lists().iter()) {
+            let length = ring.len().next_multiple_of(LANES);
+            largest = largest.max(length);
+            nodes.clear();
+            nodes.extend_from_slice(ring);
+            nodes.resize(length, ring[ring.len() - 1]);
+            padded.push(&nodes);
             for node in ring {
                 let is_joined =
                     |vertex: &u32| vertex == node || neighbours.get(*vertex as usize).binary_search(node).is_ok();
                 let bit = |(n, vertex)| u8::from(is_joined(vertex)) << n;
                 joined.push(cell.iter().enumerate().map(bit).sum());
             }
+            joined.resize(padded.items().len(), 0);
         }
-        Self { rings, joined }
+        let lanes = |x: &[f64; D]| Lanes::new(std::array::from_fn(|a| x.get(a).copied().unwrap_or(0.0)));
+        Self {
+            rings: padded,
+            joined,
+            vertices: mesh.vertices().iter().map(lanes).collect(),
+            largest,
+        }
     }
 
-    /// The nodes of a cell, in ascending order.
+    /// The nodes of a cell, in ascending order, in whole groups.
+    #[inline(always)]
+    pub fn groups(&self, cell: u32) -> &[u32] {
+        self.rings.get(cell as usize)
+    }
+
+    /// The nodes of a cell, in ascending order, each once.
     #[inline(always)]
     pub fn ring(&self, cell: u32) -> &[u32] {
-        self.rings.ring(cell as usize)
+        let repeated = self.joined(cell).iter().rev().take_while(|&&set| set == 0);
+        let groups = self.groups(cell);
+        &groups[..groups.len() - repeated.count()]
     }
 
-    /// For every node of a cell which vertices of the cell it is joined to.
+    /// For every node of [`groups`](Self::groups) which vertices of the cell it is joined to.
     #[inline(always)]
     pub fn joined(&self, cell: u32) -> &[u8] {
-        let lists = self.rings.lists();
-        &self.joined[lists.start(cell as usize)..lists.start(cell as usize + 1)]
+        &self.joined[self.rings.start(cell as usize)..self.rings.start(cell as usize + 1)]
     }
 
-    /// Nodes of the largest ring.
+    /// Positions of four vertices by component; only the first D have a meaning.
+    #[inline(always)]
+    pub fn positions(&self, vertices: &[u32; LANES]) -> [Lanes; LANES] {
+        let [a, b, c, d] = *vertices;
+        let at = |vertex: u32| self.vertices[vertex as usize];
+        Lanes::transpose([at(a), at(b), at(c), at(d)])
+    }
+
+    /// Places of the largest ring.
     pub fn largest(&self) -> usize {
-        self.rings.largest()
+        self.largest
     }
 
     pub fn storage_bytes(&self) -> usize {
-        self.joined.len() * 5 + self.rings.lists().len() * size_of::<usize>()
+        self.joined.len() * 5 + self.rings.len() * size_of::<usize>() + self.vertices.len() * size_of::<Lanes>()
     }
 }

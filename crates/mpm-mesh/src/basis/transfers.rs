@@ -1,6 +1,6 @@
-//! What particles send to their nodes and read from them, mass and momentum side by side in lanes.
+//! What particles send to their nodes and read from them: factors of four nodes side by side in lanes, or mass and momentum of one.
 
-use mpm_kernels::{Columns, Deposit, Interpolated, Lanes, NodeField, NodeSink, Packed, Wanted};
+use mpm_kernels::{Columns, Deposit, Interpolated, LANES, Lanes, NodeField, NodeSink, Packed, Wanted};
 use mpm_tensor::Matrix;
 
 use super::MeshBasis;
@@ -22,20 +22,22 @@ impl<const D: usize> MeshBasis<D> {
     ) {
         let fit = &self.particles[particle].fit;
         let pack = |column: Option<[f64; D]>| column.map(|column| Pack::new(0.0, &column));
-        let flux: [Option<Pack>; D] = std::array::from_fn(|b| pack(flux.column(b)));
-        let affine: [Option<Pack>; D] = std::array::from_fn(|b| pack(affine.column(b)));
+        let (tilted, mut pushes) = (affine.column(0).is_some(), flux.column(0).is_some());
         let mut tilt = [Pack::ZERO; D]; // columns of C
         let (mut push, mut bend) = (Pack::ZERO, [Pack::ZERO; D]); // S β, and columns of S Γ
         for b in 0..D {
-            let mut flux = flux[b];
-            match (&affine[b], &fit.inverse_spread) {
+            let mut flux = pack(flux.column(b));
+            match (pack(affine.column(b)), &fit.inverse_spread) {
                 (None, _) => {}
                 (Some(column), Some(inverse)) => {
                     for a in 0..D {
-                        tilt[a] = tilt[a].plus(Lanes::splat(inverse.0[b][a]), column);
+                        tilt[a] = tilt[a].plus(Lanes::splat(inverse.0[b][a]), &column);
                     }
                 }
-                (Some(column), None) => flux = Some(column.plus(Lanes::splat(1.0), &flux.unwrap_or(Pack::ZERO))),
+                (Some(column), None) => {
+                    pushes = true;
+                    flux = Some(column.plus(Lanes::splat(1.0), &flux.unwrap_or(Pack::ZERO)));
+                }
             }
             if let Some(column) = flux {
                 push = push.plus(Lanes::splat(fit.slope[b]), &column);
@@ -44,19 +46,41 @@ impl<const D: usize> MeshBasis<D> {
                 }
             }
         }
-        let value = Pack::new(value.scalar, &value.vector);
+        let (mass, value) = (Lanes::splat(value.scalar), splats::<D>(&Pack::new(0.0, &value.vector)));
         let (level, slope) = (Lanes::splat(fit.level), fit.slope.map(Lanes::splat));
-        let point = x.map(Lanes::splat);
-        self.for_each_sample(particle, |index, sample, node| {
-            let (mut weight, mut carried, mut pushed) = (level, value, push);
+        let (push, mut tilts, mut bends) = (splats::<D>(&push), [[Lanes::ZERO; D]; D], [[Lanes::ZERO; D]; D]);
+        for a in 0..D {
+            (tilts[a], bends[a]) = (splats::<D>(&tilt[a]), splats::<D>(&bend[a]));
+        }
+        self.for_each_group(particle, x, |first, sample, r| {
+            let mut weight = level;
             for a in 0..D {
-                let r = Lanes::splat(node[a]) - point[a];
-                weight = slope[a].mul_add(r, weight);
-                carried = carried.plus(r, &tilt[a]);
-                pushed = pushed.plus(r, &bend[a]);
+                weight = slope[a].mul_add(r[a], weight);
             }
-            let sample = Lanes::splat(sample);
-            sink.update(index, |sum: &Pack| sum.plus(sample, &pushed.plus(weight, &carried)));
+            weight *= sample;
+            let mut sent = [Lanes::ZERO; LANES];
+            sent[0] = weight * mass;
+            for c in 0..D {
+                let mut carried = value[c];
+                if tilted {
+                    for a in 0..D {
+                        carried = tilts[a][c].mul_add(r[a], carried);
+                    }
+                }
+                sent[c + 1] = weight * carried;
+                if pushes {
+                    let mut pushed = push[c];
+                    for a in 0..D {
+                        pushed = bends[a][c].mul_add(r[a], pushed);
+                    }
+                    sent[c + 1] = sample.mul_add(pushed, sent[c + 1]);
+                }
+            }
+            let mut window = sink.window(first, LANES);
+            for (lane, node) in Lanes::transpose(sent).iter().enumerate() {
+                let node = Pack::read(std::slice::from_ref(node));
+                window.update(lane, |sum: &Pack| sum.plus(Lanes::splat(1.0), &node));
+            }
         });
     }
 
@@ -70,47 +94,71 @@ impl<const D: usize> MeshBasis<D> {
         nodes: &impl NodeField<D>,
     ) -> Interpolated<D> {
         let fit = &self.particles[particle].fit;
-        let by_gradient = wanted.gradient && !(wanted.least_squares && fit.inverse_spread.is_some());
-        let with_moment = wanted.moment || (wanted.gradient && !by_gradient);
+        let by_moment = wanted.gradient && wanted.least_squares && fit.inverse_spread.is_some();
+        let by_gradient = wanted.gradient && !by_moment;
+        let with_moment = wanted.moment || by_moment;
         let (level, slope) = (Lanes::splat(fit.level), fit.slope.map(Lanes::splat));
-        let point = x.map(Lanes::splat);
+        // Σ w v or, with a gradient, Σ d′ v; Σ d′ v r_a; Σ w v r_a.
         let (mut zeroth, mut first, mut moment) = (Pack::ZERO, [Pack::ZERO; D], [Pack::ZERO; D]);
-        self.for_each_sample(particle, |index, sample, node| {
-            let carried = nodes.packed::<1>(index).times(Lanes::splat(sample));
+        self.for_each_group(particle, x, |place, sample, r| {
             let mut weight = level;
-            let mut r = [Lanes::ZERO; D];
             for a in 0..D {
-                r[a] = Lanes::splat(node[a]) - point[a];
                 weight = slope[a].mul_add(r[a], weight);
-                first[a] = first[a].plus(r[a], &carried);
             }
-            zeroth = zeroth.plus(Lanes::splat(1.0), &carried);
-            if with_moment {
+            weight *= sample;
+            let (mut sampled, mut weighted) = (*r, *r);
+            for a in 0..D {
+                sampled[a] *= sample;
+                weighted[a] *= weight;
+            }
+            let window = nodes.window(place, LANES);
+            let head = if by_gradient { sample } else { weight };
+            for lane in 0..LANES {
+                let v = Pack::read(&[window.lanes(lane)]);
+                let of = |factors: &Lanes| Lanes::splat(factors.as_array()[lane]);
+                zeroth = zeroth.plus(of(&head), &v);
                 for a in 0..D {
-                    moment[a] = moment[a].plus(weight * r[a], &carried);
+                    if by_gradient {
+                        first[a] = first[a].plus(of(&sampled[a]), &v);
+                    }
+                    if with_moment {
+                        moment[a] = moment[a].plus(of(&weighted[a]), &v);
+                    }
                 }
             }
         });
-        let mut value = zeroth.times(level);
-        let mut gradient = [Pack::ZERO; D];
-        for a in 0..D {
-            value = value.plus(slope[a], &first[a]);
-            gradient[a] = zeroth.times(slope[a]);
-            for b in 0..D {
-                gradient[a] = gradient[a].plus(Lanes::splat(fit.curvature.0[b][a]), &first[b]);
+        let (mut value, mut gradient) = (zeroth, [Pack::ZERO; D]);
+        if by_gradient {
+            value = zeroth.times(level);
+            for a in 0..D {
+                value = value.plus(slope[a], &first[a]);
+                gradient[a] = zeroth.times(slope[a]);
+                for b in 0..D {
+                    gradient[a] = gradient[a].plus(Lanes::splat(fit.curvature.0[b][a]), &first[b]);
+                }
             }
         }
         let moment = from_columns(&moment);
         Interpolated {
             value: value.deposit::<D>().vector,
             gradient: match &fit.inverse_spread {
-                _ if !wanted.gradient => Matrix::ZERO,
-                Some(inverse) if wanted.least_squares => moment * *inverse,
+                Some(inverse) if by_moment => moment * *inverse,
                 _ => from_columns(&gradient),
             },
             moment: if wanted.moment { moment } else { Matrix::ZERO },
         }
     }
+}
+
+/// The components of a vector, each in all lanes.
+#[inline(always)]
+fn splats<const D: usize>(pack: &Pack) -> [Lanes; D] {
+    let vector = pack.deposit::<D>().vector;
+    let mut splats = [Lanes::ZERO; D];
+    for c in 0..D {
+        splats[c] = Lanes::splat(vector[c]);
+    }
+    splats
 }
 
 /// The matrix of the vectors of packed columns.

@@ -1,7 +1,7 @@
 //! The rebuild, phase 5: the fit of every particle; and weights at any point, to look at them.
 
 use mpm_core::MpmError;
-use mpm_kernels::{Entry, LANES};
+use mpm_kernels::{Entry, LANES, Lanes};
 use mpm_tensor::vector::subtract;
 use rayon::prelude::*;
 
@@ -46,40 +46,37 @@ impl<const D: usize> MeshBasis<D> {
             let nodes = groups as u64;
             return Err(MpmError::TooManyNodes { nodes });
         }
-        samples.resize(groups * LANES, 0.0);
+        samples.resize(groups, Lanes::ZERO);
         let mut rest = samples.as_mut_slice();
         let mut work = Vec::with_capacity(shares.len());
         for (part, particles, groups) in shares {
-            let (own, others) = rest.split_at_mut(groups.len() * LANES);
+            let (own, others) = rest.split_at_mut(groups.len());
             rest = others;
             work.push((part, particles, own, groups.start));
         }
-        work.into_par_iter()
-            .for_each(|(part, mut particles, mut samples, mut first)| {
-                let mut lanes = RingLanes::default();
-                for cell in part.cells.clone() {
-                    let range = schedule.cell(cell);
-                    let (own, others) = std::mem::take(&mut particles).split_at_mut(range.len());
-                    let length = self.groups_of(cell) * LANES;
-                    let (own_samples, other_samples) = std::mem::take(&mut samples).split_at_mut(length * range.len());
-                    (particles, samples) = (others, other_samples);
-                    let mesh_cell = self.particle_cells[range.start];
-                    self.collect(mesh_cell, &mut lanes);
-                    let each = own
-                        .iter_mut()
-                        .zip(own_samples.chunks_exact_mut(length))
-                        .zip(&sorted[range]);
-                    for ((particle, samples), x) in each {
-                        let fit = self.fit(mesh_cell, x, &lanes, samples);
-                        *particle = ParticleFit {
-                            fit,
-                            cell: mesh_cell,
-                            samples: first as u32,
-                        };
-                        first += length / LANES;
+        work.into_par_iter().for_each(|(part, particles, samples, first)| {
+            let mut lanes = RingLanes::new(self.weight);
+            let (mut solved, mut next, mut sample) = (0, 0, 0);
+            for cell in part.cells.clone() {
+                let (range, length) = (schedule.cell(cell), self.groups_of(cell));
+                let mesh_cell = self.particle_cells[range.start];
+                self.collect(mesh_cell, &mut lanes);
+                for x in &sorted[range] {
+                    particles[next].cell = mesh_cell;
+                    particles[next].samples = (first + sample) as u32;
+                    let pending = self.push(mesh_cell, x, &mut lanes, sample);
+                    next += 1;
+                    sample += length;
+                    if pending == LANES || next == particles.len() {
+                        let fits = lanes.solve(self.spreads, samples);
+                        for (particle, fit) in particles[solved..next].iter_mut().zip(fits) {
+                            particle.fit = fit;
+                        }
+                        solved = next;
                     }
                 }
-            });
+            }
+        });
         (self.particles, self.samples) = (particles, samples);
         Ok(())
     }
@@ -87,25 +84,25 @@ impl<const D: usize> MeshBasis<D> {
     /// Groups of lanes that d′ of a particle fill, by cell of the schedule.
     #[inline(always)]
     fn groups_of(&self, cell: usize) -> usize {
-        (self.cell_node_starts[cell + 1] - self.cell_node_starts[cell]).div_ceil(LANES)
+        (self.cell_node_starts[cell + 1] - self.cell_node_starts[cell]) / LANES
     }
 
     #[inline(always)]
     fn collect(&self, cell: u32, lanes: &mut RingLanes<D>) {
-        let (ring, joined) = (self.stencils.ring(cell), self.stencils.joined(cell));
-        let mesh = self.mesh();
-        lanes.collect(mesh.vertices(), mesh.cell(cell as usize), ring, joined, self.weight);
+        let (ring, joined) = (self.stencils.groups(cell), self.stencils.joined(cell));
+        let vertices = self.mesh().cell(cell as usize);
+        lanes.collect(vertices, ring, joined, |four| self.stencils.positions(four));
     }
 
-    /// The fit at `x` with the ring of a cell; where `x` is outside of it, with b of the nearest point.
+    /// Let a particle at `x` with the ring of a cell be solved next; where `x` is outside of it, with b of the nearest point.
     #[inline(always)]
-    fn fit(&self, cell: u32, x: &[f64; D], lanes: &RingLanes<D>, samples: &mut [f64]) -> Fit<D> {
+    fn push(&self, cell: u32, x: &[f64; D], lanes: &mut RingLanes<D>, sample: usize) -> usize {
         let mut barycentric = self.search.barycentric(cell, x);
         if !self.search.is_inside(&barycentric) {
             barycentric = self.search.nearest_in_cell(cell, x).located.barycentric;
         }
         let width = self.width_at(cell, &barycentric);
-        lanes.fit(x, &barycentric, 1.0 / width, samples)
+        lanes.push(x, &barycentric, 1.0 / width, sample)
     }
 
     /// Visit place in the ring, d′ and position of the nodes of a particle.
@@ -113,9 +110,32 @@ impl<const D: usize> MeshBasis<D> {
     pub(super) fn for_each_sample(&self, particle: usize, mut visit: impl FnMut(usize, f64, &[f64; D])) {
         let ParticleFit { cell, samples, .. } = self.particles[particle];
         let (ring, vertices) = (self.stencils.ring(cell), self.mesh().vertices());
-        let samples = &self.samples[samples as usize * LANES..][..ring.len()];
-        for (index, (&vertex, &sample)) in ring.iter().zip(samples).enumerate() {
+        let groups = &self.samples[samples as usize..][..ring.len().div_ceil(LANES)];
+        for (index, &vertex) in ring.iter().enumerate() {
+            let sample = groups[index / LANES].as_array()[index % LANES];
             visit(index, sample, &vertices[vertex as usize]);
+        }
+    }
+
+    /// Visit four nodes of a particle at a time: place of the first, d′ and offsets by component.
+    #[inline(always)]
+    pub(super) fn for_each_group(
+        &self,
+        particle: usize,
+        x: &[f64; D],
+        mut visit: impl FnMut(usize, Lanes, &[Lanes; D]),
+    ) {
+        let ParticleFit { cell, samples, .. } = self.particles[particle];
+        let ring = self.stencils.groups(cell).as_chunks().0;
+        let samples = &self.samples[samples as usize..][..ring.len()];
+        let point = x.map(Lanes::splat);
+        for (group, (four, &sample)) in ring.iter().zip(samples).enumerate() {
+            let positions = self.stencils.positions(four);
+            let mut r = [Lanes::ZERO; D];
+            for a in 0..D {
+                r[a] = positions[a] - point[a];
+            }
+            visit(group * LANES, sample, &r);
         }
     }
 
@@ -128,16 +148,18 @@ impl<const D: usize> MeshBasis<D> {
     /// All weights that a particle at `x` has if it is taken to be in `cell`, in the numbering of the basis: on a face, the limits from either
     /// side.
     pub fn weights_from(&self, cell: u32, x: &[f64; D]) -> Vec<WeightAt<D>> {
-        let (ring, mut lanes) = (self.stencils.ring(cell), RingLanes::default());
+        let (ring, mut lanes) = (self.stencils.ring(cell), RingLanes::new(self.weight));
         self.collect(cell, &mut lanes);
-        let mut samples = vec![0.0; ring.len().next_multiple_of(LANES)];
-        let fit = self.fit(cell, x, &lanes, &mut samples);
-        let entry = |(&vertex, &sample)| {
+        let mut samples = vec![Lanes::ZERO; ring.len().div_ceil(LANES)];
+        self.push(cell, x, &mut lanes, 0);
+        let [fit, ..] = lanes.solve(false, &mut samples);
+        let entry = |(&vertex, sample)| {
             let node = &self.mesh().vertices()[vertex as usize];
             let entry = fit.entry(sample, subtract(node, x));
             WeightAt { vertex, entry }
         };
-        ring.iter().zip(&samples).map(entry).collect()
+        let samples = samples.into_iter().flat_map(Lanes::to_array);
+        ring.iter().zip(samples).map(entry).collect()
     }
 
     /// Smallest weight in a cell, in the numbering of the basis, over the points with barycentric coordinates k / `divisions`, k whole; negative weights are

@@ -2,11 +2,12 @@
 
 use mpm_kernels::{Entry, LANES, Lanes};
 use mpm_tensor::Matrix;
-use mpm_tensor::vector::{dot, multiply_add};
+use mpm_tensor::vector::dot;
 
-use super::definite::inverse_of_definite;
-use super::ring_lanes::RingLanes;
+use super::definite::{LaneMatrix, inverse_of_definite};
+use super::ring_lanes::{Group, Pending, RingLanes, SETS};
 use super::spline::quadratic;
+use super::sums;
 
 /// D_p is used where each of its pivots is above this share of Σ_i |w_ip| r_ia², since weights of both signs may make it singular, and above
 /// that share of Σ_i d′_ip r_ia², since it is also where a particle is at a vertex of the boundary (ours).
@@ -63,90 +64,224 @@ impl<const D: usize> Fit<D> {
 }
 
 impl<const D: usize> RingLanes<D> {
-    /// Fit at `x`, whose barycentric coordinates in the cell are `barycentric` from vertex 1 on; writes d′_pi by place in the ring
-    /// to `samples`, whose length is that of the ring rounded up to whole groups. Not finite where cells are degenerate.
+    /// The fits of all pending particles, which are no longer pending then, and what they need to be found again; writes their d′_pi to their places in
+    /// `samples`. Not finite where cells are degenerate. Without `spread` there is no D_p⁻¹.
     #[inline(always)]
-    pub fn fit(&self, x: &[f64; D], barycentric: &[f64; D], inverse_h: f64, samples: &mut [f64]) -> Fit<D> {
-        let (point, b) = (x.map(Lanes::splat), barycentric.map(Lanes::splat));
-        let inverse_square = Lanes::splat(inverse_h * inverse_h);
-        let (mut zeroth, mut first, mut second) = (Lanes::ZERO, [Lanes::ZERO; D], [[Lanes::ZERO; D]; D]);
-        for (group, out) in self.groups.iter().zip(samples.chunks_exact_mut(LANES)) {
-            let (mut square, mut share) = (Lanes::ZERO, group.base);
-            let mut r = [Lanes::ZERO; D];
+    pub fn solve(&mut self, spread: bool, samples: &mut [Lanes]) -> [Fit<D>; LANES] {
+        let mut sums_of = [[Lanes::ZERO; LARGEST_COUNT]; LANES];
+        for (sums, particle) in sums_of.iter_mut().zip(&self.pending[..self.count]) {
+            *sums = sample_ring(
+                particle,
+                &self.groups[particle.groups()],
+                &mut samples[particle.samples()],
+            );
+        }
+        let moments = Moments::<D>::side_by_side(&sums_of);
+        let total = moments.zeroth;
+        let centre = moments.first.map(|first| first / total);
+        let mut scatter = moments.second;
+        for i in 0..D {
+            for j in 0..=i {
+                scatter[i][j] = (-total * centre[i]).mul_add(centre[j], scatter[i][j]);
+            }
+        }
+        let (mut curvature, definite) = inverse_of_definite(&scatter, &[Lanes::ZERO; D]);
+        let mut slope = [Lanes::ZERO; D];
+        for a in 0..D {
+            for b in 0..D {
+                curvature[a][b] = definite.select(curvature[a][b], Lanes::splat(f64::NAN));
+                slope[a] = (-curvature[a][b]).mul_add(centre[b], slope[a]);
+            }
+        }
+        let mut level = Lanes::splat(1.0) / total;
+        for a in 0..D {
+            level = (-slope[a]).mul_add(centre[a], level);
+        }
+        let mut fits = [Fit::NOTHING; LANES];
+        for (k, fit) in fits.iter_mut().enumerate() {
+            fit.level = level.as_array()[k];
             for a in 0..D {
-                r[a] = group.positions[a] - point[a];
-                square = r[a].mul_add(r[a], square);
-                share = group.slopes[a].mul_add(b[a], share);
+                fit.slope[a] = slope[a].as_array()[k];
             }
-            let sample = share.fast_max(Lanes::ZERO) * quadratic(square * inverse_square);
-            out.copy_from_slice(&sample.to_array());
-            zeroth += sample;
-            for i in 0..D {
-                let weighted = sample * r[i];
-                first[i] += weighted;
-                for j in 0..=i {
-                    second[i][j] = weighted.mul_add(r[j], second[i][j]);
-                }
-            }
+            fit.curvature = one_of(&curvature, k);
         }
-        let total = zeroth.reduce_add();
-        let centre = first.map(|sum| sum.reduce_add() / total);
-        let scatter = symmetric(|i, j| multiply_add(-total * centre[i], centre[j], second[i][j].reduce_add()));
-        let curvature = inverse_of_definite(&scatter, &[0.0; D]).unwrap_or(Matrix([[f64::NAN; D]; D]));
-        let slope = curvature.apply(&centre).map(|c| -c);
-        let level = 1.0 / total - dot(&slope, &centre);
-        let least = std::array::from_fn(|a| LEAST_SAMPLED * second[a][a].reduce_add());
-        Fit {
-            level,
-            slope,
-            curvature,
-            inverse_spread: self.inverse_spread(&point, level, &slope, samples, &least),
+        if spread {
+            let least = std::array::from_fn(|a| moments.second[a][a] * LEAST_SAMPLED);
+            self.spreads(&mut fits, samples, &least);
         }
+        self.count = 0;
+        fits
     }
 
     /// D_p⁻¹, once the weights are known; its pivots have to be above `least`.
     #[inline(always)]
-    fn inverse_spread(
-        &self,
-        point: &[Lanes; D],
-        level: f64,
-        slope: &[f64; D],
-        samples: &[f64],
-        least: &[f64; D],
-    ) -> Option<Matrix<D>> {
-        let slope = slope.map(Lanes::splat);
-        let (mut second, mut sizes) = ([[Lanes::ZERO; D]; D], [Lanes::ZERO; D]);
-        for (group, samples) in self.groups.iter().zip(samples.chunks_exact(LANES)) {
-            let mut weight = Lanes::splat(level);
-            let mut r = [Lanes::ZERO; D];
-            for a in 0..D {
-                r[a] = group.positions[a] - point[a];
-                weight = slope[a].mul_add(r[a], weight);
+    fn spreads(&self, fits: &mut [Fit<D>; LANES], samples: &[Lanes], least: &[Lanes; D]) {
+        let mut sums_of = [[Lanes::ZERO; LARGEST_COUNT]; LANES];
+        let mut sizes = [[None; LANES]; D];
+        for (k, particle) in self.pending[..self.count].iter().enumerate() {
+            let weighting = Weighting::new(particle, &fits[k]);
+            let ring = || self.groups[particle.groups()].iter().zip(&samples[particle.samples()]);
+            let (mut second, mut lowest) = ([[Lanes::ZERO; D]; D], Lanes::ZERO);
+            for (group, &sample) in ring() {
+                let (weight, r) = weighting.of(group, sample);
+                lowest = lowest.fast_min(weight);
+                for i in 0..D {
+                    let weighted = weight * r[i];
+                    for j in 0..=i {
+                        second[i][j] = weighted.mul_add(r[j], second[i][j]);
+                    }
+                }
             }
-            weight *= Lanes::new([samples[0], samples[1], samples[2], samples[3]]);
-            for i in 0..D {
-                let weighted = weight * r[i];
-                sizes[i] += (weighted * r[i]).abs();
-                for j in 0..=i {
-                    second[i][j] = weighted.mul_add(r[j], second[i][j]);
+            sums_of[k] = in_a_row(Lanes::ZERO, &[Lanes::ZERO; D], &second);
+            // Σ |w| r² is Σ w r² unless a weight is negative.
+            if lowest.to_array().iter().any(|&weight| weight < 0.0) {
+                let mut lanes = [Lanes::ZERO; D];
+                for (group, &sample) in ring() {
+                    let (weight, r) = weighting.of(group, sample);
+                    for i in 0..D {
+                        lanes[i] += (weight * r[i] * r[i]).abs();
+                    }
+                }
+                for i in 0..D {
+                    sizes[i][k] = Some(lanes[i].reduce_add());
                 }
             }
         }
-        let floor = std::array::from_fn(|a| least[a].max(LEAST_SPREAD * sizes[a].reduce_add()));
-        inverse_of_definite(&symmetric(|i, j| second[i][j].reduce_add()), &floor)
+        let second = Moments::<D>::side_by_side(&sums_of).second;
+        let floor = std::array::from_fn(|a| {
+            let own = second[a][a].as_array();
+            let size = Lanes::new(std::array::from_fn(|k| sizes[a][k].unwrap_or(own[k])));
+            least[a].fast_max(size * LEAST_SPREAD)
+        });
+        let (inverse, definite) = inverse_of_definite(&second, &floor);
+        let definite = definite.to_bitmask();
+        for (k, fit) in fits.iter_mut().enumerate() {
+            fit.inverse_spread = (definite >> k & 1 == 1).then_some(one_of(&inverse, k));
+        }
     }
 }
 
-/// The symmetric matrix of a lower triangle.
+/// The matrix in a lane.
 #[inline(always)]
-fn symmetric<const D: usize>(entry: impl Fn(usize, usize) -> f64) -> Matrix<D> {
-    let mut matrix = Matrix::ZERO;
-    for i in 0..D {
-        for j in 0..=i {
-            let value = entry(i, j);
-            matrix.0[i][j] = value;
-            matrix.0[j][i] = value;
+fn one_of<const D: usize>(matrix: &LaneMatrix<D>, lane: usize) -> Matrix<D> {
+    let mut one = Matrix::ZERO;
+    for a in 0..D {
+        for b in 0..D {
+            one.0[a][b] = matrix[a][b].as_array()[lane];
         }
     }
-    matrix
+    one
+}
+
+/// 1, D and D (D + 1) / 2 sums for D = 3.
+const LARGEST_COUNT: usize = 10;
+
+/// Σ d′, Σ d′ r and the lower triangle of Σ d′ r rᵀ of four particles side by side.
+struct Moments<const D: usize> {
+    zeroth: Lanes,
+    first: [Lanes; D],
+    second: LaneMatrix<D>,
+}
+
+impl<const D: usize> Moments<D> {
+    /// From the lanes of each particle by themselves.
+    #[inline(always)]
+    fn side_by_side(rows: &[[Lanes; LARGEST_COUNT]; LANES]) -> Self {
+        let sum = |place: usize| sums(&std::array::from_fn(|k| rows[k][place]));
+        Self {
+            zeroth: sum(0),
+            first: std::array::from_fn(|a| sum(1 + a)),
+            second: std::array::from_fn(|i| {
+                std::array::from_fn(|j| {
+                    if j <= i {
+                        sum(1 + D + i * (i + 1) / 2 + j)
+                    } else {
+                        Lanes::ZERO
+                    }
+                })
+            }),
+        }
+    }
+}
+
+/// What [`Moments`] are of, one after the other.
+#[inline(always)]
+fn in_a_row<const D: usize>(zeroth: Lanes, first: &[Lanes; D], second: &LaneMatrix<D>) -> [Lanes; LARGEST_COUNT] {
+    let mut row = [Lanes::ZERO; LARGEST_COUNT];
+    row[0] = zeroth;
+    for i in 0..D {
+        row[1 + i] = first[i];
+        for j in 0..=i {
+            row[1 + D + i * (i + 1) / 2 + j] = second[i][j];
+        }
+    }
+    row
+}
+
+/// d′ of the nodes of a particle, and their moments.
+#[inline(always)]
+fn sample_ring<const D: usize>(
+    particle: &Pending<D>,
+    groups: &[Group<D>],
+    samples: &mut [Lanes],
+) -> [Lanes; LARGEST_COUNT] {
+    let point = particle.point.map(Lanes::splat);
+    let inverse_square = Lanes::splat(particle.inverse_h * particle.inverse_h);
+    for (group, out) in groups.iter().zip(samples.iter_mut()) {
+        let mut square = Lanes::ZERO;
+        for a in 0..D {
+            let r = group.positions[a] - point[a];
+            square = r.mul_add(r, square);
+        }
+        let [a, b, c, d] = group.joined;
+        let share = |set: u8| particle.shares[set as usize % SETS];
+        let share = Lanes::new([share(a), share(b), share(c), share(d)]);
+        *out = share * quadratic(square * inverse_square);
+    }
+    // In a loop of its own, since all sums together fill the registers.
+    let (mut zeroth, mut first, mut second) = (Lanes::ZERO, [Lanes::ZERO; D], [[Lanes::ZERO; D]; D]);
+    for (group, &sample) in groups.iter().zip(samples.iter()) {
+        let mut r = [Lanes::ZERO; D];
+        for a in 0..D {
+            r[a] = group.positions[a] - point[a];
+        }
+        zeroth += sample;
+        for i in 0..D {
+            let weighted = sample * r[i];
+            first[i] += weighted;
+            for j in 0..=i {
+                second[i][j] = weighted.mul_add(r[j], second[i][j]);
+            }
+        }
+    }
+    in_a_row(zeroth, &first, &second)
+}
+
+/// w = d′ (α + β·r) of one particle.
+struct Weighting<const D: usize> {
+    point: [Lanes; D],
+    level: Lanes,
+    slope: [Lanes; D],
+}
+
+impl<const D: usize> Weighting<D> {
+    #[inline(always)]
+    fn new(particle: &Pending<D>, fit: &Fit<D>) -> Self {
+        Self {
+            point: particle.point.map(Lanes::splat),
+            level: Lanes::splat(fit.level),
+            slope: fit.slope.map(Lanes::splat),
+        }
+    }
+
+    /// w and r of four nodes.
+    #[inline(always)]
+    fn of(&self, group: &Group<D>, sample: Lanes) -> (Lanes, [Lanes; D]) {
+        let (mut weight, mut r) = (self.level, [Lanes::ZERO; D]);
+        for a in 0..D {
+            r[a] = group.positions[a] - self.point[a];
+            weight = self.slope[a].mul_add(r[a], weight);
+        }
+        (weight * sample, r)
+    }
 }

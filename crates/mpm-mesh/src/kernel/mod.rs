@@ -5,6 +5,8 @@ mod fit;
 mod ring_lanes;
 mod spline;
 
+use mpm_kernels::{LANES, Lanes};
+
 pub(crate) use fit::Fit;
 pub(crate) use ring_lanes::RingLanes;
 
@@ -21,4 +23,11 @@ pub enum SampleWeight {
     /// coefficients interpolates: weights are the barycentric coordinates and gradients theirs, the piecewise linear functions of the finite element method,
     /// whose gradients jump at faces. A control: what UMLS-MPM improves on.
     CellAlone,
+}
+
+/// The sum over the lanes of each of four rows.
+#[inline(always)]
+pub(crate) fn sums(rows: &[Lanes; LANES]) -> Lanes {
+    let [a, b, c, d] = Lanes::transpose(*rows);
+    (a + b) + (c + d)
 }

@@ -1,53 +1,160 @@
-//! The first ring of a cell, four nodes side by side, for all particles of the cell.
+//! First rings of cells, four nodes side by side, and the particles whose fits are still to be solved.
+
+use std::ops::Range;
 
 use mpm_kernels::{LANES, Lanes};
 
 use super::SampleWeight;
 
-/// Four nodes of a ring. Where a ring ends within a group, the last node fills it up with η = 0.
+/// Four nodes of a ring, and the sets of vertices of the cell that each is joined to, vertex n being bit n.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Group<const D: usize> {
     pub positions: [Lanes; D],
-    /// η = `base` + Σ_n `slopes`\[n\] b_{n+1}, by b_0 = 1 − Σ_{n ≥ 1} b_n: A_i0, and A_i,n+1 − A_i0.
-    pub base: Lanes,
-    pub slopes: [Lanes; D],
+    pub joined: [u8; LANES],
 }
 
-/// Memory for the groups of one ring.
-#[derive(Clone, Debug, Default)]
+/// A particle whose ring is collected.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pending<const D: usize> {
+    pub point: [f64; D],
+    /// max(η, 0) by set of vertices.
+    pub shares: [f64; SETS],
+    pub inverse_h: f64,
+    /// Where the groups of its ring and its d′ begin, and how many there are.
+    group: usize,
+    sample: usize,
+    length: usize,
+}
+
+/// The last rings, and up to four particles. Four are solved side by side: what follows the sums over a ring is a chain of quotients.
+#[derive(Clone, Debug)]
 pub(crate) struct RingLanes<const D: usize> {
     pub(super) groups: Vec<Group<D>>,
+    pub(super) pending: [Pending<D>; LANES],
+    pub(super) count: usize,
+    weight: SampleWeight,
+    /// Where the ring of the cell begins.
+    start: usize,
+}
+
+/// Sets of up to four vertices.
+pub(super) const SETS: usize = 16;
+
+/// Groups that are kept before those of no use are dropped.
+const MANY: usize = 256;
+
+/// All vertices of a cell.
+const ALL: u8 = SETS as u8 - 1;
+
+impl<const D: usize> Pending<D> {
+    #[inline(always)]
+    pub fn groups(&self) -> Range<usize> {
+        self.group..self.group + self.length
+    }
+
+    #[inline(always)]
+    pub fn samples(&self) -> Range<usize> {
+        self.sample..self.sample + self.length
+    }
 }
 
 impl<const D: usize> RingLanes<D> {
-    /// Collect the ring of a cell: its vertices, and for each of them the set of the cell's vertices that it is joined to or is, vertex n being
-    /// bit n.
+    /// No rings and no particles.
+    pub fn new(weight: SampleWeight) -> Self {
+        let nothing = Pending {
+            point: [0.0; D],
+            shares: [0.0; SETS],
+            inverse_h: 0.0,
+            group: 0,
+            sample: 0,
+            length: 0,
+        };
+        Self {
+            groups: Vec::new(),
+            pending: [nothing; LANES],
+            count: 0,
+            weight,
+            start: 0,
+        }
+    }
+
+    /// Collect the ring of the next cell: groups of its nodes, the sets of the cell's vertices that they are joined to or are (nothing where a node is
+    /// repeated), and where four vertices are.
     #[inline(always)]
-    pub fn collect(&mut self, vertices: &[[f64; D]], cell: &[u32], ring: &[u32], joined: &[u8], weight: SampleWeight) {
-        self.groups.clear();
-        for (ring, joined) in ring.chunks(LANES).zip(joined.chunks(LANES)) {
-            let mut positions = [[0.0; LANES]; D];
-            let (mut base, mut slopes) = ([0.0; LANES], [[0.0; LANES]; D]);
-            for lane in 0..LANES {
-                let node = vertices[ring[lane.min(ring.len() - 1)] as usize];
-                let set = match weight {
-                    _ if lane >= ring.len() => 0,
-                    SampleWeight::Continuous => joined[lane],
-                    SampleWeight::CellAlone if !cell.contains(&ring[lane]) => 0,
-                    SampleWeight::DistanceAlone | SampleWeight::CellAlone => u8::MAX,
-                };
-                let is_joined = |n: usize| f64::from(set >> n & 1);
-                base[lane] = is_joined(0);
-                for a in 0..D {
-                    positions[a][lane] = node[a];
-                    slopes[a][lane] = is_joined(a + 1) - base[lane];
+    pub fn collect(
+        &mut self,
+        cell: &[u32],
+        ring: &[u32],
+        joined: &[u8],
+        positions: impl Fn(&[u32; LANES]) -> [Lanes; LANES],
+    ) {
+        if self.groups.len() >= MANY {
+            self.forget();
+        }
+        self.start = self.groups.len();
+        let fours = ring.as_chunks().0.iter().zip(joined.as_chunks().0);
+        self.groups.extend(fours.map(|(ring, joined)| {
+            let (all, mut own) = (positions(ring), [Lanes::ZERO; D]);
+            own.copy_from_slice(&all[..D]);
+            Group {
+                positions: own,
+                joined: *joined,
+            }
+        }));
+        if self.weight != SampleWeight::Continuous {
+            let groups = self.groups[self.start..].iter_mut();
+            for (group, ring) in groups.zip(ring.as_chunks::<LANES>().0) {
+                for (set, vertex) in group.joined.iter_mut().zip(ring) {
+                    let counts = self.weight == SampleWeight::DistanceAlone || cell.contains(vertex);
+                    *set = if *set != 0 && counts { ALL } else { 0 };
                 }
             }
-            self.groups.push(Group {
-                positions: positions.map(Lanes::new),
-                base: Lanes::new(base),
-                slopes: slopes.map(Lanes::new),
-            });
         }
+    }
+
+    /// Drop the rings that no pending particle has.
+    #[cold]
+    fn forget(&mut self) {
+        let pending = &mut self.pending[..self.count];
+        let kept = pending.first().map_or(self.groups.len(), |particle| particle.group);
+        for particle in pending {
+            particle.group -= kept;
+        }
+        self.groups.drain(..kept);
+    }
+
+    /// A particle at `x` in the cell, by its barycentric coordinates from vertex 1 on; its d′ go to `sample` and behind. Returns how many are pending, at most
+    /// four: then they have to be solved.
+    #[inline(always)]
+    pub fn push(&mut self, x: &[f64; D], barycentric: &[f64; D], inverse_h: f64, sample: usize) -> usize {
+        self.pending[self.count] = Pending {
+            point: *x,
+            shares: self.shares(barycentric),
+            inverse_h,
+            group: self.start,
+            sample,
+            length: self.groups.len() - self.start,
+        };
+        self.count += 1;
+        self.count
+    }
+
+    /// max(η, 0) by set of vertices, η = Σ_{n in the set} b_n with b_0 = 1 − Σ_{n ≥ 1} b_n; `barycentric` has b_1 to b_D.
+    #[inline(always)]
+    fn shares(&self, barycentric: &[f64; D]) -> [f64; SETS] {
+        if self.weight != SampleWeight::Continuous {
+            let mut all = [0.0; SETS];
+            all[ALL as usize] = 1.0;
+            return all;
+        }
+        let b = |n: usize| barycentric.get(n - 1).copied().unwrap_or(0.0);
+        let first = 1.0 - barycentric.iter().sum::<f64>();
+        let low = Lanes::new([0.0, first, b(1), first + b(1)]);
+        let mut sets = [0.0; SETS];
+        for (quarter, higher) in [0.0, b(2), b(3), b(2) + b(3)].into_iter().enumerate() {
+            let shares = (low + Lanes::splat(higher)).fast_max(Lanes::ZERO).to_array();
+            sets[quarter * LANES..][..LANES].copy_from_slice(&shares);
+        }
+        sets
     }
 }
