@@ -28,8 +28,8 @@ mod volume_averaging;
 pub use basis::{Basis, NO_NODE, UniformBasis};
 pub use body_force::{BodyForce, ForceLocation, NoBodyForce, Sites};
 pub use boundary::{
-    Boundaries, Boundary, Contact, GridMotion, HalfSpace, NoBoundary, Obstacle, Plane, PrescribedVelocity, Side,
-    SignedDistance, Sphere, Wall,
+    Boundaries, Boundary, Contact, GridMotion, HalfSpace, NoBoundary, NodeForces, Obstacle, Plane, PrescribedVelocity,
+    Side, SignedDistance, Sphere, Wall,
 };
 pub use cell_sort::CellSort;
 pub use control::{StepControl, StepReport};

@@ -126,6 +126,6 @@ where
         for node in self.nodes.as_mut_slice() {
             node.advance(&[0.0; D], 1.0, f64::INFINITY);
         }
-        self.constrain_grid(dt);
+        self.constrain_grid(dt, false);
     }
 }

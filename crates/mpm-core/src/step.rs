@@ -49,7 +49,7 @@ where
             &mut self.node_forces,
         )?;
         let speed = self.update_grid(dt, damping, control.speed_limit(h, dt))?;
-        self.constrain_grid(dt);
+        self.constrain_grid(dt, true);
         self.update_particles(dt, damping);
         self.time += dt;
         Ok(StepReport {
@@ -139,13 +139,14 @@ where
     }
 
     /// Velocities of the nodes that walls and obstacles touch.
-    pub(crate) fn constrain_grid(&mut self, dt: f64) {
+    pub(crate) fn constrain_grid(&mut self, dt: f64, forces: bool) {
         if C::PRESENT {
             self.basis.node_positions(&mut self.node_positions);
             let motion = GridMotion {
                 positions: &self.node_positions,
                 time: self.time,
                 time_step: dt,
+                forces,
             };
             self.boundary.constrain(&self.basis, &motion, self.nodes.as_mut_slice());
         }

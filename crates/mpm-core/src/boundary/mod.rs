@@ -2,6 +2,7 @@
 
 mod contact;
 mod mirror;
+mod node_forces;
 mod obstacle;
 mod plane;
 mod prescribed;
@@ -9,6 +10,7 @@ mod signed_distance;
 mod wall;
 
 pub use contact::Contact;
+pub use node_forces::NodeForces;
 pub use obstacle::Obstacle;
 pub use plane::Plane;
 pub use prescribed::PrescribedVelocity;
@@ -26,6 +28,8 @@ pub struct GridMotion<'a, const D: usize> {
     pub time: f64,
     /// Δt.
     pub time_step: f64,
+    /// Whether forces act in this pass; velocities may also be constrained without.
+    pub forces: bool,
 }
 
 /// Conditions on the velocities of the nodes.
@@ -48,9 +52,11 @@ impl<const D: usize> Boundary<D> for NoBoundary {
     fn constrain<B: Basis<D>, N: GridNode<D>>(&mut self, _: &B, _: &GridMotion<D>, _: &mut [N]) {}
 }
 
-/// Walls, obstacles and prescribed velocities, applied in this order.
+/// Forces at nodes, walls, obstacles and prescribed velocities, applied in this order.
 #[derive(Default)]
 pub struct Boundaries<const D: usize> {
+    /// Forces at nodes of the mesh.
+    pub forces: Vec<NodeForces<D>>,
     /// Plane walls.
     pub walls: Vec<Plane<D>>,
     /// Rigid bodies.
@@ -70,6 +76,7 @@ impl<const D: usize> Boundaries<D> {
     /// As [`new`](Self::new), with walls in any direction.
     pub fn with_planes(walls: Vec<Plane<D>>, obstacles: Vec<Obstacle<D>>) -> Self {
         Self {
+            forces: Vec::new(),
             walls,
             obstacles,
             prescribed: Vec::new(),
@@ -82,10 +89,19 @@ impl<const D: usize> Boundaries<D> {
         self.prescribed = prescribed;
         self
     }
+
+    /// The same, with these forces.
+    pub fn with_forces(mut self, forces: Vec<NodeForces<D>>) -> Self {
+        self.forces = forces;
+        self
+    }
 }
 
 impl<const D: usize> Boundary<D> for Boundaries<D> {
     fn constrain<B: Basis<D>, N: GridNode<D>>(&mut self, basis: &B, motion: &GridMotion<D>, nodes: &mut [N]) {
+        for forces in &self.forces {
+            forces.act(basis, motion, nodes);
+        }
         if !self.walls.is_empty() {
             self.masses.clear();
             self.masses.extend(nodes.iter().map(GridNode::mass));

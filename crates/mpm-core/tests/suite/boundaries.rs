@@ -40,6 +40,7 @@ fn constrained<S: Spline<W>, const W: usize>(boundaries: Boundaries<2>) -> Const
         positions: &positions,
         time: 0.0,
         time_step: 0.1,
+        forces: true,
     };
     let mut boundaries = boundaries;
     boundaries.constrain(&basis, &motion, &mut after);
@@ -147,6 +148,7 @@ fn mirroring_is_a_projection() {
         positions: &once.positions,
         time: 0.0,
         time_step: 0.1,
+        forces: true,
     };
     box_of(Contact::Stick).constrain(&once.basis, &motion, &mut twice);
     for (first, second) in once.after.iter().zip(&twice) {

@@ -6,6 +6,7 @@ pub mod channel;
 pub mod conservation;
 pub mod convergence;
 pub mod curve;
+pub mod cylinder;
 pub mod dam_break;
 pub mod expansion;
 pub mod generalized_vortex;

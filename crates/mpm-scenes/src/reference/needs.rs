@@ -1,5 +1,6 @@
 //! Which scenes a reference describes: what sets its problem apart, and all that its comparison reads.
 
+use super::cylinder::ThickWalledCylinder;
 use super::parts::{gravity, sides, solid, spacing};
 use super::{slope_run_out, tilted_cantilever};
 use crate::Scene;
@@ -68,6 +69,10 @@ pub fn channel(scene: &Scene) -> bool {
     let random = |body: &BodyTable| body.fill == FillKind::Random;
     let falls = scene.dimension == 2 && gravity(scene) > 0.0;
     falls && scene.barrier.is_some() && scene.bodies.iter().all(random)
+}
+
+pub fn cylinder(scene: &Scene) -> bool {
+    scene.dimension == 2 && ThickWalledCylinder::of(scene).is_some()
 }
 
 pub fn expansion(scene: &Scene) -> bool {

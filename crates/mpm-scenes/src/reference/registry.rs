@@ -2,8 +2,8 @@
 
 use super::parts::{Rows, Run};
 use super::{
-    Displacement, axis_aligned, cantilever, channel, conservation, dam_break, expansion, generalized_vortex, needs,
-    slope_run_out, tilted_cantilever, two_disks, vibrating_bar,
+    Displacement, axis_aligned, cantilever, channel, conservation, cylinder, dam_break, expansion, generalized_vortex,
+    needs, slope_run_out, tilted_cantilever, two_disks, vibrating_bar,
 };
 use crate::{ManufacturedSolution, Scene, SceneFault, Series, Snapshot};
 
@@ -21,7 +21,7 @@ struct Reference {
 /// A manufactured solution for the material of a scene.
 type Manufacture = fn(&Scene) -> Result<Box<dyn ManufacturedSolution>, SceneFault>;
 
-const VALIDATIONS: [Reference; 16] = [
+const VALIDATIONS: [Reference; 17] = [
     Reference {
         name: "axis-aligned",
         describes: "a plane body of one elastic material, with the manufactured solution `axis-aligned` as velocity or load",
@@ -87,6 +87,12 @@ const VALIDATIONS: [Reference; 16] = [
         describes: "randomly filled plane bodies under gravity, with a barrier",
         fits: needs::channel,
         validate: channel::validate,
+    },
+    Reference {
+        name: "umls-cylinder",
+        describes: "a plane ring (a sphere less a smaller one about its centre) of one elastic material, with a pressure on facets",
+        fits: needs::cylinder,
+        validate: cylinder::validate,
     },
     Reference {
         name: "umls-disks",

@@ -78,11 +78,13 @@ pub(super) fn build<const D: usize>(
     let Tagged {
         obstacles: tagged,
         mut prescribed,
+        forces,
     } = tagged::build(scene, background)?;
     obstacles.extend(tagged);
     let held = HeldRegion::<D>::of(scene)?.into_iter();
     prescribed.extend(held.map(|region| Box::new(region) as Box<dyn PrescribedVelocity<D>>));
     let boundaries = Boundaries::with_planes(walls.collect::<Result<_, _>>()?, obstacles).with_prescribed(prescribed);
+    let boundaries = boundaries.with_forces(forces);
     Ok((boundaries, MovingObstacles(moving)))
 }
 

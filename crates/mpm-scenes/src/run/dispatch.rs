@@ -16,7 +16,7 @@ use crate::law::{self, LawState, Laws};
 use crate::loads::Loads;
 use crate::population::Population;
 use crate::scene::{
-    BasisName, Discretisation, GridTable, KernelName, MeshTable, Scene, StressUpdateName, TransferKind, WidthName,
+    BasisName, Discretisation, GridTable, KernelName, Scene, StressUpdateName, TransferKind, WidthName,
 };
 use crate::shape::Bounds;
 
@@ -61,7 +61,7 @@ pub(super) fn build<const D: usize>(
         (Discretisation::Grid(table), Background::Grid { spacing, room }) => {
             on_grid(table, parts, Grid { spacing, room })
         }
-        (Discretisation::Mesh(table), Background::Mesh { whole, .. }) => on_mesh(table, parts, &whole),
+        (Discretisation::Mesh(_), Background::Mesh { whole, .. }) => on_mesh(parts, &whole),
         _ => Err(SceneFault::missing("grid", "given unless there is a [mesh]")),
     }
 }
@@ -163,11 +163,11 @@ impl<const D: usize> Grid<D> {
     }
 }
 
-fn on_mesh<const D: usize>(
-    table: &MeshTable,
-    parts: Parts<D>,
-    mesh: &SimplexMesh<D>,
-) -> Result<Box<dyn Motion<D>>, SceneFault> {
+/// The basis of a scene on its mesh.
+pub(super) fn mesh_basis<const D: usize>(scene: &Scene, mesh: &SimplexMesh<D>) -> Result<MeshBasis<D>, SceneFault> {
+    let Discretisation::Mesh(table) = scene.discretisation()? else {
+        return Err(SceneFault::missing("mesh", "given instead of a [grid]"));
+    };
     let invalid = |error: mpm_mesh::MeshError| SceneFault::value("mesh", table, format!("valid: {error}"));
     let outside = match table.reach {
         0.0 => Outside::Refuse,
@@ -183,7 +183,11 @@ fn on_mesh<const D: usize>(
         WidthName::Local => KernelWidth::Local,
     };
     let basis = MeshBasis::new(mesh).map_err(invalid)?.with_kernel_width(width);
-    let basis = basis.with_outside(outside).with_sample_weight(weight);
+    Ok(basis.with_outside(outside).with_sample_weight(weight))
+}
+
+fn on_mesh<const D: usize>(parts: Parts<D>, mesh: &SimplexMesh<D>) -> Result<Box<dyn Motion<D>>, SceneFault> {
+    let basis = mesh_basis(parts.scene, mesh)?;
     match parts.scene.transfer.kind {
         TransferKind::Pic | TransferKind::Flip => with_share(parts, basis),
         TransferKind::AffineFlip => {

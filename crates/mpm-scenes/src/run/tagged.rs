@@ -1,13 +1,15 @@
 //! Conditions on named facets of a mesh, as conditions on its vertices.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
-use mpm_core::{Contact, Obstacle, PrescribedVelocity, SignedDistance};
-use mpm_mesh::SimplexMesh;
+use mpm_core::{Contact, NodeForces, Obstacle, PrescribedVelocity, SignedDistance};
+use mpm_mesh::{BoundaryFacet, MeshBasis, SimplexMesh};
 use mpm_tensor::vector as algebra;
 
+use super::dispatch;
 use crate::background::Background;
-use crate::scene::{FacetTable, Scene, WallCondition};
+use crate::scene::{FacetCondition, FacetTable, Scene};
+use crate::values::vector;
 use crate::{SceneFault, velocity};
 
 /// Vertices by the bits of their positions, which nodes have too.
@@ -49,6 +51,8 @@ pub(super) struct Tagged<const D: usize> {
     pub obstacles: Vec<Obstacle<D>>,
     /// Those that move the body.
     pub prescribed: Vec<Box<dyn PrescribedVelocity<D>>>,
+    /// Tractions as forces at nodes.
+    pub forces: Vec<NodeForces<D>>,
 }
 
 /// The conditions of `[[facets]]`.
@@ -59,6 +63,7 @@ pub(super) fn build<const D: usize>(scene: &Scene, background: &Background<D>) -
     let mut tagged = Tagged {
         obstacles: Vec::new(),
         prescribed: Vec::new(),
+        forces: Vec::new(),
     };
     for (index, table) in scene.facets.iter().enumerate() {
         let field = |key: &str| format!("facets[{index}].{key}");
@@ -73,22 +78,36 @@ pub(super) fn build<const D: usize>(scene: &Scene, background: &Background<D>) -
             ));
         };
         let facets = group(field("group"), table, groups)?;
-        let normals = normals(inner, whole, facets);
-        if table.condition == WallCondition::Prescribed {
-            let velocity = velocity::build::<D>(&field("velocity"), table.velocity.as_ref(), scene)?;
-            let given = normals.keys().map(|key| (*key, velocity.at(&key.map(f64::from_bits))));
-            tagged.prescribed.push(Box::new(Given(given.collect())));
-            continue;
-        }
+        let normals = || normals(inner, whole, facets);
         let contact = match table.condition {
-            WallCondition::Slip => Contact::Slip,
-            WallCondition::Friction => Contact::Separate {
+            FacetCondition::Fixed => Contact::Stick,
+            FacetCondition::Slip => Contact::Slip,
+            FacetCondition::Friction => Contact::Separate {
                 friction: table.friction.unwrap_or(0.0),
             },
-            WallCondition::Fixed | WallCondition::Prescribed => Contact::Stick,
+            FacetCondition::Prescribed => {
+                let velocity = velocity::build::<D>(&field("velocity"), table.velocity.as_ref(), scene)?;
+                let normals = normals();
+                let given = normals.keys().map(|key| (*key, velocity.at(&key.map(f64::from_bits))));
+                tagged.prescribed.push(Box::new(Given(given.collect())));
+                continue;
+            }
+            FacetCondition::Traction => {
+                let traction = table
+                    .traction
+                    .as_ref()
+                    .map(|list| vector::<D>(&field("traction"), list));
+                let (traction, pressure) = (traction.transpose()?, table.pressure.unwrap_or(0.0));
+                let load = |facet: &BoundaryFacet<D>| traction.unwrap_or_else(|| facet.normal.map(|c| -pressure * c));
+                tagged.forces.push(NodeForces {
+                    forces: forces(&dispatch::mesh_basis(scene, whole)?, inner, facets, load),
+                    ramp: table.ramp.unwrap_or(0.0),
+                });
+                continue;
+            }
         };
         tagged.obstacles.push(Obstacle {
-            shape: Box::new(AtVertices(normals)),
+            shape: Box::new(AtVertices(normals())),
             contact,
             velocity: [0.0; D],
         });
@@ -114,21 +133,59 @@ fn group<'a>(
         .ok_or_else(|| SceneFault::value(field, &table.group, expected))
 }
 
-/// The unit normals into the mesh at the vertices of some facets, means of those of the facets there by area. Vertices of the layer around the mesh have that of the nearest
-/// vertex of the mesh that they are joined to, if that is one of these.
-fn normals<const D: usize>(inner: &SimplexMesh<D>, whole: &SimplexMesh<D>, facets: &[u32]) -> ByPosition<D> {
+/// The facets of the boundary that a group names, by any order of their vertices.
+fn named<const D: usize>(inner: &SimplexMesh<D>, facets: &[u32]) -> impl Iterator<Item = BoundaryFacet<D>> {
     let key = |facet: &[u32]| {
         let mut facet = facet.to_vec();
         facet.sort_unstable();
         facet
     };
-    let named: std::collections::HashSet<Vec<u32>> = facets.chunks_exact(D.max(1)).map(key).collect();
+    let named: HashSet<Vec<u32>> = facets.chunks_exact(D.max(1)).map(key).collect();
+    let boundary = inner.boundary().into_iter();
+    boundary.filter(move |facet| named.contains(&key(&facet.vertices)))
+}
+
+/// f_i = Σ_v w_i(x_v) Σ_f t_f A_f / D over the vertices v of facets f with tractions t: ∫ w_i t dA with w_i between vertices by the hat functions of the boundary. Since Σ w_i = 1 and
+/// Σ w_i x_i = x_v, the force and its moments of first order are those of the facets.
+fn forces<const D: usize>(
+    basis: &MeshBasis<D>,
+    inner: &SimplexMesh<D>,
+    facets: &[u32],
+    load: impl Fn(&BoundaryFacet<D>) -> [f64; D],
+) -> Vec<([f64; D], [f64; D])> {
+    let mut at_vertices: BTreeMap<u32, [f64; D]> = BTreeMap::new();
+    for facet in named(inner, facets) {
+        let load = load(&facet);
+        for vertex in facet.vertices {
+            algebra::accumulate(
+                at_vertices.entry(vertex).or_insert([0.0; D]),
+                facet.area / D as f64,
+                &load,
+            );
+        }
+    }
+    let mut at_nodes: BTreeMap<u32, [f64; D]> = BTreeMap::new();
+    for (vertex, force) in at_vertices {
+        for weight in basis.weights_at(&inner.vertices()[vertex as usize]).unwrap_or_default() {
+            algebra::accumulate(
+                at_nodes.entry(weight.vertex).or_insert([0.0; D]),
+                weight.entry.weight,
+                &force,
+            );
+        }
+    }
+    let position = |vertex: u32| basis.mesh().vertices()[vertex as usize];
+    let loaded = at_nodes.into_iter().filter(|(_, force)| *force != [0.0; D]);
+    loaded.map(|(vertex, force)| (position(vertex), force)).collect()
+}
+
+/// The unit normals into the mesh at the vertices of some facets, means of those of the facets there by area. Vertices of the layer around the mesh have that of the nearest
+/// vertex of the mesh that they are joined to, if that is one of these.
+fn normals<const D: usize>(inner: &SimplexMesh<D>, whole: &SimplexMesh<D>, facets: &[u32]) -> ByPosition<D> {
     let mut sums: HashMap<u32, [f64; D]> = facets.iter().map(|&vertex| (vertex, [0.0; D])).collect();
-    for facet in inner.boundary() {
-        if named.contains(&key(&facet.vertices)) {
-            for vertex in facet.vertices {
-                algebra::accumulate(sums.entry(vertex).or_insert([0.0; D]), -facet.area, &facet.normal);
-            }
+    for facet in named(inner, facets) {
+        for vertex in facet.vertices {
+            algebra::accumulate(sums.entry(vertex).or_insert([0.0; D]), -facet.area, &facet.normal);
         }
     }
     let unit = |sum: &[f64; D]| {
@@ -187,7 +244,7 @@ mod tests {
         let field = |x: &[f64; 2]| algebra::add(&gradient.apply(x), &[0.5, -0.25]);
         let keys = normals(&inner, &whole, &rim);
         let rim = Given(keys.keys().map(|key| (*key, field(&key.map(f64::from_bits)))).collect());
-        let own: std::collections::HashSet<[u64; 2]> = inner.vertices().iter().map(bits).collect();
+        let own: HashSet<[u64; 2]> = inner.vertices().iter().map(bits).collect();
         let basis = MeshBasis::new(&whole).expect("a basis");
         for k in 0..400 {
             let (radius, angle) = ((f64::from(k) / 400.0).sqrt() * 0.985, 2.4 * f64::from(k));
@@ -205,6 +262,25 @@ mod tests {
             }
             assert!(algebra::distance(&velocity, &field(&x)) < 1e-12, "{x:?}: {velocity:?}");
             assert!((rate - gradient).maximum_norm() < 1e-11, "{x:?}: {rate:?}");
+        }
+    }
+
+    /// Patch test of a traction: under t = σ n on the whole boundary, forces and their first moments are those of a constant stress, Σ f = 0 and Σ f xᵀ = V σ.
+    #[test]
+    #[allow(non_snake_case)]
+    fn tractions_of_a_constant_stress_are_in_equilibrium() {
+        let (inner, whole, rim) = with_rim();
+        let stress = Matrix([[2.0, -0.7], [-0.7, 0.5]]);
+        for width in [mpm_mesh::KernelWidth::LongestEdge, mpm_mesh::KernelWidth::Local] {
+            let basis = MeshBasis::new(&whole).expect("a basis").with_kernel_width(width);
+            let (mut force, mut moment) = ([0.0; 2], Matrix::ZERO);
+            for (x, f) in forces(&basis, &inner, &rim, |facet| stress.apply(&facet.normal)) {
+                algebra::accumulate(&mut force, 1.0, &f);
+                moment += Matrix::outer(&f, &x);
+            }
+            let V = inner.total_volume();
+            assert!(algebra::norm(&force) < 1e-12, "{force:?}");
+            assert!((moment - stress * V).maximum_norm() < 1e-12, "{moment:?}");
         }
     }
 

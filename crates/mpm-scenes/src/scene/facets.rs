@@ -1,8 +1,8 @@
 //! `[[facets]]`.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
-use super::{VelocityTable, WallCondition};
+use super::VelocityTable;
 
 /// `[[facets]]`: a condition on facets of the mesh, of any shape: those of a physical group of `mesh.file`.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -11,9 +11,31 @@ pub struct FacetTable {
     /// The name of the group; its number where the file names none.
     pub group: String,
     /// What they do to a body that touches them.
-    pub condition: WallCondition,
+    pub condition: FacetCondition,
     /// The velocity of the body at them, a vector or a field; with `condition = "prescribed"` only.
     pub velocity: Option<VelocityTable>,
     /// Coefficient of friction μ; with `condition = "friction"` only.
     pub friction: Option<f64>,
+    /// t, a force per area of the mesh's facets; with `condition = "traction"` only.
+    pub traction: Option<Vec<f64>>,
+    /// Instead of `traction`: p in t = −p n, n being the outward normal of a facet.
+    pub pressure: Option<f64>,
+    /// Time over which a traction grows. Default 0.
+    pub ramp: Option<f64>,
+}
+
+/// `facets.condition`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum FacetCondition {
+    /// The body sticks.
+    Fixed,
+    /// It slides along, never away.
+    Slip,
+    /// It slides, braked by friction, and may leave.
+    Friction,
+    /// It has a given velocity.
+    Prescribed,
+    /// A force per area acts on it, where the facets are: a dead load, for bodies that stay at them.
+    Traction,
 }

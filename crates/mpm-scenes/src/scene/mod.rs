@@ -26,7 +26,7 @@ pub use boundary::{
     AxisName, Contact, HeldTable, KinematicTable, ObstacleTable, Side, TurningTable, WallCondition, WallTable,
 };
 pub use discretisation::{BasisName, Discretisation, DomainTable, GridTable, TransferKind, TransferTable};
-pub use facets::FacetTable;
+pub use facets::{FacetCondition, FacetTable};
 pub use load::LoadTable;
 pub use material::{FluidTable, GasTable, MaterialTable, MetalTable, SandTable, SolidTable};
 pub use mesh::{DelaunayTable, KernelName, MeshShapeTable, MeshTable, RefinementTable, RotationTable, WidthName};

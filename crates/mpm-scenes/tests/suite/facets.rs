@@ -184,6 +184,38 @@ fn groups_that_name_nothing_are_refused() {
             ],
             "facets[0].friction",
         ),
+        (
+            vec![
+                ("condition = \"prescribed\"", "condition = \"traction\""),
+                (velocity, "[output]"),
+            ],
+            "facets[0].traction",
+        ),
+        (
+            vec![
+                (
+                    "condition = \"prescribed\"",
+                    "condition = \"traction\"\npressure = 1.0\ntraction = [1.0, 0.0]",
+                ),
+                (velocity, "[output]"),
+            ],
+            "facets[0].traction",
+        ),
+        (
+            vec![
+                ("condition = \"prescribed\"", "condition = \"traction\"\npressure = 1.0"),
+                (velocity, "[output]"),
+                ("end = 0.2", "end = 0.2\nstress_update = \"first\""),
+            ],
+            "time.stress_update",
+        ),
+        (
+            vec![(
+                "condition = \"prescribed\"",
+                "condition = \"prescribed\"\npressure = 1.0",
+            )],
+            "facets[0].pressure",
+        ),
     ] {
         let message = refused(&changes);
         assert!(message.contains(part), "{message}");

@@ -3,7 +3,7 @@
 use crate::scene::{Contact, Scene, WallCondition};
 use crate::shape::Bounds;
 use crate::values::{not_negative, positive, vector};
-use crate::{SceneFault, kinematics, plane, shape, velocity};
+use crate::{SceneFault, kinematics, plane, shape};
 
 impl Scene {
     pub(super) fn check_boundaries<const D: usize>(&self) -> Result<(), SceneFault> {
@@ -12,52 +12,11 @@ impl Scene {
             // Without a domain the border is known when the mesh is; here any will do.
             plane::build::<D>(&Bounds::UNIT, index, wall)?;
             let prescribed = wall.condition == WallCondition::Prescribed;
-            check_presence(
-                field("velocity"),
-                wall.velocity.as_ref(),
-                prescribed,
-                "condition = \"prescribed\"",
-            )?;
-            let rough = wall.condition == WallCondition::Friction;
-            check_presence(
-                field("friction"),
-                wall.friction.as_ref(),
-                rough,
-                "condition = \"friction\"",
-            )?;
-            check_motion::<D>(&field, wall.velocity.as_ref(), wall.friction)?;
+            check_presence(field("velocity"), wall.velocity.as_ref(), prescribed, PRESCRIBED)?;
+            check_friction(&field, wall.friction, wall.condition == WallCondition::Friction)?;
+            check_motion::<D>(&field, wall.velocity.as_ref(), None)?;
         }
-        let from_file = self.mesh.as_ref().is_some_and(|mesh| mesh.file.is_some());
-        for (index, table) in self.facets.iter().enumerate() {
-            let field = |key: &str| format!("facets[{index}].{key}");
-            if !from_file {
-                return Err(SceneFault::value(
-                    field("group"),
-                    &table.group,
-                    "left out without a mesh.file",
-                ));
-            }
-            let prescribed = table.condition == WallCondition::Prescribed;
-            match &table.velocity {
-                None if prescribed => {
-                    let expected = "given with condition = \"prescribed\"";
-                    return Err(SceneFault::missing(field("velocity"), expected));
-                }
-                Some(_) if !prescribed => {
-                    let expected = "\"prescribed\", since there is a velocity";
-                    return Err(SceneFault::value(field("condition"), table.condition, expected));
-                }
-                velocity => drop(velocity::build::<D>(&field("velocity"), velocity.as_ref(), self)?),
-            }
-            let rough = table.condition == WallCondition::Friction;
-            check_presence(
-                field("friction"),
-                table.friction.as_ref(),
-                rough,
-                "condition = \"friction\"",
-            )?;
-            check_motion::<D>(&field, None, table.friction)?;
-        }
+        self.check_facets::<D>()?;
         for (index, obstacle) in self.obstacles.iter().enumerate() {
             let field = |key: &str| format!("obstacles[{index}].{key}");
             shape::build::<D>(&field("shape"), &obstacle.shape)?;
@@ -92,8 +51,20 @@ impl Scene {
     }
 }
 
+const PRESCRIBED: &str = "condition = \"prescribed\"";
+
+/// μ of a wall or of facets, which has to be there where they are rough.
+pub(super) fn check_friction(
+    field: &dyn Fn(&str) -> String,
+    friction: Option<f64>,
+    rough: bool,
+) -> Result<(), SceneFault> {
+    check_presence(field("friction"), friction.as_ref(), rough, "condition = \"friction\"")?;
+    friction.map_or(Ok(()), |friction| not_negative(&field("friction"), friction).map(drop))
+}
+
 /// A value that belongs to one condition: there with it, left out without it.
-fn check_presence<T: serde::Serialize>(
+pub(super) fn check_presence<T: serde::Serialize>(
     field: String,
     value: Option<&T>,
     wanted: bool,

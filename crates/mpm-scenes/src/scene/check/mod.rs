@@ -2,6 +2,7 @@
 
 mod bodies;
 mod boundaries;
+mod facets;
 mod forces;
 mod mesh;
 mod outputs;

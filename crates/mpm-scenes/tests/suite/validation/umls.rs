@@ -109,3 +109,11 @@ fn the_cross_expands_inside_the_sphere() {
         "{upper:?}"
     );
 }
+
+/// Tractions on tagged facets of a curved boundary that the mesh conforms to: within 2 % of Lamé's displacements. Stresses of single particles are not (docs/results/umls).
+#[test]
+fn the_cylinder_widens_under_pressure() {
+    let finished = run("umls_cylinder", &[]);
+    assert!(finished.row("error of displacements").passes(), "{:?}", finished.rows);
+    figures(&finished, "umls_cylinder");
+}
