@@ -75,30 +75,6 @@ pub fn sample<const D: usize>(
     (compiled::Compiled::of().sample)(target, method, run, observer)
 }
 
-fn sample_here<const D: usize>(
-    target: &dyn CatalogueTarget<D>,
-    method: &Method,
-    run: &Run,
-    observer: &mut dyn Observer,
-) -> Result<Samples<D>, SampleError> {
-    let frame = target.frame();
-    if !matches!(method, Method::Mpm(_) | Method::Paper(_) | Method::Svgd(_)) {
-        run.given.check_taken(method.name(), false)?;
-    }
-    match method {
-        Method::Mpm(options) => options.sample(target, &frame, run, observer),
-        Method::Ais(options) => options.sample(target, &frame, run, observer),
-        Method::OnMesh(on_mesh) => on_mesh.sample(target, run, observer),
-        Method::Paper(options) => options.sample(target, &frame, run, observer),
-        Method::Svgd(options) => options.sample(target, &frame, run, observer),
-        Method::Iid => independent_draws(target, run),
-        Method::Sobol => sobol_points(target, run),
-        Method::Nuts(options) => options.sample(target, &frame, run, observer),
-        Method::SteinThinning(options) => options.sample(target, run, observer),
-        Method::SupportPoints(options) => options.sample(target, run, observer),
-    }
-}
-
 /// Runs the code of the workspace's README as a doc test.
 #[cfg(doctest)]
 #[doc = include_str!("../../../README.md")]
