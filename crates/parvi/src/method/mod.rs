@@ -29,7 +29,7 @@ pub use watch::{Monitor, Watch};
 use parvi_targets::{CatalogueTarget, Frame};
 
 use crate::start::check;
-use crate::{Observer, Run, SampleError, Samples, independent_draws, sobol_points};
+use crate::{Observer, Run, SampleError, Samples, SmcOptions, independent_draws, sobol_points};
 
 /// Background basis of the mechanics.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -105,6 +105,8 @@ methods! {
     Mpm(options: MpmOptions) => options.sample(target, frame, run, observer);
     /// Adaptive importance sampling, condensed.
     Ais(options: AisOptions) => options.sample(target, frame, run, observer);
+    /// Tempered sequential Monte Carlo.
+    Smc(options: SmcOptions) => options.sample(target, frame, run, observer);
     /// Calibrated isothermal gas within a mesh, in 2 and 3 dimensions.
     OnMesh(on_mesh: OnMesh) => on_mesh.sample(target, run, observer);
     /// Algorithms 1 (PIC) and 2 (APIC) of the MPM-ParVI paper.
