@@ -7,6 +7,7 @@ mod draws;
 mod mpm;
 mod nuts;
 mod paper;
+mod smc;
 mod svgd;
 
 use std::fmt::{self, Display, Formatter};
@@ -83,6 +84,8 @@ methods! {
     Mpm = mpm::KIND;
     /// Adaptive importance sampling, condensed to particles
     Ais = draws::AIS;
+    /// Tempered sequential Monte Carlo: populations with Langevin moves
+    Smc = smc::KIND;
     /// Algorithm 1 of the MPM-ParVI paper
     PaperPic = paper::PIC;
     /// Algorithm 2 of the MPM-ParVI paper
