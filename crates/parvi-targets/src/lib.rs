@@ -42,6 +42,7 @@ mod special;
 mod student_t;
 mod sum_target;
 mod synthetic;
+mod table;
 mod target;
 mod weighted_draws;
 mod wells;
