@@ -67,7 +67,7 @@ pub use logarithm::Logarithm;
 pub use logit::Logit;
 pub use minibatch::MinibatchScore;
 pub use mixture::GaussianMixture;
-pub use nested::{Eggbox, GaussianShells, LogGamma};
+pub use nested::{Eggbox, GaussianShells, LogGamma, SpikeSlab};
 pub use probit::Probit;
 pub use random::{
     Affine, AxisLaw, Bijection, BoxedBijection, BoxedLaw, Law, MixtureLaw, Neck, ProductLaw, Profile, PushForward,

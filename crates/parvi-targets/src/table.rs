@@ -8,7 +8,7 @@ use crate::synthetic::synthetic_counts;
 use crate::wells::{WELLS_MAXIMUM_DIMENSION, WELLS_SMALL_ROWS, wells};
 use crate::{
     Banana, Cross, Eggbox, Funnel, Gaussian, GaussianMixture, GaussianShells, LogGamma, Logarithm, Logit, Probit,
-    RandomTarget, RegressionData, Ring, Rosenbrock, Schools, StudentT, TargetError,
+    RandomTarget, RegressionData, Ring, Rosenbrock, Schools, SpikeSlab, StudentT, TargetError,
 };
 
 const fn parameter(name: &'static str, default: &'static str, meaning: &'static str) -> ParameterInfo {
@@ -246,6 +246,13 @@ targets! {
             4,
         )
     } => boxed(LogGamma::<D>::new());
+    closed(
+        "spike-slab",
+        any_from(1),
+        "100 N(0.031, 0.01^2 I) + N(0, 0.1^2 I), prior density 1",
+        &[],
+        1,
+    ) => boxed(SpikeSlab::<D>::new());
     of_data(
         "wells",
         Dimensions::Range {
