@@ -5,7 +5,7 @@
 use clap::ValueEnum;
 use mpm_materials::{
     DruckerPrager, ElasticModuli, FixedCorotated, Hencky, IsothermalGas, KelvinVoigt, LinearCauchy, LinearElastic,
-    NeoHookean, ParameterError, SofteningHencky, TaitFluid,
+    NeoHookean, ParameterError, Snow, SofteningHencky, TaitFluid,
 };
 use parvi::PaperMaterial;
 use serde::{Deserialize, Serialize};
@@ -97,6 +97,8 @@ materials! {
         let law = DruckerPrager::new(given.moduli()?, given.value(&FRICTION).to_radians())?;
         law.with_cohesion(given.value(&COHESION))?
     };
+    /// Elasto-plastic snow that hardens as it is packed
+    Snow [YOUNG, POISSON] => Snow::fresh(given.moduli()?);
     /// Weakly compressible, viscous fluid
     TaitFluid [DENSITY, SOUND, VISCOSITY] => {
         let law = TaitFluid::new(given.value(&DENSITY), given.value(&SOUND), given.value(&VISCOSITY))?;

@@ -79,4 +79,24 @@ mod tests {
             assert!(error.starts_with("materials.metal.norm_per_strength"), "{error}");
         }
     }
+
+    #[test]
+    fn snow_is_fresh_unless_said_and_errors_name_its_key() {
+        let solid = "law = \"snow\"\ndensity = 400.0\nyoung_modulus = 1.4e5\npoisson_ratio = 0.2\n";
+        let table = |keys: &str| toml::from_str::<MaterialTable>(&format!("{solid}{keys}")).expect("a table");
+        let mut memory = Memory::default();
+        let law = build::<2>("materials.snow", &table("")).ok().expect("a law");
+        let pressed = law.advance(&(Matrix::IDENTITY * 0.9), &mut memory);
+        assert!((pressed - Matrix::IDENTITY * 0.975).maximum_norm() < 1e-15);
+        assert_eq!(law.internal_variables(), ["log_plastic_volume"]);
+        for (key, value) in [
+            ("critical_compression", "1.0"),
+            ("critical_stretch", "0.0"),
+            ("hardening", "-1.0"),
+        ] {
+            let error = build::<2>("materials.snow", &table(&format!("{key} = {value}\n")));
+            let error = error.err().expect("refused").to_string();
+            assert!(error.contains(&format!("materials.snow.{key}")), "{error}");
+        }
+    }
 }

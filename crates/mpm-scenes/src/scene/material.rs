@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use mpm_materials::{
     DruckerPrager, ElasticModuli, FixedCorotated, Hencky, IsothermalGas, Law, LinearElastic, Memory, NeoHookean,
-    Numbered, ParameterError, SofteningHencky, TaitFluid,
+    Numbered, ParameterError, Snow, SofteningHencky, TaitFluid,
 };
 use serde::Deserialize;
 
@@ -51,6 +51,8 @@ materials! {
     SofteningHencky(metal: MetalTable) => metal.law()?;
     /// Hencky's solid with Drucker–Prager friction, for sand.
     DruckerPrager(sand: SandTable) => sand.law()?;
+    /// Snow that hardens as it is packed.
+    Snow(snow: SnowTable) => snow.law()?;
     /// The weakly compressible fluid.
     TaitFluid(fluid: FluidTable) => fluid.law()?;
     /// The isothermal gas P = κ ρ.
@@ -138,6 +140,36 @@ pub struct GasTable {
     pub density: f64,
     /// κ.
     pub pressure_per_density: f64,
+}
+
+/// Parameters of `snow`.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SnowTable {
+    /// ρ₀.
+    pub density: f64,
+    /// E at first.
+    pub young_modulus: f64,
+    /// ν.
+    pub poisson_ratio: f64,
+    /// θ_c. Default 0.025.
+    pub critical_compression: Option<f64>,
+    /// θ_s. Default 0.0075.
+    pub critical_stretch: Option<f64>,
+    /// ξ. Default 10.
+    pub hardening: Option<f64>,
+}
+
+impl SnowTable {
+    fn law(&self) -> Result<Snow, ParameterError> {
+        let [compression, stretch, hardening] = Snow::FRESH;
+        Snow::new(
+            ElasticModuli::new(self.young_modulus, self.poisson_ratio)?,
+            self.critical_compression.unwrap_or(compression),
+            self.critical_stretch.unwrap_or(stretch),
+            self.hardening.unwrap_or(hardening),
+        )
+    }
 }
 
 impl SolidTable {

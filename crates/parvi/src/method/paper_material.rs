@@ -2,7 +2,7 @@
 
 use mpm_materials::{
     DeformingGas, DruckerPrager, ElasticModuli, FixedCorotated, Hencky, IsothermalGas, KelvinVoigt, Law, LinearCauchy,
-    LinearElastic, Memory, NeoHookean, Numbered, ParameterError, SofteningHencky, TaitFluid,
+    LinearElastic, Memory, NeoHookean, Numbered, ParameterError, Snow, SofteningHencky, TaitFluid,
 };
 
 /// The materials: variant, parameters, and the law with these.
@@ -42,6 +42,8 @@ materials! {
     SofteningHencky(law: SofteningHencky) => law;
     /// Drucker–Prager plasticity: sand.
     DruckerPrager(law: DruckerPrager) => law;
+    /// Snow.
+    Snow(law: Snow) => law;
     /// Weakly compressible, viscous fluid.
     TaitFluid(law: TaitFluid) => law;
     /// Isothermal gas, Ψ(F) = −κ (m/V⁰) ln det F: with the force weighted by mass, κ = 1 and α = 1 the body rests where its density is the target.
