@@ -27,6 +27,8 @@ pub struct Outcome {
     pub log_evidence: Option<f64>,
     /// Its standard error.
     pub log_evidence_error: Option<f64>,
+    /// The same less the target's own, where that is known.
+    pub log_evidence_deviation: Option<f64>,
     /// Shape of the tail of the importance weights.
     pub pareto_k: Option<f64>,
     /// [`Samples::score_disagreement`](parvi::Samples::score_disagreement).
@@ -149,6 +151,12 @@ pub fn sample_target<const D: usize>(
         density_evaluations: samples.density_evaluations,
         log_evidence: finite(samples.log_evidence),
         log_evidence_error: finite(samples.log_evidence_error),
+        log_evidence_deviation: finite(
+            samples
+                .log_evidence
+                .zip(target.log_evidence())
+                .map(|(found, exact)| found - exact),
+        ),
         pareto_k: finite(samples.pareto_k),
         score_disagreement: finite(samples.score_disagreement),
         residual: finite(samples.residual),

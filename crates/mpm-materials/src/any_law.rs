@@ -2,7 +2,7 @@
 
 use mpm_tensor::Matrix;
 
-use crate::{DeformationError, DruckerPragerState, GasState, Law, SofteningState};
+use crate::{DeformationError, Law};
 
 /// The internal variables of any law, as plain numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -24,50 +24,6 @@ impl Remembered for () {
     #[inline(always)]
     fn store(self) -> Memory {
         Memory::default()
-    }
-}
-
-impl Remembered for SofteningState {
-    #[inline]
-    fn recall(memory: &Memory) -> Self {
-        let [accumulated_plastic_strain, out_of_plane_strain] = memory.0;
-        Self {
-            accumulated_plastic_strain,
-            out_of_plane_strain,
-        }
-    }
-
-    #[inline]
-    fn store(self) -> Memory {
-        Memory([self.accumulated_plastic_strain, self.out_of_plane_strain])
-    }
-}
-
-impl Remembered for DruckerPragerState {
-    #[inline]
-    fn recall(memory: &Memory) -> Self {
-        Self {
-            volume_correction: memory.0[0],
-        }
-    }
-
-    #[inline]
-    fn store(self) -> Memory {
-        Memory([self.volume_correction, 0.0])
-    }
-}
-
-impl Remembered for GasState {
-    #[inline]
-    fn recall(memory: &Memory) -> Self {
-        Self {
-            reference_density: memory.0[0],
-        }
-    }
-
-    #[inline]
-    fn store(self) -> Memory {
-        Memory([self.reference_density, 0.0])
     }
 }
 
@@ -102,6 +58,14 @@ impl<const D: usize, L: Law<D, State: Remembered>> Law<D> for Numbered<L> {
 
     fn rate_dependent(&self) -> bool {
         self.0.rate_dependent()
+    }
+
+    fn internal_variables(&self) -> &'static [&'static str] {
+        self.0.internal_variables()
+    }
+
+    fn longest_viscous_step(&self, spacing: f64) -> f64 {
+        self.0.longest_viscous_step(spacing)
     }
 
     fn virgin(&self, reference_density: f64) -> Memory {
@@ -168,6 +132,14 @@ impl<const D: usize> Law<D> for AnyLaw<'_, D> {
 
     fn rate_dependent(&self) -> bool {
         self.0.rate_dependent()
+    }
+
+    fn internal_variables(&self) -> &'static [&'static str] {
+        self.0.internal_variables()
+    }
+
+    fn longest_viscous_step(&self, spacing: f64) -> f64 {
+        self.0.longest_viscous_step(spacing)
     }
 
     fn virgin(&self, reference_density: f64) -> Memory {

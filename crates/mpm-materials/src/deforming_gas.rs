@@ -3,13 +3,27 @@
 use mpm_tensor::Matrix;
 
 use crate::material::{check_volume_ratio, log_volume_ratio, volume_alone};
-use crate::{DeformationError, IsothermalGas, Law};
+use crate::{DeformationError, IsothermalGas, Law, Memory, Remembered};
 
 /// What [`DeformingGas`] remembers of a particle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GasState {
     /// ρ₀ = m/V⁰; 0 is a vacuum.
     pub reference_density: f64,
+}
+
+impl Remembered for GasState {
+    #[inline]
+    fn recall(memory: &Memory) -> Self {
+        Self {
+            reference_density: memory.0[0],
+        }
+    }
+
+    #[inline]
+    fn store(self) -> Memory {
+        Memory([self.reference_density, 0.0])
+    }
 }
 
 /// The isothermal gas as a constitutive law of the deformation gradient, Ψ(F) = −κ (m/V⁰) ln det F per reference volume: τ = −κ (m/V⁰) I, V⁰ τ = −κ m I.

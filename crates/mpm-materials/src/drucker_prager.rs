@@ -7,13 +7,27 @@ use crate::exponential::exponential;
 use crate::hencky::deviation;
 use crate::log_strain::log_strain;
 use crate::material::{check_volume_ratio, log_volume_ratio};
-use crate::{DeformationError, ElasticModuli, Hencky, Law, Material, ParameterError};
+use crate::{DeformationError, ElasticModuli, Hencky, Law, Material, Memory, ParameterError, Remembered};
 
 /// Internal variables of [`DruckerPrager`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DruckerPragerState {
     /// v_c ≥ 0, the logarithmic volume strain by which the grains have come apart: ln J is ln det F + v_c.
     pub volume_correction: f64,
+}
+
+impl Remembered for DruckerPragerState {
+    #[inline]
+    fn recall(memory: &Memory) -> Self {
+        Self {
+            volume_correction: memory.0[0],
+        }
+    }
+
+    #[inline]
+    fn store(self) -> Memory {
+        Memory([self.volume_correction, 0.0])
+    }
 }
 
 /// Drucker–Prager plasticity without dilation on the [`Hencky`] solid, for sand and gravel.
@@ -103,6 +117,10 @@ impl DruckerPrager {
 #[allow(non_snake_case)]
 impl<const D: usize> Law<D> for DruckerPrager {
     type State = DruckerPragerState;
+
+    fn internal_variables(&self) -> &'static [&'static str] {
+        &["volume_correction"]
+    }
 
     fn advance(&self, trial: &Matrix<D>, state: &mut DruckerPragerState) -> Matrix<D> {
         let Some(strain) = log_strain(trial) else {

@@ -77,12 +77,42 @@ pub enum ParameterError {
         /// c as given.
         value: f64,
     },
+    /// A parameter of one law alone.
+    #[error("{parameter} must be {expected}, not {value}")]
+    OutOfRange {
+        /// Its name, as documents call it.
+        parameter: &'static str,
+        /// The value as given.
+        value: f64,
+        /// What is allowed.
+        expected: &'static str,
+    },
     /// The viscosity μ_v must be finite and not negative.
     #[error("the viscosity must be finite and at least 0, not {value}")]
     Viscosity {
         /// μ_v as given.
         value: f64,
     },
+}
+
+impl ParameterError {
+    /// The parameter as documents call it, and its value as given. The shear modulus and Lamé's first parameter come from Young's modulus and Poisson's ratio.
+    pub fn parameter(&self) -> (&'static str, f64) {
+        match *self {
+            Self::YoungModulus { value } | Self::ShearModulus { value } => ("young_modulus", value),
+            Self::PoissonRatio { value } | Self::FirstLameParameter { value } => ("poisson_ratio", value),
+            Self::PressurePerDensity { value } => ("pressure_per_density", value),
+            Self::ReferenceDensity { value } => ("density", value),
+            Self::PeakYieldStress { value } => ("peak_yield_stress", value),
+            Self::ResidualYieldStress { value, .. } => ("residual_yield_stress", value),
+            Self::SofteningRate { value } => ("softening_rate", value),
+            Self::FrictionAngle { value } => ("friction_angle", value),
+            Self::Cohesion { value } => ("cohesion", value),
+            Self::SoundSpeed { value } => ("sound_speed", value),
+            Self::Viscosity { value } => ("viscosity", value),
+            Self::OutOfRange { parameter, value, .. } => (parameter, value),
+        }
+    }
 }
 
 /// A deformation gradient for which a material has no stress.

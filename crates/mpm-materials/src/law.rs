@@ -23,6 +23,16 @@ pub trait Law<const D: usize>: Sync {
         false
     }
 
+    /// Names of the internal variables, as files call them, in the order of the numbers of a [`Memory`](crate::Memory).
+    fn internal_variables(&self) -> &'static [&'static str] {
+        &[]
+    }
+
+    /// The longest explicit step for viscous stresses on a grid of this spacing; infinite without viscosity, and where the law does not say.
+    fn longest_viscous_step(&self, _spacing: f64) -> f64 {
+        f64::INFINITY
+    }
+
     /// The internal variables of a particle that has not deformed yet, of `reference_density` mass per reference volume; the default ones unless the law's stress depends on the mass.
     fn virgin(&self, _reference_density: f64) -> Self::State {
         Self::State::default()

@@ -7,7 +7,7 @@ use crate::exponential::exponential;
 use crate::hencky::deviation;
 use crate::log_strain::log_strain;
 use crate::material::{check_volume_ratio, log_volume_ratio};
-use crate::{DeformationError, ElasticModuli, Hencky, Law, ParameterError};
+use crate::{DeformationError, ElasticModuli, Hencky, Law, Memory, ParameterError, Remembered};
 
 /// Iterations after which Newton's method stops in any case; it needs about five.
 const MAXIMUM_ITERATIONS: usize = 100;
@@ -24,6 +24,22 @@ pub struct SofteningState {
     /// ε_z, the elastic logarithmic strain along each axis that D < 3 leaves out; zero for D ≥ 3. The total strain
     /// there is zero (plane strain for D = 2, uniaxial strain for D = 1), so ε_z is minus the plastic one.
     pub out_of_plane_strain: f64,
+}
+
+impl Remembered for SofteningState {
+    #[inline]
+    fn recall(memory: &Memory) -> Self {
+        let [accumulated_plastic_strain, out_of_plane_strain] = memory.0;
+        Self {
+            accumulated_plastic_strain,
+            out_of_plane_strain,
+        }
+    }
+
+    #[inline]
+    fn store(self) -> Memory {
+        Memory([self.accumulated_plastic_strain, self.out_of_plane_strain])
+    }
 }
 
 /// J2 (von Mises) plasticity with exponential softening on the [`Hencky`] solid: f = ‖dev τ‖ − κ ≤ 0.
@@ -141,6 +157,10 @@ fn all_invariants<const D: usize>(strain: &Matrix<D>, state: &SofteningState) ->
 #[allow(non_snake_case)]
 impl<const D: usize> Law<D> for SofteningHencky {
     type State = SofteningState;
+
+    fn internal_variables(&self) -> &'static [&'static str] {
+        &["plastic_strain", "out_of_plane_strain"]
+    }
 
     fn advance(&self, trial: &Matrix<D>, state: &mut SofteningState) -> Matrix<D> {
         let Some(strain) = log_strain(trial) else {

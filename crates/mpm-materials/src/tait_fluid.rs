@@ -119,6 +119,14 @@ impl<const D: usize> Law<D> for TaitFluid {
         self.viscosity > 0.0
     }
 
+    /// h² ρ₀ / (2 D μ_v) for the spacing h.
+    fn longest_viscous_step(&self, spacing: f64) -> f64 {
+        if self.viscosity == 0.0 {
+            return f64::INFINITY;
+        }
+        spacing * spacing * self.reference_density / (2.0 * D as f64 * self.viscosity)
+    }
+
     #[inline]
     fn advance(&self, trial: &Matrix<D>, _state: &mut ()) -> Matrix<D> {
         if self.forgets_expansion && trial.determinant() > 1.0 && trial.determinant() < f64::INFINITY {

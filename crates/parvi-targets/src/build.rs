@@ -6,12 +6,9 @@ use std::path::Path;
 use crate::catalogue::{Dimensions, MAXIMUM_DIMENSION, Parameters, TargetInfo, target_info, unknown_target};
 use crate::regression::DEFAULT_PRIOR_STANDARD_DEVIATION;
 use crate::synthetic::synthetic_counts;
-use crate::wells::{WELLS_SMALL_ROWS, wells};
-use crate::{
-    Banana, CatalogueTarget, CountData, Cross, Eggbox, Funnel, Gaussian, GaussianMixture, GaussianShells, Link,
-    LogGamma, Logarithm, Logit, Probit, RandomTarget, Regression, RegressionData, RegressionTable, Response, Ring,
-    Rosenbrock, Schools, StudentT, TargetError,
-};
+use crate::table::build_here;
+use crate::wells::wells;
+use crate::{CatalogueTarget, CountData, Link, Regression, RegressionData, RegressionTable, Response, TargetError};
 
 /// A target of the catalogue, whichever it is.
 pub type BoxedTarget<const D: usize> = Box<dyn CatalogueTarget<D> + Send + Sync>;
@@ -109,51 +106,6 @@ static BUILDERS: [&(dyn Any + Send + Sync); LARGEST] = [
     &Builder::<8>(build_here),
 ];
 
-fn build_here<const D: usize>(name: &str, parameters: &Parameters) -> Result<BoxedTarget<D>, TargetError> {
-    dimension_of(name, Some(D), parameters)?;
-    match name {
-        "gaussian" => Ok(Box::new(Gaussian::<D>::autoregressive(
-            parameters.correlation.unwrap_or(0.0),
-        )?)),
-        "mixture-2" => Ok(Box::new(GaussianMixture::<D>::two_unequal(
-            parameters.width.unwrap_or(0.5),
-        )?)),
-        "mixture-3" => Ok(Box::new(GaussianMixture::<D>::three_far()?)),
-        "funnel" => Ok(Box::new(Funnel::<D>::new(parameters.width.unwrap_or(1.5))?)),
-        "student-t" => Ok(Box::new(StudentT::<D>::new(
-            parameters.degrees_of_freedom.unwrap_or(5.0),
-        )?)),
-        "rosenbrock" => Ok(Box::new(Rosenbrock::<D>::new(
-            parameters.spread.unwrap_or(1.0),
-            parameters.width.unwrap_or(0.3),
-        )?)),
-        "scales" => Ok(Box::new(Gaussian::<D>::scales(parameters.correlation.unwrap_or(0.5))?)),
-        "cross" => Ok(Box::new(Cross::<D>::new(
-            parameters.spread.unwrap_or(2.0),
-            parameters.width.unwrap_or(0.2),
-        )?)),
-        "schools" => Ok(Box::new(Schools::<D>::new()?)),
-        "random" => Ok(Box::new(RandomTarget::<D>::new(parameters.target_seed.unwrap_or(0))?)),
-        "shells" => Ok(Box::new(GaussianShells::<D>::new()?)),
-        "log-gamma" => Ok(Box::new(LogGamma::<D>::new()?)),
-        "wells" => regression::<Logit, D>(name, wells(D, None)?, parameters),
-        "wells-small" => regression::<Logit, D>(name, wells(D, Some(WELLS_SMALL_ROWS))?, parameters),
-        "probit" => {
-            let data = file_or(parameters, || wells(D, Some(WELLS_SMALL_ROWS)))?;
-            regression::<Probit, D>(name, data, parameters)
-        }
-        "poisson" => {
-            let data = file_or(parameters, || synthetic_counts(D))?;
-            regression::<Logarithm, D>(name, data, parameters)
-        }
-        "logistic" => {
-            let path = data_path(target_info(name)?, parameters)?;
-            regression::<Logit, D>(name, RegressionData::from_csv_file(path)?, parameters)
-        }
-        _ => in_dimension(build_planar(name, parameters)?),
-    }
-}
-
 /// The names of a target's coordinates, where they have names of their own: the covariates of a regression, the parameters
 /// of a model. `None` where they are x₁, …, x_d.
 ///
@@ -187,7 +139,7 @@ fn columns_of(name: &str, path: &Path) -> Result<Vec<String>, TargetError> {
 }
 
 /// The data of the file that is given, or else the target's own.
-fn file_or<Y: Response>(
+pub(crate) fn file_or<Y: Response>(
     parameters: &Parameters,
     own: impl FnOnce() -> Result<RegressionTable<Y>, TargetError>,
 ) -> Result<RegressionTable<Y>, TargetError> {
@@ -197,7 +149,8 @@ fn file_or<Y: Response>(
     }
 }
 
-fn regression<L: Link, const D: usize>(
+/// A regression with the prior that is given.
+pub(crate) fn regression<L: Link, const D: usize>(
     name: &str,
     data: RegressionTable<L::Response>,
     parameters: &Parameters,
@@ -208,25 +161,18 @@ fn regression<L: Link, const D: usize>(
     Ok(Box::new(Regression::<L, D>::with_prior(name, data, prior)?))
 }
 
-/// The targets that exist in the plane only.
-fn build_planar(name: &str, parameters: &Parameters) -> Result<BoxedTarget<2>, TargetError> {
-    Ok(match name {
-        "banana" => Box::new(Banana::new(
-            parameters.curvature.unwrap_or(1.0),
-            parameters.width.unwrap_or(0.5),
-        )?),
-        "ring" => Box::new(Ring::new(
-            parameters.radius.unwrap_or(2.0),
-            parameters.width.unwrap_or(0.2),
-        )?),
-        "eggbox" => Box::new(Eggbox::new()?),
-        "mixture-4" => Box::new(GaussianMixture::<2>::four_equal(parameters.width.unwrap_or(0.5))?),
-        _ => return Err(unknown_target(name)),
-    })
+/// A target as one of the catalogue.
+pub(crate) fn boxed<const D: usize>(
+    target: Result<impl CatalogueTarget<D> + Send + Sync + 'static, TargetError>,
+) -> Result<BoxedTarget<D>, TargetError> {
+    Ok(Box::new(target?))
 }
 
 /// A target of dimension 2 as one of dimension D, which are the same type where D = 2.
-fn in_dimension<const D: usize>(target: BoxedTarget<2>) -> Result<BoxedTarget<D>, TargetError> {
+pub(crate) fn in_dimension<const D: usize>(
+    target: Result<impl CatalogueTarget<2> + Send + Sync + 'static, TargetError>,
+) -> Result<BoxedTarget<D>, TargetError> {
+    let target: BoxedTarget<2> = boxed(target)?;
     let name = target.name().to_owned();
     let same: Box<dyn Any> = Box::new(target);
     same.downcast::<BoxedTarget<D>>()
@@ -238,7 +184,8 @@ fn in_dimension<const D: usize>(target: BoxedTarget<2>) -> Result<BoxedTarget<D>
         })
 }
 
-fn data_path<'a>(info: &TargetInfo, parameters: &'a Parameters) -> Result<&'a Path, TargetError> {
+/// The data file, which the target needs.
+pub(crate) fn data_path<'a>(info: &TargetInfo, parameters: &'a Parameters) -> Result<&'a Path, TargetError> {
     parameters.data.as_deref().ok_or_else(|| TargetError::ParameterMissing {
         target: info.name.to_owned(),
         parameter: "data",

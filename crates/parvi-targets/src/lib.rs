@@ -42,6 +42,7 @@ mod special;
 mod student_t;
 mod sum_target;
 mod synthetic;
+mod table;
 mod target;
 mod weighted_draws;
 mod wells;
@@ -66,7 +67,7 @@ pub use logarithm::Logarithm;
 pub use logit::Logit;
 pub use minibatch::MinibatchScore;
 pub use mixture::GaussianMixture;
-pub use nested::{Eggbox, GaussianShells, LogGamma};
+pub use nested::{Eggbox, GaussianShells, LogGamma, SpikeSlab};
 pub use probit::Probit;
 pub use random::{
     Affine, AxisLaw, Bijection, BoxedBijection, BoxedLaw, Law, MixtureLaw, Neck, ProductLaw, Profile, PushForward,

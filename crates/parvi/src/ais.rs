@@ -17,7 +17,7 @@ impl AisOptions {
         run: &Run,
         observer: &mut dyn Observer,
     ) -> Result<Samples<D>, SampleError> {
-        run.checked_particles()?;
+        run.particles_of("ais")?;
         if !target.has_log_density() {
             return Err(SampleError::ScoreOnly { method: "method `ais`" });
         }

@@ -31,7 +31,7 @@ impl SteinThinningOptions {
         run: &Run,
         observer: &mut dyn Observer,
     ) -> Result<Samples<D>, SampleError> {
-        let steps = run.checked_particles()?;
+        let steps = run.particles_of("stein-thinning")?;
         let size = pool_size(self.pool_size, steps)?;
         let pool = match &self.pool {
             Pool::Exact => Samples {
@@ -86,7 +86,7 @@ impl SupportPointsOptions {
         run: &Run,
         observer: &mut dyn Observer,
     ) -> Result<Samples<D>, SampleError> {
-        let count = run.checked_particles()?;
+        let count = run.particles_of("support-points")?;
         let size = pool_size(self.pool_size, count)?;
         let steps = steps(self.steps, defaults::SUPPORT_POINTS_STEPS)?;
         let tolerance = self.tolerance;

@@ -14,7 +14,7 @@ pub fn independent_draws<const D: usize>(
     target: &dyn CatalogueTarget<D>,
     run: &Run,
 ) -> Result<Samples<D>, SampleError> {
-    let count = run.checked_particles()?;
+    let count = run.particles_of("iid")?;
     Ok(Samples {
         positions: exact_draws("iid", target, &mut run.generator(0), count)?,
         ..Samples::default()
@@ -42,7 +42,7 @@ pub(crate) fn exact_draws<const D: usize>(
 /// # Errors
 /// [`SampleError::Unsupported`] for a target without such a map; [`SampleError::InvalidOption`] for fewer than two points.
 pub fn sobol_points<const D: usize>(target: &dyn CatalogueTarget<D>, run: &Run) -> Result<Samples<D>, SampleError> {
-    let count = run.checked_particles()?;
+    let count = run.particles_of("sobol")?;
     let lacking = || unsupported("sobol", target.name(), "a map from the unit cube");
     let transport = target.unit_cube_transport().ok_or_else(lacking)?;
     let sequence = SobolSequence::scrambled(transport.cube_dimension(), run.seed).map_err(|_| lacking())?;

@@ -36,6 +36,7 @@ mod residual;
 mod rotation;
 mod run;
 mod score_grid;
+mod smc;
 mod start;
 mod stein_discrepancy;
 mod stein_thinning;
@@ -56,6 +57,7 @@ pub use paper::PaperBody;
 pub use point_set_error::PointSetError;
 pub use residual::{Residual, galerkin_stein_residual};
 pub use run::*;
+pub use smc::SmcOptions;
 pub use stein_thinning::stein_thinning;
 pub use support_points::{SupportPoints, support_points};
 pub use view::ParticleView;
@@ -73,30 +75,6 @@ pub fn sample<const D: usize>(
     observer: &mut dyn Observer,
 ) -> Result<Samples<D>, SampleError> {
     (compiled::Compiled::of().sample)(target, method, run, observer)
-}
-
-fn sample_here<const D: usize>(
-    target: &dyn CatalogueTarget<D>,
-    method: &Method,
-    run: &Run,
-    observer: &mut dyn Observer,
-) -> Result<Samples<D>, SampleError> {
-    let frame = target.frame();
-    if !matches!(method, Method::Mpm(_) | Method::Paper(_) | Method::Svgd(_)) {
-        run.given.check_taken(method.name(), false)?;
-    }
-    match method {
-        Method::Mpm(options) => options.sample(target, &frame, run, observer),
-        Method::Ais(options) => options.sample(target, &frame, run, observer),
-        Method::OnMesh(on_mesh) => on_mesh.sample(target, run, observer),
-        Method::Paper(options) => options.sample(target, &frame, run, observer),
-        Method::Svgd(options) => options.sample(target, &frame, run, observer),
-        Method::Iid => independent_draws(target, run),
-        Method::Sobol => sobol_points(target, run),
-        Method::Nuts(options) => options.sample(target, &frame, run, observer),
-        Method::SteinThinning(options) => options.sample(target, run, observer),
-        Method::SupportPoints(options) => options.sample(target, run, observer),
-    }
 }
 
 /// Runs the code of the workspace's README as a doc test.

@@ -30,7 +30,7 @@ pub(crate) fn sample<const D: usize>(
     run: &Run,
     observer: &mut dyn Observer,
 ) -> Result<Samples<D>, SampleError> {
-    let draws = run.checked_particles()?;
+    let draws = run.particles_of("nuts")?;
     let acceptance = options.target_acceptance;
     check(
         "target acceptance",

@@ -43,6 +43,12 @@ impl Run {
         Ok(count)
     }
 
+    /// The same for a method that takes nothing that is given of the particles.
+    pub(crate) fn particles_of(&self, method: &'static str) -> Result<usize, SampleError> {
+        self.given.check_taken(method, false)?;
+        self.checked_particles()
+    }
+
     /// The start law, checked to be one.
     pub(crate) fn checked_start(&self) -> Result<Start, SampleError> {
         let sd = self.start.standard_deviation;

@@ -14,7 +14,7 @@ mod targets;
 
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::{CommandError, console, interrupt};
 #[cfg(not(feature = "rom"))]
@@ -49,7 +49,7 @@ enum Command {
 /// Parses the arguments of the process, does what they say and gives the exit code: 0 for success, 1 for an error,
 /// 2 for a command line that makes no sense, 130 for an interruption.
 pub fn main() -> ExitCode {
-    let line = match CommandLine::try_parse() {
+    let line = match parsed() {
         Ok(line) => line,
         Err(error) => {
             // Help and version come as errors that belong on standard output; clap knows.
@@ -72,6 +72,12 @@ pub fn main() -> ExitCode {
             ExitCode::from(exit_code(&error))
         }
     }
+}
+
+/// The arguments of the process; help says of every option which methods have it.
+fn parsed() -> Result<CommandLine, clap::Error> {
+    let command = CommandLine::command().mut_subcommand("sample", sample::with_owners);
+    CommandLine::from_arg_matches(&command.try_get_matches()?)
 }
 
 fn exit_code(error: &CommandError) -> u8 {

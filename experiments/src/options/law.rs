@@ -1,14 +1,14 @@
 //! The constitutive laws of the paper's algorithms and their parameters: one table, for the flags and for the study `paper`.
 //!
-//! A new law is a variant of [`Material`], its parameters in [`Material::parameters`] and an arm of [`Material::law`].
+//! A new law is a line of `materials!` below.
 
+use clap::ValueEnum;
 use mpm_materials::{
     DruckerPrager, ElasticModuli, FixedCorotated, Hencky, IsothermalGas, KelvinVoigt, LinearCauchy, LinearElastic,
-    NeoHookean, ParameterError, SofteningHencky, TaitFluid,
+    NeoHookean, ParameterError, Snow, SofteningHencky, TaitFluid,
 };
 use parvi::PaperMaterial;
-
-use super::Material;
+use serde::{Deserialize, Serialize};
 
 /// A parameter of a law.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,57 +42,92 @@ const SOUND: Parameter = Parameter::of("sound-speed", Some(("sound-speed", "c"))
 const VISCOSITY: Parameter = Parameter::of("viscosity", Some(("viscosity", "μ")), Some(0.0));
 const PRESSURE: Parameter = Parameter::of("pressure-per-density", Some(("pressure-per-density", "κ")), Some(1.0));
 
-impl Material {
-    /// The parameters of the law, in the order in which tables state them.
-    pub fn parameters(self) -> &'static [Parameter] {
-        match self {
-            Self::NeoHookean | Self::LinearCauchy | Self::LinearElastic | Self::FixedCorotated | Self::Hencky => {
-                &[YOUNG, POISSON]
-            }
-            Self::KelvinVoigt => &[YOUNG, POISSON, DASHPOT],
-            Self::SofteningHencky => &[YOUNG, POISSON, PEAK, RESIDUAL, SOFTENING],
-            Self::DruckerPrager => &[YOUNG, POISSON, FRICTION, COHESION],
-            Self::TaitFluid => &[DENSITY, SOUND, VISCOSITY],
-            Self::IsothermalGas => &[PRESSURE],
+/// The laws by the names of the scenes: variant, what `--help` says, the parameters in the order in which tables state them, and the law.
+macro_rules! materials {
+    (($given:ident); $($(#[$meta:meta])* $variant:ident [$($parameter:ident),*] => $law:expr;)*) => {
+        /// Constitutive law of the paper's algorithms, by the names of the scenes.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+        #[serde(rename_all = "kebab-case")]
+        pub enum Material {
+            $($(#[$meta])* $variant,)*
         }
-    }
 
-    /// The law with the parameters that are given, the others at their defaults; a fluid may forget volumes above that of rest.
-    ///
-    /// # Errors
-    /// The parameter that the law refuses.
-    pub fn law(
-        self,
-        given: &dyn Fn(&Parameter) -> Option<f64>,
-        forgets_expansion: bool,
-    ) -> Result<PaperMaterial, ParameterError> {
-        let or = |parameter: &Parameter, otherwise: f64| given(parameter).or(parameter.default).unwrap_or(otherwise);
-        let value = |parameter: &Parameter| or(parameter, f64::NAN);
-        let moduli = || ElasticModuli::new(value(&YOUNG), value(&POISSON));
-        Ok(match self {
-            Self::NeoHookean => PaperMaterial::NeoHookean(NeoHookean::new(moduli()?)),
-            Self::LinearCauchy => PaperMaterial::LinearCauchy(LinearCauchy::new(moduli()?)),
-            Self::LinearElastic => PaperMaterial::LinearElastic(LinearElastic::new(moduli()?)),
-            Self::FixedCorotated => PaperMaterial::FixedCorotated(FixedCorotated::new(moduli()?)),
-            Self::Hencky => PaperMaterial::Hencky(Hencky::new(moduli()?)),
-            Self::KelvinVoigt => PaperMaterial::KelvinVoigt(KelvinVoigt::new(moduli()?, value(&DASHPOT))?),
-            Self::SofteningHencky => {
-                let peak = value(&PEAK);
-                let law = SofteningHencky::new(moduli()?, peak, or(&RESIDUAL, peak), value(&SOFTENING))?;
-                PaperMaterial::SofteningHencky(law)
+        impl Material {
+            /// The parameters of the law, in the order in which tables state them.
+            pub fn parameters(self) -> &'static [Parameter] {
+                match self {
+                    $(Self::$variant => &[$($parameter),*],)*
+                }
             }
-            Self::DruckerPrager => {
-                let law = DruckerPrager::new(moduli()?, value(&FRICTION).to_radians())?;
-                PaperMaterial::DruckerPrager(law.with_cohesion(value(&COHESION))?)
-            }
-            Self::TaitFluid => {
-                let law = TaitFluid::new(value(&DENSITY), value(&SOUND), value(&VISCOSITY))?;
-                PaperMaterial::TaitFluid(match forgets_expansion {
-                    true => law.forgetting_expansion(),
-                    false => law,
+
+            /// The law with the parameters that are given, the others at their defaults.
+            ///
+            /// # Errors
+            /// The parameter that the law refuses.
+            pub fn law(self, $given: &Given<'_>) -> Result<PaperMaterial, ParameterError> {
+                Ok(match self {
+                    $(Self::$variant => PaperMaterial::$variant($law),)*
                 })
             }
-            Self::IsothermalGas => PaperMaterial::IsothermalGas(IsothermalGas::new(value(&PRESSURE))?),
-        })
+        }
+    };
+}
+
+materials! {
+    (given);
+    /// Compressible Neo-Hookean solid
+    NeoHookean [YOUNG, POISSON] => NeoHookean::new(given.moduli()?);
+    /// Linear elasticity of the Cauchy stress, as the paper has it
+    LinearCauchy [YOUNG, POISSON] => LinearCauchy::new(given.moduli()?);
+    /// Linear elasticity of the first Piola-Kirchhoff stress
+    LinearElastic [YOUNG, POISSON] => LinearElastic::new(given.moduli()?);
+    /// Fixed corotated solid
+    FixedCorotated [YOUNG, POISSON] => FixedCorotated::new(given.moduli()?);
+    /// Linear elasticity in logarithmic strain
+    Hencky [YOUNG, POISSON] => Hencky::new(given.moduli()?);
+    /// Visco-elasticity: a Neo-Hookean spring beside a dashpot
+    KelvinVoigt [YOUNG, POISSON, DASHPOT] => KelvinVoigt::new(given.moduli()?, given.value(&DASHPOT))?;
+    /// J2 (von Mises) plasticity, perfect or softening
+    SofteningHencky [YOUNG, POISSON, PEAK, RESIDUAL, SOFTENING] => {
+        let peak = given.value(&PEAK);
+        SofteningHencky::new(given.moduli()?, peak, given.or(&RESIDUAL, peak), given.value(&SOFTENING))?
+    };
+    /// Drucker-Prager plasticity: sand
+    DruckerPrager [YOUNG, POISSON, FRICTION, COHESION] => {
+        let law = DruckerPrager::new(given.moduli()?, given.value(&FRICTION).to_radians())?;
+        law.with_cohesion(given.value(&COHESION))?
+    };
+    /// Elasto-plastic snow that hardens as it is packed
+    Snow [YOUNG, POISSON] => Snow::fresh(given.moduli()?);
+    /// Weakly compressible, viscous fluid
+    TaitFluid [DENSITY, SOUND, VISCOSITY] => {
+        let law = TaitFluid::new(given.value(&DENSITY), given.value(&SOUND), given.value(&VISCOSITY))?;
+        if given.forgets_expansion { law.forgetting_expansion() } else { law }
+    };
+    /// Isothermal gas as a law of F, whose rest state is the target
+    IsothermalGas [PRESSURE] => IsothermalGas::new(given.value(&PRESSURE))?;
+}
+
+/// What is given of a law's parameters.
+pub struct Given<'a> {
+    /// A parameter's value, where it is given.
+    pub parameter: &'a dyn Fn(&Parameter) -> Option<f64>,
+    /// Whether a fluid forgets volumes above that of rest.
+    pub forgets_expansion: bool,
+}
+
+impl Given<'_> {
+    /// The value as given, the default, or this one.
+    fn or(&self, parameter: &Parameter, otherwise: f64) -> f64 {
+        (self.parameter)(parameter).or(parameter.default).unwrap_or(otherwise)
+    }
+
+    /// The value of a parameter that has a default.
+    fn value(&self, parameter: &Parameter) -> f64 {
+        self.or(parameter, f64::NAN)
+    }
+
+    fn moduli(&self) -> Result<ElasticModuli, ParameterError> {
+        ElasticModuli::new(self.value(&YOUNG), self.value(&POISSON))
     }
 }

@@ -1,9 +1,10 @@
 //! The material of the paper's algorithms, from the flags.
 
+use clap::ValueEnum;
 use mpm_materials::ParameterError;
 use parvi::PaperMaterial;
 
-use super::{Material, MethodOptions, OptionError, Switch};
+use super::{Given, Material, MethodOptions, OptionError, Parameter, Switch};
 
 impl MethodOptions {
     /// The law with its parameters.
@@ -12,60 +13,41 @@ impl MethodOptions {
     /// A parameter that the law does not have, or refuses.
     pub(super) fn paper_material(&self) -> Result<PaperMaterial, OptionError> {
         let material = self.material.unwrap_or(Material::NeoHookean);
-        let given = self.law_parameters();
-        let has = |flag: &str| material.parameters().iter().any(|parameter| parameter.flag == flag);
-        let other = given.iter().find(|(flag, value)| value.is_some() && !has(flag));
-        let other = other.and_then(|(flag, value)| Some((*flag, value.as_ref()?.to_string())));
-        let forgets = self.forgets_expansion.filter(|_| material != Material::TaitFluid);
-        let forgets = forgets.map(|on| ("forgets-expansion", on.to_string()));
-        if let Some((name, value)) = other.or(forgets) {
+        let given: Vec<(&str, String)> = self.given().collect();
+        let of = |material: &Material, flag: &str| material.parameters().iter().any(|known| known.flag == flag);
+        let of_any = |flag: &str| Material::value_variants().iter().any(|material| of(material, flag));
+        let misfit = given.iter().find(|(flag, _)| match *flag {
+            "forgets-expansion" => material != Material::TaitFluid,
+            flag => of_any(flag) && !of(&material, flag),
+        });
+        if let Some((name, value)) = misfit {
             return Err(OptionError::new(
                 name,
                 format!("{value} does not fit the material `{material}`"),
             ));
         }
-        let value = |flag: &str| given.iter().find(|(name, _)| *name == flag)?.1;
-        let forgets = self.forgets_expansion == Some(Switch::On);
-        material
-            .law(&|parameter| value(parameter.flag), forgets)
-            .map_err(refused)
-    }
-
-    /// The parameters of all laws by their flags.
-    fn law_parameters(&self) -> [(&'static str, Option<f64>); 11] {
-        [
-            ("youngs-modulus", self.youngs_modulus),
-            ("poissons-ratio", self.poissons_ratio),
-            ("peak-yield-stress", self.peak_yield_stress),
-            ("residual-yield-stress", self.residual_yield_stress),
-            ("softening-rate", self.softening_rate),
-            ("friction-angle", self.friction_angle),
-            ("cohesion", self.cohesion),
-            ("density", self.density),
-            ("sound-speed", self.sound_speed),
-            ("viscosity", self.viscosity),
-            ("pressure-per-density", self.pressure_per_density),
-        ]
+        let value = |parameter: &Parameter| {
+            let (_, text) = given.iter().find(|(flag, _)| *flag == parameter.flag)?;
+            text.parse().ok()
+        };
+        let given = Given {
+            parameter: &value,
+            forgets_expansion: self.forgets_expansion == Some(Switch::On),
+        };
+        material.law(&given).map_err(refused)
     }
 }
 
 /// The flag of the parameter that a law refuses.
 fn refused(error: ParameterError) -> OptionError {
-    let name = match error {
-        ParameterError::YoungModulus { .. } | ParameterError::ShearModulus { .. } => "youngs-modulus",
-        ParameterError::PoissonRatio { .. } | ParameterError::FirstLameParameter { .. } => "poissons-ratio",
-        ParameterError::PressurePerDensity { .. } => "pressure-per-density",
-        ParameterError::ReferenceDensity { .. } => "density",
-        ParameterError::PeakYieldStress { .. } => "peak-yield-stress",
-        ParameterError::ResidualYieldStress { .. } => "residual-yield-stress",
-        ParameterError::SofteningRate { .. } => "softening-rate",
-        ParameterError::FrictionAngle { value } => {
+    let name = match error.parameter() {
+        ("friction_angle", value) => {
             let degrees = value.to_degrees();
             return OptionError::out_of_range("friction-angle", degrees, "strictly between 0 and 90 (degrees)");
         }
-        ParameterError::Cohesion { .. } => "cohesion",
-        ParameterError::SoundSpeed { .. } => "sound-speed",
-        ParameterError::Viscosity { .. } => "viscosity",
+        ("young_modulus", _) => "youngs-modulus".to_owned(),
+        ("poisson_ratio", _) => "poissons-ratio".to_owned(),
+        (name, _) => name.replace('_', "-"),
     };
-    OptionError::new(name, error.to_string())
+    OptionError::new(&name, error.to_string())
 }

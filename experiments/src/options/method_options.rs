@@ -16,231 +16,222 @@ use super::{
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
 #[command(next_help_heading = "Options of the method")]
 pub struct MethodOptions {
-    /// Steps; mpm: of a round; support-points: at most (mpm, paper-*, svgd, support-points)
+    /// Steps; mpm: of a round; support-points: at most
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
     pub steps: Option<StepCount>,
-    /// Background basis (mpm, paper-*)
+    /// Background basis
     #[arg(long)]
     pub basis: Option<Basis>,
-    /// Mesh of the domain that the density is kept to, a .msh file of Gmsh; with --basis mesh (mpm)
+    /// Mesh of the domain that the density is kept to, a .msh file of Gmsh; with --basis mesh
     #[arg(long, value_name = "FILE.msh")]
     pub mesh: Option<PathBuf>,
-    /// Grid spacing in units of the target's scale (mpm, paper-*)
+    /// Grid spacing in units of the target's scale
     #[arg(long, value_name = "H", allow_negative_numbers = true)]
     pub spacing: Option<f64>,
-    /// Time step (mpm, paper-*)
+    /// Time step
     #[arg(long, value_name = "DT", allow_negative_numbers = true)]
     pub time_step: Option<f64>,
-    /// Where the score is evaluated (mpm, paper-*)
+    /// Where the score is evaluated
     #[arg(long)]
     pub score: Option<Score>,
-    /// Largest displacement per step in units of the spacing, or `off` (paper-*; mpm: a number)
+    /// Largest displacement per step in units of the spacing, or `off`; mpm: a number
     #[arg(long, value_name = "C|off", allow_negative_numbers = true)]
     pub displacement_limit: Option<Limit>,
-    /// Weigh evaluations of the log density and condense the particles from them, which the material evens out; off: a body moves from its start in the target's frame (mpm)
-    #[arg(
-        long,
-        help = "Weigh evaluations of the log density and condense the particles from them, which the material evens out; off: a body moves from its start in the target's frame (mpm) [default: on]"
-    )]
+    /// Weigh evaluations of the log density and condense the particles from them, which the material evens out; off: a body moves from its start in the target's frame [default: on]
+    #[arg(long)]
     pub survey: Option<Switch>,
-    /// Evaluations of the survey, of all kinds, at most (mpm, ais)
+    /// Evaluations of the survey, of all kinds, at most
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub evaluations: Option<EvaluationCount>,
-    /// Move the basis' origin and draw its spacing every step (mpm)
+    /// Move the basis' origin and draw its spacing every step
     #[arg(long)]
     pub shifts: Option<Switch>,
-    /// Turn the lattice at random every step (mpm)
+    /// Turn the lattice at random every step
     #[arg(long)]
     pub rotation: Option<Switch>,
-    /// Largest over smallest spacing that a run draws from, at least 1 (mpm)
+    /// Largest over smallest spacing that a run draws from, at least 1
     #[arg(long, value_name = "RATIO", allow_negative_numbers = true)]
     pub spacing_range: Option<f64>,
-    /// Spacing of the first step over the central one, at least 1 (mpm)
+    /// Spacing of the first step over the central one, at least 1
     #[arg(long, value_name = "RATIO", allow_negative_numbers = true)]
     pub coarse_start: Option<f64>,
-    /// Share of the steps over which the time step falls at the end, from 0 to below 1 (mpm)
+    /// Share of the steps over which the time step falls at the end, from 0 to below 1
     #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
     pub settling: Option<f64>,
-    /// Go on shifting while settling (mpm)
+    /// Go on shifting while settling
     #[arg(long)]
     pub settling_shifts: Option<Switch>,
-    /// What a last affine move of all particles puts right (mpm)
+    /// What a last affine move of all particles puts right
     #[arg(long)]
     pub moment_correction: Option<Correction>,
-    /// Velocity transfer (mpm)
+    /// Velocity transfer
     #[arg(long)]
     pub transfer: Option<Transfer>,
-    /// Share of FLIP in the velocities, from 0 to 1 (mpm with --transfer flip or affine-flip, paper-*) [default: 0.95; paper-*: 0]
+    /// Share of FLIP in the velocities, from 0 to 1; mpm: with --transfer flip or affine-flip [default: 0.95; paper-*: 0]
     #[arg(long, value_name = "A", allow_negative_numbers = true)]
     pub flip_share: Option<f64>,
-    /// Friction, per unit of time (mpm, paper-*)
+    /// Friction, per unit of time
     #[arg(long, value_name = "GAMMA", allow_negative_numbers = true)]
     pub friction: Option<f64>,
-    /// Rounds of the steps, at most: after a survey while they bring the particles nearer, 0: none; without one while they are still on their way (mpm) [default: 4; with --survey off: 3, with --steps too: 1]
+    /// Rounds of the steps, at most: after a survey while they bring the particles nearer, 0: none; without one while they are still on their way [default: 4; with --survey off: 3, with --steps too: 1]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub rounds: Option<RoundCount>,
-    /// More particles than their share for light parts of the target, with weights; after a survey (mpm)
-    #[arg(
-        long,
-        help = "More particles than their share for light parts of the target, with weights; after a survey (mpm) [default: off]"
-    )]
+    /// More particles than their share for light parts of the target, with weights; after a survey [default: off]
+    #[arg(long)]
     pub weighted: Option<Switch>,
-    /// What is done about a score that is not finite (mpm) [default: pull-back]
+    /// Judge the particles at the end (mpm, paper-*) [default: on]
     #[arg(long)]
     pub non_finite: Option<NonFinite>,
-    /// Judge the particles at the end (mpm, paper-*)
-    #[arg(long, help = "Judge the particles at the end (mpm, paper-*) [default: on]")]
+    /// Judge the particles at the end
+    #[arg(long)]
     pub certificate: Option<Switch>,
-    /// The algorithms exactly as the paper writes them: the target's own coordinates, no guard; every departure can be set beside it (paper-*)
+    /// The algorithms exactly as the paper writes them: the target's own coordinates, no guard; every departure can be set beside it
     #[arg(long, num_args = 0..=1, default_missing_value = "on")]
     pub as_written: Option<Switch>,
-    /// Coordinates that the body moves in; identity: the target's own, also those of spacing and start (paper-*)
-    #[arg(
-        long,
-        help = "Coordinates that the body moves in; identity: the target's own, also those of spacing and start (paper-*) [default: target; with --as-written: identity]"
-    )]
+    /// Coordinates that the body moves in; identity: the target's own, also those of spacing and start [default: target; with --as-written: identity]
+    #[arg(long)]
     pub frame: Option<FrameName>,
-    /// Constitutive law, by the names of the scenes (paper-*) [default: neo-hookean]
+    /// Constitutive law, by the names of the scenes [default: neo-hookean]
     #[arg(long)]
     pub material: Option<Material>,
-    /// Young's modulus E (paper-*: solids) [default: 1]
+    /// Young's modulus E (solids) [default: 1]
     #[arg(long, value_name = "E", alias = "young-modulus", allow_negative_numbers = true)]
     #[serde(alias = "young-modulus")]
     pub youngs_modulus: Option<f64>,
-    /// Poisson's ratio (paper-*: solids) [default: 0.3]
+    /// Poisson's ratio (solids) [default: 0.3]
     #[arg(long, value_name = "NU", alias = "poisson-ratio", allow_negative_numbers = true)]
     #[serde(alias = "poisson-ratio")]
     pub poissons_ratio: Option<f64>,
-    /// Yield stress at first, as |dev tau| (paper-*: softening-hencky) [default: 0.1]
+    /// Yield stress at first, as |dev tau|; softening-hencky [default: 0.1]
     #[arg(long, value_name = "KAPPA", allow_negative_numbers = true)]
     pub peak_yield_stress: Option<f64>,
-    /// Yield stress that softening ends at (paper-*: softening-hencky) [default: the first one: perfect plasticity]
+    /// Yield stress that softening ends at; softening-hencky [default: the first one: perfect plasticity]
     #[arg(long, value_name = "KAPPA", allow_negative_numbers = true)]
     pub residual_yield_stress: Option<f64>,
-    /// Rate of softening, per plastic strain (paper-*: softening-hencky) [default: 0]
+    /// Rate of softening, per plastic strain; softening-hencky [default: 0]
     #[arg(long, value_name = "ETA", allow_negative_numbers = true)]
     pub softening_rate: Option<f64>,
-    /// Friction angle in degrees (paper-*: drucker-prager) [default: 30]
+    /// Friction angle in degrees; drucker-prager [default: 30]
     #[arg(long, value_name = "PHI", allow_negative_numbers = true)]
     pub friction_angle: Option<f64>,
-    /// Cohesion, a stress (paper-*: drucker-prager) [default: 0]
+    /// Cohesion, a stress; drucker-prager [default: 0]
     #[arg(long, value_name = "C", allow_negative_numbers = true)]
     pub cohesion: Option<f64>,
-    /// Density at rest, mass per reference volume (paper-*: tait-fluid) [default: 1]
+    /// Density at rest, mass per reference volume; tait-fluid [default: 1]
     #[arg(long, value_name = "RHO", allow_negative_numbers = true)]
     pub density: Option<f64>,
-    /// Speed of sound at rest (paper-*: tait-fluid) [default: 1]
+    /// Speed of sound at rest; tait-fluid [default: 1]
     #[arg(long, value_name = "C", allow_negative_numbers = true)]
     pub sound_speed: Option<f64>,
-    /// Viscosity, stress times time (paper-*: kelvin-voigt, tait-fluid) [default: 0.1; tait-fluid: 0]
+    /// Viscosity, stress times time; kelvin-voigt, tait-fluid [default: 0.1; tait-fluid: 0]
     #[arg(long, value_name = "ETA", allow_negative_numbers = true)]
     pub viscosity: Option<f64>,
-    /// Forget volumes above that of rest (paper-*: tait-fluid) [default: off]
+    /// Forget volumes above that of rest; tait-fluid [default: off]
     #[arg(long)]
     pub forgets_expansion: Option<Switch>,
-    /// Pressure per density kappa; at rest the density is p^(alpha/kappa) (paper-*: isothermal-gas) [default: 1]
+    /// Pressure per density kappa; at rest the density is p^(alpha/kappa); isothermal-gas [default: 1]
     #[arg(long, value_name = "KAPPA", allow_negative_numbers = true)]
     pub pressure_per_density: Option<f64>,
-    /// Constant factor before the score; paper-*: of either sign (mpm, paper-*)
+    /// Constant factor before the score; paper-*: of either sign
     #[arg(long, allow_negative_numbers = true)]
     pub alpha: Option<f64>,
-    /// Factor before the score in the first step, with --alpha-to (mpm, paper-*)
+    /// Factor before the score in the first step, with --alpha-to
     #[arg(long, value_name = "ALPHA", allow_negative_numbers = true)]
     pub alpha_from: Option<f64>,
-    /// Factor before the score in the last step, mpm: when settling begins, with --alpha-from (mpm, paper-*)
+    /// Factor before the score in the last step, mpm: when settling begins, with --alpha-from
     #[arg(long, value_name = "ALPHA", allow_negative_numbers = true)]
     pub alpha_to: Option<f64>,
-    /// How the factor goes from the one to the other (mpm, paper-*) [default: geometric]
+    /// How the factor goes from the one to the other [default: geometric]
     #[arg(long)]
     pub alpha_schedule: Option<AlphaSchedule>,
-    /// Times that a cyclic schedule goes from the one to the other (mpm, paper-*) [default: 4]
+    /// Times that a cyclic schedule goes from the one to the other [default: 4]
     #[arg(long, value_name = "C", allow_negative_numbers = true)]
     pub alpha_cycles: Option<StepCount>,
-    /// A new grid, with its origin drawn anew, every so many steps; default: one grid, with nodes at the integer multiples of the spacing (paper-*)
+    /// A new grid, with its origin drawn anew, every so many steps; default: one grid, with nodes at the integer multiples of the spacing
     #[arg(long, value_name = "STEPS", allow_negative_numbers = true)]
     pub grid_renewal: Option<StepCount>,
-    /// Masses of the particles: `equal`, 1/M each, or a file with a column of them (paper-*) [default: equal]
+    /// Masses of the particles: `equal`, 1/M each, or a file with a column of them [default: equal]
     #[arg(long, value_name = "equal|FILE.csv|.npy")]
     pub masses: Option<PathBuf>,
-    /// Reference volumes: `uniform`, 1/M each; `start-density`, mass over density of the start's law; `grid`, mass over density on the grid; or a file with a column of them (paper-*) [default: uniform]
+    /// Reference volumes: `uniform`, 1/M each; `start-density`, mass over density of the start's law; `grid`, mass over density on the grid; or a file with a column of them [default: uniform]
     #[arg(long, value_name = "uniform|start-density|grid|FILE.csv|.npy")]
     pub volumes: Option<PathBuf>,
-    /// Velocities at the start: `zero`, or a file with a column per dimension (paper-*) [default: zero]
+    /// Velocities at the start: `zero`, or a file with a column per dimension [default: zero]
     #[arg(long, value_name = "zero|FILE.csv|.npy")]
     pub velocities: Option<PathBuf>,
-    /// What is watched on the way to find the best configuration (paper-*) [default with --best, --monitor-every or --patience: stein]
+    /// What is watched on the way to find the best configuration [default with --best, --monitor-every or --patience: stein]
     #[arg(long)]
     pub monitor: Option<MonitorName>,
-    /// Look every so many steps (paper-*) [default: 10]
+    /// Look every so many steps [default: 10]
     #[arg(long, value_name = "STEPS", allow_negative_numbers = true)]
     pub monitor_every: Option<StepCount>,
-    /// End the run after so many looks in a row that were not better than the best one by a hundredth (paper-*) [default: take all steps]
+    /// End the run after so many looks in a row that were not better than the best one by a hundredth [default: take all steps]
     #[arg(long, value_name = "LOOKS", allow_negative_numbers = true)]
     pub patience: Option<StepCount>,
-    /// File of the best configuration on the way, .csv or .npy (paper-*)
+    /// File of the best configuration on the way, .csv or .npy
     #[arg(long, value_name = "FILE.csv|.npy")]
     pub best: Option<PathBuf>,
-    /// All guards at once; single guards can be set beside it (paper-*)
+    /// All guards at once; single guards can be set beside it
     #[arg(long)]
     pub guards: Option<Switch>,
-    /// Nodes lighter than this share of the mean particle mass get no force, 0: off (paper-*)
+    /// Nodes lighter than this share of the mean particle mass get no force, 0: off
     #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
     pub mass_floor: Option<f64>,
-    /// Multiply the force by the nodal mass (paper-*)
+    /// Multiply the force by the nodal mass
     #[arg(long)]
     pub mass_weighted_force: Option<Switch>,
-    /// Courant number that limits the time step, or `off` (paper-*)
+    /// Courant number that limits the time step, or `off`
     #[arg(long, value_name = "C|off", allow_negative_numbers = true)]
     pub courant: Option<Limit>,
-    /// Largest principal stretch of a particle and, inverted, the least, or `off` (paper-*) [default: 1000]
+    /// Largest principal stretch of a particle and, inverted, the least, or `off` [default: 1000]
     #[arg(long, value_name = "K|off", allow_negative_numbers = true)]
     pub stretch_limit: Option<Limit>,
-    /// Step size of the optimiser (svgd)
+    /// Step size of the optimiser
     #[arg(long, value_name = "SIZE", allow_negative_numbers = true)]
     pub step_size: Option<f64>,
-    /// Fixed kernel bandwidth instead of the median rule (svgd)
+    /// Fixed kernel bandwidth instead of the median rule
     #[arg(long, allow_negative_numbers = true)]
     pub bandwidth: Option<f64>,
-    /// Draws per chain that tune the sampler and are thrown away (nuts, stein-thinning with --pool nuts)
+    /// Draws per chain that tune the sampler and are thrown away; stein-thinning: with --pool nuts
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub warm_up: Option<WarmUp>,
-    /// Chains that share the draws out (nuts, stein-thinning with --pool nuts)
+    /// Chains that share the draws out; stein-thinning: with --pool nuts
     #[arg(long, value_name = "C", allow_negative_numbers = true)]
     pub chains: Option<StepCount>,
-    /// Keep every K-th draw (nuts, stein-thinning with --pool nuts)
+    /// Keep every K-th draw; stein-thinning: with --pool nuts
     #[arg(long, value_name = "K", allow_negative_numbers = true)]
     pub thinning: Option<StepCount>,
-    /// Acceptance that the step size is tuned to, between 0 and 1 (nuts, stein-thinning with --pool nuts)
+    /// Acceptance that the step size is tuned to, between 0 and 1; stein-thinning: with --pool nuts
     #[arg(long, value_name = "A", allow_negative_numbers = true)]
     pub target_acceptance: Option<f64>,
-    /// What the draws are chosen from, `exact` or `nuts` (stein-thinning); file for the weighted pool (mpm, ais)
+    /// What the draws are chosen from, `exact` or `nuts` (stein-thinning); file for the weighted pool
     #[arg(long, value_name = "exact|nuts|FILE.csv|.npy")]
     pub pool: Option<PathBuf>,
-    /// Size of the bigger sample, at least the number of particles (stein-thinning, support-points)
+    /// Size of the bigger sample, at least the number of particles
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub pool_size: Option<ParticleCount>,
-    /// End when no point moves farther, in units of the sample's spread (support-points)
+    /// End when no point moves farther, in units of the sample's spread
     #[arg(long, value_name = "TOL", allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
-    /// File of the positions at the start, a row per particle, in the target's own coordinates (mpm with --survey off, paper-*, svgd)
+    /// File of the positions at the start, a row per particle, in the target's own coordinates; mpm: with --survey off
     #[arg(long, value_name = "FILE.csv|.npy")]
     pub start: Option<PathBuf>,
-    /// Target whose draws the particles start at, in its own coordinates: the paper's p0 by name (mpm with --survey off, paper-*, svgd)
+    /// Target whose draws the particles start at, in its own coordinates: the paper's p0 by name; mpm: with --survey off
     #[arg(long, value_name = "TARGET")]
     pub start_law: Option<String>,
-    /// Mean of a normal law to start from, in the target's own coordinates (mpm with --survey off, paper-*, svgd)
+    /// Mean of a normal law to start from, in the target's own coordinates; mpm: with --survey off
     #[arg(long, value_name = "M1,M2,...", allow_hyphen_values = true)]
     pub start_centre: Option<String>,
-    /// Its covariance, the rows between semicolons (mpm with --survey off, paper-*, svgd) [default: identity]
+    /// Its covariance, the rows between semicolons; mpm: with --survey off [default: identity]
     #[arg(long, value_name = "C11,C12,...;C21,...", allow_hyphen_values = true)]
     pub start_covariance: Option<String>,
-    /// Mean of every coordinate at the start, in units of the target's scale (mpm, ais, paper-*, svgd, nuts)
+    /// Mean of every coordinate at the start, in units of the target's scale
     #[arg(long, value_name = "MEAN", allow_negative_numbers = true)]
     pub start_mean: Option<f64>,
-    /// Standard deviation of every coordinate at the start (mpm, ais, paper-*, svgd, nuts)
+    /// Standard deviation of every coordinate at the start
     #[arg(long, value_name = "SD", allow_negative_numbers = true)]
     pub start_sd: Option<f64>,
-    /// How the particles are drawn from their initial law (mpm, ais, paper-*, svgd, nuts)
+    /// How the particles are drawn from their initial law
     #[arg(long)]
     pub start_draws: Option<Draws>,
     /// Measure residual and energy every so many steps; set by the studies.

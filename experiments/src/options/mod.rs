@@ -5,7 +5,6 @@ mod given_options;
 mod law;
 mod limit;
 mod material_options;
-mod method_name;
 mod method_options;
 mod method_specification;
 mod methods;
@@ -17,14 +16,13 @@ mod start_options;
 mod target_specification;
 
 pub use bounded::{Bounded, Dimension, EvaluationCount, ParticleCount, RoundCount, StepCount, WarmUp};
-pub use law::Parameter;
+pub use law::{Given, Material, Parameter};
 pub use limit::Limit;
-pub use method_name::MethodName;
 pub use method_options::MethodOptions;
 pub use method_specification::MethodSpecification;
+pub use methods::{MethodName, owners};
 pub use option_error::OptionError;
 pub use option_values::{
-    AlphaSchedule, Basis, Correction, Draws, FrameName, Material, MonitorName, NonFinite, PoolChoice, Score, Switch,
-    Transfer,
+    AlphaSchedule, Basis, Correction, Draws, FrameName, MonitorName, NonFinite, PoolChoice, Score, Switch, Transfer,
 };
 pub use target_specification::{TargetParameters, TargetSpecification};

@@ -6,6 +6,8 @@ use clap::ValueEnum;
 use parvi::{BasisChoice, MomentCorrection, Monitor, NonFiniteScores, ScoreLocation, StartDraws};
 use serde::{Deserialize, Serialize};
 
+use super::Material;
+
 /// Background basis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -133,32 +135,6 @@ pub enum NonFinite {
     RejectStep,
     /// End with an error
     Report,
-}
-
-/// Constitutive law of the paper's algorithms, by the names of the scenes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Material {
-    /// Compressible Neo-Hookean solid
-    NeoHookean,
-    /// Linear elasticity of the Cauchy stress, as the paper has it
-    LinearCauchy,
-    /// Linear elasticity of the first Piola-Kirchhoff stress
-    LinearElastic,
-    /// Fixed corotated solid
-    FixedCorotated,
-    /// Linear elasticity in logarithmic strain
-    Hencky,
-    /// Visco-elasticity: a Neo-Hookean spring beside a dashpot
-    KelvinVoigt,
-    /// J2 (von Mises) plasticity, perfect or softening
-    SofteningHencky,
-    /// Drucker-Prager plasticity: sand
-    DruckerPrager,
-    /// Weakly compressible, viscous fluid
-    TaitFluid,
-    /// Isothermal gas as a law of F, whose rest state is the target
-    IsothermalGas,
 }
 
 /// The coordinates that the paper's algorithms work in.

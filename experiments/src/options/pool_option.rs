@@ -59,5 +59,5 @@ impl MethodOptions {
 
 /// Whether a method weighs a pool.
 fn weighs(method: MethodName) -> bool {
-    matches!(method, MethodName::Mpm | MethodName::Ais)
+    method.kind().has("pool") && method != MethodName::SteinThinning
 }

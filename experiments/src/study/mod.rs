@@ -10,6 +10,7 @@ mod covariance_spacing;
 mod definition;
 mod directory;
 mod document;
+mod evidence;
 mod gaussian_runs;
 mod manifest;
 mod moments;
@@ -22,6 +23,7 @@ mod runner;
 mod scaling;
 #[cfg(feature = "mechanics")]
 mod scenes;
+mod seed_range;
 mod spacing_particles;
 mod stability;
 mod start_law;
@@ -94,6 +96,7 @@ static KINDS: &[Kind] = &[
     Kind::of::<spacing_particles::SpacingParticles>(),
     Kind::of::<catalogue::Catalogue>(),
     Kind::of::<random_targets::RandomTargets>(),
+    Kind::of::<evidence::Evidence>(),
     Kind::of::<stability::Stability>(),
     Kind::of::<paper::Paper>(),
     Kind::of::<time_to_equal_error::TimeToEqualError>(),

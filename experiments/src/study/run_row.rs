@@ -161,6 +161,7 @@ impl RunRow {
     pub fn take(&mut self, outcome: &Outcome) {
         let certificate = outcome.certificate.as_ref();
         self.outcome = certificate.map(|certificate| certificate.outcome.name().to_owned());
+        self.log_evidence_deviation = outcome.log_evidence_deviation;
         self.log_evidence_error = outcome.log_evidence_error;
         self.residual = outcome.residual;
         self.steps = Some(outcome.steps);

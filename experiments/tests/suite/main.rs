@@ -1,5 +1,6 @@
 //! The command `parvi`, from the outside. One theme per file.
 
+mod evidence;
 mod gaussian_studies;
 #[cfg(not(any(feature = "mechanics", feature = "rom")))]
 mod left_out;

@@ -92,6 +92,12 @@ fn standard_output_has_the_keys_of_the_contract() {
 
     let output = parvi(
         directory.path(),
+        "sample --target gaussian --dim 2 --particles 200 --method smc --out x.csv",
+    );
+    insta::assert_snapshot!(keys(&stdout(&output)).join(" "), @"method steps score_evaluations density_evaluations log_evidence log_evidence_error wall_seconds peak_memory_bytes target dim particles seed");
+
+    let output = parvi(
+        directory.path(),
         "sample --target gaussian --dim 2 --particles 200 --method iid --out x.csv",
     );
     insta::assert_snapshot!(keys(&stdout(&output)).join(" "), @"method steps score_evaluations density_evaluations wall_seconds peak_memory_bytes target dim particles seed");
@@ -105,6 +111,7 @@ fn the_same_seed_gives_the_same_file_on_any_number_of_threads() {
     let mut methods = vec![
         "mpm",
         "ais",
+        "smc",
         "paper-pic",
         "paper-apic",
         "svgd",
@@ -117,7 +124,7 @@ fn the_same_seed_gives_the_same_file_on_any_number_of_threads() {
         methods.push("nuts");
     }
     for method in methods {
-        let steps = if matches!(method, "ais" | "iid" | "sobol" | "nuts" | "stein-thinning") {
+        let steps = if matches!(method, "ais" | "smc" | "iid" | "sobol" | "nuts" | "stein-thinning") {
             ""
         } else {
             "--steps 8"

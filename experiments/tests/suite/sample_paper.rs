@@ -77,6 +77,7 @@ fn every_material_by_its_name() {
         "linear-elastic --young-modulus 2",
         "fixed-corotated",
         "hencky --poissons-ratio -0.2",
+        "snow --youngs-modulus 2",
         "kelvin-voigt --viscosity 0.2",
         "softening-hencky --peak-yield-stress 0.2 --residual-yield-stress 0.1 --softening-rate 2",
         "drucker-prager --friction-angle 35 --cohesion 0.01",

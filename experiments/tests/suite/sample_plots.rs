@@ -40,7 +40,7 @@ fn every_method_has_its_pictures() {
     assert_eq!(names, ["corner.svg", "histogram.svg", "strip.svg"]);
     assert!(said.contains("no trace.svg: "), "{said}");
     // What an earlier run left under a name is gone.
-    let mut still = vec!["ais", "iid", "sobol", "stein-thinning"];
+    let mut still = vec!["ais", "smc", "iid", "sobol", "stein-thinning"];
     if cfg!(feature = "nuts") {
         still.push("nuts");
     }

@@ -83,6 +83,8 @@ fn options_of_a_survey() {
     );
     refused("--evaluations 500 --method svgd", &["--evaluations", "500", "svgd"]);
     refused("--rounds 0 --survey off", &["--rounds", "0", "needs a survey"]);
+    refused("--method smc --pool p.csv", &["--pool", "p.csv", "smc"]);
+    refused("--method smc --pool-size 20", &["pool size", "20", "particles"]);
     refused("--method ais --steps 5", &["--steps", "5", "ais"]);
     refused("--method ais --survey on", &["--survey", "on", "ais"]);
     refused("--method ais --checkpoint state", &["--checkpoint", "state", "ais"]);

@@ -3,8 +3,8 @@
 
 use mpm_materials::{
     DeformationError, DeformingGas, DruckerPrager, DruckerPragerState, ElasticModuli, FixedCorotated, GasState, Hencky,
-    IsothermalGas, KelvinVoigt, Law, LinearCauchy, LinearElastic, Material, NeoHookean, SofteningHencky,
-    SofteningState, TaitFluid,
+    IsothermalGas, KelvinVoigt, Law, LinearCauchy, LinearElastic, Material, NeoHookean, Snow, SnowState,
+    SofteningHencky, SofteningState, TaitFluid,
 };
 use mpm_tensor::Matrix;
 use proptest::prelude::*;
@@ -91,6 +91,13 @@ fn all_survive<const D: usize>(numbers: &[f64]) -> Result<(), TestCaseError> {
     for law in [sand, sand.with_cohesion(0.1).expect("in range")] {
         survives::<D, _>(&law, DruckerPragerState::default(), numbers)?;
         survives::<D, _>(&law, open, numbers)?;
+    }
+    let snow = Snow::fresh(moduli);
+    let packed = SnowState {
+        log_plastic_volume: numbers[0],
+    };
+    for state in [SnowState::default(), packed] {
+        survives::<D, _>(&snow, state, numbers)?;
     }
     for viscosity in [0.0, 0.1] {
         let fluid = TaitFluid::new(1.0, 1.0, viscosity).expect("in range");

@@ -1,15 +1,23 @@
-use mpm_materials::{DeformationError, Law};
+//! The laws of a scene as one law.
+
+use std::fmt::{self, Debug, Formatter};
+use std::ops::Range;
+
+use mpm_materials::{DeformationError, Law, Memory};
 use mpm_tensor::Matrix;
 
-use super::any_law::with_law;
-use super::batch;
-use super::memory::Remembered;
-use super::{AnyLaw, MEMORY_SIZE, Memory};
+use super::{AnyLaw, MEMORY_SIZE};
 
 /// The laws of a scene in the order of the materials' names: a law whose particles say by their state which one they follow.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Laws {
-    table: Vec<AnyLaw>,
+#[derive(Clone)]
+pub struct Laws<const D: usize> {
+    table: Vec<AnyLaw<D>>,
+}
+
+impl<const D: usize> Debug for Laws<D> {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        write!(formatter, "{} laws", self.table.len())
+    }
 }
 
 /// Which law a particle follows, and what that one remembers.
@@ -21,94 +29,106 @@ pub struct LawState {
     pub memory: Memory,
 }
 
-impl Laws {
+impl<const D: usize> Laws<D> {
     /// The laws; `None` if there are none.
-    pub fn new(table: Vec<AnyLaw>) -> Option<Self> {
+    pub fn new(table: Vec<AnyLaw<D>>) -> Option<Self> {
         (!table.is_empty()).then_some(Self { table })
     }
 
     /// The virgin state of a particle that follows the law of this number.
     pub fn virgin(&self, law: u32) -> LawState {
-        let memory = match self.of(law) {
-            AnyLaw::SofteningHencky(_) => Memory::Softening(Default::default()),
-            AnyLaw::DruckerPrager(_) => Memory::DruckerPrager(Default::default()),
-            _ => Memory::Nothing,
-        };
-        LawState { law, memory }
+        LawState {
+            law,
+            memory: Memory::default(),
+        }
     }
 
-    /// The state of a particle that follows the law of this number and remembers these [`numbers`](Memory::numbers).
+    /// The state of a particle that follows the law of this number and remembers these numbers.
     pub fn recall(&self, law: u32, numbers: &[f64; MEMORY_SIZE]) -> LawState {
-        let memory = self.virgin(law).memory.with_numbers(numbers);
-        LawState { law, memory }
+        LawState {
+            law,
+            memory: Memory(*numbers),
+        }
     }
 
-    /// h² ρ₀ / (2 D μ_v) of the fluid for which that is least, the longest explicit step for viscous stresses on a grid of spacing h;
-    /// infinite without viscosity.
-    pub fn viscous_step(&self, dimension: usize, spacing: f64) -> f64 {
-        let steps = self.table.iter().map(|law| match law {
-            AnyLaw::TaitFluid(fluid) if fluid.viscosity() > 0.0 => {
-                spacing * spacing * fluid.reference_density() / (2.0 * dimension as f64 * fluid.viscosity())
-            }
-            _ => f64::INFINITY,
-        });
+    /// The longest explicit step for viscous stresses on a grid of this spacing, that of the law for which it is shortest; infinite without viscosity.
+    pub fn viscous_step(&self, spacing: f64) -> f64 {
+        let steps = self.table.iter().map(|law| law.longest_viscous_step(spacing));
         steps.fold(f64::INFINITY, f64::min)
     }
 
-    /// The law of this number; the first one for a number that there is not, which no state made by [`virgin`](Self::virgin) has.
+    /// The names of all internal variables, those of the first law first.
+    pub fn internal_variables(&self) -> Vec<&'static str> {
+        let mut names = Vec::new();
+        for &name in self.table.iter().flat_map(|law| law.internal_variables()) {
+            if !names.contains(&name) {
+                names.push(name);
+            }
+        }
+        names
+    }
+
+    /// An internal variable of a particle by its name; `None` where its law has no such one.
+    pub fn internal_variable(&self, state: &LawState, name: &str) -> Option<f64> {
+        let names = self.of(state.law).internal_variables();
+        Some(state.memory.0[names.iter().position(|known| *known == name)?])
+    }
+
+    /// The law of this number; the first one for a number that there is not, which no particle of a scene has.
     #[inline(always)]
-    fn of(&self, law: u32) -> &AnyLaw {
+    fn of(&self, law: u32) -> &AnyLaw<D> {
         self.table.get(law as usize).unwrap_or(&self.table[0])
     }
 }
 
-/// [`Law::advance`] of one law on the memory of any.
-#[inline(always)]
-fn advance<const D: usize, L: Law<D>>(law: &L, trial: &Matrix<D>, memory: &mut Memory) -> Matrix<D>
-where
-    L::State: Remembered,
-{
-    let mut own = L::State::recall(memory);
-    let admissible = law.advance(trial, &mut own);
-    *memory = own.store();
-    admissible
+/// Particles that are worked on at once, at most.
+const GROUP: usize = 32;
+
+/// The longest pieces of at most `GROUP` particles that follow one law.
+fn pieces(states: &[LawState]) -> impl Iterator<Item = Range<usize>> {
+    let mut start = 0;
+    std::iter::from_fn(move || {
+        let first = states.get(start)?;
+        let limit = states.len().min(start + GROUP);
+        let same = states[start..limit].iter().take_while(|state| state.law == first.law);
+        let piece = start..start + same.count();
+        start = piece.end;
+        Some(piece)
+    })
 }
 
-/// Every method is compiled once per dimension and called: copied into the steps of all bases and transfers, the laws would take minutes
-/// to compile and save nanoseconds.
+/// What the particles of a piece remember.
+fn memories(states: &[LawState]) -> [Memory; GROUP] {
+    let mut memories = [Memory::default(); GROUP];
+    for (memory, state) in memories.iter_mut().zip(states) {
+        *memory = state.memory;
+    }
+    memories
+}
+
 #[allow(non_snake_case)]
-impl<const D: usize> Law<D> for Laws {
+impl<const D: usize> Law<D> for Laws<D> {
     type State = LawState;
 
     /// Whether one of them is.
     fn rate_dependent(&self) -> bool {
-        self.table
-            .iter()
-            .any(|any| with_law!(any, law => Law::<D>::rate_dependent(law)))
+        self.table.iter().any(|law| law.rate_dependent())
     }
 
-    #[inline(never)]
     fn advance(&self, trial: &Matrix<D>, state: &mut LawState) -> Matrix<D> {
-        with_law!(self.of(state.law), law => advance(law, trial, &mut state.memory))
+        self.of(state.law).advance(trial, &mut state.memory)
     }
 
-    #[inline(never)]
     fn energy_density(&self, F: &Matrix<D>, state: &LawState) -> f64 {
-        with_law!(self.of(state.law), law => Law::energy_density(law, F, &Remembered::recall(&state.memory)))
+        self.of(state.law).energy_density(F, &state.memory)
     }
 
-    #[inline(never)]
     fn kirchhoff_stress(&self, F: &Matrix<D>, state: &LawState, velocity_gradient: &Matrix<D>) -> Matrix<D> {
-        with_law!(self.of(state.law), law => {
-            Law::kirchhoff_stress(law, F, &Remembered::recall(&state.memory), velocity_gradient)
-        })
+        self.of(state.law).kirchhoff_stress(F, &state.memory, velocity_gradient)
     }
 
-    #[inline(never)]
     fn wave_speed(&self, F: &Matrix<D>, state: &LawState, reference_density: f64) -> f64 {
-        with_law!(self.of(state.law), law => {
-            Law::wave_speed(law, F, &Remembered::recall(&state.memory), reference_density)
-        })
+        self.of(state.law).wave_speed(F, &state.memory, reference_density)
     }
 
     fn kirchhoff_stresses(
@@ -118,31 +138,30 @@ impl<const D: usize> Law<D> for Laws {
         velocity_gradients: &[Matrix<D>],
         stresses: &mut [Matrix<D>],
     ) {
-        for piece in batch::pieces(states) {
+        for piece in pieces(states) {
             let (F, states, stresses) = (&F[piece.clone()], &states[piece.clone()], &mut stresses[piece.clone()]);
             let rates = velocity_gradients.get(piece).unwrap_or(&[]);
-            with_law!(self.of(states[0].law), law => batch::kirchhoff_stresses(law, F, states, rates, stresses));
+            let law = self.of(states[0].law);
+            law.kirchhoff_stresses(F, &memories(states)[..states.len()], rates, stresses);
         }
     }
 
     fn wave_speeds(&self, F: &[Matrix<D>], states: &[LawState], reference_densities: &[f64], wave_speeds: &mut [f64]) {
-        for piece in batch::pieces(states) {
+        for piece in pieces(states) {
             let (F, states) = (&F[piece.clone()], &states[piece.clone()]);
             let (densities, speeds) = (&reference_densities[piece.clone()], &mut wave_speeds[piece]);
-            with_law!(self.of(states[0].law), law => batch::wave_speeds(law, F, states, densities, speeds));
+            let law = self.of(states[0].law);
+            law.wave_speeds(F, &memories(states)[..states.len()], densities, speeds);
         }
     }
 
     /// What the first of the laws that have no stress at F says: asked only where a particle has none, without its state.
     fn check(&self, F: &Matrix<D>) -> Result<(), DeformationError> {
-        self.table
-            .iter()
-            .try_for_each(|any| with_law!(any, law => Law::check(law, F)))
+        self.table.iter().try_for_each(|law| law.check(F))
     }
 
-    #[inline(never)]
     fn volume_ratio(&self, F: &Matrix<D>, state: &LawState) -> f64 {
-        with_law!(self.of(state.law), law => Law::volume_ratio(law, F, &Remembered::recall(&state.memory)))
+        self.of(state.law).volume_ratio(F, &state.memory)
     }
 }
 
@@ -150,7 +169,9 @@ impl<const D: usize> Law<D> for Laws {
 #[allow(non_snake_case)]
 mod tests {
     use super::*;
-    use mpm_materials::{DruckerPrager, ElasticModuli, NeoHookean, SofteningHencky, TaitFluid};
+    use std::sync::Arc;
+
+    use mpm_materials::{DruckerPrager, ElasticModuli, NeoHookean, Numbered, Remembered, SofteningHencky, TaitFluid};
 
     fn moduli() -> ElasticModuli {
         ElasticModuli::new(100.0, 0.3).expect("in range")
@@ -160,10 +181,10 @@ mod tests {
     fn many_particles_at_once_are_as_one_by_one() {
         let clay = SofteningHencky::new(moduli(), 1.0, 0.5, 3.0).expect("in range");
         let water = TaitFluid::new(2.0, 10.0, 0.1).expect("in range");
-        let table = vec![
-            AnyLaw::NeoHookean(NeoHookean::new(moduli())),
-            AnyLaw::SofteningHencky(clay),
-            AnyLaw::TaitFluid(water),
+        let table: Vec<AnyLaw<2>> = vec![
+            Arc::new(Numbered(NeoHookean::new(moduli()))),
+            Arc::new(Numbered(clay)),
+            Arc::new(Numbered(water)),
         ];
         let laws = Laws::new(table).expect("three");
         let count = 150;
@@ -202,13 +223,17 @@ mod tests {
         let sand = DruckerPrager::new(moduli(), 0.5).expect("in range");
         let water = TaitFluid::new(2.0, 10.0, 0.1).expect("in range");
         let rubber = NeoHookean::new(moduli());
-        let laws = Laws::new(vec![
-            AnyLaw::SofteningHencky(metal),
-            AnyLaw::DruckerPrager(sand),
-            AnyLaw::TaitFluid(water),
-            AnyLaw::NeoHookean(rubber),
-        ])
-        .expect("four");
+        let table: Vec<AnyLaw<2>> = vec![
+            Arc::new(Numbered(metal)),
+            Arc::new(Numbered(sand)),
+            Arc::new(Numbered(water)),
+            Arc::new(Numbered(rubber)),
+        ];
+        let laws = Laws::new(table).expect("four");
+        assert_eq!(
+            laws.internal_variables(),
+            ["plastic_strain", "out_of_plane_strain", "volume_correction"]
+        );
         let trial = Matrix([[1.1, 0.2], [0.0, 1.05]]);
         let rate = Matrix([[0.0, 1.0], [2.0, 0.5]]);
         let mut states: Vec<LawState> = (0..4).map(|law| laws.virgin(law)).collect();
@@ -217,12 +242,17 @@ mod tests {
         let mut own = Default::default();
         let F = Law::advance(&metal, &trial, &mut own);
         assert!(own.accumulated_plastic_strain > 0.0);
-        assert_eq!((advanced[0], states[0].memory), (F, Memory::Softening(own)));
+        assert_eq!(
+            laws.internal_variable(&states[0], "plastic_strain"),
+            Some(own.accumulated_plastic_strain)
+        );
+        assert_eq!(laws.internal_variable(&states[0], "volume_correction"), None);
+        assert_eq!((advanced[0], states[0].memory), (F, own.store()));
         assert_eq!(laws.energy_density(&F, &states[0]), metal.energy_density(&F, &own));
         let mut own = Default::default();
         let F = Law::advance(&sand, &trial, &mut own);
         assert!(own.volume_correction > 0.0);
-        assert_eq!((advanced[1], states[1].memory), (F, Memory::DruckerPrager(own)));
+        assert_eq!((advanced[1], states[1].memory), (F, own.store()));
         assert_eq!(
             laws.volume_ratio(&F, &states[1]),
             Law::<2>::volume_ratio(&sand, &F, &own)
@@ -236,11 +266,11 @@ mod tests {
             laws.wave_speed(&trial, &states[3], 2.0),
             Law::wave_speed(&rubber, &trial, &(), 2.0)
         );
-        assert!(Law::<2>::rate_dependent(&laws));
-        assert!((laws.viscous_step(2, 0.1) - 0.01 * 2.0 / 0.4).abs() < 1e-15);
+        assert!(laws.rate_dependent());
+        assert!((laws.viscous_step(0.1) - 0.01 * 2.0 / 0.4).abs() < 1e-15);
         assert!(Law::<2>::check(&laws, &Matrix([[1.0, 0.0], [0.0, -1.0]])).is_err());
         for state in states {
-            assert_eq!(laws.recall(state.law, &state.memory.numbers()), state);
+            assert_eq!(laws.recall(state.law, &state.memory.0), state);
         }
     }
 }

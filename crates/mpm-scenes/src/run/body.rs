@@ -69,7 +69,7 @@ impl<'a, const D: usize> Body<'a, D> {
         let events = [self.frames, self.rows, self.checkpoints].map(|schedule| schedule.time(schedule.next(time)));
         let event = events.into_iter().fold(self.scene.time.end, f64::min);
         let rest = event - time;
-        let viscous = self.motion.laws().viscous_step(D, self.motion.spacing());
+        let viscous = self.motion.laws().viscous_step(self.motion.spacing());
         let free = longest.min(self.scene.time.courant * viscous);
         let free = free.min(self.scene.time.step.unwrap_or(f64::INFINITY));
         // Two equal steps to the event, not a long one and a tiny one.

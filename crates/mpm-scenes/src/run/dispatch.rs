@@ -27,7 +27,7 @@ const FLIP_SHARE: f64 = 0.99;
 struct Parts<'a, const D: usize> {
     scene: &'a Scene,
     particles: Particles<D, LawState>,
-    laws: Laws,
+    laws: Laws<D>,
     loads: Loads<D>,
     boundaries: Boundaries<D>,
 }
@@ -86,14 +86,14 @@ fn on_grid<const D: usize>(
     }
 }
 
-fn laws(scene: &Scene) -> Result<Laws, SceneFault> {
+fn laws<const D: usize>(scene: &Scene) -> Result<Laws<D>, SceneFault> {
     let tables = scene.materials.iter();
     let laws = tables.map(|(name, table)| law::build(&format!("materials.{name}"), table));
     let laws = Laws::new(laws.collect::<Result<_, _>>()?);
     laws.ok_or_else(|| SceneFault::value("materials", [0; 0], "at least one material"))
 }
 
-fn particles<const D: usize>(population: &Population<D>, laws: &Laws) -> Result<Particles<D, LawState>, SceneFault> {
+fn particles<const D: usize>(population: &Population<D>, laws: &Laws<D>) -> Result<Particles<D, LawState>, SceneFault> {
     let particles = Particles::in_order(
         population.positions.clone(),
         population.velocities.clone(),

@@ -17,7 +17,7 @@ pub(super) trait Motion<const D: usize> {
     fn set_particles(&mut self, particles: Particles<D, LawState>);
 
     /// The laws.
-    fn laws(&self) -> &Laws;
+    fn laws(&self) -> &Laws<D>;
 
     /// The forces.
     fn loads(&self) -> &Loads<D>;
@@ -50,7 +50,7 @@ pub(super) trait Motion<const D: usize> {
     fn step(&mut self, control: &StepControl) -> Result<StepReport, MpmError>;
 }
 
-impl<const D: usize, B, T> Motion<D> for Mpm<D, B, T, Continuum<Laws>, Loads<D>, Boundaries<D>>
+impl<const D: usize, B, T> Motion<D> for Mpm<D, B, T, Continuum<Laws<D>>, Loads<D>, Boundaries<D>>
 where
     B: SecondMoments<D>,
     T: Transfer<D>,
@@ -63,7 +63,7 @@ where
         self.particles = particles;
     }
 
-    fn laws(&self) -> &Laws {
+    fn laws(&self) -> &Laws<D> {
         &self.medium.law
     }
 

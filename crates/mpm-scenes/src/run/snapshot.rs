@@ -5,7 +5,6 @@ use mpm_tensor::Matrix;
 
 use super::motion::Motion;
 use crate::Snapshot;
-use crate::law::{INTERNAL_VARIABLES, Memory};
 use crate::population::Population;
 
 /// All particles of a body in the order of creation.
@@ -30,19 +29,16 @@ pub(super) fn snapshot<const D: usize>(motion: &dyn Motion<D>, start: &Populatio
             laws.kirchhoff_stress(deformation, state, rate) * (1.0 / ratio)
         })
         .collect();
-    let memories: Vec<Memory> = particles
-        .in_creation_order(&particles.states)
-        .iter()
-        .map(|state| state.memory)
-        .collect();
-    let variable = |name: &&str| {
-        let values: Option<Vec<f64>> = memories.iter().any(|memory| memory.variable(name).is_some()).then(|| {
-            memories
-                .iter()
-                .map(|memory| memory.variable(name).unwrap_or(0.0))
-                .collect()
-        });
-        values.map(|values| ((*name).to_owned(), values))
+    let states = particles.in_creation_order(&particles.states);
+    let variable = |name: &'static str| {
+        let values: Vec<Option<f64>> = states.iter().map(|state| laws.internal_variable(state, name)).collect();
+        let is_there = values.iter().any(Option::is_some);
+        is_there.then(|| {
+            (
+                name.to_owned(),
+                values.into_iter().map(Option::unwrap_or_default).collect(),
+            )
+        })
     };
     Snapshot {
         dimension: D,
@@ -57,7 +53,7 @@ pub(super) fn snapshot<const D: usize>(motion: &dyn Motion<D>, start: &Populatio
         reference_volumes: start.volumes.clone(),
         bodies: start.bodies.clone(),
         materials: start.materials.clone(),
-        internal_variables: INTERNAL_VARIABLES.iter().filter_map(variable).collect(),
+        internal_variables: laws.internal_variables().into_iter().filter_map(variable).collect(),
     }
 }
 

@@ -1,27 +1,64 @@
 //! `[materials.NAME]`.
 
+use std::sync::Arc;
+
+use mpm_materials::{
+    DruckerPrager, ElasticModuli, FixedCorotated, Hencky, IsothermalGas, Law, LinearElastic, Memory, NeoHookean,
+    Numbered, ParameterError, Snow, SofteningHencky, TaitFluid,
+};
 use serde::Deserialize;
 
-/// `[materials.NAME]`: a constitutive law with its parameters and the mass per reference volume.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-#[serde(tag = "law", rename_all = "kebab-case")]
-pub enum MaterialTable {
+/// The laws of scenes: the name, which is the variant's in kebab case, its parameters, and the law with these.
+macro_rules! materials {
+    ($($(#[$meta:meta])* $variant:ident($table:ident: $type:ty) => $law:expr;)*) => {
+        /// `[materials.NAME]`: a constitutive law with its parameters and the mass per reference volume.
+        #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+        #[serde(tag = "law", rename_all = "kebab-case")]
+        pub enum MaterialTable {
+            $($(#[$meta])* $variant($type),)*
+        }
+
+        impl MaterialTable {
+            /// Mass per reference volume ρ₀.
+            pub fn density(&self) -> f64 {
+                match self {
+                    $(Self::$variant(table) => table.density,)*
+                }
+            }
+
+            /// The law.
+            pub(crate) fn law<const D: usize>(
+                &self,
+            ) -> Result<Arc<dyn Law<D, State = Memory> + Send + Sync>, ParameterError> {
+                Ok(match self {
+                    $(Self::$variant($table) => Arc::new(Numbered($law)),)*
+                })
+            }
+        }
+    };
+}
+
+materials! {
     /// Small strains.
-    LinearElastic(SolidTable),
+    LinearElastic(solid: SolidTable) => LinearElastic::new(solid.moduli()?);
     /// The compressible Neo-Hookean solid.
-    NeoHookean(SolidTable),
+    NeoHookean(solid: SolidTable) => NeoHookean::new(solid.moduli()?);
     /// The fixed corotated solid.
-    FixedCorotated(SolidTable),
+    FixedCorotated(solid: SolidTable) => FixedCorotated::new(solid.moduli()?);
     /// Hencky's solid: quadratic in the logarithmic strain.
-    Hencky(SolidTable),
+    Hencky(solid: SolidTable) => Hencky::new(solid.moduli()?);
     /// Hencky's solid with von Mises plasticity that softens.
-    SofteningHencky(MetalTable),
+    SofteningHencky(metal: MetalTable) => metal.law()?;
     /// Hencky's solid with Drucker–Prager friction, for sand.
-    DruckerPrager(SandTable),
+    DruckerPrager(sand: SandTable) => sand.law()?;
+    /// Snow that hardens as it is packed.
+    Snow(snow: SnowTable) => snow.law()?;
     /// The weakly compressible fluid.
-    TaitFluid(FluidTable),
+    TaitFluid(fluid: FluidTable) => fluid.law()?;
     /// The isothermal gas P = κ ρ.
-    IsothermalGas(GasTable),
+    IsothermalGas(gas: GasTable) => {
+        IsothermalGas::new(gas.pressure_per_density)?.with_reference_density(gas.density)?
+    };
 }
 
 /// Parameters of an elastic solid.
@@ -105,18 +142,67 @@ pub struct GasTable {
     pub pressure_per_density: f64,
 }
 
-impl MaterialTable {
-    /// Mass per reference volume ρ₀.
-    pub fn density(&self) -> f64 {
-        match self {
-            Self::LinearElastic(table)
-            | Self::NeoHookean(table)
-            | Self::FixedCorotated(table)
-            | Self::Hencky(table) => table.density,
-            Self::SofteningHencky(table) => table.density,
-            Self::DruckerPrager(table) => table.density,
-            Self::TaitFluid(table) => table.density,
-            Self::IsothermalGas(table) => table.density,
-        }
+/// Parameters of `snow`.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SnowTable {
+    /// ρ₀.
+    pub density: f64,
+    /// E at first.
+    pub young_modulus: f64,
+    /// ν.
+    pub poisson_ratio: f64,
+    /// θ_c. Default 0.025.
+    pub critical_compression: Option<f64>,
+    /// θ_s. Default 0.0075.
+    pub critical_stretch: Option<f64>,
+    /// ξ. Default 10.
+    pub hardening: Option<f64>,
+}
+
+impl SnowTable {
+    fn law(&self) -> Result<Snow, ParameterError> {
+        let [compression, stretch, hardening] = Snow::FRESH;
+        Snow::new(
+            ElasticModuli::new(self.young_modulus, self.poisson_ratio)?,
+            self.critical_compression.unwrap_or(compression),
+            self.critical_stretch.unwrap_or(stretch),
+            self.hardening.unwrap_or(hardening),
+        )
+    }
+}
+
+impl SolidTable {
+    fn moduli(&self) -> Result<ElasticModuli, ParameterError> {
+        ElasticModuli::new(self.young_modulus, self.poisson_ratio)
+    }
+}
+
+impl MetalTable {
+    fn law(&self) -> Result<SofteningHencky, ParameterError> {
+        SofteningHencky::new(
+            ElasticModuli::new(self.young_modulus, self.poisson_ratio)?,
+            self.norm_per_strength * self.peak_yield_stress,
+            self.norm_per_strength * self.residual_yield_stress.unwrap_or(self.peak_yield_stress),
+            self.softening_rate,
+        )
+    }
+}
+
+impl SandTable {
+    fn law(&self) -> Result<DruckerPrager, ParameterError> {
+        let moduli = ElasticModuli::new(self.young_modulus, self.poisson_ratio)?;
+        DruckerPrager::new(moduli, self.friction_angle.to_radians())?.with_cohesion(self.cohesion)
+    }
+}
+
+impl FluidTable {
+    fn law(&self) -> Result<TaitFluid, ParameterError> {
+        let law = TaitFluid::new(self.density, self.sound_speed, self.viscosity)?;
+        Ok(if self.forgets_expansion {
+            law.forgetting_expansion()
+        } else {
+            law
+        })
     }
 }

@@ -28,7 +28,7 @@ pub use boundary::{
 pub use discretisation::{BasisName, Discretisation, DomainTable, GridTable, TransferKind, TransferTable};
 pub use facets::{FacetCondition, FacetTable};
 pub use load::LoadTable;
-pub use material::{FluidTable, GasTable, MaterialTable, MetalTable, SandTable, SolidTable};
+pub use material::{FluidTable, GasTable, MaterialTable, MetalTable, SandTable, SnowTable, SolidTable};
 pub use mesh::{DelaunayTable, KernelName, MeshShapeTable, MeshTable, RefinementTable, RotationTable, WidthName};
 pub use output::{OutputTable, ProbeTable, ValidationTable};
 pub use region::ShapeTable;

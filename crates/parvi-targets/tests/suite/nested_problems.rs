@@ -122,6 +122,16 @@ fn shells_exist_in_ten_dimensions() {
 }
 
 #[test]
+fn spike_slab_has_its_evidence_and_masses() {
+    let target = build::<2>("spike-slab", &Parameters::default()).unwrap();
+    let found = log_integral(&*target, [[-0.9, 0.9]; 2], 1800);
+    assert!((found - 101_f64.ln()).abs() < 1e-9, "{found}");
+    // The spike alone, within eight of its widths: 100 and what the slab has there.
+    let spike = log_integral(&*target, [[0.031 - 0.08, 0.031 + 0.08]; 2], 800).exp();
+    assert!((100.0..101.0).contains(&spike), "{spike}");
+}
+
+#[test]
 fn log_gamma_has_the_published_evidence() {
     let target = LogGamma::<2>::new().unwrap();
     let stated = target.log_evidence().unwrap();

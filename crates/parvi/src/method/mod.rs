@@ -1,4 +1,4 @@
-//! The methods and their options.
+//! The methods and their options: a method is a file, or two, and a line of `methods!` below.
 
 mod ais_options;
 mod annealing;
@@ -26,8 +26,10 @@ pub use support_points_options::SupportPointsOptions;
 pub use svgd_options::SvgdOptions;
 pub use watch::{Monitor, Watch};
 
-use crate::SampleError;
+use parvi_targets::{CatalogueTarget, Frame};
+
 use crate::start::check;
+use crate::{Observer, Run, SampleError, Samples, SmcOptions, independent_draws, sobol_points};
 
 /// Background basis of the mechanics.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -70,45 +72,55 @@ impl TransferChoice {
     }
 }
 
-/// A method together with its options.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Method {
-    /// Calibrated isothermal gas (the default).
-    Mpm(MpmOptions),
-    /// Adaptive importance sampling, condensed.
-    Ais(AisOptions),
-    /// Calibrated isothermal gas within a mesh, in 2 and 3 dimensions.
-    OnMesh(OnMesh),
-    /// Algorithms 1 (PIC) and 2 (APIC) of the MPM-ParVI paper.
-    Paper(PaperOptions),
-    /// Stein variational gradient descent.
-    Svgd(SvgdOptions),
-    /// Independent exact draws.
-    Iid,
-    /// Scrambled Sobol points through the target's map from the unit cube.
-    Sobol,
-    /// The No-U-Turn sampler, a Markov chain; needs the cargo feature `nuts`.
-    Nuts(NutsOptions),
-    /// The M draws of a bigger sample with the least kernel Stein discrepancy, by a greedy choice.
-    SteinThinning(SteinThinningOptions),
-    /// The M points with the least energy distance to a bigger sample.
-    SupportPoints(SupportPointsOptions),
+/// What is known of a method, in one place: its variant of [`Method`], and how it samples a target of the catalogue in the target's frame.
+macro_rules! methods {
+    (($target:ident, $frame:ident, $run:ident, $observer:ident);
+        $($(#[$meta:meta])* $variant:ident $(($options:ident: $type:ty))? => $sample:expr;)*) => {
+        /// A method together with its options.
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum Method {
+            $($(#[$meta])* $variant $(($type))?,)*
+        }
+
+        impl Method {
+            /// Sample with it.
+            pub(crate) fn sample<const D: usize>(
+                &self,
+                $target: &dyn CatalogueTarget<D>,
+                $frame: &Frame<D>,
+                $run: &Run,
+                $observer: &mut dyn Observer,
+            ) -> Result<Samples<D>, SampleError> {
+                match self {
+                    $(Self::$variant $(($options))? => $sample,)*
+                }
+            }
+        }
+    };
 }
 
-impl Method {
-    /// What errors call it.
-    pub(crate) fn name(&self) -> &'static str {
-        match self {
-            Self::Mpm(_) => "mpm",
-            Self::Ais(_) => "ais",
-            Self::OnMesh(_) => "mpm on a mesh",
-            Self::Paper(_) => "paper",
-            Self::Svgd(_) => "svgd",
-            Self::Iid => "iid",
-            Self::Sobol => "sobol",
-            Self::Nuts(_) => "nuts",
-            Self::SteinThinning(_) => "stein-thinning",
-            Self::SupportPoints(_) => "support-points",
-        }
-    }
+methods! {
+    (target, frame, run, observer);
+    /// Calibrated isothermal gas (the default).
+    Mpm(options: MpmOptions) => options.sample(target, frame, run, observer);
+    /// Adaptive importance sampling, condensed.
+    Ais(options: AisOptions) => options.sample(target, frame, run, observer);
+    /// Tempered sequential Monte Carlo.
+    Smc(options: SmcOptions) => options.sample(target, frame, run, observer);
+    /// Calibrated isothermal gas within a mesh, in 2 and 3 dimensions.
+    OnMesh(on_mesh: OnMesh) => on_mesh.sample(target, run, observer);
+    /// Algorithms 1 (PIC) and 2 (APIC) of the MPM-ParVI paper.
+    Paper(options: PaperOptions) => options.sample(target, frame, run, observer);
+    /// Stein variational gradient descent.
+    Svgd(options: SvgdOptions) => options.sample(target, frame, run, observer);
+    /// Independent exact draws.
+    Iid => independent_draws(target, run);
+    /// Scrambled Sobol points through the target's map from the unit cube.
+    Sobol => sobol_points(target, run);
+    /// The No-U-Turn sampler, a Markov chain; needs the cargo feature `nuts`.
+    Nuts(options: NutsOptions) => options.sample(target, frame, run, observer);
+    /// The M draws of a bigger sample with the least kernel Stein discrepancy, by a greedy choice.
+    SteinThinning(options: SteinThinningOptions) => options.sample(target, run, observer);
+    /// The M points with the least energy distance to a bigger sample.
+    SupportPoints(options: SupportPointsOptions) => options.sample(target, run, observer);
 }

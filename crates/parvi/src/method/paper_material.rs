@@ -2,32 +2,52 @@
 
 use mpm_materials::{
     DeformingGas, DruckerPrager, ElasticModuli, FixedCorotated, Hencky, IsothermalGas, KelvinVoigt, Law, LinearCauchy,
-    LinearElastic, Memory, NeoHookean, Numbered, ParameterError, SofteningHencky, TaitFluid,
+    LinearElastic, Memory, NeoHookean, Numbered, ParameterError, Snow, SofteningHencky, TaitFluid,
 };
 
-/// A material of `mpm-materials`, with its parameters; in any dimension.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum PaperMaterial {
+/// The materials: variant, parameters, and the law with these.
+macro_rules! materials {
+    ($($(#[$meta:meta])* $variant:ident($name:ident: $type:ty) => $law:expr;)*) => {
+        /// A material of `mpm-materials`, with its parameters; in any dimension.
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub enum PaperMaterial {
+            $($(#[$meta])* $variant($type),)*
+        }
+
+        impl PaperMaterial {
+            /// Hands the law over.
+            pub(crate) fn with_law<const D: usize, R>(&self, take: impl FnOnce(&dyn Law<D, State = Memory>) -> R) -> R {
+                match *self {
+                    $(Self::$variant($name) => take(&Numbered($law)),)*
+                }
+            }
+        }
+    };
+}
+
+materials! {
     /// Compressible Neo-Hookean solid (paper, Eq. 22).
-    NeoHookean(NeoHookean),
+    NeoHookean(law: NeoHookean) => law;
     /// Linear elasticity of the Cauchy stress (paper, Eq. 19).
-    LinearCauchy(LinearCauchy),
+    LinearCauchy(law: LinearCauchy) => law;
     /// Linear elasticity of the first Piola–Kirchhoff stress.
-    LinearElastic(LinearElastic),
+    LinearElastic(law: LinearElastic) => law;
     /// Fixed corotated solid.
-    FixedCorotated(FixedCorotated),
+    FixedCorotated(law: FixedCorotated) => law;
     /// Hencky's solid: linear elasticity in logarithmic strain.
-    Hencky(Hencky),
+    Hencky(law: Hencky) => law;
     /// Visco-elastic solid.
-    KelvinVoigt(KelvinVoigt),
+    KelvinVoigt(law: KelvinVoigt) => law;
     /// J2 (von Mises) plasticity, perfect or softening.
-    SofteningHencky(SofteningHencky),
+    SofteningHencky(law: SofteningHencky) => law;
     /// Drucker–Prager plasticity: sand.
-    DruckerPrager(DruckerPrager),
+    DruckerPrager(law: DruckerPrager) => law;
+    /// Snow.
+    Snow(law: Snow) => law;
     /// Weakly compressible, viscous fluid.
-    TaitFluid(TaitFluid),
+    TaitFluid(law: TaitFluid) => law;
     /// Isothermal gas, Ψ(F) = −κ (m/V⁰) ln det F: with the force weighted by mass, κ = 1 and α = 1 the body rests where its density is the target.
-    IsothermalGas(IsothermalGas),
+    IsothermalGas(gas: IsothermalGas) => DeformingGas { gas };
 }
 
 impl Default for PaperMaterial {
@@ -46,21 +66,5 @@ impl PaperMaterial {
     pub fn neo_hookean(youngs_modulus: f64, poissons_ratio: f64) -> Result<Self, ParameterError> {
         let moduli = ElasticModuli::new(youngs_modulus, poissons_ratio)?;
         Ok(Self::NeoHookean(NeoHookean::new(moduli)))
-    }
-
-    /// Hands the law over.
-    pub(crate) fn with_law<const D: usize, R>(&self, take: impl FnOnce(&dyn Law<D, State = Memory>) -> R) -> R {
-        match *self {
-            Self::NeoHookean(law) => take(&Numbered(law)),
-            Self::LinearCauchy(law) => take(&Numbered(law)),
-            Self::LinearElastic(law) => take(&Numbered(law)),
-            Self::FixedCorotated(law) => take(&Numbered(law)),
-            Self::Hencky(law) => take(&Numbered(law)),
-            Self::KelvinVoigt(law) => take(&Numbered(law)),
-            Self::SofteningHencky(law) => take(&Numbered(law)),
-            Self::DruckerPrager(law) => take(&Numbered(law)),
-            Self::TaitFluid(law) => take(&Numbered(law)),
-            Self::IsothermalGas(gas) => take(&Numbered(DeformingGas { gas })),
-        }
     }
 }

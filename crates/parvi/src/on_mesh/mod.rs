@@ -70,7 +70,7 @@ impl MeshOptions {
         observer: &mut dyn Observer,
     ) -> Result<Samples<D>, SampleError> {
         self.settling.check()?;
-        let count = run.checked_particles()?;
+        let count = run.particles_of("mpm on a mesh")?;
         let frame = frame_of(mesh);
         let mesh = in_frame(mesh, &frame)?;
         let mut generator = run.generator(Stream::Places.of_body(0));

@@ -14,6 +14,7 @@ mod paper_rest;
 mod paper_watch;
 mod robustness;
 mod samplers;
+mod smc;
 mod stein_thinning;
 mod support_points;
 mod survey;

@@ -6,8 +6,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use mpm_mesh::generate::{EdgeTarget, disk};
 use parvi::{
     AisOptions, MeshOptions, Method, MomentCorrection, MpmOptions, NonFiniteScores, Observer, PaperOptions,
-    ParticleView, Progress, Run, SampleError, Samples, Silent, SteinThinningOptions, SupportPointsOptions, SvgdOptions,
-    sample,
+    ParticleView, Progress, Run, SampleError, Samples, Silent, SmcOptions, SteinThinningOptions, SupportPointsOptions,
+    SvgdOptions, sample,
 };
 use parvi_targets::{CatalogueTarget, Frame, Gaussian, GaussianMixture, Target};
 
@@ -126,6 +126,7 @@ fn methods_that_do_not_move_particles_show_none() {
         Method::Iid,
         Method::Sobol,
         Method::Ais(AisOptions::default()),
+        Method::Smc(SmcOptions::default()),
         Method::SteinThinning(SteinThinningOptions::default()),
         Method::Mpm(MpmOptions {
             rounds: Some(0),

@@ -2,7 +2,7 @@
 
 use mpm_materials::{
     DruckerPrager, ElasticModuli, FixedCorotated, Hencky, IsothermalGas, KelvinVoigt, LinearCauchy, LinearElastic,
-    NeoHookean, SofteningHencky, TaitFluid,
+    NeoHookean, Snow, SofteningHencky, TaitFluid,
 };
 use parvi::{
     BasisChoice, Method, MpmOptions, PaperBody, PaperMaterial, PaperOptions, ReferenceVolumes, Run, Samples,
@@ -24,6 +24,7 @@ fn materials() -> Vec<PaperMaterial> {
         PaperMaterial::KelvinVoigt(KelvinVoigt::new(moduli, 0.1).expect("in range")),
         PaperMaterial::SofteningHencky(SofteningHencky::new(moduli, 0.1, 0.05, 1.0).expect("in range")),
         PaperMaterial::DruckerPrager(DruckerPrager::new(moduli, 0.5).expect("in range")),
+        PaperMaterial::Snow(Snow::fresh(moduli)),
         PaperMaterial::TaitFluid(TaitFluid::new(1.0, 1.0, 0.05).expect("in range")),
         PaperMaterial::IsothermalGas(gas),
     ]

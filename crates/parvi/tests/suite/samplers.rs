@@ -7,8 +7,8 @@ use mpm_kernels::Quadratic;
 use mpm_tensor::vector;
 use parvi::{
     AisOptions, BasisChoice, Guards, Method, MomentCorrection, MpmOptions, NonFiniteScores, Observer, PaperMaterial,
-    PaperOptions, Progress, Run, SampleError, Samples, ScoreLocation, Settling, Silent, Start, StartDraws, SvgdOptions,
-    TransferChoice, galerkin_stein_residual, sample,
+    PaperOptions, Progress, Run, SampleError, Samples, ScoreLocation, Settling, Silent, SmcOptions, Start, StartDraws,
+    SvgdOptions, TransferChoice, galerkin_stein_residual, sample,
 };
 use parvi_metrics::{Cloud, CloudMoments, GaussianEnergy};
 use parvi_targets::{Banana, CatalogueTarget, Frame, Funnel, Gaussian, GaussianMixture, Ring, StudentT, Target};
@@ -42,6 +42,7 @@ fn every_method_gives_the_moments_of_a_gaussian() {
         (Method::Mpm(body_alone()), 0.01),
         (Method::Mpm(MpmOptions::default()), 0.02),
         (Method::Ais(AisOptions::default()), 0.02),
+        (Method::Smc(SmcOptions::default()), 0.12),
         (
             Method::Svgd(SvgdOptions {
                 steps: Some(200),

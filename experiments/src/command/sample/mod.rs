@@ -14,6 +14,7 @@ use crate::diagnostics::diagnose;
 use crate::machine::MemoryGauge;
 use crate::options::{
     Dimension, MethodName, MethodOptions, OptionError, ParticleCount, StepCount, TargetParameters, TargetSpecification,
+    owners,
 };
 use crate::output::{AtomicFile, FrameWriter, NumberTable, OutputDirectory, ParticleFile, ParticleFormat};
 use crate::pictures::{History, Subject};
@@ -84,6 +85,22 @@ pub struct Arguments {
     parameters: TargetParameters,
     #[command(flatten)]
     options: MethodOptions,
+}
+
+/// The subcommand, in whose help every option of methods names those that have it.
+pub fn with_owners(command: clap::Command) -> clap::Command {
+    command.mut_args(|argument| {
+        let owners = owners(argument.get_long().unwrap_or_default());
+        let Some(help) = argument
+            .get_help()
+            .map(ToString::to_string)
+            .filter(|_| !owners.is_empty())
+        else {
+            return argument;
+        };
+        let (what, default) = help.split_at(help.find(" [default").unwrap_or(help.len()));
+        argument.help(format!("{what} ({owners}){default}"))
+    })
 }
 
 /// Samples and writes; nothing stands under the file's name unless all of it is finite.

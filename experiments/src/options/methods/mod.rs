@@ -1,17 +1,22 @@
 //! The methods, a file for each family: name, options, and how the options of the command become those of the library.
 //!
-//! A new method is a [`MethodKind`] in a file of its own, and its variant of [`MethodName`] with its arm in [`MethodName::kind`].
+//! A new method is a [`MethodKind`] in a file of its own, and its line of `methods!` below.
 
 mod condensed;
 mod draws;
 mod mpm;
 mod nuts;
 mod paper;
+mod smc;
 mod svgd;
 
-use parvi::Method;
+use std::fmt::{self, Display, Formatter};
 
-use super::{MethodName, MethodOptions, OptionError};
+use clap::ValueEnum;
+use parvi::Method;
+use serde::{Deserialize, Serialize};
+
+use super::{MethodOptions, OptionError};
 
 /// A method as the command knows it.
 pub struct MethodKind {
@@ -33,20 +38,98 @@ impl MethodKind {
     }
 }
 
+/// The methods that have an option, as help says it: `mpm, paper-*, svgd`.
+pub fn owners(option: &str) -> String {
+    let having = MethodName::value_variants()
+        .iter()
+        .map(|name| name.kind())
+        .filter(|kind| kind.has(option));
+    let mut names: Vec<&str> = having
+        .map(|kind| {
+            if kind.name.starts_with("paper-") {
+                "paper-*"
+            } else {
+                kind.name
+            }
+        })
+        .collect();
+    names.dedup();
+    names.join(", ")
+}
+
+/// The methods by name: variant, what `--help` says, and what the method is.
+macro_rules! methods {
+    ($($(#[$meta:meta])* $variant:ident = $kind:expr;)*) => {
+        /// A sampling method.
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, ValueEnum, Serialize, Deserialize)]
+        #[serde(rename_all = "kebab-case")]
+        pub enum MethodName {
+            $($(#[$meta])* $variant,)*
+        }
+
+        impl MethodName {
+            /// What the method is.
+            pub fn kind(self) -> &'static MethodKind {
+                match self {
+                    $(Self::$variant => &$kind,)*
+                }
+            }
+        }
+    };
+}
+
+methods! {
+    /// Material point method with the calibrated gas law
+    #[default]
+    Mpm = mpm::KIND;
+    /// Adaptive importance sampling, condensed to particles
+    Ais = draws::AIS;
+    /// Tempered sequential Monte Carlo: populations with Langevin moves
+    Smc = smc::KIND;
+    /// Algorithm 1 of the MPM-ParVI paper
+    PaperPic = paper::PIC;
+    /// Algorithm 2 of the MPM-ParVI paper
+    PaperApic = paper::APIC;
+    /// Stein variational gradient descent
+    Svgd = svgd::KIND;
+    /// Independent exact draws
+    Iid = draws::IID;
+    /// Scrambled Sobol points
+    Sobol = draws::SOBOL;
+    /// No-U-Turn sampler (with the cargo feature `nuts`)
+    Nuts = nuts::KIND;
+    /// The draws of a bigger sample with the least kernel Stein discrepancy
+    SteinThinning = condensed::STEIN_THINNING;
+    /// The points with the least energy distance to a bigger sample
+    SupportPoints = condensed::SUPPORT_POINTS;
+}
+
 impl MethodName {
-    /// What the method is.
-    pub fn kind(self) -> &'static MethodKind {
-        match self {
-            Self::Mpm => &mpm::KIND,
-            Self::Ais => &draws::AIS,
-            Self::PaperPic => &paper::PIC,
-            Self::PaperApic => &paper::APIC,
-            Self::Svgd => &svgd::KIND,
-            Self::Iid => &draws::IID,
-            Self::Sobol => &draws::SOBOL,
-            Self::Nuts => &nuts::KIND,
-            Self::SteinThinning => &condensed::STEIN_THINNING,
-            Self::SupportPoints => &condensed::SUPPORT_POINTS,
+    /// The name as typed.
+    pub fn as_str(self) -> &'static str {
+        self.kind().name
+    }
+
+    /// Whether the method moves all particles by steps from a start, so that studies can vary their number.
+    pub fn iterates(self) -> bool {
+        self.kind().iterates
+    }
+}
+
+impl Display for MethodName {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        formatter.write_str(self.as_str())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_names_are_those_of_the_command_line() {
+        for &method in MethodName::value_variants() {
+            assert_eq!(MethodName::from_str(method.as_str(), false), Ok(method));
         }
     }
 }

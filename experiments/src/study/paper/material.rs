@@ -6,7 +6,7 @@ use mpm_materials::ParameterError;
 use parvi::PaperMaterial;
 use serde::Deserialize;
 
-use crate::options::{Material, Parameter};
+use crate::options::{Given, Material, Parameter};
 
 /// `{ law = "neo-hookean", youngs-modulus = 1.0, poissons-ratio = 0.3 }`: a law with all of its stated parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
@@ -71,7 +71,10 @@ impl MaterialTable {
     /// # Errors
     /// A parameter that is out of range.
     pub fn material(self) -> Result<PaperMaterial, ParameterError> {
-        self.law.law(&|parameter| self.value(parameter.flag), false)
+        self.law.law(&Given {
+            parameter: &|parameter| self.value(parameter.flag),
+            forgets_expansion: false,
+        })
     }
 
     /// E, of a solid.

@@ -43,4 +43,8 @@ impl<const D: usize> CatalogueTarget<D> for InIdentityFrame<D> {
     fn unit_cube_transport(&self) -> Option<&dyn UnitCubeTransport<D>> {
         self.0.unit_cube_transport()
     }
+
+    fn log_evidence(&self) -> Option<f64> {
+        self.0.log_evidence()
+    }
 }

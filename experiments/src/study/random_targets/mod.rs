@@ -18,6 +18,7 @@ use super::checks::{distinct, not_empty};
 use super::definition::{self, Report, Study, Work};
 use super::directory::StudyDirectory;
 use super::run_row::RunRow;
+use super::seed_range::SeedRange;
 use super::yardstick::{Coordinates, CurrentYardstick, YardstickOptions, measured};
 use crate::CommandError;
 use crate::dispatch::{TargetTask, with_target};
@@ -50,16 +51,6 @@ pub struct RandomTargets {
     reference_seed: u64,
     /// The methods.
     methods: Vec<MethodSpecification>,
-}
-
-/// Consecutive seeds.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct SeedRange {
-    /// The first.
-    first: u32,
-    /// Their number.
-    count: Bounded<1, 1_000_000>,
 }
 
 /// The frame that methods get.
@@ -114,7 +105,7 @@ impl Study for RandomTargets {
         not_empty("methods", &self.methods)?;
         let mut cases = Vec::new();
         for &dim in &self.dims {
-            for target_seed in (u64::from(self.target_seeds.first)..).take(self.target_seeds.count.get()) {
+            for target_seed in self.target_seeds.all() {
                 let mut target = TargetSpecification::plain("random", Some(dim));
                 target.parameters = TargetParameters {
                     target_seed: Some(target_seed),
@@ -151,10 +142,8 @@ impl Study for RandomTargets {
         };
         match attempt(with_target(&case.target, task))? {
             Attempt::Failed(status, reason) => row.fail(status, reason),
-            Attempt::Finished((outcome, log_evidence)) => {
+            Attempt::Finished(outcome) => {
                 row.take(&outcome);
-                let both = outcome.log_evidence.zip(log_evidence);
-                row.log_evidence_deviation = both.map(|(found, exact)| found - exact);
                 row.measured(measured(yardstick, &outcome)?);
             }
         }
@@ -166,7 +155,7 @@ impl Study for RandomTargets {
     }
 }
 
-/// A run, with the target's own log Z.
+/// A run.
 struct Sampled<'a> {
     frame: KnownFrame,
     method: &'a Method,
@@ -175,14 +164,12 @@ struct Sampled<'a> {
 }
 
 impl TargetTask for Sampled<'_> {
-    type Output = (Outcome, Option<f64>);
+    type Output = Outcome;
 
     fn run<const D: usize>(self, target: BoxedTarget<D>) -> Result<Self::Output, CommandError> {
-        let log_evidence = target.log_evidence();
-        let outcome = match self.frame {
-            KnownFrame::Own => sample_target(target.as_ref(), self.method, self.run, self.observer)?,
-            KnownFrame::Identity => sample_target(&InIdentityFrame(target), self.method, self.run, self.observer)?,
-        };
-        Ok((outcome, log_evidence))
+        match self.frame {
+            KnownFrame::Own => sample_target(target.as_ref(), self.method, self.run, self.observer),
+            KnownFrame::Identity => sample_target(&InIdentityFrame(target), self.method, self.run, self.observer),
+        }
     }
 }

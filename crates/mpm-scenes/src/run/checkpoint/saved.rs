@@ -57,7 +57,7 @@ impl Saved {
             velocity_gradients: numbers(&particles.velocity_gradients),
             reference_volumes: particles.reference_volumes.clone(),
             laws: particles.states.iter().map(|state| state.law).collect(),
-            memories: particles.states.iter().map(|state| state.memory.numbers()).collect(),
+            memories: particles.states.iter().map(|state| state.memory.0).collect(),
             identities: particles.identities().to_vec(),
         }
     }
@@ -66,7 +66,7 @@ impl Saved {
     ///
     /// # Errors
     /// [`MpmError`] for lists that do not fit together.
-    pub fn particles<const D: usize>(self, laws: &Laws) -> Result<Particles<D, LawState>, MpmError> {
+    pub fn particles<const D: usize>(self, laws: &Laws<D>) -> Result<Particles<D, LawState>, MpmError> {
         let particles = Particles::in_order(
             self.positions.as_chunks().0.to_vec(),
             self.velocities.as_chunks().0.to_vec(),

@@ -11,7 +11,7 @@ const MOST_PER_AXIS_GIMP: u32 = 4;
 impl Scene {
     pub(super) fn check_bodies<const D: usize>(&self) -> Result<(), SceneFault> {
         for (name, table) in &self.materials {
-            law::build(&format!("materials.{name}"), table)?;
+            law::build::<2>(&format!("materials.{name}"), table)?;
         }
         if self.bodies.is_empty() {
             return Err(SceneFault::value("bodies", [0; 0], "at least one body"));

@@ -24,6 +24,13 @@ fn shells() {
 }
 
 #[test]
+fn spike_slab() {
+    conforms::<1>("spike-slab");
+    conforms::<3>("spike-slab");
+    conforms::<8>("spike-slab");
+}
+
+#[test]
 fn log_gamma() {
     conforms::<2>("log-gamma");
     conforms::<5>("log-gamma");

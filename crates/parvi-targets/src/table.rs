@@ -1,0 +1,328 @@
+//! The targets by name: what is known of each, and how it is made. A new target is a file, and its entry here.
+
+use crate::build::{BoxedTarget, boxed, data_path, dimension_of, file_or, in_dimension, regression};
+use crate::catalogue::{
+    Dimensions, MAXIMUM_DIMENSION, ParameterInfo, Parameters, TargetInfo, target_info, unknown_target,
+};
+use crate::synthetic::synthetic_counts;
+use crate::wells::{WELLS_MAXIMUM_DIMENSION, WELLS_SMALL_ROWS, wells};
+use crate::{
+    Banana, Cross, Eggbox, Funnel, Gaussian, GaussianMixture, GaussianShells, LogGamma, Logarithm, Logit, Probit,
+    RandomTarget, RegressionData, Ring, Rosenbrock, Schools, SpikeSlab, StudentT, TargetError,
+};
+
+const fn parameter(name: &'static str, default: &'static str, meaning: &'static str) -> ParameterInfo {
+    ParameterInfo {
+        name,
+        default: Some(default),
+        meaning,
+    }
+}
+
+const fn any_from(minimum: usize) -> Dimensions {
+    Dimensions::Range {
+        minimum,
+        maximum: MAXIMUM_DIMENSION,
+        default: None,
+    }
+}
+
+/// An entry with exact draws, transport and moments.
+const fn closed(
+    name: &'static str,
+    dimensions: Dimensions,
+    summary: &'static str,
+    parameters: &'static [ParameterInfo],
+    modes: usize,
+) -> TargetInfo {
+    TargetInfo {
+        name,
+        dimensions,
+        summary,
+        parameters,
+        exact_draws: true,
+        unit_cube_transport: true,
+        moments: true,
+        modes,
+        log_evidence: true,
+    }
+}
+
+/// A regression on embedded data or a file.
+const fn of_data(
+    name: &'static str,
+    dimensions: Dimensions,
+    summary: &'static str,
+    parameters: &'static [ParameterInfo],
+) -> TargetInfo {
+    TargetInfo {
+        name,
+        dimensions,
+        summary,
+        parameters,
+        exact_draws: false,
+        unit_cube_transport: false,
+        moments: false,
+        modes: 1,
+        log_evidence: false,
+    }
+}
+
+const PRIOR: ParameterInfo = parameter(
+    "prior-sd",
+    "10",
+    "standard deviation of each coefficient's prior; inf for flat",
+);
+const MIXTURE_WIDTH: ParameterInfo = parameter("width", "0.5", "standard deviation of each mode");
+
+/// What is known of the targets, and what makes one in dimension D.
+macro_rules! targets {
+    (($name:ident, $parameters:ident, $dimension:ident); $($info:expr => $build:expr;)*) => {
+        /// Every target, in the order of the documentation.
+        pub(crate) static CATALOGUE: &[TargetInfo] = &[$($info,)*];
+
+        /// A target in one dimension.
+        pub(crate) fn build_here<const $dimension: usize>(
+            $name: &str,
+            $parameters: &Parameters,
+        ) -> Result<BoxedTarget<$dimension>, TargetError> {
+            dimension_of($name, Some($dimension), $parameters)?;
+            $({
+                const INFO: TargetInfo = $info;
+                if $name == INFO.name {
+                    return $build;
+                }
+            })*
+            Err(unknown_target($name))
+        }
+    };
+}
+
+targets! {
+    (name, parameters, D);
+    closed(
+        "gaussian",
+        any_from(1),
+        "N(0, C), C_ij = R^|i-j|",
+        &[parameter("correlation", "0", "R, between -1 and 1")],
+        1,
+    ) => boxed(Gaussian::<D>::autoregressive(
+            parameters.correlation.unwrap_or(0.0),
+        ));
+    closed(
+        "banana",
+        Dimensions::Fixed(2),
+        "x1 ~ N(0, 1), x2 ~ N(b (x1^2 - 1), s^2)",
+        &[parameter("curvature", "1", "b"), parameter("width", "0.5", "s")],
+        1,
+    ) => in_dimension(Banana::new(
+            parameters.curvature.unwrap_or(1.0),
+            parameters.width.unwrap_or(0.5),
+        ));
+    closed(
+        "ring",
+        Dimensions::Fixed(2),
+        "proportional to exp(-(|x| - r)^2 / 2 s^2)",
+        &[parameter("radius", "2", "r"), parameter("width", "0.2", "s")],
+        1,
+    ) => in_dimension(Ring::new(
+            parameters.radius.unwrap_or(2.0),
+            parameters.width.unwrap_or(0.2),
+        ));
+    closed(
+        "mixture-4",
+        Dimensions::Fixed(2),
+        "four equal Gaussian modes at (+-2, +-2)",
+        &[MIXTURE_WIDTH],
+        4,
+    ) => in_dimension(GaussianMixture::<2>::four_equal(parameters.width.unwrap_or(0.5)));
+    closed(
+        "mixture-2",
+        any_from(1),
+        "Gaussian modes at -1.5 e1 and 1.5 e1 with masses 0.3 and 0.7",
+        &[MIXTURE_WIDTH],
+        2,
+    ) => boxed(GaussianMixture::<D>::two_unequal(
+            parameters.width.unwrap_or(0.5),
+        ));
+    closed(
+        "mixture-3",
+        any_from(2),
+        "Gaussian modes at -4 e1, 4 e1, 5 e2, widths 0.6, 0.4, 0.5, masses 0.2, 0.5, 0.3",
+        &[],
+        3,
+    ) => boxed(GaussianMixture::<D>::three_far());
+    closed(
+        "funnel",
+        any_from(2),
+        "x1 ~ N(0, w^2), xj ~ N(0, exp(x1))",
+        &[parameter("width", "1.5", "w, standard deviation of x1")],
+        1,
+    ) => boxed(Funnel::<D>::new(parameters.width.unwrap_or(1.5)));
+    closed(
+        "student-t",
+        any_from(1),
+        "multivariate Student t with identity scale",
+        &[parameter("degrees-of-freedom", "5", "degrees of freedom")],
+        1,
+    ) => boxed(StudentT::<D>::new(
+            parameters.degrees_of_freedom.unwrap_or(5.0),
+        ));
+    closed(
+        "rosenbrock",
+        any_from(2),
+        "x1 ~ N(1, s^2), x2, x4, ... ~ N(x1^2, w^2), x3, x5, ... ~ N(the square of the one before, w^2)",
+        &[
+            parameter("spread", "1", "s, standard deviation of x1"),
+            parameter("width", "0.3", "w, standard deviation about the parabolas"),
+        ],
+        1,
+    ) => boxed(Rosenbrock::<D>::new(
+            parameters.spread.unwrap_or(1.0),
+            parameters.width.unwrap_or(0.3),
+        ));
+    closed(
+        "scales",
+        any_from(2),
+        "Gaussian with standard deviations from 1e-3 to 1e3 in equal ratios and correlations R^|i-j|",
+        &[parameter("correlation", "0.5", "R, between -1 and 1")],
+        1,
+    ) => boxed(Gaussian::<D>::scales(parameters.correlation.unwrap_or(0.5)));
+    closed(
+        "cross",
+        any_from(2),
+        "one Gaussian arm along every axis, crossing at the origin",
+        &[
+            parameter("spread", "2", "standard deviation along an arm"),
+            parameter("width", "0.2", "standard deviation across it"),
+        ],
+        1,
+    ) => boxed(Cross::<D>::new(
+            parameters.spread.unwrap_or(2.0),
+            parameters.width.unwrap_or(0.2),
+        ));
+    closed(
+        "schools",
+        any_from(3),
+        "the first d-2 of the eight schools: mean, log scale and standardised effects, not centred",
+        &[],
+        1,
+    ) => boxed(Schools::<D>::new());
+    TargetInfo {
+        moments: false,
+        ..closed(
+            "random",
+            any_from(1),
+            "a random shape, place, direction and scale: push-forwards, mixtures and products of simple laws",
+            &[parameter("target-seed", "0", "the seed that makes it")],
+            1,
+        )
+    } => boxed(RandomTarget::<D>::new(parameters.target_seed.unwrap_or(0)));
+    TargetInfo {
+        moments: false,
+        unit_cube_transport: false,
+        ..closed(
+            "eggbox",
+            Dimensions::Fixed(2),
+            "likelihood exp((2 + cos(x1/2) cos(x2/2))^5), x uniform on [0, 10 pi]^2, in y = log x/(10 pi - x)",
+            &[],
+            1,
+        )
+    } => in_dimension(Eggbox::new());
+    closed(
+        "shells",
+        any_from(2),
+        "two Gaussian shells of radius 2 and width 0.1 about -3.5 e1 and 3.5 e1, prior density 12^-d",
+        &[],
+        2,
+    ) => boxed(GaussianShells::<D>::new());
+    TargetInfo {
+        moments: false,
+        ..closed(
+            "log-gamma",
+            any_from(2),
+            "log-gamma and normal laws of width 1/30 about 1/3 and 2/3 in the unit cube, in y = log x/(1 - x)",
+            &[],
+            4,
+        )
+    } => boxed(LogGamma::<D>::new());
+    closed(
+        "spike-slab",
+        any_from(1),
+        "100 N(0.031, 0.01^2 I) + N(0, 0.1^2 I), prior density 1",
+        &[],
+        1,
+    ) => boxed(SpikeSlab::<D>::new());
+    of_data(
+        "wells",
+        Dimensions::Range {
+            minimum: 1,
+            maximum: WELLS_MAXIMUM_DIMENSION,
+            default: None,
+        },
+        "logistic regression: 3,020 households in Bangladesh change wells or not",
+        &[PRIOR],
+    ) => regression::<Logit, D>(name, wells(D, None)?, parameters);
+    of_data(
+        "wells-small",
+        Dimensions::Range {
+            minimum: 1,
+            maximum: WELLS_MAXIMUM_DIMENSION,
+            default: Some(5),
+        },
+        "logistic regression: the first 40 households of wells, a skewed posterior",
+        &[PRIOR],
+    ) => regression::<Logit, D>(name, wells(D, Some(WELLS_SMALL_ROWS))?, parameters);
+    of_data(
+        "probit",
+        Dimensions::Range {
+            minimum: 1,
+            maximum: WELLS_MAXIMUM_DIMENSION,
+            default: Some(5),
+        },
+        "probit regression on the rows of wells-small, or on a CSV file as for logistic",
+        &[
+            parameter(
+                "data",
+                "the rows of wells-small",
+                "a CSV file instead; it fixes the dimension",
+            ),
+            PRIOR,
+        ],
+    ) => {
+            let data = file_or(parameters, || wells(D, Some(WELLS_SMALL_ROWS)))?;
+            regression::<Probit, D>(name, data, parameters)
+        };
+    of_data(
+        "poisson",
+        any_from(1),
+        "Poisson regression with logarithmic link on 40 synthetic counts, or on a CSV file: the count first",
+        &[
+            parameter(
+                "data",
+                "the synthetic counts",
+                "a CSV file instead; it fixes the dimension",
+            ),
+            PRIOR,
+        ],
+    ) => {
+            let data = file_or(parameters, || synthetic_counts(D))?;
+            regression::<Logarithm, D>(name, data, parameters)
+        };
+    of_data(
+        "logistic",
+        Dimensions::FromData,
+        "logistic regression on a CSV file: 0/1 response first, then covariates; an intercept is added",
+        &[
+            ParameterInfo {
+                name: "data",
+                default: None,
+                meaning: "the CSV file",
+            },
+            PRIOR,
+        ],
+    ) => {
+            let path = data_path(target_info(name)?, parameters)?;
+            regression::<Logit, D>(name, RegressionData::from_csv_file(path)?, parameters)
+        };
+}

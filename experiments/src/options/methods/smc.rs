@@ -1,0 +1,19 @@
+//! `smc`: tempered sequential Monte Carlo.
+
+use parvi::{Method, SmcOptions};
+
+use super::MethodKind;
+use crate::options::ParticleCount;
+
+/// The method.
+pub const KIND: MethodKind = MethodKind {
+    name: "smc",
+    options: "pool-size start-mean start-sd start-draws",
+    iterates: false,
+    build: |options, _| {
+        Ok(Method::Smc(SmcOptions {
+            pool_size: options.pool_size.map(ParticleCount::get),
+            ..SmcOptions::default()
+        }))
+    },
+};

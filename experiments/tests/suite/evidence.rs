@@ -1,0 +1,58 @@
+//! The study of evidence: a small version runs to a report, and bad configurations are refused with the field's name.
+
+use crate::support::{assert_report, number, refused, rows, run_study, value};
+
+const STUDY: &str = r#"
+kind = "evidence"
+run-seeds = { first = 3, count = 4 }
+particles = 80
+targets = [{ name = "gaussian", dim = 2 }, { name = "spike-slab", dim = 1 }]
+methods = [{ name = "ais" }, { name = "smc" }, { name = "iid" }]
+"#;
+
+#[test]
+fn evidence() {
+    let (root, output) = run_study(STUDY);
+    let report = assert_report(root.path(), 1);
+    assert_eq!(value(&output, "cases").unwrap(), "24");
+    assert_eq!(value(&output, "failed").unwrap(), "0");
+    for text in [
+        "## gaussian-d2",
+        "| smc | 8/8 |",
+        "| iid | 0/8 | – |",
+        "## Errors beyond three standard errors",
+    ] {
+        assert!(report.contains(text), "{text} is missing in {report}");
+    }
+    for row in rows(root.path()) {
+        assert_eq!(
+            row["log_evidence_deviation"].is_empty(),
+            row["method"] == "iid",
+            "{row:?}"
+        );
+        if row["method"] != "iid" {
+            let error = number(&row, "log_evidence_error");
+            assert!(
+                error > 0.0 && number(&row, "log_evidence_deviation").abs() < 10.0 * error,
+                "{row:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn bad_studies_of_evidence() {
+    let refused = |from: &str, to: &str, parts: &[&str]| refused(STUDY, from, to, parts);
+    refused(
+        "\"gaussian\", dim = 2",
+        "\"wells-small\"",
+        &["targets", "wells-small", "not known"],
+    );
+    refused(
+        "{ name = \"iid\" }",
+        "{ name = \"ais\" }",
+        &["two cases", "gaussian-d2-ais-s3"],
+    );
+    refused("count = 4", "count = 0", &["line 3", "0 is out of range"]);
+    refused("particles = 80", "particles = 80\nmore = 1", &["line 5", "more"]);
+}
