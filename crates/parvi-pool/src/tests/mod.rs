@@ -8,8 +8,10 @@ mod tape;
 
 use std::ops::ControlFlow;
 
-use mpm_tensor::Matrix;
-use parvi_targets::{CatalogueTarget, Frame, Gaussian, RandomFamily, RandomTarget, Target};
+use mpm_tensor::{Matrix, vector};
+use parvi_targets::{CatalogueTarget, Frame, Gaussian, GaussianMixture, Mode, RandomFamily, RandomTarget, Target};
+use rand::rngs::ChaCha8Rng;
+use rand::{RngExt, SeedableRng};
 
 use crate::density::Density;
 use crate::fold::Fold;
@@ -136,6 +138,28 @@ fn separate_modes_have_their_masses() {
     let pool = pool_of(&target, 500, 2).unwrap();
     let error = pool.log_evidence - target.log_evidence().unwrap();
     assert!(error.abs() < 0.05, "{error}");
+}
+
+#[test]
+fn pieces_all_around_in_six_dimensions_are_found() {
+    let mut rng = ChaCha8Rng::seed_from_u64(1);
+    for seed in 0..8 {
+        let mut modes: Vec<Mode<6>> = Vec::new();
+        while modes.len() < 8 {
+            let centre: [f64; 6] = std::array::from_fn(|_| rng.random_range(-4.0..4.0));
+            if modes.iter().all(|mode| vector::distance(&mode.centre, &centre) > 2.0) {
+                let mass = (modes.len() + 1) as f64 / 36.0;
+                modes.push(Mode {
+                    centre,
+                    width: 0.3,
+                    mass,
+                });
+            }
+        }
+        let target = GaussianMixture::new("eight", &modes).unwrap();
+        let pool = pool_of(&target, 1000, seed).unwrap();
+        assert!(pool.log_evidence.abs() < 0.03, "{seed}: {pool:?}");
+    }
 }
 
 #[test]
