@@ -142,8 +142,9 @@ fn separate_modes_have_their_masses() {
 
 #[test]
 fn pieces_all_around_in_six_dimensions_are_found() {
-    let mut rng = ChaCha8Rng::seed_from_u64(1);
-    for seed in 0..8 {
+    // In each of them some seeds miss a piece where scouts end after four idle ones per summit.
+    for layout in [914, 932, 937] {
+        let mut rng = ChaCha8Rng::seed_from_u64(layout);
         let mut modes: Vec<Mode<6>> = Vec::new();
         while modes.len() < 8 {
             let centre: [f64; 6] = std::array::from_fn(|_| rng.random_range(-4.0..4.0));
@@ -157,8 +158,10 @@ fn pieces_all_around_in_six_dimensions_are_found() {
             }
         }
         let target = GaussianMixture::new("eight", &modes).unwrap();
-        let pool = pool_of(&target, 1000, seed).unwrap();
-        assert!(pool.log_evidence.abs() < 0.03, "{seed}: {pool:?}");
+        for seed in [0, 1] {
+            let pool = pool_of(&target, 1000, seed).unwrap();
+            assert!(pool.log_evidence.abs() < 0.03, "{layout}, {seed}: {pool:?}");
+        }
     }
 }
 
