@@ -15,13 +15,16 @@ use crate::SceneFault;
 use crate::rotation::Rotation;
 use crate::scene::{DelaunayTable, MeshShapeTable, MeshTable, RefinementTable, Scene, ShapeTable};
 
+/// The group of all facets of the boundary, unless a file has one of this name.
+const BOUNDARY: &str = "boundary";
+
 /// The mesh of a scene without an outer layer, and the groups of its facets.
 pub(super) fn inner<const D: usize>(
     scene: &Scene,
     table: &MeshTable,
     rotation: Option<&Rotation<D>>,
 ) -> Result<NamedMesh<D>, SceneFault> {
-    let NamedMesh { mesh, facets } = match (&table.file, &table.generate) {
+    let NamedMesh { mesh, mut facets } = match (&table.file, &table.generate) {
         (Some(_), _) => read::<D>(scene, table)?,
         (None, Some(shape)) => {
             let refused = |error| SceneFault::value("mesh.generate", shape, format!("a mesh: {error}"));
@@ -31,6 +34,8 @@ pub(super) fn inner<const D: usize>(
         }
         (None, None) => return Err(SceneFault::missing("mesh.generate", "given unless file is")),
     };
+    let all = || mesh.boundary().iter().flat_map(|facet| facet.vertices).collect();
+    facets.entry(BOUNDARY.to_owned()).or_insert_with(all);
     let Some(rotation) = rotation else {
         return Ok(NamedMesh { mesh, facets });
     };

@@ -33,7 +33,7 @@ pub(crate) enum Background<const D: usize> {
         spacing: f64,
         /// The domain, or the box around the mesh without its layer.
         room: Bounds<D>,
-        /// Facets of the mesh without its layer by the names of their groups: D vertices each.
+        /// Facets of the mesh without its layer by the names of their groups, D vertices each; `boundary` has all of the boundary.
         groups: BTreeMap<String, Vec<u32>>,
     },
 }

@@ -68,7 +68,8 @@ pub fn tilted_cantilever(scene: &Scene) -> bool {
 pub fn channel(scene: &Scene) -> bool {
     let random = |body: &BodyTable| body.fill == FillKind::Random;
     let falls = scene.dimension == 2 && gravity(scene) > 0.0;
-    falls && scene.barrier.is_some() && scene.bodies.iter().all(random)
+    let walled = scene.barrier.is_some() || !scene.facets.is_empty();
+    falls && walled && scene.bodies.iter().all(random)
 }
 
 pub fn cylinder(scene: &Scene) -> bool {

@@ -84,7 +84,7 @@ const VALIDATIONS: [Reference; 17] = [
     },
     Reference {
         name: "umls-channel",
-        describes: "randomly filled plane bodies under gravity, with a barrier",
+        describes: "randomly filled plane bodies under gravity, with a barrier or facets",
         fits: needs::channel,
         validate: channel::validate,
     },

@@ -74,7 +74,7 @@ pub(super) fn build<const D: usize>(scene: &Scene, background: &Background<D>) -
             return Err(SceneFault::value(
                 field("group"),
                 &table.group,
-                "left out without a mesh.file",
+                "left out without a [mesh]",
             ));
         };
         let facets = group(field("group"), table, groups)?;
@@ -122,11 +122,7 @@ fn group<'a>(
     groups: &'a BTreeMap<String, Vec<u32>>,
 ) -> Result<&'a [u32], SceneFault> {
     let known: Vec<&str> = groups.keys().map(String::as_str).collect();
-    let expected = if known.is_empty() {
-        "a physical group of facets, of which mesh.file has none".to_owned()
-    } else {
-        format!("one of the physical groups of mesh.file: {}", known.join(", "))
-    };
+    let expected = format!("one of the groups of the mesh: {}", known.join(", "));
     let facets = groups.get(&table.group);
     facets
         .map(Vec::as_slice)

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::VelocityTable;
 
-/// `[[facets]]`: a condition on facets of the mesh, of any shape: those of a physical group of `mesh.file`.
+/// `[[facets]]`: a condition on facets of the mesh, of any shape: those of a physical group of `mesh.file`, or `boundary`, all of its boundary.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FacetTable {

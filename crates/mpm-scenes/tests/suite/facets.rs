@@ -158,7 +158,7 @@ fn groups_that_name_nothing_are_refused() {
     let unknown = scene(directory.path(), &[("group = \"rim\"", "group = \"rum\"")]).expect("read without the mesh");
     let error = frames(&unknown, &mut |_| {}).expect_err("no such group").to_string();
     assert!(
-        error.contains("facets[0].group = \"rum\"") && error.ends_with("mesh.file: rim"),
+        error.contains("facets[0].group = \"rum\"") && error.ends_with("of the mesh: boundary, rim"),
         "{error}"
     );
     let refused = |changes: &[(&str, &str)]| scene(directory.path(), changes).expect_err("refused").to_string();
@@ -167,10 +167,10 @@ fn groups_that_name_nothing_are_refused() {
     for (changes, part) in [
         (
             vec![(
-                "file = \"disk.msh\"",
-                "generate = { kind = \"disk\", centre = [0.0, 0.0], radius = 1.0, size = 0.2 }",
+                "[mesh]\nfile = \"disk.msh\"",
+                "[domain]\nlower = [-2.0, -2.0]\nupper = [2.0, 2.0]\n\n[grid]\nspacing = 0.2",
             )],
-            "facets[0].group = \"rim\": must be left out without a mesh.file",
+            "facets[0].group = \"rim\": must be left out without a [mesh]",
         ),
         (vec![(velocity, "[output]")], "facets[0].velocity"),
         (
@@ -219,5 +219,22 @@ fn groups_that_name_nothing_are_refused() {
     ] {
         let message = refused(&changes);
         assert!(message.contains(part), "{message}");
+    }
+}
+
+/// Without a file there is the group of the whole boundary: here the disk's, as `rim` is.
+#[test]
+fn a_generated_mesh_has_its_boundary() {
+    let of_file = end(&[]);
+    let generated = end(&[
+        (
+            "file = \"disk.msh\"",
+            "generate = { kind = \"disk\", centre = [0.0, 0.0], radius = 1.0, size = 0.2 }\nangle = 17.188733853924695",
+        ),
+        ("group = \"rim\"", "group = \"boundary\""),
+    ]);
+    assert_eq!(of_file.positions.len(), generated.positions.len());
+    for (a, b) in of_file.positions.iter().zip(&generated.positions) {
+        assert!((a - b).abs() < 1e-9, "{a}, {b}");
     }
 }

@@ -7,11 +7,10 @@ use crate::{SceneFault, velocity};
 
 impl Scene {
     pub(super) fn check_facets<const D: usize>(&self) -> Result<(), SceneFault> {
-        let from_file = self.mesh.as_ref().is_some_and(|mesh| mesh.file.is_some());
         for (index, table) in self.facets.iter().enumerate() {
             let field = |key: &str| format!("facets[{index}].{key}");
-            if !from_file {
-                let expected = "left out without a mesh.file";
+            if self.mesh.is_none() {
+                let expected = "left out without a [mesh]";
                 return Err(SceneFault::value(field("group"), &table.group, expected));
             }
             let prescribed = table.condition == FacetCondition::Prescribed;
