@@ -3,6 +3,9 @@
 use std::fs;
 use std::time::{SystemTime, UNIX_EPOCH};
 
+/// The key of the rise of the process's resident memory while it sampled; Linux only.
+pub const PEAK_MEMORY_KEY: &str = "peak_memory_bytes";
+
 /// The processor's model name; `None` where the system does not say.
 pub fn processor() -> Option<String> {
     let text = fs::read_to_string("/proc/cpuinfo").ok()?;

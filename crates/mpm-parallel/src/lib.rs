@@ -1,5 +1,7 @@
 #![doc = include_str!("../README.md")]
 
+mod compiled_ahead;
+
 use rayon::prelude::*;
 
 /// A piece of work.

@@ -1,6 +1,5 @@
 //! Squared energy distance between two clouds, and against a fixed reference sample.
 
-use crate::compiled::Compiled;
 use crate::error::finite;
 use crate::lanes::Lanes;
 use crate::pair_sum::{Packed, PackedWeights, PairFunction, cross_sum, squared_distances, symmetric_sum};
@@ -29,6 +28,23 @@ impl<const D: usize> PairFunction for Distance<'_, D> {
     }
 }
 
+/// What is compiled for a dimension.
+struct Compiled<const D: usize> {
+    /// Σ_ij w_i w_j ‖x_i − x_j‖.
+    pair_distances: fn(&Cloud<'_, D>) -> f64,
+    /// Σ_ij w_i u_j ‖x_i − y_j‖.
+    cross_distances: fn(&Cloud<'_, D>, &Packed<D>, &PackedWeights) -> f64,
+}
+
+impl<const D: usize> Compiled<D> {
+    const HERE: Self = Self {
+        pair_distances,
+        cross_distances,
+    };
+}
+
+mpm_parallel::compiled_ahead!(Compiled);
+
 /// E|x − x'| = Σ_ij w_i w_j |x_i − x_j| over a cloud (V-statistic: pairs i = j count, with distance 0).
 ///
 /// O(M log M) in one dimension, O(M²) else, in parallel and independent of the number of threads.
@@ -45,7 +61,7 @@ pub fn mean_pair_distance<const D: usize>(cloud: &Cloud<'_, D>) -> Result<f64, M
 }
 
 /// Σ_ij w_i w_j ‖x_i − x_j‖.
-pub(crate) fn pair_distances<const D: usize>(cloud: &Cloud<'_, D>) -> f64 {
+fn pair_distances<const D: usize>(cloud: &Cloud<'_, D>) -> f64 {
     let function = Distance {
         rows: cloud.points(),
         columns: &Packed::new(cloud.points()),
@@ -54,11 +70,7 @@ pub(crate) fn pair_distances<const D: usize>(cloud: &Cloud<'_, D>) -> f64 {
 }
 
 /// Σ_ij w_i u_j ‖x_i − y_j‖ for points y_j of weights u_j.
-pub(crate) fn cross_distances<const D: usize>(
-    cloud: &Cloud<'_, D>,
-    points: &Packed<D>,
-    weights: &PackedWeights,
-) -> f64 {
+fn cross_distances<const D: usize>(cloud: &Cloud<'_, D>, points: &Packed<D>, weights: &PackedWeights) -> f64 {
     let function = Distance {
         rows: cloud.points(),
         columns: points,

@@ -2,7 +2,6 @@
 
 use mpm_tensor::{Matrix, SymmetricEigen};
 
-use crate::compiled::Compiled;
 use crate::error::finite;
 use crate::norm_expectation::NormExpectation;
 use crate::summation::chunked_sum;
@@ -26,6 +25,20 @@ pub struct GaussianEnergy<const D: usize> {
     eigen: SymmetricEigen<D>,
     mean_distance: f64,
 }
+
+/// What is compiled for a dimension.
+struct Compiled<const D: usize> {
+    /// [`GaussianEnergy::new`].
+    gaussian: fn([f64; D], &Matrix<D>) -> Result<GaussianEnergy<D>, MetricError>,
+    /// [`GaussianEnergy::squared`].
+    squared: fn(&GaussianEnergy<D>, &Cloud<'_, D>) -> Result<f64, MetricError>,
+}
+
+impl<const D: usize> Compiled<D> {
+    const HERE: Self = Self { gaussian, squared };
+}
+
+mpm_parallel::compiled_ahead!(Compiled);
 
 impl<const D: usize> GaussianEnergy<D> {
     /// The reference N(`mean`, `covariance`).
@@ -94,15 +107,12 @@ impl<const D: usize> GaussianEnergy<D> {
     /// # Errors
     /// [`MetricError::Overflow`] if a squared distance exceeds the range of `f64`.
     pub fn squared(&self, cloud: &Cloud<'_, D>) -> Result<f64, MetricError> {
-        (Compiled::of().gaussian_energy)(self, cloud)
+        (Compiled::of().squared)(self, cloud)
     }
 }
 
 /// [`GaussianEnergy::new`].
-pub(crate) fn gaussian<const D: usize>(
-    mean: [f64; D],
-    covariance: &Matrix<D>,
-) -> Result<GaussianEnergy<D>, MetricError> {
+fn gaussian<const D: usize>(mean: [f64; D], covariance: &Matrix<D>) -> Result<GaussianEnergy<D>, MetricError> {
     let eigen = checked_eigen(&mean, covariance)?;
     let twice = eigen.values.map(|value| 2.0 * value);
     let mean_distance = NormExpectation::new(twice, 0.0).map_or(f64::INFINITY, |table| table.evaluate(&[0.0; D]));
@@ -114,7 +124,7 @@ pub(crate) fn gaussian<const D: usize>(
 }
 
 /// [`GaussianEnergy::squared`].
-pub(crate) fn squared<const D: usize>(energy: &GaussianEnergy<D>, cloud: &Cloud<'_, D>) -> Result<f64, MetricError> {
+fn squared<const D: usize>(energy: &GaussianEnergy<D>, cloud: &Cloud<'_, D>) -> Result<f64, MetricError> {
     let (table, squares) = energy.table(cloud)?;
     let cross = chunked_sum(cloud.len(), |index| {
         cloud.weight(index) * table.evaluate(&squares[index])

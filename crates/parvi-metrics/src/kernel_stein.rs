@@ -2,7 +2,6 @@
 
 use parvi_targets::Target;
 
-use crate::compiled::Compiled;
 use crate::error::finite;
 use crate::lanes::{LANES, Lanes};
 use crate::pair_sum::{Packed, PackedWeights, PairFunction, symmetric_sum};
@@ -83,6 +82,18 @@ impl SteinDiscrepancy {
     }
 }
 
+/// What is compiled for a dimension.
+struct Compiled<const D: usize> {
+    /// The squared kernel Stein discrepancy.
+    stein: fn(&Cloud<'_, D>, &[[f64; D]], &InverseMultiquadric) -> f64,
+}
+
+impl<const D: usize> Compiled<D> {
+    const HERE: Self = Self { stein };
+}
+
+mpm_parallel::compiled_ahead!(Compiled);
+
 /// The kernel Stein discrepancy of a cloud with the inverse multiquadric kernel, from the scores s_i = ∇ log p(x_i):
 ///
 /// KSD² = Σ_ij w_i w_j u(x_i, x_j),
@@ -148,7 +159,7 @@ pub fn target_stein_discrepancy<const D: usize>(
 }
 
 /// The squared discrepancy, with a root in place of the power where the exponent is −½.
-pub(crate) fn stein<const D: usize>(cloud: &Cloud<'_, D>, scores: &[[f64; D]], kernel: &InverseMultiquadric) -> f64 {
+fn stein<const D: usize>(cloud: &Cloud<'_, D>, scores: &[[f64; D]], kernel: &InverseMultiquadric) -> f64 {
     if kernel.exponent == -0.5 {
         stein_sum::<D, true>(cloud, scores, kernel)
     } else {

@@ -1,7 +1,6 @@
 #![doc = include_str!("../README.md")]
 
 mod cloud;
-mod compiled;
 mod directions;
 mod energy_distance;
 mod error;

@@ -1,6 +1,5 @@
 //! The sliced Wasserstein distance: exact transport on the line, averaged over directions.
 
-use crate::compiled::Compiled;
 use crate::error::finite;
 use crate::sorted::SortedSample;
 use crate::summation::sum;
@@ -39,6 +38,20 @@ pub struct SlicedReference<const D: usize> {
     projections: Vec<SortedSample>,
 }
 
+/// What is compiled for a dimension.
+struct Compiled<const D: usize> {
+    /// [`SlicedReference::new`].
+    slices: fn(&Cloud<'_, D>, Directions<D>) -> SlicedReference<D>,
+    /// [`SlicedReference::distance`].
+    distance: fn(&SlicedReference<D>, &Cloud<'_, D>) -> Result<f64, MetricError>,
+}
+
+impl<const D: usize> Compiled<D> {
+    const HERE: Self = Self { slices, distance };
+}
+
+mpm_parallel::compiled_ahead!(Compiled);
+
 impl<const D: usize> SlicedReference<D> {
     /// Projects and sorts the reference: O(L N log N).
     pub fn new(reference: &Cloud<'_, D>, directions: Directions<D>) -> Self {
@@ -50,12 +63,12 @@ impl<const D: usize> SlicedReference<D> {
     /// # Errors
     /// [`MetricError::Overflow`] if a squared distance exceeds the range of `f64`.
     pub fn distance(&self, cloud: &Cloud<'_, D>) -> Result<f64, MetricError> {
-        (Compiled::of().sliced)(self, cloud)
+        (Compiled::of().distance)(self, cloud)
     }
 }
 
 /// [`SlicedReference::new`].
-pub(crate) fn slices<const D: usize>(reference: &Cloud<'_, D>, directions: Directions<D>) -> SlicedReference<D> {
+fn slices<const D: usize>(reference: &Cloud<'_, D>, directions: Directions<D>) -> SlicedReference<D> {
     let projections = mpm_parallel::map(directions.vectors().iter(), &|direction| project(reference, direction));
     SlicedReference {
         directions,
@@ -64,10 +77,7 @@ pub(crate) fn slices<const D: usize>(reference: &Cloud<'_, D>, directions: Direc
 }
 
 /// [`SlicedReference::distance`].
-pub(crate) fn distance<const D: usize>(
-    reference: &SlicedReference<D>,
-    cloud: &Cloud<'_, D>,
-) -> Result<f64, MetricError> {
+fn distance<const D: usize>(reference: &SlicedReference<D>, cloud: &Cloud<'_, D>) -> Result<f64, MetricError> {
     average(&reference.directions, |index, direction| {
         transport_cost(&project(cloud, direction), &reference.projections[index], square)
     })

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use mpm_core::MpmError;
 use mpm_mesh::MeshError;
 use parvi_pool::{Pool, PoolError};
+use serde::{Deserialize, Serialize};
 
 use crate::{Certificate, GivenParticles, ParticleView, PointSetError};
 
@@ -141,7 +142,7 @@ impl<const D: usize> Default for Watched<D> {
 }
 
 /// State of a run at one step.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TracePoint {
     /// Step number, from 1.
     pub step: usize,

@@ -7,7 +7,7 @@ mod report;
 #[cfg(feature = "rom")]
 mod rom;
 mod run;
-pub(crate) mod sample;
+mod sample;
 #[cfg(feature = "mechanics")]
 mod simulate;
 mod targets;

@@ -2,11 +2,15 @@
 
 mod history;
 mod known;
+mod trace_panels;
 
 use std::path::Path;
 
+use parvi::TracePoint;
+
 pub use self::history::History;
 use self::known::{Known, Look};
+pub use self::trace_panels::TraceQuantity;
 use crate::dispatch::with_target;
 use crate::options::TargetSpecification;
 use crate::output::{AtomicFile, OutputDirectory, Particles};
@@ -15,7 +19,6 @@ use crate::plots::{
     histogram, strip, trace,
 };
 use crate::sampling::{Outcome, Watched};
-use crate::study::{TraceQuantity, TraceRow};
 use crate::{CommandError, console};
 
 /// The file of the marginals.
@@ -143,7 +146,7 @@ impl Subject<'_> {
     }
 
     fn trace(&self) -> Drawing {
-        let rows: Vec<TraceRow> = self.outcome.trace.iter().map(TraceRow::from).collect();
+        let rows: Vec<TracePoint> = self.outcome.trace.clone();
         if rows.is_empty() {
             let reason = self.untraced.unwrap_or("the run has no trace of steps");
             return Drawing::LeftOut(Some(reason.to_owned()));

@@ -1,6 +1,7 @@
 //! Reading a study's configuration: every mistake is reported with file, line, column and the text of the line.
 
 use std::fs;
+use std::ops::Range;
 use std::path::Path;
 
 use mpm_document::DocumentError;
@@ -9,22 +10,23 @@ use serde::de::DeserializeOwned;
 use toml::Spanned;
 
 use crate::CommandError;
+use crate::options::Bounded;
 
 /// The text of a configuration and what can be said about it before its kind is known.
 #[derive(Clone, Debug)]
 pub struct Configuration {
     file: String,
     text: String,
-    kind: Spanned<String>,
+    head: Head,
     hash: String,
     seeds: Vec<u64>,
-    threads: Option<usize>,
 }
 
-/// The one key that every configuration has.
-#[derive(Deserialize)]
-struct Kind {
+/// What every configuration has, or may have.
+#[derive(Clone, Debug, Deserialize)]
+struct Head {
     kind: Spanned<String>,
+    threads: Option<Spanned<Bounded<1, 1024>>>,
 }
 
 impl Configuration {
@@ -38,13 +40,12 @@ impl Configuration {
     }
 
     fn from_text(file: String, text: String) -> Result<Self, CommandError> {
-        let kind: Kind = mpm_document::parse(&text, Path::new(&file))?;
+        let head: Head = mpm_document::parse(&text, Path::new(&file))?;
         let table: toml::Table = mpm_document::parse(&text, Path::new(&file))?;
         Ok(Self {
-            kind: kind.kind,
             hash: fingerprint(&canonical(&table)),
             seeds: whole_numbers(["seed", "seeds"].iter().find_map(|key| table.get(*key))),
-            threads: whole_numbers(table.get("threads")).first().map(|&count| count as usize),
+            head,
             file,
             text,
         })
@@ -52,7 +53,7 @@ impl Configuration {
 
     /// The study's kind, as written.
     pub fn kind(&self) -> &str {
-        self.kind.get_ref()
+        self.head.kind.get_ref()
     }
 
     /// The text, as read.
@@ -77,19 +78,41 @@ impl Configuration {
 
     /// The number in `threads`, if it has one.
     pub fn threads(&self) -> Option<usize> {
-        self.threads
+        self.head.threads.as_ref().map(|threads| threads.get_ref().get())
     }
 
-    /// The configuration as its kind understands it. Unknown keys are errors.
-    pub fn parse<T: DeserializeOwned>(&self) -> Result<T, CommandError> {
-        Ok(mpm_document::parse(&self.text, Path::new(&self.file))?)
+    /// The configuration as its kind understands it, without the keys of `head`. Unknown keys are errors.
+    pub fn parse<T: DeserializeOwned>(&self, head: &[&str]) -> Result<T, CommandError> {
+        let threads = self.head.threads.as_ref().map(Spanned::span);
+        let known = [("kind", Some(self.head.kind.span())), ("threads", threads)];
+        let mut text = self.text.clone();
+        for (_, value) in known.iter().filter(|(key, _)| head.contains(key)) {
+            if let Some(value) = value {
+                text = without_key(&text, value);
+            }
+        }
+        Ok(mpm_document::parse(&text, Path::new(&self.file))?)
     }
 
     /// The error for a kind that does not exist.
     pub fn unknown_kind(&self, known: &[&str]) -> CommandError {
         let message = format!("unknown kind `{}`, expected one of {}", self.kind(), known.join(", "));
-        DocumentError::at(Path::new(&self.file), &self.text, self.kind.span().start, message).into()
+        DocumentError::at(Path::new(&self.file), &self.text, self.head.kind.span().start, message).into()
     }
+}
+
+/// The text without the key whose value is there: a comment of the same length, so that all else keeps its place.
+fn without_key(text: &str, value: &Range<usize>) -> String {
+    let start = text[..value.start].rfind('\n').map_or(0, |end| end + 1);
+    let covered = text[start..value.end].bytes().enumerate();
+    let covered: String = covered
+        .map(|(place, byte)| match (place, byte) {
+            (0, _) => '#',
+            (_, b'\n') => '\n',
+            _ => ' ',
+        })
+        .collect();
+    format!("{}{covered}{}", &text[..start], &text[value.end..])
 }
 
 /// A number or a list of them; what is neither is for the kind to refuse.
@@ -126,15 +149,13 @@ mod tests {
     #[derive(Debug, Deserialize)]
     #[serde(deny_unknown_fields)]
     struct Example {
-        #[serde(rename = "kind")]
-        _kind: String,
         #[serde(rename = "particles")]
         _particles: ParticleCount,
     }
 
     fn message(text: &str) -> String {
         Configuration::from_text("c.toml".to_owned(), text.to_owned())
-            .and_then(|configuration| configuration.parse::<Example>())
+            .and_then(|configuration| configuration.parse::<Example>(&["kind", "threads"]))
             .unwrap_err()
             .to_string()
     }
@@ -153,6 +174,16 @@ mod tests {
         );
         let broken = message("kind = \"a\"\nparticles = \n");
         assert!(broken.starts_with("c.toml, line 2, "), "{broken}");
+        let with_threads = message("particles = -5\nthreads = 2 # two\nkind = 'ä' # kind\n");
+        assert!(
+            with_threads.starts_with("c.toml, line 1, column 13: -5 is"),
+            "{with_threads}"
+        );
+        let after = message("threads = 2\nkind = 'ä'\nparticles = -5\n");
+        assert!(after.starts_with("c.toml, line 3, column 13: -5 is"), "{after}");
+        let none = message("threads = 0\nkind = 'ä'\nparticles = 5\n");
+        assert!(none.starts_with("c.toml, line 1, column 11: 0 is"), "{none}");
+        assert!(message("kind = \"a\"").contains("missing field `particles`"));
         let missing = message("particles = 3");
         assert!(missing.contains("missing field `kind`"), "{missing}");
     }

@@ -49,6 +49,9 @@ pub trait Study: DeserializeOwned + Sync {
     /// The `kind` in the configuration.
     const KIND: &'static str;
 
+    /// The keys of the configuration that are read before its kind is known; the study has the others.
+    const HEAD: &[&str] = &["kind", "threads"];
+
     /// The columns of results.csv with spaces between, where they are not all that a row has.
     const COLUMNS: &'static str = "";
 

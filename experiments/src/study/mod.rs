@@ -30,8 +30,6 @@ mod start_law;
 mod time_error;
 mod time_to_equal_error;
 mod time_to_level;
-mod trace_panels;
-mod trace_row;
 mod yardstick;
 
 use std::path::Path;
@@ -40,8 +38,6 @@ use configuration::Configuration;
 use definition::Study;
 use directory::StudyDirectory;
 
-pub(crate) use self::trace_panels::TraceQuantity;
-pub(crate) use self::trace_row::TraceRow;
 use crate::CommandError;
 
 /// What can be done with a configuration of one kind.

@@ -14,7 +14,7 @@ use crate::{CommandError, console, interrupt};
 
 /// Runs a study into a directory, or the rest of it.
 pub fn run<S: Study>(configuration: &Configuration, out: &Path) -> Result<(), CommandError> {
-    let mut study: S = configuration.parse()?;
+    let mut study: S = configuration.parse(S::HEAD)?;
     let located = |error| in_file(error, configuration);
     study.open(Path::new(configuration.file())).map_err(located)?;
     let cases = study.cases().map_err(located)?;
@@ -33,7 +33,7 @@ pub fn run<S: Study>(configuration: &Configuration, out: &Path) -> Result<(), Co
 
 /// Writes the report of what a directory holds.
 pub fn report<S: Study>(configuration: &Configuration, directory: &StudyDirectory) -> Result<(), CommandError> {
-    let study: S = configuration.parse()?;
+    let study: S = configuration.parse(S::HEAD)?;
     let rows = ResultsFile::<S::Row>::read(&directory.results())?;
     in_threads(configuration.threads(), || write_report(&study, &rows, directory))
 }

@@ -5,11 +5,8 @@ use mpm_materials::Law;
 use mpm_tensor::vector;
 
 use super::motion::Motion;
-use super::probe::Probe;
+use super::probe::{AXES, Probe};
 use crate::law::LawState;
-
-/// Names of the axes.
-pub(super) const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// Axes a, b of x_a v_b − x_b v_a, for every component of the angular momentum.
 fn rotations<const D: usize>() -> &'static [(usize, usize)] {

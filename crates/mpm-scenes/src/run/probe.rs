@@ -3,13 +3,15 @@
 use mpm_materials::Law;
 use mpm_tensor::{Matrix, vector as algebra};
 
-use super::measure::AXES;
 use super::motion::Motion;
 use crate::SceneFault;
 use crate::loads::within;
 use crate::population::Population;
 use crate::scene::{ProbeTable, Scene};
 use crate::values::vector;
+
+/// Names of the axes.
+pub(super) const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// Some particles whose mean displacement, velocity and Cauchy stress is followed, weighted by mass.
 pub(super) struct Probe<const D: usize> {

@@ -23,8 +23,6 @@ use crate::sampling;
 use crate::{CommandError, console, interrupt};
 use watch::Watch;
 
-pub use said::PEAK_MEMORY_KEY;
-
 /// Target, method and file.
 #[derive(Args)]
 pub struct Arguments {

@@ -2,10 +2,8 @@
 
 use super::Arguments;
 use crate::console;
+use crate::machine::PEAK_MEMORY_KEY;
 use crate::sampling::{Outcome, Watched};
-
-/// The key of the rise of the process's resident memory while it sampled; Linux only.
-pub const PEAK_MEMORY_KEY: &str = "peak_memory_bytes";
 
 /// What a user should know before trusting the particles.
 pub fn warn(outcome: &Outcome) {

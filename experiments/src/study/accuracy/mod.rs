@@ -14,18 +14,14 @@ use super::directory::StudyDirectory;
 use super::gaussian_runs::{Case, GaussianStudy};
 use super::run_row::RunRow;
 use crate::CommandError;
-use crate::options::{Bounded, Dimension, MethodName, MethodOptions, MethodSpecification, OptionError, ParticleCount};
+use crate::options::{Dimension, MethodName, MethodOptions, MethodSpecification, OptionError, ParticleCount};
 
 /// All methods in all dimensions at all numbers of particles.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Accuracy {
-    #[serde(rename = "kind")]
-    _kind: String,
     /// One run per seed.
     seeds: Vec<u64>,
-    #[serde(rename = "threads")]
-    _threads: Option<Bounded<1, 1024>>,
     /// d.
     dims: Vec<Dimension>,
     /// M.

@@ -14,18 +14,14 @@ use super::directory::StudyDirectory;
 use super::gaussian_runs::{Case, GaussianStudy, default_spacing};
 use super::run_row::RunRow;
 use crate::CommandError;
-use crate::options::{Basis, Bounded, Dimension, MethodSpecification, ParticleCount, StepCount};
+use crate::options::{Basis, Dimension, MethodSpecification, ParticleCount, StepCount};
 
 /// All bases at several spacings and numbers of steps.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct BasisComparison {
-    #[serde(rename = "kind")]
-    _kind: String,
     /// One run per seed.
     seeds: Vec<u64>,
-    #[serde(rename = "threads")]
-    _threads: Option<Bounded<1, 1024>>,
     /// d.
     dims: Vec<Dimension>,
     /// M.

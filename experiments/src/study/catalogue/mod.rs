@@ -26,12 +26,8 @@ use crate::options::{Bounded, Dimension, MethodSpecification, ParticleCount, Tar
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Catalogue {
-    #[serde(rename = "kind")]
-    _kind: String,
     /// One run per seed.
     seeds: Vec<u64>,
-    #[serde(rename = "threads")]
-    _threads: Option<Bounded<1, 1024>>,
     /// M.
     particles: ParticleCount,
     /// Dimensions; of each target those that it has.

@@ -15,19 +15,15 @@ use super::definition::{self, Report, Study, Work};
 use super::directory::StudyDirectory;
 use super::moments::SampleMoments;
 use super::run_row::RunRow;
-use crate::options::{Bounded, Dimension, MethodSpecification, ParticleCount, TargetSpecification};
+use crate::options::{Dimension, MethodSpecification, ParticleCount, TargetSpecification};
 use crate::{CommandError, sampling};
 
 /// Resting particles at several spacings, one series per dimension.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct CovarianceSpacing {
-    #[serde(rename = "kind")]
-    _kind: String,
     /// Seeds of the start, one case each.
     seeds: Vec<u64>,
-    #[serde(rename = "threads")]
-    _threads: Option<Bounded<1, 1024>>,
     /// M.
     particles: ParticleCount,
     /// The sampler; its spacing comes from the series.

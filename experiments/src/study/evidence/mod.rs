@@ -11,17 +11,13 @@ use super::definition::{self, Report, Study, Work};
 use super::directory::StudyDirectory;
 use super::run_row::RunRow;
 use super::seed_range::SeedRange;
-use crate::options::{Bounded, MethodSpecification, ParticleCount, TargetSpecification};
+use crate::options::{MethodSpecification, ParticleCount, TargetSpecification};
 use crate::{CommandError, sampling};
 
 /// Every method on every target, with every seed.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Evidence {
-    #[serde(rename = "kind")]
-    _kind: String,
-    #[serde(rename = "threads")]
-    _threads: Option<Bounded<1, 1024>>,
     /// Seeds of the runs.
     run_seeds: SeedRange,
     /// M.

@@ -17,10 +17,6 @@ use crate::study::yardstick::{Coordinates, YardstickOptions};
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Paper {
-    #[serde(rename = "kind")]
-    _kind: String,
-    #[serde(rename = "threads")]
-    _threads: Option<Bounded<1, 1024>>,
     /// Mean of every coordinate at the start, in units of the body's coordinates.
     pub start_mean: f64,
     /// Standard deviation of every coordinate at the start.

@@ -1,17 +1,17 @@
 //! The figures of the study `quickstart`, from its raw files.
 
+use parvi::TracePoint;
 use parvi_targets::BoxedTarget;
 
 use super::{Case, Quickstart};
 use crate::CommandError;
 use crate::dispatch::{TargetTask, with_target};
 use crate::output::{Particles, particles_csv, table_file};
+use crate::pictures::TraceQuantity;
 use crate::plots::{DensityPlot, PairDensity, PointCloud, Reference, TracePlot, cloud, corner, histogram, trace};
 use crate::statistics::DensityGrid;
 use crate::study::directory::StudyDirectory;
 use crate::study::document::Document;
-use crate::study::trace_panels::TraceQuantity;
-use crate::study::trace_row::TraceRow;
 
 /// Corner plot and marginals of the posterior over the reference draws.
 pub fn posterior(
@@ -86,11 +86,11 @@ pub fn traces(study: &Quickstart, directory: &StudyDirectory, document: &mut Doc
             runs.push((part, table_file::read(&path)?));
         }
     }
-    runs.retain(|(_, rows): &(_, Vec<TraceRow>)| !rows.is_empty());
+    runs.retain(|(_, rows): &(_, Vec<TracePoint>)| !rows.is_empty());
     if runs.is_empty() {
         return Ok(());
     }
-    let labelled: Vec<(String, Vec<TraceRow>)> = runs
+    let labelled: Vec<(String, Vec<TracePoint>)> = runs
         .into_iter()
         .map(|(part, rows)| (part.target.label(), rows))
         .collect();

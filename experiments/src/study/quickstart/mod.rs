@@ -17,7 +17,6 @@ use super::checks::{positive, refusal};
 use super::definition::{self, Report, Study, Work};
 use super::directory::StudyDirectory;
 use super::run_row::RunRow;
-use super::trace_row::TraceRow;
 use crate::CommandError;
 use crate::dispatch::with_target;
 use crate::options::{Bounded, MethodSpecification, ParticleCount, TargetSpecification};
@@ -29,12 +28,8 @@ use crate::sampling;
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Quickstart {
-    #[serde(rename = "kind")]
-    _kind: String,
     /// Seed of both runs.
     seed: u64,
-    #[serde(rename = "threads")]
-    _threads: Option<Bounded<1, 1024>>,
     /// Steps between two entries of the trace.
     trace_every: Bounded<1, 1_000_000>,
     /// The posterior.
@@ -221,7 +216,7 @@ impl Quickstart {
             Attempt::Failed(status, reason) => row.fail(status, reason),
             Attempt::Finished(outcome) => {
                 ParticleFile::create(case.particles_file(directory))?.write(&outcome.particles, &[])?;
-                table_file::write(outcome.trace.iter().map(TraceRow::from), &case.trace_file(directory))?;
+                table_file::write(outcome.trace.iter(), &case.trace_file(directory))?;
                 row.take(&outcome);
             }
         }

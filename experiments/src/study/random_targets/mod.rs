@@ -30,12 +30,8 @@ use crate::sampling::{Outcome, sample_target};
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct RandomTargets {
-    #[serde(rename = "kind")]
-    _kind: String,
     /// Seed of every run.
     seed: u64,
-    #[serde(rename = "threads")]
-    _threads: Option<Bounded<1, 1024>>,
     /// d.
     dims: Vec<Dimension>,
     /// The seeds that make the targets, in every dimension.

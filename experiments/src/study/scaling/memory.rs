@@ -5,7 +5,7 @@ use std::process::{Command, Stdio};
 
 use parvi::Run;
 
-use crate::command::sample::PEAK_MEMORY_KEY;
+use crate::machine::PEAK_MEMORY_KEY;
 use crate::options::{MethodSpecification, TargetSpecification};
 
 /// Runs `parvi sample` with the same settings and reads its peak; `None` where the system does not tell.

@@ -24,8 +24,6 @@ use crate::{CommandError, statistics};
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Scaling {
-    #[serde(rename = "kind")]
-    _kind: String,
     /// Seed of every case.
     seed: u64,
     /// Threads; absent: as many as the environment gives.
@@ -168,6 +166,7 @@ impl Study for Scaling {
     type Shared = ();
 
     const KIND: &'static str = "scaling";
+    const HEAD: &[&str] = &["kind"];
 
     /// The cases of both sweeps, cheap ones first within each dimension.
     fn cases(&self) -> Result<Vec<Case>, CommandError> {

@@ -9,19 +9,14 @@ use super::judgement::Judgement;
 use super::reading::Reading;
 use super::scene_files::SceneFiles;
 use crate::CommandError;
-use crate::options::Bounded;
 use crate::study::checks::{distinct, not_empty, refusal};
 
 /// Families of runs of scenes.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Scenes {
-    #[serde(rename = "kind")]
-    _kind: String,
     /// Heads the report.
     pub title: String,
-    #[serde(rename = "threads")]
-    _threads: Option<Bounded<1, 1024>>,
     /// The families.
     pub families: Vec<Family>,
     /// The scenes that the families name, once they are read.

@@ -13,18 +13,14 @@ use super::directory::StudyDirectory;
 use super::gaussian_runs::{Case, GaussianStudy};
 use super::run_row::RunRow;
 use crate::CommandError;
-use crate::options::{Bounded, Dimension, MethodSpecification, ParticleCount};
+use crate::options::{Dimension, MethodSpecification, ParticleCount};
 
 /// All pairs of a spacing and a number of particles, one series of spacings per dimension.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct SpacingParticles {
-    #[serde(rename = "kind")]
-    _kind: String,
     /// One run per seed.
     seeds: Vec<u64>,
-    #[serde(rename = "threads")]
-    _threads: Option<Bounded<1, 1024>>,
     /// M.
     particles: Vec<ParticleCount>,
     /// The sampler; its spacing comes from the series.

@@ -27,12 +27,8 @@ use crate::options::{Bounded, Dimension};
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Stability {
-    #[serde(rename = "kind")]
-    _kind: String,
     /// Seed of all draws; case i depends on it and on i only.
     seed: u64,
-    #[serde(rename = "threads")]
-    _threads: Option<Bounded<1, 1024>>,
     /// The number of configurations.
     cases: Bounded<1, 10_000_000>,
     /// Dimensions; of each target those that it has.

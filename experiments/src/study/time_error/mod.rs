@@ -21,12 +21,8 @@ use crate::options::{Bounded, MethodName, MethodSpecification, ParticleCount, St
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct TimeError {
-    #[serde(rename = "kind")]
-    _kind: String,
     /// One run per seed.
     seeds: Vec<u64>,
-    #[serde(rename = "threads")]
-    _threads: Option<Bounded<1, 1024>>,
     /// M.
     particles: ParticleCount,
     /// Numbers of steps for methods that take steps, unless their own options fix them; absent: each takes its own default.

@@ -31,8 +31,6 @@ use crate::options::{Bounded, MethodName, MethodSpecification, ParticleCount, Ta
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct TimeToEqualError {
-    #[serde(rename = "kind")]
-    _kind: String,
     /// One run per seed; all that is compared are medians over them.
     seeds: Vec<u64>,
     /// Threads; absent: as many as the environment gives.
@@ -138,6 +136,7 @@ impl Study for TimeToEqualError {
     type Shared = CurrentYardstick;
 
     const KIND: &'static str = "time-to-equal-error";
+    const HEAD: &[&str] = &["kind"];
 
     /// The cases: on every target and for every M the method first, then its rivals.
     fn cases(&self) -> Result<Vec<Case>, CommandError> {

@@ -27,8 +27,6 @@ use crate::output::table_file;
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct TimeToLevel {
-    #[serde(rename = "kind")]
-    _kind: String,
     /// Seed of every run.
     seed: u64,
     /// Threads; absent: as many as the environment gives.
@@ -141,6 +139,7 @@ impl Study for TimeToLevel {
     type Shared = Clock;
 
     const KIND: &'static str = "time-to-level";
+    const HEAD: &[&str] = &["kind"];
 
     /// The cases: in every dimension the method first, then its rivals.
     fn cases(&self) -> Result<Vec<Case>, CommandError> {

@@ -1,9 +1,10 @@
 //! The quantities of a run's history as panels of a figure.
 
-use super::trace_row::TraceRow;
+use parvi::TracePoint;
+
 use crate::plots::{AxisKind, ReferenceLevel, TracePanel, TraceSeries};
 
-/// A quantity of [`TraceRow`].
+/// A quantity of [`TracePoint`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TraceQuantity {
     /// Galerkin–Stein residual.
@@ -29,7 +30,7 @@ impl TraceQuantity {
     ];
 
     /// Its panel for labelled runs; a run without values of it is left out.
-    pub fn panel(self, runs: &[(String, Vec<TraceRow>)]) -> TracePanel {
+    pub fn panel(self, runs: &[(String, Vec<TracePoint>)]) -> TracePanel {
         let label = match self {
             Self::Residual => "residual (1: independent draws)",
             Self::KineticEnergy => "kinetic energy",
@@ -60,7 +61,7 @@ impl TraceQuantity {
         }
     }
 
-    fn value(self, row: &TraceRow) -> Option<f64> {
+    fn value(self, row: &TracePoint) -> Option<f64> {
         match self {
             Self::Residual => row.residual,
             Self::KineticEnergy => Some(row.kinetic_energy),
@@ -70,7 +71,7 @@ impl TraceQuantity {
         }
     }
 
-    fn series(self, label: &str, rows: &[TraceRow]) -> Option<TraceSeries> {
+    fn series(self, label: &str, rows: &[TracePoint]) -> Option<TraceSeries> {
         let points = rows.iter().filter_map(|row| Some((row.step as f64, self.value(row)?)));
         let (step, mut value): (Vec<f64>, Vec<f64>) = points.unzip();
         if self == Self::PotentialEnergy {
