@@ -64,6 +64,18 @@ impl Axis {
         Ok(choices)
     }
 
+    /// Whether its choices are places on the horizontal axis: they set x itself, or, without a label, a table or array around it.
+    fn goes_along(&self, x: &[String]) -> bool {
+        let unnamed = self.choices.iter().all(|choice| choice.label.is_empty());
+        let keys = self
+            .choices
+            .iter()
+            .flat_map(|choice| choice.set.keys())
+            .chain(&self.key);
+        let along = |key: &String, x: &String| key == x || (unnamed && holds(key, x));
+        keys.into_iter().any(|key| x.iter().any(|x| along(key, x)))
+    }
+
     fn choice(&self, key: &str, value: &Value) -> Choice {
         let label = match value {
             Value::String(text) if self.label.is_none() => text.clone(),
@@ -85,11 +97,7 @@ pub fn combinations(axes: &[Axis], x: &[String]) -> Result<Vec<Combination>, Str
     let mut combinations = vec![Combination::default()];
     for (index, axis) in axes.iter().enumerate() {
         let choices = axis.labelled().map_err(|message| format!("axes.{index} {message}"))?;
-        let along_x = choices
-            .iter()
-            .flat_map(|choice| choice.set.keys())
-            .any(|key| x.iter().any(|x| holds(key, x)));
-        let silent = along_x || axis.worst;
+        let silent = axis.goes_along(x) || axis.worst;
         let extended = combinations.iter().flat_map(|known| {
             choices.iter().map(|choice| Combination {
                 name: joined(&known.name, &named(choice)),
@@ -185,6 +193,19 @@ mod tests {
             combinations(&axes, &["grid.spacing".to_owned()]).unwrap()[0].label,
             "speed = 0.1, v = 2.5"
         );
+    }
+
+    /// A whole mesh that is named is a series; without a name it is a place on the axis of its size.
+    #[test]
+    fn a_choice_that_is_named_keeps_its_name_unless_it_is_x_itself() {
+        let x = ["mesh.size".to_owned()];
+        let label = |choice: &str| {
+            let axes = axes(&format!("axes = [{{ choices = [{choice}] }}]"));
+            combinations(&axes, &x).unwrap()[0].label.clone()
+        };
+        assert_eq!(label("{ label = \"fine\", set = { mesh = { size = 0.1 } } }"), "fine");
+        assert_eq!(label("{ set = { mesh = { size = 0.1 } } }"), "");
+        assert_eq!(label("{ label = \"fine\", set = { \"mesh.size\" = 0.1 } }"), "");
     }
 
     #[test]
