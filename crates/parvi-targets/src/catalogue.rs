@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 
 use crate::TargetError;
-use crate::table::CATALOGUE;
 
 /// The largest dimension that the catalogue offers.
 pub const MAXIMUM_DIMENSION: usize = 8;
@@ -159,29 +158,5 @@ impl TargetInfo {
             }
         }
         Ok(())
-    }
-}
-
-/// Every target of the catalogue, in the order of the documentation.
-pub fn catalogue() -> &'static [TargetInfo] {
-    CATALOGUE
-}
-
-/// The entry of a name.
-///
-/// # Errors
-/// [`TargetError::UnknownTarget`], which lists the names that exist.
-pub fn target_info(name: &str) -> Result<&'static TargetInfo, TargetError> {
-    CATALOGUE
-        .iter()
-        .find(|info| info.name == name)
-        .ok_or_else(|| unknown_target(name))
-}
-
-/// The error that lists the names that exist.
-pub(crate) fn unknown_target(name: &str) -> TargetError {
-    TargetError::UnknownTarget {
-        name: name.to_owned(),
-        known: CATALOGUE.iter().map(|info| info.name).collect::<Vec<_>>().join(", "),
     }
 }

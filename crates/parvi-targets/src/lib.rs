@@ -21,6 +21,7 @@ mod laplace;
 mod link;
 mod logarithm;
 mod logit;
+mod making;
 mod minibatch;
 mod mixture;
 mod nested;
@@ -48,8 +49,8 @@ mod weighted_draws;
 mod wells;
 
 pub use banana::Banana;
-pub use build::{BoxedTarget, build, coordinate_names, dimension_of};
-pub use catalogue::{Dimensions, MAXIMUM_DIMENSION, ParameterInfo, Parameters, TargetInfo, catalogue, target_info};
+pub use build::{build, coordinate_names, dimension_of};
+pub use catalogue::{Dimensions, MAXIMUM_DIMENSION, ParameterInfo, Parameters, TargetInfo};
 pub use constrain::{
     ConstrainedTarget, Constraints, ConstraintsBuilder, OutsideSupport, Transform, correlation_matrix, lower_triangle,
 };
@@ -65,6 +66,7 @@ pub use laplace::{Curvature, Laplace};
 pub use link::{Link, PARTICLES_PER_GROUP};
 pub use logarithm::Logarithm;
 pub use logit::Logit;
+pub use making::BoxedTarget;
 pub use minibatch::MinibatchScore;
 pub use mixture::GaussianMixture;
 pub use nested::{Eggbox, GaussianShells, LogGamma, SpikeSlab};
@@ -87,6 +89,7 @@ pub use special::normal_quantile;
 pub use student_t::StudentT;
 pub use sum_target::SumTarget;
 pub use synthetic::{SYNTHETIC_COUNT_ROWS, synthetic_counts};
+pub use table::{catalogue, target_info};
 pub use target::{CatalogueTarget, ExactDraws, Mode, Moments, Target, UnitCubeTransport};
 pub use weighted_draws::WeightedDraws;
 pub use wells::{WELLS_MAXIMUM_DIMENSION, WELLS_SMALL_ROWS, wells};

@@ -1,15 +1,37 @@
 //! The targets by name: what is known of each, and how it is made. A new target is a file, and its entry here.
 
-use crate::build::{BoxedTarget, boxed, data_path, dimension_of, file_or, in_dimension, regression};
-use crate::catalogue::{
-    Dimensions, MAXIMUM_DIMENSION, ParameterInfo, Parameters, TargetInfo, target_info, unknown_target,
-};
+use crate::catalogue::{Dimensions, MAXIMUM_DIMENSION, ParameterInfo, Parameters, TargetInfo};
+use crate::making::{BoxedTarget, boxed, data_path, file_or, in_dimension, regression};
 use crate::synthetic::synthetic_counts;
 use crate::wells::{WELLS_MAXIMUM_DIMENSION, WELLS_SMALL_ROWS, wells};
 use crate::{
     Banana, Cross, Eggbox, Funnel, Gaussian, GaussianMixture, GaussianShells, LogGamma, Logarithm, Logit, Probit,
     RandomTarget, RegressionData, Ring, Rosenbrock, Schools, SpikeSlab, StudentT, TargetError,
 };
+
+/// Every target of the catalogue, in the order of the documentation.
+pub fn catalogue() -> &'static [TargetInfo] {
+    CATALOGUE
+}
+
+/// The entry of a name.
+///
+/// # Errors
+/// [`TargetError::UnknownTarget`], which lists the names that exist.
+pub fn target_info(name: &str) -> Result<&'static TargetInfo, TargetError> {
+    CATALOGUE
+        .iter()
+        .find(|info| info.name == name)
+        .ok_or_else(|| unknown_target(name))
+}
+
+/// The error that lists the names that exist.
+pub(crate) fn unknown_target(name: &str) -> TargetError {
+    TargetError::UnknownTarget {
+        name: name.to_owned(),
+        known: CATALOGUE.iter().map(|info| info.name).collect::<Vec<_>>().join(", "),
+    }
+}
 
 const fn parameter(name: &'static str, default: &'static str, meaning: &'static str) -> ParameterInfo {
     ParameterInfo {
@@ -79,14 +101,13 @@ const MIXTURE_WIDTH: ParameterInfo = parameter("width", "0.5", "standard deviati
 macro_rules! targets {
     (($name:ident, $parameters:ident, $dimension:ident); $($info:expr => $build:expr;)*) => {
         /// Every target, in the order of the documentation.
-        pub(crate) static CATALOGUE: &[TargetInfo] = &[$($info,)*];
+        static CATALOGUE: &[TargetInfo] = &[$($info,)*];
 
-        /// A target in one dimension.
-        pub(crate) fn build_here<const $dimension: usize>(
+        /// A target in one dimension, which is one of its own.
+        pub(crate) fn make<const $dimension: usize>(
             $name: &str,
             $parameters: &Parameters,
         ) -> Result<BoxedTarget<$dimension>, TargetError> {
-            dimension_of($name, Some($dimension), $parameters)?;
             $({
                 const INFO: TargetInfo = $info;
                 if $name == INFO.name {
@@ -322,7 +343,7 @@ targets! {
             PRIOR,
         ],
     ) => {
-            let path = data_path(target_info(name)?, parameters)?;
+            let path = data_path(name, parameters)?;
             regression::<Logit, D>(name, RegressionData::from_csv_file(path)?, parameters)
         };
 }
