@@ -27,7 +27,7 @@ const AGREEMENT: f64 = 3.0;
 const UNSHARPENED: usize = 2;
 
 /// Shares of the evaluations that scouts, the walks and the scores of one round, and all rounds together may take.
-const SCOUTING: f64 = 0.1;
+const SCOUTING: f64 = 0.2;
 const WALKING: f64 = 0.05;
 const SHARPENING: f64 = 0.02;
 const ADAPTING: f64 = 0.75;

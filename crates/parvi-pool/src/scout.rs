@@ -7,15 +7,21 @@ use crate::density::Density;
 use crate::mixture::{Kernel, Mixture};
 use crate::sample::{moments, root};
 
-/// Scouts end after so many that found nothing new, and so many for every summit known: what share of scouts would find another is then below 1/(2n) or so.
+/// Scouts end after so many that found nothing new, and so many for every summit known: one of n summits that are reached alike is then overlooked with probability e⁻⁸.
 const FEWEST: usize = 16;
-const IDLE: usize = 4;
+const IDLE: usize = 8;
+
+/// Standard deviations within which a scout that comes near a known summit as its normal approximation says ends its way.
+const SLOPE: f64 = 2.0;
 
 /// Share of the evaluations that scouts may take which they do take where there are several summits: in many dimensions a piece may lie in a direction that few of them set out in.
-const SEVERAL: f64 = 0.2;
+const SEVERAL: f64 = 0.1;
 
 /// Distances from a summit, in standard deviations of the normal approximation there, at which scouts set out.
 const RINGS: [f64; 3] = [5.0, 12.0, 30.0];
+
+/// Distances from the middle of all summits, in units of their spread, at which scouts set out.
+const SHELLS: [f64; 2] = [1.0, 0.6];
 
 /// Widths of the kernels at a summit, over the normal approximation there, and their shares.
 const STRETCHES: [(f64, f64); 3] = [(1.1, 0.55), (3.0, 0.3), (10.0, 0.15)];
@@ -87,11 +93,12 @@ fn summits<const D: usize>(density: &mut Density<'_, D>, evaluations: u64, seed:
         let start = match scout % 3 {
             _ if scout == 0 => [0.0; D],
             1 if known > 0 => summits[scout / 3 % known].ringed(&drawn, RINGS[scout / 3 % RINGS.len()]),
-            2 if known > 1 => apart(&summits, &drawn),
+            2 if known > 1 => apart(&summits, &drawn, SHELLS[scout / 3 % SHELLS.len()]),
             _ => drawn,
         };
+        let is_known = |place: &[f64; D], log: f64| summits.iter().any(|summit| summit.explains(place, log));
         let found =
-            ascend(density, &start, |_, _| false).filter(|found| !summits.iter().any(|summit| summit.is_near(found)));
+            ascend(density, &start, is_known).filter(|found| !summits.iter().any(|summit| summit.is_near(found)));
         summits.extend(found);
         idle = if summits.len() > known { 0 } else { idle + 1 };
         let spent = density.evaluations() - before;
@@ -114,10 +121,13 @@ fn spread<const D: usize>(summits: &[Summit<D>]) -> Kernel<D> {
     }
 }
 
-/// A place where the summits' spread, stretched to the length of a normal law's draws, has `drawn` in the direction.
-fn apart<const D: usize>(summits: &[Summit<D>], drawn: &[f64; D]) -> [f64; D] {
+/// A place where the summits' spread, stretched to so many times the length of a normal law's draws, has `drawn` in the direction.
+fn apart<const D: usize>(summits: &[Summit<D>], drawn: &[f64; D], shell: f64) -> [f64; D] {
     let Kernel { centre, factor, .. } = spread(summits);
-    let direction = vector::scale(drawn, (D as f64).sqrt() / vector::norm(drawn).max(f64::MIN_POSITIVE));
+    let direction = vector::scale(
+        drawn,
+        shell * (D as f64).sqrt() / vector::norm(drawn).max(f64::MIN_POSITIVE),
+    );
     vector::add(&centre, &factor.apply(&direction))
 }
 
@@ -145,6 +155,13 @@ impl<const D: usize> Summit<D> {
     fn is_near(&self, other: &Self) -> bool {
         let apart = vector::subtract(&other.point, &self.point);
         vector::dot(&apart, &self.precision.apply(&apart)) < 1.0 && (self.log_density - other.log_density).abs() < 1.0
+    }
+
+    /// Whether a place is on this summit's own slope, by the normal approximation.
+    fn explains(&self, place: &[f64; D], log: f64) -> bool {
+        let apart = vector::subtract(place, &self.point);
+        let square = vector::dot(&apart, &self.precision.apply(&apart));
+        square < SLOPE * SLOPE && (self.log_density - 0.5 * square - log).abs() < 0.25 + 0.1 * square
     }
 
     /// A place in the direction of `towards`, so many standard deviations from here.

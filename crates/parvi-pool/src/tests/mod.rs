@@ -166,6 +166,16 @@ fn pieces_all_around_in_six_dimensions_are_found() {
 }
 
 #[test]
+fn all_eighteen_pieces_of_an_eggbox_are_found() {
+    let target = parvi_targets::build::<2>("eggbox", &Default::default()).unwrap();
+    for seed in 0..8 {
+        let pool = pool_of(&&*target, 1000, seed).unwrap();
+        let error = pool.log_evidence - target.log_evidence().unwrap();
+        assert!(error.abs() < 0.04, "{seed}: {error}");
+    }
+}
+
+#[test]
 fn densities_that_are_no_numbers_are_survived() {
     let hostile = Given(|x: &[f64; 2]| {
         let l = -0.5 * (x[0] * x[0] + x[1] * x[1]);
