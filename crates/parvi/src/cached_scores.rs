@@ -175,7 +175,9 @@ impl<const D: usize> State<D> {
                 counts.entry(cell).or_insert((particle, 0)).1 += 1;
             }
         }
-        let least = zs.len() as f64 * defaults::CACHE_TESTED_SHARE;
+        // Where none holds that many, the fullest ones.
+        let most = counts.values().map(|&(_, count)| count).max().unwrap_or(0);
+        let least = (zs.len() as f64 * defaults::CACHE_TESTED_SHARE).min(most as f64);
         let held = counts
             .into_iter()
             .map(|(cell, (particle, count))| Held { cell, particle, count });

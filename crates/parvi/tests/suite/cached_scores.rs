@@ -1,11 +1,10 @@
 //! Scores that are evaluated at nodes and interpolated, and targets of which only the score is known.
 
-use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use crate::robustness::Killer;
 use parvi::{
-    AisOptions, Checkpoint, Monitor, MpmOptions, Observer, PaperOptions, Progress, Run, SampleError, Samples,
-    ScoreLocation, Silent, Watch,
+    AisOptions, Checkpoint, Monitor, MpmOptions, PaperOptions, Run, SampleError, Samples, ScoreLocation, Silent, Watch,
 };
 use parvi_targets::{CatalogueTarget, Frame, Gaussian, Ring, ScoreOnly, Target, build};
 
@@ -136,20 +135,6 @@ fn what_has_no_cache_says_so() {
             ..
         })
     ));
-}
-
-/// Stops a run after so many steps.
-struct Killer(usize);
-
-impl Observer for Killer {
-    fn after_step(&mut self, _: Progress) -> ControlFlow<()> {
-        self.0 -= 1;
-        if self.0 == 0 {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
-    }
 }
 
 #[test]

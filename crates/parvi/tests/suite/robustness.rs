@@ -190,7 +190,7 @@ fn annealing_ends_at_the_target() {
 }
 
 /// Stops after so many steps in all.
-struct Killer(usize);
+pub struct Killer(pub usize);
 
 impl Observer for Killer {
     fn after_step(&mut self, _: Progress) -> ControlFlow<()> {
