@@ -6,6 +6,7 @@ use rand::Rng;
 use crate::error::{finite, positive};
 use crate::gaussian::{normal_quantiles, standard_normal};
 use crate::special::HALF_LOG_TWO_PI;
+use crate::target::its_own_source;
 use crate::{CatalogueTarget, ExactDraws, Frame, Moments, Target, TargetError, UnitCubeTransport};
 
 /// x₁ ~ N(0, 1), x₂ ~ N(b (x₁² − 1), σ²), with curvature b and width σ.
@@ -84,10 +85,6 @@ impl ExactDraws<2> for Banana {
 }
 
 impl UnitCubeTransport<2> for Banana {
-    fn cube_dimension(&self) -> usize {
-        2
-    }
-
     fn transport(&self, u: &[f64]) -> [f64; 2] {
         self.bend(normal_quantiles(u))
     }
@@ -109,13 +106,7 @@ impl CatalogueTarget<2> for Banana {
         [[-4.0, 4.0], [end.min(middle) - margin, end.max(middle) + margin]]
     }
 
-    fn exact_draws(&self) -> Option<&dyn ExactDraws<2>> {
-        Some(self)
-    }
-
-    fn unit_cube_transport(&self) -> Option<&dyn UnitCubeTransport<2>> {
-        Some(self)
-    }
+    its_own_source!(2);
 
     fn moments(&self) -> Option<Moments<2>> {
         Some(Moments {

@@ -6,6 +6,7 @@ use rand::{Rng, RngExt};
 use crate::error::{at_least_two, positive};
 use crate::gaussian::{normal_quantiles, standard_normal};
 use crate::special::HALF_LOG_TWO_PI;
+use crate::target::its_own_source;
 use crate::{CatalogueTarget, ExactDraws, Frame, Moments, Target, TargetError, UnitCubeTransport};
 
 /// p = (1/D) Σ_k N(0, C_k), where C_k is diagonal with variance s² on axis k and w² on the others: for s > w a cross with D
@@ -125,13 +126,7 @@ impl<const D: usize> CatalogueTarget<D> for Cross<D> {
         [[-half, half]; D]
     }
 
-    fn exact_draws(&self) -> Option<&dyn ExactDraws<D>> {
-        Some(self)
-    }
-
-    fn unit_cube_transport(&self) -> Option<&dyn UnitCubeTransport<D>> {
-        Some(self)
-    }
+    its_own_source!(D);
 
     fn moments(&self) -> Option<Moments<D>> {
         Some(Moments {

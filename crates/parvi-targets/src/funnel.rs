@@ -6,6 +6,7 @@ use rand::Rng;
 use crate::error::{at_least_two, positive};
 use crate::gaussian::{normal_quantiles, standard_normal};
 use crate::special::HALF_LOG_TWO_PI;
+use crate::target::its_own_source;
 use crate::{CatalogueTarget, ExactDraws, Frame, Moments, Target, TargetError, UnitCubeTransport};
 
 /// e^−x₁ is clamped at e^500, so that the score far down the throat of the funnel stays a number.
@@ -81,10 +82,6 @@ impl<const D: usize> ExactDraws<D> for Funnel<D> {
 }
 
 impl<const D: usize> UnitCubeTransport<D> for Funnel<D> {
-    fn cube_dimension(&self) -> usize {
-        D
-    }
-
     fn transport(&self, u: &[f64]) -> [f64; D] {
         self.open(normal_quantiles(u))
     }
@@ -115,13 +112,7 @@ impl<const D: usize> CatalogueTarget<D> for Funnel<D> {
         })
     }
 
-    fn exact_draws(&self) -> Option<&dyn ExactDraws<D>> {
-        Some(self)
-    }
-
-    fn unit_cube_transport(&self) -> Option<&dyn UnitCubeTransport<D>> {
-        Some(self)
-    }
+    its_own_source!(D);
 
     fn moments(&self) -> Option<Moments<D>> {
         let square = self.width * self.width;

@@ -6,6 +6,7 @@ use rand_distr::{Distribution, StandardNormal};
 
 use crate::error::finite;
 use crate::special::{HALF_LOG_TWO_PI, normal_quantile};
+use crate::target::its_own_source;
 use crate::{CatalogueTarget, ExactDraws, Frame, Moments, Target, TargetError, UnitCubeTransport};
 
 /// N(μ, C): log p(x) = −½ (x−μ)ᵀ C⁻¹ (x−μ) − ½ log det C − D/2 · log 2π (normalised), score −C⁻¹ (x−μ).
@@ -91,10 +92,6 @@ impl<const D: usize> ExactDraws<D> for Gaussian<D> {
 }
 
 impl<const D: usize> UnitCubeTransport<D> for Gaussian<D> {
-    fn cube_dimension(&self) -> usize {
-        D
-    }
-
     fn transport(&self, u: &[f64]) -> [f64; D] {
         self.frame.to_target(&normal_quantiles(u))
     }
@@ -113,13 +110,7 @@ impl<const D: usize> CatalogueTarget<D> for Gaussian<D> {
         box_of_standard_deviations(self.frame.centre(), &self.covariance, 4.0)
     }
 
-    fn exact_draws(&self) -> Option<&dyn ExactDraws<D>> {
-        Some(self)
-    }
-
-    fn unit_cube_transport(&self) -> Option<&dyn UnitCubeTransport<D>> {
-        Some(self)
-    }
+    its_own_source!(D);
 
     fn moments(&self) -> Option<Moments<D>> {
         Some(Moments {

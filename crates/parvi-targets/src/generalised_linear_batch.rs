@@ -9,8 +9,8 @@ use mpm_parallel::each;
 
 use crate::Link;
 use crate::exponential::with_widest_vectors;
-use crate::generalised_linear::Posterior;
 use crate::link::PARTICLES_PER_GROUP as GROUP;
+use crate::posterior::Posterior;
 
 /// Rows in a block.
 const BLOCK: usize = 128;

@@ -7,8 +7,8 @@
 
 use mpm_tensor::vector;
 
-use crate::generalised_linear::Posterior;
 use crate::laplace::Curved;
+use crate::posterior::Posterior;
 use crate::{Curvature, Link, RegressionTable, Response, Target, TargetError};
 
 /// A column whose part outside of the span of the others is smaller than this fraction of its length depends on them.

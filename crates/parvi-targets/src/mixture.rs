@@ -6,6 +6,7 @@ use rand::{Rng, RngExt};
 use crate::error::{at_least_two, finite, positive};
 use crate::gaussian::{normal_quantiles, standard_normal};
 use crate::special::HALF_LOG_TWO_PI;
+use crate::target::its_own_source;
 use crate::{CatalogueTarget, ExactDraws, Frame, Mode, Moments, Target, TargetError, UnitCubeTransport};
 
 /// p(x) = Σ_k π_k N(x; c_k, w_k² I), with centres c_k, widths w_k and masses π_k of the [`Mode`]s.
@@ -207,13 +208,7 @@ impl<const D: usize> CatalogueTarget<D> for GaussianMixture<D> {
         })
     }
 
-    fn exact_draws(&self) -> Option<&dyn ExactDraws<D>> {
-        Some(self)
-    }
-
-    fn unit_cube_transport(&self) -> Option<&dyn UnitCubeTransport<D>> {
-        Some(self)
-    }
+    its_own_source!(D);
 
     fn moments(&self) -> Option<Moments<D>> {
         Some(self.moments)

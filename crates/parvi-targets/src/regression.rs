@@ -3,8 +3,8 @@
 use mpm_tensor::Matrix;
 
 use crate::error::positive;
-use crate::generalised_linear::Posterior;
 use crate::identifiability::{check_independence, check_overlap};
+use crate::posterior::Posterior;
 use crate::{
     CatalogueTarget, Curvature, Frame, Laplace, Link, Logarithm, Logit, Probit, RegressionTable, Response, Target,
     TargetError,

@@ -4,7 +4,7 @@ use std::marker::PhantomData;
 
 use mpm_tensor::vector;
 
-use crate::generalised_linear::Posterior;
+use crate::posterior::Posterior;
 use crate::{Link, Regression, SumTarget, Target};
 
 /// The terms are ℓ(b_i x_iᵀβ) with ℓ of the [`Link`]; what is linear in β over all rows, Σ_i a_i x_iᵀβ + c_i, stands with the prior, where it

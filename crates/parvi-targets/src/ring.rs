@@ -9,6 +9,7 @@ use statrs::function::gamma::gamma_ur;
 
 use crate::error::{finite, positive};
 use crate::special::increasing_root;
+use crate::target::its_own_source;
 use crate::{CatalogueTarget, ExactDraws, Frame, Moments, Target, TargetError, UnitCubeTransport};
 
 /// p(x) ∝ exp(−(‖x‖ − r)² / 2σ²) on the plane, with radius r ≥ 0 and width σ.
@@ -142,10 +143,6 @@ impl ExactDraws<2> for Ring {
 }
 
 impl UnitCubeTransport<2> for Ring {
-    fn cube_dimension(&self) -> usize {
-        2
-    }
-
     fn transport(&self, u: &[f64]) -> [f64; 2] {
         let [u, v] = [0, 1].map(|axis| u.get(axis).copied().unwrap_or(0.5));
         let (sine, cosine) = (TAU * v).sin_cos();
@@ -168,13 +165,7 @@ impl CatalogueTarget<2> for Ring {
         [[-half, half]; 2]
     }
 
-    fn exact_draws(&self) -> Option<&dyn ExactDraws<2>> {
-        Some(self)
-    }
-
-    fn unit_cube_transport(&self) -> Option<&dyn UnitCubeTransport<2>> {
-        Some(self)
-    }
+    its_own_source!(2);
 
     fn moments(&self) -> Option<Moments<2>> {
         Some(Moments {

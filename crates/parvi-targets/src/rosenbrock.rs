@@ -6,6 +6,7 @@ use rand::Rng;
 use crate::error::{at_least_two, positive};
 use crate::gaussian::{normal_quantiles, standard_normal};
 use crate::special::HALF_LOG_TWO_PI;
+use crate::target::its_own_source;
 use crate::{CatalogueTarget, ExactDraws, Frame, Moments, Target, TargetError, UnitCubeTransport};
 
 /// The mean of x₁.
@@ -163,10 +164,6 @@ impl<const D: usize> ExactDraws<D> for Rosenbrock<D> {
 }
 
 impl<const D: usize> UnitCubeTransport<D> for Rosenbrock<D> {
-    fn cube_dimension(&self) -> usize {
-        D
-    }
-
     fn transport(&self, u: &[f64]) -> [f64; D] {
         self.bend(normal_quantiles(u))
     }
@@ -198,13 +195,7 @@ impl<const D: usize> CatalogueTarget<D> for Rosenbrock<D> {
         domain
     }
 
-    fn exact_draws(&self) -> Option<&dyn ExactDraws<D>> {
-        Some(self)
-    }
-
-    fn unit_cube_transport(&self) -> Option<&dyn UnitCubeTransport<D>> {
-        Some(self)
-    }
+    its_own_source!(D);
 
     fn moments(&self) -> Option<Moments<D>> {
         Some(self.moments)

@@ -8,6 +8,7 @@ use rand_distr::Open01;
 use crate::gaussian::{box_of_standard_deviations, normal_quantiles, standard_normal};
 use crate::schools_scale::{GivenScale, PRIOR_SCALE, ScaleMarginal, School};
 use crate::special::{HALF_LOG_TWO_PI, log_cosh};
+use crate::target::its_own_source;
 use crate::{CatalogueTarget, ExactDraws, Frame, MAXIMUM_DIMENSION, Moments, Target, TargetError, UnitCubeTransport};
 
 /// Effect of coaching in each school and its standard error, in points of a test.
@@ -168,11 +169,7 @@ impl<const D: usize> ExactDraws<D> for Schools<D> {
 }
 
 impl<const D: usize> UnitCubeTransport<D> for Schools<D> {
-    /// In the order of the coordinates: `u[1]` is the mass below log τ.
-    fn cube_dimension(&self) -> usize {
-        D
-    }
-
+    /// `u` in the order of the coordinates: `u[1]` is the mass below log τ.
     fn transport(&self, u: &[f64]) -> [f64; D] {
         let log_scale = self.marginal.quantile(u.get(1).copied().unwrap_or(0.5));
         self.given_scale(log_scale, normal_quantiles(u))
@@ -194,13 +191,7 @@ impl<const D: usize> CatalogueTarget<D> for Schools<D> {
         box_of_standard_deviations(&self.moments.mean, &self.moments.covariance, 6.0)
     }
 
-    fn exact_draws(&self) -> Option<&dyn ExactDraws<D>> {
-        Some(self)
-    }
-
-    fn unit_cube_transport(&self) -> Option<&dyn UnitCubeTransport<D>> {
-        Some(self)
-    }
+    its_own_source!(D);
 
     fn moments(&self) -> Option<Moments<D>> {
         Some(self.moments)

@@ -9,6 +9,7 @@ use statrs::function::gamma::ln_gamma;
 use crate::error::positive;
 use crate::gaussian::{normal_quantiles, standard_normal};
 use crate::special::gamma_quantile;
+use crate::target::its_own_source;
 use crate::{CatalogueTarget, ExactDraws, Frame, Moments, Target, TargetError, UnitCubeTransport};
 
 /// t_ν(0, I): x = z √(ν/W) with z ~ N(0, I) and W ~ χ²_ν.
@@ -106,13 +107,7 @@ impl<const D: usize> CatalogueTarget<D> for StudentT<D> {
         [[-self.half_domain, self.half_domain]; D]
     }
 
-    fn exact_draws(&self) -> Option<&dyn ExactDraws<D>> {
-        Some(self)
-    }
-
-    fn unit_cube_transport(&self) -> Option<&dyn UnitCubeTransport<D>> {
-        Some(self)
-    }
+    its_own_source!(D);
 
     fn moments(&self) -> Option<Moments<D>> {
         let nu = self.degrees_of_freedom;

@@ -72,8 +72,10 @@ pub trait ExactDraws<const D: usize>: Sync {
 
 /// A map T with T(U) ~ p for U uniform on the unit cube; quasi-random points through it are the strong baseline.
 pub trait UnitCubeTransport<const D: usize>: Sync {
-    /// The dimension of the cube (it may exceed `D`, e.g. a mixture spends one coordinate on the mode).
-    fn cube_dimension(&self) -> usize;
+    /// The dimension of the cube, by default `D` (it may exceed that, e.g. a mixture spends one coordinate on the mode).
+    fn cube_dimension(&self) -> usize {
+        D
+    }
 
     /// The image of `u`, whose length is [`cube_dimension`](Self::cube_dimension) and whose entries lie in (0, 1).
     fn transport(&self, u: &[f64]) -> [f64; D];
@@ -135,3 +137,17 @@ pub trait CatalogueTarget<const D: usize>: Target<D> {
         None
     }
 }
+
+/// What a catalogue target says that has exact draws and a map from the unit cube of its own.
+macro_rules! its_own_source {
+    ($dimension:tt) => {
+        fn exact_draws(&self) -> Option<&dyn $crate::ExactDraws<$dimension>> {
+            Some(self)
+        }
+
+        fn unit_cube_transport(&self) -> Option<&dyn $crate::UnitCubeTransport<$dimension>> {
+            Some(self)
+        }
+    };
+}
+pub(crate) use its_own_source;

@@ -17,10 +17,6 @@ impl Transform for Free {
         self.count
     }
 
-    fn unconstrained_dimension(&self) -> usize {
-        self.count
-    }
-
     fn constrain(&self, y: &[f64], x: &mut [f64]) {
         x.copy_from_slice(y);
     }

@@ -47,10 +47,6 @@ impl Transform for HalfLine {
         self.count
     }
 
-    fn unconstrained_dimension(&self) -> usize {
-        self.count
-    }
-
     fn constrain(&self, y: &[f64], x: &mut [f64]) {
         for (x, &y) in x.iter_mut().zip(y) {
             *x = inside(self.bound + self.sign() * exponential(y), self.support());

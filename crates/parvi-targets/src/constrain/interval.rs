@@ -27,10 +27,6 @@ impl Transform for Interval {
         self.count
     }
 
-    fn unconstrained_dimension(&self) -> usize {
-        self.count
-    }
-
     fn constrain(&self, y: &[f64], x: &mut [f64]) {
         for (x, &y) in x.iter_mut().zip(y) {
             let e = decay(y);

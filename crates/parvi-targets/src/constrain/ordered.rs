@@ -20,10 +20,6 @@ impl Transform for Ordered {
         self.count
     }
 
-    fn unconstrained_dimension(&self) -> usize {
-        self.count
-    }
-
     fn constrain(&self, y: &[f64], x: &mut [f64]) {
         x[0] = y[0];
         for k in 1..self.count {

@@ -17,8 +17,10 @@ pub trait Transform: Debug + Send + Sync {
     /// n, the number of constrained coordinates; the same at every call.
     fn constrained_dimension(&self) -> usize;
 
-    /// d ≤ n, the number of unconstrained coordinates; the same at every call.
-    fn unconstrained_dimension(&self) -> usize;
+    /// d ≤ n, the number of unconstrained coordinates; the same at every call. By default n.
+    fn unconstrained_dimension(&self) -> usize {
+        self.constrained_dimension()
+    }
 
     /// Indices of the d constrained coordinates x_v that the density is one in, counted from 0 within the block.
     fn independent_coordinates(&self) -> Vec<usize> {

@@ -6,6 +6,7 @@ use rand_distr::Open01;
 use super::log_gamma_part::{BOTH, Part, WIDTH, inside, on_axis};
 use super::logit;
 use crate::error::at_least_two;
+use crate::target::its_own_source;
 use crate::{
     CatalogueTarget, ConstrainedTarget, Constraints, ExactDraws, Frame, Mode, Target, TargetError, UnitCubeTransport,
 };
@@ -129,13 +130,7 @@ impl<const D: usize> CatalogueTarget<D> for LogGamma<D> {
         domain
     }
 
-    fn exact_draws(&self) -> Option<&dyn ExactDraws<D>> {
-        Some(self)
-    }
-
-    fn unit_cube_transport(&self) -> Option<&dyn UnitCubeTransport<D>> {
-        Some(self)
-    }
+    its_own_source!(D);
 
     fn modes(&self) -> &[Mode<D>] {
         &self.modes

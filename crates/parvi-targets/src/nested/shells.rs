@@ -11,6 +11,7 @@ use crate::error::at_least_two;
 use crate::gaussian::normal_quantiles;
 use crate::ring::half_mass;
 use crate::special::{HALF_LOG_TWO_PI, increasing_root};
+use crate::target::its_own_source;
 use crate::{CatalogueTarget, ExactDraws, Frame, Mode, Moments, Target, TargetError, UnitCubeTransport};
 
 /// Distance of each centre from the origin, along the first axis.
@@ -164,13 +165,7 @@ impl<const D: usize> CatalogueTarget<D> for GaussianShells<D> {
         centre::<D>(OFFSET).map(|c| [-c - half, c + half])
     }
 
-    fn exact_draws(&self) -> Option<&dyn ExactDraws<D>> {
-        Some(self)
-    }
-
-    fn unit_cube_transport(&self) -> Option<&dyn UnitCubeTransport<D>> {
-        Some(self)
-    }
+    its_own_source!(D);
 
     fn moments(&self) -> Option<Moments<D>> {
         let offset: [f64; D] = centre(OFFSET);

@@ -5,6 +5,7 @@ use rand_distr::Open01;
 
 use super::dice::Dice;
 use super::recipes::{law_of, placed};
+use crate::target::its_own_source;
 use crate::{
     BoxedLaw, CatalogueTarget, ExactDraws, Frame, MAXIMUM_DIMENSION, RandomFamily, Target, TargetError,
     UnitCubeTransport,
@@ -168,13 +169,7 @@ impl<const D: usize> CatalogueTarget<D> for RandomTarget<D> {
         self.domain
     }
 
-    fn exact_draws(&self) -> Option<&dyn ExactDraws<D>> {
-        Some(self)
-    }
-
-    fn unit_cube_transport(&self) -> Option<&dyn UnitCubeTransport<D>> {
-        Some(self)
-    }
+    its_own_source!(D);
 
     fn log_evidence(&self) -> Option<f64> {
         Some(self.log_evidence)

@@ -4,6 +4,8 @@ use parvi_targets::{
     Dimensions, Parameters, TargetError, build, catalogue, coordinate_names, dimension_of, target_info,
 };
 
+use crate::support::with;
+
 /// Builds an entry in dimension D where it exists there, and compares what is said with what is so.
 fn check_in<const D: usize>() {
     for info in catalogue()
@@ -36,15 +38,7 @@ fn check_in<const D: usize>() {
 
 #[test]
 fn entries_describe_their_targets() {
-    check_in::<1>();
-    check_in::<2>();
-    check_in::<3>();
-    check_in::<4>();
-    check_in::<5>();
-    check_in::<6>();
-    check_in::<7>();
-    check_in::<8>();
-    check_in::<9>();
+    in_dimensions!(check_in(), 1, 2, 3, 4, 5, 6, 7, 8, 9);
 }
 
 #[test]
@@ -98,10 +92,7 @@ fn unknown_names_list_the_known_ones() {
 
 #[test]
 fn parameters_reach_their_target_and_no_other() {
-    let parameters = Parameters {
-        correlation: Some(0.5),
-        ..Parameters::default()
-    };
+    let parameters = with(|p| p.correlation = Some(0.5));
     let moments = build::<3>("gaussian", &parameters).unwrap().moments().unwrap();
     assert_eq!(moments.covariance.0[0], [1.0, 0.5, 0.25]);
     let error = build::<2>("ring", &parameters).map(|_| ()).unwrap_err();
@@ -112,111 +103,24 @@ fn parameters_reach_their_target_and_no_other() {
     let error = build::<2>("mixture-3", &parameters).map(|_| ()).unwrap_err();
     assert!(error.to_string().ends_with("it has none"));
     for correlation in [1.0, -1.0, 2.0, f64::NAN] {
-        let parameters = Parameters {
-            correlation: Some(correlation),
-            ..Parameters::default()
-        };
+        let parameters = with(|p| p.correlation = Some(correlation));
         assert!(build::<2>("gaussian", &parameters).is_err());
     }
     let bad = [
-        (
-            "banana",
-            Parameters {
-                width: Some(0.0),
-                ..Parameters::default()
-            },
-        ),
-        (
-            "banana",
-            Parameters {
-                curvature: Some(f64::INFINITY),
-                ..Parameters::default()
-            },
-        ),
-        (
-            "ring",
-            Parameters {
-                radius: Some(-1.0),
-                ..Parameters::default()
-            },
-        ),
-        (
-            "ring",
-            Parameters {
-                width: Some(f64::NAN),
-                ..Parameters::default()
-            },
-        ),
-        (
-            "mixture-2",
-            Parameters {
-                width: Some(-0.5),
-                ..Parameters::default()
-            },
-        ),
-        (
-            "funnel",
-            Parameters {
-                width: Some(100.0),
-                ..Parameters::default()
-            },
-        ),
-        (
-            "student-t",
-            Parameters {
-                degrees_of_freedom: Some(0.0),
-                ..Parameters::default()
-            },
-        ),
-        (
-            "rosenbrock",
-            Parameters {
-                spread: Some(0.0),
-                ..Parameters::default()
-            },
-        ),
-        (
-            "rosenbrock",
-            Parameters {
-                width: Some(1e7),
-                ..Parameters::default()
-            },
-        ),
-        (
-            "scales",
-            Parameters {
-                correlation: Some(-1.0),
-                ..Parameters::default()
-            },
-        ),
-        (
-            "cross",
-            Parameters {
-                spread: Some(f64::NAN),
-                ..Parameters::default()
-            },
-        ),
-        (
-            "cross",
-            Parameters {
-                width: Some(1e-200),
-                ..Parameters::default()
-            },
-        ),
-        (
-            "probit",
-            Parameters {
-                prior_standard_deviation: Some(0.0),
-                ..Parameters::default()
-            },
-        ),
-        (
-            "wells",
-            Parameters {
-                prior_standard_deviation: Some(-1.0),
-                ..Parameters::default()
-            },
-        ),
+        ("banana", with(|p| p.width = Some(0.0))),
+        ("banana", with(|p| p.curvature = Some(f64::INFINITY))),
+        ("ring", with(|p| p.radius = Some(-1.0))),
+        ("ring", with(|p| p.width = Some(f64::NAN))),
+        ("mixture-2", with(|p| p.width = Some(-0.5))),
+        ("funnel", with(|p| p.width = Some(100.0))),
+        ("student-t", with(|p| p.degrees_of_freedom = Some(0.0))),
+        ("rosenbrock", with(|p| p.spread = Some(0.0))),
+        ("rosenbrock", with(|p| p.width = Some(1e7))),
+        ("scales", with(|p| p.correlation = Some(-1.0))),
+        ("cross", with(|p| p.spread = Some(f64::NAN))),
+        ("cross", with(|p| p.width = Some(1e-200))),
+        ("probit", with(|p| p.prior_standard_deviation = Some(0.0))),
+        ("wells", with(|p| p.prior_standard_deviation = Some(-1.0))),
     ];
     for (name, parameters) in bad {
         let error = build::<2>(name, &parameters).map(|_| ()).unwrap_err();

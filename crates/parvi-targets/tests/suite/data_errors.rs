@@ -1,11 +1,15 @@
 //! Every way in which the data of a regression can be wrong, and what the error says.
 
 use std::fs;
+use std::path::PathBuf;
 
 use parvi_targets::{
     CountData, LogisticRegression, Parameters, PoissonRegression, ProbitRegression, RegressionData, TargetError, build,
     dimension_of,
 };
+use tempfile::TempDir;
+
+use crate::support::with;
 
 fn read(text: &str) -> Result<RegressionData, TargetError> {
     RegressionData::from_csv_reader(text.as_bytes(), "some.csv")
@@ -250,15 +254,18 @@ fn a_probit_regression_is_improper_where_a_logistic_one_is() {
     assert!(flat("y,a\n0,1\n1,2\n0,3\n1,4\n0,400\n").is_ok());
 }
 
-#[test]
-fn probit_and_poisson_read_files() {
+/// Five rows of two columns in a file, and the parameters that name it.
+fn trial() -> (TempDir, PathBuf, Parameters) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("trial.csv");
     fs::write(&path, "y,a,b\n1,1,4\n0,2,1\n1,3,2\n0,5,3\n1,0,3\n").unwrap();
-    let parameters = Parameters {
-        data: Some(path.clone()),
-        ..Parameters::default()
-    };
+    let parameters = with(|p| p.data = Some(path.clone()));
+    (folder, path, parameters)
+}
+
+#[test]
+fn probit_and_poisson_read_files() {
+    let (_folder, path, parameters) = trial();
     for name in ["probit", "poisson"] {
         assert_eq!(dimension_of(name, None, &parameters).unwrap(), 3);
         assert_eq!(build::<3>(name, &parameters).unwrap().name(), name);
@@ -278,13 +285,7 @@ fn probit_and_poisson_read_files() {
 
 #[test]
 fn the_catalogue_reads_files() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("trial.csv");
-    fs::write(&path, "y,a,b\n1,1,4\n0,2,1\n1,3,2\n0,5,3\n1,0,3\n").unwrap();
-    let parameters = Parameters {
-        data: Some(path.clone()),
-        ..Parameters::default()
-    };
+    let (_folder, path, parameters) = trial();
     assert_eq!(dimension_of("logistic", None, &parameters).unwrap(), 3);
     assert_eq!(dimension_of("logistic", Some(3), &parameters).unwrap(), 3);
     assert_eq!(build::<3>("logistic", &parameters).unwrap().name(), "logistic");

@@ -58,14 +58,7 @@ fn does_not_depend_on_the_batch<const D: usize>() {
 
 #[test]
 fn a_particle_has_the_same_bits_in_every_batch() {
-    does_not_depend_on_the_batch::<1>();
-    does_not_depend_on_the_batch::<2>();
-    does_not_depend_on_the_batch::<3>();
-    does_not_depend_on_the_batch::<4>();
-    does_not_depend_on_the_batch::<5>();
-    does_not_depend_on_the_batch::<6>();
-    does_not_depend_on_the_batch::<7>();
-    does_not_depend_on_the_batch::<8>();
+    in_dimensions!(does_not_depend_on_the_batch(), 1, 2, 3, 4, 5, 6, 7, 8);
 }
 
 #[test]

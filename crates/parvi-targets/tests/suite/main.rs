@@ -1,5 +1,12 @@
 //! Densities. One theme per file.
 
+/// A check that is generic over the dimension, in each of some: `in_dimensions!(check("ring"), 1, 2)` is `check::<1>("ring"); check::<2>("ring")`.
+macro_rules! in_dimensions {
+    ($check:ident $arguments:tt, $($dimension:literal),+) => {
+        $($check::<$dimension> $arguments;)+
+    };
+}
+
 mod catalogue;
 mod conformance;
 mod constrained_densities;
@@ -14,3 +21,4 @@ mod minibatch;
 mod nested_problems;
 mod random_targets;
 mod student_t;
+mod support;

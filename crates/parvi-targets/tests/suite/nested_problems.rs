@@ -8,6 +8,8 @@ use parvi_targets::{
 use rand::SeedableRng;
 use rand::rngs::ChaCha8Rng;
 
+use crate::support::with;
+
 /// log ∫ p over a rectangle of the plane by the midpoint rule.
 fn log_integral(target: &dyn Target<2>, sides: [[f64; 2]; 2], count: i32) -> f64 {
     let step = sides.map(|[low, high]| (high - low) / f64::from(count));
@@ -209,15 +211,9 @@ fn catalogue_states_evidence() {
     }
     let schools = build::<4>("schools", &Parameters::default()).unwrap();
     assert_eq!(schools.log_evidence(), Some(0.0));
-    let parameters = Parameters {
-        target_seed: Some(7),
-        ..Parameters::default()
-    };
+    let parameters = with(|p| p.target_seed = Some(7));
     let [one, other] = [0, 7].map(|seed| {
-        let parameters = Parameters {
-            target_seed: Some(seed),
-            ..Parameters::default()
-        };
+        let parameters = with(|p| p.target_seed = Some(seed));
         build::<3>("random", &parameters).unwrap().log_evidence()
     });
     assert_ne!(one, other);

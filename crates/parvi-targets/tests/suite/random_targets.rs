@@ -148,12 +148,8 @@ fn score_is_the_gradient<const D: usize>(seeds: std::ops::Range<u64>) {
 fn scores_are_gradients() {
     score_is_the_gradient::<1>(0..6);
     score_is_the_gradient::<2>(0..12);
-    score_is_the_gradient::<3>(0..6);
-    score_is_the_gradient::<4>(0..6);
-    score_is_the_gradient::<5>(0..4);
-    score_is_the_gradient::<6>(0..4);
-    score_is_the_gradient::<7>(0..4);
-    score_is_the_gradient::<8>(0..4);
+    in_dimensions!(score_is_the_gradient(0..6), 3, 4);
+    in_dimensions!(score_is_the_gradient(0..4), 5, 6, 7, 8);
 }
 
 /// Where the cube has D dimensions, log p(T(u)) − log ∫ p = −log |det ∂T/∂u| by differences.
@@ -278,8 +274,7 @@ fn evidence_is_stated<const D: usize>(seeds: std::ops::Range<u64>) {
 
 #[test]
 fn evidence_is_known() {
-    evidence_is_stated::<1>(0..6);
-    evidence_is_stated::<2>(0..6);
+    in_dimensions!(evidence_is_stated(0..6), 1, 2);
     evidence_is_stated::<3>(0..3);
 }
 
@@ -315,11 +310,9 @@ fn draws_fit_the_score<const D: usize>(seeds: std::ops::Range<u64>) {
 
 #[test]
 fn draws_fit_scores() {
-    draws_fit_the_score::<1>(0..4);
-    draws_fit_the_score::<2>(0..4);
+    in_dimensions!(draws_fit_the_score(0..4), 1, 2);
     draws_fit_the_score::<4>(0..3);
-    draws_fit_the_score::<6>(0..2);
-    draws_fit_the_score::<8>(0..2);
+    in_dimensions!(draws_fit_the_score(0..2), 6, 8);
 }
 
 /// The same seed gives the same bits; the family that a seed chooses is the one that can be asked for; the cube is one that Sobol'
@@ -370,14 +363,7 @@ fn targets_keep_their_word<const D: usize>() {
 
 #[test]
 fn every_dimension_has_its_targets() {
-    targets_keep_their_word::<1>();
-    targets_keep_their_word::<2>();
-    targets_keep_their_word::<3>();
-    targets_keep_their_word::<4>();
-    targets_keep_their_word::<5>();
-    targets_keep_their_word::<6>();
-    targets_keep_their_word::<7>();
-    targets_keep_their_word::<8>();
+    in_dimensions!(targets_keep_their_word(), 1, 2, 3, 4, 5, 6, 7, 8);
 }
 
 #[test]

@@ -1,60 +1,46 @@
 //! Targets with one mode whose moments are known in closed form.
 
-use parvi_targets::{Parameters, build};
+use parvi_targets::build;
 
 use super::promises::{conforming, conforms, score_is_the_gradient};
+use crate::support::with;
 
 #[test]
 fn gaussian() {
-    conforms::<1>("gaussian");
-    conforms::<2>("gaussian");
-    conforms::<6>("gaussian");
-    let correlated = Parameters {
-        correlation: Some(-0.95),
-        ..Parameters::default()
-    };
+    in_dimensions!(conforms("gaussian"), 1, 2, 6);
+    let correlated = with(|p| p.correlation = Some(-0.95));
     conforming(&*build::<4>("gaussian", &correlated).unwrap());
 }
 
 #[test]
 fn banana() {
     conforms::<2>("banana");
-    let bent = Parameters {
-        curvature: Some(-2.0),
-        width: Some(0.1),
-        ..Parameters::default()
-    };
+    let bent = with(|p| {
+        p.curvature = Some(-2.0);
+        p.width = Some(0.1);
+    });
     conforming(&*build::<2>("banana", &bent).unwrap());
 }
 
 #[test]
 fn ring() {
     conforms::<2>("ring");
-    let wide = Parameters {
-        radius: Some(0.5),
-        width: Some(1.0),
-        ..Parameters::default()
-    };
+    let wide = with(|p| {
+        p.radius = Some(0.5);
+        p.width = Some(1.0);
+    });
     conforming(&*build::<2>("ring", &wide).unwrap());
 }
 
 #[test]
 fn funnel() {
-    conforms::<2>("funnel");
-    conforms::<3>("funnel");
-    conforms::<4>("funnel");
-    conforms::<6>("funnel");
+    in_dimensions!(conforms("funnel"), 2, 3, 4, 6);
 }
 
 #[test]
 fn student_t() {
-    conforms::<1>("student-t");
-    conforms::<2>("student-t");
-    conforms::<6>("student-t");
-    let cauchy = Parameters {
-        degrees_of_freedom: Some(1.0),
-        ..Parameters::default()
-    };
+    in_dimensions!(conforms("student-t"), 1, 2, 6);
+    let cauchy = with(|p| p.degrees_of_freedom = Some(1.0));
     let cauchy = build::<3>("student-t", &cauchy).unwrap();
     assert!(cauchy.moments().is_none());
     score_is_the_gradient(&*cauchy);
@@ -62,29 +48,19 @@ fn student_t() {
 
 #[test]
 fn rosenbrock() {
-    conforms::<2>("rosenbrock");
-    conforms::<3>("rosenbrock");
-    conforms::<4>("rosenbrock");
-    conforms::<7>("rosenbrock");
-    conforms::<8>("rosenbrock");
+    in_dimensions!(conforms("rosenbrock"), 2, 3, 4, 7, 8);
     // The plane's density with the constants of the literature.
-    let classic = Parameters {
-        spread: Some(10_f64.sqrt()),
-        width: Some(0.1_f64.sqrt()),
-        ..Parameters::default()
-    };
+    let classic = with(|p| {
+        p.spread = Some(10_f64.sqrt());
+        p.width = Some(0.1_f64.sqrt());
+    });
     conforming(&*build::<2>("rosenbrock", &classic).unwrap());
 }
 
 #[test]
 fn scales() {
-    conforms::<2>("scales");
-    conforms::<4>("scales");
-    conforms::<8>("scales");
-    let uncorrelated = Parameters {
-        correlation: Some(0.0),
-        ..Parameters::default()
-    };
+    in_dimensions!(conforms("scales"), 2, 4, 8);
+    let uncorrelated = with(|p| p.correlation = Some(0.0));
     let target = build::<3>("scales", &uncorrelated).unwrap();
     conforming(&*target);
     let covariance = target.moments().unwrap().covariance.0;
@@ -95,13 +71,10 @@ fn scales() {
 
 #[test]
 fn cross() {
-    conforms::<2>("cross");
-    conforms::<3>("cross");
-    conforms::<8>("cross");
-    let round = Parameters {
-        spread: Some(0.5),
-        width: Some(0.5),
-        ..Parameters::default()
-    };
+    in_dimensions!(conforms("cross"), 2, 3, 8);
+    let round = with(|p| {
+        p.spread = Some(0.5);
+        p.width = Some(0.5);
+    });
     conforming(&*build::<2>("cross", &round).unwrap());
 }

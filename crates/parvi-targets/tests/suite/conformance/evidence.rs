@@ -18,21 +18,15 @@ fn eggbox() {
 
 #[test]
 fn shells() {
-    conforms::<2>("shells");
-    conforms::<5>("shells");
-    conforms::<8>("shells");
+    in_dimensions!(conforms("shells"), 2, 5, 8);
 }
 
 #[test]
 fn spike_slab() {
-    conforms::<1>("spike-slab");
-    conforms::<3>("spike-slab");
-    conforms::<8>("spike-slab");
+    in_dimensions!(conforms("spike-slab"), 1, 3, 8);
 }
 
 #[test]
 fn log_gamma() {
-    conforms::<2>("log-gamma");
-    conforms::<5>("log-gamma");
-    conforms::<8>("log-gamma");
+    in_dimensions!(conforms("log-gamma"), 2, 5, 8);
 }

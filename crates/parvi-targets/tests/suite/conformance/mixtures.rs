@@ -7,11 +7,8 @@ use super::promises::{conforming, conforms};
 #[test]
 fn mixtures() {
     conforms::<2>("mixture-4");
-    conforms::<1>("mixture-2");
-    conforms::<3>("mixture-2");
-    conforms::<2>("mixture-3");
-    conforms::<4>("mixture-3");
-    conforms::<8>("mixture-3");
+    in_dimensions!(conforms("mixture-2"), 1, 3);
+    in_dimensions!(conforms("mixture-3"), 2, 4, 8);
     let modes = [
         Mode {
             centre: [0.0, 1.0, 2.0],

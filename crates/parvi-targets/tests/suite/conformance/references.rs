@@ -1,42 +1,53 @@
 //! Reference moments and the errors that they state.
 
-use parvi_targets::{BoxedTarget, CatalogueTarget, Moments, ReferenceOptions, reference_moments, wells};
+use parvi_targets::{CatalogueTarget, Frame, Moments, ReferenceOptions, StudentT, Target, reference_moments, wells};
 
 use super::target;
+
+/// A target of which nothing but the density and a frame is known.
+struct Hidden<'a, const D: usize> {
+    target: &'a dyn CatalogueTarget<D>,
+    frame: Frame<D>,
+}
+
+impl<const D: usize> Target<D> for Hidden<'_, D> {
+    fn log_density(&self, x: &[f64; D]) -> f64 {
+        self.target.log_density(x)
+    }
+
+    fn score(&self, x: &[f64; D]) -> [f64; D] {
+        self.target.score(x)
+    }
+}
+
+impl<const D: usize> CatalogueTarget<D> for Hidden<'_, D> {
+    fn name(&self) -> &str {
+        "hidden"
+    }
+
+    fn frame(&self) -> Frame<D> {
+        self.frame
+    }
+
+    fn domain(&self) -> [[f64; 2]; D] {
+        self.target.domain()
+    }
+}
 
 /// Moments by quadrature against an importance sample, which knows the density only.
 #[test]
 fn moments_of_the_schools_follow_from_their_density() {
-    struct Hidden(BoxedTarget<4>);
-    impl parvi_targets::Target<4> for Hidden {
-        fn log_density(&self, x: &[f64; 4]) -> f64 {
-            self.0.log_density(x)
-        }
-        fn score(&self, x: &[f64; 4]) -> [f64; 4] {
-            self.0.score(x)
-        }
-    }
-    impl CatalogueTarget<4> for Hidden {
-        fn name(&self) -> &str {
-            "hidden"
-        }
-        fn frame(&self) -> parvi_targets::Frame<4> {
-            self.0.frame()
-        }
-        fn domain(&self) -> [[f64; 2]; 4] {
-            self.0.domain()
-        }
-    }
-    let schools = Hidden(target("schools"));
+    let known = target::<4>("schools");
+    let schools = Hidden {
+        frame: known.frame(),
+        target: &*known,
+    };
     let options = ReferenceOptions {
         points: 1 << 17,
         degrees_of_freedom: 5.0,
         ..ReferenceOptions::default()
     };
-    let (found, known) = (
-        reference_moments(&schools, &options).unwrap(),
-        schools.0.moments().unwrap(),
-    );
+    let (found, known) = (reference_moments(&schools, &options).unwrap(), known.moments().unwrap());
     for axis in 0..4 {
         let deviation = known.covariance.0[axis][axis].sqrt();
         let error = (found.moments.mean[axis] - known.mean[axis]).abs();
@@ -55,27 +66,11 @@ fn moments_of_the_schools_follow_from_their_density() {
 /// The importance sampler against moments known in closed form.
 #[test]
 fn importance_sampling_finds_known_moments() {
-    struct Hidden(parvi_targets::StudentT<3>);
-    impl parvi_targets::Target<3> for Hidden {
-        fn log_density(&self, x: &[f64; 3]) -> f64 {
-            self.0.log_density(x)
-        }
-        fn score(&self, x: &[f64; 3]) -> [f64; 3] {
-            self.0.score(x)
-        }
-    }
-    impl CatalogueTarget<3> for Hidden {
-        fn name(&self) -> &str {
-            "hidden"
-        }
-        fn frame(&self) -> parvi_targets::Frame<3> {
-            parvi_targets::Frame::from_scales([0.3; 3], [1.3; 3]).unwrap()
-        }
-        fn domain(&self) -> [[f64; 2]; 3] {
-            self.0.domain()
-        }
-    }
-    let hidden = Hidden(parvi_targets::StudentT::new(12.0).unwrap());
+    let target = StudentT::new(12.0).unwrap();
+    let hidden = Hidden {
+        frame: Frame::from_scales([0.3; 3], [1.3; 3]).unwrap(),
+        target: &target,
+    };
     let options = ReferenceOptions {
         points: 1 << 16,
         ..ReferenceOptions::default()
@@ -89,9 +84,9 @@ fn importance_sampling_finds_known_moments() {
         assert!(found.mean_error[axis] < 1e-3 && found.standard_deviation_error[axis] < 1e-3);
     }
     // In closed form there is no error.
-    let known = reference_moments(&hidden.0, &options).unwrap();
+    let known = reference_moments(&target, &options).unwrap();
     assert_eq!(known.mean_error, [0.0; 3]);
-    assert_eq!(Some(known.moments), hidden.0.moments());
+    assert_eq!(Some(known.moments), target.moments());
 }
 
 #[test]
@@ -132,15 +127,9 @@ fn references_of_the_regressions_state_their_error() {
         let share = one.effective_sample_size / f64::from(1 << 15);
         assert!(share > 0.5, "{name}: effective share {share}");
     }
-    check::<1>("wells");
-    check::<3>("wells");
-    check::<5>("wells");
-    check::<6>("wells");
+    in_dimensions!(check("wells"), 1, 3, 5, 6);
     check::<5>("wells-small");
-    check::<1>("probit");
-    check::<5>("probit");
-    check::<2>("poisson");
-    check::<4>("poisson");
-    check::<8>("poisson");
+    in_dimensions!(check("probit"), 1, 5);
+    in_dimensions!(check("poisson"), 2, 4, 8);
     assert_eq!(wells(5, None).unwrap().rows(), 3020);
 }
