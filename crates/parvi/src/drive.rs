@@ -1,33 +1,19 @@
 //! The loop around the step, shared by the calibrated sampler and the paper's algorithms.
 
-use mpm_core::{MpmError, StepControl, StepReport};
-use mpm_tensor::Matrix;
+use mpm_core::{MpmError, StepReport};
 use parvi_targets::Frame;
 
 use crate::checkpoint::Journal;
+use crate::driven::Driven;
 use crate::extent::Extent;
 use crate::framed_score::FramedScore;
 use crate::guard::{Guard, Progressed, check_energy};
 use crate::moment_correction::correct_moments;
 use crate::moving::{Cloud, Moving};
+use crate::planned_step::PlannedStep;
 use crate::view::Moment;
 use crate::watching::Watching;
 use crate::{MomentCorrection, NonFiniteScores, Observer, Progress, SampleError, Samples, TracePoint, Watched};
-
-/// One step of a plan.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct PlannedStep<const D: usize> {
-    /// Where the basis has its origin, in coordinates of its unit cell.
-    pub origin: [f64; D],
-    /// Spacing h.
-    pub spacing: f64,
-    /// Turn of the basis.
-    pub rotation: Option<Matrix<D>>,
-    /// Factor α of the score.
-    pub alpha: f64,
-    /// Limits of the step.
-    pub control: StepControl,
-}
 
 /// What the loop is to do.
 pub(crate) struct Plan<'a, P, const D: usize> {
@@ -51,21 +37,6 @@ pub(crate) struct Plan<'a, P, const D: usize> {
     pub watching: Option<Watching<D>>,
     /// The energy that the body stores.
     pub internal_energy: Option<&'a dyn Fn(&Cloud<D>) -> f64>,
-}
-
-/// Particles at the end of their steps.
-#[derive(Clone, Debug)]
-pub(crate) struct Driven<const D: usize> {
-    /// The result.
-    pub samples: Samples<D>,
-    /// Positions in frame coordinates, in the same order.
-    pub positions: Vec<[f64; D]>,
-    /// Scores in frame coordinates at these.
-    pub scores: Vec<[f64; D]>,
-    /// What mean and spread changed by over the last tenth of the steps, in standard deviations.
-    pub drift: f64,
-    /// ½ Σ m |v|² (total mass 1).
-    pub kinetic_energy: f64,
 }
 
 /// Run `body` as planned; its particles are in frame coordinates, the result in the target's.

@@ -163,9 +163,10 @@ impl<const D: usize> BodyForce<D> for ScoreForce<'_, D> {
         forces: &mut [[f64; D]],
     ) -> Result<(), MpmError> {
         let before = self.score.evaluations;
+        let mut evaluate = |zs: &[[f64; D]], out: &mut [[f64; D]]| self.score.evaluate(zs, out);
         match &mut self.node_scores {
-            Some(known) => known.evaluate(&mut self.score, positions, forces)?,
-            None => self.score.evaluate(positions, forces)?,
+            Some(known) => known.evaluate(positions, forces, evaluate)?,
+            None => evaluate(positions, forces)?,
         }
         self.moving_evaluations += self.score.evaluations - before;
         for (node, force) in forces.iter_mut().enumerate() {

@@ -5,7 +5,7 @@ use parvi_targets::{Frame, Target};
 use crate::cached_scores::CachedScores;
 use crate::certificate::{Certificate, LARGEST_DRIFT};
 use crate::checkpoint::Journal;
-use crate::drive::Driven;
+use crate::driven::Driven;
 use crate::extent::Extent;
 use crate::mpm_body::Body;
 use crate::start::{check, positive};

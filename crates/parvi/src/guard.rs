@@ -5,9 +5,9 @@ use std::collections::VecDeque;
 
 use mpm_core::StepReport;
 
-use crate::drive::PlannedStep;
 use crate::extent::Extent;
 use crate::moving::{Cloud, Moving};
+use crate::planned_step::PlannedStep;
 use crate::stiffness::Stiffness;
 
 /// Steps between two states that are kept.

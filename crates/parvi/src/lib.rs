@@ -7,9 +7,11 @@ pub mod certificate;
 mod checkpoint;
 mod cholesky;
 mod compiled;
+mod compiled_bodies;
 mod condense;
 pub mod defaults;
 mod drive;
+mod driven;
 mod exact;
 mod extent;
 mod framed_score;
@@ -29,6 +31,7 @@ mod node_scores;
 mod nuts;
 mod on_mesh;
 mod paper;
+mod planned_step;
 mod point_set_error;
 mod polish;
 mod remembering_gas;
@@ -50,6 +53,7 @@ mod watching;
 
 pub use certificate::{Certificate, Expectation, MomentEstimate, Outcome, expectation};
 pub use checkpoint::Checkpoint;
+pub use compiled::sample;
 pub use exact::{independent_draws, sobol_points};
 pub use given::GivenParticles;
 pub use method::*;
@@ -61,21 +65,6 @@ pub use smc::SmcOptions;
 pub use stein_thinning::stein_thinning;
 pub use support_points::{SupportPoints, support_points};
 pub use view::ParticleView;
-
-use parvi_targets::CatalogueTarget;
-
-/// Sample a catalogue target with any method, in the target's own frame.
-///
-/// # Errors
-/// [`SampleError`].
-pub fn sample<const D: usize>(
-    target: &dyn CatalogueTarget<D>,
-    method: &Method,
-    run: &Run,
-    observer: &mut dyn Observer,
-) -> Result<Samples<D>, SampleError> {
-    (compiled::Compiled::of().sample)(target, method, run, observer)
-}
 
 /// Runs the code of the workspace's README as a doc test.
 #[cfg(doctest)]

@@ -5,9 +5,9 @@ use mpm_core::{Medium, Mpm, MpmError, Particles, StepReport, Transfer, UniformBa
 
 use mpm_materials::Memory;
 
-use crate::drive::PlannedStep;
 use crate::framed_score::ScoreForce;
 use crate::grid_density::grid_densities;
+use crate::planned_step::PlannedStep;
 use crate::residual::{Residual, galerkin_stein_residual};
 
 /// Particles of whatever medium; internal variables only where it has some.

@@ -5,7 +5,6 @@ use parvi_targets::{Frame, Target};
 
 use crate::cached_scores::CachedScores;
 use crate::checkpoint::Journal;
-use crate::compiled::Compiled;
 use crate::mpm_body::Motion;
 use crate::start::positive;
 use crate::{MpmOptions, Observer, Run, SampleError, Samples, ScoreLocation, free_body, surveyed};
@@ -44,20 +43,4 @@ pub(crate) fn sample<const D: usize>(
     };
     journal.close();
     Ok(samples)
-}
-
-impl MpmOptions {
-    /// Sample `target`; `frame` is what is known of its place and scales, and the unit of the run's start law.
-    ///
-    /// # Errors
-    /// [`SampleError`]: an option out of range, a score that is not finite, or the observer's stop.
-    pub fn sample<const D: usize>(
-        &self,
-        target: &dyn Target<D>,
-        frame: &Frame<D>,
-        run: &Run,
-        observer: &mut dyn Observer,
-    ) -> Result<Samples<D>, SampleError> {
-        (Compiled::of().mpm)(self, target, frame, run, observer)
-    }
 }

@@ -6,11 +6,13 @@ use parvi_targets::{Frame, Target};
 
 use crate::basis_choice::Parts;
 use crate::checkpoint::Journal;
-use crate::compiled::Compiled;
-use crate::drive::{Driven, Plan, PlannedStep, drive};
+use crate::compiled_bodies::body_of_gas;
+use crate::drive::{Plan, drive};
+use crate::driven::Driven;
 use crate::framed_score::{FramedScore, ScoreForce};
 use crate::guard::RETRIES;
 use crate::kronecker::Kronecker;
+use crate::planned_step::PlannedStep;
 use crate::rotation::random_rotation;
 use crate::start::{Stream, check, positive, steps};
 use crate::stiffness::Stiffness;
@@ -88,7 +90,7 @@ impl<const D: usize> Body<'_, D> {
             basis: options.basis,
             spacing,
         };
-        let mut body = (Compiled::of().gas)(parts, gas)?;
+        let mut body = body_of_gas(parts, gas)?;
         let driven = drive(body.as_mut(), self.frame, plan, self.journal, self.observer)?;
         self.journal.finish(&driven)?;
         Ok(driven)

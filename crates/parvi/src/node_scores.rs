@@ -5,8 +5,6 @@ use std::collections::hash_map::Entry;
 
 use mpm_core::MpmError;
 
-use crate::framed_score::FramedScore;
-
 /// Scores by node, as long as the grid stands (MPM-ParVI paper: the force field is time-invariant and nodes do not move).
 ///
 /// A node is known by its position, origin + h k, which has the same bits in every step on the same grid.
@@ -30,12 +28,12 @@ impl<const D: usize> NodeScores<D> {
         }
     }
 
-    /// The scores at the nodes: known ones, and those of the others evaluated in one batch. All fresh ones are forgotten if one of them is not finite.
+    /// The scores at the nodes: known ones, and those of the others from `evaluate`, in one batch. All fresh ones are forgotten if one of them is not finite.
     pub fn evaluate(
         &mut self,
-        score: &mut FramedScore<D>,
         nodes: &[[f64; D]],
         out: &mut [[f64; D]],
+        evaluate: impl FnOnce(&[[f64; D]], &mut [[f64; D]]) -> Result<(), MpmError>,
     ) -> Result<(), MpmError> {
         self.places.clear();
         self.fresh.clear();
@@ -49,7 +47,7 @@ impl<const D: usize> NodeScores<D> {
             }
         }
         self.scores.resize(self.fresh.len(), [0.0; D]);
-        score.evaluate(&self.fresh, &mut self.scores)?;
+        evaluate(&self.fresh, &mut self.scores)?;
         for ((&place, node), &fresh) in self.places.iter().zip(&self.fresh).zip(&self.scores) {
             out[place] = fresh;
             self.known.insert(key(node), fresh);

@@ -7,12 +7,13 @@ use parvi_targets::{Frame, Target};
 use crate::basis_choice::Parts;
 use crate::certificate::Certificate;
 use crate::checkpoint::Journal;
-use crate::compiled::Compiled;
-use crate::drive::{Plan, PlannedStep, drive};
+use crate::compiled_bodies::body_of_law;
+use crate::drive::{Plan, drive};
 use crate::framed_score::{FramedScore, ScoreForce};
 use crate::kronecker::Kronecker;
 use crate::moving::{Cloud, Moving};
 use crate::node_scores::NodeScores;
+use crate::planned_step::PlannedStep;
 use crate::start::{Stream, check, positive, steps};
 use crate::stretch_limit::StretchLimited;
 use crate::watching::Watching;
@@ -30,39 +31,6 @@ pub struct PaperBody<'a, const D: usize> {
     pub law: Option<&'a dyn Law<D, State = Memory>>,
     /// α in step t of T, (t, T) ↦ α with t from 1: any finite number of either sign. Asked for once per step, in order, before the run. `None`: that of the options.
     pub alpha: Option<&'a dyn Fn(usize, usize) -> f64>,
-}
-
-impl PaperOptions {
-    /// Run the paper's algorithm on `target`; `frame` is the unit of everything, unless the options want the target's own coordinates.
-    ///
-    /// Masses are 1/M, velocities 0 and reference volumes those of the options, unless [`Run::given`] has others.
-    ///
-    /// # Errors
-    /// [`SampleError`]: an option or a given particle out of range, a score or a deformation that is not finite, or the observer's stop.
-    pub fn sample<const D: usize>(
-        &self,
-        target: &dyn Target<D>,
-        frame: &Frame<D>,
-        run: &Run,
-        observer: &mut dyn Observer,
-    ) -> Result<Samples<D>, SampleError> {
-        self.sample_body(&PaperBody::default(), target, frame, run, observer)
-    }
-
-    /// As [`sample`](Self::sample), with a material and a schedule of α of one's own.
-    ///
-    /// # Errors
-    /// As [`sample`](Self::sample).
-    pub fn sample_body<const D: usize>(
-        &self,
-        body: &PaperBody<D>,
-        target: &dyn Target<D>,
-        frame: &Frame<D>,
-        run: &Run,
-        observer: &mut dyn Observer,
-    ) -> Result<Samples<D>, SampleError> {
-        (Compiled::of().paper)(self, body, target, frame, run, observer)
-    }
 }
 
 /// [`PaperOptions::sample_body`].
@@ -285,7 +253,7 @@ impl<const D: usize> Job<'_, D> {
             basis: options.basis,
             spacing,
         };
-        let mut body = (Compiled::of().law)(parts, self.law)?;
+        let mut body = body_of_law(parts, self.law)?;
         if options.reference_volumes == ReferenceVolumes::OfGrid && run.given.reference_volumes.is_none() {
             let densities = body.grid_densities(spacing);
             let densities = densities.map_err(|error: MpmError| SampleError::in_step(0, error))?;

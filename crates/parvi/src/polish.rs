@@ -8,8 +8,8 @@ use parvi_targets::{Frame, Target};
 
 use crate::basis_choice::Parts;
 use crate::checkpoint::Journal;
-use crate::compiled::Compiled;
-use crate::drive::Driven;
+use crate::compiled_bodies::body_of_gas;
+use crate::driven::Driven;
 use crate::framed_score::{FramedScore, ScoreForce};
 use crate::moment_correction::correct_moments;
 use crate::mpm_body::Body;
@@ -157,7 +157,7 @@ impl<'a, const D: usize> Polish<'a, D> {
             basis: self.options.basis,
             spacing: self.spacing,
         };
-        let mut body = (Compiled::of().gas)(parts, IsothermalGas::new(1.0)?)?;
+        let mut body = body_of_gas(parts, IsothermalGas::new(1.0)?)?;
         let failed = |error| SampleError::in_step(0, error);
         let mut scores = vec![[0.0; D]; condensed.positions.len()];
         let score = &mut body.force().score;

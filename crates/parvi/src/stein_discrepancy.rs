@@ -2,7 +2,7 @@
 
 use mpm_tensor::vector;
 
-use crate::drive::Driven;
+use crate::driven::Driven;
 use crate::stein_thinning::{Candidate, SteinKernel};
 
 /// A target is rough where E|s|²/D, the mean curvature of −log p by Stein's identity, exceeds this; it is 1 for N(0, I).

@@ -13,7 +13,7 @@ pub use evidence::MomentEstimate;
 pub use expectation::expectation;
 pub use outcome::{Doubt, Outcome};
 
-use crate::drive::Driven;
+use crate::driven::Driven;
 
 /// The largest estimated error of a mean (in standard deviations) or of a standard deviation (relative) of a run that is called converged: with two
 /// standard errors of the pool on top, or with [`CAUTION`] of what the scores leave unexplained.

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use self::saved::{SavedBody, SavedState};
 use crate::cached_scores::Tape;
-use crate::drive::Driven;
+use crate::driven::Driven;
 use crate::guard::{INTERVAL, State};
 use crate::{MpmOptions, Run, SampleError};
 

@@ -5,7 +5,7 @@ use mpm_tensor::Matrix;
 use serde::{Deserialize, Serialize};
 
 use crate::Samples;
-use crate::drive::Driven;
+use crate::driven::Driven;
 use crate::extent::Extent;
 use crate::guard::{Progressed, State};
 use crate::stiffness::{Record, Stiffness};

@@ -1,7 +1,10 @@
+use serde::Deserialize;
+
 use super::{Annealing, BasisChoice, PaperMaterial, ScoreLocation, Watch};
 
 /// In which coordinates the body moves: those of grid, masses per volume, F and Δt.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Coordinates {
     /// Those of the frame, in which the target has unit scale.
     #[default]
@@ -12,7 +15,8 @@ pub enum Coordinates {
 
 /// The volumes V⁰_p that the stress of undeformed particles acts on, in the coordinates of the body, where they are not given
 /// ([`GivenParticles::reference_volumes`](crate::GivenParticles::reference_volumes)).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum ReferenceVolumes {
     /// V⁰_p = 1/M.
     #[default]

@@ -2,11 +2,13 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use crate::robustness::Killer;
 use parvi::{
     AisOptions, Checkpoint, Monitor, MpmOptions, PaperOptions, Run, SampleError, Samples, ScoreLocation, Silent, Watch,
 };
 use parvi_targets::{CatalogueTarget, Frame, Gaussian, Ring, ScoreOnly, Target, build};
+
+use crate::robustness::Killer;
+use crate::support::{body_alone, on_threads};
 
 /// Counts what is evaluated.
 struct Counted<'a, const D: usize> {
@@ -57,11 +59,9 @@ fn a_posterior_takes_a_node_for_many_particles() {
     assert_eq!(samples.score_evaluations, counted.scores.load(Ordering::Relaxed));
     assert!(samples.score_evaluations < 1000, "{}", samples.score_evaluations);
     assert!(samples.score_disagreement.is_some_and(|difference| difference < 1e-3));
-    let fresh = MpmOptions {
-        survey: false,
-        ..MpmOptions::default()
-    };
-    let fresh = fresh.sample(&*target, &frame, &run, &mut Silent).expect("particles");
+    let fresh = body_alone()
+        .sample(&*target, &frame, &run, &mut Silent)
+        .expect("particles");
     let ((mean, deviation), (expected_mean, expected)) = (moments(&samples.positions), moments(&fresh.positions));
     for axis in 0..3 {
         assert!((mean[axis] - expected_mean[axis]).abs() < 1e-3 * expected[axis]);
@@ -91,9 +91,8 @@ fn a_score_without_a_log_density_moves_a_body_and_no_more() {
     let normal = ScoreOnly(|x: &[f64; 2]| x.map(|c| -c));
     let (frame, run) = (Frame::identity(), Run::new(500, 1));
     let unsurveyed = MpmOptions {
-        survey: false,
         trace_every: 50,
-        ..MpmOptions::default()
+        ..body_alone()
     };
     let defaults = MpmOptions {
         survey: true,
@@ -145,14 +144,8 @@ fn a_stopped_run_goes_on_with_the_nodes_it_knows_to_the_same_bits_on_any_number_
         steps: Some(40),
         ..cached()
     };
-    let on = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .expect("threads");
-        pool.install(|| whole.sample(&target, &frame, &run, &mut Silent))
-            .expect("particles")
-    };
+    let on =
+        |threads: usize| on_threads(threads, || whole.sample(&target, &frame, &run, &mut Silent)).expect("particles");
     let expected = on(1);
     assert_eq!(on(3).positions, expected.positions);
     let directory = tempfile::tempdir().expect("a directory");

@@ -2,12 +2,14 @@
 
 mod bent_targets;
 mod cached_scores;
+mod calibrated;
 #[cfg(feature = "nuts")]
 mod nuts;
 mod observed;
 mod on_mesh;
 mod own_targets;
 mod paper_as_written;
+mod paper_guards;
 mod paper_materials;
 mod paper_oracle;
 mod paper_rest;
@@ -16,5 +18,6 @@ mod robustness;
 mod samplers;
 mod smc;
 mod stein_thinning;
+mod support;
 mod support_points;
 mod survey;

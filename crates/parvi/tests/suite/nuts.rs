@@ -7,8 +7,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use parvi::{
     Method, NutsOptions, Observer, Pool, Progress, Run, SampleError, Samples, Silent, SteinThinningOptions, sample,
 };
-use parvi_metrics::{Cloud, CloudMoments};
 use parvi_targets::{Banana, CatalogueTarget, Frame, Funnel, Gaussian, Target};
+
+use crate::support::{StopAfter, assert_correlated, on_threads};
 
 fn nuts<const D: usize>(target: &dyn CatalogueTarget<D>, options: NutsOptions, run: &Run) -> Samples<D> {
     sample(target, &Method::Nuts(options), run, &mut Silent).expect("samples")
@@ -33,16 +34,7 @@ fn the_moments_of_a_gaussian() {
     for (method, particles, tolerance) in methods {
         let samples = sample(&target, &method, &Run::new(particles, 4), &mut Silent).expect("samples");
         assert_eq!(samples.positions.len(), particles);
-        let cloud = Cloud::new(&samples.positions).expect("finite particles");
-        let moments = CloudMoments::new(&cloud).expect("moments");
-        for a in 0..2 {
-            assert!(moments.mean[a].abs() < tolerance, "{method:?}: mean {:?}", moments.mean);
-            for b in 0..2 {
-                let expected = if a == b { 1.0 } else { 0.8 };
-                let error = (moments.covariance.0[a][b] - expected).abs();
-                assert!(error < tolerance, "{method:?}: covariance off by {error}");
-            }
-        }
+        assert_correlated(&samples.positions, 0.8, tolerance, &method);
     }
 }
 
@@ -54,11 +46,9 @@ fn same_seed_same_bits_on_any_number_of_threads() {
         ..NutsOptions::default()
     };
     let draw = |threads: usize, seed: u64| {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .expect("a pool");
-        pool.install(|| nuts(&Banana::default(), options.clone(), &Run::new(203, seed)))
+        on_threads(threads, || {
+            nuts(&Banana::default(), options.clone(), &Run::new(203, seed))
+        })
     };
     let samples = draw(1, 3);
     assert_eq!(samples.positions.len(), 203);
@@ -219,11 +209,7 @@ impl Observer for StopAt<'_> {
     fn after_step(&mut self, progress: Progress) -> ControlFlow<()> {
         self.1.set(self.1.get() + 1);
         assert_eq!(self.1.get(), progress.step);
-        if progress.step == self.0 {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
+        StopAfter(self.0).after_step(progress)
     }
 }
 

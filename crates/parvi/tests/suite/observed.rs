@@ -1,7 +1,6 @@
 //! What an observer sees.
 
 use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use mpm_mesh::generate::{EdgeTarget, disk};
 use parvi::{
@@ -9,7 +8,9 @@ use parvi::{
     ParticleView, Progress, Run, SampleError, Samples, Silent, SmcOptions, SteinThinningOptions, SupportPointsOptions,
     SvgdOptions, sample,
 };
-use parvi_targets::{CatalogueTarget, Frame, Gaussian, GaussianMixture, Target};
+use parvi_targets::{CatalogueTarget, Frame, Gaussian, GaussianMixture};
+
+use crate::support::{Hiccup, body_alone};
 
 /// What was seen at one moment.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,12 +62,11 @@ fn watched(method: &Method) -> (Samples<2>, Vec<Seen>) {
     (samples, witness.0)
 }
 
-fn body_alone(steps: usize) -> MpmOptions {
+fn steps_of_a_body(steps: usize) -> MpmOptions {
     MpmOptions {
-        survey: false,
         steps: Some(steps),
         moment_correction: MomentCorrection::Off,
-        ..MpmOptions::default()
+        ..body_alone()
     }
 }
 
@@ -77,7 +77,7 @@ fn every_method_that_moves_particles_shows_them_from_the_start_to_what_it_return
         ..PaperOptions::default()
     };
     let methods = [
-        Method::Mpm(body_alone(9)),
+        Method::Mpm(steps_of_a_body(9)),
         Method::Paper(elastic.clone()),
         Method::Paper(PaperOptions {
             affine: true,
@@ -162,12 +162,8 @@ fn rounds_after_a_survey_are_bodies_one_after_the_other() {
 fn further_rounds_of_a_body_without_a_survey_are_seen() {
     let mut run = Run::new(60, 4);
     (run.start.mean, run.start.standard_deviation) = (400.0, 0.1);
-    let options = MpmOptions {
-        survey: false,
-        ..MpmOptions::default()
-    };
     let mut witness = Witness::default();
-    let samples = options
+    let samples = body_alone()
         .sample(&target(), &target().frame(), &run, &mut witness)
         .expect("samples");
     let last = witness.0.last().expect("a moment");
@@ -197,33 +193,13 @@ fn particles_on_a_mesh_are_seen_within_it() {
     assert!(rows.into_iter().all(|x| (x[0] - 0.5).hypot(x[1]) < 2.0 + 1e-9));
 }
 
-/// N(0, I) whose score is not a number in one call.
-struct Hiccup(AtomicUsize);
-
-impl Target<2> for Hiccup {
-    fn log_density(&self, x: &[f64; 2]) -> f64 {
-        -0.5 * (x[0] * x[0] + x[1] * x[1])
-    }
-
-    fn score(&self, x: &[f64; 2]) -> [f64; 2] {
-        x.map(|c| -c)
-    }
-
-    fn scores(&self, xs: &[[f64; 2]], out: &mut [[f64; 2]]) {
-        let call = self.0.fetch_add(1, Ordering::Relaxed);
-        for (x, score) in xs.iter().zip(out) {
-            *score = if call == 20 { [f64::NAN; 2] } else { self.score(x) };
-        }
-    }
-}
-
 #[test]
 fn a_run_that_goes_back_shows_where_it_goes_back_to() {
     let options = MpmOptions {
         non_finite_scores: NonFiniteScores::RejectStep,
-        ..body_alone(40)
+        ..steps_of_a_body(40)
     };
-    let target = Hiccup(AtomicUsize::new(0));
+    let target = Hiccup::of(f64::NAN);
     let mut witness = Witness::default();
     let run = Run::new(60, 4);
     options
@@ -257,7 +233,7 @@ impl Observer for Until {
 #[test]
 fn who_sees_may_stop() {
     for step in [0, 3] {
-        for method in [Method::Mpm(body_alone(9)), Method::Svgd(SvgdOptions::default())] {
+        for method in [Method::Mpm(steps_of_a_body(9)), Method::Svgd(SvgdOptions::default())] {
             let error = sample(&target(), &method, &Run::new(60, 4), &mut Until(step)).unwrap_err();
             assert_eq!(error, SampleError::Interrupted { step });
         }

@@ -9,6 +9,8 @@ use parvi_targets::{Gaussian, Target};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
+use crate::support::on_threads;
+
 /// The uniform density of a bounded domain: no score.
 struct Uniform;
 
@@ -131,8 +133,7 @@ fn the_wavy_channel_is_filled_evenly() {
 fn the_same_seed_gives_the_same_bits_on_any_number_of_threads() {
     let mesh = disk([0.0; 2], 1.0, &edges(0.3)).expect("a mesh");
     let bits = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-        let samples = pool.expect("a pool").install(|| sampled(&Uniform, &mesh, 20_000, 3));
+        let samples = on_threads(threads, || sampled(&Uniform, &mesh, 20_000, 3));
         samples
             .positions
             .into_flattened()

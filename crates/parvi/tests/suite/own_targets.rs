@@ -7,6 +7,8 @@ use parvi_targets::{
     Constraints, FiniteDifferenceScore, Frame, LogisticRegression, MinibatchScore, RegressionData, Target,
 };
 
+use crate::support::{body_alone, on_threads};
+
 fn sample<const D: usize>(target: &dyn Target<D>, frame: &Frame<D>, particles: usize) -> Samples<D> {
     let run = Run::new(particles, 2);
     MpmOptions::default()
@@ -105,11 +107,7 @@ fn minibatches_of_a_large_regression_give_its_posterior() {
 
     // Its log density is the whole sum: no survey, which would spend more on that than batches save.
     let sample = |target: &dyn Target<3>| {
-        let options = MpmOptions {
-            survey: false,
-            ..MpmOptions::default()
-        };
-        options
+        body_alone()
             .sample(target, &frame, &Run::new(500, 2), &mut Silent)
             .expect("a run that ends well")
     };
@@ -129,9 +127,8 @@ fn minibatches_of_a_large_regression_give_its_posterior() {
 
     // The same seed, the same bits; on one thread and on two.
     for threads in [1, 2] {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let again = minibatch();
-        let positions = pool.install(|| sample(&again)).positions;
+        let positions = on_threads(threads, || sample(&again)).positions;
         assert_eq!(positions, samples.positions);
     }
 }

@@ -1,7 +1,6 @@
 //! What goes wrong on the way: scores that are not finite, energies that explode, processes that are killed, starts too far away.
 
 use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use parvi::certificate::Doubt;
 use parvi::{
@@ -9,6 +8,8 @@ use parvi::{
     Start, TransferChoice, expectation,
 };
 use parvi_targets::{CatalogueTarget, Frame, Gaussian, GaussianMixture, Target};
+
+use crate::support::{Hiccup, body_alone};
 
 /// N(0, I) whose score is not a number beyond a wall.
 struct Walled;
@@ -20,13 +21,6 @@ impl Target<2> for Walled {
 
     fn score(&self, x: &[f64; 2]) -> [f64; 2] {
         if x[0] > 3.0 { [f64::NAN; 2] } else { [-x[0], -x[1]] }
-    }
-}
-
-fn unsurveyed() -> MpmOptions {
-    MpmOptions {
-        survey: false,
-        ..MpmOptions::default()
     }
 }
 
@@ -46,7 +40,7 @@ fn sample(options: &MpmOptions, target: &dyn Target<2>, run: &Run) -> Result<Sam
 
 #[test]
 fn a_particle_without_a_score_is_pulled_back() {
-    let samples = sample(&unsurveyed(), &Walled, &from(1.0, 1.5)).expect("particles");
+    let samples = sample(&body_alone(), &Walled, &from(1.0, 1.5)).expect("particles");
     assert!(samples.scores_replaced > 0);
     assert!(samples.positions.iter().all(|x| x[0] <= 3.0));
     let mean = samples.positions.iter().map(|x| x[0]).sum::<f64>() / 300.0;
@@ -57,14 +51,14 @@ fn a_particle_without_a_score_is_pulled_back() {
 fn a_particle_without_a_score_is_reported_where_that_is_asked_for() {
     let options = MpmOptions {
         non_finite_scores: NonFiniteScores::Report,
-        ..unsurveyed()
+        ..body_alone()
     };
     let error = sample(&options, &Walled, &from(1.0, 1.5)).expect_err("a wall in the way");
     assert!(matches!(error, SampleError::ScoreNotFinite { step: 1, .. }), "{error}");
     // There is no good state to go back to.
     let options = MpmOptions {
         non_finite_scores: NonFiniteScores::RejectStep,
-        ..unsurveyed()
+        ..body_alone()
     };
     assert!(matches!(
         sample(&options, &Walled, &from(1.0, 1.5)),
@@ -72,33 +66,13 @@ fn a_particle_without_a_score_is_reported_where_that_is_asked_for() {
     ));
 }
 
-/// N(0, I) whose score is not a number in one call.
-struct Hiccup(AtomicUsize);
-
-impl Target<2> for Hiccup {
-    fn log_density(&self, x: &[f64; 2]) -> f64 {
-        -0.5 * (x[0] * x[0] + x[1] * x[1])
-    }
-
-    fn score(&self, x: &[f64; 2]) -> [f64; 2] {
-        x.map(|c| -c)
-    }
-
-    fn scores(&self, xs: &[[f64; 2]], out: &mut [[f64; 2]]) {
-        let call = self.0.fetch_add(1, Ordering::Relaxed);
-        for (x, score) in xs.iter().zip(out) {
-            *score = if call == 20 { [f64::INFINITY; 2] } else { self.score(x) };
-        }
-    }
-}
-
 #[test]
 fn rejected_steps_are_made_again() {
     let options = MpmOptions {
         non_finite_scores: NonFiniteScores::RejectStep,
-        ..unsurveyed()
+        ..body_alone()
     };
-    let target = Hiccup(AtomicUsize::new(0));
+    let target = Hiccup::of(f64::INFINITY);
     let samples = sample(&options, &target, &from(0.0, 1.0)).expect("particles");
     assert_eq!(samples.steps, 97);
     assert!(samples.score_evaluations > 97 * 300, "steps 17 to 21 were made twice");
@@ -112,7 +86,7 @@ fn an_energy_that_explodes_is_taken_back() {
         transfer: TransferChoice::Flip(1.0),
         time_step: Some(20.0),
         friction: Some(0.0),
-        ..unsurveyed()
+        ..body_alone()
     };
     match sample(&options, &Gaussian::<2>::standard(), &from(0.0, 1.0)) {
         Ok(samples) => {
@@ -129,7 +103,7 @@ fn particles_on_their_way_get_more_rounds() {
     let far = from(400.0, 0.1);
     let one = MpmOptions {
         rounds: Some(1),
-        ..unsurveyed()
+        ..body_alone()
     };
     let stopped = sample(&one, &target, &far)
         .expect("particles")
@@ -140,7 +114,7 @@ fn particles_on_their_way_get_more_rounds() {
         "{:?}",
         stopped.outcome
     );
-    let more = sample(&unsurveyed(), &target, &far).expect("particles");
+    let more = sample(&body_alone(), &target, &far).expect("particles");
     assert!(more.steps > 97);
     assert!(more.certificate.expect("a certificate").drift < stopped.drift);
 }
@@ -155,7 +129,7 @@ fn convergence_is_claimed_with_a_survey_only() {
     assert!(certificate.mean_error().is_some_and(|error| error < 0.02));
     let square = expectation(&target, &surveyed, |x| x[0] * x[0]).expect("an expectation");
     assert!((square.estimate - 1.0).abs() < 1e-9);
-    let blind = sample(&unsurveyed(), &target, &run)
+    let blind = sample(&body_alone(), &target, &run)
         .expect("particles")
         .certificate
         .expect("a certificate");
@@ -165,7 +139,7 @@ fn convergence_is_claimed_with_a_survey_only() {
 #[test]
 fn one_mode_of_two_is_not_called_converged() {
     let target = GaussianMixture::<2>::two_unequal(0.5).expect("a mixture");
-    let certificate = sample(&unsurveyed(), &target, &from(1.5, 0.3))
+    let certificate = sample(&body_alone(), &target, &from(1.5, 0.3))
         .expect("particles")
         .certificate;
     assert_ne!(certificate.expect("a certificate").outcome, Outcome::Converged);

@@ -3,6 +3,8 @@
 use parvi::{Method, Run, SampleError, Samples, Silent, SmcOptions, Start, sample};
 use parvi_targets::{Banana, CatalogueTarget, Frame, Gaussian, GaussianMixture, Target};
 
+use crate::support::on_threads;
+
 fn sampled<const D: usize>(target: &dyn CatalogueTarget<D>, particles: usize, seed: u64) -> Samples<D> {
     let method = Method::Smc(SmcOptions::default());
     sample(target, &method, &Run::new(particles, seed), &mut Silent).expect("particles")
@@ -165,8 +167,7 @@ fn bad_options_are_errors_that_name_them() {
 fn same_seed_same_bits_on_any_number_of_threads() {
     let target = Banana::new(1.0, 0.5).expect("a banana");
     let on = |threads: usize, seed: u64| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-        let samples = pool.expect("threads").install(|| sampled(&target, 200, seed));
+        let samples = on_threads(threads, || sampled(&target, 200, seed));
         (samples.positions, samples.log_evidence.map(f64::to_bits))
     };
     let one = on(1, 3);

@@ -5,8 +5,10 @@ use parvi::{
     Method, NutsOptions, PointSetError, Pool, Run, SampleError, Silent, SteinThinningOptions, independent_draws,
     sample, stein_thinning,
 };
-use parvi_metrics::{Cloud, CloudMoments, InverseMultiquadric, kernel_stein_discrepancy};
+use parvi_metrics::{Cloud, InverseMultiquadric, kernel_stein_discrepancy};
 use parvi_targets::{Gaussian, Target};
+
+use crate::support::{moments, on_threads};
 
 /// Exact draws of a Gaussian with correlation 0.7, stretched, with scores.
 fn correlated<const D: usize>(count: usize, stretch: f64) -> (Vec<[f64; D]>, Vec<[f64; D]>) {
@@ -21,7 +23,7 @@ fn correlated<const D: usize>(count: usize, stretch: f64) -> (Vec<[f64; D]>, Vec
 
 /// The greedy choice from the formulas, every sum anew: O(n M²).
 fn naive<const D: usize>(positions: &[[f64; D]], scores: &[[f64; D]], count: usize) -> Vec<usize> {
-    let moments = CloudMoments::new(&Cloud::new(positions).expect("finite")).expect("moments");
+    let moments = moments(positions);
     let sd: [f64; D] = std::array::from_fn(|a| moments.covariance.0[a][a].sqrt());
     let mut correlation = moments.covariance;
     for a in 0..D {
@@ -111,7 +113,7 @@ fn draws_that_are_too_wide_are_put_right() {
     let (positions, scores) = correlated::<2>(5000, 1.5);
     let chosen = stein_thinning(&positions, &scores, 200).expect("a choice");
     let points: Vec<_> = chosen.iter().map(|&i| positions[i]).collect();
-    let moments = CloudMoments::new(&Cloud::new(&points).expect("finite")).expect("moments");
+    let moments = moments(&points);
     for a in 0..2 {
         // The draws have variance 2.25.
         assert!(
@@ -128,19 +130,13 @@ fn any_number_of_threads_chooses_the_same() {
     let target = Gaussian::<2>::autoregressive(0.5).expect("a correlation below one");
     let method = Method::SteinThinning(SteinThinningOptions::default());
     let choose = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .expect("a pool");
-        pool.install(|| sample(&target, &method, &Run::new(100, 5), &mut Silent))
-            .expect("samples")
+        on_threads(threads, || sample(&target, &method, &Run::new(100, 5), &mut Silent)).expect("samples")
     };
     let samples = choose(1);
     assert_eq!(samples.positions, choose(3).positions);
     assert_eq!(samples.positions.len(), 100);
     assert_eq!(samples.score_evaluations, 5000);
-    let cloud = Cloud::new(&samples.positions).expect("finite");
-    let moments = CloudMoments::new(&cloud).expect("moments");
+    let moments = moments(&samples.positions);
     assert!(vector::maximum_norm(&moments.mean) < 0.05, "{:?}", moments.mean);
     assert!(
         (moments.covariance.0[0][1] - 0.5).abs() < 0.15,

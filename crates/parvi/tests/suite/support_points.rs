@@ -1,13 +1,12 @@
 //! Support points: their energy distance falls, ends far below that of independent draws, and they are a method.
 
-use std::ops::ControlFlow;
-
 use parvi::{
-    Method, Observer, PointSetError, Progress, Run, SampleError, Silent, SupportPointsOptions, independent_draws,
-    sample, support_points,
+    Method, PointSetError, Run, SampleError, Silent, SupportPointsOptions, independent_draws, sample, support_points,
 };
-use parvi_metrics::{Cloud, CloudMoments, GaussianEnergy, energy_distance_squared};
+use parvi_metrics::{Cloud, GaussianEnergy, energy_distance_squared};
 use parvi_targets::{Banana, Gaussian};
+
+use crate::support::{StopAfter, moments, on_threads};
 
 fn draws<const D: usize>(count: usize, seed: u64) -> Vec<[f64; D]> {
     let target = Gaussian::<D>::standard();
@@ -74,7 +73,7 @@ fn the_method_is_the_function_in_the_frame_s_units() {
     .expect("samples");
     assert_eq!(samples.score_evaluations, 0);
     assert!(samples.steps > 5);
-    let moments = CloudMoments::new(&Cloud::new(&samples.positions).expect("finite")).expect("moments");
+    let moments = moments(&samples.positions);
     for a in 0..2 {
         assert!(moments.mean[a].abs() < 0.03, "{:?}", moments.mean);
         assert!(
@@ -97,12 +96,10 @@ fn same_bits_on_any_number_of_threads() {
         ..SupportPointsOptions::default()
     };
     let place = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .expect("a pool");
         let method = Method::SupportPoints(options.clone());
-        let samples = pool.install(|| sample(&Banana::default(), &method, &Run::new(64, 9), &mut Silent));
+        let samples = on_threads(threads, || {
+            sample(&Banana::default(), &method, &Run::new(64, 9), &mut Silent)
+        });
         samples.expect("samples").positions
     };
     let positions = place(1);
@@ -138,22 +135,10 @@ fn bad_input_is_named() {
     assert!((gathered.positions[0][0] - 1.0).abs() < 1e-12);
 }
 
-struct StopAt(usize);
-
-impl Observer for StopAt {
-    fn after_step(&mut self, progress: Progress) -> ControlFlow<()> {
-        if progress.step == self.0 {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
-    }
-}
-
 #[test]
 fn the_observer_stops_and_lacking_draws_are_said() {
     let method = Method::SupportPoints(SupportPointsOptions::default());
-    let error = sample(&Gaussian::<2>::standard(), &method, &Run::new(50, 1), &mut StopAt(4)).expect_err("a stop");
+    let error = sample(&Gaussian::<2>::standard(), &method, &Run::new(50, 1), &mut StopAfter(4)).expect_err("a stop");
     assert_eq!(error, SampleError::Interrupted { step: 4 });
     let target = parvi_targets::build::<2>("wells-small", &Default::default()).expect("a target");
     let error = sample(target.as_ref(), &method, &Run::new(50, 1), &mut Silent).expect_err("no draws");

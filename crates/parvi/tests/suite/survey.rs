@@ -2,8 +2,10 @@
 
 use mpm_tensor::Matrix;
 use parvi::{AisOptions, Method, MpmOptions, Run, Samples, Silent, Start, sample};
-use parvi_metrics::{Cloud, CloudMoments, ModeMasses};
+use parvi_metrics::{Cloud, ModeMasses};
 use parvi_targets::{Banana, CatalogueTarget, Frame, Gaussian, GaussianMixture, StudentT, Target};
+
+use crate::support::{body_alone, moments};
 
 /// Starts in target scales: narrow, wide and far off.
 const STARTS: [(f64, f64); 5] = [(0.0, 0.1), (0.0, 10.0), (10.0, 0.1), (-10.0, 1.0), (10.0, 10.0)];
@@ -31,7 +33,7 @@ fn a_frame_that_is_wrong_by_orders_of_magnitude_is_found() {
         let samples = MpmOptions::default()
             .sample(&target, &frame, &Run::new(500, 1), &mut Silent)
             .expect("particles");
-        let moments = CloudMoments::new(&Cloud::new(&samples.positions).expect("finite")).expect("moments");
+        let moments = moments(&samples.positions);
         for i in 0..3 {
             assert!(
                 (moments.mean[i] - centre[i]).abs() < 1e-6 * scales[i],
@@ -66,42 +68,32 @@ fn masses_of_separate_modes_are_right_from_any_start() {
     check::<4>(0.02);
 }
 
+/// Whether every mean is off by less than this part of a standard deviation, and every standard deviation by less than a tenth.
+fn assert_fits(target: &dyn CatalogueTarget<2>, start: (f64, f64), tolerance: f64) {
+    let truth = target.moments().expect("moments");
+    let found = moments(&from_start(target, 1000, start).positions);
+    for axis in 0..2 {
+        let spread = truth.covariance.0[axis][axis].sqrt();
+        let error = (found.mean[axis] - truth.mean[axis]).abs();
+        assert!(error < tolerance * spread, "{start:?}: {:?}", found.mean);
+        let sd = found.covariance.0[axis][axis].sqrt();
+        assert!((sd / spread - 1.0).abs() < 0.1, "{start:?}: {sd}");
+    }
+}
+
 #[test]
 fn a_bent_target_is_one_piece_from_any_start() {
     let target = Banana::new(1.0, 0.5).expect("a banana");
-    let truth = target.moments().expect("moments");
     for start in STARTS {
-        let samples = from_start(&target, 1000, start);
-        let moments = CloudMoments::new(&Cloud::new(&samples.positions).expect("finite")).expect("moments");
-        for axis in 0..2 {
-            let spread = truth.covariance.0[axis][axis].sqrt();
-            assert!(
-                (moments.mean[axis] - truth.mean[axis]).abs() < 0.1 * spread,
-                "{start:?}: {:?}",
-                moments.mean
-            );
-            let sd = moments.covariance.0[axis][axis].sqrt();
-            assert!((sd / spread - 1.0).abs() < 0.1, "{start:?}: {sd}");
-        }
+        assert_fits(&target, start, 0.1);
     }
 }
 
 #[test]
 fn heavy_tails_are_reached_from_any_start() {
     let target = StudentT::<2>::new(5.0).expect("degrees of freedom");
-    let spread = target.moments().expect("moments").covariance.0[0][0].sqrt();
     for start in STARTS {
-        let samples = from_start(&target, 1000, start);
-        let moments = CloudMoments::new(&Cloud::new(&samples.positions).expect("finite")).expect("moments");
-        for axis in 0..2 {
-            assert!(
-                moments.mean[axis].abs() < 0.05 * spread,
-                "{start:?}: {:?}",
-                moments.mean
-            );
-            let sd = moments.covariance.0[axis][axis].sqrt();
-            assert!((sd / spread - 1.0).abs() < 0.1, "{start:?}: {sd}");
-        }
+        assert_fits(&target, start, 0.05);
     }
 }
 
@@ -109,9 +101,8 @@ fn heavy_tails_are_reached_from_any_start() {
 fn without_a_survey_one_body_moves_from_the_start_as_given() {
     let target = GaussianMixture::<2>::three_far().expect("a mixture");
     let options = MpmOptions {
-        survey: false,
         rounds: Some(1),
-        ..MpmOptions::default()
+        ..body_alone()
     };
     let samples = sample(&target, &Method::Mpm(options), &Run::new(300, 1), &mut Silent).expect("particles");
     assert_eq!(samples.bodies, Some(1));
