@@ -11,6 +11,7 @@ mod manufactured;
 pub mod output;
 mod plane;
 mod population;
+pub mod reading;
 pub mod reference;
 mod rotation;
 mod run;

@@ -11,25 +11,7 @@ mod networks;
 mod refused;
 
 /// A strip whose left end is held, and which falls.
-const SCENE: &str = r#"
-title = "a strip that bends"
-dimension = 2
-gravity = [0.0, -1.0]
-domain = { lower = [-1.0, -2.0], upper = [3.0, 2.0] }
-grid = { spacing = 0.25 }
-transfer = { kind = "pic" }
-time = { end = 0.2, step = 0.0050000001, courant = 0.5 }
-materials.rubber = { law = "fixed-corotated", density = 2.0, young_modulus = 500.0, poisson_ratio = 0.3 }
-output = { interval = 0.05 }
-
-[[bodies]]
-name = "strip"
-shape = { kind = "box", lower = [0.0, 0.0], upper = [2.0, 0.5] }
-material = "rubber"
-
-[[kinematic]]
-region = { kind = "box", lower = [-0.1, -1.0], upper = [0.25, 1.0] }
-"#;
+const SCENE: &str = include_str!("../../tests/data/bending_strip.toml");
 
 const EXPERIMENT: &str = r#"
 title = "A strip"

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use mpm_document::DocumentError;
+use mpm_scenes::scene::keys;
 use mpm_scenes::{Scene, SceneError, SceneFault};
 use toml::Table;
 pub use toml::Value;
@@ -57,7 +58,7 @@ impl SceneDocument {
     fn changed(&self, changes: &[(String, Value)]) -> Result<Scene, FullOrderError> {
         let mut whole = Value::Table(self.table.clone());
         for (key, value) in changes {
-            let place = find(&mut whole, key).map_err(|reason| self.refused(key, reason))?;
+            let place = keys::find(&mut whole, key).map_err(|reason| self.refused(key, reason))?;
             *place = value.clone();
         }
         let text = toml::to_string(&whole).map_err(|error| DocumentError {
@@ -95,20 +96,4 @@ impl SceneDocument {
 
 fn is_syntax(error: &SceneError) -> bool {
     matches!(*error.fault, SceneFault::Syntax(_))
-}
-
-/// The value at a dotted key.
-fn find<'a>(whole: &'a mut Value, key: &str) -> Result<&'a mut Value, String> {
-    let mut known = "the scene";
-    key.split('.').try_fold(whole, |place, name| {
-        let found = match place {
-            Value::Table(table) => table.get_mut(name),
-            Value::Array(elements) => name.parse::<usize>().ok().and_then(|index| elements.get_mut(index)),
-            _ => None,
-        };
-        let missing = || format!("{known} has no `{name}`");
-        let found = found.ok_or_else(missing)?;
-        known = name;
-        Ok(found)
-    })
 }

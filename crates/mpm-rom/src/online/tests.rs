@@ -11,22 +11,7 @@ use crate::deformation_map::{DeformationMap, MaterialPoints};
 use crate::least_squares::LeastSquares;
 use crate::manifold::{Evaluation, Fields, Manifold, Wanted};
 
-const BLOCK: &str = r#"
-title = "block"
-dimension = 2
-gravity = [0.0, 0.0]
-domain = { lower = [-1.0, -1.0], upper = [2.0, 2.0] }
-grid = { spacing = 0.125 }
-transfer = { kind = "pic" }
-time = { end = 1.0, step = 0.002, courant = 0.5 }
-materials.rubber = { law = "fixed-corotated", density = 2.0, young_modulus = 100.0, poisson_ratio = 0.3 }
-output = { interval = 0.02 }
-
-[[bodies]]
-name = "block"
-shape = { kind = "box", lower = [0.0, 0.0], upper = [1.0, 0.5] }
-material = "rubber"
-"#;
+const BLOCK: &str = include_str!("../../tests/data/block.toml");
 
 const HELD: &str = "[[kinematic]]\nregion = { kind = \"box\", lower = [0.0, 0.0], upper = [0.125, 0.5] }\n";
 

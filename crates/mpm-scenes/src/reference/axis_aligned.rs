@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use mpm_materials::ElasticModuli;
 use mpm_tensor::Matrix;
 
-use super::parts::{Rows, Run, solid};
+use super::parts::{Rows, Run, in_the_plane, plane_solid};
 use crate::{ManufacturedSolution, Scene, SceneFault, ValidationRow};
 
 /// u_a = A sin(2πX_a) sin(cπt + φ_a) in the unit square, φ = (0, π), for the Neo-Hookean solid
@@ -76,33 +76,11 @@ impl AxisAligned {
     }
 }
 
-#[allow(non_snake_case)]
-impl ManufacturedSolution for AxisAligned {
-    fn displacement(&self, X: &[f64], time: f64, displacement: &mut [f64]) {
-        if let Ok(X) = <&[f64; 2]>::try_from(X) {
-            displacement.copy_from_slice(&self.displacement(X, time));
-        }
-    }
-
-    fn velocity(&self, X: &[f64], time: f64, velocity: &mut [f64]) {
-        if let Ok(X) = <&[f64; 2]>::try_from(X) {
-            velocity.copy_from_slice(&self.velocity(X, time));
-        }
-    }
-
-    fn body_force(&self, X: &[f64], time: f64, acceleration: &mut [f64]) {
-        if let Ok(X) = <&[f64; 2]>::try_from(X) {
-            acceleration.copy_from_slice(&self.body_force(X, time));
-        }
-    }
-}
+in_the_plane!(AxisAligned);
 
 /// The solution with A = 0.02 in the material of a scene.
 fn of_scene(scene: &Scene) -> Result<AxisAligned, SceneFault> {
-    if scene.dimension != 2 {
-        return Err(SceneFault::value("dimension", scene.dimension, "2"));
-    }
-    let (material, moduli) = solid(scene)?;
+    let (material, moduli) = plane_solid(scene)?;
     Ok(AxisAligned {
         amplitude: 0.02,
         moduli,

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use mpm_materials::ElasticModuli;
 use mpm_tensor::Matrix;
 
-use super::parts::{Rows, Run, solid};
+use super::parts::{Rows, Run, in_the_plane, plane_solid};
 use crate::{ManufacturedSolution, Scene, SceneFault, ValidationRow};
 
 /// Every circle of the ring R_i ≤ R ≤ R_o turns by α(R, t) = A g(t) h(R) about the origin, g = sin(πt/T),
@@ -73,6 +73,13 @@ impl GeneralizedVortex {
         e_r.map(|c| radius * c)
     }
 
+    /// u(X, t) = x − X.
+    #[allow(non_snake_case)]
+    pub fn displacement(&self, X: &[f64; 2], time: f64) -> [f64; 2] {
+        let x = self.position(X, time);
+        [x[0] - X[0], x[1] - X[1]]
+    }
+
     /// v(X, t) = R ∂α/∂t e_θ.
     #[allow(non_snake_case)]
     pub fn velocity(&self, X: &[f64; 2], time: f64) -> [f64; 2] {
@@ -103,34 +110,11 @@ impl GeneralizedVortex {
     }
 }
 
-#[allow(non_snake_case)]
-impl ManufacturedSolution for GeneralizedVortex {
-    fn displacement(&self, X: &[f64], time: f64, displacement: &mut [f64]) {
-        if let Ok(X) = <&[f64; 2]>::try_from(X) {
-            let x = self.position(X, time);
-            displacement.copy_from_slice(&[x[0] - X[0], x[1] - X[1]]);
-        }
-    }
-
-    fn velocity(&self, X: &[f64], time: f64, velocity: &mut [f64]) {
-        if let Ok(X) = <&[f64; 2]>::try_from(X) {
-            velocity.copy_from_slice(&self.velocity(X, time));
-        }
-    }
-
-    fn body_force(&self, X: &[f64], time: f64, acceleration: &mut [f64]) {
-        if let Ok(X) = <&[f64; 2]>::try_from(X) {
-            acceleration.copy_from_slice(&self.body_force(X, time));
-        }
-    }
-}
+in_the_plane!(GeneralizedVortex);
 
 /// The ring 0.75 ≤ R ≤ 1.25 with A = 0.1 and T = 1 in the material of a scene.
 fn of_scene(scene: &Scene) -> Result<GeneralizedVortex, SceneFault> {
-    if scene.dimension != 2 {
-        return Err(SceneFault::value("dimension", scene.dimension, "2"));
-    }
-    let (material, moduli) = solid(scene)?;
+    let (material, moduli) = plane_solid(scene)?;
     Ok(GeneralizedVortex {
         amplitude: 0.1,
         period: 1.0,

@@ -68,6 +68,46 @@ pub fn solid(scene: &Scene) -> Result<(SolidTable, ElasticModuli), SceneFault> {
     }
 }
 
+/// The same of a scene of two dimensions.
+///
+/// # Errors
+/// [`SceneFault::Value`] for another dimension, and as [`solid`].
+pub fn plane_solid(scene: &Scene) -> Result<(SolidTable, ElasticModuli), SceneFault> {
+    if scene.dimension != 2 {
+        return Err(SceneFault::value("dimension", scene.dimension, "2"));
+    }
+    solid(scene)
+}
+
+/// A motion in the plane, known by functions of its own, as a manufactured solution.
+macro_rules! in_the_plane {
+    ($motion:ty) => {
+        #[allow(non_snake_case)]
+        impl ManufacturedSolution for $motion {
+            fn displacement(&self, X: &[f64], time: f64, displacement: &mut [f64]) {
+                $crate::reference::parts::fill(displacement, X, |X| self.displacement(X, time));
+            }
+
+            fn velocity(&self, X: &[f64], time: f64, velocity: &mut [f64]) {
+                $crate::reference::parts::fill(velocity, X, |X| self.velocity(X, time));
+            }
+
+            fn body_force(&self, X: &[f64], time: f64, acceleration: &mut [f64]) {
+                $crate::reference::parts::fill(acceleration, X, |X| self.body_force(X, time));
+            }
+        }
+    };
+}
+pub(super) use in_the_plane;
+
+/// `out` = f(X), where X is in the plane.
+#[allow(non_snake_case)]
+pub fn fill(out: &mut [f64], X: &[f64], f: impl Fn(&[f64; 2]) -> [f64; 2]) {
+    if let Ok(X) = X.try_into() {
+        out.copy_from_slice(&f(X));
+    }
+}
+
 /// Lower and upper corner of the box that the first body is.
 ///
 /// # Errors

@@ -61,7 +61,10 @@ pub(super) fn build<const D: usize>(
         (Discretisation::Grid(table), Background::Grid { spacing, room }) => {
             on_grid(table, parts, Grid { spacing, room })
         }
-        (Discretisation::Mesh(_), Background::Mesh { whole, .. }) => on_mesh(parts, &whole),
+        (Discretisation::Mesh(_), Background::Mesh { whole, .. }) => {
+            let basis = mesh_basis(scene, &whole)?;
+            on_basis(parts, basis)
+        }
         _ => Err(SceneFault::missing("grid", "given unless there is a [mesh]")),
     }
 }
@@ -72,9 +75,9 @@ fn on_grid<const D: usize>(
     grid: Grid<D>,
 ) -> Result<Box<dyn Motion<D>>, SceneFault> {
     match table.basis {
-        BasisName::Linear => with_spline(parts, grid.of_spline(Linear)?),
-        BasisName::Quadratic => with_spline(parts, grid.of_spline(Quadratic)?),
-        BasisName::Cubic => with_spline(parts, grid.of_spline(Cubic)?),
+        BasisName::Linear => on_basis(parts, grid.of_spline(Linear)?),
+        BasisName::Quadratic => on_basis(parts, grid.of_spline(Quadratic)?),
+        BasisName::Cubic => on_basis(parts, grid.of_spline(Cubic)?),
         BasisName::Gimp => match parts.scene.bodies.first().map(|body| body.per_axis()) {
             Some(per_axis @ 1..=4) => with_share(parts, grid.of_spline(Gimp::new(per_axis))?),
             other => Err(SceneFault::value(
@@ -109,18 +112,18 @@ fn particles<const D: usize>(population: &Population<D>, laws: &Laws<D>) -> Resu
     Ok(particles)
 }
 
-fn with_spline<S: Spline<W>, const W: usize, const D: usize>(
+fn on_basis<const D: usize, B: SecondMoments<D> + 'static>(
     parts: Parts<D>,
-    grid: SplineGrid<S, W, D>,
+    basis: B,
 ) -> Result<Box<dyn Motion<D>>, SceneFault> {
     match parts.scene.transfer.kind {
-        TransferKind::Pic | TransferKind::Flip => with_share(parts, grid),
+        TransferKind::Pic | TransferKind::Flip => with_share(parts, basis),
         TransferKind::AffineFlip => {
             let transfer = AffineFlip(share(parts.scene));
-            with_transfer(parts, grid, transfer)
+            with_transfer(parts, basis, transfer)
         }
-        TransferKind::Apic => with_transfer(parts, grid, Apic),
-        TransferKind::Mls => with_transfer(parts, grid, Mls),
+        TransferKind::Apic => with_transfer(parts, basis, Apic),
+        TransferKind::Mls => with_transfer(parts, basis, Mls),
     }
 }
 
@@ -184,19 +187,6 @@ pub(super) fn mesh_basis<const D: usize>(scene: &Scene, mesh: &SimplexMesh<D>) -
     };
     let basis = MeshBasis::new(mesh).map_err(invalid)?.with_kernel_width(width);
     Ok(basis.with_outside(outside).with_sample_weight(weight))
-}
-
-fn on_mesh<const D: usize>(parts: Parts<D>, mesh: &SimplexMesh<D>) -> Result<Box<dyn Motion<D>>, SceneFault> {
-    let basis = mesh_basis(parts.scene, mesh)?;
-    match parts.scene.transfer.kind {
-        TransferKind::Pic | TransferKind::Flip => with_share(parts, basis),
-        TransferKind::AffineFlip => {
-            let transfer = AffineFlip(share(parts.scene));
-            with_transfer(parts, basis, transfer)
-        }
-        TransferKind::Apic => with_transfer(parts, basis, Apic),
-        TransferKind::Mls => with_transfer(parts, basis, Mls),
-    }
 }
 
 fn with_transfer<const D: usize, B: SecondMoments<D> + 'static, T: Transfer<D> + 'static>(

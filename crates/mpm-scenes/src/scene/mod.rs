@@ -6,6 +6,7 @@ mod boundary;
 mod check;
 mod discretisation;
 mod facets;
+pub mod keys;
 mod load;
 mod material;
 mod mesh;

@@ -4,21 +4,7 @@ use mpm_scenes::{HeldRegion, Kinematics, Population, Scene, Snapshot, frames};
 
 use super::scenes::scene;
 
-const STRIP: &str = r#"
-title = "a strip"
-dimension = 2
-domain = { lower = [-1.0, -1.0], upper = [3.0, 2.0] }
-grid = { spacing = 0.25 }
-transfer = { kind = "pic" }
-time = { end = 0.2, step = 0.0050000001, courant = 0.5 }
-materials.rubber = { law = "fixed-corotated", density = 1.0, young_modulus = 100.0, poisson_ratio = 0.3 }
-output = { interval = 0.05 }
-
-[[bodies]]
-name = "strip"
-shape = { kind = "box", lower = [0.0, 0.0], upper = [2.0, 0.5] }
-material = "rubber"
-"#;
+const STRIP: &str = include_str!("../data/strip.toml");
 
 /// Turned at one end and held at the other.
 const TURNED: &str = r#"
