@@ -3,8 +3,8 @@
 //! ## Where to begin
 //!
 //! With [`multiples`], lines over one pair of axes or several, and [`histogram`]. All figures share [`style`] and a small drawing layer: `svg` for the
-//! document, `scale` and `panel` for axes, `legend`, `contour` for lines of equal density. It is no general plotting library, and knows nothing of samplers,
-//! files or reports.
+//! document, `scale` and `panel` for axes, `legend`, `contour` for lines of equal density. [`page`] puts figures and tables into Markdown. It is no general plotting
+//! library, and knows nothing of samplers and files.
 
 mod chart;
 mod chart_panel;
@@ -18,6 +18,7 @@ mod heat_map;
 mod histogram;
 mod legend;
 mod multiples;
+pub mod page;
 mod panel;
 mod scale;
 mod scaling;

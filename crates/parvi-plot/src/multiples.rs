@@ -28,6 +28,18 @@ impl LineSeries {
         }
     }
 
+    /// The values in order of size against the share of all that are no larger, in percent; `all` may be more than have a value.
+    pub fn in_order(label: impl Into<String>, mut values: Vec<f64>, all: usize) -> Self {
+        values.sort_by(f64::total_cmp);
+        Self {
+            x: (0..values.len())
+                .map(|k| 100.0 * (k as f64 + 0.5) / all as f64)
+                .collect(),
+            y: values,
+            ..Self::named(label)
+        }
+    }
+
     /// Adds the median of the values, with a bar from the least to the largest; nothing where there are none.
     pub fn push_median(&mut self, x: f64, values: &[f64]) {
         if let Ok(summary) = summarize(values) {
@@ -79,6 +91,19 @@ pub struct MultiplesPlot {
     pub panels: Vec<MultiplesPanel>,
     /// Notes below the figure.
     pub notes: Vec<String>,
+}
+
+impl MultiplesPlot {
+    /// Axes with these labels, both logarithmic, and no panel yet.
+    pub fn logarithmic(x_label: &str, y_label: &str) -> Self {
+        Self {
+            x_label: x_label.to_owned(),
+            y_label: y_label.to_owned(),
+            x_axis: AxisKind::Logarithmic,
+            y_axis: AxisKind::Logarithmic,
+            ..Self::default()
+        }
+    }
 }
 
 /// Draws small multiples as an SVG document.

@@ -13,6 +13,14 @@ pub struct ReferenceLevel {
     pub label: String,
 }
 
+impl ReferenceLevel {
+    /// A level with its text in the legend.
+    pub fn new(value: f64, label: impl Into<String>) -> Self {
+        let label = label.into();
+        Self { value, label }
+    }
+}
+
 /// How the points of a series are connected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Connection {

@@ -91,10 +91,7 @@ pub fn time_error(plot: &TimeErrorPlot) -> Result<String, PlotError> {
             }
             series.push(line);
         }
-        let level = |value| ReferenceLevel {
-            value,
-            label: plot.iid_label.clone(),
-        };
+        let level = |value| ReferenceLevel::new(value, plot.iid_label.as_str());
         panels.push(MultiplesPanel {
             title: panel.target.clone(),
             series,
