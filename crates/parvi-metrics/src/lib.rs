@@ -19,6 +19,7 @@ mod sorted;
 mod standardise;
 mod summation;
 mod wasserstein;
+pub mod yardstick;
 
 pub use cloud::{Cloud, effective_sample_size};
 pub use directions::Directions;
