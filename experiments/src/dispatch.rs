@@ -1,49 +1,54 @@
 //! From a dimension known at run time to a type parameter, once.
 
-use parvi_targets::{BoxedTarget, TargetError};
+use parvi_targets::TargetError;
 
 use crate::CommandError;
-use crate::options::TargetSpecification;
 
-/// A piece of work on a target whose dimension is a type parameter.
-pub trait TargetTask {
-    /// What the work gives.
-    type Output;
-
-    /// Does it.
-    fn run<const D: usize>(self, target: BoxedTarget<D>) -> Result<Self::Output, CommandError>;
+/// Work in a dimension known at run time: `in_dimension!(name, d, D => …)` is the work, which gives a result, with `D` as a constant; an error calls the target by the name.
+macro_rules! in_dimension {
+    ($name:expr, $dimension:expr, $D:ident => $work:expr) => {
+        $crate::dispatch::in_dimension!($name, $dimension, $D => $work; 1 2 3 4 5 6, 7 8)
+    };
+    ($name:expr, $dimension:expr, $D:ident => $work:expr; $($always:literal)+, $($seldom:literal)+) => {
+        match $dimension {
+            $($always => {
+                const $D: usize = $always;
+                $work
+            })+
+            $(#[cfg(feature = "seven-and-eight")]
+            $seldom => {
+                const $D: usize = $seldom;
+                $work
+            })+
+            dimension => Err($crate::dispatch::refused($name, dimension)),
+        }
+    };
 }
+pub(crate) use in_dimension;
 
-/// Builds the target and hands it to the task in its own dimension.
-pub fn with_target<T: TargetTask>(specification: &TargetSpecification, task: T) -> Result<T::Output, CommandError> {
-    match specification.dimension()? {
-        1 => build::<1, T>(specification, task),
-        2 => build::<2, T>(specification, task),
-        3 => build::<3, T>(specification, task),
-        4 => build::<4, T>(specification, task),
-        5 => build::<5, T>(specification, task),
-        6 => build::<6, T>(specification, task),
-        #[cfg(feature = "seven-and-eight")]
-        7 => build::<7, T>(specification, task),
-        #[cfg(feature = "seven-and-eight")]
-        8 => build::<8, T>(specification, task),
-        #[cfg(not(feature = "seven-and-eight"))]
-        7 | 8 => Err(CommandError::LeftOut {
+/// Work on a target in its own dimension: `on_target!(specification, target, D => …)`, in a function that gives a result.
+macro_rules! on_target {
+    ($specification:expr, $target:ident, $D:ident => $work:expr) => {{
+        let specification: &$crate::options::TargetSpecification = $specification;
+        $crate::dispatch::in_dimension!(&specification.name, specification.dimension()?, $D => {
+            let $target = specification.build::<$D>()?;
+            $work
+        })
+    }};
+}
+pub(crate) use on_target;
+
+/// The error for a dimension that this build does not have.
+pub fn refused(target: &str, dimension: usize) -> CommandError {
+    match dimension {
+        7 | 8 => CommandError::LeftOut {
             asked: "a target of 7 or 8 dimensions",
             feature: "seven-and-eight",
-        }),
-        dimension => Err(CommandError::Target(TargetError::DimensionNotAllowed {
-            target: specification.name.clone(),
+        },
+        _ => CommandError::Target(TargetError::DimensionNotAllowed {
+            target: target.to_owned(),
             dimension,
             allowed: "1 to 8 dimensions".to_owned(),
-        })),
+        }),
     }
-}
-
-fn build<const D: usize, T: TargetTask>(
-    specification: &TargetSpecification,
-    task: T,
-) -> Result<T::Output, CommandError> {
-    let target = parvi_targets::build::<D>(&specification.name, &specification.parameters.to_catalogue())?;
-    task.run::<D>(target)
 }

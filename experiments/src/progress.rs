@@ -22,16 +22,23 @@ pub(crate) fn unless_interrupted() -> ControlFlow<()> {
     }
 }
 
-/// The bar of a single run: steps.
-pub struct StepProgress {
+/// The bar of a number of like things.
+pub struct CountProgress {
     bar: ProgressBar,
 }
 
-impl StepProgress {
-    /// A bar that appears with the first step.
-    pub fn new() -> Self {
-        let bar = ProgressBar::new(0).with_style(style("{bar:30} step {pos}/{len}, {eta} left"));
+impl CountProgress {
+    /// A bar for things of this name, which appears with the first one done.
+    pub fn new(name: &str) -> Self {
+        let style = style(&format!("{{bar:30}} {name} {{pos}}/{{len}}, {{eta}} left"));
+        let bar = ProgressBar::new(0).with_style(style);
         Self { bar }
+    }
+
+    /// So many of so many are done.
+    pub fn set(&self, done: usize, count: usize) {
+        self.bar.set_length(count as u64);
+        self.bar.set_position(done as u64);
     }
 
     /// Takes the bar off the screen.
@@ -40,18 +47,10 @@ impl StepProgress {
     }
 }
 
-impl Default for StepProgress {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
-impl Observer for StepProgress {
+/// As the bar of a single run: steps.
+impl Observer for CountProgress {
     fn after_step(&mut self, progress: Progress) -> ControlFlow<()> {
-        if progress.step == 1 {
-            self.bar.set_length(progress.steps as u64);
-        }
-        self.bar.set_position(progress.step as u64);
+        self.set(progress.step, progress.steps);
         unless_interrupted()
     }
 }

@@ -2,61 +2,68 @@
 
 use std::time::Instant;
 
-use parvi::{Certificate, Method, Observer, Run, TracePoint};
-use parvi_targets::{BoxedTarget, CatalogueTarget};
+use parvi::{Certificate, Method, Observer, Run, Samples, TracePoint};
+use parvi_targets::CatalogueTarget;
 
 use crate::CommandError;
-use crate::dispatch::{TargetTask, with_target};
+use crate::dispatch::on_target;
 use crate::options::TargetSpecification;
 use crate::output::Particles;
 
-/// What a run gave; the fields are those of [`parvi::Samples`].
-#[derive(Clone, Debug, Default)]
-pub struct Outcome {
-    /// The particles, all finite.
-    pub particles: Particles,
-    /// Steps taken.
-    pub steps: usize,
-    /// Evaluations of the score at one point.
-    pub score_evaluations: u64,
-    /// Evaluations of the score at one point that only judged the particles, where they are counted apart.
-    pub judging_evaluations: u64,
-    /// Evaluations of the log density at one point.
-    pub density_evaluations: u64,
-    /// log Z, where the method estimates it.
-    pub log_evidence: Option<f64>,
-    /// Its standard error.
-    pub log_evidence_error: Option<f64>,
-    /// The same less the target's own, where that is known.
-    pub log_evidence_deviation: Option<f64>,
-    /// Shape of the tail of the importance weights.
-    pub pareto_k: Option<f64>,
-    /// [`Samples::score_disagreement`](parvi::Samples::score_disagreement).
-    pub score_disagreement: Option<f64>,
-    /// Residual relative to i.i.d. draws.
-    pub residual: Option<f64>,
-    /// Grid spacing in frame units.
-    pub spacing: Option<f64>,
-    /// Nodes with mass in the last step.
-    pub active_nodes: Option<usize>,
-    /// Bodies that moved.
-    pub bodies: Option<usize>,
-    /// Bytes held by particles and grid.
-    pub storage_bytes: Option<usize>,
-    /// Divergent trajectories of a Markov chain.
-    pub divergences: Option<usize>,
-    /// Scores that were not finite on the way and have been replaced.
-    pub scores_replaced: u64,
-    /// How good the particles are, as far as the method can tell.
-    pub certificate: Option<Certificate>,
-    /// Everything that was evaluated, weighed, with log p; where the method keeps it.
-    pub pool: Option<Particles>,
-    /// History.
-    pub trace: Vec<TracePoint>,
-    /// What a watch saw on the way.
-    pub watched: Option<Watched>,
-    /// Time of the sampler alone, in seconds.
-    pub wall_seconds: f64,
+/// What a run gave, from the fields of [`Samples`] that are the same in every dimension.
+macro_rules! outcome {
+    ($($field:ident: $type:ty,)*) => {
+        /// What a run gave: the fields of [`Samples`], those that have a dimension as files hold them.
+        #[derive(Clone, Debug, Default)]
+        pub struct Outcome {
+            /// The particles, all finite.
+            pub particles: Particles,
+            /// Everything that was evaluated, weighed, with log p; where the method keeps it.
+            pub pool: Option<Particles>,
+            /// What a watch saw on the way.
+            pub watched: Option<Watched>,
+            /// log Z less the target's own, where both are known.
+            pub log_evidence_deviation: Option<f64>,
+            /// Time of the sampler alone, in seconds.
+            pub wall_seconds: f64,
+            $(#[doc = concat!("As `", stringify!($field), "` of [`Samples`].")] pub $field: $type,)*
+        }
+
+        impl<const D: usize> From<Samples<D>> for Outcome {
+            fn from(samples: Samples<D>) -> Self {
+                Self {
+                    particles: Particles::from(&samples),
+                    pool: samples.pool.map(|pool| {
+                        let points = Particles::new(&pool.positions, Some(&pool.weights));
+                        points.with_log_densities(pool.log_densities)
+                    }),
+                    watched: samples.watched.map(Watched::from),
+                    $($field: samples.$field,)*
+                    ..Self::default()
+                }
+            }
+        }
+    };
+}
+
+outcome! {
+    steps: usize,
+    score_evaluations: u64,
+    judging_evaluations: u64,
+    density_evaluations: u64,
+    scores_replaced: u64,
+    score_disagreement: Option<f64>,
+    residual: Option<f64>,
+    spacing: Option<f64>,
+    active_nodes: Option<usize>,
+    bodies: Option<usize>,
+    storage_bytes: Option<usize>,
+    divergences: Option<usize>,
+    log_evidence: Option<f64>,
+    log_evidence_error: Option<f64>,
+    pareto_k: Option<f64>,
+    certificate: Option<Certificate>,
+    trace: Vec<TracePoint>,
 }
 
 /// The best configuration of a run, and all looks; as [`parvi::Watched`].
@@ -109,10 +116,6 @@ impl Outcome {
     }
 }
 
-fn finite(value: Option<f64>) -> Option<f64> {
-    value.filter(|value| value.is_finite())
-}
-
 /// Samples a target of the catalogue.
 ///
 /// # Errors
@@ -123,7 +126,7 @@ pub fn sample(
     run: &Run,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, CommandError> {
-    with_target(target, SampleTask { method, run, observer })
+    on_target!(target, target, D => sample_target::<D>(target.as_ref(), method, run, observer))
 }
 
 /// Samples a target that is already built.
@@ -136,57 +139,28 @@ pub fn sample_target<const D: usize>(
     let begin = Instant::now();
     let samples = parvi::sample::<D>(target, method, run, observer)?;
     let wall_seconds = begin.elapsed().as_secs_f64();
-    let particles = Particles::from(&samples);
-    if let Some(value) = particles.first_not_finite() {
+    let evidence = samples.log_evidence.zip(target.log_evidence());
+    let mut outcome = Outcome {
+        log_evidence_deviation: evidence.map(|(found, exact)| found - exact),
+        wall_seconds,
+        ..Outcome::from(samples)
+    };
+    if let Some(value) = outcome.particles.first_not_finite() {
         return Err(CommandError::NotFinite {
             what: "a particle".to_owned(),
             value,
         });
     }
-    Ok(Outcome {
-        particles,
-        steps: samples.steps,
-        score_evaluations: samples.score_evaluations,
-        judging_evaluations: samples.judging_evaluations,
-        density_evaluations: samples.density_evaluations,
-        log_evidence: finite(samples.log_evidence),
-        log_evidence_error: finite(samples.log_evidence_error),
-        log_evidence_deviation: finite(
-            samples
-                .log_evidence
-                .zip(target.log_evidence())
-                .map(|(found, exact)| found - exact),
-        ),
-        pareto_k: finite(samples.pareto_k),
-        score_disagreement: finite(samples.score_disagreement),
-        residual: finite(samples.residual),
-        spacing: finite(samples.spacing),
-        active_nodes: samples.active_nodes,
-        bodies: samples.bodies,
-        storage_bytes: samples.storage_bytes,
-        divergences: samples.divergences,
-        scores_replaced: samples.scores_replaced,
-        certificate: samples.certificate,
-        pool: samples.pool.map(|pool| {
-            let points = Particles::new(&pool.positions, Some(&pool.weights));
-            points.with_log_densities(pool.log_densities)
-        }),
-        trace: samples.trace,
-        watched: samples.watched.map(Watched::from),
-        wall_seconds,
-    })
-}
-
-struct SampleTask<'a> {
-    method: &'a Method,
-    run: &'a Run,
-    observer: &'a mut dyn Observer,
-}
-
-impl TargetTask for SampleTask<'_> {
-    type Output = Outcome;
-
-    fn run<const D: usize>(self, target: BoxedTarget<D>) -> Result<Outcome, CommandError> {
-        sample_target::<D>(target.as_ref(), self.method, self.run, self.observer)
+    for number in [
+        &mut outcome.log_evidence,
+        &mut outcome.log_evidence_error,
+        &mut outcome.log_evidence_deviation,
+        &mut outcome.pareto_k,
+        &mut outcome.score_disagreement,
+        &mut outcome.residual,
+        &mut outcome.spacing,
+    ] {
+        *number = number.filter(|value| value.is_finite());
     }
+    Ok(outcome)
 }

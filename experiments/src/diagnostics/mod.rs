@@ -3,13 +3,13 @@
 mod moments;
 
 use parvi_metrics::{Cloud, InverseMultiquadric, effective_sample_size, kernel_stein_discrepancy, quantiles};
-use parvi_targets::{BoxedTarget, Frame};
+use parvi_targets::{CatalogueTarget, Frame};
 use serde::Serialize;
 
 use moments::{Moment, of_certificate, of_expectations};
 
 use crate::CommandError;
-use crate::dispatch::{TargetTask, with_target};
+use crate::dispatch::on_target;
 use crate::options::TargetSpecification;
 use crate::output::Particles;
 use crate::sampling::Outcome;
@@ -92,55 +92,47 @@ struct Quantile {
 /// # Errors
 /// Particles or scores that are not finite.
 pub fn diagnose(target: &TargetSpecification, outcome: &Outcome) -> Result<Diagnostics, CommandError> {
-    with_target(target, Diagnose { outcome })
+    on_target!(target, target, D => of_target::<D>(target.as_ref(), outcome))
 }
 
-struct Diagnose<'a> {
-    outcome: &'a Outcome,
-}
-
-impl TargetTask for Diagnose<'_> {
-    type Output = Diagnostics;
-
-    fn run<const D: usize>(self, target: BoxedTarget<D>) -> Result<Diagnostics, CommandError> {
-        let particles = &self.outcome.particles;
-        let points = particles.points::<D>().unwrap_or_default();
-        let weights = particles.weights();
-        let cloud = Cloud::with_optional_weights(&points, weights)?;
-        let size = match weights {
-            Some(weights) => effective_sample_size(weights)?,
-            None => points.len() as f64,
-        };
-        let certificate = self.outcome.certificate.as_ref();
-        let moments = match certificate {
-            Some(certificate) if certificate.moments.len() == D => of_certificate(certificate),
-            _ => of_expectations(target.as_ref(), &points, weights),
-        };
-        let tails = tails(&cloud, size)?;
-        let coordinates = moments.into_iter().zip(tails).enumerate();
-        Ok(Diagnostics {
-            particles: points.len(),
-            effective_sample_size: size,
-            outcome: certificate.map(|certificate| certificate.outcome.name()),
-            reason: certificate.and_then(|certificate| certificate.outcome.reason()),
-            score_evaluations: self.outcome.score_evaluations,
-            density_evaluations: self.outcome.density_evaluations,
-            log_evidence: self.outcome.log_evidence,
-            log_evidence_error: self.outcome.log_evidence_error,
-            pareto_k: self.outcome.pareto_k,
-            pool: self.outcome.pool.as_ref().map(PoolSize::of).transpose()?,
-            residual: self.outcome.residual,
-            kernel_stein_discrepancy: discrepancy(target, &points, weights)?,
-            coordinates: coordinates
-                .map(|(axis, ((mean, standard_deviation), quantiles))| Coordinate {
-                    name: format!("x{}", axis + 1),
-                    mean,
-                    standard_deviation,
-                    quantiles,
-                })
-                .collect(),
-        })
-    }
+fn of_target<const D: usize>(target: &dyn CatalogueTarget<D>, outcome: &Outcome) -> Result<Diagnostics, CommandError> {
+    let particles = &outcome.particles;
+    let points = particles.points::<D>().unwrap_or_default();
+    let weights = particles.weights();
+    let cloud = Cloud::with_optional_weights(&points, weights)?;
+    let size = match weights {
+        Some(weights) => effective_sample_size(weights)?,
+        None => points.len() as f64,
+    };
+    let certificate = outcome.certificate.as_ref();
+    let moments = match certificate {
+        Some(certificate) if certificate.moments.len() == D => of_certificate(certificate),
+        _ => of_expectations(target, &points, weights),
+    };
+    let tails = tails(&cloud, size)?;
+    let coordinates = moments.into_iter().zip(tails).enumerate();
+    Ok(Diagnostics {
+        particles: points.len(),
+        effective_sample_size: size,
+        outcome: certificate.map(|certificate| certificate.outcome.name()),
+        reason: certificate.and_then(|certificate| certificate.outcome.reason()),
+        score_evaluations: outcome.score_evaluations,
+        density_evaluations: outcome.density_evaluations,
+        log_evidence: outcome.log_evidence,
+        log_evidence_error: outcome.log_evidence_error,
+        pareto_k: outcome.pareto_k,
+        pool: outcome.pool.as_ref().map(PoolSize::of).transpose()?,
+        residual: outcome.residual,
+        kernel_stein_discrepancy: discrepancy(target, &points, weights)?,
+        coordinates: coordinates
+            .map(|(axis, ((mean, standard_deviation), quantiles))| Coordinate {
+                name: format!("x{}", axis + 1),
+                mean,
+                standard_deviation,
+                quantiles,
+            })
+            .collect(),
+    })
 }
 
 /// The quantiles of every coordinate.
@@ -163,7 +155,7 @@ fn tails<const D: usize>(cloud: &Cloud<'_, D>, size: f64) -> Result<Vec<Vec<Quan
 
 /// The kernel Stein discrepancy; `None` for many particles, and for such as lie in a plane.
 fn discrepancy<const D: usize>(
-    target: BoxedTarget<D>,
+    target: &dyn CatalogueTarget<D>,
     points: &[[f64; D]],
     weights: Option<&[f64]>,
 ) -> Result<Option<f64>, CommandError> {

@@ -2,6 +2,8 @@
 //!
 //! A new law is a line of `materials!` below.
 
+use std::fmt::{self, Display, Formatter};
+
 use clap::ValueEnum;
 use mpm_materials::{
     DruckerPrager, ElasticModuli, FixedCorotated, Hencky, IsothermalGas, KelvinVoigt, LinearCauchy, LinearElastic,
@@ -106,6 +108,13 @@ materials! {
     };
     /// Isothermal gas as a law of F, whose rest state is the target
     IsothermalGas [PRESSURE] => IsothermalGas::new(given.value(&PRESSURE))?;
+}
+
+impl Display for Material {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        self.to_possible_value()
+            .map_or(Ok(()), |word| formatter.write_str(word.get_name()))
+    }
 }
 
 /// What is given of a law's parameters.

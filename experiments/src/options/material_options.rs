@@ -13,10 +13,10 @@ impl MethodOptions {
     /// A parameter that the law does not have, or refuses.
     pub(super) fn paper_material(&self) -> Result<PaperMaterial, OptionError> {
         let material = self.material.unwrap_or(Material::NeoHookean);
-        let given: Vec<(&str, String)> = self.given().collect();
+        let given: Vec<(String, String)> = self.given().collect();
         let of = |material: &Material, flag: &str| material.parameters().iter().any(|known| known.flag == flag);
         let of_any = |flag: &str| Material::value_variants().iter().any(|material| of(material, flag));
-        let misfit = given.iter().find(|(flag, _)| match *flag {
+        let misfit = given.iter().find(|(flag, _)| match flag.as_str() {
             "forgets-expansion" => material != Material::TaitFluid,
             flag => of_any(flag) && !of(&material, flag),
         });

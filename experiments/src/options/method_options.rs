@@ -8,236 +8,264 @@ use serde::Deserialize;
 
 use super::{
     AlphaSchedule, Basis, Correction, Draws, EvaluationCount, FrameName, Limit, Material, MethodName, MonitorName,
-    NonFinite, OptionError, ParticleCount, RoundCount, Score, StepCount, Switch, Transfer, WarmUp,
+    NonFinite, OptionError, ParticleCount, RoundCount, Score, StepCount, Switch, Transfer, Typed, WarmUp,
 };
 
-/// Options of the methods; `None`: the method's own default.
-#[derive(Args, Clone, Debug, Default, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
-#[command(next_help_heading = "Options of the method")]
-pub struct MethodOptions {
+/// The options, and the list of them; the documentation of an option is what `--help` says.
+macro_rules! options {
+    ($($(#[$meta:meta])* $name:ident: $type:ty,)*) => {
+        /// Options of the methods; `None`: the method's own default.
+        #[derive(Args, Clone, Debug, Default, PartialEq, Deserialize)]
+        #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
+        #[command(next_help_heading = "Options of the method")]
+        pub struct MethodOptions {
+            $($(#[$meta])* pub $name: Option<$type>,)*
+            /// Measure residual and energy every so many steps; set by the studies.
+            #[arg(skip)]
+            #[serde(skip)]
+            pub trace_every: usize,
+        }
+
+        impl MethodOptions {
+            /// The names of all options.
+            #[cfg(test)]
+            pub(super) fn names() -> Vec<String> {
+                [$(stringify!($name)),*].map(flag).into()
+            }
+
+            /// The options that are set: name, value as typed.
+            pub(super) fn given(&self) -> impl Iterator<Item = (String, String)> {
+                let all = [$((stringify!($name), self.$name.as_ref().map(Typed::typed))),*];
+                all.into_iter().filter_map(|(name, value)| Some((flag(name), value?)))
+            }
+        }
+    };
+}
+
+/// The name of an option on the command line and in files.
+fn flag(name: &str) -> String {
+    name.replace('_', "-")
+}
+
+options! {
     /// Steps; mpm: of a round; support-points: at most
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
-    pub steps: Option<StepCount>,
+    steps: StepCount,
     /// Background basis
     #[arg(long)]
-    pub basis: Option<Basis>,
+    basis: Basis,
     /// Mesh of the domain that the density is kept to, a .msh file of Gmsh; with --basis mesh
     #[arg(long, value_name = "FILE.msh")]
-    pub mesh: Option<PathBuf>,
+    mesh: PathBuf,
     /// Grid spacing in units of the target's scale
     #[arg(long, value_name = "H", allow_negative_numbers = true)]
-    pub spacing: Option<f64>,
+    spacing: f64,
     /// Time step
     #[arg(long, value_name = "DT", allow_negative_numbers = true)]
-    pub time_step: Option<f64>,
+    time_step: f64,
     /// Where the score is evaluated
     #[arg(long)]
-    pub score: Option<Score>,
+    score: Score,
     /// Largest displacement per step in units of the spacing, or `off`; mpm: a number
     #[arg(long, value_name = "C|off", allow_negative_numbers = true)]
-    pub displacement_limit: Option<Limit>,
+    displacement_limit: Limit,
     /// Weigh evaluations of the log density and condense the particles from them, which the material evens out; off: a body moves from its start in the target's frame [default: on]
     #[arg(long)]
-    pub survey: Option<Switch>,
+    survey: Switch,
     /// Evaluations of the survey, of all kinds, at most
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
-    pub evaluations: Option<EvaluationCount>,
+    evaluations: EvaluationCount,
     /// Move the basis' origin and draw its spacing every step
     #[arg(long)]
-    pub shifts: Option<Switch>,
+    shifts: Switch,
     /// Turn the lattice at random every step
     #[arg(long)]
-    pub rotation: Option<Switch>,
+    rotation: Switch,
     /// Largest over smallest spacing that a run draws from, at least 1
     #[arg(long, value_name = "RATIO", allow_negative_numbers = true)]
-    pub spacing_range: Option<f64>,
+    spacing_range: f64,
     /// Spacing of the first step over the central one, at least 1
     #[arg(long, value_name = "RATIO", allow_negative_numbers = true)]
-    pub coarse_start: Option<f64>,
+    coarse_start: f64,
     /// Share of the steps over which the time step falls at the end, from 0 to below 1
     #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
-    pub settling: Option<f64>,
+    settling: f64,
     /// Go on shifting while settling
     #[arg(long)]
-    pub settling_shifts: Option<Switch>,
+    settling_shifts: Switch,
     /// What a last affine move of all particles puts right
     #[arg(long)]
-    pub moment_correction: Option<Correction>,
+    moment_correction: Correction,
     /// Velocity transfer
     #[arg(long)]
-    pub transfer: Option<Transfer>,
+    transfer: Transfer,
     /// Share of FLIP in the velocities, from 0 to 1; mpm: with --transfer flip or affine-flip [default: 0.95; paper-*: 0]
     #[arg(long, value_name = "A", allow_negative_numbers = true)]
-    pub flip_share: Option<f64>,
+    flip_share: f64,
     /// Friction, per unit of time
     #[arg(long, value_name = "GAMMA", allow_negative_numbers = true)]
-    pub friction: Option<f64>,
+    friction: f64,
     /// Rounds of the steps, at most: after a survey while they bring the particles nearer, 0: none; without one while they are still on their way [default: 4; with --survey off: 3, with --steps too: 1]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
-    pub rounds: Option<RoundCount>,
+    rounds: RoundCount,
     /// More particles than their share for light parts of the target, with weights; after a survey [default: off]
     #[arg(long)]
-    pub weighted: Option<Switch>,
+    weighted: Switch,
     /// Judge the particles at the end (mpm, paper-*) [default: on]
     #[arg(long)]
-    pub non_finite: Option<NonFinite>,
+    non_finite: NonFinite,
     /// Judge the particles at the end
     #[arg(long)]
-    pub certificate: Option<Switch>,
+    certificate: Switch,
     /// The algorithms exactly as the paper writes them: the target's own coordinates, no guard; every departure can be set beside it
     #[arg(long, num_args = 0..=1, default_missing_value = "on")]
-    pub as_written: Option<Switch>,
+    as_written: Switch,
     /// Coordinates that the body moves in; identity: the target's own, also those of spacing and start [default: target; with --as-written: identity]
     #[arg(long)]
-    pub frame: Option<FrameName>,
+    frame: FrameName,
     /// Constitutive law, by the names of the scenes [default: neo-hookean]
     #[arg(long)]
-    pub material: Option<Material>,
+    material: Material,
     /// Young's modulus E (solids) [default: 1]
     #[arg(long, value_name = "E", alias = "young-modulus", allow_negative_numbers = true)]
     #[serde(alias = "young-modulus")]
-    pub youngs_modulus: Option<f64>,
+    youngs_modulus: f64,
     /// Poisson's ratio (solids) [default: 0.3]
     #[arg(long, value_name = "NU", alias = "poisson-ratio", allow_negative_numbers = true)]
     #[serde(alias = "poisson-ratio")]
-    pub poissons_ratio: Option<f64>,
+    poissons_ratio: f64,
     /// Yield stress at first, as |dev tau|; softening-hencky [default: 0.1]
     #[arg(long, value_name = "KAPPA", allow_negative_numbers = true)]
-    pub peak_yield_stress: Option<f64>,
+    peak_yield_stress: f64,
     /// Yield stress that softening ends at; softening-hencky [default: the first one: perfect plasticity]
     #[arg(long, value_name = "KAPPA", allow_negative_numbers = true)]
-    pub residual_yield_stress: Option<f64>,
+    residual_yield_stress: f64,
     /// Rate of softening, per plastic strain; softening-hencky [default: 0]
     #[arg(long, value_name = "ETA", allow_negative_numbers = true)]
-    pub softening_rate: Option<f64>,
+    softening_rate: f64,
     /// Friction angle in degrees; drucker-prager [default: 30]
     #[arg(long, value_name = "PHI", allow_negative_numbers = true)]
-    pub friction_angle: Option<f64>,
+    friction_angle: f64,
     /// Cohesion, a stress; drucker-prager [default: 0]
     #[arg(long, value_name = "C", allow_negative_numbers = true)]
-    pub cohesion: Option<f64>,
+    cohesion: f64,
     /// Density at rest, mass per reference volume; tait-fluid [default: 1]
     #[arg(long, value_name = "RHO", allow_negative_numbers = true)]
-    pub density: Option<f64>,
+    density: f64,
     /// Speed of sound at rest; tait-fluid [default: 1]
     #[arg(long, value_name = "C", allow_negative_numbers = true)]
-    pub sound_speed: Option<f64>,
+    sound_speed: f64,
     /// Viscosity, stress times time; kelvin-voigt, tait-fluid [default: 0.1; tait-fluid: 0]
     #[arg(long, value_name = "ETA", allow_negative_numbers = true)]
-    pub viscosity: Option<f64>,
+    viscosity: f64,
     /// Forget volumes above that of rest; tait-fluid [default: off]
     #[arg(long)]
-    pub forgets_expansion: Option<Switch>,
+    forgets_expansion: Switch,
     /// Pressure per density kappa; at rest the density is p^(alpha/kappa); isothermal-gas [default: 1]
     #[arg(long, value_name = "KAPPA", allow_negative_numbers = true)]
-    pub pressure_per_density: Option<f64>,
+    pressure_per_density: f64,
     /// Constant factor before the score; paper-*: of either sign
     #[arg(long, allow_negative_numbers = true)]
-    pub alpha: Option<f64>,
+    alpha: f64,
     /// Factor before the score in the first step, with --alpha-to
     #[arg(long, value_name = "ALPHA", allow_negative_numbers = true)]
-    pub alpha_from: Option<f64>,
+    alpha_from: f64,
     /// Factor before the score in the last step, mpm: when settling begins, with --alpha-from
     #[arg(long, value_name = "ALPHA", allow_negative_numbers = true)]
-    pub alpha_to: Option<f64>,
+    alpha_to: f64,
     /// How the factor goes from the one to the other [default: geometric]
     #[arg(long)]
-    pub alpha_schedule: Option<AlphaSchedule>,
+    alpha_schedule: AlphaSchedule,
     /// Times that a cyclic schedule goes from the one to the other [default: 4]
     #[arg(long, value_name = "C", allow_negative_numbers = true)]
-    pub alpha_cycles: Option<StepCount>,
+    alpha_cycles: StepCount,
     /// A new grid, with its origin drawn anew, every so many steps; default: one grid, with nodes at the integer multiples of the spacing
     #[arg(long, value_name = "STEPS", allow_negative_numbers = true)]
-    pub grid_renewal: Option<StepCount>,
+    grid_renewal: StepCount,
     /// Masses of the particles: `equal`, 1/M each, or a file with a column of them [default: equal]
     #[arg(long, value_name = "equal|FILE.csv|.npy")]
-    pub masses: Option<PathBuf>,
+    masses: PathBuf,
     /// Reference volumes: `uniform`, 1/M each; `start-density`, mass over density of the start's law; `grid`, mass over density on the grid; or a file with a column of them [default: uniform]
     #[arg(long, value_name = "uniform|start-density|grid|FILE.csv|.npy")]
-    pub volumes: Option<PathBuf>,
+    volumes: PathBuf,
     /// Velocities at the start: `zero`, or a file with a column per dimension [default: zero]
     #[arg(long, value_name = "zero|FILE.csv|.npy")]
-    pub velocities: Option<PathBuf>,
+    velocities: PathBuf,
     /// What is watched on the way to find the best configuration [default with --best, --monitor-every or --patience: stein]
     #[arg(long)]
-    pub monitor: Option<MonitorName>,
+    monitor: MonitorName,
     /// Look every so many steps [default: 10]
     #[arg(long, value_name = "STEPS", allow_negative_numbers = true)]
-    pub monitor_every: Option<StepCount>,
+    monitor_every: StepCount,
     /// End the run after so many looks in a row that were not better than the best one by a hundredth [default: take all steps]
     #[arg(long, value_name = "LOOKS", allow_negative_numbers = true)]
-    pub patience: Option<StepCount>,
+    patience: StepCount,
     /// File of the best configuration on the way, .csv or .npy
     #[arg(long, value_name = "FILE.csv|.npy")]
-    pub best: Option<PathBuf>,
+    best: PathBuf,
     /// All guards at once; single guards can be set beside it
     #[arg(long)]
-    pub guards: Option<Switch>,
+    guards: Switch,
     /// Nodes lighter than this share of the mean particle mass get no force, 0: off
     #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
-    pub mass_floor: Option<f64>,
+    mass_floor: f64,
     /// Multiply the force by the nodal mass
     #[arg(long)]
-    pub mass_weighted_force: Option<Switch>,
+    mass_weighted_force: Switch,
     /// Courant number that limits the time step, or `off`
     #[arg(long, value_name = "C|off", allow_negative_numbers = true)]
-    pub courant: Option<Limit>,
+    courant: Limit,
     /// Largest principal stretch of a particle and, inverted, the least, or `off` [default: 1000]
     #[arg(long, value_name = "K|off", allow_negative_numbers = true)]
-    pub stretch_limit: Option<Limit>,
+    stretch_limit: Limit,
     /// Step size of the optimiser
     #[arg(long, value_name = "SIZE", allow_negative_numbers = true)]
-    pub step_size: Option<f64>,
+    step_size: f64,
     /// Fixed kernel bandwidth instead of the median rule
     #[arg(long, allow_negative_numbers = true)]
-    pub bandwidth: Option<f64>,
+    bandwidth: f64,
     /// Draws per chain that tune the sampler and are thrown away; stein-thinning: with --pool nuts
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
-    pub warm_up: Option<WarmUp>,
+    warm_up: WarmUp,
     /// Chains that share the draws out; stein-thinning: with --pool nuts
     #[arg(long, value_name = "C", allow_negative_numbers = true)]
-    pub chains: Option<StepCount>,
+    chains: StepCount,
     /// Keep every K-th draw; stein-thinning: with --pool nuts
     #[arg(long, value_name = "K", allow_negative_numbers = true)]
-    pub thinning: Option<StepCount>,
+    thinning: StepCount,
     /// Acceptance that the step size is tuned to, between 0 and 1; stein-thinning: with --pool nuts
     #[arg(long, value_name = "A", allow_negative_numbers = true)]
-    pub target_acceptance: Option<f64>,
+    target_acceptance: f64,
     /// What the draws are chosen from, `exact` or `nuts` (stein-thinning); file for the weighted pool
     #[arg(long, value_name = "exact|nuts|FILE.csv|.npy")]
-    pub pool: Option<PathBuf>,
+    pool: PathBuf,
     /// Size of the bigger sample, at least the number of particles
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
-    pub pool_size: Option<ParticleCount>,
+    pool_size: ParticleCount,
     /// End when no point moves farther, in units of the sample's spread
     #[arg(long, value_name = "TOL", allow_negative_numbers = true)]
-    pub tolerance: Option<f64>,
+    tolerance: f64,
     /// File of the positions at the start, a row per particle, in the target's own coordinates; mpm: with --survey off
     #[arg(long, value_name = "FILE.csv|.npy")]
-    pub start: Option<PathBuf>,
+    start: PathBuf,
     /// Target whose draws the particles start at, in its own coordinates: the paper's p0 by name; mpm: with --survey off
     #[arg(long, value_name = "TARGET")]
-    pub start_law: Option<String>,
+    start_law: String,
     /// Mean of a normal law to start from, in the target's own coordinates; mpm: with --survey off
     #[arg(long, value_name = "M1,M2,...", allow_hyphen_values = true)]
-    pub start_centre: Option<String>,
+    start_centre: String,
     /// Its covariance, the rows between semicolons; mpm: with --survey off [default: identity]
     #[arg(long, value_name = "C11,C12,...;C21,...", allow_hyphen_values = true)]
-    pub start_covariance: Option<String>,
+    start_covariance: String,
     /// Mean of every coordinate at the start, in units of the target's scale
     #[arg(long, value_name = "MEAN", allow_negative_numbers = true)]
-    pub start_mean: Option<f64>,
+    start_mean: f64,
     /// Standard deviation of every coordinate at the start
     #[arg(long, value_name = "SD", allow_negative_numbers = true)]
-    pub start_sd: Option<f64>,
+    start_sd: f64,
     /// How the particles are drawn from their initial law
     #[arg(long)]
-    pub start_draws: Option<Draws>,
-    /// Measure residual and energy every so many steps; set by the studies.
-    #[arg(skip)]
-    #[serde(skip)]
-    pub trace_every: usize,
+    start_draws: Draws,
 }
 
 impl MethodOptions {
@@ -252,6 +280,14 @@ impl MethodOptions {
         self.check_starts(name)?;
         self.check_pool(name)?;
         (name.kind().build)(self, self.steps.map(StepCount::get))
+    }
+
+    /// Refuses options that the method does not have.
+    fn check_fit(&self, method: MethodName) -> Result<(), OptionError> {
+        match self.given().find(|(name, _)| !method.kind().has(name)) {
+            Some((name, value)) => Err(OptionError::misfit(&name, &value, method.as_str())),
+            None => Ok(()),
+        }
     }
 
     /// Where the particles begin.
@@ -269,5 +305,24 @@ impl MethodOptions {
         self.given()
             .flat_map(|(name, value)| [format!("--{name}"), value])
             .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::ValueEnum;
+
+    use super::*;
+
+    #[test]
+    fn every_option_is_one_of_some_method_and_no_method_has_others() {
+        let names = MethodOptions::names();
+        let owned: Vec<&str> = MethodName::value_variants()
+            .iter()
+            .flat_map(|method| method.kind().options.split(' '))
+            .filter(|option| !option.is_empty())
+            .collect();
+        assert!(owned.iter().all(|option| names.iter().any(|name| name == option)));
+        assert!(names.iter().all(|name| owned.contains(&name.as_str())));
     }
 }

@@ -1,6 +1,6 @@
 //! A method with its options, as a configuration states it.
 
-use parvi::{Method, SampleError};
+use parvi::{Method, Run, SampleError};
 use serde::Deserialize;
 
 use super::{MethodName, MethodOptions, OptionError};
@@ -64,6 +64,13 @@ impl MethodSpecification {
             });
         }
         Ok(())
+    }
+
+    /// A run that begins where the options say.
+    pub fn run(&self, particles: usize, seed: u64) -> Run {
+        let mut run = Run::new(particles, seed);
+        run.start = self.options.start();
+        run
     }
 
     /// The method for the sampler, with another number of steps where one is given and the method takes steps.

@@ -1,7 +1,6 @@
 //! Options of targets and methods, with the same names on the command line and in configurations.
 
 mod bounded;
-mod given_options;
 mod law;
 mod limit;
 mod material_options;
@@ -14,6 +13,7 @@ mod option_values;
 mod pool_option;
 mod start_options;
 mod target_specification;
+mod typed;
 
 pub use bounded::{Bounded, Dimension, EvaluationCount, ParticleCount, RoundCount, StepCount, WarmUp};
 pub use law::{Given, Material, Parameter};
@@ -26,3 +26,4 @@ pub use option_values::{
     AlphaSchedule, Basis, Correction, Draws, FrameName, MonitorName, NonFinite, PoolChoice, Score, Switch, Transfer,
 };
 pub use target_specification::{TargetParameters, TargetSpecification};
+pub use typed::Typed;

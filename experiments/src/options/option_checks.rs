@@ -17,7 +17,7 @@ const POISSON: Range = (|x| x > -1.0 && x < 0.5, "above -1 and below 0.5");
 impl MethodOptions {
     /// Refuses numbers outside of their range.
     pub(super) fn check_ranges(&self) -> Result<(), OptionError> {
-        let numbers: [(&str, Option<f64>, Range); 21] = [
+        let numbers: [(&str, Option<f64>, Range); 22] = [
             ("spacing", self.spacing, POSITIVE),
             ("time-step", self.time_step, POSITIVE),
             (
@@ -43,8 +43,9 @@ impl MethodOptions {
             ("target-acceptance", self.target_acceptance, BETWEEN),
             ("tolerance", self.tolerance, NOT_NEGATIVE),
             ("start-sd", self.start_sd, POSITIVE),
+            ("start-mean", self.start_mean, FINITE),
         ];
-        for (name, value, (holds, expected)) in numbers.into_iter().chain([("start-mean", self.start_mean, FINITE)]) {
+        for (name, value, (holds, expected)) in numbers {
             if let Some(value) = value
                 && !holds(value)
             {
@@ -110,12 +111,10 @@ impl MethodOptions {
             ("alpha-from", self.alpha_from),
             ("alpha-to", self.alpha_to),
         ];
-        match factors
-            .into_iter()
-            .find(|(_, alpha)| alpha.is_some_and(|alpha| alpha <= 0.0))
-        {
-            Some((name, Some(alpha))) => Err(OptionError::out_of_range(name, alpha, "a number above 0")),
-            _ => Ok(()),
+        let drives_away = |&(name, alpha): &(_, Option<f64>)| Some((name, alpha.filter(|alpha| *alpha <= 0.0)?));
+        match factors.iter().find_map(drives_away) {
+            Some((name, alpha)) => Err(OptionError::out_of_range(name, alpha, "a number above 0")),
+            None => Ok(()),
         }
     }
 
@@ -124,15 +123,11 @@ impl MethodOptions {
         if self.surveys() {
             return Ok(());
         }
-        let none = self.rounds.filter(|rounds| rounds.get() == 0);
-        let given = [
-            ("evaluations", self.evaluations.map(|count| count.to_string())),
-            ("rounds", none.map(|count| count.to_string())),
-            ("pool", self.pool.as_ref().map(|file| file.display().to_string())),
-        ];
-        match given.into_iter().find_map(|(name, value)| Some((name, value?))) {
+        let no_rounds = self.rounds.is_some_and(|rounds| rounds.get() == 0);
+        let is_of_survey = |name: &str| matches!(name, "evaluations" | "pool") || (name == "rounds" && no_rounds);
+        match self.given().find(|(name, _)| is_of_survey(name)) {
             None => Ok(()),
-            Some((name, value)) => Err(OptionError::new(name, format!("{value} needs a survey"))),
+            Some((name, value)) => Err(OptionError::new(&name, format!("{value} needs a survey"))),
         }
     }
 }

@@ -6,22 +6,136 @@ use clap::ValueEnum;
 use parvi::{BasisChoice, MomentCorrection, Monitor, NonFiniteScores, ScoreLocation, StartDraws};
 use serde::{Deserialize, Serialize};
 
-use super::Material;
+/// Choices by the words that are typed; what `--help` says of a word is its documentation.
+macro_rules! words {
+    ($($(#[$meta:meta])* $words:ident { $($(#[$about:meta])* $word:ident,)* })*) => {$(
+        $(#[$meta])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+        #[serde(rename_all = "kebab-case")]
+        pub enum $words {
+            $($(#[$about])* $word,)*
+        }
 
-/// Background basis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Basis {
-    /// Hat functions on the simplices of the lattice A_D*
-    Lattice,
-    /// Tensor-product hat functions
-    Linear,
-    /// Tensor-product quadratic B-splines
-    Quadratic,
-    /// Tensor-product cubic B-splines
-    Cubic,
-    /// Hat functions on the mesh of --mesh, in 2 and 3 dimensions (mpm)
-    Mesh,
+        impl Display for $words {
+            fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+                self.to_possible_value().map_or(Ok(()), |word| formatter.write_str(word.get_name()))
+            }
+        }
+    )*};
+}
+
+words! {
+    /// Background basis.
+    #[derive(Default)]
+    Basis {
+        /// Hat functions on the simplices of the lattice A_D*
+        #[default]
+        Lattice,
+        /// Tensor-product hat functions
+        Linear,
+        /// Tensor-product quadratic B-splines
+        Quadratic,
+        /// Tensor-product cubic B-splines
+        Cubic,
+        /// Hat functions on the mesh of --mesh, in 2 and 3 dimensions (mpm)
+        Mesh,
+    }
+
+    /// On or off.
+    Switch {
+        /// On
+        On,
+        /// Off
+        Off,
+    }
+
+    /// What the last move puts right.
+    Correction {
+        /// Nothing
+        Off,
+        /// The mean
+        Mean,
+        /// Mean and covariance
+        Affine,
+    }
+
+    /// How particles are drawn from their initial law.
+    Draws {
+        /// Scrambled Sobol points through the normal quantile
+        QuasiRandom,
+        /// Independent draws
+        Independent,
+    }
+
+    /// How velocities travel between particles and nodes.
+    Transfer {
+        /// Particle in cell
+        Pic,
+        /// Affine particle in cell
+        Apic,
+        /// A blend of FLIP and PIC, see --flip-share
+        Flip,
+        /// A blend of affine FLIP and affine particle in cell, see --flip-share
+        AffineFlip,
+    }
+
+    /// What is watched of a body on its way.
+    #[derive(Default)]
+    MonitorName {
+        /// Kernel Stein discrepancy
+        #[default]
+        Stein,
+        /// Minus the mean log density of the target at the particles
+        LogDensity,
+        /// Minus the mean log density of the particles on the grid
+        ParticleDensity,
+    }
+
+    /// Where the score is evaluated.
+    Score {
+        /// At the particles
+        Particles,
+        /// At the nodes
+        Nodes,
+        /// At the particles, interpolated from a grid whose nodes are evaluated once (of mpm on the lattice)
+        Cached,
+    }
+
+    /// What is done about a particle whose score is not finite.
+    NonFinite {
+        /// Pull the particle towards the centre of the frame
+        PullBack,
+        /// Take steps back and make them again with half of the time step
+        RejectStep,
+        /// End with an error
+        Report,
+    }
+
+    /// The coordinates that the paper's algorithms work in.
+    FrameName {
+        /// Those in which the target has unit scale
+        Target,
+        /// The target's own
+        Identity,
+    }
+
+    /// How the factor before the score goes from --alpha-from to --alpha-to.
+    AlphaSchedule {
+        /// Geometric
+        Geometric,
+        /// Linear
+        Linear,
+        /// Linear, several times, see --alpha-cycles
+        Cyclic,
+    }
+
+    /// What Stein thinning chooses from.
+    PoolChoice {
+        /// Independent exact draws
+        Exact,
+        /// Draws of the No-U-Turn sampler
+        Nuts,
+    }
 }
 
 impl Basis {
@@ -37,70 +151,11 @@ impl Basis {
     }
 }
 
-/// On or off.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Switch {
-    /// On
-    On,
-    /// Off
-    Off,
-}
-
 impl Switch {
     /// Whether it is on.
     pub fn is_on(self) -> bool {
         self == Self::On
     }
-}
-
-/// What the last move puts right.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Correction {
-    /// Nothing
-    Off,
-    /// The mean
-    Mean,
-    /// Mean and covariance
-    Affine,
-}
-
-/// How particles are drawn from their initial law.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Draws {
-    /// Scrambled Sobol points through the normal quantile
-    QuasiRandom,
-    /// Independent draws
-    Independent,
-}
-
-/// How velocities travel between particles and nodes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Transfer {
-    /// Particle in cell
-    Pic,
-    /// Affine particle in cell
-    Apic,
-    /// A blend of FLIP and PIC, see --flip-share
-    Flip,
-    /// A blend of affine FLIP and affine particle in cell, see --flip-share
-    AffineFlip,
-}
-
-/// What is watched of a body on its way.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum MonitorName {
-    /// Kernel Stein discrepancy
-    #[default]
-    Stein,
-    /// Minus the mean log density of the target at the particles
-    LogDensity,
-    /// Minus the mean log density of the particles on the grid
-    ParticleDensity,
 }
 
 impl From<MonitorName> for Monitor {
@@ -111,62 +166,6 @@ impl From<MonitorName> for Monitor {
             MonitorName::ParticleDensity => Self::ParticleDensity,
         }
     }
-}
-
-/// Where the score is evaluated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Score {
-    /// At the particles
-    Particles,
-    /// At the nodes
-    Nodes,
-    /// At the particles, interpolated from a grid whose nodes are evaluated once (of mpm on the lattice)
-    Cached,
-}
-
-/// What is done about a particle whose score is not finite.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum NonFinite {
-    /// Pull the particle towards the centre of the frame
-    PullBack,
-    /// Take steps back and make them again with half of the time step
-    RejectStep,
-    /// End with an error
-    Report,
-}
-
-/// The coordinates that the paper's algorithms work in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum FrameName {
-    /// Those in which the target has unit scale
-    Target,
-    /// The target's own
-    Identity,
-}
-
-/// How the factor before the score goes from --alpha-from to --alpha-to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum AlphaSchedule {
-    /// Geometric
-    Geometric,
-    /// Linear
-    Linear,
-    /// Linear, several times, see --alpha-cycles
-    Cyclic,
-}
-
-/// What Stein thinning chooses from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum PoolChoice {
-    /// Independent exact draws
-    Exact,
-    /// Draws of the No-U-Turn sampler
-    Nuts,
 }
 
 /// The library's choice of the same name for every word.
@@ -186,26 +185,3 @@ as_in_the_library!(Correction => MomentCorrection { Off, Mean, Affine });
 as_in_the_library!(Draws => StartDraws { QuasiRandom, Independent });
 as_in_the_library!(Score => ScoreLocation { Particles, Nodes, Cached });
 as_in_the_library!(NonFinite => NonFiniteScores { PullBack, RejectStep, Report });
-
-/// Writes values as the words that are typed.
-macro_rules! display_as_typed {
-    ($($words:ty),*) => {$(
-        impl Display for $words {
-            fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
-                self.to_possible_value().map_or(Ok(()), |word| formatter.write_str(word.get_name()))
-            }
-        }
-    )*};
-}
-
-display_as_typed!(
-    Basis,
-    Switch,
-    Correction,
-    Draws,
-    Transfer,
-    MonitorName,
-    Score,
-    NonFinite
-);
-display_as_typed!(FrameName, AlphaSchedule, Material, PoolChoice);

@@ -52,7 +52,7 @@ impl MethodOptions {
         }
         match self.given().find(|(name, _)| MethodName::Nuts.kind().has(name)) {
             None => Ok(()),
-            Some((name, value)) => Err(OptionError::new(name, format!("{value} needs the pool `nuts`"))),
+            Some((name, value)) => Err(OptionError::new(&name, format!("{value} needs the pool `nuts`"))),
         }
     }
 }

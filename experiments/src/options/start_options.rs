@@ -73,19 +73,17 @@ impl MethodOptions {
 
     /// Refuses what a study does not read: every run of it draws its start from a law in the frame.
     pub(super) fn check_study_start(&self) -> Result<(), OptionError> {
-        let text = |path: Option<&Path>| path.map(|path| path.display().to_string());
-        let given = [
-            ("start", text(self.start_file())),
-            ("start-law", self.start_law.clone()),
-            ("start-centre", self.start_centre.clone()),
-            ("masses", text(self.masses_file())),
-            ("velocities", text(self.velocities_file())),
-            ("volumes", text(self.volumes_file())),
-        ];
-        match given.into_iter().find_map(|(name, value)| Some((name, value?))) {
+        let is_given = |name: &str, value: &str| match name {
+            "start" | "start-law" | "start-centre" => true,
+            "masses" => value != "equal",
+            "velocities" => value != "zero",
+            "volumes" => self.volumes_file().is_some(),
+            _ => false,
+        };
+        match self.given().find(|(name, value)| is_given(name, value)) {
             None => Ok(()),
             Some((name, value)) => Err(OptionError::new(
-                name,
+                &name,
                 format!("{value}: a study gives no particles, `parvi sample` does"),
             )),
         }

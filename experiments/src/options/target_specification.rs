@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use parvi_targets::{Parameters, TargetError};
+use parvi_targets::{BoxedTarget, Parameters, TargetError};
 use serde::Deserialize;
 
 use super::Dimension;
@@ -113,6 +113,14 @@ impl TargetSpecification {
             self.dim.map(Dimension::get),
             &self.parameters.to_catalogue(),
         )
+    }
+
+    /// The target, in its own dimension.
+    ///
+    /// # Errors
+    /// What the catalogue refuses.
+    pub fn build<const D: usize>(&self) -> Result<BoxedTarget<D>, TargetError> {
+        parvi_targets::build(&self.name, &self.parameters.to_catalogue())
     }
 
     /// The coordinates' names: the covariates of a regression or the parameters of a model, else x₁ … x_d in the notation of

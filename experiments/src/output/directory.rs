@@ -37,6 +37,20 @@ impl OutputDirectory {
         self.path.join(name)
     }
 
+    /// Removes a file in it; nothing where there is none.
+    ///
+    /// # Errors
+    /// [`CommandError::File`].
+    pub fn remove(&self, name: &str) -> Result<(), CommandError> {
+        let path = self.file(name);
+        match fs::remove_file(&path) {
+            Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+                Err(CommandError::file("remove", path, error))
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// The directory.
     pub fn path(&self) -> &Path {
         &self.path

@@ -1,6 +1,5 @@
 //! Files of particles, written whole or not at all.
 
-mod array_npy;
 mod atomic_file;
 mod directory;
 pub mod frames;

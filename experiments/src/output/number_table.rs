@@ -7,8 +7,10 @@ use std::path::Path;
 use crate::options::OptionError;
 
 /// Rows of as many numbers each.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct NumberTable {
+    /// What the columns are called; empty where the file does not say.
+    pub header: Vec<String>,
     /// Numbers per row, at least 1.
     pub columns: usize,
     /// All of them, row by row.
@@ -25,11 +27,44 @@ impl NumberTable {
             .extension()
             .map(|extension| extension.to_string_lossy().to_lowercase());
         let table = match extension.as_deref() {
-            Some("csv") => read_csv(path),
-            Some("npy") => read_npy(path),
+            Some("csv") => Self::of_csv(path),
+            Some("npy") => of_npy(path),
             _ => Err("the extension must be .csv or .npy".to_owned()),
         };
         table.map_err(|reason| OptionError::new(flag, format!("{}: {reason}", path.display())))
+    }
+
+    /// Reads a table of comma-separated values.
+    ///
+    /// # Errors
+    /// What is wrong with it, in words.
+    pub fn of_csv(path: &Path) -> Result<Self, String> {
+        let mut reader = csv::ReaderBuilder::new()
+            .has_headers(false)
+            .trim(csv::Trim::All)
+            .from_path(path)
+            .map_err(|error| error.to_string())?;
+        let mut table = Self::default();
+        for (row, record) in reader.records().enumerate() {
+            let record = record.map_err(|error| error.to_string())?;
+            let line = record.position().map_or(row as u64 + 1, csv::Position::line);
+            table.columns = record.len();
+            let is_header = row == 0 && record.iter().any(|cell| cell.parse::<f64>().is_err());
+            if is_header {
+                table.header = record.iter().map(str::to_owned).collect();
+                continue;
+            }
+            for cell in &record {
+                let number = cell.parse();
+                table
+                    .numbers
+                    .push(number.map_err(|_| format!("line {line}: '{cell}' is not a number"))?);
+            }
+        }
+        if table.numbers.is_empty() {
+            return Err("it holds no numbers".to_owned());
+        }
+        Ok(table)
     }
 
     /// Rows.
@@ -38,33 +73,7 @@ impl NumberTable {
     }
 }
 
-fn read_csv(path: &Path) -> Result<NumberTable, String> {
-    let mut reader = csv::ReaderBuilder::new()
-        .has_headers(false)
-        .trim(csv::Trim::All)
-        .from_path(path)
-        .map_err(|error| error.to_string())?;
-    let (mut columns, mut numbers) = (0, Vec::new());
-    for (row, record) in reader.records().enumerate() {
-        let record = record.map_err(|error| error.to_string())?;
-        let line = record.position().map_or(row as u64 + 1, csv::Position::line);
-        columns = record.len();
-        let is_header = row == 0 && record.iter().any(|cell| cell.parse::<f64>().is_err());
-        if is_header {
-            continue;
-        }
-        for cell in &record {
-            let number = cell.parse();
-            numbers.push(number.map_err(|_| format!("line {line}: '{cell}' is not a number"))?);
-        }
-    }
-    if numbers.is_empty() {
-        return Err("it holds no numbers".to_owned());
-    }
-    Ok(NumberTable { columns, numbers })
-}
-
-fn read_npy(path: &Path) -> Result<NumberTable, String> {
+fn of_npy(path: &Path) -> Result<NumberTable, String> {
     let file = File::open(path).map_err(|error| error.to_string())?;
     let array = npyz::NpyFile::new(BufReader::new(file)).map_err(|error| error.to_string())?;
     let columns = match *array.shape() {
@@ -79,7 +88,11 @@ fn read_npy(path: &Path) -> Result<NumberTable, String> {
     if numbers.is_empty() {
         return Err("it holds no numbers".to_owned());
     }
-    Ok(NumberTable { columns, numbers })
+    Ok(NumberTable {
+        columns,
+        numbers,
+        ..NumberTable::default()
+    })
 }
 
 #[cfg(test)]
@@ -95,13 +108,14 @@ mod tests {
 
     #[test]
     fn a_header_is_no_row() {
-        let expected = NumberTable {
+        let expected = |header: &[&str]| NumberTable {
+            header: header.iter().map(|name| (*name).to_owned()).collect(),
             columns: 2,
             numbers: vec![0.5, -1.0, 2.0, 3e-7],
         };
-        assert_eq!(table("x.csv", "x1,x2\n0.5,-1\n2,3e-7\n"), Ok(expected.clone()));
-        assert_eq!(table("x.csv", "0.5, -1\n2, 3e-7\n"), Ok(expected.clone()));
-        assert_eq!(expected.rows(), 2);
+        assert_eq!(table("x.csv", "x1,x2\n0.5,-1\n2,3e-7\n"), Ok(expected(&["x1", "x2"])));
+        assert_eq!(table("x.csv", "0.5, -1\n2, 3e-7\n"), Ok(expected(&[])));
+        assert_eq!(expected(&[]).rows(), 2);
     }
 
     #[test]

@@ -3,8 +3,8 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use super::Particles;
 use super::particles::{LOG_DENSITY, WEIGHT};
+use super::{NumberTable, Particles};
 use crate::CommandError;
 
 /// Writes a header and one particle per row: its coordinates, its weight where weights differ, log p where it is noted.
@@ -44,35 +44,16 @@ pub fn read(path: &Path) -> Result<Particles, CommandError> {
         file: path.display().to_string(),
         message,
     };
-    let mut reader = csv::Reader::from_path(path).map_err(|error| unreadable(error.to_string()))?;
-    let header = reader.headers().map_err(|error| unreadable(error.to_string()))?;
-    let columns = header.len();
-    let weighted = header.iter().next_back() == Some(WEIGHT);
-    let dimension = columns - usize::from(weighted);
+    let table = NumberTable::of_csv(path).map_err(unreadable)?;
+    let weighted = table.header.last().is_some_and(|name| name == WEIGHT);
+    let dimension = table.columns - usize::from(weighted);
     if dimension == 0 {
         return Err(unreadable("no coordinate in the header".to_owned()));
     }
-    let (mut coordinates, mut weights) = (Vec::new(), Vec::new());
-    for record in reader.records() {
-        let record = record.map_err(|error| unreadable(error.to_string()))?;
-        let line = record.position().map_or(0, csv::Position::line);
-        for (column, cell) in record.iter().enumerate() {
-            let value: f64 = cell
-                .parse()
-                .map_err(|_| unreadable(format!("line {line}: '{cell}' is not a number")))?;
-            if column < dimension {
-                &mut coordinates
-            } else {
-                &mut weights
-            }
-            .push(value);
-        }
-    }
-    Ok(Particles::from_coordinates(
-        dimension,
-        coordinates,
-        weighted.then_some(weights),
-    ))
+    let rows = || table.numbers.chunks_exact(table.columns);
+    let coordinates = rows().flat_map(|row| &row[..dimension]).copied().collect();
+    let weights = weighted.then(|| rows().map(|row| row[dimension]).collect());
+    Ok(Particles::from_coordinates(dimension, coordinates, weights))
 }
 
 #[cfg(test)]

@@ -10,19 +10,32 @@ use super::Particles;
 pub fn write(particles: &Particles, writer: &mut dyn Write) -> io::Result<()> {
     let further = particles.further_columns();
     let columns = particles.dimension() + further.len();
-    let shape = [particles.len() as u64, columns as u64];
+    let mut values = Vec::with_capacity(particles.len() * columns);
+    for (index, row) in particles.rows().enumerate() {
+        values.extend(row);
+        values.extend(
+            further
+                .iter()
+                .map(|(_, values)| values.get(index).copied().unwrap_or(0.0)),
+        );
+    }
+    writer.write_all(&array(&[particles.len() as u64, columns as u64], &values)?)
+}
+
+/// The bytes of a `.npy` file: f64, row-major.
+///
+/// # Errors
+/// Where there are not as many values as the shape says.
+pub fn array(shape: &[u64], values: &[f64]) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
     let mut array = npyz::WriteOptions::new()
         .default_dtype()
-        .shape(&shape)
-        .writer(writer)
+        .shape(shape)
+        .writer(&mut bytes)
         .begin_nd()?;
-    for (index, row) in particles.rows().enumerate() {
-        array.extend(row.iter().copied())?;
-        for (_, values) in &further {
-            array.push(&values.get(index).copied().unwrap_or(0.0))?;
-        }
-    }
-    array.finish()
+    array.extend(values.iter().copied())?;
+    array.finish()?;
+    Ok(bytes)
 }
 
 #[cfg(test)]

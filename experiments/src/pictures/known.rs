@@ -3,12 +3,10 @@
 use std::path::Path;
 
 use mpm_mesh::{CellSearch, read_msh};
-use parvi_targets::{BoxedTarget, CatalogueTarget};
+use parvi_targets::CatalogueTarget;
 use rand::SeedableRng;
 use rand::rngs::ChaCha8Rng;
 
-use crate::CommandError;
-use crate::dispatch::TargetTask;
 use crate::plots::{Curve, PairDensity, PointCloud, Reference};
 use crate::statistics::DensityGrid;
 
@@ -59,30 +57,19 @@ impl Known {
     }
 }
 
-/// Looks for it: by quadrature for d = 1, 2, else from exact draws, which also serve where the quadrature does not settle, and within a mesh.
-pub struct Look<'a> {
-    /// The file of the mesh that the density is kept to.
-    pub mesh: Option<&'a Path>,
-}
-
-impl TargetTask for Look<'_> {
-    type Output = Known;
-
-    fn run<const D: usize>(self, target: BoxedTarget<D>) -> Result<Known, CommandError> {
-        let target = target.as_ref();
-        if let Some(path) = self.mesh {
-            let inside = within::<D>(path);
-            let drawn = inside.and_then(|search| draws(target, |x| search.locate(x, None).is_some()));
-            return Ok(drawn.map_or_else(
-                || Known::Nothing("the target has no exact draws, or too few of them are within the mesh".to_owned()),
-                Known::Draws,
-            ));
-        }
-        if let Some(known) = quadrature(target) {
-            return Ok(known);
-        }
-        Ok(draws(target, |_| true).map_or_else(|| Known::Nothing(reason::<D>()), Known::Draws))
+/// Looks for it: by quadrature for d = 1, 2, else from exact draws, which also serve where the quadrature does not settle, and within the mesh of a file that the density is kept to.
+pub fn look<const D: usize>(target: &dyn CatalogueTarget<D>, mesh: Option<&Path>) -> Known {
+    if let Some(path) = mesh {
+        let inside = within::<D>(path);
+        let drawn = inside.and_then(|search| draws(target, |x| search.locate(x, None).is_some()));
+        return drawn.map_or_else(
+            || Known::Nothing("the target has no exact draws, or too few of them are within the mesh".to_owned()),
+            Known::Draws,
+        );
     }
+    quadrature(target)
+        .or_else(|| draws(target, |_| true).map(Known::Draws))
+        .unwrap_or_else(|| Known::Nothing(reason::<D>()))
 }
 
 fn reason<const D: usize>() -> String {
@@ -124,15 +111,7 @@ fn quadrature<const D: usize>(target: &dyn CatalogueTarget<D>) -> Option<Known> 
     };
     let mut grids = NODES.iter().map(|&nodes| {
         let rows = if D == 1 { 1 } else { nodes };
-        let mut grid = DensityGrid::evaluate(range(0), range(1), (nodes, rows), |x, y| {
-            let mut point = [0.0; D];
-            for (coordinate, value) in point.iter_mut().zip([x, y]) {
-                *coordinate = value;
-            }
-            target.log_density(&point)
-        });
-        grid.exponentiate();
-        grid
+        density(target, [range(0), range(1)], (nodes, rows))
     });
     let grid = grids.find(settled)?;
     let marginals = (0..D).map(|axis| marginal(&grid, axis)).collect();
@@ -145,6 +124,23 @@ fn quadrature<const D: usize>(target: &dyn CatalogueTarget<D>) -> Option<Known> 
         marginals,
         pairs: if D == 2 { vec![pair] } else { Vec::new() },
     })
+}
+
+/// The density on a grid over the first two coordinates, its largest value 1.
+pub fn density<const D: usize>(
+    target: &dyn CatalogueTarget<D>,
+    [x, y]: [(f64, f64); 2],
+    nodes: (usize, usize),
+) -> DensityGrid {
+    let mut grid = DensityGrid::evaluate(x, y, nodes, |x, y| {
+        let mut point = [0.0; D];
+        for (coordinate, value) in point.iter_mut().zip([x, y]) {
+            *coordinate = value;
+        }
+        target.log_density(&point)
+    });
+    grid.exponentiate();
+    grid
 }
 
 /// Whether the integral over every second node is the same.

@@ -9,9 +9,10 @@ use std::path::Path;
 use parvi::TracePoint;
 
 pub use self::history::History;
-use self::known::{Known, Look};
+pub use self::known::density;
+use self::known::{Known, look};
 pub use self::trace_panels::TraceQuantity;
-use crate::dispatch::with_target;
+use crate::dispatch::on_target;
 use crate::options::TargetSpecification;
 use crate::output::{AtomicFile, OutputDirectory, Particles};
 use crate::plots::{
@@ -57,17 +58,16 @@ impl Subject<'_> {
     /// # Errors
     /// What the target refuses, and files that cannot be written.
     pub fn draw(&self, directory: &OutputDirectory) -> Result<Vec<&'static str>, CommandError> {
-        let known = with_target(self.target, Look { mesh: self.mesh })?;
+        let known = on_target!(self.target, target, D => Ok(look::<D>(target.as_ref(), self.mesh)))?;
         if let Known::Nothing(reason) = &known {
             console::notice(&format!("--plots: no exact marginals and no contours: {reason}"));
         }
         let dimension = self.outcome.particles.dimension();
         let mut written = Vec::new();
         let mut write = |name: &'static str, drawing: Drawing| -> Result<(), CommandError> {
-            let path = directory.file(name);
             match drawing {
                 Drawing::Done(Ok(svg)) => {
-                    AtomicFile::write(path, svg)?;
+                    AtomicFile::write(directory.file(name), svg)?;
                     written.push(name);
                     return Ok(());
                 }
@@ -75,12 +75,7 @@ impl Subject<'_> {
                 Drawing::LeftOut(Some(reason)) => console::notice(&format!("--plots: no {name}: {reason}")),
                 Drawing::LeftOut(None) => {}
             }
-            match std::fs::remove_file(&path) {
-                Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
-                    Err(CommandError::file("remove", path, error))
-                }
-                _ => Ok(()),
-            }
+            directory.remove(name)
         };
         write(HISTOGRAM, Drawing::Done(self.histogram(&known)))?;
         let corner = match dimension {

@@ -38,10 +38,7 @@ impl TraceQuantity {
             Self::InternalEnergy => "energy stored in the body",
             Self::Displacement => "largest displacement of a step before limits",
         };
-        let level = ReferenceLevel {
-            value: 1.0,
-            label: "independent draws".to_owned(),
-        };
+        let level = ReferenceLevel::new(1.0, "independent draws");
         TracePanel {
             y_label: label.to_owned(),
             y_axis: if matches!(self, Self::PotentialEnergy | Self::InternalEnergy) {

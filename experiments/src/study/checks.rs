@@ -25,6 +25,14 @@ pub fn not_empty<T>(field: &str, values: &[T]) -> Result<(), CommandError> {
     Ok(())
 }
 
+/// Refuses lists of a configuration that are empty: `all_given!(self: seeds, dims)`.
+macro_rules! all_given {
+    ($study:ident: $($list:ident),+) => {
+        $($crate::study::checks::not_empty(stringify!($list), &$study.$list)?;)+
+    };
+}
+pub(crate) use all_given;
+
 /// Refuses numbers that are not positive and finite.
 pub fn positive(field: &str, values: &[f64]) -> Result<(), CommandError> {
     match values.iter().find(|value| !(**value > 0.0 && value.is_finite())) {

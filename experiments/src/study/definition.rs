@@ -5,10 +5,10 @@ use std::path::Path;
 use serde::de::DeserializeOwned;
 
 use super::directory::StudyDirectory;
-use super::document::Document;
 use super::results::Row;
 use crate::CommandError;
 use crate::options::MethodSpecification;
+use crate::plots::page::Page;
 use crate::progress::CaseObserver;
 
 /// One piece of work of a study.
@@ -94,19 +94,17 @@ pub trait Study: DeserializeOwned + Sync {
 
 /// What a report says.
 pub struct Report {
-    /// The page.
-    pub document: Document,
+    /// The page with its figures.
+    pub page: Page,
     /// The most important of it, as `key=value` lines for standard output.
     pub summary: Vec<(&'static str, String)>,
 }
 
 impl Report {
-    /// A page, and nothing but the study's name beside it.
-    pub fn new(kind: &str, document: Document) -> Self {
-        Self {
-            document,
-            summary: vec![("study", kind.to_owned())],
-        }
+    /// A page, and nothing beside it.
+    pub fn new(page: Page) -> Self {
+        let summary = Vec::new();
+        Self { page, summary }
     }
 
     /// The same with a line more.

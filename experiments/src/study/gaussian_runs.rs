@@ -2,7 +2,6 @@
 
 use parvi::{Method, Run};
 use parvi_metrics::{Cloud, GaussianEnergy};
-use parvi_targets::BoxedTarget;
 use serde::de::DeserializeOwned;
 
 use super::attempt::{Attempt, Status, attempt};
@@ -11,7 +10,7 @@ use super::directory::StudyDirectory;
 use super::results::single_line;
 use super::run_row::RunRow;
 use crate::CommandError;
-use crate::dispatch::{TargetTask, with_target};
+use crate::dispatch::in_dimension;
 use crate::options::{
     Basis, Dimension, MethodName, MethodSpecification, ParticleCount, StepCount, TargetSpecification,
 };
@@ -31,10 +30,7 @@ pub trait GaussianStudy: DeserializeOwned + Sync {
     fn cases(&self) -> Result<Vec<Case>, CommandError>;
 
     /// As [`Study::report`].
-    ///
-    /// # Errors
-    /// Figures or files that cannot be made.
-    fn report(&self, rows: &[RunRow], directory: &StudyDirectory) -> Result<Report, CommandError>;
+    fn report(&self, rows: &[RunRow]) -> Report;
 }
 
 impl<S: GaussianStudy> Study for S {
@@ -54,8 +50,8 @@ impl<S: GaussianStudy> Study for S {
         run_case(case, work.observer)
     }
 
-    fn report(&self, rows: &[RunRow], directory: &StudyDirectory) -> Result<Report, CommandError> {
-        GaussianStudy::report(self, rows, directory)
+    fn report(&self, rows: &[RunRow], _: &StudyDirectory) -> Result<Report, CommandError> {
+        Ok(GaussianStudy::report(self, rows))
     }
 }
 
@@ -133,8 +129,7 @@ impl Case {
 /// Runs a case: samples N(0, I) and measures the particles. A run that diverges is a row with its reason.
 fn run_case(case: &Case, observer: &mut CaseObserver) -> Result<RunRow, CommandError> {
     let method = case.method.method(None)?;
-    let mut run = Run::new(case.particles, case.seed);
-    run.start = case.method.options.start();
+    let run = case.method.run(case.particles, case.seed);
     let mut row = RunRow {
         dim: case.dim.get(),
         particles: case.particles,
@@ -167,8 +162,7 @@ pub fn measured(
         Attempt::Finished(outcome) => outcome,
         Attempt::Failed(status, reason) => return Ok(Attempt::Failed(status, reason)),
     };
-    let particles = &outcome.particles;
-    match with_target(&standard_gaussian(dim), Measure { particles }) {
+    match in_dimension!("gaussian", dim.get(), D => energy::<D>(&outcome.particles)) {
         Ok(energy) => Ok(Attempt::Finished((outcome, energy))),
         // A cloud so far out that a distance overflows has diverged as well.
         Err(CommandError::Metric(error)) => Ok(Attempt::Failed(Status::Diverged, single_line(error))),
@@ -176,56 +170,24 @@ pub fn measured(
     }
 }
 
+/// The squared energy distance of particles from N(0, I).
+fn energy<const D: usize>(particles: &Particles) -> Result<f64, CommandError> {
+    let points = particles.points::<D>().unwrap_or_default();
+    let cloud = Cloud::with_optional_weights(&points, particles.weights())?;
+    Ok(GaussianEnergy::<D>::standard()?.squared(&cloud)?)
+}
+
 /// E‖Y − Y'‖ / M for Y, Y' ~ N(0, I): the expected squared energy distance of M independent draws.
 pub fn energy_level(dim: Dimension, particles: usize) -> Result<f64, CommandError> {
-    Ok(with_target(&standard_gaussian(dim), MeanDistance)? / particles as f64)
+    in_dimension!("gaussian", dim.get(), D => Ok(GaussianEnergy::<D>::standard()?.mean_distance() / particles as f64))
 }
 
 /// The spacing that the calibrated sampler would choose with a basis.
 pub fn default_spacing(dim: Dimension, basis: Basis, particles: usize) -> Result<f64, CommandError> {
-    with_target(&standard_gaussian(dim), DefaultSpacing { basis, particles })
+    let basis = basis.uniform().unwrap_or_default();
+    in_dimension!("gaussian", dim.get(), D => Ok(parvi::defaults::spacing::<D>(basis, particles)))
 }
 
 fn standard_gaussian(dim: Dimension) -> TargetSpecification {
     TargetSpecification::plain("gaussian", Some(dim))
-}
-
-struct Measure<'a> {
-    particles: &'a Particles,
-}
-
-impl TargetTask for Measure<'_> {
-    type Output = f64;
-
-    fn run<const D: usize>(self, _target: BoxedTarget<D>) -> Result<f64, CommandError> {
-        let points = self.particles.points::<D>().unwrap_or_default();
-        let cloud = Cloud::with_optional_weights(&points, self.particles.weights())?;
-        Ok(GaussianEnergy::<D>::standard()?.squared(&cloud)?)
-    }
-}
-
-struct MeanDistance;
-
-impl TargetTask for MeanDistance {
-    type Output = f64;
-
-    fn run<const D: usize>(self, _target: BoxedTarget<D>) -> Result<f64, CommandError> {
-        Ok(GaussianEnergy::<D>::standard()?.mean_distance())
-    }
-}
-
-struct DefaultSpacing {
-    basis: Basis,
-    particles: usize,
-}
-
-impl TargetTask for DefaultSpacing {
-    type Output = f64;
-
-    fn run<const D: usize>(self, _target: BoxedTarget<D>) -> Result<f64, CommandError> {
-        Ok(parvi::defaults::spacing::<D>(
-            self.basis.uniform().unwrap_or_default(),
-            self.particles,
-        ))
-    }
 }

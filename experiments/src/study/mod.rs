@@ -9,7 +9,7 @@ mod configuration;
 mod covariance_spacing;
 mod definition;
 mod directory;
-mod document;
+mod each_once;
 mod evidence;
 mod gaussian_runs;
 mod manifest;

@@ -57,10 +57,7 @@ impl<R: Row> ResultsFile<R> {
         }
         let mut bytes = Vec::new();
         file.read_to_end(&mut bytes).map_err(failed("read"))?;
-        let whole = bytes
-            .iter()
-            .rposition(|&byte| byte == b'\n')
-            .map_or(0, |position| position + 1);
+        let whole = whole(&bytes);
         if whole < bytes.len() {
             file.set_len(whole as u64).map_err(failed("write"))?;
             bytes.truncate(whole);
@@ -78,12 +75,7 @@ impl<R: Row> ResultsFile<R> {
     /// Reads the rows without changing the file; a last line without its end is skipped.
     pub fn read(path: &Path) -> Result<Vec<R>, CommandError> {
         let mut bytes = std::fs::read(path).map_err(|source| CommandError::file("read", path, source))?;
-        bytes.truncate(
-            bytes
-                .iter()
-                .rposition(|&byte| byte == b'\n')
-                .map_or(0, |position| position + 1),
-        );
+        bytes.truncate(whole(&bytes));
         parse(path, &bytes)
     }
 
@@ -104,9 +96,7 @@ impl<R: Row> ResultsFile<R> {
         self.rows.push(row);
         Ok(())
     }
-}
 
-impl<R: Row> ResultsFile<R> {
     /// The row as a line, after a header where the file has none yet.
     fn line(&self, row: &R) -> Result<Vec<u8>, csv::Error> {
         let mut all = csv::Writer::from_writer(Vec::new());
@@ -127,6 +117,12 @@ impl<R: Row> ResultsFile<R> {
         }
         writer.into_inner().map_err(|error| error.into_error().into())
     }
+}
+
+/// The length of the lines that have an end.
+fn whole(bytes: &[u8]) -> usize {
+    let end = bytes.iter().rposition(|&byte| byte == b'\n');
+    end.map_or(0, |position| position + 1)
 }
 
 fn parse<R: Row>(path: &Path, bytes: &[u8]) -> Result<Vec<R>, CommandError> {

@@ -4,11 +4,13 @@ use parvi::{Method, Run};
 use serde::{Deserialize, Serialize};
 
 use super::attempt::{Attempt, Status};
-use super::definition::Case;
+use super::definition::{Case, Report};
 use super::results;
 use super::yardstick::{Errors, Yardstick, measured_run};
 use crate::CommandError;
-use crate::options::TargetSpecification;
+use crate::options::{MethodSpecification, TargetSpecification};
+use crate::plots::LineSeries;
+use crate::plots::page::Page;
 use crate::progress::CaseObserver;
 use crate::sampling::Outcome;
 use crate::statistics::summarize;
@@ -50,6 +52,11 @@ pub struct RunRow {
     /// M.
     #[serde(default)]
     pub particles: usize,
+    /// What is varied, where several things are.
+    #[serde(default)]
+    pub sweep: String,
+    /// k: the nodes per axis of the box that holds the target.
+    pub nodes_per_axis: Option<usize>,
     /// The spacing in units of the default, where it was asked for so.
     pub spacing_factor: Option<f64>,
     /// The spacing h asked for.
@@ -94,8 +101,16 @@ pub struct RunRow {
     pub active_nodes: Option<usize>,
     /// Bytes that particles and grid hold.
     pub storage_bytes: Option<usize>,
+    /// Rise of the resident memory of a process that does the run alone.
+    pub memory_peak_bytes: Option<u64>,
     /// Time of the sampler alone.
     pub wall_seconds: Option<f64>,
+    /// The median of the same over several runs, by the steps.
+    pub wall_seconds_per_step: Option<f64>,
+    /// The least.
+    pub wall_seconds_per_step_least: Option<f64>,
+    /// The largest.
+    pub wall_seconds_per_step_most: Option<f64>,
 }
 
 impl results::Row for RunRow {
@@ -132,6 +147,23 @@ impl RunRow {
         }
     }
 
+    /// The same, of a method on a target.
+    ///
+    /// # Errors
+    /// A target that there is not.
+    pub fn on(
+        case: &impl Case,
+        target: &TargetSpecification,
+        method: &MethodSpecification,
+    ) -> Result<Self, CommandError> {
+        Ok(Self {
+            target: target.label(),
+            dim: target.dimension()?,
+            method: method.label().to_owned(),
+            ..Self::new(case)
+        })
+    }
+
     /// Runs a method on a target and notes what comes of it; whether the particles are independent draws from an importance sample.
     ///
     /// # Errors
@@ -157,7 +189,21 @@ impl RunRow {
         }
     }
 
-    /// Notes what the sampler says.
+    /// Notes what the sampler says; hands the particles on, if there are some.
+    pub fn note(&mut self, attempt: Attempt<Outcome>) -> Option<Outcome> {
+        match attempt {
+            Attempt::Failed(status, reason) => {
+                self.fail(status, reason);
+                None
+            }
+            Attempt::Finished(outcome) => {
+                self.take(&outcome);
+                Some(outcome)
+            }
+        }
+    }
+
+    /// Notes what the sampler says of particles.
     pub fn take(&mut self, outcome: &Outcome) {
         let certificate = outcome.certificate.as_ref();
         self.outcome = certificate.map(|certificate| certificate.outcome.name().to_owned());
@@ -206,7 +252,10 @@ impl RunRow {
 
     /// How it ended, with the reason.
     pub fn ending(&self) -> String {
-        ending(self.status, &self.reason)
+        match self.reason.as_str() {
+            "" => self.status.as_str().to_owned(),
+            reason => format!("{}: {reason}", self.status.as_str()),
+        }
     }
 
     /// The row as an item of a list of runs that gave nothing.
@@ -231,16 +280,28 @@ pub fn median<R>(rows: &[&R], quantity: impl Fn(&R) -> Option<f64>) -> Option<f6
     summarize(&values(rows, quantity)).ok().map(|summary| summary.median)
 }
 
+/// A line through the medians of a quantity over the runs at each abscissa, with bars from the least to the largest.
+pub fn curve<'a>(
+    label: impl Into<String>,
+    points: impl IntoIterator<Item = (f64, Vec<&'a RunRow>)>,
+    quantity: Quantity,
+) -> LineSeries {
+    let mut line = LineSeries::named(label);
+    for (x, runs) in points {
+        line.push_median(x, &values(&runs, quantity));
+    }
+    line
+}
+
 /// The runs that gave nothing, each as an item of a list.
 pub fn failures<'a>(rows: impl IntoIterator<Item = &'a RunRow>) -> Vec<String> {
     let failed = rows.into_iter().filter(|row| !row.finished());
     failed.map(RunRow::failure).collect()
 }
 
-/// How a run ended, with the reason where there is one.
-pub fn ending(status: Status, reason: &str) -> String {
-    match reason {
-        "" => status.as_str().to_owned(),
-        _ => format!("{}: {reason}", status.as_str()),
-    }
+/// The report of a page that ends with the runs that gave nothing, and how many these are.
+pub fn report_of_runs(mut page: Page, rows: &[RunRow]) -> Report {
+    let failed = failures(rows);
+    page.list("Runs that did not finish", &failed, None);
+    Report::new(page).with("cases", rows.len()).with("failed", failed.len())
 }

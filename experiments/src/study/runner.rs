@@ -4,7 +4,7 @@ use std::collections::HashSet;
 use std::path::Path;
 
 use super::configuration::Configuration;
-use super::definition::{Case, Study, Work};
+use super::definition::{Case, Report, Study, Work};
 use super::directory::StudyDirectory;
 use super::manifest::{Manifest, Provenance};
 use super::results::{ResultsFile, Row};
@@ -140,17 +140,18 @@ fn interrupted(done: usize, all: usize) -> CommandError {
 }
 
 fn write_report<S: Study>(study: &S, rows: &[S::Row], directory: &StudyDirectory) -> Result<(), CommandError> {
-    let mut report = study.report(rows, directory)?;
+    let Report { mut page, summary } = study.report(rows, directory)?;
     let manifest = Manifest::read(&directory.manifest())?;
-    report.document.heading("Provenance");
-    report
-        .document
-        .paragraph(provenance(&manifest, rows.len(), study.cases()?.len()));
-    AtomicFile::write(directory.report(), report.document.as_str())?;
-    report
-        .summary
-        .push(("report", directory.report().display().to_string()));
-    console::print_pairs(&report.summary)
+    page.heading("Provenance");
+    page.paragraph(provenance(&manifest, rows.len(), study.cases()?.len()));
+    for (name, svg) in page.figures() {
+        AtomicFile::write(directory.figure(name), svg)?;
+    }
+    AtomicFile::write(directory.report(), page.as_str())?;
+    let mut pairs = vec![("study", S::KIND.to_owned())];
+    pairs.extend(summary);
+    pairs.push(("report", directory.report().display().to_string()));
+    console::print_pairs(&pairs)
 }
 
 /// How the figures came about, in words.

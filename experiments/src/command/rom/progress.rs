@@ -32,15 +32,19 @@ impl TrainingProgress {
         }
     }
 
+    /// Whether another phase begins, whose bar looks so.
+    fn enters(&mut self, phase: Phase, template: &str) -> bool {
+        let begins = self.phase != phase;
+        if begins {
+            self.phase = phase;
+            self.bar.set_style(style(template));
+        }
+        begins
+    }
+
     /// Takes the bar off the screen.
     pub fn clear(&self) {
         self.bar.finish_and_clear();
-    }
-}
-
-impl Default for TrainingProgress {
-    fn default() -> Self {
-        Self::new()
     }
 }
 
@@ -53,10 +57,7 @@ impl Watch for TrainingProgress {
 
     fn after_epoch(&mut self, report: &EpochReport) -> ControlFlow<()> {
         let done = report.epoch + 1;
-        if self.phase != Phase::Epochs {
-            self.phase = Phase::Epochs;
-            self.bar
-                .set_style(style("{bar:30} epoch {pos}/{len}, loss {msg}, {eta} left"));
+        if self.enters(Phase::Epochs, "{bar:30} epoch {pos}/{len}, loss {msg}, {eta} left") {
             self.bar.set_length(report.epochs);
             self.bar.set_position(done);
             self.bar.reset_eta();
@@ -69,38 +70,10 @@ impl Watch for TrainingProgress {
     }
 
     fn after_trial(&mut self) -> ControlFlow<()> {
-        if self.phase != Phase::Trials {
-            self.phase = Phase::Trials;
-            self.bar.set_style(style("trial run {pos}"));
+        if self.enters(Phase::Trials, "trial run {pos}") {
             self.bar.set_position(0);
         }
         self.bar.inc(1);
         unless_interrupted()
-    }
-}
-
-/// The bar of a number of like things.
-pub struct CountProgress {
-    bar: ProgressBar,
-}
-
-impl CountProgress {
-    /// A bar for things of this name, which appears with the first one done.
-    pub fn new(name: &str) -> Self {
-        let style = style(&format!("{{bar:30}} {name} {{pos}}/{{len}}, {{eta}} left"));
-        Self {
-            bar: ProgressBar::new(0).with_style(style),
-        }
-    }
-
-    /// So many of so many are done.
-    pub fn set(&self, done: usize, count: usize) {
-        self.bar.set_length(count as u64);
-        self.bar.set_position(done as u64);
-    }
-
-    /// Takes the bar off the screen.
-    pub fn clear(&self) {
-        self.bar.finish_and_clear();
     }
 }

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use mpm_rom::experiment::{Experiment, ReducedRow, SuperResolved, run_experiment};
 
-use super::progress::CountProgress;
 use super::{figures, groups};
+use crate::progress::CountProgress;
 use crate::{CommandError, console, interrupt};
 
 /// Reduced runs of all test cases, their table and figures.

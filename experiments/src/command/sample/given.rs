@@ -4,11 +4,11 @@ use std::path::Path;
 
 use mpm_tensor::Matrix;
 use parvi::{GivenParticles, Run, SampleError, independent_draws, sobol_points};
-use parvi_targets::{BoxedTarget, CatalogueTarget, Gaussian};
+use parvi_targets::{CatalogueTarget, Gaussian};
 
 use super::Arguments;
 use crate::CommandError;
-use crate::dispatch::{TargetTask, with_target};
+use crate::dispatch::{in_dimension, on_target};
 use crate::options::{Dimension, OptionError, TargetSpecification};
 use crate::output::NumberTable;
 
@@ -31,19 +31,10 @@ pub fn given(arguments: &Arguments, dimension: usize, run: &Run) -> Result<Given
     let drawn = if let Some(name) = &options.start_law {
         let law = TargetSpecification::plain(name, Dimension::new(dimension as i64));
         law.dimension().map_err(|error| of_law(error.to_string()))?;
-        Some(with_target(
-            &law,
-            Draw {
-                run,
-                volumes,
-                law: None,
-            },
-        )?)
+        Some(on_target!(&law, law, D => drawn::<D>(law.as_ref(), run, volumes))?)
     } else if let Some(centre) = &options.start_centre {
         let law = NormalLaw::parse(centre, options.start_covariance.as_deref(), dimension)?;
-        let any = TargetSpecification::plain("gaussian", Dimension::new(dimension as i64));
-        let law = Some(&law);
-        Some(with_target(&any, Draw { run, volumes, law })?)
+        Some(in_dimension!("gaussian", dimension, D => drawn::<D>(&law.gaussian()?, run, volumes))?)
     } else {
         None
     };
@@ -147,14 +138,6 @@ impl NormalLaw {
     }
 }
 
-/// Draws from a target, or from a normal law in its place.
-struct Draw<'a> {
-    run: &'a Run,
-    /// Whether densities are asked for.
-    volumes: bool,
-    law: Option<&'a NormalLaw>,
-}
-
 /// What was drawn.
 struct Drawn {
     /// M × D, row by row.
@@ -163,48 +146,35 @@ struct Drawn {
     densities: Option<Vec<f64>>,
 }
 
-impl TargetTask for Draw<'_> {
-    type Output = Drawn;
-
-    fn run<const D: usize>(self, target: BoxedTarget<D>) -> Result<Drawn, CommandError> {
-        match self.law {
-            None => self.drawn::<D>(target.as_ref()),
-            Some(law) => self.drawn::<D>(&law.gaussian::<D>()?),
-        }
-    }
-}
-
-impl Draw<'_> {
-    /// Quasi-random points of the law where it has them and nothing else is asked for, else independent draws.
-    fn drawn<const D: usize>(&self, law: &dyn CatalogueTarget<D>) -> Result<Drawn, CommandError> {
-        let quiet = self.run.start.draws == parvi::StartDraws::QuasiRandom && law.unit_cube_transport().is_some();
-        let samples = if quiet {
-            sobol_points(law, self.run)
-        } else {
-            independent_draws(law, self.run)
-        };
-        let positions = samples.map_err(|error| of_law(error.to_string()))?.positions;
-        let densities = if self.volumes {
-            let evidence = law.log_evidence().ok_or_else(|| {
-                of_law(format!(
-                    "the density of {} is not known, which --volumes start-density needs",
-                    law.name()
-                ))
-            })?;
-            Some(
-                positions
-                    .iter()
-                    .map(|x| (law.log_density(x) - evidence).exp())
-                    .collect(),
-            )
-        } else {
-            None
-        };
-        Ok(Drawn {
-            positions: positions.as_flattened().to_vec(),
-            densities,
-        })
-    }
+/// Quasi-random points of the law where it has them and nothing else is asked for, else independent draws.
+fn drawn<const D: usize>(law: &dyn CatalogueTarget<D>, run: &Run, volumes: bool) -> Result<Drawn, CommandError> {
+    let quiet = run.start.draws == parvi::StartDraws::QuasiRandom && law.unit_cube_transport().is_some();
+    let samples = if quiet {
+        sobol_points(law, run)
+    } else {
+        independent_draws(law, run)
+    };
+    let positions = samples.map_err(|error| of_law(error.to_string()))?.positions;
+    let densities = if volumes {
+        let evidence = law.log_evidence().ok_or_else(|| {
+            of_law(format!(
+                "the density of {} is not known, which --volumes start-density needs",
+                law.name()
+            ))
+        })?;
+        Some(
+            positions
+                .iter()
+                .map(|x| (law.log_density(x) - evidence).exp())
+                .collect(),
+        )
+    } else {
+        None
+    };
+    Ok(Drawn {
+        positions: positions.as_flattened().to_vec(),
+        densities,
+    })
 }
 
 /// The flag behind what a sampler refuses of given particles.

@@ -18,7 +18,7 @@ use crate::options::{
 };
 use crate::output::{AtomicFile, FrameWriter, NumberTable, OutputDirectory, ParticleFile, ParticleFormat};
 use crate::pictures::{History, Subject};
-use crate::progress::StepProgress;
+use crate::progress::CountProgress;
 use crate::sampling;
 use crate::{CommandError, console, interrupt};
 use watch::Watch;
@@ -142,7 +142,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let goes_on = arguments.checkpoint.as_ref().is_some_and(|path| path.exists());
     let frames = frames.map(|directory| FrameWriter::new(directory, arguments.every.get(), names.clone(), goes_on));
     let mut watch = Watch {
-        progress: StepProgress::new(),
+        progress: CountProgress::new("step"),
         frames: frames.transpose()?,
         history: plots.is_some().then(History::default),
     };

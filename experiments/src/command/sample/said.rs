@@ -53,29 +53,23 @@ pub fn pairs(arguments: &Arguments, outcome: &Outcome, peak_memory: Option<u64>)
     let judging = Some(outcome.judging_evaluations).filter(|&count| count > 0);
     let watched = |key: fn(&Watched) -> String| outcome.watched.as_ref().map(key);
     let optional = [
-        ("judging_evaluations", judging.map(|count| count.to_string())),
-        ("log_evidence", outcome.log_evidence.map(|value| value.to_string())),
-        (
-            "log_evidence_error",
-            outcome.log_evidence_error.map(|value| value.to_string()),
-        ),
-        (
-            "score_disagreement",
-            outcome.score_disagreement.map(|value| value.to_string()),
-        ),
-        ("pareto_k", outcome.pareto_k.map(|value| value.to_string())),
+        ("judging_evaluations", text(judging)),
+        ("log_evidence", text(outcome.log_evidence)),
+        ("log_evidence_error", text(outcome.log_evidence_error)),
+        ("score_disagreement", text(outcome.score_disagreement)),
+        ("pareto_k", text(outcome.pareto_k)),
         ("wall_seconds", Some(format!("{:.6}", outcome.wall_seconds))),
         ("best_step", watched(|seen| seen.best_step.to_string())),
         ("best_monitor", watched(|seen| seen.best_value.to_string())),
         ("last_monitor", watched(|seen| seen.last_value().to_string())),
         ("ended_early", watched(|seen| seen.ended.to_string())),
-        ("residual", outcome.residual.map(|value| value.to_string())),
-        ("spacing", outcome.spacing.map(|value| value.to_string())),
-        ("active_nodes", outcome.active_nodes.map(|value| value.to_string())),
-        ("bodies", outcome.bodies.map(|value| value.to_string())),
-        ("storage_bytes", outcome.storage_bytes.map(|value| value.to_string())),
-        ("divergences", outcome.divergences.map(|value| value.to_string())),
-        (PEAK_MEMORY_KEY, peak_memory.map(|value| value.to_string())),
+        ("residual", text(outcome.residual)),
+        ("spacing", text(outcome.spacing)),
+        ("active_nodes", text(outcome.active_nodes)),
+        ("bodies", text(outcome.bodies)),
+        ("storage_bytes", text(outcome.storage_bytes)),
+        ("divergences", text(outcome.divergences)),
+        (PEAK_MEMORY_KEY, text(peak_memory)),
     ];
     pairs.extend(optional.into_iter().filter_map(|(key, value)| Some((key, value?))));
     pairs.extend(certificate_pairs(outcome));
@@ -86,4 +80,8 @@ pub fn pairs(arguments: &Arguments, outcome: &Outcome, peak_memory: Option<u64>)
         ("seed", arguments.seed.to_string()),
     ]);
     pairs
+}
+
+fn text<T: ToString>(value: Option<T>) -> Option<String> {
+    value.map(|value| value.to_string())
 }

@@ -80,7 +80,7 @@ impl MethodOptions {
         };
         let is_known = |name: &str| ON_MESH.split(' ').any(|known| known == name);
         if let Some((name, value)) = self.given().find(|(name, _)| !is_known(name)) {
-            return Err(OptionError::misfit(name, &value, "mpm on a mesh"));
+            return Err(OptionError::misfit(&name, &value, "mpm on a mesh"));
         }
         let options = MeshOptions {
             steps: steps.or(default.steps),

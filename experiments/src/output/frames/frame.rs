@@ -4,7 +4,7 @@ use mpm_mesh::Appended;
 use parvi::ParticleView;
 
 use crate::output::Particles;
-use crate::output::array_npy::array;
+use crate::output::particles_npy::array;
 
 /// What the files say of particles.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -158,9 +158,9 @@ impl FrameWriter {
         index::write(self.directory.path(), &self.entries)?;
         for entry in void {
             for array in names::ARRAYS {
-                self.remove(&names::npy(array, &entry.frame))?;
+                self.directory.remove(&names::npy(array, &entry.frame))?;
             }
-            self.remove(&names::vtp(&entry.frame))?;
+            self.directory.remove(&names::vtp(&entry.frame))?;
         }
         Ok(())
     }
@@ -193,20 +193,10 @@ impl FrameWriter {
             if let Some(name) = name.to_str()
                 && ([names::TABLE, names::COLLECTION].contains(&name) || names::is_of_frame(name))
             {
-                self.remove(name)?;
+                self.directory.remove(name)?;
             }
         }
         Ok(())
-    }
-
-    fn remove(&self, name: &str) -> Result<(), CommandError> {
-        let path = self.directory.file(name);
-        match std::fs::remove_file(&path) {
-            Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
-                Err(CommandError::file("remove", path, error))
-            }
-            _ => Ok(()),
-        }
     }
 }
 

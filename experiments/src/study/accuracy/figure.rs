@@ -2,21 +2,17 @@
 
 use super::{Accuracy, expected, runs};
 use crate::options::Dimension;
-use crate::plots::{AxisKind, Curve, GuideCurve, LineSeries, MultiplesPanel, MultiplesPlot};
+use crate::plots::{Curve, GuideCurve, LineSeries, MultiplesPanel, MultiplesPlot};
 use crate::study::checks::ascending;
-use crate::study::run_row::{ENERGY_ROOT, RunRow, values};
+use crate::study::run_row::{ENERGY_ROOT, RunRow, curve};
 
 /// The energy distance against M, one panel per dimension.
 pub fn plot(study: &Accuracy, rows: &[RunRow]) -> MultiplesPlot {
     let panels = study.dims.iter().map(|&dim| panel(study, rows, dim));
     MultiplesPlot {
-        x_label: "number of particles M".to_owned(),
-        y_label: "energy distance ED (standard deviations^{½})".to_owned(),
-        x_axis: AxisKind::Logarithmic,
-        y_axis: AxisKind::Logarithmic,
         panels: panels.filter(|panel| !panel.series.is_empty()).collect(),
         notes: vec!["Medians over the seeds; bars from the smallest to the largest.".to_owned()],
-        ..MultiplesPlot::default()
+        ..MultiplesPlot::logarithmic("number of particles M", "energy distance ED (standard deviations^{½})")
     }
 }
 
@@ -27,14 +23,9 @@ pub fn best_exponent(dim: Dimension) -> f64 {
 
 fn panel(study: &Accuracy, rows: &[RunRow], dim: Dimension) -> MultiplesPanel {
     let line = |label: &str| {
-        let mut line = LineSeries::named(label);
-        for particles in ascending(&study.particles) {
-            line.push_median(
-                particles as f64,
-                &values(&runs(rows, dim, particles, label), ENERGY_ROOT),
-            );
-        }
-        line
+        let counts = ascending(&study.particles).into_iter();
+        let points = counts.map(|count| (count as f64, runs(rows, dim, count, label)));
+        curve(label, points, ENERGY_ROOT)
     };
     let series = study.methods.iter().map(|entry| line(entry.method.label()));
     let series: Vec<LineSeries> = series.filter(|line| !line.x.is_empty()).collect();

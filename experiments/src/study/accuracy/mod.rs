@@ -8,9 +8,8 @@ mod report;
 
 use serde::Deserialize;
 
-use super::checks::{distinct, not_empty, refusal};
+use super::checks::{all_given, distinct, refusal};
 use super::definition::Report;
-use super::directory::StudyDirectory;
 use super::gaussian_runs::{Case, GaussianStudy};
 use super::run_row::RunRow;
 use crate::CommandError;
@@ -68,10 +67,7 @@ impl GaussianStudy for Accuracy {
 
     /// The cases, dimension by dimension, few particles first.
     fn cases(&self) -> Result<Vec<Case>, CommandError> {
-        not_empty("seeds", &self.seeds)?;
-        not_empty("dims", &self.dims)?;
-        not_empty("particles", &self.particles)?;
-        not_empty("methods", &self.methods)?;
+        all_given!(self: seeds, dims, particles, methods);
         let mut labels: Vec<&str> = self.methods.iter().map(|entry| entry.method.label()).collect();
         labels.sort_unstable();
         if let Some(pair) = labels.windows(2).find(|pair| pair[0] == pair[1]) {
@@ -99,8 +95,8 @@ impl GaussianStudy for Accuracy {
         Ok(cases)
     }
 
-    fn report(&self, rows: &[RunRow], directory: &StudyDirectory) -> Result<Report, CommandError> {
-        report::report(self, rows, directory)
+    fn report(&self, rows: &[RunRow]) -> Report {
+        report::report(self, rows)
     }
 }
 

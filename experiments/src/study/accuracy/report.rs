@@ -2,54 +2,49 @@
 
 use super::figure::{best_exponent, plot};
 use super::{Accuracy, expected, runs};
-use crate::CommandError;
 use crate::options::{Dimension, MethodName};
 use crate::plots::multiples;
+use crate::plots::page::{Cell, MISSING, Page, exponent, number};
 use crate::study::checks::ascending;
 use crate::study::definition::Report;
-use crate::study::directory::StudyDirectory;
-use crate::study::document::{Cell, Document, MISSING, exponent, number};
-use crate::study::gaussian_runs::GaussianStudy;
-use crate::study::run_row::{ENERGY, ENERGY_ROOT, EVALUATIONS, Quantity, RunRow, SECONDS, failures, median, values};
+use crate::study::run_row::{
+    ENERGY, ENERGY_ROOT, EVALUATIONS, Quantity, RunRow, SECONDS, median, report_of_runs, values,
+};
 
 /// Methods that a figure can tell apart; where there are more, the tables have to do.
 const MOST_LINES: usize = 8;
 
 /// Tables and figure.
-pub fn report(study: &Accuracy, rows: &[RunRow], directory: &StudyDirectory) -> Result<Report, CommandError> {
-    let mut document = Document::new("Accuracy against the number of particles");
-    document.paragraph(format!(
+pub fn report(study: &Accuracy, rows: &[RunRow]) -> Report {
+    let mut page = Page::new("Accuracy against the number of particles");
+    page.paragraph(format!(
         "Target N(0, I), {} seeds. ED² is the squared energy distance, exact in the expectation over the Gaussian; \
          independent draws have the expectation E‖Y − Y'‖/M. Methods that move particles start from scrambled Sobol points of \
          N(0, I), on other scramblings than the yardstick's, unless their options say otherwise.",
         study.seeds.len(),
     ));
     if study.methods.len() <= MOST_LINES {
-        document.heading("Figure");
+        page.heading("Figure");
         let caption = "Energy distance against the number of particles, by dimension.";
-        document.figure(directory, "accuracy.svg", caption, multiples(&plot(study, rows)))?;
+        page.figure("accuracy.svg", caption, multiples(&plot(study, rows)));
     }
 
-    document.heading("Squared energy distance");
-    document.paragraph(
+    page.heading("Squared energy distance");
+    page.paragraph(
         "ED² × 10³: the median over the seeds and, in brackets, the largest. Ratios compare medians with those of the \
          Sobol points.",
     );
     for &dim in &study.dims {
-        document.paragraph(format!("**d = {dim}**"));
-        energy_table(study, rows, dim, &mut document);
+        page.paragraph(format!("**d = {dim}**"));
+        energy_table(study, rows, dim, &mut page);
     }
-    slopes(study, rows, &mut document);
-    costs(study, rows, &mut document);
-    let failed = failures(rows);
-    document.list("Runs that did not finish", &failed, None);
-    Ok(Report::new(Accuracy::KIND, document)
-        .with("cases", rows.len())
-        .with("failed", failed.len()))
+    slopes(study, rows, &mut page);
+    costs(study, rows, &mut page);
+    report_of_runs(page, rows)
 }
 
 /// A line per method, a column or two per size.
-fn energy_table(study: &Accuracy, rows: &[RunRow], dim: Dimension, document: &mut Document) {
+fn energy_table(study: &Accuracy, rows: &[RunRow], dim: Dimension, page: &mut Page) {
     let sobol = |entry: &&super::Entry| entry.method.name == MethodName::Sobol;
     let yardstick = study.methods.iter().find(sobol).map(|entry| entry.method.label());
     // Over the median ED² of the yardstick's runs, where there is one.
@@ -81,13 +76,13 @@ fn energy_table(study: &Accuracy, rows: &[RunRow], dim: Dimension, document: &mu
         }
         table.push(line);
     }
-    document.table(&header, &table);
+    page.table(&header, &table);
 }
 
 /// A line per method, a column per dimension.
-fn slopes(study: &Accuracy, rows: &[RunRow], document: &mut Document) {
-    document.heading("Slopes");
-    document.paragraph(
+fn slopes(study: &Accuracy, rows: &[RunRow], page: &mut Page) {
+    page.heading("Slopes");
+    page.paragraph(
         "Exponents b of ED ∝ M^b: least squares in logarithms over the medians, with 95 % confidence intervals. No M points \
          can do better than the order M^(−(1 + 1/d)/2) of optimally spread ones; independent draws have −1/2.",
     );
@@ -110,12 +105,12 @@ fn slopes(study: &Accuracy, rows: &[RunRow], document: &mut Document) {
         let label = entry.method.label();
         table.push(line(label, &|dim| slope(dim, label)));
     }
-    document.table(&by_dimension(&["method"], &study.dims), &table);
+    page.table(&by_dimension(&["method"], &study.dims), &table);
 }
 
 /// What the runs took: a line per method and size, a column per dimension.
-fn costs(study: &Accuracy, rows: &[RunRow], document: &mut Document) {
-    document.heading("Costs");
+fn costs(study: &Accuracy, rows: &[RunRow], page: &mut Page) {
+    page.heading("Costs");
     let quantities: [(&str, Quantity); 3] = [
         ("Wall time of the sampler in seconds, medians over the seeds.", SECONDS),
         (
@@ -140,8 +135,8 @@ fn costs(study: &Accuracy, rows: &[RunRow], document: &mut Document) {
             }
         }
         if !table.is_empty() {
-            document.paragraph(name);
-            document.table(&by_dimension(&["method", "M"], &study.dims), &table);
+            page.paragraph(name);
+            page.table(&by_dimension(&["method", "M"], &study.dims), &table);
         }
     }
 }

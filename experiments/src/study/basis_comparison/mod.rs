@@ -8,9 +8,8 @@ mod report;
 
 use serde::Deserialize;
 
-use super::checks::{ascending, distinct, not_empty, options_fit, positive, unset};
+use super::checks::{all_given, ascending, distinct, options_fit, positive, unset};
 use super::definition::Report;
-use super::directory::StudyDirectory;
 use super::gaussian_runs::{Case, GaussianStudy, default_spacing};
 use super::run_row::RunRow;
 use crate::CommandError;
@@ -48,11 +47,7 @@ impl GaussianStudy for BasisComparison {
 
     /// The cases, dimension by dimension.
     fn cases(&self) -> Result<Vec<Case>, CommandError> {
-        not_empty("seeds", &self.seeds)?;
-        not_empty("dims", &self.dims)?;
-        not_empty("bases", &self.bases)?;
-        not_empty("spacings", &self.spacings)?;
-        not_empty("steps", &self.steps)?;
+        all_given!(self: seeds, dims, bases, spacings, steps);
         positive("spacings", &self.spacings)?;
         let options = &self.method.options;
         unset("method.options.basis", &options.basis, "bases")?;
@@ -86,7 +81,7 @@ impl GaussianStudy for BasisComparison {
         Ok(cases)
     }
 
-    fn report(&self, rows: &[RunRow], directory: &StudyDirectory) -> Result<Report, CommandError> {
-        report::report(self, rows, directory)
+    fn report(&self, rows: &[RunRow]) -> Report {
+        report::report(self, rows)
     }
 }

@@ -2,19 +2,16 @@
 
 use super::BasisComparison;
 use super::choice::{Choice, runs};
-use crate::CommandError;
 use crate::options::{Basis, Dimension};
-use crate::plots::{AxisKind, LineSeries, MultiplesPanel, MultiplesPlot, ReferenceLevel, multiples};
+use crate::plots::page::{Cell, MISSING, Page, line, number};
+use crate::plots::{LineSeries, MultiplesPanel, MultiplesPlot, ReferenceLevel, multiples};
 use crate::study::definition::Report;
-use crate::study::directory::StudyDirectory;
-use crate::study::document::{Cell, Document, MISSING, line, number};
-use crate::study::gaussian_runs::GaussianStudy;
-use crate::study::run_row::{ENERGY, NODES_PER_PARTICLE, RunRow, SECONDS, failures, median, values};
+use crate::study::run_row::{ENERGY, NODES_PER_PARTICLE, RunRow, SECONDS, median, report_of_runs, values};
 
 /// Tables and figure.
-pub fn report(study: &BasisComparison, rows: &[RunRow], directory: &StudyDirectory) -> Result<Report, CommandError> {
-    let mut document = Document::new("Bases at equal time");
-    document.paragraph(format!(
+pub fn report(study: &BasisComparison, rows: &[RunRow]) -> Report {
+    let mut page = Page::new("Bases at equal time");
+    page.paragraph(format!(
         "Target N(0, I), M = {} particles, method `{}`, {} seeds; medians over the seeds. ED² is the squared energy distance, \
          exact in the expectation over the Gaussian. Spacings h, in standard deviations, are multiples of each basis's own \
          default; the best is the one with the lowest ED² at {} steps.",
@@ -23,29 +20,25 @@ pub fn report(study: &BasisComparison, rows: &[RunRow], directory: &StudyDirecto
         study.seeds.len(),
         study.step_counts().last().copied().unwrap_or(0),
     ));
-    document.heading("Figure");
+    page.heading("Figure");
     let caption =
         "Squared energy distance ED² against wall time at each basis's best spacing, a point per number of steps.";
     let drawing = multiples(&plot(study, rows));
-    document.figure(directory, "basis-comparison.svg", caption, drawing)?;
-    document.heading("At the best spacing");
+    page.figure("basis-comparison.svg", caption, drawing);
+    page.heading("At the best spacing");
     if let Some(first) = study.bases.first() {
-        document.paragraph(format!(
+        page.paragraph(format!(
             "ED² × 10³ and wall time per number of steps T; in the last column ED² × 10³ at the largest T of that basis that \
              takes no longer than the largest T of `{first}`. An asterisk marks a best spacing at the edge of the scan.",
         ));
     }
     for &dim in &study.dims {
-        document.paragraph(format!("**d = {dim}**"));
-        best_table(study, rows, dim, &mut document);
+        page.paragraph(format!("**d = {dim}**"));
+        best_table(study, rows, dim, &mut page);
     }
-    document.heading("Spacings");
-    spacings(study, rows, &mut document);
-    let failed = failures(rows);
-    document.list("Runs that did not finish", &failed, None);
-    Ok(Report::new(BasisComparison::KIND, document)
-        .with("cases", rows.len())
-        .with("failed", failed.len()))
+    page.heading("Spacings");
+    spacings(study, rows, &mut page);
+    report_of_runs(page, rows)
 }
 
 /// The median ED² × 10³.
@@ -53,7 +46,7 @@ fn thousandths(rows: &[&RunRow]) -> Option<f64> {
     median(rows, ENERGY).map(|energy| 1e3 * energy)
 }
 
-fn best_table(study: &BasisComparison, rows: &[RunRow], dim: Dimension, document: &mut Document) {
+fn best_table(study: &BasisComparison, rows: &[RunRow], dim: Dimension, page: &mut Page) {
     let first = study.bases.first();
     let allowed = first.and_then(|&basis| Choice::of(study, rows, dim, basis)?.longest());
     let mut header = ["basis", "best h", "h / default"].map(str::to_owned).to_vec();
@@ -80,15 +73,15 @@ fn best_table(study: &BasisComparison, rows: &[RunRow], dim: Dimension, document
         }));
         table.push(cells);
     }
-    document.table(&header, &table);
+    page.table(&header, &table);
 }
 
 /// The errors of all spacings at the largest number of steps.
-fn spacings(study: &BasisComparison, rows: &[RunRow], document: &mut Document) {
+fn spacings(study: &BasisComparison, rows: &[RunRow], page: &mut Page) {
     let Some(&most) = study.step_counts().last() else {
         return;
     };
-    document.paragraph(format!("All spacings at {most} steps."));
+    page.paragraph(format!("All spacings at {most} steps."));
     let mut table = Vec::new();
     for &dim in &study.dims {
         for &basis in &study.bases {
@@ -102,7 +95,7 @@ fn spacings(study: &BasisComparison, rows: &[RunRow], document: &mut Document) {
             }
         }
     }
-    document.table(
+    page.table(
         "d | basis | h / default | h | ED² × 10³ | active nodes / M | time (s)",
         &table,
     );
@@ -110,10 +103,7 @@ fn spacings(study: &BasisComparison, rows: &[RunRow], document: &mut Document) {
 
 /// One panel per dimension, one line per basis.
 fn plot(study: &BasisComparison, rows: &[RunRow]) -> MultiplesPlot {
-    let level = |value| ReferenceLevel {
-        value,
-        label: "expected of i.i.d. draws".to_owned(),
-    };
+    let level = |value| ReferenceLevel::new(value, "expected of i.i.d. draws");
     let panel = |&dim: &Dimension| {
         let row = rows.iter().find(|row| row.dim == dim.get());
         let lines = study.bases.iter();
@@ -125,13 +115,9 @@ fn plot(study: &BasisComparison, rows: &[RunRow]) -> MultiplesPlot {
         }
     };
     MultiplesPlot {
-        x_label: "wall time (s)".to_owned(),
-        y_label: "ED² (standard deviations)".to_owned(),
-        x_axis: AxisKind::Logarithmic,
-        y_axis: AxisKind::Logarithmic,
         panels: study.dims.iter().map(panel).collect(),
         notes: vec!["Medians over the seeds; bars from the smallest to the largest ED².".to_owned()],
-        ..MultiplesPlot::default()
+        ..MultiplesPlot::logarithmic("wall time (s)", "ED² (standard deviations)")
     }
 }
 

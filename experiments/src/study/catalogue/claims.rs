@@ -1,6 +1,6 @@
 //! What runs say of themselves, beside what is measured.
 
-use crate::study::document::{Document, MISSING, line, number, percent};
+use crate::plots::page::{MISSING, Page, line, number, percent};
 use crate::study::run_row::{Quantity, RunRow};
 
 /// The claim holds where no mean is farther off than this, in standard deviations of the target …
@@ -55,31 +55,31 @@ impl<'a> Claims<'a> {
     }
 
     /// How often the claim is made, what it is worth, and every claim that is false.
-    pub fn write(&self, targets: &[String], document: &mut Document) {
-        document.heading("Claims");
+    pub fn write(&self, targets: &[String], page: &mut Page) {
+        page.heading("Claims");
         if self.runs.iter().all(|row| row.outcome.is_none()) {
-            document.paragraph("No run says anything of itself.");
+            page.paragraph("No run says anything of itself.");
             return;
         }
         let within = format!(
             "every mean within {LARGEST_MEAN_ERROR} standard deviations and every standard deviation within {} %",
             100.0 * LARGEST_DEVIATION_ERROR
         );
-        document.paragraph(format!(
+        page.paragraph(format!(
             "A run that says `converged` claims {within}. The largest errors are those among such runs; the last column counts \
              the runs that are within these bounds without a claim.",
         ));
         let header = "target | runs | claimed | share | worst mean (sd) | worst sd (relative) | false claims | within, not claimed";
         let lines = targets.iter().map(|target| self.on(target).line(target));
-        document.table(header, lines.chain([self.line("all")]));
+        page.table(header, lines.chain([self.line("all")]));
         let false_claims = self.false_claims();
         if false_claims.is_empty() {
-            document.paragraph("No claim is false.");
+            page.paragraph("No claim is false.");
         } else {
             let lines: Vec<String> = false_claims.iter().map(|row| false_claim(row)).collect();
-            document.paragraph(format!("Claims that are false:\n\n{}", lines.join("\n")));
+            page.paragraph(format!("Claims that are false:\n\n{}", lines.join("\n")));
         }
-        self.write_outcomes(document);
+        self.write_outcomes(page);
     }
 
     fn line(&self, name: &str) -> Vec<String> {
@@ -97,8 +97,8 @@ impl<'a> Claims<'a> {
     }
 
     /// A line per outcome, with the largest errors among the runs that state it.
-    fn write_outcomes(&self, document: &mut Document) {
-        document.paragraph(format!(
+    fn write_outcomes(&self, page: &mut Page) {
+        page.paragraph(format!(
             "All outcomes that are stated ({MISSING}: none), with the largest errors beside them:"
         ));
         let mut outcomes: Vec<Option<&str>> = self.runs.iter().map(|row| row.outcome.as_deref()).collect();
@@ -117,7 +117,7 @@ impl<'a> Claims<'a> {
             ])
         };
         let header = "outcome | runs | worst mean (sd) | worst sd (relative) | worst mode mass | worst case";
-        document.table(header, outcomes.iter().map(line));
+        page.table(header, outcomes.iter().map(line));
     }
 }
 
@@ -194,8 +194,8 @@ mod tests {
     #[test]
     fn the_page_names_every_false_claim() {
         let rows = rows();
-        let mut document = Document::default();
-        Claims::new("mpm", &rows).write(&["ring".to_owned(), "funnel".to_owned()], &mut document);
+        let mut page = Page::default();
+        Claims::new("mpm", &rows).write(&["ring".to_owned(), "funnel".to_owned()], &mut page);
         for line in [
             "| ring | 3 | 2 | 67 % | 0.100 | 0.100 | 1 | 1 |",
             "| funnel | 3 | 1 | 33 % | – | – | 1 | 1 |",
@@ -205,24 +205,20 @@ mod tests {
             "| stalled | 1 | 0.0100 | 0.0100 | – | `c` |",
             "| budget exhausted | 1 | 3.00 | 0.500 | – | `d` |",
         ] {
-            assert!(
-                document.as_str().contains(line),
-                "{line} is missing in {}",
-                document.as_str()
-            );
+            assert!(page.as_str().contains(line), "{line} is missing in {}", page.as_str());
         }
-        assert!(!document.as_str().contains("`g`"));
+        assert!(!page.as_str().contains("`g`"));
     }
 
     #[test]
     fn silence_is_no_claim() {
         let rows = [run("a", "ring", None, Some((0.0, 0.0)))];
-        let mut document = Document::default();
-        Claims::new("mpm", &rows).write(&["ring".to_owned()], &mut document);
-        assert!(document.as_str().contains("No run says anything"));
+        let mut page = Page::default();
+        Claims::new("mpm", &rows).write(&["ring".to_owned()], &mut page);
+        assert!(page.as_str().contains("No run says anything"));
         let rows = [run("a", "ring", Some("converged"), Some((0.0, 0.0)))];
-        let mut document = Document::default();
-        Claims::new("mpm", &rows).write(&["ring".to_owned()], &mut document);
-        assert!(document.as_str().contains("No claim is false."));
+        let mut page = Page::default();
+        Claims::new("mpm", &rows).write(&["ring".to_owned()], &mut page);
+        assert!(page.as_str().contains("No claim is false."));
     }
 }

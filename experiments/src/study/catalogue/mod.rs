@@ -9,11 +9,10 @@ mod figure;
 mod report;
 mod requirement;
 
-use parvi::Run;
 use parvi_targets::{Dimensions, TargetError, target_info};
 use serde::Deserialize;
 
-use super::checks::{distinct, not_empty, refusal, targets_without_data, unset};
+use super::checks::{all_given, distinct, refusal, targets_without_data, unset};
 use super::definition::{self, Report, Study, Work};
 use super::directory::StudyDirectory;
 use super::run_row::RunRow;
@@ -129,17 +128,20 @@ impl Catalogue {
         Ok(targets)
     }
 
-    /// The level of the sliced Wasserstein distance is that of as many draws as there are particles.
     fn yardstick(&self) -> YardstickOptions {
         YardstickOptions {
             points: self.reference_points.get(),
             seed: self.reference_seed,
             directions: self.directions.get(),
             coordinates: Coordinates::Standardised,
-            independent_sets: Some(IndependentSets {
-                count: self.draws.get(),
-                size: self.particles.get(),
-            }),
+        }
+    }
+
+    /// The level of the sliced Wasserstein distance is that of as many draws as there are particles.
+    fn sets(&self) -> IndependentSets {
+        IndependentSets {
+            count: self.draws.get(),
+            size: self.particles.get(),
         }
     }
 
@@ -166,10 +168,7 @@ impl Study for Catalogue {
 
     /// The cases, target by target, so that a target's reference is made once.
     fn cases(&self) -> Result<Vec<Case>, CommandError> {
-        not_empty("seeds", &self.seeds)?;
-        not_empty("dims", &self.dims)?;
-        not_empty("starts", &self.starts)?;
-        not_empty("methods", &self.methods)?;
+        all_given!(self: seeds, dims, starts, methods);
         for start in &self.starts {
             start.check("starts")?;
         }
@@ -209,29 +208,25 @@ impl Study for Catalogue {
     }
 
     fn run(&self, case: &Case, work: Work<'_, CurrentYardstick>) -> Result<RunRow, CommandError> {
-        let yardstick = work.shared.of(&case.target, &self.yardstick())?;
+        let yardstick = work.shared.of(&case.target, &self.yardstick(), Some(self.sets()))?;
         let mut row = RunRow {
-            target: case.target.label(),
-            dim: case.target.dimension()?,
-            method: case.method.label().to_owned(),
             start_mean: case.start.map(|start| start.mean),
             start_sd: case.start.map(|start| start.standard_deviation),
             particles: case.particles,
             seed: Some(case.seed),
             energy_level: Some(yardstick.mean_distance() / case.particles as f64),
             sliced_level: yardstick.sliced_level(),
-            ..RunRow::new(case)
+            ..RunRow::on(case, &case.target, &case.method)?
         };
-        let mut run = Run::new(case.particles, case.seed);
-        let start = case.method.options.start();
-        run.start = case.start.map_or(start, |law| law.start(start));
+        let mut run = case.method.run(case.particles, case.seed);
+        run.start = case.start.map_or(run.start, |law| law.start(run.start));
         let method = case.method.method(None)?;
         row.run(&case.target, &method, &run, yardstick, work.observer)?;
         Ok(row)
     }
 
-    fn report(&self, rows: &[RunRow], directory: &StudyDirectory) -> Result<Report, CommandError> {
-        report::report(self, rows, directory)
+    fn report(&self, rows: &[RunRow], _: &StudyDirectory) -> Result<Report, CommandError> {
+        report::report(self, rows)
     }
 }
 

@@ -7,16 +7,15 @@ use super::{Catalogue, is_from, runs};
 use crate::CommandError;
 use crate::options::TargetSpecification;
 use crate::plots::dots;
-use crate::study::definition::{Report, Study};
-use crate::study::directory::StudyDirectory;
-use crate::study::document::{Cell, Document, Header, number};
+use crate::plots::page::{Cell, Header, Page, number};
+use crate::study::definition::Report;
 use crate::study::run_row::{ENERGY_RATIO, EVALUATIONS, Quantity, RunRow, SECONDS, SLICED_RATIO, failures, median};
 use crate::study::start_law::StartLaw;
 
 /// Tables and figure.
-pub fn report(study: &Catalogue, rows: &[RunRow], directory: &StudyDirectory) -> Result<Report, CommandError> {
-    let mut document = Document::new("Defaults on every target");
-    document.paragraph(format!(
+pub fn report(study: &Catalogue, rows: &[RunRow]) -> Result<Report, CommandError> {
+    let mut page = Page::new("Defaults on every target");
+    page.paragraph(format!(
         "M = {} particles, {} seeds, nothing set per target. ED² is the squared energy distance and SW₂ the sliced Wasserstein \
          distance over {} directions, both in coordinates in which the target has mean zero and unit covariance, exact or \
          against {} quasi-random points; relative to independent draws means ED² over its expectation E‖Y − Y'‖/M, and SW₂ \
@@ -27,28 +26,28 @@ pub fn report(study: &Catalogue, rows: &[RunRow], directory: &StudyDirectory) ->
         study.reference_points,
         study.draws,
     ));
-    document.heading("Figure");
+    page.heading("Figure");
     let caption = "ED² relative to independent draws, by target and start, with the requirement.";
-    document.figure(directory, "catalogue.svg", caption, dots(&plot(study, rows)?))?;
+    page.figure("catalogue.svg", caption, dots(&plot(study, rows)?));
 
     let targets = study.all_targets()?;
     let judged = study.judged().map_or("", |method| method.label());
     let verdicts = verdicts(&targets, judged, rows)?;
-    requirements(study, judged, &verdicts, &mut document);
+    requirements(study, judged, &verdicts, &mut page);
     for start in &study.starts {
-        document.heading(&format!("From N({}, {}²)", start.mean, start.standard_deviation));
-        start_table(study, &targets, rows, *start, &mut document)?;
+        page.heading(&format!("From N({}, {}²)", start.mean, start.standard_deviation));
+        start_table(study, &targets, rows, *start, &mut page)?;
     }
     let claims = Claims::new(judged, rows);
     let labels: Vec<String> = targets.iter().map(TargetSpecification::label).collect();
-    claims.write(&labels, &mut document);
+    claims.write(&labels, &mut page);
     let missed: Vec<&Verdict<'_>> = verdicts.iter().filter(|verdict| !verdict.met()).collect();
     let misses: Vec<String> = missed.iter().map(|verdict| verdict.miss()).collect();
-    document.list("Cases that miss their bound", &misses, Some("None."));
+    page.list("Cases that miss their bound", &misses, Some("None."));
     let others = failures(rows.iter().filter(|row| row.method != judged));
-    document.list("Runs of other methods that did not finish", &others, None);
+    page.list("Runs of other methods that did not finish", &others, None);
 
-    Ok(Report::new(Catalogue::KIND, document)
+    Ok(Report::new(page)
         .with("cases", rows.len())
         .with("judged", verdicts.len())
         .with("missed", missed.len())
@@ -96,9 +95,9 @@ fn verdicts<'a>(
 }
 
 /// How many cases meet what is asked, by class and by start.
-fn requirements(study: &Catalogue, judged: &str, verdicts: &[Verdict<'_>], document: &mut Document) {
-    document.heading("Requirements");
-    document.paragraph(format!(
+fn requirements(study: &Catalogue, judged: &str, verdicts: &[Verdict<'_>], page: &mut Page) {
+    page.heading("Requirements");
+    page.paragraph(format!(
         "What is asked of {judged}: ED² relative to independent draws at most the bound, in every case. A cell counts the cases \
          that meet it.",
     ));
@@ -134,7 +133,7 @@ fn requirements(study: &Catalogue, judged: &str, verdicts: &[Verdict<'_>], docum
         ]);
         table.push(line);
     }
-    document.table(&header, &table);
+    page.table(&header, &table);
 }
 
 /// A line per target: both distances of every method, and the errors and costs of the judged one.
@@ -143,7 +142,7 @@ fn start_table(
     targets: &[TargetSpecification],
     rows: &[RunRow],
     start: StartLaw,
-    document: &mut Document,
+    page: &mut Page,
 ) -> Result<(), CommandError> {
     let mut header = vec!["target".to_owned(), "bound".to_owned()];
     for method in &study.methods {
@@ -174,7 +173,7 @@ fn start_table(
         line.extend(quantities.map(|quantity| median(&here, quantity).cell()));
         table.push(line);
     }
-    document.paragraph("Medians over the seeds; ED² and SW₂ relative to independent draws.");
-    document.table(&header, &table);
+    page.paragraph("Medians over the seeds; ED² and SW₂ relative to independent draws.");
+    page.table(&header, &table);
     Ok(())
 }

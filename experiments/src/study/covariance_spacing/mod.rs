@@ -6,10 +6,9 @@
 
 mod report;
 
-use parvi::Run;
 use serde::Deserialize;
 
-use super::attempt::{Attempt, attempt};
+use super::attempt::attempt;
 use super::checks::{not_empty, positive, refusal, unset};
 use super::definition::{self, Report, Study, Work};
 use super::directory::StudyDirectory;
@@ -111,8 +110,7 @@ impl Study for CovarianceSpacing {
         let mut specification = self.method.clone();
         specification.options.spacing = Some(case.spacing);
         let method = specification.method(None)?;
-        let mut run = Run::new(self.particles.get(), case.seed);
-        run.start = specification.options.start();
+        let run = specification.run(self.particles.get(), case.seed);
         let target = TargetSpecification::plain("gaussian", Some(case.dim));
         let mut row = RunRow {
             dim: case.dim.get(),
@@ -120,20 +118,16 @@ impl Study for CovarianceSpacing {
             seed: Some(case.seed),
             ..RunRow::new(case)
         };
-        match attempt(sampling::sample(&target, &method, &run, work.observer))? {
-            Attempt::Failed(status, reason) => row.fail(status, reason),
-            Attempt::Finished(outcome) => {
-                let moments = SampleMoments::of(&outcome.particles);
-                row.take(&outcome);
-                row.covariance_error = Some(moments.distance_from_identity());
-                row.mean_error = Some(moments.largest_mean());
-            }
+        if let Some(outcome) = row.note(attempt(sampling::sample(&target, &method, &run, work.observer))?) {
+            let moments = SampleMoments::of(&outcome.particles);
+            row.covariance_error = Some(moments.distance_from_identity());
+            row.mean_error = Some(moments.largest_mean());
         }
         row.spacing = Some(case.spacing);
         Ok(row)
     }
 
-    fn report(&self, rows: &[RunRow], directory: &StudyDirectory) -> Result<Report, CommandError> {
-        report::report(self, rows, directory)
+    fn report(&self, rows: &[RunRow], _: &StudyDirectory) -> Result<Report, CommandError> {
+        Ok(report::report(self, rows))
     }
 }

@@ -1,12 +1,10 @@
 //! The report of the study `covariance-spacing`.
 
 use super::{CovarianceSpacing, Series};
-use crate::CommandError;
-use crate::plots::{AxisKind, LineSeries, MultiplesPanel, MultiplesPlot, ReferenceLevel, multiples};
-use crate::study::definition::{Report, Study};
-use crate::study::directory::StudyDirectory;
-use crate::study::document::{Cell, Document, MISSING, line};
-use crate::study::run_row::{RunRow, median, values};
+use crate::plots::page::{Cell, MISSING, Page, line};
+use crate::plots::{AxisKind, MultiplesPanel, MultiplesPlot, ReferenceLevel, multiples};
+use crate::study::definition::Report;
+use crate::study::run_row::{RunRow, curve, median, values};
 
 /// The runs of one dimension and spacing, one per seed.
 fn runs<'a>(rows: &'a [RunRow], series: &Series, spacing: f64) -> Vec<&'a RunRow> {
@@ -23,9 +21,9 @@ fn judgement(rows: &[RunRow], series: &Series) -> Option<(f64, f64, f64, bool)> 
 }
 
 /// Tables and figure.
-pub fn report(study: &CovarianceSpacing, rows: &[RunRow], directory: &StudyDirectory) -> Result<Report, CommandError> {
-    let mut document = Document::new("Covariance error of resting particles against the grid spacing");
-    document.paragraph(format!(
+pub fn report(study: &CovarianceSpacing, rows: &[RunRow]) -> Report {
+    let mut page = Page::new("Covariance error of resting particles against the grid spacing");
+    page.paragraph(format!(
         "Target N(0, I), M = {} particles, {} seed(s), method `{}` without shifts of the grid and without a moment \
          correction. The error is the largest entry of |Ĉ − I| once the particles rest; h is in standard deviations. \
          Vanishing nodal forces mean exact moments; resting particles leave forces in the null space of the transfer.",
@@ -34,7 +32,7 @@ pub fn report(study: &CovarianceSpacing, rows: &[RunRow], directory: &StudyDirec
         study.method.label(),
     ));
 
-    document.heading("Bounds");
+    page.heading("Bounds");
     let mut verdicts = Vec::new();
     let mut table = Vec::new();
     for series in &study.series {
@@ -51,16 +49,11 @@ pub fn report(study: &CovarianceSpacing, rows: &[RunRow], directory: &StudyDirec
         }
     }
     let all_kept = !verdicts.is_empty() && verdicts.iter().all(|kept| *kept);
-    document.table("d | h | largest error | bound | verdict", &table);
+    page.table("d | h | largest error | bound | verdict", &table);
 
-    document.heading("Error against spacing");
+    page.heading("Error against spacing");
     let caption = "Covariance error of resting particles; medians over the seeds, bars from least to most.";
-    document.figure(
-        directory,
-        "covariance-spacing.svg",
-        caption,
-        multiples(&plot(study, rows)),
-    )?;
+    page.figure("covariance-spacing.svg", caption, multiples(&plot(study, rows)));
 
     let mut table = Vec::new();
     for series in &study.series {
@@ -84,41 +77,33 @@ pub fn report(study: &CovarianceSpacing, rows: &[RunRow], directory: &StudyDirec
             ]));
         }
     }
-    document.table("d | h | median error | active nodes | failed", &table);
+    page.table("d | h | median error | active nodes | failed", &table);
 
     let verdict = if all_kept { "pass" } else { "fail" };
-    Ok(Report::new(CovarianceSpacing::KIND, document).with("verdict", verdict))
+    Report::new(page).with("verdict", verdict)
 }
 
 /// The errors against the spacing, a line per dimension.
 fn plot(study: &CovarianceSpacing, rows: &[RunRow]) -> MultiplesPlot {
-    let curve = |series: &Series| {
-        let mut line = LineSeries::named(format!("d = {}", series.dim));
+    let line = |series: &Series| {
         let mut spacings = series.spacings.clone();
         spacings.sort_by(f64::total_cmp);
-        for spacing in spacings {
-            let errors = values(&runs(rows, series, spacing), |row| row.covariance_error);
-            line.push_median(spacing, &errors);
-        }
-        line
+        let points = spacings
+            .into_iter()
+            .map(|spacing| (spacing, runs(rows, series, spacing)));
+        curve(format!("d = {}", series.dim), points, |row| row.covariance_error)
     };
     let mut bounds: Vec<f64> = study.series.iter().filter_map(|series| series.bound).collect();
     bounds.sort_by(f64::total_cmp);
     bounds.dedup();
-    let level = |value| ReferenceLevel {
-        value,
-        label: "bound".to_owned(),
-    };
+    let level = |value| ReferenceLevel::new(value, "bound");
     MultiplesPlot {
-        x_label: "grid spacing h (standard deviations)".to_owned(),
-        y_label: "covariance error max |Ĉ − I|".to_owned(),
         x_axis: AxisKind::Linear,
-        y_axis: AxisKind::Logarithmic,
         panels: vec![MultiplesPanel {
-            series: study.series.iter().map(curve).collect(),
+            series: study.series.iter().map(line).collect(),
             levels: bounds.into_iter().map(level).collect(),
             ..MultiplesPanel::default()
         }],
-        ..MultiplesPlot::default()
+        ..MultiplesPlot::logarithmic("grid spacing h (standard deviations)", "covariance error max |Ĉ − I|")
     }
 }

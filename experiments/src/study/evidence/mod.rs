@@ -2,11 +2,10 @@
 
 mod report;
 
-use parvi::Run;
 use serde::Deserialize;
 
-use super::attempt::{Attempt, attempt};
-use super::checks::{distinct, not_empty, refusal};
+use super::attempt::attempt;
+use super::checks::{all_given, distinct, refusal};
 use super::definition::{self, Report, Study, Work};
 use super::directory::StudyDirectory;
 use super::run_row::RunRow;
@@ -60,8 +59,7 @@ impl Study for Evidence {
     }
 
     fn cases(&self) -> Result<Vec<Case>, CommandError> {
-        not_empty("targets", &self.targets)?;
-        not_empty("methods", &self.methods)?;
+        all_given!(self: targets, methods);
         let mut cases = Vec::new();
         for target in &self.targets {
             if !parvi_targets::target_info(&target.name)?.log_evidence {
@@ -80,24 +78,17 @@ impl Study for Evidence {
     }
 
     fn run(&self, case: &Case, work: Work<'_, ()>) -> Result<RunRow, CommandError> {
-        let mut run = Run::new(self.particles.get(), case.seed);
-        run.start = case.method.options.start();
+        let run = case.method.run(self.particles.get(), case.seed);
         let mut row = RunRow {
-            target: case.target.label(),
-            dim: case.target.dimension()?,
-            method: case.method.label().to_owned(),
             seed: Some(case.seed),
-            ..RunRow::new(case)
+            ..RunRow::on(case, &case.target, &case.method)?
         };
         let method = case.method.method(None)?;
-        match attempt(sampling::sample(&case.target, &method, &run, work.observer))? {
-            Attempt::Failed(status, reason) => row.fail(status, reason),
-            Attempt::Finished(outcome) => row.take(&outcome),
-        }
+        row.note(attempt(sampling::sample(&case.target, &method, &run, work.observer))?);
         Ok(row)
     }
 
-    fn report(&self, rows: &[RunRow], directory: &StudyDirectory) -> Result<Report, CommandError> {
-        report::report(self, rows, directory)
+    fn report(&self, rows: &[RunRow], _: &StudyDirectory) -> Result<Report, CommandError> {
+        Ok(report::report(self, rows))
     }
 }

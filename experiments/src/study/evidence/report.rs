@@ -1,13 +1,11 @@
 //! The report of the study `evidence`.
 
 use super::Evidence;
-use crate::CommandError;
 use crate::options::TargetSpecification;
+use crate::plots::page::{Cell, Page, line, percent};
 use crate::plots::{AxisKind, LineSeries, MultiplesPanel, MultiplesPlot, ReferenceLevel, multiples};
-use crate::study::definition::{Report, Study};
-use crate::study::directory::StudyDirectory;
-use crate::study::document::{Cell, Document, line, percent};
-use crate::study::run_row::{EVALUATIONS, Quantity, RunRow, SECONDS, failures, median, values};
+use crate::study::definition::Report;
+use crate::study::run_row::{EVALUATIONS, Quantity, RunRow, SECONDS, median, report_of_runs, values};
 
 /// |log Z − exact|.
 const ERROR: Quantity = |row| row.log_evidence_deviation.map(f64::abs);
@@ -15,32 +13,32 @@ const ERROR: Quantity = |row| row.log_evidence_deviation.map(f64::abs);
 const RATIO: Quantity = |row| Some(ERROR(row)? / row.log_evidence_error?);
 
 /// Tables and figure.
-pub fn report(study: &Evidence, rows: &[RunRow], directory: &StudyDirectory) -> Result<Report, CommandError> {
-    let mut document = Document::new("Evidence");
-    document.paragraph(format!(
+pub fn report(study: &Evidence, rows: &[RunRow]) -> Report {
+    let mut page = Page::new("Evidence");
+    page.paragraph(format!(
         "log Z = log ∫ p with M = {} particles, {} seeds from {} on, beside its known value; s.e. is the standard error that the method states. \
          An error that is normal and known exactly is within one, two, three of it in 68, 95, 99.7 % of the runs; one that rests on eight \
          populations in 65, 91, 98 %. Runs that state nothing are in no column but the first.",
         study.particles, study.run_seeds.count, study.run_seeds.first,
     ));
-    document.heading("All targets");
+    page.heading("All targets");
     let all = |label: &str| rows.iter().filter(|row| row.method == label).collect::<Vec<_>>();
     let table = study
         .methods
         .iter()
         .map(|method| cells(method.label(), &all(method.label())));
-    document.table(HEADER, table);
-    document.heading("Errors in standard errors");
+    page.table(HEADER, table);
+    page.heading("Errors in standard errors");
     let caption = "Errors of log Z in standard errors that the method states, in order of size.";
-    document.figure(directory, "evidence.svg", caption, multiples(&plot(study, rows)))?;
+    page.figure("evidence.svg", caption, multiples(&plot(study, rows)));
     for target in &study.targets {
-        document.heading(&target.label());
+        page.heading(&target.label());
         let here = |label: &str| runs(rows, target, label);
         let table = study
             .methods
             .iter()
             .map(|method| cells(method.label(), &here(method.label())));
-        document.table(HEADER, table);
+        page.table(HEADER, table);
     }
     let far = rows.iter().filter(|row| RATIO(row).is_some_and(|ratio| ratio > 3.0));
     let far: Vec<String> = far
@@ -53,13 +51,8 @@ pub fn report(study: &Evidence, rows: &[RunRow], directory: &StudyDirectory) -> 
             )
         })
         .collect();
-    document.list("Errors beyond three standard errors", &far, Some("None."));
-    let failed = failures(rows);
-    document.list("Runs that did not finish", &failed, None);
-    Ok(Report::new(Evidence::KIND, document)
-        .with("cases", rows.len())
-        .with("failed", failed.len())
-        .with("beyond_three_errors", far.len()))
+    page.list("Errors beyond three standard errors", &far, Some("None."));
+    report_of_runs(page, rows).with("beyond_three_errors", far.len())
 }
 
 const HEADER: &str =
@@ -91,15 +84,9 @@ fn runs<'a>(rows: &'a [RunRow], target: &TargetSpecification, label: &str) -> Ve
 /// Errors over standard errors in order of size, a panel per target and a line per method.
 fn plot(study: &Evidence, rows: &[RunRow]) -> MultiplesPlot {
     let curve = |target: &TargetSpecification, label: &str| {
-        let mut y = values(&runs(rows, target, label), RATIO);
-        y.sort_by(f64::total_cmp);
-        LineSeries {
-            x: (0..y.len())
-                .map(|k| 100.0 * (k as f64 + 0.5) / y.len() as f64)
-                .collect(),
-            y,
-            ..LineSeries::named(label)
-        }
+        let ratios = values(&runs(rows, target, label), RATIO);
+        let count = ratios.len();
+        LineSeries::in_order(label, ratios, count)
     };
     let panel = |target: &TargetSpecification| MultiplesPanel {
         title: target.label(),
@@ -108,18 +95,12 @@ fn plot(study: &Evidence, rows: &[RunRow]) -> MultiplesPlot {
             .iter()
             .map(|method| curve(target, method.label()))
             .collect(),
-        levels: vec![ReferenceLevel {
-            value: 3.0,
-            label: "three standard errors".to_owned(),
-        }],
+        levels: vec![ReferenceLevel::new(3.0, "three standard errors")],
         ..MultiplesPanel::default()
     };
     MultiplesPlot {
-        x_label: "share of the runs (%)".to_owned(),
-        y_label: "error of log Z / its standard error".to_owned(),
         x_axis: AxisKind::Linear,
-        y_axis: AxisKind::Logarithmic,
         panels: study.targets.iter().map(panel).collect(),
-        ..MultiplesPlot::default()
+        ..MultiplesPlot::logarithmic("share of the runs (%)", "error of log Z / its standard error")
     }
 }

@@ -5,40 +5,35 @@ use super::row::Row;
 use super::table::{Finding, Findings, against, cell, groups, median, settings};
 use crate::CommandError;
 use crate::plots::exponent_text;
+use crate::plots::page::{MISSING, Page, number};
 use crate::statistics::fit_power_law_of;
 use crate::study::attempt::Status;
-use crate::study::document::{Document, MISSING, number};
+use crate::study::each_once::each_once;
 
 /// All answers, in the order of the paper's claims.
-pub fn answers(findings: &Findings, bodies: &[Finding], document: &mut Document) -> Result<(), CommandError> {
-    document.heading("When does it work?");
-    when(findings, bodies, document)?;
-    document.heading("Which law suits?");
-    laws(&findings.sweep("material")?, document);
-    document.heading("Transient or steady?");
-    transient(bodies, document);
-    document.heading("Does annealing help?");
-    annealing(&findings.sweep("schedule")?, document);
-    document.heading("Do modes separate?");
-    modes(findings, document)?;
-    document.heading("What does it cost?");
-    cost(&findings.sweep("cost")?, document);
+pub fn answers(findings: &Findings, bodies: &[Finding], page: &mut Page) -> Result<(), CommandError> {
+    page.heading("When does it work?");
+    when(findings, bodies, page)?;
+    page.heading("Which law suits?");
+    laws(&findings.sweep("material")?, page);
+    page.heading("Transient or steady?");
+    transient(bodies, page);
+    page.heading("Does annealing help?");
+    annealing(&findings.sweep("schedule")?, page);
+    page.heading("Do modes separate?");
+    modes(findings, page)?;
+    page.heading("What does it cost?");
+    cost(&findings.sweep("cost")?, page);
     Ok(())
 }
 
 /// The variants of bodies, in the order of the cases.
 pub fn variants(bodies: &[Finding]) -> Vec<String> {
-    let mut variants: Vec<String> = Vec::new();
-    for (_, row) in bodies {
-        if !variants.contains(&row.variant) {
-            variants.push(row.variant.clone());
-        }
-    }
-    variants
+    each_once(bodies.iter().map(|(_, row)| row.variant.clone()))
 }
 
 /// Per target: the base, the best of all settings, and the rivals.
-fn when(findings: &Findings, bodies: &[Finding], document: &mut Document) -> Result<(), CommandError> {
+fn when(findings: &Findings, bodies: &[Finding], page: &mut Page) -> Result<(), CommandError> {
     let line = |variant: String| {
         let here: Vec<&Row> = bodies
             .iter()
@@ -56,18 +51,13 @@ fn when(findings: &Findings, bodies: &[Finding], document: &mut Document) -> Res
             .chain(counts.map(|count| count.to_string()))
             .collect::<Vec<String>>()
     };
-    document.paragraph("All runs: how many reach the end, and how many there have an ED² of at most 10 times, and at most once, that of independent draws.");
+    page.paragraph("All runs: how many reach the end, and how many there have an ED² of at most 10 times, and at most once, that of independent draws.");
     let lines = variants(bodies).into_iter().map(line);
-    document.table("variant | runs | ended | ED² ≤ 10 | ED² ≤ 1", lines);
+    page.table("variant | runs | ended | ED² ≤ 10 | ED² ≤ 1", lines);
     let base = findings.of(findings.study.base_cases()?);
     let rivals = findings.of(findings.study.rival_cases()?);
     let all_groups: Vec<(String, Vec<&Row>)> = groups(&base).into_iter().chain(groups(&rivals)).collect();
-    let mut targets: Vec<&str> = Vec::new();
-    for (_, row) in &base {
-        if !targets.contains(&row.target.as_str()) {
-            targets.push(&row.target);
-        }
-    }
+    let targets = each_once(base.iter().map(|(_, row)| row.target.as_str()));
     let mut header = vec!["target", "start"];
     header.extend(all_groups.iter().map(|(label, _)| label.as_str()));
     header.extend(["best setting", "which"]);
@@ -100,31 +90,31 @@ fn when(findings: &Findings, bodies: &[Finding], document: &mut Document) -> Res
         }
         lines.push(line);
     }
-    document.paragraph(format!(
+    page.paragraph(format!(
         "Medians of ED² over the seeds, relative to independent draws: the base, the rivals, and the best setting of all, chosen in hindsight. That one is at least as good as \
          independent draws on {at_least_as_good} of {} targets.",
         targets.len(),
     ));
-    document.table(&header, &lines);
+    page.table(&header, &lines);
     Ok(())
 }
 
-fn laws(findings: &[Finding], document: &mut Document) {
+fn laws(findings: &[Finding], page: &mut Page) {
     let ranked = groups(findings)
         .into_iter()
         .filter_map(|(label, rows)| Some((median(rows, Row::ratio)?, label)));
     if let Some((ratio, label)) = ranked.min_by(|a, b| a.0.total_cmp(&b.0)) {
-        document.paragraph(format!(
+        page.paragraph(format!(
             "The least median over all targets is {} times independent draws: {label}.",
             cell(Some(ratio))
         ));
-        settings(findings, document);
+        settings(findings, page);
     } else {
-        document.paragraph("No run of the case `material`.");
+        page.paragraph("No run of the case `material`.");
     }
 }
 
-fn transient(bodies: &[Finding], document: &mut Document) {
+fn transient(bodies: &[Finding], page: &mut Page) {
     let line = |variant: String| {
         let here = bodies.iter().map(|(_, row)| *row).filter(|row| row.variant == variant);
         let seen: Vec<&Row> = here.filter(|row| row.best_step.is_some()).collect();
@@ -142,18 +132,18 @@ fn transient(bodies: &[Finding], document: &mut Document) {
         let counts = [seen.len(), earlier, never, good].map(|count| count.to_string());
         [vec![variant], counts.to_vec(), vec![cell(gain)]].concat()
     };
-    document.paragraph(
+    page.paragraph(
         "Of the runs that were seen after their start: those that are best before their last step, those that are never better than their start, and those that have an ED² of at most 1 on the way; \
          and the final ED² over the least, the median of those that reach the end.",
     );
     let header = "variant | seen | best before the end | never better than the start | ≤ 1 on the way | end / least";
-    document.table(header, variants(bodies).into_iter().map(line));
+    page.table(header, variants(bodies).into_iter().map(line));
 }
 
-fn annealing(findings: &[Finding], document: &mut Document) {
+fn annealing(findings: &[Finding], page: &mut Page) {
     let constant = |finding: &&Finding| matches!(finding.0.body.schedule, Schedule::Constant { .. });
     let Some((first, _)) = findings.iter().find(constant) else {
-        document.paragraph("No run of the case `schedule` with a constant α.");
+        page.paragraph("No run of the case `schedule` with a constant α.");
         return;
     };
     let same = |one: &Finding, other: &Finding| {
@@ -163,26 +153,22 @@ fn annealing(findings: &[Finding], document: &mut Document) {
             && a.algorithm == b.algorithm
             && a.variant == b.variant
     };
-    let mut schedules: Vec<Schedule> = Vec::new();
-    for (case, _) in findings {
-        if !schedules.contains(&case.body.schedule) && case.body.schedule != first.body.schedule {
-            schedules.push(case.body.schedule);
-        }
-    }
+    let mut schedules = each_once(findings.iter().map(|(case, _)| case.body.schedule));
+    schedules.retain(|schedule| *schedule != first.body.schedule);
     let of = |schedule: Schedule| findings.iter().filter(move |(case, _)| case.body.schedule == schedule);
     for schedule in schedules {
         let pairs =
             of(schedule).filter_map(|one| Some((one.1, of(first.body.schedule).find(|other| same(one, other))?.1)));
         let name = of(schedule).next().map_or("", |(_, row)| row.schedule.as_str());
         let [better, ties, worse, neither] = against(pairs);
-        document.paragraph(format!(
+        page.paragraph(format!(
             "- α {name}: better than the constant one in {better} runs, as good in {ties}, worse in {worse}; in {neither} both diverged."
         ));
     }
-    settings(findings, document);
+    settings(findings, page);
 }
 
-fn modes(findings: &Findings, document: &mut Document) -> Result<(), CommandError> {
+fn modes(findings: &Findings, page: &mut Page) -> Result<(), CommandError> {
     let mut all = findings.of(findings.study.base_cases()?);
     all.extend(findings.of(findings.study.rival_cases()?));
     let targets: Vec<String> = all
@@ -209,17 +195,17 @@ fn modes(findings: &Findings, document: &mut Document) -> Result<(), CommandErro
     let (bodies, rivals): (Vec<Finding>, Vec<Finding>) =
         multimodal.into_iter().partition(|(case, _)| case.rival.is_none());
     if bodies.is_empty() {
-        document.paragraph("No run on a target with several modes reached its end.");
+        page.paragraph("No run on a target with several modes reached its end.");
         return Ok(());
     }
-    document.paragraph("Largest error of a mode's mass at the end, on the targets of the base with several modes; a run without particles is infinitely far.");
+    page.paragraph("Largest error of a mode's mass at the end, on the targets of the base with several modes; a run without particles is infinitely far.");
     let lines = groups(&bodies).into_iter().chain(groups(&rivals)).map(line);
-    document.table("setting | runs | within 0.05 | median", lines);
+    page.table("setting | runs | within 0.05 | median", lines);
     Ok(())
 }
 
 /// Powers of M, N and d in time and memory, beside the paper's.
-fn cost(findings: &[Finding], document: &mut Document) {
+fn cost(findings: &[Finding], page: &mut Page) {
     let fit = |quantity: fn(&Row) -> Option<f64>| {
         let mut columns: [Vec<f64>; 4] = Default::default();
         for (_, row) in findings {
@@ -241,7 +227,7 @@ fn cost(findings: &[Finding], document: &mut Document) {
     };
     let named = |name: &str, cells: Vec<String>| [vec![name.to_owned()], cells].concat();
     let paper = |cells: [&str; 3]| cells.iter().copied().chain([MISSING]).map(str::to_owned).collect();
-    document.paragraph(
+    page.paragraph(
         "Exponents of M, N and d in time per step and in what particles and grid hold, of the case `cost`: one fit of all three by least squares in logarithms, with 95 % intervals. N are \
          the nodes with mass: others do not exist here, where the paper counts kᵈ of a dense grid. A particle touches 3ᵈ nodes, which no power of d is.",
     );
@@ -251,6 +237,6 @@ fn cost(findings: &[Finding], document: &mut Document) {
         named("memory", fit(|row| row.storage_bytes.map(|bytes| bytes as f64))),
         named("paper: O((N + M) d + M d²)", paper(["≤ 1", "≤ 1", "1 to 2"])),
     ];
-    document.table("quantity | M | N | d | R²", &lines);
-    settings(findings, document);
+    page.table("quantity | M | N | d | R²", &lines);
+    settings(findings, page);
 }

@@ -61,16 +61,6 @@ impl GuardChoice {
     }
 }
 
-/// The coordinates that the body moves in.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum CoordinateChoice {
-    /// The target's own, as the paper has it.
-    Own,
-    /// Those of the target's frame.
-    Frame,
-}
-
 /// `{ guards = "off", coordinates = "own" }`: how far a run departs from the paper; these two are its algorithms as written.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
@@ -78,30 +68,18 @@ pub struct Variant {
     /// Guards.
     pub guards: GuardChoice,
     /// Coordinates.
-    pub coordinates: CoordinateChoice,
+    pub coordinates: Coordinates,
 }
 
 impl Variant {
     /// In words.
     pub fn text(self) -> String {
         match (self.guards, self.coordinates) {
-            (GuardChoice::Off, CoordinateChoice::Own) => "as written".to_owned(),
-            (guards, CoordinateChoice::Own) => format!("guards {}", guards.text()),
-            (guards, CoordinateChoice::Frame) => format!("guards {}, frame", guards.text()),
+            (GuardChoice::Off, Coordinates::Own) => "as written".to_owned(),
+            (guards, Coordinates::Own) => format!("guards {}", guards.text()),
+            (guards, Coordinates::Frame) => format!("guards {}, frame", guards.text()),
         }
     }
-}
-
-/// V⁰_p.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum VolumeChoice {
-    /// 1/M.
-    Uniform,
-    /// m_p / p⁰(X_p).
-    OfStartDensity,
-    /// m_p / ρ_h(X_p).
-    OfGrid,
 }
 
 /// `{ shape = "geometric", from = 0.1, to = 1.0 }`: α over the steps, of either sign.
@@ -178,7 +156,7 @@ pub struct Body {
     /// Where the force acts.
     pub score: Score,
     /// V⁰_p.
-    pub volumes: VolumeChoice,
+    pub volumes: ReferenceVolumes,
     /// γ.
     pub friction: f64,
     /// h in units of the coordinates; `None`: the library's default.
@@ -200,15 +178,8 @@ impl Body {
             time_step: self.time_step,
             friction: self.friction,
             guards: self.variant.guards.guards(),
-            coordinates: match self.variant.coordinates {
-                CoordinateChoice::Own => Coordinates::Own,
-                CoordinateChoice::Frame => Coordinates::Frame,
-            },
-            reference_volumes: match self.volumes {
-                VolumeChoice::Uniform => ReferenceVolumes::Uniform,
-                VolumeChoice::OfStartDensity => ReferenceVolumes::OfStartDensity,
-                VolumeChoice::OfGrid => ReferenceVolumes::OfGrid,
-            },
+            coordinates: self.variant.coordinates,
+            reference_volumes: self.volumes,
             certificate: false,
             ..PaperOptions::default()
         }
@@ -218,9 +189,9 @@ impl Body {
     pub fn parts(&self) -> [(&'static str, String); 9] {
         let number = |value: Option<f64>| value.map_or("default".to_owned(), |value| value.to_string());
         let volumes = match self.volumes {
-            VolumeChoice::Uniform => "uniform",
-            VolumeChoice::OfStartDensity => "of-start-density",
-            VolumeChoice::OfGrid => "of-grid",
+            ReferenceVolumes::Uniform => "uniform",
+            ReferenceVolumes::OfStartDensity => "of-start-density",
+            ReferenceVolumes::OfGrid => "of-grid",
         };
         [
             ("algorithm", self.algorithm.to_string()),

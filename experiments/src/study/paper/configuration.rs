@@ -2,15 +2,17 @@
 
 use std::collections::HashSet;
 
+use parvi::ReferenceVolumes;
 use serde::Deserialize;
 
 use super::Case;
-use super::body::{Body, Schedule, Variant, VolumeChoice};
+use super::body::{Body, Schedule, Variant};
 use super::material::MaterialTable;
 use crate::CommandError;
 use crate::options::{Bounded, MethodSpecification, ParticleCount, Score, StepCount, TargetSpecification};
 use crate::study::checks::{distinct, not_empty, positive, refusal};
 use crate::study::definition;
+use crate::study::each_once::each_once;
 use crate::study::yardstick::{Coordinates, YardstickOptions};
 
 /// The paper's algorithms, a base and its changes.
@@ -52,7 +54,7 @@ pub struct Settings {
     materials: Option<Vec<MaterialTable>>,
     schedules: Option<Vec<Schedule>>,
     scores: Option<Vec<Score>>,
-    volumes: Option<Vec<VolumeChoice>>,
+    volumes: Option<Vec<ReferenceVolumes>>,
     frictions: Option<Vec<f64>>,
     spacings: Option<Vec<f64>>,
     time_steps: Option<Vec<f64>>,
@@ -122,12 +124,7 @@ impl Paper {
         }
         let mut known = HashSet::new();
         cases.retain(|case| known.insert(definition::Case::id(case)));
-        let mut order: Vec<TargetSpecification> = Vec::new();
-        for case in &cases {
-            if !order.contains(&case.target) {
-                order.push(case.target.clone());
-            }
-        }
+        let order = each_once(cases.iter().map(|case| case.target.clone()));
         cases.sort_by_key(|case| order.iter().position(|target| *target == case.target));
         Ok(cases)
     }

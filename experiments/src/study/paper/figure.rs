@@ -5,6 +5,7 @@ use super::row::Row;
 use super::table::{Finding, Quantity, groups, median};
 use crate::plots::style::styles;
 use crate::plots::{AxisKind, DotPlot, DotRow, DotSeries, LineSeries, MultiplesPanel, MultiplesPlot, ReferenceLevel};
+use crate::study::each_once::each_once;
 
 /// Medians of a quantity over the abscissas, the lines by a name.
 fn lines(
@@ -13,12 +14,7 @@ fn lines(
     name: &dyn Fn(&Row) -> String,
     y: Quantity,
 ) -> Vec<LineSeries> {
-    let mut series: Vec<LineSeries> = Vec::new();
-    for finding in findings {
-        let label = name(finding.1);
-        if series.iter().any(|line| line.label == label) {
-            continue;
-        }
+    let line = |label: String| {
         let here: Vec<&&Finding> = findings.iter().filter(|(_, row)| name(row) == label).collect();
         let mut places: Vec<f64> = here.iter().filter_map(|finding| x(finding)).collect();
         places.sort_by(f64::total_cmp);
@@ -31,13 +27,14 @@ fn lines(
             median(rows, y).unwrap_or(f64::NAN)
         };
         let y = places.iter().map(at).collect();
-        series.push(LineSeries {
+        LineSeries {
             x: places,
             y,
             ..LineSeries::named(label)
-        });
-    }
-    series
+        }
+    };
+    let labels = each_once(findings.iter().map(|finding| name(finding.1)));
+    labels.into_iter().map(line).collect()
 }
 
 /// ED² at the end over α and over E, one panel per variant and algorithm.
@@ -52,39 +49,24 @@ pub fn strength(alpha: &[Finding], stiffness: &[Finding]) -> MultiplesPlot {
         ("α", alpha, &of_alpha as &dyn Fn(&Finding) -> Option<f64>),
         ("E", stiffness, &of_stiffness),
     ] {
-        let mut titles: Vec<(String, String)> = Vec::new();
-        for (_, row) in findings {
-            let title = (row.variant.clone(), row.method.clone());
-            if titles.contains(&title) {
-                continue;
-            }
-            let here: Vec<&Finding> = findings
-                .iter()
-                .filter(|(_, row)| (&row.variant, &row.method) == (&title.0, &title.1))
-                .collect();
+        for (variant, method) in each_once(findings.iter().map(|(_, row)| (&row.variant, &row.method))) {
+            let here = |(_, row): &&Finding| (&row.variant, &row.method) == (variant, method);
+            let here: Vec<&Finding> = findings.iter().filter(here).collect();
             panels.push(MultiplesPanel {
-                title: format!("{name}: {}, {}", title.1.replace("algorithm ", ""), title.0),
+                title: format!("{name}: {}, {variant}", method.replace("algorithm ", "")),
                 series: lines(&here, x, &|row| row.target.clone(), Row::ratio),
-                levels: vec![ReferenceLevel {
-                    value: 1.0,
-                    label: "independent draws".to_owned(),
-                }],
+                levels: vec![ReferenceLevel::new(1.0, "independent draws")],
                 ..MultiplesPanel::default()
             });
-            titles.push(title);
         }
     }
     // Where all runs diverged there is nothing to draw.
     let drawable = |panel: &MultiplesPanel| panel.series.iter().any(|line| line.y.iter().any(|y| y.is_finite()));
     panels.retain(drawable);
     MultiplesPlot {
-        x_label: "α or E".to_owned(),
-        y_label: "ED^{2} relative to independent draws".to_owned(),
-        x_axis: AxisKind::Logarithmic,
-        y_axis: AxisKind::Logarithmic,
         panels,
         notes: vec!["By algorithm and variant; medians over the seeds. What diverged has no mark, and no panel where that is all.".to_owned()],
-        ..MultiplesPlot::default()
+        ..MultiplesPlot::logarithmic("α or E", "ED^{2} relative to independent draws")
     }
 }
 
@@ -121,15 +103,9 @@ pub fn transient(base: &[Finding]) -> DotPlot {
 
 /// The end of every material, by algorithm, variant and place of the force.
 pub fn materials(findings: &[Finding]) -> DotPlot {
-    let (mut labels, mut series): (Vec<String>, Vec<String>) = Default::default();
     let named = |row: &Row| format!("{}, {}, force at {}", row.method, row.variant, row.score);
-    for (_, row) in findings {
-        for (known, name) in [(&mut labels, row.material.clone()), (&mut series, named(row))] {
-            if !known.contains(&name) {
-                known.push(name);
-            }
-        }
-    }
+    let labels = each_once(findings.iter().map(|(_, row)| row.material.clone()));
+    let series = each_once(findings.iter().map(|(_, row)| named(row)));
     let value = |name: &String, material: &String| {
         let here = findings
             .iter()
@@ -178,15 +154,9 @@ pub fn cost(findings: &[Finding]) -> MultiplesPlot {
             .spacing
             .map_or("default".to_owned(), |value| value.to_string())
     };
-    let mut titles: Vec<String> = Vec::new();
-    let mut panels = Vec::new();
-    for (case, _) in findings {
-        let title = spacing(case);
-        if titles.contains(&title) {
-            continue;
-        }
+    let panel = |title: String| {
         let here: Vec<&Finding> = findings.iter().filter(|(case, _)| spacing(case) == title).collect();
-        panels.push(MultiplesPanel {
+        MultiplesPanel {
             title: format!("h = {title}"),
             series: lines(
                 &here,
@@ -195,15 +165,11 @@ pub fn cost(findings: &[Finding]) -> MultiplesPlot {
                 |row| Some(1e6 * row.wall_seconds? / row.steps as f64),
             ),
             ..MultiplesPanel::default()
-        });
-        titles.push(title);
-    }
+        }
+    };
+    let spacings = each_once(findings.iter().map(|(case, _)| spacing(case)));
     MultiplesPlot {
-        x_label: "M".to_owned(),
-        y_label: "time per step (µs)".to_owned(),
-        x_axis: AxisKind::Logarithmic,
-        y_axis: AxisKind::Logarithmic,
-        panels,
-        ..MultiplesPlot::default()
+        panels: spacings.into_iter().map(panel).collect(),
+        ..MultiplesPlot::logarithmic("M", "time per step (µs)")
     }
 }

@@ -101,7 +101,7 @@ impl Study for Paper {
     }
 
     fn run(&self, case: &Case, work: Work<'_, CurrentYardstick>) -> Result<Row, CommandError> {
-        let yardstick = work.shared.of(&case.target, &self.yardstick())?;
+        let yardstick = work.shared.of(&case.target, &self.yardstick(), None)?;
         let level = yardstick.mean_distance() / case.particles as f64;
         let mut row = Row::new(case, case.target.dimension()?, level);
         let mut run = Run::new(case.particles, case.seed);
@@ -113,8 +113,8 @@ impl Study for Paper {
         Ok(row)
     }
 
-    fn report(&self, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
-        report::report(self, rows, directory)
+    fn report(&self, rows: &[Row], _: &StudyDirectory) -> Result<Report, CommandError> {
+        report::report(self, rows)
     }
 }
 

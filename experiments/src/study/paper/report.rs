@@ -5,66 +5,65 @@ use super::row::Row;
 use super::table::{Finding, Findings, TIE, against, settings};
 use super::{Paper, figure};
 use crate::CommandError;
+use crate::plots::page::{Page, line};
 use crate::plots::{dots, multiples};
 use crate::study::attempt::Status;
-use crate::study::definition::{Report, Study};
-use crate::study::directory::StudyDirectory;
-use crate::study::document::{Document, line};
+use crate::study::definition::Report;
 
 /// Tables and figures.
-pub fn report(study: &Paper, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
+pub fn report(study: &Paper, rows: &[Row]) -> Result<Report, CommandError> {
     let findings = Findings::new(study, rows);
     let all = findings.of(study.all_cases()?);
     let bodies: Vec<Finding> = all.into_iter().filter(|(case, _)| case.rival.is_none()).collect();
-    let mut document = Document::new("What Algorithms 1 and 2 of the MPM-ParVI paper reach");
-    document.paragraph(format!(
+    let mut page = Page::new("What Algorithms 1 and 2 of the MPM-ParVI paper reach");
+    page.paragraph(format!(
         "Huang, arXiv 2407.20287, has no experiments; these are some. `as written`: the target's own coordinates, the force of Eq. 3, no guard. `guards on, frame`: this project's defaults. \
          The start is N({}, {}²) in every coordinate of the body. ED² is the squared energy distance from the target over its expectation E‖Y − Y'‖/M for M independent draws, so these have 1; \
          `on the way` is the least ED² among every {}th step after the start. A run ends, and has diverged, where something is not finite or a mean or standard deviation is off by more than {} \
          standard deviations. Medians take a run without particles for infinitely far, ∞. Mean and sd are the largest errors in standard deviations. Evaluations are of the score: each node once.",
         study.start_mean, study.start_sd, study.look_every, study.reach,
     ));
-    document.heading("Failures");
-    failures(&bodies, &mut document);
-    document.heading("Ties and losses");
-    against_rivals(&findings, &mut document)?;
-    answers(&findings, &bodies, &mut document)?;
-    document.heading("Figures");
+    page.heading("Failures");
+    failures(&bodies, &mut page);
+    page.heading("Ties and losses");
+    against_rivals(&findings, &mut page)?;
+    answers(&findings, &bodies, &mut page)?;
+    page.heading("Figures");
     let (alpha, stiffness) = (findings.sweep("alpha")?, findings.sweep("youngs-modulus")?);
     let caption = "ED² at the end over the factor α of the force and over Young's modulus E.";
     let drawing = multiples(&figure::strength(&alpha, &stiffness));
-    document.figure(directory, "strength.svg", caption, drawing)?;
+    page.figure("strength.svg", caption, drawing);
     let caption = "The base: start, best configuration on the way, and end.";
     let base = findings.of(study.base_cases()?);
-    document.figure(directory, "transient.svg", caption, dots(&figure::transient(&base)))?;
+    page.figure("transient.svg", caption, dots(&figure::transient(&base)));
     let at_rest = findings.sweep("material-at-rest")?;
     if !at_rest.is_empty() {
         let caption = "What bodies of every law rest as, with friction and a force per mass: the isothermal gas has the target for its rest state, and `mpm` moves it freed from F.";
-        document.figure(directory, "laws.svg", caption, dots(&figure::materials(&at_rest)))?;
+        page.figure("laws.svg", caption, dots(&figure::materials(&at_rest)));
     }
     let caption = "Time per step over the number of particles.";
     let drawing = multiples(&figure::cost(&findings.sweep("cost")?));
-    document.figure(directory, "cost.svg", caption, drawing)?;
-    document.heading("Base and rivals");
-    settings(&base, &mut document);
-    settings(&findings.of(study.rival_cases()?), &mut document);
+    page.figure("cost.svg", caption, drawing);
+    page.heading("Base and rivals");
+    settings(&base, &mut page);
+    settings(&findings.of(study.rival_cases()?), &mut page);
     for sweep in &study.sweeps {
         let name = sweep.name.as_deref().unwrap_or_default();
         if !["material", "schedule", "cost"].contains(&name) {
-            document.heading(&format!("Case `{name}`"));
-            settings(&findings.sweep(name)?, &mut document);
+            page.heading(&format!("Case `{name}`"));
+            settings(&findings.sweep(name)?, &mut page);
         }
     }
     let count = |choose: fn(&Row) -> bool| rows.iter().filter(|row| choose(row)).count();
     let as_good = |row: &Row| !row.variant.is_empty() && row.ratio().is_some_and(|ratio| ratio <= 1.0);
-    Ok(Report::new(Paper::KIND, document)
+    Ok(Report::new(page)
         .with("cases", rows.len())
         .with("diverged", count(|row| row.status == Status::Diverged))
         .with("as_good_as_independent", count(as_good)))
 }
 
 /// How many runs diverge, why and when.
-fn failures(bodies: &[Finding], document: &mut Document) {
+fn failures(bodies: &[Finding], page: &mut Page) {
     let reasons = ["not finite", "outside range", "turned inside out", "other"];
     let mut lines = Vec::new();
     for variant in variants(bodies) {
@@ -89,14 +88,14 @@ fn failures(bodies: &[Finding], document: &mut Document) {
     }
     let reasons = reasons.join(" | ");
     let header = format!("variant | method | runs | diverged | % | {reasons} | median step | last step");
-    document.table(header.as_str(), &lines);
+    page.table(header.as_str(), &lines);
 }
 
 /// The base beside its rivals, run by run.
-fn against_rivals(findings: &Findings, document: &mut Document) -> Result<(), CommandError> {
+fn against_rivals(findings: &Findings, page: &mut Page) -> Result<(), CommandError> {
     let base = findings.of(findings.study.base_cases()?);
     let rivals = findings.of(findings.study.rival_cases()?);
-    document.paragraph(format!(
+    page.paragraph(format!(
         "Runs of the base beside those of a rival on the same target with the same seed: better, tie (ED² within a factor of {TIE}), worse. A run that diverged is worse than one that did not.",
     ));
     let mut lines = Vec::new();
@@ -127,7 +126,7 @@ fn against_rivals(findings: &Findings, document: &mut Document) -> Result<(), Co
             }
         }
     }
-    document.table(
+    page.table(
         "variant | method | rival | better | ties | worse | both diverged",
         &lines,
     );

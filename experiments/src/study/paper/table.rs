@@ -5,10 +5,10 @@ use std::collections::HashMap;
 use super::row::Row;
 use super::{Case, Paper};
 use crate::CommandError;
+use crate::plots::page::{Cell, MISSING, Page, number};
 use crate::statistics::weighted_quantile;
 use crate::study::attempt::Status;
 use crate::study::definition;
-use crate::study::document::{Cell, Document, MISSING, number};
 
 /// Two ED² are equal for the report if neither is more than so many times the other.
 pub const TIE: f64 = 1.1;
@@ -110,7 +110,7 @@ pub fn groups<'a>(findings: &[Finding<'a>]) -> Vec<(String, Vec<&'a Row>)> {
 }
 
 /// A line per setting, over targets and seeds.
-pub fn settings(findings: &[Finding], document: &mut Document) {
+pub fn settings(findings: &[Finding], page: &mut Page) {
     let line = |(label, rows): &(String, Vec<&Row>)| {
         let all = || rows.iter().copied();
         let ended = all().filter(|row| row.status == Status::Finished).count();
@@ -138,7 +138,7 @@ pub fn settings(findings: &[Finding], document: &mut Document) {
         line
     };
     let header = "setting | ended | ED² | least | on the way | ≤ 1 | sliced W2 | mean | sd | evaluations | time (s)";
-    document.table(header, groups(findings).iter().map(line));
+    page.table(header, groups(findings).iter().map(line));
 }
 
 /// How many runs are better than, as good as and worse than their counterparts, and of how many pairs both gave nothing; a run without particles is worse than any other.

@@ -46,24 +46,23 @@ impl Comparison {
         Self { axes }
     }
 
+    fn largest(&self, error: impl Fn(&AxisComparison) -> f64) -> f64 {
+        self.axes.iter().map(error).fold(0.0, f64::max)
+    }
+
     /// The largest error of a mean in posterior standard deviations.
     pub fn largest_mean_error(&self) -> f64 {
-        self.axes
-            .iter()
-            .fold(0.0, |worst, axis| worst.max(axis.mean_error.abs()))
+        self.largest(|axis| axis.mean_error.abs())
     }
 
     /// The largest relative error of a standard deviation.
     pub fn largest_deviation_error(&self) -> f64 {
-        self.axes
-            .iter()
-            .fold(0.0, |worst, axis| worst.max(axis.deviation_error.abs()))
+        self.largest(|axis| axis.deviation_error.abs())
     }
 
     /// The largest standard error of a reference mean in posterior standard deviations.
     pub fn largest_reference_error(&self) -> f64 {
-        let share = |axis: &AxisComparison| axis.reference.mean_standard_error / axis.reference.standard_deviation;
-        self.axes.iter().map(share).fold(0.0, f64::max)
+        self.largest(|axis| axis.reference.mean_standard_error / axis.reference.standard_deviation)
     }
 
     /// Whether all means keep their bound.

@@ -1,24 +1,22 @@
 //! The figures of the study `quickstart`, from its raw files.
 
 use parvi::TracePoint;
-use parvi_targets::BoxedTarget;
 
 use super::{Case, Quickstart};
 use crate::CommandError;
-use crate::dispatch::{TargetTask, with_target};
+use crate::dispatch::on_target;
 use crate::output::{Particles, particles_csv, table_file};
-use crate::pictures::TraceQuantity;
+use crate::pictures::{TraceQuantity, density};
+use crate::plots::page::Page;
 use crate::plots::{DensityPlot, PairDensity, PointCloud, Reference, TracePlot, cloud, corner, histogram, trace};
-use crate::statistics::DensityGrid;
 use crate::study::directory::StudyDirectory;
-use crate::study::document::Document;
 
 /// Corner plot and marginals of the posterior over the reference draws.
 pub fn posterior(
     study: &Quickstart,
     particles: &Particles,
     directory: &StudyDirectory,
-    document: &mut Document,
+    page: &mut Page,
 ) -> Result<(), CommandError> {
     let draws = particles_csv::read(&Case::Reference.particles_file(directory))?;
     let (points, draws) = (rows(particles), rows(&draws));
@@ -35,25 +33,25 @@ pub fn posterior(
         reference_label: "reference",
     };
     let caption = "The posterior's particles over the reference: lines enclose 50, 90 and 99 % of its mass.";
-    document.figure(directory, "posterior-corner.svg", caption, corner(&plot))?;
+    page.figure("posterior-corner.svg", caption, corner(&plot));
     let caption =
         "Marginals of the posterior: histogram and kernel density estimate of the particles, and the reference.";
-    document.figure(directory, "posterior-marginals.svg", caption, histogram(&plot))
+    page.figure("posterior-marginals.svg", caption, histogram(&plot));
+    Ok(())
 }
 
 /// The particles for the eye over the contours of their target.
-pub fn picture(
-    study: &Quickstart,
-    particles: &Particles,
-    directory: &StudyDirectory,
-    document: &mut Document,
-) -> Result<(), CommandError> {
+pub fn picture(study: &Quickstart, particles: &Particles, page: &mut Page) -> Result<(), CommandError> {
     let points = rows(particles);
-    let density = with_target(&study.picture.target, DensityTask { size: 161 })?;
+    let grid = on_target!(&study.picture.target, target, D => {
+        let domain = target.domain();
+        let range = |axis: usize| domain.get(axis).map_or((-1.0, 1.0), |[low, high]| (*low, *high));
+        Ok(density::<D>(target.as_ref(), [range(0), range(1)], (161, 161)))
+    })?;
     let pairs = [PairDensity {
         horizontal: 0,
         vertical: 1,
-        grid: density,
+        grid,
     }];
     let plot = DensityPlot {
         title: "",
@@ -74,11 +72,12 @@ pub fn picture(
         study.picture.method.label(),
         study.picture.target.label(),
     );
-    document.figure(directory, "picture.svg", &caption, cloud(&plot))
+    page.figure("picture.svg", &caption, cloud(&plot));
+    Ok(())
 }
 
 /// Residual and energies of the runs that took steps, against these.
-pub fn traces(study: &Quickstart, directory: &StudyDirectory, document: &mut Document) -> Result<(), CommandError> {
+pub fn traces(study: &Quickstart, directory: &StudyDirectory, page: &mut Page) -> Result<(), CommandError> {
     let mut runs = Vec::new();
     for (case, part) in [(Case::Posterior, &study.posterior), (Case::Picture, &study.picture)] {
         let path = case.trace_file(directory);
@@ -105,32 +104,10 @@ pub fn traces(study: &Quickstart, directory: &StudyDirectory, document: &mut Doc
         panels: quantities.map(|quantity| quantity.panel(&labelled)).into(),
     };
     let caption = "Galerkin–Stein residual and energies (frame coordinates, total mass 1) against the steps.";
-    document.figure(directory, "traces.svg", caption, trace(&plot))
+    page.figure("traces.svg", caption, trace(&plot));
+    Ok(())
 }
 
 fn rows(particles: &Particles) -> Vec<Vec<f64>> {
     particles.rows().map(<[f64]>::to_vec).collect()
-}
-
-/// The density of a two-dimensional target on its domain, its largest value 1.
-struct DensityTask {
-    size: usize,
-}
-
-impl TargetTask for DensityTask {
-    type Output = DensityGrid;
-
-    fn run<const D: usize>(self, target: BoxedTarget<D>) -> Result<DensityGrid, CommandError> {
-        let domain = target.domain();
-        let range = |axis: usize| domain.get(axis).map_or((-1.0, 1.0), |[low, high]| (*low, *high));
-        let mut grid = DensityGrid::evaluate(range(0), range(1), (self.size, self.size), |x, y| {
-            let mut point = [0.0; D];
-            for (coordinate, value) in point.iter_mut().zip([x, y]) {
-                *coordinate = value;
-            }
-            target.log_density(&point)
-        });
-        grid.exponentiate();
-        Ok(grid)
-    }
 }

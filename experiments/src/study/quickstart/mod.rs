@@ -7,18 +7,17 @@ mod report;
 
 use std::time::Instant;
 
-use parvi::Run;
 use serde::Deserialize;
 
-use reference::ReferenceTask;
+use reference::Reference;
 
-use super::attempt::{Attempt, attempt};
+use super::attempt::attempt;
 use super::checks::{positive, refusal};
 use super::definition::{self, Report, Study, Work};
 use super::directory::StudyDirectory;
 use super::run_row::RunRow;
 use crate::CommandError;
-use crate::dispatch::with_target;
+use crate::dispatch::on_target;
 use crate::options::{Bounded, MethodSpecification, ParticleCount, TargetSpecification};
 use crate::output::{ParticleFile, table_file};
 use crate::progress::CaseObserver;
@@ -184,11 +183,8 @@ impl Quickstart {
     fn run_reference(&self, directory: &StudyDirectory) -> Result<RunRow, CommandError> {
         let target = &self.posterior.target;
         let begin = Instant::now();
-        let task = ReferenceTask {
-            part: &self.reference,
-            names: target.coordinate_names(),
-        };
-        let reference = with_target(target, task)?;
+        let names = target.coordinate_names();
+        let reference = on_target!(target, target, D => Reference::of::<D>(target.as_ref(), &names, &self.reference))?;
         let wall_seconds = begin.elapsed().as_secs_f64();
         table_file::write(&reference.axes, &moments_file(directory))?;
         ParticleFile::create(Case::Reference.particles_file(directory))?.write(&reference.draws, &[])?;
@@ -209,16 +205,11 @@ impl Quickstart {
         let mut specification = part.method.clone();
         specification.options.trace_every = self.trace_every.get();
         let method = specification.method(None)?;
-        let mut run = Run::new(part.particles.get(), self.seed);
-        run.start = specification.options.start();
+        let run = specification.run(part.particles.get(), self.seed);
         let mut row = row(case, part, part.method.label(), run.particles)?;
-        match attempt(sampling::sample(&part.target, &method, &run, observer))? {
-            Attempt::Failed(status, reason) => row.fail(status, reason),
-            Attempt::Finished(outcome) => {
-                ParticleFile::create(case.particles_file(directory))?.write(&outcome.particles, &[])?;
-                table_file::write(outcome.trace.iter(), &case.trace_file(directory))?;
-                row.take(&outcome);
-            }
+        if let Some(outcome) = row.note(attempt(sampling::sample(&part.target, &method, &run, observer))?) {
+            ParticleFile::create(case.particles_file(directory))?.write(&outcome.particles, &[])?;
+            table_file::write(outcome.trace.iter(), &case.trace_file(directory))?;
         }
         Ok(row)
     }

@@ -1,11 +1,10 @@
 //! The posterior's reference moments and draws.
 
-use parvi_targets::{BoxedTarget, ImportanceSample, ReferenceOptions};
+use parvi_targets::{CatalogueTarget, ImportanceSample, ReferenceOptions};
 use serde::{Deserialize, Serialize};
 
 use super::ReferencePart;
 use crate::CommandError;
-use crate::dispatch::TargetTask;
 use crate::output::Particles;
 
 /// Reference mean and standard deviation of one coordinate with their standard errors.
@@ -23,14 +22,6 @@ pub struct ReferenceAxis {
     pub standard_deviation_standard_error: f64,
 }
 
-/// Importance sampling of a target; closed-form moments are not used, so that every target is treated alike.
-pub struct ReferenceTask<'a> {
-    /// How much work.
-    pub part: &'a ReferencePart,
-    /// The coordinates' names.
-    pub names: Vec<String>,
-}
-
 /// What importance sampling gave.
 pub struct Reference {
     /// One entry per coordinate.
@@ -41,33 +32,32 @@ pub struct Reference {
     pub effective_sample_size: f64,
 }
 
-impl TargetTask for ReferenceTask<'_> {
-    type Output = Reference;
-
-    fn run<const D: usize>(self, target: BoxedTarget<D>) -> Result<Reference, CommandError> {
+impl Reference {
+    /// Importance sampling of a target; closed-form moments are not used, so that every target is treated alike.
+    pub fn of<const D: usize>(
+        target: &dyn CatalogueTarget<D>,
+        names: &[String],
+        part: &ReferencePart,
+    ) -> Result<Self, CommandError> {
         let options = ReferenceOptions {
-            points: self.part.points.get(),
-            scramblings: self.part.scramblings.get(),
-            seed: self.part.seed,
+            points: part.points.get(),
+            scramblings: part.scramblings.get(),
+            seed: part.seed,
             ..ReferenceOptions::default()
         };
-        let sample = ImportanceSample::new(target.as_ref(), &options)?;
+        let sample = ImportanceSample::new(target, &options)?;
         let known = sample.moments();
         let axes = (0..D)
             .map(|axis| ReferenceAxis {
-                name: self
-                    .names
-                    .get(axis)
-                    .cloned()
-                    .unwrap_or_else(|| format!("x{}", axis + 1)),
+                name: names.get(axis).cloned().unwrap_or_else(|| format!("x{}", axis + 1)),
                 mean: known.moments.mean[axis],
                 mean_standard_error: known.mean_error[axis],
                 standard_deviation: known.moments.covariance.0[axis][axis].sqrt(),
                 standard_deviation_standard_error: known.standard_deviation_error[axis],
             })
             .collect();
-        let draws = sample.draws().resampled(self.part.draws.get(), self.part.seed);
-        Ok(Reference {
+        let draws = sample.draws().resampled(part.draws.get(), part.seed);
+        Ok(Self {
             axes,
             draws: Particles::new(&draws, None),
             effective_sample_size: known.effective_sample_size,

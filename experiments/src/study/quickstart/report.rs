@@ -4,21 +4,21 @@ use super::comparison::Comparison;
 use super::{Case, Quickstart, figures, moments_file};
 use crate::CommandError;
 use crate::output::{particles_csv, table_file};
-use crate::study::definition::{Report, Study};
+use crate::plots::page::{Cell, Page, line, number};
+use crate::study::definition::Report;
 use crate::study::directory::StudyDirectory;
-use crate::study::document::{Cell, Document, line, number};
 use crate::study::run_row::RunRow;
 
 /// Tables, figures and verdict.
 pub fn report(study: &Quickstart, rows: &[RunRow], directory: &StudyDirectory) -> Result<Report, CommandError> {
-    let mut document = Document::new("Quickstart: a posterior from real data");
+    let mut page = Page::new("Quickstart: a posterior from real data");
     let mut summary = Vec::new();
     let finished = |case: Case| rows.iter().any(|row| row.case == case.name() && row.finished());
 
     if finished(Case::Reference) && finished(Case::Posterior) {
         let particles = particles_csv::read(&Case::Posterior.particles_file(directory))?;
         let comparison = Comparison::new(&particles, &table_file::read(&moments_file(directory))?);
-        verdict(study, &comparison, rows, &mut document);
+        verdict(study, &comparison, rows, &mut page);
         summary.extend([
             ("largest_mean_error", format!("{:.6}", comparison.largest_mean_error())),
             (
@@ -27,25 +27,22 @@ pub fn report(study: &Quickstart, rows: &[RunRow], directory: &StudyDirectory) -
             ),
             ("verdict", word(passes(study, &comparison)).to_owned()),
         ]);
-        moments_table(&comparison, &mut document);
-        document.heading("The posterior");
-        figures::posterior(study, &particles, directory, &mut document)?;
+        moments_table(&comparison, &mut page);
+        page.heading("The posterior");
+        figures::posterior(study, &particles, directory, &mut page)?;
     } else {
-        document.paragraph("The posterior or its reference is missing, so there is nothing to compare yet.");
+        page.paragraph("The posterior or its reference is missing, so there is nothing to compare yet.");
         summary.push(("verdict", "incomplete".to_owned()));
     }
     if finished(Case::Picture) {
-        document.heading("A target for the eye");
+        page.heading("A target for the eye");
         let particles = particles_csv::read(&Case::Picture.particles_file(directory))?;
-        figures::picture(study, &particles, directory, &mut document)?;
+        figures::picture(study, &particles, &mut page)?;
     }
-    document.heading("The way there");
-    figures::traces(study, directory, &mut document)?;
-    runs_table(rows, &mut document);
-    let report = Report::new(Quickstart::KIND, document);
-    Ok(summary
-        .into_iter()
-        .fold(report, |report, (key, value)| report.with(key, value)))
+    page.heading("The way there");
+    figures::traces(study, directory, &mut page)?;
+    runs_table(rows, &mut page);
+    Ok(Report { page, summary })
 }
 
 fn passes(study: &Quickstart, comparison: &Comparison) -> bool {
@@ -56,14 +53,14 @@ fn word(pass: bool) -> &'static str {
     if pass { "pass" } else { "fail" }
 }
 
-fn verdict(study: &Quickstart, comparison: &Comparison, rows: &[RunRow], document: &mut Document) {
+fn verdict(study: &Quickstart, comparison: &Comparison, rows: &[RunRow], page: &mut Page) {
     let bounds = &study.bounds;
     let within = |pass: bool| if pass { "within" } else { "beyond" };
     let size = rows
         .iter()
         .find(|row| row.case == Case::Reference.name())
         .and_then(|row| row.effective_sample_size);
-    document.paragraph(format!(
+    page.paragraph(format!(
         "**Verdict: {}.** The largest error of a posterior mean is {} posterior standard deviations, {} the bound of {}; the \
          largest error of a posterior standard deviation is {} %, {} the bound of {} %.",
         word(passes(study, comparison)),
@@ -74,7 +71,7 @@ fn verdict(study: &Quickstart, comparison: &Comparison, rows: &[RunRow], documen
         within(comparison.deviations_pass(bounds)),
         100.0 * bounds.standard_deviation,
     ));
-    document.paragraph(format!(
+    page.paragraph(format!(
         "Posterior `{}`, {} particles by `{}`, seed {}. The reference is quasi-Monte-Carlo importance sampling with a Student t \
          proposal, {} points in {} independent scramblings (effective sample size {}); its standard errors come from the spread \
          between the scramblings and are at most {} posterior standard deviations for the means.",
@@ -89,8 +86,8 @@ fn verdict(study: &Quickstart, comparison: &Comparison, rows: &[RunRow], documen
     ));
 }
 
-fn moments_table(comparison: &Comparison, document: &mut Document) {
-    document.heading("Posterior moments");
+fn moments_table(comparison: &Comparison, page: &mut Page) {
+    page.heading("Posterior moments");
     let header = "coefficient | mean | reference mean | ± s.e. | error (sd) | sd | reference sd | ± s.e. | error (%)";
     let table: Vec<Vec<String>> = comparison
         .axes
@@ -110,10 +107,10 @@ fn moments_table(comparison: &Comparison, document: &mut Document) {
             ]
         })
         .collect();
-    document.table(header, &table);
+    page.table(header, &table);
 }
 
-fn runs_table(rows: &[RunRow], document: &mut Document) {
+fn runs_table(rows: &[RunRow], page: &mut Page) {
     let header = "case | status | target | method | M | steps | scores | densities | evaluations | residual | h | active nodes | time (s)";
     let line = |row: &RunRow| {
         let both = row.score_evaluations.zip(row.density_evaluations);
@@ -133,5 +130,5 @@ fn runs_table(rows: &[RunRow], document: &mut Document) {
             &row.wall_seconds,
         ])
     };
-    document.table(header, rows.iter().map(line));
+    page.table(header, rows.iter().map(line));
 }

@@ -4,24 +4,21 @@
 //! compared with quasi-random draws of it, in standard deviations per axis, and log Z with the exact one.
 
 mod figure;
-mod identity_frame;
 mod report;
 
 use parvi::{Method, Run};
-use parvi_targets::BoxedTarget;
+use parvi_targets::{Frame, InFrame};
 use serde::Deserialize;
 
-use identity_frame::InIdentityFrame;
-
-use super::attempt::{Attempt, attempt};
-use super::checks::{distinct, not_empty};
+use super::attempt::attempt;
+use super::checks::{all_given, distinct};
 use super::definition::{self, Report, Study, Work};
 use super::directory::StudyDirectory;
 use super::run_row::RunRow;
 use super::seed_range::SeedRange;
 use super::yardstick::{Coordinates, CurrentYardstick, YardstickOptions, measured};
 use crate::CommandError;
-use crate::dispatch::{TargetTask, with_target};
+use crate::dispatch::on_target;
 use crate::options::{Bounded, Dimension, MethodSpecification, ParticleCount, TargetParameters, TargetSpecification};
 use crate::progress::CaseObserver;
 use crate::sampling::{Outcome, sample_target};
@@ -84,6 +81,23 @@ impl RandomTargets {
     fn yardstick(&self) -> YardstickOptions {
         YardstickOptions::of_energy(self.reference_points.get(), self.reference_seed, Coordinates::Scaled)
     }
+
+    /// Samples the target in the frame that methods get.
+    fn sampled(
+        &self,
+        case: &Case,
+        method: &Method,
+        run: &Run,
+        observer: &mut CaseObserver,
+    ) -> Result<Outcome, CommandError> {
+        on_target!(&case.target, target, D => match self.frame {
+            KnownFrame::Own => sample_target::<D>(target.as_ref(), method, run, observer),
+            KnownFrame::Identity => {
+                let frame = Frame::identity();
+                sample_target::<D>(&InFrame { target, frame }, method, run, observer)
+            }
+        })
+    }
 }
 
 impl Study for RandomTargets {
@@ -97,8 +111,7 @@ impl Study for RandomTargets {
 
     /// The cases, target by target, so that a target's reference is made once.
     fn cases(&self) -> Result<Vec<Case>, CommandError> {
-        not_empty("dims", &self.dims)?;
-        not_empty("methods", &self.methods)?;
+        all_given!(self: dims, methods);
         let mut cases = Vec::new();
         for &dim in &self.dims {
             for target_seed in self.target_seeds.all() {
@@ -120,52 +133,21 @@ impl Study for RandomTargets {
     }
 
     fn run(&self, case: &Case, work: Work<'_, CurrentYardstick>) -> Result<RunRow, CommandError> {
-        let yardstick = work.shared.of(&case.target, &self.yardstick())?;
-        let mut run = Run::new(self.particles.get(), self.seed);
-        run.start = case.method.options.start();
+        let yardstick = work.shared.of(&case.target, &self.yardstick(), None)?;
+        let run = case.method.run(self.particles.get(), self.seed);
         let mut row = RunRow {
-            dim: case.dim,
             target_seed: Some(case.target_seed),
-            method: case.method.label().to_owned(),
             energy_level: Some(yardstick.mean_distance() / run.particles as f64),
-            ..RunRow::new(case)
+            ..RunRow::on(case, &case.target, &case.method)?
         };
-        let task = Sampled {
-            frame: self.frame,
-            method: &case.method.method(None)?,
-            run: &run,
-            observer: work.observer,
-        };
-        match attempt(with_target(&case.target, task))? {
-            Attempt::Failed(status, reason) => row.fail(status, reason),
-            Attempt::Finished(outcome) => {
-                row.take(&outcome);
-                row.measured(measured(yardstick, &outcome)?);
-            }
+        let method = case.method.method(None)?;
+        if let Some(outcome) = row.note(attempt(self.sampled(case, &method, &run, work.observer))?) {
+            row.measured(measured(yardstick, &outcome)?);
         }
         Ok(row)
     }
 
-    fn report(&self, rows: &[RunRow], directory: &StudyDirectory) -> Result<Report, CommandError> {
-        report::report(self, rows, directory)
-    }
-}
-
-/// A run.
-struct Sampled<'a> {
-    frame: KnownFrame,
-    method: &'a Method,
-    run: &'a Run,
-    observer: &'a mut CaseObserver,
-}
-
-impl TargetTask for Sampled<'_> {
-    type Output = Outcome;
-
-    fn run<const D: usize>(self, target: BoxedTarget<D>) -> Result<Self::Output, CommandError> {
-        match self.frame {
-            KnownFrame::Own => sample_target(target.as_ref(), self.method, self.run, self.observer),
-            KnownFrame::Identity => sample_target(&InIdentityFrame(target), self.method, self.run, self.observer),
-        }
+    fn report(&self, rows: &[RunRow], _: &StudyDirectory) -> Result<Report, CommandError> {
+        Ok(report::report(self, rows))
     }
 }

@@ -2,19 +2,17 @@
 
 use super::figure::plot;
 use super::{KnownFrame, RandomTargets};
-use crate::CommandError;
 use crate::options::Dimension;
 use crate::plots::multiples;
+use crate::plots::page::{Cell, Header, MISSING, Page, percent};
 use crate::statistics::weighted_quantile;
-use crate::study::definition::{Report, Study};
-use crate::study::directory::StudyDirectory;
-use crate::study::document::{Cell, Document, Header, MISSING, percent};
-use crate::study::run_row::{ENERGY_RATIO, EVALUATIONS, Quantity, RunRow, SECONDS, failures};
+use crate::study::definition::Report;
+use crate::study::run_row::{ENERGY_RATIO, EVALUATIONS, Quantity, RunRow, SECONDS, report_of_runs};
 
 /// Tables and figure.
-pub fn report(study: &RandomTargets, rows: &[RunRow], directory: &StudyDirectory) -> Result<Report, CommandError> {
-    let mut document = Document::new("Random targets");
-    document.paragraph(format!(
+pub fn report(study: &RandomTargets, rows: &[RunRow]) -> Report {
+    let mut page = Page::new("Random targets");
+    page.paragraph(format!(
         "M = {} particles on {} random targets per dimension, of seeds from {} on; the methods {}. ED² is the squared energy distance \
          from {} quasi-random draws, in standard deviations per axis, over its expectation E‖Y − Y'‖/M for M independent draws. \
          Evaluations are those of the score and of the log density at a point together. A claim is the outcome `converged`, and \
@@ -29,25 +27,21 @@ pub fn report(study: &RandomTargets, rows: &[RunRow], directory: &StudyDirectory
         },
         study.reference_points,
     ));
-    document.heading("Figure");
+    page.heading("Figure");
     let caption = "ED² relative to independent draws, in order of size.";
-    document.figure(directory, "random-targets.svg", caption, multiples(&plot(study, rows)))?;
+    page.figure("random-targets.svg", caption, multiples(&plot(study, rows)));
     for &dim in &study.dims {
-        document.heading(&format!("d = {dim}"));
-        table(study, rows, dim, &mut document);
+        page.heading(&format!("d = {dim}"));
+        table(study, rows, dim, &mut page);
     }
     let false_claims = rows.iter().filter(|row| claims_falsely(row));
     let false_claims: Vec<String> = false_claims
         .map(|row| format!("- `{}`: ED² {}", row.case, ENERGY_RATIO(row).cell()))
         .collect();
-    document.list("Claims that are false", &false_claims, None);
-    let failed = failures(rows);
-    document.list("Runs that did not finish", &failed, None);
-    Ok(Report::new(RandomTargets::KIND, document)
-        .with("cases", rows.len())
-        .with("failed", failed.len())
+    page.list("Claims that are false", &false_claims, None);
+    report_of_runs(page, rows)
         .with("claimed", rows.iter().filter(|row| row.claims()).count())
-        .with("false_claims", false_claims.len()))
+        .with("false_claims", false_claims.len())
 }
 
 /// Whether log Z is within three of its standard errors; `None` where the method does not state it.
@@ -61,7 +55,7 @@ fn claims_falsely(row: &RunRow) -> bool {
 }
 
 /// A line per method.
-fn table(study: &RandomTargets, rows: &[RunRow], dim: Dimension, document: &mut Document) {
+fn table(study: &RandomTargets, rows: &[RunRow], dim: Dimension, page: &mut Page) {
     let runs = |label: &str| -> Vec<&RunRow> {
         let here = |row: &&RunRow| row.dim == dim.get() && row.method == label;
         rows.iter().filter(here).collect()
@@ -92,7 +86,7 @@ fn table(study: &RandomTargets, rows: &[RunRow], dim: Dimension, document: &mut 
         }));
         line
     };
-    document.table(&header, study.methods.iter().map(|method| line(method.label())));
+    page.table(&header, study.methods.iter().map(|method| line(method.label())));
 }
 
 /// A quantile of a quantity over the runs that have it.

@@ -8,17 +8,15 @@ mod memory;
 mod quantity;
 mod report;
 
-use parvi::Run;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
-use super::attempt::{Attempt, Status, attempt};
+use super::attempt::{Attempt, attempt};
 use super::checks::refusal;
 use super::definition::{self, Report, Study, Work};
 use super::directory::StudyDirectory;
-use super::results;
+use super::run_row::RunRow;
 use crate::options::{Bounded, Dimension, MethodSpecification, ParticleCount, StepCount, TargetSpecification};
-use crate::sampling::{self, Outcome};
-use crate::{CommandError, statistics};
+use crate::{CommandError, sampling, statistics};
 
 /// Sizes to measure.
 #[derive(Clone, Debug, Deserialize)]
@@ -73,21 +71,15 @@ struct NodesSweep {
     interval: [f64; 2],
 }
 
-/// Which sweep a case belongs to.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Sweep {
-    /// Over d and M.
-    #[default]
-    Particles,
-    /// Over k.
-    Nodes,
-}
+/// Over d and M.
+const PARTICLES: &str = "particles";
+/// Over k.
+const NODES: &str = "nodes";
 
 /// One size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Case {
-    sweep: Sweep,
+    sweep: &'static str,
     dim: Dimension,
     particles: usize,
     /// k; `None`: the sampler chooses the spacing.
@@ -98,10 +90,8 @@ pub struct Case {
 
 impl definition::Case for Case {
     fn id(&self) -> String {
-        match self.nodes_per_axis {
-            Some(nodes) => format!("nodes-d{}-m{}-k{nodes}", self.dim, self.particles),
-            None => format!("particles-d{}-m{}", self.dim, self.particles),
-        }
+        let nodes = self.nodes_per_axis.map_or(String::new(), |nodes| format!("-k{nodes}"));
+        format!("{}-d{}-m{}{nodes}", self.sweep, self.dim, self.particles)
     }
 
     fn cost(&self) -> f64 {
@@ -109,64 +99,16 @@ impl definition::Case for Case {
     }
 }
 
-/// What a case gave. Columns that begin with `wall` or `memory` depend on the machine; the others only on the seed.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Row {
-    case: String,
-    status: Status,
-    reason: String,
-    sweep: Sweep,
-    dim: usize,
-    particles: usize,
-    nodes_per_axis: Option<usize>,
-    spacing: Option<f64>,
-    steps: Option<usize>,
-    active_nodes: Option<usize>,
-    score_evaluations: Option<u64>,
-    density_evaluations: Option<u64>,
-    storage_bytes: Option<usize>,
-    memory_peak_bytes: Option<u64>,
-    wall_seconds_per_step: Option<f64>,
-    wall_seconds_per_step_least: Option<f64>,
-    wall_seconds_per_step_most: Option<f64>,
-}
-
-impl results::Row for Row {
-    fn case(&self) -> &str {
-        &self.case
-    }
-}
-
-impl Row {
-    fn new(case: &Case) -> Self {
-        Self {
-            case: definition::Case::id(case),
-            sweep: case.sweep,
-            dim: case.dim.get(),
-            particles: case.particles,
-            nodes_per_axis: case.nodes_per_axis,
-            spacing: case.spacing,
-            ..Self::default()
-        }
-    }
-
-    fn note(&mut self, outcome: &Outcome) {
-        self.spacing = outcome.spacing.or(self.spacing);
-        self.steps = Some(outcome.steps);
-        self.active_nodes = outcome.active_nodes;
-        self.score_evaluations = Some(outcome.score_evaluations);
-        self.density_evaluations = Some(outcome.density_evaluations);
-        self.storage_bytes = outcome.storage_bytes;
-    }
-}
-
 impl Study for Scaling {
     type Case = Case;
-    type Row = Row;
+    type Row = RunRow;
     type Shared = ();
 
     const KIND: &'static str = "scaling";
     const HEAD: &[&str] = &["kind"];
+    const COLUMNS: &'static str = "case status reason sweep dim particles nodes_per_axis spacing steps active_nodes score_evaluations \
+         density_evaluations storage_bytes memory_peak_bytes wall_seconds_per_step wall_seconds_per_step_least \
+         wall_seconds_per_step_most";
 
     /// The cases of both sweeps, cheap ones first within each dimension.
     fn cases(&self) -> Result<Vec<Case>, CommandError> {
@@ -189,7 +131,7 @@ impl Study for Scaling {
                 if work <= sweep.largest_work {
                     let particles = particles.get();
                     cases.push(Case {
-                        sweep: Sweep::Particles,
+                        sweep: PARTICLES,
                         dim,
                         particles,
                         nodes_per_axis: None,
@@ -201,7 +143,7 @@ impl Study for Scaling {
         for &dim in &self.nodes_sweep.dims {
             for &nodes in &self.nodes_sweep.nodes_per_axis {
                 cases.push(Case {
-                    sweep: Sweep::Nodes,
+                    sweep: NODES,
                     dim,
                     particles: self.nodes_sweep.particles.get(),
                     nodes_per_axis: Some(nodes.get()),
@@ -212,26 +154,33 @@ impl Study for Scaling {
         Ok(cases)
     }
 
-    fn run(&self, case: &Case, work: Work<'_, ()>) -> Result<Row, CommandError> {
+    fn run(&self, case: &Case, work: Work<'_, ()>) -> Result<RunRow, CommandError> {
         let mut specification = self.method.clone();
         specification.options.spacing = case.spacing.or(specification.options.spacing);
         let method = specification.method(Some(self.steps.get()))?;
-        let mut run = Run::new(case.particles, self.seed);
-        run.start = specification.options.start();
+        let run = specification.run(case.particles, self.seed);
         let target = TargetSpecification::plain(&self.target, Some(case.dim));
 
-        let mut row = Row::new(case);
+        let mut row = RunRow {
+            sweep: case.sweep.to_owned(),
+            dim: case.dim.get(),
+            particles: case.particles,
+            nodes_per_axis: case.nodes_per_axis,
+            spacing: case.spacing,
+            ..RunRow::new(case)
+        };
         let mut times = Vec::new();
         for repeat in 0..=self.repeats.get() {
             let outcome = match attempt(sampling::sample(&target, &method, &run, work.observer))? {
                 Attempt::Finished(outcome) => outcome,
                 Attempt::Failed(status, reason) => {
-                    (row.status, row.reason) = (status, reason);
+                    row.fail(status, reason);
                     return Ok(row);
                 }
             };
             if repeat == 0 {
-                row.note(&outcome);
+                row.take(&outcome);
+                row.spacing = row.spacing.or(case.spacing);
             } else {
                 times.push(outcome.wall_seconds / outcome.steps.max(1) as f64);
             }
@@ -246,7 +195,7 @@ impl Study for Scaling {
         Ok(row)
     }
 
-    fn report(&self, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
-        report::report(self, rows, directory)
+    fn report(&self, rows: &[RunRow], _: &StudyDirectory) -> Result<Report, CommandError> {
+        Ok(report::report(self, rows))
     }
 }

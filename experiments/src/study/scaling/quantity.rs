@@ -1,8 +1,8 @@
 //! What is measured per case, and its growth with the size that a sweep varies.
 
-use super::{Row, Sweep};
+use crate::plots::page::MISSING;
 use crate::plots::{LineSeries, exponent_text, scaling_fit};
-use crate::study::document::MISSING;
+use crate::study::run_row::RunRow;
 
 /// A measured quantity.
 pub struct Quantity {
@@ -13,7 +13,7 @@ pub struct Quantity {
     /// Name of the figure's file, without sweep and extension; `None` for what a table says better.
     pub file: Option<&'static str>,
     /// Its value.
-    pub value: fn(&Row) -> Option<f64>,
+    pub value: fn(&RunRow) -> Option<f64>,
 }
 
 /// All quantities.
@@ -52,7 +52,7 @@ pub const QUANTITIES: [Quantity; 5] = [
 
 impl Quantity {
     /// Its values in one dimension of a sweep against the size that the sweep varies.
-    pub fn series(&self, rows: &[Row], sweep: Sweep, dim: usize) -> LineSeries {
+    pub fn series(&self, rows: &[RunRow], sweep: &str, dim: usize) -> LineSeries {
         let here = rows.iter().filter(|row| row.sweep == sweep && row.dim == dim);
         let (x, y) = here.filter_map(|row| Some((size(row), (self.value)(row)?))).unzip();
         LineSeries {
@@ -63,12 +63,12 @@ impl Quantity {
     }
 
     /// The fitted exponent with its 95 % interval.
-    pub fn exponent(&self, rows: &[Row], sweep: Sweep, dim: usize, fit_from: f64) -> String {
+    pub fn exponent(&self, rows: &[RunRow], sweep: &str, dim: usize, fit_from: f64) -> String {
         scaling_fit(&self.series(rows, sweep, dim), fit_from).map_or(MISSING.to_owned(), |law| exponent_text(&law, 0))
     }
 }
 
 /// M or k, whichever the sweep varies.
-fn size(row: &Row) -> f64 {
+fn size(row: &RunRow) -> f64 {
     row.nodes_per_axis.unwrap_or(row.particles) as f64
 }

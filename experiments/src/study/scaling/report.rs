@@ -1,20 +1,17 @@
 //! The report of the study `scaling`.
 
 use super::quantity::{QUANTITIES, Quantity};
-use super::{Row, Scaling, Sweep};
-use crate::CommandError;
+use super::{NODES, PARTICLES, Scaling};
 use crate::options::Dimension;
+use crate::plots::page::{Cell, Page, exponent, line, number};
 use crate::plots::{GuideCurve, ScalingPlot, scaling};
-use crate::study::attempt::Status;
-use crate::study::definition::{Report, Study};
-use crate::study::directory::StudyDirectory;
-use crate::study::document::{Cell, Document, exponent, line, number};
-use crate::study::run_row::ending;
+use crate::study::definition::Report;
+use crate::study::run_row::RunRow;
 
 /// Tables and figures.
-pub fn report(study: &Scaling, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
-    let mut document = Document::new("Scaling with d, M and N = kᵈ");
-    document.paragraph(format!(
+pub fn report(study: &Scaling, rows: &[RunRow]) -> Report {
+    let mut page = Page::new("Scaling with d, M and N = kᵈ");
+    page.paragraph(format!(
         "Target `{}`, method `{}`, {} steps per run, {} threads. Times are medians of {} runs after one to warm up: the \
          sampler's own wall time divided by its steps. Storage is what particles and grid hold; peak memory is the rise of the resident \
          set of a process that does one such run. Exponents \
@@ -25,49 +22,41 @@ pub fn report(study: &Scaling, rows: &[Row], directory: &StudyDirectory) -> Resu
         study.threads.map_or("all".to_owned(), |threads| threads.to_string()),
         study.repeats,
     ));
-    particles_part(study, rows, directory, &mut document)?;
-    nodes_part(study, rows, directory, &mut document)?;
-    all_rows(rows, &mut document);
+    particles_part(study, rows, &mut page);
+    nodes_part(study, rows, &mut page);
+    all_rows(rows, &mut page);
 
-    let failed = rows.iter().filter(|row| row.status != Status::Finished).count();
-    Ok(Report::new(Scaling::KIND, document)
-        .with("cases", rows.len())
-        .with("failed", failed))
+    let failed = rows.iter().filter(|row| !row.finished()).count();
+    Report::new(page).with("cases", rows.len()).with("failed", failed)
 }
 
-fn particles_part(
-    study: &Scaling,
-    rows: &[Row],
-    directory: &StudyDirectory,
-    document: &mut Document,
-) -> Result<(), CommandError> {
+fn particles_part(study: &Scaling, rows: &[RunRow], page: &mut Page) {
     let sweep = &study.particles_sweep;
     let fit_from = sweep.fit_from.get() as f64;
-    document.heading("Growth with M and d");
-    document.paragraph(format!(
+    page.heading("Growth with M and d");
+    page.paragraph(format!(
         "The sampler chooses its spacing. Exponents b of M^b, fitted from M = {} on; pairs with M · 3ᵈ above {} are left \
          out. The paper's estimate for a dense grid, O(M N d²), has exponent 1 in M at fixed N.",
         sweep.fit_from,
         number(sweep.largest_work),
     ));
-    exponent_table(document, rows, Sweep::Particles, &sweep.dims, fit_from);
+    exponent_table(page, rows, PARTICLES, &sweep.dims, fit_from);
     for (quantity, file) in drawn() {
-        let plot = plot(quantity, rows, Sweep::Particles, &sweep.dims, fit_from);
+        let plot = plot(quantity, rows, PARTICLES, &sweep.dims, fit_from);
         let caption = format!("{} against the number of particles.", capitalised(quantity.name));
-        document.figure(directory, &format!("particles-{file}.svg"), &caption, scaling(&plot))?;
+        page.figure(&format!("particles-{file}.svg"), &caption, scaling(&plot));
     }
-    growth_with_dimension(study, rows, document);
-    Ok(())
+    growth_with_dimension(study, rows, page);
 }
 
 /// Time per particle and step, by dimension, and its powers of d and of 3ᵈ.
-fn growth_with_dimension(study: &Scaling, rows: &[Row], document: &mut Document) {
+fn growth_with_dimension(study: &Scaling, rows: &[RunRow], page: &mut Page) {
     let sweep = &study.particles_sweep;
     let time = |dim: usize, particles: usize| {
-        let here = |row: &&Row| row.sweep == Sweep::Particles && row.dim == dim && row.particles == particles;
+        let here = |row: &&RunRow| row.sweep == PARTICLES && row.dim == dim && row.particles == particles;
         Some(rows.iter().find(here)?.wall_seconds_per_step? / particles as f64 * 1e9)
     };
-    document.paragraph(
+    page.paragraph(
         "Nanoseconds per particle and step, and the exponents b in d^b and (3ᵈ)^b: a particle touches d + 1 nodes of a simplex \
          lattice and 3ᵈ with quadratic B-splines. The paper's estimate grows as kᵈ d².",
     );
@@ -87,33 +76,28 @@ fn growth_with_dimension(study: &Scaling, rows: &[Row], document: &mut Document)
         line.extend([growth(|dim| dim as f64), growth(|dim| 3f64.powi(dim as i32))]);
         table.push(line);
     }
-    document.table(&header, &table);
+    page.table(&header, &table);
 }
 
-fn nodes_part(
-    study: &Scaling,
-    rows: &[Row],
-    directory: &StudyDirectory,
-    document: &mut Document,
-) -> Result<(), CommandError> {
+fn nodes_part(study: &Scaling, rows: &[RunRow], page: &mut Page) {
     let sweep = &study.nodes_sweep;
     let [low, high] = sweep.interval;
-    document.heading("Growth with the nodes per axis k");
-    document.paragraph(format!(
+    page.heading("Growth with the nodes per axis k");
+    page.paragraph(format!(
         "M = {} particles; h = {}/k, so that k nodes divide the interval [{low}, {high}] per axis (frame units) and a dense \
          grid would hold N = kᵈ nodes, up to {} here. Exponents b of k^b; the paper's O(M N d²) has exponent d.",
         sweep.particles,
         high - low,
         largest_dense_grid(study),
     ));
-    exponent_table(document, rows, Sweep::Nodes, &sweep.dims, 0.0);
-    document.paragraph(format!(
+    exponent_table(page, rows, NODES, &sweep.dims, 0.0);
+    page.paragraph(format!(
         "The same from k = {} on, where most particles are alone among their nodes:",
         sweep.fit_from,
     ));
-    exponent_table(document, rows, Sweep::Nodes, &sweep.dims, sweep.fit_from.get() as f64);
+    exponent_table(page, rows, NODES, &sweep.dims, sweep.fit_from.get() as f64);
     for (quantity, file) in drawn() {
-        let mut plot = plot(quantity, rows, Sweep::Nodes, &sweep.dims, 0.0);
+        let mut plot = plot(quantity, rows, NODES, &sweep.dims, 0.0);
         if file == "time" {
             plot.guides = sweep
                 .dims
@@ -122,9 +106,8 @@ fn nodes_part(
                 .collect();
         }
         let caption = format!("{} against the nodes per axis, at fixed M.", capitalised(quantity.name));
-        document.figure(directory, &format!("nodes-{file}.svg"), &caption, scaling(&plot))?;
+        page.figure(&format!("nodes-{file}.svg"), &caption, scaling(&plot));
     }
-    Ok(())
 }
 
 fn largest_dense_grid(study: &Scaling) -> String {
@@ -165,10 +148,10 @@ fn drawn() -> impl Iterator<Item = (&'static Quantity, &'static str)> {
         .filter_map(|quantity| Some((quantity, quantity.file?)))
 }
 
-fn plot(quantity: &Quantity, rows: &[Row], sweep: Sweep, dims: &[Dimension], fit_from: f64) -> ScalingPlot {
+fn plot(quantity: &Quantity, rows: &[RunRow], sweep: &str, dims: &[Dimension], fit_from: f64) -> ScalingPlot {
     let (x_label, x_symbol) = match sweep {
-        Sweep::Particles => ("number of particles M", "M"),
-        Sweep::Nodes => ("nodes per axis k", "k"),
+        PARTICLES => ("number of particles M", "M"),
+        _ => ("nodes per axis k", "k"),
     };
     ScalingPlot {
         x_label: x_label.to_owned(),
@@ -180,7 +163,7 @@ fn plot(quantity: &Quantity, rows: &[Row], sweep: Sweep, dims: &[Dimension], fit
     }
 }
 
-fn exponent_table(document: &mut Document, rows: &[Row], sweep: Sweep, dims: &[Dimension], fit_from: f64) {
+fn exponent_table(page: &mut Page, rows: &[RunRow], sweep: &str, dims: &[Dimension], fit_from: f64) {
     let mut header = vec!["d"];
     header.extend(QUANTITIES.iter().map(|quantity| quantity.name));
     header.push("paper, dense grid");
@@ -193,20 +176,20 @@ fn exponent_table(document: &mut Document, rows: &[Row], sweep: Sweep, dims: &[D
                 .map(|quantity| quantity.exponent(rows, sweep, dim, fit_from)),
         );
         line.push(match sweep {
-            Sweep::Particles => "1".to_owned(),
-            Sweep::Nodes => dim.to_string(),
+            PARTICLES => "1".to_owned(),
+            _ => dim.to_string(),
         });
         table.push(line);
     }
-    document.table(&header, &table);
+    page.table(&header, &table);
 }
 
-fn all_rows(rows: &[Row], document: &mut Document) {
-    document.heading("All cases");
-    let line = |row: &Row| {
+fn all_rows(rows: &[RunRow], page: &mut Page) {
+    page.heading("All cases");
+    let line = |row: &RunRow| {
         line(&[
             &row.case,
-            &ending(row.status, &row.reason),
+            &row.ending(),
             &row.spacing,
             &row.active_nodes,
             &row.score_evaluations,
@@ -217,7 +200,7 @@ fn all_rows(rows: &[Row], document: &mut Document) {
     };
     let header =
         "case | status | h | active nodes | scores | storage (bytes) | peak memory (bytes) | time per step (s)";
-    document.table(header, rows.iter().map(line));
+    page.table(header, rows.iter().map(line));
 }
 
 fn capitalised(text: &str) -> String {

@@ -1,7 +1,7 @@
 //! One run of a family.
 
 use super::axis::Combination;
-use super::configuration::Family;
+use super::family::Family;
 use crate::CommandError;
 use crate::study::checks::refusal;
 use crate::study::definition;

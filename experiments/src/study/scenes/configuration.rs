@@ -1,15 +1,13 @@
 //! The configuration of the study `scenes`.
 
 use serde::Deserialize;
-use toml::Table;
 
-use super::axis::{Axis, combinations};
+use super::axis::combinations;
 use super::case::Case;
-use super::judgement::Judgement;
-use super::reading::Reading;
+use super::family::Family;
 use super::scene_files::SceneFiles;
 use crate::CommandError;
-use crate::study::checks::{distinct, not_empty, refusal};
+use crate::study::checks::{distinct, not_empty};
 
 /// Families of runs of scenes.
 #[derive(Clone, Debug, Deserialize)]
@@ -22,68 +20,6 @@ pub struct Scenes {
     /// The scenes that the families name, once they are read.
     #[serde(skip)]
     pub files: SceneFiles,
-}
-
-/// Runs of one scene with changes, of each of which one number is read.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct Family {
-    /// Its name, also of its figure.
-    pub name: String,
-    /// Heads its part of the report.
-    pub title: String,
-    /// What the report says of it.
-    pub note: Option<String>,
-    /// A family before this one whose scene, changes, axes and x are this one's where it has none; equal runs are made once.
-    pub like: Option<String>,
-    /// The scene's file, relative to the configuration's.
-    pub scene: Option<String>,
-    /// Changes of all its runs: values by dotted keys.
-    #[serde(default)]
-    pub set: Table,
-    /// What differs between the runs.
-    #[serde(default)]
-    pub axes: Vec<Axis>,
-    /// The dotted key of a number of the scene: the horizontal axis. Of several the first that is there.
-    pub x: Option<Keys>,
-    /// The label of that axis, with its unit.
-    pub x_label: Option<String>,
-    /// The label of the vertical axis, with its unit.
-    pub y_label: String,
-    /// The number.
-    pub read: Reading,
-    /// What is asked of the numbers.
-    #[serde(default)]
-    pub judgements: Vec<Judgement>,
-    /// Parts of the labels of the series that are judged; empty: all.
-    #[serde(default)]
-    pub judged: Vec<String>,
-    /// Columns of the runs' series that are drawn over time, a panel each.
-    #[serde(default)]
-    pub history: Vec<HistoryPanel>,
-    /// The x of the runs whose history is drawn; empty: all.
-    #[serde(default)]
-    pub drawn: Vec<f64>,
-}
-
-/// A dotted key, or several.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(untagged)]
-pub enum Keys {
-    /// One.
-    One(String),
-    /// Several.
-    Several(Vec<String>),
-}
-
-/// A panel of the figure of histories.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct HistoryPanel {
-    /// A column of the series, or a sum of some: `kinetic_energy + strain_energy`.
-    pub column: String,
-    /// Its label, with the unit.
-    pub label: String,
 }
 
 impl Scenes {
@@ -126,55 +62,5 @@ impl Scenes {
         }
         distinct("families.axes", &cases)?;
         Ok(cases)
-    }
-}
-
-impl Family {
-    /// The family with what it takes over from `model`.
-    fn over(&self, model: Option<&Self>) -> Self {
-        let mut family = self.clone();
-        if let Some(model) = model {
-            family.scene = family.scene.or_else(|| model.scene.clone());
-            family.x = family.x.or_else(|| model.x.clone());
-            family.x_label = family.x_label.or_else(|| model.x_label.clone());
-            if family.axes.is_empty() {
-                family.axes.clone_from(&model.axes);
-            }
-            family.set = model.set.clone().into_iter().chain(family.set).collect();
-        }
-        family
-    }
-
-    fn check(&self) -> Result<(), CommandError> {
-        let simple = |c: char| c.is_ascii_alphanumeric() || c == '-';
-        if self.name.is_empty() || !self.name.chars().all(simple) {
-            return Err(self.refuse("name", "must be made of letters, digits and dashes"));
-        }
-        let given = [
-            ("scene", self.scene.is_some()),
-            ("x", !self.x_keys().is_empty()),
-            ("x-label", self.x_label.is_some()),
-        ];
-        if let Some((field, _)) = given.iter().find(|(_, given)| !given) {
-            return Err(self.refuse(field, "is missing"));
-        }
-        not_empty(&format!("families.{}.axes", self.name), &self.axes)?;
-        self.read
-            .check()
-            .map_err(|(field, message)| self.refuse(field, message))
-    }
-
-    /// The dotted keys of the horizontal axis.
-    pub fn x_keys(&self) -> &[String] {
-        match &self.x {
-            None => &[],
-            Some(Keys::One(key)) => std::slice::from_ref(key),
-            Some(Keys::Several(keys)) => keys,
-        }
-    }
-
-    /// The error for a field of the family.
-    pub fn refuse(&self, field: &str, message: impl Into<String>) -> CommandError {
-        refusal(&format!("families.{}.{field}", self.name), message)
     }
 }

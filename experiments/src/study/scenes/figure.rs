@@ -1,12 +1,12 @@
 //! The figure of a family: its numbers against x, with what is asked beside them.
 
-use super::configuration::Family;
+use super::family::Family;
 use super::judgement::{Judgement, fit, limits};
 use super::series::MeasuredSeries;
+use crate::plots::page::number;
 use crate::plots::{
     AxisKind, Curve, GuideCurve, LineSeries, MultiplesPanel, MultiplesPlot, ReferenceLevel, exponent_text,
 };
-use crate::study::document::number;
 
 /// The figure.
 pub fn plot(family: &Family, series: &[MeasuredSeries]) -> MultiplesPlot {
@@ -139,9 +139,6 @@ fn levels(family: &Family, judged: &[&MeasuredSeries]) -> Vec<ReferenceLevel> {
     }
     values.sort_by(f64::total_cmp);
     values.dedup();
-    let level = |value| ReferenceLevel {
-        value,
-        label: "limit, asked".to_owned(),
-    };
+    let level = |value| ReferenceLevel::new(value, "limit, asked");
     values.into_iter().map(level).collect()
 }

@@ -1,9 +1,9 @@
 //! Figures over time: columns of the series of a family's runs.
 
 use mpm_scenes::output::read_series;
+use mpm_scenes::reading::curve;
 
-use super::configuration::Family;
-use super::reading::curve;
+use super::family::Family;
 use super::row::Row;
 use crate::CommandError;
 use crate::plots::{AxisKind, TracePanel, TracePlot, TraceSeries};

@@ -6,10 +6,10 @@
 mod axis;
 mod case;
 mod configuration;
+mod family;
 mod figure;
 mod history;
 mod judgement;
-mod overrides;
 mod reading;
 mod report;
 mod row;
@@ -137,22 +137,15 @@ fn finished<'a>(
 fn unmeasured(case: &Case, prepared: &CaseScene) -> Row {
     Row {
         case: definition::Case::id(case),
-        status: Status::Finished,
-        reason: String::new(),
         family: case.family.name.clone(),
         label: case.combination.label.clone(),
         x: prepared.x,
         quantity: case.family.read.name().to_owned(),
-        value: None,
-        reference: None,
-        tolerance: None,
-        steps: None,
-        particles: None,
         scene: prepared.own.fingerprint.clone(),
         against: prepared
             .against
             .as_ref()
             .map_or(String::new(), |other| other.fingerprint.clone()),
-        wall_seconds: None,
+        ..Row::default()
     }
 }

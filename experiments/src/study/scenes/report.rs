@@ -1,23 +1,24 @@
 //! The report of the study `scenes`.
 
-use super::configuration::{Family, Scenes};
+use super::configuration::Scenes;
+use super::family::Family;
 use super::figure;
 use super::history;
 use super::judgement::{Judgement, Verdict, orders};
 use super::row::Row;
 use super::series::{MeasuredSeries, series};
 use crate::CommandError;
+use crate::plots::page::{Cell, MISSING, Page, number};
 use crate::plots::{multiples, trace};
 use crate::study::definition::Report;
 use crate::study::directory::StudyDirectory;
-use crate::study::document::{Cell, Document, MISSING, number};
 
 /// Judgements, then each family with its figure and its numbers.
 pub fn report(study: &Scenes, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
     let families = study.resolved()?;
     let all: Vec<Vec<MeasuredSeries>> = families.iter().map(|family| series(rows, &family.name)).collect();
-    let mut document = Document::new(&study.title);
-    document.heading("Judgements");
+    let mut page = Page::new(&study.title);
+    page.heading("Judgements");
     let mut table = Vec::new();
     let (mut judged, mut passed) = (0, 0);
     for (family, series) in families.iter().zip(&all) {
@@ -34,27 +35,22 @@ pub fn report(study: &Scenes, rows: &[Row], directory: &StudyDirectory) -> Resul
             ]);
         }
     }
-    document.table(&["family", "series", "asked", "reached", "pass"], &table);
+    page.table(&["family", "series", "asked", "reached", "pass"], &table);
     let seconds: f64 = rows.iter().filter_map(|row| row.wall_seconds).sum();
-    document.paragraph(format!(
+    page.paragraph(format!(
         "{passed} of {judged} judgements are kept. All runs together took {seconds:.0} s."
     ));
     for (family, series) in families.iter().zip(&all) {
-        section(&mut document, family, series, rows, directory)?;
+        section(&mut page, family, series, rows, directory)?;
     }
     let failed = rows.iter().filter(|row| row.value.is_none()).count();
     let verdict = if judged > 0 && passed == judged { "pass" } else { "fail" };
-    Ok(Report {
-        document,
-        summary: vec![
-            ("study", "scenes".to_owned()),
-            ("cases", rows.len().to_string()),
-            ("failed", failed.to_string()),
-            ("judged", judged.to_string()),
-            ("passed", passed.to_string()),
-            ("verdict", verdict.to_owned()),
-        ],
-    })
+    Ok(Report::new(page)
+        .with("cases", rows.len())
+        .with("failed", failed)
+        .with("judged", judged)
+        .with("passed", passed)
+        .with("verdict", verdict))
 }
 
 fn verdicts(family: &Family, series: &[MeasuredSeries]) -> Vec<Verdict> {
@@ -65,27 +61,27 @@ fn verdicts(family: &Family, series: &[MeasuredSeries]) -> Vec<Verdict> {
 
 /// Figure and tables of one family.
 fn section(
-    document: &mut Document,
+    page: &mut Page,
     family: &Family,
     series: &[MeasuredSeries],
     rows: &[Row],
     directory: &StudyDirectory,
 ) -> Result<(), CommandError> {
-    document.heading(&family.title);
+    page.heading(&family.title);
     if let Some(note) = &family.note {
-        document.paragraph(note);
+        page.paragraph(note);
     }
     let name = format!("{}.svg", family.name);
     let caption = format!("{}: {}.", family.title, family.y_label);
-    document.figure(directory, &name, &caption, multiples(&figure::plot(family, series)))?;
+    page.figure(&name, &caption, multiples(&figure::plot(family, series)));
     if let Some(plot) = history::plot(family, rows, directory)? {
         let name = format!("{}_history.svg", family.name);
         let caption = format!("{}: over time.", family.title);
-        document.figure(directory, &name, &caption, trace(&plot))?;
+        page.figure(&name, &caption, trace(&plot));
     }
     let order = |judgement: &Judgement| matches!(judgement, Judgement::Order { .. });
     if family.judgements.iter().any(order) {
-        document.table(
+        page.table(
             &["series", "orders, coarse to fine", "least squares"],
             order_table(series),
         );
@@ -102,7 +98,7 @@ fn section(
         "ended",
     ];
     let here = rows.iter().filter(|row| row.family == family.name);
-    document.table(&header, here.map(cells));
+    page.table(&header, here.map(cells));
     Ok(())
 }
 

@@ -6,7 +6,7 @@ use crate::study::attempt::Status;
 use crate::study::results;
 
 /// A number of one run; a line of results.csv.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// The case.
     pub case: String,

@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use mpm_document::DocumentError;
+use mpm_scenes::scene::keys;
 use mpm_scenes::{Scene, SceneError, SceneFault};
 use toml::{Table, Value};
 
 use super::case::Case;
-use super::configuration::Family;
-use super::overrides;
+use super::family::Family;
 use crate::CommandError;
 use crate::study::configuration::fingerprint;
 
@@ -85,7 +85,7 @@ impl SceneFiles {
         let table = changed(table, family.chain(own), &case.combination.drop);
         let own = prepared(table.map_err(|message| case.refuse(message))?, name, case)?;
         let keys = case.family.x_keys();
-        let x = keys.iter().find_map(|key| overrides::number(&own.table, key));
+        let x = keys.iter().find_map(|key| keys::number(&own.table, key));
         let x = x.filter(|x| x.is_finite()).ok_or_else(|| {
             case.family
                 .refuse("x", format!("`{}` is no number of the scene", keys.join("`, `")))
@@ -120,10 +120,10 @@ fn changed<'a>(
     drop: &[String],
 ) -> Result<Table, String> {
     for (key, value) in set {
-        overrides::put(&mut table, key, value.clone()).map_err(|message| format!("`{key}`: {message}"))?;
+        keys::put(&mut table, key, value.clone()).map_err(|message| format!("`{key}`: {message}"))?;
     }
     for key in drop {
-        overrides::remove(&mut table, key);
+        keys::remove(&mut table, key);
     }
     Ok(table)
 }

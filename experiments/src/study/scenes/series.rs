@@ -81,25 +81,14 @@ fn add(series: &mut MeasuredSeries, row: &Row) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::attempt::Status;
 
     fn row(label: &str, x: f64, value: Option<f64>) -> Row {
         Row {
-            case: String::new(),
-            status: Status::Finished,
-            reason: String::new(),
             family: "f".to_owned(),
             label: label.to_owned(),
             x,
-            quantity: String::new(),
             value,
-            reference: None,
-            tolerance: None,
-            steps: None,
-            particles: None,
-            scene: String::new(),
-            against: String::new(),
-            wall_seconds: None,
+            ..Row::default()
         }
     }
 

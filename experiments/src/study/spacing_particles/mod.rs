@@ -7,9 +7,8 @@ mod report;
 
 use serde::Deserialize;
 
-use super::checks::{ascending, distinct, not_empty, options_fit, positive, unset};
+use super::checks::{all_given, ascending, distinct, not_empty, options_fit, positive, unset};
 use super::definition::Report;
-use super::directory::StudyDirectory;
 use super::gaussian_runs::{Case, GaussianStudy};
 use super::run_row::RunRow;
 use crate::CommandError;
@@ -60,9 +59,7 @@ impl GaussianStudy for SpacingParticles {
 
     /// The cases, dimension by dimension.
     fn cases(&self) -> Result<Vec<Case>, CommandError> {
-        not_empty("seeds", &self.seeds)?;
-        not_empty("particles", &self.particles)?;
-        not_empty("series", &self.series)?;
+        all_given!(self: seeds, particles, series);
         unset("method.options.spacing", &self.method.options.spacing, "series")?;
         let mut cases = Vec::new();
         for series in &self.series {
@@ -89,7 +86,7 @@ impl GaussianStudy for SpacingParticles {
         Ok(cases)
     }
 
-    fn report(&self, rows: &[RunRow], directory: &StudyDirectory) -> Result<Report, CommandError> {
-        report::report(self, rows, directory)
+    fn report(&self, rows: &[RunRow]) -> Report {
+        report::report(self, rows)
     }
 }

@@ -2,49 +2,42 @@
 
 use super::curves::{Saturation, best, gain, runs, saturation};
 use super::{Series, SpacingParticles};
-use crate::CommandError;
-use crate::plots::{AxisKind, LineSeries, MultiplesPanel, MultiplesPlot, exponent_text, multiples};
+use crate::plots::page::{Cell, MISSING, Page, line, number};
+use crate::plots::{MultiplesPanel, MultiplesPlot, exponent_text, multiples};
 use crate::statistics::fit_power_law;
 use crate::study::definition::Report;
-use crate::study::directory::StudyDirectory;
-use crate::study::document::{Cell, Document, MISSING, line, number};
-use crate::study::gaussian_runs::GaussianStudy;
-use crate::study::run_row::{ENERGY, ENERGY_ROOT, NODES_PER_PARTICLE, RunRow, failures, median, values};
+use crate::study::run_row::{ENERGY, ENERGY_ROOT, NODES_PER_PARTICLE, RunRow, curve, median, report_of_runs};
 
 /// Tables and figure.
-pub fn report(study: &SpacingParticles, rows: &[RunRow], directory: &StudyDirectory) -> Result<Report, CommandError> {
-    let mut document = Document::new("Spacing and number of particles together");
-    document.paragraph(format!(
+pub fn report(study: &SpacingParticles, rows: &[RunRow]) -> Report {
+    let mut page = Page::new("Spacing and number of particles together");
+    page.paragraph(format!(
         "Target N(0, I), method `{}`, {} seeds; medians over the seeds. ED² is the squared energy distance, exact in the \
          expectation over the Gaussian; spacings h are in standard deviations.",
         study.method.label(),
         study.seeds.len(),
     ));
-    document.heading("Figure");
+    page.heading("Figure");
     let caption = "Energy distance against the spacing, by dimension and number of particles.";
     let drawing = multiples(&plot(study, rows));
-    document.figure(directory, "spacing-particles.svg", caption, drawing)?;
-    best_spacings(study, rows, &mut document);
-    document.heading("Where the error stops being the particles' and becomes the spacing's");
-    document.paragraph(
+    page.figure("spacing-particles.svg", caption, drawing);
+    best_spacings(study, rows, &mut page);
+    page.heading("Where the error stops being the particles' and becomes the spacing's");
+    page.paragraph(
         "For each spacing the number of particles beyond which more do not help: to the next one, ED² falls by less than a \
          tenth. The exponent b of ED² ∝ M^b between the two largest numbers of particles tells how far from that end they \
          are: b = −1 is the gain of independent draws, b = −(1 + 1/d) the best possible one, b = 0 none.",
     );
     for series in &study.series {
-        document.paragraph(format!("**d = {}**: ED² × 10³ by number of particles.", series.dim));
-        saturations(study, rows, series, &mut document);
+        page.paragraph(format!("**d = {}**: ED² × 10³ by number of particles.", series.dim));
+        saturations(study, rows, series, &mut page);
     }
-    let failed = failures(rows);
-    document.list("Runs that did not finish", &failed, None);
-    Ok(Report::new(SpacingParticles::KIND, document)
-        .with("cases", rows.len())
-        .with("failed", failed.len()))
+    report_of_runs(page, rows)
 }
 
-fn best_spacings(study: &SpacingParticles, rows: &[RunRow], document: &mut Document) {
-    document.heading("Best spacings");
-    document.paragraph("An asterisk marks a best spacing at the edge of the scan, which the fits below leave out.");
+fn best_spacings(study: &SpacingParticles, rows: &[RunRow], page: &mut Page) {
+    page.heading("Best spacings");
+    page.paragraph("An asterisk marks a best spacing at the edge of the scan, which the fits below leave out.");
     let mut table = Vec::new();
     let mut fits = Vec::new();
     for series in &study.series {
@@ -69,13 +62,13 @@ fn best_spacings(study: &SpacingParticles, rows: &[RunRow], document: &mut Docum
         let at_512 = law.map(|law| law.value(&[512.0]));
         fits.push(line(&[&series.dim.get(), &exponent, &at_512, &counts.len()]));
     }
-    document.table("d | M | best h | ED² × 10³ | active nodes / M", &table);
-    document.paragraph("Power laws of the best spacing, h ∝ M^b, with 95 % confidence intervals.");
-    document.table("d | b | h at M = 512 | points", &fits);
+    page.table("d | M | best h | ED² × 10³ | active nodes / M", &table);
+    page.paragraph("Power laws of the best spacing, h ∝ M^b, with 95 % confidence intervals.");
+    page.table("d | b | h at M = 512 | points", &fits);
 }
 
 /// One line per spacing: ED² by number of particles, and where it stops falling.
-fn saturations(study: &SpacingParticles, rows: &[RunRow], series: &Series, document: &mut Document) {
+fn saturations(study: &SpacingParticles, rows: &[RunRow], series: &Series, page: &mut Page) {
     let mut header = vec!["h".to_owned()];
     header.extend(study.counts().iter().map(|count| format!("M = {count}")));
     header.extend(["b at the end", "more particles do not help"].map(str::to_owned));
@@ -96,31 +89,27 @@ fn saturations(study: &SpacingParticles, rows: &[RunRow], series: &Series, docum
         });
         table.push(line);
     }
-    document.table(&header, &table);
+    page.table(&header, &table);
 }
 
 /// One panel per dimension, one line per number of particles.
 fn plot(study: &SpacingParticles, rows: &[RunRow]) -> MultiplesPlot {
-    let curve = |series: &Series, particles: usize| {
-        let mut line = LineSeries::named(format!("M = {particles}"));
-        for spacing in series.sorted() {
-            let here = runs(rows, series.dim, particles, spacing);
-            line.push_median(spacing, &values(&here, ENERGY_ROOT));
-        }
-        line
+    let line = |series: &Series, particles: usize| {
+        let spacings = series.sorted().into_iter();
+        let points = spacings.map(|spacing| (spacing, runs(rows, series.dim, particles, spacing)));
+        curve(format!("M = {particles}"), points, ENERGY_ROOT)
     };
     let panel = |series: &Series| MultiplesPanel {
         title: format!("d = {}", series.dim),
-        series: study.counts().into_iter().map(|count| curve(series, count)).collect(),
+        series: study.counts().into_iter().map(|count| line(series, count)).collect(),
         ..MultiplesPanel::default()
     };
     MultiplesPlot {
-        x_label: "spacing h (standard deviations)".to_owned(),
-        y_label: "energy distance ED (standard deviations^{½})".to_owned(),
-        x_axis: AxisKind::Logarithmic,
-        y_axis: AxisKind::Logarithmic,
         panels: study.series.iter().map(panel).collect(),
         notes: vec!["Medians over the seeds; bars from the smallest to the largest.".to_owned()],
-        ..MultiplesPlot::default()
+        ..MultiplesPlot::logarithmic(
+            "spacing h (standard deviations)",
+            "energy distance ED (standard deviations^{½})",
+        )
     }
 }

@@ -14,13 +14,12 @@ use serde::Deserialize;
 
 use draw::{Case, Place, draw};
 use row::Row;
-use trial::Trial;
 
 use super::checks::{not_empty, refusal, targets_without_data};
 use super::definition::{Report, Study, Work};
 use super::directory::StudyDirectory;
 use crate::CommandError;
-use crate::dispatch::with_target;
+use crate::dispatch::on_target;
 use crate::options::{Bounded, Dimension};
 
 /// Random configurations.
@@ -84,16 +83,10 @@ impl Study for Stability {
     }
 
     fn run(&self, case: &Case, work: Work<'_, ()>) -> Result<Row, CommandError> {
-        with_target(
-            &case.target,
-            Trial {
-                case,
-                observer: work.observer,
-            },
-        )
+        on_target!(&case.target, target, D => trial::run::<D>(target.as_ref(), case, work.observer))
     }
 
-    fn report(&self, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
-        report::report(self, rows, directory)
+    fn report(&self, rows: &[Row], _: &StudyDirectory) -> Result<Report, CommandError> {
+        Ok(report::report(self, rows))
     }
 }

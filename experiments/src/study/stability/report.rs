@@ -3,20 +3,18 @@
 use super::Stability;
 use super::figure::{cell, edges, plot};
 use super::row::{Ending, Row};
-use crate::CommandError;
 use crate::options::MethodName;
 use crate::plots::heat_map;
-use crate::study::definition::{Report, Study};
-use crate::study::directory::StudyDirectory;
-use crate::study::document::{Cell, Document, number};
+use crate::plots::page::{Cell, Page, number};
+use crate::study::definition::Report;
 
 /// The most refusals of the calibrated sampler that the report names; results.csv has them all.
 const MOST_NAMED: usize = 100;
 
 /// Tables and figure.
-pub fn report(study: &Stability, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
-    let mut document = Document::new("Random configurations");
-    document.paragraph(format!(
+pub fn report(study: &Stability, rows: &[Row]) -> Report {
+    let mut page = Page::new("Random configurations");
+    page.paragraph(format!(
         "{} random configurations of seed {}: target, dimension, basis, spacing (0.1 to 10 times the default), time step (0.1 to 30 \
          times), start (mean 0 to 10, standard deviation 0.1 to 10), 2 to 2,000 particles, 5 to 100 steps, and the options of the \
          method (`mpm` without a survey), in a frame that is 10⁻³ to 10³ times as large as the target's and in half of the cases turned. A run diverged \
@@ -24,25 +22,25 @@ pub fn report(study: &Stability, rows: &[Row], directory: &StudyDirectory) -> Re
         study.cases, study.seed,
     ));
     let groups = groups(rows);
-    endings(rows, &groups, &mut document);
-    reasons(rows, &groups, &mut document);
-    document.heading("Where the paper's algorithms diverge");
+    endings(rows, &groups, &mut page);
+    reasons(rows, &groups, &mut page);
+    page.heading("Where the paper's algorithms diverge");
     let caption = "Share of diverged runs of Algorithms 1 and 2 over time step and spacing, guards off and on.";
-    document.figure(directory, "divergence.svg", caption, heat_map(&plot(rows)))?;
-    document.heading("What decides");
-    document.paragraph("Diverged runs in percent of all, by one drawn quantity at a time.");
-    breakdowns(rows, &groups, &mut document);
+    page.figure("divergence.svg", caption, heat_map(&plot(rows)));
+    page.heading("What decides");
+    page.paragraph("Diverged runs in percent of all, by one drawn quantity at a time.");
+    breakdowns(rows, &groups, &mut page);
     let is_fault = |row: &&Row| matches!(row.ending, Ending::Panicked | Ending::NotFinite);
     let faults: Vec<String> = rows.iter().filter(is_fault).map(named).collect();
-    document.list("Panics and numbers that are not finite", &faults, Some("None."));
-    refusals(rows, &mut document);
+    page.list("Panics and numbers that are not finite", &faults, Some("None."));
+    refusals(rows, &mut page);
 
     let count = |ending: Ending| rows.iter().filter(|row| row.ending == ending).count();
-    Ok(Report::new(Stability::KIND, document)
+    Report::new(page)
         .with("finite", count(Ending::Finite))
         .with("refused", count(Ending::Refused))
         .with("panicked", count(Ending::Panicked))
-        .with("not_finite", count(Ending::NotFinite)))
+        .with("not_finite", count(Ending::NotFinite))
 }
 
 /// The methods, the paper's ones with their guards, in alphabetical order.
@@ -58,8 +56,8 @@ fn of<'a>(rows: &'a [Row], group: &str) -> Vec<&'a Row> {
 }
 
 /// How the runs of each method ended.
-fn endings(rows: &[Row], groups: &[String], document: &mut Document) {
-    document.heading("Endings");
+fn endings(rows: &[Row], groups: &[String], page: &mut Page) {
+    page.heading("Endings");
     let line = |group: &String| {
         let here = of(rows, group);
         let count = |choose: &dyn Fn(&Row) -> bool| here.iter().filter(|row| choose(row)).count();
@@ -78,7 +76,7 @@ fn endings(rows: &[Row], groups: &[String], document: &mut Document) {
     };
     let header =
         "method | runs | finite | of these escaped | typed error | panic | not finite, no error | diverged (%)";
-    document.table(header, groups.iter().map(line));
+    page.table(header, groups.iter().map(line));
 }
 
 fn percent(part: usize, all: usize) -> f64 {
@@ -86,13 +84,13 @@ fn percent(part: usize, all: usize) -> f64 {
 }
 
 /// How often each kind of error ended a run.
-fn reasons(rows: &[Row], groups: &[String], document: &mut Document) {
+fn reasons(rows: &[Row], groups: &[String], page: &mut Page) {
     let mut reasons: Vec<&str> = rows.iter().map(|row| row.reason.as_str()).collect();
     reasons.retain(|reason| !reason.is_empty());
     reasons.sort_unstable();
     reasons.dedup();
     if reasons.is_empty() {
-        document.paragraph("No run ended with an error.");
+        page.paragraph("No run ended with an error.");
         return;
     }
     let line = |reason: &&str| {
@@ -103,11 +101,11 @@ fn reasons(rows: &[Row], groups: &[String], document: &mut Document) {
         }));
         line
     };
-    table("error", groups, reasons.iter().map(line).collect(), document);
+    table("error", groups, reasons.iter().map(line).collect(), page);
 }
 
 /// Shares of diverged runs, by one quantity at a time.
-fn breakdowns(rows: &[Row], groups: &[String], document: &mut Document) {
+fn breakdowns(rows: &[Row], groups: &[String], page: &mut Page) {
     type Number = fn(&Row) -> Option<f64>;
     type Word = fn(&Row) -> Option<String>;
     let numbers: [(&str, [f64; 2], Number); 6] = [
@@ -129,7 +127,7 @@ fn breakdowns(rows: &[Row], groups: &[String], document: &mut Document) {
             let chosen = |row: &Row| quantity(row).and_then(|value| cell(&edges, value)) == Some(bin);
             shares(label, rows, groups, &chosen)
         });
-        table(name, groups, lines.collect(), document);
+        table(name, groups, lines.collect(), page);
     }
     let words: [(&str, Word); 7] = [
         ("target", |row| Some(row.target.clone())),
@@ -147,7 +145,7 @@ fn breakdowns(rows: &[Row], groups: &[String], document: &mut Document) {
         values.sort_unstable();
         values.dedup();
         let line = |value: &String| shares(value.clone(), rows, groups, &|row| word(row).as_ref() == Some(value));
-        table(name, groups, values.iter().map(line).collect(), document);
+        table(name, groups, values.iter().map(line).collect(), page);
     }
 }
 
@@ -163,29 +161,29 @@ fn shares(label: String, rows: &[Row], groups: &[String], chosen: &dyn Fn(&Row) 
     line
 }
 
-fn table(name: &str, groups: &[String], lines: Vec<Vec<String>>, document: &mut Document) {
-    document.table(format!("{name} | {}", groups.join(" | ")).as_str(), lines);
+fn table(name: &str, groups: &[String], lines: Vec<Vec<String>>, page: &mut Page) {
+    page.table(format!("{name} | {}", groups.join(" | ")).as_str(), lines);
 }
 
 /// Names the runs of the calibrated sampler that diverged.
-fn refusals(rows: &[Row], document: &mut Document) {
-    document.heading("Runs of mpm that diverged");
+fn refusals(rows: &[Row], page: &mut Page) {
+    page.heading("Runs of mpm that diverged");
     let diverged: Vec<&Row> = rows
         .iter()
         .filter(|row| row.method == MethodName::Mpm && row.diverged())
         .collect();
     if diverged.is_empty() {
-        document.paragraph("None.");
+        page.paragraph("None.");
         return;
     }
     if diverged.len() > MOST_NAMED {
-        document.paragraph(format!(
+        page.paragraph(format!(
             "The first {MOST_NAMED} of {}; results.csv has them all.",
             diverged.len()
         ));
     }
     let lines: Vec<String> = diverged.into_iter().take(MOST_NAMED).map(named).collect();
-    document.paragraph(lines.join("\n"));
+    page.paragraph(lines.join("\n"));
 }
 
 /// A case with what was drawn for it.

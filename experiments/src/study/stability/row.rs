@@ -7,10 +7,11 @@ use crate::options::{Basis, Correction, Draws, Material, MethodName, Score, Step
 use crate::study::{definition, results};
 
 /// How a configuration ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Ending {
     /// With finite particles.
+    #[default]
     Finite,
     /// With a typed error.
     Refused,
@@ -21,7 +22,7 @@ pub enum Ending {
 }
 
 /// A configuration and its ending. Columns that begin with `wall` depend on the machine; the others only on the seed.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// The case's name.
     pub case: String,
@@ -109,13 +110,6 @@ impl Row {
         let options = &case.options;
         Self {
             case: definition::Case::id(case),
-            ending: Ending::Finite,
-            reason: String::new(),
-            message: String::new(),
-            failed_step: None,
-            escaped: false,
-            reach: None,
-            residual: None,
             target: case.target.name.clone(),
             dim: case.dim,
             method: case.method,
@@ -128,9 +122,7 @@ impl Row {
             start_sd: options.start_sd,
             start_draws: options.start_draws,
             spacing_factor: case.spacing_factor,
-            spacing: None,
             time_step_factor: case.time_step_factor,
-            time_step: None,
             score: options.score,
             transfer: options.transfer,
             flip_share: options.flip_share,
@@ -143,7 +135,7 @@ impl Row {
             guards: options.guards,
             material: options.material,
             seed: case.seed,
-            wall_seconds: 0.0,
+            ..Self::default()
         }
     }
 

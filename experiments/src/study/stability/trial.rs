@@ -7,14 +7,13 @@ use std::time::Instant;
 
 use mpm_tensor::{Matrix, Polar, vector};
 use parvi::{Method, Observer, Run, SampleError, Samples, defaults};
-use parvi_targets::{BoxedTarget, Frame, TargetError, normal_quantile};
+use parvi_targets::{CatalogueTarget, Frame, TargetError, normal_quantile};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
 use super::draw::Case;
 use super::row::{Ending, Row};
 use crate::CommandError;
-use crate::dispatch::TargetTask;
 use crate::study::results::single_line;
 
 /// Finite particles have escaped if one is this many times farther out than start and target could explain.
@@ -22,56 +21,48 @@ const ESCAPE: f64 = 10.0;
 /// No target of the catalogue has particles in use farther out than this, in scales of its frame.
 const TARGET_REACH: f64 = 10.0;
 
-/// The work on one configuration.
-pub struct Trial<'a> {
-    /// The configuration.
-    pub case: &'a Case,
-    /// Watches the run; it may stop it.
-    pub observer: &'a mut dyn Observer,
-}
-
-impl TargetTask for Trial<'_> {
-    type Output = Row;
-
-    fn run<const D: usize>(self, target: BoxedTarget<D>) -> Result<Row, CommandError> {
-        let (case, observer) = (self.case, self.observer);
-        let mut row = Row::new(case);
-        let own = target.frame();
-        let frame = match wrong_frame(&own, case) {
-            Ok(frame) => frame,
-            Err(error) => {
-                row.refused(&error, None, &error);
-                return Ok(row);
-            }
-        };
-        let spacing =
-            case.spacing_factor * defaults::spacing::<D>(case.basis.uniform().unwrap_or_default(), case.particles);
-        let time_step = case.time_step_factor * defaults::time_step(spacing);
-        (row.spacing, row.time_step) = (Some(spacing), Some(time_step));
-        let mut options = case.options.clone();
-        (options.spacing, options.time_step) = (Some(spacing), Some(time_step));
-        let method = options.method(case.method)?;
-        let mut run = Run::new(case.particles, case.seed);
-        run.start = options.start();
-
-        let begin = Instant::now();
-        let result = catch_unwind(AssertUnwindSafe(|| match &method {
-            Method::Mpm(options) => options.sample(target.as_ref(), &frame, &run, observer),
-            Method::Paper(options) => options.sample(target.as_ref(), &frame, &run, observer),
-            other => parvi::sample(target.as_ref(), other, &run, observer),
-        }));
-        row.wall_seconds = begin.elapsed().as_secs_f64();
-        match result {
-            Ok(Ok(samples)) => row.ended(&own, &frame, &samples),
-            Ok(Err(error @ SampleError::Interrupted { .. })) => return Err(error.into()),
-            Ok(Err(error)) => row.failed(&error),
-            Err(payload) => {
-                row.ending = Ending::Panicked;
-                row.message = single_line(panic_message(payload.as_ref()));
-            }
+/// Runs a configuration; the observer may stop it.
+pub fn run<const D: usize>(
+    target: &dyn CatalogueTarget<D>,
+    case: &Case,
+    observer: &mut dyn Observer,
+) -> Result<Row, CommandError> {
+    let mut row = Row::new(case);
+    let own = target.frame();
+    let frame = match wrong_frame(&own, case) {
+        Ok(frame) => frame,
+        Err(error) => {
+            row.refused(&error, None, &error);
+            return Ok(row);
         }
-        Ok(row)
+    };
+    let spacing =
+        case.spacing_factor * defaults::spacing::<D>(case.basis.uniform().unwrap_or_default(), case.particles);
+    let time_step = case.time_step_factor * defaults::time_step(spacing);
+    (row.spacing, row.time_step) = (Some(spacing), Some(time_step));
+    let mut options = case.options.clone();
+    (options.spacing, options.time_step) = (Some(spacing), Some(time_step));
+    let method = options.method(case.method)?;
+    let mut run = Run::new(case.particles, case.seed);
+    run.start = options.start();
+
+    let begin = Instant::now();
+    let result = catch_unwind(AssertUnwindSafe(|| match &method {
+        Method::Mpm(options) => options.sample(target, &frame, &run, observer),
+        Method::Paper(options) => options.sample(target, &frame, &run, observer),
+        other => parvi::sample(target, other, &run, observer),
+    }));
+    row.wall_seconds = begin.elapsed().as_secs_f64();
+    match result {
+        Ok(Ok(samples)) => row.ended(&own, &frame, &samples),
+        Ok(Err(error @ SampleError::Interrupted { .. })) => return Err(error.into()),
+        Ok(Err(error)) => row.failed(&error),
+        Err(payload) => {
+            row.ending = Ending::Panicked;
+            row.message = single_line(panic_message(payload.as_ref()));
+        }
     }
+    Ok(row)
 }
 
 /// The target's frame, larger or smaller by the case's factor and turned: μ + (s Q L) z, by its covariance.

@@ -6,7 +6,6 @@
 mod groups;
 mod report;
 
-use parvi::Run;
 use serde::Deserialize;
 
 use super::checks::{distinct, not_empty};
@@ -85,7 +84,6 @@ impl TimeError {
             seed: self.reference_seed,
             directions: self.directions.get(),
             coordinates: Coordinates::Own,
-            independent_sets: None,
         }
     }
 
@@ -140,18 +138,14 @@ impl Study for TimeError {
     }
 
     fn run(&self, case: &Case, work: Work<'_, CurrentYardstick>) -> Result<RunRow, CommandError> {
-        let yardstick = work.shared.of(&case.target, &self.yardstick())?;
+        let yardstick = work.shared.of(&case.target, &self.yardstick(), None)?;
         let mut row = RunRow {
-            target: case.target.label(),
-            dim: case.target.dimension()?,
-            method: case.method.label().to_owned(),
             particles: case.particles,
             seed: Some(case.seed),
             energy_level: Some(yardstick.mean_distance() / case.particles as f64),
-            ..RunRow::new(case)
+            ..RunRow::on(case, &case.target, &case.method)?
         };
-        let mut run = Run::new(case.particles, case.seed);
-        run.start = case.method.options.start();
+        let run = case.method.run(case.particles, case.seed);
         let method = case.method.method(case.steps)?;
         let drawn_from_sample = row.run(&case.target, &method, &run, yardstick, work.observer)?;
         if drawn_from_sample && row.finished() {
@@ -162,7 +156,7 @@ impl Study for TimeError {
         Ok(row)
     }
 
-    fn report(&self, rows: &[RunRow], directory: &StudyDirectory) -> Result<Report, CommandError> {
-        report::report(self, rows, directory)
+    fn report(&self, rows: &[RunRow], _: &StudyDirectory) -> Result<Report, CommandError> {
+        Ok(report::report(self, rows))
     }
 }

@@ -2,19 +2,17 @@
 
 use super::TimeError;
 use super::groups::{Setting, energy_level, independent_level, settings};
-use crate::CommandError;
 use crate::options::MethodName;
+use crate::plots::page::{Cell, Page, line};
 use crate::plots::{TimeErrorCurve, TimeErrorPanel, TimeErrorPlot, TimeErrorPoint, time_error};
 use crate::study::attempt::Status;
-use crate::study::definition::{Report, Study};
-use crate::study::directory::StudyDirectory;
-use crate::study::document::{Cell, Document, line};
+use crate::study::definition::Report;
 use crate::study::run_row::{ENERGY, EVALUATIONS, Quantity, RunRow, SECONDS, SLICED};
 
 /// Tables and figures.
-pub fn report(study: &TimeError, rows: &[RunRow], directory: &StudyDirectory) -> Result<Report, CommandError> {
-    let mut document = Document::new("Error against wall time and evaluations");
-    document.paragraph(format!(
+pub fn report(study: &TimeError, rows: &[RunRow]) -> Report {
+    let mut page = Page::new("Error against wall time and evaluations");
+    page.paragraph(format!(
         "M = {} particles, {} seeds; medians over the seeds. ED² is the squared energy distance, exact against Gaussians and \
          against {} quasi-random reference points else; SW₂ is the sliced Wasserstein distance over {} directions. Regressions are measured in posterior standard deviations \
          per axis. The yardstick is the error of M independent draws: for ED² its expectation E‖Y − Y'‖/M, else the median \
@@ -24,23 +22,23 @@ pub fn report(study: &TimeError, rows: &[RunRow], directory: &StudyDirectory) ->
         study.reference_points,
         study.directions,
     ));
-    figures(study, rows, directory, &mut document)?;
-    document.heading(match study.steps {
+    figures(study, rows, &mut page);
+    page.heading(match study.steps {
         Some(_) => "Errors at the largest number of steps",
         None => "Errors",
     });
     for target in targets(study) {
-        target_table(study, rows, &target, &mut document);
+        target_table(study, rows, &target, &mut page);
     }
     if study.methods.iter().any(|method| is_paper(method.name)) {
-        paper_part(study, rows, &mut document);
+        paper_part(study, rows, &mut page);
     }
 
     let count = |status: Status| rows.iter().filter(|row| row.status == status).count();
-    Ok(Report::new(TimeError::KIND, document)
+    Report::new(page)
         .with("finished", count(Status::Finished))
         .with("diverged", count(Status::Diverged))
-        .with("unsupported", count(Status::Unsupported)))
+        .with("unsupported", count(Status::Unsupported))
 }
 
 fn is_paper(name: MethodName) -> bool {
@@ -51,13 +49,8 @@ fn targets(study: &TimeError) -> Vec<String> {
     study.targets.iter().map(|target| target.label()).collect()
 }
 
-fn figures(
-    study: &TimeError,
-    rows: &[RunRow],
-    directory: &StudyDirectory,
-    document: &mut Document,
-) -> Result<(), CommandError> {
-    document.heading("Figures");
+fn figures(study: &TimeError, rows: &[RunRow], page: &mut Page) {
+    page.heading("Figures");
     let errors = [
         ("energy", "ED²", "ED²", ENERGY),
         ("sliced", "SW₂", "sliced Wasserstein SW_{2}", SLICED),
@@ -92,10 +85,9 @@ fn figures(
                 "{error_name} against {cost_name}, a point per number of steps; medians over the seeds, bars from least to most."
             );
             let name = format!("{error_file}-{cost_file}.svg");
-            document.figure(directory, &name, &caption, time_error(&plot))?;
+            page.figure(&name, &caption, time_error(&plot));
         }
     }
-    Ok(())
 }
 
 /// One curve per method; independent draws are a level instead, and draws have no place on an axis of evaluations.
@@ -123,10 +115,10 @@ fn curves(study: &TimeError, rows: &[RunRow], target: &str, cost: Quantity, erro
     curves
 }
 
-fn target_table(study: &TimeError, rows: &[RunRow], target: &str, document: &mut Document) {
+fn target_table(study: &TimeError, rows: &[RunRow], target: &str, page: &mut Page) {
     let level = energy_level(rows, target);
     let independent = independent_level(rows, target, SLICED);
-    document.paragraph(format!(
+    page.paragraph(format!(
         "**{target}**: independent draws have ED² {} and SW₂ {}.",
         level.cell(),
         independent.cell(),
@@ -155,7 +147,7 @@ fn target_table(study: &TimeError, rows: &[RunRow], target: &str, document: &mut
         cells.extend(quantities.map(|quantity| setting.median(quantity).cell()));
         table.push(cells);
     }
-    document.table(header, &table);
+    page.table(header, &table);
 }
 
 fn ratio(value: Option<f64>, level: Option<f64>) -> Option<f64> {
@@ -163,9 +155,9 @@ fn ratio(value: Option<f64>, level: Option<f64>) -> Option<f64> {
 }
 
 /// What the paper's two algorithms reach in the plane.
-fn paper_part(study: &TimeError, rows: &[RunRow], document: &mut Document) {
-    document.heading("The paper's algorithms on the two-dimensional targets");
-    document.paragraph(
+fn paper_part(study: &TimeError, rows: &[RunRow], page: &mut Page) {
+    page.heading("The paper's algorithms on the two-dimensional targets");
+    page.paragraph(
         "Finished runs had finite particles, with the guards of the method's options. The best setting is the number of steps \
          with the smallest median ED²; the last is the largest number of steps.",
     );
@@ -191,11 +183,11 @@ fn paper_part(study: &TimeError, rows: &[RunRow], document: &mut Document) {
             failures.extend(failed.map(|row| row.failure()));
         }
     }
-    document.table(header, &table);
+    page.table(header, &table);
     if failures.is_empty() {
-        document.paragraph("Every run finished with finite particles.");
+        page.paragraph("Every run finished with finite particles.");
     } else {
-        document.paragraph(format!("Runs that did not finish:\n\n{}", failures.join("\n")));
+        page.paragraph(format!("Runs that did not finish:\n\n{}", failures.join("\n")));
     }
 }
 

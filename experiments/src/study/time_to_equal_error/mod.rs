@@ -20,7 +20,7 @@ use serde::Deserialize;
 use row::Row;
 use search::Doubling;
 
-use super::checks::{distinct, not_empty, positive, refusal, unset};
+use super::checks::{all_given, distinct, positive, refusal, unset};
 use super::definition::{self, Report, Study, Work};
 use super::directory::StudyDirectory;
 use super::yardstick::{Coordinates, CurrentYardstick, YardstickOptions};
@@ -140,9 +140,7 @@ impl Study for TimeToEqualError {
 
     /// The cases: on every target and for every M the method first, then its rivals.
     fn cases(&self) -> Result<Vec<Case>, CommandError> {
-        not_empty("seeds", &self.seeds)?;
-        not_empty("particles", &self.particles)?;
-        not_empty("targets", &self.targets)?;
+        all_given!(self: seeds, particles, targets);
         positive("largest-ratio", &[self.largest_ratio])?;
         self.draws.check("draws")?;
         self.steps.check("steps")?;
@@ -170,7 +168,7 @@ impl Study for TimeToEqualError {
     }
 
     fn run(&self, case: &Case, work: Work<'_, CurrentYardstick>) -> Result<Row, CommandError> {
-        let yardstick = work.shared.of(&case.target, &self.yardstick())?;
+        let yardstick = work.shared.of(&case.target, &self.yardstick(), None)?;
         run::run(self, case, yardstick, work.directory, work.observer)
     }
 

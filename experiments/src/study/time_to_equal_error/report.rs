@@ -6,16 +6,16 @@ use super::row::Row;
 use super::search::Ending;
 use crate::CommandError;
 use crate::options::{MethodName, MethodSpecification};
+use crate::plots::page::{MISSING, Page, line, number};
 use crate::plots::time_error;
-use crate::study::definition::{Report, Study};
+use crate::study::definition::Report;
 use crate::study::directory::StudyDirectory;
-use crate::study::document::{Document, MISSING, line, number};
 
 /// Tables and figure.
 pub fn report(study: &TimeToEqualError, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
     let label = study.method.label();
-    let mut document = Document::new("Wall time to equal error");
-    document.paragraph(format!(
+    let mut page = Page::new("Wall time to equal error");
+    page.paragraph(format!(
         "The median over {} seeds of the squared energy distance of M particles of `{label}` is what its rivals have to reach, in \
          coordinates in which the target has mean zero and unit covariance, exact or against {} quasi-random points. All run on the \
          same threads{}; every time is that of the sampler alone, a warm-up included. A chain gets {} draws, then twice as many, up to \
@@ -32,24 +32,24 @@ pub fn report(study: &TimeToEqualError, rows: &[Row], directory: &StudyDirectory
         study.steps.doubling().last,
         number(study.largest_ratio),
     ));
-    document.heading("What a particle is worth");
-    document.paragraph(format!(
+    page.heading("What a particle is worth");
+    page.paragraph(format!(
         "ED² of independent draws is E‖Y − Y'‖/n in expectation; a particle of `{label}` is worth as many draws as that takes to \
          equal its ED², divided by M."
     ));
-    worth(study, rows, &mut document);
+    worth(study, rows, &mut page);
     for rival in &study.rivals {
-        document.heading(&format!("Against {}", rival.label()));
-        against(study, rows, rival, &mut document);
+        page.heading(&format!("Against {}", rival.label()));
+        against(study, rows, rival, &mut page);
     }
-    document.heading("Figure");
+    page.heading("Figure");
     let caption = "ED² against wall time: a point per M, per number of draws or per number of steps.";
     let plot = plot(study, rows, directory)?;
-    document.figure(directory, "time-to-equal-error.svg", caption, time_error(&plot))?;
+    page.figure("time-to-equal-error.svg", caption, time_error(&plot));
 
     let rivals = || rows.iter().filter(|row| row.method != label);
     let count = |ending: Ending| rivals().filter(|row| row.ending == ending).count();
-    Ok(Report::new(TimeToEqualError::KIND, document)
+    Ok(Report::new(page)
         .with("reached", count(Ending::Reached))
         .with("out_of_time", count(Ending::OutOfTime))
         .with("out_of_sizes", count(Ending::OutOfSizes))
@@ -71,7 +71,7 @@ fn comparisons(study: &TimeToEqualError) -> impl Iterator<Item = (String, usize)
         .flat_map(move |target| sizes.clone().map(|particles| (target.label(), particles)))
 }
 
-fn worth(study: &TimeToEqualError, rows: &[Row], document: &mut Document) {
+fn worth(study: &TimeToEqualError, rows: &[Row], page: &mut Page) {
     let line = |(target, particles): (String, usize)| {
         let row = find(rows, &target, particles, study.method.label());
         let levels = row.and_then(Row::levels);
@@ -86,11 +86,11 @@ fn worth(study: &TimeToEqualError, rows: &[Row], document: &mut Document) {
         ])
     };
     let header = "target | M | ED² | ED² / i.i.d. | draws per particle | evaluations | time (s)";
-    document.table(header, comparisons(study).map(line));
+    page.table(header, comparisons(study).map(line));
 }
 
 /// One line per target and M: what the rival needs, and how many times longer that takes.
-fn against(study: &TimeToEqualError, rows: &[Row], rival: &MethodSpecification, document: &mut Document) {
+fn against(study: &TimeToEqualError, rows: &[Row], rival: &MethodSpecification, page: &mut Page) {
     let label = study.method.label();
     let size = if rival.name.iterates() { "steps" } else { "draws" };
     let its = rival.label();
@@ -117,16 +117,16 @@ fn against(study: &TimeToEqualError, rows: &[Row], rival: &MethodSpecification, 
             &row.map(|row| in_words(row.ending)),
         ]));
     }
-    document.paragraph(match rival.name {
+    page.paragraph(match rival.name {
         MethodName::Iid => "Draws are what the expectation asks for; their ED² is not measured.".to_owned(),
         _ => format!(
             "The {size} lie between the last number that missed and the first that reached the error; the ratio of times is stated \
              for both."
         ),
     });
-    document.table(header.as_str(), &table);
+    page.table(header.as_str(), &table);
     if !reasons.is_empty() {
-        document.paragraph(reasons.join("\n"));
+        page.paragraph(reasons.join("\n"));
     }
 }
 

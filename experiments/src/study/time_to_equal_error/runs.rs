@@ -1,7 +1,5 @@
 //! The runs of a case: its own, those of a search, or independent draws.
 
-use parvi::Run;
-
 use super::search::{Ending, Medians, Next, Trial, next};
 use super::{Case, TimeToEqualError};
 use crate::CommandError;
@@ -123,8 +121,7 @@ impl Runs<'_> {
         let is_own = size == OWN;
         let has_steps = method.name.iterates() && !is_own;
         let draws = if has_steps || is_own { *particles } else { size };
-        let mut run = Run::new(draws, seed);
-        run.start = method.options.start();
+        let run = method.run(draws, seed);
         let begin = std::time::Instant::now();
         let method_of_run = method.method(has_steps.then_some(size))?;
         let ran = if method.name == MethodName::Iid && !is_own {

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 
 use search::Ending;
 
-use super::checks::{distinct, not_empty, positive, refusal, unset};
+use super::checks::{all_given, distinct, positive, refusal, unset};
 use super::definition::{self, Report, Study, Work};
 use super::directory::StudyDirectory;
 use super::gaussian_runs::energy_level;
@@ -143,8 +143,7 @@ impl Study for TimeToLevel {
 
     /// The cases: in every dimension the method first, then its rivals.
     fn cases(&self) -> Result<Vec<Case>, CommandError> {
-        not_empty("dims", &self.dims)?;
-        not_empty("steps", &self.steps)?;
+        all_given!(self: dims, steps);
         if let Some(pair) = self.steps.windows(2).find(|pair| pair[0] >= pair[1]) {
             return Err(refusal("steps", format!("{} before {} do not grow", pair[0], pair[1])));
         }

@@ -4,16 +4,16 @@ use super::search::{Ending, Trial};
 use super::{Case, Row, TimeToLevel};
 use crate::CommandError;
 use crate::output::table_file;
-use crate::plots::{AxisKind, LineSeries, MultiplesPanel, MultiplesPlot, ReferenceLevel, multiples};
+use crate::plots::page::{Cell, MISSING, Page, line, number};
+use crate::plots::{LineSeries, MultiplesPanel, MultiplesPlot, ReferenceLevel, multiples};
 use crate::statistics::summarize;
 use crate::study::definition::{self, Report, Study};
 use crate::study::directory::StudyDirectory;
-use crate::study::document::{Cell, Document, MISSING, line, number};
 
 /// Tables and figure.
 pub fn report(study: &TimeToLevel, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
-    let mut document = Document::new("Wall time to the error of independent draws");
-    document.paragraph(format!(
+    let mut page = Page::new("Wall time to the error of independent draws");
+    page.paragraph(format!(
         "Target N(0, I), M = {} particles, which begin as N({} · 1, {}² I); seed {}, all methods on the same threads{}. The \
          level is E‖Y − Y'‖/M, the expected ED² of M independent draws. A method is run with more and more steps until a run \
          ends at or below the level; its time is that of this one run (median of up to {} where it takes less than a second). \
@@ -29,17 +29,17 @@ pub fn report(study: &TimeToLevel, rows: &[Row], directory: &StudyDirectory) -> 
         number(study.largest_ratio),
         study.method.label(),
     ));
-    document.heading("Times");
-    times(study, rows, &mut document);
-    document.heading("Figure");
+    page.heading("Times");
+    times(study, rows, &mut page);
+    page.heading("Figure");
     let caption = "ED² in units of the level against the wall time of a run, a point per number of steps.";
     let plot = plot(study, rows, directory)?;
-    document.figure(directory, "time-to-level.svg", caption, multiples(&plot))?;
-    document.heading("All searches");
-    searches(rows, &mut document);
+    page.figure("time-to-level.svg", caption, multiples(&plot));
+    page.heading("All searches");
+    searches(rows, &mut page);
 
     let count = |ending: Ending| rows.iter().filter(|row| row.ending == ending).count();
-    Ok(Report::new(TimeToLevel::KIND, document)
+    Ok(Report::new(page)
         .with("reached", count(Ending::Reached))
         .with("out_of_time", count(Ending::OutOfTime))
         .with("out_of_steps", count(Ending::OutOfSteps)))
@@ -51,7 +51,7 @@ fn levels(row: &Row) -> Option<f64> {
 }
 
 /// One line per dimension: steps and time of the method and of each rival, and the ratio of times.
-fn times(study: &TimeToLevel, rows: &[Row], document: &mut Document) {
+fn times(study: &TimeToLevel, rows: &[Row], page: &mut Page) {
     let label = study.method.label();
     let mut header = vec![
         "d".to_owned(),
@@ -90,9 +90,9 @@ fn times(study: &TimeToLevel, rows: &[Row], document: &mut Document) {
         }
         table.push(line);
     }
-    document.table(&header, &table);
+    page.table(&header, &table);
     if !bounds.is_empty() {
-        document.paragraph(bounds.join("\n"));
+        page.paragraph(bounds.join("\n"));
     }
 }
 
@@ -123,7 +123,7 @@ fn bound(row: &Row, clock: &str, ratio: f64) -> String {
     )
 }
 
-fn searches(rows: &[Row], document: &mut Document) {
+fn searches(rows: &[Row], page: &mut Page) {
     let line = |row: &Row| {
         let ending = match row.ending {
             Ending::Reached => "reached",
@@ -144,7 +144,7 @@ fn searches(rows: &[Row], document: &mut Document) {
         ])
     };
     let header = "d | method | ending | runs | steps | ED² / level | time (s) | least (s) | most (s) | budget (s)";
-    document.table(header, rows.iter().map(line));
+    page.table(header, rows.iter().map(line));
 }
 
 /// One panel per dimension, one line per method.
@@ -163,21 +163,13 @@ fn plot(study: &TimeToLevel, rows: &[Row], directory: &StudyDirectory) -> Result
                 title,
                 series: vec![line],
                 guides: Vec::new(),
-                levels: vec![ReferenceLevel {
-                    value: 1.0,
-                    label: "level of i.i.d. draws".to_owned(),
-                }],
+                levels: vec![ReferenceLevel::new(1.0, "level of i.i.d. draws")],
             }),
         }
     }
     Ok(MultiplesPlot {
-        title: String::new(),
-        x_label: "wall time of a run (s)".to_owned(),
-        y_label: "ED² / level".to_owned(),
-        x_axis: AxisKind::Logarithmic,
-        y_axis: AxisKind::Logarithmic,
         panels,
-        notes: Vec::new(),
+        ..MultiplesPlot::logarithmic("wall time of a run (s)", "ED² / level")
     })
 }
 

@@ -1,6 +1,5 @@
 //! The search for the number of steps that reaches the level, within a budget of time.
 
-use parvi::Run;
 use serde::{Deserialize, Serialize};
 
 use super::{Case, TimeToLevel};
@@ -110,8 +109,8 @@ pub fn search(
     budget: Option<f64>,
     observer: &mut CaseObserver,
 ) -> Result<(Ending, Vec<Trial>), CommandError> {
-    let mut run = Run::new(case.particles, study.seed);
-    run.start = study.start.start(case.method.options.start());
+    let mut run = case.method.run(case.particles, study.seed);
+    run.start = study.start.start(run.start);
     let mut one = |steps: usize| -> Result<Trial, CommandError> {
         let method = case.method.method(Some(steps))?;
         let begin = std::time::Instant::now();

@@ -1,89 +1,29 @@
-//! What particles on a target are measured against, for every study that compares methods on the catalogue.
-//!
-//! For a Gaussian the energy distance is exact. Every other target is represented by N reference points. The error that the
-//! reference brings into ED² = 2E‖x − Y‖ − E‖x − x'‖ − E‖Y − Y'‖ has two parts. One is the mean over the reference of
-//! g(y) = 2E‖x − y‖ − 2E‖Y − y‖, which for independent reference points would be of the order (M N)^{−1/2}, several percent of the
-//! level E‖Y − Y'‖/M of M independent draws at N = 100 M. The other is ED²(reference, target), for independent points
-//! E‖Y − Y'‖/N. Quasi-random points make both far smaller: scrambled Sobol points through the target's map from the unit cube, or
-//! where it has none those of an importance sample. Their own term is the V-statistic, O(N²) once per target.
+//! What particles on a target are measured against, for every study that compares methods on the catalogue: the yardsticks of `parvi-metrics`, whatever their dimension.
 
 mod measured_run;
-mod target_reference;
-mod target_yardstick;
+
+use std::time::Instant;
+
+pub use parvi_metrics::yardstick::{Coordinates, Errors, YardstickOptions};
+use parvi_metrics::yardstick::{TargetYardstick, YardstickError};
+use parvi_targets::BoxedTarget;
 
 use crate::CommandError;
-use crate::dispatch::{TargetTask, with_target};
+use crate::dispatch::on_target;
 use crate::options::TargetSpecification;
 use crate::output::Particles;
 use crate::sampling::Outcome;
+use crate::statistics::summarize;
 
 pub use measured_run::{measured, measured_run};
-use target_yardstick::TargetYardstick;
 
-/// How a target is represented and particles are measured.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct YardstickOptions {
-    /// N, the reference points that stand for the target; a power of two keeps their balance.
-    pub points: usize,
-    /// Their seed.
-    pub seed: u64,
-    /// Directions of the sliced Wasserstein distance.
-    pub directions: usize,
-    /// What distances are measured in.
-    pub coordinates: Coordinates,
-    /// Sets of independent draws whose median sliced Wasserstein distance is the level of that distance; `None`: it has none.
-    pub independent_sets: Option<IndependentSets>,
-}
-
-/// The coordinates in which distances are measured.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Coordinates {
-    /// The target's own. Only targets without exact moments and a map from the unit cube, the posteriors of regressions, whose axes
-    /// have units of their own, are measured in standard deviations per axis, against points resampled systematically from an
-    /// importance sample.
-    Own,
-    /// Standard deviations per axis of the points that stand for the target, as for [`Standardised`](Self::Standardised).
-    Scaled,
-    /// Those in which the target has mean zero and unit covariance. A target without a map from the unit cube is represented by the
-    /// weighted points of an importance sample.
-    Standardised,
-}
-
-impl YardstickOptions {
-    /// So many points of a seed; the sliced distance is not looked at.
-    pub fn of_energy(points: usize, seed: u64, coordinates: Coordinates) -> Self {
-        Self {
-            points,
-            seed,
-            directions: 1,
-            coordinates,
-            independent_sets: None,
-        }
-    }
-}
-
-/// Sets of independent draws.
+/// Sets of independent draws, whose median sliced Wasserstein distance is the level of that distance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct IndependentSets {
     /// Their number.
     pub count: usize,
     /// Draws in each.
     pub size: usize,
-}
-
-/// Errors of particles.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Errors {
-    /// Squared energy distance.
-    pub energy_distance_squared: f64,
-    /// Sliced Wasserstein distance of order 2.
-    pub sliced_wasserstein: f64,
-    /// Largest error of a mean in standard deviations.
-    pub mean: f64,
-    /// Largest relative error of a standard deviation.
-    pub deviation: f64,
-    /// Largest error of a mode's mass, for targets with modes.
-    pub mass: Option<f64>,
 }
 
 /// A target as a measure of particles, whatever its dimension.
@@ -116,25 +56,75 @@ impl CurrentYardstick {
         &mut self,
         target: &TargetSpecification,
         options: &YardstickOptions,
+        sets: Option<IndependentSets>,
     ) -> Result<&dyn Yardstick, CommandError> {
         let (_, yardstick) = match self.current.take() {
             Some((known, yardstick)) if known == *target => self.current.insert((known, yardstick)),
-            _ => self
-                .current
-                .insert((target.clone(), with_target(target, Build { options })?)),
+            _ => {
+                let made: Box<dyn Yardstick> = on_target!(target, built, D => boxed::<D>(built, options, sets))?;
+                self.current.insert((target.clone(), made))
+            }
         };
         Ok(&**yardstick)
     }
 }
 
-struct Build<'a> {
-    options: &'a YardstickOptions,
+/// A yardstick with the level of its sliced distance.
+struct Levelled<const D: usize> {
+    yardstick: TargetYardstick<D>,
+    sliced_level: Option<f64>,
 }
 
-impl TargetTask for Build<'_> {
-    type Output = Box<dyn Yardstick>;
+fn boxed<const D: usize>(
+    target: BoxedTarget<D>,
+    options: &YardstickOptions,
+    sets: Option<IndependentSets>,
+) -> Result<Box<dyn Yardstick>, CommandError> {
+    let yardstick = TargetYardstick::new(target, options)?;
+    let sliced_level = match sets {
+        None => None,
+        Some(sets) => {
+            let levels = yardstick.sliced_of_draws(sets.count, sets.size, options.seed)?;
+            Some(summarize(&levels)?.median)
+        }
+    };
+    Ok(Box::new(Levelled {
+        yardstick,
+        sliced_level,
+    }))
+}
 
-    fn run<const D: usize>(self, target: parvi_targets::BoxedTarget<D>) -> Result<Self::Output, CommandError> {
-        Ok(Box::new(TargetYardstick::<D>::new(target, self.options)?))
+impl From<YardstickError> for CommandError {
+    fn from(error: YardstickError) -> Self {
+        match error {
+            YardstickError::Target(error) => error.into(),
+            YardstickError::Metric(error) => error.into(),
+            error => Self::Library(error.into()),
+        }
+    }
+}
+
+impl<const D: usize> Yardstick for Levelled<D> {
+    fn mean_distance(&self) -> f64 {
+        self.yardstick.mean_distance()
+    }
+
+    fn sliced_level(&self) -> Option<f64> {
+        self.sliced_level
+    }
+
+    fn has_exact_draws(&self) -> bool {
+        self.yardstick.has_exact_draws()
+    }
+
+    fn independent_draws(&self, count: usize, seed: u64) -> Outcome {
+        let begin = Instant::now();
+        let points = self.yardstick.draws(count, seed);
+        Outcome::of_draws(Particles::new(&points, None), begin.elapsed().as_secs_f64())
+    }
+
+    fn measure(&self, particles: &Particles) -> Result<Errors, CommandError> {
+        let points = particles.points::<D>().unwrap_or_default();
+        Ok(self.yardstick.measure(&points, particles.weights())?)
     }
 }

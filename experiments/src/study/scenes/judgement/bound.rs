@@ -1,7 +1,7 @@
 //! Values near a reference.
 
 use super::{Verdict, name};
-use crate::study::document::number;
+use crate::plots::page::number;
 use crate::study::scenes::series::{MeasuredSeries, Point};
 
 /// What a point is held against: the values given, else those of validation.csv.

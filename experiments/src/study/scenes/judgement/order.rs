@@ -3,8 +3,8 @@
 use mpm_scenes::reference::convergence;
 
 use super::{Verdict, name};
+use crate::plots::page::MISSING;
 use crate::statistics::fit_power_law;
-use crate::study::document::MISSING;
 use crate::study::scenes::series::MeasuredSeries;
 
 /// Orders between refinements, from the coarsest on, and that of least squares in logarithms, `None` with fewer than two points or values that are not positive.

@@ -3,8 +3,8 @@
 
 use super::{Verdict, name};
 use crate::plots::exponent_text;
+use crate::plots::page::MISSING;
 use crate::statistics::{PowerLaw, fit_power_law};
-use crate::study::document::MISSING;
 use crate::study::scenes::series::MeasuredSeries;
 
 /// The law through the points with `from` ≤ x ≤ `to`; `None` with fewer than two, or values that are not positive.

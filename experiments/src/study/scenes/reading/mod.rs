@@ -1,19 +1,16 @@
 //! Which number is read from a run.
 
-mod column;
-mod field;
 mod finished_run;
-mod particles;
 
 use std::collections::BTreeMap;
 
+use mpm_scenes::reading::{ReadingError, Take, curve, displacement_error};
+use mpm_scenes::scene::keys;
 use serde::Deserialize;
 use toml::Table;
 
-pub use column::{Take, curve};
 pub use finished_run::FinishedRun;
 
-use super::overrides;
 use crate::CommandError;
 
 /// f (r + o + Σ c_k s_k) with a number r of the run, a factor f, an offset o, and multiples c_k of numbers s_k of the scene.
@@ -120,10 +117,12 @@ impl Reading {
         if self.particles.is_none() {
             return Ok(self.read_numbers(run, other));
         }
-        let error = particles::displacement_error(run, other)?;
-        Ok(error
-            .map_err(|message| ("read.particles", message))
-            .and_then(|error| self.scaled(&run.prepared.table, error)))
+        let other = other.map(|other| other.directory.as_path());
+        match displacement_error(&run.prepared.scene, &run.directory, other) {
+            Ok(error) => Ok(self.scaled(&run.prepared.table, error)),
+            Err(ReadingError::File(error)) => Err(error.into()),
+            Err(error) => Ok(Err(("read.particles", error.to_string()))),
+        }
     }
 
     /// What needs no frames.
@@ -170,7 +169,7 @@ impl Reading {
         self.offsets
             .iter()
             .try_fold(self.offset.unwrap_or(0.0), |sum, (key, factor)| {
-                let number = overrides::number(scene, key);
+                let number = keys::number(scene, key);
                 let number = number.ok_or_else(|| ("read.offsets", format!("`{key}` is no number of the scene")))?;
                 Ok(sum + factor * number)
             })
