@@ -1,6 +1,6 @@
 //! The study of evidence: a small version runs to a report, and bad configurations are refused with the field's name.
 
-use crate::support::{assert_report, number, refused, rows, run_study, value};
+use crate::support::{assert_holds, assert_report, for_each_line, number, refused, rows, run_study, value};
 
 const STUDY: &str = r#"
 kind = "evidence"
@@ -16,14 +16,15 @@ fn evidence() {
     let report = assert_report(root.path(), 1);
     assert_eq!(value(&output, "cases").unwrap(), "24");
     assert_eq!(value(&output, "failed").unwrap(), "0");
-    for text in [
-        "## gaussian-d2",
-        "| smc | 8/8 |",
-        "| iid | 0/8 | – |",
-        "## Errors beyond three standard errors",
-    ] {
-        assert!(report.contains(text), "{text} is missing in {report}");
-    }
+    assert_holds(
+        &report,
+        &[
+            "## gaussian-d2",
+            "| smc | 8/8 |",
+            "| iid | 0/8 | – |",
+            "## Errors beyond three standard errors",
+        ],
+    );
     for row in rows(root.path()) {
         assert_eq!(
             row["log_evidence_deviation"].is_empty(),
@@ -43,16 +44,13 @@ fn evidence() {
 #[test]
 fn bad_studies_of_evidence() {
     let refused = |from: &str, to: &str, parts: &[&str]| refused(STUDY, from, to, parts);
-    refused(
-        "\"gaussian\", dim = 2",
-        "\"wells-small\"",
-        &["targets", "wells-small", "not known"],
+    for_each_line(
+        r#"
+        "gaussian", dim = 2 | "wells-small" | targets | wells-small | not known
+        { name = "iid" } | { name = "ais" } | two cases | gaussian-d2-ais-s3
+        count = 4 | count = 0 | line 3 | 0 is out of range
+        particles = 80 | particles = 80\nmore = 1 | line 5 | more
+        "#,
+        |line| refused(line[0], line[1], &line[2..]),
     );
-    refused(
-        "{ name = \"iid\" }",
-        "{ name = \"ais\" }",
-        &["two cases", "gaussian-d2-ais-s3"],
-    );
-    refused("count = 4", "count = 0", &["line 3", "0 is out of range"]);
-    refused("particles = 80", "particles = 80\nmore = 1", &["line 5", "more"]);
 }

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::support::{assert_report, parvi, refused, rows, run_study, value};
+use crate::support::{assert_holds, assert_report, for_each_line, parvi, refused, rows, run_study, value};
 
 const ACCURACY: &str = r#"
 kind = "accuracy"
@@ -58,16 +58,17 @@ fn accuracy() {
     // Per dimension: five methods with 16 particles, three with 64.
     assert_eq!(value(&output, "cases").unwrap(), (2 * 3 * (5 + 3)).to_string());
     assert_eq!(value(&output, "failed").unwrap(), "0");
-    for text in [
-        "| method | M = 16 | / sobol | M = 64 | / sobol |",
-        "| mpm, linear |",
-        "| i.i.d., expected |",
-        "**d = 2**",
-        "| best possible |",
-        "−0.750",
-    ] {
-        assert!(report.contains(text), "{text} is missing in {report}");
-    }
+    assert_holds(
+        &report,
+        &[
+            "| method | M = 16 | / sobol | M = 64 | / sobol |",
+            "| mpm, linear |",
+            "| i.i.d., expected |",
+            "**d = 2**",
+            "| best possible |",
+            "−0.750",
+        ],
+    );
     let rows = rows(root.path());
     let of = |series: &str| rows.iter().filter(|row| row["series"] == series).collect::<Vec<_>>();
     assert!(of("svgd").iter().all(|row| row["particles"] == "16"));
@@ -169,24 +170,21 @@ fn a_resumed_rival_finds_the_time_of_the_method() {
 #[test]
 fn bad_time_to_level() {
     let refused = |from: &str, to: &str, parts: &[&str]| refused(TIME_TO_LEVEL, from, to, parts);
-    refused("[1, 2]", "[]", &["dims", "empty"]);
-    refused("[1, 2]", "[2, 2]", &["dims", "d2-m100-mpm"]);
-    refused("[1, 4, 16, 64]", "[]", &["steps", "empty"]);
-    refused("[1, 4, 16, 64]", "[1, 4, 4]", &["steps", "4 before 4"]);
-    refused("1e-3", "-1.0", &["largest-ratio", "-1"]);
-    refused("= 0.6 }", "= 0.0 }", &["start.standard-deviation", "0"]);
-    refused("mean = 0.7", "mean = nan", &["start.mean", "NaN"]);
-    refused("mean = 0.7", "middle = 0.7", &["line 7", "`middle`"]);
-    refused("\"svgd\" }", "\"sobol\" }", &["rivals.name", "`sobol`"]);
-    refused(
-        "{ name = \"svgd\" }",
-        "{ name = \"svgd\", options = { steps = 3 } }",
-        &["rivals.options.steps", "`steps`"],
-    );
-    refused(
-        "method = { name = \"mpm\", options = { survey = \"off\" } }",
-        "method = { name = \"mpm\", options = { start-mean = 1.0 } }",
-        &["method.options.start-mean", "`start`"],
+    for_each_line(
+        r#"
+        [1, 2] | [] | dims | empty
+        [1, 2] | [2, 2] | dims | d2-m100-mpm
+        [1, 4, 16, 64] | [] | steps | empty
+        [1, 4, 16, 64] | [1, 4, 4] | steps | 4 before 4
+        1e-3 | -1.0 | largest-ratio | -1
+        = 0.6 } | = 0.0 } | start.standard-deviation | 0
+        mean = 0.7 | mean = nan | start.mean | NaN
+        mean = 0.7 | middle = 0.7 | line 7 | `middle`
+        "svgd" } | "sobol" } | rivals.name | `sobol`
+        { name = "svgd" } | { name = "svgd", options = { steps = 3 } } | rivals.options.steps | `steps`
+        method = { name = "mpm", options = { survey = "off" } } | method = { name = "mpm", options = { start-mean = 1.0 } } | method.options.start-mean | `start`
+        "#,
+        |line| refused(line[0], line[1], &line[2..]),
     );
 }
 
@@ -196,9 +194,10 @@ fn basis_comparison() {
     let report = assert_report(root.path(), 1);
     assert_eq!(value(&output, "cases").unwrap(), (2 * 2 * 3 * 2 * 2).to_string());
     assert_eq!(value(&output, "failed").unwrap(), "0");
-    for text in ["ED² in the time of quadratic", "time (s), T = 20", "h / default"] {
-        assert!(report.contains(text), "{text} is missing in {report}");
-    }
+    assert_holds(
+        &report,
+        &["ED² in the time of quadratic", "time (s), T = 20", "h / default"],
+    );
     // The first basis fits into its own time with its largest number of steps.
     let first: Vec<&str> = report
         .lines()
@@ -225,38 +224,23 @@ fn basis_comparison() {
 #[test]
 fn bad_basis_comparison() {
     let refused = |from: &str, to: &str, parts: &[&str]| refused(BASIS_COMPARISON, from, to, parts);
-    refused("seeds = [1, 2]", "seeds = []", &["seeds", "empty"]);
-    refused("dims = [1, 2]", "dims = []", &["dims", "empty"]);
-    refused("[\"quadratic\", \"linear\"]", "[]", &["bases", "empty"]);
-    refused("\"linear\"", "\"round\"", &["line 6", "`round`", "quadratic"]);
-    refused(
-        "\"linear\"",
-        "\"quadratic\"",
-        &["bases", "d1-m64-quadratic-f0.5-t20-s1"],
-    );
-    refused("[0.5, 1.0, 2.0]", "[]", &["spacings", "empty"]);
-    refused("[0.5, 1.0, 2.0]", "[0.5, -1.0]", &["spacings", "-1"]);
-    refused("[20, 5]", "[]", &["steps", "empty"]);
-    refused("[20, 5]", "[20, 0]", &["line 8", "0 is out of range"]);
-    refused(
-        "{ survey = \"off\", moment-correction = \"off\" }",
-        "{ spacing = 1.0 }",
-        &["method.options.spacing", "`spacings`"],
-    );
-    refused(
-        "{ survey = \"off\", moment-correction = \"off\" }",
-        "{ basis = \"cubic\" }",
-        &["method.options.basis", "`bases`"],
-    );
-    refused(
-        "{ survey = \"off\", moment-correction = \"off\" }",
-        "{ steps = 3 }",
-        &["method.options.steps", "`steps`"],
-    );
-    refused(
-        "{ name = \"mpm\", options = { survey = \"off\", moment-correction = \"off\" } }",
-        "{ name = \"svgd\" }",
-        &["basis", "svgd"],
+    for_each_line(
+        r#"
+        seeds = [1, 2] | seeds = [] | seeds | empty
+        dims = [1, 2] | dims = [] | dims | empty
+        ["quadratic", "linear"] | [] | bases | empty
+        "linear" | "round" | line 6 | `round` | quadratic
+        "linear" | "quadratic" | bases | d1-m64-quadratic-f0.5-t20-s1
+        [0.5, 1.0, 2.0] | [] | spacings | empty
+        [0.5, 1.0, 2.0] | [0.5, -1.0] | spacings | -1
+        [20, 5] | [] | steps | empty
+        [20, 5] | [20, 0] | line 8 | 0 is out of range
+        { survey = "off", moment-correction = "off" } | { spacing = 1.0 } | method.options.spacing | `spacings`
+        { survey = "off", moment-correction = "off" } | { basis = "cubic" } | method.options.basis | `bases`
+        { survey = "off", moment-correction = "off" } | { steps = 3 } | method.options.steps | `steps`
+        { name = "mpm", options = { survey = "off", moment-correction = "off" } } | { name = "svgd" } | basis | svgd
+        "#,
+        |line| refused(line[0], line[1], &line[2..]),
     );
 }
 
@@ -266,14 +250,15 @@ fn spacing_particles() {
     let report = assert_report(root.path(), 1);
     assert_eq!(value(&output, "cases").unwrap(), (2 * 3 * (3 + 2)).to_string());
     assert_eq!(value(&output, "failed").unwrap(), "0");
-    for text in [
-        "| h | M = 16 | M = 32 | M = 64 |",
-        "active nodes / M",
-        "h at M = 512",
-        "**d = 2**",
-    ] {
-        assert!(report.contains(text), "{text} is missing in {report}");
-    }
+    assert_holds(
+        &report,
+        &[
+            "| h | M = 16 | M = 32 | M = 64 |",
+            "active nodes / M",
+            "h at M = 512",
+            "**d = 2**",
+        ],
+    );
     assert!(
         report.contains("beyond ") || report.contains("they do up to 64"),
         "{report}"
@@ -283,17 +268,18 @@ fn spacing_particles() {
 #[test]
 fn bad_spacing_particles() {
     let refused = |from: &str, to: &str, parts: &[&str]| refused(SPACING_PARTICLES, from, to, parts);
-    refused("seeds = [1, 2]", "seeds = []", &["seeds", "empty"]);
-    refused("[64, 32, 16]", "[]", &["particles", "empty"]);
-    refused("[64, 32, 16]", "[64, 64]", &["particles", "d1-m64-mpm-h0.8-t20-s1"]);
-    refused("[0.5, 1.0]", "[]", &["series.spacings", "empty"]);
-    refused("[0.5, 1.0]", "[0.5, 0.0]", &["series.spacings", "0 must be"]);
-    refused("dim = 2", "dim = 9", &["line 6", "9 is out of range"]);
-    refused("dim = 2, spacings", "dim = 2, spacing", &["line 6", "`spacing`"]);
-    refused("steps = 20", "spacing = 0.5", &["method.options.spacing", "`series`"]);
-    refused(
-        "{ name = \"mpm\", options = { survey = \"off\", basis = \"linear\", steps = 20 } }",
-        "{ name = \"iid\" }",
-        &["spacing", "iid"],
+    for_each_line(
+        r#"
+        seeds = [1, 2] | seeds = [] | seeds | empty
+        [64, 32, 16] | [] | particles | empty
+        [64, 32, 16] | [64, 64] | particles | d1-m64-mpm-h0.8-t20-s1
+        [0.5, 1.0] | [] | series.spacings | empty
+        [0.5, 1.0] | [0.5, 0.0] | series.spacings | 0 must be
+        dim = 2 | dim = 9 | line 6 | 9 is out of range
+        dim = 2, spacings | dim = 2, spacing | line 6 | `spacing`
+        steps = 20 | spacing = 0.5 | method.options.spacing | `series`
+        { name = "mpm", options = { survey = "off", basis = "linear", steps = 20 } } | { name = "iid" } | spacing | iid
+        "#,
+        |line| refused(line[0], line[1], &line[2..]),
     );
 }

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::support::{assert_report, number, refused, rows, run_study, value};
+use crate::support::{assert_holds, assert_report, for_each_line, number, refused, rows, run_study, value};
 
 const STUDY: &str = r#"
 kind = "random-targets"
@@ -21,9 +21,10 @@ fn random_targets() {
     let report = assert_report(root.path(), 1);
     let first = rows(root.path());
     assert_eq!(value(&output, "cases").unwrap(), "18");
-    for text in ["## d = 2", "better than body", "| ais | 3/3 |", "frame: identity"] {
-        assert!(report.contains(text), "{text} is missing in {report}");
-    }
+    assert_holds(
+        &report,
+        &["## d = 2", "better than body", "| ais | 3/3 |", "frame: identity"],
+    );
     for row in &first {
         let ratio = number(row, "energy_distance_squared") / number(row, "energy_level");
         assert!(ratio > -0.05 && ratio.is_finite(), "{row:?}");
@@ -57,25 +58,18 @@ fn random_targets() {
 #[test]
 fn bad_random_targets() {
     let refused = |from: &str, to: &str, parts: &[&str]| refused(STUDY, from, to, parts);
-    refused("dims = [1, 2]", "dims = []", &["dims", "empty"]);
-    refused(
-        "dims = [1, 2]",
-        "dims = [2, 2]",
-        &["dims or methods", "random-d2-seed5-ais"],
-    );
-    refused("count = 3", "count = 0", &["line 5", "0 is out of range"]);
-    refused("first = 5, ", "", &["line 5", "first"]);
-    refused(
-        "particles = 60",
-        "particles = 60\nframe = \"best\"",
-        &["line 7", "best", "identity"],
-    );
-    refused("label = \"body\", ", "label = \"ais\", ", &["random-d1-seed5-ais"]);
-    refused("evaluations = 3000", "evaluations = 0", &["0 is out of range"]);
-    refused("evaluations = 3000", "pool = \"p.csv\"", &["pool", "p.csv", "study"]);
-    refused(
-        "survey = \"off\"",
-        "survey = \"off\", evaluations = 10",
-        &["evaluations", "needs a survey"],
+    for_each_line(
+        r#"
+        dims = [1, 2] | dims = [] | dims | empty
+        dims = [1, 2] | dims = [2, 2] | dims or methods | random-d2-seed5-ais
+        count = 3 | count = 0 | line 5 | 0 is out of range
+        first = 5,  |  | line 5 | first
+        particles = 60 | particles = 60\nframe = "best" | line 7 | best | identity
+        label = "body",  | label = "ais",  | random-d1-seed5-ais
+        evaluations = 3000 | evaluations = 0 | 0 is out of range
+        evaluations = 3000 | pool = "p.csv" | pool | p.csv | study
+        survey = "off" | survey = "off", evaluations = 10 | evaluations | needs a survey
+        "#,
+        |line| refused(line[0], line[1], &line[2..]),
     );
 }

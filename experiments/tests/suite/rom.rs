@@ -1,26 +1,8 @@
 //! `parvi rom`: training, reduced runs, refusals.
 
-use crate::support::{assert_refused, files, parvi, stderr, stdout, value};
+use crate::support::{assert_refused, files, parvi, stderr, stdout, succeeds, value};
 
-const SCENE: &str = r#"
-title = "a strip that bends"
-dimension = 2
-gravity = [0.0, -1.0]
-domain = { lower = [-1.0, -2.0], upper = [3.0, 2.0] }
-grid = { spacing = 0.25 }
-transfer = { kind = "pic" }
-time = { end = 0.2, step = 0.0050000001, courant = 0.5 }
-materials.rubber = { law = "fixed-corotated", density = 2.0, young_modulus = 500.0, poisson_ratio = 0.3 }
-output = { interval = 0.05 }
-
-[[bodies]]
-name = "strip"
-shape = { kind = "box", lower = [0.0, 0.0], upper = [2.0, 0.5] }
-material = "rubber"
-
-[[kinematic]]
-region = { kind = "box", lower = [-0.1, -1.0], upper = [0.25, 1.0] }
-"#;
+const SCENE: &str = include_str!("../../../crates/mpm-rom/tests/data/bending_strip.toml");
 
 const EXPERIMENT: &str = r#"
 title = "A strip"
@@ -43,13 +25,11 @@ fn a_model_is_trained_and_run() {
         "{}",
         stderr(&early)
     );
-    let trained = parvi(root.path(), "rom train rom.toml --out out");
-    assert!(trained.status.success(), "{}", stderr(&trained));
+    let trained = succeeds(root.path(), "rom train rom.toml --out out");
     for (key, expected) in [("points", "64"), ("runs", "2"), ("frames", "10"), ("epochs", "5")] {
         assert_eq!(value(&trained, key).as_deref(), Some(expected), "{key}");
     }
-    let run = parvi(root.path(), "rom run rom.toml --out out");
-    assert!(run.status.success(), "{}", stderr(&run));
+    let run = succeeds(root.path(), "rom run rom.toml --out out");
     assert_eq!(stdout(&run).lines().count(), 2, "{}", stdout(&run));
     assert!(
         stdout(&run).starts_with("manifold=network samples=20 choice=greedy "),
@@ -77,8 +57,7 @@ fn a_model_is_trained_and_run() {
     for file in &figures {
         std::fs::remove_file(file).unwrap();
     }
-    let report = parvi(root.path(), "report out");
-    assert!(report.status.success(), "{}", stderr(&report));
+    let report = succeeds(root.path(), "report out");
     assert_eq!(stdout(&report).lines().count(), 2, "{}", stdout(&report));
     assert_eq!(
         [&figures[0], &figures[1]].map(|file| std::fs::read(file).unwrap()),
@@ -103,7 +82,7 @@ fn what_is_wrong_is_named() {
     ] {
         std::fs::write(root.path().join("rom.toml"), EXPERIMENT.replace(change.0, change.1)).unwrap();
         let command = if change.0.starts_with("samples") {
-            assert!(parvi(root.path(), "rom train rom.toml --out out").status.success());
+            succeeds(root.path(), "rom train rom.toml --out out");
             "rom run rom.toml --out out"
         } else {
             "rom train rom.toml --out out"

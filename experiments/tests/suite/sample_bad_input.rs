@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::support::{assert_refused, files, parvi};
+use crate::support::{assert_refused, files, for_each_line, parvi};
 
 /// Runs `sample` with the given flags into x.csv of a fresh directory and asserts that it was refused without a trace.
 fn refused(flags: &str, parts: &[&str]) {
@@ -14,41 +14,33 @@ fn refused(flags: &str, parts: &[&str]) {
 
 #[test]
 fn dimensions_out_of_range() {
-    refused(
-        "--target gaussian --dim 0 --particles 64",
-        &["--dim", "0", "from 1 to 8"],
+    for_each_line(
+        r#"
+        --target gaussian --dim 0 --particles 64 | --dim | 0 | from 1 to 8
+        --target gaussian --dim 9 --particles 64 | --dim | 9 | from 1 to 8
+        --target gaussian --dim -3 --particles 64 | --dim | -3 | from 1 to 8
+        --target gaussian --dim two --particles 64 | --dim | two
+        --target gaussian --particles 64 | gaussian | dimension
+        --target banana --dim 3 --particles 64 | banana | 3
+        --target wells --dim 7 --particles 64 | wells | 7
+        "#,
+        |line| refused(line[0], &line[1..]),
     );
-    refused(
-        "--target gaussian --dim 9 --particles 64",
-        &["--dim", "9", "from 1 to 8"],
-    );
-    refused(
-        "--target gaussian --dim -3 --particles 64",
-        &["--dim", "-3", "from 1 to 8"],
-    );
-    refused("--target gaussian --dim two --particles 64", &["--dim", "two"]);
-    refused("--target gaussian --particles 64", &["gaussian", "dimension"]);
-    refused("--target banana --dim 3 --particles 64", &["banana", "3"]);
-    refused("--target wells --dim 7 --particles 64", &["wells", "7"]);
 }
 
 #[test]
 fn sizes_out_of_range() {
-    refused(
-        "--target gaussian --dim 2 --particles -5",
-        &["--particles", "-5", "from 2"],
+    for_each_line(
+        r#"
+        --target gaussian --dim 2 --particles -5 | --particles | -5 | from 2
+        --target gaussian --dim 2 --particles 0 | --particles | 0
+        --target gaussian --dim 2 --particles 1 | --particles | 1
+        --target gaussian --dim 2 --particles 64 --steps 0 | --steps | 0 | from 1
+        --target gaussian --dim 2 --particles 64 --steps -1 | --steps | -1
+        --target gaussian --dim 2 --particles 64 --seed -1 | --seed | -1
+        "#,
+        |line| refused(line[0], &line[1..]),
     );
-    refused("--target gaussian --dim 2 --particles 0", &["--particles", "0"]);
-    refused("--target gaussian --dim 2 --particles 1", &["--particles", "1"]);
-    refused(
-        "--target gaussian --dim 2 --particles 64 --steps 0",
-        &["--steps", "0", "from 1"],
-    );
-    refused(
-        "--target gaussian --dim 2 --particles 64 --steps -1",
-        &["--steps", "-1"],
-    );
-    refused("--target gaussian --dim 2 --particles 64 --seed -1", &["--seed", "-1"]);
 }
 
 #[test]
@@ -67,52 +59,40 @@ fn meshes_that_do_not_fit() {
     );
     on("--target ring --basis mesh --spacing 0.3", &["--spacing", "0.3"]);
     on("--target ring --basis mesh --method paper-pic", &["--mesh"]);
-    refused("--target ring --particles 64 --basis mesh", &["--basis", "--mesh"]);
-    refused(
-        "--target ring --particles 64 --basis mesh --mesh none.msh",
-        &["none.msh"],
+    for_each_line(
+        r#"
+        --target ring --particles 64 --basis mesh | --basis | --mesh
+        --target ring --particles 64 --basis mesh --mesh none.msh | none.msh
+        "#,
+        |line| refused(line[0], &line[1..]),
     );
 }
 
 #[test]
 fn unknown_names() {
-    refused("--target doughnut --particles 64", &["doughnut", "ring"]);
-    refused(
-        "--target banana --particles 64 --method annealing",
-        &["--method", "annealing", "mpm"],
+    for_each_line(
+        r#"
+        --target doughnut --particles 64 | doughnut | ring
+        --target banana --particles 64 --method annealing | --method | annealing | mpm
+        --target banana --particles 64 --basis lattice-of-boxes | --basis | lattice-of-boxes
+        --target banana --particles 64 --sede 3 | --sede
+        "#,
+        |line| refused(line[0], &line[1..]),
     );
-    refused(
-        "--target banana --particles 64 --basis lattice-of-boxes",
-        &["--basis", "lattice-of-boxes"],
-    );
-    refused("--target banana --particles 64 --sede 3", &["--sede"]);
 }
 
 #[test]
 fn flags_that_do_not_fit_the_method() {
-    refused(
-        "--target banana --particles 64 --method svgd --spacing 0.5",
-        &["--spacing", "0.5", "svgd"],
-    );
-    refused(
-        "--target banana --particles 64 --method iid --steps 10",
-        &["--steps", "10", "iid"],
-    );
-    refused(
-        "--target banana --particles 64 --youngs-modulus 2",
-        &["--youngs-modulus", "2", "mpm"],
-    );
-    refused(
-        "--target banana --particles 64 --method paper-pic --friction -1",
-        &["--friction", "-1", "at least 0"],
-    );
-    refused(
-        "--target banana --particles 64 --flip-share 0.9",
-        &["--flip-share", "0.9", "flip"],
-    );
-    refused(
-        "--target banana --particles 64 --method paper-pic --alpha-from 2",
-        &["--alpha-from", "2", "alpha-to"],
+    for_each_line(
+        r#"
+        --target banana --particles 64 --method svgd --spacing 0.5 | --spacing | 0.5 | svgd
+        --target banana --particles 64 --method iid --steps 10 | --steps | 10 | iid
+        --target banana --particles 64 --youngs-modulus 2 | --youngs-modulus | 2 | mpm
+        --target banana --particles 64 --method paper-pic --friction -1 | --friction | -1 | at least 0
+        --target banana --particles 64 --flip-share 0.9 | --flip-share | 0.9 | flip
+        --target banana --particles 64 --method paper-pic --alpha-from 2 | --alpha-from | 2 | alpha-to
+        "#,
+        |line| refused(line[0], &line[1..]),
     );
 }
 
@@ -121,23 +101,22 @@ fn flags_that_do_not_fit_the_baselines() {
     let refused = |method: &str, parts: &[&str]| {
         refused(&format!("--target banana --particles 64 --method {method}"), parts);
     };
-    refused("iid --chains 2", &["--chains", "2", "iid"]);
-    refused("nuts --steps 100", &["--steps", "100", "nuts"]);
-    refused("nuts --pool-size 100", &["--pool-size", "100", "nuts"]);
-    refused("nuts --target-acceptance 1", &["--target-acceptance", "1", "below 1"]);
-    refused("nuts --thinning 0", &["--thinning", "0", "from 1"]);
-    refused("nuts --warm-up -1", &["--warm-up", "-1", "from 0"]);
-    refused("support-points --pool exact", &["--pool", "exact", "support-points"]);
-    refused("support-points --tolerance -1", &["--tolerance", "-1", "at least 0"]);
-    refused(
-        "support-points --start-mean 1",
-        &["--start-mean", "1", "support-points"],
-    );
-    refused("stein-thinning --pool-size 63", &["pool size", "63", "particles"]);
-    refused("stein-thinning --warm-up 50", &["--warm-up", "50", "pool `nuts`"]);
-    refused(
-        "stein-thinning --pool exact --start-sd 2",
-        &["--start-sd", "2", "pool `nuts`"],
+    for_each_line(
+        r#"
+        iid --chains 2 | --chains | 2 | iid
+        nuts --steps 100 | --steps | 100 | nuts
+        nuts --pool-size 100 | --pool-size | 100 | nuts
+        nuts --target-acceptance 1 | --target-acceptance | 1 | below 1
+        nuts --thinning 0 | --thinning | 0 | from 1
+        nuts --warm-up -1 | --warm-up | -1 | from 0
+        support-points --pool exact | --pool | exact | support-points
+        support-points --tolerance -1 | --tolerance | -1 | at least 0
+        support-points --start-mean 1 | --start-mean | 1 | support-points
+        stein-thinning --pool-size 63 | pool size | 63 | particles
+        stein-thinning --warm-up 50 | --warm-up | 50 | pool `nuts`
+        stein-thinning --pool exact --start-sd 2 | --start-sd | 2 | pool `nuts`
+        "#,
+        |line| refused(line[0], &line[1..]),
     );
 }
 
@@ -155,20 +134,16 @@ fn a_method_that_the_build_lacks() {
 
 #[test]
 fn flags_that_do_not_fit_the_target() {
-    refused("--target banana --particles 64 --radius 2", &["radius", "2", "banana"]);
-    refused("--target ring --particles 64 --prior-sd 2", &["prior-sd", "2", "ring"]);
-    refused(
-        "--target gaussian --dim 2 --particles 64 --data wells.csv",
-        &["data", "wells.csv", "gaussian"],
-    );
-    refused(
-        "--target gaussian --dim 2 --particles 64 --correlation 1.5",
-        &["correlation", "1.5"],
-    );
-    refused("--target ring --particles 64 --width -1", &["width", "-1"]);
-    refused(
-        "--target student-t --dim 2 --particles 64 --degrees-of-freedom NaN",
-        &["degrees", "NaN"],
+    for_each_line(
+        r#"
+        --target banana --particles 64 --radius 2 | radius | 2 | banana
+        --target ring --particles 64 --prior-sd 2 | prior-sd | 2 | ring
+        --target gaussian --dim 2 --particles 64 --data wells.csv | data | wells.csv | gaussian
+        --target gaussian --dim 2 --particles 64 --correlation 1.5 | correlation | 1.5
+        --target ring --particles 64 --width -1 | width | -1
+        --target student-t --dim 2 --particles 64 --degrees-of-freedom NaN | degrees | NaN
+        "#,
+        |line| refused(line[0], &line[1..]),
     );
 }
 
@@ -207,33 +182,28 @@ fn targets_that_there_are_not_are_mistakes_of_the_command_line() {
 
 #[test]
 fn values_out_of_range() {
-    refused(
-        "--target banana --particles 64 --spacing 0",
-        &["--spacing", "0", "above 0"],
-    );
-    refused("--target banana --particles 64 --spacing NaN", &["--spacing", "NaN"]);
-    refused(
-        "--target banana --particles 64 --time-step -0.1",
-        &["--time-step", "-0.1"],
-    );
-    refused("--target banana --particles 64 --friction inf", &["--friction", "inf"]);
-    refused("--target banana --particles 64 --start-sd 0", &["--start-sd", "0"]);
-    refused(
-        "--target banana --particles 64 --method paper-apic --poissons-ratio 0.5",
-        &["--poissons-ratio", "0.5", "below 0.5"],
-    );
-    refused(
-        "--target banana --particles 64 --transfer flip --flip-share 1.2",
-        &["--flip-share", "1.2"],
+    for_each_line(
+        r#"
+        --target banana --particles 64 --spacing 0 | --spacing | 0 | above 0
+        --target banana --particles 64 --spacing NaN | --spacing | NaN
+        --target banana --particles 64 --time-step -0.1 | --time-step | -0.1
+        --target banana --particles 64 --friction inf | --friction | inf
+        --target banana --particles 64 --start-sd 0 | --start-sd | 0
+        --target banana --particles 64 --method paper-apic --poissons-ratio 0.5 | --poissons-ratio | 0.5 | below 0.5
+        --target banana --particles 64 --transfer flip --flip-share 1.2 | --flip-share | 1.2
+        "#,
+        |line| refused(line[0], &line[1..]),
     );
 }
 
 #[test]
 fn methods_that_need_more_than_the_target_has() {
-    refused("--target wells --dim 3 --particles 64 --method iid", &["iid", "wells"]);
-    refused(
-        "--target wells --dim 3 --particles 64 --method sobol",
-        &["sobol", "wells"],
+    for_each_line(
+        r#"
+        --target wells --dim 3 --particles 64 --method iid | iid | wells
+        --target wells --dim 3 --particles 64 --method sobol | sobol | wells
+        "#,
+        |line| refused(line[0], &line[1..]),
     );
 }
 
@@ -280,8 +250,13 @@ fn data_that_cannot_be_used() {
 
 #[test]
 fn data_that_does_not_exist() {
-    refused("--target logistic --particles 64", &["logistic", "data"]);
-    refused("--target logistic --data nowhere.csv --particles 64", &["nowhere.csv"]);
+    for_each_line(
+        r#"
+        --target logistic --particles 64 | logistic | data
+        --target logistic --data nowhere.csv --particles 64 | nowhere.csv
+        "#,
+        |line| refused(line[0], &line[1..]),
+    );
     let missing = Path::new("nowhere.csv");
     assert!(!missing.exists());
 }

@@ -5,7 +5,7 @@
 use std::path::Path;
 use std::time::Duration;
 
-use crate::support::{assert_refused, files, parvi, started, stderr, stdout, value};
+use crate::support::{assert_refused, files, parvi, started, stdout, succeeds, value};
 
 const RUN: &str =
     "sample --target mixture-2 --dim 2 --particles 400 --evaluations 3000 --rounds 1 --steps 8000 --seed 3";
@@ -24,8 +24,7 @@ fn killed(directory: &Path, more: Duration) -> bool {
 #[test]
 fn a_killed_run_ends_with_the_same_file() {
     let directory = tempfile::tempdir().unwrap();
-    let whole = parvi(directory.path(), &format!("{RUN} --out whole.npy"));
-    assert!(whole.status.success(), "{}", stderr(&whole));
+    let whole = succeeds(directory.path(), &format!("{RUN} --out whole.npy"));
     let mut kills = 0;
     for milliseconds in [0, 37, 110, 5, 260] {
         kills += usize::from(killed(directory.path(), Duration::from_millis(milliseconds)));
@@ -34,11 +33,10 @@ fn a_killed_run_ends_with_the_same_file() {
         }
     }
     assert!(kills > 0, "it was never killed");
-    let resumed = parvi(
+    let resumed = succeeds(
         directory.path(),
         &format!("{RUN} --out x.npy --checkpoint state --checkpoint-every 8"),
     );
-    assert!(resumed.status.success(), "{}", stderr(&resumed));
     let read = |name: &str| std::fs::read(directory.path().join(name)).unwrap();
     assert!(read("x.npy") == read("whole.npy"));
     for key in ["score_evaluations", "residual", "outcome", "mean_error"] {

@@ -1,14 +1,13 @@
 //! What `parvi sample` says about the particles it gives.
 
-use crate::support::{assert_refused, files, parvi, stderr, value};
+use crate::support::{assert_refused, files, parvi, stderr, succeeds, value};
 
 fn diagnostics(line: &str) -> serde_json::Value {
     let directory = tempfile::tempdir().unwrap();
-    let output = parvi(
+    succeeds(
         directory.path(),
         &format!("sample {line} --out x.csv --diagnostics d.json"),
     );
-    assert!(output.status.success(), "{}", stderr(&output));
     assert_eq!(files(directory.path()), ["d.json", "x.csv"]);
     let text = std::fs::read_to_string(directory.path().join("d.json")).unwrap();
     serde_json::from_str(&text).unwrap()
@@ -58,8 +57,7 @@ fn methods_without_a_certificate_are_diagnosed_by_the_scores() {
 fn light_parts_may_have_weights() {
     let directory = tempfile::tempdir().unwrap();
     let line = "sample --target mixture-3 --dim 2 --particles 300 --weighted on --out x.csv";
-    let output = parvi(directory.path(), line);
-    assert!(output.status.success(), "{}", stderr(&output));
+    succeeds(directory.path(), line);
     let header = std::fs::read_to_string(directory.path().join("x.csv")).unwrap();
     assert!(header.starts_with("x1,x2,weight\n"), "{header}");
 }
@@ -68,8 +66,7 @@ fn light_parts_may_have_weights() {
 fn a_run_that_was_too_short_says_so() {
     let directory = tempfile::tempdir().unwrap();
     let line = "sample --target gaussian --dim 2 --particles 300 --steps 5 --survey off --start-mean 5 --out x.csv";
-    let output = parvi(directory.path(), line);
-    assert!(output.status.success(), "{}", stderr(&output));
+    let output = succeeds(directory.path(), line);
     assert_eq!(value(&output, "outcome").as_deref(), Some("budget exhausted"));
     assert!(value(&output, "reason").is_some_and(|reason| reason.contains("still moved")));
     assert!(stderr(&output).contains("budget exhausted"), "{}", stderr(&output));

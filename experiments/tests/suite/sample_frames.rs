@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::time::Duration;
 
-use crate::support::{assert_refused, files, parvi, started, stderr, value};
+use crate::support::{assert_refused, files, parvi, started, stderr, succeeds, value};
 
 /// A `.vtp` file taken apart as a reader of VTK's XML does it.
 struct Vtp {
@@ -142,8 +142,7 @@ fn a_run_of_200_steps_has_frames_that_paraview_opens() {
     let root = tempfile::tempdir().unwrap();
     let line =
         "sample --target banana --particles 60 --method paper-apic --steps 200 --out x.npy --frames f --every 25";
-    let output = parvi(root.path(), line);
-    assert!(output.status.success(), "{}", stderr(&output));
+    let output = succeeds(root.path(), line);
     assert_eq!(value(&output, "frames").unwrap(), "10");
     let directory = root.path().join("f");
     let (names, collection) = index(&directory);
@@ -187,8 +186,7 @@ fn a_run_of_200_steps_has_frames_that_paraview_opens() {
 fn four_dimensions_have_all_coordinates_at_their_points() {
     let root = tempfile::tempdir().unwrap();
     let line = "sample --target wells --dim 4 --particles 40 --method svgd --steps 20 --out x.npy --frames f";
-    let output = parvi(root.path(), line);
-    assert!(output.status.success(), "{}", stderr(&output));
+    succeeds(root.path(), line);
     let (names, _) = index(&root.path().join("f"));
     assert_eq!(names, ["000000", "000010", "000020", "returned"]);
     let vtp = Vtp::read(&root.path().join("f/frame_000020.vtp"));
@@ -208,8 +206,7 @@ fn coordinates_of_data_keep_their_names() {
         .collect();
     std::fs::write(root.path().join("d.csv"), format!("y,a & b,velocity\n{rows}")).unwrap();
     let line = "sample --target logistic --data d.csv --particles 20 --survey off --steps 2 --out x.csv --frames f";
-    let output = parvi(root.path(), line);
-    assert!(output.status.success(), "{}", stderr(&output));
+    succeeds(root.path(), line);
     let vtp = Vtp::read(&root.path().join("f/frame_000000.vtp"));
     for name in ["intercept", "a &amp; b", "x3", "velocity"] {
         assert!(vtp.arrays.contains_key(name), "{name}");
@@ -220,8 +217,7 @@ fn coordinates_of_data_keep_their_names() {
 fn a_method_that_moves_nothing_has_one_frame_and_says_so() {
     let root = tempfile::tempdir().unwrap();
     let line = "sample --target banana --particles 30 --method iid --out x.npy --frames new/f --every 3";
-    let output = parvi(root.path(), line);
-    assert!(output.status.success(), "{}", stderr(&output));
+    let output = succeeds(root.path(), line);
     assert!(
         stderr(&output).contains("no particles have moved"),
         "{}",
@@ -237,13 +233,12 @@ fn a_method_that_moves_nothing_has_one_frame_and_says_so() {
 fn weights_are_in_the_last_frame_and_earlier_frames_go() {
     let root = tempfile::tempdir().unwrap();
     let first = "sample --target banana --particles 30 --method svgd --steps 20 --out x.npy --frames f";
-    assert!(parvi(root.path(), first).status.success());
+    succeeds(root.path(), first);
     std::fs::write(root.path().join("f/frame_mine.vtp"), "mine").unwrap();
-    let output = parvi(
+    succeeds(
         root.path(),
         "sample --target banana --particles 30 --weighted on --out x.npy --frames f",
     );
-    assert!(output.status.success(), "{}", stderr(&output));
     let expected = [
         "frame_mine.vtp",
         "frame_returned.vtp",
@@ -291,14 +286,12 @@ fn killed(root: &Path) -> String {
 #[test]
 fn a_resumed_run_continues_its_frames() {
     let root = tempfile::tempdir().unwrap();
-    let whole = parvi(
+    succeeds(
         root.path(),
         &format!("{LONG} --out whole.npy --frames whole --every 500"),
     );
-    assert!(whole.status.success(), "{}", stderr(&whole));
     let line = killed(root.path());
-    let resumed = parvi(root.path(), &format!("{line} --frames f --every 500"));
-    assert!(resumed.status.success(), "{}", stderr(&resumed));
+    succeeds(root.path(), &format!("{line} --frames f --every 500"));
     let (one, other) = (root.path().join("f"), root.path().join("whole"));
     assert_eq!(files(&one), files(&other));
     for name in files(&one) {
@@ -311,8 +304,7 @@ fn a_resumed_run_continues_its_frames() {
 fn a_resumed_run_without_its_frames_says_so() {
     let root = tempfile::tempdir().unwrap();
     let line = killed(root.path());
-    let resumed = parvi(root.path(), &format!("{line} --frames other --every 1000"));
-    assert!(resumed.status.success(), "{}", stderr(&resumed));
+    let resumed = succeeds(root.path(), &format!("{line} --frames other --every 1000"));
     let message = stderr(&resumed);
     assert!(
         message.contains("--frames other: the run goes on from step"),

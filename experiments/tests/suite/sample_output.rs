@@ -1,6 +1,6 @@
 //! What `parvi sample` writes and says.
 
-use crate::support::{files, parvi, stderr, stdout, value};
+use crate::support::{files, parvi, stderr, stdout, succeeds, value};
 
 fn keys(text: &str) -> Vec<&str> {
     text.lines().map(|line| line.split_once('=').unwrap().0).collect()
@@ -9,11 +9,10 @@ fn keys(text: &str) -> Vec<&str> {
 #[test]
 fn particles_have_a_header_and_one_row_each() {
     let directory = tempfile::tempdir().unwrap();
-    let output = parvi(
+    succeeds(
         directory.path(),
         "sample --target gaussian --dim 3 --particles 100 --method iid --out x.csv",
     );
-    assert!(output.status.success(), "{}", stderr(&output));
     assert_eq!(files(directory.path()), ["x.csv"]);
     let text = std::fs::read_to_string(directory.path().join("x.csv")).unwrap();
     let mut lines = text.lines();
@@ -34,8 +33,7 @@ fn a_density_on_a_mesh_stays_in_it() {
     let mesh = concat!(env!("CARGO_MANIFEST_DIR"), "/meshes/disk.msh");
     let line =
         format!("sample --target gaussian --dim 2 --particles 300 --seed 1 --basis mesh --mesh {mesh} --out x.csv");
-    let output = parvi(directory.path(), &line);
-    assert!(output.status.success(), "{}", stderr(&output));
+    succeeds(directory.path(), &line);
     let text = std::fs::read_to_string(directory.path().join("x.csv")).unwrap();
     let squares = text.lines().skip(1).map(|row| {
         let numbers = row.split(',').map(|cell| cell.parse::<f64>().unwrap());
@@ -54,7 +52,7 @@ fn both_formats_hold_the_same_numbers() {
     let directory = tempfile::tempdir().unwrap();
     for name in ["x.csv", "x.npy"] {
         let line = format!("sample --target banana --particles 50 --method sobol --seed 7 --out {name}");
-        assert!(parvi(directory.path(), &line).status.success());
+        succeeds(directory.path(), &line);
     }
     let text = std::fs::read_to_string(directory.path().join("x.csv")).unwrap();
     let from_text: Vec<f64> = text
@@ -74,11 +72,10 @@ fn both_formats_hold_the_same_numbers() {
 #[test]
 fn standard_output_has_the_keys_of_the_contract() {
     let directory = tempfile::tempdir().unwrap();
-    let output = parvi(
+    let output = succeeds(
         directory.path(),
         "sample --target gaussian --dim 2 --particles 200 --survey off --steps 5 --out x.csv",
     );
-    assert!(output.status.success(), "{}", stderr(&output));
     insta::assert_snapshot!(keys(&stdout(&output)).join(" "), @"method steps score_evaluations density_evaluations wall_seconds residual spacing active_nodes bodies storage_bytes peak_memory_bytes outcome reason mean_error sd_error unexplained drift target dim particles seed");
     assert_eq!(value(&output, "method").unwrap(), "mpm");
     assert_eq!(value(&output, "steps").unwrap(), "5");
@@ -150,8 +147,7 @@ fn the_same_seed_gives_the_same_file_on_any_number_of_threads() {
 #[test]
 fn targets_are_listed() {
     let directory = tempfile::tempdir().unwrap();
-    let output = parvi(directory.path(), "targets");
-    assert!(output.status.success(), "{}", stderr(&output));
+    let output = succeeds(directory.path(), "targets");
     insta::assert_snapshot!(stdout(&output));
 }
 
@@ -163,8 +159,7 @@ fn columns_of_a_regression_have_the_names_of_its_data() {
         .collect();
     std::fs::write(directory.path().join("d.csv"), format!("y,age,dose\n{rows}")).unwrap();
     let line = "sample --target logistic --data d.csv --particles 20 --steps 2 --out x.csv";
-    let output = parvi(directory.path(), line);
-    assert!(output.status.success(), "{}", stderr(&output));
+    succeeds(directory.path(), line);
     let text = std::fs::read_to_string(directory.path().join("x.csv")).unwrap();
     assert_eq!(text.lines().next(), Some("intercept,age,dose"));
 }

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use crate::support::{assert_refused, files, parvi, stderr, stdout};
+use crate::support::{assert_refused, files, for_each_line, parvi, stderr, stdout};
 
 /// Runs `sample` and returns what it printed and the particles.
 fn sampled(directory: &Path, flags: &str) -> (HashMap<String, String>, String) {
@@ -101,32 +101,25 @@ fn parameters_that_a_law_does_not_have_or_refuses_are_named() {
             parts,
         );
     };
-    with("rubber", &["--material", "rubber", "neo-hookean"]);
-    with("hencky --viscosity 1", &["--viscosity", "1", "`hencky`"]);
-    with(
-        "isothermal-gas --youngs-modulus 1",
-        &["--youngs-modulus", "1", "`isothermal-gas`"],
+    for_each_line(
+        r#"
+        rubber | --material | rubber | neo-hookean
+        hencky --viscosity 1 | --viscosity | 1 | `hencky`
+        isothermal-gas --youngs-modulus 1 | --youngs-modulus | 1 | `isothermal-gas`
+        kelvin-voigt --viscosity -1 | --viscosity | -1 | at least 0
+        tait-fluid --density 0 | --density | 0 | positive
+        tait-fluid --sound-speed -1 | --sound-speed | -1 | positive
+        drucker-prager --friction-angle 90 | --friction-angle | 90 | degrees
+        drucker-prager --cohesion -1 | --cohesion | -1
+        softening-hencky --peak-yield-stress 0 | --peak-yield-stress | 0
+        softening-hencky --peak-yield-stress 1 --residual-yield-stress 2 | --residual-yield-stress | 2 | peak 1
+        softening-hencky --softening-rate -1 | --softening-rate | -1
+        isothermal-gas --pressure-per-density 0 | --pressure-per-density | 0
+        neo-hookean --poissons-ratio 0.5 | --poissons-ratio | 0.5
+        neo-hookean --stretch-limit 1 | --stretch-limit | 1 | above 1
+        "#,
+        |line| with(line[0], &line[1..]),
     );
-    with("kelvin-voigt --viscosity -1", &["--viscosity", "-1", "at least 0"]);
-    with("tait-fluid --density 0", &["--density", "0", "positive"]);
-    with("tait-fluid --sound-speed -1", &["--sound-speed", "-1", "positive"]);
-    with(
-        "drucker-prager --friction-angle 90",
-        &["--friction-angle", "90", "degrees"],
-    );
-    with("drucker-prager --cohesion -1", &["--cohesion", "-1"]);
-    with("softening-hencky --peak-yield-stress 0", &["--peak-yield-stress", "0"]);
-    with(
-        "softening-hencky --peak-yield-stress 1 --residual-yield-stress 2",
-        &["--residual-yield-stress", "2", "peak 1"],
-    );
-    with("softening-hencky --softening-rate -1", &["--softening-rate", "-1"]);
-    with(
-        "isothermal-gas --pressure-per-density 0",
-        &["--pressure-per-density", "0"],
-    );
-    with("neo-hookean --poissons-ratio 0.5", &["--poissons-ratio", "0.5"]);
-    with("neo-hookean --stretch-limit 1", &["--stretch-limit", "1", "above 1"]);
 }
 
 #[test]
@@ -150,14 +143,16 @@ fn alpha_of_either_sign_with_a_schedule() {
         ends.push(particles);
     }
     let with = |flags: &str, parts: &[&str]| refused(&format!("{base} {flags}"), parts);
-    with("--alpha nan", &["--alpha", "NaN", "finite"]);
-    with("--alpha-from -1 --alpha-to 1", &["--alpha-to", "1", "sign"]);
-    with("--alpha-schedule linear", &["--alpha-schedule", "linear", "alpha-from"]);
-    with(
-        "--alpha-from 1 --alpha-to 2 --alpha-cycles 2",
-        &["--alpha-cycles", "2", "cyclic"],
+    for_each_line(
+        r#"
+        --alpha nan | --alpha | NaN | finite
+        --alpha-from -1 --alpha-to 1 | --alpha-to | 1 | sign
+        --alpha-schedule linear | --alpha-schedule | linear | alpha-from
+        --alpha-from 1 --alpha-to 2 --alpha-cycles 2 | --alpha-cycles | 2 | cyclic
+        --grid-renewal 0 | --grid-renewal | 0
+        "#,
+        |line| with(line[0], &line[1..]),
     );
-    with("--grid-renewal 0", &["--grid-renewal", "0"]);
     refused(
         "--target banana --particles 64 --alpha -1",
         &["--alpha", "-1", "above 0"],
@@ -248,23 +243,13 @@ fn files_of_particles_that_make_no_sense_are_named() {
         refused_beside(&[("start.csv", two), (name, text)], &flags, parts);
     };
     let given = "--start start.csv";
-    with(
-        "s.csv",
-        "0,0,0\n1,1,1\n",
-        "--start s.csv",
-        &["--start", "s.csv", "3 columns", "2"],
-    );
-    with(
-        "s.csv",
-        "0,0\nnan,1\n",
-        "--start s.csv",
-        &["--start", "particle 1", "NaN"],
-    );
-    with(
-        "s.csv",
-        "x,y\n0,0\none,1\n",
-        "--start s.csv",
-        &["--start", "line 3", "one"],
+    for_each_line(
+        r#"
+        s.csv | 0,0,0\n1,1,1\n | --start s.csv | --start | s.csv | 3 columns | 2
+        s.csv | 0,0\nnan,1\n | --start s.csv | --start | particle 1 | NaN
+        s.csv | x,y\n0,0\none,1\n | --start s.csv | --start | line 3 | one
+        "#,
+        |line| with(line[0], line[1], line[2], &line[3..]),
     );
     with("s.txt", two, "--start s.txt", &["--start", "s.txt", ".csv or .npy"]);
     with("s.csv", "0,0\n", "--start s.csv", &["particles", "1"]);

@@ -1,13 +1,12 @@
 //! The weighted pool as a file.
 
-use crate::support::{assert_refused, files, parvi, stderr, value};
+use crate::support::{assert_refused, files, for_each_line, parvi, succeeds, value};
 
 #[test]
 fn the_pool_has_rows_with_weights() {
     let directory = tempfile::tempdir().unwrap();
     let line = "sample --target banana --particles 60 --method ais --evaluations 4000 --out x.csv --pool p.csv";
-    let output = parvi(directory.path(), line);
-    assert!(output.status.success(), "{}", stderr(&output));
+    let output = succeeds(directory.path(), line);
     assert_eq!(files(directory.path()), ["p.csv", "x.csv"]);
     let text = std::fs::read_to_string(directory.path().join("p.csv")).unwrap();
     let mut lines = text.lines();
@@ -24,7 +23,7 @@ fn the_pool_has_rows_with_weights() {
     assert!(log_evidence.abs() < 0.3, "{log_evidence}");
 
     let array_line = line.replace("p.csv", "p.npy");
-    assert!(parvi(directory.path(), &array_line).status.success());
+    succeeds(directory.path(), &array_line);
     let bytes = std::fs::read(directory.path().join("p.npy")).unwrap();
     let array = npyz::NpyFile::new(bytes.as_slice()).unwrap();
     assert_eq!(array.shape(), [rows.len() as u64, 4]);
@@ -39,8 +38,7 @@ fn columns_of_a_pool_have_the_names_of_its_data() {
         .collect();
     std::fs::write(directory.path().join("d.csv"), format!("y,age,dose\n{rows}")).unwrap();
     let line = "sample --target logistic --data d.csv --particles 20 --rounds 0 --out x.csv --pool p.csv";
-    let output = parvi(directory.path(), line);
-    assert!(output.status.success(), "{}", stderr(&output));
+    let output = succeeds(directory.path(), line);
     assert_eq!(value(&output, "steps").unwrap(), "0");
     let text = std::fs::read_to_string(directory.path().join("p.csv")).unwrap();
     assert_eq!(text.lines().next(), Some("intercept,age,dose,weight,log_density"));
@@ -55,16 +53,18 @@ fn pools_that_cannot_be() {
         assert_refused(&output, parts);
         assert_eq!(files(directory.path()), [""; 0], "{flags}");
     };
-    refused("--pool p.csv --survey off", &["--pool", "p.csv", "needs a survey"]);
-    refused("--pool p.csv --alpha 0.5", &["--pool", "p.csv", "needs a survey"]);
-    refused("--pool p.txt", &["--pool p.txt", ".csv", ".npy"]);
-    refused("--pool nuts", &["--pool nuts", ".csv", ".npy"]);
-    refused("--pool ./x.csv", &["--pool", "the file of --out"]);
-    refused("--pool missing/p.csv", &["missing/p.csv"]);
-    refused("--pool p.csv --method svgd", &["--pool", "p.csv", "svgd"]);
-    refused(
-        "--pool p.csv --method stein-thinning",
-        &["--pool", "p.csv", "`exact` or `nuts`"],
+    for_each_line(
+        r#"
+        --pool p.csv --survey off | --pool | p.csv | needs a survey
+        --pool p.csv --alpha 0.5 | --pool | p.csv | needs a survey
+        --pool p.txt | --pool p.txt | .csv | .npy
+        --pool nuts | --pool nuts | .csv | .npy
+        --pool ./x.csv | --pool | the file of --out
+        --pool missing/p.csv | missing/p.csv
+        --pool p.csv --method svgd | --pool | p.csv | svgd
+        --pool p.csv --method stein-thinning | --pool | p.csv | `exact` or `nuts`
+        "#,
+        |line| refused(line[0], &line[1..]),
     );
 }
 
@@ -75,17 +75,19 @@ fn options_of_a_survey() {
         let line = format!("sample --target banana --particles 60 --out x.csv {flags}");
         assert_refused(&parvi(directory.path(), &line), parts);
     };
-    refused("--evaluations 0", &["--evaluations", "0", "from 1"]);
-    refused("--evaluations -5", &["--evaluations", "-5"]);
-    refused(
-        "--evaluations 500 --survey off",
-        &["--evaluations", "500", "needs a survey"],
+    for_each_line(
+        r#"
+        --evaluations 0 | --evaluations | 0 | from 1
+        --evaluations -5 | --evaluations | -5
+        --evaluations 500 --survey off | --evaluations | 500 | needs a survey
+        --evaluations 500 --method svgd | --evaluations | 500 | svgd
+        --rounds 0 --survey off | --rounds | 0 | needs a survey
+        --method smc --pool p.csv | --pool | p.csv | smc
+        --method smc --pool-size 20 | pool size | 20 | particles
+        --method ais --steps 5 | --steps | 5 | ais
+        --method ais --survey on | --survey | on | ais
+        --method ais --checkpoint state | --checkpoint | state | ais
+        "#,
+        |line| refused(line[0], &line[1..]),
     );
-    refused("--evaluations 500 --method svgd", &["--evaluations", "500", "svgd"]);
-    refused("--rounds 0 --survey off", &["--rounds", "0", "needs a survey"]);
-    refused("--method smc --pool p.csv", &["--pool", "p.csv", "smc"]);
-    refused("--method smc --pool-size 20", &["pool size", "20", "particles"]);
-    refused("--method ais --steps 5", &["--steps", "5", "ais"]);
-    refused("--method ais --survey on", &["--survey", "on", "ais"]);
-    refused("--method ais --checkpoint state", &["--checkpoint", "state", "ais"]);
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::support::{assert_refused, assert_report, files, parvi, rows, stderr, value};
+use crate::support::{assert_refused, assert_report, files, for_each_line, parvi, rows, stderr, succeeds, value};
 
 const BAR: &str = include_str!("../../scenes/vibrating_bar.toml");
 
@@ -58,8 +58,7 @@ fn results(root: &Path) -> Vec<Vec<(String, String)>> {
 #[test]
 fn families_share_runs_and_are_judged() {
     let root = root(STUDY);
-    let output = parvi(root.path(), "run study.toml --out out");
-    assert!(output.status.success(), "{}", stderr(&output));
+    let output = succeeds(root.path(), "run study.toml --out out");
     for (key, expected) in [("cases", "16"), ("failed", "0"), ("judged", "6"), ("verdict", "pass")] {
         assert_eq!(value(&output, key).as_deref(), Some(expected), "{key}");
     }
@@ -81,7 +80,7 @@ fn families_share_runs_and_are_judged() {
     // The report needs neither scenes nor runs.
     std::fs::remove_dir_all(root.path().join("scenes")).unwrap();
     std::fs::remove_dir_all(root.path().join("out/raw")).unwrap();
-    assert!(parvi(root.path(), "report out").status.success());
+    succeeds(root.path(), "report out");
     assert_eq!(
         std::fs::read_to_string(root.path().join("out/report.md")).unwrap(),
         report
@@ -116,8 +115,7 @@ fn a_run_that_fails_is_a_row() {
             .replace("judged = [\"cubic\"]", "set.\"bodies.0.velocity.amplitude\" = [60.0]")
             .replace("set = { \"output.interval\" = 10.0 }\n", ""),
     );
-    let output = parvi(root.path(), "run study.toml --out out");
-    assert!(output.status.success(), "{}", stderr(&output));
+    let output = succeeds(root.path(), "run study.toml --out out");
     assert_eq!(value(&output, "verdict").as_deref(), Some("fail"));
     assert_ne!(value(&output, "failed").as_deref(), Some("0"));
     let rows = rows(root.path());
@@ -173,8 +171,7 @@ history = [{ column = "centre_x", label = "centre of mass (m)" }]
 drawn = [1.0]
 "#;
     let root = root(study);
-    let output = parvi(root.path(), "run study.toml --out out");
-    assert!(output.status.success(), "{}", stderr(&output));
+    let output = succeeds(root.path(), "run study.toml --out out");
     assert_eq!(
         value(&output, "verdict").as_deref(),
         Some("pass"),
@@ -215,68 +212,34 @@ fn changes_that_the_scene_refuses() {
             "unknown field",
         ],
     );
-    refused(
-        "\"grid.basis\"",
-        "\"grid.basis.order\"",
-        &[
-            "families.bar",
-            "grid.basis.order",
-            "`basis` is neither a table nor an array",
-        ],
-    );
-    refused(
-        "\"output.interval\"",
-        "\"bodies.3.fill\"",
-        &["families.bar", "bodies.3.fill", "elements 0 to 0"],
-    );
-    refused(
-        "values = [1.0, 0.5]",
-        "values = [1.0, -0.5]",
-        &["spacing = -0.5", "grid.spacing"],
+    for_each_line(
+        r#"
+        "grid.basis" | "grid.basis.order" | families.bar | grid.basis.order | `basis` is neither a table nor an array
+        "output.interval" | "bodies.3.fill" | families.bar | bodies.3.fill | elements 0 to 0
+        values = [1.0, 0.5] | values = [1.0, -0.5] | spacing = -0.5 | grid.spacing
+        "#,
+        |line| refused(line[0], line[1], &line[2..]),
     );
 }
 
 #[test]
 fn families_that_make_no_sense() {
-    refused(
-        "values = [1.0, 0.5]",
-        "values = []",
-        &["families.bar.axes", "axes.1 `values` is empty"],
-    );
-    refused("axes = [\n", "axes = []\nignored = [\n", &["line", "ignored"]);
-    refused(
-        "x = \"grid.spacing\"",
-        "x = \"grid.basis\"",
-        &["families.bar.x", "`grid.basis` is no number"],
-    );
-    refused("like = \"bar\"", "like = \"beam\"", &["families.end.like", "`beam`"]);
-    refused(
-        "name = \"end\"",
-        "name = \"bar\"",
-        &["families.bar.name", "another family"],
-    );
-    refused(
-        "scene = \"scenes/bar.toml\"",
-        "scene = \"bar.toml\"",
-        &["families.bar.scene", "bar.toml"],
-    );
-    refused(
-        "scene = \"scenes/bar.toml\"\n",
-        "",
-        &["families.bar.scene", "is missing"],
-    );
-    refused("column = \"upper_x\", ", "", &["families.end.read", "column"]);
-    refused("[1.0, 0.5]", "[1.0, 1.0]", &["families.axes", "two cases"]);
-    refused("at-least", "at-most", &["line", "at-most"]);
-    refused(
-        "kind = \"order\"",
-        "kind = \"orders\"",
-        &["line", "orders", "power-law"],
-    );
-    refused(
-        "\"grid.spacing\" = 0.25",
-        "\"grid.width\" = 0.25",
-        &["families.end.read.offsets", "grid.width"],
+    for_each_line(
+        r#"
+        values = [1.0, 0.5] | values = [] | families.bar.axes | axes.1 `values` is empty
+        axes = [\n | axes = []\nignored = [\n | line | ignored
+        x = "grid.spacing" | x = "grid.basis" | families.bar.x | `grid.basis` is no number
+        like = "bar" | like = "beam" | families.end.like | `beam`
+        name = "end" | name = "bar" | families.bar.name | another family
+        scene = "scenes/bar.toml" | scene = "bar.toml" | families.bar.scene | bar.toml
+        scene = "scenes/bar.toml"\n |  | families.bar.scene | is missing
+        column = "upper_x",  |  | families.end.read | column
+        [1.0, 0.5] | [1.0, 1.0] | families.axes | two cases
+        at-least | at-most | line | at-most
+        kind = "order" | kind = "orders" | line | orders | power-law
+        "grid.spacing" = 0.25 | "grid.width" = 0.25 | families.end.read.offsets | grid.width
+        "#,
+        |line| refused(line[0], line[1], &line[2..]),
     );
     let tables = "[[families]]\nname = \"none\"\ntitle = \"t\"\nscene = \"scenes/bar.toml\"\nx = \"grid.spacing\"\nx-label = \"x\"\ny-label = \"y\"\nread = { column = \"upper_x\" }\n\n[[families]]\nname = \"bar\"";
     refused(

@@ -1,6 +1,6 @@
 //! `parvi simulate`: files, lines, refusals, going on after Ctrl-C.
 
-use crate::support::{assert_refused, files, interrupted, parvi, stderr, stdout, value};
+use crate::support::{assert_refused, files, interrupted, parvi, stderr, stdout, succeeds, value};
 
 const SCENE: &str = r#"
 title = "falling block"
@@ -26,8 +26,7 @@ at = [1.0, 1.0]
 fn a_scene_leaves_frames_series_and_figures() {
     let root = tempfile::tempdir().unwrap();
     std::fs::write(root.path().join("scene.toml"), SCENE).unwrap();
-    let output = parvi(root.path(), "simulate scene.toml --out out");
-    assert!(output.status.success(), "{}", stderr(&output));
+    let output = succeeds(root.path(), "simulate scene.toml --out out");
     assert_eq!(value(&output, "outcome").as_deref(), Some("finished"));
     assert_eq!(value(&output, "time").as_deref(), Some("0.5"));
     assert_eq!(value(&output, "particles").as_deref(), Some("16"));
@@ -66,13 +65,13 @@ fn a_run_anew_leaves_nothing_of_an_earlier_one() {
         SCENE.replace("end = 0.5", "end = 1.0").replace("corner", "edge"),
     )
     .unwrap();
-    assert!(parvi(root.path(), "simulate scene.toml --out out").status.success());
+    succeeds(root.path(), "simulate scene.toml --out out");
     let out = root.path().join("out");
     std::fs::remove_file(out.join("checkpoint.cbor")).unwrap();
     std::fs::write(out.join("notes.txt"), "mine").unwrap();
     std::fs::write(&scene, SCENE).unwrap();
-    assert!(parvi(root.path(), "simulate scene.toml --out out").status.success());
-    assert!(parvi(root.path(), "simulate scene.toml --out fresh").status.success());
+    succeeds(root.path(), "simulate scene.toml --out out");
+    succeeds(root.path(), "simulate scene.toml --out fresh");
     let mut expected = files(&root.path().join("fresh"));
     expected.push("notes.txt".to_owned());
     expected.sort();
@@ -142,8 +141,7 @@ fn an_interrupted_run_goes_on_to_the_same_bits() {
     let slow = SCENE.replace("time = { end = 0.5 }", "time = { end = 0.5, step = 1e-5 }");
     let scene = slow.replace("interval = 0.25, series_interval = 0.05", "interval = 0.05");
     std::fs::write(root.path().join("scene.toml"), scene).unwrap();
-    let whole = parvi(root.path(), "simulate scene.toml --out whole");
-    assert!(whole.status.success(), "{}", stderr(&whole));
+    let whole = succeeds(root.path(), "simulate scene.toml --out whole");
     let second = root.path().join("part/particles_000001.vtu");
     let part = interrupted(root.path(), "simulate scene.toml --out part", || second.exists());
     assert!(
@@ -152,8 +150,7 @@ fn an_interrupted_run_goes_on_to_the_same_bits() {
         stderr(&part)
     );
     assert_eq!(value(&part, "outcome").as_deref(), Some("interrupted"));
-    let rest = parvi(root.path(), "simulate scene.toml --out part");
-    assert!(rest.status.success(), "{}", stderr(&rest));
+    let rest = succeeds(root.path(), "simulate scene.toml --out part");
     assert_eq!(value(&rest, "steps"), value(&whole, "steps"));
     for name in ["series.csv", "particles_000010.vtu", "particles.pvd"] {
         let [whole, part] = ["whole", "part"].map(|run| std::fs::read(root.path().join(run).join(name)).unwrap());

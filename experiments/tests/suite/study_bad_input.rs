@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::support::{assert_refused, files, parvi};
+use crate::support::{assert_refused, files, for_each_line, parvi, succeeds};
 
 const STUDY: &str = r#"kind = "covariance-spacing"
 seeds = [0]
@@ -27,54 +27,45 @@ fn refused(from: &str, to: &str, parts: &[&str]) {
 
 #[test]
 fn unknown_keys_and_kinds() {
-    refused(
-        "seeds = [0]",
-        "seeds = [0]\ncolour = 3",
-        &["study.toml, line 3, column 1", "colour", "particles"],
+    for_each_line(
+        r#"
+        seeds = [0] | seeds = [0]\ncolour = 3 | study.toml, line 3, column 1 | colour | particles
+        covariance-spacing | covariance | study.toml, line 1 | `covariance` | quickstart
+        kind = "covariance-spacing"\n |  | study.toml | kind
+        steps = 3 | step = 3 | study.toml, line 4 | `step` | steps
+        dim = 1, | dimension = 1, | study.toml, line 5 | `dimension`
+        "#,
+        |line| refused(line[0], line[1], &line[2..]),
     );
-    refused(
-        "covariance-spacing",
-        "covariance",
-        &["study.toml, line 1", "`covariance`", "quickstart"],
-    );
-    refused("kind = \"covariance-spacing\"\n", "", &["study.toml", "kind"]);
-    refused("steps = 3", "step = 3", &["study.toml, line 4", "`step`", "steps"]);
-    refused("dim = 1,", "dimension = 1,", &["study.toml, line 5", "`dimension`"]);
 }
 
 #[test]
 fn sizes_out_of_range() {
-    refused(
-        "particles = 100",
-        "particles = -100",
-        &["study.toml, line 3, column 13", "-100", "particles = -100"],
+    for_each_line(
+        r#"
+        particles = 100 | particles = -100 | study.toml, line 3, column 13 | -100 | particles = -100
+        particles = 100 | particles = 1 | line 3 | 1 is out of range | from 2
+        particles = 100 | particles = 1.5 | line 3 | 1.5
+        particles = 100 | particles = "many" | line 3 | many
+        dim = 1, | dim = 0, | line 5 | 0 is out of range | from 1 to 8
+        dim = 1, | dim = 9, | line 5 | 9 is out of range | from 1 to 8
+        steps = 3 | steps = 0 | line 4 | 0 is out of range
+        steps = 3 | steps = 3, time-step = -1.0 | line 4 | time-step | -1
+        [1.0] | [-1.0] | spacings | -1
+        seeds = [0] | seeds = [] | study.toml | seeds | empty
+        "#,
+        |line| refused(line[0], line[1], &line[2..]),
     );
-    refused(
-        "particles = 100",
-        "particles = 1",
-        &["line 3", "1 is out of range", "from 2"],
-    );
-    refused("particles = 100", "particles = 1.5", &["line 3", "1.5"]);
-    refused("particles = 100", "particles = \"many\"", &["line 3", "many"]);
-    refused("dim = 1,", "dim = 0,", &["line 5", "0 is out of range", "from 1 to 8"]);
-    refused("dim = 1,", "dim = 9,", &["line 5", "9 is out of range", "from 1 to 8"]);
-    refused("steps = 3", "steps = 0", &["line 4", "0 is out of range"]);
-    refused(
-        "steps = 3",
-        "steps = 3, time-step = -1.0",
-        &["line 4", "time-step", "-1"],
-    );
-    refused("[1.0]", "[-1.0]", &["spacings", "-1"]);
-    refused("seeds = [0]", "seeds = []", &["study.toml", "seeds", "empty"]);
 }
 
 #[test]
 fn methods_and_their_options() {
-    refused("\"mpm\"", "\"magic\"", &["study.toml, line 4", "magic", "paper-pic"]);
-    refused(
-        "steps = 3",
-        "steps = 3, youngs-modulus = 2",
-        &["line 4", "youngs-modulus", "2", "mpm"],
+    for_each_line(
+        r#"
+        "mpm" | "magic" | study.toml, line 4 | magic | paper-pic
+        steps = 3 | steps = 3, youngs-modulus = 2 | line 4 | youngs-modulus | 2 | mpm
+        "#,
+        |line| refused(line[0], line[1], &line[2..]),
     );
 }
 
@@ -149,7 +140,7 @@ fn directories_of_others() {
 fn directories_of_other_studies() {
     let root = tempfile::tempdir().unwrap();
     write(root.path(), STUDY);
-    assert!(parvi(root.path(), "run study.toml --out out").status.success());
+    succeeds(root.path(), "run study.toml --out out");
     let before = std::fs::read(root.path().join("out/results.csv")).unwrap();
     write(root.path(), &STUDY.replace("particles = 100", "particles = 101"));
     assert_refused(
@@ -159,7 +150,7 @@ fn directories_of_other_studies() {
     assert_eq!(std::fs::read(root.path().join("out/results.csv")).unwrap(), before);
     // Comments and spaces are the same study.
     write(root.path(), &STUDY.replace("particles = 100", "particles  =  100 # M"));
-    assert!(parvi(root.path(), "run study.toml --out out").status.success());
+    succeeds(root.path(), "run study.toml --out out");
 }
 
 #[test]
@@ -180,7 +171,7 @@ fn reports_of_nothing() {
     let root = tempfile::tempdir().unwrap();
     assert_refused(&parvi(root.path(), "report out"), &["out/config.toml"]);
     write(root.path(), STUDY);
-    assert!(parvi(root.path(), "run study.toml --out out").status.success());
+    succeeds(root.path(), "run study.toml --out out");
     let path = root.path().join("out/results.csv");
     std::fs::write(&path, "case,status\nd1,fine\n").unwrap();
     assert_refused(&parvi(root.path(), "report out"), &["results.csv", "line"]);

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::support::{files, interrupted, parvi, stderr, value};
+use crate::support::{files, interrupted, stderr, succeeds, value};
 
 const STUDY: &str = r#"
 kind = "time-error"
@@ -41,8 +41,7 @@ fn results(directory: &Path) -> Vec<Vec<String>> {
 }
 
 fn run(root: &Path, out: &str) {
-    let output = parvi(root, &format!("run study.toml --out {out}"));
-    assert!(output.status.success(), "{}", stderr(&output));
+    succeeds(root, &format!("run study.toml --out {out}"));
 }
 
 #[test]
@@ -101,8 +100,7 @@ fn the_report_needs_the_raw_results_alone() {
 
     std::fs::remove_file(out.join("report.md")).unwrap();
     std::fs::remove_dir_all(out.join("figures")).unwrap();
-    let output = parvi(root.path(), "report out");
-    assert!(output.status.success(), "{}", stderr(&output));
+    let output = succeeds(root.path(), "report out");
     assert_eq!(std::fs::read_to_string(out.join("report.md")).unwrap(), report);
     assert_eq!(std::fs::read(out.join("figures").join(&figures[0])).unwrap(), drawing);
     assert_eq!(value(&output, "study").unwrap(), "time-error");

@@ -23,6 +23,13 @@ pub fn parvi(directory: &Path, arguments: &str) -> Output {
         .unwrap()
 }
 
+/// As [`parvi`], and asserts that it succeeds.
+pub fn succeeds(directory: &Path, arguments: &str) -> Output {
+    let output = parvi(directory, arguments);
+    assert!(output.status.success(), "{}", stderr(&output));
+    output
+}
+
 /// As [`parvi`], but comes back when `begun` has become true, or when the command has ended before.
 pub fn started(directory: &Path, arguments: &str, begun: impl Fn() -> bool) -> Child {
     let mut child = command()
@@ -102,8 +109,7 @@ pub fn assert_refused(output: &Output, parts: &[&str]) {
 pub fn run_study(text: &str) -> (tempfile::TempDir, Output) {
     let root = tempfile::tempdir().unwrap();
     std::fs::write(root.path().join("study.toml"), text).unwrap();
-    let output = parvi(root.path(), "run study.toml --out out");
-    assert!(output.status.success(), "{}", stderr(&output));
+    let output = succeeds(root.path(), "run study.toml --out out");
     (root, output)
 }
 
@@ -121,6 +127,13 @@ pub fn assert_report(root: &Path, figures: usize) -> String {
     report
 }
 
+/// Asserts that a text holds all of these.
+pub fn assert_holds(text: &str, parts: &[&str]) {
+    for part in parts {
+        assert!(text.contains(part), "{part} is missing in {text}");
+    }
+}
+
 /// Asserts that a study with one text replaced is refused before anything is written.
 pub fn refused(study: &str, from: &str, to: &str, parts: &[&str]) {
     let root = tempfile::tempdir().unwrap();
@@ -130,6 +143,14 @@ pub fn refused(study: &str, from: &str, to: &str, parts: &[&str]) {
     let parts: Vec<&str> = parts.iter().copied().chain(["study.toml"]).collect();
     assert_refused(&parvi(root.path(), "run study.toml --out out"), &parts);
     assert_eq!(files(root.path()), ["study.toml"]);
+}
+
+/// Calls `check` with the cells of every line of a table: ` | ` is between them, and `\n` in one is a line break.
+pub fn for_each_line(table: &str, check: impl Fn(&[&str])) {
+    for line in table.lines().map(str::trim_start).filter(|line| !line.is_empty()) {
+        let cells: Vec<String> = line.split(" | ").map(|cell| cell.replace("\\n", "\n")).collect();
+        check(&cells.iter().map(String::as_str).collect::<Vec<_>>());
+    }
 }
 
 /// The records of results.csv, by the names of the columns.

@@ -1,7 +1,7 @@
 //! The studies on the catalogue of targets: small versions run to a report, and bad configurations are refused with the field's
 //! name.
 
-use crate::support::{assert_report, number, refused, rows, run_study, value};
+use crate::support::{assert_holds, assert_report, for_each_line, number, refused, rows, run_study, value};
 
 const CATALOGUE: &str = r#"
 kind = "catalogue"
@@ -39,15 +39,16 @@ fn catalogue() {
         missed,
         "{report}"
     );
-    for text in [
-        "one mode, light tails, d ≤ 4",
-        "funnel, Student t, mixtures",
-        "## From N(3, 0.5²)",
-        "gaussian-d2-r0.9",
-        "## Claims",
-    ] {
-        assert!(report.contains(text), "{text} is missing in {report}");
-    }
+    assert_holds(
+        &report,
+        &[
+            "one mode, light tails, d ≤ 4",
+            "funnel, Student t, mixtures",
+            "## From N(3, 0.5²)",
+            "gaussian-d2-r0.9",
+            "## Claims",
+        ],
+    );
     let claimed: usize = value(&output, "claimed").unwrap().parse().unwrap();
     assert!(claimed > 0, "{report}");
     assert_eq!(value(&output, "false_claims").unwrap(), "0");
@@ -115,39 +116,29 @@ fn the_reference_hardly_matters() {
 #[test]
 fn bad_catalogue() {
     let refused = |from: &str, to: &str, parts: &[&str]| refused(CATALOGUE, from, to, parts);
-    refused("seeds = [0, 1]", "seeds = []", &["seeds", "empty"]);
-    refused(
-        "seeds = [0, 1]",
-        "seeds = [0, 0]",
-        &["seeds", "gaussian-d1-r0.9-mpm-m60-mean0-sd1-s0"],
+    for_each_line(
+        r#"
+        seeds = [0, 1] | seeds = [] | seeds | empty
+        seeds = [0, 1] | seeds = [0, 0] | seeds | gaussian-d1-r0.9-mpm-m60-mean0-sd1-s0
+        dims = [1, 2] | dims = [] | dims | empty
+        dims = [1, 2] | dims = [9] | line 5 | 9 is out of range
+        "mixture-2" | "mixture-9" | mixture-9 | mixture-3
+        correlation = 0.9 | width = 0.9 | gaussian | width
+        standard-deviation = 0.5 | standard-deviation = 0.0 | starts.standard-deviation | 0
+        mean = 3.0 | mean = inf | starts.mean | inf
+        "#,
+        |line| refused(line[0], line[1], &line[2..]),
     );
-    refused("dims = [1, 2]", "dims = []", &["dims", "empty"]);
-    refused("dims = [1, 2]", "dims = [9]", &["line 5", "9 is out of range"]);
-    refused("\"mixture-2\"", "\"mixture-9\"", &["mixture-9", "mixture-3"]);
-    refused("correlation = 0.9", "width = 0.9", &["gaussian", "width"]);
-    refused(
-        "standard-deviation = 0.5",
-        "standard-deviation = 0.0",
-        &["starts.standard-deviation", "0"],
-    );
-    refused("mean = 3.0", "mean = inf", &["starts.mean", "inf"]);
     let moving = r#"{ name = "mpm" }, { name = "paper-pic", options = { steps = 5 } }, "#;
     refused(moving, "", &["methods", "`iid`"]);
-    refused(
-        "options = { steps = 5 }",
-        "options = { start-sd = 5.0 }",
-        &["start-sd", "`starts`"],
-    );
-    refused(
-        "reference-points = 2048",
-        "reference-points = 20",
-        &["line 9", "20 is out of range"],
-    );
-    refused("draws = 5", "draw = 5", &["line 12", "`draw`"]);
-    refused(
-        r#"{ name = "mixture-2" }, { name = "banana" }"#,
-        r#"{ name = "logistic" }"#,
-        &["targets", "logistic", "data"],
+    for_each_line(
+        r#"
+        options = { steps = 5 } | options = { start-sd = 5.0 } | start-sd | `starts`
+        reference-points = 2048 | reference-points = 20 | line 9 | 20 is out of range
+        draws = 5 | draw = 5 | line 12 | `draw`
+        { name = "mixture-2" }, { name = "banana" } | { name = "logistic" } | targets | logistic | data
+        "#,
+        |line| refused(line[0], line[1], &line[2..]),
     );
     let planar = CATALOGUE.replace(
         "{ name = \"mixture-2\" }, { name = \"banana\" }, { name = \"wells-small\" }",
@@ -171,14 +162,15 @@ fn stability() {
             _ => assert!(!row["reason"].is_empty() && !row["message"].is_empty(), "{row:?}"),
         }
     }
-    for text in [
-        "| mpm |",
-        "guards off",
-        "frame / target's frame",
-        "Panics and numbers that are not finite",
-    ] {
-        assert!(report.contains(text), "{text} is missing in {report}");
-    }
+    assert_holds(
+        &report,
+        &[
+            "| mpm |",
+            "guards off",
+            "frame / target's frame",
+            "Panics and numbers that are not finite",
+        ],
+    );
 
     // A case depends on the seed and its number only.
     let (root, _) = run_study(&STABILITY.replace("cases = 60", "cases = 7"));
@@ -193,22 +185,15 @@ fn stability() {
 #[test]
 fn bad_stability() {
     let refused = |from: &str, to: &str, parts: &[&str]| refused(STABILITY, from, to, parts);
-    refused("cases = 60", "cases = 0", &["line 4", "0 is out of range"]);
-    refused("dims = [1, 2, 3]", "dims = []", &["dims", "empty"]);
-    refused(
-        "dims = [1, 2, 3]",
-        "dims = [1]\ntargets = [\"ring\"]",
-        &["targets", "empty"],
+    for_each_line(
+        r#"
+        cases = 60 | cases = 0 | line 4 | 0 is out of range
+        dims = [1, 2, 3] | dims = [] | dims | empty
+        dims = [1, 2, 3] | dims = [1]\ntargets = ["ring"] | targets | empty
+        dims = [1, 2, 3] | dims = [1]\ntargets = ["bell"] | bell | ring
+        dims = [1, 2, 3] | dims = [1]\ntargets = ["logistic"] | targets | `logistic`
+        seed = 3 | seeds = [3] | line 3 | `seeds`
+        "#,
+        |line| refused(line[0], line[1], &line[2..]),
     );
-    refused(
-        "dims = [1, 2, 3]",
-        "dims = [1]\ntargets = [\"bell\"]",
-        &["bell", "ring"],
-    );
-    refused(
-        "dims = [1, 2, 3]",
-        "dims = [1]\ntargets = [\"logistic\"]",
-        &["targets", "`logistic`"],
-    );
-    refused("seed = 3", "seeds = [3]", &["line 3", "`seeds`"]);
 }

@@ -2,7 +2,9 @@
 
 use std::collections::HashMap;
 
-use crate::support::{assert_refused, assert_report, files, number, parvi, rows, run_study, value};
+use crate::support::{
+    assert_holds, assert_refused, assert_report, files, for_each_line, number, parvi, rows, run_study, succeeds, value,
+};
 
 const STUDY: &str = r#"
 kind = "time-to-equal-error"
@@ -35,9 +37,10 @@ fn rivals_are_held_against_the_method() {
         "2",
         "independent draws of a posterior"
     );
-    for text in ["draws per particle", "## Against iid", "## Against svgd", "exact draws"] {
-        assert!(report.contains(text), "{text} is missing in {report}");
-    }
+    assert_holds(
+        &report,
+        &["draws per particle", "## Against iid", "## Against svgd", "exact draws"],
+    );
     for particles in ["40", "80"] {
         let own = find(&rows, &format!("gaussian-d2-m{particles}-mpm"));
         assert!(own["goal"].is_empty() && own["size"].is_empty(), "{own:?}");
@@ -69,7 +72,7 @@ fn rivals_are_held_against_the_method() {
         }
     }
     let before = std::fs::read_to_string(root.path().join("out/report.md")).unwrap();
-    assert!(parvi(root.path(), "report out").status.success());
+    succeeds(root.path(), "report out");
     assert_eq!(
         std::fs::read_to_string(root.path().join("out/report.md")).unwrap(),
         before
@@ -102,41 +105,22 @@ fn chains_need_the_feature() {
 #[test]
 fn bad_input() {
     let refused = |from: &str, to: &str, parts: &[&str]| crate::support::refused(STUDY, from, to, parts);
-    refused("seeds = [0, 1, 2]", "seeds = []", &["seeds", "empty"]);
-    refused("particles = [40, 80]", "particles = []", &["particles", "empty"]);
-    refused(
-        "particles = [40, 80]",
-        "particles = [40, 1]",
-        &["line 4", "1 is out of range"],
+    for_each_line(
+        r#"
+        seeds = [0, 1, 2] | seeds = [] | seeds | empty
+        particles = [40, 80] | particles = [] | particles | empty
+        particles = [40, 80] | particles = [40, 1] | line 4 | 1 is out of range
+        particles = [40, 80] | particles = [40, 40] | particles | gaussian-d2-m40-mpm
+        from = 50, to = 400 | from = 50, to = 40 | draws.to | 40 | 50
+        from = 5, to = 40 | from = 5, to = 4 | steps.to | 4 | 5
+        from = 5, to = 40 | from = 0, to = 4 | line 6 | 0 is out of range
+        from = 5, to = 40 | from = 5 | line 6 | `to`
+        largest-ratio = 1000.0 | largest-ratio = 0.0 | largest-ratio | 0
+        targets = [{ name = "gaussian", dim = 2 }, { name = "wells-small" }] | targets = [] | targets | empty
+        { name = "iid" } | { name = "sobol" } | rivals.name | `sobol`
+        { name = "svgd" } | { name = "svgd", options = { steps = 7 } } | rivals.options.steps | `steps`
+        reference-seed = 1\n |  | study.toml | reference-seed
+        "#,
+        |line| refused(line[0], line[1], &line[2..]),
     );
-    refused(
-        "particles = [40, 80]",
-        "particles = [40, 40]",
-        &["particles", "gaussian-d2-m40-mpm"],
-    );
-    refused("from = 50, to = 400", "from = 50, to = 40", &["draws.to", "40", "50"]);
-    refused("from = 5, to = 40", "from = 5, to = 4", &["steps.to", "4", "5"]);
-    refused(
-        "from = 5, to = 40",
-        "from = 0, to = 4",
-        &["line 6", "0 is out of range"],
-    );
-    refused("from = 5, to = 40", "from = 5", &["line 6", "`to`"]);
-    refused("largest-ratio = 1000.0", "largest-ratio = 0.0", &["largest-ratio", "0"]);
-    refused(
-        "targets = [{ name = \"gaussian\", dim = 2 }, { name = \"wells-small\" }]",
-        "targets = []",
-        &["targets", "empty"],
-    );
-    refused(
-        "{ name = \"iid\" }",
-        "{ name = \"sobol\" }",
-        &["rivals.name", "`sobol`"],
-    );
-    refused(
-        "{ name = \"svgd\" }",
-        "{ name = \"svgd\", options = { steps = 7 } }",
-        &["rivals.options.steps", "`steps`"],
-    );
-    refused("reference-seed = 1\n", "", &["study.toml", "reference-seed"]);
 }
