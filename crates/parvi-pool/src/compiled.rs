@@ -1,10 +1,12 @@
-//! What takes long to compile, compiled in this crate for the dimensions whose features are on, once for all crates that call it.
+//! What takes long to compile, and the functions that call it: compiled in this crate for the dimensions whose features are on, once for all crates that call it.
 
 use parvi_targets::{Frame, Target};
 
+use crate::explore::Observer;
 use crate::measure::Measure;
 use crate::mixture::Mixture;
-use crate::{Observer, Pool, PoolError, PoolOptions};
+use crate::options::{PoolError, PoolOptions};
+use crate::pool::Pool;
 
 /// [`explore`](crate::explore).
 type Explore<const D: usize> = fn(
@@ -27,9 +29,56 @@ pub(crate) struct Compiled<const D: usize> {
 impl<const D: usize> Compiled<D> {
     /// Generated where it is named.
     const HERE: Self = Self {
-        explore: crate::explore_here,
-        condense: crate::condense::condense_here,
+        explore: crate::explore::explore,
+        condense: crate::condense::condense,
     };
 }
 
 mpm_parallel::compiled_ahead!(Compiled);
+
+/// Explore a target until the effective size suffices or the evaluations are used up.
+///
+/// `frame`: what is known of place and scale; scouts find what is off by powers of ten. `given`: proposals to begin with beside the scouts' (fits, particles).
+/// `tape`: values of the target that an earlier process with the same arguments had told its observer; they are used instead of evaluating it again, and the
+/// pool is the same to the bit.
+///
+/// # Errors
+/// [`PoolError`]: an option out of range, a target that is nowhere finite, or the observer's stop.
+#[allow(clippy::too_many_arguments)]
+pub fn explore<const D: usize>(
+    target: &dyn Target<D>,
+    frame: &Frame<D>,
+    given: &[Mixture<D>],
+    tape: Vec<f64>,
+    particles: usize,
+    seed: u64,
+    options: &PoolOptions,
+    observer: &mut Observer<'_>,
+) -> Result<Pool<D>, PoolError> {
+    (Compiled::of().explore)(target, frame, given, tape, particles, seed, options, observer)
+}
+
+/// M points of least energy distance from a measure, in the coordinates of its [`frame`](Measure::frame).
+///
+/// The convex–concave procedure of S. Mak, V. R. Joseph, *Support points*, Ann. Stat. 46, 2018, Eq. (22): the energy is Σ_m c_m |x − y_m| of the points of
+/// positive weight, which is convex, and −|x − ·| of all others, particles and points of negative weight, which is concave and taken by its slope:
+/// x ← (Σ₊ c_m/|x − y_m|)⁻¹ (Σ₊ c_m y_m/|x − y_m| − Σ₋ c_m (x − y_m)/|x − y_m| + 1/M Σ_j (x − x_j)/|x − x_j|). It starts from a resample in the order of a tree of
+/// bisected boxes, so that every part of space gets its share of the particles. Empty where nothing has weight. `offset` in [0, 1) shifts
+/// that resample.
+pub fn condense<const D: usize>(measure: &Measure<D>, count: usize, offset: f64) -> Vec<[f64; D]> {
+    (Compiled::of().condense)(measure, count, offset)
+}
+
+impl<const D: usize> Measure<D> {
+    /// M particles of equal mass: support points.
+    pub fn condense(&self, count: usize) -> Vec<[f64; D]> {
+        condense(self, count, 0.5)
+    }
+}
+
+impl<const D: usize> Pool<D> {
+    /// M particles of equal mass: support points of the weighted pool.
+    pub fn condense(&self, count: usize) -> Vec<[f64; D]> {
+        self.measure.condense(count)
+    }
+}
