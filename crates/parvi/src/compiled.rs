@@ -1,5 +1,5 @@
-//! Where samplers are called: those of d = 1…6, with the feature `seven-and-eight` of d = 1…8, are compiled in this crate, once for all crates
-//! that call them, so that a program that samples a density of its own is built in a second or two.
+//! Where samplers are called: those of the dimensions whose features `d1`…`d8` are on are compiled in this crate, once for all crates that call
+//! them, so that a program that samples a density of its own is built in a second or two.
 
 use parvi_targets::{CatalogueTarget, Frame, Target};
 

@@ -1,4 +1,4 @@
-//! Bodies of d = 1…6, with the feature `seven-and-eight` of d = 1…8, which are compiled in this crate, once for all crates that call it.
+//! Bodies of the dimensions whose features `d1`…`d8` are on, which are compiled in this crate, once for all crates that call it.
 
 use mpm_materials::{IsothermalGas, Law, Memory};
 
