@@ -24,6 +24,9 @@ const MEAN: f64 = PRESSURE / 3.0;
 const YOUNG: f64 = 1e6;
 const POISSON: f64 = 0.3;
 
+/// Positions and stresses of particles.
+type State = (Vec<[f64; 2]>, Vec<Matrix<2>>);
+
 /// Forces by vertex of the basis.
 type Forces = BTreeMap<u32, [f64; 2]>;
 
@@ -130,12 +133,7 @@ fn as_stress(basis: &MeshBasis<2>, points: &[[f64; 2]], volume: f64, band: f64) 
 }
 
 /// Positions and stresses after two seconds of damped motion, the load growing over the first.
-fn at_rest(
-    basis: &MeshBasis<2>,
-    points: &[[f64; 2]],
-    volume: f64,
-    forces: &Forces,
-) -> Result<(Vec<[f64; 2]>, Vec<Matrix<2>>), Box<dyn Error>> {
+fn at_rest(basis: &MeshBasis<2>, points: &[[f64; 2]], volume: f64, forces: &Forces) -> Result<State, Box<dyn Error>> {
     let law = NeoHookean::new(ElasticModuli::new(YOUNG, POISSON)?);
     let count = points.len();
     let particles =
