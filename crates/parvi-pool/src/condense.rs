@@ -4,7 +4,6 @@ use mpm_tensor::{Matrix, vector};
 use parvi_targets::Frame;
 
 use crate::anderson::Anderson;
-use crate::compiled::Compiled;
 use crate::measure::Measure;
 use crate::mixture::{Kernel, Mixture};
 use crate::support_points::SupportPoints;
@@ -29,18 +28,8 @@ const BESIDE: f64 = 0.2;
 /// Share of all |c| that the lightest points may take with them.
 const LEFT_OUT: f64 = 1e-4;
 
-/// M points of least energy distance from a measure, in the coordinates of its [`frame`](Measure::frame).
-///
-/// The convex–concave procedure of S. Mak, V. R. Joseph, *Support points*, Ann. Stat. 46, 2018, Eq. (22): the energy is Σ_m c_m |x − y_m| of the points of
-/// positive weight, which is convex, and −|x − ·| of all others, particles and points of negative weight, which is concave and taken by its slope:
-/// x ← (Σ₊ c_m/|x − y_m|)⁻¹ (Σ₊ c_m y_m/|x − y_m| − Σ₋ c_m (x − y_m)/|x − y_m| + 1/M Σ_j (x − x_j)/|x − x_j|). It starts from a resample in the order of a tree of
-/// bisected boxes, so that every part of space gets its share of the particles. Empty where nothing has weight. `offset` in [0, 1) shifts
-/// that resample.
-pub fn condense<const D: usize>(measure: &Measure<D>, count: usize, offset: f64) -> Vec<[f64; D]> {
-    (Compiled::of().condense)(measure, count, offset)
-}
-
-pub(crate) fn condense_here<const D: usize>(measure: &Measure<D>, count: usize, offset: f64) -> Vec<[f64; D]> {
+/// [`condense`](crate::condense), generated where it is called.
+pub(crate) fn condense<const D: usize>(measure: &Measure<D>, count: usize, offset: f64) -> Vec<[f64; D]> {
     let (mut scaled, frame) = standardised(measure);
     if scaled.is_empty() {
         return Vec::new();

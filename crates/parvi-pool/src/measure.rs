@@ -3,7 +3,6 @@
 use mpm_tensor::vector;
 use parvi_targets::Frame;
 
-use crate::condense::condense;
 use crate::estimate::Estimate;
 use crate::fold::Fold;
 use crate::weights::{tempered, top};
@@ -119,11 +118,6 @@ impl<const D: usize> Measure<D> {
         self.points.extend(other.points);
         self.evaluated.extend(other.evaluated);
         self
-    }
-
-    /// M particles of equal mass: support points.
-    pub fn condense(&self, count: usize) -> Vec<[f64; D]> {
-        condense(self, count, 0.5)
     }
 
     /// The mass that is nearer to a particle than to any other one, for every particle; none negative, and their sum is one.

@@ -218,3 +218,32 @@ impl<const D: usize> Target<D> for CachedScores<'_, D> {
         self.target.log_densities(xs, out);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use parvi_targets::Gaussian;
+
+    use super::*;
+
+    #[test]
+    fn where_no_cell_holds_many_particles_every_cell_is_tested() {
+        let target = Gaussian::<3>::standard();
+        let cached = CachedScores::new(&target, &Frame::identity(), NonFiniteScores::PullBack, &[]).unwrap();
+        let far = 2.0 * defaults::CACHE_SPACING;
+        let particles: Vec<[f64; 3]> = (0..512)
+            .map(|i| [i % 8, i / 8 % 8, i / 64].map(|c| far * (f64::from(c) - 3.5)))
+            .collect();
+        let before = {
+            cached.scores(&particles, &mut vec![[0.0; 3]; 512]);
+            cached.evaluations()
+        };
+        let tested = cached.test(&particles, u64::MAX);
+        // A score that is linear is interpolated as it is.
+        assert!(
+            tested.disagreement < 1e-12 && !tested.refined,
+            "{}",
+            tested.disagreement
+        );
+        assert_eq!(cached.evaluations() - before, 512);
+    }
+}
