@@ -3,7 +3,8 @@
 #![allow(clippy::print_stdout, reason = "smallest weights are reported")]
 
 use crate::basis_scenes::{cloud, cube, generator, line, naive_weights};
-use mpm_mesh::generate::{EdgeTarget, ampersand, ball, cuboid, disk, rectangle, with_outer_layer};
+use crate::graded::{basis as graded_basis, sizes};
+use mpm_mesh::generate::{EdgeTarget, ampersand, ball, cuboid, disk, rectangle, rectangle_outline, with_outer_layer};
 use mpm_mesh::{KernelWidth, MeshBasis, NO_CELL, SampleWeight, SimplexMesh, WeightAt};
 use mpm_tensor::Matrix;
 use proptest::prelude::*;
@@ -341,6 +342,8 @@ fn a_local_width_keeps_weights_continuous_and_linear_fields() {
         }
     }
     check(growing());
+    let square = rectangle_outline([-1.0; 2], [1.0; 2]).unwrap();
+    check(graded_basis(&[square], &sizes(0.2, 0.025, 0.1)).mesh().clone());
     check(cube::<2>(6, 0.3, 0.25, 3));
     check(cube::<3>(4, 2.0, 0.15, 4));
 }

@@ -6,9 +6,12 @@ mod basis_layout;
 mod basis_scenes;
 #[path = "../../../mpm-core/tests/suite/basis_transfers.rs"]
 mod basis_transfers;
+mod graded;
+mod hat;
 mod kernel;
 mod kernel_closed_form;
 mod kernel_polynomial;
 mod mesh;
+mod recovery;
 mod search;
 mod step;

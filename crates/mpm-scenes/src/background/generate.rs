@@ -4,8 +4,8 @@ use std::any::Any;
 use std::collections::BTreeMap;
 
 use mpm_mesh::generate::{
-    EdgeTarget, GenerationError, Refinement, Scatter, SizeField, ball, cuboid, cyclic_sizes, disk_outline, outlines,
-    rectangle_outline, scattered, segments, slope, triangle_lattice, wavy_channel_outline,
+    EdgeTarget, GenerationError, Refinement, Scatter, SizeField, ball, circle_outline, cuboid, cyclic_sizes,
+    disk_outline, outlines, rectangle_outline, scattered, segments, slope, triangle_lattice, wavy_channel_outline,
 };
 use mpm_mesh::{NamedMesh, SimplexMesh, read_named_msh};
 use rand::rngs::ChaCha8Rng;
@@ -29,7 +29,7 @@ pub(super) fn inner<const D: usize>(
         (None, Some(shape)) => {
             let refused = |error| SceneFault::value("mesh.generate", shape, format!("a mesh: {error}"));
             let mesh = generate(shape, table.delaunay.as_ref(), table.angle.to_radians()).map_err(refused)?;
-            let facets = BTreeMap::new();
+            let facets = rims(shape, &mesh);
             NamedMesh { mesh, facets }
         }
         (None, None) => return Err(SceneFault::missing("mesh.generate", "given unless file is")),
@@ -49,6 +49,27 @@ pub(super) fn inner<const D: usize>(
         )
     })?;
     Ok(NamedMesh { mesh, facets })
+}
+
+/// The groups that the boundaries of a ring are.
+fn rims<const D: usize>(shape: &MeshShapeTable, mesh: &SimplexMesh<D>) -> BTreeMap<String, Vec<u32>> {
+    let mut rims: BTreeMap<String, Vec<u32>> = BTreeMap::new();
+    if let MeshShapeTable::Ring {
+        centre, inner, outer, ..
+    } = shape
+    {
+        for facet in mesh.boundary() {
+            let x = &mesh.vertices()[facet.vertices[0] as usize];
+            let square: f64 = x.iter().zip(centre).map(|(x, c)| (x - c).powi(2)).sum();
+            let name = if square.sqrt() < 0.5 * (inner + outer) {
+                "inner"
+            } else {
+                "outer"
+            };
+            rims.entry(name.to_owned()).or_default().extend(facet.vertices);
+        }
+    }
+    rims
 }
 
 /// The mesh of a file of Gmsh, beside the scene.
@@ -73,9 +94,10 @@ fn generate<const D: usize>(
     angle: f64,
 ) -> Result<SimplexMesh<D>, GenerationError> {
     let length = table.size();
+    let field = || size_field(length, delaunay);
     let plane = |polygons: Vec<Vec<[f64; 2]>>| match delaunay {
         None => as_dimension(outlines(&polygons, &EdgeTarget { length, angle })?),
-        Some(delaunay) => as_dimension(of_random_points(&polygons, length, delaunay, angle)?),
+        Some(delaunay) => as_dimension(of_random_points(&polygons, &field()?, delaunay, angle)?),
     };
     match table {
         MeshShapeTable::Segments {
@@ -103,27 +125,39 @@ fn generate<const D: usize>(
             plane(std::iter::once(corners).chain(holes).cloned().collect())
         }
         MeshShapeTable::Disk { centre, radius, size } => plane(vec![disk_outline(*centre, *radius, *size)?]),
+        MeshShapeTable::Ring {
+            centre, inner, outer, ..
+        } => {
+            let field = field()?;
+            let rim = |radius: f64| circle_outline(*centre, radius, &field);
+            plane(vec![rim(*outer)?, rim(*inner)?])
+        }
         MeshShapeTable::Channel { height, size } => plane(vec![wavy_channel_outline(*height, *size)?]),
     }
 }
 
-/// A Delaunay mesh of random points between polygons.
-fn of_random_points(
-    polygons: &[Vec<[f64; 2]>],
-    length: f64,
-    table: &DelaunayTable,
-    angle: f64,
-) -> Result<SimplexMesh<2>, GenerationError> {
+/// A length, with the places where edges are shorter.
+fn size_field(length: f64, table: Option<&DelaunayTable>) -> Result<SizeField, GenerationError> {
     let refinement = |place: &RefinementTable| Refinement {
         centre: place.centre,
         radius: place.radius,
         size: place.size,
         growth: place.growth,
     };
-    let field = SizeField::new(length, table.refine.iter().map(refinement).collect())?;
+    let places = table.iter().flat_map(|table| &table.refine);
+    SizeField::new(length, places.map(refinement).collect())
+}
+
+/// A Delaunay mesh of random points between polygons.
+fn of_random_points(
+    polygons: &[Vec<[f64; 2]>],
+    field: &SizeField,
+    table: &DelaunayTable,
+    angle: f64,
+) -> Result<SimplexMesh<2>, GenerationError> {
     let mut generator = ChaCha8Rng::seed_from_u64(table.seed);
     let sweeps = table.sweeps;
-    scattered(polygons, &field, Scatter { sweeps, angle }, &mut || generator.random())
+    scattered(polygons, field, Scatter { sweeps, angle }, &mut || generator.random())
 }
 
 /// The mesh as one of D dimensions, which it is.

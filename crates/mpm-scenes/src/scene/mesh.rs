@@ -12,7 +12,7 @@ pub struct MeshTable {
     pub file: Option<PathBuf>,
     /// Instead of `file`: a mesh that is made.
     pub generate: Option<MeshShapeTable>,
-    /// The points inside are random, instead of those of a relaxed lattice; of `rectangle`, `polygon`, `disk` and `channel` only.
+    /// The points inside are random, instead of those of a relaxed lattice; of `rectangle`, `polygon`, `disk`, `ring` and `channel` only.
     pub delaunay: Option<DelaunayTable>,
     /// Direction in degrees of edges inside, while the boundary stays; of the same kinds only. Default 0.
     #[serde(default)]
@@ -164,6 +164,17 @@ pub enum MeshShapeTable {
         /// Length of edges.
         size: f64,
     },
+    /// A disk with a hole about its centre, D = 2; its boundaries are the groups `inner` and `outer`.
+    Ring {
+        /// Its centre.
+        centre: [f64; 2],
+        /// Radius of the hole.
+        inner: f64,
+        /// Radius of the ring.
+        outer: f64,
+        /// Length of edges.
+        size: f64,
+    },
     /// The wavy channel of Cao et al. (2024), §3.4, D = 2.
     Channel {
         /// Its height.
@@ -217,6 +228,7 @@ impl MeshShapeTable {
             | Self::Lattice { size, .. }
             | Self::Polygon { size, .. }
             | Self::Disk { size, .. }
+            | Self::Ring { size, .. }
             | Self::Channel { size, .. }
             | Self::Box { size, .. }
             | Self::Slope { size, .. }
@@ -228,7 +240,11 @@ impl MeshShapeTable {
     pub fn is_between_polygons(&self) -> bool {
         matches!(
             self,
-            Self::Rectangle { .. } | Self::Polygon { .. } | Self::Disk { .. } | Self::Channel { .. }
+            Self::Rectangle { .. }
+                | Self::Polygon { .. }
+                | Self::Disk { .. }
+                | Self::Ring { .. }
+                | Self::Channel { .. }
         )
     }
 
@@ -240,6 +256,7 @@ impl MeshShapeTable {
             | Self::Lattice { .. }
             | Self::Polygon { .. }
             | Self::Disk { .. }
+            | Self::Ring { .. }
             | Self::Channel { .. } => 2,
             Self::Box { .. } | Self::Slope { .. } | Self::Ball { .. } => 3,
         }

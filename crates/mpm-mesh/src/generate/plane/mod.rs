@@ -14,7 +14,9 @@ pub use self::ampersand::ampersand;
 pub(super) use self::delaunay::Triangulation;
 pub(super) use self::outline::{encloses, squared_distance_to_segment};
 pub use self::scattered::{Scatter, scattered};
-pub use self::shapes::{disk, disk_outline, polygon, rectangle, rectangle_outline, wavy_channel, wavy_channel_outline};
+pub use self::shapes::{
+    circle_outline, disk, disk_outline, polygon, rectangle, rectangle_outline, wavy_channel, wavy_channel_outline,
+};
 pub use self::size_field::{Refinement, SizeField};
 pub use self::triangle_lattice::triangle_lattice;
 

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use mpm_tensor::vector::distance;
 
-use super::{EdgeTarget, outlines};
+use super::{EdgeTarget, SizeField, outlines};
 use crate::SimplexMesh;
 use crate::generate::GenerationError;
 
@@ -49,6 +49,38 @@ pub fn disk_outline(centre: [f64; 2], radius: f64, length: f64) -> Result<Vec<[f
     };
     Ok((0..sides as usize).map(corner).collect())
 }
+
+/// A polygon inscribed in a circle whose sides follow a size field: of the same ∫ ds / h along the arc, as near to 1 as whole numbers allow, of at least six.
+///
+/// # Errors
+/// [`GenerationError`] unless the radius is positive, or for more sides than can be numbered.
+pub fn circle_outline(centre: [f64; 2], radius: f64, size: &SizeField) -> Result<Vec<[f64; 2]>, GenerationError> {
+    GenerationError::check_positive("radius", radius)?;
+    let at = |turn: f64| {
+        let (sine, cosine) = (TAU * turn).sin_cos();
+        [centre[0] + radius * cosine, centre[1] + radius * sine]
+    };
+    let arc = (TAU * radius / size.least()).max(1.0);
+    GenerationError::check_count(size.least(), arc)?;
+    let steps = (STEPS_PER_SIDE * arc).ceil();
+    let mut sums = vec![0.0];
+    for step in 0..steps as usize {
+        let sides = TAU * radius / steps / size.at(&at((step as f64 + 0.5) / steps));
+        sums.push(sums[step] + sides);
+    }
+    let total = sums[sums.len() - 1];
+    let sides = total.round().max(6.0);
+    let corner = |k: usize| {
+        let goal = total * k as f64 / sides;
+        let next = sums.partition_point(|&sum| sum <= goal).clamp(1, sums.len() - 1);
+        let within = (goal - sums[next - 1]) / (sums[next] - sums[next - 1]);
+        at(((next - 1) as f64 + within) / steps)
+    };
+    Ok((0..sides as usize).map(corner).collect())
+}
+
+/// Parts of a side in which the size field is summed.
+const STEPS_PER_SIDE: f64 = 16.0;
 
 /// A mesh of the polygon of [`disk_outline`]; see [`outlines`].
 ///

@@ -4,6 +4,7 @@
 
 mod bar;
 mod conservation;
+mod graded;
 mod oracle;
 mod two_halves;
 

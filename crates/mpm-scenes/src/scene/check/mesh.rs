@@ -55,6 +55,11 @@ fn check_mesh<const D: usize>(mesh: &MeshTable) -> Result<(), SceneFault> {
                 let expected = format!("a mesh of {D} dimensions, as the scene has");
                 return Err(SceneFault::value("mesh.generate", shape, expected));
             }
+            if let MeshShapeTable::Ring { inner, outer, .. } = shape {
+                positive("mesh.generate.inner", *inner)?;
+                let fits = inner < outer && outer.is_finite();
+                within("mesh.generate.outer", *outer, fits, "finite and above inner")?;
+            }
         }
         (file, _) => {
             return Err(SceneFault::value(
@@ -74,7 +79,7 @@ fn check_mesh<const D: usize>(mesh: &MeshTable) -> Result<(), SceneFault> {
 fn check_points_inside(mesh: &MeshTable) -> Result<(), SceneFault> {
     within("mesh.angle", mesh.angle, mesh.angle.is_finite(), "finite")?;
     let polygons = mesh.generate.as_ref().is_some_and(MeshShapeTable::is_between_polygons);
-    let of_polygons = "left out unless mesh.generate is a rectangle, polygon, disk or channel";
+    let of_polygons = "left out unless mesh.generate is a rectangle, polygon, disk, ring or channel";
     if !polygons && mesh.angle != 0.0 {
         return Err(SceneFault::value("mesh.angle", mesh.angle, of_polygons));
     }
