@@ -1,8 +1,9 @@
 //! A scout's way uphill, by Newton steps with differences of scores.
 
-use mpm_tensor::{Matrix, SymmetricEigen, vector};
+use mpm_tensor::{Matrix, vector};
 
 use crate::density::Density;
+use crate::summit::Summit;
 
 /// Step of the differences of scores, in units of the frame or of the distance from its centre.
 const DIFFERENCE: f64 = 1e-5;
@@ -10,7 +11,7 @@ const DIFFERENCE: f64 = 1e-5;
 /// The way ends where a step would raise log p by less than this.
 const REST: f64 = 0.02;
 
-/// Longest step, and widest standard deviation, in units of the frame.
+/// Longest step in units of the frame.
 const REACH: f64 = 200.0;
 
 /// Steps at most, and trial lengths of a step: 1, 0.3, 0.09, …
@@ -19,22 +20,6 @@ const TRIALS: u32 = 6;
 
 /// Share of the predicted rise that a step has to bring.
 const SUFFICIENT_RISE: f64 = 1e-4;
-
-/// Least curvature over the largest one.
-const FLATTEST: f64 = 1e-12;
-
-/// Where a scout came to rest.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Summit<const D: usize> {
-    pub point: [f64; D],
-    pub log_density: f64,
-    /// |−∇² log p|, the absolute value taken of the eigenvalues.
-    pub precision: Matrix<D>,
-    /// Its inverse.
-    pub covariance: Matrix<D>,
-    /// log det of the precision.
-    pub log_determinant: f64,
-}
 
 /// From `start` uphill: x ← x + t |H|⁻¹ s with the score s and H = −∇² log p, t the first of 1, 0.3, 0.09, … that raises log p sufficiently.
 ///
@@ -54,7 +39,7 @@ pub(super) fn ascend<const D: usize>(
     for _ in 0..STEPS {
         let length = DIFFERENCE * vector::maximum_norm(&point).max(1.0);
         let (score, curvature) = local(density, &point, &Matrix::IDENTITY, length);
-        let Some(here) = Summit::new(point, log_density, &curvature) else {
+        let Some(here) = Summit::new(point, log_density, &curvature, REACH) else {
             break;
         };
         summit = Some(here);
@@ -95,41 +80,6 @@ pub(super) fn local<const D: usize>(
     let scores: Vec<[f64; D]> = scores.iter().map(|score| factor.transpose().apply(score)).collect();
     let curvature = Matrix::from_fn(|row, axis| (scores[0][row] - scores[axis + 1][row]) / length);
     (scores[0], curvature.symmetric_part())
-}
-
-impl<const D: usize> Summit<D> {
-    fn new(point: [f64; D], log_density: f64, curvature: &Matrix<D>) -> Option<Self> {
-        let eigen = SymmetricEigen::new(curvature)?;
-        let largest = eigen.values.iter().fold(0.0_f64, |most, q| most.max(q.abs()));
-        let least = (FLATTEST * largest).max(1.0 / (REACH * REACH));
-        let summit = Self::of(point, log_density, &eigen, |q| q.abs().max(least));
-        let sound = largest > 0.0 && summit.precision.is_finite() && summit.covariance.is_finite();
-        sound.then_some(summit)
-    }
-
-    /// With a precision of these eigenvectors and of what is `kept` of the eigenvalues.
-    fn of(point: [f64; D], log_density: f64, eigen: &SymmetricEigen<D>, kept: impl Fn(f64) -> f64) -> Self {
-        Self {
-            point,
-            log_density,
-            precision: eigen.map(&kept),
-            covariance: eigen.map(|q| 1.0 / kept(q)),
-            log_determinant: eigen.values.iter().map(|&q| kept(q).ln()).sum(),
-        }
-    }
-
-    /// The same with no standard deviation above `widest`.
-    pub fn no_wider_than(self, widest: f64) -> Option<Self> {
-        let eigen = SymmetricEigen::new(&self.precision)?;
-        Some(Self::of(self.point, self.log_density, &eigen, |q| {
-            q.max(1.0 / (widest * widest))
-        }))
-    }
-
-    /// Laplace's log ∫ p about it: log p + D/2 log 2π − ½ log det H.
-    pub fn log_mass(&self) -> f64 {
-        self.log_density + 0.5 * (D as f64 * std::f64::consts::TAU.ln() - self.log_determinant)
-    }
 }
 
 #[cfg(test)]

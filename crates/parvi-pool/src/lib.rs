@@ -26,6 +26,7 @@ mod referee;
 mod sample;
 mod scout;
 mod search;
+mod summit;
 mod support_points;
 #[cfg(test)]
 mod tests;

@@ -2,20 +2,24 @@
 
 use mpm_tensor::{Matrix, vector};
 
-use crate::ascent::{Summit, ascend};
+use crate::ascent::ascend;
 use crate::density::Density;
 use crate::mixture::{Kernel, Mixture};
 use crate::sample::{moments, root};
+use crate::summit::Summit;
 
 /// Scouts end after so many that found nothing new, and so many for every summit known: one of n summits that are reached alike is then overlooked with probability e⁻⁸.
 const FEWEST: usize = 16;
 const IDLE: usize = 8;
 
-/// Standard deviations within which a scout that comes near a known summit as its normal approximation says ends its way.
-const SLOPE: f64 = 2.0;
-
 /// Share of the evaluations that scouts may take which they do take where there are several summits: in many dimensions a piece may lie in a direction that few of them set out in.
 const SEVERAL: f64 = 0.1;
+
+/// Where at least so many summits are known of which this share bends, they are places on ridges, of which there is no end: scouts then take no more than so large a
+/// share, for rounds go along ridges more cheaply.
+const FEWEST_BENT: usize = 6;
+const BENT: f64 = 1.0 / 3.0;
+const ALONG_RIDGES: f64 = 0.5;
 
 /// Distances from a summit, in standard deviations of the normal approximation there, at which scouts set out.
 const RINGS: [f64; 3] = [5.0, 12.0, 30.0];
@@ -92,22 +96,29 @@ fn summits<const D: usize>(density: &mut Density<'_, D>, evaluations: u64, seed:
         let known = summits.len();
         let start = match scout % 3 {
             _ if scout == 0 => [0.0; D],
-            1 if known > 0 => summits[scout / 3 % known].ringed(&drawn, RINGS[scout / 3 % RINGS.len()]),
+            1 if known > 0 => ringed(&summits[scout / 3 % known], &drawn, RINGS[scout / 3 % RINGS.len()]),
             2 if known > 1 => apart(&summits, &drawn, SHELLS[scout / 3 % SHELLS.len()]),
             _ => drawn,
         };
         let is_known = |place: &[f64; D], log: f64| summits.iter().any(|summit| summit.explains(place, log));
         let found =
             ascend(density, &start, is_known).filter(|found| !summits.iter().any(|summit| summit.is_near(found)));
-        summits.extend(found);
+        summits.extend(found.and_then(|found| found.measured(density)));
         idle = if summits.len() > known { 0 } else { idle + 1 };
-        let spent = density.evaluations() - before;
-        let settled = summits.len() == 1 || spent as f64 > SEVERAL * evaluations as f64;
-        if settled && idle >= FEWEST.max(IDLE * summits.len()) || spent > evaluations {
+        let spent = (density.evaluations() - before) as f64 / evaluations as f64;
+        let settled = summits.len() == 1 || spent > SEVERAL;
+        let most = if are_on_ridges(&summits) { ALONG_RIDGES } else { 1.0 };
+        if settled && idle >= FEWEST.max(IDLE * summits.len()) || spent > most {
             break;
         }
     }
     Some(summits)
+}
+
+/// Whether the summits are places on ridges rather than pieces.
+fn are_on_ridges<const D: usize>(summits: &[Summit<D>]) -> bool {
+    let bent = summits.iter().filter(|summit| summit.bends).count();
+    summits.len() >= FEWEST_BENT && bent as f64 >= BENT * summits.len() as f64
 }
 
 /// The normal law of the summits' places, wider.
@@ -150,23 +161,8 @@ pub(super) fn about<const D: usize>(summits: &[Summit<D>]) -> Vec<Kernel<D>> {
         .collect()
 }
 
-impl<const D: usize> Summit<D> {
-    /// Whether another summit is within a standard deviation of this one, and as high.
-    fn is_near(&self, other: &Self) -> bool {
-        let apart = vector::subtract(&other.point, &self.point);
-        vector::dot(&apart, &self.precision.apply(&apart)) < 1.0 && (self.log_density - other.log_density).abs() < 1.0
-    }
-
-    /// Whether a place is on this summit's own slope, by the normal approximation.
-    fn explains(&self, place: &[f64; D], log: f64) -> bool {
-        let apart = vector::subtract(place, &self.point);
-        let square = vector::dot(&apart, &self.precision.apply(&apart));
-        square < SLOPE * SLOPE && (self.log_density - 0.5 * square - log).abs() < 0.25 + 0.1 * square
-    }
-
-    /// A place in the direction of `towards`, so many standard deviations from here.
-    fn ringed(&self, towards: &[f64; D], ring: f64) -> [f64; D] {
-        let direction = vector::scale(towards, ring / vector::norm(towards).max(f64::MIN_POSITIVE));
-        vector::add(&self.point, &root(&self.covariance).apply(&direction))
-    }
+/// A place in the direction of `towards`, so many standard deviations from a summit.
+fn ringed<const D: usize>(summit: &Summit<D>, towards: &[f64; D], ring: f64) -> [f64; D] {
+    let direction = vector::scale(towards, ring / vector::norm(towards).max(f64::MIN_POSITIVE));
+    vector::add(&summit.point, &root(&summit.covariance).apply(&direction))
 }

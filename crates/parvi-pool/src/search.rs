@@ -4,13 +4,14 @@ use mpm_tensor::{Matrix, SymmetricEigen, vector};
 use rand::RngExt;
 use rand::rngs::ChaCha8Rng;
 
-use crate::ascent::{Summit, ascend};
+use crate::ascent::ascend;
 use crate::density::Density;
 use crate::fold::Fold;
 use crate::lanes::packed;
 use crate::mixture::{Kernel, Mixture};
 use crate::sample::{moments, root};
 use crate::scout::{about, wide};
+use crate::summit::Summit;
 use crate::weights::tempered;
 
 /// Widths of the wide law over the spread of what is known, and their shares.
@@ -168,7 +169,8 @@ impl<const D: usize> Covered<D> {
             idle += 1;
             let is_known = |place: &[f64; D], log: f64| self.surprises(&[*place], &[log])[0] < SURPRISING.ln();
             let reached = ascend(density, &points[start], is_known);
-            let Some(summit) = reached.and_then(|summit| summit.no_wider_than(widest)) else {
+            let reached = reached.and_then(|summit| summit.no_wider_than(widest)?.measured(density));
+            let Some(summit) = reached else {
                 continue;
             };
             let log_mass = summit.log_mass() - self.log_evidence;
