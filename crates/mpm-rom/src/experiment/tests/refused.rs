@@ -147,7 +147,7 @@ fn a_key_that_does_not_fit_the_scene_is_named_with_the_file_that_asks_for_it() {
         .expect_err("refused")
         .to_string();
     assert!(
-        error.contains("strip.toml, line 3, column 1: unknown field `dimensions`"),
+        error.contains("strip.toml, line 2, column 1: unknown field `dimensions`"),
         "{error}"
     );
 }
