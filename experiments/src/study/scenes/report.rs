@@ -53,9 +53,21 @@ pub fn report(study: &Scenes, rows: &[Row], directory: &StudyDirectory) -> Resul
         .with("verdict", verdict))
 }
 
+/// What the family's judgements say; one that finds nothing to judge is not kept.
 fn verdicts(family: &Family, series: &[MeasuredSeries]) -> Vec<Verdict> {
     let judged = || series.iter().filter(|series| series.is_among(&family.judged));
-    let of = |judgement: &Judgement| judged().flat_map(|series| judgement.judge(series)).collect::<Vec<_>>();
+    let of = |judgement: &Judgement| {
+        let mut verdicts: Vec<Verdict> = judged().flat_map(|series| judgement.judge(series)).collect();
+        if verdicts.is_empty() {
+            verdicts.push(Verdict {
+                of: family.judged.join(" or "),
+                asked: "something to judge".to_owned(),
+                reached: "no series of that name, or no point at that x".to_owned(),
+                pass: false,
+            });
+        }
+        verdicts
+    };
     family.judgements.iter().flat_map(of).collect()
 }
 
