@@ -1,7 +1,7 @@
 //! Hat functions on a mesh.
 
 use mpm_core::{Basis, CellSort, MpmError, Schedule};
-use mpm_kernels::{Deposit, Entry};
+use mpm_kernels::Entry;
 use mpm_tensor::vector::subtract;
 use rayon::prelude::*;
 
@@ -167,31 +167,6 @@ impl<const D: usize> Basis<D> for HatBasis<D> {
             };
             visit(k, &entry);
         }
-    }
-
-    /// Σ w = 1 and Σ ∇w = 0: vertex 0 has what the others leave of `value`.
-    #[inline(always)]
-    fn for_each_deposit(
-        &self,
-        particle: usize,
-        x: &[f64; D],
-        value: &Deposit<D>,
-        scale: f64,
-        mut visit: impl FnMut(usize, f64, &Deposit<D>),
-    ) {
-        let frame = self.search.frame(self.particle_cells[particle]);
-        let coordinates = frame.coordinates(x);
-        let (mut left, mut rest) = (1.0, *value);
-        for k in 1..=D {
-            let gradient = Deposit {
-                scalar: 0.0,
-                vector: frame.gradient(k),
-            };
-            let sent = value.combine(coordinates[k - 1], &gradient, scale);
-            visit(k, coordinates[k - 1], &sent);
-            (left, rest) = (left - coordinates[k - 1], rest.minus(&sent));
-        }
-        visit(0, left, &rest);
     }
 
     /// Hats are piecewise linear: ∇w_ip (docs/theory.md, Eq. 23).
