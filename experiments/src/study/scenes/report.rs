@@ -59,12 +59,7 @@ fn verdicts(family: &Family, series: &[MeasuredSeries]) -> Vec<Verdict> {
     let of = |judgement: &Judgement| {
         let mut verdicts: Vec<Verdict> = judged().flat_map(|series| judgement.judge(series)).collect();
         if verdicts.is_empty() {
-            verdicts.push(Verdict {
-                of: family.judged.join(" or "),
-                asked: "something to judge".to_owned(),
-                reached: "no series of that name, or no point at that x".to_owned(),
-                pass: false,
-            });
+            verdicts.push(Verdict::of_nothing(family.judged.join(" or ")));
         }
         verdicts
     };
@@ -151,5 +146,44 @@ fn digits(value: f64, row: &Row) -> String {
     match row.reference {
         Some(reference) if reference != 0.0 && (1e-3..1e3).contains(&value.abs()) => format!("{value:.4}"),
         _ => number(value),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::series::Point;
+    use super::*;
+
+    #[test]
+    fn a_judgement_that_finds_nothing_to_judge_is_not_kept() {
+        let family: Family = toml::from_str(
+            "name = \"a\"\ntitle = \"A\"\ny-label = \"y\"\nread = { quantity = \"q\" }\n\
+             judgements = [{ kind = \"bound\", reference = 0.0, tolerance = 2.0, at = [1.0] }]\njudged = [\"graded, local\"]",
+        )
+        .unwrap();
+        let point = Point {
+            x: 1.0,
+            value: 0.5,
+            reference: None,
+            tolerance: None,
+        };
+        let series = MeasuredSeries {
+            label: "graded, local".to_owned(),
+            points: vec![point],
+            failed: 0,
+        };
+        let judged = |names: &[&str]| {
+            let judged = names.iter().map(|name| (*name).to_owned()).collect();
+            verdicts(
+                &Family {
+                    judged,
+                    ..family.clone()
+                },
+                std::slice::from_ref(&series),
+            )
+        };
+        let unknown = judged(&["graded, local"]);
+        assert!(unknown.len() == 1 && !unknown[0].pass && unknown[0].reached == "none");
+        assert!(judged(&["graded"])[0].pass);
     }
 }

@@ -68,6 +68,18 @@ pub struct Verdict {
     pub pass: bool,
 }
 
+impl Verdict {
+    /// That there was nothing to judge.
+    pub fn of_nothing(of: String) -> Self {
+        Self {
+            of,
+            asked: "something to judge".to_owned(),
+            reached: "none".to_owned(),
+            pass: false,
+        }
+    }
+}
+
 impl Judgement {
     /// Judges a series; one line per series, or per point with a bound.
     pub fn judge(&self, series: &MeasuredSeries) -> Vec<Verdict> {
@@ -87,6 +99,9 @@ impl Judgement {
             } => bound::judge(series, (*reference, *tolerance), at),
         };
         if series.failed > 0 {
+            if verdicts.is_empty() {
+                verdicts.push(Verdict::of_nothing(name(series)));
+            }
             for verdict in &mut verdicts {
                 verdict.pass = false;
                 verdict.reached += &format!("; {} runs ended before their time", series.failed);
@@ -132,5 +147,17 @@ mod tests {
         assert!(judge(&series).pass);
         series.failed = 1;
         assert!(!judge(&series).pass && judge(&series).reached.contains("1 runs ended"));
+        series.points.clear();
+        let bound = Judgement::Bound {
+            reference: Some(0.0),
+            tolerance: Some(9.0),
+            at: Vec::new(),
+        };
+        let verdicts = bound.judge(&series);
+        assert!(
+            verdicts.len() == 1 && verdicts[0].reached == "none; 1 runs ended before their time",
+            "{verdicts:?}"
+        );
+        assert!(!verdicts[0].pass);
     }
 }
