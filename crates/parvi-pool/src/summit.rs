@@ -74,8 +74,8 @@ impl<const D: usize> Summit<D> {
             let axis = std::array::from_fn(|row| eigen.vectors.0[row][k]);
             vector::add_scaled(&self.point, eigen.values[k].sqrt().recip(), &axis)
         });
-        let falls = density.log_densities(&places);
-        let falls: [f64; D] = std::array::from_fn(|k| (2.0 * (self.log_density - falls[k])).min(STEEPEST));
+        let there = density.log_densities(&places);
+        let falls: [f64; D] = std::array::from_fn(|k| (2.0 * (self.log_density - there[k])).min(STEEPEST));
         let bends = falls.iter().any(|&fall| fall > BENDING);
         let stretch = |k: usize| if falls[k] > BENDING { falls[k] } else { 1.0 };
         Some(Self {
