@@ -73,10 +73,12 @@ impl<const D: usize> ImportanceSample<D> {
     /// [`TargetError::OutOfRange`] for fewer than 2 scramblings, fewer than 16 points per scrambling, or a proposal
     /// outside of ν > 0, inflation > 0; [`TargetError::ReferenceFailed`] where a log density is NaN or +∞, or where every
     /// point has density zero.
-    pub fn new<T>(target: &T, options: &ReferenceOptions) -> Result<Self, TargetError>
-    where
-        T: CatalogueTarget<D> + ?Sized,
-    {
+    pub fn new(target: &dyn CatalogueTarget<D>, options: &ReferenceOptions) -> Result<Self, TargetError> {
+        (Compiled::of().sample)(target, options)
+    }
+
+    /// [`new`](Self::new), generated where it is called.
+    fn drawn(target: &dyn CatalogueTarget<D>, options: &ReferenceOptions) -> Result<Self, TargetError> {
         positive("degrees of freedom of the proposal", options.degrees_of_freedom)?;
         positive("inflation of the proposal", options.inflation)?;
         at_least("scramblings", options.scramblings, 2, "2 or more")?;
@@ -101,6 +103,11 @@ impl<const D: usize> ImportanceSample<D> {
 
     /// Mean, covariance and their standard errors over the scramblings.
     pub fn moments(&self) -> ReferenceMoments<D> {
+        (Compiled::of().moments)(self)
+    }
+
+    /// [`moments`](Self::moments), generated where it is called.
+    fn moments_of(&self) -> ReferenceMoments<D> {
         let parts: Vec<Moments<D>> = self
             .draws
             .points
@@ -133,17 +140,32 @@ impl<const D: usize> ImportanceSample<D> {
     }
 }
 
+/// What is compiled for a dimension.
+struct Compiled<const D: usize> {
+    sample: Sample<D>,
+    moments: fn(&ImportanceSample<D>) -> ReferenceMoments<D>,
+}
+
+type Sample<const D: usize> =
+    fn(&dyn CatalogueTarget<D>, &ReferenceOptions) -> Result<ImportanceSample<D>, TargetError>;
+
+impl<const D: usize> Compiled<D> {
+    const HERE: Self = Self {
+        sample: ImportanceSample::drawn,
+        moments: ImportanceSample::moments_of,
+    };
+}
+
+mpm_parallel::compiled_ahead!(Compiled);
+
 /// The moments of a target: in closed form where it has them, else by importance sampling.
 ///
 /// # Errors
 /// As [`ImportanceSample::new`].
-pub fn reference_moments<const D: usize, T>(
-    target: &T,
+pub fn reference_moments<const D: usize>(
+    target: &dyn CatalogueTarget<D>,
     options: &ReferenceOptions,
-) -> Result<ReferenceMoments<D>, TargetError>
-where
-    T: CatalogueTarget<D> + ?Sized,
-{
+) -> Result<ReferenceMoments<D>, TargetError> {
     match target.moments() {
         Some(moments) => Ok(ReferenceMoments {
             moments,
@@ -160,14 +182,11 @@ where
 ///
 /// # Errors
 /// As [`ImportanceSample::new`].
-pub fn reference_draws<const D: usize, T>(
-    target: &T,
+pub fn reference_draws<const D: usize>(
+    target: &dyn CatalogueTarget<D>,
     count: usize,
     options: &ReferenceOptions,
-) -> Result<Vec<[f64; D]>, TargetError>
-where
-    T: CatalogueTarget<D> + ?Sized,
-{
+) -> Result<Vec<[f64; D]>, TargetError> {
     match target.exact_draws() {
         Some(exact) => {
             let mut rng = ChaCha8Rng::seed_from_u64(options.seed);
@@ -180,16 +199,13 @@ where
 }
 
 /// `count` points of the proposal for every seed, with weights that sum to one over all.
-fn weighed<const D: usize, T>(
-    target: &T,
+fn weighed<const D: usize>(
+    target: &dyn CatalogueTarget<D>,
     frame: &Frame<D>,
     options: &ReferenceOptions,
     seeds: &[u64],
     count: usize,
-) -> Result<WeightedDraws<D>, TargetError>
-where
-    T: CatalogueTarget<D> + ?Sized,
-{
+) -> Result<WeightedDraws<D>, TargetError> {
     let failed = |reason: String| TargetError::ReferenceFailed {
         target: target.name().to_owned(),
         reason,

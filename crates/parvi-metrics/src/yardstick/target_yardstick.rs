@@ -27,6 +27,11 @@ impl<const D: usize> TargetYardstick<D> {
     /// # Errors
     /// [`YardstickError`]: no points that stand for it, or such as have no finite distances.
     pub fn new(target: BoxedTarget<D>, options: &YardstickOptions) -> Result<Self, YardstickError> {
+        (Compiled::of().of_target)(target, options)
+    }
+
+    /// [`new`](Self::new), generated where it is called.
+    fn of_target(target: BoxedTarget<D>, options: &YardstickOptions) -> Result<Self, YardstickError> {
         let Representation {
             points,
             weights,
@@ -92,6 +97,11 @@ impl<const D: usize> TargetYardstick<D> {
 
     /// Independent draws: exact ones where the target has them, else draws from the importance sample.
     pub fn draws(&self, count: usize, seed: u64) -> Vec<[f64; D]> {
+        (Compiled::of().draws)(self, count, seed)
+    }
+
+    /// [`draws`](Self::draws), generated where it is called.
+    fn drawn(&self, count: usize, seed: u64) -> Vec<[f64; D]> {
         match (self.target.exact_draws(), &self.sample) {
             (Some(exact), _) => {
                 let mut generator = ChaCha8Rng::seed_from_u64(seed);
@@ -107,6 +117,11 @@ impl<const D: usize> TargetYardstick<D> {
     /// # Errors
     /// [`MetricError`]: particles that are not finite, or distances that overflow.
     pub fn measure(&self, points: &[[f64; D]], weights: Option<&[f64]>) -> Result<Errors, MetricError> {
+        (Compiled::of().errors)(self, points, weights)
+    }
+
+    /// [`measure`](Self::measure), generated where it is called.
+    fn errors_of(&self, points: &[[f64; D]], weights: Option<&[f64]>) -> Result<Errors, MetricError> {
         let own = Cloud::with_optional_weights(points, weights)?;
         let moments = MomentError::new(&own, &self.moments)?;
         let mass = match self.target.modes() {
@@ -130,3 +145,20 @@ impl<const D: usize> TargetYardstick<D> {
         })
     }
 }
+
+/// What is compiled for a dimension.
+struct Compiled<const D: usize> {
+    of_target: fn(BoxedTarget<D>, &YardstickOptions) -> Result<TargetYardstick<D>, YardstickError>,
+    errors: fn(&TargetYardstick<D>, &[[f64; D]], Option<&[f64]>) -> Result<Errors, MetricError>,
+    draws: fn(&TargetYardstick<D>, usize, u64) -> Vec<[f64; D]>,
+}
+
+impl<const D: usize> Compiled<D> {
+    const HERE: Self = Self {
+        of_target: TargetYardstick::of_target,
+        errors: TargetYardstick::errors_of,
+        draws: TargetYardstick::drawn,
+    };
+}
+
+mpm_parallel::compiled_ahead!(Compiled);

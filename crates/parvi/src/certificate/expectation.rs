@@ -19,8 +19,24 @@ pub fn expectation<const D: usize>(
     samples: &Samples<D>,
     f: impl Fn(&[f64; D]) -> f64,
 ) -> Option<Expectation> {
+    let values: Vec<f64> = samples.positions.iter().map(f).collect();
+    (Compiled::of().of_values)(target, samples, &values)
+}
+
+/// What is compiled for a dimension.
+struct Compiled<const D: usize> {
+    of_values: fn(&dyn Target<D>, &Samples<D>, &[f64]) -> Option<Expectation>,
+}
+
+impl<const D: usize> Compiled<D> {
+    const HERE: Self = Self { of_values };
+}
+
+mpm_parallel::compiled_ahead!(Compiled);
+
+/// [`expectation`] of the function that has these values at the particles.
+fn of_values<const D: usize>(target: &dyn Target<D>, samples: &Samples<D>, values: &[f64]) -> Option<Expectation> {
     let positions = &samples.positions;
-    let values: Vec<f64> = positions.iter().map(f).collect();
     if values.iter().any(|value| !value.is_finite()) {
         return None;
     }
@@ -28,7 +44,7 @@ pub fn expectation<const D: usize>(
     target.scores(positions, &mut scores);
     let weights = samples.weights.as_deref();
     ControlVariates::explaining(positions, &scores, weights, EXPLAINED, |regression, _| {
-        let found = regression.expectation(&values);
+        let found = regression.expectation(values);
         (found.unexplained_share(), found)
     })
 }
