@@ -39,6 +39,9 @@ const SEARCHING_OF_SPENT: f64 = 1.0 / 3.0;
 const SEARCHING_OF_GOAL: f64 = 0.2;
 const SEARCHES: u64 = 5;
 
+/// Evaluations of searches that meet nothing new, over those until the last piece was met, without which there may be more.
+pub(super) const QUIET: f64 = 2.0;
+
 /// Share of the last effective share that a round must have to be kept.
 const NEARLY: f64 = 0.4;
 
@@ -53,8 +56,9 @@ pub(super) struct Adaptation<const D: usize> {
     pub shares: [Vec<f64>; 2],
     best: f64,
     without_advance: usize,
-    /// Evaluations that searches have taken.
+    /// Evaluations that searches have taken, and those until they last met a piece.
     searched: u64,
+    met: u64,
     /// Effective sizes before the last round and after it.
     sizes: [f64; 2],
 }
@@ -90,6 +94,7 @@ impl<const D: usize> Adaptation<D> {
             best: 0.0,
             without_advance: 0,
             searched: 0,
+            met: 0,
             sizes: [0.0, size],
         })
     }
@@ -109,13 +114,23 @@ impl<const D: usize> Adaptation<D> {
         let count = (SEARCHING * plan.evaluations as f64)
             .min((SEARCHING_OF_SPENT * spent as f64).max(SEARCHING_OF_GOAL * plan.goal));
         let count = count as usize / (2 * LANES) * 2 * LANES;
-        let allowed = (SEARCHES * count as u64).saturating_sub(self.searched);
-        if allowed < count as u64 || self.is_used_up(plan, density.evaluations()) {
-            return false;
-        }
-        let before = density.evaluations();
-        let found = search(&mut self.folds, density, count, allowed, rng);
-        self.searched += density.evaluations() - before;
+        let found = loop {
+            let most = (SEARCHES * count as u64).max(((1.0 + QUIET) * self.met as f64) as u64 + count as u64);
+            let allowed = most.saturating_sub(self.searched);
+            if allowed < count as u64 || self.is_used_up(plan, density.evaluations()) {
+                break None;
+            }
+            let before = density.evaluations();
+            let found = search(&mut self.folds, density, count, allowed, rng);
+            self.searched += density.evaluations() - before;
+            if found.is_some() {
+                self.met = self.searched;
+                break found;
+            }
+            if self.quiet() >= QUIET {
+                break None;
+            }
+        };
         let found = found.inspect(|found| {
             for fold in &mut self.folds {
                 fold.draw(density, found.clone(), plan.round / 4, rng.random());
@@ -129,6 +144,16 @@ impl<const D: usize> Adaptation<D> {
             self.sizes = [0.0, self.folds.iter().map(Fold::effective_size).sum()];
         }
         found.is_some()
+    }
+
+    /// Evaluations of searches since they last met a piece, over those before; infinite where they met none.
+    pub fn quiet(&self) -> f64 {
+        let met = self.met as f64;
+        if self.met == 0 {
+            f64::INFINITY
+        } else {
+            (self.searched as f64 - met) / met
+        }
     }
 
     /// Takes fresh points in after all: they met what the rounds had not.

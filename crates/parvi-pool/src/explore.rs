@@ -53,7 +53,7 @@ pub(crate) fn explore<const D: usize>(
         }
         let frozen = freeze(&mut adaptation, &mut density, &plan, &mut rng);
         if !frozen.surprised || adaptation.is_used_up(&plan, density.evaluations()) {
-            let pool = Pool::new(&adaptation.folds, &frozen, frame, &density, particles);
+            let pool = Pool::new(&adaptation, &frozen, frame, &density, particles);
             if pool.objection(particles).is_none() || !plan.extend() {
                 return Ok(pool);
             }

@@ -5,6 +5,7 @@ use std::fmt;
 use mpm_tensor::{Matrix, vector};
 use parvi_targets::Frame;
 
+use crate::adapt::{Adaptation, QUIET};
 use crate::density::Density;
 use crate::estimate::Estimate;
 use crate::fold::{Fold, joined};
@@ -31,6 +32,8 @@ pub struct Pool<const D: usize> {
     pub log_evidence_error: f64,
     /// What fresh points of the frozen proposal say.
     pub verdict: Verdict,
+    /// Evaluations of searches since they last met a piece, over those before; infinite where they met none.
+    pub quiet: f64,
     /// Points at which log p was evaluated.
     pub density_evaluations: u64,
     /// Points at which the score was evaluated.
@@ -55,12 +58,13 @@ impl<const D: usize> fmt::Debug for Pool<D> {
 impl<const D: usize> Pool<D> {
     /// Joins the folds, every one of which estimates Z by itself: in the weights they count by their effective sizes, in the measure by the inverse of its variance.
     pub(crate) fn new(
-        folds: &[Fold<D>; 2],
+        adaptation: &Adaptation<D>,
         frozen: &Frozen<D>,
         frame: &Frame<D>,
         density: &Density<'_, D>,
         particles: usize,
     ) -> Self {
+        let folds = &adaptation.folds;
         let fresh = &frozen.fresh;
         let points = fresh.positions.len() as f64;
         let fresh_logs: Vec<f64> = fresh.log_weights().iter().map(|l| l + points.ln()).collect();
@@ -82,6 +86,7 @@ impl<const D: usize> Pool<D> {
             log_evidence,
             log_evidence_error,
             verdict,
+            quiet: adaptation.quiet(),
             density_evaluations: density.density_evaluations,
             score_evaluations: density.score_evaluations,
             values_replaced: density.replaced,
@@ -106,7 +111,8 @@ impl<const D: usize> Pool<D> {
     /// The first reason, if any, not to rely on these weights for so many particles.
     pub fn objection(&self, particles: usize) -> Option<Objection> {
         let variance = self.measure.variance * particles as f64;
-        self.verdict.objection(self.log_evidence_error, variance)
+        let objection = self.verdict.objection(self.log_evidence_error, variance);
+        objection.or((self.quiet < QUIET).then_some(Objection::Searching(self.quiet)))
     }
 
     /// Kish's effective size of the weights.

@@ -23,6 +23,9 @@ pub enum Objection {
     Noise(f64),
     /// Fresh points met more than 0.02 of the mass where no kernel had covered it.
     Uncovered(f64),
+    /// Searches that met a piece were not followed by twice as long ones that met none; the quotient. A. M. Turing's argument, of which I. J. Good tells: where
+    /// something was still met of late, there is more.
+    Searching(f64),
 }
 
 /// What fresh points of a frozen proposal say.

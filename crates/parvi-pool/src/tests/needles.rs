@@ -4,6 +4,7 @@ use mpm_tensor::vector;
 use parvi_targets::Target;
 
 use super::pool_of;
+use crate::Objection;
 
 /// A normal law of width 0.5 about (−1, …) and equally heavy ones of widths 0.06 and 0.05.
 struct Needles<const D: usize>([[f64; D]; 3]);
@@ -44,4 +45,15 @@ fn needles_are_found_by_every_seed() {
         let pool = pool_of(&target, 1000, seed).unwrap();
         assert!(pool.log_evidence.abs() < 0.05, "{seed}: {pool:?}");
     }
+}
+
+#[test]
+fn what_searches_met_of_late_is_followed_by_quiet_or_an_objection() {
+    let target = Needles([[-1.0, 0.3, 0.5], [1.6, 1.4, -0.5], [1.3, -2.2, 1.0]]);
+    // Searches of this seed meet both needles.
+    let mut pool = pool_of(&target, 500, 2).unwrap();
+    assert!(pool.quiet.is_finite() && pool.quiet >= 2.0, "{}", pool.quiet);
+    assert_eq!(pool.objection(500), None, "{pool:?}");
+    pool.quiet = 1.9;
+    assert_eq!(pool.objection(500), Some(Objection::Searching(1.9)));
 }

@@ -65,6 +65,11 @@ pub enum Doubt {
         /// Its mass.
         mass: f64,
     },
+    /// Searches still met pieces of late.
+    Searching {
+        /// Evaluations since the last piece was met, over those before.
+        quiet: f64,
+    },
     /// Nothing has looked for other pieces of the target, of which the particles would know nothing.
     NotSurveyed,
     /// The particles stand for p^α, and the scores judge p.
@@ -133,6 +138,10 @@ impl fmt::Display for Doubt {
             Self::Uncovered { mass } => write!(
                 f,
                 "fresh points met a mass of {mass:.3} that nothing had covered before, and more may have been missed"
+            ),
+            Self::Searching { quiet } => write!(
+                f,
+                "searches for other pieces ended after {quiet:.1} times the evaluations until the last piece was met: there may be more"
             ),
             Self::NotSurveyed => write!(f, "without a survey nothing has looked for other pieces of the target"),
             Self::Tempered { alpha } => write!(
