@@ -3,7 +3,7 @@
 use mpm_tensor::{Matrix, vector as algebra};
 
 use crate::scene::{Scene, VelocityField, VelocityTable};
-use crate::values::{vector, within};
+use crate::values::{finite, vector, within};
 use crate::{ManufacturedSolution, SceneFault, reference};
 
 /// A velocity as a function of the reference position.
@@ -64,7 +64,7 @@ pub(crate) fn build<const D: usize>(
         } => InitialVelocity::Sine {
             amplitude: vector_of("amplitude", amplitude)?,
             wave_vector: vector_of("wave_vector", wave_vector)?,
-            phase: within(&format!("{field}.phase"), *phase, phase.is_finite(), "finite")?,
+            phase: finite(&format!("{field}.phase"), *phase)?,
         },
         VelocityField::Rotation { centre, rate } => InitialVelocity::Linear {
             centre: vector_of("centre", centre)?,
@@ -72,13 +72,8 @@ pub(crate) fn build<const D: usize>(
         },
         VelocityField::Linear { centre, gradient } => {
             let mut rows = [[0.0; D]; D];
-            if gradient.len() != D {
-                return Err(SceneFault::value(
-                    format!("{field}.gradient"),
-                    gradient,
-                    format!("{D} rows"),
-                ));
-            }
+            let (name, square) = (format!("{field}.gradient"), gradient.len() == D);
+            within(&name, gradient, square, &format!("{D} rows"))?;
             for (row, list) in rows.iter_mut().zip(gradient) {
                 *row = vector_of("gradient", list)?;
             }
