@@ -15,7 +15,7 @@ use crate::{ElasticModuli, Material};
 ///
 /// **Defined for J > 0 only.** ψ grows without bound as J → 0, so the exact motion never gets there, but a time step that is
 /// too long can. [`Material::check`] and [`Material::checked_kirchhoff_stress`] then return
-/// [`DeformationError::VolumeRatio`] with J; the unchecked methods return NaN (all diagonal entries of a stress).
+/// [`DeformationError::VolumeRatio`](crate::DeformationError::VolumeRatio) with J; the unchecked methods return NaN (all diagonal entries of a stress).
 ///
 /// Source: Bonet & Wood, *Nonlinear Continuum Mechanics*, 2nd ed., Eqs. 6.27–6.29; Huang, arXiv 2407.20287.
 #[derive(Clone, Copy, Debug, PartialEq)]
