@@ -2,6 +2,7 @@
 
 use mpm_tensor::{Matrix, vector as algebra};
 
+use crate::manufactured::in_the_plane;
 use crate::scene::{Scene, VelocityField, VelocityTable};
 use crate::values::{finite, vector, within};
 use crate::{ManufacturedSolution, SceneFault, reference};
@@ -32,11 +33,7 @@ impl<const D: usize> InitialVelocity<D> {
                 phase,
             } => algebra::scale(amplitude, (algebra::dot(wave_vector, x) + phase).sin()),
             Self::Linear { centre, gradient } => gradient.apply(&algebra::subtract(x, centre)),
-            Self::Manufactured(solution) => {
-                let mut velocity = [0.0; D];
-                solution.velocity(x, 0.0, &mut velocity);
-                velocity
-            }
+            Self::Manufactured(solution) => in_the_plane(x, |start| solution.velocity(start, 0.0)),
         }
     }
 }
