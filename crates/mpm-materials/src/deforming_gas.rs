@@ -2,8 +2,8 @@
 
 use mpm_tensor::Matrix;
 
-use crate::material::{check_volume_ratio, log_volume_ratio, volume_alone};
-use crate::{DeformationError, IsothermalGas, Law, Memory, Remembered};
+use crate::material::{log_volume_ratio, volume_alone};
+use crate::{IsothermalGas, Law, Memory, Remembered};
 
 /// What [`DeformingGas`] remembers of a particle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -60,31 +60,13 @@ impl<const D: usize> Law<D> for DeformingGas {
 
     #[inline]
     fn kirchhoff_stress(&self, F: &Matrix<D>, state: &GasState, _velocity_gradient: &Matrix<D>) -> Matrix<D> {
-        Matrix::diagonal(&[-self.pressure(F, state); D])
+        Matrix::diagonal(&[-self.gas.kirchhoff_pressure(F, state.reference_density); D])
     }
 
     /// c = √(κ ρ₀ / `reference_density`), which is √κ.
     #[inline]
     fn wave_speed(&self, F: &Matrix<D>, state: &GasState, reference_density: f64) -> f64 {
-        (self.pressure(F, state) / reference_density).sqrt()
-    }
-
-    fn check(&self, F: &Matrix<D>) -> Result<(), DeformationError> {
-        check_volume_ratio(F).map(|_| ())
-    }
-}
-
-#[allow(non_snake_case)]
-impl DeformingGas {
-    /// κ ρ₀, the Kirchhoff pressure; NaN unless det F is positive and finite.
-    #[inline]
-    fn pressure<const D: usize>(&self, F: &Matrix<D>, state: &GasState) -> f64 {
-        let J = F.determinant();
-        if J > 0.0 && J < f64::INFINITY {
-            self.gas.pressure(state.reference_density)
-        } else {
-            f64::NAN
-        }
+        (self.gas.kirchhoff_pressure(F, state.reference_density) / reference_density).sqrt()
     }
 }
 

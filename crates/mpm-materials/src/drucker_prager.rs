@@ -2,12 +2,11 @@
 
 use mpm_tensor::Matrix;
 
-use crate::error::not_negative;
+use crate::error::{not_negative, within};
 use crate::exponential::exponential;
-use crate::hencky::deviation;
 use crate::log_strain::log_strain;
-use crate::material::{check_volume_ratio, log_volume_ratio};
-use crate::{DeformationError, ElasticModuli, Hencky, Law, Material, Memory, ParameterError, Remembered};
+use crate::material::{log_volume_ratio, shifted};
+use crate::{ElasticModuli, Hencky, Law, Material, Memory, ParameterError, Remembered};
 
 /// Internal variables of [`DruckerPrager`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -72,11 +71,11 @@ impl DruckerPrager {
     ///
     /// # Errors
     ///
-    /// [`ParameterError::FrictionAngle`] unless 0 < φ < π/2.
+    /// [`ParameterError`] unless 0 < φ < π/2.
     pub fn new(moduli: ElasticModuli, friction_angle: f64) -> Result<Self, ParameterError> {
-        if !(friction_angle > 0.0 && friction_angle < std::f64::consts::FRAC_PI_2) {
-            return Err(ParameterError::FrictionAngle { value: friction_angle });
-        }
+        let acute = friction_angle > 0.0 && friction_angle < std::f64::consts::FRAC_PI_2;
+        let expected = "strictly between 0 and pi/2 (radians)";
+        let friction_angle = within("friction_angle", friction_angle, acute, expected)?;
         Ok(Self {
             elastic: Hencky::new(moduli),
             friction_sine: friction_angle.sin(),
@@ -89,9 +88,9 @@ impl DruckerPrager {
     ///
     /// # Errors
     ///
-    /// [`ParameterError::Cohesion`] unless 0 ≤ c < ∞.
+    /// [`ParameterError`] unless 0 ≤ c < ∞.
     pub fn with_cohesion(self, cohesion: f64) -> Result<Self, ParameterError> {
-        let cohesion = not_negative(cohesion, |value| ParameterError::Cohesion { value })?;
+        let cohesion = not_negative("cohesion", cohesion)?;
         Ok(Self { cohesion, ..self })
     }
 
@@ -135,7 +134,7 @@ impl<const D: usize> Law<D> for DruckerPrager {
             state.volume_correction = trace;
             return exponential(&-strain) * *trial;
         }
-        let strain_deviator = deviation(&strain, trial_trace / D as f64);
+        let strain_deviator = shifted(strain, -(trial_trace / D as f64));
         let deviator = 2.0 * self.elastic.moduli.shear_modulus() * strain_deviator.frobenius_norm();
         let largest = self.cone_slope(D) * (self.tensile_strength() - tension);
         let kept = if deviator > largest { largest / deviator } else { 1.0 };
@@ -144,7 +143,7 @@ impl<const D: usize> Law<D> for DruckerPrager {
         }
         let closing = state.volume_correction / D as f64;
         state.volume_correction = 0.0;
-        exponential(&deviation(&(strain_deviator * (kept - 1.0)), -closing)) * *trial
+        exponential(&shifted(strain_deviator * (kept - 1.0), closing)) * *trial
     }
 
     #[inline]
@@ -166,10 +165,6 @@ impl<const D: usize> Law<D> for DruckerPrager {
     #[inline]
     fn wave_speed(&self, F: &Matrix<D>, _state: &DruckerPragerState, reference_density: f64) -> f64 {
         (self.elastic.wave_modulus(F, log_volume_ratio(F)) / reference_density).sqrt()
-    }
-
-    fn check(&self, F: &Matrix<D>) -> Result<(), DeformationError> {
-        check_volume_ratio(F).map(|_| ())
     }
 
     /// det F e^(v_c).
@@ -249,13 +244,12 @@ mod tests {
     fn parameters_out_of_range_are_named() {
         let moduli = sand().moduli();
         for value in [0.0, -0.1, 1.6, f64::INFINITY] {
-            assert_eq!(
-                DruckerPrager::new(moduli, value),
-                Err(ParameterError::FrictionAngle { value })
-            );
+            let error = DruckerPrager::new(moduli, value).expect_err("out of range");
+            assert_eq!(error.parameter(), ("friction_angle", value));
         }
         for value in [-1.0, f64::INFINITY] {
-            assert_eq!(sand().with_cohesion(value), Err(ParameterError::Cohesion { value }));
+            let error = sand().with_cohesion(value).expect_err("out of range");
+            assert_eq!(error.parameter(), ("cohesion", value));
         }
         assert!(DruckerPrager::new(moduli, f64::NAN).is_err() && sand().with_cohesion(f64::NAN).is_err());
     }

@@ -1,7 +1,7 @@
 //! The two moduli of isotropic elasticity.
 
 use crate::ParameterError;
-use crate::error::positive;
+use crate::error::{positive, within};
 
 /// Lamé's parameters λ and μ of an isotropic elastic solid, in units of stress.
 ///
@@ -27,31 +27,33 @@ impl ElasticModuli {
     ///
     /// # Errors
     ///
-    /// [`ParameterError::YoungModulus`] unless 0 < E < ∞, [`ParameterError::PoissonRatio`] unless −1 < ν < 1/2, and the
-    /// errors of [`from_lame`](Self::from_lame) where λ or μ overflows or underflows.
+    /// [`ParameterError`] unless 0 < E < ∞ and −1 < ν < 1/2, and unless λ and μ are finite and μ is positive to rounding.
     #[allow(non_snake_case)]
     pub fn new(young_modulus: f64, poisson_ratio: f64) -> Result<Self, ParameterError> {
-        let E = positive(young_modulus, |value| ParameterError::YoungModulus { value })?;
-        let nu = poisson_ratio;
-        if !(nu > -1.0 && nu < 0.5) {
-            return Err(ParameterError::PoissonRatio { value: nu });
-        }
-        Self::from_lame(E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)), E / (2.0 * (1.0 + nu)))
+        let E = positive("young_modulus", young_modulus)?;
+        let between = poisson_ratio > -1.0 && poisson_ratio < 0.5;
+        let nu = within("poisson_ratio", poisson_ratio, between, "strictly between -1 and 1/2")?;
+        let moduli = Self::from_lame(E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)), E / (2.0 * (1.0 + nu)));
+        within(
+            "young_modulus",
+            E,
+            moduli.is_ok(),
+            "of a size that leaves both moduli finite",
+        )?;
+        moduli
     }
 
     /// From Lamé's first parameter λ and the shear modulus μ (both stress).
     ///
     /// # Errors
     ///
-    /// [`ParameterError::ShearModulus`] unless 0 < μ < ∞, [`ParameterError::FirstLameParameter`] unless −2μ/3 < λ < ∞.
+    /// [`ParameterError`] unless 0 < μ < ∞ and −2μ/3 < λ < ∞.
     pub fn from_lame(first_lame_parameter: f64, shear_modulus: f64) -> Result<Self, ParameterError> {
-        let shear_modulus = positive(shear_modulus, |value| ParameterError::ShearModulus { value })?;
-        let value = first_lame_parameter;
-        if !(value > -2.0 / 3.0 * shear_modulus && value.is_finite()) {
-            return Err(ParameterError::FirstLameParameter { value });
-        }
+        let shear_modulus = positive("shear_modulus", shear_modulus)?;
+        let above = first_lame_parameter > -2.0 / 3.0 * shear_modulus && first_lame_parameter.is_finite();
+        let expected = "finite and above -2/3 of the shear modulus";
         Ok(Self {
-            first_lame_parameter,
+            first_lame_parameter: within("first_lame_parameter", first_lame_parameter, above, expected)?,
             shear_modulus,
         })
     }
@@ -119,29 +121,25 @@ mod tests {
         assert!(at(-0.24) > 0.0 && at(-0.26) < 0.0);
     }
 
+    fn refused(moduli: Result<ElasticModuli, ParameterError>) -> (&'static str, f64) {
+        moduli.expect_err("out of range").parameter()
+    }
+
     #[test]
     fn parameters_out_of_range_are_named() {
         for value in [0.0, -1.0, f64::INFINITY] {
-            assert_eq!(
-                ElasticModuli::new(value, 0.3),
-                Err(ParameterError::YoungModulus { value })
-            );
-            assert_eq!(
-                ElasticModuli::from_lame(1.0, value),
-                Err(ParameterError::ShearModulus { value })
-            );
+            assert_eq!(refused(ElasticModuli::new(value, 0.3)), ("young_modulus", value));
+            assert_eq!(refused(ElasticModuli::from_lame(1.0, value)), ("shear_modulus", value));
         }
         for value in [-1.0, 0.5, 2.0, f64::NEG_INFINITY] {
-            assert_eq!(
-                ElasticModuli::new(1.0, value),
-                Err(ParameterError::PoissonRatio { value })
-            );
+            assert_eq!(refused(ElasticModuli::new(1.0, value)), ("poisson_ratio", value));
         }
         assert!(ElasticModuli::new(f64::NAN, 0.3).is_err() && ElasticModuli::new(1.0, f64::NAN).is_err());
-        let error = ElasticModuli::from_lame(-1.0, 1.5).expect_err("at the border");
-        assert_eq!(error, ParameterError::FirstLameParameter { value: -1.0 });
+        let border = ElasticModuli::from_lame(-1.0, 1.5);
+        assert_eq!(refused(border), ("first_lame_parameter", -1.0));
         let message = ElasticModuli::new(1.0, 0.5).expect_err("incompressible").to_string();
-        assert_eq!(message, "Poisson's ratio must be strictly between -1 and 1/2, not 0.5");
-        assert!(ElasticModuli::new(1e308, 0.5 - 1e-16).is_err(), "lambda overflows");
+        assert_eq!(message, "poisson_ratio must be strictly between -1 and 1/2, not 0.5");
+        let overflow = ElasticModuli::new(1e308, 0.5 - 1e-16);
+        assert_eq!(refused(overflow), ("young_modulus", 1e308), "lambda overflows");
     }
 }

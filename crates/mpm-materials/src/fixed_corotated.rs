@@ -2,10 +2,10 @@
 
 use mpm_tensor::{Matrix, Polar};
 
-use crate::material::{check_volume_ratio, inverse_transpose, stresses_one_by_one, wave_speeds_one_by_one};
+use crate::material::{inverse_transpose, shifted, stresses_one_by_one, volume_ratio, wave_speeds_one_by_one};
 use crate::side_by_side::{LANES, groups, write_wave_speeds};
 use crate::stretch::{largest_squared_stretch, squared_stretch_range};
-use crate::{DeformationError, ElasticModuli, Material};
+use crate::{ElasticModuli, Material};
 
 /// The fixed corotated solid, ψ = μ ‖F − R‖² + λ/2 (J − 1)² with the rotation R of F = R S and J = det F.
 ///
@@ -35,9 +35,9 @@ impl FixedCorotated {
 #[allow(non_snake_case)]
 #[inline]
 fn corotated_strain<const D: usize>(F: &Matrix<D>) -> (Matrix<D>, f64) {
-    let J = F.determinant();
+    let J = volume_ratio(F);
     match Polar::new(F) {
-        Some(polar) if J > 0.0 && J < f64::INFINITY => (*F - polar.rotation, J),
+        Some(polar) if J > 0.0 => (*F - polar.rotation, J),
         _ => (Matrix([[f64::NAN; D]; D]), f64::NAN),
     }
 }
@@ -55,12 +55,8 @@ impl<const D: usize> Material<D> for FixedCorotated {
     fn kirchhoff_stress(&self, F: &Matrix<D>) -> Matrix<D> {
         let (strain, J) = corotated_strain(F);
         // Symmetric in exact arithmetic: F Fᵀ less the left stretch.
-        let mut stress = (strain * F.transpose()).symmetric_part() * (2.0 * self.moduli.shear_modulus());
-        let pressure = self.moduli.first_lame_parameter() * (J - 1.0) * J;
-        for i in 0..D {
-            stress.0[i][i] += pressure;
-        }
-        stress
+        let stress = (strain * F.transpose()).symmetric_part() * (2.0 * self.moduli.shear_modulus());
+        shifted(stress, self.moduli.first_lame_parameter() * (J - 1.0) * J)
     }
 
     fn first_piola_kirchhoff(&self, F: &Matrix<D>) -> Matrix<D> {
@@ -81,9 +77,7 @@ impl<const D: usize> Material<D> for FixedCorotated {
     #[inline]
     fn wave_speed(&self, F: &Matrix<D>, reference_density: f64) -> f64 {
         let (lambda, mu) = (self.moduli.first_lame_parameter(), self.moduli.shear_modulus());
-        let J = F.determinant();
-        // Not finite where the law has no stress.
-        let J = if J > 0.0 && J < f64::INFINITY { J } else { f64::NAN };
+        let J = volume_ratio(F);
         let volumetric = lambda * J * J;
         if lambda >= 0.0 {
             return ((2.0 * mu * largest_squared_stretch(F) + volumetric) / reference_density).sqrt();
@@ -124,16 +118,13 @@ impl<const D: usize> Material<D> for FixedCorotated {
             write_wave_speeds(stiffness, densities, speeds);
         }
     }
-
-    fn check(&self, F: &Matrix<D>) -> Result<(), DeformationError> {
-        check_volume_ratio(F).map(|_| ())
-    }
 }
 
 #[cfg(test)]
 #[allow(non_snake_case)]
 mod tests {
     use super::*;
+    use crate::DeformationError;
 
     fn material() -> FixedCorotated {
         FixedCorotated::new(ElasticModuli::from_lame(3.0, 2.0).expect("in range"))

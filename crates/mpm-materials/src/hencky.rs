@@ -3,9 +3,9 @@
 use mpm_tensor::Matrix;
 
 use crate::log_strain::log_strain;
-use crate::material::{check_volume_ratio, inverse_transpose, log_volume_ratio};
+use crate::material::{inverse_transpose, log_volume_ratio, shifted};
 use crate::stretch::squared_stretch_range;
-use crate::{DeformationError, ElasticModuli, Material};
+use crate::{ElasticModuli, Material};
 
 /// The Hencky solid, ψ = μ ε : ε + λ/2 (tr ε)² with the logarithmic strain ε = ½ ln(F Fᵀ), tr ε = ln J.
 ///
@@ -40,12 +40,8 @@ impl Hencky {
     /// 2μ ε + λ θ I.
     #[inline]
     pub(crate) fn stress_of<const D: usize>(&self, strain: &Matrix<D>, trace: f64) -> Matrix<D> {
-        let mut stress = *strain * (2.0 * self.moduli.shear_modulus());
         let pressure = self.moduli.first_lame_parameter() * trace;
-        for i in 0..D {
-            stress.0[i][i] += pressure;
-        }
-        stress
+        shifted(*strain * (2.0 * self.moduli.shear_modulus()), pressure)
     }
 
     /// A bound of ρ₀ c², at the elastic F whose stress is 2μ ε + λ θ I: μ (2√(1 + w²) − 1 + 2w) + max(0, λ (1 − θ) + μ
@@ -70,16 +66,6 @@ impl Hencky {
         let along = if along < 0.0 { 0.0 } else { along };
         mu * (2.0 * (1.0 + spread * spread).sqrt() - 1.0 + 2.0 * spread) + along
     }
-}
-
-/// ε less its mean, ε − m I.
-#[inline]
-pub(crate) fn deviation<const D: usize>(strain: &Matrix<D>, mean: f64) -> Matrix<D> {
-    let mut deviation = *strain;
-    for i in 0..D {
-        deviation.0[i][i] -= mean;
-    }
-    deviation
 }
 
 #[allow(non_snake_case)]
@@ -108,16 +94,13 @@ impl<const D: usize> Material<D> for Hencky {
     fn wave_speed(&self, F: &Matrix<D>, reference_density: f64) -> f64 {
         (self.wave_modulus(F, log_volume_ratio(F)) / reference_density).sqrt()
     }
-
-    fn check(&self, F: &Matrix<D>) -> Result<(), DeformationError> {
-        check_volume_ratio(F).map(|_| ())
-    }
 }
 
 #[cfg(test)]
 #[allow(non_snake_case)]
 mod tests {
     use super::*;
+    use crate::DeformationError;
 
     fn material() -> Hencky {
         Hencky::new(ElasticModuli::from_lame(3.0, 2.0).expect("in range"))

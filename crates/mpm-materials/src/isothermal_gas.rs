@@ -1,6 +1,9 @@
 //! The isothermal gas of the calibrated law.
 
+use mpm_tensor::Matrix;
+
 use crate::error::positive;
+use crate::material::volume_ratio;
 use crate::{ParameterError, TrackedGas};
 
 /// The isothermal ideal gas, P = κρ, σ = −P I: the law whose equilibrium under the body force m_p ∇log p per particle
@@ -32,12 +35,10 @@ impl IsothermalGas {
     ///
     /// # Errors
     ///
-    /// [`ParameterError::PressurePerDensity`] unless 0 < κ < ∞.
+    /// [`ParameterError`] unless 0 < κ < ∞.
     pub fn new(pressure_per_density: f64) -> Result<Self, ParameterError> {
-        let error = |value| ParameterError::PressurePerDensity { value };
-        Ok(Self {
-            pressure_per_density: positive(pressure_per_density, error)?,
-        })
+        let pressure_per_density = positive("pressure_per_density", pressure_per_density)?;
+        Ok(Self { pressure_per_density })
     }
 
     /// κ, pressure per density.
@@ -50,6 +51,16 @@ impl IsothermalGas {
     #[inline]
     pub fn pressure(&self, density: f64) -> f64 {
         self.pressure_per_density * density
+    }
+
+    /// J P = κ ρ₀, the Kirchhoff pressure, the same for every admissible F; NaN unless det F is positive and finite.
+    #[inline]
+    #[allow(non_snake_case)]
+    pub(crate) fn kirchhoff_pressure<const D: usize>(&self, F: &Matrix<D>, reference_density: f64) -> f64 {
+        match volume_ratio(F).is_nan() {
+            true => f64::NAN,
+            false => self.pressure(reference_density),
+        }
     }
 
     /// V_p P_p = κ m_p, the factor of ∇w_ip in a particle's force on node i; an energy.
@@ -68,7 +79,7 @@ impl IsothermalGas {
     ///
     /// # Errors
     ///
-    /// [`ParameterError::ReferenceDensity`] unless 0 < ρ₀ < ∞.
+    /// [`ParameterError`] unless 0 < ρ₀ < ∞.
     pub fn with_reference_density(self, reference_density: f64) -> Result<TrackedGas, ParameterError> {
         TrackedGas::new(self, reference_density)
     }
@@ -91,12 +102,10 @@ mod tests {
     #[test]
     fn parameters_out_of_range_are_named() {
         for value in [0.0, -1.0, f64::INFINITY] {
-            assert_eq!(
-                IsothermalGas::new(value),
-                Err(ParameterError::PressurePerDensity { value })
-            );
+            let error = IsothermalGas::new(value).expect_err("out of range");
+            assert_eq!(error.parameter(), ("pressure_per_density", value));
             let error = IsothermalGas::CALIBRATED.with_reference_density(value);
-            assert_eq!(error, Err(ParameterError::ReferenceDensity { value }));
+            assert_eq!(error.expect_err("out of range").parameter(), ("density", value));
         }
         assert!(IsothermalGas::new(f64::NAN).is_err());
     }

@@ -24,11 +24,11 @@ impl KelvinVoigt {
     ///
     /// # Errors
     ///
-    /// [`ParameterError::Viscosity`] unless 0 ≤ η < ∞.
+    /// [`ParameterError`] unless 0 ≤ η < ∞.
     pub fn new(moduli: ElasticModuli, viscosity: f64) -> Result<Self, ParameterError> {
         Ok(Self {
             spring: NeoHookean::new(moduli),
-            viscosity: not_negative(viscosity, |value| ParameterError::Viscosity { value })?,
+            viscosity: not_negative("viscosity", viscosity)?,
         })
     }
 
@@ -50,11 +50,6 @@ impl<const D: usize> Law<D> for KelvinVoigt {
     #[inline]
     fn rate_dependent(&self) -> bool {
         self.viscosity > 0.0
-    }
-
-    #[inline]
-    fn advance(&self, trial: &Matrix<D>, _state: &mut ()) -> Matrix<D> {
-        *trial
     }
 
     #[inline]
@@ -126,10 +121,8 @@ mod tests {
     #[test]
     fn a_viscosity_out_of_range_is_named() {
         for value in [-1.0, f64::INFINITY] {
-            assert_eq!(
-                KelvinVoigt::new(law(0.0).moduli(), value),
-                Err(ParameterError::Viscosity { value })
-            );
+            let error = KelvinVoigt::new(law(0.0).moduli(), value).expect_err("out of range");
+            assert_eq!(error.parameter(), ("viscosity", value));
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use mpm_tensor::Matrix;
 
+use crate::material::check_volume_ratio;
 use crate::{DeformationError, Material};
 
 /// A constitutive law that may remember (internal variables) and may depend on the rate of deformation.
@@ -38,12 +39,15 @@ pub trait Law<const D: usize>: Sync {
         Self::State::default()
     }
 
-    /// Takes a trial F to an admissible one and updates the state: the return mapping. The identity for hyperelastic
-    /// laws.
+    /// Takes a trial F to an admissible one and updates the state: the return mapping. By default the identity, as for
+    /// hyperelastic laws.
     ///
     /// An F for which [`check`](Self::check) fails is returned as it is, and the state is kept, so that the check that
     /// follows finds the fault.
-    fn advance(&self, trial: &Matrix<D>, state: &mut Self::State) -> Matrix<D>;
+    #[inline(always)]
+    fn advance(&self, trial: &Matrix<D>, _state: &mut Self::State) -> Matrix<D> {
+        *trial
+    }
 
     /// ψ, the stored energy per reference volume. Not finite where [`check`](Self::check) fails.
     fn energy_density(&self, F: &Matrix<D>, state: &Self::State) -> f64;
@@ -85,12 +89,14 @@ pub trait Law<const D: usize>: Sync {
         }
     }
 
-    /// Whether the law has a stress at F.
+    /// Whether the law has a stress at F; by default, whether det F > 0.
     ///
     /// # Errors
     ///
     /// [`DeformationError`] with the entry, or with the volume ratio where the law needs det F > 0.
-    fn check(&self, F: &Matrix<D>) -> Result<(), DeformationError>;
+    fn check(&self, F: &Matrix<D>) -> Result<(), DeformationError> {
+        check_volume_ratio(F)
+    }
 
     /// The current volume per reference volume of a particle: det F, unless the state carries a part of it.
     #[inline]
@@ -102,11 +108,6 @@ pub trait Law<const D: usize>: Sync {
 #[allow(non_snake_case)]
 impl<const D: usize, M: Material<D> + ?Sized> Law<D> for M {
     type State = ();
-
-    #[inline(always)]
-    fn advance(&self, trial: &Matrix<D>, _state: &mut ()) -> Matrix<D> {
-        *trial
-    }
 
     #[inline(always)]
     fn energy_density(&self, F: &Matrix<D>, _state: &()) -> f64 {

@@ -2,7 +2,7 @@
 
 use mpm_tensor::Matrix;
 
-use crate::material::check_finite;
+use crate::material::{check_finite, shifted};
 use crate::stretch::largest_squared_stretch;
 use crate::{DeformationError, ElasticModuli, Law};
 
@@ -30,11 +30,6 @@ impl LinearCauchy {
 impl<const D: usize> Law<D> for LinearCauchy {
     type State = ();
 
-    #[inline]
-    fn advance(&self, trial: &Matrix<D>, _state: &mut ()) -> Matrix<D> {
-        *trial
-    }
-
     /// μ ε : ε + λ/2 (tr ε)², of which the stress is the derivative for small strain only.
     #[inline]
     fn energy_density(&self, F: &Matrix<D>, _state: &()) -> f64 {
@@ -48,12 +43,8 @@ impl<const D: usize> Law<D> for LinearCauchy {
     fn kirchhoff_stress(&self, F: &Matrix<D>, _state: &(), _velocity_gradient: &Matrix<D>) -> Matrix<D> {
         let J = F.determinant();
         let strain = (*F - Matrix::IDENTITY).symmetric_part();
-        let mut stress = strain * (2.0 * self.moduli.shear_modulus() * J);
         let pressure = self.moduli.first_lame_parameter() * strain.trace() * J;
-        for i in 0..D {
-            stress.0[i][i] += pressure;
-        }
-        stress
+        shifted(strain * (2.0 * self.moduli.shear_modulus() * J), pressure)
     }
 
     /// ρ₀ c² = |J| Λ (|λ| + 2μ) with a bound of the largest stretch Λ of F.

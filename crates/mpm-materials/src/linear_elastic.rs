@@ -2,8 +2,9 @@
 
 use mpm_tensor::Matrix;
 
+use crate::material::{check_finite, shifted};
 use crate::stretch::largest_squared_stretch;
-use crate::{ElasticModuli, Material};
+use crate::{DeformationError, ElasticModuli, Material};
 
 /// The linear elastic solid of small strain, ψ = μ ε : ε + λ/2 (tr ε)² with ε = ½ (F + Fᵀ) − I.
 ///
@@ -51,18 +52,18 @@ impl<const D: usize> Material<D> for LinearElastic {
     #[inline]
     fn first_piola_kirchhoff(&self, F: &Matrix<D>) -> Matrix<D> {
         let strain = small_strain(F);
-        let mut P = strain * (2.0 * self.moduli.shear_modulus());
         let pressure = self.moduli.first_lame_parameter() * strain.trace();
-        for i in 0..D {
-            P.0[i][i] += pressure;
-        }
-        P
+        shifted(strain * (2.0 * self.moduli.shear_modulus()), pressure)
     }
 
     /// c = Λ √((λ + 2μ)/ρ₀) with a bound of the largest stretch Λ of F: the stress is linear in F, but nodes feel P Fᵀ.
     #[inline]
     fn wave_speed(&self, F: &Matrix<D>, reference_density: f64) -> f64 {
         (self.moduli.p_wave_modulus() * largest_squared_stretch(F) / reference_density).sqrt()
+    }
+
+    fn check(&self, F: &Matrix<D>) -> Result<(), DeformationError> {
+        check_finite(F)
     }
 }
 

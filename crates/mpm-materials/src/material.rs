@@ -44,13 +44,13 @@ pub trait Material<const D: usize>: Sync {
         wave_speeds_one_by_one(self, F, reference_densities, wave_speeds);
     }
 
-    /// Whether the material has a stress at F; by default, whether F is finite.
+    /// Whether the material has a stress at F; by default, whether J > 0.
     ///
     /// # Errors
     ///
     /// [`DeformationError`] with the entry, or with the volume ratio J where the law needs J > 0.
     fn check(&self, F: &Matrix<D>) -> Result<(), DeformationError> {
-        check_finite(F)
+        check_volume_ratio(F)
     }
 
     /// [`kirchhoff_stress`](Self::kirchhoff_stress) after [`check`](Self::check), for use outside the inner loop.
@@ -136,24 +136,40 @@ pub(crate) fn check_finite<const D: usize>(F: &Matrix<D>) -> Result<(), Deformat
     Ok(())
 }
 
-/// The volume ratio J = det F if it is positive and finite; F is checked first.
+/// The error of an F that is not finite, or whose volume ratio J = det F is not positive and finite.
 #[allow(non_snake_case)]
-pub(crate) fn check_volume_ratio<const D: usize>(F: &Matrix<D>) -> Result<f64, DeformationError> {
+pub(crate) fn check_volume_ratio<const D: usize>(F: &Matrix<D>) -> Result<(), DeformationError> {
     check_finite(F)?;
     let volume_ratio = F.determinant();
     if volume_ratio > 0.0 && volume_ratio.is_finite() {
-        Ok(volume_ratio)
+        Ok(())
     } else {
         Err(DeformationError::VolumeRatio { volume_ratio })
     }
+}
+
+/// J = det F; NaN unless it is positive and finite.
+#[allow(non_snake_case)]
+#[inline]
+pub(crate) fn volume_ratio<const D: usize>(F: &Matrix<D>) -> f64 {
+    let J = F.determinant();
+    if J > 0.0 && J < f64::INFINITY { J } else { f64::NAN }
 }
 
 /// ln J, J = det F; NaN unless J is positive and finite.
 #[allow(non_snake_case)]
 #[inline]
 pub(crate) fn log_volume_ratio<const D: usize>(F: &Matrix<D>) -> f64 {
-    let J = F.determinant();
-    if J > 0.0 && J < f64::INFINITY { J.ln() } else { f64::NAN }
+    volume_ratio(F).ln()
+}
+
+/// A + s I.
+#[inline]
+pub(crate) fn shifted<const D: usize>(mut matrix: Matrix<D>, shift: f64) -> Matrix<D> {
+    for i in 0..D {
+        matrix.0[i][i] += shift;
+    }
+    matrix
 }
 
 /// J^(1/D) I, which has the volume of F and no shear; F itself unless J is positive and finite.

@@ -3,12 +3,10 @@
 use mpm_tensor::Matrix;
 use wide::f64x4;
 
-use crate::material::{
-    check_volume_ratio, inverse_transpose, log_volume_ratio, stresses_one_by_one, wave_speeds_one_by_one,
-};
+use crate::material::{inverse_transpose, log_volume_ratio, shifted, stresses_one_by_one, wave_speeds_one_by_one};
 use crate::side_by_side::{LANES, groups, write_wave_speeds};
 use crate::stretch::{largest_squared_stretch, left_cauchy_green};
-use crate::{DeformationError, ElasticModuli, Material};
+use crate::{ElasticModuli, Material};
 
 /// The compressible Neo-Hookean solid, ψ = μ/2 (tr FᵀF − D) − μ ln J + λ/2 ln² J with J = det F.
 ///
@@ -17,7 +15,7 @@ use crate::{DeformationError, ElasticModuli, Material};
 ///
 /// **Defined for J > 0 only.** ψ grows without bound as J → 0, so the exact motion never gets there, but a time step that is
 /// too long can. [`Material::check`] and [`Material::checked_kirchhoff_stress`] then return
-/// [`DeformationError::VolumeRatio`] with J; the unchecked methods return NaN (all diagonal entries of a stress).
+/// [`DeformationError::VolumeRatio`](crate::DeformationError::VolumeRatio) with J; the unchecked methods return NaN (all diagonal entries of a stress).
 ///
 /// Source: Bonet & Wood, *Nonlinear Continuum Mechanics*, 2nd ed., Eqs. 6.27–6.29; Huang, arXiv 2407.20287.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,11 +44,7 @@ impl<const D: usize> Material<D> for NeoHookean {
     fn kirchhoff_stress(&self, F: &Matrix<D>) -> Matrix<D> {
         let mu = self.moduli.shear_modulus();
         let pressure = self.moduli.first_lame_parameter() * log_volume_ratio(F);
-        let mut stress = left_cauchy_green(F) * mu;
-        for i in 0..D {
-            stress.0[i][i] += pressure - mu;
-        }
-        stress
+        shifted(left_cauchy_green(F) * mu, pressure - mu)
     }
 
     fn first_piola_kirchhoff(&self, F: &Matrix<D>) -> Matrix<D> {
@@ -95,16 +89,13 @@ impl<const D: usize> Material<D> for NeoHookean {
             write_wave_speeds(stiffness, densities, speeds);
         }
     }
-
-    fn check(&self, F: &Matrix<D>) -> Result<(), DeformationError> {
-        check_volume_ratio(F).map(|_| ())
-    }
 }
 
 #[cfg(test)]
 #[allow(non_snake_case)]
 mod tests {
     use super::*;
+    use crate::DeformationError;
 
     fn material() -> NeoHookean {
         NeoHookean::new(ElasticModuli::from_lame(3.0, 2.0).expect("in range"))

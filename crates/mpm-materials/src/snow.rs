@@ -2,7 +2,7 @@
 
 use mpm_tensor::{Matrix, SymmetricEigen};
 
-use crate::error::{not_negative, positive};
+use crate::error::{not_negative, positive, within};
 use crate::stretch::left_cauchy_green;
 use crate::{DeformationError, ElasticModuli, FixedCorotated, Law, Material, Memory, ParameterError, Remembered};
 
@@ -53,29 +53,20 @@ impl Snow {
     ///
     /// # Errors
     ///
-    /// [`ParameterError::OutOfRange`] unless 0 < θ_c < 1, 0 < θ_s < ∞ and 0 ≤ ξ < ∞.
+    /// [`ParameterError`] unless 0 < θ_c < 1, 0 < θ_s < ∞ and 0 ≤ ξ < ∞.
     pub fn new(
         moduli: ElasticModuli,
         critical_compression: f64,
         critical_stretch: f64,
         hardening: f64,
     ) -> Result<Self, ParameterError> {
-        let error = |parameter, expected| {
-            move |value| ParameterError::OutOfRange {
-                parameter,
-                value,
-                expected,
-            }
-        };
-        let compression = error("critical_compression", "above 0 and below 1");
-        if !(critical_compression > 0.0 && critical_compression < 1.0) {
-            return Err(compression(critical_compression));
-        }
+        let (compression, expected) = (critical_compression, "above 0 and below 1");
+        let part = compression > 0.0 && compression < 1.0;
         Ok(Self {
             elastic: FixedCorotated::new(moduli),
-            critical_compression,
-            critical_stretch: positive(critical_stretch, error("critical_stretch", "positive and finite"))?,
-            hardening: not_negative(hardening, error("hardening", "finite and at least 0"))?,
+            critical_compression: within("critical_compression", compression, part, expected)?,
+            critical_stretch: positive("critical_stretch", critical_stretch)?,
+            hardening: not_negative("hardening", hardening)?,
         })
     }
 

@@ -2,12 +2,11 @@
 
 use mpm_tensor::Matrix;
 
-use crate::error::{not_negative, positive};
+use crate::error::{not_negative, positive, within};
 use crate::exponential::exponential;
-use crate::hencky::deviation;
 use crate::log_strain::log_strain;
-use crate::material::{check_volume_ratio, log_volume_ratio};
-use crate::{DeformationError, ElasticModuli, Hencky, Law, Memory, ParameterError, Remembered};
+use crate::material::{log_volume_ratio, shifted};
+use crate::{ElasticModuli, Hencky, Law, Memory, ParameterError, Remembered};
 
 /// Iterations after which Newton's method stops in any case; it needs about five.
 const MAXIMUM_ITERATIONS: usize = 100;
@@ -78,24 +77,21 @@ impl SofteningHencky {
     ///
     /// # Errors
     ///
-    /// [`ParameterError::PeakYieldStress`] unless 0 < κ_p < ∞, [`ParameterError::ResidualYieldStress`] unless 0 ≤ κ_r ≤
-    /// κ_p, [`ParameterError::SofteningRate`] unless 0 ≤ η < ∞.
+    /// [`ParameterError`] unless 0 < κ_p < ∞, 0 ≤ κ_r ≤ κ_p and 0 ≤ η < ∞.
     pub fn new(
         moduli: ElasticModuli,
         peak_yield_stress: f64,
         residual_yield_stress: f64,
         softening_rate: f64,
     ) -> Result<Self, ParameterError> {
-        let peak = positive(peak_yield_stress, |value| ParameterError::PeakYieldStress { value })?;
+        let peak = positive("peak_yield_stress", peak_yield_stress)?;
         let residual = residual_yield_stress;
-        if !(0.0..=peak).contains(&residual) {
-            return Err(ParameterError::ResidualYieldStress { value: residual, peak });
-        }
+        let lower = (0.0..=peak).contains(&residual);
         Ok(Self {
             elastic: Hencky::new(moduli),
             peak,
-            residual,
-            rate: not_negative(softening_rate, |value| ParameterError::SofteningRate { value })?,
+            residual: within("residual_yield_stress", residual, lower, "between 0 and the peak")?,
+            rate: not_negative("softening_rate", softening_rate)?,
         })
     }
 
@@ -103,7 +99,7 @@ impl SofteningHencky {
     ///
     /// # Errors
     ///
-    /// [`ParameterError::PeakYieldStress`] unless 0 < κ_p < ∞.
+    /// [`ParameterError`] unless 0 < κ_p < ∞.
     pub fn perfect(moduli: ElasticModuli, yield_stress: f64) -> Result<Self, ParameterError> {
         Self::new(moduli, yield_stress, yield_stress, 0.0)
     }
@@ -169,7 +165,7 @@ impl<const D: usize> Law<D> for SofteningHencky {
         let left_out = axes_left_out(D);
         let mean = all_invariants(&strain, state).1 / (D + left_out) as f64;
         let out_of_plane = state.out_of_plane_strain - mean;
-        let in_plane = deviation(&strain, mean);
+        let in_plane = shifted(strain, -mean);
         let deviator = (in_plane.contract(&in_plane) + left_out as f64 * out_of_plane * out_of_plane).sqrt();
         let twice_shear = 2.0 * self.elastic.moduli.shear_modulus();
         let trial_stress = twice_shear * deviator;
@@ -207,10 +203,6 @@ impl<const D: usize> Law<D> for SofteningHencky {
     fn wave_speed(&self, F: &Matrix<D>, state: &SofteningState, reference_density: f64) -> f64 {
         let trace = log_volume_ratio(F) + axes_left_out(D) as f64 * state.out_of_plane_strain;
         (self.elastic.wave_modulus(F, trace) / reference_density).sqrt()
-    }
-
-    fn check(&self, F: &Matrix<D>) -> Result<(), DeformationError> {
-        check_volume_ratio(F).map(|_| ())
     }
 
     /// det F e^((3 − D) ε_z) for D < 3: plastic flow keeps it.
@@ -301,14 +293,10 @@ mod tests {
     fn parameters_out_of_range_are_named() {
         let new =
             |peak, residual, rate| SofteningHencky::new(moduli(), peak, residual, rate).expect_err("out of range");
-        assert_eq!(new(0.0, 0.0, 1.0), ParameterError::PeakYieldStress { value: 0.0 });
-        let error = ParameterError::ResidualYieldStress { value: 2.0, peak: 1.0 };
-        assert_eq!(new(1.0, 2.0, 1.0), error);
-        assert_eq!(
-            error.to_string(),
-            "the residual yield stress must be between 0 and the peak 1, not 2"
-        );
-        assert_eq!(new(1.0, 0.5, -1.0), ParameterError::SofteningRate { value: -1.0 });
+        assert_eq!(new(0.0, 0.0, 1.0).parameter(), ("peak_yield_stress", 0.0));
+        let error = new(1.0, 2.0, 1.0).to_string();
+        assert_eq!(error, "residual_yield_stress must be between 0 and the peak, not 2");
+        assert_eq!(new(1.0, 0.5, -1.0).parameter(), ("softening_rate", -1.0));
         assert!(SofteningHencky::new(moduli(), 1.0, f64::NAN, 1.0).is_err());
         assert!(SofteningHencky::new(moduli(), 1.0, 0.5, f64::INFINITY).is_err());
         let law = SofteningHencky::new(moduli(), 1.0, 0.5, 2.0).expect("in range");

@@ -2,9 +2,9 @@
 
 use mpm_tensor::Matrix;
 
-use crate::error::{not_negative, positive};
-use crate::material::{check_volume_ratio, volume_alone};
-use crate::{DeformationError, Law, ParameterError};
+use crate::error::{not_negative, positive, within};
+use crate::material::{shifted, volume_alone, volume_ratio};
+use crate::{Law, ParameterError};
 
 /// The exponent γ of the equation of state, that of water.
 const EXPONENT: f64 = 7.0;
@@ -45,18 +45,16 @@ impl TaitFluid {
     ///
     /// # Errors
     ///
-    /// [`ParameterError::ReferenceDensity`] unless 0 < ρ₀ < ∞, [`ParameterError::SoundSpeed`] unless 0 < c < ∞ and ρ₀
-    /// c² is finite, [`ParameterError::Viscosity`] unless 0 ≤ μ_v < ∞.
+    /// [`ParameterError`] unless 0 < ρ₀ < ∞, 0 < c < ∞, ρ₀ c² is positive and finite and 0 ≤ μ_v < ∞.
     pub fn new(reference_density: f64, sound_speed: f64, viscosity: f64) -> Result<Self, ParameterError> {
-        let reference_density = positive(reference_density, |value| ParameterError::ReferenceDensity { value })?;
-        let sound_speed = positive(sound_speed, |value| ParameterError::SoundSpeed { value })?;
-        positive(reference_density * sound_speed * sound_speed, |_| {
-            ParameterError::SoundSpeed { value: sound_speed }
-        })?;
+        let reference_density = positive("density", reference_density)?;
+        let bulk_modulus = reference_density * sound_speed * sound_speed;
+        let sound = sound_speed > 0.0 && sound_speed.is_finite() && bulk_modulus > 0.0 && bulk_modulus.is_finite();
+        let expected = "positive and finite, also its square times the density";
         Ok(Self {
             reference_density,
-            sound_speed,
-            viscosity: not_negative(viscosity, |value| ParameterError::Viscosity { value })?,
+            sound_speed: within("sound_speed", sound_speed, sound, expected)?,
+            viscosity: not_negative("viscosity", viscosity)?,
             forgets_expansion: false,
         })
     }
@@ -158,31 +156,21 @@ impl<const D: usize> Law<D> for TaitFluid {
             return Matrix::diagonal(&[isotropic; D]);
         }
         let factor = 2.0 * self.viscosity * J;
-        let mut stress = velocity_gradient.symmetric_part() * factor;
+        let stress = velocity_gradient.symmetric_part() * factor;
         isotropic -= stress.trace() / D as f64;
-        for i in 0..D {
-            stress.0[i][i] += isotropic;
-        }
-        stress
+        shifted(stress, isotropic)
     }
 
     /// c J⁻³ √(ρ₀ / `reference_density`) for J < 1; at J ≥ 1 the speed at rest, with which the fluid is met when it
     /// comes together.
     #[inline]
     fn wave_speed(&self, F: &Matrix<D>, _state: &(), reference_density: f64) -> f64 {
-        let J = F.determinant();
-        let stiffening = if J < 1.0 { J.powi(-3) } else { 1.0 };
-        // Not finite where the pressure is not.
-        let admissible = if J > 0.0 && J < f64::INFINITY {
-            stiffening
-        } else {
-            f64::NAN
+        // NaN stays NaN.
+        let stiffening = match volume_ratio(F) {
+            J if J >= 1.0 => 1.0,
+            J => J.powi(-3),
         };
-        self.sound_speed * admissible * (self.reference_density / reference_density).sqrt()
-    }
-
-    fn check(&self, F: &Matrix<D>) -> Result<(), DeformationError> {
-        check_volume_ratio(F).map(|_| ())
+        self.sound_speed * stiffening * (self.reference_density / reference_density).sqrt()
     }
 }
 
@@ -190,6 +178,7 @@ impl<const D: usize> Law<D> for TaitFluid {
 #[allow(non_snake_case)]
 mod tests {
     use super::*;
+    use crate::DeformationError;
 
     fn water() -> TaitFluid {
         TaitFluid::new(2.0, 3.0, 0.0).expect("in range")
@@ -256,26 +245,19 @@ mod tests {
 
     #[test]
     fn parameters_out_of_range_are_named() {
+        let refused = |density, speed, viscosity| {
+            let fluid = TaitFluid::new(density, speed, viscosity);
+            fluid.expect_err("out of range").parameter()
+        };
         for value in [0.0, -1.0, f64::INFINITY] {
-            let density = TaitFluid::new(value, 1.0, 0.0);
-            assert_eq!(density, Err(ParameterError::ReferenceDensity { value }));
-            assert_eq!(
-                TaitFluid::new(1.0, value, 0.0),
-                Err(ParameterError::SoundSpeed { value })
-            );
+            assert_eq!(refused(value, 1.0, 0.0), ("density", value));
+            assert_eq!(refused(1.0, value, 0.0), ("sound_speed", value));
         }
         for value in [-1.0, f64::INFINITY] {
-            assert_eq!(
-                TaitFluid::new(1.0, 1.0, value),
-                Err(ParameterError::Viscosity { value })
-            );
+            assert_eq!(refused(1.0, 1.0, value), ("viscosity", value));
         }
         assert!(TaitFluid::new(1.0, 1.0, f64::NAN).is_err());
-        let error = TaitFluid::new(1.0, 1e200, 0.0);
-        assert_eq!(
-            error,
-            Err(ParameterError::SoundSpeed { value: 1e200 }),
-            "the bulk modulus overflows"
-        );
+        let overflow = refused(1.0, 1e200, 0.0);
+        assert_eq!(overflow, ("sound_speed", 1e200), "the bulk modulus overflows");
     }
 }

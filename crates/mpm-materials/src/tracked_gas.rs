@@ -3,8 +3,8 @@
 use mpm_tensor::Matrix;
 
 use crate::error::positive;
-use crate::material::{check_volume_ratio, inverse_transpose, log_volume_ratio};
-use crate::{DeformationError, IsothermalGas, Material, ParameterError};
+use crate::material::{inverse_transpose, log_volume_ratio};
+use crate::{IsothermalGas, Material, ParameterError};
 
 /// The isothermal gas whose volume is tracked by F: ψ = −κ ρ₀ ln J, P = −κ ρ₀ F⁻ᵀ, τ = −κ ρ₀ I.
 ///
@@ -23,13 +23,10 @@ impl TrackedGas {
     ///
     /// # Errors
     ///
-    /// [`ParameterError::ReferenceDensity`] unless 0 < ρ₀ < ∞.
+    /// [`ParameterError`] unless 0 < ρ₀ < ∞.
     pub fn new(gas: IsothermalGas, reference_density: f64) -> Result<Self, ParameterError> {
-        let error = |value| ParameterError::ReferenceDensity { value };
-        Ok(Self {
-            gas,
-            reference_density: positive(reference_density, error)?,
-        })
+        let reference_density = positive("density", reference_density)?;
+        Ok(Self { gas, reference_density })
     }
 
     /// The gas itself.
@@ -40,19 +37,6 @@ impl TrackedGas {
     /// ρ₀, mass per reference volume.
     pub fn reference_density(&self) -> f64 {
         self.reference_density
-    }
-
-    /// J P = κ ρ₀, the Kirchhoff pressure, the same for every admissible F; NaN unless J is positive and finite.
-    #[allow(non_snake_case)]
-    #[inline]
-    fn kirchhoff_pressure<const D: usize>(&self, F: &Matrix<D>) -> f64 {
-        let J = F.determinant();
-        let pressure = self.gas.pressure(self.reference_density);
-        if J > 0.0 && J < f64::INFINITY {
-            pressure
-        } else {
-            f64::NAN
-        }
     }
 }
 
@@ -65,21 +49,17 @@ impl<const D: usize> Material<D> for TrackedGas {
 
     #[inline]
     fn kirchhoff_stress(&self, F: &Matrix<D>) -> Matrix<D> {
-        Matrix::diagonal(&[-self.kirchhoff_pressure(F); D])
+        Matrix::diagonal(&[-self.gas.kirchhoff_pressure(F, self.reference_density); D])
     }
 
     fn first_piola_kirchhoff(&self, F: &Matrix<D>) -> Matrix<D> {
-        inverse_transpose(F) * -self.kirchhoff_pressure(F)
+        inverse_transpose(F) * -self.gas.kirchhoff_pressure(F, self.reference_density)
     }
 
     /// c = √(κ ρ₀ / `reference_density`), which is √κ if the density passed is the gas's own ρ₀.
     #[inline]
     fn wave_speed(&self, F: &Matrix<D>, reference_density: f64) -> f64 {
-        (self.kirchhoff_pressure(F) / reference_density).sqrt()
-    }
-
-    fn check(&self, F: &Matrix<D>) -> Result<(), DeformationError> {
-        check_volume_ratio(F).map(|_| ())
+        (self.gas.kirchhoff_pressure(F, self.reference_density) / reference_density).sqrt()
     }
 }
 
@@ -87,6 +67,7 @@ impl<const D: usize> Material<D> for TrackedGas {
 #[allow(non_snake_case)]
 mod tests {
     use super::*;
+    use crate::DeformationError;
 
     #[test]
     fn the_stress_times_the_volume_is_that_of_the_gas_without_deformation() {

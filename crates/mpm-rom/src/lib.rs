@@ -8,6 +8,7 @@ pub mod full_order;
 pub mod least_squares;
 pub mod manifold;
 pub mod model;
+mod nearest;
 pub mod online;
 pub mod position_error;
 mod product;

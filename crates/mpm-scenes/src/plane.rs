@@ -3,7 +3,7 @@
 use crate::SceneFault;
 use crate::scene::{Side, WallTable};
 use crate::shape::{Bounds, unit};
-use crate::values::{vector, within};
+use crate::values::{finite, vector, within};
 
 /// A point of the plane of a wall, and the unit normal into the domain.
 ///
@@ -24,27 +24,17 @@ pub(crate) fn build<const D: usize>(
                     Side::Upper => (&room.upper, -1.0),
                 },
             );
-            let Some(&border) = border.get(axis) else {
-                return Err(SceneFault::value(
-                    field("axis"),
-                    name,
-                    format!("one of the {D} axes of the scene"),
-                ));
-            };
-            let position = wall.position.unwrap_or(border);
-            within(&field("position"), position, position.is_finite(), "finite")?;
+            let expected = format!("one of the {D} axes of the scene");
+            within(&field("axis"), name, axis < D, &expected)?;
+            let position = finite(&field("position"), wall.position.unwrap_or(border[axis]))?;
             let along = |value: f64| std::array::from_fn(|a| if a == axis { value } else { 0.0 });
             Ok((along(position), along(inward)))
         }
         (None, None, Some(point), Some(normal)) => {
-            if let Some(position) = wall.position {
-                let expected = "left out unless there is an axis";
-                return Err(SceneFault::value(field("position"), position, expected));
-            }
+            let (position, expected) = (wall.position, "left out unless there is an axis");
+            within(&field("position"), position, position.is_none(), expected)?;
             let direction = unit(vector(&field("normal"), normal)?);
-            if direction == [0.0; D] {
-                return Err(SceneFault::value(field("normal"), normal, "longer than 0"));
-            }
+            within(&field("normal"), normal, direction != [0.0; D], "longer than 0")?;
             Ok((vector(&field("point"), point)?, direction))
         }
         (axis, ..) => {

@@ -4,6 +4,7 @@ use crate::background::{Background, of_shape};
 use crate::fill::{Filling, centroids, poisson_disk, random, regular, rings, vertices};
 use crate::scene::{BodyTable, FillKind, Scene};
 use crate::shape::{Bounds, Rotated, Shape};
+use crate::values::within;
 use crate::{SceneFault, rotation, shape, velocity};
 
 /// All particles in the order of creation, which is that of the bodies; one entry per particle in every list.
@@ -71,10 +72,11 @@ impl<const D: usize> Population<D> {
             .get(&body.material)
             .map_or(f64::NAN, |table| table.density());
         let total = self.positions.len() + filling.positions.len();
-        if u32::try_from(total).is_err() {
-            let expected = format!("so few that there are at most {} particles", u32::MAX);
-            return Err(SceneFault::value(format!("bodies.{}", body.name), total, expected));
-        }
+        let (few, expected) = (
+            u32::try_from(total).is_ok(),
+            "so few that they can be numbered with 32 bits",
+        );
+        within(&format!("bodies.{}", body.name), total, few, expected)?;
         self.velocities.extend(filling.positions.iter().map(|x| velocity.at(x)));
         self.positions.extend(&filling.positions);
         // The shape is that of the deformed body, V = λᴰ V⁰.

@@ -4,7 +4,7 @@ use mpm_tensor::{Matrix, vector as algebra};
 
 use crate::SceneFault;
 use crate::scene::RotationTable;
-use crate::values::{vector, within};
+use crate::values::{finite, vector, within};
 
 /// x ↦ c + R (x − c).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,16 +37,9 @@ pub(crate) fn build<const D: usize>(
     table: Option<&RotationTable>,
 ) -> Result<Option<Rotation<D>>, SceneFault> {
     let Some(table) = table else { return Ok(None) };
-    if D != 2 {
-        return Err(SceneFault::value(field, table, "left out unless dimension = 2"));
-    }
+    within(field, table, D == 2, "left out unless dimension = 2")?;
     let centre = vector(&format!("{field}.centre"), &table.centre)?;
-    let degrees = within(
-        &format!("{field}.degrees"),
-        table.degrees,
-        table.degrees.is_finite(),
-        "finite",
-    )?;
+    let degrees = finite(&format!("{field}.degrees"), table.degrees)?;
     let (sine, cosine) = degrees.to_radians().sin_cos();
     let matrix = Matrix::from_fn(|a, b| match (a, b) {
         (0, 1) => -sine,

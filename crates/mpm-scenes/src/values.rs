@@ -1,5 +1,7 @@
 //! Ranges of numbers and lengths of vectors.
 
+use serde::Serialize;
+
 use crate::SceneFault;
 
 /// A number that is positive and finite.
@@ -12,8 +14,8 @@ pub(crate) fn not_negative(field: &str, value: f64) -> Result<f64, SceneFault> {
     within(field, value, value >= 0.0 && value.is_finite(), "at least 0 and finite")
 }
 
-/// The value, if it is in its range.
-pub(crate) fn within(field: &str, value: f64, valid: bool, expected: &str) -> Result<f64, SceneFault> {
+/// The value, if it is valid.
+pub(crate) fn within<T: Serialize>(field: &str, value: T, valid: bool, expected: &str) -> Result<T, SceneFault> {
     if valid {
         Ok(value)
     } else {
@@ -21,13 +23,24 @@ pub(crate) fn within(field: &str, value: f64, valid: bool, expected: &str) -> Re
     }
 }
 
+/// A number that is finite.
+pub(crate) fn finite(field: &str, value: f64) -> Result<f64, SceneFault> {
+    within(field, value, value.is_finite(), "finite")
+}
+
+/// A number that may be left out, by the rule for one that is there.
+pub(crate) fn check(
+    value: Option<f64>,
+    field: &str,
+    rule: fn(&str, f64) -> Result<f64, SceneFault>,
+) -> Result<(), SceneFault> {
+    value.map_or(Ok(()), |value| rule(field, value).map(drop))
+}
+
 /// A list of D finite numbers.
 pub(crate) fn vector<const D: usize>(field: &str, list: &[f64]) -> Result<[f64; D], SceneFault> {
-    match <[f64; D]>::try_from(list) {
-        Ok(vector) if vector.iter().all(|c| c.is_finite()) => Ok(vector),
-        _ => {
-            let numbers = if D == 1 { "number" } else { "numbers" };
-            Err(SceneFault::value(field, list, format!("{D} finite {numbers}")))
-        }
-    }
+    let vector = <[f64; D]>::try_from(list).unwrap_or([f64::NAN; D]);
+    let numbers = if D == 1 { "number" } else { "numbers" };
+    let valid = list.len() == D && vector.iter().all(|c| c.is_finite());
+    within(field, list, valid, &format!("{D} finite {numbers}")).map(|_| vector)
 }

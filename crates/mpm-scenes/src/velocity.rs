@@ -2,8 +2,9 @@
 
 use mpm_tensor::{Matrix, vector as algebra};
 
+use crate::manufactured::in_the_plane;
 use crate::scene::{Scene, VelocityField, VelocityTable};
-use crate::values::{vector, within};
+use crate::values::{finite, vector, within};
 use crate::{ManufacturedSolution, SceneFault, reference};
 
 /// A velocity as a function of the reference position.
@@ -32,11 +33,7 @@ impl<const D: usize> InitialVelocity<D> {
                 phase,
             } => algebra::scale(amplitude, (algebra::dot(wave_vector, x) + phase).sin()),
             Self::Linear { centre, gradient } => gradient.apply(&algebra::subtract(x, centre)),
-            Self::Manufactured(solution) => {
-                let mut velocity = [0.0; D];
-                solution.velocity(x, 0.0, &mut velocity);
-                velocity
-            }
+            Self::Manufactured(solution) => in_the_plane(x, |start| solution.velocity(start, 0.0)),
         }
     }
 }
@@ -64,7 +61,7 @@ pub(crate) fn build<const D: usize>(
         } => InitialVelocity::Sine {
             amplitude: vector_of("amplitude", amplitude)?,
             wave_vector: vector_of("wave_vector", wave_vector)?,
-            phase: within(&format!("{field}.phase"), *phase, phase.is_finite(), "finite")?,
+            phase: finite(&format!("{field}.phase"), *phase)?,
         },
         VelocityField::Rotation { centre, rate } => InitialVelocity::Linear {
             centre: vector_of("centre", centre)?,
@@ -72,13 +69,8 @@ pub(crate) fn build<const D: usize>(
         },
         VelocityField::Linear { centre, gradient } => {
             let mut rows = [[0.0; D]; D];
-            if gradient.len() != D {
-                return Err(SceneFault::value(
-                    format!("{field}.gradient"),
-                    gradient,
-                    format!("{D} rows"),
-                ));
-            }
+            let (name, square) = (format!("{field}.gradient"), gradient.len() == D);
+            within(&name, gradient, square, &format!("{D} rows"))?;
             for (row, list) in rows.iter_mut().zip(gradient) {
                 *row = vector_of("gradient", list)?;
             }

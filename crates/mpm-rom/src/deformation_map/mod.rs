@@ -1,19 +1,17 @@
 //! g from g̃: the map that starts at rest exactly.
 
 mod at_rest;
-mod initial;
 mod points;
 #[cfg(test)]
 mod tests;
 
 pub use at_rest::AtRestTable;
-pub use initial::{AffineVelocity, InitialMotion};
 pub use points::MaterialPoints;
 
 use mpm_tensor::{Matrix, vector};
 use rayon::prelude::*;
 
-use crate::least_squares::{GaussNewton, LeastSquares, LeastSquaresError, Settings};
+use crate::least_squares::{GaussNewton, LeastSquaresError, Settings};
 use crate::manifold::{Evaluation, Manifold, Wanted};
 
 /// Why a family of maps cannot start at rest.
@@ -31,20 +29,14 @@ pub enum DeformationMapError {
     /// x̂₀ cannot be found.
     #[error("coordinates at rest: {0}")]
     Rest(LeastSquaresError),
-    /// v̂₀ cannot be found.
-    #[error("rates at the start: {0}")]
-    InitialRates(LeastSquaresError),
 }
 
-/// The deformation map g(X, x̂) = g̃(X, x̂) + a(X) + b(X) f(t), f(t) = t (Chen et al. 2023, §3.2).
+/// The deformation map g(X, x̂) = g̃(X, x̂) + a(X) (Chen et al. 2023, §3.2) of a body that starts at rest, for which the paper's b(X) is 0.
 ///
-/// a(X) = X − g̃(X, x̂₀) with x̂₀ = argmin_y Σ|X_p − g̃(X_p, y)|², so that g(X, x̂₀) = X at t = 0, and
-/// F = ∇g̃(X, x̂) + I − ∇g̃(X, x̂₀) + t ∇b = I there. b(X) = V₀ − ∂g̃/∂x̂(X, x̂₀) v̂₀ with v̂₀ = argmin_w Σ|V₀_p − ∂g̃/∂x̂(X_p, x̂₀) w|²; for a body that
-/// starts at rest b = 0 and v̂₀ = 0, and neither is stored nor computed.
+/// a(X) = X − g̃(X, x̂₀) with x̂₀ = argmin_y Σ|X_p − g̃(X_p, y)|², so that g(X, x̂₀) = X, and F = ∇g̃(X, x̂) + I − ∇g̃(X, x̂₀) = I there.
 pub struct DeformationMap<const D: usize, M> {
     manifold: M,
     rest: Vec<f64>,
-    initial: Option<InitialMotion<D>>,
     at_rest: Evaluation<D>,
 }
 
@@ -68,32 +60,8 @@ impl<const D: usize, M: Manifold<D>> DeformationMap<D, M> {
         Ok(Self {
             manifold,
             rest,
-            initial: None,
             at_rest: Evaluation::default(),
         })
-    }
-
-    /// The same map for a body that starts with the velocity V₀(X).
-    ///
-    /// # Errors
-    /// [`DeformationMapError::InitialRates`].
-    pub fn starting_with(
-        mut self,
-        velocity: AffineVelocity<D>,
-        reference: &[[f64; D]],
-    ) -> Result<Self, DeformationMapError> {
-        let wanted = Wanted {
-            jacobians: true,
-            ..Wanted::default()
-        };
-        self.manifold.evaluate(reference, &self.rest, wanted, &mut self.at_rest);
-        let targets: Vec<[f64; D]> = reference.iter().map(|x| velocity.at(x)).collect();
-        let mut rates = vec![0.0; self.coordinates()];
-        LeastSquares::default()
-            .solve(&self.at_rest.jacobians, &targets, &mut rates)
-            .map_err(DeformationMapError::InitialRates)?;
-        self.initial = Some(InitialMotion { velocity, rates });
-        Ok(self)
     }
 
     /// r.
@@ -106,40 +74,26 @@ impl<const D: usize, M: Manifold<D>> DeformationMap<D, M> {
         &self.rest
     }
 
-    /// V₀ and v̂₀; `None` for a body that starts at rest.
-    pub fn initial(&self) -> Option<&InitialMotion<D>> {
-        self.initial.as_ref()
-    }
-
     /// The family g̃.
     pub fn manifold(&self) -> &M {
         &self.manifold
     }
 
-    /// What does not depend on x̂ at these points: a(X), I − ∇g̃(X, x̂₀), b(X), ∇b(X). `out` is overwritten.
+    /// What does not depend on x̂ at these points: a(X) and I − ∇g̃(X, x̂₀). `out` is overwritten.
     pub fn prepare(&mut self, reference: &[[f64; D]], out: &mut MaterialPoints<D>) {
         out.clear();
         out.reference.extend_from_slice(reference);
-        let wanted = Wanted {
-            gradients: true,
-            jacobians: self.initial.is_some(),
-        };
-        self.manifold.evaluate(reference, &self.rest, wanted, &mut self.at_rest);
+        self.manifold
+            .evaluate(reference, &self.rest, Wanted::GRADIENTS, &mut self.at_rest);
         let pairs = reference.iter().zip(&self.at_rest.positions);
         out.offsets.extend(pairs.map(|(x, g)| vector::subtract(x, g)));
         let gradients = self.at_rest.gradients.iter();
         out.gradient_offsets
             .extend(gradients.map(|gradient| Matrix::IDENTITY - *gradient));
-        if let Some(initial) = &self.initial {
-            initial.drifts(&self.manifold, &self.rest, &self.at_rest, out);
-        }
     }
 
-    /// A table of a(X) with this spacing, in the box around these points and `margin` beyond it; `None` where it would be too large, or where the body does not start at rest.
+    /// A table of a(X) with this spacing, in the box around these points and `margin` beyond it; `None` where it would be too large.
     pub fn tabulate(&self, reference: &[[f64; D]], margin: f64, spacing: f64) -> Option<AtRestTable<D>> {
-        if self.initial.is_some() {
-            return None;
-        }
         AtRestTable::around(reference, margin, spacing, |nodes| {
             let mut there = Evaluation::default();
             self.manifold.evaluate(nodes, &self.rest, Wanted::default(), &mut there);
@@ -148,11 +102,8 @@ impl<const D: usize, M: Manifold<D>> DeformationMap<D, M> {
         })
     }
 
-    /// As [`prepare`](Self::prepare), from a table; points outside it are computed, and all of them for a body that does not start at rest.
+    /// As [`prepare`](Self::prepare), from a table; points outside it are computed.
     pub fn prepare_from(&mut self, table: &AtRestTable<D>, reference: &[[f64; D]], out: &mut MaterialPoints<D>) {
-        if self.initial.is_some() {
-            return self.prepare(reference, out);
-        }
         let found: Vec<_> = reference.par_iter().with_min_len(256).map(|x| table.at(x)).collect();
         let outside: Vec<[f64; D]> = reference
             .iter()
@@ -172,49 +123,26 @@ impl<const D: usize, M: Manifold<D>> DeformationMap<D, M> {
         out.reference.extend_from_slice(reference);
     }
 
-    /// g, and where wanted F = ∇g and ∂g/∂x̂, at prepared points; `out` is overwritten. `time` is read only where there is a b(X).
-    pub fn evaluate(
-        &self,
-        points: &MaterialPoints<D>,
-        latent: &[f64],
-        time: f64,
-        wanted: Wanted,
-        out: &mut Evaluation<D>,
-    ) {
+    /// g, and where wanted F = ∇g and ∂g/∂x̂, at prepared points; `out` is overwritten.
+    pub fn evaluate(&self, points: &MaterialPoints<D>, latent: &[f64], wanted: Wanted, out: &mut Evaluation<D>) {
         self.manifold.evaluate(&points.reference, latent, wanted, out);
         out.velocities.clear();
-        Self::start_at_rest(points, time, out);
+        Self::start_at_rest(points, out);
     }
 
-    /// g, F and the velocities v_p = ∂g/∂x̂ v̂ + b f′ (f′ = 1) at prepared points; `out` is overwritten. Costs one tangent for the velocities, not r.
-    pub fn evaluate_moving(
-        &self,
-        points: &MaterialPoints<D>,
-        latent: &[f64],
-        rates: &[f64],
-        time: f64,
-        out: &mut Evaluation<D>,
-    ) {
+    /// g, F and the velocities v_p = ∂g/∂x̂ v̂ at prepared points; `out` is overwritten. Costs one tangent for the velocities, not r.
+    pub fn evaluate_moving(&self, points: &MaterialPoints<D>, latent: &[f64], rates: &[f64], out: &mut Evaluation<D>) {
         self.manifold.evaluate_moving(&points.reference, latent, rates, out);
-        for (velocity, drift) in out.velocities.iter_mut().zip(&points.drifts) {
-            vector::accumulate(velocity, 1.0, drift);
-        }
-        Self::start_at_rest(points, time, out);
+        Self::start_at_rest(points, out);
     }
 
-    /// Adds a + b f to g̃ and I − ∇g̃(X, x̂₀) + f ∇b to ∇g̃.
-    fn start_at_rest(points: &MaterialPoints<D>, time: f64, out: &mut Evaluation<D>) {
+    /// Adds a to g̃ and I − ∇g̃(X, x̂₀) to ∇g̃.
+    fn start_at_rest(points: &MaterialPoints<D>, out: &mut Evaluation<D>) {
         for (g, a) in out.positions.iter_mut().zip(&points.offsets) {
             vector::accumulate(g, 1.0, a);
         }
-        for (g, b) in out.positions.iter_mut().zip(&points.drifts) {
-            vector::accumulate(g, time, b);
-        }
         for (gradient, offset) in out.gradients.iter_mut().zip(&points.gradient_offsets) {
             *gradient += *offset;
-        }
-        for (total, gradient) in out.gradients.iter_mut().zip(&points.drift_gradients) {
-            *total += *gradient * time;
         }
     }
 }

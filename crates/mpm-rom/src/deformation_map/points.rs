@@ -2,7 +2,7 @@
 
 use mpm_tensor::Matrix;
 
-/// Reference positions and the parts of g that do not depend on x̂, one entry per point in every list; the last two are empty where b = 0.
+/// Reference positions and the parts of g that do not depend on x̂, one entry per point in every list.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MaterialPoints<const D: usize> {
     /// X_p, relative to the centroid at rest.
@@ -11,10 +11,6 @@ pub struct MaterialPoints<const D: usize> {
     pub offsets: Vec<[f64; D]>,
     /// I − ∇g̃(X_p, x̂₀).
     pub gradient_offsets: Vec<Matrix<D>>,
-    /// b(X_p).
-    pub drifts: Vec<[f64; D]>,
-    /// ∇b(X_p).
-    pub drift_gradients: Vec<Matrix<D>>,
 }
 
 impl<const D: usize> MaterialPoints<D> {
@@ -33,8 +29,6 @@ impl<const D: usize> MaterialPoints<D> {
         self.reference.clear();
         self.offsets.clear();
         self.gradient_offsets.clear();
-        self.drifts.clear();
-        self.drift_gradients.clear();
     }
 
     /// The points of `all` with these numbers, in this order; numbers that there are not are left out.
@@ -42,8 +36,6 @@ impl<const D: usize> MaterialPoints<D> {
         choose(&mut self.reference, &all.reference, numbers);
         choose(&mut self.offsets, &all.offsets, numbers);
         choose(&mut self.gradient_offsets, &all.gradient_offsets, numbers);
-        choose(&mut self.drifts, &all.drifts, numbers);
-        choose(&mut self.drift_gradients, &all.drift_gradients, numbers);
     }
 }
 

@@ -8,8 +8,8 @@ pub use shape::EncoderShape;
 use shape::Layout;
 
 use rand::Rng;
-use rayon::prelude::*;
 
+use crate::manifold::NetworkError;
 use crate::manifold::network::{Layer, Scaling, draw_uniform};
 
 /// x̂ = e(φ): the scaled positions of all points, x₁ y₁ z₁ x₂ …, as one channel through 1-D convolutions (kernel 6, stride 2, no padding,
@@ -27,20 +27,9 @@ pub struct Encoder<const D: usize> {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum EncoderError {
-    /// A size is zero.
-    #[error("encoder of shape {0:?}: every size must be at least 1")]
-    Shape(EncoderShape),
-    /// The scaling is not of D axes, or not finite and positive.
-    #[error("{0:?} does not scale {1} axes")]
-    Scaling(Scaling, usize),
-    /// There are more or fewer parameters than weights and biases.
-    #[error("{found} parameters for {expected} weights and biases")]
-    Parameters {
-        /// How many there are.
-        found: usize,
-        /// How many the shape has.
-        expected: usize,
-    },
+    /// Its layers cannot be made.
+    #[error(transparent)]
+    Layers(#[from] NetworkError),
     /// A frame has another number of points.
     #[error("{found} points, but the encoder is for {expected}")]
     Points {
@@ -58,17 +47,10 @@ impl<const D: usize> Encoder<D> {
     /// # Errors
     /// [`EncoderError`].
     pub fn new(shape: EncoderShape, scaling: Scaling, parameters: Vec<f64>) -> Result<Self, EncoderError> {
-        if shape.points == 0 || shape.width == 0 || shape.coordinates == 0 {
-            return Err(EncoderError::Shape(shape));
-        }
-        if !scaling.is_sound(D) {
-            return Err(EncoderError::Scaling(scaling, D));
-        }
+        let sizes = [shape.points, shape.width, shape.coordinates];
+        NetworkError::check(&shape, sizes, &scaling, D)?;
         let layout = shape.layout(D);
-        let (found, expected) = (parameters.len(), layout.last.bias.end);
-        if found != expected {
-            return Err(EncoderError::Parameters { found, expected });
-        }
+        NetworkError::check_parameters(&parameters, layout.last.bias.end)?;
         Ok(Self {
             shape,
             scaling,
@@ -126,14 +108,6 @@ impl<const D: usize> Encoder<D> {
         let mut tape = EncoderTape::default();
         self.forward(positions, &mut tape);
         Ok(tape.latent)
-    }
-
-    /// x̂ of many frames.
-    ///
-    /// # Errors
-    /// [`EncoderError::Points`].
-    pub fn encode_all(&self, frames: &[&[[f64; D]]]) -> Result<Vec<Vec<f64>>, EncoderError> {
-        frames.par_iter().map(|positions| self.encode(positions)).collect()
     }
 }
 

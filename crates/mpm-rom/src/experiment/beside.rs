@@ -6,10 +6,10 @@ use super::comparison::Comparison;
 use super::frame_files::FrameFiles;
 use super::results::{FrameRow, ReducedRow};
 use super::super_resolution::{Finer, SuperResolved};
-use super::{ChoiceName, ExperimentError, ManifoldName, QuadratureName, SampleCount, UpdateName};
+use super::{ChoiceName, ExperimentError, ManifoldName, QuadratureName, SampleCount};
 use crate::deformation_map::DeformationMap;
 use crate::manifold::Manifold;
-use crate::online::{Options, ReducedBody, ReducedModel, StepReport};
+use crate::online::{Options, ReducedBody, ReducedModel, StepReport, Update};
 use crate::snapshots::{Frame, Snapshots};
 
 /// What a reduced run is made with.
@@ -26,7 +26,7 @@ pub struct Choice {
     /// Where the momentum balance is summed.
     pub quadrature: QuadratureName,
     /// How coordinates follow from velocities.
-    pub update: UpdateName,
+    pub update: Update,
     /// Δt over that of the full-order run.
     pub step_factor: u64,
 }
@@ -96,7 +96,7 @@ pub(super) fn beside<const D: usize>(
             files.write(&snapshot)?;
         }
     }
-    let steps = reduced.timings().steps;
+    let steps = reduced.steps();
     let end = frames_of(&full.snapshots).last().map_or(0.0, |frame| frame.time);
     let all_steps = (end / reduced.body().time_step).round();
     Ok(ReducedRow {

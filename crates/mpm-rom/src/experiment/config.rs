@@ -6,7 +6,7 @@ use serde::Deserialize;
 
 use super::ExperimentError;
 use super::beside::Choice;
-use super::options::{All, ChoiceName, MOST_TRIED, ManifoldName, QuadratureName, SampleCount, UpdateName};
+use super::options::{All, ChoiceName, MOST_TRIED, ManifoldName, QuadratureName, SampleCount};
 use super::variants::Variant;
 use crate::full_order::FramesBetween;
 use crate::online::{Inverted, OnlineError, Options, Quadrature, SampleChoice, SampleWeights, Search, Update};
@@ -109,7 +109,7 @@ pub struct ReducedRuns {
     /// Quadratures.
     pub quadrature: Vec<QuadratureName>,
     /// Updates.
-    pub update: Vec<UpdateName>,
+    pub update: Vec<Update>,
     /// Time steps of reduced runs in those of the full-order run; each must divide the steps of a frame.
     pub step_factor: Vec<u64>,
     /// ℓ of the Eulerian quadrature.
@@ -136,7 +136,7 @@ impl Default for ReducedRuns {
             exchanges: 0,
             weights: SampleWeights::default(),
             quadrature: vec![QuadratureName::Lagrangian],
-            update: vec![UpdateName::PositionVelocity],
+            update: vec![Update::default()],
             step_factor: vec![1],
             points_per_axis: 2,
             skin: 0.5,
@@ -180,10 +180,7 @@ impl ReducedRuns {
                     per_axis: self.points_per_axis,
                 },
             },
-            update: match choice.update {
-                UpdateName::VelocityOnly => Update::VelocityOnly,
-                UpdateName::PositionVelocity => Update::position_velocity(),
-            },
+            update: choice.update,
             inverted: self.inverted,
         }
     }
@@ -211,61 +208,54 @@ impl Experiment {
 
     /// Refuses what does not fit together.
     pub(super) fn check(&self) -> Result<(), ExperimentError> {
-        let refuse = |field: String, message: String| Err(self.field(field, message));
         for (name, cases) in [("cases.train", &self.cases.train), ("cases.test", &self.cases.test)] {
-            if cases.is_empty() {
-                return refuse(name.to_owned(), "at least one case is needed".to_owned());
-            }
+            self.require(!cases.is_empty(), name, "at least one case is needed")?;
             for (number, values) in cases.iter().enumerate() {
-                if values.len() != self.parameters.len() {
-                    let (found, expected) = (values.len(), self.parameters.len());
-                    let message = format!("{found} values for {expected} parameters");
-                    return refuse(format!("{name}.{number}"), message);
-                }
-                if let Some(value) = values.iter().find(|value| !value.is_finite()) {
-                    return refuse(format!("{name}.{number}"), format!("{value} is not finite"));
+                let (field, found, expected) = (format!("{name}.{number}"), values.len(), self.parameters.len());
+                let message = format!("{found} values for {expected} parameters");
+                self.require(found == expected, &field, &message)?;
+                for value in values {
+                    self.require(value.is_finite(), &field, &format!("{value} is not finite"))?;
                 }
             }
         }
+        let run = &self.run;
         let lists = [
-            ("run.manifold", self.run.manifold.len()),
-            ("run.samples", self.run.samples.len()),
-            ("run.choice", self.run.choice.len()),
-            ("run.quadrature", self.run.quadrature.len()),
-            ("run.update", self.run.update.len()),
-            ("run.step_factor", self.run.step_factor.len()),
+            ("run.manifold", run.manifold.len()),
+            ("run.samples", run.samples.len()),
+            ("run.choice", run.choice.len()),
+            ("run.quadrature", run.quadrature.len()),
+            ("run.update", run.update.len()),
+            ("run.step_factor", run.step_factor.len()),
         ];
-        if let Some((field, _)) = lists.iter().find(|(_, length)| *length == 0) {
-            return refuse((*field).to_owned(), "at least one is needed".to_owned());
+        for (field, length) in lists {
+            self.require(length > 0, field, "at least one is needed")?;
         }
-        if self.recorded_points == Some(0) {
-            return refuse("recorded_points".to_owned(), "0: at least 1".to_owned());
-        }
-        if self.starts == 0 {
-            return refuse("starts".to_owned(), "0: at least 1".to_owned());
-        }
+        self.require(self.recorded_points != Some(0), "recorded_points", "0: at least 1")?;
+        self.require(self.starts > 0, "starts", "0: at least 1")?;
         let is_exchanged = |samples: &SampleCount| samples.count().is_some_and(|count| count <= MOST_TRIED);
-        let exchanges = self.run.choice.contains(&ChoiceName::Greedy) && self.run.samples.iter().any(is_exchanged);
-        if self.run.exchanges > 0 && !exchanges {
-            let message = format!("only greedily chosen sample points are exchanged, {MOST_TRIED} at most: none here");
-            return refuse("run.exchanges".to_owned(), message);
-        }
+        let exchanged = run.choice.contains(&ChoiceName::Greedy) && run.samples.iter().any(is_exchanged);
+        let message = format!("only greedily chosen sample points are exchanged, {MOST_TRIED} at most: none here");
+        self.require(run.exchanges == 0 || exchanged, "run.exchanges", &message)?;
         if let Some((key, message)) = self.frames_between.and_then(|between| between.fault()) {
-            return refuse(format!("frames_between.{key}"), message);
+            self.require(false, &format!("frames_between.{key}"), &message)?;
         }
-        let partial = [
-            ("run.scene", self.run.scene.is_some()),
+        let linear = run.manifold.contains(&ManifoldName::Linear);
+        for (key, given) in [
+            ("run.scene", run.scene.is_some()),
             ("recorded_points", self.recorded_points.is_some()),
-        ];
-        if let Some((key, _)) = partial.iter().find(|(_, given)| *given) {
-            let need = |what: &str| format!("\"{what}\" needs all points of the training: leave out {key}");
-            if self.run.manifold.contains(&ManifoldName::Linear) {
-                return refuse("run.manifold".to_owned(), need("linear"));
-            }
+        ] {
+            let message = format!("\"linear\" needs all points of the training: leave out {key}");
+            self.require(!(given && linear), "run.manifold", &message)?;
         }
         self.trainings()?;
         // The values themselves show whether all keys make sense.
         self.case(&self.cases.train[0]).map(|_| ())
+    }
+
+    fn require(&self, valid: bool, field: &str, message: &str) -> Result<(), ExperimentError> {
+        let error = || self.field(field.to_owned(), message.to_owned());
+        valid.then_some(()).ok_or_else(error)
     }
 
     pub(super) fn field(&self, field: String, message: String) -> ExperimentError {

@@ -33,7 +33,7 @@ pub use config::{Cases, Experiment, Key, ReducedRuns};
 pub use dispatch::{run_experiment, train_experiment};
 pub use error::ExperimentError;
 pub use files::names;
-pub use options::{All, ChoiceName, ManifoldName, QuadratureName, SampleCount, UpdateName};
+pub use options::{All, ChoiceName, ManifoldName, QuadratureName, SampleCount};
 pub use read_results::read_results;
 pub use reduced::run;
 pub use results::{FrameRow, ReducedRow};

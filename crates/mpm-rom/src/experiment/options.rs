@@ -86,27 +86,6 @@ impl QuadratureName {
     }
 }
 
-/// How coordinates follow from velocities; see [`Update`](crate::online::Update).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum UpdateName {
-    /// From the velocities alone.
-    VelocityOnly,
-    /// From positions, with velocities beside them.
-    #[default]
-    PositionVelocity,
-}
-
-impl UpdateName {
-    /// As in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::VelocityOnly => "velocity-only",
-            Self::PositionVelocity => "position-velocity",
-        }
-    }
-}
-
 /// The family of maps; see [`manifold`](crate::manifold).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize)]
 #[serde(rename_all = "kebab-case")]

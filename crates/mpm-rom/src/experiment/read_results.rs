@@ -10,8 +10,9 @@ use super::files::names;
 use super::options::All;
 use super::{
     ChoiceName, Experiment, ExperimentError, FrameRow, ManifoldName, QuadratureName, ReducedRow, SampleCount,
-    SuperResolved, UpdateName,
+    SuperResolved,
 };
+use crate::online::Update;
 
 /// The rows that [`run`](super::run) has written into a directory, complete or not. The numbers of sample points that were asked for are taken to be those of the rows.
 ///
@@ -81,7 +82,7 @@ fn row(experiment: &Experiment, line: &Line) -> Result<ReducedRow, ExperimentErr
         )?,
         update: line.word(
             "update",
-            &[UpdateName::VelocityOnly, UpdateName::PositionVelocity].map(UpdateName::name),
+            &[Update::VelocityOnly, Update::PositionVelocity].map(Update::name),
         )?,
         step_factor: line.value("step_factor")?,
         error: line.value("position_error_percent")?,

@@ -55,6 +55,10 @@ pub fn run<const D: usize>(
         }
         _ => None,
     };
+    let family = |name, network: usize| match (name, &linear) {
+        (ManifoldName::Linear, Some(pod)) => pod as &dyn Manifold<D>,
+        _ => models[network].1.network(),
+    };
     let choices = choices(experiment, models.len());
     let runs = choices.len() * experiment.cases.test.len();
     let after_run = RefCell::new(after_run);
@@ -62,19 +66,17 @@ pub fn run<const D: usize>(
     if let Some(snapshots) = training.as_ref().filter(|_| chooses_on_training(experiment)) {
         let document = SceneDocument::read(&experiment.scene_file())?;
         for (name, network) in maps(experiment, models.len()) {
-            let model = &models[network].1;
             let sampling = Sampling {
                 experiment,
                 document: &document,
-                model,
+                model: &models[network].1,
                 network,
+                name,
+                manifold: family(name, network),
                 snapshots,
                 go_on: &|| after_run.borrow_mut()(0, runs),
             };
-            match (name, &linear) {
-                (ManifoldName::Linear, Some(pod)) => sampling.choose(name, pod, &mut chosen)?,
-                _ => sampling.choose(name, model.network(), &mut chosen)?,
-            }
+            sampling.choose(&mut chosen)?;
         }
     }
     frame_files::forget_earlier(directory)?;
@@ -117,11 +119,7 @@ pub fn run<const D: usize>(
             finer,
         };
         for choice in &choices {
-            let (variant, model) = &models[choice.network];
-            let manifold = match (choice.manifold, &linear) {
-                (ManifoldName::Linear, Some(pod)) => pod as &dyn Manifold<D>,
-                _ => model.network(),
-            };
+            let manifold = family(choice.manifold, choice.network);
             let body = reduced_body(experiment, &scene, &trained_on.centroid, choice.step_factor)?;
             let guess = match choice.manifold {
                 ManifoldName::Network => at_rest[choice.network].clone(),
@@ -136,7 +134,7 @@ pub fn run<const D: usize>(
             let mut row = beside(manifold, &guess, body, &full, choice, options, written.transpose()?)?;
             if choice.manifold == ManifoldName::Network {
                 row.reconstruction_error = reconstruction_errors[choice.network];
-                row.variant = variant.clone();
+                row.variant = models[choice.network].0.clone();
             }
             rows.push(row);
             let table = results::results(&experiment.parameters, &rows);

@@ -20,7 +20,7 @@ const DISTANCES: [f64; 5] = [0.002, 0.0, 0.005, 0.01, 0.02];
 /// The distances for a cubature, all of them: near the way it has to be exact, and farther off it must know the way back.
 const CUBATURE_DISTANCES: [f64; 2] = [0.002, 0.02];
 
-/// Training runs and what is needed to step from their frames.
+/// A family of maps, training runs and what is needed to step from their frames.
 pub(super) struct Sampling<'a, const D: usize> {
     pub experiment: &'a Experiment,
     /// The scene that is trained on.
@@ -28,6 +28,9 @@ pub(super) struct Sampling<'a, const D: usize> {
     pub model: &'a Model<D>,
     /// Its number among those of the experiment.
     pub network: usize,
+    /// The family: the model's network, or the linear one.
+    pub name: ManifoldName,
+    pub manifold: &'a dyn Manifold<D>,
     pub snapshots: &'a Snapshots<D>,
     /// Asked after every trial run whether to go on.
     pub go_on: &'a dyn Fn() -> bool,
@@ -35,18 +38,11 @@ pub(super) struct Sampling<'a, const D: usize> {
 
 impl<const D: usize> Sampling<'_, D> {
     /// Sample points for every number of them in the experiment, by every choice that needs training runs.
-    pub fn choose(
-        &self,
-        name: ManifoldName,
-        manifold: &dyn Manifold<D>,
-        into: &mut Chosen<D>,
-    ) -> Result<(), ExperimentError> {
-        let (run, mut counts) = (&self.experiment.run, Vec::new());
-        counts.extend(run.samples.iter().filter_map(|samples| samples.count()));
-        for &choice in &run.choice {
-            self.choose_by(choice, &counts, name, manifold, into)?;
-        }
-        Ok(())
+    pub fn choose(&self, into: &mut Chosen<D>) -> Result<(), ExperimentError> {
+        let run = &self.experiment.run;
+        let counts: Vec<usize> = run.samples.iter().filter_map(|samples| samples.count()).collect();
+        let mut choices = run.choice.iter();
+        choices.try_for_each(|&choice| self.choose_by(choice, &counts, into))
     }
 
     /// So many sample points by one choice, if it needs training runs.
@@ -54,40 +50,26 @@ impl<const D: usize> Sampling<'_, D> {
         &self,
         choice: ChoiceName,
         counts: &[usize],
-        name: ManifoldName,
-        manifold: &dyn Manifold<D>,
         into: &mut Chosen<D>,
     ) -> Result<(), ExperimentError> {
         match choice {
-            ChoiceName::Greedy => self.choose_greedily(counts, name, manifold, into),
-            ChoiceName::Cubature => self.choose_cubature(counts, name, manifold, into),
+            ChoiceName::Greedy => self.choose_greedily(counts, into),
+            ChoiceName::Cubature => self.choose_cubature(counts, into),
             ChoiceName::Drawn | ChoiceName::Spread => Ok(()),
         }
     }
 
     /// What [`choose_cubature`](crate::online::choose_cubature) finds on steps from 6 frames of each of up to 8 training runs, evenly spaced along the way of the body, and from states around these frames, near and far; those from the frames themselves count twice.
-    fn choose_cubature(
-        &self,
-        counts: &[usize],
-        name: ManifoldName,
-        manifold: &dyn Manifold<D>,
-        into: &mut Chosen<D>,
-    ) -> Result<(), ExperimentError> {
-        let readings = Rc::new(self.readings(name, manifold, &CUBATURE_DISTANCES)?);
-        let of = |count| (name, self.network, ChoiceName::Cubature, count);
+    fn choose_cubature(&self, counts: &[usize], into: &mut Chosen<D>) -> Result<(), ExperimentError> {
+        let readings = Rc::new(self.readings(&CUBATURE_DISTANCES)?);
+        let of = |count| (self.name, self.network, ChoiceName::Cubature, count);
         into.extend(counts.iter().map(|&count| Best::new(of(count), Rc::clone(&readings))));
         Ok(())
     }
 
     /// Candidates are what [`choose_greedily`](crate::online::choose_greedily) finds on steps from 6 frames of each of up to 8 training runs, evenly spaced along the way of the body, and from states around these frames at one of several distances.
     /// Each is tried on up to eight training runs of at most 91 frames, and the one with the least error of them together is taken, and exchanged. More than 24 points are not tried, and the distance is 0.002.
-    fn choose_greedily(
-        &self,
-        counts: &[usize],
-        name: ManifoldName,
-        manifold: &dyn Manifold<D>,
-        into: &mut Chosen<D>,
-    ) -> Result<(), ExperimentError> {
+    fn choose_greedily(&self, counts: &[usize], into: &mut Chosen<D>) -> Result<(), ExperimentError> {
         let new = |&count: &usize| (count, None, Trials::of(&self.experiment.cases.train));
         let mut all: Vec<(usize, Option<Best<D>>, Trials)> = counts.iter().map(new).collect();
         for distance in DISTANCES {
@@ -99,13 +81,13 @@ impl<const D: usize> Sampling<'_, D> {
                 }
                 let readings = match &readings {
                     Some(readings) => readings,
-                    None => readings.insert(Rc::new(self.readings(name, manifold, &[distance])?)),
+                    None => readings.insert(Rc::new(self.readings(&[distance])?)),
                 };
-                let of = (name, self.network, ChoiceName::Greedy, *count);
+                let of = (self.name, self.network, ChoiceName::Greedy, *count);
                 let mut candidate = Best::new(of, Rc::clone(readings));
                 let least = best.as_ref().map_or(f64::INFINITY, |best| best.error);
                 if tried {
-                    candidate.error = self.error_of(manifold, &mut candidate, least, trials)?;
+                    candidate.error = self.error_of(&mut candidate, least, trials)?;
                 }
                 if best.is_none() || candidate.error < least {
                     *best = Some(candidate);
@@ -115,7 +97,7 @@ impl<const D: usize> Sampling<'_, D> {
         for (count, best, mut trials) in all {
             let Some(mut best) = best else { continue };
             if count <= MOST_TRIED {
-                self.exchange(manifold, &mut best, &mut trials)?;
+                self.exchange(&mut best, &mut trials)?;
             }
             into.extend([best]);
         }
@@ -129,10 +111,10 @@ impl<const D: usize> Sampling<'_, D> {
     }
 
     /// Where a search for coordinates begins.
-    pub(super) fn guess(&self, name: ManifoldName, positions: &[[f64; D]]) -> Result<Vec<f64>, ExperimentError> {
-        Ok(match name {
+    pub(super) fn guess(&self, positions: &[[f64; D]]) -> Result<Vec<f64>, ExperimentError> {
+        Ok(match self.name {
             ManifoldName::Network => self.model.encoder().encode(positions)?,
-            ManifoldName::Linear => vec![0.0; self.model.network().coordinates()],
+            ManifoldName::Linear => vec![0.0; self.manifold.coordinates()],
         })
     }
 }

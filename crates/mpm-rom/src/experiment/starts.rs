@@ -11,7 +11,7 @@ use mpm_scenes::output::write_whole;
 use super::files::{self, START, names};
 use super::sampling::Sampling;
 use super::trained::{Start, Trained, Watch, train_network};
-use super::{Experiment, ExperimentError};
+use super::{Experiment, ExperimentError, ManifoldName};
 use crate::full_order::SceneDocument;
 use crate::model::Model;
 use crate::snapshots::Snapshots;
@@ -47,6 +47,8 @@ pub(super) fn best_start<const D: usize>(
             document: &document,
             model: &model,
             network: 0,
+            name: ManifoldName::Network,
+            manifold: model.network(),
             snapshots,
             go_on: &|| watch.borrow_mut().after_trial().is_continue(),
         };

@@ -16,10 +16,14 @@ use crate::training::{EpochReport, Trainer, Training};
 /// Watches an experiment and may stop its training.
 pub trait Watch {
     /// After a full-order run; a break ends them, and nothing of them is kept.
-    fn after_run(&mut self, done: usize, runs: usize) -> ControlFlow<()>;
+    fn after_run(&mut self, _done: usize, _runs: usize) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
 
     /// After an epoch; a break ends the training with a checkpoint to go on from.
-    fn after_epoch(&mut self, report: &EpochReport) -> ControlFlow<()>;
+    fn after_epoch(&mut self, _report: &EpochReport) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
 
     /// After a reduced run that networks are compared by; a break ends them, and the networks that have been trained are kept.
     fn after_trial(&mut self) -> ControlFlow<()> {
@@ -28,15 +32,7 @@ pub trait Watch {
 }
 
 /// Watches nothing.
-impl Watch for () {
-    fn after_run(&mut self, _: usize, _: usize) -> ControlFlow<()> {
-        ControlFlow::Continue(())
-    }
-
-    fn after_epoch(&mut self, _: &EpochReport) -> ControlFlow<()> {
-        ControlFlow::Continue(())
-    }
-}
+impl Watch for () {}
 
 /// What a training came to.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,10 +2,10 @@
 
 use mpm_tensor::vector;
 
+use super::ExperimentError;
 use super::chosen::Readings;
 use super::sampling::Sampling;
 use super::spread::evenly;
-use super::{ExperimentError, ManifoldName};
 use crate::deformation_map::DeformationMap;
 use crate::least_squares::{GaussNewton, LeastSquares, Settings};
 use crate::manifold::{Evaluation, Manifold, Wanted};
@@ -18,16 +18,11 @@ const FRAMES: usize = 6;
 
 impl<const D: usize> Sampling<'_, D> {
     /// Steps from frames of several training runs and from states around them at these distances; those from the frames themselves once for each distance.
-    pub(super) fn readings(
-        &self,
-        name: ManifoldName,
-        manifold: &dyn Manifold<D>,
-        distances: &[f64],
-    ) -> Result<Readings<D>, ExperimentError> {
+    pub(super) fn readings(&self, distances: &[f64]) -> Result<Readings<D>, ExperimentError> {
         let (mut steps, mut known) = (Vec::new(), None);
         for distance in distances {
             for run in evenly(self.snapshots.runs().len(), RUNS) {
-                steps.extend(self.steps(name, manifold, (run, *distance), &mut known)?);
+                steps.extend(self.steps((run, *distance), &mut known)?);
             }
         }
         Ok(Readings {
@@ -39,16 +34,14 @@ impl<const D: usize> Sampling<'_, D> {
     /// Steps from some frames of a run and from states around them, read at all recorded points, which are `known` in the body of every run alike. States from which there is no step, because the map is inverted there for example, are left out.
     fn steps(
         &self,
-        name: ManifoldName,
-        manifold: &dyn Manifold<D>,
         (run, distance): (usize, f64),
         known: &mut Option<KnownPoints>,
     ) -> Result<Vec<Reading<D>>, ExperimentError> {
         let (body, recorded) = (ReducedBody::<D>::of(&self.scene(run)?)?, self.snapshots.reference());
         let squares: f64 = recorded.iter().map(vector::norm_squared).sum();
         let distance = distance * (squares / recorded.len().max(1) as f64).sqrt();
-        let guess = self.guess(name, recorded)?;
-        let map = DeformationMap::new(manifold, recorded, &guess)?;
+        let guess = self.guess(recorded)?;
+        let map = DeformationMap::new(self.manifold, recorded, &guess)?;
         let known = known.get_or_insert_with(|| KnownPoints::nearest(&body.reference, recorded));
         let everywhere = Quadrature::Lagrangian { search: Search::All };
         let mut reduced = ReducedModel::to_read(body, map, known.numbers().to_vec(), everywhere)?;
@@ -56,13 +49,13 @@ impl<const D: usize> Sampling<'_, D> {
         let mut readings = Vec::new();
         for index in along_path(frames, FRAMES) {
             let (frame, time) = (&frames[index], frames[index].time);
-            let guess = self.guess(name, &frame.positions)?;
-            let Some((latent, rates)) = fitted(&reduced, frame, time, guess) else {
+            let guess = self.guess(&frame.positions)?;
+            let Some((latent, rates)) = fitted(&reduced, frame, guess) else {
                 continue;
             };
             let mut states = vec![latent.clone()];
             if distance > 0.0 {
-                states.extend(reduced.states_around(&latent, time, distance));
+                states.extend(reduced.states_around(&latent, distance));
             }
             let steps = states.iter().map(|state| reduced.reading(state, &rates, time));
             readings.extend(steps.flatten());
@@ -93,22 +86,15 @@ fn along_path<const D: usize>(frames: &[Frame<D>], most: usize) -> Vec<usize> {
 fn fitted<const D: usize>(
     reduced: &ReducedModel<D, &dyn Manifold<D>>,
     frame: &Frame<D>,
-    time: f64,
     guess: Vec<f64>,
 ) -> Option<(Vec<f64>, Vec<f64>)> {
     let mut latent = guess;
-    let evaluate = |y: &[f64], wanted: Wanted, out: &mut Evaluation<D>| reduced.evaluate_at(y, time, wanted, out);
+    let evaluate = |y: &[f64], wanted: Wanted, out: &mut Evaluation<D>| reduced.evaluate_at(y, wanted, out);
     GaussNewton::default()
         .minimise(&frame.positions, &mut latent, &Settings::default(), evaluate)
         .ok()?;
-    let (mut there, wanted) = (
-        Evaluation::default(),
-        Wanted {
-            jacobians: true,
-            ..Wanted::default()
-        },
-    );
-    reduced.evaluate_at(&latent, time, wanted, &mut there);
+    let mut there = Evaluation::default();
+    reduced.evaluate_at(&latent, Wanted::JACOBIANS, &mut there);
     let mut rates = vec![0.0; latent.len()];
     LeastSquares::default()
         .solve(&there.jacobians, &frame.velocities, &mut rates)

@@ -4,9 +4,8 @@ use super::beside::{Choice, Full, beside};
 use super::chosen::{Best, Chosen};
 use super::sampling::Sampling;
 use super::trials::Trials;
-use super::{ChoiceName, ExperimentError, ManifoldName, SampleCount};
+use super::{ChoiceName, ExperimentError, SampleCount};
 use crate::full_order::FullOrderError;
-use crate::manifold::Manifold;
 use crate::online::{OnlineError, ReducedBody, SampleChoice};
 use crate::snapshots::{Run, Snapshots};
 
@@ -14,18 +13,18 @@ use crate::snapshots::{Run, Snapshots};
 const FRAMES: usize = 91;
 
 impl<const D: usize> Sampling<'_, D> {
-    /// The error of training runs of the network together, as [`Self::together`], with the first of everything that `[run]` asks for, but for its step factors.
+    /// The error of training runs together, as [`Self::together`], with the first of everything that `[run]` asks for, but for its step factors.
     pub fn error_of_training_runs(&self) -> Result<f64, ExperimentError> {
-        let (run, network, mut chosen) = (&self.experiment.run, self.model.network(), Chosen::default());
-        let choice = self.choice(ManifoldName::Network, run.samples[0], run.choice[0]);
+        let (run, mut chosen) = (&self.experiment.run, Chosen::default());
+        let choice = self.choice(run.samples[0], run.choice[0]);
         if let Some(count) = choice.samples.count() {
-            self.choose_by(choice.chosen, &[count], choice.manifold, network, &mut chosen)?;
+            self.choose_by(choice.chosen, &[count], &mut chosen)?;
         }
         let mut trials = Trials::of(&self.experiment.cases.train);
-        self.together(network, &choice, f64::INFINITY, &mut trials, &mut |body| {
+        self.together(&choice, f64::INFINITY, &mut trials, &mut |body| {
             run.samples(&choice, |count| {
                 let of = (choice.manifold, choice.network, choice.chosen, count);
-                chosen.points(of, network.coordinates(), body)
+                chosen.points(of, self.manifold.coordinates(), body)
             })
         })
     }
@@ -33,23 +32,22 @@ impl<const D: usize> Sampling<'_, D> {
     /// The error of training runs together, as [`Self::together`], with points of this choice.
     pub(super) fn error_of(
         &self,
-        manifold: &dyn Manifold<D>,
         points: &mut Best<D>,
         least: f64,
         trials: &mut Trials,
     ) -> Result<f64, ExperimentError> {
-        let (name, _, chosen, count) = points.of;
-        let choice = self.choice(name, SampleCount::Drawn(count), chosen);
-        self.together(manifold, &choice, least, trials, &mut |body| {
-            points.points(manifold.coordinates(), body)
+        let (_, _, chosen, count) = points.of;
+        let choice = self.choice(SampleCount::Drawn(count), chosen);
+        self.together(&choice, least, trials, &mut |body| {
+            points.points(self.manifold.coordinates(), body)
         })
     }
 
     /// What trial runs are made with: the first quadrature and update of `[run]`, whichever others the points will be used for, and Δt of the full-order run.
-    fn choice(&self, name: ManifoldName, samples: SampleCount, chosen: ChoiceName) -> Choice {
+    fn choice(&self, samples: SampleCount, chosen: ChoiceName) -> Choice {
         let run = &self.experiment.run;
         Choice {
-            manifold: name,
+            manifold: self.name,
             network: self.network,
             samples,
             chosen,
@@ -62,7 +60,6 @@ impl<const D: usize> Sampling<'_, D> {
     /// The root of the mean square of the position errors of up to eight training runs of at most 91 frames, in per cent, with the sample points that `points` gives; infinite where one does not end well or the root is above `least` in any case.
     fn together(
         &self,
-        manifold: &dyn Manifold<D>,
         choice: &Choice,
         least: f64,
         trials: &mut Trials,
@@ -83,9 +80,9 @@ impl<const D: usize> Sampling<'_, D> {
                 finer: None,
             };
             let body = ReducedBody::of(&self.scene(case)?)?;
-            let guess = self.guess(choice.manifold, self.snapshots.reference())?;
+            let guess = self.guess(self.snapshots.reference())?;
             let options = self.experiment.run.options(choice, points(&body)?);
-            let row = beside(manifold, &guess, body, &full, choice, options, None)?;
+            let row = beside(self.manifold, &guess, body, &full, choice, options, None)?;
             if !(self.go_on)() {
                 return Err(ExperimentError::Stopped);
             }

@@ -29,16 +29,6 @@ pub struct Case {
     pub changes: Vec<(String, Value)>,
 }
 
-impl Case {
-    /// A run whose only parameter is the number at a key.
-    pub fn of_key(key: &str, value: f64) -> Self {
-        Self {
-            parameters: vec![value],
-            changes: vec![(key.to_owned(), Value::Float(value))],
-        }
-    }
-}
-
 /// What is kept of runs.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Kept {

@@ -11,9 +11,17 @@ fn document() -> SceneDocument {
     SceneDocument::parse(STRIP, "strip.toml".as_ref()).expect("TOML")
 }
 
+/// A run whose only parameter is the number at a key.
+fn of_key(key: &str, value: f64) -> Case {
+    Case {
+        parameters: vec![value],
+        changes: vec![(key.to_owned(), Value::Float(value))],
+    }
+}
+
 #[test]
 fn every_run_has_its_own_parameter_and_all_have_the_same_body() {
-    let cases: Vec<Case> = [1.0, 3.0].map(|g| Case::of_key("gravity.1", -g)).to_vec();
+    let cases: Vec<Case> = [1.0, 3.0].map(|g| of_key("gravity.1", -g)).to_vec();
     let mut done = Vec::new();
     let names = ["gravity".to_owned()];
     let snapshots = collect::<2>(&document(), &names, &cases, &Kept::default(), |run| {
@@ -50,28 +58,21 @@ fn what_does_not_fit_is_an_error_with_its_name() {
         })
     };
     assert!(matches!(collect(&[]), Err(FullOrderError::NoRuns)));
-    let twice = [Case::of_key("gravity.0", 0.0), Case::of_key("gravity.0", 1.0)];
+    let twice = [of_key("gravity.0", 0.0), of_key("gravity.0", 1.0)];
     let stopped = super::collect::<2>(&document(), &["p".to_owned()], &twice, &Kept::default(), |_| {
         ControlFlow::Break(())
     });
     assert!(matches!(stopped, Err(FullOrderError::Stopped { runs: 1 })));
-    let error = collect(&[Case::of_key("bodies.1.shape.radius", 1.0)]).expect_err("no such body");
+    let error = collect(&[of_key("bodies.1.shape.radius", 1.0)]).expect_err("no such body");
     assert_eq!(
         error.to_string(),
         "strip.toml, change of `bodies.1.shape.radius`: bodies has no `1`"
     );
-    let wider = [
-        Case::of_key("gravity.0", 0.0),
-        Case::of_key("bodies.0.shape.upper.0", 2.5),
-    ];
+    let wider = [of_key("gravity.0", 0.0), of_key("bodies.0.shape.upper.0", 2.5)];
     assert!(matches!(collect(&wider), Err(FullOrderError::AnotherBody { run: 1 })));
-    let error = super::collect::<3>(
-        &document(),
-        &[],
-        &[Case::of_key("gravity.0", 0.0)],
-        &Kept::default(),
-        |_| ControlFlow::Continue(()),
-    );
+    let error = super::collect::<3>(&document(), &[], &[of_key("gravity.0", 0.0)], &Kept::default(), |_| {
+        ControlFlow::Continue(())
+    });
     assert!(matches!(
         error,
         Err(FullOrderError::Dimension { found: 2, expected: 3 })

@@ -26,15 +26,6 @@ impl Default for Settings {
     }
 }
 
-/// Where an iteration ended.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Minimum {
-    /// Steps taken.
-    pub iterations: usize,
-    /// Σ_p ω_p |g_p(y) − x_p|².
-    pub squared_residual: f64,
-}
-
 /// Gauss–Newton with backtracking: the step w = argmin Σ ω_p |∂g_p/∂y w − (x_p − g_p(y))|², halved until the sum falls.
 #[derive(Default)]
 pub struct GaussNewton<const D: usize> {
@@ -57,7 +48,7 @@ impl<const D: usize> GaussNewton<D> {
         }
     }
 
-    /// Moves `y` to a minimum; `evaluate` gives g_p(y), with ∂g_p/∂y where wanted.
+    /// Moves `y` to a minimum, and returns that, Σ_p ω_p |g_p(y) − x_p|²; `evaluate` gives g_p(y), with ∂g_p/∂y where wanted.
     ///
     /// # Errors
     /// [`LeastSquaresError`] where a step cannot be computed; `y` is then the best point so far.
@@ -67,21 +58,17 @@ impl<const D: usize> GaussNewton<D> {
         y: &mut [f64],
         settings: &Settings,
         mut evaluate: impl FnMut(&[f64], Wanted, &mut Evaluation<D>),
-    ) -> Result<Minimum, LeastSquaresError> {
-        let derivatives = Wanted {
-            jacobians: true,
-            ..Wanted::default()
-        };
+    ) -> Result<f64, LeastSquaresError> {
         self.step.resize(y.len(), 0.0);
         self.trial.resize(y.len(), 0.0);
-        evaluate(y, derivatives, &mut self.evaluation);
+        evaluate(y, Wanted::JACOBIANS, &mut self.evaluation);
         let mut sum = self.sum(targets);
         if !sum.is_finite() {
             return Err(LeastSquaresError::NotFinite);
         }
         for iteration in 0..settings.iterations {
             if iteration > 0 {
-                evaluate(y, derivatives, &mut self.evaluation);
+                evaluate(y, Wanted::JACOBIANS, &mut self.evaluation);
             }
             let pairs = targets.iter().zip(&self.evaluation.positions);
             self.residuals.clear();
@@ -110,24 +97,15 @@ impl<const D: usize> GaussNewton<D> {
             }
             let Some(candidate) = lower else {
                 // No step along the descent direction lowers the sum: rounding.
-                return Ok(Minimum {
-                    iterations: iteration,
-                    squared_residual: sum,
-                });
+                return Ok(sum);
             };
             y.copy_from_slice(&self.trial);
             sum = candidate;
             if still {
-                return Ok(Minimum {
-                    iterations: iteration + 1,
-                    squared_residual: sum,
-                });
+                break;
             }
         }
-        Ok(Minimum {
-            iterations: settings.iterations,
-            squared_residual: sum,
-        })
+        Ok(sum)
     }
 
     fn sum(&self, targets: &[[f64; D]]) -> f64 {
@@ -174,7 +152,7 @@ mod tests {
         let found = GaussNewton::weighted(vec![3.0, 1.0]).minimise(&[[1.0], [5.0]], &mut y, &Settings::default(), same);
         let found = found.expect("of full rank");
         assert!(
-            (y[0] - 2.0).abs() < 1e-14 && (found.squared_residual - 12.0).abs() < 1e-13,
+            (y[0] - 2.0).abs() < 1e-14 && (found - 12.0).abs() < 1e-13,
             "{y:?} {found:?}"
         );
     }
@@ -193,6 +171,6 @@ mod tests {
             (y[0] - 1.3).abs() < 1e-12 && (y[1] + 0.7).abs() < 1e-12,
             "{y:?} {found:?}"
         );
-        assert!(found.squared_residual < 1e-24);
+        assert!(found < 1e-24);
     }
 }

@@ -11,6 +11,26 @@ pub struct Wanted {
     pub jacobians: bool,
 }
 
+impl Wanted {
+    /// ∇_X g̃ alone.
+    pub const GRADIENTS: Self = Self {
+        gradients: true,
+        jacobians: false,
+    };
+
+    /// ∂g̃/∂x̂ alone.
+    pub const JACOBIANS: Self = Self {
+        gradients: false,
+        jacobians: true,
+    };
+
+    /// Both.
+    pub const ALL: Self = Self {
+        gradients: true,
+        jacobians: true,
+    };
+}
+
 /// Values and derivatives of a deformation map at P points; vectors that were not wanted are empty.
 #[derive(Clone, Debug, Default)]
 pub struct Evaluation<const D: usize> {

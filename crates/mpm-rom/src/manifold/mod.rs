@@ -1,14 +1,12 @@
 //! Families of deformation maps X → g̃(X, x̂) with a few coordinates x̂.
 
 mod evaluation;
-mod linear;
 pub mod network;
 mod pod;
 #[cfg(test)]
 mod polynomial;
 
 pub use evaluation::{Evaluation, Wanted};
-pub use linear::Linear;
 pub use network::{Network, NetworkError, NetworkShape, Scaling};
 pub use pod::{LinearError, Pod};
 #[cfg(test)]
@@ -31,11 +29,7 @@ pub trait Manifold<const D: usize>: Send + Sync {
     ///
     /// The velocity is one tangent, whatever r is; families that cannot carry it alone contract the Jacobians, as this default does.
     fn evaluate_moving(&self, reference: &[[f64; D]], latent: &[f64], rates: &[f64], out: &mut Evaluation<D>) {
-        let wanted = Wanted {
-            gradients: true,
-            jacobians: true,
-        };
-        self.evaluate(reference, latent, wanted, out);
+        self.evaluate(reference, latent, Wanted::ALL, out);
         let columns = out.jacobians.chunks_exact(rates.len().max(1));
         out.velocities.clear();
         out.velocities.extend(columns.map(|columns| {

@@ -4,6 +4,7 @@ use faer::Mat;
 use mpm_tensor::{Matrix, vector};
 
 use super::{Evaluation, Manifold, Wanted};
+use crate::nearest::nearest;
 use crate::snapshots::Snapshots;
 
 /// Proper orthogonal decomposition: g̃(X_p, x̂) = X_p + Σ_k x̂_k u_k(X_p) with the r modes u_k that reproduce the displacements of the snapshots best
@@ -13,8 +14,7 @@ use crate::snapshots::Snapshots;
 /// the frames. The gradients at the material points are those of the snapshots with the same coordinates,
 /// ∇u_k = N⁻¹ Σ_n √N V_nk (F_n − I); u_k itself obeys the same formula.
 ///
-/// Modes are known at the material points only: any other reference position takes those of the nearest one. For modes between the points see
-/// [`Linear`](super::Linear).
+/// Modes are known at the material points only: any other reference position takes those of the nearest one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pod<const D: usize> {
     coordinates: usize,
@@ -39,16 +39,16 @@ pub enum LinearError {
         /// The rank.
         rank: usize,
     },
-    /// The decomposition did not converge, or the interpolation is singular (two material points in one place, all points in a plane).
-    #[error("{0} failed")]
-    Singular(&'static str),
+    /// The decomposition did not converge.
+    #[error("singular value decomposition failed")]
+    Decomposition,
 }
 
 impl<const D: usize> Pod<D> {
     /// The r leading modes of all frames of all runs. Costs a thin singular value decomposition of P D × N.
     ///
     /// # Errors
-    /// [`LinearError::Rank`], [`LinearError::Singular`].
+    /// [`LinearError::Rank`], [`LinearError::Decomposition`].
     pub fn new(snapshots: &Snapshots<D>, coordinates: usize) -> Result<Self, LinearError> {
         let reference = snapshots.reference();
         let frames: Vec<_> = snapshots.runs().iter().flat_map(|run| &run.frames).collect();
@@ -56,7 +56,7 @@ impl<const D: usize> Pod<D> {
             frames[column].positions[row / D][row % D] - reference[row / D][row % D]
         });
         let decomposition = displacements.thin_svd();
-        let decomposition = decomposition.map_err(|_| LinearError::Singular("singular value decomposition"))?;
+        let decomposition = decomposition.map_err(|_| LinearError::Decomposition)?;
         let sizes: Vec<f64> = decomposition.S().column_vector().iter().copied().collect();
         let largest = sizes.first().copied().unwrap_or(0.0);
         let rank = sizes.iter().filter(|&&size| size > 1e-12 * largest).count();
@@ -88,26 +88,9 @@ impl<const D: usize> Pod<D> {
         })
     }
 
-    /// X_p of the material points.
-    pub fn reference(&self) -> &[[f64; D]] {
-        &self.reference
-    }
-
     /// u_k at point p, entry p r + k (m).
     pub fn modes(&self) -> &[[f64; D]] {
         &self.modes
-    }
-
-    /// The number of the point nearest to `position`; the first of equals.
-    fn nearest(&self, position: &[f64; D]) -> usize {
-        let mut nearest = (0, f64::INFINITY);
-        for (point, other) in self.reference.iter().enumerate() {
-            let distance = vector::distance_squared(position, other);
-            if distance < nearest.1 {
-                nearest = (point, distance);
-            }
-        }
-        nearest.0
     }
 }
 
@@ -123,7 +106,7 @@ impl<const D: usize> Manifold<D> for Pod<D> {
         out.jacobians.clear();
         for position in reference {
             let known = self.numbers.get(&position.map(f64::to_bits));
-            let point = known.copied().unwrap_or_else(|| self.nearest(position));
+            let point = known.copied().unwrap_or_else(|| nearest(position, &self.reference));
             let range = point * r..(point + 1) * r;
             let mut deformed = *position;
             for (mode, x) in self.modes[range.clone()].iter().zip(latent) {

@@ -31,11 +31,7 @@ impl<const D: usize> Model<D> {
     /// # Errors
     /// As [`reconstruction_error`](Self::reconstruction_error).
     pub fn gradient_error(&self, snapshots: &Snapshots<D>) -> Result<f64, EncoderError> {
-        let wanted = Wanted {
-            gradients: true,
-            ..Wanted::default()
-        };
-        let sums = self.sums(snapshots, wanted, |at, frame| {
+        let sums = self.sums(snapshots, Wanted::GRADIENTS, |at, frame| {
             let pairs = at.gradients.iter().zip(&frame.deformation_gradients);
             let error: f64 = pairs
                 .map(|(&found, &expected)| (found - expected).frobenius_norm().powi(2))
@@ -58,7 +54,7 @@ impl<const D: usize> Model<D> {
             self.network.evaluate(snapshots.reference(), &latent, wanted, at);
             Ok(of_frame(at, frame))
         });
-        let parts: Vec<[f64; 2]> = parts.collect::<Result<_, _>>()?;
+        let parts = parts.collect::<Result<Vec<[f64; 2]>, EncoderError>>()?;
         Ok(parts.iter().fold([0.0; 2], |sum, part| vector::add(&sum, part)))
     }
 }

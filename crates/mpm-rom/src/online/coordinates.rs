@@ -1,11 +1,16 @@
 //! From the velocities of the sample points to v̂ and x̂.
 
-use mpm_tensor::vector;
-
 use super::Update;
 use crate::deformation_map::{DeformationMap, MaterialPoints};
-use crate::least_squares::{GaussNewton, LeastSquares, LeastSquaresError};
+use crate::least_squares::{GaussNewton, LeastSquares, LeastSquaresError, Settings};
 use crate::manifold::{Evaluation, Manifold};
+
+/// When the search for x̂ ends.
+const SETTINGS: Settings = Settings {
+    iterations: 3,
+    tolerance: 1e-10,
+    halvings: 8,
+};
 
 /// The coordinates of a run and what moves them.
 #[derive(Default)]
@@ -17,53 +22,41 @@ pub(super) struct Coordinates<const D: usize> {
     /// x̂_{n−1}; empty before the first step.
     before: Vec<f64>,
     start: Vec<f64>,
-    targets: Vec<[f64; D]>,
     solver: LeastSquares,
     search: GaussNewton<D>,
 }
 
 impl<const D: usize> Coordinates<D> {
     /// `weights` are those of the sample points; none where all are the same.
-    pub fn new(latent: Vec<f64>, rates: Vec<f64>, weights: Vec<f64>) -> Self {
+    pub fn new(latent: Vec<f64>, weights: Vec<f64>) -> Self {
         Self {
+            rates: vec![0.0; latent.len()],
             latent,
-            rates,
             solver: LeastSquares::weighted(&weights),
             search: GaussNewton::weighted(weights),
             ..Self::default()
         }
     }
 
-    /// v̂ = argmin Σ ω_p |∂g/∂x̂(X_p, x̂_n) v̂ + b f′ − v_p|²; `evaluation` is that of the sample points at x̂_n.
-    pub fn find_rates(
-        &mut self,
-        samples: &MaterialPoints<D>,
-        evaluation: &Evaluation<D>,
-        velocities: &[[f64; D]],
-    ) -> Result<(), LeastSquaresError> {
-        self.targets.clear();
-        self.targets.extend_from_slice(velocities);
-        for (target, drift) in self.targets.iter_mut().zip(&samples.drifts) {
-            *target = vector::subtract(target, drift);
-        }
-        self.solver.solve(&evaluation.jacobians, &self.targets, &mut self.rates)
+    /// v̂ = argmin Σ ω_p |∂g/∂x̂(X_p, x̂_n) v̂ − v_p|²; `evaluation` is that of the sample points at x̂_n.
+    pub fn find_rates(&mut self, evaluation: &Evaluation<D>, velocities: &[[f64; D]]) -> Result<(), LeastSquaresError> {
+        self.solver.solve(&evaluation.jacobians, velocities, &mut self.rates)
     }
 
-    /// x̂_{n+1}; `positions` are where the sample points have moved, `time` is t_{n+1}.
+    /// x̂_{n+1}; `positions` are where the sample points have moved.
     pub fn advance<M: Manifold<D>>(
         &mut self,
         map: &DeformationMap<D, M>,
         samples: &MaterialPoints<D>,
         positions: &[[f64; D]],
-        time: f64,
         time_step: f64,
-        update: &Update,
+        update: Update,
     ) -> Result<(), LeastSquaresError> {
         let moved = self.latent.iter().zip(&self.rates).map(|(y, w)| y + time_step * w);
         self.start.clear();
         match update {
             Update::VelocityOnly => self.start.extend(moved),
-            Update::PositionVelocity { settings } => {
+            Update::PositionVelocity => {
                 if self.before.is_empty() {
                     // There is no x̂_{−1}: the rates stand for the difference.
                     self.start.extend(moved);
@@ -72,8 +65,8 @@ impl<const D: usize> Coordinates<D> {
                     self.start.extend(pairs.map(|(y, before)| 2.0 * y - before));
                 }
                 self.search
-                    .minimise(positions, &mut self.start, settings, |y, wanted, out| {
-                        map.evaluate(samples, y, time, wanted, out);
+                    .minimise(positions, &mut self.start, &SETTINGS, |y, wanted, out| {
+                        map.evaluate(samples, y, wanted, out);
                     })?;
             }
         }

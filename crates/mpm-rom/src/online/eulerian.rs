@@ -108,7 +108,7 @@ impl<const D: usize> Eulerian<D> {
                 Some(table) => map.prepare_from(table, &self.guesses, &mut self.prepared),
                 None => map.prepare(&self.guesses, &mut self.prepared),
             }
-            map.evaluate_moving(&self.prepared, now.latent, now.rates, now.time, &mut self.evaluation);
+            map.evaluate_moving(&self.prepared, now.latent, now.rates, &mut self.evaluation);
             self.accept(body, now, tolerance, out)?;
         }
         Ok(())

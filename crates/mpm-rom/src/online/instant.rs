@@ -6,7 +6,6 @@ use super::Inverted;
 pub(super) struct Instant<'a, const D: usize> {
     pub latent: &'a [f64],
     pub rates: &'a [f64],
-    pub time: f64,
     pub step: u64,
     /// x_p of the sample points.
     pub samples: &'a [[f64; D]],

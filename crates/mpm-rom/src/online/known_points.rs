@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::weights::nearest;
+use crate::nearest::nearest;
 
 /// Which points of a body stand for the points of readings.
 #[derive(Clone, Debug, PartialEq)]

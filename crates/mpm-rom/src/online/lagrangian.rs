@@ -46,7 +46,7 @@ impl<const D: usize> Lagrangian<D> {
     ) -> Result<(), OnlineError> {
         self.find(map, all, nodes, now);
         self.chosen.select(all, &self.touching);
-        map.evaluate_moving(&self.chosen, now.latent, now.rates, now.time, &mut self.evaluation);
+        map.evaluate_moving(&self.chosen, now.latent, now.rates, &mut self.evaluation);
         out.clear();
         let there = &self.evaluation;
         let moving = there.positions.iter().zip(&there.velocities).zip(&there.gradients);
@@ -68,40 +68,39 @@ impl<const D: usize> Lagrangian<D> {
         nodes: &Nodes<D>,
         now: &Instant<D>,
     ) {
-        let Search::Lists { skin } = self.search else {
-            map.evaluate(all, now.latent, now.time, Wanted::default(), &mut self.evaluation);
-            let numbered = self.evaluation.positions.iter().zip(0..);
-            self.touching.clear();
-            self.touching
-                .extend(numbered.filter(|(x, _)| nodes.touched_by(x)).map(|(_, p)| p));
+        self.touching.clear();
+        if let Search::Lists { skin } = self.search
+            && self.listed(map, nodes, now, skin)
+        {
+            let listed = self.evaluation.positions.iter().zip(&self.list.points);
+            let touching = listed.filter(|(x, _)| nodes.touched_by(x));
+            self.touching.extend(touching.map(|(_, &point)| point));
             return;
-        };
-        let spacing = nodes.grid.spacing();
-        if !self.list.points.is_empty() {
-            map.evaluate(
-                &self.candidates,
-                now.latent,
-                now.time,
-                Wanted::default(),
-                &mut self.evaluation,
-            );
         }
+        map.evaluate(all, now.latent, Wanted::default(), &mut self.evaluation);
         let positions = &self.evaluation.positions;
-        if self.list.points.is_empty() || !self.list.holds(positions, now.samples, spacing, skin) {
-            map.evaluate(all, now.latent, now.time, Wanted::default(), &mut self.evaluation);
-            self.list
-                .rebuild(&self.evaluation.positions, now.samples, spacing, skin);
+        if let Search::Lists { skin } = self.search {
+            self.list.rebuild(positions, now.samples, nodes.grid.spacing(), skin);
             self.candidates.select(all, &self.list.points);
             self.refreshes += 1;
-            let numbered = self.evaluation.positions.iter().zip(0..);
-            self.touching.clear();
-            self.touching
-                .extend(numbered.filter(|(x, _)| nodes.touched_by(x)).map(|(_, p)| p));
-            return;
         }
-        let numbered = positions.iter().zip(&self.list.points);
-        self.touching.clear();
-        self.touching
-            .extend(numbered.filter(|(x, _)| nodes.touched_by(x)).map(|(_, &p)| p));
+        let touching = positions.iter().zip(0..).filter(|(x, _)| nodes.touched_by(x));
+        self.touching.extend(touching.map(|(_, point)| point));
+    }
+
+    /// Whether there is a list that holds; the evaluation is then that of its points.
+    fn listed<M: Manifold<D>>(
+        &mut self,
+        map: &DeformationMap<D, M>,
+        nodes: &Nodes<D>,
+        now: &Instant<D>,
+        skin: f64,
+    ) -> bool {
+        if self.list.points.is_empty() {
+            return false;
+        }
+        map.evaluate(&self.candidates, now.latent, Wanted::default(), &mut self.evaluation);
+        let positions = &self.evaluation.positions;
+        self.list.holds(positions, now.samples, nodes.grid.spacing(), skin)
     }
 }

@@ -24,7 +24,6 @@ mod step;
 mod support;
 #[cfg(test)]
 mod tests;
-mod timings;
 mod weights;
 
 pub use body::ReducedBody;
@@ -38,4 +37,3 @@ pub use ranked_exchanges::rank_exchanges;
 pub use reading::Reading;
 pub use samples::SampleChoice;
 pub use step::{ReducedModel, StepReport};
-pub use timings::Timings;

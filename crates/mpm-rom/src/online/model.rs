@@ -8,13 +8,13 @@ use super::quadrature::QuadraturePoints;
 use super::step::Scheme;
 use super::{
     Inverted, OnlineError, Options, Quadrature, ReducedBody, ReducedModel, SampleChoice, SampleWeights, Search,
-    StepReport, Timings, Update,
+    StepReport, Update,
 };
 use crate::deformation_map::{DeformationMap, MaterialPoints};
 use crate::manifold::{Evaluation, Manifold, Wanted};
 
 impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
-    /// The model at t = 0: x̂ = x̂₀, v̂ = v̂₀.
+    /// The model at t = 0: x̂ = x̂₀, v̂ = 0.
     ///
     /// # Errors
     /// [`OnlineError::Option`]; those of [`SampleChoice::choose`](super::SampleChoice::choose).
@@ -52,7 +52,6 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
         sample_numbers: Vec<u32>,
     ) -> Result<Self, OnlineError> {
         let mut scheme = scheme(&options.quadrature)?;
-        let coordinates = map.coordinates();
         let own = options.samples.weights()?;
         let weights = own.unwrap_or_else(|| options.weights.of(&body.reference, &sample_numbers));
         let (mut points, mut samples) = (MaterialPoints::default(), MaterialPoints::default());
@@ -62,11 +61,8 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
             Scheme::Lagrangian(_) => map.prepare(&body.reference, &mut points),
             Scheme::Eulerian(scheme) => scheme.tabulate(&map, &body),
         }
-        let rates = map
-            .initial()
-            .map_or_else(|| vec![0.0; coordinates], |initial| initial.rates.clone());
         Ok(Self {
-            coordinates: Coordinates::new(map.rest().to_vec(), rates, weights),
+            coordinates: Coordinates::new(map.rest().to_vec(), weights),
             nodes: Nodes::new(body.grid),
             body,
             map,
@@ -81,20 +77,8 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
             velocities: Vec::new(),
             moved: Vec::new(),
             step: 0,
-            timings: Timings::default(),
+            steps: 0,
         })
-    }
-
-    /// All steps of one frame; the report is that of the last.
-    ///
-    /// # Errors
-    /// As [`step`](Self::step).
-    pub fn advance_frame(&mut self) -> Result<StepReport, OnlineError> {
-        let mut report = StepReport::default();
-        for _ in 0..self.body.steps_per_frame {
-            report = self.step()?;
-        }
-        Ok(report)
     }
 
     /// All steps up to a time that is a whole number of them; the report is that of the last.
@@ -129,9 +113,9 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
         self.time_at(self.step)
     }
 
-    /// Where the time went.
-    pub fn timings(&self) -> &Timings {
-        &self.timings
+    /// Steps taken.
+    pub fn steps(&self) -> u64 {
+        self.steps
     }
 
     /// Numbers of the sample points.
@@ -148,8 +132,7 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
 
     /// g, F and ∂g/∂x̂ at prepared points now.
     pub fn evaluate(&self, points: &MaterialPoints<D>, wanted: Wanted, out: &mut Evaluation<D>) {
-        self.map
-            .evaluate(points, &self.coordinates.latent, self.time(), wanted, out);
+        self.map.evaluate(points, &self.coordinates.latent, wanted, out);
     }
 }
 

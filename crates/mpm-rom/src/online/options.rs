@@ -4,7 +4,6 @@ use serde::Deserialize;
 
 use super::neighbours::Search;
 use super::samples::SampleChoice;
-use crate::least_squares::Settings;
 
 /// The choices of a reduced run; quadrature and update are independent of each other.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,26 +58,22 @@ pub enum Inverted {
 }
 
 /// How x̂ moves.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Update {
     /// x̂ ← x̂ + Δt v̂; kinematic points have the velocity that takes them to their prescribed position (ours), so that errors at them do not add up.
     VelocityOnly,
-    /// x̂ = argmin Σ|g(X_p, x̂) − x_p|², begun at 2 x̂_n − x̂_{n−1}.
-    PositionVelocity {
-        /// When the search ends.
-        settings: Settings,
-    },
+    /// x̂ = argmin Σ|g(X_p, x̂) − x_p|², begun at 2 x̂_n − x̂_{n−1}, with at most three steps, the paper's number.
+    #[default]
+    PositionVelocity,
 }
 
 impl Update {
-    /// [`PositionVelocity`](Self::PositionVelocity) with at most three steps, the paper's number.
-    pub fn position_velocity() -> Self {
-        Self::PositionVelocity {
-            settings: Settings {
-                iterations: 3,
-                tolerance: 1e-10,
-                halvings: 8,
-            },
+    /// As in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::VelocityOnly => "velocity-only",
+            Self::PositionVelocity => "position-velocity",
         }
     }
 }

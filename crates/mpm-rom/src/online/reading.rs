@@ -1,8 +1,8 @@
 //! What a step says of the velocities of all points, without being taken.
 
-use faer::{Mat, Side};
-use mpm_tensor::vector;
+use faer::Side;
 
+use super::scaled_reading::mean_product;
 use super::{OnlineError, ReducedModel};
 use crate::manifold::{Evaluation, Manifold, Wanted};
 
@@ -11,7 +11,7 @@ use crate::manifold::{Evaluation, Manifold, Wanted};
 pub struct Reading<const D: usize> {
     /// ∂g/∂x̂_k at x̂_n, entry p r + k.
     pub jacobians: Vec<[f64; D]>,
-    /// v_p at the end of the step, without b f′: what v̂ is found from. Kinematic points have the velocity of their motion, with velocity-only, too.
+    /// v_p at the end of the step: what v̂ is found from. Kinematic points have the velocity of their motion, with velocity-only, too.
     pub velocities: Vec<[f64; D]>,
 }
 
@@ -25,43 +25,26 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
         let own_step = std::mem::replace(&mut self.step, step);
         let own_latent = std::mem::replace(&mut self.coordinates.latent, latent.to_vec());
         let own_rates = std::mem::replace(&mut self.coordinates.rates, rates.to_vec());
-        let read = self.velocities_of_step();
+        let read = self.find_velocities();
         (self.step, self.coordinates.latent, self.coordinates.rates) = (own_step, own_latent, own_rates);
         read?;
-        let mut velocities = self.velocities.clone();
-        for (velocity, drift) in velocities.iter_mut().zip(&self.samples.drifts) {
-            *velocity = vector::subtract(velocity, drift);
-        }
         Ok(Reading {
             jacobians: self.evaluation.jacobians.clone(),
-            velocities,
+            velocities: self.velocities.clone(),
         })
     }
 
     /// g, F and ∂g/∂x̂ of the sample points at other coordinates.
-    pub fn evaluate_at(&self, latent: &[f64], time: f64, wanted: Wanted, out: &mut Evaluation<D>) {
-        self.map.evaluate(&self.samples, latent, time, wanted, out);
+    pub fn evaluate_at(&self, latent: &[f64], wanted: Wanted, out: &mut Evaluation<D>) {
+        self.map.evaluate(&self.samples, latent, wanted, out);
     }
 
     /// 2 r states around one: the eigenvectors of |𝒫|⁻¹ Σ_p J_pᵀ J_p with both signs, so long that to first order the positions of the sample points differ by `distance` (m) in the root mean
     /// square. Directions that move nothing are left out.
-    pub fn states_around(&self, latent: &[f64], time: f64, distance: f64) -> Vec<Vec<f64>> {
+    pub fn states_around(&self, latent: &[f64], distance: f64) -> Vec<Vec<f64>> {
         let (mut there, r) = (Evaluation::default(), latent.len());
-        let wanted = Wanted {
-            jacobians: true,
-            ..Wanted::default()
-        };
-        self.evaluate_at(latent, time, wanted, &mut there);
-        let share = 1.0 / self.samples.len().max(1) as f64;
-        let mut mean = Mat::<f64>::zeros(r, r);
-        for rows in there.jacobians.chunks_exact(r.max(1)) {
-            for i in 0..r {
-                for j in 0..r {
-                    mean[(i, j)] += share * vector::dot(&rows[i], &rows[j]);
-                }
-            }
-        }
-        let Ok(eigen) = mean.self_adjoint_eigen(Side::Lower) else {
+        self.evaluate_at(latent, Wanted::JACOBIANS, &mut there);
+        let Ok(eigen) = mean_product(r, &there.jacobians).self_adjoint_eigen(Side::Lower) else {
             return Vec::new();
         };
         let lengths = (0..r).map(|k| distance / eigen.S().column_vector()[k].sqrt());
@@ -71,14 +54,5 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
         states
             .filter(|state: &Vec<f64>| state.iter().all(|y| y.is_finite()))
             .collect()
-    }
-
-    /// (1) to (4) of a step.
-    fn velocities_of_step(&mut self) -> Result<(), OnlineError> {
-        self.place_samples();
-        self.activate_nodes()?;
-        self.place_quadrature()?;
-        self.sum_at_nodes();
-        self.move_samples()
     }
 }

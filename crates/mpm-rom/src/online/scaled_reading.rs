@@ -71,16 +71,7 @@ impl<const D: usize> ScaledReading<D> {
 
 /// J L⁻ᵀ with L Lᵀ = N⁻¹ Σ J_pᵀ J_p; `None` where that is not positive definite.
 fn whitened<const D: usize>(r: usize, columns: &[[f64; D]]) -> Option<Vec<[f64; D]>> {
-    let share = 1.0 / (columns.len() / r.max(1)).max(1) as f64;
-    let mut mean = Mat::<f64>::zeros(r, r);
-    for rows in columns.chunks_exact(r.max(1)) {
-        for i in 0..r {
-            for j in 0..r {
-                mean[(i, j)] += share * vector::dot(&rows[i], &rows[j]);
-            }
-        }
-    }
-    let factor = mean.llt(Side::Lower).ok()?;
+    let factor = mean_product(r, columns).llt(Side::Lower).ok()?;
     let lower = factor.L();
     let mut all = columns.to_vec();
     for rows in all.chunks_exact_mut(r.max(1)) {
@@ -94,6 +85,20 @@ fn whitened<const D: usize>(r: usize, columns: &[[f64; D]]) -> Option<Vec<[f64; 
         }
     }
     all.iter().all(vector::is_finite).then_some(all)
+}
+
+/// N⁻¹ Σ_p J_pᵀ J_p.
+pub(super) fn mean_product<const D: usize>(r: usize, columns: &[[f64; D]]) -> Mat<f64> {
+    let share = 1.0 / (columns.len() / r.max(1)).max(1) as f64;
+    let mut mean = Mat::<f64>::zeros(r, r);
+    for rows in columns.chunks_exact(r.max(1)) {
+        for i in 0..r {
+            for j in 0..r {
+                mean[(i, j)] += share * vector::dot(&rows[i], &rows[j]);
+            }
+        }
+    }
+    mean
 }
 
 #[cfg(test)]

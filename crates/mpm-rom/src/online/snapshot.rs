@@ -13,7 +13,7 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
     pub fn snapshot(&self, points: &MaterialPoints<D>) -> Snapshot {
         let mut there = Evaluation::default();
         let (latent, rates) = (&self.coordinates.latent, &self.coordinates.rates);
-        self.map.evaluate_moving(points, latent, rates, self.time(), &mut there);
+        self.map.evaluate_moving(points, latent, rates, &mut there);
         let mut stresses = vec![Matrix::ZERO; there.gradients.len()];
         self.body.material.kirchhoff_stresses(&there.gradients, &mut stresses);
         let volume_ratios: Vec<f64> = there.gradients.iter().map(Matrix::determinant).collect();

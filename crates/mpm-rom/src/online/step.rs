@@ -1,7 +1,5 @@
 //! One step of the reduced dynamics, phase by phase (Chen et al. 2023, Algorithm 1).
 
-use std::time::{Duration, Instant as Clock};
-
 use mpm_tensor::vector;
 
 use super::coordinates::Coordinates;
@@ -10,7 +8,7 @@ use super::instant::Instant;
 use super::lagrangian::Lagrangian;
 use super::nodes::Nodes;
 use super::quadrature::QuadraturePoints;
-use super::{OnlineError, Options, Quadrature, ReducedBody, Timings, Update};
+use super::{OnlineError, Options, Quadrature, ReducedBody, Update};
 use crate::deformation_map::{DeformationMap, MaterialPoints};
 use crate::manifold::{Evaluation, Manifold, Wanted};
 
@@ -35,8 +33,10 @@ pub struct ReducedModel<const D: usize, M> {
     /// v_p and x_p of the sample points at the end of a step.
     pub(super) velocities: Vec<[f64; D]>,
     pub(super) moved: Vec<[f64; D]>,
+    /// The number of the step under way or taken last.
     pub(super) step: u64,
-    pub(super) timings: Timings,
+    /// Steps that have come to their end.
+    pub(super) steps: u64,
 }
 
 /// The quadrature with its storage.
@@ -64,39 +64,37 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
     /// # Errors
     /// [`OnlineError`] with the number of the step; the coordinates are then those of t_n.
     pub fn step(&mut self) -> Result<StepReport, OnlineError> {
-        let mut clock = Clock::now();
         self.step += 1;
-        self.place_samples();
-        self.timings.samples += lap(&mut clock);
-        self.activate_nodes()?;
-        self.timings.nodes += lap(&mut clock);
-        let mut report = self.place_quadrature()?;
-        self.timings.quadrature += lap(&mut clock);
-        self.sum_at_nodes();
-        self.timings.grid += lap(&mut clock);
-        self.move_samples()?;
-        self.timings.gather += lap(&mut clock);
+        let report = self.find_velocities()?;
         self.move_coordinates()?;
-        self.timings.coordinates += lap(&mut clock);
-        self.timings.steps += 1;
+        self.steps += 1;
+        Ok(report)
+    }
+
+    /// (1) to (4): the velocities of the sample points.
+    pub(super) fn find_velocities(&mut self) -> Result<StepReport, OnlineError> {
+        self.place_samples();
+        self.activate_nodes()?;
+        let mut report = self.place_quadrature()?;
+        self.sum_at_nodes();
+        self.move_samples()?;
         report.nodes = self.nodes.len();
         report.quadrature_points = self.quadrature.len();
         Ok(report)
     }
 
     /// (1) x_p = g(X_p, x̂_n) of the sample points, with ∂g/∂x̂ for (5).
-    pub(super) fn place_samples(&mut self) {
+    fn place_samples(&mut self) {
         let wanted = Wanted {
             gradients: matches!(self.options.quadrature, Quadrature::Eulerian { .. }),
             jacobians: true,
         };
-        let (latent, time) = (&self.coordinates.latent, self.time_at(self.step - 1));
-        self.map
-            .evaluate(&self.samples, latent, time, wanted, &mut self.evaluation);
+        let latent = &self.coordinates.latent;
+        self.map.evaluate(&self.samples, latent, wanted, &mut self.evaluation);
     }
 
     /// (2) ℐ: the nodes that sample points touch, those aside whose motion is prescribed, since they take nothing from nodes.
-    pub(super) fn activate_nodes(&mut self) -> Result<(), OnlineError> {
+    fn activate_nodes(&mut self) -> Result<(), OnlineError> {
         let end = self.time_at(self.step);
         let numbers = self.sample_numbers.iter();
         self.prescribed.clear();
@@ -108,11 +106,10 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
     }
 
     /// (3) The quadrature points with x_q, v_q, F_q, m_q / ρ₀ and their stresses.
-    pub(super) fn place_quadrature(&mut self) -> Result<StepReport, OnlineError> {
+    fn place_quadrature(&mut self) -> Result<StepReport, OnlineError> {
         let now = Instant {
             latent: &self.coordinates.latent,
             rates: &self.coordinates.rates,
-            time: (self.step - 1) as f64 * self.body.time_step,
             step: self.step,
             samples: &self.evaluation.positions,
             inverted: self.options.inverted,
@@ -137,7 +134,7 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
     /// (4) m_i = Σ N_i m_q, m_i v_i = Σ N_i m_q v_q, f_i = Σ (J_q / ρ₀) m_q (b N_i − σ_q ∇N_i), v_i ← v_i + Δt f_i / m_i, with
     /// (J_q / ρ₀) m_q σ_q = (m_q / ρ₀) τ_q and (J_q / ρ₀) b = g the force per mass; held nodes
     /// take their velocity (ours: as in the full-order run).
-    pub(super) fn sum_at_nodes(&mut self) {
+    fn sum_at_nodes(&mut self) {
         let (dt, density) = (self.body.time_step, self.body.density);
         for (x, v, volume, stress) in self.quadrature.iter() {
             let mass = density * volume;
@@ -150,7 +147,7 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
     }
 
     /// (4) v_p = Σ N_i v_i and x_p ← x_p + Δt v_p; kinematic points take what is prescribed for t_{n+1}.
-    pub(super) fn move_samples(&mut self) -> Result<(), OnlineError> {
+    fn move_samples(&mut self) -> Result<(), OnlineError> {
         let dt = self.body.time_step;
         self.velocities.clear();
         self.moved.clear();
@@ -188,16 +185,16 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
 
     /// (5) v̂_{n+1} and x̂_{n+1}.
     fn move_coordinates(&mut self) -> Result<(), OnlineError> {
-        let (step, end, dt) = (self.step, self.time_at(self.step), self.body.time_step);
+        let (step, dt) = (self.step, self.body.time_step);
         if self.options.update == Update::VelocityOnly {
             self.lead_prescribed();
         }
         let failed = |source| OnlineError::Coordinates { step, source };
         self.coordinates
-            .find_rates(&self.samples, &self.evaluation, &self.velocities)
+            .find_rates(&self.evaluation, &self.velocities)
             .map_err(failed)?;
         self.coordinates
-            .advance(&self.map, &self.samples, &self.moved, end, dt, &self.options.update)
+            .advance(&self.map, &self.samples, &self.moved, dt, self.options.update)
             .map_err(failed)
     }
 
@@ -205,10 +202,4 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
     pub(super) fn time_at(&self, step: u64) -> f64 {
         step as f64 * self.body.time_step
     }
-}
-
-/// Time since the last call.
-fn lap(clock: &mut Clock) -> Duration {
-    let before = std::mem::replace(clock, Clock::now());
-    clock.duration_since(before)
 }

@@ -1,9 +1,9 @@
 //! What the sample points count.
 
-use mpm_tensor::vector;
 use rayon::prelude::*;
 
 use super::SampleWeights;
+use crate::nearest::nearest;
 
 impl SampleWeights {
     /// ω_p of the sample points with these numbers; none where all are 1.
@@ -17,18 +17,6 @@ impl SampleWeights {
         nearest.into_iter().for_each(|sample| weights[sample] += 1.0);
         weights
     }
-}
-
-/// The first of the places that are nearest to x.
-pub(super) fn nearest<const D: usize>(x: &[f64; D], places: &[[f64; D]]) -> usize {
-    let (mut first, mut least) = (0, f64::INFINITY);
-    for (number, place) in places.iter().enumerate() {
-        let distance = vector::distance_squared(x, place);
-        if distance < least {
-            (first, least) = (number, distance);
-        }
-    }
-    first
 }
 
 #[cfg(test)]

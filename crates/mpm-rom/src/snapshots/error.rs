@@ -1,4 +1,6 @@
-/// What is wrong with snapshots; runs, frames and points are counted from 0.
+use std::fmt::{self, Display, Formatter};
+
+/// What is wrong with snapshots.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SnapshotsError {
@@ -8,89 +10,29 @@ pub enum SnapshotsError {
         /// What is missing: points, runs or frames.
         what: &'static str,
     },
-    /// Δt or ρ₀ is not positive.
-    #[error("{field} = {value}: must be positive and finite")]
-    NotPositive {
-        /// `interval` or `density`.
-        field: &'static str,
-        /// Its value.
+    /// A number is outside its range.
+    #[error("{place}{field} = {value}: must be {expected}")]
+    Value {
+        /// Where it stands.
+        place: Place,
+        /// What it is a number of: a field or a parameter.
+        field: String,
+        /// The number.
         value: f64,
+        /// What is allowed.
+        expected: &'static str,
     },
-    /// A reference position is NaN or infinite; the point behind the last one is the centroid.
-    #[error("reference position of point {point} holds {value}")]
-    Reference {
-        /// The point.
-        point: usize,
-        /// The entry.
-        value: f64,
-    },
-    /// A run has more or fewer parameters than names.
-    #[error("run {run} has {found} parameters, not {expected}")]
-    Parameters {
-        /// The run.
-        run: usize,
-        /// Its number of parameters.
-        found: usize,
-        /// The number of names.
-        expected: usize,
-    },
-    /// A parameter is NaN or infinite.
-    #[error("run {run}: parameter {name} = {value}")]
-    Parameter {
-        /// The run.
-        run: usize,
-        /// The parameter.
-        name: String,
-        /// Its value.
-        value: f64,
-    },
-    /// A frame is not later than the one before it, or its time is NaN or infinite.
-    #[error("run {run}, frame {frame}: time {time}, must be finite and later than that of the frame before")]
-    Time {
-        /// The run.
-        run: usize,
-        /// The frame.
-        frame: usize,
-        /// Its time.
-        time: f64,
-    },
-    /// A list has another number of points than the body.
-    #[error("run {run}, frame {frame}: {field} of {found} points, not {expected}")]
+    /// A list has another length than the body asks for.
+    #[error("{place}{found} {field}, not {expected}")]
     Length {
-        /// The run.
-        run: usize,
-        /// The frame.
-        frame: usize,
+        /// Where it stands.
+        place: Place,
         /// The list.
         field: &'static str,
         /// Its length.
         found: usize,
-        /// The body's number of points.
+        /// The number of parameters or points of the body.
         expected: usize,
-    },
-    /// A value is NaN or infinite.
-    #[error("run {run}, frame {frame}, point {point}: {field} is NaN or infinite")]
-    NotFinite {
-        /// The run.
-        run: usize,
-        /// The frame.
-        frame: usize,
-        /// The point.
-        point: usize,
-        /// The list.
-        field: &'static str,
-    },
-    /// A deformation gradient turns space inside out.
-    #[error("run {run}, frame {frame}, point {point}: det F = {determinant}, must be positive")]
-    Inverted {
-        /// The run.
-        run: usize,
-        /// The frame.
-        frame: usize,
-        /// The point.
-        point: usize,
-        /// det F.
-        determinant: f64,
     },
     /// There is no run of that number.
     #[error("run {number} of {runs}")]
@@ -100,4 +42,50 @@ pub enum SnapshotsError {
         /// How many runs there are.
         runs: usize,
     },
+}
+
+/// A place in snapshots, as far as there is one; all counted from 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Place {
+    /// The run.
+    pub run: Option<usize>,
+    /// The frame.
+    pub frame: Option<usize>,
+    /// The point; the one behind the last is the centroid.
+    pub point: Option<usize>,
+}
+
+impl Place {
+    /// The error of a number here.
+    pub(super) fn refuse(self, field: impl Into<String>, value: f64, expected: &'static str) -> SnapshotsError {
+        SnapshotsError::Value {
+            place: self,
+            field: field.into(),
+            value,
+            expected,
+        }
+    }
+
+    /// Whether a list here is as long as it should be.
+    pub(super) fn expect(self, field: &'static str, found: usize, expected: usize) -> Result<(), SnapshotsError> {
+        let error = SnapshotsError::Length {
+            place: self,
+            field,
+            found,
+            expected,
+        };
+        (found == expected).then_some(()).ok_or(error)
+    }
+}
+
+impl Display for Place {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        let numbers = [("run", self.run), ("frame", self.frame), ("point", self.point)];
+        let known = numbers.iter().filter_map(|(name, number)| Some((name, (*number)?)));
+        let words: Vec<String> = known.map(|(name, number)| format!("{name} {number}")).collect();
+        match words.is_empty() {
+            true => Ok(()),
+            false => write!(formatter, "{}: ", words.join(", ")),
+        }
+    }
 }

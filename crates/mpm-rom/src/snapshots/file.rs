@@ -62,7 +62,7 @@ impl<const D: usize> Snapshots<D> {
     /// Reads a file of [`Self::write`] and checks it as [`Self::new`] does.
     ///
     /// # Errors
-    /// [`TensorFileError`]; [`TensorFileError::Inconsistent`] holds what [`Self::new`] says.
+    /// [`TensorFileError`]; [`TensorFault::Inconsistent`](crate::tensor_file::TensorFault::Inconsistent) holds what [`Self::new`] says.
     pub fn read(path: &Path) -> Result<Self, TensorFileError> {
         let file = TensorReader::open(path, KIND, VERSION)?;
         let header: Header = file.header()?;

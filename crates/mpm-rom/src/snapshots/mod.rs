@@ -3,9 +3,9 @@
 mod error;
 mod file;
 
-pub use error::SnapshotsError;
+pub use error::{Place, SnapshotsError};
 
-use mpm_tensor::{Matrix, vector};
+use mpm_tensor::Matrix;
 
 use crate::least_squares::squared_distance;
 
@@ -121,15 +121,15 @@ impl<const D: usize> Body<D> {
         if self.reference.is_empty() {
             return Err(SnapshotsError::Empty { what: "points" });
         }
+        let place = Place::default();
         for (field, value) in [("interval", self.interval), ("density", self.density)] {
             if !(value > 0.0 && value.is_finite()) {
-                return Err(SnapshotsError::NotPositive { field, value });
+                return Err(place.refuse(field, value, "positive and finite"));
             }
         }
         for (point, position) in self.reference.iter().chain([&self.centroid]).enumerate() {
-            if let Some(&value) = position.iter().find(|value| !value.is_finite()) {
-                return Err(SnapshotsError::Reference { point, value });
-            }
+            let point = Some(point);
+            all_finite(Place { point, ..place }, "reference", position)?;
         }
         Ok(())
     }
@@ -137,33 +137,33 @@ impl<const D: usize> Body<D> {
 
 impl<const D: usize> Run<D> {
     fn check(&self, run: usize, body: &Body<D>) -> Result<(), SnapshotsError> {
-        if self.parameters.len() != body.parameters.len() {
-            return Err(SnapshotsError::Parameters {
-                run,
-                found: self.parameters.len(),
-                expected: body.parameters.len(),
-            });
-        }
-        for (name, &value) in body.parameters.iter().zip(&self.parameters) {
-            if !value.is_finite() {
-                let name = name.clone();
-                return Err(SnapshotsError::Parameter { run, name, value });
-            }
+        let place = Place {
+            run: Some(run),
+            ..Place::default()
+        };
+        place.expect("parameters", self.parameters.len(), body.parameters.len())?;
+        for (name, value) in body.parameters.iter().zip(&self.parameters) {
+            all_finite(place, name, std::slice::from_ref(value))?;
         }
         if self.frames.is_empty() {
             return Err(SnapshotsError::Empty { what: "frames" });
         }
         let mut before = f64::NEG_INFINITY;
-        for (frame, time) in self.frames.iter().map(|frame| frame.time).enumerate() {
+        for (number, frame) in self.frames.iter().enumerate() {
+            let (frame_place, time) = (
+                Place {
+                    frame: Some(number),
+                    ..place
+                },
+                frame.time,
+            );
             if !(time > before && time.is_finite()) {
-                return Err(SnapshotsError::Time { run, frame, time });
+                return Err(frame_place.refuse("time", time, "finite and later than that of the frame before"));
             }
             before = time;
+            frame.check(frame_place, body.reference.len())?;
         }
-        self.frames
-            .iter()
-            .enumerate()
-            .try_for_each(|(number, frame)| frame.check(run, number, body.reference.len()))
+        Ok(())
     }
 }
 
@@ -173,55 +173,30 @@ impl<const D: usize> Frame<D> {
         squared_distance(&self.positions, &other.positions)
     }
 
-    fn check(&self, run: usize, frame: usize, points: usize) -> Result<(), SnapshotsError> {
-        let lengths = [
-            ("positions", self.positions.len()),
-            ("deformation_gradients", self.deformation_gradients.len()),
-            ("velocities", self.velocities.len()),
-        ];
-        for (field, found) in lengths {
-            if found != points {
-                return Err(SnapshotsError::Length {
-                    run,
-                    frame,
-                    field,
-                    found,
-                    expected: points,
-                });
-            }
-        }
-        let not_finite = |point, field| SnapshotsError::NotFinite {
-            run,
-            frame,
-            point,
-            field,
-        };
-        let rows = self
-            .positions
-            .iter()
-            .zip(&self.deformation_gradients)
-            .zip(&self.velocities);
-        for (point, ((position, gradient), velocity)) in rows.enumerate() {
-            if !vector::is_finite(position) {
-                return Err(not_finite(point, "positions"));
-            }
-            if !gradient.is_finite() {
-                return Err(not_finite(point, "deformation_gradients"));
-            }
-            if !vector::is_finite(velocity) {
-                return Err(not_finite(point, "velocities"));
-            }
+    fn check(&self, place: Place, points: usize) -> Result<(), SnapshotsError> {
+        place.expect("positions", self.positions.len(), points)?;
+        place.expect("deformation_gradients", self.deformation_gradients.len(), points)?;
+        place.expect("velocities", self.velocities.len(), points)?;
+        for point in 0..points {
+            let (gradient, number) = (&self.deformation_gradients[point], Some(point));
+            let place = Place { point: number, ..place };
+            all_finite(place, "positions", &self.positions[point])?;
+            all_finite(place, "deformation_gradients", gradient.0.as_flattened())?;
+            all_finite(place, "velocities", &self.velocities[point])?;
             let determinant = gradient.determinant();
             if determinant.is_nan() || determinant <= 0.0 {
-                return Err(SnapshotsError::Inverted {
-                    run,
-                    frame,
-                    point,
-                    determinant,
-                });
+                return Err(place.refuse("det F", determinant, "positive"));
             }
         }
         Ok(())
+    }
+}
+
+/// Whether all numbers of a field are finite.
+fn all_finite(place: Place, field: &str, numbers: &[f64]) -> Result<(), SnapshotsError> {
+    match numbers.iter().find(|value| !value.is_finite()) {
+        Some(&value) => Err(place.refuse(field, value, "finite")),
+        None => Ok(()),
     }
 }
 

@@ -1,5 +1,5 @@
 use super::*;
-use crate::tensor_file::TensorFileError;
+use crate::tensor_file::TensorFault;
 
 fn frame(scale: f64) -> Frame<2> {
     Frame {
@@ -42,10 +42,10 @@ fn a_file_reads_back_to_the_same_bits() {
     let snapshots = Snapshots::new(body(), runs()).unwrap();
     snapshots.write(&path).unwrap();
     assert_eq!(Snapshots::read(&path).unwrap(), snapshots);
-    let three = Snapshots::<3>::read(&path);
+    let three = Snapshots::<3>::read(&path).map_err(|error| *error.fault);
     assert!(matches!(
         three,
-        Err(TensorFileError::Dimension {
+        Err(TensorFault::Dimension {
             found: 2,
             expected: 3,
             ..
@@ -72,72 +72,51 @@ fn faults_are_named_with_run_frame_and_point() {
     assert_eq!(refused(|b, _| b.reference.clear()), E::Empty { what: "points" });
     assert_eq!(refused(|_, r| r.clear()), E::Empty { what: "runs" });
     assert_eq!(refused(|_, r| r[1].frames.clear()), E::Empty { what: "frames" });
-    let time = f64::NAN;
-    assert!(matches!(
-        refused(|_, r| r[0].frames[1].time = time),
-        E::Time { run: 0, frame: 1, .. }
-    ));
-    assert_eq!(
-        refused(|_, r| r[0].frames[2].time = 0.05),
-        E::Time {
-            run: 0,
-            frame: 2,
-            time: 0.05
-        }
-    );
-    let field = "interval";
-    assert_eq!(refused(|b, _| b.interval = 0.0), E::NotPositive { field, value: 0.0 });
-    assert!(matches!(
-        refused(|b, _| b.density = f64::NAN),
-        E::NotPositive { field: "density", .. }
-    ));
-    assert!(matches!(
-        refused(|b, _| b.reference[1][0] = f64::NAN),
-        E::Reference { point: 1, .. }
-    ));
-    assert!(matches!(
-        refused(|_, r| r[0].parameters.truncate(1)),
-        E::Parameters {
-            run: 0,
-            found: 1,
-            expected: 2
-        }
-    ));
-    assert!(matches!(
-        refused(|_, r| r[1].parameters[1] = f64::INFINITY),
-        E::Parameter { run: 1, name, .. } if name == "angle"
-    ));
-    let (run, frame) = (0, 2);
-    assert!(matches!(
-        refused(|_, r| r[0].frames[2].velocities.truncate(1)),
-        E::Length {
-            run: 0,
-            frame: 2,
-            field: "velocities",
-            found: 1,
-            expected: 2
-        }
-    ));
-    let not_finite = |field| E::NotFinite {
-        run,
-        frame,
-        point: 1,
-        field,
+    // Run, frame and point, and what is wrong there.
+    let fault = |change: fn(&mut Body<2>, &mut Vec<Run<2>>)| match refused(change) {
+        E::Value { place, field, .. } => (place, field),
+        E::Length { place, field, .. } => (place, field.to_owned()),
+        other => panic!("{other}"),
     };
+    let at = |run, frame, point, field: &str| (Place { run, frame, point }, field.to_owned());
+    let (first, second, third) = (Some(0), Some(1), Some(2));
     assert_eq!(
-        refused(|_, r| r[0].frames[2].positions[1][0] = f64::NAN),
-        not_finite("positions")
+        fault(|_, r| r[0].frames[1].time = f64::NAN),
+        at(first, second, None, "time")
+    );
+    assert_eq!(fault(|_, r| r[0].frames[2].time = 0.05), at(first, third, None, "time"));
+    assert_eq!(fault(|b, _| b.interval = 0.0), at(None, None, None, "interval"));
+    assert_eq!(fault(|b, _| b.density = f64::NAN), at(None, None, None, "density"));
+    assert_eq!(
+        fault(|b, _| b.reference[1][0] = f64::NAN),
+        at(None, None, second, "reference")
     );
     assert_eq!(
-        refused(|_, r| r[0].frames[2].velocities[1][1] = f64::INFINITY),
-        not_finite("velocities")
+        fault(|_, r| r[0].parameters.truncate(1)),
+        at(first, None, None, "parameters")
     );
     assert_eq!(
-        refused(|_, r| r[0].frames[2].deformation_gradients[1].0[0][1] = f64::NAN),
-        not_finite("deformation_gradients")
+        fault(|_, r| r[1].parameters[1] = f64::INFINITY),
+        at(second, None, None, "angle")
     );
-    assert!(matches!(
-        refused(|_, r| r[0].frames[1].deformation_gradients[1].0[0][0] = -1.0),
-        E::Inverted { run: 0, frame: 1, point: 1, determinant } if determinant < 0.0
-    ));
+    assert_eq!(
+        fault(|_, r| r[0].frames[2].velocities.truncate(1)),
+        at(first, third, None, "velocities")
+    );
+    let of_point = |field| at(first, third, second, field);
+    assert_eq!(
+        fault(|_, r| r[0].frames[2].positions[1][0] = f64::NAN),
+        of_point("positions")
+    );
+    assert_eq!(
+        fault(|_, r| r[0].frames[2].velocities[1][1] = f64::INFINITY),
+        of_point("velocities")
+    );
+    let gradient = fault(|_, r| r[0].frames[2].deformation_gradients[1].0[0][1] = f64::NAN);
+    assert_eq!(gradient, of_point("deformation_gradients"));
+    let inverted = refused(|_, r| r[0].frames[1].deformation_gradients[1].0[0][0] = -1.0);
+    assert!(
+        inverted.to_string().starts_with("run 0, frame 1, point 1: det F = -"),
+        "{inverted}"
+    );
 }

@@ -1,51 +1,42 @@
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-/// Why a file of tensors cannot be written or read.
+/// A file of tensors that cannot be written or read, and why.
+#[derive(Debug, thiserror::Error)]
+#[error("{}", described(path, fault))]
+pub struct TensorFileError {
+    /// The file.
+    pub path: PathBuf,
+    /// What is wrong with it.
+    pub fault: Box<TensorFault>,
+}
+
+/// What is wrong with a file of tensors.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
-pub enum TensorFileError {
+pub enum TensorFault {
     /// The file cannot be opened or read.
-    #[error("{}: {source}", path.display())]
-    Unreadable {
-        /// The file.
-        path: PathBuf,
-        /// What the system says.
-        source: std::io::Error,
-    },
+    #[error("{0}")]
+    Unreadable(std::io::Error),
     /// The file cannot be written.
     #[error(transparent)]
-    Unwritable(#[from] mpm_scenes::SimulationError),
+    Unwritable(mpm_scenes::SimulationError),
     /// The file is no safetensors file, or is cut off.
-    #[error("{}: no safetensors file, or damaged: {source}", path.display())]
-    Damaged {
-        /// The file.
-        path: PathBuf,
-        /// What the reader of the container says.
-        source: safetensors::SafeTensorError,
-    },
+    #[error("no safetensors file, or damaged: {0}")]
+    Damaged(safetensors::SafeTensorError),
     /// A safetensors file of another program, or with a header that has other fields.
-    #[error("{}: metadata: {reason}", path.display())]
-    Header {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong with it.
-        reason: String,
-    },
+    #[error("metadata: {0}")]
+    Header(String),
     /// The file holds something else.
-    #[error("{}: holds {found}, not {expected}", path.display())]
+    #[error("holds {found}, not {expected}")]
     Kind {
-        /// The file.
-        path: PathBuf,
         /// What it holds.
         found: String,
         /// What was asked for.
         expected: &'static str,
     },
     /// The file was written by another version of the layout.
-    #[error("{}: layout {found} of {kind}; this program reads {expected}", path.display())]
+    #[error("layout {found} of {kind}; this program reads {expected}")]
     Version {
-        /// The file.
-        path: PathBuf,
         /// What it holds.
         kind: &'static str,
         /// Its layout.
@@ -54,28 +45,19 @@ pub enum TensorFileError {
         expected: u32,
     },
     /// The file belongs to another number of axes.
-    #[error("{}: made for {found} dimensions, not {expected}", path.display())]
+    #[error("made for {found} dimensions, not {expected}")]
     Dimension {
-        /// The file.
-        path: PathBuf,
         /// D of the file.
         found: usize,
         /// D asked for.
         expected: usize,
     },
     /// A tensor is not there.
-    #[error("{}: no tensor {name}", path.display())]
-    Missing {
-        /// The file.
-        path: PathBuf,
-        /// The tensor.
-        name: String,
-    },
+    #[error("no tensor {0}")]
+    Missing(String),
     /// A tensor is not `F64`, or has another shape.
-    #[error("{}: tensor {name} is {dtype} {found:?}, not F64 {expected:?}", path.display())]
+    #[error("tensor {name} is {dtype} {found:?}, not F64 {expected:?}")]
     Shape {
-        /// The file.
-        path: PathBuf,
         /// The tensor.
         name: String,
         /// Its type.
@@ -86,10 +68,8 @@ pub enum TensorFileError {
         expected: Vec<usize>,
     },
     /// An entry of a tensor is NaN or infinite.
-    #[error("{}: tensor {name}: entry {entry} is {value}", path.display())]
+    #[error("tensor {name}: entry {entry} is {value}")]
     NotFinite {
-        /// The file.
-        path: PathBuf,
         /// The tensor.
         name: String,
         /// The entry, row-major.
@@ -98,11 +78,24 @@ pub enum TensorFileError {
         value: f64,
     },
     /// The values are readable but contradict each other.
-    #[error("{}: {reason}", path.display())]
-    Inconsistent {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong.
-        reason: String,
-    },
+    #[error("{0}")]
+    Inconsistent(String),
+}
+
+/// The fault with its file, once.
+fn described(path: &Path, fault: &TensorFault) -> String {
+    match fault {
+        TensorFault::Unwritable(error) => error.to_string(),
+        fault => format!("{}: {fault}", path.display()),
+    }
+}
+
+impl TensorFault {
+    /// The error of a file with this fault.
+    pub(super) fn of(self, path: impl Into<PathBuf>) -> TensorFileError {
+        TensorFileError {
+            path: path.into(),
+            fault: Box::new(self),
+        }
+    }
 }

@@ -8,7 +8,7 @@ mod error;
 mod read;
 mod write;
 
-pub use error::TensorFileError;
+pub use error::{TensorFault, TensorFileError};
 pub use read::TensorReader;
 pub use write::TensorWriter;
 

@@ -70,48 +70,33 @@ impl Training {
     /// # Errors
     /// [`TrainingError::Value`].
     pub fn check(&self) -> Result<(), TrainingError> {
-        let sizes = [
-            ("coordinates", self.coordinates),
-            ("width", self.width),
-            ("depth", self.depth),
-            ("encoder_width", self.encoder_width),
-            ("batch", self.batch),
-            ("points", self.points),
+        let count = |field, value: u64| (field, value as f64, value > 0, "at least 1");
+        let weight = |field, value: f64| (field, value, value.is_finite() && value >= 0.0, "at least 0 and finite");
+        let (first, last) = (self.initial_rate, self.final_rate);
+        let falling = last > 0.0 && last <= first;
+        let rules = [
+            count("coordinates", self.coordinates as u64),
+            count("width", self.width as u64),
+            count("depth", self.depth as u64),
+            count("encoder_width", self.encoder_width as u64),
+            count("batch", self.batch as u64),
+            count("points", self.points as u64),
+            count("epochs", self.epochs),
+            count("checkpoint_interval", self.checkpoint_interval),
+            weight("gradient_weight", self.gradient_weight),
+            weight("velocity_weight", self.velocity_weight),
+            (
+                "initial_rate",
+                first,
+                first.is_finite() && first > 0.0,
+                "positive and finite",
+            ),
+            ("final_rate", last, falling, "positive and at most initial_rate"),
         ];
-        let intervals = [
-            ("epochs", self.epochs),
-            ("checkpoint_interval", self.checkpoint_interval),
-        ];
-        let weights = [
-            ("gradient_weight", self.gradient_weight),
-            ("velocity_weight", self.velocity_weight),
-        ];
-        let refuse = |field, value: &dyn ToString, expected| {
-            Err(TrainingError::Value {
-                field,
-                value: value.to_string(),
-                expected,
-            })
-        };
-        if let Some((field, value)) = sizes.iter().find(|(_, size)| *size == 0) {
-            return refuse(field, value, "at least 1");
+        match rules.into_iter().find(|(_, _, valid, _)| !valid) {
+            None => Ok(()),
+            Some((field, value, _, expected)) => Err(TrainingError::Value { field, value, expected }),
         }
-        if let Some((field, value)) = intervals.iter().find(|(_, number)| *number == 0) {
-            return refuse(field, value, "at least 1");
-        }
-        if let Some((field, value)) = weights
-            .iter()
-            .find(|(_, weight)| !(weight.is_finite() && *weight >= 0.0))
-        {
-            return refuse(field, value, "at least 0 and finite");
-        }
-        if !(self.initial_rate.is_finite() && self.initial_rate > 0.0) {
-            return refuse("initial_rate", &self.initial_rate, "positive and finite");
-        }
-        if !(self.final_rate > 0.0 && self.final_rate <= self.initial_rate) {
-            return refuse("final_rate", &self.final_rate, "positive and at most initial_rate");
-        }
-        Ok(())
     }
 
     /// The rate at step s of S.

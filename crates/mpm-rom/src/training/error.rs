@@ -12,7 +12,7 @@ pub enum TrainingError {
         /// The field.
         field: &'static str,
         /// Its value.
-        value: String,
+        value: f64,
         /// What is allowed.
         expected: &'static str,
     },

@@ -46,31 +46,6 @@ pub(super) struct Weights {
     pub share: f64,
 }
 
-/// Coordinates of a frame and how they move on.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Motion {
-    /// x̂.
-    pub latent: Vec<f64>,
-    /// w = (x̂(t_{n+1}) − x̂(t_n)) / (t_{n+1} − t_n); `None` in the last frame of a run.
-    pub rates: Option<Vec<f64>>,
-}
-
-impl Motion {
-    /// Of a frame and, if there is one, the next one with the time between them.
-    pub fn between(now: &[f64], next: Option<(&[f64], f64)>) -> Self {
-        let rates = |(next, interval): (&[f64], f64)| {
-            next.iter()
-                .zip(now)
-                .map(|(next, now)| (next - now) / interval)
-                .collect()
-        };
-        Self {
-            latent: now.to_vec(),
-            rates: next.map(rates),
-        }
-    }
-}
-
 /// Loss and adjoints of pairs (run, frame), with the buffers to compute them.
 #[derive(Clone, Debug)]
 pub(super) struct PairLoss<const D: usize> {
@@ -126,8 +101,13 @@ impl<const D: usize> PairLoss<D> {
             encoder.forward(&next.positions, &mut self.next);
         }
         let next = next.map(|next| next.time - frame.time);
-        let motion = Motion::between(&self.now.latent, next.map(|interval| (&self.next.latent[..], interval)));
-        let (mut latent, mut along) = self.add_at(network, weights, reference, frame, &motion, chosen);
+        let now = self.now.latent.clone();
+        let rates = next.map(|interval| {
+            let pairs = self.next.latent.iter().zip(&now);
+            pairs.map(|(next, now)| (next - now) / interval).collect::<Vec<f64>>()
+        });
+        let motion = (&now[..], rates.as_deref());
+        let (mut latent, mut along) = self.add_at(network, weights, reference, frame, motion, chosen);
         if let Some(interval) = next {
             for (latent, along) in latent.iter_mut().zip(&mut along) {
                 *along /= interval;
@@ -138,19 +118,18 @@ impl<const D: usize> PairLoss<D> {
         encoder.reverse(&self.now, &latent, &mut self.encoder);
     }
 
-    /// The same for given coordinates: no encoder has a part in it. Returns the adjoints of x̂ and w.
+    /// The same for given x̂ and, unless it is the last frame of a run, w: no encoder has a part in it. Returns the adjoints of x̂ and w.
     fn add_at(
         &mut self,
         network: &Network<D>,
         weights: &Weights,
         reference: &[[f64; D]],
         frame: &Frame<D>,
-        motion: &Motion,
+        (latent, direction): (&[f64], Option<&[f64]>),
         chosen: &[usize],
     ) -> (Vec<f64>, Vec<f64>) {
-        let direction = motion.rates.as_deref().filter(|_| weights.velocity > 0.0);
         let gradients = weights.gradient > 0.0;
-        let seed = network.seed(&motion.latent, gradients, direction.into_iter());
+        let seed = network.seed(latent, gradients, direction.into_iter());
         let mut adjoint = SeedAdjoint::zero(&seed);
         for chunk in chosen.chunks(CHUNK) {
             self.reference.clear();
@@ -159,15 +138,14 @@ impl<const D: usize> PairLoss<D> {
             self.residuals(network, weights, frame, chunk, direction.is_some());
             network.reverse(&self.reference, &mut self.tape, &mut self.network, &mut adjoint);
         }
-        let coordinates = motion.latent.len();
-        let (mut latent, mut along) = (vec![0.0; coordinates], vec![0.0; coordinates]);
+        let (mut of_latent, mut along) = (vec![0.0; latent.len()], vec![0.0; latent.len()]);
         let mut target = SeedTarget {
             parameters: &mut self.network,
-            latent: &mut latent,
+            latent: &mut of_latent,
             direction: &mut along,
         };
-        network.reverse_seed(&adjoint, gradients, &motion.latent, direction, &mut target);
-        (latent, along)
+        network.reverse_seed(&adjoint, gradients, latent, direction, &mut target);
+        (of_latent, along)
     }
 
     /// Adds the terms of a chunk and overwrites the tape's output with its adjoint.

@@ -1,13 +1,8 @@
 //! The linear manifolds: what they reproduce, and where.
 
-use mpm_rom::manifold::{Evaluation, Linear, LinearError, Manifold, Pod, Wanted};
+use mpm_rom::manifold::{Evaluation, LinearError, Manifold, Pod, Wanted};
 use mpm_rom::snapshots::Snapshots;
 use mpm_tensor::vector;
-
-const ALL: Wanted = Wanted {
-    gradients: true,
-    jacobians: true,
-};
 
 /// Σ |g̃ − φ|² of the frame with its best coordinates: normal equations of the Jacobian, solved by the modes' orthogonality.
 fn worst_gap(manifold: &Pod<3>, snapshots: &Snapshots<3>) -> f64 {
@@ -25,7 +20,7 @@ fn worst_gap(manifold: &Pod<3>, snapshots: &Snapshots<3>) -> f64 {
             latent[k] = above / below;
         }
         let mut out = Evaluation::default();
-        manifold.evaluate(snapshots.reference(), &latent, ALL, &mut out);
+        manifold.evaluate(snapshots.reference(), &latent, Wanted::ALL, &mut out);
         for p in 0..snapshots.points() {
             worst = worst.max(vector::distance(&out.positions[p], &frame.positions[p]));
             worst = worst.max(1e-2 * (out.gradients[p] - frame.deformation_gradients[p]).maximum_norm());
@@ -46,45 +41,13 @@ fn all_modes_together_reproduce_the_snapshots() {
 }
 
 #[test]
-fn between_the_points_modes_are_smooth_and_at_them_they_agree() {
-    let snapshots = crate::common::bending_cylinder(300, 4, 6);
-    let pod = Pod::new(&snapshots, 4).unwrap();
-    let linear = Linear::new(&pod).unwrap();
-    let latent = [0.3, -0.8, 0.5, 1.1];
-    let (mut at_points, mut between) = (Evaluation::default(), Evaluation::default());
-    pod.evaluate(snapshots.reference(), &latent, ALL, &mut at_points);
-    linear.evaluate(snapshots.reference(), &latent, ALL, &mut between);
-    for p in 0..snapshots.points() {
-        assert!(vector::distance(&at_points.positions[p], &between.positions[p]) < 1e-10);
-        for k in 0..4 {
-            assert!(vector::distance(&at_points.jacobians[4 * p + k], &between.jacobians[4 * p + k]) < 1e-10);
-        }
-    }
-    let position = [0.0031, -0.0042, 0.0013];
-    let step = 1e-6;
-    linear.evaluate(&[position], &latent, ALL, &mut between);
-    for k in 0..3 {
-        let mut moved = [position; 2];
-        moved[0][k] += step;
-        moved[1][k] -= step;
-        let mut out = Evaluation::default();
-        linear.evaluate(&moved, &latent, Wanted::default(), &mut out);
-        assert!(out.gradients.is_empty() && out.jacobians.is_empty());
-        for c in 0..3 {
-            let difference = (out.positions[0][c] - out.positions[1][c]) / (2.0 * step);
-            assert!((between.gradients[0].0[c][k] - difference).abs() < 1e-7);
-        }
-    }
-}
-
-#[test]
 fn another_place_takes_the_nearest_point() {
     let snapshots = crate::common::bending_cylinder(40, 2, 3);
     let pod = Pod::new(&snapshots, 2).unwrap();
     let near = vector::add(&snapshots.reference()[17], &[1e-6, 0.0, 0.0]);
     let (mut there, mut here) = (Evaluation::default(), Evaluation::default());
-    pod.evaluate(&[near], &[1.0, 1.0], ALL, &mut there);
-    pod.evaluate(snapshots.reference(), &[1.0, 1.0], ALL, &mut here);
+    pod.evaluate(&[near], &[1.0, 1.0], Wanted::ALL, &mut there);
+    pod.evaluate(snapshots.reference(), &[1.0, 1.0], Wanted::ALL, &mut here);
     assert_eq!(there.gradients[0], here.gradients[17]);
     assert_eq!(there.jacobians, here.jacobians[34..36]);
 }

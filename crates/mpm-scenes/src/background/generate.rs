@@ -180,54 +180,48 @@ pub(crate) fn of_shape<const D: usize>(
     shape: &ShapeTable,
     size: f64,
 ) -> Result<SimplexMesh<D>, SceneFault> {
-    let refused = || {
-        SceneFault::value(
-            field,
-            shape,
-            "a box, a sphere or a polygon where a mesh of it is asked for",
-        )
-    };
-    let table = match (D, shape) {
-        (1, ShapeTable::Box { lower, upper }) => match (&lower[..], &upper[..]) {
+    let expected = "a box, a sphere or a polygon where a mesh of it is asked for";
+    let refused = || SceneFault::value(field, shape, expected);
+    let table = match shape {
+        ShapeTable::Box { lower, upper } => match (&lower[..], &upper[..]) {
             (&[start], &[end]) => MeshShapeTable::Segments {
                 start,
                 end,
                 size,
                 pattern: vec![1.0],
             },
+            (&[x, y], &[right, top]) => MeshShapeTable::Rectangle {
+                lower: [x, y],
+                upper: [right, top],
+                size,
+            },
+            (&[x, y, z], &[right, top, back]) => MeshShapeTable::Box {
+                lower: [x, y, z],
+                upper: [right, top, back],
+                size,
+            },
             _ => return Err(refused()),
         },
-        (2, ShapeTable::Box { lower, upper }) => MeshShapeTable::Rectangle {
-            lower: corner(lower).ok_or_else(refused)?,
-            upper: corner(upper).ok_or_else(refused)?,
-            size,
+        ShapeTable::Sphere { centre, radius } => match (&centre[..], *radius) {
+            (&[x, y], radius) => MeshShapeTable::Disk {
+                centre: [x, y],
+                radius,
+                size,
+            },
+            (&[x, y, z], radius) => MeshShapeTable::Ball {
+                centre: [x, y, z],
+                radius,
+                size,
+            },
+            _ => return Err(refused()),
         },
-        (2, ShapeTable::Sphere { centre, radius }) => MeshShapeTable::Disk {
-            centre: corner(centre).ok_or_else(refused)?,
-            radius: *radius,
-            size,
-        },
-        (2, ShapeTable::Polygon { corners }) => MeshShapeTable::Polygon {
+        ShapeTable::Polygon { corners } => MeshShapeTable::Polygon {
             corners: corners.clone(),
             holes: Vec::new(),
-            size,
-        },
-        (3, ShapeTable::Box { lower, upper }) => MeshShapeTable::Box {
-            lower: corner(lower).ok_or_else(refused)?,
-            upper: corner(upper).ok_or_else(refused)?,
-            size,
-        },
-        (3, ShapeTable::Sphere { centre, radius }) => MeshShapeTable::Ball {
-            centre: corner(centre).ok_or_else(refused)?,
-            radius: *radius,
             size,
         },
         _ => return Err(refused()),
     };
     generate(&table, None, 0.0)
         .map_err(|error| SceneFault::value(field, shape, format!("a shape that has a mesh: {error}")))
-}
-
-fn corner<const E: usize>(list: &[f64]) -> Option<[f64; E]> {
-    list.try_into().ok()
 }

@@ -64,7 +64,7 @@ impl<const D: usize> Background<D> {
             mesh: inner,
             facets: groups,
         } = generate::inner::<D>(scene, table, rotation.as_ref())?;
-        let room = domain.unwrap_or_else(|| bounds(&inner));
+        let room = domain.unwrap_or_else(|| Bounds::around(inner.vertices()));
         let whole = if table.outer_layer {
             layer::around(scene, &inner, &room)?
         } else {
@@ -92,16 +92,5 @@ impl<const D: usize> Background<D> {
         match self {
             Self::Grid { room, .. } | Self::Mesh { room, .. } => room,
         }
-    }
-}
-
-/// The smallest box around a mesh.
-fn bounds<const D: usize>(mesh: &SimplexMesh<D>) -> Bounds<D> {
-    let fold = |start: f64, choose: fn(f64, f64) -> f64| {
-        std::array::from_fn(|a| mesh.vertices().iter().fold(start, |bound, x| choose(bound, x[a])))
-    };
-    Bounds {
-        lower: fold(f64::INFINITY, f64::min),
-        upper: fold(f64::NEG_INFINITY, f64::max),
     }
 }

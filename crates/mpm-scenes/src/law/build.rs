@@ -23,29 +23,13 @@ pub fn build<const D: usize>(field: &str, table: &MaterialTable) -> Result<AnyLa
     table.law().map_err(|error| refused(field, error))
 }
 
-/// The parameter by the name that it has in the document.
+/// The parameter by the name that it has in the document; angles are in degrees there.
 fn refused(field: &str, error: ParameterError) -> SceneFault {
-    let (parameter, value) = error.parameter();
-    let parameter = match error {
-        ParameterError::FrictionAngle { value } => {
-            let field = format!("{field}.friction_angle");
-            return SceneFault::value(field, value.to_degrees(), "strictly between 0 and 90 (degrees)");
-        }
-        ParameterError::ShearModulus { .. } => "young_modulus: the shear modulus",
-        ParameterError::FirstLameParameter { .. } => "poisson_ratio: Lame's first parameter",
-        _ => parameter,
-    };
-    // The error says "… must be RANGE, not VALUE".
-    let message = error.to_string();
-    let range = message
-        .split_once(" must ")
-        .map_or(message.as_str(), |(_, range)| range);
-    let range = range.rsplit_once(", not").map_or(range, |(range, _)| range);
-    SceneFault::value(
-        format!("{field}.{parameter}"),
-        value,
-        range.strip_prefix("be ").unwrap_or(range),
-    )
+    let field = format!("{field}.{}", error.parameter);
+    match error.parameter {
+        "friction_angle" => SceneFault::value(field, error.value.to_degrees(), "strictly between 0 and 90 (degrees)"),
+        _ => SceneFault::value(field, error.value, error.expected),
+    }
 }
 
 #[cfg(test)]

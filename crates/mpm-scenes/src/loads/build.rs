@@ -5,7 +5,7 @@ use crate::background::Background;
 use crate::population::Population;
 use crate::scene::{BarrierAgainst, BarrierTable, LoadTable, Scene, ShapeTable};
 use crate::shape::{MeshOutside, Shape};
-use crate::values::vector;
+use crate::values::{vector, within as within_range};
 use crate::{SceneFault, reference, shape};
 
 impl<const D: usize> Loads<D> {
@@ -84,10 +84,7 @@ pub(crate) fn within<const D: usize>(
         .filter(|&(p, x)| of_body(p) && shape.distance(x) <= 0.0)
         .map(|(p, _)| p);
     let chosen: Vec<usize> = chosen.collect();
-    if chosen.is_empty() {
-        return Err(SceneFault::value(field, region, "a region with particles in it"));
-    }
-    Ok(chosen)
+    within_range(field, region, !chosen.is_empty(), "a region with particles in it").map(|_| chosen)
 }
 
 fn direct<const D: usize>(

@@ -3,6 +3,7 @@ use mpm_tensor::vector;
 use rayon::prelude::*;
 
 use super::{Barrier, DirectLoad, Penetration};
+use crate::manufactured::in_the_plane;
 use crate::{LawState, ManufacturedSolution};
 
 /// The sum of all forces on particles, per unit mass.
@@ -42,11 +43,10 @@ impl<const D: usize> Loads<D> {
             }
         }
         for solution in &self.manufactured {
-            let mut acceleration = [0.0; D];
             if let Some(reference) = self.reference_positions.get(identity) {
-                solution.body_force(reference, time, &mut acceleration);
+                let acceleration = in_the_plane(reference, |start| solution.body_force(start, time));
+                vector::accumulate(&mut sum, 1.0, &acceleration);
             }
-            vector::accumulate(&mut sum, 1.0, &acceleration);
         }
         if let (Some(barrier), Some(area), Some(mass)) =
             (&self.barrier, self.areas.get(identity), self.masses.get(identity))

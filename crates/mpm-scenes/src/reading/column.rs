@@ -40,7 +40,7 @@ impl Take {
             Self::Change => values().next().zip(values().last()).map(|(first, last)| last - first),
             Self::Difference => other.map(|other| {
                 let there = |t: f64| other.at(t).unwrap_or(f64::NAN);
-                own.rms_difference(end(other), there) / largest_change(other)
+                own.rms_difference(other.times.last().copied().unwrap_or(f64::NAN), there) / largest_change(other)
             }),
             Self::LargestDifference => other.map(|other| {
                 let pairs = own.points().filter_map(|(t, y)| Some((y, other.at(t)?)));
@@ -52,14 +52,13 @@ impl Take {
     }
 }
 
-fn end(curve: &Curve) -> f64 {
-    curve.times.last().copied().unwrap_or(f64::NAN)
-}
-
 /// max_k |y_k − y_0|.
 fn largest_change(curve: &Curve) -> f64 {
-    let start = curve.values.first().copied().unwrap_or(f64::NAN);
-    curve.values.iter().map(|y| (y - start).abs()).fold(0.0, f64::max)
+    curve
+        .values
+        .iter()
+        .map(|y| (y - curve.first()).abs())
+        .fold(0.0, f64::max)
 }
 
 /// A column over time, or the sum of several: `kinetic_energy + strain_energy`; an error is the name that there is none of.

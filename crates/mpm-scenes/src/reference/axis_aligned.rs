@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use mpm_materials::ElasticModuli;
 use mpm_tensor::Matrix;
 
-use super::parts::{Rows, Run, in_the_plane, plane_solid};
+use super::parts::{Rows, Run, plane_solid};
 use crate::{ManufacturedSolution, Scene, SceneFault, ValidationRow};
 
 /// u_a = A sin(2πX_a) sin(cπt + φ_a) in the unit square, φ = (0, π), for the Neo-Hookean solid
@@ -44,13 +44,6 @@ impl AxisAligned {
         std::array::from_fn(|a| self.amplitude * (2.0 * PI * X[a]).sin() * factor[a][0])
     }
 
-    /// u̇(X, t).
-    #[allow(non_snake_case)]
-    pub fn velocity(&self, X: &[f64; 2], time: f64) -> [f64; 2] {
-        let factor = self.time_factor(time);
-        std::array::from_fn(|a| self.amplitude * (2.0 * PI * X[a]).sin() * factor[a][1])
-    }
-
     /// F(X, t) = diag(1 + 2πA cos 2πX_a sin(cπt + φ_a)).
     #[allow(non_snake_case)]
     pub fn deformation_gradient(&self, X: &[f64; 2], time: f64) -> Matrix<2> {
@@ -58,11 +51,19 @@ impl AxisAligned {
         let stretch = |a: usize| 1.0 + 2.0 * PI * self.amplitude * (2.0 * PI * X[a]).cos() * factor[a][0];
         Matrix::diagonal(&std::array::from_fn(stretch))
     }
+}
+
+#[allow(non_snake_case)]
+impl ManufacturedSolution for AxisAligned {
+    /// u̇(X, t).
+    fn velocity(&self, X: &[f64; 2], time: f64) -> [f64; 2] {
+        let factor = self.time_factor(time);
+        std::array::from_fn(|a| self.amplitude * (2.0 * PI * X[a]).sin() * factor[a][1])
+    }
 
     /// b = ü − Div P / ρ₀, with (Div P)_a = F_aa' [μ (1 + F_aa⁻²) + λ (1 − ln J) F_aa⁻²] and
     /// F_aa' = ∂F_aa/∂X_a = −4π² u_a.
-    #[allow(non_snake_case)]
-    pub fn body_force(&self, X: &[f64; 2], time: f64) -> [f64; 2] {
+    fn body_force(&self, X: &[f64; 2], time: f64) -> [f64; 2] {
         let (lambda, mu) = (self.moduli.first_lame_parameter(), self.moduli.shear_modulus());
         let F = self.deformation_gradient(X, time);
         let log_J = (F.0[0][0] * F.0[1][1]).ln();
@@ -75,8 +76,6 @@ impl AxisAligned {
         })
     }
 }
-
-in_the_plane!(AxisAligned);
 
 /// The solution with A = 0.02 in the material of a scene.
 fn of_scene(scene: &Scene) -> Result<AxisAligned, SceneFault> {

@@ -1,6 +1,6 @@
 //! A soft ball that falls through a wavy channel (Cao et al. 2024, §3.4).
 
-use super::parts::{Rows, Run, last};
+use super::parts::{Rows, Run};
 use crate::{Snapshot, ValidationRow};
 
 /// Below this height the channel has half a wave: a quarter of the wave length 10 of its shorter factor.
@@ -23,16 +23,10 @@ pub(super) fn validate(run: &Run) -> Rows {
         if name == "barrier_energy" && run.scene.barrier.is_none() {
             continue;
         }
-        let part = run.curve(name)?;
-        total
-            .values
-            .iter_mut()
-            .zip(&part.values)
-            .for_each(|(sum, value)| *sum += value);
+        total = total.plus(&run.curve(name)?);
     }
     let potential = run.curve("potential_energy")?;
-    let start = total.values.first().copied().unwrap_or(f64::NAN);
-    let freed = potential.values.first().copied().unwrap_or(f64::NAN) - last(&potential);
+    let (start, freed) = (total.first(), potential.first() - potential.last());
     let most = total
         .values
         .iter()

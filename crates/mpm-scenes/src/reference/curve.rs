@@ -10,6 +10,45 @@ pub struct Curve {
 }
 
 impl Curve {
+    /// The curve of the rows t, y of a text, behind its first line.
+    pub fn parse(text: &str) -> Self {
+        Self::of_rows(text, |numbers| match numbers {
+            [value] => Some(*value),
+            _ => None,
+        })
+    }
+
+    /// The curve of what the numbers behind t say of y, in the rows of a text behind its first line.
+    pub fn of_rows(text: &str, value: impl Fn(&[f64]) -> Option<f64>) -> Self {
+        let mut curve = Self::default();
+        for line in text.lines().skip(1) {
+            let numbers = line.split(',').map(|number| number.trim().parse().ok());
+            let numbers: Option<Vec<f64>> = numbers.collect();
+            if let Some((time, rest)) = numbers.as_deref().and_then(<[f64]>::split_first)
+                && let Some(value) = value(rest)
+            {
+                curve.push(*time, value);
+            }
+        }
+        curve
+    }
+
+    /// The first value; NaN without any.
+    pub fn first(&self) -> f64 {
+        self.values.first().copied().unwrap_or(f64::NAN)
+    }
+
+    /// The last value; NaN without any.
+    pub fn last(&self) -> f64 {
+        self.values.last().copied().unwrap_or(f64::NAN)
+    }
+
+    /// y + z, for another quantity at the same times.
+    pub fn plus(mut self, other: &Self) -> Self {
+        self.values.iter_mut().zip(&other.values).for_each(|(y, z)| *y += z);
+        self
+    }
+
     /// Append y at time t.
     pub fn push(&mut self, time: f64, value: f64) {
         self.times.push(time);

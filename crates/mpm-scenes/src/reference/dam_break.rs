@@ -32,15 +32,7 @@ const SHIFTS: i32 = 400;
 impl DamBreak {
     /// The measured fronts (T, Z), T = n t √(g/a), Z = front / a, for n² = 2.
     pub fn measurements() -> Curve {
-        let mut series = Curve::default();
-        for line in DATA.lines().skip(1) {
-            if let Some((time, front)) = line.split_once(',')
-                && let (Ok(time), Ok(front)) = (time.trim().parse(), front.trim().parse())
-            {
-                series.push(time, front);
-            }
-        }
-        series
+        Curve::parse(DATA)
     }
 
     /// T = n t √(g/a).
@@ -71,21 +63,13 @@ impl DamBreak {
             })
         };
         let shifts = (-SHIFTS / 2..=SHIFTS / 2).map(|k| 0.4 * f64::from(k) / f64::from(SHIFTS));
-        let fits = shifts.map(|shift| FrontFit {
+        let fits = shifts.map(|shift| (shift, deviation(shift)));
+        let none = (0.0, f64::INFINITY);
+        let (shift, largest_deviation) = fits.fold(none, |best, fit| if fit.1 < best.1 { fit } else { best });
+        FrontFit {
             shift,
-            largest_deviation: deviation(shift),
-        });
-        let none = FrontFit {
-            shift: 0.0,
-            largest_deviation: f64::INFINITY,
-        };
-        fits.fold(none, |best, fit| {
-            if fit.largest_deviation < best.largest_deviation {
-                fit
-            } else {
-                best
-            }
-        })
+            largest_deviation,
+        }
     }
 
     /// Within 10 % for T ≤ 2.5.
@@ -115,7 +99,7 @@ pub(super) fn validate(run: &Run) -> Rows {
         _ => return Err(unfit(run.scene, "for a column twice as high as wide")),
     };
     let mut front = run.curve("upper_x")?;
-    let offset = dam.base - front.values.first().copied().unwrap_or(f64::NAN);
+    let offset = dam.base - front.first();
     front.values.iter_mut().for_each(|x| *x += offset);
     Ok(vec![dam.check(&front)])
 }

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use mpm_materials::ElasticModuli;
 use mpm_tensor::Matrix;
 
-use super::parts::{Rows, Run, in_the_plane, plane_solid};
+use super::parts::{Rows, Run, plane_solid};
 use crate::{ManufacturedSolution, Scene, SceneFault, ValidationRow};
 
 /// Every circle of the ring R_i ≤ R ≤ R_o turns by α(R, t) = A g(t) h(R) about the origin, g = sin(πt/T),
@@ -73,20 +73,6 @@ impl GeneralizedVortex {
         e_r.map(|c| radius * c)
     }
 
-    /// u(X, t) = x − X.
-    #[allow(non_snake_case)]
-    pub fn displacement(&self, X: &[f64; 2], time: f64) -> [f64; 2] {
-        let x = self.position(X, time);
-        [x[0] - X[0], x[1] - X[1]]
-    }
-
-    /// v(X, t) = R ∂α/∂t e_θ.
-    #[allow(non_snake_case)]
-    pub fn velocity(&self, X: &[f64; 2], time: f64) -> [f64; 2] {
-        let (radius, turn, _, e_theta) = self.polar(X, time);
-        e_theta.map(|c| radius * turn.rate * c)
-    }
-
     /// F(X, t) = Q + R α' e_θ ⊗ E_R, Q the rotation by α.
     #[allow(non_snake_case)]
     pub fn deformation_gradient(&self, X: &[f64; 2], time: f64) -> Matrix<2> {
@@ -96,12 +82,20 @@ impl GeneralizedVortex {
         let shear = X.map(|c| c * turn.slope);
         Matrix([[cos, -sin], [sin, cos]]) + Matrix::outer(&e_theta, &shear)
     }
+}
+
+#[allow(non_snake_case)]
+impl ManufacturedSolution for GeneralizedVortex {
+    /// v(X, t) = R ∂α/∂t e_θ.
+    fn velocity(&self, X: &[f64; 2], time: f64) -> [f64; 2] {
+        let (radius, turn, _, e_theta) = self.polar(X, time);
+        e_theta.map(|c| radius * turn.rate * c)
+    }
 
     /// b = ẍ − Div P / ρ₀ = R [μ/ρ₀ α'² − α̇²] e_r + [R α̈ − μ/ρ₀ (3α' + R α'')] e_θ.
     ///
     /// With k = R α' the stress is P = μ k (e_θ ⊗ E_R + e_r ⊗ E_Θ), and Div P = μ [(k' + 2k/R) e_θ − k α' e_r].
-    #[allow(non_snake_case)]
-    pub fn body_force(&self, X: &[f64; 2], time: f64) -> [f64; 2] {
+    fn body_force(&self, X: &[f64; 2], time: f64) -> [f64; 2] {
         let (radius, turn, e_r, e_theta) = self.polar(X, time);
         let stiffness = self.moduli.shear_modulus() / self.density;
         let radial = radius * (stiffness * turn.slope.powi(2) - turn.rate.powi(2));
@@ -109,8 +103,6 @@ impl GeneralizedVortex {
         std::array::from_fn(|a| radial * e_r[a] + hoop * e_theta[a])
     }
 }
-
-in_the_plane!(GeneralizedVortex);
 
 /// The ring 0.75 ≤ R ≤ 1.25 with A = 0.1 and T = 1 in the material of a scene.
 fn of_scene(scene: &Scene) -> Result<GeneralizedVortex, SceneFault> {

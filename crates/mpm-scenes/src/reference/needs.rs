@@ -6,6 +6,57 @@ use super::{slope_run_out, tilted_cantilever};
 use crate::Scene;
 use crate::scene::{BodyTable, FillKind, LoadTable, MaterialTable, ShapeTable, VelocityField, VelocityTable};
 
+/// Whether a scene is one of a problem, and which scenes are in words.
+#[derive(Clone, Copy)]
+pub struct Problem(pub fn(&Scene) -> bool, pub &'static str);
+
+pub const AXIS_ALIGNED: Problem = Problem(
+    axis_aligned,
+    "a plane body of one elastic material, with the manufactured solution `axis-aligned` as velocity or load",
+);
+pub const GENERALIZED_VORTEX: Problem = Problem(
+    generalized_vortex,
+    "a plane body of one elastic material, with the manufactured solution `generalized-vortex` as velocity or load",
+);
+pub const CANTILEVER: Problem = Problem(
+    cantilever,
+    "a plane box of one elastic material under gravity, with the probe `tip`",
+);
+pub const CONSERVATION: Problem = Problem(conservation, "a plane scene without gravity");
+pub const DAM_BREAK: Problem = Problem(
+    dam_break,
+    "a plane box of a tait-fluid under gravity, twice as high as wide",
+);
+pub const TWO_DISKS: Problem = Problem(
+    two_disks,
+    "two spheres in the plane on a grid or a generated mesh, with the probe `first`",
+);
+pub const BAR: Problem = Problem(
+    bar,
+    "a box in one dimension of one elastic material, with a sine as its velocity",
+);
+pub const BAR_WITH_PROBE: Problem = Problem(
+    bar_with_probe,
+    "a box in one dimension of one elastic material, with a sine as its velocity, and the probe `middle` at a point",
+);
+pub const TILTED_CANTILEVER: Problem = Problem(
+    tilted_cantilever,
+    "a plane body turned by 0, 15, 30 or 45 degrees, with the probe `tip`",
+);
+pub const CHANNEL: Problem = Problem(
+    channel,
+    "randomly filled plane bodies under gravity, with a barrier or facets",
+);
+pub const CYLINDER: Problem = Problem(
+    cylinder,
+    "a plane ring (a sphere less a smaller one about its centre) of one elastic material, with a pressure on facets",
+);
+pub const EXPANSION: Problem = Problem(expansion, "a scene in three dimensions with a barrier");
+pub const SLOPE: Problem = Problem(
+    slope,
+    "a polygon or box of a softening-hencky or drucker-prager material under gravity, whose particles have a spacing",
+);
+
 fn has_probe(scene: &Scene, name: &str) -> bool {
     scene.probes.iter().any(|probe| probe.name == name)
 }
@@ -18,24 +69,24 @@ fn manufactured(scene: &Scene, name: &str) -> bool {
     named && scene.dimension == 2 && solid(scene).is_ok()
 }
 
-pub fn axis_aligned(scene: &Scene) -> bool {
+fn axis_aligned(scene: &Scene) -> bool {
     manufactured(scene, "axis-aligned")
 }
 
-pub fn generalized_vortex(scene: &Scene) -> bool {
+fn generalized_vortex(scene: &Scene) -> bool {
     manufactured(scene, "generalized-vortex")
 }
 
-pub fn cantilever(scene: &Scene) -> bool {
+fn cantilever(scene: &Scene) -> bool {
     let box_of_one_solid = solid(scene).is_ok() && sides(scene).is_ok();
     scene.dimension == 2 && box_of_one_solid && gravity(scene) > 0.0 && has_probe(scene, "tip")
 }
 
-pub fn conservation(scene: &Scene) -> bool {
+fn conservation(scene: &Scene) -> bool {
     scene.dimension == 2 && gravity(scene) == 0.0
 }
 
-pub fn dam_break(scene: &Scene) -> bool {
+fn dam_break(scene: &Scene) -> bool {
     let fluid = scene
         .materials
         .values()
@@ -44,43 +95,43 @@ pub fn dam_break(scene: &Scene) -> bool {
     fluid && column && gravity(scene) > 0.0
 }
 
-pub fn two_disks(scene: &Scene) -> bool {
+fn two_disks(scene: &Scene) -> bool {
     let sphere = |body: &BodyTable| matches!(body.shape, ShapeTable::Sphere { .. });
     let two = scene.dimension == 2 && scene.bodies.len() == 2 && scene.bodies.iter().all(sphere);
     two && spacing(scene).is_ok() && has_probe(scene, "first")
 }
 
-pub fn bar(scene: &Scene) -> bool {
+fn bar(scene: &Scene) -> bool {
     let velocity = scene.bodies.first().and_then(|body| body.velocity.as_ref());
     let sine = matches!(velocity, Some(VelocityTable::Field(VelocityField::Sine { .. })));
     scene.dimension == 1 && sine && solid(scene).is_ok() && sides(scene).is_ok()
 }
 
-pub fn bar_with_probe(scene: &Scene) -> bool {
+fn bar_with_probe(scene: &Scene) -> bool {
     let mut probes = scene.probes.iter();
     bar(scene) && probes.any(|probe| probe.name == "middle" && probe.at.is_some())
 }
 
-pub fn tilted_cantilever(scene: &Scene) -> bool {
+fn tilted_cantilever(scene: &Scene) -> bool {
     scene.dimension == 2 && tilted_cantilever::fine_run_of(scene).is_some() && has_probe(scene, "tip")
 }
 
-pub fn channel(scene: &Scene) -> bool {
+fn channel(scene: &Scene) -> bool {
     let random = |body: &BodyTable| body.fill == FillKind::Random;
     let falls = scene.dimension == 2 && gravity(scene) > 0.0;
     let walled = scene.barrier.is_some() || !scene.facets.is_empty();
     falls && walled && scene.bodies.iter().all(random)
 }
 
-pub fn cylinder(scene: &Scene) -> bool {
+fn cylinder(scene: &Scene) -> bool {
     scene.dimension == 2 && ThickWalledCylinder::of(scene).is_some()
 }
 
-pub fn expansion(scene: &Scene) -> bool {
+fn expansion(scene: &Scene) -> bool {
     scene.dimension == 3 && scene.barrier.is_some()
 }
 
-pub fn slope(scene: &Scene) -> bool {
+fn slope(scene: &Scene) -> bool {
     let body = scene.bodies.first();
     let base = body.and_then(|body| slope_run_out::base(&body.shape));
     let spaced = body.is_some_and(|body| body.spacing.is_some());

@@ -79,35 +79,6 @@ pub fn plane_solid(scene: &Scene) -> Result<(SolidTable, ElasticModuli), SceneFa
     solid(scene)
 }
 
-/// A motion in the plane, known by functions of its own, as a manufactured solution.
-macro_rules! in_the_plane {
-    ($motion:ty) => {
-        #[allow(non_snake_case)]
-        impl ManufacturedSolution for $motion {
-            fn displacement(&self, X: &[f64], time: f64, displacement: &mut [f64]) {
-                $crate::reference::parts::fill(displacement, X, |X| self.displacement(X, time));
-            }
-
-            fn velocity(&self, X: &[f64], time: f64, velocity: &mut [f64]) {
-                $crate::reference::parts::fill(velocity, X, |X| self.velocity(X, time));
-            }
-
-            fn body_force(&self, X: &[f64], time: f64, acceleration: &mut [f64]) {
-                $crate::reference::parts::fill(acceleration, X, |X| self.body_force(X, time));
-            }
-        }
-    };
-}
-pub(super) use in_the_plane;
-
-/// `out` = f(X), where X is in the plane.
-#[allow(non_snake_case)]
-pub fn fill(out: &mut [f64], X: &[f64], f: impl Fn(&[f64; 2]) -> [f64; 2]) {
-    if let Ok(X) = X.try_into() {
-        out.copy_from_slice(&f(X));
-    }
-}
-
 /// Lower and upper corner of the box that the first body is.
 ///
 /// # Errors
@@ -126,11 +97,6 @@ pub fn first_box(scene: &Scene) -> Result<(&[f64], &[f64]), SceneFault> {
 pub fn sides(scene: &Scene) -> Result<Vec<f64>, SceneFault> {
     let (lower, upper) = first_box(scene)?;
     Ok(lower.iter().zip(upper).map(|(low, high)| high - low).collect())
-}
-
-/// The last value of a column; NaN without rows.
-pub fn last(curve: &Curve) -> f64 {
-    curve.values.last().copied().unwrap_or(f64::NAN)
 }
 
 /// |g|.

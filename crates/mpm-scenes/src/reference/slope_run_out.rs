@@ -1,6 +1,6 @@
 //! The slope of sensitive clay on a mesh (Cao et al. 2024, §3.5), against structured grids.
 
-use super::parts::{Rows, Run, last, unfit};
+use super::parts::{Rows, Run, unfit};
 use crate::ValidationRow;
 use crate::scene::ShapeTable;
 
@@ -17,7 +17,7 @@ pub(super) fn validate(run: &Run) -> Rows {
     let base = body.and_then(|body| base(&body.shape));
     let base = base.ok_or_else(|| unfit(run.scene, "for a polygon or the corner of a box as the first body"))?;
     let spacing = body.and_then(|body| body.spacing).unwrap_or(f64::NAN);
-    let run_out = last(&run.curve("upper_x")?) + 0.5 * spacing - base;
+    let run_out = run.curve("upper_x")?.last() + 0.5 * spacing - base;
     let expected = structured(spacing);
     Ok(vec![ValidationRow::near("run-out", run_out, expected, 0.05 * expected)])
 }

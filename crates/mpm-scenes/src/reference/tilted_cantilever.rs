@@ -1,8 +1,9 @@
 //! A cantilever that falls under its full weight, turned together with its mesh (Cao et al. 2024, §3.3).
 
+use super::cantilever::difference_of_tip;
 use super::curve::Curve;
 use super::parts::{Rows, Run, unfit};
-use crate::{Scene, ValidationRow};
+use crate::Scene;
 
 /// Fine cubic runs of the beam at rest with gravity tilted instead: t, displacements of the tip along and across the beam, for each angle in degrees, and
 /// the error that Cao et al. reach at a mesh size of 0.5.
@@ -19,16 +20,10 @@ pub fn fine_run(degrees: f64) -> Option<(Curve, f64)> {
     }
     let (_, text, tolerance) = FINE_RUNS.iter().find(|(angle, _, _)| *angle == degrees)?;
     let (sine, cosine) = degrees.to_radians().sin_cos();
-    let mut curve = Curve::default();
-    for line in text.lines().skip(1) {
-        let numbers: Vec<f64> = line
-            .split(',')
-            .filter_map(|number| number.trim().parse().ok())
-            .collect();
-        if let [time, along, across] = numbers[..] {
-            curve.push(time, sine * along + cosine * across);
-        }
-    }
+    let curve = Curve::of_rows(text, |numbers| match numbers {
+        [along, across] => Some(sine * along + cosine * across),
+        _ => None,
+    });
     Some((curve, *tolerance))
 }
 
@@ -45,8 +40,5 @@ pub(super) fn fine_run_of(scene: &Scene) -> Option<(Curve, f64)> {
 pub(super) fn validate(run: &Run) -> Rows {
     let fine = fine_run_of(run.scene);
     let (fine, tolerance) = fine.ok_or_else(|| unfit(run.scene, "for a turn of 0, 15, 30 or 45 degrees"))?;
-    let tip = run.curve("tip_displacement_y")?;
-    let error = tip.rms_difference(3.0, |time| fine.at(time).unwrap_or(f64::NAN)) / fine.peak();
-    let name = "difference of the tip to the fine run, 3 s / peak";
-    Ok(vec![ValidationRow::at_most(name, error, tolerance)])
+    difference_of_tip(run, &fine, tolerance)
 }

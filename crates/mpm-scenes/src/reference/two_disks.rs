@@ -53,28 +53,30 @@ impl TwoDisks {
     /// The gap at which a grid begins to transmit force: that of the last time before the kinetic energy has changed by the
     /// share 10⁻³. `None` if it never does.
     pub fn gap_at_contact(&self, kinetic_energy: &Curve) -> Option<f64> {
-        let start = *kinetic_energy.values.first()?;
+        Self::contact(kinetic_energy).map(|time| self.gap(time))
+    }
+
+    /// The first time at which the kinetic energy has changed by the share 10⁻³.
+    fn contact(kinetic_energy: &Curve) -> Option<f64> {
+        let start = kinetic_energy.first();
         let changed = |&(_, energy): &(f64, f64)| (energy - start).abs() > 1e-3 * start;
-        let (time, _) = kinetic_energy.points().find(changed)?;
-        Some(self.gap(time))
+        kinetic_energy.points().find(changed).map(|(time, _)| time)
     }
 
     /// Rebound within 0.92 ± 0.02 of the initial momentum, energy lost at most 5 %, contact at a gap of at most 2h.
     ///
     /// `momentum`: of the lower disk along x over that at the start. `energy`: kinetic and strain energy together.
     pub fn checks(&self, momentum: &Curve, kinetic_energy: &Curve, energy: &Curve, spacing: f64) -> Vec<ValidationRow> {
-        let last = |series: &Curve| series.values.last().copied().unwrap_or(f64::NAN);
-        let start = energy.values.first().copied().unwrap_or(f64::NAN);
         let gap = self.gap_at_contact(kinetic_energy).unwrap_or(f64::NAN);
         vec![
             ValidationRow::near(
                 "kinetic energy at the start",
-                kinetic_energy.values.first().copied().unwrap_or(f64::NAN),
+                kinetic_energy.first(),
                 self.kinetic_energy(),
                 0.005 * self.kinetic_energy(),
             ),
-            ValidationRow::near("rebound momentum / initial", -last(momentum), REBOUND, 0.02),
-            ValidationRow::at_most("energy lost / initial", 1.0 - last(energy) / start, 0.05),
+            ValidationRow::near("rebound momentum / initial", -momentum.last(), REBOUND, 0.02),
+            ValidationRow::at_most("energy lost / initial", 1.0 - energy.last() / energy.first(), 0.05),
             ValidationRow::at_most("gap at contact / spacing", gap / spacing, 2.0),
         ]
     }
@@ -87,12 +89,9 @@ impl TwoDisks {
 pub(super) fn validate(run: &Run) -> Rows {
     let mut momentum = run.curve("first_velocity_x")?;
     let kinetic = run.curve("kinetic_energy")?;
-    let mut energy = run.curve("strain_energy")?;
-    let start = momentum.values.first().copied().unwrap_or(f64::NAN);
+    let energy = run.curve("strain_energy")?.plus(&kinetic);
+    let start = momentum.first();
     momentum.values.iter_mut().for_each(|value| *value /= start);
-    for (sum, value) in energy.values.iter_mut().zip(&kinetic.values) {
-        *sum += value;
-    }
     Ok(TwoDisks::default().checks(&momentum, &kinetic, &energy, spacing(run.scene)?))
 }
 
@@ -104,11 +103,9 @@ pub(super) fn validate(run: &Run) -> Rows {
 pub(super) fn validate_on_mesh(run: &Run) -> Rows {
     let mut rows = validate(run)?;
     let (kinetic, momentum) = (run.curve("kinetic_energy")?, run.curve("first_velocity_x")?);
-    let start = kinetic.values.first().copied().unwrap_or(f64::NAN);
-    let changed = |&(_, energy): &(f64, f64)| (energy - start).abs() > 1e-3 * start;
-    let contact = kinetic.points().find(changed).map_or(f64::NAN, |(time, _)| time);
+    let contact = TwoDisks::contact(&kinetic).unwrap_or(f64::NAN);
     let rest = momentum.crossings(0.0).first().copied().unwrap_or(f64::NAN);
-    let (speed, end) = (momentum.peak(), momentum.values.last().copied().unwrap_or(f64::NAN));
+    let (speed, end) = (momentum.peak(), momentum.last());
     let pushed = momentum
         .points()
         .filter(|&(_, velocity)| (velocity - end).abs() > 1e-3 * speed);

@@ -59,12 +59,10 @@ pub fn remove(scene: &mut Table, key: &str) {
 pub fn number(scene: &Table, key: &str) -> Option<f64> {
     let mut names = key.split('.');
     let first = scene.get(names.next()?)?;
-    let place = names.try_fold(first, |place, name| match place {
-        Value::Table(table) => table.get(name),
-        Value::Array(elements) => elements.get(name.parse::<usize>().ok()?),
-        _ => None,
-    });
-    match place? {
+    match names.try_fold(first, |place, name| match place.as_array() {
+        Some(elements) => elements.get(name.parse::<usize>().ok()?),
+        None => place.get(name),
+    })? {
         Value::Float(value) => Some(*value),
         Value::Integer(value) => Some(*value as f64),
         _ => None,
@@ -79,9 +77,8 @@ pub fn find<'a>(scene: &'a mut Value, key: &str) -> Result<&'a mut Value, String
     let mut known = "the scene";
     key.split('.').try_fold(scene, |place, name| {
         let found = match place {
-            Value::Table(table) => table.get_mut(name),
             Value::Array(elements) => name.parse::<usize>().ok().and_then(|index| elements.get_mut(index)),
-            _ => None,
+            other => other.get_mut(name),
         };
         let missing = || format!("{known} has no `{name}`");
         let found = found.ok_or_else(missing)?;

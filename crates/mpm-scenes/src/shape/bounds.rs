@@ -20,6 +20,17 @@ impl<const D: usize> Bounds<D> {
         upper: [1.0; D],
     };
 
+    /// The smallest box around some points.
+    pub fn around(points: &[[f64; D]]) -> Self {
+        let fold = |start: f64, choose: fn(f64, f64) -> f64| {
+            std::array::from_fn(|a| points.iter().fold(start, |bound, x| choose(bound, x[a])))
+        };
+        Self {
+            lower: fold(f64::INFINITY, f64::min),
+            upper: fold(f64::NEG_INFINITY, f64::max),
+        }
+    }
+
     /// The smallest box that holds both.
     pub fn hull(&self, other: &Self) -> Self {
         Self {

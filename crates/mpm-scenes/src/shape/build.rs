@@ -3,7 +3,7 @@
 use super::{Ball, Bounds, Capsule, Cuboid, Difference, HalfSpace, Intersection, Polygon, Shape, Twisted, Union, unit};
 use crate::SceneFault;
 use crate::scene::ShapeTable;
-use crate::values::{positive, vector, within};
+use crate::values::{finite, positive, vector, within};
 
 /// The shape that a table describes; `field` is what errors call it.
 ///
@@ -22,13 +22,8 @@ pub fn build<const D: usize>(field: &str, table: &ShapeTable) -> Result<Box<dyn 
     Ok(match table {
         ShapeTable::Box { lower, upper } => {
             let (lower, upper) = (point("lower", lower)?, point("upper", upper)?);
-            if !(0..D).all(|a| lower[a] < upper[a]) {
-                return Err(SceneFault::value(
-                    format!("{field}.upper"),
-                    upper.as_slice(),
-                    format!("above lower = {lower:?}"),
-                ));
-            }
+            let (name, above) = (format!("{field}.upper"), (0..D).all(|a| lower[a] < upper[a]));
+            within(&name, upper.as_slice(), above, &format!("above lower = {lower:?}"))?;
             Box::new(Cuboid { lower, upper })
         }
         ShapeTable::Sphere { centre, radius } => Box::new(Ball {
@@ -43,9 +38,12 @@ pub fn build<const D: usize>(field: &str, table: &ShapeTable) -> Result<Box<dyn 
         ShapeTable::Polygon { corners } => Box::new(polygon::<D>(field, corners)?),
         ShapeTable::HalfSpace { point: on, normal } => {
             let direction = unit(point("normal", normal)?);
-            if direction == [0.0; D] {
-                return Err(SceneFault::value(format!("{field}.normal"), normal, "longer than 0"));
-            }
+            within(
+                &format!("{field}.normal"),
+                normal,
+                direction != [0.0; D],
+                "longer than 0",
+            )?;
             Box::new(HalfSpace {
                 point: point("point", on)?,
                 normal: direction,
@@ -61,46 +59,25 @@ pub fn build<const D: usize>(field: &str, table: &ShapeTable) -> Result<Box<dyn 
     })
 }
 
+/// What a shape of other dimensions than its own must be.
+const OF_DIMENSION: &str = "a shape of the scene's dimension";
+
 fn some<T>(field: &str, shapes: Vec<T>) -> Result<Vec<T>, SceneFault> {
-    if shapes.is_empty() {
-        return Err(SceneFault::value(
-            format!("{field}.shapes"),
-            [0; 0],
-            "at least one shape",
-        ));
-    }
-    Ok(shapes)
+    let field = format!("{field}.shapes");
+    within(&field, [0; 0], !shapes.is_empty(), "at least one shape").map(|_| shapes)
 }
 
 fn twisted<const D: usize>(field: &str, shape: &ShapeTable, rate: f64) -> Result<Twisted<D>, SceneFault> {
-    if D != 3 {
-        return Err(SceneFault::value(
-            format!("{field}.kind"),
-            "twist",
-            "a shape of the scene's dimension",
-        ));
-    }
+    within(&format!("{field}.kind"), "twist", D == 3, OF_DIMENSION)?;
     let straight = build::<D>(&format!("{field}.shape"), shape)?;
     let Bounds { lower, upper } = straight.bounds();
-    if !lower.iter().chain(&upper).all(|c| c.is_finite()) {
-        return Err(SceneFault::value(
-            format!("{field}.shape"),
-            shape,
-            "a shape with finite bounds",
-        ));
-    }
-    let rate = within(&format!("{field}.rate"), rate, rate.is_finite(), "finite")?;
-    Ok(Twisted::new(straight, rate))
+    let bounded = lower.iter().chain(&upper).all(|c| c.is_finite());
+    within(&format!("{field}.shape"), shape, bounded, "a shape with finite bounds")?;
+    Ok(Twisted::new(straight, finite(&format!("{field}.rate"), rate)?))
 }
 
 fn polygon<const D: usize>(field: &str, corners: &[[f64; 2]]) -> Result<Polygon, SceneFault> {
-    if D != 2 {
-        return Err(SceneFault::value(
-            format!("{field}.kind"),
-            "polygon",
-            "a shape of the scene's dimension",
-        ));
-    }
+    within(&format!("{field}.kind"), "polygon", D == 2, OF_DIMENSION)?;
     let field = format!("{field}.corners");
     for corner in corners {
         vector::<2>(&field, corner)?;
@@ -108,12 +85,6 @@ fn polygon<const D: usize>(field: &str, corners: &[[f64; 2]]) -> Result<Polygon,
     let polygon = Polygon {
         corners: corners.to_vec(),
     };
-    if corners.len() < 3 || polygon.signed_area() == 0.0 {
-        return Err(SceneFault::value(
-            field,
-            corners,
-            "at least three corners around an area",
-        ));
-    }
-    Ok(polygon)
+    let wide = corners.len() >= 3 && polygon.signed_area() != 0.0;
+    within(&field, corners, wide, "at least three corners around an area").map(|_| polygon)
 }

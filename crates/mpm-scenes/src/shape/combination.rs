@@ -36,10 +36,6 @@ impl<const D: usize> Shape<D> for Union<D> {
         all.reduce(|a, b| a.hull(&b)).unwrap_or(Bounds::EVERYWHERE)
     }
 
-    fn volume(&self) -> Option<f64> {
-        None
-    }
-
     fn normal(&self, x: &[f64; D]) -> [f64; D] {
         let nearest = by_distance(&self.0, x).min_by(|a, b| a.0.total_cmp(&b.0));
         nearest.map_or([0.0; D], |(_, shape)| shape.normal(x))
@@ -57,10 +53,6 @@ impl<const D: usize> Shape<D> for Intersection<D> {
             .fold(Bounds::EVERYWHERE, |all, shape| all.overlap(&shape.bounds()))
     }
 
-    fn volume(&self) -> Option<f64> {
-        None
-    }
-
     fn normal(&self, x: &[f64; D]) -> [f64; D] {
         let farthest = by_distance(&self.0, x).max_by(|a, b| a.0.total_cmp(&b.0));
         farthest.map_or([0.0; D], |(_, shape)| shape.normal(x))
@@ -74,10 +66,6 @@ impl<const D: usize> Shape<D> for Difference<D> {
 
     fn bounds(&self) -> Bounds<D> {
         self.from.bounds()
-    }
-
-    fn volume(&self) -> Option<f64> {
-        None
     }
 
     fn normal(&self, x: &[f64; D]) -> [f64; D] {

@@ -2,6 +2,8 @@
 
 use mpm_mesh::CellSearch;
 
+use super::Bounds;
+
 /// A uniform grid over all that is within reach of a mesh, with about as many boxes as the mesh has cells. A box lists the facets that are within
 /// reach of one of its points, and maybe others near; no facet goes through a box without any, so it is wholly inside the mesh or outside.
 #[derive(Debug)]
@@ -99,13 +101,7 @@ impl<const D: usize> FacetGrid<D> {
 
 /// The box of some points, made wider by `reach` on all sides.
 fn bounds<const D: usize>(points: &[[f64; D]], reach: f64) -> ([f64; D], [f64; D]) {
-    let bound = |start: f64, choose: fn(f64, f64) -> f64| -> [f64; D] {
-        std::array::from_fn(|a| points.iter().fold(start, |bound, x| choose(bound, x[a])))
-    };
     // Against rounding, a little more.
-    let wider = reach * (1.0 + 1e-9);
-    (
-        bound(f64::INFINITY, f64::min).map(|c| c - wider),
-        bound(f64::NEG_INFINITY, f64::max).map(|c| c + wider),
-    )
+    let (bounds, wider) = (Bounds::around(points), reach * (1.0 + 1e-9));
+    (bounds.lower.map(|c| c - wider), bounds.upper.map(|c| c + wider))
 }

@@ -29,10 +29,6 @@ impl<const D: usize> Shape<D> for HalfSpace<D> {
         bounds
     }
 
-    fn volume(&self) -> Option<f64> {
-        None
-    }
-
     fn normal(&self, _: &[f64; D]) -> [f64; D] {
         self.normal
     }

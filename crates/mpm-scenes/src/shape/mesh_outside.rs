@@ -145,10 +145,6 @@ impl<const D: usize> Shape<D> for MeshOutside<D> {
         Bounds::EVERYWHERE
     }
 
-    fn volume(&self) -> Option<f64> {
-        None
-    }
-
     /// From the nearest point of the boundary to x inside the mesh, the other way outside, into the mesh on the boundary itself; zero beyond reach.
     fn normal(&self, x: &[f64; D]) -> [f64; D] {
         match self.nearest(x) {

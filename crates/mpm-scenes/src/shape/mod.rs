@@ -34,7 +34,9 @@ pub trait Shape<const D: usize>: std::fmt::Debug + Send + Sync {
     fn bounds(&self) -> Bounds<D>;
 
     /// Volume (length, area), where it is known in closed form.
-    fn volume(&self) -> Option<f64>;
+    fn volume(&self) -> Option<f64> {
+        None
+    }
 
     /// The unit vector along which the distance grows, away from the shape: ∇d / |∇d|, by central differences unless a shape knows better. Zero
     /// where there is none, as in the centre of a ball.

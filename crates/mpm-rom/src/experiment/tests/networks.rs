@@ -70,12 +70,6 @@ fn of_several_starts_the_one_with_the_best_training_runs_is_kept() {
     // Stopped between trials, the same line goes on.
     struct StopTrial(u64);
     impl Watch for StopTrial {
-        fn after_run(&mut self, _: usize, _: usize) -> ControlFlow<()> {
-            ControlFlow::Continue(())
-        }
-        fn after_epoch(&mut self, _: &EpochReport) -> ControlFlow<()> {
-            ControlFlow::Continue(())
-        }
         fn after_trial(&mut self) -> ControlFlow<()> {
             self.0 -= 1;
             if self.0 == 0 {

@@ -12,6 +12,8 @@ pub use shape::NetworkShape;
 pub(crate) use shape::{Layer, draw_uniform};
 pub(crate) use tape::Tape;
 
+use std::fmt::Debug;
+
 use mpm_tensor::Matrix;
 use rand::Rng;
 use rayon::prelude::*;
@@ -33,13 +35,13 @@ pub struct Network<const D: usize> {
     parameters: Vec<f64>,
 }
 
-/// Sizes, scaling and parameters that make no network.
+/// Sizes, scaling and parameters that make no network and no encoder.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NetworkError {
     /// A size is zero.
-    #[error("network of shape {0:?}: every size must be at least 1")]
-    Shape(NetworkShape),
+    #[error("{0}: every size must be at least 1")]
+    Shape(String),
     /// The scaling is not of D axes, or not finite and positive.
     #[error("{0:?} does not scale {1} axes")]
     Scaling(Scaling, usize),
@@ -53,23 +55,41 @@ pub enum NetworkError {
     },
 }
 
+impl NetworkError {
+    /// Whether these sizes and this scaling make a network for so many axes.
+    pub(crate) fn check(
+        shape: &impl Debug,
+        sizes: [usize; 3],
+        scaling: &Scaling,
+        dimension: usize,
+    ) -> Result<(), Self> {
+        if sizes.contains(&0) {
+            return Err(Self::Shape(format!("{shape:?}")));
+        }
+        match scaling.is_sound(dimension) {
+            true => Ok(()),
+            false => Err(Self::Scaling(scaling.clone(), dimension)),
+        }
+    }
+
+    /// Whether there are as many parameters as weights and biases.
+    pub(crate) fn check_parameters(parameters: &[f64], expected: usize) -> Result<(), Self> {
+        match parameters.len() {
+            found if found != expected => Err(Self::Parameters { found, expected }),
+            _ => Ok(()),
+        }
+    }
+}
+
 impl<const D: usize> Network<D> {
     /// The network with these weights and biases: layer by layer W row-major (outputs × inputs; inputs of the first: X, then x̂), then b.
     ///
     /// # Errors
     /// [`NetworkError`].
     pub fn new(shape: NetworkShape, scaling: Scaling, parameters: Vec<f64>) -> Result<Self, NetworkError> {
-        if shape.coordinates == 0 || shape.width == 0 || shape.depth == 0 {
-            return Err(NetworkError::Shape(shape));
-        }
-        if !scaling.is_sound(D) {
-            return Err(NetworkError::Scaling(scaling, D));
-        }
-        let expected = shape.parameters(D);
-        if parameters.len() != expected {
-            let found = parameters.len();
-            return Err(NetworkError::Parameters { found, expected });
-        }
+        let sizes = [shape.coordinates, shape.width, shape.depth];
+        NetworkError::check(&shape, sizes, &scaling, D)?;
+        NetworkError::check_parameters(&parameters, shape.parameters(D))?;
         Ok(Self {
             shape,
             scaling,

@@ -25,7 +25,7 @@ fn points_of_space_give_nearly_the_motion_of_the_material_points() {
         let chosen = options(SampleChoice::All, quadrature, Update::VelocityOnly);
         let mut model = model(&text, Fields::bending(4), chosen);
         (0..10).for_each(|_| {
-            model.advance_frame().expect("a frame");
+            advance_frame(&mut model).expect("a frame");
         });
         let (points, mut there) = (all_points(&mut model), Evaluation::default());
         model.evaluate(&points, Wanted::default(), &mut there);
@@ -46,7 +46,7 @@ fn held_points_hold_the_coordinates() {
     let chosen = options(
         SampleChoice::Drawn { count: 20, seed: 0 },
         LAGRANGIAN,
-        Update::position_velocity(),
+        Update::PositionVelocity,
     );
     let mut model = model(&text, Fields::affine(), chosen);
     let held = model
@@ -54,7 +54,7 @@ fn held_points_hold_the_coordinates() {
         .iter()
         .filter(|&&p| model.body().prescribed(p as usize, 0.0).is_some());
     assert!(held.count() >= 5);
-    model.advance_frame().expect("a frame");
+    advance_frame(&mut model).expect("a frame");
     let free = 0.5 * 8.0 * 0.02 * 0.02;
     assert!(
         model.latent()[1] < 0.0 && model.latent()[1] > -free,
@@ -74,7 +74,7 @@ fn velocities_alone_do_not_lose_the_prescribed_path() {
     let chosen = options(SampleChoice::All, LAGRANGIAN, Update::VelocityOnly);
     let mut model = model(&format!("{BLOCK}{region}"), curved, chosen);
     (0..20).for_each(|_| {
-        model.advance_frame().expect("a frame");
+        advance_frame(&mut model).expect("a frame");
     });
     for (y, v) in model.latent().iter().zip([0.5, -0.25]) {
         // A step leaves y² of its own, 1e-6; 200 of them without a memory of positions would leave 1e-4.
@@ -92,12 +92,12 @@ fn held_nodes_that_turn_carry_the_body() {
     let chosen = options(
         SampleChoice::Drawn { count: 9, seed: 0 },
         LAGRANGIAN,
-        Update::position_velocity(),
+        Update::PositionVelocity,
     );
     let mut model = model(&text, Fields::affine(), chosen);
     let (points, mut there) = (all_points(&mut model), Evaluation::default());
     for frame in 1..=5 {
-        model.advance_frame().expect("a frame");
+        advance_frame(&mut model).expect("a frame");
         model.evaluate(&points, Wanted::default(), &mut there);
         let body = model.body();
         for (found, start) in there.positions.iter().zip(&points.reference) {

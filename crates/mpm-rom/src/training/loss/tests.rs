@@ -76,12 +76,8 @@ fn naive(network: &Network<2>, encoder: &Encoder<2>, weights: &Weights, number: 
         .frames
         .get(number + 1)
         .map(|next| (encoder.encode(&next.positions).unwrap(), next.time - frame.time));
-    let wanted = Wanted {
-        gradients: true,
-        jacobians: true,
-    };
     let (mut out, mut terms) = (Evaluation::default(), Terms::default());
-    network.evaluate(&reference(), &latent, wanted, &mut out);
+    network.evaluate(&reference(), &latent, Wanted::ALL, &mut out);
     for &p in chosen {
         for c in 0..2 {
             terms.position += weights.share * (out.positions[p][c] - frame.positions[p][c]).powi(2) / length;

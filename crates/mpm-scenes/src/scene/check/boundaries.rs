@@ -2,7 +2,7 @@
 
 use crate::scene::{Contact, Scene, WallCondition};
 use crate::shape::Bounds;
-use crate::values::{not_negative, positive, vector};
+use crate::values::{check, not_negative, positive, vector};
 use crate::{SceneFault, kinematics, plane, shape};
 
 impl Scene {
@@ -20,32 +20,27 @@ impl Scene {
         for (index, obstacle) in self.obstacles.iter().enumerate() {
             let field = |key: &str| format!("obstacles[{index}].{key}");
             shape::build::<D>(&field("shape"), &obstacle.shape)?;
-            if obstacle.contact != Contact::Separate {
-                check_presence(
-                    field("friction"),
-                    obstacle.friction.as_ref(),
-                    false,
-                    "contact = \"separate\"",
-                )?;
-            }
+            let wanted = obstacle.contact == Contact::Separate && obstacle.friction.is_some();
+            check_presence(
+                field("friction"),
+                obstacle.friction.as_ref(),
+                wanted,
+                "contact = \"separate\"",
+            )?;
             check_motion::<D>(&field, obstacle.velocity.as_ref(), obstacle.friction)?;
         }
         for (index, held) in self.held.iter().enumerate() {
             let field = |key: &str| format!("held[{index}].{key}");
             shape::build::<D>(&field("shape"), &held.shape)?;
             kinematics::motion::<D>(&field, held.velocity.as_ref(), held.rotation.as_ref())?;
-            if let Some(until) = held.until {
-                positive(&field("until"), until)?;
-            }
+            check(held.until, &field("until"), positive)?;
         }
         for (index, table) in self.kinematic.iter().enumerate() {
             let field = |key: &str| format!("kinematic[{index}].{key}");
             shape::build::<D>(&field("region"), &table.region)?;
             self.check_body_name(field("body"), table.body.as_ref())?;
             kinematics::motion::<D>(&field, table.velocity.as_ref(), table.rotation.as_ref())?;
-            if let Some(until) = table.until {
-                positive(&field("until"), until)?;
-            }
+            check(table.until, &field("until"), positive)?;
         }
         Ok(())
     }
@@ -60,7 +55,7 @@ pub(super) fn check_friction(
     rough: bool,
 ) -> Result<(), SceneFault> {
     check_presence(field("friction"), friction.as_ref(), rough, "condition = \"friction\"")?;
-    friction.map_or(Ok(()), |friction| not_negative(&field("friction"), friction).map(drop))
+    check(friction, &field("friction"), not_negative)
 }
 
 /// A value that belongs to one condition: there with it, left out without it.
@@ -82,11 +77,6 @@ fn check_motion<const D: usize>(
     velocity: Option<&Vec<f64>>,
     friction: Option<f64>,
 ) -> Result<(), SceneFault> {
-    if let Some(velocity) = velocity {
-        vector::<D>(&field("velocity"), velocity)?;
-    }
-    if let Some(friction) = friction {
-        not_negative(&field("friction"), friction)?;
-    }
-    Ok(())
+    velocity.map_or(Ok([0.0; D]), |velocity| vector(&field("velocity"), velocity))?;
+    check(friction, &field("friction"), not_negative)
 }

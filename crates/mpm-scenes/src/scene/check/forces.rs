@@ -1,7 +1,7 @@
 //! Loads and the barrier.
 
 use crate::scene::{LoadTable, Scene};
-use crate::values::{not_negative, positive, vector};
+use crate::values::{check, not_negative, positive, vector, within};
 use crate::{SceneFault, reference, shape};
 
 impl Scene {
@@ -43,32 +43,28 @@ impl Scene {
 
     fn check_barrier<const D: usize>(&self) -> Result<(), SceneFault> {
         let Some(barrier) = &self.barrier else { return Ok(()) };
-        match barrier.against {
-            None if barrier.shapes.is_empty() => {
-                return Err(SceneFault::value("barrier.shapes", [0; 0], "at least one shape"));
-            }
-            Some(against) if self.mesh.is_none() => {
-                return Err(SceneFault::value(
-                    "barrier.against",
-                    against,
-                    "left out unless there is a [mesh]",
-                ));
-            }
-            _ => {}
-        }
+        let (against, some) = (barrier.against, !barrier.shapes.is_empty());
+        within(
+            "barrier.shapes",
+            [0; 0],
+            some || against.is_some(),
+            "at least one shape",
+        )?;
+        let on_mesh = self.mesh.is_some() || against.is_none();
+        within("barrier.against", against, on_mesh, "left out unless there is a [mesh]")?;
         for (index, table) in barrier.shapes.iter().enumerate() {
             shape::build::<D>(&format!("barrier.shapes[{index}]"), table)?;
         }
         positive("barrier.stiffness", barrier.stiffness)?;
         positive("barrier.gap", barrier.gap)?;
         not_negative("barrier.friction", barrier.friction)?;
-        match barrier.friction_speed {
-            Some(speed) => positive("barrier.friction_speed", speed).map(|_| ()),
-            None if barrier.friction > 0.0 => Err(SceneFault::missing(
-                "barrier.friction_speed",
-                "given where there is friction",
-            )),
-            None => Ok(()),
-        }
+        let (field, speed) = ("barrier.friction_speed", barrier.friction_speed);
+        within(
+            field,
+            speed,
+            speed.is_some() || barrier.friction == 0.0,
+            "given where there is friction",
+        )?;
+        check(speed, field, positive)
     }
 }

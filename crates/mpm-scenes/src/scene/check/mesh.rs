@@ -1,7 +1,7 @@
 //! The background: a grid or a mesh.
 
 use crate::scene::{Discretisation, MeshShapeTable, MeshTable, RotationTable, Scene};
-use crate::values::{not_negative, positive, vector, within};
+use crate::values::{finite, not_negative, positive, vector, within};
 use crate::{SceneFault, rotation};
 
 impl Scene {
@@ -26,10 +26,8 @@ impl Scene {
             (_, Some(domain)) => {
                 let lower = vector::<D>("domain.lower", &domain.lower)?;
                 let upper = vector::<D>("domain.upper", &domain.upper)?;
-                if !(0..D).all(|a| lower[a] < upper[a]) {
-                    let expected = format!("above domain.lower = {lower:?}");
-                    return Err(SceneFault::value("domain.upper", &domain.upper, expected));
-                }
+                let (above, list) = ((0..D).all(|a| lower[a] < upper[a]), &domain.upper);
+                within("domain.upper", list, above, &format!("above domain.lower = {lower:?}"))?;
             }
             (Discretisation::Mesh(_), None) => {}
         }
@@ -51,10 +49,8 @@ fn check_mesh<const D: usize>(mesh: &MeshTable) -> Result<(), SceneFault> {
         (None, Some(shape)) => {
             positive("mesh.generate.size", shape.size())?;
             let dimension = shape.dimension();
-            if dimension != D {
-                let expected = format!("a mesh of {D} dimensions, as the scene has");
-                return Err(SceneFault::value("mesh.generate", shape, expected));
-            }
+            let expected = format!("a mesh of {D} dimensions, as the scene has");
+            within("mesh.generate", shape, dimension == D, &expected)?;
             if let MeshShapeTable::Ring { inner, outer, .. } = shape {
                 positive("mesh.generate.inner", *inner)?;
                 let fits = inner < outer && outer.is_finite();
@@ -62,31 +58,23 @@ fn check_mesh<const D: usize>(mesh: &MeshTable) -> Result<(), SceneFault> {
             }
         }
         (file, _) => {
-            return Err(SceneFault::value(
-                "mesh.file",
-                file,
-                "given unless generate is, not beside it",
-            ));
+            let expected = "given unless generate is, not beside it";
+            return Err(SceneFault::value("mesh.file", file, expected));
         }
     }
     check_points_inside(mesh)?;
     Scene::check_rotation::<D>("mesh.rotation", mesh.rotation.as_ref())?;
-    not_negative("mesh.reach", mesh.reach)?;
-    within("mesh.reach", mesh.reach, mesh.reach.is_finite(), "finite").map(|_| ())
+    not_negative("mesh.reach", mesh.reach).map(drop)
 }
 
 /// Random or turned points are a matter of the plane kinds between polygons.
 fn check_points_inside(mesh: &MeshTable) -> Result<(), SceneFault> {
-    within("mesh.angle", mesh.angle, mesh.angle.is_finite(), "finite")?;
+    finite("mesh.angle", mesh.angle)?;
     let polygons = mesh.generate.as_ref().is_some_and(MeshShapeTable::is_between_polygons);
     let of_polygons = "left out unless mesh.generate is a rectangle, polygon, disk, ring or channel";
-    if !polygons && mesh.angle != 0.0 {
-        return Err(SceneFault::value("mesh.angle", mesh.angle, of_polygons));
-    }
+    within("mesh.angle", mesh.angle, polygons || mesh.angle == 0.0, of_polygons)?;
     let Some(delaunay) = &mesh.delaunay else { return Ok(()) };
-    if !polygons {
-        return Err(SceneFault::value("mesh.delaunay", delaunay, of_polygons));
-    }
+    within("mesh.delaunay", delaunay, polygons, of_polygons)?;
     for (index, place) in delaunay.refine.iter().enumerate() {
         let field = |key: &str| format!("mesh.delaunay.refine[{index}].{key}");
         positive(&field("size"), place.size)?;

@@ -9,7 +9,7 @@ mod outputs;
 
 use super::{BasisName, Scene, TransferKind};
 use crate::SceneFault;
-use crate::values::{not_negative, positive, vector, within};
+use crate::values::{check, not_negative, positive, vector, within};
 
 impl Scene {
     /// Whether every value is in its range and fits the others.
@@ -46,44 +46,23 @@ impl Scene {
             ("transfer.flip_share", table.flip_share),
             ("transfer.pic_rate", table.pic_rate),
         ] {
-            if let (Some(value), false) = (value, blended) {
-                let expected = "left out unless transfer.kind = \"flip\" or \"affine-flip\"";
-                return Err(SceneFault::value(field, value, expected));
-            }
+            let expected = "left out unless transfer.kind = \"flip\" or \"affine-flip\"";
+            within(field, value, blended || value.is_none(), expected)?;
         }
-        if let Some(share) = table.flip_share {
-            within(
-                "transfer.flip_share",
-                share,
-                (0.0..=1.0).contains(&share),
-                "between 0 and 1",
-            )?;
-        }
-        if let Some(rate) = table.pic_rate {
-            not_negative("transfer.pic_rate", rate)?;
-        }
-        if let Some(order) = table.pic_order {
-            let field = "transfer.pic_order";
-            if order == 0 {
-                return Err(SceneFault::value(field, order, "at least 1"));
-            }
-            if table.pic_rate.is_none() {
-                return Err(SceneFault::value(
-                    field,
-                    order,
-                    "left out unless transfer.pic_rate is given",
-                ));
-            }
-        }
+        let (field, share) = ("transfer.flip_share", table.flip_share);
+        let fits = share.is_none_or(|share| (0.0..=1.0).contains(&share));
+        within(field, share, fits, "between 0 and 1")?;
+        check(table.pic_rate, "transfer.pic_rate", not_negative)?;
+        let (field, order) = ("transfer.pic_order", table.pic_order);
+        within(field, order, order != Some(0), "at least 1")?;
+        let of_rate = order.is_none() || table.pic_rate.is_some();
+        within(field, order, of_rate, "left out unless transfer.pic_rate is given")?;
         let affine = matches!(
             table.kind,
             TransferKind::Apic | TransferKind::Mls | TransferKind::AffineFlip
         );
-        if self.is_gimp() && affine {
-            let expected = "\"pic\" or \"flip\" with grid.basis = \"gimp\"";
-            return Err(SceneFault::value("transfer.kind", self.transfer.kind, expected));
-        }
-        Ok(())
+        let expected = "\"pic\" or \"flip\" with grid.basis = \"gimp\"";
+        within("transfer.kind", table.kind, !(self.is_gimp() && affine), expected).map(drop)
     }
 
     /// Whether the basis is `gimp`.
@@ -94,15 +73,9 @@ impl Scene {
     fn check_time(&self) -> Result<(), SceneFault> {
         let time = &self.time;
         positive("time.end", time.end)?;
-        if let Some(step) = time.step {
-            positive("time.step", step)?;
-        }
-        within(
-            "time.courant",
-            time.courant,
-            time.courant > 0.0 && time.courant <= 1.0,
-            "above 0 and at most 1",
-        )?;
+        check(time.step, "time.step", positive)?;
+        let courant = time.courant > 0.0 && time.courant <= 1.0;
+        within("time.courant", time.courant, courant, "above 0 and at most 1")?;
         not_negative("time.damping", time.damping).map(|_| ())
     }
 }
