@@ -1,13 +1,8 @@
 //! The runs of a case: its own, those of a search, or independent draws.
 
-use super::search::{Ending, Medians, Next, Trial, next};
-use super::{Case, TimeToEqualError};
-use crate::CommandError;
-use crate::options::MethodName;
-use crate::progress::CaseObserver;
-use crate::sampling;
-use crate::study::attempt::{Attempt, Status, attempt};
-use crate::study::yardstick::{Yardstick, measured_run};
+use super::search::{Medians, Trial, next};
+use super::{Entry, TimeToEqualError};
+use crate::study::prelude::*;
 
 /// The size of the method's own runs: its own number of steps.
 pub const OWN: usize = 0;
@@ -26,7 +21,7 @@ pub struct Goal {
 /// What a search came to.
 pub struct Found {
     /// How it ended.
-    pub ending: Ending,
+    pub ending: Status,
     /// The last runs.
     pub last: Medians,
     /// The runs of the largest size that missed the error before it was reached.
@@ -37,9 +32,9 @@ pub struct Found {
 pub struct Runs<'a> {
     /// The study.
     pub study: &'a TimeToEqualError,
-    /// The case.
-    pub case: &'a Case,
-    /// Of the case's target.
+    /// What is run.
+    pub entry: &'a Entry,
+    /// Of its target.
     pub yardstick: &'a dyn Yardstick,
     /// Watches the runs.
     pub observer: &'a mut CaseObserver,
@@ -51,7 +46,7 @@ impl Runs<'_> {
     /// The method as it is.
     pub fn own(&mut self) -> Result<Attempt<Found>, CommandError> {
         Ok(self.of_size(OWN)?.map(|last| Found {
-            ending: Ending::Reached,
+            ending: Status::Reached,
             last,
             missed: None,
         }))
@@ -59,7 +54,7 @@ impl Runs<'_> {
 
     /// Doubles the size until the error is reached.
     pub fn search(&mut self, goal: Goal) -> Result<Attempt<Found>, CommandError> {
-        let sizes = match self.case.method.name.iterates() {
+        let sizes = match self.entry.method.name.iterates() {
             true => self.study.steps.doubling(),
             false => self.study.draws.doubling(),
         };
@@ -67,12 +62,12 @@ impl Runs<'_> {
         let (mut size, mut missed) = (sizes.first, None);
         loop {
             let last = match self.of_size(size)? {
-                Attempt::Finished(medians) => medians,
-                Attempt::Failed(status, reason) => return Ok(Attempt::Failed(status, reason)),
+                Ok(medians) => medians,
+                Err(failure) => return Ok(Err(failure)),
             };
             match next(sizes, &last, goal.energy_distance_squared, budget) {
-                Next::Run(larger) => (size, missed) = (larger, Some(last)),
-                Next::End(ending) => return Ok(Attempt::Finished(Found { ending, last, missed })),
+                Ok(larger) => (size, missed) = (larger, Some(last)),
+                Err(ending) => return Ok(Ok(Found { ending, last, missed })),
             }
         }
     }
@@ -81,11 +76,11 @@ impl Runs<'_> {
     pub fn independent(&mut self, goal: Goal) -> Result<Attempt<Found>, CommandError> {
         let needed = (self.yardstick.mean_distance() / goal.energy_distance_squared).ceil() as usize;
         let ending = match needed <= MOST_INDEPENDENT {
-            true => Ending::Reached,
-            false => Ending::OutOfSizes,
+            true => Status::Reached,
+            false => Status::OutOfSizes,
         };
-        if let Attempt::Failed(status, reason) = self.of_size(self.case.particles)? {
-            return Ok(Attempt::Failed(status, reason));
+        if let Err(failure) = self.of_size(self.entry.particles)? {
+            return Ok(Err(failure));
         }
         let last = self.of_size(needed.clamp(2, MOST_INDEPENDENT))?;
         Ok(last.map(|last| Found {
@@ -103,56 +98,54 @@ impl Runs<'_> {
                 continue;
             }
             match self.one(size, seed)? {
-                Attempt::Finished(trial) => self.trials.push(trial),
-                Attempt::Failed(status, reason) => return Ok(Attempt::Failed(status, reason)),
+                Ok(trial) => self.trials.push(trial),
+                Err(failure) => return Ok(Err(failure)),
             }
         }
-        Ok(Attempt::Finished(Medians::of(&self.trials, size)?))
+        Ok(Ok(Medians::of(&self.trials, size)?))
     }
 
     /// One run; one that diverges is a trial without an error.
     fn one(&mut self, size: usize, seed: u64) -> Result<Attempt<Trial>, CommandError> {
-        let Case {
-            target,
-            particles,
-            method,
-            ..
-        } = self.case;
+        let Entry { target, method, .. } = self.entry;
         let is_own = size == OWN;
         let has_steps = method.name.iterates() && !is_own;
-        let draws = if has_steps || is_own { *particles } else { size };
-        let run = method.run(draws, seed);
-        let begin = std::time::Instant::now();
-        let method_of_run = method.method(has_steps.then_some(size))?;
-        let ran = if method.name == MethodName::Iid && !is_own {
-            let expected = self.yardstick.mean_distance() / size as f64;
-            let outcome = attempt(sampling::sample(target, &method_of_run, &run, self.observer))?;
-            outcome.map(|outcome| (outcome, Some(expected)))
+        let draws = if has_steps || is_own {
+            self.entry.particles
         } else {
-            let finished = measured_run(target, &method_of_run, &run, self.yardstick, self.observer)?;
-            finished.map(|finished| {
-                let errors = finished.errors.finished();
-                (finished.outcome, errors.map(|errors| errors.energy_distance_squared))
-            })
+            size
         };
-        Ok(match ran {
-            Attempt::Finished((outcome, energy_distance_squared)) => Attempt::Finished(Trial {
-                size,
-                seed,
-                score_evaluations: Some(outcome.score_evaluations),
-                density_evaluations: Some(outcome.density_evaluations),
-                wall_seconds: outcome.wall_seconds,
-                energy_distance_squared,
-            }),
-            Attempt::Failed(Status::Unsupported, reason) => Attempt::Failed(Status::Unsupported, reason),
-            Attempt::Failed(..) => Attempt::Finished(Trial {
-                size,
-                seed,
-                score_evaluations: None,
-                density_evaluations: None,
-                wall_seconds: begin.elapsed().as_secs_f64(),
-                energy_distance_squared: None,
-            }),
-        })
+        let work = Sampled::new(target, method, has_steps.then_some(size), (draws, seed))?;
+        let expected =
+            (method.name == MethodName::Iid && !is_own).then(|| self.yardstick.mean_distance() / size as f64);
+        let (seconds, sampled) = timed(|| match expected {
+            Some(_) => work.sample(self.observer),
+            None => work.sample_or_draw(self.yardstick, self.observer),
+        });
+        let mut trial = Trial {
+            size,
+            seed,
+            score_evaluations: None,
+            density_evaluations: None,
+            wall_seconds: seconds,
+            energy_distance_squared: None,
+        };
+        match sampled? {
+            Err(failure) if failure.status == Status::Unsupported => return Ok(Err(failure)),
+            Err(_) => {}
+            Ok(outcome) => {
+                trial.score_evaluations = Some(outcome.score_evaluations);
+                trial.density_evaluations = Some(outcome.density_evaluations);
+                trial.wall_seconds = outcome.wall_seconds;
+                trial.energy_distance_squared = match expected {
+                    Some(expected) => Some(expected),
+                    None => {
+                        let errors = measured(self.yardstick, &outcome)?;
+                        errors.ok().map(|errors| errors.energy_distance_squared)
+                    }
+                };
+            }
+        }
+        Ok(Ok(trial))
     }
 }
