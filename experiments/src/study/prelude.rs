@@ -22,7 +22,7 @@ pub use crate::options::{
 };
 pub use crate::plots::page::{Cell, Header, MISSING, Page, exponent, line, number, percent};
 pub use crate::plots::{
-    AxisKind, Curve, GuideCurve, LineSeries, MultiplesPanel, MultiplesPlot, ReferenceLevel, exponent_text, multiples,
+    AxisKind, Curve, GuideCurve, LineSeries, MultiplesPanel, MultiplesPlot, exponent_text, multiples,
 };
 pub use crate::progress::CaseObserver;
 pub use serde::Deserialize;

@@ -3,6 +3,7 @@
 use super::family::Family;
 use super::judgement::{Judgement, fit, limits};
 use super::series::MeasuredSeries;
+use crate::plots::ReferenceLevel;
 use crate::study::prelude::*;
 
 /// The figure.
