@@ -86,14 +86,14 @@ impl Failure {
 /// What a run gave, or why it gave nothing.
 pub type Attempt<T> = Result<T, Failure>;
 
-/// Turns failures of the sampler into results; interruptions, mistakes in options and methods that this build lacks stay errors.
+/// Turns failures of the sampler into results, and particles so far out that a distance overflows; interruptions, mistakes in options and methods that this build lacks stay errors.
 pub fn attempt<T>(result: Result<T, CommandError>) -> Result<Attempt<T>, CommandError> {
     let error = match result {
         Ok(value) => return Ok(Ok(value)),
         Err(error) => error,
     };
     let status = match &error {
-        CommandError::NotFinite { .. } => Status::Diverged,
+        CommandError::NotFinite { .. } | CommandError::Metric(_) => Status::Diverged,
         CommandError::Sample(SampleError::Unsupported { .. }) => Status::Unsupported,
         CommandError::Sample(
             SampleError::InvalidOption { .. } | SampleError::NotBuilt { .. } | SampleError::Interrupted { .. },

@@ -3,7 +3,6 @@
 use parvi_metrics::{Cloud, GaussianEnergy};
 
 use super::prelude::*;
-use super::sampled::unless_far;
 use crate::dispatch::in_dimension;
 use crate::output::Particles;
 use crate::sampling::Outcome;
@@ -87,7 +86,7 @@ impl Setting<'_> {
 pub fn run(case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
     let Sampled { target, run, .. } = &case.work;
     row.set("energy_level", energy_level(target.dimension()?, run.particles)?);
-    match sampled(&case.work, tools.observer)? {
+    match attempt(sampled(&case.work, tools.observer))? {
         Err(failure) => row.fail(failure),
         Ok((outcome, energy)) => {
             row.take(&outcome);
@@ -100,14 +99,12 @@ pub fn run(case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), 
 /// Samples N(0, I) and measures the particles' squared energy distance from it.
 ///
 /// # Errors
-/// What ends a study.
-pub fn sampled(work: &Sampled, observer: &mut CaseObserver) -> Result<Attempt<(Outcome, f64)>, CommandError> {
-    let outcome = match work.sample(observer)? {
-        Ok(outcome) => outcome,
-        Err(failure) => return Ok(Err(failure)),
-    };
-    let energy = in_dimension!("gaussian", outcome.particles.dimension(), D => energy::<D>(&outcome.particles));
-    Ok(unless_far(energy)?.map(|energy| (outcome, energy)))
+/// What the sampler refuses, and particles too far out to be measured.
+pub fn sampled(work: &Sampled, observer: &mut CaseObserver) -> Result<(Outcome, f64), CommandError> {
+    let outcome = work.sample(observer)?;
+    let particles = &outcome.particles;
+    let energy = in_dimension!("gaussian", particles.dimension(), D => energy::<D>(particles))?;
+    Ok((outcome, energy))
 }
 
 /// The squared energy distance of particles from N(0, I).

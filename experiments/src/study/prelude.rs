@@ -1,6 +1,6 @@
 //! What every study is written with.
 
-pub use super::attempt::{Attempt, Failure, Status, attempt};
+pub use super::attempt::{Failure, Status, attempt};
 pub(crate) use super::checks::all_given;
 pub use super::checks::{
     ascending, distinct, distinct_names, fitting, not_empty, positive, refusal, targets_without_data, unset,
@@ -13,7 +13,7 @@ pub use super::rows::{
     Computed, ENERGY, ENERGY_RATIO, ENERGY_ROOT, EVALUATIONS, NODES_PER_PARTICLE, Quantity, Rows, SECONDS, SLICED,
     SLICED_RATIO, curve,
 };
-pub use super::sampled::{Sampled, measured, timed};
+pub use super::sampled::{Sampled, timed};
 pub use super::yardstick::{Errors, IndependentSets, Yardstick, YardstickOptions};
 pub use crate::CommandError;
 pub use crate::options::{

@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 
 use serde::{Serialize, Serializer};
 
-use super::attempt::{Attempt, Failure, Status};
+use super::attempt::{Failure, Status, attempt};
 use super::yardstick::Errors;
+use crate::CommandError;
 use crate::plots::page::{Cell, number};
 use crate::sampling::Outcome;
 
@@ -223,15 +224,18 @@ impl Row {
     }
 
     /// Notes what the sampler says; hands the particles on, if there are some.
-    pub fn note(&mut self, attempt: Attempt<Outcome>) -> Option<Outcome> {
-        match attempt {
+    ///
+    /// # Errors
+    /// What [`attempt`] does not take for a result.
+    pub fn note(&mut self, sampled: Result<Outcome, CommandError>) -> Result<Option<Outcome>, CommandError> {
+        match attempt(sampled)? {
             Ok(outcome) => {
                 self.take(&outcome);
-                Some(outcome)
+                Ok(Some(outcome))
             }
             Err(failure) => {
                 self.fail(failure);
-                None
+                Ok(None)
             }
         }
     }
@@ -253,8 +257,11 @@ impl Row {
     }
 
     /// Notes the errors of the particles, or why there are none.
-    pub fn measured(&mut self, errors: Attempt<Errors>) {
-        match errors {
+    ///
+    /// # Errors
+    /// What [`attempt`] does not take for a result.
+    pub fn measured(&mut self, errors: Result<Errors, CommandError>) -> Result<(), CommandError> {
+        match attempt(errors)? {
             Err(failure) => self.fail(failure),
             Ok(errors) => {
                 self.set("energy_distance_squared", errors.energy_distance_squared);
@@ -264,5 +271,6 @@ impl Row {
                 self.set("mass_error", errors.mass);
             }
         }
+        Ok(())
     }
 }

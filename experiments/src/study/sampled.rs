@@ -4,14 +4,13 @@ use std::time::Instant;
 
 use parvi::{Method, Run};
 
-use super::attempt::{Attempt, Failure, Status, attempt};
 use super::definition::Case;
 use super::row::Row;
-use super::yardstick::{Errors, Yardstick};
-use crate::options::{MethodSpecification, TargetSpecification};
+use super::yardstick::Yardstick;
+use crate::CommandError;
+use crate::options::{MethodSpecification, OptionError, TargetSpecification};
 use crate::progress::CaseObserver;
 use crate::sampling::{self, Outcome};
-use crate::{CommandError, options::OptionError};
 
 /// A method on a target.
 #[derive(Clone, Debug)]
@@ -57,9 +56,9 @@ impl Sampled {
     /// Samples.
     ///
     /// # Errors
-    /// What [`attempt`] does not take for a result.
-    pub fn sample(&self, observer: &mut CaseObserver) -> Result<Attempt<Outcome>, CommandError> {
-        attempt(sampling::sample(&self.target, &self.method, &self.run, observer))
+    /// What target and sampler refuse.
+    pub fn sample(&self, observer: &mut CaseObserver) -> Result<Outcome, CommandError> {
+        sampling::sample(&self.target, &self.method, &self.run, observer)
     }
 
     /// Samples, or draws from the importance sample of a target without exact draws.
@@ -70,9 +69,9 @@ impl Sampled {
         &self,
         yardstick: &dyn Yardstick,
         observer: &mut CaseObserver,
-    ) -> Result<Attempt<Outcome>, CommandError> {
+    ) -> Result<Outcome, CommandError> {
         if self.draws_from(yardstick) {
-            return Ok(Ok(yardstick.independent_draws(self.run.particles, self.run.seed)));
+            return Ok(yardstick.independent_draws(self.run.particles, self.run.seed));
         }
         self.sample(observer)
     }
@@ -85,7 +84,7 @@ impl Sampled {
     /// Samples and measures, and notes what comes of it.
     ///
     /// # Errors
-    /// As for [`sample`](Self::sample), and metrics that cannot be had.
+    /// What ends a study.
     pub fn run(
         &self,
         row: &mut Row,
@@ -93,30 +92,10 @@ impl Sampled {
         observer: &mut CaseObserver,
     ) -> Result<(), CommandError> {
         row.set("energy_level", yardstick.mean_distance() / self.run.particles as f64);
-        if let Some(outcome) = row.note(self.sample_or_draw(yardstick, observer)?) {
-            row.measured(measured(yardstick, &outcome)?);
+        if let Some(outcome) = row.note(self.sample_or_draw(yardstick, observer))? {
+            row.measured(yardstick.measure(&outcome.particles))?;
         }
         Ok(())
-    }
-}
-
-/// The errors of particles; such as are so far out that a distance overflows have diverged.
-///
-/// # Errors
-/// Metrics that cannot be had.
-pub fn measured(yardstick: &dyn Yardstick, outcome: &Outcome) -> Result<Attempt<Errors>, CommandError> {
-    unless_far(yardstick.measure(&outcome.particles))
-}
-
-/// A metric that overflows says that the particles have diverged.
-///
-/// # Errors
-/// All others.
-pub fn unless_far<T>(measured: Result<T, CommandError>) -> Result<Attempt<T>, CommandError> {
-    match measured {
-        Ok(value) => Ok(Ok(value)),
-        Err(CommandError::Metric(error)) => Ok(Err(Failure::new(Status::Diverged, error))),
-        Err(error) => Err(error),
     }
 }
 

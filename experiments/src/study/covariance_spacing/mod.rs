@@ -83,7 +83,7 @@ impl Study for CovarianceSpacing {
     }
 
     fn run(&self, case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
-        if let Some(outcome) = row.note(case.work.sample(tools.observer)?) {
+        if let Some(outcome) = row.note(case.work.sample(tools.observer))? {
             let moments = SampleMoments::of(&outcome.particles);
             row.set("covariance_error", moments.distance_from_identity());
             row.set("mean_error", moments.largest_mean());

@@ -54,7 +54,7 @@ impl Study for Evidence {
     }
 
     fn run(&self, case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
-        row.note(case.work.sample(tools.observer)?);
+        row.note(case.work.sample(tools.observer))?;
         Ok(())
     }
 

@@ -96,7 +96,7 @@ impl Paper {
                     row.set("active_nodes", outcome.active_nodes);
                     row.set("storage_bytes", outcome.storage_bytes);
                     row.set("wall_seconds", seconds - watch.looking.as_secs_f64());
-                    match measured(yardstick, &outcome)? {
+                    match attempt(yardstick.measure(&outcome.particles))? {
                         Ok(errors) => {
                             watch.note(outcome.steps, errors);
                             end(row, &errors);
@@ -123,12 +123,12 @@ fn run_rival(
     observer: &mut CaseObserver,
     row: &mut Row,
 ) -> Result<(), CommandError> {
-    match work.sample_or_draw(yardstick, observer)? {
+    match attempt(work.sample_or_draw(yardstick, observer))? {
         Err(failure) => fail(row, "other", None, failure),
         Ok(outcome) => {
             row.set("evaluations", outcome.evaluations());
             row.set("wall_seconds", outcome.wall_seconds);
-            match measured(yardstick, &outcome)? {
+            match attempt(yardstick.measure(&outcome.particles))? {
                 Ok(errors) => end(row, &errors),
                 Err(failure) => fail(row, "outside range", None, failure),
             }

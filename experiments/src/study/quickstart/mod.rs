@@ -166,7 +166,7 @@ impl Quickstart {
         let mut method = part.method.clone();
         method.options.trace_every = self.trace_every.get();
         let work = Sampled::new(&part.target, &method, None, (part.particles.get(), self.seed))?;
-        if let Some(outcome) = row.note(work.sample(tools.observer)?) {
+        if let Some(outcome) = row.note(work.sample(tools.observer))? {
             let file = |what: &str| piece.file(tools.directory, what);
             ParticleFile::create(file("particles"))?.write(&outcome.particles, &[])?;
             table_file::write(outcome.trace.iter(), &file("trace"))?;

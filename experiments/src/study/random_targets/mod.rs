@@ -97,8 +97,8 @@ impl Study for RandomTargets {
             YardstickOptions::of_energy(self.reference_points.get(), self.reference_seed, Coordinates::Scaled);
         let yardstick = tools.yardstick.of(&case.work.target, &options, None)?;
         row.set("energy_level", yardstick.mean_distance() / self.particles.get() as f64);
-        if let Some(outcome) = row.note(attempt(self.sampled(&case.work, tools.observer))?) {
-            row.measured(measured(yardstick, &outcome)?);
+        if let Some(outcome) = row.note(self.sampled(&case.work, tools.observer))? {
+            row.measured(yardstick.measure(&outcome.particles))?;
         }
         Ok(())
     }

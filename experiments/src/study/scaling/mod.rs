@@ -162,7 +162,7 @@ impl Study for Scaling {
         )?;
         let mut times = Vec::new();
         for repeat in 0..=self.repeats.get() {
-            let outcome = match work.sample(tools.observer)? {
+            let outcome = match attempt(work.sample(tools.observer))? {
                 Ok(outcome) => outcome,
                 Err(failure) => {
                     row.fail(failure);

@@ -161,13 +161,13 @@ impl Study for TimeToEqualError {
             trials: Vec::new(),
         };
         let found = if entry.index == 0 {
-            runs.own()?
+            attempt(runs.own())?
         } else if let Some(goal) = self.goal(entry, directory)? {
             row.set("goal", goal.energy_distance_squared);
             runs.trials = self.earlier_trials(entry, directory)?;
             match entry.method.name {
-                MethodName::Iid => runs.independent(goal)?,
-                _ => runs.search(goal)?,
+                MethodName::Iid => attempt(runs.independent(goal))?,
+                _ => attempt(runs.search(goal))?,
             }
         } else {
             let reason = "the method that sets the error has none above 0";

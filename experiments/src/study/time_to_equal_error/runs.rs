@@ -1,5 +1,7 @@
 //! The runs of a case: its own, those of a search, or independent draws.
 
+use parvi::SampleError;
+
 use super::search::{Medians, Trial, next};
 use super::{Entry, TimeToEqualError};
 use crate::study::prelude::*;
@@ -28,6 +30,17 @@ pub struct Found {
     pub missed: Option<Medians>,
 }
 
+impl Found {
+    /// Without a size that missed the error.
+    fn at_once(ending: Status, last: Medians) -> Self {
+        Self {
+            ending,
+            last,
+            missed: None,
+        }
+    }
+}
+
 /// The runs of a case.
 pub struct Runs<'a> {
     /// The study.
@@ -44,16 +57,12 @@ pub struct Runs<'a> {
 
 impl Runs<'_> {
     /// The method as it is.
-    pub fn own(&mut self) -> Result<Attempt<Found>, CommandError> {
-        Ok(self.of_size(OWN)?.map(|last| Found {
-            ending: Status::Reached,
-            last,
-            missed: None,
-        }))
+    pub fn own(&mut self) -> Result<Found, CommandError> {
+        Ok(Found::at_once(Status::Reached, self.of_size(OWN)?))
     }
 
     /// Doubles the size until the error is reached.
-    pub fn search(&mut self, goal: Goal) -> Result<Attempt<Found>, CommandError> {
+    pub fn search(&mut self, goal: Goal) -> Result<Found, CommandError> {
         let sizes = match self.entry.method.name.iterates() {
             true => self.study.steps.doubling(),
             false => self.study.draws.doubling(),
@@ -61,52 +70,40 @@ impl Runs<'_> {
         let budget = self.study.largest_ratio * goal.seconds;
         let (mut size, mut missed) = (sizes.first, None);
         loop {
-            let last = match self.of_size(size)? {
-                Ok(medians) => medians,
-                Err(failure) => return Ok(Err(failure)),
-            };
+            let last = self.of_size(size)?;
             match next(sizes, &last, goal.energy_distance_squared, budget) {
                 Ok(larger) => (size, missed) = (larger, Some(last)),
-                Err(ending) => return Ok(Ok(Found { ending, last, missed })),
+                Err(ending) => return Ok(Found { ending, last, missed }),
             }
         }
     }
 
     /// As many independent draws as have the error in expectation; M of them beside that, for the figure.
-    pub fn independent(&mut self, goal: Goal) -> Result<Attempt<Found>, CommandError> {
+    pub fn independent(&mut self, goal: Goal) -> Result<Found, CommandError> {
         let needed = (self.yardstick.mean_distance() / goal.energy_distance_squared).ceil() as usize;
         let ending = match needed <= MOST_INDEPENDENT {
             true => Status::Reached,
             false => Status::OutOfSizes,
         };
-        if let Err(failure) = self.of_size(self.entry.particles)? {
-            return Ok(Err(failure));
-        }
+        self.of_size(self.entry.particles)?;
         let last = self.of_size(needed.clamp(2, MOST_INDEPENDENT))?;
-        Ok(last.map(|last| Found {
-            ending,
-            last,
-            missed: None,
-        }))
+        Ok(Found::at_once(ending, last))
     }
 
     /// The medians of a size; the runs that are missing are made.
-    fn of_size(&mut self, size: usize) -> Result<Attempt<Medians>, CommandError> {
+    fn of_size(&mut self, size: usize) -> Result<Medians, CommandError> {
         for &seed in &self.study.seeds {
             let is_known = |trial: &Trial| trial.size == size && trial.seed == seed;
-            if self.trials.iter().any(is_known) {
-                continue;
-            }
-            match self.one(size, seed)? {
-                Ok(trial) => self.trials.push(trial),
-                Err(failure) => return Ok(Err(failure)),
+            if !self.trials.iter().any(is_known) {
+                let trial = self.one(size, seed)?;
+                self.trials.push(trial);
             }
         }
-        Ok(Ok(Medians::of(&self.trials, size)?))
+        Medians::of(&self.trials, size)
     }
 
-    /// One run; one that diverges is a trial without an error.
-    fn one(&mut self, size: usize, seed: u64) -> Result<Attempt<Trial>, CommandError> {
+    /// One run; one that diverges is a trial without an error, and one that the target does not allow is an error.
+    fn one(&mut self, size: usize, seed: u64) -> Result<Trial, CommandError> {
         let Entry { target, method, .. } = self.entry;
         let is_own = size == OWN;
         let has_steps = method.name.iterates() && !is_own;
@@ -116,36 +113,30 @@ impl Runs<'_> {
             size
         };
         let work = Sampled::new(target, method, has_steps.then_some(size), (draws, seed))?;
-        let expected =
-            (method.name == MethodName::Iid && !is_own).then(|| self.yardstick.mean_distance() / size as f64);
-        let (seconds, sampled) = timed(|| match expected {
-            Some(_) => work.sample(self.observer),
-            None => work.sample_or_draw(self.yardstick, self.observer),
+        let is_expected = method.name == MethodName::Iid && !is_own;
+        let (seconds, sampled) = timed(|| match is_expected {
+            true => work.sample(self.observer),
+            false => work.sample_or_draw(self.yardstick, self.observer),
         });
-        let mut trial = Trial {
+        let outcome = match sampled {
+            Err(error @ CommandError::Sample(SampleError::Unsupported { .. })) => return Err(error),
+            sampled => attempt(sampled)?.ok(),
+        };
+        let energy_distance_squared = match &outcome {
+            None => None,
+            Some(_) if is_expected => Some(self.yardstick.mean_distance() / size as f64),
+            Some(outcome) => {
+                let errors = attempt(self.yardstick.measure(&outcome.particles))?.ok();
+                errors.map(|errors| errors.energy_distance_squared)
+            }
+        };
+        Ok(Trial {
             size,
             seed,
-            score_evaluations: None,
-            density_evaluations: None,
-            wall_seconds: seconds,
-            energy_distance_squared: None,
-        };
-        match sampled? {
-            Err(failure) if failure.status == Status::Unsupported => return Ok(Err(failure)),
-            Err(_) => {}
-            Ok(outcome) => {
-                trial.score_evaluations = Some(outcome.score_evaluations);
-                trial.density_evaluations = Some(outcome.density_evaluations);
-                trial.wall_seconds = outcome.wall_seconds;
-                trial.energy_distance_squared = match expected {
-                    Some(expected) => Some(expected),
-                    None => {
-                        let errors = measured(self.yardstick, &outcome)?;
-                        errors.ok().map(|errors| errors.energy_distance_squared)
-                    }
-                };
-            }
-        }
-        Ok(Ok(trial))
+            score_evaluations: outcome.as_ref().map(|outcome| outcome.score_evaluations),
+            density_evaluations: outcome.as_ref().map(|outcome| outcome.density_evaluations),
+            wall_seconds: outcome.map_or(seconds, |outcome| outcome.wall_seconds),
+            energy_distance_squared,
+        })
     }
 }

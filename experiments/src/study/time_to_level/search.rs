@@ -86,7 +86,7 @@ pub fn search(
         let mut work = Sampled::new(&target, method, Some(steps), (study.particles.get(), study.seed))?;
         work.run.start = study.start.start(work.run.start);
         let (seconds, run) = timed(|| gaussian_runs::sampled(&work, observer));
-        let (wall_seconds, energy_distance_squared) = match run? {
+        let (wall_seconds, energy_distance_squared) = match attempt(run)? {
             Ok((outcome, energy)) => (outcome.wall_seconds, Some(energy)),
             Err(_) => (seconds, None),
         };
