@@ -63,6 +63,11 @@ impl<'a> PointCloud<'a> {
         PointCloud { points, weights: None }
     }
 
+    /// Points with weights, where they differ.
+    pub fn weighted(points: &'a [Vec<f64>], weights: Option<&'a [f64]>) -> PointCloud<'a> {
+        PointCloud { points, weights }
+    }
+
     /// The columns of the cloud after all checks: at least one point, one dimension between the bounds, coordinates that
     /// can be drawn, weights that fit.
     pub(super) fn columns(&self, smallest: usize, largest: usize) -> Result<Vec<Vec<f64>>, PlotError> {

@@ -48,6 +48,20 @@ pub struct HeatMapPlot {
     pub notes: Vec<String>,
 }
 
+/// The edges of so many cells of equal factors between two positive ends.
+pub fn logarithmic_edges([least, most]: [f64; 2], cells: usize) -> Vec<f64> {
+    let edge = |edge: usize| least * (most / least).powf(edge as f64 / cells as f64);
+    (0..=cells).map(edge).collect()
+}
+
+/// The cell that holds a positive value; the last one holds its upper edge as well. `None` outside.
+pub fn cell_of(edges: &[f64], value: f64) -> Option<usize> {
+    let last = edges.len().checked_sub(2)?;
+    // The ends are met up to rounding.
+    let inside = value >= edges[0] * (1.0 - 1e-9) && value <= edges[last + 1] * (1.0 + 1e-9);
+    inside.then(|| edges[1..=last].iter().filter(|edge| value >= **edge).count())
+}
+
 /// Draws heat maps as an SVG document.
 ///
 /// # Errors
@@ -166,5 +180,22 @@ fn draw_cells(drawing: &mut Drawing, axes: &Panel, plot: &HeatMapPlot, panel: &H
         let at = (0.5 * (low.0 + high.0), 0.5 * (low.1 + high.1) + 0.36 * CELL_TEXT);
         let text = format!("{:.0}", 100.0 * share);
         drawing.text(at, &text, TextStyle::sized(CELL_TEXT, Anchor::Middle));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_cover_the_range() {
+        let edges = logarithmic_edges([0.1, 10.0], 6);
+        assert_eq!(edges.len(), 7);
+        assert_eq!(cell_of(&edges, 0.1), Some(0));
+        assert_eq!(cell_of(&edges, 10.0), Some(5));
+        assert_eq!(cell_of(&edges, 1.01), Some(3));
+        assert_eq!(cell_of(&edges, 11.0), None);
+        assert_eq!(cell_of(&edges, f64::NAN), None);
+        assert_eq!(cell_of(&[], 1.0), None);
     }
 }

@@ -39,7 +39,7 @@ pub use cloud::cloud;
 pub use corner::corner;
 pub use data::{Curve, DensityPlot, PairDensity, PlotError, PointCloud, Reference};
 pub use dots::{DotPlot, DotRow, DotSeries, dots};
-pub use heat_map::{HeatMapPlot, HeatPanel, heat_map};
+pub use heat_map::{HeatMapPlot, HeatPanel, cell_of, heat_map, logarithmic_edges};
 pub use histogram::histogram;
 pub use multiples::{GuideCurve, LineSeries, MultiplesPanel, MultiplesPlot, multiples};
 pub use scale::AxisKind;

@@ -40,6 +40,11 @@ impl LineSeries {
         }
     }
 
+    /// The points (x, y).
+    pub fn points(&self) -> impl Iterator<Item = (f64, f64)> {
+        self.x.iter().copied().zip(self.y.iter().copied())
+    }
+
     /// Adds the median of the values, with a bar from the least to the largest; nothing where there are none.
     pub fn push_median(&mut self, x: f64, values: &[f64]) {
         if let Ok(summary) = summarize(values) {
@@ -61,6 +66,25 @@ pub struct GuideCurve {
     pub dotted: bool,
 }
 
+impl GuideCurve {
+    /// The line between the values at two ends.
+    pub fn through(
+        label: impl Into<String>,
+        (low, high): (f64, f64),
+        dotted: bool,
+        value: impl Fn(f64) -> f64,
+    ) -> Self {
+        Self {
+            label: label.into(),
+            curve: Curve {
+                x: vec![low, high],
+                y: vec![value(low), value(high)],
+            },
+            dotted,
+        }
+    }
+}
+
 /// One setting, e.g. one dimension.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct MultiplesPanel {
@@ -72,6 +96,23 @@ pub struct MultiplesPanel {
     pub guides: Vec<GuideCurve>,
     /// Horizontal lines for comparison.
     pub levels: Vec<ReferenceLevel>,
+}
+
+impl MultiplesPanel {
+    /// The lines of a setting.
+    pub fn new(title: impl Into<String>, series: impl IntoIterator<Item = LineSeries>) -> Self {
+        Self {
+            title: title.into(),
+            series: series.into_iter().collect(),
+            ..Self::default()
+        }
+    }
+
+    /// The same with a horizontal line more.
+    pub fn with_level(mut self, value: f64, label: &str) -> Self {
+        self.levels.push(ReferenceLevel::new(value, label));
+        self
+    }
 }
 
 /// A figure of panels whose axes have the same meaning.
@@ -103,6 +144,24 @@ impl MultiplesPlot {
             y_axis: AxisKind::Logarithmic,
             ..Self::default()
         }
+    }
+
+    /// The same with linear horizontal axes.
+    pub fn over_linear(self) -> Self {
+        let x_axis = AxisKind::Linear;
+        Self { x_axis, ..self }
+    }
+
+    /// The same with these panels.
+    pub fn with_panels(self, panels: impl IntoIterator<Item = MultiplesPanel>) -> Self {
+        let panels = panels.into_iter().collect();
+        Self { panels, ..self }
+    }
+
+    /// The same with a note more.
+    pub fn with_note(mut self, note: &str) -> Self {
+        self.notes.push(note.to_owned());
+        self
     }
 }
 

@@ -51,6 +51,19 @@ pub struct TimeErrorPlot {
     pub panels: Vec<TimeErrorPanel>,
 }
 
+impl TimeErrorPlot {
+    /// Panels over axes with these labels.
+    pub fn new(x_label: &str, y_label: &str, panels: impl IntoIterator<Item = TimeErrorPanel>) -> Self {
+        Self {
+            x_label: x_label.to_owned(),
+            y_label: y_label.to_owned(),
+            iid_label: "independent draws".to_owned(),
+            panels: panels.into_iter().collect(),
+            ..Self::default()
+        }
+    }
+}
+
 /// Draws median errors against median costs on logarithmic axes as an SVG document. Failed runs are left out of the medians
 /// and counted in a note below the figure.
 ///

@@ -17,6 +17,15 @@ pub struct TraceSeries {
     pub value: Vec<f64>,
 }
 
+impl TraceSeries {
+    /// A line through points (step, value).
+    pub fn through(label: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        let (step, value) = points.into_iter().unzip();
+        let label = label.into();
+        Self { label, step, value }
+    }
+}
+
 /// One quantity of all runs.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct TracePanel {
@@ -30,6 +39,18 @@ pub struct TracePanel {
     pub levels: Vec<ReferenceLevel>,
 }
 
+impl TracePanel {
+    /// The runs, over an axis with this label.
+    pub fn new(y_label: impl Into<String>, y_axis: AxisKind, series: impl IntoIterator<Item = TraceSeries>) -> Self {
+        Self {
+            y_label: y_label.into(),
+            y_axis,
+            series: series.into_iter().collect(),
+            levels: Vec::new(),
+        }
+    }
+}
+
 /// A figure of traces, one panel per quantity.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct TracePlot {
@@ -39,6 +60,17 @@ pub struct TracePlot {
     pub x_label: String,
     /// The panels, two in a row.
     pub panels: Vec<TracePanel>,
+}
+
+impl TracePlot {
+    /// Panels under a title, over axes with this label.
+    pub fn new(title: impl Into<String>, x_label: &str, panels: impl IntoIterator<Item = TracePanel>) -> Self {
+        Self {
+            title: title.into(),
+            x_label: x_label.to_owned(),
+            panels: panels.into_iter().collect(),
+        }
+    }
 }
 
 /// Draws traces as an SVG document.

@@ -13,46 +13,34 @@ pub struct Arguments {
     _all: Vec<OsString>,
 }
 
+/// The error for what was asked, with the feature that has it.
+const fn left_out(asked: &'static str, feature: &'static str) -> CommandError {
+    CommandError::LeftOut { asked, feature }
+}
+
 /// For `simulate`.
 pub mod simulate {
-    pub use super::Arguments;
-    use crate::CommandError;
+    pub use super::*;
 
     /// Says which feature has the command.
-    ///
-    /// # Errors
-    /// Always, [`CommandError::LeftOut`].
     pub fn execute(_: &Arguments) -> Result<(), CommandError> {
-        Err(super::left_out("parvi simulate", "mechanics"))
+        Err(left_out("parvi simulate", "mechanics"))
     }
 }
 
 /// For `rom`.
 pub mod rom {
-    use std::path::Path;
+    pub use super::*;
 
-    pub use super::Arguments;
-    use crate::CommandError;
-
-    /// As [`simulate::execute`](super::simulate::execute).
-    ///
-    /// # Errors
-    /// Always, [`CommandError::LeftOut`].
+    /// As [`simulate::execute`].
     pub fn execute(_: &Arguments) -> Result<(), CommandError> {
-        Err(super::left_out("parvi rom", "rom"))
+        Err(left_out("parvi rom", "rom"))
     }
 
     /// As [`execute`].
-    ///
-    /// # Errors
-    /// Always, [`CommandError::LeftOut`].
-    pub fn report(_: &Path) -> Result<(), CommandError> {
-        Err(super::left_out("parvi report of a reduced-order model", "rom"))
+    pub fn report(_: &std::path::Path) -> Result<(), CommandError> {
+        Err(left_out("parvi report of a reduced-order model", "rom"))
     }
-}
-
-fn left_out(asked: &'static str, feature: &'static str) -> CommandError {
-    CommandError::LeftOut { asked, feature }
 }
 
 #[cfg(test)]

@@ -3,11 +3,11 @@
 use std::fmt::{self, Display, Formatter};
 use std::str::FromStr;
 
-use serde::de::{self, Visitor};
-use serde::{Deserialize, Deserializer};
+use serde::Deserialize;
 
 /// A number, or `off`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(try_from = "toml::Value")]
 pub enum Limit {
     /// No limit.
     Off,
@@ -47,30 +47,14 @@ impl Display for Limit {
     }
 }
 
-impl<'de> Deserialize<'de> for Limit {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct NumberOrOff;
+impl TryFrom<toml::Value> for Limit {
+    type Error = String;
 
-        impl Visitor<'_> for NumberOrOff {
-            type Value = Limit;
-
-            fn expecting(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
-                write!(formatter, "a number or \"off\"")
-            }
-
-            fn visit_f64<E: de::Error>(self, value: f64) -> Result<Limit, E> {
-                Ok(Limit::At(value))
-            }
-
-            fn visit_i64<E: de::Error>(self, value: i64) -> Result<Limit, E> {
-                Ok(Limit::At(value as f64))
-            }
-
-            fn visit_str<E: de::Error>(self, text: &str) -> Result<Limit, E> {
-                text.parse().map_err(E::custom)
-            }
+    fn try_from(value: toml::Value) -> Result<Self, String> {
+        match value {
+            toml::Value::Float(value) => Ok(Self::At(value)),
+            toml::Value::Integer(value) => Ok(Self::At(value as f64)),
+            value => value.as_str().unwrap_or_default().parse(),
         }
-
-        deserializer.deserialize_any(NumberOrOff)
     }
 }

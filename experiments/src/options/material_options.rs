@@ -21,10 +21,8 @@ impl MethodOptions {
             flag => of_any(flag) && !of(&material, flag),
         });
         if let Some((name, value)) = misfit {
-            return Err(OptionError::new(
-                name,
-                format!("{value} does not fit the material `{material}`"),
-            ));
+            let reason = format!("{value} does not fit the material `{material}`");
+            return Err(OptionError::new(name, reason));
         }
         let value = |parameter: &Parameter| {
             let (_, text) = given.iter().find(|(flag, _)| *flag == parameter.flag)?;

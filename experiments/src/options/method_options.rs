@@ -11,15 +11,31 @@ use super::{
     NonFinite, OptionError, ParticleCount, RoundCount, Score, StepCount, Switch, Transfer, Typed, WarmUp,
 };
 
-/// The options, and the list of them; the documentation of an option is what `--help` says.
+/// A range for numbers, and its name.
+pub type Range = (fn(f64) -> bool, &'static str);
+const POSITIVE: Range = (|x| x > 0.0 && x.is_finite(), "a number above 0");
+const NOT_NEGATIVE: Range = (|x| x >= 0.0 && x.is_finite(), "a number of at least 0");
+const FINITE: Range = (f64::is_finite, "a finite number");
+const SHARE: Range = (|x| (0.0..=1.0).contains(&x), "from 0 to 1");
+const RATIO: Range = (|x| x >= 1.0 && x.is_finite(), "a number of at least 1");
+const ABOVE_ONE: Range = (|x| x > 1.0 && x.is_finite(), "a number above 1");
+const BELOW_ONE: Range = (|x| (0.0..1.0).contains(&x), "at least 0 and below 1");
+const BETWEEN: Range = (|x| x > 0.0 && x < 1.0, "above 0 and below 1");
+const POISSON: Range = (|x| x > -1.0 && x < 0.5, "above -1 and below 0.5");
+
+/// The options by name, type, what `--help` calls the value and its range, and the list of them; the documentation of an option is what `--help` says.
 macro_rules! options {
-    ($($(#[$meta:meta])* $name:ident: $type:ty,)*) => {
+    ($($(#[$meta:meta])* $name:ident: $type:ty $(= $value_name:literal $(in $range:ident)?)?,)*) => {
         /// Options of the methods; `None`: the method's own default.
         #[derive(Args, Clone, Debug, Default, PartialEq, Deserialize)]
         #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
         #[command(next_help_heading = "Options of the method")]
         pub struct MethodOptions {
-            $($(#[$meta])* pub $name: Option<$type>,)*
+            $(
+                $(#[$meta])*
+                #[arg(long $(, value_name = $value_name)?)]
+                pub $name: Option<$type>,
+            )*
             /// Measure residual and energy every so many steps; set by the studies.
             #[arg(skip)]
             #[serde(skip)]
@@ -38,6 +54,15 @@ macro_rules! options {
                 let all = [$((stringify!($name), self.$name.as_ref().map(Typed::typed))),*];
                 all.into_iter().filter_map(|(name, value)| Some((flag(name), value?)))
             }
+
+            /// The options that have a range: name, value, range.
+            pub(super) fn ranged(&self) -> Vec<(String, Option<f64>, Range)> {
+                vec![$($($((
+                    flag(stringify!($name)),
+                    self.$name.as_ref().and_then(Typed::number),
+                    $range,
+                ),)?)?)*]
+            }
         }
     };
 }
@@ -49,222 +74,155 @@ fn flag(name: &str) -> String {
 
 options! {
     /// Steps; mpm: of a round; support-points: at most
-    #[arg(long, value_name = "T", allow_negative_numbers = true)]
-    steps: StepCount,
+    steps: StepCount = "T",
     /// Background basis
-    #[arg(long)]
     basis: Basis,
     /// Mesh of the domain that the density is kept to, a .msh file of Gmsh; with --basis mesh
-    #[arg(long, value_name = "FILE.msh")]
-    mesh: PathBuf,
+    mesh: PathBuf = "FILE.msh",
     /// Grid spacing in units of the target's scale
-    #[arg(long, value_name = "H", allow_negative_numbers = true)]
-    spacing: f64,
+    spacing: f64 = "H" in POSITIVE,
     /// Time step
-    #[arg(long, value_name = "DT", allow_negative_numbers = true)]
-    time_step: f64,
+    time_step: f64 = "DT" in POSITIVE,
     /// Where the score is evaluated
-    #[arg(long)]
     score: Score,
     /// Largest displacement per step in units of the spacing, or `off`; mpm: a number
-    #[arg(long, value_name = "C|off", allow_negative_numbers = true)]
-    displacement_limit: Limit,
+    displacement_limit: Limit = "C|off" in POSITIVE,
     /// Weigh evaluations of the log density and condense the particles from them, which the material evens out; off: a body moves from its start in the target's frame [default: on]
-    #[arg(long)]
     survey: Switch,
     /// Evaluations of the survey, of all kinds, at most
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
-    evaluations: EvaluationCount,
+    evaluations: EvaluationCount = "N",
     /// Move the basis' origin and draw its spacing every step
-    #[arg(long)]
     shifts: Switch,
     /// Turn the lattice at random every step
-    #[arg(long)]
     rotation: Switch,
     /// Largest over smallest spacing that a run draws from, at least 1
-    #[arg(long, value_name = "RATIO", allow_negative_numbers = true)]
-    spacing_range: f64,
+    spacing_range: f64 = "RATIO" in RATIO,
     /// Spacing of the first step over the central one, at least 1
-    #[arg(long, value_name = "RATIO", allow_negative_numbers = true)]
-    coarse_start: f64,
+    coarse_start: f64 = "RATIO" in RATIO,
     /// Share of the steps over which the time step falls at the end, from 0 to below 1
-    #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
-    settling: f64,
+    settling: f64 = "SHARE" in BELOW_ONE,
     /// Go on shifting while settling
-    #[arg(long)]
     settling_shifts: Switch,
     /// What a last affine move of all particles puts right
-    #[arg(long)]
     moment_correction: Correction,
     /// Velocity transfer
-    #[arg(long)]
     transfer: Transfer,
     /// Share of FLIP in the velocities, from 0 to 1; mpm: with --transfer flip or affine-flip [default: 0.95; paper-*: 0]
-    #[arg(long, value_name = "A", allow_negative_numbers = true)]
-    flip_share: f64,
+    flip_share: f64 = "A" in SHARE,
     /// Friction, per unit of time
-    #[arg(long, value_name = "GAMMA", allow_negative_numbers = true)]
-    friction: f64,
+    friction: f64 = "GAMMA" in NOT_NEGATIVE,
     /// Rounds of the steps, at most: after a survey while they bring the particles nearer, 0: none; without one while they are still on their way [default: 4; with --survey off: 3, with --steps too: 1]
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
-    rounds: RoundCount,
+    rounds: RoundCount = "N",
     /// More particles than their share for light parts of the target, with weights; after a survey [default: off]
-    #[arg(long)]
     weighted: Switch,
     /// Judge the particles at the end (mpm, paper-*) [default: on]
-    #[arg(long)]
     non_finite: NonFinite,
     /// Judge the particles at the end
-    #[arg(long)]
     certificate: Switch,
     /// The algorithms exactly as the paper writes them: the target's own coordinates, no guard; every departure can be set beside it
-    #[arg(long, num_args = 0..=1, default_missing_value = "on")]
+    #[arg(num_args = 0..=1, default_missing_value = "on")]
     as_written: Switch,
     /// Coordinates that the body moves in; identity: the target's own, also those of spacing and start [default: target; with --as-written: identity]
-    #[arg(long)]
     frame: FrameName,
     /// Constitutive law, by the names of the scenes [default: neo-hookean]
-    #[arg(long)]
     material: Material,
     /// Young's modulus E (solids) [default: 1]
-    #[arg(long, value_name = "E", alias = "young-modulus", allow_negative_numbers = true)]
+    #[arg(alias = "young-modulus")]
     #[serde(alias = "young-modulus")]
-    youngs_modulus: f64,
+    youngs_modulus: f64 = "E" in POSITIVE,
     /// Poisson's ratio (solids) [default: 0.3]
-    #[arg(long, value_name = "NU", alias = "poisson-ratio", allow_negative_numbers = true)]
+    #[arg(alias = "poisson-ratio")]
     #[serde(alias = "poisson-ratio")]
-    poissons_ratio: f64,
+    poissons_ratio: f64 = "NU" in POISSON,
     /// Yield stress at first, as |dev tau|; softening-hencky [default: 0.1]
-    #[arg(long, value_name = "KAPPA", allow_negative_numbers = true)]
-    peak_yield_stress: f64,
+    peak_yield_stress: f64 = "KAPPA",
     /// Yield stress that softening ends at; softening-hencky [default: the first one: perfect plasticity]
-    #[arg(long, value_name = "KAPPA", allow_negative_numbers = true)]
-    residual_yield_stress: f64,
+    residual_yield_stress: f64 = "KAPPA",
     /// Rate of softening, per plastic strain; softening-hencky [default: 0]
-    #[arg(long, value_name = "ETA", allow_negative_numbers = true)]
-    softening_rate: f64,
+    softening_rate: f64 = "ETA",
     /// Friction angle in degrees; drucker-prager [default: 30]
-    #[arg(long, value_name = "PHI", allow_negative_numbers = true)]
-    friction_angle: f64,
+    friction_angle: f64 = "PHI",
     /// Cohesion, a stress; drucker-prager [default: 0]
-    #[arg(long, value_name = "C", allow_negative_numbers = true)]
-    cohesion: f64,
+    cohesion: f64 = "C",
     /// Density at rest, mass per reference volume; tait-fluid [default: 1]
-    #[arg(long, value_name = "RHO", allow_negative_numbers = true)]
-    density: f64,
+    density: f64 = "RHO",
     /// Speed of sound at rest; tait-fluid [default: 1]
-    #[arg(long, value_name = "C", allow_negative_numbers = true)]
-    sound_speed: f64,
+    sound_speed: f64 = "C",
     /// Viscosity, stress times time; kelvin-voigt, tait-fluid [default: 0.1; tait-fluid: 0]
-    #[arg(long, value_name = "ETA", allow_negative_numbers = true)]
-    viscosity: f64,
+    viscosity: f64 = "ETA",
     /// Forget volumes above that of rest; tait-fluid [default: off]
-    #[arg(long)]
     forgets_expansion: Switch,
     /// Pressure per density kappa; at rest the density is p^(alpha/kappa); isothermal-gas [default: 1]
-    #[arg(long, value_name = "KAPPA", allow_negative_numbers = true)]
-    pressure_per_density: f64,
+    pressure_per_density: f64 = "KAPPA",
     /// Constant factor before the score; paper-*: of either sign
-    #[arg(long, allow_negative_numbers = true)]
-    alpha: f64,
+    alpha: f64 = "ALPHA" in FINITE,
     /// Factor before the score in the first step, with --alpha-to
-    #[arg(long, value_name = "ALPHA", allow_negative_numbers = true)]
-    alpha_from: f64,
+    alpha_from: f64 = "ALPHA" in FINITE,
     /// Factor before the score in the last step, mpm: when settling begins, with --alpha-from
-    #[arg(long, value_name = "ALPHA", allow_negative_numbers = true)]
-    alpha_to: f64,
+    alpha_to: f64 = "ALPHA" in FINITE,
     /// How the factor goes from the one to the other [default: geometric]
-    #[arg(long)]
     alpha_schedule: AlphaSchedule,
     /// Times that a cyclic schedule goes from the one to the other [default: 4]
-    #[arg(long, value_name = "C", allow_negative_numbers = true)]
-    alpha_cycles: StepCount,
+    alpha_cycles: StepCount = "C",
     /// A new grid, with its origin drawn anew, every so many steps; default: one grid, with nodes at the integer multiples of the spacing
-    #[arg(long, value_name = "STEPS", allow_negative_numbers = true)]
-    grid_renewal: StepCount,
+    grid_renewal: StepCount = "STEPS",
     /// Masses of the particles: `equal`, 1/M each, or a file with a column of them [default: equal]
-    #[arg(long, value_name = "equal|FILE.csv|.npy")]
-    masses: PathBuf,
+    masses: PathBuf = "equal|FILE.csv|.npy",
     /// Reference volumes: `uniform`, 1/M each; `start-density`, mass over density of the start's law; `grid`, mass over density on the grid; or a file with a column of them [default: uniform]
-    #[arg(long, value_name = "uniform|start-density|grid|FILE.csv|.npy")]
-    volumes: PathBuf,
+    volumes: PathBuf = "uniform|start-density|grid|FILE.csv|.npy",
     /// Velocities at the start: `zero`, or a file with a column per dimension [default: zero]
-    #[arg(long, value_name = "zero|FILE.csv|.npy")]
-    velocities: PathBuf,
+    velocities: PathBuf = "zero|FILE.csv|.npy",
     /// What is watched on the way to find the best configuration [default with --best, --monitor-every or --patience: stein]
-    #[arg(long)]
     monitor: MonitorName,
     /// Look every so many steps [default: 10]
-    #[arg(long, value_name = "STEPS", allow_negative_numbers = true)]
-    monitor_every: StepCount,
+    monitor_every: StepCount = "STEPS",
     /// End the run after so many looks in a row that were not better than the best one by a hundredth [default: take all steps]
-    #[arg(long, value_name = "LOOKS", allow_negative_numbers = true)]
-    patience: StepCount,
+    patience: StepCount = "LOOKS",
     /// File of the best configuration on the way, .csv or .npy
-    #[arg(long, value_name = "FILE.csv|.npy")]
-    best: PathBuf,
+    best: PathBuf = "FILE.csv|.npy",
     /// All guards at once; single guards can be set beside it
-    #[arg(long)]
     guards: Switch,
     /// Nodes lighter than this share of the mean particle mass get no force, 0: off
-    #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
-    mass_floor: f64,
+    mass_floor: f64 = "SHARE" in NOT_NEGATIVE,
     /// Multiply the force by the nodal mass
-    #[arg(long)]
     mass_weighted_force: Switch,
     /// Courant number that limits the time step, or `off`
-    #[arg(long, value_name = "C|off", allow_negative_numbers = true)]
-    courant: Limit,
+    courant: Limit = "C|off" in POSITIVE,
     /// Largest principal stretch of a particle and, inverted, the least, or `off` [default: 1000]
-    #[arg(long, value_name = "K|off", allow_negative_numbers = true)]
-    stretch_limit: Limit,
+    stretch_limit: Limit = "K|off" in ABOVE_ONE,
     /// Step size of the optimiser
-    #[arg(long, value_name = "SIZE", allow_negative_numbers = true)]
-    step_size: f64,
+    step_size: f64 = "SIZE" in POSITIVE,
     /// Fixed kernel bandwidth instead of the median rule
-    #[arg(long, allow_negative_numbers = true)]
-    bandwidth: f64,
+    bandwidth: f64 = "BANDWIDTH" in POSITIVE,
     /// Draws per chain that tune the sampler and are thrown away; stein-thinning: with --pool nuts
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
-    warm_up: WarmUp,
+    warm_up: WarmUp = "N",
     /// Chains that share the draws out; stein-thinning: with --pool nuts
-    #[arg(long, value_name = "C", allow_negative_numbers = true)]
-    chains: StepCount,
+    chains: StepCount = "C",
     /// Keep every K-th draw; stein-thinning: with --pool nuts
-    #[arg(long, value_name = "K", allow_negative_numbers = true)]
-    thinning: StepCount,
+    thinning: StepCount = "K",
     /// Acceptance that the step size is tuned to, between 0 and 1; stein-thinning: with --pool nuts
-    #[arg(long, value_name = "A", allow_negative_numbers = true)]
-    target_acceptance: f64,
+    target_acceptance: f64 = "A" in BETWEEN,
     /// What the draws are chosen from, `exact` or `nuts` (stein-thinning); file for the weighted pool
-    #[arg(long, value_name = "exact|nuts|FILE.csv|.npy")]
-    pool: PathBuf,
+    pool: PathBuf = "exact|nuts|FILE.csv|.npy",
     /// Size of the bigger sample, at least the number of particles
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
-    pool_size: ParticleCount,
+    pool_size: ParticleCount = "N",
     /// End when no point moves farther, in units of the sample's spread
-    #[arg(long, value_name = "TOL", allow_negative_numbers = true)]
-    tolerance: f64,
+    tolerance: f64 = "TOL" in NOT_NEGATIVE,
     /// File of the positions at the start, a row per particle, in the target's own coordinates; mpm: with --survey off
-    #[arg(long, value_name = "FILE.csv|.npy")]
-    start: PathBuf,
+    start: PathBuf = "FILE.csv|.npy",
     /// Target whose draws the particles start at, in its own coordinates: the paper's p0 by name; mpm: with --survey off
-    #[arg(long, value_name = "TARGET")]
-    start_law: String,
+    start_law: String = "TARGET",
     /// Mean of a normal law to start from, in the target's own coordinates; mpm: with --survey off
-    #[arg(long, value_name = "M1,M2,...", allow_hyphen_values = true)]
-    start_centre: String,
+    #[arg(allow_hyphen_values = true)]
+    start_centre: String = "M1,M2,...",
     /// Its covariance, the rows between semicolons; mpm: with --survey off [default: identity]
-    #[arg(long, value_name = "C11,C12,...;C21,...", allow_hyphen_values = true)]
-    start_covariance: String,
+    #[arg(allow_hyphen_values = true)]
+    start_covariance: String = "C11,C12,...;C21,...",
     /// Mean of every coordinate at the start, in units of the target's scale
-    #[arg(long, value_name = "MEAN", allow_negative_numbers = true)]
-    start_mean: f64,
+    start_mean: f64 = "MEAN" in FINITE,
     /// Standard deviation of every coordinate at the start
-    #[arg(long, value_name = "SD", allow_negative_numbers = true)]
-    start_sd: f64,
+    start_sd: f64 = "SD" in POSITIVE,
     /// How the particles are drawn from their initial law
-    #[arg(long)]
     start_draws: Draws,
 }
 

@@ -149,6 +149,17 @@ impl Basis {
             Self::Mesh => None,
         }
     }
+
+    /// Nodes per particle.
+    pub fn stencil(self, dim: usize) -> usize {
+        let power = |base: usize| base.saturating_pow(dim as u32);
+        match self {
+            Self::Lattice | Self::Mesh => dim + 1,
+            Self::Linear => power(2),
+            Self::Quadratic => power(3),
+            Self::Cubic => power(4),
+        }
+    }
 }
 
 impl Switch {

@@ -48,25 +48,19 @@ impl MethodOptions {
             return Err(contradiction(name, &value.to_string(), other));
         }
         if let (None, Some(covariance)) = (&self.start_centre, &self.start_covariance) {
-            return Err(OptionError::new(
-                "start-covariance",
-                format!("{covariance} needs --start-centre beside it"),
-            ));
+            let reason = format!("{covariance} needs --start-centre beside it");
+            return Err(OptionError::new("start-covariance", reason));
         }
         if let Some((name, Some(value))) = way
             && method == MethodName::Mpm
             && self.surveys()
         {
-            return Err(OptionError::new(
-                name,
-                format!("{value} needs --survey off: a survey says where the particles begin"),
-            ));
+            let reason = format!("{value} needs --survey off: a survey says where the particles begin");
+            return Err(OptionError::new(name, reason));
         }
         if self.start.is_some() && self.volumes_of_start() {
-            return Err(OptionError::new(
-                "volumes",
-                "start-density needs a start law, which a file of positions does not have".to_owned(),
-            ));
+            let reason = "start-density needs a start law, which a file of positions does not have";
+            return Err(OptionError::new("volumes", reason));
         }
         Ok(())
     }

@@ -14,28 +14,28 @@ use super::Dimension;
 #[command(next_help_heading = "Parameters of the target")]
 pub struct TargetParameters {
     /// Correlation R of neighbouring axes, R^|i-j| (gaussian, scales)
-    #[arg(long, value_name = "R", allow_negative_numbers = true)]
+    #[arg(long, value_name = "R")]
     pub correlation: Option<f64>,
     /// Curvature b (banana)
-    #[arg(long, value_name = "B", allow_negative_numbers = true)]
+    #[arg(long, value_name = "B")]
     pub curvature: Option<f64>,
     /// Width: standard deviation across the curve, the ring, an arm or a mode, of the funnel's mouth (banana, ring, mixture-*, funnel, rosenbrock, cross)
-    #[arg(long, value_name = "SIGMA", allow_negative_numbers = true)]
+    #[arg(long, value_name = "SIGMA")]
     pub width: Option<f64>,
     /// Standard deviation along the curve or an arm (rosenbrock, cross)
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    #[arg(long, value_name = "S")]
     pub spread: Option<f64>,
     /// Radius of the ring (ring)
-    #[arg(long, allow_negative_numbers = true)]
+    #[arg(long)]
     pub radius: Option<f64>,
     /// Degrees of freedom (student-t)
-    #[arg(long, value_name = "NU", allow_negative_numbers = true)]
+    #[arg(long, value_name = "NU")]
     pub degrees_of_freedom: Option<f64>,
     /// Seed that makes the target (random)
     #[arg(long, value_name = "SEED")]
     pub target_seed: Option<u64>,
     /// Standard deviation of the Gaussian prior of each coefficient (wells, wells-small, probit, poisson, logistic)
-    #[arg(long, value_name = "SD", allow_negative_numbers = true)]
+    #[arg(long, value_name = "SD")]
     pub prior_sd: Option<f64>,
     /// Data: a header, the 0/1 response (poisson: a count) first, then the covariates (logistic, probit, poisson)
     #[arg(long, value_name = "FILE.csv")]

@@ -11,6 +11,11 @@ use super::{
 pub trait Typed {
     /// As it is typed.
     fn typed(&self) -> String;
+
+    /// The number that has to lie in a range, if it is one.
+    fn number(&self) -> Option<f64> {
+        self.typed().parse().ok()
+    }
 }
 
 impl Typed for PathBuf {

@@ -62,6 +62,11 @@ impl Particles {
         self.coordinates.chunks_exact(self.dimension.max(1))
     }
 
+    /// The points, as figures take them.
+    pub fn to_rows(&self) -> Vec<Vec<f64>> {
+        self.rows().map(<[f64]>::to_vec).collect()
+    }
+
     /// All coordinates, one point after the other.
     pub fn coordinates(&self) -> &[f64] {
         &self.coordinates

@@ -113,8 +113,9 @@ fn quadrature<const D: usize>(target: &dyn CatalogueTarget<D>) -> Option<Known> 
         let rows = if D == 1 { 1 } else { nodes };
         density(target, [range(0), range(1)], (nodes, rows))
     });
-    let grid = grids.find(settled)?;
-    let marginals = (0..D).map(|axis| marginal(&grid, axis)).collect();
+    let grid = grids.find(|grid| grid.settles(TOLERANCE))?;
+    let marginal = |axis: usize| grid.marginal(axis).map(|(x, y)| Curve { x, y });
+    let marginals = (0..D).map(marginal).collect();
     let pair = PairDensity {
         horizontal: 0,
         vertical: 1,
@@ -141,39 +142,6 @@ pub fn density<const D: usize>(
     });
     grid.exponentiate();
     grid
-}
-
-/// Whether the integral over every second node is the same.
-fn settled(grid: &DensityGrid) -> bool {
-    let columns = grid.x.len();
-    let sum = |step: usize| {
-        let rows = (0..grid.y.len()).step_by(step);
-        let values = rows.flat_map(|row| (0..columns).step_by(step).map(move |column| row * columns + column));
-        let cell = step * if grid.y.len() > 1 { step } else { 1 };
-        values.map(|node| grid.values[node]).sum::<f64>() * cell as f64
-    };
-    let (all, half) = (sum(1), sum(2));
-    all > 0.0 && (half / all - 1.0).abs() < TOLERANCE
-}
-
-/// The density of one coordinate, by the trapezoidal rule over the other one and then itself; the ends of the grid, where nothing is, count whole.
-fn marginal(grid: &DensityGrid, axis: usize) -> Option<Curve> {
-    let (columns, rows) = (grid.x.len(), grid.y.len());
-    let nodes = if axis == 0 { &grid.x } else { &grid.y };
-    let sum = |index: usize| -> f64 {
-        if axis == 0 {
-            (0..rows).map(|row| grid.values[row * columns + index]).sum()
-        } else {
-            grid.values[index * columns..(index + 1) * columns].iter().sum()
-        }
-    };
-    let sums: Vec<f64> = (0..nodes.len()).map(sum).collect();
-    let spacing = nodes.get(1)? - nodes.first()?;
-    let total = sums.iter().sum::<f64>() * spacing;
-    Some(Curve {
-        x: nodes.clone(),
-        y: sums.into_iter().map(|value| value / total).collect(),
-    })
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 mod history;
 mod known;
-mod trace_panels;
+pub mod trace_panels;
 
 use std::path::Path;
 
@@ -11,10 +11,9 @@ use parvi::TracePoint;
 pub use self::history::History;
 pub use self::known::density;
 use self::known::{Known, look};
-pub use self::trace_panels::TraceQuantity;
 use crate::dispatch::on_target;
 use crate::options::TargetSpecification;
-use crate::output::{AtomicFile, OutputDirectory, Particles};
+use crate::output::{AtomicFile, OutputDirectory};
 use crate::plots::{
     AxisKind, DensityPlot, PlotError, PointCloud, StripPanel, StripPlot, TracePanel, TracePlot, TraceSeries, corner,
     histogram, strip, trace,
@@ -102,7 +101,7 @@ impl Subject<'_> {
     }
 
     fn histogram(&self, known: &Known) -> Result<String, PlotError> {
-        let points = rows(&self.outcome.particles);
+        let points = self.outcome.particles.to_rows();
         histogram(&DensityPlot {
             title: &self.title(),
             particles: self.weighted(&points),
@@ -127,7 +126,7 @@ impl Subject<'_> {
             };
             all.into_iter().map(cut).collect()
         };
-        let points = cut(rows(&self.outcome.particles));
+        let points = cut(self.outcome.particles.to_rows());
         let draws = cut(known.draws().to_vec());
         let mut labels = self.target.coordinate_names();
         labels.truncate(shown);
@@ -148,42 +147,25 @@ impl Subject<'_> {
         }
         let watched = self.outcome.watched.as_ref().map(|seen| self.watched(seen));
         let runs = [(self.method.to_owned(), rows)];
-        let mut panels: Vec<_> = TraceQuantity::ALL.map(|quantity| quantity.panel(&runs)).into();
+        let mut panels: Vec<_> = trace_panels::ALL.map(|quantity| quantity.panel(&runs)).into();
         panels.extend(watched);
         // A quantity that the method does not have is zero or not there.
-        panels.retain(|panel| {
-            panel
-                .series
-                .iter()
-                .flat_map(|series| &series.value)
-                .any(|&value| value != 0.0)
-        });
-        Drawing::Done(trace(&TracePlot {
-            title: self.title(),
-            // Of several rounds it is that of the one whose particles were returned.
-            x_label: if self.history.rounds() > 1 {
-                "step of the round returned"
-            } else {
-                "step"
-            }
-            .to_owned(),
-            panels,
-        }))
+        let holds = |panel: &TracePanel| {
+            let mut values = panel.series.iter().flat_map(|series| &series.value);
+            values.any(|&value| value != 0.0)
+        };
+        panels.retain(holds);
+        // Of several rounds it is that of the one whose particles were returned.
+        let several = self.history.rounds() > 1;
+        let x_label = if several { "step of the round returned" } else { "step" };
+        Drawing::Done(trace(&TracePlot::new(self.title(), x_label, panels)))
     }
 
     /// What the monitor said.
     fn watched(&self, seen: &Watched) -> TracePanel {
-        let (step, value) = seen.history.iter().map(|look| (look.0 as f64, look.1)).unzip();
-        TracePanel {
-            y_label: format!("monitor, least after step {}", seen.best_step),
-            y_axis: AxisKind::Linear,
-            series: vec![TraceSeries {
-                label: self.method.to_owned(),
-                step,
-                value,
-            }],
-            levels: Vec::new(),
-        }
+        let looks = seen.history.iter().map(|look| (look.0 as f64, look.1));
+        let y_label = format!("monitor, least after step {}", seen.best_step);
+        TracePanel::new(y_label, AxisKind::Linear, [TraceSeries::through(self.method, looks)])
     }
 
     fn strip(&self, known: &Known) -> Drawing {
@@ -192,7 +174,7 @@ impl Subject<'_> {
             return Drawing::LeftOut(Some("no particles have moved".to_owned()));
         }
         let titles: Vec<String> = moments.iter().map(|moment| format!("step {}", moment.step)).collect();
-        let returned = rows(&self.outcome.particles);
+        let returned = self.outcome.particles.to_rows();
         let mut panels: Vec<StripPanel<'_>> = moments
             .iter()
             .zip(&titles)
@@ -216,10 +198,7 @@ impl Subject<'_> {
 
     /// Points with the weights of the particles.
     fn weighted<'a>(&'a self, points: &'a [Vec<f64>]) -> PointCloud<'a> {
-        PointCloud {
-            points,
-            weights: self.outcome.particles.weights(),
-        }
+        PointCloud::weighted(points, self.outcome.particles.weights())
     }
 }
 
@@ -234,8 +213,4 @@ fn label(known: &Known) -> &'static str {
         Known::Draws(_) => "target (exact draws)",
         _ => "target",
     }
-}
-
-fn rows(particles: &Particles) -> Vec<Vec<f64>> {
-    particles.rows().map(<[f64]>::to_vec).collect()
 }

@@ -2,11 +2,12 @@
 
 use std::collections::HashSet;
 
+use parvi::Method;
 use parvi_targets::Dimensions;
 
 use super::definition::Case;
 use crate::CommandError;
-use crate::options::{Bounded, MethodSpecification};
+use crate::options::{Bounded, MethodSpecification, OptionError};
 
 /// The error for a field whose value does not fit; the runner adds the file.
 pub fn refusal(field: &str, message: impl Into<String>) -> CommandError {
@@ -49,19 +50,22 @@ pub fn unset<T>(field: &str, value: &Option<T>, place: &str) -> Result<(), Comma
     }
 }
 
-/// Refuses a method that lacks one of the options that the study sets.
-pub fn options_fit(field: &str, method: &MethodSpecification) -> Result<(), CommandError> {
-    match method.method(None) {
-        Ok(_) => Ok(()),
-        Err(error) => Err(refusal(&format!("{field}.options.{}", error.name), error.reason)),
-    }
+/// The method; refuses one that lacks an option that the study sets.
+pub fn fitting(field: &str, method: &MethodSpecification) -> Result<Method, CommandError> {
+    let refused = |error: OptionError| refusal(&format!("{field}.options.{}", error.name), error.reason);
+    method.method(None).map_err(refused)
 }
 
 /// Refuses lists of which two entries make the same case.
-pub fn distinct(field: &str, cases: &[impl Case]) -> Result<(), CommandError> {
-    let mut ids = HashSet::new();
-    match cases.iter().map(Case::id).find(|id| !ids.insert(id.clone())) {
-        Some(id) => Err(refusal(field, format!("two cases are `{id}`"))),
+pub fn distinct<W>(field: &str, cases: &[Case<W>]) -> Result<(), CommandError> {
+    distinct_names(field, cases.iter().map(|case| case.id().to_owned()))
+}
+
+/// Refuses lists that give two cases of the same name.
+pub fn distinct_names(field: &str, names: impl IntoIterator<Item = String>) -> Result<(), CommandError> {
+    let mut known = HashSet::new();
+    match names.into_iter().find(|name| !known.insert(name.clone())) {
+        Some(name) => Err(refusal(field, format!("two cases are `{name}`"))),
         None => Ok(()),
     }
 }

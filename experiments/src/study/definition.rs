@@ -4,33 +4,55 @@ use std::path::Path;
 
 use serde::de::DeserializeOwned;
 
+use super::attempt::Status;
 use super::directory::StudyDirectory;
-use super::results::Row;
+use super::row::{Row, Value};
+use super::rows::Rows;
+use super::yardstick::CurrentYardstick;
 use crate::CommandError;
 use crate::options::MethodSpecification;
 use crate::plots::page::Page;
 use crate::progress::CaseObserver;
 
 /// One piece of work of a study.
-pub trait Case: Sync {
-    /// A name made of the case's content, the same in every run; it stands in results.csv and in file names.
-    fn id(&self) -> String;
+#[derive(Clone, Debug)]
+pub struct Case<W> {
+    /// What its row says before it is run: its name, made of the case's content and the same in every run, and what it is a case of.
+    pub row: Row,
+    /// What it is expected to cost relative to others; for the progress bar.
+    pub cost: f64,
+    /// What is run.
+    pub work: W,
+}
 
-    /// The method that it runs, where this build may lack it.
-    fn method(&self) -> Option<&MethodSpecification> {
-        None
+impl<W> Case<W> {
+    /// A case of this name, which costs as much as any other and ends with finite particles unless something else is noted.
+    pub fn new(id: String, work: W) -> Self {
+        let (row, cost) = (Row::of(id).with("status", Status::Finished), 1.0);
+        Self { row, cost, work }
     }
 
-    /// What the case is expected to cost relative to others; for the progress bar.
-    fn cost(&self) -> f64 {
-        1.0
+    /// Its name; it stands in results.csv and in file names.
+    pub fn id(&self) -> &str {
+        self.row.case()
+    }
+
+    /// The same with another cost.
+    pub fn costing(self, cost: f64) -> Self {
+        Self { cost, ..self }
+    }
+
+    /// The same with what else its row says.
+    pub fn with(mut self, column: &'static str, value: impl Into<Value>) -> Self {
+        self.row.set(column, value);
+        self
     }
 }
 
 /// What a case is run with.
-pub struct Work<'a, S> {
-    /// What earlier cases left in memory.
-    pub shared: &'a mut S,
+pub struct Tools<'a> {
+    /// The yardstick of the target at hand.
+    pub yardstick: &'a mut CurrentYardstick,
     /// Where raw results go.
     pub directory: &'a StudyDirectory,
     /// Watches the runs, and stops them.
@@ -39,21 +61,17 @@ pub struct Work<'a, S> {
 
 /// A study: its configuration, which is a list of cases, and the report on their rows.
 pub trait Study: DeserializeOwned + Sync {
-    /// A case.
-    type Case: Case;
-    /// What a case gives.
-    type Row: Row + Send + Sync;
-    /// What one case may leave in memory for the next, such as a reference that is dear to compute.
-    type Shared: Default;
+    /// What is run in a case.
+    type Work: Sync;
 
     /// The `kind` in the configuration.
     const KIND: &'static str;
 
+    /// The columns of results.csv with spaces between.
+    const COLUMNS: &'static str;
+
     /// The keys of the configuration that are read before its kind is known; the study has the others.
     const HEAD: &[&str] = &["kind", "threads"];
-
-    /// The columns of results.csv with spaces between, where they are not all that a row has.
-    const COLUMNS: &'static str = "";
 
     /// Reads and checks the files that the configuration names, relative to its own file. Before a run, not for a report.
     ///
@@ -67,7 +85,7 @@ pub trait Study: DeserializeOwned + Sync {
     ///
     /// # Errors
     /// A case whose files have changed.
-    fn check_earlier(&self, _rows: &[Self::Row]) -> Result<(), CommandError> {
+    fn check_earlier(&self, _rows: &[Row]) -> Result<(), CommandError> {
         Ok(())
     }
 
@@ -76,20 +94,28 @@ pub trait Study: DeserializeOwned + Sync {
         Vec::new()
     }
 
+    /// Methods that this build may lack.
+    fn methods(&self) -> Vec<&MethodSpecification> {
+        Vec::new()
+    }
+
     /// All cases, in the order in which they run.
     ///
     /// # Errors
     /// Parts of the configuration that do not fit together.
-    fn cases(&self) -> Result<Vec<Self::Case>, CommandError>;
+    fn cases(&self) -> Result<Vec<Case<Self::Work>>, CommandError>;
 
-    /// Runs a case; raw results go into the directory, the row is appended by the caller.
+    /// Runs a case and fills its row; raw results go into the directory.
     ///
     /// # Errors
     /// What ends the whole study; a run that diverges is a row.
-    fn run(&self, case: &Self::Case, work: Work<'_, Self::Shared>) -> Result<Self::Row, CommandError>;
+    fn run(&self, case: &Case<Self::Work>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError>;
 
     /// Tables and plots of the rows, which may be a part of all; nothing is sampled.
-    fn report(&self, rows: &[Self::Row], directory: &StudyDirectory) -> Result<Report, CommandError>;
+    ///
+    /// # Errors
+    /// Files that cannot be read.
+    fn report(&self, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Report, CommandError>;
 }
 
 /// What a report says.

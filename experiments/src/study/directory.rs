@@ -4,7 +4,6 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::configuration::Configuration;
-use super::{manifest, results};
 use crate::CommandError;
 use crate::output::{AtomicFile, PARTIAL_SUFFIX};
 
@@ -25,7 +24,7 @@ impl StudyDirectory {
     /// [`CommandError::File`] if it cannot be made or written.
     pub fn claim(path: &Path, configuration: &Configuration) -> Result<Self, CommandError> {
         let directory = Self { path: path.to_owned() };
-        let existing = directory.configuration_path();
+        let existing = directory.file(CONFIGURATION);
         if existing.exists() {
             directory.check_same_study(configuration)?;
         } else {
@@ -40,7 +39,7 @@ impl StudyDirectory {
     /// A directory in which a study was run before.
     pub fn existing(path: &Path) -> Result<(Self, Configuration), CommandError> {
         let directory = Self { path: path.to_owned() };
-        let configuration = Configuration::read(&directory.configuration_path())?;
+        let configuration = Configuration::read(&directory.file(CONFIGURATION))?;
         directory.make_parts()?;
         Ok((directory, configuration))
     }
@@ -55,7 +54,7 @@ impl StudyDirectory {
 
     fn check_same_study(&self, configuration: &Configuration) -> Result<(), CommandError> {
         // A config.toml that is no study's is a stranger's as well.
-        let here = Configuration::read(&self.configuration_path())
+        let here = Configuration::read(&self.file(CONFIGURATION))
             .map_err(|error| self.occupied(format!("holds a {CONFIGURATION} that is no study's ({error})")))?;
         if here.hash() == configuration.hash() {
             return Ok(());
@@ -92,23 +91,9 @@ impl StudyDirectory {
         }
     }
 
-    fn configuration_path(&self) -> PathBuf {
-        self.path.join(CONFIGURATION)
-    }
-
-    /// manifest.json.
-    pub fn manifest(&self) -> PathBuf {
-        self.path.join(manifest::FILE_NAME)
-    }
-
-    /// results.csv.
-    pub fn results(&self) -> PathBuf {
-        self.path.join(results::FILE_NAME)
-    }
-
-    /// report.md.
-    pub fn report(&self) -> PathBuf {
-        self.path.join("report.md")
+    /// A file by its name: report.md, manifest.json, results.csv.
+    pub fn file(&self, name: &str) -> PathBuf {
+        self.path.join(name)
     }
 
     /// A file of raw results.

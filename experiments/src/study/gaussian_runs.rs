@@ -1,63 +1,18 @@
 //! Runs on the standard Gaussian N(0, I), measured in the exact squared energy distance: what several studies share.
 
-use parvi::{Method, Run};
 use parvi_metrics::{Cloud, GaussianEnergy};
-use serde::de::DeserializeOwned;
 
-use super::attempt::{Attempt, Status, attempt};
-use super::definition::{self, Report, Study, Work};
-use super::directory::StudyDirectory;
-use super::results::single_line;
-use super::run_row::RunRow;
-use crate::CommandError;
+use super::prelude::*;
 use crate::dispatch::in_dimension;
-use crate::options::{
-    Basis, Dimension, MethodName, MethodSpecification, ParticleCount, StepCount, TargetSpecification,
-};
 use crate::output::Particles;
-use crate::progress::CaseObserver;
-use crate::sampling::{self, Outcome};
+use crate::sampling::Outcome;
 
-/// A study all of whose cases are such runs.
-pub trait GaussianStudy: DeserializeOwned + Sync {
-    /// The `kind` in the configuration.
-    const KIND: &'static str;
+/// The columns of such runs.
+pub const COLUMNS: &str = "case status reason dim particles series spacing_factor requested_spacing requested_steps seed \
+     energy_distance_squared energy_level steps score_evaluations density_evaluations spacing active_nodes wall_seconds";
 
-    /// As [`Study::cases`].
-    ///
-    /// # Errors
-    /// Parts of the configuration that do not fit together.
-    fn cases(&self) -> Result<Vec<Case>, CommandError>;
-
-    /// As [`Study::report`].
-    fn report(&self, rows: &[RunRow]) -> Report;
-}
-
-impl<S: GaussianStudy> Study for S {
-    type Case = Case;
-    type Row = RunRow;
-    type Shared = ();
-
-    const KIND: &'static str = S::KIND;
-    const COLUMNS: &'static str = "case status reason dim particles series spacing_factor requested_spacing requested_steps seed \
-         energy_distance_squared energy_level steps score_evaluations density_evaluations spacing active_nodes wall_seconds";
-
-    fn cases(&self) -> Result<Vec<Case>, CommandError> {
-        GaussianStudy::cases(self)
-    }
-
-    fn run(&self, case: &Case, work: Work<'_, ()>) -> Result<RunRow, CommandError> {
-        run_case(case, work.observer)
-    }
-
-    fn report(&self, rows: &[RunRow], _: &StudyDirectory) -> Result<Report, CommandError> {
-        Ok(GaussianStudy::report(self, rows))
-    }
-}
-
-/// One run.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Case {
+/// What is run with several seeds.
+pub struct Setting<'a> {
     /// d.
     pub dim: Dimension,
     /// M.
@@ -65,109 +20,91 @@ pub struct Case {
     /// The method or basis, as tables and figures name it.
     pub series: String,
     /// The sampler with all its options.
-    pub method: MethodSpecification,
+    pub method: &'a MethodSpecification,
     /// The spacing in units of the basis's own default; `None` where the study does not vary it so.
     pub spacing_factor: Option<f64>,
-    /// Seed of the run.
-    pub seed: u64,
 }
 
-impl definition::Case for Case {
-    fn id(&self) -> String {
-        let mut id = format!("d{}-m{}-{}", self.dim, self.particles, self.series);
-        match (self.spacing_factor, self.method.options.spacing) {
-            (Some(factor), _) => id.push_str(&format!("-f{factor}")),
-            (None, Some(spacing)) => id.push_str(&format!("-h{spacing}")),
+impl Setting<'_> {
+    /// A case for every seed.
+    ///
+    /// # Errors
+    /// Options that do not fit the method.
+    pub fn cases(&self, seeds: &[u64]) -> Result<Vec<Case<Sampled>>, CommandError> {
+        let target = TargetSpecification::plain("gaussian", Some(self.dim));
+        let options = &self.method.options;
+        let mut name = format!("d{}-m{}-{}", self.dim, self.particles, self.series);
+        match (self.spacing_factor, options.spacing) {
+            (Some(factor), _) => name.push_str(&format!("-f{factor}")),
+            (None, Some(spacing)) => name.push_str(&format!("-h{spacing}")),
             (None, None) => {}
         }
-        if let Some(steps) = self.method.options.steps {
-            id.push_str(&format!("-t{steps}"));
+        if let Some(steps) = options.steps {
+            name.push_str(&format!("-t{steps}"));
         }
-        format!("{id}-s{}", self.seed)
+        let case = |&seed: &u64| {
+            let work = Sampled::new(&target, self.method, None, (self.particles, seed))?;
+            let case = work.case(format!("{name}-s{seed}"), self.method.label())?;
+            Ok(case
+                .with("series", self.series.as_str())
+                .with("spacing_factor", self.spacing_factor)
+                .with("requested_spacing", options.spacing)
+                .with("requested_steps", options.steps)
+                .costing(self.cost()))
+        };
+        seeds.iter().map(case).collect()
     }
 
+    /// Microseconds, roughly: the pairs of the energy distance, and per step M² pairs or M nodes times those of a stencil.
     fn cost(&self) -> f64 {
-        // Microseconds, roughly: the pairs of the energy distance, and per step M² pairs or M nodes times those of a stencil.
-        let (count, steps) = (self.particles as f64, self.method.options.steps.map(StepCount::get));
+        let options = &self.method.options;
+        let (count, steps) = (self.particles as f64, options.steps.map(StepCount::get));
+        let pool = || {
+            let size = options.pool_size.map(ParticleCount::get);
+            size.unwrap_or_else(|| parvi::defaults::pool_size(self.particles)) as f64
+        };
         let sampling = match self.method.name {
             MethodName::Iid | MethodName::Sobol => 0.0,
             MethodName::Ais => 100.0 * count,
             MethodName::Svgd => steps.unwrap_or(500) as f64 * 3e-3 * count * count,
             MethodName::Nuts => 10.0 * (count + 2e3),
-            MethodName::SteinThinning => 5e-3 * count * self.pool_size(),
-            MethodName::SupportPoints => steps.unwrap_or(100) as f64 * 2e-3 * count * self.pool_size(),
+            MethodName::SteinThinning => 5e-3 * count * pool(),
+            MethodName::SupportPoints => steps.unwrap_or(100) as f64 * 2e-3 * count * pool(),
             _ => {
-                let dim = self.dim.get();
-                let nodes = match self.method.options.basis.unwrap_or(Basis::Lattice) {
-                    Basis::Lattice | Basis::Mesh => dim as f64 + 1.0,
-                    Basis::Linear => 2f64.powi(dim as i32),
-                    Basis::Quadratic => 3f64.powi(dim as i32),
-                    Basis::Cubic => 4f64.powi(dim as i32),
-                };
-                steps.unwrap_or(100) as f64 * 1e-2 * count * nodes
+                let nodes = options.basis.unwrap_or_default().stencil(self.dim.get());
+                steps.unwrap_or(100) as f64 * 1e-2 * count * nodes as f64
             }
         };
         1e3 + 1e-3 * count * count + sampling
     }
 }
 
-impl Case {
-    /// The size of the sample that the particles are condensed from.
-    fn pool_size(&self) -> f64 {
-        let size = self.method.options.pool_size.map(ParticleCount::get);
-        size.unwrap_or_else(|| parvi::defaults::pool_size(self.particles)) as f64
-    }
-}
-
-impl Case {
-    /// A case for every seed.
-    pub fn of_seeds<'a>(self, seeds: &'a [u64]) -> impl Iterator<Item = Self> + use<'a> {
-        seeds.iter().map(move |&seed| Self { seed, ..self.clone() })
-    }
-}
-
-/// Runs a case: samples N(0, I) and measures the particles. A run that diverges is a row with its reason.
-fn run_case(case: &Case, observer: &mut CaseObserver) -> Result<RunRow, CommandError> {
-    let method = case.method.method(None)?;
-    let run = case.method.run(case.particles, case.seed);
-    let mut row = RunRow {
-        dim: case.dim.get(),
-        particles: case.particles,
-        series: case.series.clone(),
-        spacing_factor: case.spacing_factor,
-        requested_spacing: case.method.options.spacing,
-        requested_steps: case.method.options.steps.map(StepCount::get),
-        seed: Some(case.seed),
-        energy_level: Some(energy_level(case.dim, case.particles)?),
-        ..RunRow::new(case)
-    };
-    match measured(case.dim, &method, &run, observer)? {
-        Attempt::Failed(status, reason) => row.fail(status, reason),
-        Attempt::Finished((outcome, energy)) => {
+/// Samples N(0, I) and measures the particles. A run that diverges is a row with its reason.
+///
+/// # Errors
+/// What ends a study.
+pub fn run(case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
+    let Sampled { target, run, .. } = &case.work;
+    row.set("energy_level", energy_level(target.dimension()?, run.particles)?);
+    match attempt(sampled(&case.work, tools.observer))? {
+        Err(failure) => row.fail(failure),
+        Ok((outcome, energy)) => {
             row.take(&outcome);
-            row.energy_distance_squared = Some(energy);
+            row.set(ENERGY, energy);
         }
     }
-    Ok(row)
+    Ok(())
 }
 
 /// Samples N(0, I) and measures the particles' squared energy distance from it.
-pub fn measured(
-    dim: Dimension,
-    method: &Method,
-    run: &Run,
-    observer: &mut CaseObserver,
-) -> Result<Attempt<(Outcome, f64)>, CommandError> {
-    let outcome = match attempt(sampling::sample(&standard_gaussian(dim), method, run, observer))? {
-        Attempt::Finished(outcome) => outcome,
-        Attempt::Failed(status, reason) => return Ok(Attempt::Failed(status, reason)),
-    };
-    match in_dimension!("gaussian", dim.get(), D => energy::<D>(&outcome.particles)) {
-        Ok(energy) => Ok(Attempt::Finished((outcome, energy))),
-        // A cloud so far out that a distance overflows has diverged as well.
-        Err(CommandError::Metric(error)) => Ok(Attempt::Failed(Status::Diverged, single_line(error))),
-        Err(error) => Err(error),
-    }
+///
+/// # Errors
+/// What the sampler refuses, and particles too far out to be measured.
+pub fn sampled(work: &Sampled, observer: &mut CaseObserver) -> Result<(Outcome, f64), CommandError> {
+    let outcome = work.sample(observer)?;
+    let particles = &outcome.particles;
+    let energy = in_dimension!("gaussian", particles.dimension(), D => energy::<D>(particles))?;
+    Ok((outcome, energy))
 }
 
 /// The squared energy distance of particles from N(0, I).
@@ -178,16 +115,18 @@ fn energy<const D: usize>(particles: &Particles) -> Result<f64, CommandError> {
 }
 
 /// E‖Y − Y'‖ / M for Y, Y' ~ N(0, I): the expected squared energy distance of M independent draws.
-pub fn energy_level(dim: Dimension, particles: usize) -> Result<f64, CommandError> {
-    in_dimension!("gaussian", dim.get(), D => Ok(GaussianEnergy::<D>::standard()?.mean_distance() / particles as f64))
+///
+/// # Errors
+/// A dimension that this build lacks.
+pub fn energy_level(dim: usize, particles: usize) -> Result<f64, CommandError> {
+    in_dimension!("gaussian", dim, D => Ok(GaussianEnergy::<D>::standard()?.mean_distance() / particles as f64))
 }
 
 /// The spacing that the calibrated sampler would choose with a basis.
+///
+/// # Errors
+/// A dimension that this build lacks.
 pub fn default_spacing(dim: Dimension, basis: Basis, particles: usize) -> Result<f64, CommandError> {
     let basis = basis.uniform().unwrap_or_default();
     in_dimension!("gaussian", dim.get(), D => Ok(parvi::defaults::spacing::<D>(basis, particles)))
-}
-
-fn standard_gaussian(dim: Dimension) -> TargetSpecification {
-    TargetSpecification::plain("gaussian", Some(dim))
 }

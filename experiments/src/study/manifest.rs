@@ -45,13 +45,12 @@ impl Provenance {
 
     /// The same but for the time of the start.
     fn same_origin(&self, other: &Self) -> bool {
-        Self {
-            started: String::new(),
-            ..self.clone()
-        } == Self {
-            started: String::new(),
-            ..other.clone()
-        }
+        let started = self.started.clone();
+        *self
+            == Self {
+                started,
+                ..other.clone()
+            }
     }
 }
 
@@ -111,23 +110,17 @@ impl Manifest {
 
 /// Names and versions in the lock file; several versions of one crate are joined by commas.
 fn locked_crates() -> BTreeMap<String, String> {
-    #[derive(Deserialize)]
-    struct Lock {
-        package: Vec<Package>,
-    }
-    #[derive(Deserialize)]
-    struct Package {
-        name: String,
-        version: String,
-    }
-    let packages = toml::from_str::<Lock>(include_str!("../../../Cargo.lock")).map_or(Vec::new(), |lock| lock.package);
+    let lock = include_str!("../../../Cargo.lock").parse::<toml::Table>();
+    let lock = lock.unwrap_or_default();
+    let packages = lock.get("package").and_then(toml::Value::as_array);
     let mut crates: BTreeMap<String, String> = BTreeMap::new();
-    for package in packages {
-        let versions = crates.entry(package.name).or_default();
+    for package in packages.into_iter().flatten() {
+        let text = |key: &str| package.get(key).and_then(toml::Value::as_str).unwrap_or_default();
+        let versions = crates.entry(text("name").to_owned()).or_default();
         if !versions.is_empty() {
             versions.push_str(", ");
         }
-        versions.push_str(&package.version);
+        versions.push_str(text("version"));
     }
     crates
 }

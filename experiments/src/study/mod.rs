@@ -15,11 +15,14 @@ mod gaussian_runs;
 mod manifest;
 mod moments;
 mod paper;
+mod prelude;
 mod quickstart;
 mod random_targets;
 mod results;
-mod run_row;
+mod row;
+mod rows;
 mod runner;
+mod sampled;
 mod scaling;
 #[cfg(feature = "mechanics")]
 mod scenes;

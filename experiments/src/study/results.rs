@@ -4,33 +4,24 @@ use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-use serde::Serialize;
-use serde::de::DeserializeOwned;
-
+use super::row::{Row, Value};
 use crate::CommandError;
 
 /// The file's name.
 pub const FILE_NAME: &str = "results.csv";
 
-/// A row of results.
-pub trait Row: Serialize + DeserializeOwned {
-    /// The case it belongs to; also the first column.
-    fn case(&self) -> &str;
-}
-
 /// The open file and the rows in it; locked against a second process.
-pub struct ResultsFile<R> {
+pub struct ResultsFile {
     path: PathBuf,
     file: File,
-    rows: Vec<R>,
+    rows: Vec<Row>,
     has_header: bool,
-    /// The columns to write; none: all that a row has.
-    columns: Vec<&'static str>,
+    columns: &'static str,
 }
 
-impl<R: Row> ResultsFile<R> {
-    /// Opens the file, creates it if there is none, and cuts off a last line that was not written to its end. Of rows to come it will hold
-    /// these columns, without any all.
+impl ResultsFile {
+    /// Opens the file, creates it if there is none, and cuts off a last line that was not written to its end. Of every row it holds these
+    /// columns, with spaces between.
     ///
     /// # Errors
     /// [`CommandError::File`], [`CommandError::DirectoryOccupied`] if another process works on it, or
@@ -64,57 +55,52 @@ impl<R: Row> ResultsFile<R> {
         }
         file.seek(SeekFrom::Start(whole as u64)).map_err(failed("read"))?;
         Ok(Self {
-            rows: parse(path, &bytes)?,
+            rows: parse(path, &bytes, columns)?,
             has_header: whole > 0,
             path: path.to_owned(),
             file,
-            columns: columns.split_whitespace().collect(),
+            columns,
         })
     }
 
     /// Reads the rows without changing the file; a last line without its end is skipped.
-    pub fn read(path: &Path) -> Result<Vec<R>, CommandError> {
+    pub fn read(path: &Path, columns: &'static str) -> Result<Vec<Row>, CommandError> {
         let mut bytes = std::fs::read(path).map_err(|source| CommandError::file("read", path, source))?;
         bytes.truncate(whole(&bytes));
-        parse(path, &bytes)
+        parse(path, &bytes, columns)
     }
 
     /// The rows so far, in the order of the file.
-    pub fn rows(&self) -> &[R] {
+    pub fn rows(&self) -> &[Row] {
         &self.rows
     }
 
     /// Adds a row with one write and waits until it is on the disk.
-    pub fn append(&mut self, row: R) -> Result<(), CommandError> {
+    pub fn append(&mut self, row: &Row) -> Result<(), CommandError> {
         let failed = |source| CommandError::file("write", &self.path, source);
-        let line = self.line(&row).map_err(|error| failed(std::io::Error::other(error)))?;
+        let line = self.line(row).map_err(|error| failed(std::io::Error::other(error)))?;
         self.file
             .write_all(&line)
             .and_then(|()| self.file.sync_data())
             .map_err(failed)?;
         self.has_header = true;
-        self.rows.push(row);
+        let kept = self
+            .columns
+            .split(' ')
+            .map(|column| (column, row.value(column).clone()));
+        self.rows
+            .push(kept.fold(Row::default(), |row, (column, value)| row.with(column, value)));
         Ok(())
     }
 
     /// The row as a line, after a header where the file has none yet.
-    fn line(&self, row: &R) -> Result<Vec<u8>, csv::Error> {
-        let mut all = csv::Writer::from_writer(Vec::new());
-        all.serialize(row)?;
-        let all = all.into_inner().map_err(|error| error.into_error())?;
-        let mut reader = csv::Reader::from_reader(all.as_slice());
-        let header = reader.headers()?.clone();
-        let is_written = |name: &&str| self.columns.is_empty() || self.columns.contains(name);
-        let mut order: Vec<usize> = (0..header.len()).filter(|&k| is_written(&&header[k])).collect();
-        order.sort_by_key(|&k| self.columns.iter().position(|name| *name == &header[k]));
+    fn line(&self, row: &Row) -> Result<Vec<u8>, csv::Error> {
         let mut writer = csv::Writer::from_writer(Vec::new());
         if !self.has_header {
-            writer.write_record(order.iter().map(|&k| &header[k]))?;
+            writer.write_record(self.columns.split(' '))?;
         }
-        for record in reader.records() {
-            let record = record?;
-            writer.write_record(order.iter().map(|&k| &record[k]))?;
-        }
+        let values: Vec<&Value> = self.columns.split(' ').map(|column| row.value(column)).collect();
+        writer.serialize(values)?;
         writer.into_inner().map_err(|error| error.into_error().into())
     }
 }
@@ -125,16 +111,34 @@ fn whole(bytes: &[u8]) -> usize {
     end.map_or(0, |position| position + 1)
 }
 
-fn parse<R: Row>(path: &Path, bytes: &[u8]) -> Result<Vec<R>, CommandError> {
-    csv::Reader::from_reader(bytes)
-        .deserialize()
-        .map(|row| {
-            row.map_err(|error| CommandError::ResultsUnreadable {
-                file: path.display().to_string(),
-                message: error.to_string(),
-            })
-        })
-        .collect()
+/// The rows of a file; what it holds in other columns is left alone.
+fn parse(path: &Path, bytes: &[u8], columns: &'static str) -> Result<Vec<Row>, CommandError> {
+    let unreadable = |message: String| CommandError::ResultsUnreadable {
+        file: path.display().to_string(),
+        message,
+    };
+    let mut reader = csv::Reader::from_reader(bytes);
+    let header = reader.headers().map_err(|error| unreadable(error.to_string()))?.clone();
+    let place = |column: &'static str| Some((column, header.iter().position(|name| name == column)?));
+    let places: Vec<(&str, usize)> = columns.split(' ').filter_map(place).collect();
+    if !bytes.is_empty() && places.first().is_none_or(|(column, _)| *column != "case") {
+        return Err(unreadable("line 1: the column `case` is missing".to_owned()));
+    }
+    let mut rows = Vec::new();
+    for record in reader.records() {
+        let record = record.map_err(|error| unreadable(error.to_string()))?;
+        let line = record.position().map_or(0, csv::Position::line);
+        let mut row = Row::default();
+        for &(column, place) in &places {
+            let value = Value::read(column, record.get(place).unwrap_or_default());
+            row.set(
+                column,
+                value.map_err(|message| unreadable(format!("line {line}: {message}")))?,
+            );
+        }
+        rows.push(row);
+    }
+    Ok(rows)
 }
 
 /// A text for one cell: without line breaks, so that a file whose last line has no end was cut off.
@@ -144,41 +148,26 @@ pub fn single_line(text: impl ToString) -> String {
 
 #[cfg(test)]
 mod tests {
-    use serde::Deserialize;
-
     use super::*;
 
-    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-    struct Example {
-        case: String,
-        value: Option<f64>,
-    }
+    const COLUMNS: &str = "case value";
 
-    impl Row for Example {
-        fn case(&self) -> &str {
-            &self.case
-        }
-    }
-
-    fn row(case: &str, value: Option<f64>) -> Example {
-        Example {
-            case: case.to_owned(),
-            value,
-        }
+    fn row(case: &str, value: Option<f64>) -> Row {
+        Row::of(case).with("value", value)
     }
 
     #[test]
     fn rows_survive_closing_the_file() {
         let directory = tempfile::tempdir().unwrap();
         let path = directory.path().join(FILE_NAME);
-        let mut results = ResultsFile::open(&path, "").unwrap();
-        results.append(row("a, with comma", Some(0.1 + 0.2))).unwrap();
+        let mut results = ResultsFile::open(&path, COLUMNS).unwrap();
+        results.append(&row("a, with comma", Some(0.1 + 0.2))).unwrap();
         drop(results);
-        let mut results = ResultsFile::open(&path, "").unwrap();
-        results.append(row("b", None)).unwrap();
+        let mut results = ResultsFile::open(&path, COLUMNS).unwrap();
+        results.append(&row("b", None)).unwrap();
         drop(results);
         let expected = [row("a, with comma", Some(0.1 + 0.2)), row("b", None)];
-        assert_eq!(ResultsFile::<Example>::read(&path).unwrap(), expected);
+        assert_eq!(ResultsFile::read(&path, COLUMNS).unwrap(), expected);
     }
 
     #[test]
@@ -188,10 +177,10 @@ mod tests {
             let directory = tempfile::tempdir().unwrap();
             let path = directory.path().join(FILE_NAME);
             std::fs::write(&path, &whole[..length]).unwrap();
-            let mut results = ResultsFile::open(&path, "").unwrap();
+            let mut results = ResultsFile::open(&path, COLUMNS).unwrap();
             for (case, value) in [("a", 1.0), ("b", 2.0)] {
-                if !results.rows().iter().any(|row: &Example| row.case == case) {
-                    results.append(row(case, Some(value))).unwrap();
+                if !results.rows().iter().any(|row| row.case() == case) {
+                    results.append(&row(case, Some(value))).unwrap();
                 }
             }
             assert_eq!(std::fs::read_to_string(&path).unwrap(), whole, "cut at {length}");
@@ -202,18 +191,18 @@ mod tests {
     fn only_the_columns_asked_for_are_written_in_their_order() {
         let directory = tempfile::tempdir().unwrap();
         let path = directory.path().join(FILE_NAME);
-        let mut results = ResultsFile::open(&path, "value case").unwrap();
-        results.append(row("a \"b\", c", Some(0.1))).unwrap();
+        let mut results = ResultsFile::open(&path, "case steps note seed").unwrap();
+        let row = row("a \"b\", c", Some(0.1))
+            .with("seed", u64::MAX)
+            .with("steps", 3_usize);
+        results.append(&row).unwrap();
         assert_eq!(
             std::fs::read_to_string(&path).unwrap(),
-            "value,case\n0.1,\"a \"\"b\"\", c\"\n"
+            "case,steps,note,seed\n\"a \"\"b\"\", c\",3,,18446744073709551615\n"
         );
-        let mut cases = ResultsFile::open(&directory.path().join("cases"), "case").unwrap();
-        cases.append(row("a", Some(0.1))).unwrap();
-        drop(cases);
         assert_eq!(
-            ResultsFile::<Example>::read(&directory.path().join("cases")).unwrap(),
-            [row("a", None)]
+            results.rows(),
+            ResultsFile::read(&path, "case steps note seed").unwrap()
         );
     }
 
@@ -221,17 +210,24 @@ mod tests {
     fn a_second_writer_is_refused() {
         let directory = tempfile::tempdir().unwrap();
         let path = directory.path().join(FILE_NAME);
-        let _first = ResultsFile::<Example>::open(&path, "").unwrap();
-        let message = ResultsFile::<Example>::open(&path, "").err().unwrap().to_string();
+        let _first = ResultsFile::open(&path, COLUMNS).unwrap();
+        let message = ResultsFile::open(&path, COLUMNS).err().unwrap().to_string();
         assert!(message.contains("another process"), "{message}");
     }
 
     #[test]
-    fn foreign_columns_are_reported() {
+    fn what_no_study_writes_is_reported() {
         let directory = tempfile::tempdir().unwrap();
         let path = directory.path().join(FILE_NAME);
-        std::fs::write(&path, "x,y\n1,2\n").unwrap();
-        let message = ResultsFile::<Example>::open(&path, "").err().unwrap().to_string();
-        assert!(message.contains("missing field `case`"), "{message}");
+        for (text, expected) in [
+            ("x,y\n1,2\n", "line 1: the column `case` is missing"),
+            ("case,value\na,1.0\nb,two\n", "line 3: `two` in the column `value`"),
+            ("case,status\na,fine\n", "line 2: `fine` is no `status`"),
+            ("case,value\na\n", "line"),
+        ] {
+            std::fs::write(&path, text).unwrap();
+            let message = ResultsFile::read(&path, "case status value").err().unwrap().to_string();
+            assert!(message.contains(expected), "{message}");
+        }
     }
 }

@@ -4,13 +4,18 @@ use std::collections::HashSet;
 use std::path::Path;
 
 use super::configuration::Configuration;
-use super::definition::{Case, Report, Study, Work};
+use super::definition::{Case, Report, Study, Tools};
 use super::directory::StudyDirectory;
-use super::manifest::{Manifest, Provenance};
-use super::results::{ResultsFile, Row};
+use super::manifest::{self, Manifest, Provenance};
+use super::results::{self, ResultsFile};
+use super::row::Row;
+use super::yardstick::CurrentYardstick;
 use crate::output::AtomicFile;
 use crate::progress::StudyProgress;
 use crate::{CommandError, console, interrupt};
+
+/// The page that a study ends with.
+const REPORT: &str = "report.md";
 
 /// Runs a study into a directory, or the rest of it.
 pub fn run<S: Study>(configuration: &Configuration, out: &Path) -> Result<(), CommandError> {
@@ -18,12 +23,12 @@ pub fn run<S: Study>(configuration: &Configuration, out: &Path) -> Result<(), Co
     let located = |error| in_file(error, configuration);
     study.open(Path::new(configuration.file())).map_err(located)?;
     let cases = study.cases().map_err(located)?;
-    for method in cases.iter().filter_map(Case::method) {
+    for method in study.methods() {
         method.check_built()?;
     }
     let directory = StudyDirectory::claim(out, configuration)?;
     in_threads(configuration.threads(), || {
-        let mut results = ResultsFile::<S::Row>::open(&directory.results(), S::COLUMNS)?;
+        let mut results = ResultsFile::open(&directory.file(results::FILE_NAME), S::COLUMNS)?;
         study.check_earlier(results.rows()).map_err(located)?;
         note_start(&study, configuration, &directory)?;
         run_missing(&study, &cases, &directory, &mut results).map_err(located)?;
@@ -34,7 +39,7 @@ pub fn run<S: Study>(configuration: &Configuration, out: &Path) -> Result<(), Co
 /// Writes the report of what a directory holds.
 pub fn report<S: Study>(configuration: &Configuration, directory: &StudyDirectory) -> Result<(), CommandError> {
     let study: S = configuration.parse(S::HEAD)?;
-    let rows = ResultsFile::<S::Row>::read(&directory.results())?;
+    let rows = ResultsFile::read(&directory.file(results::FILE_NAME), S::COLUMNS)?;
     in_threads(configuration.threads(), || write_report(&study, &rows, directory))
 }
 
@@ -72,7 +77,7 @@ fn note_start<S: Study>(
     directory: &StudyDirectory,
 ) -> Result<(), CommandError> {
     let threads = rayon::current_num_threads();
-    let path = directory.manifest();
+    let path = directory.file(manifest::FILE_NAME);
     let manifest = if path.exists() {
         let mut manifest = Manifest::read(&path)?;
         manifest.resumed.push(Provenance::now(threads));
@@ -89,68 +94,57 @@ fn note_start<S: Study>(
 
 fn run_missing<S: Study>(
     study: &S,
-    cases: &[S::Case],
+    cases: &[Case<S::Work>],
     directory: &StudyDirectory,
-    results: &mut ResultsFile<S::Row>,
+    results: &mut ResultsFile,
 ) -> Result<(), CommandError> {
     let finished: HashSet<String> = results.rows().iter().map(|row| row.case().to_owned()).collect();
-    let total: f64 = cases.iter().map(Case::cost).sum();
-    let done: f64 = cases
-        .iter()
-        .filter(|case| finished.contains(&case.id()))
-        .map(Case::cost)
-        .sum();
-    let mut progress = StudyProgress::new(total, done);
-    let mut shared = S::Shared::default();
-    for case in cases {
-        let id = case.id();
-        if finished.contains(&id) {
-            continue;
-        }
-        let result = if interrupt::requested() {
-            Err(interrupted(results.rows().len(), cases.len()))
-        } else {
-            let work = Work {
-                shared: &mut shared,
-                directory,
-                observer: &mut progress.begin(&id, case.cost()),
-            };
-            study.run(case, work)
+    let (done, missing): (Vec<_>, Vec<_>) = cases.iter().partition(|case| finished.contains(case.id()));
+    let cost = |cases: &[&Case<S::Work>]| cases.iter().map(|case| case.cost).sum::<f64>();
+    let mut progress = StudyProgress::new(cost(&done) + cost(&missing), cost(&done));
+    let mut yardstick = CurrentYardstick::default();
+    for case in missing {
+        let mut row = case.row.clone();
+        let tools = Tools {
+            yardstick: &mut yardstick,
+            directory,
+            observer: &mut progress.begin(case.id(), case.cost),
         };
-        match result {
-            Ok(row) => results.append(row)?,
-            Err(error) => {
-                progress.clear();
-                return Err(if error.is_interruption() {
-                    interrupted(results.rows().len(), cases.len())
-                } else {
-                    error
-                });
-            }
+        let stopped = interrupt::requested();
+        let result = if stopped {
+            Ok(())
+        } else {
+            study.run(case, &mut row, tools)
+        };
+        let interrupted = stopped || result.as_ref().is_err_and(CommandError::is_interruption);
+        if interrupted || result.is_err() {
+            progress.clear();
         }
-        progress.end(case.cost());
+        if interrupted {
+            let (done, all) = (results.rows().len(), cases.len());
+            let hint = format!(": {done} of {all} cases are kept; the same command resumes with the next one");
+            return Err(CommandError::Interrupted { hint });
+        }
+        result?;
+        results.append(&row)?;
+        progress.end(case.cost);
     }
     progress.clear();
     Ok(())
 }
 
-fn interrupted(done: usize, all: usize) -> CommandError {
-    let hint = format!(": {done} of {all} cases are kept; the same command resumes with the next one");
-    CommandError::Interrupted { hint }
-}
-
-fn write_report<S: Study>(study: &S, rows: &[S::Row], directory: &StudyDirectory) -> Result<(), CommandError> {
-    let Report { mut page, summary } = study.report(rows, directory)?;
-    let manifest = Manifest::read(&directory.manifest())?;
+fn write_report<S: Study>(study: &S, rows: &[Row], directory: &StudyDirectory) -> Result<(), CommandError> {
+    let Report { mut page, summary } = study.report(&rows.iter().collect(), directory)?;
+    let manifest = Manifest::read(&directory.file(manifest::FILE_NAME))?;
     page.heading("Provenance");
     page.paragraph(provenance(&manifest, rows.len(), study.cases()?.len()));
     for (name, svg) in page.figures() {
         AtomicFile::write(directory.figure(name), svg)?;
     }
-    AtomicFile::write(directory.report(), page.as_str())?;
+    AtomicFile::write(directory.file(REPORT), page.as_str())?;
     let mut pairs = vec![("study", S::KIND.to_owned())];
     pairs.extend(summary);
-    pairs.push(("report", directory.report().display().to_string()));
+    pairs.push(("report", directory.file(REPORT).display().to_string()));
     console::print_pairs(&pairs)
 }
 

@@ -1,5 +1,7 @@
 //! Where the particles of a study begin.
 
+use std::fmt::{self, Display, Formatter};
+
 use parvi::Start;
 use serde::Deserialize;
 
@@ -14,6 +16,12 @@ pub struct StartLaw {
     pub mean: f64,
     /// Standard deviation of every coordinate, in target scales.
     pub standard_deviation: f64,
+}
+
+impl Display for StartLaw {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        write!(formatter, "N({}, {}²)", self.mean, self.standard_deviation)
+    }
 }
 
 impl StartLaw {

@@ -146,10 +146,13 @@ impl<const D: usize> TargetYardstick<D> {
     }
 }
 
+/// [`TargetYardstick::measure`].
+type ErrorsOf<const D: usize> = fn(&TargetYardstick<D>, &[[f64; D]], Option<&[f64]>) -> Result<Errors, MetricError>;
+
 /// What is compiled for a dimension.
 struct Compiled<const D: usize> {
     of_target: fn(BoxedTarget<D>, &YardstickOptions) -> Result<TargetYardstick<D>, YardstickError>,
-    errors: fn(&TargetYardstick<D>, &[[f64; D]], Option<&[f64]>) -> Result<Errors, MetricError>,
+    errors: ErrorsOf<D>,
     draws: fn(&TargetYardstick<D>, usize, u64) -> Vec<[f64; D]>,
 }
 

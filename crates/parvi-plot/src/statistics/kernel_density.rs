@@ -101,6 +101,38 @@ impl DensityGrid {
             *value = if value.is_finite() { (*value - most).exp() } else { 0.0 };
         }
     }
+
+    /// Whether the integral over every second node differs by no more than this share.
+    pub fn settles(&self, tolerance: f64) -> bool {
+        let (columns, rows) = (self.x.len(), self.y.len());
+        let sum = |step: usize| {
+            let nodes = |row: usize| (0..columns).step_by(step).map(move |column| row * columns + column);
+            let values = (0..rows).step_by(step).flat_map(nodes).map(|node| self.values[node]);
+            let cell = step * if rows > 1 { step } else { 1 };
+            values.sum::<f64>() * cell as f64
+        };
+        let (all, half) = (sum(1), sum(2));
+        all > 0.0 && (half / all - 1.0).abs() < tolerance
+    }
+
+    /// The density of one coordinate at the nodes of its axis, by the trapezoidal rule over the other one and then itself; the ends of
+    /// the grid, where nothing is, count whole. `None` for fewer than two nodes.
+    pub fn marginal(&self, axis: usize) -> Option<(Vec<f64>, Vec<f64>)> {
+        let (columns, rows) = (self.x.len(), self.y.len());
+        let nodes = if axis == 0 { &self.x } else { &self.y };
+        let sum = |index: usize| -> f64 {
+            if axis == 0 {
+                (0..rows).map(|row| self.values[row * columns + index]).sum()
+            } else {
+                self.values[index * columns..(index + 1) * columns].iter().sum()
+            }
+        };
+        let sums: Vec<f64> = (0..nodes.len()).map(sum).collect();
+        let spacing = nodes.get(1)? - nodes.first()?;
+        let total = sums.iter().sum::<f64>() * spacing;
+        let density = sums.into_iter().map(|value| value / total).collect();
+        Some((nodes.clone(), density))
+    }
 }
 
 /// `count` equidistant points from one end of `range` to the other.

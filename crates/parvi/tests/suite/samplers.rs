@@ -189,7 +189,7 @@ fn options_out_of_range_are_named() {
         );
     }
     let error = PaperMaterial::neo_hookean(1.0, 0.5).unwrap_err();
-    assert!(error.to_string().contains("Poisson"), "{error}");
+    assert!(error.to_string().contains("poisson_ratio"), "{error}");
     let rough = PaperOptions {
         friction: -1.0,
         ..PaperOptions::default()

@@ -23,22 +23,12 @@ pub fn losses(directory: &Path, title: &str, history: &[EpochReport]) -> Result<
         ("gradient", |report| report.terms.gradient),
         ("velocity", |report| report.terms.velocity),
     ];
-    let series = terms.map(|(label, value)| TraceSeries {
-        label: label.to_owned(),
-        step: history.iter().map(|report| (report.epoch + 1) as f64).collect(),
-        value: history.iter().map(value).collect(),
+    let series = terms.map(|(label, value)| {
+        let point = |report: &EpochReport| ((report.epoch + 1) as f64, value(report));
+        TraceSeries::through(label, history.iter().map(point))
     });
-    let panel = TracePanel {
-        y_label: "mean loss".to_owned(),
-        y_axis: AxisKind::Logarithmic,
-        series: series.into(),
-        levels: Vec::new(),
-    };
-    let plot = TracePlot {
-        title: format!("{title}: training"),
-        x_label: "epoch".to_owned(),
-        panels: vec![panel],
-    };
+    let panel = TracePanel::new("mean loss", AxisKind::Logarithmic, series);
+    let plot = TracePlot::new(format!("{title}: training"), "epoch", [panel]);
     AtomicFile::write(directory.join("losses.svg"), trace(&plot)?)
 }
 
@@ -51,28 +41,18 @@ pub fn coordinates(directory: &Path, experiment: &Experiment, rows: &[ReducedRow
     let Some(first) = groups.first() else { return Ok(()) };
     let shown = &first[..first.len().min(DRAWN)];
     let count = shown[0].frames.first().map_or(0, |frame| frame.latent.len());
-    let panel = |coordinate: usize| TracePanel {
-        y_label: format!("x̂{}", coordinate + 1),
-        y_axis: AxisKind::Linear,
-        series: shown
-            .iter()
-            .map(|row| {
-                let named = experiment.parameters.iter().zip(&row.parameters);
-                let values: Vec<String> = named.map(|(name, value)| format!("{name} {value}")).collect();
-                TraceSeries {
-                    label: values.join(", "),
-                    step: row.frames.iter().map(|frame| frame.time).collect(),
-                    value: row.frames.iter().map(|frame| frame.latent[coordinate]).collect(),
-                }
-            })
-            .collect(),
-        levels: Vec::new(),
+    let panel = |coordinate: usize| {
+        let line = |row: &&ReducedRow| {
+            let named = experiment.parameters.iter().zip(&row.parameters);
+            let values: Vec<String> = named.map(|(name, value)| format!("{name} {value}")).collect();
+            let frames = row.frames.iter();
+            let points = frames.map(|frame| (frame.time, frame.latent[coordinate]));
+            TraceSeries::through(values.join(", "), points)
+        };
+        TracePanel::new(format!("x̂{}", coordinate + 1), AxisKind::Linear, shown.iter().map(line))
     };
-    let plot = TracePlot {
-        title: format!("{}: coordinates, {} sample points", experiment.title, shown[0].samples),
-        x_label: "time (s)".to_owned(),
-        panels: (0..count).map(panel).collect(),
-    };
+    let title = format!("{}: coordinates, {} sample points", experiment.title, shown[0].samples);
+    let plot = TracePlot::new(title, "time (s)", (0..count).map(panel));
     AtomicFile::write(directory.join("coordinates.svg"), trace(&plot)?)
 }
 
@@ -101,10 +81,7 @@ pub fn errors(directory: &Path, title: &str, rows: &[ReducedRow]) -> Result<(), 
             x_label: "sample points (mean and range over the test cases)".to_owned(),
             y_label: y_label.to_owned(),
             x_axis: AxisKind::Logarithmic,
-            panels: vec![MultiplesPanel {
-                series: series(rows, value),
-                ..MultiplesPanel::default()
-            }],
+            panels: vec![MultiplesPanel::new("", series(rows, value))],
             ..MultiplesPlot::default()
         };
         AtomicFile::write(directory.join(file), multiples(&plot)?)?;
@@ -129,11 +106,7 @@ fn series(rows: &[ReducedRow], value: Value<ReducedRow>) -> Vec<LineSeries> {
         if !lines.iter().any(is_of) {
             let choice = (several_choices && chosen != "all").then_some(chosen);
             let label = way.iter().map(String::as_str).chain(choice).collect::<Vec<_>>();
-            let line = LineSeries {
-                label: label.join(", "),
-                ..LineSeries::default()
-            };
-            lines.push((way.clone(), chosen, line));
+            lines.push((way.clone(), chosen, LineSeries::named(label.join(", "))));
         }
         let values: Vec<f64> = group.iter().map(|row| value(row)).collect();
         let mean = values.iter().sum::<f64>() / values.len() as f64;

@@ -42,13 +42,8 @@ pub fn given(arguments: &Arguments, dimension: usize, run: &Run) -> Result<Given
         given.positions = Some(drawn.positions);
         if let Some(densities) = drawn.densities {
             let mass = |p: usize| given.masses.as_ref().map_or(1.0 / particles as f64, |masses| masses[p]);
-            given.reference_volumes = Some(
-                densities
-                    .iter()
-                    .enumerate()
-                    .map(|(p, density)| mass(p) / density)
-                    .collect(),
-            );
+            let volumes = densities.iter().enumerate().map(|(p, density)| mass(p) / density);
+            given.reference_volumes = Some(volumes.collect());
         }
     }
     Ok(given)
@@ -62,80 +57,54 @@ fn read(flag: &str, path: &Path, rows: usize, columns: usize) -> Result<Vec<f64>
         () if table.rows() != rows => (table.rows(), rows, "rows"),
         () => return Ok(table.numbers),
     };
-    Err(OptionError::new(
-        flag,
-        format!("{} has {found} {what}, must have {wanted}", path.display()),
-    ))
+    let reason = format!("{} has {found} {what}, must have {wanted}", path.display());
+    Err(OptionError::new(flag, reason))
 }
 
 fn of_law(reason: String) -> CommandError {
-    OptionError {
-        name: "start-law".to_owned(),
-        reason,
-    }
-    .into()
+    OptionError::new("start-law", reason).into()
 }
 
-/// N(centre, covariance) in the target's own coordinates.
+/// N(centre, covariance) in the target's own coordinates, the covariance row by row; without one the identity.
 struct NormalLaw {
     centre: Vec<f64>,
-    /// Row by row.
-    covariance: Vec<f64>,
+    covariance: Option<Vec<f64>>,
 }
 
 impl NormalLaw {
     fn parse(centre: &str, covariance: Option<&str>, dimension: usize) -> Result<Self, OptionError> {
-        let numbers = |flag: &str, text: &str| -> Result<Vec<f64>, OptionError> {
-            let number = |cell: &str| {
-                cell.trim()
-                    .parse::<f64>()
-                    .ok()
-                    .filter(|number| number.is_finite())
-                    .ok_or_else(|| OptionError::new(flag, format!("'{cell}' is not a finite number")))
-            };
-            let numbers: Vec<f64> = text.split(',').map(number).collect::<Result<_, _>>()?;
-            if numbers.len() == dimension {
-                return Ok(numbers);
-            }
-            Err(OptionError::new(
-                flag,
-                format!(
-                    "'{text}' has {} numbers, the target has {dimension} dimensions",
-                    numbers.len()
-                ),
-            ))
-        };
-        let centre = numbers("start-centre", centre)?;
-        let rows: Vec<Vec<f64>> = match covariance {
-            None => (0..dimension)
-                .map(|i| (0..dimension).map(|j| f64::from(u8::from(i == j))).collect())
-                .collect(),
-            Some(text) => {
-                let rows = text.split(';').map(|row| numbers("start-covariance", row));
-                rows.collect::<Result<_, _>>()?
-            }
-        };
-        if rows.len() != dimension {
-            return Err(OptionError::new(
-                "start-covariance",
-                format!("there are {} rows, the target has {dimension} dimensions", rows.len()),
-            ));
+        let centre = numbers("start-centre", centre, dimension)?;
+        let rows = covariance.map(|text| text.split(';').map(|row| numbers("start-covariance", row, dimension)));
+        let rows: Option<Vec<Vec<f64>>> = rows.map(|rows| rows.collect::<Result<_, _>>()).transpose()?;
+        if let Some(rows) = rows.as_ref().filter(|rows| rows.len() != dimension) {
+            let reason = format!("there are {} rows, the target has {dimension} dimensions", rows.len());
+            return Err(OptionError::new("start-covariance", reason));
         }
-        Ok(Self {
-            centre,
-            covariance: rows.concat(),
-        })
+        let covariance = rows.map(|rows| rows.concat());
+        Ok(Self { centre, covariance })
     }
 
     fn gaussian<const D: usize>(&self) -> Result<Gaussian<D>, CommandError> {
-        let covariance = Matrix::from_fn(|i, j| self.covariance[D * i + j]);
-        let law = Gaussian::new(std::array::from_fn(|a| self.centre[a]), covariance);
-        law.map_err(|error| {
-            let reason = error.to_string();
-            let name = "start-covariance".to_owned();
-            OptionError { name, reason }.into()
-        })
+        let identity = |i: usize, j: usize| f64::from(u8::from(i == j));
+        let entry = |i: usize, j: usize| self.covariance.as_ref().map_or(identity(i, j), |rows| rows[D * i + j]);
+        let law = Gaussian::new(std::array::from_fn(|a| self.centre[a]), Matrix::from_fn(entry));
+        law.map_err(|error| OptionError::new("start-covariance", error.to_string()).into())
     }
+}
+
+/// As many finite numbers as there are dimensions, with commas between.
+fn numbers(flag: &str, text: &str, dimension: usize) -> Result<Vec<f64>, OptionError> {
+    let number = |cell: &str| {
+        let number = cell.trim().parse::<f64>().ok().filter(|number| number.is_finite());
+        number.ok_or_else(|| OptionError::new(flag, format!("'{cell}' is not a finite number")))
+    };
+    let numbers: Vec<f64> = text.split(',').map(number).collect::<Result<_, _>>()?;
+    if numbers.len() == dimension {
+        return Ok(numbers);
+    }
+    let count = numbers.len();
+    let reason = format!("'{text}' has {count} numbers, the target has {dimension} dimensions");
+    Err(OptionError::new(flag, reason))
 }
 
 /// What was drawn.
@@ -155,21 +124,19 @@ fn drawn<const D: usize>(law: &dyn CatalogueTarget<D>, run: &Run, volumes: bool)
         independent_draws(law, run)
     };
     let positions = samples.map_err(|error| of_law(error.to_string()))?.positions;
-    let densities = if volumes {
-        let evidence = law.log_evidence().ok_or_else(|| {
-            of_law(format!(
-                "the density of {} is not known, which --volumes start-density needs",
-                law.name()
-            ))
-        })?;
-        Some(
-            positions
-                .iter()
-                .map(|x| (law.log_density(x) - evidence).exp())
-                .collect(),
-        )
-    } else {
-        None
+    let unknown = || {
+        let name = law.name();
+        of_law(format!(
+            "the density of {name} is not known, which --volumes start-density needs"
+        ))
+    };
+    let densities = match volumes {
+        false => None,
+        true => {
+            let evidence = law.log_evidence().ok_or_else(unknown)?;
+            let density = |x: &[f64; D]| (law.log_density(x) - evidence).exp();
+            Some(positions.iter().map(density).collect())
+        }
     };
     Ok(Drawn {
         positions: positions.as_flattened().to_vec(),

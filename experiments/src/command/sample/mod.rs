@@ -30,21 +30,16 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME")]
     target: String,
     /// Dimension from 1 to 8, where the target leaves it free
-    #[arg(long, value_name = "D", allow_negative_numbers = true)]
+    #[arg(long, value_name = "D")]
     dim: Option<Dimension>,
     /// Number of particles, at least 2; may be left out where --start has them
-    #[arg(
-        long,
-        value_name = "M",
-        required_unless_present = "start",
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "M", required_unless_present = "start")]
     particles: Option<ParticleCount>,
     /// Method
     #[arg(long, value_enum, default_value_t)]
     method: MethodName,
     /// Seed of every random choice
-    #[arg(long, value_name = "S", default_value_t = 0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", default_value_t = 0)]
     seed: u64,
     /// File of the particles, .csv or .npy
     #[arg(long, value_name = "FILE.csv|.npy")]
@@ -56,25 +51,13 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     checkpoint: Option<PathBuf>,
     /// Write the checkpoint every so many steps
-    #[arg(
-        long,
-        value_name = "STEPS",
-        default_value = "32",
-        requires = "checkpoint",
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "STEPS", default_value = "32", requires = "checkpoint")]
     checkpoint_every: StepCount,
     /// Directory for frames of the particles on their way and at the end: .npy, and .vtp with a .pvd for ParaView
     #[arg(long, value_name = "DIR")]
     frames: Option<PathBuf>,
     /// Write a frame of every K-th step
-    #[arg(
-        long,
-        value_name = "K",
-        default_value = "10",
-        requires = "frames",
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "K", default_value = "10", requires = "frames")]
     every: StepCount,
     /// Directory for pictures of the particles: marginals, corner plot, trace, and for d = 2 the cloud at six moments
     #[arg(long, value_name = "DIR")]
@@ -85,15 +68,13 @@ pub struct Arguments {
     options: MethodOptions,
 }
 
-/// The subcommand, in whose help every option of methods names those that have it.
+/// The subcommand, all of whose values may be negative numbers, and in whose help every option of methods names those that have it.
 pub fn with_owners(command: clap::Command) -> clap::Command {
     command.mut_args(|argument| {
+        let argument = argument.allow_negative_numbers(true);
         let owners = owners(argument.get_long().unwrap_or_default());
-        let Some(help) = argument
-            .get_help()
-            .map(ToString::to_string)
-            .filter(|_| !owners.is_empty())
-        else {
+        let help = argument.get_help().map(ToString::to_string);
+        let Some(help) = help.filter(|_| !owners.is_empty()) else {
             return argument;
         };
         let (what, default) = help.split_at(help.find(" [default").unwrap_or(help.len()));

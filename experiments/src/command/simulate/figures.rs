@@ -24,11 +24,8 @@ pub fn draw(directory: &Path, title: &str) -> Result<(), CommandError> {
     let groups = groups(&series);
     remove_others(directory, &groups)?;
     for (name, panels) in groups {
-        let plot = TracePlot {
-            title: format!("{title}: {}", name.replace('_', " ")),
-            x_label: "time".to_owned(),
-            panels: panels.iter().filter_map(|panel| drawn(&series, panel)).collect(),
-        };
+        let panels = panels.iter().filter_map(|panel| drawn(&series, panel));
+        let plot = TracePlot::new(format!("{title}: {}", name.replace('_', " ")), "time", panels);
         AtomicFile::write(directory.join(file_name(&name)), trace(&plot)?)?;
     }
     Ok(())
@@ -52,41 +49,42 @@ fn remove_others(directory: &Path, groups: &[(String, Vec<Panel>)]) -> Result<()
     Ok(())
 }
 
+/// Files of every run and their panels: what the columns begin with, and the label of the axis.
+const GROUPS: [(&str, &[(&str, &str)]); 4] = [
+    ("centre_of_mass", &[("centre_", "centre of mass")]),
+    ("energies", &[("", "energy")]),
+    (
+        "momenta",
+        &[("momentum_", "momentum"), ("angular_momentum", "angular momentum")],
+    ),
+    (
+        "extent",
+        &[("lower_", "lowest position"), ("upper_", "highest position")],
+    ),
+];
+
 /// Files and their panels.
 fn groups(series: &Series) -> Vec<(String, Vec<Panel>)> {
     let panel = |prefix: &str, y_label: &str| Panel {
         prefix: prefix.to_owned(),
         y_label: y_label.to_owned(),
     };
-    let mut groups = vec![
-        ("centre_of_mass".to_owned(), vec![panel("centre_", "centre of mass")]),
-        ("energies".to_owned(), vec![panel("", "energy")]),
-        (
-            "momenta".to_owned(),
-            vec![
-                panel("momentum_", "momentum"),
-                panel("angular_momentum", "angular momentum"),
-            ],
-        ),
-        (
-            "extent".to_owned(),
-            vec![panel("lower_", "lowest position"), panel("upper_", "highest position")],
-        ),
-    ];
-    for probe in probes(series) {
+    let of_run = GROUPS.iter().map(|(name, panels)| {
+        let panels = panels.iter().map(|(prefix, y_label)| panel(prefix, y_label));
+        ((*name).to_owned(), panels.collect())
+    });
+    let of_probe = probes(series).map(|probe| {
         let fields = ["displacement", "velocity", "stress"];
         let panels = fields.map(|field| panel(&format!("{probe}_{field}_"), field));
-        groups.push((format!("probe_{probe}"), panels.into()));
-    }
-    groups
+        (format!("probe_{probe}"), panels.into())
+    });
+    of_run.chain(of_probe).collect()
 }
 
 /// Names of the probes: columns that end with the first component of a displacement.
 fn probes(series: &Series) -> impl Iterator<Item = &str> {
-    series
-        .columns()
-        .iter()
-        .filter_map(|column| column.strip_suffix("_displacement_x"))
+    let columns = series.columns().iter();
+    columns.filter_map(|column| column.strip_suffix("_displacement_x"))
 }
 
 /// The lines of a panel; `None` without any.
@@ -115,12 +113,7 @@ fn drawn(series: &Series, panel: &Panel) -> Option<TracePanel> {
             value,
         });
     }
-    (!lines.is_empty()).then(|| TracePanel {
-        y_label: panel.y_label.clone(),
-        y_axis: AxisKind::Linear,
-        series: lines,
-        levels: Vec::new(),
-    })
+    (!lines.is_empty()).then(|| TracePanel::new(panel.y_label.as_str(), AxisKind::Linear, lines))
 }
 
 #[cfg(test)]

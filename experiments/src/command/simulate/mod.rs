@@ -50,17 +50,12 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
 /// The comparisons that failed.
 fn warn(validation: &[ValidationRow]) {
     for row in validation.iter().filter(|row| !row.passes()) {
-        console::notice(&if row.measured.is_nan() {
-            format!(
-                "{}: the run gives no value, {} is expected",
-                row.quantity, row.reference
-            )
-        } else {
-            format!(
-                "{}: {} differs from {} by more than {}",
-                row.quantity, row.measured, row.reference, row.tolerance
-            )
-        });
+        let (reference, tolerance) = (row.reference, row.tolerance);
+        let what = match row.measured {
+            measured if measured.is_nan() => format!("the run gives no value, {reference} is expected"),
+            measured => format!("{measured} differs from {reference} by more than {tolerance}"),
+        };
+        console::notice(&format!("{}: {what}", row.quantity));
     }
 }
 
@@ -81,11 +76,8 @@ fn pairs(arguments: &Arguments, summary: &Summary, seconds: f64) -> Vec<(&'stati
         pairs.push(("resumed_at", time.to_string()));
     }
     pairs.push(("outcome", summary.outcome.name().to_owned()));
-    let (rows, passed) = (
-        &summary.validation,
-        summary.validation.iter().all(ValidationRow::passes),
-    );
-    if !rows.is_empty() {
+    let passed = summary.validation.iter().all(ValidationRow::passes);
+    if !summary.validation.is_empty() {
         pairs.push(("validation", if passed { "passed" } else { "failed" }.to_owned()));
     }
     pairs

@@ -73,10 +73,8 @@ impl MethodOptions {
     fn on_mesh(&self, steps: Option<usize>) -> Result<OnMesh, OptionError> {
         let default = MeshOptions::default();
         let Some(file) = self.mesh.clone() else {
-            return Err(OptionError::new(
-                "basis",
-                "mesh needs --mesh FILE.msh beside it".to_owned(),
-            ));
+            let reason = "mesh needs --mesh FILE.msh beside it";
+            return Err(OptionError::new("basis", reason));
         };
         let is_known = |name: &str| ON_MESH.split(' ').any(|known| known == name);
         if let Some((name, value)) = self.given().find(|(name, _)| !is_known(name)) {

@@ -6,14 +6,9 @@
 mod figure;
 mod report;
 
-use serde::Deserialize;
-
-use super::checks::{all_given, distinct, refusal};
-use super::definition::Report;
-use super::gaussian_runs::{Case, GaussianStudy};
-use super::run_row::RunRow;
-use crate::CommandError;
-use crate::options::{Dimension, MethodName, MethodOptions, MethodSpecification, OptionError, ParticleCount};
+use super::gaussian_runs::{self, Setting};
+use super::prelude::*;
+use crate::options::OptionError;
 
 /// All methods in all dimensions at all numbers of particles.
 #[derive(Clone, Debug, Deserialize)]
@@ -62,11 +57,14 @@ impl TryFrom<Stated> for Entry {
     }
 }
 
-impl GaussianStudy for Accuracy {
+impl Study for Accuracy {
+    type Work = Sampled;
+
     const KIND: &'static str = "accuracy";
+    const COLUMNS: &'static str = gaussian_runs::COLUMNS;
 
     /// The cases, dimension by dimension, few particles first.
-    fn cases(&self) -> Result<Vec<Case>, CommandError> {
+    fn cases(&self) -> Result<Vec<Case<Sampled>>, CommandError> {
         all_given!(self: seeds, dims, particles, methods);
         let mut labels: Vec<&str> = self.methods.iter().map(|entry| entry.method.label()).collect();
         labels.sort_unstable();
@@ -78,16 +76,15 @@ impl GaussianStudy for Accuracy {
         for &dim in &self.dims {
             for &particles in &self.particles {
                 let within = |entry: &&Entry| entry.largest_particles.is_none_or(|most| particles <= most);
-                for entry in self.methods.iter().filter(within) {
-                    let case = Case {
+                for Entry { method, .. } in self.methods.iter().filter(within) {
+                    let setting = Setting {
                         dim,
                         particles: particles.get(),
-                        series: entry.method.label().to_owned(),
-                        method: entry.method.clone(),
+                        series: method.label().to_owned(),
+                        method,
                         spacing_factor: None,
-                        seed: 0,
                     };
-                    cases.extend(case.of_seeds(&self.seeds));
+                    cases.extend(setting.cases(&self.seeds)?);
                 }
             }
         }
@@ -95,20 +92,32 @@ impl GaussianStudy for Accuracy {
         Ok(cases)
     }
 
-    fn report(&self, rows: &[RunRow]) -> Report {
-        report::report(self, rows)
+    fn run(&self, case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
+        gaussian_runs::run(case, row, tools)
+    }
+
+    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Report, CommandError> {
+        Ok(report::report(self, rows))
     }
 }
 
-/// The runs of one method at one size.
-fn runs<'a>(rows: &'a [RunRow], dim: Dimension, particles: usize, label: &str) -> Vec<&'a RunRow> {
-    rows.iter()
-        .filter(|row| row.dim == dim.get() && row.particles == particles && row.series == label)
-        .collect()
+impl Accuracy {
+    /// The methods' names in tables and figures.
+    fn labels(&self) -> impl Iterator<Item = &str> {
+        self.methods.iter().map(|entry| entry.method.label())
+    }
+
+    /// The runs of a method by the number of particles, few first.
+    fn by_size<'a>(&self, rows: &Rows<'a>, dim: Dimension, label: &str) -> Vec<(usize, Rows<'a>)> {
+        let here = rows.with("dim", dim).with("series", label);
+        let sizes = ascending(&self.particles).into_iter();
+        sizes.map(|size| (size, here.with("particles", size))).collect()
+    }
 }
 
 /// ED² of as many independent draws, in expectation.
-fn expected(rows: &[RunRow], dim: Dimension, particles: f64) -> Option<f64> {
-    let row = rows.iter().find(|row| row.dim == dim.get())?;
-    Some(row.energy_level? * row.particles as f64 / particles)
+fn expected(rows: &Rows<'_>, dim: Dimension, particles: f64) -> Option<f64> {
+    let here = rows.with("dim", dim);
+    let row = here.first()?;
+    Some(row.number("energy_level")? * row.number("particles")? / particles)
 }

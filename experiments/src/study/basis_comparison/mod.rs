@@ -6,14 +6,8 @@
 mod choice;
 mod report;
 
-use serde::Deserialize;
-
-use super::checks::{all_given, ascending, distinct, options_fit, positive, unset};
-use super::definition::Report;
-use super::gaussian_runs::{Case, GaussianStudy, default_spacing};
-use super::run_row::RunRow;
-use crate::CommandError;
-use crate::options::{Basis, Dimension, MethodSpecification, ParticleCount, StepCount};
+use super::gaussian_runs::{self, Setting, default_spacing};
+use super::prelude::*;
 
 /// All bases at several spacings and numbers of steps.
 #[derive(Clone, Debug, Deserialize)]
@@ -42,37 +36,40 @@ impl BasisComparison {
     }
 }
 
-impl GaussianStudy for BasisComparison {
+impl Study for BasisComparison {
+    type Work = Sampled;
+
     const KIND: &'static str = "basis-comparison";
+    const COLUMNS: &'static str = gaussian_runs::COLUMNS;
 
     /// The cases, dimension by dimension.
-    fn cases(&self) -> Result<Vec<Case>, CommandError> {
+    fn cases(&self) -> Result<Vec<Case<Sampled>>, CommandError> {
         all_given!(self: seeds, dims, bases, spacings, steps);
         positive("spacings", &self.spacings)?;
         let options = &self.method.options;
         unset("method.options.basis", &options.basis, "bases")?;
         unset("method.options.spacing", &options.spacing, "spacings")?;
         unset("method.options.steps", &options.steps, "steps")?;
+        let particles = self.particles.get();
         let mut cases = Vec::new();
         for &dim in &self.dims {
             for &basis in &self.bases {
-                let default = default_spacing(dim, basis, self.particles.get())?;
+                let default = default_spacing(dim, basis, particles)?;
                 for &factor in &self.spacings {
                     for &steps in &self.steps {
                         let mut method = self.method.clone();
                         method.options.basis = Some(basis);
                         method.options.spacing = Some(factor * default);
                         method.options.steps = Some(steps);
-                        options_fit("method", &method)?;
-                        let case = Case {
+                        fitting("method", &method)?;
+                        let setting = Setting {
                             dim,
-                            particles: self.particles.get(),
+                            particles,
                             series: basis.to_string(),
-                            method,
+                            method: &method,
                             spacing_factor: Some(factor),
-                            seed: 0,
                         };
-                        cases.extend(case.of_seeds(&self.seeds));
+                        cases.extend(setting.cases(&self.seeds)?);
                     }
                 }
             }
@@ -81,7 +78,11 @@ impl GaussianStudy for BasisComparison {
         Ok(cases)
     }
 
-    fn report(&self, rows: &[RunRow]) -> Report {
-        report::report(self, rows)
+    fn run(&self, case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
+        gaussian_runs::run(case, row, tools)
+    }
+
+    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Report, CommandError> {
+        Ok(report::report(self, rows))
     }
 }

@@ -1,15 +1,11 @@
 //! The report of the study `basis-comparison`.
 
 use super::BasisComparison;
-use super::choice::{Choice, runs};
-use crate::options::{Basis, Dimension};
-use crate::plots::page::{Cell, MISSING, Page, line, number};
-use crate::plots::{LineSeries, MultiplesPanel, MultiplesPlot, ReferenceLevel, multiples};
-use crate::study::definition::Report;
-use crate::study::run_row::{ENERGY, NODES_PER_PARTICLE, RunRow, SECONDS, median, report_of_runs, values};
+use super::choice::{Choice, at};
+use crate::study::prelude::*;
 
 /// Tables and figure.
-pub fn report(study: &BasisComparison, rows: &[RunRow]) -> Report {
+pub fn report(study: &BasisComparison, rows: &Rows<'_>) -> Report {
     let mut page = Page::new("Bases at equal time");
     page.paragraph(format!(
         "Target N(0, I), M = {} particles, method `{}`, {} seeds; medians over the seeds. ED² is the squared energy distance, \
@@ -38,18 +34,18 @@ pub fn report(study: &BasisComparison, rows: &[RunRow]) -> Report {
     }
     page.heading("Spacings");
     spacings(study, rows, &mut page);
-    report_of_runs(page, rows)
+    rows.report(page)
 }
 
 /// The median ED² × 10³.
-fn thousandths(rows: &[&RunRow]) -> Option<f64> {
-    median(rows, ENERGY).map(|energy| 1e3 * energy)
+fn thousandths(rows: &Rows<'_>) -> Option<f64> {
+    rows.median(ENERGY).map(|energy| 1e3 * energy)
 }
 
-fn best_table(study: &BasisComparison, rows: &[RunRow], dim: Dimension, page: &mut Page) {
+fn best_table(study: &BasisComparison, rows: &Rows<'_>, dim: Dimension, page: &mut Page) {
     let first = study.bases.first();
     let allowed = first.and_then(|&basis| Choice::of(study, rows, dim, basis)?.longest());
-    let mut header = ["basis", "best h", "h / default"].map(str::to_owned).to_vec();
+    let mut header = "basis | best h | h / default".names();
     for steps in study.step_counts() {
         header.extend([format!("ED², T = {steps}"), format!("time (s), T = {steps}")]);
     }
@@ -64,20 +60,22 @@ fn best_table(study: &BasisComparison, rows: &[RunRow], dim: Dimension, page: &m
         let factor = format!("{}{edge}", choice.factor);
         let mut cells = line(&[&basis.to_string(), &choice.spacing(), &factor]);
         for steps in study.step_counts() {
-            let here = runs(rows, dim, basis, choice.factor, steps);
-            cells.extend(line(&[&thousandths(&here), &median(&here, SECONDS)]));
+            let here = at(rows, dim, basis, choice.factor).with("requested_steps", steps);
+            cells.extend(line(&[&thousandths(&here), &here.median(SECONDS)]));
         }
         let equal = allowed.and_then(|seconds| choice.within(seconds));
-        cells.push(equal.map_or(MISSING.to_owned(), |(steps, energy)| {
-            format!("{} (T = {steps})", number(1e3 * energy))
-        }));
+        cells.push(
+            equal
+                .map(|(steps, energy)| format!("{} (T = {steps})", number(1e3 * energy)))
+                .cell(),
+        );
         table.push(cells);
     }
     page.table(&header, &table);
 }
 
 /// The errors of all spacings at the largest number of steps.
-fn spacings(study: &BasisComparison, rows: &[RunRow], page: &mut Page) {
+fn spacings(study: &BasisComparison, rows: &Rows<'_>, page: &mut Page) {
     let Some(&most) = study.step_counts().last() else {
         return;
     };
@@ -86,12 +84,11 @@ fn spacings(study: &BasisComparison, rows: &[RunRow], page: &mut Page) {
     for &dim in &study.dims {
         for &basis in &study.bases {
             for &factor in &study.spacings {
-                let here = runs(rows, dim, basis, factor, most);
-                let mut cells = vec![dim.to_string(), basis.to_string(), factor.to_string()];
-                cells.push(here.first().and_then(|row| row.requested_spacing).cell());
-                cells.push(thousandths(&here).cell());
-                cells.extend([NODES_PER_PARTICLE, SECONDS].map(|quantity| median(&here, quantity).cell()));
-                table.push(cells);
+                let here = at(rows, dim, basis, factor).with("requested_steps", most);
+                let spacing = here.first().and_then(|row| row.number("requested_spacing"));
+                let names = line(&[&dim.to_string(), &basis.to_string(), &factor.to_string(), &spacing]);
+                let cells = here.medians(&[&NODES_PER_PARTICLE, &SECONDS]);
+                table.push([names, vec![thousandths(&here).cell()], cells].concat());
             }
         }
     }
@@ -102,32 +99,28 @@ fn spacings(study: &BasisComparison, rows: &[RunRow], page: &mut Page) {
 }
 
 /// One panel per dimension, one line per basis.
-fn plot(study: &BasisComparison, rows: &[RunRow]) -> MultiplesPlot {
-    let level = |value| ReferenceLevel::new(value, "expected of i.i.d. draws");
+fn plot(study: &BasisComparison, rows: &Rows<'_>) -> MultiplesPlot {
     let panel = |&dim: &Dimension| {
-        let row = rows.iter().find(|row| row.dim == dim.get());
-        let lines = study.bases.iter();
-        MultiplesPanel {
-            title: format!("d = {dim}"),
-            series: lines.filter_map(|&basis| curve(study, rows, dim, basis)).collect(),
-            levels: row.and_then(|row| row.energy_level).map(level).into_iter().collect(),
-            ..MultiplesPanel::default()
+        let here = rows.with("dim", dim);
+        let expected = here.first().and_then(|row| row.number("energy_level"));
+        let lines = study
+            .bases
+            .iter()
+            .filter_map(|&basis| line_of(study, &here, dim, basis));
+        let panel = MultiplesPanel::new(format!("d = {dim}"), lines);
+        match expected {
+            Some(level) => panel.with_level(level, "expected of i.i.d. draws"),
+            None => panel,
         }
     };
-    MultiplesPlot {
-        panels: study.dims.iter().map(panel).collect(),
-        notes: vec!["Medians over the seeds; bars from the smallest to the largest ED².".to_owned()],
-        ..MultiplesPlot::logarithmic("wall time (s)", "ED² (standard deviations)")
-    }
+    MultiplesPlot::logarithmic("wall time (s)", "ED² (standard deviations)")
+        .with_panels(study.dims.iter().map(panel))
+        .with_note("Medians over the seeds; bars from the smallest to the largest ED².")
 }
 
-fn curve(study: &BasisComparison, rows: &[RunRow], dim: Dimension, basis: Basis) -> Option<LineSeries> {
+fn line_of(study: &BasisComparison, rows: &Rows<'_>, dim: Dimension, basis: Basis) -> Option<LineSeries> {
     let choice = Choice::of(study, rows, dim, basis)?;
-    let mut line = LineSeries::named(basis.to_string());
-    for (_, runs) in &choice.by_steps {
-        if let Some(time) = median(runs, SECONDS) {
-            line.push_median(time, &values(runs, ENERGY));
-        }
-    }
-    Some(line)
+    let timed = choice.by_steps.into_iter();
+    let points = timed.filter_map(|(_, runs)| Some((runs.median(SECONDS)?, runs)));
+    Some(curve(basis.to_string(), points, ENERGY))
 }

@@ -1,14 +1,13 @@
 //! The figure of the study `catalogue`: what the judged method reaches, target by target, from every start.
 
 use super::requirement::Requirement;
-use super::{Catalogue, runs};
-use crate::CommandError;
+use super::{Catalogue, from_start};
 use crate::plots::style::{MARKERS, PALETTE, SeriesStyle};
-use crate::plots::{AxisKind, DotPlot, DotRow, DotSeries};
-use crate::study::run_row::{ENERGY_RATIO, RunRow, median};
+use crate::plots::{DotPlot, DotRow, DotSeries};
+use crate::study::prelude::*;
 
 /// ED² relative to independent draws, a row per target, a marker per start.
-pub fn plot(study: &Catalogue, rows: &[RunRow]) -> Result<DotPlot, CommandError> {
+pub fn plot(study: &Catalogue, rows: &Rows<'_>) -> Result<DotPlot, CommandError> {
     let targets = study.all_targets()?;
     let mut plot = DotPlot {
         x_label: "ED^{2} relative to independent draws".to_owned(),
@@ -19,7 +18,7 @@ pub fn plot(study: &Catalogue, rows: &[RunRow]) -> Result<DotPlot, CommandError>
     for target in &targets {
         plot.rows.push(DotRow {
             label: target.label(),
-            bound: Some(Requirement::of(target)?.bound()),
+            bound: Some(Requirement::of(target)?.bound),
         });
     }
     let Some(judged) = study.judged() else {
@@ -34,21 +33,21 @@ pub fn plot(study: &Catalogue, rows: &[RunRow]) -> Result<DotPlot, CommandError>
     };
     let (mut means, mut deviations) = (Vec::new(), Vec::new());
     let mut missing = 0;
+    let judged_runs = rows.with("method", judged.label());
     for start in &study.starts {
         let style = SeriesStyle {
             color: PALETTE[place(&mut means, start.mean) % PALETTE.len()],
             marker: MARKERS[place(&mut deviations, start.standard_deviation) % MARKERS.len()],
         };
+        let here = from_start(&judged_runs, start);
         let value = |target: &DotRow| {
-            let here = runs(rows, &target.label, judged.label(), Some(*start));
-            median(&here, ENERGY_RATIO)
-                .filter(|value| *value > 0.0)
-                .unwrap_or(f64::NAN)
+            let median = here.with("target", target.label.as_str()).median(ENERGY_RATIO);
+            median.filter(|value| *value > 0.0).unwrap_or(f64::NAN)
         };
         let values: Vec<f64> = plot.rows.iter().map(value).collect();
         missing += values.iter().filter(|value| value.is_nan()).count();
         plot.series.push(DotSeries {
-            label: format!("N({}, {}²)", start.mean, start.standard_deviation),
+            label: start.to_string(),
             style,
             values,
         });

@@ -9,17 +9,11 @@ mod figure;
 mod report;
 mod requirement;
 
+use parvi_metrics::yardstick::Coordinates;
 use parvi_targets::{Dimensions, TargetError, target_info};
-use serde::Deserialize;
 
-use super::checks::{all_given, distinct, refusal, targets_without_data, unset};
-use super::definition::{self, Report, Study, Work};
-use super::directory::StudyDirectory;
-use super::run_row::RunRow;
+use super::prelude::*;
 use super::start_law::StartLaw;
-use super::yardstick::{Coordinates, CurrentYardstick, IndependentSets, YardstickOptions};
-use crate::CommandError;
-use crate::options::{Bounded, Dimension, MethodSpecification, ParticleCount, TargetParameters, TargetSpecification};
 
 /// All methods on all targets from all starts.
 #[derive(Clone, Debug, Deserialize)]
@@ -56,40 +50,6 @@ struct Named {
     /// The parameters.
     #[serde(default)]
     parameters: TargetParameters,
-}
-
-/// One run.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Case {
-    target: TargetSpecification,
-    method: MethodSpecification,
-    /// `None` for draws, which have no start.
-    start: Option<StartLaw>,
-    particles: usize,
-    seed: u64,
-}
-
-impl definition::Case for Case {
-    fn id(&self) -> String {
-        let start = self.start.map_or(String::new(), |start| {
-            format!("-mean{}-sd{}", start.mean, start.standard_deviation)
-        });
-        let (target, method) = (self.target.label(), self.method.label());
-        format!("{target}-{method}-m{}{start}-s{}", self.particles, self.seed)
-    }
-
-    fn method(&self) -> Option<&MethodSpecification> {
-        Some(&self.method)
-    }
-
-    fn cost(&self) -> f64 {
-        // Milliseconds, roughly: the distance to the reference and the run; the many rows of `wells` are dear.
-        let run = match self.target.name.as_str() {
-            "wells" => 2000.0,
-            _ => 100.0,
-        };
-        200.0 + if self.start.is_some() { run } else { 0.0 }
-    }
 }
 
 impl Catalogue {
@@ -157,17 +117,19 @@ fn wrong_target(error: TargetError) -> CommandError {
 }
 
 impl Study for Catalogue {
-    type Case = Case;
-    type Row = RunRow;
-    type Shared = CurrentYardstick;
+    type Work = Sampled;
 
     const KIND: &'static str = "catalogue";
     const COLUMNS: &'static str = "case status reason outcome target dim method start_mean start_sd particles seed energy_distance_squared \
          energy_level sliced_wasserstein sliced_level mean_error deviation_error mass_error residual steps score_evaluations \
          density_evaluations wall_seconds";
 
+    fn methods(&self) -> Vec<&MethodSpecification> {
+        self.methods.iter().collect()
+    }
+
     /// The cases, target by target, so that a target's reference is made once.
-    fn cases(&self) -> Result<Vec<Case>, CommandError> {
+    fn cases(&self) -> Result<Vec<Case<Sampled>>, CommandError> {
         all_given!(self: seeds, dims, starts, methods);
         for start in &self.starts {
             start.check("starts")?;
@@ -188,18 +150,15 @@ impl Study for Catalogue {
         let mut cases = Vec::new();
         for target in &targets {
             for method in &self.methods {
+                // Draws have no start.
                 let starts: Vec<Option<StartLaw>> = match method.name.iterates() {
                     true => self.starts.iter().copied().map(Some).collect(),
                     false => vec![None],
                 };
                 for start in starts {
-                    cases.extend(self.seeds.iter().map(|&seed| Case {
-                        target: target.clone(),
-                        method: method.clone(),
-                        start,
-                        particles: self.particles.get(),
-                        seed,
-                    }));
+                    for &seed in &self.seeds {
+                        cases.push(self.case(target, method, start, seed)?);
+                    }
                 }
             }
         }
@@ -207,38 +166,50 @@ impl Study for Catalogue {
         Ok(cases)
     }
 
-    fn run(&self, case: &Case, work: Work<'_, CurrentYardstick>) -> Result<RunRow, CommandError> {
-        let yardstick = work.shared.of(&case.target, &self.yardstick(), Some(self.sets()))?;
-        let mut row = RunRow {
-            start_mean: case.start.map(|start| start.mean),
-            start_sd: case.start.map(|start| start.standard_deviation),
-            particles: case.particles,
-            seed: Some(case.seed),
-            energy_level: Some(yardstick.mean_distance() / case.particles as f64),
-            sliced_level: yardstick.sliced_level(),
-            ..RunRow::on(case, &case.target, &case.method)?
-        };
-        let mut run = case.method.run(case.particles, case.seed);
-        run.start = case.start.map_or(run.start, |law| law.start(run.start));
-        let method = case.method.method(None)?;
-        row.run(&case.target, &method, &run, yardstick, work.observer)?;
-        Ok(row)
+    fn run(&self, case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
+        let yardstick = tools
+            .yardstick
+            .of(&case.work.target, &self.yardstick(), Some(self.sets()))?;
+        row.set("sliced_level", yardstick.sliced_level());
+        case.work.run(row, yardstick, tools.observer)
     }
 
-    fn report(&self, rows: &[RunRow], _: &StudyDirectory) -> Result<Report, CommandError> {
+    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Report, CommandError> {
         report::report(self, rows)
     }
 }
 
-/// The runs of a method on a target from a start; those without a start belong to every one.
-fn runs<'a>(rows: &'a [RunRow], target: &str, method: &str, start: Option<StartLaw>) -> Vec<&'a RunRow> {
-    rows.iter()
-        .filter(|row| row.target == target && row.method == method)
-        .filter(|row| row.start_mean.is_none() || is_from(row, start))
-        .collect()
+impl Catalogue {
+    fn case(
+        &self,
+        target: &TargetSpecification,
+        method: &MethodSpecification,
+        start: Option<StartLaw>,
+        seed: u64,
+    ) -> Result<Case<Sampled>, CommandError> {
+        let named = |start: StartLaw| format!("-mean{}-sd{}", start.mean, start.standard_deviation);
+        let of_start = start.map_or(String::new(), named);
+        let (name, label) = (target.label(), method.label());
+        let id = format!("{name}-{label}-m{}{of_start}-s{seed}", self.particles);
+        let mut work = Sampled::new(target, method, None, (self.particles.get(), seed))?;
+        if let Some(law) = start {
+            work.run.start = law.start(work.run.start);
+        }
+        // Milliseconds, roughly: the distance to the reference and the run; the many rows of `wells` are dear.
+        let run = if target.name == "wells" { 2000.0 } else { 100.0 };
+        let case = work.case(id, label)?;
+        Ok(case
+            .with("start_mean", start.map(|start| start.mean))
+            .with("start_sd", start.map(|start| start.standard_deviation))
+            .costing(200.0 + if start.is_some() { run } else { 0.0 }))
+    }
 }
 
-fn is_from(row: &RunRow, start: Option<StartLaw>) -> bool {
-    let law = start.map(|law| (law.mean, law.standard_deviation));
-    row.start_mean.zip(row.start_sd) == law
+/// The runs from a start; those without a start belong to every one.
+fn from_start<'a>(rows: &Rows<'a>, start: &StartLaw) -> Rows<'a> {
+    rows.having(|row| row.number("start_mean").is_none() || is_from(row, start))
+}
+
+fn is_from(row: &Row, start: &StartLaw) -> bool {
+    row.is("start_mean", start.mean) && row.is("start_sd", start.standard_deviation)
 }

@@ -6,48 +6,40 @@ use crate::CommandError;
 use crate::options::TargetSpecification;
 
 /// A class of targets with the same bound on ED² relative to independent draws.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Requirement {
-    /// One mode, light tails, d ≤ 4.
-    SmoothLow,
-    /// One mode, light tails, d ≥ 5.
-    SmoothHigh,
-    /// The funnel, Student's t, mixtures, and what may be any of these: random targets and the eggbox.
-    Difficult,
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Requirement {
+    /// The class in words.
+    pub class: &'static str,
+    /// The largest ED² relative to independent draws that meets it.
+    pub bound: f64,
 }
+
+const fn class(class: &'static str, bound: f64) -> Requirement {
+    Requirement { class, bound }
+}
+
+const SMOOTH_LOW: Requirement = class("one mode, light tails, d ≤ 4", 0.3);
+const SMOOTH_HIGH: Requirement = class("one mode, light tails, d ≥ 5", 0.5);
+/// And what may be any of these: random targets and the eggbox.
+const DIFFICULT: Requirement = class("funnel, Student t, mixtures", 1.0);
 
 impl Requirement {
     /// All classes.
-    pub const ALL: [Self; 3] = [Self::SmoothLow, Self::SmoothHigh, Self::Difficult];
+    pub const ALL: [Self; 3] = [SMOOTH_LOW, SMOOTH_HIGH, DIFFICULT];
 
     /// The class of a target.
+    ///
+    /// # Errors
+    /// A target that there is not.
     pub fn of(target: &TargetSpecification) -> Result<Self, CommandError> {
         let difficult = matches!(target.name.as_str(), "funnel" | "student-t" | "random" | "eggbox");
         Ok(if difficult || target_info(&target.name)?.modes > 1 {
-            Self::Difficult
+            DIFFICULT
         } else if target.dimension()? <= 4 {
-            Self::SmoothLow
+            SMOOTH_LOW
         } else {
-            Self::SmoothHigh
+            SMOOTH_HIGH
         })
-    }
-
-    /// The largest ED² relative to independent draws that meets it.
-    pub fn bound(self) -> f64 {
-        match self {
-            Self::SmoothLow => 0.3,
-            Self::SmoothHigh => 0.5,
-            Self::Difficult => 1.0,
-        }
-    }
-
-    /// The class in words.
-    pub fn in_words(self) -> &'static str {
-        match self {
-            Self::SmoothLow => "one mode, light tails, d ≤ 4",
-            Self::SmoothHigh => "one mode, light tails, d ≥ 5",
-            Self::Difficult => "funnel, Student t, mixtures",
-        }
     }
 }
 
@@ -60,7 +52,7 @@ mod tests {
     fn every_target_has_its_bound() {
         let bound = |name: &str, dim: Option<i64>| {
             let dim = dim.and_then(Dimension::new);
-            Requirement::of(&TargetSpecification::plain(name, dim)).unwrap().bound()
+            Requirement::of(&TargetSpecification::plain(name, dim)).unwrap().bound
         };
         assert_eq!(bound("gaussian", Some(4)), 0.3);
         assert_eq!(bound("gaussian", Some(5)), 0.5);

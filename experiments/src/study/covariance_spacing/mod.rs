@@ -6,16 +6,8 @@
 
 mod report;
 
-use serde::Deserialize;
-
-use super::attempt::attempt;
-use super::checks::{not_empty, positive, refusal, unset};
-use super::definition::{self, Report, Study, Work};
-use super::directory::StudyDirectory;
 use super::moments::SampleMoments;
-use super::run_row::RunRow;
-use crate::options::{Dimension, MethodSpecification, ParticleCount, TargetSpecification};
-use crate::{CommandError, sampling};
+use super::prelude::*;
 
 /// Resting particles at several spacings, one series per dimension.
 #[derive(Clone, Debug, Deserialize)]
@@ -64,70 +56,43 @@ impl CovarianceSpacing {
     }
 }
 
-/// One dimension, spacing and seed.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Case {
-    dim: Dimension,
-    spacing: f64,
-    seed: u64,
-}
-
-impl definition::Case for Case {
-    fn id(&self) -> String {
-        format!("d{}-h{}-s{}", self.dim, self.spacing, self.seed)
-    }
-
-    fn cost(&self) -> f64 {
-        3f64.powi(self.dim.get() as i32)
-    }
-}
-
 impl Study for CovarianceSpacing {
-    type Case = Case;
-    type Row = RunRow;
-    type Shared = ();
+    type Work = Sampled;
 
     const KIND: &'static str = "covariance-spacing";
     const COLUMNS: &'static str = "case status reason dim particles spacing seed steps covariance_error mean_error residual active_nodes \
          score_evaluations density_evaluations wall_seconds";
 
-    fn cases(&self) -> Result<Vec<Case>, CommandError> {
+    fn cases(&self) -> Result<Vec<Case<Sampled>>, CommandError> {
         self.check()?;
         let mut cases = Vec::new();
-        for series in &self.series {
-            for &spacing in &series.spacings {
-                cases.extend(self.seeds.iter().map(|&seed| Case {
-                    dim: series.dim,
-                    spacing,
-                    seed,
-                }));
+        for Series { dim, spacings, .. } in &self.series {
+            let target = TargetSpecification::plain("gaussian", Some(*dim));
+            for &spacing in spacings {
+                let mut method = self.method.clone();
+                method.options.spacing = Some(spacing);
+                for &seed in &self.seeds {
+                    let work = Sampled::new(&target, &method, None, (self.particles.get(), seed))?;
+                    let case = work.case(format!("d{dim}-h{spacing}-s{seed}"), method.label())?;
+                    let case = case.costing(3f64.powi(dim.get() as i32));
+                    cases.push(case.with("spacing", spacing));
+                }
             }
         }
         Ok(cases)
     }
 
-    fn run(&self, case: &Case, work: Work<'_, ()>) -> Result<RunRow, CommandError> {
-        let mut specification = self.method.clone();
-        specification.options.spacing = Some(case.spacing);
-        let method = specification.method(None)?;
-        let run = specification.run(self.particles.get(), case.seed);
-        let target = TargetSpecification::plain("gaussian", Some(case.dim));
-        let mut row = RunRow {
-            dim: case.dim.get(),
-            particles: run.particles,
-            seed: Some(case.seed),
-            ..RunRow::new(case)
-        };
-        if let Some(outcome) = row.note(attempt(sampling::sample(&target, &method, &run, work.observer))?) {
+    fn run(&self, case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
+        if let Some(outcome) = row.note(case.work.sample(tools.observer))? {
             let moments = SampleMoments::of(&outcome.particles);
-            row.covariance_error = Some(moments.distance_from_identity());
-            row.mean_error = Some(moments.largest_mean());
+            row.set("covariance_error", moments.distance_from_identity());
+            row.set("mean_error", moments.largest_mean());
         }
-        row.spacing = Some(case.spacing);
-        Ok(row)
+        row.set("spacing", case.row.number("spacing"));
+        Ok(())
     }
 
-    fn report(&self, rows: &[RunRow], _: &StudyDirectory) -> Result<Report, CommandError> {
+    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Report, CommandError> {
         Ok(report::report(self, rows))
     }
 }

@@ -1,27 +1,18 @@
 //! The report of the study `covariance-spacing`.
 
 use super::{CovarianceSpacing, Series};
-use crate::plots::page::{Cell, MISSING, Page, line};
-use crate::plots::{AxisKind, MultiplesPanel, MultiplesPlot, ReferenceLevel, multiples};
-use crate::study::definition::Report;
-use crate::study::run_row::{RunRow, curve, median, values};
+use crate::study::prelude::*;
+
+/// What is judged.
+const ERROR: &str = "covariance_error";
 
 /// The runs of one dimension and spacing, one per seed.
-fn runs<'a>(rows: &'a [RunRow], series: &Series, spacing: f64) -> Vec<&'a RunRow> {
-    let here = |row: &&RunRow| row.dim == series.dim.get() && row.spacing == Some(spacing);
-    rows.iter().filter(here).collect()
-}
-
-/// The largest error at the judged spacing, and whether it keeps its bound.
-fn judgement(rows: &[RunRow], series: &Series) -> Option<(f64, f64, f64, bool)> {
-    let (spacing, bound) = (series.judged_spacing?, series.bound?);
-    let errors = values(&runs(rows, series, spacing), |row| row.covariance_error);
-    let worst = errors.into_iter().reduce(f64::max)?;
-    Some((spacing, bound, worst, worst <= bound))
+fn runs<'a>(rows: &Rows<'a>, series: &Series, spacing: f64) -> Rows<'a> {
+    rows.with("dim", series.dim).with("spacing", spacing)
 }
 
 /// Tables and figure.
-pub fn report(study: &CovarianceSpacing, rows: &[RunRow]) -> Report {
+pub fn report(study: &CovarianceSpacing, rows: &Rows<'_>) -> Report {
     let mut page = Page::new("Covariance error of resting particles against the grid spacing");
     page.paragraph(format!(
         "Target N(0, I), M = {} particles, {} seed(s), method `{}` without shifts of the grid and without a moment \
@@ -33,22 +24,26 @@ pub fn report(study: &CovarianceSpacing, rows: &[RunRow]) -> Report {
     ));
 
     page.heading("Bounds");
-    let mut verdicts = Vec::new();
+    let mut all_kept = None;
     let mut table = Vec::new();
     for series in &study.series {
-        if let Some((spacing, bound, worst, kept)) = judgement(rows, series) {
-            verdicts.push(kept);
+        let judged = series.judged_spacing.zip(series.bound);
+        let worst = |spacing| runs(rows, series, spacing).largest(ERROR);
+        if let Some((spacing, bound, worst)) =
+            judged.and_then(|(spacing, bound)| Some((spacing, bound, worst(spacing)?)))
+        {
+            let kept = worst <= bound;
+            all_kept = Some(kept && all_kept != Some(false));
             let verdict = if kept { "kept" } else { "exceeded" };
-            table.push(vec![
-                series.dim.to_string(),
-                spacing.to_string(),
-                worst.cell(),
-                bound.cell(),
-                verdict.to_owned(),
-            ]);
+            table.push(line(&[
+                &series.dim.get(),
+                &spacing.to_string(),
+                &worst,
+                &bound,
+                &verdict,
+            ]));
         }
     }
-    let all_kept = !verdicts.is_empty() && verdicts.iter().all(|kept| *kept);
     page.table("d | h | largest error | bound | verdict", &table);
 
     page.heading("Error against spacing");
@@ -59,19 +54,14 @@ pub fn report(study: &CovarianceSpacing, rows: &[RunRow]) -> Report {
     for series in &study.series {
         for &spacing in &series.spacings {
             let here = runs(rows, series, spacing);
-            let failed = here.iter().filter(|row| row.covariance_error.is_none());
-            let failed: Vec<&str> = failed.map(|row| row.status.as_str()).collect();
-            let error = median(&here, |row| row.covariance_error);
-            let nodes = here.first().and_then(|row| row.active_nodes);
-            let failed = if failed.is_empty() {
-                MISSING.to_owned()
-            } else {
-                failed.join(", ")
-            };
+            let failed = here.having(|row| row.number(ERROR).is_none());
+            let failed: Vec<&str> = failed.iter().map(|row| row.status().as_str()).collect();
+            let failed = (!failed.is_empty()).then(|| failed.join(", "));
+            let nodes = here.first().and_then(|row| row.count("active_nodes"));
             table.push(line(&[
                 &series.dim.get(),
                 &spacing.to_string(),
-                &error,
+                &here.median(ERROR),
                 &nodes,
                 &failed,
             ]));
@@ -79,31 +69,28 @@ pub fn report(study: &CovarianceSpacing, rows: &[RunRow]) -> Report {
     }
     page.table("d | h | median error | active nodes | failed", &table);
 
-    let verdict = if all_kept { "pass" } else { "fail" };
+    let verdict = if all_kept == Some(true) { "pass" } else { "fail" };
     Report::new(page).with("verdict", verdict)
 }
 
 /// The errors against the spacing, a line per dimension.
-fn plot(study: &CovarianceSpacing, rows: &[RunRow]) -> MultiplesPlot {
+fn plot(study: &CovarianceSpacing, rows: &Rows<'_>) -> MultiplesPlot {
     let line = |series: &Series| {
         let mut spacings = series.spacings.clone();
         spacings.sort_by(f64::total_cmp);
         let points = spacings
             .into_iter()
             .map(|spacing| (spacing, runs(rows, series, spacing)));
-        curve(format!("d = {}", series.dim), points, |row| row.covariance_error)
+        curve(format!("d = {}", series.dim), points, ERROR)
     };
     let mut bounds: Vec<f64> = study.series.iter().filter_map(|series| series.bound).collect();
     bounds.sort_by(f64::total_cmp);
     bounds.dedup();
-    let level = |value| ReferenceLevel::new(value, "bound");
-    MultiplesPlot {
-        x_axis: AxisKind::Linear,
-        panels: vec![MultiplesPanel {
-            series: study.series.iter().map(line).collect(),
-            levels: bounds.into_iter().map(level).collect(),
-            ..MultiplesPanel::default()
-        }],
-        ..MultiplesPlot::logarithmic("grid spacing h (standard deviations)", "covariance error max |Ĉ − I|")
-    }
+    let panel = MultiplesPanel::new("", study.series.iter().map(line));
+    let panel = bounds
+        .into_iter()
+        .fold(panel, |panel, bound| panel.with_level(bound, "bound"));
+    MultiplesPlot::logarithmic("grid spacing h (standard deviations)", "covariance error max |Ĉ − I|")
+        .over_linear()
+        .with_panels([panel])
 }

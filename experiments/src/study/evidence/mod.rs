@@ -2,16 +2,8 @@
 
 mod report;
 
-use serde::Deserialize;
-
-use super::attempt::attempt;
-use super::checks::{all_given, distinct, refusal};
-use super::definition::{self, Report, Study, Work};
-use super::directory::StudyDirectory;
-use super::run_row::RunRow;
+use super::prelude::*;
 use super::seed_range::SeedRange;
-use crate::options::{MethodSpecification, ParticleCount, TargetSpecification};
-use crate::{CommandError, sampling};
 
 /// Every method on every target, with every seed.
 #[derive(Clone, Debug, Deserialize)]
@@ -27,28 +19,8 @@ pub struct Evidence {
     methods: Vec<MethodSpecification>,
 }
 
-/// One run.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Case {
-    target: TargetSpecification,
-    method: MethodSpecification,
-    seed: u64,
-}
-
-impl definition::Case for Case {
-    fn id(&self) -> String {
-        format!("{}-{}-s{}", self.target.label(), self.method.label(), self.seed)
-    }
-
-    fn method(&self) -> Option<&MethodSpecification> {
-        Some(&self.method)
-    }
-}
-
 impl Study for Evidence {
-    type Case = Case;
-    type Row = RunRow;
-    type Shared = ();
+    type Work = Sampled;
 
     const KIND: &'static str = "evidence";
     const COLUMNS: &'static str = "case status reason target dim method seed outcome log_evidence_deviation log_evidence_error \
@@ -58,7 +30,11 @@ impl Study for Evidence {
         self.run_seeds.all().collect()
     }
 
-    fn cases(&self) -> Result<Vec<Case>, CommandError> {
+    fn methods(&self) -> Vec<&MethodSpecification> {
+        self.methods.iter().collect()
+    }
+
+    fn cases(&self) -> Result<Vec<Case<Sampled>>, CommandError> {
         all_given!(self: targets, methods);
         let mut cases = Vec::new();
         for target in &self.targets {
@@ -66,29 +42,23 @@ impl Study for Evidence {
                 return Err(refusal("targets", format!("log Z of `{}` is not known", target.name)));
             }
             for method in &self.methods {
-                cases.extend(self.run_seeds.all().map(|seed| Case {
-                    target: target.clone(),
-                    method: method.clone(),
-                    seed,
-                }));
+                for seed in self.run_seeds.all() {
+                    let work = Sampled::new(target, method, None, (self.particles.get(), seed))?;
+                    let name = format!("{}-{}-s{seed}", target.label(), method.label());
+                    cases.push(work.case(name, method.label())?);
+                }
             }
         }
         distinct("targets or methods", &cases)?;
         Ok(cases)
     }
 
-    fn run(&self, case: &Case, work: Work<'_, ()>) -> Result<RunRow, CommandError> {
-        let run = case.method.run(self.particles.get(), case.seed);
-        let mut row = RunRow {
-            seed: Some(case.seed),
-            ..RunRow::on(case, &case.target, &case.method)?
-        };
-        let method = case.method.method(None)?;
-        row.note(attempt(sampling::sample(&case.target, &method, &run, work.observer))?);
-        Ok(row)
+    fn run(&self, case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
+        row.note(case.work.sample(tools.observer))?;
+        Ok(())
     }
 
-    fn report(&self, rows: &[RunRow], _: &StudyDirectory) -> Result<Report, CommandError> {
+    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Report, CommandError> {
         Ok(report::report(self, rows))
     }
 }

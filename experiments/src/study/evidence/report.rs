@@ -1,19 +1,15 @@
 //! The report of the study `evidence`.
 
 use super::Evidence;
-use crate::options::TargetSpecification;
-use crate::plots::page::{Cell, Page, line, percent};
-use crate::plots::{AxisKind, LineSeries, MultiplesPanel, MultiplesPlot, ReferenceLevel, multiples};
-use crate::study::definition::Report;
-use crate::study::run_row::{EVALUATIONS, Quantity, RunRow, SECONDS, median, report_of_runs, values};
+use crate::study::prelude::*;
 
 /// |log Z − exact|.
-const ERROR: Quantity = |row| row.log_evidence_deviation.map(f64::abs);
+const ERROR: Computed = |row| row.number("log_evidence_deviation").map(f64::abs);
 /// The same in standard errors of the method's own.
-const RATIO: Quantity = |row| Some(ERROR(row)? / row.log_evidence_error?);
+const RATIO: Computed = |row| Some(ERROR(row)? / row.number("log_evidence_error")?);
 
 /// Tables and figure.
-pub fn report(study: &Evidence, rows: &[RunRow]) -> Report {
+pub fn report(study: &Evidence, rows: &Rows<'_>) -> Report {
     let mut page = Page::new("Evidence");
     page.paragraph(format!(
         "log Z = log ∫ p with M = {} particles, {} seeds from {} on, beside its known value; s.e. is the standard error that the method states. \
@@ -22,85 +18,60 @@ pub fn report(study: &Evidence, rows: &[RunRow]) -> Report {
         study.particles, study.run_seeds.count, study.run_seeds.first,
     ));
     page.heading("All targets");
-    let all = |label: &str| rows.iter().filter(|row| row.method == label).collect::<Vec<_>>();
-    let table = study
-        .methods
-        .iter()
-        .map(|method| cells(method.label(), &all(method.label())));
-    page.table(HEADER, table);
+    table(study, rows, &mut page);
     page.heading("Errors in standard errors");
     let caption = "Errors of log Z in standard errors that the method states, in order of size.";
     page.figure("evidence.svg", caption, multiples(&plot(study, rows)));
     for target in &study.targets {
         page.heading(&target.label());
-        let here = |label: &str| runs(rows, target, label);
-        let table = study
-            .methods
-            .iter()
-            .map(|method| cells(method.label(), &here(method.label())));
-        page.table(HEADER, table);
+        table(study, &rows.with("target", target.label()), &mut page);
     }
-    let far = rows.iter().filter(|row| RATIO(row).is_some_and(|ratio| ratio > 3.0));
-    let far: Vec<String> = far
-        .map(|row| {
-            format!(
-                "- `{}`: {} of {}",
-                row.case,
-                ERROR(row).cell(),
-                row.log_evidence_error.cell()
-            )
-        })
-        .collect();
+    let far = rows.having(|row| RATIO(row).is_some_and(|ratio| ratio > 3.0));
+    let stated = |row: &Row| {
+        let error = row.value("log_evidence_error");
+        format!("- `{}`: {} of {}", row.case(), ERROR(row).cell(), error.cell())
+    };
+    let far: Vec<String> = far.iter().map(stated).collect();
     page.list("Errors beyond three standard errors", &far, Some("None."));
-    report_of_runs(page, rows).with("beyond_three_errors", far.len())
+    rows.report(page).with("beyond_three_errors", far.len())
 }
 
-const HEADER: &str =
-    "method | stated | median error | largest | median s.e. | within 1 | within 2 | within 3 | evaluations | time (s)";
-
-/// A line of a table.
-fn cells(label: &str, rows: &[&RunRow]) -> Vec<String> {
-    let ratios = values(rows, RATIO);
-    let within = |most: f64| percent(ratios.iter().filter(|ratio| **ratio <= most).count(), ratios.len());
-    line(&[
-        &label,
-        &format!("{}/{}", ratios.len(), rows.len()),
-        &median(rows, ERROR),
-        &values(rows, ERROR).into_iter().reduce(f64::max),
-        &median(rows, |row| row.log_evidence_error),
-        &within(1.0),
-        &within(2.0),
-        &within(3.0),
-        &median(rows, EVALUATIONS),
-        &median(rows, SECONDS),
-    ])
-}
-
-fn runs<'a>(rows: &'a [RunRow], target: &TargetSpecification, label: &str) -> Vec<&'a RunRow> {
-    let here = |row: &&RunRow| row.target == target.label() && row.method == label;
-    rows.iter().filter(here).collect()
+/// A line per method.
+fn table(study: &Evidence, rows: &Rows<'_>, page: &mut Page) {
+    let cells = |method: &MethodSpecification| {
+        let here = rows.with("method", method.label());
+        let ratios = here.values(RATIO);
+        let within = |most: f64| percent(ratios.iter().filter(|ratio| **ratio <= most).count(), ratios.len());
+        line(&[
+            &method.label(),
+            &format!("{}/{}", ratios.len(), here.len()),
+            &here.median(ERROR),
+            &here.largest(ERROR),
+            &here.median("log_evidence_error"),
+            &within(1.0),
+            &within(2.0),
+            &within(3.0),
+            &here.median(EVALUATIONS),
+            &here.median(SECONDS),
+        ])
+    };
+    let header = "method | stated | median error | largest | median s.e. | within 1 | within 2 | within 3 | evaluations | time (s)";
+    page.table(header, study.methods.iter().map(cells));
 }
 
 /// Errors over standard errors in order of size, a panel per target and a line per method.
-fn plot(study: &Evidence, rows: &[RunRow]) -> MultiplesPlot {
-    let curve = |target: &TargetSpecification, label: &str| {
-        let ratios = values(&runs(rows, target, label), RATIO);
-        let count = ratios.len();
-        LineSeries::in_order(label, ratios, count)
+fn plot(study: &Evidence, rows: &Rows<'_>) -> MultiplesPlot {
+    let panel = |target: &TargetSpecification| {
+        let here = rows.with("target", target.label());
+        let line = |method: &MethodSpecification| {
+            let ratios = here.with("method", method.label()).values(RATIO);
+            let count = ratios.len();
+            LineSeries::in_order(method.label(), ratios, count)
+        };
+        let lines = study.methods.iter().map(line);
+        MultiplesPanel::new(target.label(), lines).with_level(3.0, "three standard errors")
     };
-    let panel = |target: &TargetSpecification| MultiplesPanel {
-        title: target.label(),
-        series: study
-            .methods
-            .iter()
-            .map(|method| curve(target, method.label()))
-            .collect(),
-        levels: vec![ReferenceLevel::new(3.0, "three standard errors")],
-        ..MultiplesPanel::default()
-    };
-    MultiplesPlot {
-        x_axis: AxisKind::Linear,
-        panels: study.targets.iter().map(panel).collect(),
-        ..MultiplesPlot::logarithmic("share of the runs (%)", "error of log Z / its standard error")
-    }
+    MultiplesPlot::logarithmic("share of the runs (%)", "error of log Z / its standard error")
+        .over_linear()
+        .with_panels(study.targets.iter().map(panel))
 }

@@ -1,10 +1,9 @@
-//! One setting of the paper's algorithms.
+//! One setting of the paper's algorithms: what the sampler is told, and how tables name it.
 
 use parvi::{Annealing, Coordinates, Guards, PaperMaterial, PaperOptions, ReferenceVolumes};
-use serde::Deserialize;
 
-use super::material::MaterialTable;
-use crate::options::Score;
+use super::configuration::Setting;
+use crate::study::prelude::*;
 
 /// Which of the guards a run has.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
@@ -26,27 +25,17 @@ pub enum GuardChoice {
 
 impl GuardChoice {
     fn guards(self) -> Guards {
-        let (none, all) = (Guards::none(), Guards::default());
+        let all = Guards::default();
+        let mut guards = Guards::none();
         match self {
-            Self::Off => none,
-            Self::MassWeightedForce => Guards {
-                mass_weighted_force: all.mass_weighted_force,
-                ..none
-            },
-            Self::MassFloor => Guards {
-                mass_floor: all.mass_floor,
-                ..none
-            },
-            Self::Courant => Guards {
-                courant: all.courant,
-                ..none
-            },
-            Self::DisplacementLimit => Guards {
-                displacement_limit: all.displacement_limit,
-                ..none
-            },
-            Self::On => all,
+            Self::Off => {}
+            Self::MassWeightedForce => guards.mass_weighted_force = all.mass_weighted_force,
+            Self::MassFloor => guards.mass_floor = all.mass_floor,
+            Self::Courant => guards.courant = all.courant,
+            Self::DisplacementLimit => guards.displacement_limit = all.displacement_limit,
+            Self::On => guards = all,
         }
+        guards
     }
 
     fn text(self) -> &'static str {
@@ -142,67 +131,85 @@ impl Schedule {
     }
 }
 
-/// Everything that a run of Algorithm 1 or 2 is told beside target, M, T and seed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Body {
-    /// 1 (PIC) or 2 (APIC).
-    pub algorithm: usize,
-    /// Guards and coordinates.
-    pub variant: Variant,
-    /// Ψ.
-    pub material: MaterialTable,
-    /// α(t).
-    pub schedule: Schedule,
-    /// Where the force acts.
-    pub score: Score,
-    /// V⁰_p.
-    pub volumes: ReferenceVolumes,
-    /// γ.
-    pub friction: f64,
-    /// h in units of the coordinates; `None`: the library's default.
-    pub spacing: Option<f64>,
-    /// Δt; `None`: the library's default for h.
-    pub time_step: Option<f64>,
-}
-
-impl Body {
+impl Setting {
     /// The options of the sampler; the material has been checked.
-    pub fn options(&self, material: PaperMaterial, steps: usize) -> PaperOptions {
+    pub fn options(&self, material: PaperMaterial) -> PaperOptions {
         PaperOptions {
-            affine: self.algorithm == 2,
+            affine: self.algorithm.get() == 2,
             material,
             annealing: self.schedule.annealing(),
             score_location: self.score.into(),
             spacing: self.spacing,
-            steps: Some(steps),
+            steps: Some(self.steps.get()),
             time_step: self.time_step,
             friction: self.friction,
             guards: self.variant.guards.guards(),
             coordinates: self.variant.coordinates,
-            reference_volumes: self.volumes,
+            reference_volumes: self.volume,
             certificate: false,
             ..PaperOptions::default()
         }
     }
 
-    /// Name and value of everything.
-    pub fn parts(&self) -> [(&'static str, String); 9] {
+    /// Everything but target and seed: the column of the results, the name in labels, and the value.
+    pub fn parts(&self) -> Vec<(&'static str, &'static str, String)> {
+        let size = ("particles", "M", self.particles.to_string());
+        if let Some(rival) = &self.rival {
+            return vec![("method", "method", rival.label().to_owned()), size];
+        }
         let number = |value: Option<f64>| value.map_or("default".to_owned(), |value| value.to_string());
-        let volumes = match self.volumes {
+        let volumes = match self.volume {
             ReferenceVolumes::Uniform => "uniform",
             ReferenceVolumes::OfStartDensity => "of-start-density",
             ReferenceVolumes::OfGrid => "of-grid",
         };
-        [
-            ("algorithm", self.algorithm.to_string()),
-            ("variant", self.variant.text()),
-            ("material", self.material.text()),
-            ("α", self.schedule.text()),
-            ("force at", self.score.to_string()),
-            ("V⁰", volumes.to_owned()),
-            ("friction", self.friction.to_string()),
-            ("h", number(self.spacing)),
-            ("Δt", number(self.time_step)),
+        vec![
+            ("algorithm", "algorithm", self.algorithm.to_string()),
+            ("variant", "variant", self.variant.text()),
+            ("material", "material", self.material.text()),
+            ("schedule", "α", self.schedule.text()),
+            ("score", "force at", self.score.to_string()),
+            ("volumes", "V⁰", volumes.to_owned()),
+            ("friction", "friction", self.friction.to_string()),
+            ("spacing", "h", number(self.spacing)),
+            ("time_step", "Δt", number(self.time_step)),
+            size,
+            ("steps", "T", self.steps.to_string()),
         ]
+    }
+
+    /// A name made of all of them.
+    pub fn id(&self) -> String {
+        let parts = self.parts().into_iter();
+        let parts: Vec<String> = parts.map(|(_, name, text)| format!("{name} {text}")).collect();
+        format!("{}, {}, seed {}", self.target.label(), parts.join(", "), self.seed)
+    }
+
+    /// The case of it.
+    ///
+    /// # Errors
+    /// A target that there is not.
+    pub fn case(self) -> Result<Case<Self>, CommandError> {
+        let looks = 100.0;
+        let dim = self.target.dimension()?;
+        let work = (self.particles.get() * self.steps.get()) as f64;
+        let mut case = Case::new(self.id(), self.clone())
+            .costing(work * (3f64.powi(dim as i32) + looks))
+            .with("target", self.target.label())
+            .with("dim", dim)
+            .with("friction", self.friction)
+            .with("spacing", self.spacing)
+            .with("time_step", self.time_step)
+            .with("steps", self.steps)
+            .with("particles", self.particles)
+            .with("seed", self.seed);
+        for (column, _, text) in self.parts() {
+            match column {
+                "algorithm" => case.row.set("method", format!("algorithm {text}")),
+                "method" | "variant" | "material" | "schedule" | "score" | "volumes" => case.row.set(column, text),
+                _ => {}
+            }
+        }
+        Ok(case)
     }
 }

@@ -3,17 +3,11 @@
 use std::collections::HashSet;
 
 use parvi::ReferenceVolumes;
-use serde::Deserialize;
+use parvi_metrics::yardstick::Coordinates;
 
-use super::Case;
-use super::body::{Body, Schedule, Variant};
+use super::body::{Schedule, Variant};
 use super::material::MaterialTable;
-use crate::CommandError;
-use crate::options::{Bounded, MethodSpecification, ParticleCount, Score, StepCount, TargetSpecification};
-use crate::study::checks::{distinct, not_empty, positive, refusal};
-use crate::study::definition;
-use crate::study::each_once::each_once;
-use crate::study::yardstick::{Coordinates, YardstickOptions};
+use crate::study::prelude::*;
 
 /// The paper's algorithms, a base and its changes.
 #[derive(Clone, Debug, Deserialize)]
@@ -42,80 +36,104 @@ pub struct Paper {
     pub sweeps: Vec<Settings>,
 }
 
-/// Lists of values, of which all combinations are run; absent: as in the base.
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
-pub struct Settings {
-    /// The name of a case.
-    pub name: Option<String>,
-    targets: Option<Vec<TargetSpecification>>,
-    algorithms: Option<Vec<Bounded<1, 2>>>,
-    variants: Option<Vec<Variant>>,
-    materials: Option<Vec<MaterialTable>>,
-    schedules: Option<Vec<Schedule>>,
-    scores: Option<Vec<Score>>,
-    volumes: Option<Vec<ReferenceVolumes>>,
-    frictions: Option<Vec<f64>>,
-    spacings: Option<Vec<f64>>,
-    time_steps: Option<Vec<f64>>,
-    steps: Option<Vec<StepCount>>,
-    particles: Option<Vec<ParticleCount>>,
-    seeds: Option<Vec<u64>>,
-}
-
-/// Every case once for each of the values.
-fn vary<T>(cases: &mut Vec<Case>, values: &[T], set: impl Fn(&mut Case, &T)) {
-    let mut varied = Vec::with_capacity(cases.len() * values.len());
-    for case in &*cases {
-        for value in values {
-            let mut case = case.clone();
-            set(&mut case, value);
-            varied.push(case);
+/// What is varied, the last fastest: the key of the list, the field of a setting, what one value is, and the value where neither a case nor the
+/// base has a list.
+macro_rules! axes {
+    ($($(#[$meta:meta])* $key:ident => $field:ident: $type:ty $(= $absent:expr)?,)*) => {
+        /// Lists of values, of which all combinations are run; absent: as in the base.
+        #[derive(Clone, Debug, Default, Deserialize)]
+        #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
+        pub struct Settings {
+            /// The name of a case.
+            pub name: Option<String>,
+            $($key: Option<Vec<$type>>,)*
         }
-    }
-    *cases = varied;
-}
 
-/// Fields of a table in errors, and the values that it or the base has for them.
-struct Lists<'a> {
-    field: &'a str,
-}
-
-impl Lists<'_> {
-    fn refusal(&self, key: &str, message: impl Into<String>) -> CommandError {
-        refusal(&format!("{}.{key}", self.field), message)
-    }
-
-    fn given<'a, T>(
-        &self,
-        key: &str,
-        of_case: &'a Option<Vec<T>>,
-        of_base: &'a Option<Vec<T>>,
-    ) -> Result<&'a [T], CommandError> {
-        let values = of_case.as_ref().or(of_base.as_ref());
-        let values = values.ok_or_else(|| self.refusal(key, "is missing, also in the base"))?;
-        not_empty(&format!("{}.{key}", self.field), values)?;
-        Ok(values)
-    }
-
-    fn positive<'a>(
-        &self,
-        key: &str,
-        of_case: &'a Option<Vec<f64>>,
-        of_base: &'a Option<Vec<f64>>,
-    ) -> Result<Vec<Option<f64>>, CommandError> {
-        if of_case.is_none() && of_base.is_none() {
-            return Ok(vec![None]);
+        /// A run: of a body, or of a rival.
+        #[derive(Clone, Debug)]
+        pub struct Setting {
+            $($(#[$meta])* pub $field: $type,)*
+            /// The rival, if it is one.
+            pub rival: Option<MethodSpecification>,
         }
-        let values = self.given(key, of_case, of_base)?;
-        positive(&format!("{}.{key}", self.field), values)?;
-        Ok(values.iter().copied().map(Some).collect())
+
+        impl Settings {
+            /// All combinations; `table` is the place of the lists in errors.
+            fn combinations(&self, base: &Self, table: &str) -> Result<Vec<Setting>, CommandError> {
+                $(let $key = values(table, stringify!($key), [&self.$key, &base.$key], &[$($absent)?])?;)*
+                let first = Setting {
+                    $($field: $key[0].clone(),)*
+                    rival: None,
+                };
+                let mut all = vec![first];
+                $(all = varied(&all, $key, |setting, value| setting.$field = value.clone());)*
+                Ok(all)
+            }
+        }
+    };
+}
+
+axes! {
+    /// The target.
+    targets => target: TargetSpecification,
+    /// Ψ.
+    materials => material: MaterialTable,
+    /// α(t).
+    schedules => schedule: Schedule,
+    /// γ.
+    frictions => friction: f64,
+    /// Where the force acts.
+    scores => score: Score,
+    /// V⁰_p.
+    volumes => volume: ReferenceVolumes,
+    /// h in units of the coordinates; `None`: the library's default.
+    spacings => spacing: Option<f64> = None,
+    /// Δt; `None`: the library's default for h.
+    time_steps => time_step: Option<f64> = None,
+    /// T.
+    steps => steps: StepCount,
+    /// M.
+    particles => particles: ParticleCount,
+    /// Guards and coordinates.
+    variants => variant: Variant,
+    /// 1 (PIC) or 2 (APIC).
+    algorithms => algorithm: Bounded<1, 2>,
+    /// Seed of the run.
+    seeds => seed: u64,
+}
+
+/// The values of a list: those of the case, else of the base, else those for an absent one, if there are any.
+fn values<'a, T>(
+    table: &str,
+    key: &str,
+    lists: [&'a Option<Vec<T>>; 2],
+    absent: &'a [T],
+) -> Result<&'a [T], CommandError> {
+    let field = format!("{table}.{}", key.replace('_', "-"));
+    let given = lists.into_iter().find_map(Option::as_ref);
+    if given.is_none() && absent.is_empty() {
+        return Err(refusal(&field, "is missing, also in the base"));
     }
+    let values = given.map_or(absent, Vec::as_slice);
+    not_empty(&field, values)?;
+    Ok(values)
+}
+
+/// Every setting once for each of the values.
+fn varied<T>(settings: &[Setting], values: &[T], set: impl Fn(&mut Setting, &T)) -> Vec<Setting> {
+    let with = |setting: &Setting, value: &T| {
+        let mut setting = setting.clone();
+        set(&mut setting, value);
+        setting
+    };
+    let of = |setting| values.iter().map(move |value| (setting, value));
+    let pairs = settings.iter().flat_map(of);
+    pairs.map(|(setting, value)| with(setting, value)).collect()
 }
 
 impl Paper {
     /// All cases, each once, target by target, so that a target's reference is made once.
-    pub fn all_cases(&self) -> Result<Vec<Case>, CommandError> {
+    pub fn all_cases(&self) -> Result<Vec<Setting>, CommandError> {
         self.check()?;
         let mut cases = self.base_cases()?;
         cases.extend(self.rival_cases()?);
@@ -123,28 +141,25 @@ impl Paper {
             cases.extend(self.cases_of(sweep)?);
         }
         let mut known = HashSet::new();
-        cases.retain(|case| known.insert(definition::Case::id(case)));
+        cases.retain(|case| known.insert(case.id()));
         let order = each_once(cases.iter().map(|case| case.target.clone()));
         cases.sort_by_key(|case| order.iter().position(|target| *target == case.target));
         Ok(cases)
     }
 
     /// The cases of the base alone.
-    pub fn base_cases(&self) -> Result<Vec<Case>, CommandError> {
+    pub fn base_cases(&self) -> Result<Vec<Setting>, CommandError> {
         self.cases_of(&Settings::default())
     }
 
     /// The rivals on the targets of the base.
-    pub fn rival_cases(&self) -> Result<Vec<Case>, CommandError> {
-        let mut cases: Vec<Case> = Vec::new();
+    pub fn rival_cases(&self) -> Result<Vec<Setting>, CommandError> {
+        let mut cases: Vec<Setting> = Vec::new();
         for case in self.base_cases()? {
             for rival in &self.rivals {
                 let rival = Some(rival.clone());
-                let case = Case { rival, ..case.clone() };
-                if !cases
-                    .iter()
-                    .any(|known| definition::Case::id(known) == definition::Case::id(&case))
-                {
+                let case = Setting { rival, ..case.clone() };
+                if cases.iter().all(|known| known.id() != case.id()) {
                     cases.push(case);
                 }
             }
@@ -153,80 +168,15 @@ impl Paper {
     }
 
     /// The cases of one table.
-    pub fn cases_of(&self, sweep: &Settings) -> Result<Vec<Case>, CommandError> {
-        let base = &self.base;
-        let field = sweep
-            .name
-            .as_ref()
-            .map_or("base".to_owned(), |name| format!("case.{name}"));
-        let lists = Lists { field: &field };
-        let targets = lists.given("targets", &sweep.targets, &base.targets)?;
-        let materials = lists.given("materials", &sweep.materials, &base.materials)?;
-        for material in materials {
-            material
-                .material()
-                .map_err(|error| lists.refusal("materials", error.to_string()))?;
+    pub fn cases_of(&self, sweep: &Settings) -> Result<Vec<Setting>, CommandError> {
+        let name = |name: &String| format!("case.{name}");
+        let table = sweep.name.as_ref().map_or("base".to_owned(), name);
+        let settings = sweep.combinations(&self.base, &table)?;
+        if let Some((key, fault)) = settings.iter().find_map(Setting::fault) {
+            return Err(refusal(&format!("{table}.{key}"), fault));
         }
-        let schedules = lists.given("schedules", &sweep.schedules, &base.schedules)?;
-        if let Some(fault) = schedules.iter().find_map(|schedule| schedule.fault()) {
-            return Err(lists.refusal("schedules", fault));
-        }
-        let frictions = lists.given("frictions", &sweep.frictions, &base.frictions)?;
-        if let Some(value) = frictions.iter().find(|value| !(**value >= 0.0 && value.is_finite())) {
-            return Err(lists.refusal("frictions", format!("{value} must be a number of at least 0")));
-        }
-        let variants = lists.given("variants", &sweep.variants, &base.variants)?;
-        let scores = lists.given("scores", &sweep.scores, &base.scores)?;
-        let volumes = lists.given("volumes", &sweep.volumes, &base.volumes)?;
-        let first = Case {
-            target: targets[0].clone(),
-            body: Body {
-                algorithm: 1,
-                variant: variants[0],
-                material: materials[0],
-                schedule: schedules[0],
-                score: scores[0],
-                volumes: volumes[0],
-                friction: frictions[0],
-                spacing: None,
-                time_step: None,
-            },
-            rival: None,
-            steps: 1,
-            particles: 2,
-            seed: 0,
-        };
-        let cases = &mut vec![first];
-        vary(cases, targets, |case, target| case.target = target.clone());
-        vary(cases, materials, |case, material| case.body.material = *material);
-        vary(cases, schedules, |case, schedule| case.body.schedule = *schedule);
-        vary(cases, frictions, |case, friction| case.body.friction = *friction);
-        vary(cases, scores, |case, score| case.body.score = *score);
-        vary(cases, volumes, |case, volumes| case.body.volumes = *volumes);
-        let spacings = lists.positive("spacings", &sweep.spacings, &base.spacings)?;
-        vary(cases, &spacings, |case, spacing| case.body.spacing = *spacing);
-        let time_steps = lists.positive("time-steps", &sweep.time_steps, &base.time_steps)?;
-        vary(cases, &time_steps, |case, time_step| case.body.time_step = *time_step);
-        vary(
-            cases,
-            lists.given("steps", &sweep.steps, &base.steps)?,
-            |case, steps| case.steps = steps.get(),
-        );
-        vary(
-            cases,
-            lists.given("particles", &sweep.particles, &base.particles)?,
-            |case, count| case.particles = count.get(),
-        );
-        vary(cases, variants, |case, variant| case.body.variant = *variant);
-        let algorithms = lists.given("algorithms", &sweep.algorithms, &base.algorithms)?;
-        vary(cases, algorithms, |case, algorithm| {
-            case.body.algorithm = algorithm.get()
-        });
-        vary(cases, lists.given("seeds", &sweep.seeds, &base.seeds)?, |case, seed| {
-            case.seed = *seed
-        });
-        distinct(&field, cases)?;
-        Ok(std::mem::take(cases))
+        distinct_names(&table, settings.iter().map(Setting::id))?;
+        Ok(settings)
     }
 
     fn check(&self) -> Result<(), CommandError> {
@@ -240,27 +190,20 @@ impl Paper {
         }
         let mut names = HashSet::new();
         for (index, sweep) in self.sweeps.iter().enumerate() {
-            match &sweep.name {
-                None => return Err(refusal(&format!("case[{index}].name"), "is missing")),
-                Some(name) if !names.insert(name) => {
-                    return Err(refusal(
-                        &format!("case[{index}].name"),
-                        format!("two cases are `{name}`"),
-                    ));
-                }
-                Some(_) => {}
-            }
+            let message = match &sweep.name {
+                None => "is missing".to_owned(),
+                Some(name) if !names.insert(name) => format!("two cases are `{name}`"),
+                Some(_) => continue,
+            };
+            return Err(refusal(&format!("case[{index}].name"), message));
         }
         Ok(())
     }
 
     /// All seeds, for the manifest.
     pub fn all_seeds(&self) -> Vec<u64> {
-        let all = self
-            .sweeps
-            .iter()
-            .chain([&self.base])
-            .filter_map(|settings| settings.seeds.as_ref());
+        let settings = self.sweeps.iter().chain([&self.base]);
+        let all = settings.filter_map(|settings| settings.seeds.as_ref());
         let mut seeds: Vec<u64> = all.flatten().copied().collect();
         seeds.sort_unstable();
         seeds.dedup();
@@ -273,5 +216,30 @@ impl Paper {
             directions: self.directions.get(),
             ..YardstickOptions::of_energy(self.reference_points.get(), self.reference_seed, Coordinates::Own)
         }
+    }
+}
+
+impl Setting {
+    /// The list that holds a value out of its range, and what is wrong with it.
+    fn fault(&self) -> Option<(&'static str, String)> {
+        let positive = |value: Option<f64>| {
+            let wrong = value.filter(|value| !(*value > 0.0 && value.is_finite()));
+            wrong.map(|value| format!("{value} must be a number above 0"))
+        };
+        let friction = Some(self.friction).filter(|value| !(*value >= 0.0 && value.is_finite()));
+        let faults = [
+            (
+                "materials",
+                self.material.material().err().map(|error| error.to_string()),
+            ),
+            ("schedules", self.schedule.fault()),
+            (
+                "frictions",
+                friction.map(|value| format!("{value} must be a number of at least 0")),
+            ),
+            ("spacings", positive(self.spacing)),
+            ("time-steps", positive(self.time_step)),
+        ];
+        faults.into_iter().find_map(|(key, fault)| Some((key, fault?)))
     }
 }

@@ -77,11 +77,6 @@ impl MaterialTable {
         })
     }
 
-    /// E, of a solid.
-    pub fn youngs_modulus(self) -> Option<f64> {
-        self.value("youngs-modulus")
-    }
-
     /// The law with its parameters, in words.
     pub fn text(self) -> String {
         let mut text = self.law.to_string();
@@ -106,11 +101,11 @@ mod tests {
         let sand = table("law = \"drucker-prager\"\nyoungs-modulus = 2\npoissons-ratio = 0.3\nfriction-angle = 30.0");
         let sand = sand.unwrap();
         assert_eq!(sand.text(), "drucker-prager E=2 ν=0.3 φ=30°");
-        assert_eq!(sand.youngs_modulus(), Some(2.0));
+        assert_eq!(sand.value("youngs-modulus"), Some(2.0));
         assert!(sand.material().is_ok());
         let gas = table("law = \"isothermal-gas\"\npressure-per-density = 1.5").unwrap();
         assert_eq!(
-            (gas.text().as_str(), gas.youngs_modulus()),
+            (gas.text().as_str(), gas.value("youngs-modulus")),
             ("isothermal-gas κ=1.5", None)
         );
         for (text, part) in [

@@ -9,111 +9,56 @@ mod configuration;
 mod figure;
 mod material;
 mod report;
-mod row;
 mod table;
 mod watch;
 
-use std::time::Instant;
-
 use parvi::{Method, Run, SampleError};
 
-use body::Body;
-pub use configuration::Paper;
-use row::Row;
+pub use configuration::{Paper, Setting};
 use watch::Watch;
 
-use super::attempt::{Attempt, Status, attempt};
-use super::checks::refusal;
-use super::definition::{self, Report, Study, Work};
-use super::directory::StudyDirectory;
-use super::results::single_line;
-use super::yardstick::{CurrentYardstick, Yardstick, measured, measured_run};
-use crate::CommandError;
-use crate::options::{MethodSpecification, TargetSpecification};
-use crate::progress::CaseObserver;
+use super::prelude::*;
 use crate::sampling;
 
-/// A run: of a body, or of a rival.
-#[derive(Clone, Debug)]
-pub struct Case {
-    target: TargetSpecification,
-    body: Body,
-    rival: Option<MethodSpecification>,
-    steps: usize,
-    particles: usize,
-    seed: u64,
-}
-
-impl Case {
-    fn method(&self) -> String {
-        let of_body = || format!("algorithm {}", self.body.algorithm);
-        self.rival
-            .as_ref()
-            .map_or_else(of_body, |rival| rival.label().to_owned())
-    }
-
-    /// Everything but target and seed, by name.
-    fn parts(&self) -> Vec<(&'static str, String)> {
-        let size = ("M", self.particles.to_string());
-        if self.rival.is_some() {
-            return vec![("method", self.method()), size];
-        }
-        let mut parts = self.body.parts().to_vec();
-        parts.extend([size, ("T", self.steps.to_string())]);
-        parts
-    }
-}
-
-impl definition::Case for Case {
-    fn id(&self) -> String {
-        let parts: Vec<String> = self
-            .parts()
-            .into_iter()
-            .map(|(name, text)| format!("{name} {text}"))
-            .collect();
-        format!("{}, {}, seed {}", self.target.label(), parts.join(", "), self.seed)
-    }
-
-    fn method(&self) -> Option<&MethodSpecification> {
-        self.rival.as_ref()
-    }
-
-    fn cost(&self) -> f64 {
-        let looks = 100.0;
-        let dim = self.target.dimension().unwrap_or(1);
-        (self.particles * self.steps) as f64 * (3f64.powi(dim as i32) + looks)
-    }
-}
-
 impl Study for Paper {
-    type Case = Case;
-    type Row = Row;
-    type Shared = CurrentYardstick;
+    type Work = Setting;
 
     const KIND: &'static str = "paper";
+    const COLUMNS: &'static str = "case method variant target dim material schedule score volumes friction spacing time_step steps particles \
+         seed status reason failed_step message energy_level start_energy final_energy final_sliced final_mean final_deviation final_mass \
+         best_step best_energy best_sliced evaluations active_nodes storage_bytes wall_seconds";
 
     fn seeds(&self) -> Vec<u64> {
         self.all_seeds()
     }
 
-    fn cases(&self) -> Result<Vec<Case>, CommandError> {
-        self.all_cases()
+    fn methods(&self) -> Vec<&MethodSpecification> {
+        self.rivals.iter().collect()
     }
 
-    fn run(&self, case: &Case, work: Work<'_, CurrentYardstick>) -> Result<Row, CommandError> {
-        let yardstick = work.shared.of(&case.target, &self.yardstick(), None)?;
-        let level = yardstick.mean_distance() / case.particles as f64;
-        let mut row = Row::new(case, case.target.dimension()?, level);
-        let mut run = Run::new(case.particles, case.seed);
+    fn cases(&self) -> Result<Vec<Case<Setting>>, CommandError> {
+        self.all_cases()?.into_iter().map(Setting::case).collect()
+    }
+
+    fn run(&self, case: &Case<Setting>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
+        let setting = &case.work;
+        let yardstick = tools.yardstick.of(&setting.target, &self.yardstick(), None)?;
+        row.set(
+            "energy_level",
+            yardstick.mean_distance() / setting.particles.get() as f64,
+        );
+        let mut run = Run::new(setting.particles.get(), setting.seed);
         (run.start.mean, run.start.standard_deviation) = (self.start_mean, self.start_sd);
-        match &case.rival {
-            Some(rival) => run_rival(case, &rival.method(None)?, &run, yardstick, work.observer, &mut row)?,
-            None => self.run_body(case, &run, yardstick, work.observer, &mut row)?,
+        match &setting.rival {
+            Some(rival) => {
+                let (target, method) = (setting.target.clone(), rival.method(None)?);
+                run_rival(&Sampled { target, method, run }, yardstick, tools.observer, row)
+            }
+            None => self.run_body(setting, &run, yardstick, tools.observer, row),
         }
-        Ok(row)
     }
 
-    fn report(&self, rows: &[Row], _: &StudyDirectory) -> Result<Report, CommandError> {
+    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Report, CommandError> {
         report::report(self, rows)
     }
 }
@@ -121,73 +66,92 @@ impl Study for Paper {
 impl Paper {
     fn run_body(
         &self,
-        case: &Case,
+        setting: &Setting,
         run: &Run,
         yardstick: &dyn Yardstick,
         observer: &mut CaseObserver,
         row: &mut Row,
     ) -> Result<(), CommandError> {
-        let material = case.body.material.material();
+        let material = setting.material.material();
         let material = material.map_err(|error| refusal("materials", error.to_string()))?;
-        let method = Method::Paper(case.body.options(material, case.steps));
+        let method = Method::Paper(setting.options(material));
         let mut watch = Watch::new(observer, yardstick, self.look_every.get(), self.reach);
-        let begin = Instant::now();
-        let result = sampling::sample(&case.target, &method, run, &mut watch);
-        let seconds = begin.elapsed().saturating_sub(watch.looking).as_secs_f64();
+        let (seconds, result) = timed(|| sampling::sample(&setting.target, &method, run, &mut watch));
         if let Some((step, message)) = watch.ended.take() {
-            row.fail(Status::Diverged, "outside range", Some(step), single_line(message));
+            fail(
+                row,
+                "outside range",
+                Some(step),
+                Failure::new(Status::Diverged, message),
+            );
         } else {
             let why = result.as_ref().err().map(reason);
             match attempt(result)? {
-                Attempt::Failed(status, message) => {
+                Err(failure) => {
                     let (word, step) = why.unwrap_or(("other", None));
-                    row.fail(status, word, step, message);
+                    fail(row, word, step, failure);
                 }
-                Attempt::Finished(outcome) => {
-                    row.evaluations = Some(outcome.evaluations());
-                    row.active_nodes = outcome.active_nodes;
-                    row.storage_bytes = outcome.storage_bytes;
-                    row.wall_seconds = Some(seconds);
-                    match measured(yardstick, &outcome)? {
-                        Attempt::Finished(errors) => {
+                Ok(outcome) => {
+                    row.set("evaluations", outcome.evaluations());
+                    row.set("active_nodes", outcome.active_nodes);
+                    row.set("storage_bytes", outcome.storage_bytes);
+                    row.set("wall_seconds", seconds - watch.looking.as_secs_f64());
+                    match attempt(yardstick.measure(&outcome.particles))? {
+                        Ok(errors) => {
                             watch.note(outcome.steps, errors);
-                            row.end(&errors);
+                            end(row, &errors);
                         }
-                        Attempt::Failed(status, message) => {
-                            row.fail(status, "outside range", Some(outcome.steps), message);
-                        }
+                        Err(failure) => fail(row, "outside range", Some(outcome.steps), failure),
                     }
                 }
             }
         }
-        row.start_energy = watch.start.map(|errors| errors.energy_distance_squared);
-        row.best_step = watch.best.map(|(step, _)| step);
-        row.best_energy = watch.best.map(|(_, errors)| errors.energy_distance_squared);
-        row.best_sliced = watch.best.map(|(_, errors)| errors.sliced_wasserstein);
+        row.set("start_energy", watch.start.map(|errors| errors.energy_distance_squared));
+        row.set("best_step", watch.best.map(|(step, _)| step));
+        row.set(
+            "best_energy",
+            watch.best.map(|(_, errors)| errors.energy_distance_squared),
+        );
+        row.set("best_sliced", watch.best.map(|(_, errors)| errors.sliced_wasserstein));
         Ok(())
     }
 }
 
 fn run_rival(
-    case: &Case,
-    method: &Method,
-    run: &Run,
+    work: &Sampled,
     yardstick: &dyn Yardstick,
     observer: &mut CaseObserver,
     row: &mut Row,
 ) -> Result<(), CommandError> {
-    match measured_run(&case.target, method, run, yardstick, observer)? {
-        Attempt::Failed(status, message) => row.fail(status, "other", None, message),
-        Attempt::Finished(measured) => {
-            row.evaluations = Some(measured.outcome.evaluations());
-            row.wall_seconds = Some(measured.outcome.wall_seconds);
-            match measured.errors {
-                Attempt::Finished(errors) => row.end(&errors),
-                Attempt::Failed(status, message) => row.fail(status, "outside range", None, message),
+    match attempt(work.sample_or_draw(yardstick, observer))? {
+        Err(failure) => fail(row, "other", None, failure),
+        Ok(outcome) => {
+            row.set("evaluations", outcome.evaluations());
+            row.set("wall_seconds", outcome.wall_seconds);
+            match attempt(yardstick.measure(&outcome.particles))? {
+                Ok(errors) => end(row, &errors),
+                Err(failure) => fail(row, "outside range", None, failure),
             }
         }
     }
     Ok(())
+}
+
+/// Notes a run without particles: why, in a word or two, and the step in which that was seen.
+fn fail(row: &mut Row, reason: &str, step: Option<usize>, failure: Failure) {
+    row.set("status", failure.status);
+    row.set("message", failure.reason);
+    row.set("reason", reason);
+    row.set("failed_step", step);
+}
+
+/// Notes the errors at the end.
+fn end(row: &mut Row, errors: &Errors) {
+    row.set("final_energy", errors.energy_distance_squared);
+    row.set("final_sliced", errors.sliced_wasserstein);
+    row.set("final_mean", errors.mean);
+    row.set("final_deviation", errors.deviation);
+    row.set("final_mass", errors.mass);
 }
 
 /// Why the sampler gave nothing, and in which step.

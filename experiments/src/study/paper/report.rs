@@ -1,20 +1,16 @@
 //! The report of the study `paper`.
 
-use super::answers::{answers, variants};
-use super::row::Row;
-use super::table::{Finding, Findings, TIE, against, settings};
+use super::answers::answers;
+use super::table::{Findings, TIE, against, is_good, settings};
 use super::{Paper, figure};
-use crate::CommandError;
-use crate::plots::page::{Page, line};
-use crate::plots::{dots, multiples};
-use crate::study::attempt::Status;
-use crate::study::definition::Report;
+use crate::plots::dots;
+use crate::study::prelude::*;
 
 /// Tables and figures.
-pub fn report(study: &Paper, rows: &[Row]) -> Result<Report, CommandError> {
+pub fn report(study: &Paper, rows: &Rows<'_>) -> Result<Report, CommandError> {
     let findings = Findings::new(study, rows);
     let all = findings.of(study.all_cases()?);
-    let bodies: Vec<Finding> = all.into_iter().filter(|(case, _)| case.rival.is_none()).collect();
+    let bodies = all.having(|row| !row.text("variant").is_empty());
     let mut page = Page::new("What Algorithms 1 and 2 of the MPM-ParVI paper reach");
     page.paragraph(format!(
         "Huang, arXiv 2407.20287, has no experiments; these are some. `as written`: the target's own coordinates, the force of Eq. 3, no guard. `guards on, frame`: this project's defaults. \
@@ -34,7 +30,7 @@ pub fn report(study: &Paper, rows: &[Row]) -> Result<Report, CommandError> {
     let drawing = multiples(&figure::strength(&alpha, &stiffness));
     page.figure("strength.svg", caption, drawing);
     let caption = "The base: start, best configuration on the way, and end.";
-    let base = findings.of(study.base_cases()?);
+    let base = findings.base()?;
     page.figure("transient.svg", caption, dots(&figure::transient(&base)));
     let at_rest = findings.sweep("material-at-rest")?;
     if !at_rest.is_empty() {
@@ -46,7 +42,7 @@ pub fn report(study: &Paper, rows: &[Row]) -> Result<Report, CommandError> {
     page.figure("cost.svg", caption, drawing);
     page.heading("Base and rivals");
     settings(&base, &mut page);
-    settings(&findings.of(study.rival_cases()?), &mut page);
+    settings(&findings.rivals()?, &mut page);
     for sweep in &study.sweeps {
         let name = sweep.name.as_deref().unwrap_or_default();
         if !["material", "schedule", "cost"].contains(&name) {
@@ -54,36 +50,39 @@ pub fn report(study: &Paper, rows: &[Row]) -> Result<Report, CommandError> {
             settings(&findings.sweep(name)?, &mut page);
         }
     }
-    let count = |choose: fn(&Row) -> bool| rows.iter().filter(|row| choose(row)).count();
-    let as_good = |row: &Row| !row.variant.is_empty() && row.ratio().is_some_and(|ratio| ratio <= 1.0);
     Ok(Report::new(page)
         .with("cases", rows.len())
-        .with("diverged", count(|row| row.status == Status::Diverged))
-        .with("as_good_as_independent", count(as_good)))
+        .with("diverged", rows.count(|row| row.status() == Status::Diverged))
+        .with(
+            "as_good_as_independent",
+            rows.count(|row| !row.text("variant").is_empty() && is_good(row)),
+        ))
+}
+
+/// Bodies by variant and algorithm.
+fn by_method<'a>(bodies: &Rows<'a>) -> Vec<(&'a str, &'static str, Rows<'a>)> {
+    let of = |variant: &'a str| {
+        let here = bodies.with("variant", variant);
+        ["algorithm 1", "algorithm 2"].map(|method| (variant, method, here.with("method", method)))
+    };
+    bodies.words("variant").into_iter().flat_map(of).collect()
 }
 
 /// How many runs diverge, why and when.
-fn failures(bodies: &[Finding], page: &mut Page) {
+fn failures(bodies: &Rows<'_>, page: &mut Page) {
     let reasons = ["not finite", "outside range", "turned inside out", "other"];
     let mut lines = Vec::new();
-    for variant in variants(bodies) {
-        for method in ["algorithm 1", "algorithm 2"] {
-            let here: Vec<&Row> = bodies
-                .iter()
-                .map(|(_, row)| *row)
-                .filter(|row| row.variant == variant && row.method == method)
-                .collect();
-            let failed: Vec<&&Row> = here.iter().filter(|row| row.status != Status::Finished).collect();
-            let mut steps: Vec<usize> = failed.iter().filter_map(|row| row.failed_step).collect();
-            steps.sort_unstable();
-            let share = 100.0 * failed.len() as f64 / here.len().max(1) as f64;
-            let share = format!("{share:.1}");
-            let mut cells = line(&[&variant, &method, &here.len(), &failed.len(), &share]);
-            cells.extend(reasons.map(|reason| failed.iter().filter(|row| row.reason == reason).count().to_string()));
-            cells.extend(line(&[&steps.get(steps.len() / 2), &steps.last()]));
-            if !here.is_empty() {
-                lines.push(cells);
-            }
+    for (variant, method, here) in by_method(bodies) {
+        let failed = here.having(|row| !row.finished());
+        let mut steps: Vec<usize> = failed.iter().filter_map(|row| row.count("failed_step")).collect();
+        steps.sort_unstable();
+        let share = 100.0 * failed.len() as f64 / here.len().max(1) as f64;
+        let share = format!("{share:.1}");
+        let mut cells = line(&[&variant, &method, &here.len(), &failed.len(), &share]);
+        cells.extend(reasons.map(|reason| failed.with("reason", reason).len().to_string()));
+        cells.extend(line(&[&steps.get(steps.len() / 2), &steps.last()]));
+        if !here.is_empty() {
+            lines.push(cells);
         }
     }
     let reasons = reasons.join(" | ");
@@ -93,36 +92,26 @@ fn failures(bodies: &[Finding], page: &mut Page) {
 
 /// The base beside its rivals, run by run.
 fn against_rivals(findings: &Findings, page: &mut Page) -> Result<(), CommandError> {
-    let base = findings.of(findings.study.base_cases()?);
-    let rivals = findings.of(findings.study.rival_cases()?);
+    let (base, rivals) = (findings.base()?, findings.rivals()?);
     page.paragraph(format!(
         "Runs of the base beside those of a rival on the same target with the same seed: better, tie (ED² within a factor of {TIE}), worse. A run that diverged is worse than one that did not.",
     ));
     let mut lines = Vec::new();
-    for variant in variants(&base) {
-        for method in ["algorithm 1", "algorithm 2"] {
-            for rival in &findings.study.rivals {
-                let here = base
-                    .iter()
-                    .map(|(_, row)| *row)
-                    .filter(|row| row.variant == variant && row.method == method);
-                let pairs = here.filter_map(|row| {
-                    let same = |other: &&Row| {
-                        other.method == rival.label()
-                            && (&other.target, other.seed, other.particles) == (&row.target, row.seed, row.particles)
-                    };
-                    Some((row, rivals.iter().map(|(_, row)| *row).find(same)?))
-                });
-                let counts = against(pairs);
-                if counts.iter().sum::<usize>() > 0 {
-                    let names = [variant.clone(), method.to_owned(), rival.label().to_owned()];
-                    lines.push(
-                        names
-                            .into_iter()
-                            .chain(counts.map(|count| count.to_string()))
-                            .collect::<Vec<_>>(),
-                    );
-                }
+    for (variant, method, here) in by_method(&base) {
+        for rival in findings.study.rivals.iter().map(MethodSpecification::label) {
+            let others = rivals.with("method", rival);
+            let same = |row: &Row, other: &Row| {
+                let alike = |column: &str| row.value(column) == other.value(column);
+                ["target", "seed", "particles"].into_iter().all(alike)
+            };
+            let pairs = here
+                .iter()
+                .filter_map(|row| Some((row, others.iter().find(|other| same(row, other))?)));
+            let counts = against(pairs);
+            if counts.iter().sum::<usize>() > 0 {
+                let mut cells = line(&[&variant, &method, &rival]);
+                cells.extend(counts.map(|count| count.to_string()));
+                lines.push(cells);
             }
         }
     }

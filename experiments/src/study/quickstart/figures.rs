@@ -2,14 +2,13 @@
 
 use parvi::TracePoint;
 
-use super::{Case, Quickstart};
-use crate::CommandError;
+use super::{Piece, Quickstart};
 use crate::dispatch::on_target;
 use crate::output::{Particles, particles_csv, table_file};
-use crate::pictures::{TraceQuantity, density};
-use crate::plots::page::Page;
+use crate::pictures::density;
+use crate::pictures::trace_panels::{KINETIC_ENERGY, POTENTIAL_ENERGY, RESIDUAL};
 use crate::plots::{DensityPlot, PairDensity, PointCloud, Reference, TracePlot, cloud, corner, histogram, trace};
-use crate::study::directory::StudyDirectory;
+use crate::study::prelude::*;
 
 /// Corner plot and marginals of the posterior over the reference draws.
 pub fn posterior(
@@ -18,16 +17,12 @@ pub fn posterior(
     directory: &StudyDirectory,
     page: &mut Page,
 ) -> Result<(), CommandError> {
-    let draws = particles_csv::read(&Case::Reference.particles_file(directory))?;
-    let (points, draws) = (rows(particles), rows(&draws));
+    let draws = particles_csv::read(&Piece::Reference.file(directory, "particles"))?;
+    let (points, draws) = (particles.to_rows(), draws.to_rows());
     let labels = study.posterior.target.coordinate_names();
-    let cloud = PointCloud {
-        points: &points,
-        weights: particles.weights(),
-    };
     let plot = DensityPlot {
         title: "",
-        particles: cloud,
+        particles: PointCloud::weighted(&points, particles.weights()),
         labels: &labels,
         reference: Reference::Draws(PointCloud::equal(&draws)),
         reference_label: "reference",
@@ -42,7 +37,7 @@ pub fn posterior(
 
 /// The particles for the eye over the contours of their target.
 pub fn picture(study: &Quickstart, particles: &Particles, page: &mut Page) -> Result<(), CommandError> {
-    let points = rows(particles);
+    let points = particles.to_rows();
     let grid = on_target!(&study.picture.target, target, D => {
         let domain = target.domain();
         let range = |axis: usize| domain.get(axis).map_or((-1.0, 1.0), |[low, high]| (*low, *high));
@@ -55,10 +50,7 @@ pub fn picture(study: &Quickstart, particles: &Particles, page: &mut Page) -> Re
     }];
     let plot = DensityPlot {
         title: "",
-        particles: PointCloud {
-            points: &points,
-            weights: particles.weights(),
-        },
+        particles: PointCloud::weighted(&points, particles.weights()),
         labels: &study.picture.target.coordinate_names(),
         reference: Reference::Exact {
             marginals: &[],
@@ -78,36 +70,20 @@ pub fn picture(study: &Quickstart, particles: &Particles, page: &mut Page) -> Re
 
 /// Residual and energies of the runs that took steps, against these.
 pub fn traces(study: &Quickstart, directory: &StudyDirectory, page: &mut Page) -> Result<(), CommandError> {
-    let mut runs = Vec::new();
-    for (case, part) in [(Case::Posterior, &study.posterior), (Case::Picture, &study.picture)] {
-        let path = case.trace_file(directory);
+    let mut labelled: Vec<(String, Vec<TracePoint>)> = Vec::new();
+    for (piece, part) in [(Piece::Posterior, &study.posterior), (Piece::Picture, &study.picture)] {
+        let path = piece.file(directory, "trace");
         if path.exists() {
-            runs.push((part, table_file::read(&path)?));
+            labelled.push((part.target.label(), table_file::read(&path)?));
         }
     }
-    runs.retain(|(_, rows): &(_, Vec<TracePoint>)| !rows.is_empty());
-    if runs.is_empty() {
+    labelled.retain(|(_, rows)| !rows.is_empty());
+    if labelled.is_empty() {
         return Ok(());
     }
-    let labelled: Vec<(String, Vec<TracePoint>)> = runs
-        .into_iter()
-        .map(|(part, rows)| (part.target.label(), rows))
-        .collect();
-    let quantities = [
-        TraceQuantity::Residual,
-        TraceQuantity::KineticEnergy,
-        TraceQuantity::PotentialEnergy,
-    ];
-    let plot = TracePlot {
-        title: String::new(),
-        x_label: "step".to_owned(),
-        panels: quantities.map(|quantity| quantity.panel(&labelled)).into(),
-    };
+    let quantities = [RESIDUAL, KINETIC_ENERGY, POTENTIAL_ENERGY];
+    let plot = TracePlot::new("", "step", quantities.map(|quantity| quantity.panel(&labelled)));
     let caption = "Galerkin–Stein residual and energies (frame coordinates, total mass 1) against the steps.";
     page.figure("traces.svg", caption, trace(&plot));
     Ok(())
-}
-
-fn rows(particles: &Particles) -> Vec<Vec<f64>> {
-    particles.rows().map(<[f64]>::to_vec).collect()
 }

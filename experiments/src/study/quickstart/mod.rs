@@ -5,23 +5,13 @@ mod figures;
 mod reference;
 mod report;
 
-use std::time::Instant;
-
-use serde::Deserialize;
+use std::path::PathBuf;
 
 use reference::Reference;
 
-use super::attempt::attempt;
-use super::checks::{positive, refusal};
-use super::definition::{self, Report, Study, Work};
-use super::directory::StudyDirectory;
-use super::run_row::RunRow;
-use crate::CommandError;
+use super::prelude::*;
 use crate::dispatch::on_target;
-use crate::options::{Bounded, MethodSpecification, ParticleCount, TargetSpecification};
 use crate::output::{ParticleFile, table_file};
-use crate::progress::CaseObserver;
-use crate::sampling;
 
 /// A posterior against its reference, and a two-dimensional target for the eye.
 #[derive(Clone, Debug, Deserialize)]
@@ -92,7 +82,7 @@ impl Quickstart {
 
 /// The three pieces of work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Case {
+pub enum Piece {
     /// The posterior's reference moments.
     Reference,
     /// The posterior's particles.
@@ -101,9 +91,9 @@ pub enum Case {
     Picture,
 }
 
-impl Case {
+impl Piece {
     /// Its name in results.csv and in the names of raw files.
-    pub const fn name(self) -> &'static str {
+    const fn name(self) -> &'static str {
         match self {
             Self::Reference => "reference",
             Self::Posterior => "posterior",
@@ -111,106 +101,76 @@ impl Case {
         }
     }
 
-    /// The file of its particles.
-    fn particles_file(self, directory: &StudyDirectory) -> std::path::PathBuf {
-        directory.raw(&format!("{}-particles.csv", self.name()))
+    fn case(self, part: &Part, method: &str, particles: usize) -> Result<Case<Self>, CommandError> {
+        Ok(Case::new(self.name().to_owned(), self)
+            .with("target", part.target.label())
+            .with("dim", part.target.dimension()?)
+            .with("method", method)
+            .with("particles", particles))
     }
 
-    /// The file of its history.
-    fn trace_file(self, directory: &StudyDirectory) -> std::path::PathBuf {
-        directory.raw(&format!("{}-trace.csv", self.name()))
+    /// A file of its own: `particles`, `trace` or `moments`.
+    fn file(self, directory: &StudyDirectory, what: &str) -> PathBuf {
+        directory.raw(&format!("{}-{what}.csv", self.name()))
     }
-}
-
-/// The file of the reference moments.
-fn moments_file(directory: &StudyDirectory) -> std::path::PathBuf {
-    directory.raw("reference-moments.csv")
-}
-
-impl definition::Case for Case {
-    fn id(&self) -> String {
-        self.name().to_owned()
-    }
-
-    fn cost(&self) -> f64 {
-        match self {
-            Self::Reference => 2.0,
-            Self::Posterior => 10.0,
-            Self::Picture => 1.0,
-        }
-    }
-}
-
-/// The row of a case that has not begun.
-fn row(case: Case, part: &Part, method: &str, particles: usize) -> Result<RunRow, CommandError> {
-    Ok(RunRow {
-        target: part.target.label(),
-        dim: part.target.dimension()?,
-        method: method.to_owned(),
-        particles,
-        ..RunRow::new(&case)
-    })
 }
 
 impl Study for Quickstart {
-    type Case = Case;
-    type Row = RunRow;
-    type Shared = ();
+    type Work = Piece;
 
     const KIND: &'static str = "quickstart";
     const COLUMNS: &'static str = "case status reason target dim method particles steps score_evaluations density_evaluations residual \
          spacing active_nodes storage_bytes effective_sample_size wall_seconds";
 
-    fn cases(&self) -> Result<Vec<Case>, CommandError> {
+    fn cases(&self) -> Result<Vec<Case<Piece>>, CommandError> {
         self.check()?;
-        Ok(vec![Case::Reference, Case::Posterior, Case::Picture])
+        let sampled = |piece: Piece, part: &Part| piece.case(part, part.method.label(), part.particles.get());
+        let points = self.reference.points.get();
+        Ok(vec![
+            Piece::Reference
+                .case(&self.posterior, "importance-sampling", points)?
+                .costing(2.0),
+            sampled(Piece::Posterior, &self.posterior)?.costing(10.0),
+            sampled(Piece::Picture, &self.picture)?,
+        ])
     }
 
-    fn run(&self, case: &Case, work: Work<'_, ()>) -> Result<RunRow, CommandError> {
-        match case {
-            Case::Reference => self.run_reference(work.directory),
-            Case::Posterior => self.run_sampler(*case, &self.posterior, work.directory, work.observer),
-            Case::Picture => self.run_sampler(*case, &self.picture, work.directory, work.observer),
+    fn run(&self, case: &Case<Piece>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
+        match case.work {
+            Piece::Reference => self.run_reference(row, tools.directory),
+            Piece::Posterior => self.run_sampler(case.work, &self.posterior, row, tools),
+            Piece::Picture => self.run_sampler(case.work, &self.picture, row, tools),
         }
     }
 
-    fn report(&self, rows: &[RunRow], directory: &StudyDirectory) -> Result<Report, CommandError> {
+    fn report(&self, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Report, CommandError> {
         report::report(self, rows, directory)
     }
 }
 
 impl Quickstart {
-    fn run_reference(&self, directory: &StudyDirectory) -> Result<RunRow, CommandError> {
+    fn run_reference(&self, row: &mut Row, directory: &StudyDirectory) -> Result<(), CommandError> {
         let target = &self.posterior.target;
-        let begin = Instant::now();
         let names = target.coordinate_names();
-        let reference = on_target!(target, target, D => Reference::of::<D>(target.as_ref(), &names, &self.reference))?;
-        let wall_seconds = begin.elapsed().as_secs_f64();
-        table_file::write(&reference.axes, &moments_file(directory))?;
-        ParticleFile::create(Case::Reference.particles_file(directory))?.write(&reference.draws, &[])?;
-        let points = self.reference.points.get();
-        let mut row = row(Case::Reference, &self.posterior, "importance-sampling", points)?;
-        row.effective_sample_size = Some(reference.effective_sample_size);
-        row.wall_seconds = Some(wall_seconds);
-        Ok(row)
+        let (seconds, reference) =
+            timed(|| on_target!(target, target, D => Reference::of::<D>(target.as_ref(), &names, &self.reference)));
+        let reference = reference?;
+        table_file::write(&reference.axes, &Piece::Reference.file(directory, "moments"))?;
+        ParticleFile::create(Piece::Reference.file(directory, "particles"))?.write(&reference.draws, &[])?;
+        row.set("effective_sample_size", reference.effective_sample_size);
+        row.set("wall_seconds", seconds);
+        Ok(())
     }
 
-    fn run_sampler(
-        &self,
-        case: Case,
-        part: &Part,
-        directory: &StudyDirectory,
-        observer: &mut CaseObserver,
-    ) -> Result<RunRow, CommandError> {
-        let mut specification = part.method.clone();
-        specification.options.trace_every = self.trace_every.get();
-        let method = specification.method(None)?;
-        let run = specification.run(part.particles.get(), self.seed);
-        let mut row = row(case, part, part.method.label(), run.particles)?;
-        if let Some(outcome) = row.note(attempt(sampling::sample(&part.target, &method, &run, observer))?) {
-            ParticleFile::create(case.particles_file(directory))?.write(&outcome.particles, &[])?;
-            table_file::write(outcome.trace.iter(), &case.trace_file(directory))?;
+    fn run_sampler(&self, piece: Piece, part: &Part, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
+        let mut method = part.method.clone();
+        method.options.trace_every = self.trace_every.get();
+        let work = Sampled::new(&part.target, &method, None, (part.particles.get(), self.seed))?;
+        if let Some(outcome) = row.note(work.sample(tools.observer))? {
+            let file = |what: &str| piece.file(tools.directory, what);
+            ParticleFile::create(file("particles"))?.write(&outcome.particles, &[])?;
+            table_file::write(outcome.trace.iter(), &file("trace"))?;
         }
-        Ok(row)
+        Ok(())
     }
 }

@@ -1,30 +1,25 @@
 //! The report of the study `quickstart`.
 
-use super::comparison::Comparison;
-use super::{Case, Quickstart, figures, moments_file};
-use crate::CommandError;
+use super::comparison::{AxisComparison, Comparison};
+use super::{Piece, Quickstart, figures};
 use crate::output::{particles_csv, table_file};
-use crate::plots::page::{Cell, Page, line, number};
-use crate::study::definition::Report;
-use crate::study::directory::StudyDirectory;
-use crate::study::run_row::RunRow;
+use crate::study::prelude::*;
 
 /// Tables, figures and verdict.
-pub fn report(study: &Quickstart, rows: &[RunRow], directory: &StudyDirectory) -> Result<Report, CommandError> {
+pub fn report(study: &Quickstart, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Report, CommandError> {
     let mut page = Page::new("Quickstart: a posterior from real data");
     let mut summary = Vec::new();
-    let finished = |case: Case| rows.iter().any(|row| row.case == case.name() && row.finished());
-
-    if finished(Case::Reference) && finished(Case::Posterior) {
-        let particles = particles_csv::read(&Case::Posterior.particles_file(directory))?;
-        let comparison = Comparison::new(&particles, &table_file::read(&moments_file(directory))?);
+    let finished = |piece: Piece| rows.with("case", piece.name()).count(Row::finished) > 0;
+    let particles = |piece: Piece| particles_csv::read(&piece.file(directory, "particles"));
+    if finished(Piece::Reference) && finished(Piece::Posterior) {
+        let particles = particles(Piece::Posterior)?;
+        let reference = table_file::read(&Piece::Reference.file(directory, "moments"))?;
+        let comparison = Comparison::new(&particles, &reference);
         verdict(study, &comparison, rows, &mut page);
+        let number = |number: f64| format!("{number:.6}");
         summary.extend([
-            ("largest_mean_error", format!("{:.6}", comparison.largest_mean_error())),
-            (
-                "largest_sd_error",
-                format!("{:.6}", comparison.largest_deviation_error()),
-            ),
+            ("largest_mean_error", number(comparison.largest_mean_error())),
+            ("largest_sd_error", number(comparison.largest_deviation_error())),
             ("verdict", word(passes(study, &comparison)).to_owned()),
         ]);
         moments_table(&comparison, &mut page);
@@ -34,10 +29,9 @@ pub fn report(study: &Quickstart, rows: &[RunRow], directory: &StudyDirectory) -
         page.paragraph("The posterior or its reference is missing, so there is nothing to compare yet.");
         summary.push(("verdict", "incomplete".to_owned()));
     }
-    if finished(Case::Picture) {
+    if finished(Piece::Picture) {
         page.heading("A target for the eye");
-        let particles = particles_csv::read(&Case::Picture.particles_file(directory))?;
-        figures::picture(study, &particles, &mut page)?;
+        figures::picture(study, &particles(Piece::Picture)?, &mut page)?;
     }
     page.heading("The way there");
     figures::traces(study, directory, &mut page)?;
@@ -53,13 +47,11 @@ fn word(pass: bool) -> &'static str {
     if pass { "pass" } else { "fail" }
 }
 
-fn verdict(study: &Quickstart, comparison: &Comparison, rows: &[RunRow], page: &mut Page) {
+fn verdict(study: &Quickstart, comparison: &Comparison, rows: &Rows<'_>, page: &mut Page) {
     let bounds = &study.bounds;
     let within = |pass: bool| if pass { "within" } else { "beyond" };
-    let size = rows
-        .iter()
-        .find(|row| row.case == Case::Reference.name())
-        .and_then(|row| row.effective_sample_size);
+    let reference = rows.with("case", Piece::Reference.name());
+    let size = reference.first().and_then(|row| row.number("effective_sample_size"));
     page.paragraph(format!(
         "**Verdict: {}.** The largest error of a posterior mean is {} posterior standard deviations, {} the bound of {}; the \
          largest error of a posterior standard deviation is {} %, {} the bound of {} %.",
@@ -89,46 +81,33 @@ fn verdict(study: &Quickstart, comparison: &Comparison, rows: &[RunRow], page: &
 fn moments_table(comparison: &Comparison, page: &mut Page) {
     page.heading("Posterior moments");
     let header = "coefficient | mean | reference mean | ± s.e. | error (sd) | sd | reference sd | ± s.e. | error (%)";
-    let table: Vec<Vec<String>> = comparison
-        .axes
-        .iter()
-        .map(|axis| {
-            let reference = &axis.reference;
-            vec![
-                reference.name.clone(),
-                format!("{:.5}", axis.mean),
-                format!("{:.5}", reference.mean),
-                format!("{:.1e}", reference.mean_standard_error),
-                format!("{:+.4}", axis.mean_error),
-                format!("{:.5}", axis.standard_deviation),
-                format!("{:.5}", reference.standard_deviation),
-                format!("{:.1e}", reference.standard_deviation_standard_error),
-                format!("{:+.2}", 100.0 * axis.deviation_error),
-            ]
-        })
-        .collect();
-    page.table(header, &table);
+    let line = |axis: &AxisComparison| {
+        let reference = &axis.reference;
+        vec![
+            reference.name.clone(),
+            format!("{:.5}", axis.mean),
+            format!("{:.5}", reference.mean),
+            format!("{:.1e}", reference.mean_standard_error),
+            format!("{:+.4}", axis.mean_error),
+            format!("{:.5}", axis.standard_deviation),
+            format!("{:.5}", reference.standard_deviation),
+            format!("{:.1e}", reference.standard_deviation_standard_error),
+            format!("{:+.2}", 100.0 * axis.deviation_error),
+        ]
+    };
+    page.table(header, comparison.axes.iter().map(line));
 }
 
-fn runs_table(rows: &[RunRow], page: &mut Page) {
+fn runs_table(rows: &Rows<'_>, page: &mut Page) {
     let header = "case | status | target | method | M | steps | scores | densities | evaluations | residual | h | active nodes | time (s)";
-    let line = |row: &RunRow| {
-        let both = row.score_evaluations.zip(row.density_evaluations);
-        line(&[
-            &row.case,
-            &row.ending(),
-            &row.target,
-            &row.method,
-            &row.particles,
-            &row.steps,
-            &row.score_evaluations,
-            &row.density_evaluations,
-            &both.map(|(scores, densities)| scores + densities),
-            &row.residual,
-            &row.spacing,
-            &row.active_nodes,
-            &row.wall_seconds,
-        ])
+    let line = |row: &Row| {
+        let both = row.count("score_evaluations").zip(row.count("density_evaluations"));
+        let evaluations = both.map(|(scores, densities)| scores + densities);
+        let mut cells = line(&[&row.case(), &row.ending()]);
+        cells.extend(row.cells("target | method | particles | steps | score_evaluations | density_evaluations"));
+        cells.push(evaluations.cell());
+        cells.extend(row.cells("residual | spacing | active_nodes | wall_seconds"));
+        cells
     };
     page.table(header, rows.iter().map(line));
 }

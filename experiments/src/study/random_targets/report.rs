@@ -1,16 +1,10 @@
 //! The report of the study `random-targets`.
 
-use super::figure::plot;
 use super::{KnownFrame, RandomTargets};
-use crate::options::Dimension;
-use crate::plots::multiples;
-use crate::plots::page::{Cell, Header, MISSING, Page, percent};
-use crate::statistics::weighted_quantile;
-use crate::study::definition::Report;
-use crate::study::run_row::{ENERGY_RATIO, EVALUATIONS, Quantity, RunRow, SECONDS, report_of_runs};
+use crate::study::prelude::*;
 
 /// Tables and figure.
-pub fn report(study: &RandomTargets, rows: &[RunRow]) -> Report {
+pub fn report(study: &RandomTargets, rows: &Rows<'_>) -> Report {
     let mut page = Page::new("Random targets");
     page.paragraph(format!(
         "M = {} particles on {} random targets per dimension, of seeds from {} on; the methods {}. ED² is the squared energy distance \
@@ -32,78 +26,78 @@ pub fn report(study: &RandomTargets, rows: &[RunRow]) -> Report {
     page.figure("random-targets.svg", caption, multiples(&plot(study, rows)));
     for &dim in &study.dims {
         page.heading(&format!("d = {dim}"));
-        table(study, rows, dim, &mut page);
+        table(study, &rows.with("dim", dim), &mut page);
     }
-    let false_claims = rows.iter().filter(|row| claims_falsely(row));
-    let false_claims: Vec<String> = false_claims
-        .map(|row| format!("- `{}`: ED² {}", row.case, ENERGY_RATIO(row).cell()))
-        .collect();
+    let false_claim = |row: &Row| format!("- `{}`: ED² {}", row.case(), ENERGY_RATIO(row).cell());
+    let false_claims: Vec<String> = rows.having(claims_falsely).iter().map(false_claim).collect();
     page.list("Claims that are false", &false_claims, None);
-    report_of_runs(page, rows)
-        .with("claimed", rows.iter().filter(|row| row.claims()).count())
+    rows.report(page)
+        .with("claimed", rows.count(Row::claims))
         .with("false_claims", false_claims.len())
 }
 
-/// Whether log Z is within three of its standard errors; `None` where the method does not state it.
-fn states_evidence(row: &RunRow) -> Option<bool> {
-    Some(row.log_evidence_deviation?.abs() <= 3.0 * row.log_evidence_error?)
-}
-
 /// Whether a run claims to stand for the target and is no better than independent draws.
-fn claims_falsely(row: &RunRow) -> bool {
+fn claims_falsely(row: &Row) -> bool {
     row.claims() && ENERGY_RATIO(row).is_none_or(|ratio| ratio > 1.0)
 }
 
-/// A line per method.
-fn table(study: &RandomTargets, rows: &[RunRow], dim: Dimension, page: &mut Page) {
-    let runs = |label: &str| -> Vec<&RunRow> {
-        let here = |row: &&RunRow| row.dim == dim.get() && row.method == label;
-        rows.iter().filter(here).collect()
-    };
+/// A line per method, of the runs in one dimension.
+fn table(study: &RandomTargets, rows: &Rows<'_>, page: &mut Page) {
     let first = "method | finished | ED² median | 95 % | worst | evaluations | time (s) | error of log Z | within 3 s.e. | claims | false";
+    let labels = || study.methods.iter().map(MethodSpecification::label);
     let mut header = first.names();
-    header.extend(
-        study
-            .methods
+    header.extend(labels().map(|label| format!("better than {label}")));
+    let deviation: Computed = |row| row.number("log_evidence_deviation").map(f64::abs);
+    // log Z in its standard errors, where the method states both.
+    let ratio = |row: &Row| Some((deviation(row)?, row.number("log_evidence_error")?));
+    let cells = |label: &str| {
+        let here = rows.with("method", label);
+        let stated: Vec<(f64, f64)> = here.iter().filter_map(ratio).collect();
+        let within = stated
             .iter()
-            .map(|method| format!("better than {}", method.label())),
-    );
-    let line = |label: &str| {
-        let here = runs(label);
-        let finished = here.iter().filter(|row| row.finished()).count();
-        let stated: Vec<bool> = here.iter().filter_map(|row| states_evidence(row)).collect();
-        let count = |property: fn(&RunRow) -> bool| here.iter().filter(|row| property(row)).count();
-        let mut line = vec![label.to_owned(), format!("{finished}/{}", here.len())];
-        line.extend([0.5, 0.95, 1.0].map(|level| quantile(&here, ENERGY_RATIO, level).cell()));
-        let deviation = |row: &RunRow| row.log_evidence_deviation.map(f64::abs);
-        let medians: [Quantity; 3] = [EVALUATIONS, SECONDS, deviation];
-        line.extend(medians.map(|quantity| quantile(&here, quantity, 0.5).cell()));
-        line.push(percent(stated.iter().filter(|within| **within).count(), stated.len()).cell());
-        line.extend([count(RunRow::claims), count(claims_falsely)].map(|count| count.to_string()));
-        line.extend(study.methods.iter().map(|other| match other.label() == label {
-            true => MISSING.to_owned(),
-            false => better(&here, &runs(other.label())),
-        }));
-        line
+            .filter(|(deviation, error)| *deviation <= 3.0 * error)
+            .count();
+        let mut cells = line(&[&label, &here.finished()]);
+        cells.extend([0.5, 0.95, 1.0].map(|level| here.quantile(ENERGY_RATIO, level).cell()));
+        let medians: [&dyn Quantity; 3] = [&EVALUATIONS, &SECONDS, &deviation];
+        cells.extend(medians.map(|quantity| here.quantile(|row: &Row| quantity.of(row), 0.5).cell()));
+        cells.push(percent(within, stated.len()).cell());
+        cells.extend([here.count(Row::claims), here.count(claims_falsely)].map(|count| count.to_string()));
+        let others = labels().map(|other| {
+            (other != label)
+                .then(|| better(&here, &rows.with("method", other)))
+                .cell()
+        });
+        cells.extend(others);
+        cells
     };
-    page.table(&header, study.methods.iter().map(|method| line(method.label())));
-}
-
-/// A quantile of a quantity over the runs that have it.
-fn quantile(rows: &[&RunRow], quantity: Quantity, level: f64) -> Option<f64> {
-    let values: Vec<f64> = rows.iter().filter_map(|row| quantity(row)).collect();
-    weighted_quantile(&values, None, &[level]).ok()?.first().copied()
+    page.table(&header, labels().map(cells));
 }
 
 /// The share of the targets on which the ED² of `rows` is smaller; a run without particles is infinitely far.
-fn better(rows: &[&RunRow], others: &[&RunRow]) -> String {
-    let far = |row: &RunRow| ENERGY_RATIO(row).unwrap_or(f64::INFINITY);
-    let pairs: Vec<(f64, f64)> = rows
-        .iter()
-        .filter_map(|row| {
-            let other = others.iter().find(|other| other.target_seed == row.target_seed)?;
-            Some((far(row), far(other)))
-        })
-        .collect();
+fn better(rows: &Rows<'_>, others: &Rows<'_>) -> String {
+    let far = |row: &Row| ENERGY_RATIO(row).unwrap_or(f64::INFINITY);
+    let pair = |row: &Row| {
+        let same = |other: &&Row| other.value("target_seed") == row.value("target_seed");
+        Some((far(row), far(others.iter().find(same)?)))
+    };
+    let pairs: Vec<(f64, f64)> = rows.iter().filter_map(pair).collect();
     percent(pairs.iter().filter(|(own, other)| own < other).count(), pairs.len()).cell()
+}
+
+/// ED² of every method in order of size, one panel per dimension.
+fn plot(study: &RandomTargets, rows: &Rows<'_>) -> MultiplesPlot {
+    let panel = |dim: &Dimension| {
+        let here = rows.with("dim", *dim);
+        let line = |method: &MethodSpecification| {
+            let ratios = here.with("method", method.label()).values(ENERGY_RATIO);
+            LineSeries::in_order(method.label(), ratios, study.target_seeds.count.get())
+        };
+        let lines = study.methods.iter().map(line);
+        MultiplesPanel::new(format!("d = {dim}"), lines).with_level(1.0, "independent draws")
+    };
+    MultiplesPlot::logarithmic("share of the targets (%)", "ED^{2} relative to independent draws")
+        .over_linear()
+        .with_panels(study.dims.iter().map(panel))
+        .with_note("Every method's targets are in the order of its own ED²; runs without particles are left out.")
 }

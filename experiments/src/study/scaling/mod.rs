@@ -8,15 +8,8 @@ mod memory;
 mod quantity;
 mod report;
 
-use serde::Deserialize;
-
-use super::attempt::{Attempt, attempt};
-use super::checks::refusal;
-use super::definition::{self, Report, Study, Work};
-use super::directory::StudyDirectory;
-use super::run_row::RunRow;
-use crate::options::{Bounded, Dimension, MethodSpecification, ParticleCount, StepCount, TargetSpecification};
-use crate::{CommandError, sampling, statistics};
+use super::prelude::*;
+use crate::statistics;
 
 /// Sizes to measure.
 #[derive(Clone, Debug, Deserialize)]
@@ -77,32 +70,34 @@ const PARTICLES: &str = "particles";
 const NODES: &str = "nodes";
 
 /// One size.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Case {
-    sweep: &'static str,
+#[derive(Clone, Debug)]
+pub struct Size {
     dim: Dimension,
     particles: usize,
-    /// k; `None`: the sampler chooses the spacing.
-    nodes_per_axis: Option<usize>,
-    /// h in frame units for that k.
+    /// h in frame units; `None`: the sampler chooses it.
     spacing: Option<f64>,
 }
 
-impl definition::Case for Case {
-    fn id(&self) -> String {
-        let nodes = self.nodes_per_axis.map_or(String::new(), |nodes| format!("-k{nodes}"));
-        format!("{}-d{}-m{}{nodes}", self.sweep, self.dim, self.particles)
-    }
-
-    fn cost(&self) -> f64 {
-        self.particles as f64 * 3f64.powi(self.dim.get() as i32) + 1e3
+impl Size {
+    /// The case of a sweep.
+    fn case(self, sweep: &str, nodes_per_axis: Option<usize>) -> Case<Self> {
+        let nodes = nodes_per_axis.map_or(String::new(), |nodes| format!("-k{nodes}"));
+        let cost = self.particles as f64 * 3f64.powi(self.dim.get() as i32) + 1e3;
+        Case::new(
+            format!("{sweep}-d{}-m{}{nodes}", self.dim, self.particles),
+            self.clone(),
+        )
+        .costing(cost)
+        .with("sweep", sweep)
+        .with("dim", self.dim)
+        .with("particles", self.particles)
+        .with("nodes_per_axis", nodes_per_axis)
+        .with("spacing", self.spacing)
     }
 }
 
 impl Study for Scaling {
-    type Case = Case;
-    type Row = RunRow;
-    type Shared = ();
+    type Work = Size;
 
     const KIND: &'static str = "scaling";
     const HEAD: &[&str] = &["kind"];
@@ -111,8 +106,9 @@ impl Study for Scaling {
          wall_seconds_per_step_most";
 
     /// The cases of both sweeps, cheap ones first within each dimension.
-    fn cases(&self) -> Result<Vec<Case>, CommandError> {
-        let [low, high] = self.nodes_sweep.interval;
+    fn cases(&self) -> Result<Vec<Case<Size>>, CommandError> {
+        let nodes = &self.nodes_sweep;
+        let [low, high] = nodes.interval;
         if !(low < high && (high - low).is_finite()) {
             return Err(refusal("nodes-sweep.box", format!("[{low}, {high}] is no interval")));
         }
@@ -121,81 +117,79 @@ impl Study for Scaling {
             let message = format!("{} must be above 0", sweep.largest_work);
             return Err(refusal("particles-sweep.largest-work", message));
         }
-        for &dim in sweep.dims.iter().chain(&self.nodes_sweep.dims) {
+        for &dim in sweep.dims.iter().chain(&nodes.dims) {
             TargetSpecification::plain(&self.target, Some(dim)).dimension()?;
         }
         let mut cases = Vec::new();
         for &dim in &sweep.dims {
-            for &particles in &sweep.particles {
-                let work = particles.get() as f64 * 3f64.powi(dim.get() as i32);
-                if work <= sweep.largest_work {
-                    let particles = particles.get();
-                    cases.push(Case {
-                        sweep: PARTICLES,
-                        dim,
-                        particles,
-                        nodes_per_axis: None,
-                        spacing: None,
-                    });
+            for particles in sweep.particles.iter().map(|count| count.get()) {
+                if particles as f64 * 3f64.powi(dim.get() as i32) <= sweep.largest_work {
+                    let spacing = None;
+                    cases.push(
+                        Size {
+                            dim,
+                            particles,
+                            spacing,
+                        }
+                        .case(PARTICLES, None),
+                    );
                 }
             }
         }
-        for &dim in &self.nodes_sweep.dims {
-            for &nodes in &self.nodes_sweep.nodes_per_axis {
-                cases.push(Case {
-                    sweep: NODES,
+        for &dim in &nodes.dims {
+            for count in nodes.nodes_per_axis.iter().map(|count| count.get()) {
+                let size = Size {
                     dim,
-                    particles: self.nodes_sweep.particles.get(),
-                    nodes_per_axis: Some(nodes.get()),
-                    spacing: Some((high - low) / nodes.get() as f64),
-                });
+                    particles: nodes.particles.get(),
+                    spacing: Some((high - low) / count as f64),
+                };
+                cases.push(size.case(NODES, Some(count)));
             }
         }
         Ok(cases)
     }
 
-    fn run(&self, case: &Case, work: Work<'_, ()>) -> Result<RunRow, CommandError> {
+    fn run(&self, case: &Case<Size>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
+        let size = &case.work;
         let mut specification = self.method.clone();
-        specification.options.spacing = case.spacing.or(specification.options.spacing);
-        let method = specification.method(Some(self.steps.get()))?;
-        let run = specification.run(case.particles, self.seed);
-        let target = TargetSpecification::plain(&self.target, Some(case.dim));
-
-        let mut row = RunRow {
-            sweep: case.sweep.to_owned(),
-            dim: case.dim.get(),
-            particles: case.particles,
-            nodes_per_axis: case.nodes_per_axis,
-            spacing: case.spacing,
-            ..RunRow::new(case)
-        };
+        specification.options.spacing = size.spacing.or(specification.options.spacing);
+        let target = TargetSpecification::plain(&self.target, Some(size.dim));
+        let work = Sampled::new(
+            &target,
+            &specification,
+            Some(self.steps.get()),
+            (size.particles, self.seed),
+        )?;
         let mut times = Vec::new();
         for repeat in 0..=self.repeats.get() {
-            let outcome = match attempt(sampling::sample(&target, &method, &run, work.observer))? {
-                Attempt::Finished(outcome) => outcome,
-                Attempt::Failed(status, reason) => {
-                    row.fail(status, reason);
-                    return Ok(row);
+            let outcome = match attempt(work.sample(tools.observer))? {
+                Ok(outcome) => outcome,
+                Err(failure) => {
+                    row.fail(failure);
+                    return Ok(());
                 }
             };
             if repeat == 0 {
                 row.take(&outcome);
-                row.spacing = row.spacing.or(case.spacing);
+                row.set("spacing", outcome.spacing.or(size.spacing));
             } else {
                 times.push(outcome.wall_seconds / outcome.steps.max(1) as f64);
             }
         }
         specification.options.steps = Some(self.steps);
-        row.memory_peak_bytes =
-            memory::peak_of_own_process(&target, &specification, &run, self.threads.map(Bounded::get));
+        let threads = self.threads.map(Bounded::get);
+        row.set(
+            "memory_peak_bytes",
+            memory::peak_of_own_process(&target, &specification, &work.run, threads),
+        );
         let quantiles = statistics::weighted_quantile(&times, None, &[0.0, 0.5, 1.0])?;
-        row.wall_seconds_per_step_least = Some(quantiles[0]);
-        row.wall_seconds_per_step = Some(quantiles[1]);
-        row.wall_seconds_per_step_most = Some(quantiles[2]);
-        Ok(row)
+        row.set("wall_seconds_per_step_least", quantiles[0]);
+        row.set("wall_seconds_per_step", quantiles[1]);
+        row.set("wall_seconds_per_step_most", quantiles[2]);
+        Ok(())
     }
 
-    fn report(&self, rows: &[RunRow], _: &StudyDirectory) -> Result<Report, CommandError> {
+    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Report, CommandError> {
         Ok(report::report(self, rows))
     }
 }

@@ -1,60 +1,65 @@
 //! What is measured per case, and its growth with the size that a sweep varies.
 
-use crate::plots::page::MISSING;
-use crate::plots::{LineSeries, exponent_text, scaling_fit};
-use crate::study::run_row::RunRow;
+use crate::plots::scaling_fit;
+use crate::study::prelude::*;
 
 /// A measured quantity.
-pub struct Quantity {
+pub struct Measured {
     /// Name for tables.
     pub name: &'static str,
     /// Label of an axis, with the unit.
     pub axis: &'static str,
     /// Name of the figure's file, without sweep and extension; `None` for what a table says better.
     pub file: Option<&'static str>,
-    /// Its value.
-    pub value: fn(&RunRow) -> Option<f64>,
+    value: Computed,
+}
+
+const fn measured(name: &'static str, axis: &'static str, file: Option<&'static str>, value: Computed) -> Measured {
+    Measured {
+        name,
+        axis,
+        file,
+        value,
+    }
 }
 
 /// All quantities.
-pub const QUANTITIES: [Quantity; 5] = [
-    Quantity {
-        name: "time per step",
-        axis: "time per step (s)",
-        file: Some("time"),
-        value: |row| row.wall_seconds_per_step,
-    },
-    Quantity {
-        name: "active nodes",
-        axis: "active nodes",
-        file: Some("nodes"),
-        value: |row| row.active_nodes.map(|count| count as f64),
-    },
-    Quantity {
-        name: "storage",
-        axis: "storage of particles and grid (bytes)",
-        file: Some("storage"),
-        value: |row| row.storage_bytes.map(|bytes| bytes as f64),
-    },
-    Quantity {
-        name: "peak memory",
-        axis: "rise of the resident memory (bytes)",
-        file: Some("memory"),
-        value: |row| row.memory_peak_bytes.map(|bytes| bytes as f64),
-    },
-    Quantity {
-        name: "score evaluations per step",
-        axis: "score evaluations per step",
-        file: None,
-        value: |row| Some(row.score_evaluations? as f64 / row.steps.filter(|steps| *steps > 0)? as f64),
-    },
+pub const QUANTITIES: [Measured; 5] = [
+    measured("time per step", "time per step (s)", Some("time"), |row| {
+        row.number("wall_seconds_per_step")
+    }),
+    measured("active nodes", "active nodes", Some("nodes"), |row| {
+        row.number("active_nodes")
+    }),
+    measured(
+        "storage",
+        "storage of particles and grid (bytes)",
+        Some("storage"),
+        |row| row.number("storage_bytes"),
+    ),
+    measured(
+        "peak memory",
+        "rise of the resident memory (bytes)",
+        Some("memory"),
+        |row| row.number("memory_peak_bytes"),
+    ),
+    measured(
+        "score evaluations per step",
+        "score evaluations per step",
+        None,
+        |row| Some(row.number("score_evaluations")? / row.number("steps").filter(|steps| *steps > 0.0)?),
+    ),
 ];
 
-impl Quantity {
-    /// Its values in one dimension of a sweep against the size that the sweep varies.
-    pub fn series(&self, rows: &[RunRow], sweep: &str, dim: usize) -> LineSeries {
-        let here = rows.iter().filter(|row| row.sweep == sweep && row.dim == dim);
-        let (x, y) = here.filter_map(|row| Some((size(row), (self.value)(row)?))).unzip();
+impl Measured {
+    /// Its values in one dimension of a sweep against the size that the sweep varies, M or k.
+    pub fn series(&self, rows: &Rows<'_>, sweep: &str, dim: Dimension) -> LineSeries {
+        let size = |row: &Row| row.number("nodes_per_axis").or(row.number("particles"));
+        let here = rows.with("sweep", sweep).with("dim", dim);
+        let (x, y) = here
+            .iter()
+            .filter_map(|row| Some((size(row)?, (self.value)(row)?)))
+            .unzip();
         LineSeries {
             x,
             y,
@@ -63,12 +68,8 @@ impl Quantity {
     }
 
     /// The fitted exponent with its 95 % interval.
-    pub fn exponent(&self, rows: &[RunRow], sweep: &str, dim: usize, fit_from: f64) -> String {
-        scaling_fit(&self.series(rows, sweep, dim), fit_from).map_or(MISSING.to_owned(), |law| exponent_text(&law, 0))
+    pub fn exponent(&self, rows: &Rows<'_>, sweep: &str, dim: Dimension, fit_from: f64) -> String {
+        let law = scaling_fit(&self.series(rows, sweep, dim), fit_from);
+        law.map(|law| exponent_text(&law, 0)).cell()
     }
-}
-
-/// M or k, whichever the sweep varies.
-fn size(row: &RunRow) -> f64 {
-    row.nodes_per_axis.unwrap_or(row.particles) as f64
 }

@@ -1,15 +1,12 @@
 //! The report of the study `scaling`.
 
-use super::quantity::{QUANTITIES, Quantity};
+use super::quantity::{Measured, QUANTITIES};
 use super::{NODES, PARTICLES, Scaling};
-use crate::options::Dimension;
-use crate::plots::page::{Cell, Page, exponent, line, number};
-use crate::plots::{GuideCurve, ScalingPlot, scaling};
-use crate::study::definition::Report;
-use crate::study::run_row::RunRow;
+use crate::plots::{ScalingPlot, scaling};
+use crate::study::prelude::*;
 
 /// Tables and figures.
-pub fn report(study: &Scaling, rows: &[RunRow]) -> Report {
+pub fn report(study: &Scaling, rows: &Rows<'_>) -> Report {
     let mut page = Page::new("Scaling with d, M and N = kᵈ");
     page.paragraph(format!(
         "Target `{}`, method `{}`, {} steps per run, {} threads. Times are medians of {} runs after one to warm up: the \
@@ -26,11 +23,11 @@ pub fn report(study: &Scaling, rows: &[RunRow]) -> Report {
     nodes_part(study, rows, &mut page);
     all_rows(rows, &mut page);
 
-    let failed = rows.iter().filter(|row| !row.finished()).count();
+    let failed = rows.count(|row| !row.finished());
     Report::new(page).with("cases", rows.len()).with("failed", failed)
 }
 
-fn particles_part(study: &Scaling, rows: &[RunRow], page: &mut Page) {
+fn particles_part(study: &Scaling, rows: &Rows<'_>, page: &mut Page) {
     let sweep = &study.particles_sweep;
     let fit_from = sweep.fit_from.get() as f64;
     page.heading("Growth with M and d");
@@ -50,11 +47,14 @@ fn particles_part(study: &Scaling, rows: &[RunRow], page: &mut Page) {
 }
 
 /// Time per particle and step, by dimension, and its powers of d and of 3ᵈ.
-fn growth_with_dimension(study: &Scaling, rows: &[RunRow], page: &mut Page) {
+fn growth_with_dimension(study: &Scaling, rows: &Rows<'_>, page: &mut Page) {
     let sweep = &study.particles_sweep;
     let time = |dim: usize, particles: usize| {
-        let here = |row: &&RunRow| row.sweep == PARTICLES && row.dim == dim && row.particles == particles;
-        Some(rows.iter().find(here)?.wall_seconds_per_step? / particles as f64 * 1e9)
+        let here = rows
+            .with("sweep", PARTICLES)
+            .with("dim", dim)
+            .with("particles", particles);
+        Some(here.first()?.number("wall_seconds_per_step")? / particles as f64 * 1e9)
     };
     page.paragraph(
         "Nanoseconds per particle and step, and the exponents b in d^b and (3ᵈ)^b: a particle touches d + 1 nodes of a simplex \
@@ -63,7 +63,7 @@ fn growth_with_dimension(study: &Scaling, rows: &[RunRow], page: &mut Page) {
     let dims: Vec<usize> = sweep.dims.iter().map(|dim| dim.get()).collect();
     let mut header = vec!["M".to_owned()];
     header.extend(dims.iter().map(|dim| format!("d = {dim}")));
-    header.extend(["exponent of d", "exponent of 3ᵈ"].map(str::to_owned));
+    header.extend("exponent of d | exponent of 3ᵈ".names());
     let mut table = Vec::new();
     for particles in sweep.particles.iter().map(|count| count.get()) {
         let times: Vec<Option<f64>> = dims.iter().map(|&dim| time(dim, particles)).collect();
@@ -79,7 +79,7 @@ fn growth_with_dimension(study: &Scaling, rows: &[RunRow], page: &mut Page) {
     page.table(&header, &table);
 }
 
-fn nodes_part(study: &Scaling, rows: &[RunRow], page: &mut Page) {
+fn nodes_part(study: &Scaling, rows: &Rows<'_>, page: &mut Page) {
     let sweep = &study.nodes_sweep;
     let [low, high] = sweep.interval;
     page.heading("Growth with the nodes per axis k");
@@ -99,11 +99,8 @@ fn nodes_part(study: &Scaling, rows: &[RunRow], page: &mut Page) {
     for (quantity, file) in drawn() {
         let mut plot = plot(quantity, rows, NODES, &sweep.dims, 0.0);
         if file == "time" {
-            plot.guides = sweep
-                .dims
-                .iter()
-                .filter_map(|dim| dense_guide(&plot, dim.get()))
-                .collect();
+            let guides = sweep.dims.iter().filter_map(|dim| dense_guide(&plot, dim.get()));
+            plot.guides = guides.collect();
         }
         let caption = format!("{} against the nodes per axis, at fixed M.", capitalised(quantity.name));
         page.figure(&format!("nodes-{file}.svg"), &caption, scaling(&plot));
@@ -121,13 +118,9 @@ fn largest_dense_grid(study: &Scaling) -> String {
 fn dense_guide(plot: &ScalingPlot, dim: usize) -> Option<GuideCurve> {
     let series = plot.series.iter().find(|series| series.label == format!("d = {dim}"))?;
     let (&first_size, &first_time) = (series.x.first()?, series.y.first()?);
-    let (_, &last_size) = (series.x.first()?, series.x.last()?);
-    let most = 1e3
-        * plot
-            .series
-            .iter()
-            .flat_map(|series| &series.y)
-            .fold(0.0, |most: f64, &y| most.max(y));
+    let &last_size = series.x.last()?;
+    let times = plot.series.iter().flat_map(|series| &series.y);
+    let most = 1e3 * times.fold(0.0, |most: f64, &y| most.max(y));
     let power = |size: f64| first_time * (size / first_size).powi(dim as i32);
     let reach = (first_size * (most / first_time).powf(1.0 / dim as f64)).min(last_size);
     let x: Vec<f64> = (0..=20)
@@ -136,19 +129,19 @@ fn dense_guide(plot: &ScalingPlot, dim: usize) -> Option<GuideCurve> {
     let y = x.iter().map(|&size| power(size)).collect();
     Some(GuideCurve {
         label: format!("dense grid, k^{{{dim}}}"),
-        curve: crate::plots::Curve { x, y },
+        curve: Curve { x, y },
         dotted: false,
     })
 }
 
 /// The quantities that have a figure.
-fn drawn() -> impl Iterator<Item = (&'static Quantity, &'static str)> {
+fn drawn() -> impl Iterator<Item = (&'static Measured, &'static str)> {
     QUANTITIES
         .iter()
         .filter_map(|quantity| Some((quantity, quantity.file?)))
 }
 
-fn plot(quantity: &Quantity, rows: &[RunRow], sweep: &str, dims: &[Dimension], fit_from: f64) -> ScalingPlot {
+fn plot(quantity: &Measured, rows: &Rows<'_>, sweep: &str, dims: &[Dimension], fit_from: f64) -> ScalingPlot {
     let (x_label, x_symbol) = match sweep {
         PARTICLES => ("number of particles M", "M"),
         _ => ("nodes per axis k", "k"),
@@ -158,45 +151,38 @@ fn plot(quantity: &Quantity, rows: &[RunRow], sweep: &str, dims: &[Dimension], f
         y_label: quantity.axis.to_owned(),
         x_symbol: x_symbol.to_owned(),
         fit_from,
-        series: dims.iter().map(|dim| quantity.series(rows, sweep, dim.get())).collect(),
+        series: dims.iter().map(|&dim| quantity.series(rows, sweep, dim)).collect(),
         ..ScalingPlot::default()
     }
 }
 
-fn exponent_table(page: &mut Page, rows: &[RunRow], sweep: &str, dims: &[Dimension], fit_from: f64) {
+fn exponent_table(page: &mut Page, rows: &Rows<'_>, sweep: &str, dims: &[Dimension], fit_from: f64) {
     let mut header = vec!["d"];
     header.extend(QUANTITIES.iter().map(|quantity| quantity.name));
     header.push("paper, dense grid");
-    let mut table = Vec::new();
-    for dim in dims.iter().map(|dim| dim.get()) {
+    let line = |&dim: &Dimension| {
         let mut line = vec![dim.to_string()];
         line.extend(
             QUANTITIES
                 .iter()
                 .map(|quantity| quantity.exponent(rows, sweep, dim, fit_from)),
         );
-        line.push(match sweep {
-            PARTICLES => "1".to_owned(),
-            _ => dim.to_string(),
+        line.push(if sweep == PARTICLES {
+            "1".to_owned()
+        } else {
+            dim.to_string()
         });
-        table.push(line);
-    }
-    page.table(&header, &table);
+        line
+    };
+    page.table(&header, dims.iter().map(line));
 }
 
-fn all_rows(rows: &[RunRow], page: &mut Page) {
+fn all_rows(rows: &Rows<'_>, page: &mut Page) {
     page.heading("All cases");
-    let line = |row: &RunRow| {
-        line(&[
-            &row.case,
-            &row.ending(),
-            &row.spacing,
-            &row.active_nodes,
-            &row.score_evaluations,
-            &row.storage_bytes,
-            &row.memory_peak_bytes,
-            &row.wall_seconds_per_step,
-        ])
+    let line = |row: &Row| {
+        let columns =
+            "spacing | active_nodes | score_evaluations | storage_bytes | memory_peak_bytes | wall_seconds_per_step";
+        [line(&[&row.case(), &row.ending()]), row.cells(columns)].concat()
     };
     let header =
         "case | status | h | active nodes | scores | storage (bytes) | peak memory (bytes) | time per step (s)";

@@ -1,13 +1,10 @@
 //! The configuration of the study `scenes`.
 
-use serde::Deserialize;
-
+use super::Variant;
 use super::axis::combinations;
-use super::case::Case;
 use super::family::Family;
 use super::scene_files::SceneFiles;
-use crate::CommandError;
-use crate::study::checks::{distinct, not_empty};
+use crate::study::prelude::*;
 
 /// Families of runs of scenes.
 #[derive(Clone, Debug, Deserialize)]
@@ -34,14 +31,11 @@ impl Scenes {
             if known.iter().any(|other| other.name == family.name) {
                 return Err(family.refuse("name", "is that of another family"));
             }
-            let named = |name: &String| known.iter().find(|other| other.name == *name);
-            let model = match &family.like {
-                Some(name) => {
-                    Some(named(name).ok_or_else(|| family.refuse("like", format!("no family before it is `{name}`")))?)
-                }
-                None => None,
-            };
-            let family = family.over(model);
+            let model = family.like.as_ref().map(|name| {
+                let named = known.iter().find(|other| other.name == *name);
+                named.ok_or_else(|| family.refuse("like", format!("no family before it is `{name}`")))
+            });
+            let family = family.over(model.transpose()?);
             family.check()?;
             known.push(family);
         }
@@ -52,12 +46,17 @@ impl Scenes {
     ///
     /// # Errors
     /// The field that is wrong, with the family.
-    pub fn all_cases(&self) -> Result<Vec<Case>, CommandError> {
+    pub fn all_cases(&self) -> Result<Vec<Case<Variant>>, CommandError> {
         let mut cases = Vec::new();
         for family in self.resolved()? {
             let combinations = combinations(&family.axes, family.x_keys());
             for combination in combinations.map_err(|message| family.refuse("axes", message))? {
-                cases.push(Case::new(&family, combination));
+                let (name, label) = (combination.name.clone(), combination.label.clone());
+                let family = family.clone();
+                let case = Case::new(format!("{}: {name}", family.name), Variant { family, combination });
+                let (family, quantity) = (case.work.family.name.clone(), case.work.family.read.name().to_owned());
+                let case = case.with("family", family);
+                cases.push(case.with("label", label).with("quantity", quantity));
             }
         }
         distinct("families.axes", &cases)?;

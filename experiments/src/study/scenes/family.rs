@@ -1,13 +1,11 @@
 //! A family of runs of one scene.
 
-use serde::Deserialize;
 use toml::Table;
 
 use super::axis::Axis;
 use super::judgement::Judgement;
 use super::reading::Reading;
-use crate::CommandError;
-use crate::study::checks::{not_empty, refusal};
+use crate::study::prelude::*;
 
 /// Runs of one scene with changes, of each of which one number is read.
 #[derive(Clone, Debug, Deserialize)]

@@ -3,29 +3,20 @@
 use super::family::Family;
 use super::judgement::{Judgement, fit, limits};
 use super::series::MeasuredSeries;
-use crate::plots::page::number;
-use crate::plots::{
-    AxisKind, Curve, GuideCurve, LineSeries, MultiplesPanel, MultiplesPlot, ReferenceLevel, exponent_text,
-};
+use crate::plots::ReferenceLevel;
+use crate::study::prelude::*;
 
 /// The figure.
 pub fn plot(family: &Family, series: &[MeasuredSeries]) -> MultiplesPlot {
     let shown: Vec<&MeasuredSeries> = series.iter().filter(|series| !series.points.is_empty()).collect();
-    let judged: Vec<&MeasuredSeries> = shown
-        .iter()
-        .copied()
-        .filter(|series| series.is_among(&family.judged))
-        .collect();
+    let is_judged = |series: &&MeasuredSeries| series.is_among(&family.judged);
+    let judged: Vec<&MeasuredSeries> = shown.iter().copied().filter(is_judged).collect();
     let is_power = |judgement: &Judgement| matches!(judgement, Judgement::Order { .. } | Judgement::PowerLaw { .. });
     let power = family.judgements.iter().any(is_power);
-    let positive = shown
-        .iter()
-        .flat_map(|series| &series.points)
-        .all(|point| point.x > 0.0);
+    let mut points = shown.iter().flat_map(|series| &series.points);
+    let positive = points.all(|point| point.x > 0.0);
+    let x_label = family.x_label.as_deref().unwrap_or_default();
     MultiplesPlot {
-        title: String::new(),
-        x_label: family.x_label.clone().unwrap_or_default(),
-        y_label: family.y_label.clone(),
         x_axis: if positive {
             AxisKind::Logarithmic
         } else {
@@ -37,12 +28,12 @@ pub fn plot(family: &Family, series: &[MeasuredSeries]) -> MultiplesPlot {
             AxisKind::Automatic
         },
         panels: vec![MultiplesPanel {
-            title: String::new(),
             series: shown.iter().map(|series| line(family, series)).collect(),
             guides: guides(family, &judged),
             levels: levels(family, &judged),
+            ..MultiplesPanel::default()
         }],
-        notes: Vec::new(),
+        ..MultiplesPlot::logarithmic(x_label, &family.y_label)
     }
 }
 
@@ -55,10 +46,9 @@ fn line(family: &Family, series: &MeasuredSeries) -> LineSeries {
         &series.label
     };
     LineSeries {
-        label: label.clone(),
         x,
         y,
-        bars: Vec::new(),
+        ..LineSeries::named(label)
     }
 }
 
@@ -72,7 +62,7 @@ fn guides(family: &Family, judged: &[&MeasuredSeries]) -> Vec<GuideCurve> {
                 for law in judged.iter().filter_map(|series| fit(series, (from, to))) {
                     let label = format!("fit, slope {}", exponent_text(&law, 0));
                     let ends = ends(judged, (from, to));
-                    guides.extend(ends.map(|ends| guide(label, ends, |x| law.value(&[x]), true)));
+                    guides.extend(ends.map(|ends| GuideCurve::through(label, ends, true, |x| law.value(&[x]))));
                 }
                 guides.extend(slope(judged, exponent, (from, to)));
             }
@@ -85,37 +75,20 @@ fn guides(family: &Family, judged: &[&MeasuredSeries]) -> Vec<GuideCurve> {
 /// A line of this slope at 0.6 of the lowest point of the left end.
 fn slope(judged: &[&MeasuredSeries], slope: f64, range: (Option<f64>, Option<f64>)) -> Option<GuideCurve> {
     let (low, high) = ends(judged, range)?;
-    let at_low = judged
-        .iter()
-        .flat_map(|series| series.pairs())
-        .filter(|&(x, y)| x == low && y > 0.0);
+    let points = judged.iter().flat_map(|series| series.pairs());
+    let at_low = points.filter(|&(x, y)| x == low && y > 0.0);
     let start = 0.6 * at_low.map(|(_, y)| y).reduce(f64::min)?;
     let label = format!("slope {}, asked", number(slope));
-    Some(guide(label, (low, high), |x| start * (x / low).powf(slope), false))
+    let value = |x: f64| start * (x / low).powf(slope);
+    Some(GuideCurve::through(label, (low, high), false, value))
 }
 
 /// The least and the largest x of the points within a range.
 fn ends(judged: &[&MeasuredSeries], (from, to): (Option<f64>, Option<f64>)) -> Option<(f64, f64)> {
     let within = |x: &f64| from.is_none_or(|from| *x >= from) && to.is_none_or(|to| *x <= to);
-    let x = || {
-        judged
-            .iter()
-            .flat_map(|series| &series.points)
-            .map(|point| point.x)
-            .filter(within)
-    };
+    let points = || judged.iter().flat_map(|series| &series.points);
+    let x = || points().map(|point| point.x).filter(within);
     Some((x().reduce(f64::min)?, x().reduce(f64::max)?))
-}
-
-fn guide(label: String, (low, high): (f64, f64), value: impl Fn(f64) -> f64, dotted: bool) -> GuideCurve {
-    GuideCurve {
-        label,
-        curve: Curve {
-            x: vec![low, high],
-            y: vec![value(low), value(high)],
-        },
-        dotted,
-    }
 }
 
 /// The limits that values are held against, each once.

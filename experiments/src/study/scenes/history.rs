@@ -3,11 +3,9 @@
 use mpm_scenes::output::read_series;
 use mpm_scenes::reading::curve;
 
-use super::family::Family;
-use super::row::Row;
-use crate::CommandError;
-use crate::plots::{AxisKind, TracePanel, TracePlot, TraceSeries};
-use crate::study::directory::StudyDirectory;
+use super::family::{Family, HistoryPanel};
+use crate::plots::{TracePanel, TracePlot, TraceSeries};
+use crate::study::prelude::*;
 
 /// Points of a line, at most.
 const MOST_POINTS: usize = 400;
@@ -16,56 +14,43 @@ const MOST_POINTS: usize = 400;
 ///
 /// # Errors
 /// Series that cannot be read, or without the column.
-pub fn plot(family: &Family, rows: &[Row], directory: &StudyDirectory) -> Result<Option<TracePlot>, CommandError> {
-    let is_drawn = |row: &&Row| {
-        let among = family.drawn.is_empty() || family.drawn.contains(&row.x);
-        row.family == family.name && row.value.is_some() && among
-    };
-    let drawn: Vec<&Row> = rows.iter().filter(is_drawn).collect();
+pub fn plot(family: &Family, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Option<TracePlot>, CommandError> {
+    let x = |row: &Row| row.number("x").unwrap_or(f64::NAN);
+    let is_drawn =
+        |row: &Row| row.number("value").is_some() && (family.drawn.is_empty() || family.drawn.contains(&x(row)));
+    let drawn = rows.with("family", family.name.as_str()).having(is_drawn);
     if family.history.is_empty() || drawn.is_empty() {
         return Ok(None);
     }
-    let several = drawn.iter().any(|row| row.x != drawn[0].x);
+    let several = drawn
+        .iter()
+        .any(|row| drawn.first().is_some_and(|first| x(row) != x(first)));
     let mut runs: Vec<(String, &str)> = Vec::new();
-    for row in drawn {
-        let label = match (row.label.as_str(), several) {
+    for row in drawn.iter() {
+        let label = match (row.text("label"), several) {
             (label, false) if !label.is_empty() => label.to_owned(),
-            ("", _) => format!("{}", row.x),
-            (label, _) => format!("{label}, {}", row.x),
+            ("", _) => format!("{}", x(row)),
+            (label, _) => format!("{label}, {}", x(row)),
         };
-        runs.push((label, &row.scene));
+        runs.push((label, row.text("scene")));
+        let against = row.text("against");
         if let Some(other) = &family.read.against
-            && runs.iter().all(|(_, scene)| *scene != row.against)
+            && runs.iter().all(|(_, scene)| *scene != against)
         {
-            runs.push((other.label.clone(), &row.against));
+            runs.push((other.label.clone(), against));
         }
     }
-    let mut panels: Vec<TracePanel> = family
-        .history
-        .iter()
-        .map(|panel| TracePanel {
-            y_label: panel.label.clone(),
-            y_axis: AxisKind::Linear,
-            ..TracePanel::default()
-        })
-        .collect();
+    let panel = |panel: &HistoryPanel| TracePanel::new(panel.label.as_str(), AxisKind::Linear, []);
+    let mut panels: Vec<TracePanel> = family.history.iter().map(panel).collect();
     for (label, scene) in runs {
         let series = read_series(&directory.raw(scene))?;
         for (panel, history) in panels.iter_mut().zip(&family.history) {
             let curve = curve(&series, &history.column);
             let curve = curve.map_err(|name| family.refuse("history", format!("the series has no column `{name}`")))?;
             let every = curve.times.len().div_ceil(MOST_POINTS).max(1);
-            let (step, value) = curve.points().step_by(every).unzip();
-            panel.series.push(TraceSeries {
-                label: label.clone(),
-                step,
-                value,
-            });
+            let points = curve.points().step_by(every);
+            panel.series.push(TraceSeries::through(label.as_str(), points));
         }
     }
-    Ok(Some(TracePlot {
-        title: String::new(),
-        x_label: "time (s)".to_owned(),
-        panels,
-    }))
+    Ok(Some(TracePlot::new("", "time (s)", panels)))
 }

@@ -4,7 +4,6 @@
 //! read different numbers of the same runs share them, and a run that was cut off goes on from its checkpoint.
 
 mod axis;
-mod case;
 mod configuration;
 mod family;
 mod figure;
@@ -12,105 +11,121 @@ mod history;
 mod judgement;
 mod reading;
 mod report;
-mod row;
 mod scene_files;
 mod series;
 
 use std::path::Path;
-use std::time::Instant;
 
 use mpm_scenes::output::read_series;
 use mpm_scenes::{Outcome, SimulationError};
 
-pub use case::Case;
+use axis::Combination;
 pub use configuration::Scenes;
-pub use row::Row;
-
-use super::attempt::Status;
-use super::definition::{self, Report, Study, Work};
-use super::directory::StudyDirectory;
-use super::results::single_line;
-use crate::CommandError;
-use crate::progress::CaseObserver;
+use family::Family;
 use reading::FinishedRun;
-use scene_files::{CaseScene, PreparedScene, SceneFiles, refusal_text};
+use scene_files::{PreparedScene, SceneFiles, refusal_text};
+
+use super::prelude::*;
+
+/// A combination of the choices of a family.
+#[derive(Clone, Debug)]
+pub struct Variant {
+    /// The family, with what that takes over from others.
+    family: Family,
+    /// What it changes beside the family's own changes.
+    combination: Combination,
+}
+
+impl Variant {
+    /// The error for a case that cannot be run.
+    fn refuse(&self, message: impl Into<String>) -> CommandError {
+        let (family, name) = (&self.family.name, &self.combination.name);
+        refusal(&format!("families.{family}, case `{name}`"), message)
+    }
+}
 
 impl Study for Scenes {
-    type Case = Case;
-    type Row = Row;
-    type Shared = ();
+    type Work = Variant;
 
     const KIND: &'static str = "scenes";
+    const COLUMNS: &'static str = "case status reason family label x quantity value reference tolerance steps particles scene against wall_seconds";
 
     fn open(&mut self, configuration: &Path) -> Result<(), CommandError> {
         let directory = configuration.parent().unwrap_or(Path::new(""));
         self.files = SceneFiles::read(&self.resolved()?, directory)?;
-        for case in self.all_cases()? {
-            self.files.scene(&case)?;
+        for case in self.cases()? {
+            self.files.scene(&case.work)?;
         }
         Ok(())
     }
 
-    fn cases(&self) -> Result<Vec<Case>, CommandError> {
+    /// The cases, family by family.
+    fn cases(&self) -> Result<Vec<Case<Variant>>, CommandError> {
         self.all_cases()
     }
 
     fn check_earlier(&self, rows: &[Row]) -> Result<(), CommandError> {
-        for case in self.all_cases()? {
-            let id = definition::Case::id(&case);
-            let prepared = self.files.scene(&case)?;
-            let against = prepared.against.map_or(String::new(), |other| other.fingerprint);
-            let other = |row: &Row| row.scene != prepared.own.fingerprint || row.against != against;
-            if rows.iter().any(|row| row.case == id && other(row)) {
-                return Err(case.refuse("was run with another scene file; choose another --out"));
+        for Case { row, work, .. } in self.cases()? {
+            let prepared = self.files.scene(&work)?;
+            let other =
+                |row: &Row| row.text("scene") != prepared.own.fingerprint || row.text("against") != prepared.against();
+            if rows
+                .iter()
+                .any(|earlier| earlier.case() == row.case() && other(earlier))
+            {
+                return Err(work.refuse("was run with another scene file; choose another --out"));
             }
         }
         Ok(())
     }
 
-    fn run(&self, case: &Case, work: Work<'_, ()>) -> Result<Row, CommandError> {
-        let prepared = self.files.scene(case)?;
-        let mut row = unmeasured(case, &prepared);
-        let start = Instant::now();
-        let run = match finished(case, &prepared.own, work.directory, work.observer)? {
+    fn run(&self, case: &Case<Variant>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
+        let variant = &case.work;
+        let prepared = self.files.scene(variant)?;
+        row.set("x", prepared.x);
+        row.set("scene", prepared.own.fingerprint.as_str());
+        row.set("against", prepared.against());
+        let (seconds, run) = timed(|| finished(variant, &prepared.own, tools.directory, tools.observer));
+        let run = match run? {
             Ok(run) => run,
-            Err(reason) => {
-                (row.status, row.reason) = (Status::Diverged, reason);
-                return Ok(row);
-            }
+            Err(reason) => return diverged(row, reason),
         };
         let summary = &run.summary;
-        row.wall_seconds = (summary.steps_here == summary.steps).then(|| start.elapsed().as_secs_f64());
-        (row.steps, row.particles) = (Some(summary.steps), Some(summary.particles));
-        let other = match &prepared.against {
-            None => None,
-            Some(other) => match finished(case, other, work.directory, work.observer)? {
-                Ok(run) => Some(run),
-                Err(reason) => {
-                    (row.status, row.reason) = (Status::Diverged, format!("what it is compared with: {reason}"));
-                    return Ok(row);
-                }
-            },
+        row.set("wall_seconds", (summary.steps_here == summary.steps).then_some(seconds));
+        row.set("steps", summary.steps);
+        row.set("particles", summary.particles);
+        let other = prepared.against.as_ref();
+        let other = other.map(|other| finished(variant, other, tools.directory, tools.observer));
+        let other = match other.transpose()?.transpose() {
+            Ok(other) => other,
+            Err(reason) => return diverged(row, format!("what it is compared with: {reason}")),
         };
-        let measured = case.family.read.read(&run, other.as_ref())?;
-        let measured = measured.map_err(|(field, message)| case.family.refuse(field, message))?;
-        (row.reference, row.tolerance) = (measured.reference, measured.tolerance);
-        if measured.value.is_finite() {
-            row.value = Some(measured.value);
-        } else {
-            (row.status, row.reason) = (Status::Diverged, format!("the value is {}", measured.value));
+        let measured = variant.family.read.read(&run, other.as_ref())?;
+        let measured = measured.map_err(|(field, message)| variant.family.refuse(field, message))?;
+        row.set("reference", measured.reference);
+        row.set("tolerance", measured.tolerance);
+        if !measured.value.is_finite() {
+            return diverged(row, format!("the value is {}", measured.value));
         }
-        Ok(row)
+        row.set("value", measured.value);
+        Ok(())
     }
 
-    fn report(&self, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
+    fn report(&self, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Report, CommandError> {
         report::report(self, rows, directory)
     }
 }
 
+/// Notes why there is no value.
+fn diverged(row: &mut Row, reason: String) -> Result<(), CommandError> {
+    row.set("status", Status::Diverged);
+    row.set("reason", reason);
+    Ok(())
+}
+
 /// Runs a scene, or what is left of its run; why it ended before its time, if it did.
 fn finished<'a>(
-    case: &Case,
+    variant: &Variant,
     prepared: &'a PreparedScene,
     directory: &StudyDirectory,
     observer: &mut CaseObserver,
@@ -118,9 +133,9 @@ fn finished<'a>(
     let path = directory.raw(&prepared.fingerprint);
     let summary = match mpm_scenes::simulate(&prepared.scene, &path, observer) {
         Ok(summary) => summary,
-        Err(SimulationError::Scene(error)) => return Err(case.refuse(refusal_text(error))),
+        Err(SimulationError::Scene(error)) => return Err(variant.refuse(refusal_text(error))),
         Err(error @ (SimulationError::File { .. } | SimulationError::Checkpoint { .. })) => return Err(error.into()),
-        Err(error) => return Ok(Err(single_line(error))),
+        Err(error) => return Ok(Err(Failure::new(Status::Diverged, error).reason)),
     };
     if summary.outcome == Outcome::Interrupted {
         return Err(CommandError::Interrupted { hint: String::new() });
@@ -131,21 +146,4 @@ fn finished<'a>(
         prepared,
         summary,
     }))
-}
-
-/// The row of a case before its run.
-fn unmeasured(case: &Case, prepared: &CaseScene) -> Row {
-    Row {
-        case: definition::Case::id(case),
-        family: case.family.name.clone(),
-        label: case.combination.label.clone(),
-        x: prepared.x,
-        quantity: case.family.read.name().to_owned(),
-        scene: prepared.own.fingerprint.clone(),
-        against: prepared
-            .against
-            .as_ref()
-            .map_or(String::new(), |other| other.fingerprint.clone()),
-        ..Row::default()
-    }
 }

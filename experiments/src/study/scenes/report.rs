@@ -5,16 +5,12 @@ use super::family::Family;
 use super::figure;
 use super::history;
 use super::judgement::{Judgement, Verdict, orders};
-use super::row::Row;
 use super::series::{MeasuredSeries, series};
-use crate::CommandError;
-use crate::plots::page::{Cell, MISSING, Page, number};
-use crate::plots::{multiples, trace};
-use crate::study::definition::Report;
-use crate::study::directory::StudyDirectory;
+use crate::plots::trace;
+use crate::study::prelude::*;
 
 /// Judgements, then each family with its figure and its numbers.
-pub fn report(study: &Scenes, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
+pub fn report(study: &Scenes, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Report, CommandError> {
     let families = study.resolved()?;
     let all: Vec<Vec<MeasuredSeries>> = families.iter().map(|family| series(rows, &family.name)).collect();
     let mut page = Page::new(&study.title);
@@ -26,24 +22,24 @@ pub fn report(study: &Scenes, rows: &[Row], directory: &StudyDirectory) -> Resul
             judged += 1;
             passed += usize::from(verdict.pass);
             let pass = if verdict.pass { "yes" } else { "**no**" };
-            table.push(vec![
-                family.title.clone(),
-                verdict.of,
-                verdict.asked,
-                verdict.reached,
-                pass.to_owned(),
-            ]);
+            table.push(line(&[
+                &family.title,
+                &verdict.of,
+                &verdict.asked,
+                &verdict.reached,
+                &pass,
+            ]));
         }
     }
     page.table(&["family", "series", "asked", "reached", "pass"], &table);
-    let seconds: f64 = rows.iter().filter_map(|row| row.wall_seconds).sum();
+    let seconds: f64 = rows.values(SECONDS).iter().sum();
     page.paragraph(format!(
         "{passed} of {judged} judgements are kept. All runs together took {seconds:.0} s."
     ));
     for (family, series) in families.iter().zip(&all) {
         section(&mut page, family, series, rows, directory)?;
     }
-    let failed = rows.iter().filter(|row| row.value.is_none()).count();
+    let failed = rows.count(|row| row.number("value").is_none());
     let verdict = if judged > 0 && passed == judged { "pass" } else { "fail" };
     Ok(Report::new(page)
         .with("cases", rows.len())
@@ -71,7 +67,7 @@ fn section(
     page: &mut Page,
     family: &Family,
     series: &[MeasuredSeries],
-    rows: &[Row],
+    rows: &Rows<'_>,
     directory: &StudyDirectory,
 ) -> Result<(), CommandError> {
     page.heading(&family.title);
@@ -88,62 +84,38 @@ fn section(
     }
     let order = |judgement: &Judgement| matches!(judgement, Judgement::Order { .. });
     if family.judgements.iter().any(order) {
-        page.table(
-            &["series", "orders, coarse to fine", "least squares"],
-            order_table(series),
-        );
+        let header = "series | orders, coarse to fine | least squares";
+        page.table(header, series.iter().map(order_cells));
     }
-    let header = [
-        "series",
-        "x",
-        "value",
-        "reference",
-        "tolerance",
-        "steps",
-        "particles",
-        "wall s",
-        "ended",
-    ];
-    let here = rows.iter().filter(|row| row.family == family.name);
-    page.table(&header, here.map(cells));
+    let header = "series | x | value | reference | tolerance | steps | particles | wall s | ended";
+    page.table(header, rows.with("family", family.name.as_str()).iter().map(cells));
     Ok(())
 }
 
-fn order_table(series: &[MeasuredSeries]) -> Vec<Vec<String>> {
-    let line = |series: &MeasuredSeries| {
-        let (between, overall) = orders(series);
-        let between: Vec<String> = between.iter().map(|order| format!("{order:.2}")).collect();
-        let overall = overall.map_or(MISSING.to_owned(), |order| format!("{order:.2}"));
-        vec![series.label.clone(), between.join(", "), overall]
-    };
-    series.iter().map(line).collect()
+fn order_cells(series: &MeasuredSeries) -> Vec<String> {
+    let (between, overall) = orders(series);
+    let between: Vec<String> = between.iter().map(|order| format!("{order:.2}")).collect();
+    let overall = overall.map(|order| format!("{order:.2}"));
+    line(&[&series.label, &between.join(", "), &overall])
 }
 
 fn cells(row: &Row) -> Vec<String> {
-    let count = |value: Option<u64>| value.map_or(MISSING.to_owned(), |value| value.to_string());
-    vec![
-        if row.label.is_empty() {
-            MISSING.to_owned()
-        } else {
-            row.label.clone()
-        },
-        row.x.to_string(),
-        row.value.map_or(MISSING.to_owned(), |value| digits(value, row)),
-        row.reference.cell(),
-        row.tolerance.cell(),
-        count(row.steps),
-        count(row.particles.map(|value| value as u64)),
-        row.wall_seconds.cell(),
-        match row.value {
-            Some(_) => "at the end".to_owned(),
-            None => row.reason.clone(),
-        },
-    ]
+    let x = row.number("x").unwrap_or(f64::NAN).to_string();
+    let value = row.number("value").map(|value| digits(value, row.number("reference")));
+    let ended = if value.is_some() {
+        "at the end"
+    } else {
+        row.text("reason")
+    };
+    let mut cells = line(&[&row.value("label"), &x, &value]);
+    cells.extend(row.cells("reference | tolerance | steps | particles | wall_seconds"));
+    cells.push(ended.to_owned());
+    cells
 }
 
 /// As many digits as it takes to compare with a reference: one more than usual where there is one that is not 0.
-fn digits(value: f64, row: &Row) -> String {
-    match row.reference {
+fn digits(value: f64, reference: Option<f64>) -> String {
+    match reference {
         Some(reference) if reference != 0.0 && (1e-3..1e3).contains(&value.abs()) => format!("{value:.4}"),
         _ => number(value),
     }

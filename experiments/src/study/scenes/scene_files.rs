@@ -8,7 +8,7 @@ use mpm_scenes::scene::keys;
 use mpm_scenes::{Scene, SceneError, SceneFault};
 use toml::{Table, Value};
 
-use super::case::Case;
+use super::Variant;
 use super::family::Family;
 use crate::CommandError;
 use crate::study::configuration::fingerprint;
@@ -28,6 +28,13 @@ pub struct CaseScene {
     pub against: Option<PreparedScene>,
     /// The number on the horizontal axis.
     pub x: f64,
+}
+
+impl CaseScene {
+    /// The fingerprint of the scene that it is compared with; empty where there is none.
+    pub fn against(&self) -> &str {
+        self.against.as_ref().map_or("", |other| &other.fingerprint)
+    }
 }
 
 /// A scene with changes.
@@ -77,7 +84,7 @@ impl SceneFiles {
     ///
     /// # Errors
     /// A change that has no place, what the reader of scenes refuses, or an x that is no number; with family and case.
-    pub fn scene(&self, case: &Case) -> Result<CaseScene, CommandError> {
+    pub fn scene(&self, case: &Variant) -> Result<CaseScene, CommandError> {
         let name = case.family.scene.as_deref().unwrap_or_default();
         let family = case.family.set.iter();
         let own = case.combination.set.iter().map(|(key, value)| (key, value));
@@ -91,9 +98,8 @@ impl SceneFiles {
                 .refuse("x", format!("`{}` is no number of the scene", keys.join("`, `")))
         })?;
         if case.family.read.quantity.is_some() && own.scene.validation.is_none() {
-            return Err(case
-                .family
-                .refuse("read.quantity", "the scene has no `validation.reference`"));
+            let message = "the scene has no `validation.reference`";
+            return Err(case.family.refuse("read.quantity", message));
         }
         let shift = case.family.read.shift(&own.table);
         shift.map_err(|(field, message)| case.family.refuse(field, message))?;
@@ -128,7 +134,7 @@ fn changed<'a>(
     Ok(table)
 }
 
-fn prepared(table: Table, name: &str, case: &Case) -> Result<PreparedScene, CommandError> {
+fn prepared(table: Table, name: &str, case: &Variant) -> Result<PreparedScene, CommandError> {
     let text = toml::to_string(&Value::Table(table.clone())).map_err(|error| case.refuse(error.to_string()))?;
     let scene = Scene::parse(&text, Path::new(name)).map_err(|error| case.refuse(refusal_text(error)))?;
     Ok(PreparedScene {

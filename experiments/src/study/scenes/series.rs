@@ -1,6 +1,6 @@
 //! The rows of a family, ordered for figures and judgements.
 
-use super::row::Row;
+use crate::study::prelude::*;
 
 /// The rows of one label.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -39,39 +39,34 @@ impl MeasuredSeries {
 }
 
 /// The series of a family in the order in which their rows came.
-pub fn series(rows: &[Row], family: &str) -> Vec<MeasuredSeries> {
-    let mut all: Vec<MeasuredSeries> = Vec::new();
-    for row in rows.iter().filter(|row| row.family == family) {
-        let index = all
-            .iter()
-            .position(|series| series.label == row.label)
-            .unwrap_or_else(|| {
-                all.push(MeasuredSeries {
-                    label: row.label.clone(),
-                    ..MeasuredSeries::default()
-                });
-                all.len() - 1
-            });
-        add(&mut all[index], row);
-    }
-    for series in &mut all {
+pub fn series(rows: &Rows<'_>, family: &str) -> Vec<MeasuredSeries> {
+    let here = rows.with("family", family);
+    let of = |label: &str| {
+        let mut series = MeasuredSeries {
+            label: label.to_owned(),
+            ..MeasuredSeries::default()
+        };
+        for row in here.with("label", label).iter() {
+            add(&mut series, row);
+        }
         series.points.sort_by(|left, right| left.x.total_cmp(&right.x));
-    }
-    all
+        series
+    };
+    here.words("label").into_iter().map(of).collect()
 }
 
 fn add(series: &mut MeasuredSeries, row: &Row) {
-    let Some(value) = row.value else {
+    let Some((x, value)) = row.number("x").zip(row.number("value")) else {
         series.failed += 1;
         return;
     };
     let point = Point {
-        x: row.x,
+        x,
         value,
-        reference: row.reference,
-        tolerance: row.tolerance,
+        reference: row.number("reference"),
+        tolerance: row.number("tolerance"),
     };
-    match series.points.iter_mut().find(|known| known.x == row.x) {
+    match series.points.iter_mut().find(|known| known.x == x) {
         Some(known) if known.value < value => *known = point,
         Some(_) => {}
         None => series.points.push(point),
@@ -83,13 +78,11 @@ mod tests {
     use super::*;
 
     fn row(label: &str, x: f64, value: Option<f64>) -> Row {
-        Row {
-            family: "f".to_owned(),
-            label: label.to_owned(),
-            x,
-            value,
-            ..Row::default()
-        }
+        Row::default()
+            .with("family", "f")
+            .with("label", label)
+            .with("x", x)
+            .with("value", value)
     }
 
     #[test]
@@ -100,6 +93,7 @@ mod tests {
             row("a, b", 1.0, Some(7.0)),
             row("c", 1.0, None),
         ];
+        let rows: Rows<'_> = rows.iter().collect();
         let all = series(&rows, "f");
         assert_eq!(all[0].pairs(), [(1.0, 7.0), (2.0, 1.0)]);
         assert_eq!((all[1].points.len(), all[1].failed), (0, 1));

@@ -1,26 +1,22 @@
 //! What the runs say about the best spacing and about the end of the particles' influence.
 
 use super::Series;
-use crate::options::Dimension;
-use crate::study::run_row::{ENERGY, RunRow, median};
+use crate::study::prelude::*;
 
 /// More particles help if they lower ED² at least by this factor.
 const HELP: f64 = 0.9;
 
 /// The runs of one dimension, number of particles and spacing.
-pub fn runs(rows: &[RunRow], dim: Dimension, particles: usize, spacing: f64) -> Vec<&RunRow> {
-    let here =
-        |row: &&RunRow| row.dim == dim.get() && row.particles == particles && row.requested_spacing == Some(spacing);
-    rows.iter().filter(here).collect()
+pub fn runs<'a>(rows: &Rows<'a>, dim: Dimension, particles: usize, spacing: f64) -> Rows<'a> {
+    let here = rows.with("dim", dim).with("particles", particles);
+    here.with("requested_spacing", spacing)
 }
 
 /// The spacing with the lowest median ED², and that.
-pub fn best(rows: &[RunRow], series: &Series, particles: usize) -> Option<(f64, f64)> {
-    series
-        .sorted()
-        .into_iter()
-        .filter_map(|spacing| Some((spacing, median(&runs(rows, series.dim, particles, spacing), ENERGY)?)))
-        .min_by(|left, right| left.1.total_cmp(&right.1))
+pub fn best(rows: &Rows<'_>, series: &Series, particles: usize) -> Option<(f64, f64)> {
+    let error = |spacing: f64| Some((spacing, runs(rows, series.dim, particles, spacing).median(ENERGY)?));
+    let errors = series.sorted().into_iter().filter_map(error);
+    errors.min_by(|left, right| left.1.total_cmp(&right.1))
 }
 
 /// Where the error stops being that of the particles.

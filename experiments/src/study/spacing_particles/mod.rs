@@ -5,14 +5,8 @@
 mod curves;
 mod report;
 
-use serde::Deserialize;
-
-use super::checks::{all_given, ascending, distinct, not_empty, options_fit, positive, unset};
-use super::definition::Report;
-use super::gaussian_runs::{Case, GaussianStudy};
-use super::run_row::RunRow;
-use crate::CommandError;
-use crate::options::{Dimension, MethodSpecification, ParticleCount};
+use super::gaussian_runs::{self, Setting};
+use super::prelude::*;
 
 /// All pairs of a spacing and a number of particles, one series of spacings per dimension.
 #[derive(Clone, Debug, Deserialize)]
@@ -54,11 +48,14 @@ impl SpacingParticles {
     }
 }
 
-impl GaussianStudy for SpacingParticles {
+impl Study for SpacingParticles {
+    type Work = Sampled;
+
     const KIND: &'static str = "spacing-particles";
+    const COLUMNS: &'static str = gaussian_runs::COLUMNS;
 
     /// The cases, dimension by dimension.
-    fn cases(&self) -> Result<Vec<Case>, CommandError> {
+    fn cases(&self) -> Result<Vec<Case<Sampled>>, CommandError> {
         all_given!(self: seeds, particles, series);
         unset("method.options.spacing", &self.method.options.spacing, "series")?;
         let mut cases = Vec::new();
@@ -69,16 +66,15 @@ impl GaussianStudy for SpacingParticles {
                 for &spacing in &series.spacings {
                     let mut method = self.method.clone();
                     method.options.spacing = Some(spacing);
-                    options_fit("method", &method)?;
-                    let case = Case {
+                    fitting("method", &method)?;
+                    let setting = Setting {
                         dim: series.dim,
                         particles: particles.get(),
                         series: method.label().to_owned(),
-                        method,
+                        method: &method,
                         spacing_factor: None,
-                        seed: 0,
                     };
-                    cases.extend(case.of_seeds(&self.seeds));
+                    cases.extend(setting.cases(&self.seeds)?);
                 }
             }
         }
@@ -86,7 +82,11 @@ impl GaussianStudy for SpacingParticles {
         Ok(cases)
     }
 
-    fn report(&self, rows: &[RunRow]) -> Report {
-        report::report(self, rows)
+    fn run(&self, case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
+        gaussian_runs::run(case, row, tools)
+    }
+
+    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Report, CommandError> {
+        Ok(report::report(self, rows))
     }
 }

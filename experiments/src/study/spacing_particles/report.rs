@@ -2,14 +2,11 @@
 
 use super::curves::{Saturation, best, gain, runs, saturation};
 use super::{Series, SpacingParticles};
-use crate::plots::page::{Cell, MISSING, Page, line, number};
-use crate::plots::{MultiplesPanel, MultiplesPlot, exponent_text, multiples};
 use crate::statistics::fit_power_law;
-use crate::study::definition::Report;
-use crate::study::run_row::{ENERGY, ENERGY_ROOT, NODES_PER_PARTICLE, RunRow, curve, median, report_of_runs};
+use crate::study::prelude::*;
 
 /// Tables and figure.
-pub fn report(study: &SpacingParticles, rows: &[RunRow]) -> Report {
+pub fn report(study: &SpacingParticles, rows: &Rows<'_>) -> Report {
     let mut page = Page::new("Spacing and number of particles together");
     page.paragraph(format!(
         "Target N(0, I), method `{}`, {} seeds; medians over the seeds. ED² is the squared energy distance, exact in the \
@@ -32,10 +29,10 @@ pub fn report(study: &SpacingParticles, rows: &[RunRow]) -> Report {
         page.paragraph(format!("**d = {}**: ED² × 10³ by number of particles.", series.dim));
         saturations(study, rows, series, &mut page);
     }
-    report_of_runs(page, rows)
+    rows.report(page)
 }
 
-fn best_spacings(study: &SpacingParticles, rows: &[RunRow], page: &mut Page) {
+fn best_spacings(study: &SpacingParticles, rows: &Rows<'_>, page: &mut Page) {
     page.heading("Best spacings");
     page.paragraph("An asterisk marks a best spacing at the edge of the scan, which the fits below leave out.");
     let mut table = Vec::new();
@@ -54,7 +51,7 @@ fn best_spacings(study: &SpacingParticles, rows: &[RunRow], page: &mut Page) {
             }
             let here = runs(rows, series.dim, particles, spacing);
             let named = format!("{spacing}{}", if at_the_edge { "*" } else { "" });
-            let nodes = median(&here, NODES_PER_PARTICLE);
+            let nodes = here.median(NODES_PER_PARTICLE);
             table.push(line(&[&series.dim.get(), &particles, &named, &(1e3 * energy), &nodes]));
         }
         let law = fit_power_law(&counts, &spacings).ok();
@@ -68,13 +65,13 @@ fn best_spacings(study: &SpacingParticles, rows: &[RunRow], page: &mut Page) {
 }
 
 /// One line per spacing: ED² by number of particles, and where it stops falling.
-fn saturations(study: &SpacingParticles, rows: &[RunRow], series: &Series, page: &mut Page) {
+fn saturations(study: &SpacingParticles, rows: &Rows<'_>, series: &Series, page: &mut Page) {
     let mut header = vec!["h".to_owned()];
     header.extend(study.counts().iter().map(|count| format!("M = {count}")));
     header.extend(["b at the end", "more particles do not help"].map(str::to_owned));
     let mut table = Vec::new();
     for spacing in series.sorted() {
-        let energy = |particles: usize| median(&runs(rows, series.dim, particles, spacing), ENERGY);
+        let energy = |particles: usize| runs(rows, series.dim, particles, spacing).median(ENERGY);
         let counts = study.counts().into_iter();
         let known = counts.filter_map(|particles| Some((particles, energy(particles)?)));
         let known: Vec<(usize, f64)> = known.collect();
@@ -93,23 +90,21 @@ fn saturations(study: &SpacingParticles, rows: &[RunRow], series: &Series, page:
 }
 
 /// One panel per dimension, one line per number of particles.
-fn plot(study: &SpacingParticles, rows: &[RunRow]) -> MultiplesPlot {
+fn plot(study: &SpacingParticles, rows: &Rows<'_>) -> MultiplesPlot {
     let line = |series: &Series, particles: usize| {
         let spacings = series.sorted().into_iter();
         let points = spacings.map(|spacing| (spacing, runs(rows, series.dim, particles, spacing)));
         curve(format!("M = {particles}"), points, ENERGY_ROOT)
     };
-    let panel = |series: &Series| MultiplesPanel {
-        title: format!("d = {}", series.dim),
-        series: study.counts().into_iter().map(|count| line(series, count)).collect(),
-        ..MultiplesPanel::default()
+    let panel = |series: &Series| {
+        let lines = study.counts().into_iter().map(|count| line(series, count));
+        MultiplesPanel::new(format!("d = {}", series.dim), lines)
     };
-    MultiplesPlot {
-        panels: study.series.iter().map(panel).collect(),
-        notes: vec!["Medians over the seeds; bars from the smallest to the largest.".to_owned()],
-        ..MultiplesPlot::logarithmic(
-            "spacing h (standard deviations)",
-            "energy distance ED (standard deviations^{½})",
-        )
-    }
+    let (x_label, y_label) = (
+        "spacing h (standard deviations)",
+        "energy distance ED (standard deviations^{½})",
+    );
+    MultiplesPlot::logarithmic(x_label, y_label)
+        .with_panels(study.series.iter().map(panel))
+        .with_note("Medians over the seeds; bars from the smallest to the largest.")
 }

@@ -5,11 +5,8 @@ use std::ops::RangeInclusive;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
-use crate::options::{
-    Basis, Correction, Dimension, Draws, Material, MethodName, MethodOptions, Score, StepCount, Switch,
-    TargetSpecification, Transfer,
-};
-use crate::study::definition;
+use crate::options::{Correction, Draws, Material, Switch, Transfer};
+use crate::study::prelude::*;
 
 /// Factor of the target's frame.
 const SCALES: [f64; 2] = [1e-3, 1e3];
@@ -47,9 +44,7 @@ pub struct Place {
 
 /// A random configuration.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Case {
-    /// Its number.
-    pub index: usize,
+pub struct Configuration {
     /// The target.
     pub target: TargetSpecification,
     /// d.
@@ -74,28 +69,6 @@ pub struct Case {
     pub seed: u64,
 }
 
-impl definition::Case for Case {
-    fn id(&self) -> String {
-        format!("case-{:05}", self.index)
-    }
-
-    fn cost(&self) -> f64 {
-        let steps = self.options.steps.map_or(0, StepCount::get);
-        1e4 + (self.particles * stencil(self.basis, self.dim) * steps) as f64
-    }
-}
-
-/// Nodes per particle.
-fn stencil(basis: Basis, dim: usize) -> usize {
-    let power = |base: usize| base.saturating_pow(dim as u32);
-    match basis {
-        Basis::Lattice | Basis::Mesh => dim + 1,
-        Basis::Linear => power(2),
-        Basis::Quadratic => power(3),
-        Basis::Cubic => power(4),
-    }
-}
-
 /// One of several, each as likely.
 fn one_of<T: Clone>(generator: &mut ChaCha8Rng, choices: &[T]) -> T {
     choices[generator.random_range(0..choices.len())].clone()
@@ -107,7 +80,7 @@ fn spread(generator: &mut ChaCha8Rng, [least, most]: [f64; 2]) -> f64 {
 }
 
 /// The configuration with a number; `places` has at least one entry.
-pub fn draw(seed: u64, index: usize, places: &[Place]) -> Case {
+pub fn draw(seed: u64, index: usize, places: &[Place]) -> Configuration {
     let mut generator = ChaCha8Rng::seed_from_u64(seed);
     generator.set_stream(index as u64);
     let draws = &mut generator;
@@ -115,15 +88,13 @@ pub fn draw(seed: u64, index: usize, places: &[Place]) -> Case {
     let dim = one_of(draws, &place.dims);
     let target = TargetSpecification::plain(&place.name, (!place.fixed).then_some(dim));
     let dim = dim.get();
-    let method = one_of(
-        draws,
-        &[
-            MethodName::Mpm,
-            MethodName::Mpm,
-            MethodName::PaperPic,
-            MethodName::PaperApic,
-        ],
-    );
+    let methods = [
+        MethodName::Mpm,
+        MethodName::Mpm,
+        MethodName::PaperPic,
+        MethodName::PaperApic,
+    ];
+    let method = one_of(draws, &methods);
     let bases = [Basis::Lattice, Basis::Linear, Basis::Quadratic, Basis::Cubic];
     let allowed = if dim > LARGEST_TENSOR_DIMENSION { 1 } else { bases.len() };
     let basis = one_of(draws, &bases[..allowed]);
@@ -162,9 +133,8 @@ pub fn draw(seed: u64, index: usize, places: &[Place]) -> Case {
         options.material = Some(one_of(draws, &[Material::NeoHookean, Material::LinearElastic]));
     }
     let entry_cost = if place.name == "wells" { ROWS_COST } else { 1 };
-    let most = (MOST_ENTRIES / (stencil(basis, dim) * entry_cost)).max(2);
-    Case {
-        index,
+    let most = (MOST_ENTRIES / (basis.stencil(dim) * entry_cost)).max(2);
+    Configuration {
         target,
         dim,
         method,
@@ -208,8 +178,8 @@ mod tests {
 
     #[test]
     fn a_case_depends_on_seed_and_number_only() {
-        let cases: Vec<Case> = (0..50).map(|index| draw(7, index, &places())).collect();
-        let again: Vec<Case> = (0..50).rev().map(|index| draw(7, index, &places())).collect();
+        let cases: Vec<Configuration> = (0..50).map(|index| draw(7, index, &places())).collect();
+        let again: Vec<Configuration> = (0..50).rev().map(|index| draw(7, index, &places())).collect();
         assert!(cases.iter().eq(again.iter().rev()));
         assert!(cases.windows(2).all(|pair| pair[0].seed != pair[1].seed));
         assert_ne!(cases[3], draw(8, 3, &places()));
@@ -223,7 +193,7 @@ mod tests {
             case.options.method(case.method).unwrap();
             assert_eq!(case.target.dimension().unwrap(), case.dim);
             assert!((2..=2000).contains(&case.particles));
-            assert!(case.particles == 2 || case.particles * stencil(case.basis, case.dim) <= MOST_ENTRIES);
+            assert!(case.particles == 2 || case.particles * case.basis.stencil(case.dim) <= MOST_ENTRIES);
             assert!((1e-3..=1e3).contains(&case.scale));
             assert!(case.basis == Basis::Lattice || case.dim <= LARGEST_TENSOR_DIMENSION);
             seen.insert(format!("{} {}", case.method, case.basis));

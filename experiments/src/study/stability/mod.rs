@@ -6,21 +6,13 @@
 mod draw;
 mod figure;
 mod report;
-mod row;
 mod trial;
 
+use draw::{Configuration, Place, draw};
 use parvi_targets::{Dimensions, target_info};
-use serde::Deserialize;
 
-use draw::{Case, Place, draw};
-use row::Row;
-
-use super::checks::{not_empty, refusal, targets_without_data};
-use super::definition::{Report, Study, Work};
-use super::directory::StudyDirectory;
-use crate::CommandError;
+use super::prelude::*;
 use crate::dispatch::on_target;
-use crate::options::{Bounded, Dimension};
 
 /// Random configurations.
 #[derive(Clone, Debug, Deserialize)]
@@ -68,25 +60,71 @@ impl Stability {
 }
 
 impl Study for Stability {
-    type Case = Case;
-    type Row = Row;
-    type Shared = ();
+    type Work = Configuration;
 
     const KIND: &'static str = "stability";
+    const COLUMNS: &'static str = "case ending reason message failed_step escaped reach residual target dim method basis particles steps \
+         scale turned start_mean start_sd start_draws spacing_factor spacing time_step_factor time_step score transfer flip_share friction \
+         shifts rotation settling settling_shifts moment_correction guards material seed wall_seconds";
 
     /// The cases, in the order of their numbers.
-    fn cases(&self) -> Result<Vec<Case>, CommandError> {
+    fn cases(&self) -> Result<Vec<Case<Configuration>>, CommandError> {
         let places = self.places()?;
-        Ok((0..self.cases.get())
-            .map(|index| draw(self.seed, index, &places))
-            .collect())
+        let case = |index: usize| case(index, draw(self.seed, index, &places));
+        Ok((0..self.cases.get()).map(case).collect())
     }
 
-    fn run(&self, case: &Case, work: Work<'_, ()>) -> Result<Row, CommandError> {
-        on_target!(&case.target, target, D => trial::run::<D>(target.as_ref(), case, work.observer))
+    fn run(&self, case: &Case<Configuration>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
+        let work = &case.work;
+        on_target!(&work.target, target, D => trial::run::<D>(target.as_ref(), work, row, tools.observer))
     }
 
-    fn report(&self, rows: &[Row], _: &StudyDirectory) -> Result<Report, CommandError> {
+    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Report, CommandError> {
         Ok(report::report(self, rows))
     }
+}
+
+/// A configuration as a case.
+fn case(index: usize, drawn: Configuration) -> Case<Configuration> {
+    let options = drawn.options.clone();
+    let steps = options.steps.map_or(0, StepCount::get);
+    let cost = 1e4 + (drawn.particles * drawn.basis.stencil(drawn.dim) * steps) as f64;
+    Case::new(format!("case-{index:05}"), drawn.clone())
+        .costing(cost)
+        .with("ending", Status::Finite)
+        .with("escaped", "false")
+        .with("target", drawn.target.name)
+        .with("dim", drawn.dim)
+        .with("method", drawn.method.as_str())
+        .with("basis", drawn.basis.to_string())
+        .with("particles", drawn.particles)
+        .with("steps", options.steps)
+        .with("scale", drawn.scale)
+        .with("turned", drawn.turn.is_some().to_string())
+        .with("start_mean", options.start_mean)
+        .with("start_sd", options.start_sd)
+        .with("start_draws", options.start_draws.map(|word| word.to_string()))
+        .with("spacing_factor", drawn.spacing_factor)
+        .with("time_step_factor", drawn.time_step_factor)
+        .with("score", options.score.map(|word| word.to_string()))
+        .with("transfer", options.transfer.map(|word| word.to_string()))
+        .with("flip_share", options.flip_share)
+        .with("friction", options.friction)
+        .with("shifts", options.shifts.map(|word| word.to_string()))
+        .with("rotation", options.rotation.map(|word| word.to_string()))
+        .with("settling", options.settling)
+        .with("settling_shifts", options.settling_shifts.map(|word| word.to_string()))
+        .with(
+            "moment_correction",
+            options.moment_correction.map(|word| word.to_string()),
+        )
+        .with("guards", options.guards.map(|word| word.to_string()))
+        .with("material", options.material.map(|word| word.to_string()))
+        .with("seed", drawn.seed)
+        .with("wall_seconds", 0.0)
+}
+
+/// Whether the run gave nothing that could be of use: an error, a panic, numbers that are none, or particles far off.
+fn diverged(row: &Row) -> bool {
+    row.status() != Status::Finite || row.is("escaped", "true")
 }

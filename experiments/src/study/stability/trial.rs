@@ -3,7 +3,6 @@
 use std::any::Any;
 use std::fmt::Debug;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::time::Instant;
 
 use mpm_tensor::{Matrix, Polar, vector};
 use parvi::{Method, Observer, Run, SampleError, Samples, defaults};
@@ -11,9 +10,8 @@ use parvi_targets::{CatalogueTarget, Frame, TargetError, normal_quantile};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
-use super::draw::Case;
-use super::row::{Ending, Row};
-use crate::CommandError;
+use super::draw::Configuration;
+use crate::study::prelude::*;
 use crate::study::results::single_line;
 
 /// Finite particles have escaped if one is this many times farther out than start and target could explain.
@@ -24,49 +22,50 @@ const TARGET_REACH: f64 = 10.0;
 /// Runs a configuration; the observer may stop it.
 pub fn run<const D: usize>(
     target: &dyn CatalogueTarget<D>,
-    case: &Case,
+    case: &Configuration,
+    row: &mut Row,
     observer: &mut dyn Observer,
-) -> Result<Row, CommandError> {
-    let mut row = Row::new(case);
+) -> Result<(), CommandError> {
     let own = target.frame();
     let frame = match wrong_frame(&own, case) {
         Ok(frame) => frame,
         Err(error) => {
-            row.refused(&error, None, &error);
-            return Ok(row);
+            refuse(row, &error, None, &error);
+            return Ok(());
         }
     };
     let spacing =
         case.spacing_factor * defaults::spacing::<D>(case.basis.uniform().unwrap_or_default(), case.particles);
     let time_step = case.time_step_factor * defaults::time_step(spacing);
-    (row.spacing, row.time_step) = (Some(spacing), Some(time_step));
+    row.set("spacing", spacing);
+    row.set("time_step", time_step);
     let mut options = case.options.clone();
     (options.spacing, options.time_step) = (Some(spacing), Some(time_step));
     let method = options.method(case.method)?;
     let mut run = Run::new(case.particles, case.seed);
     run.start = options.start();
 
-    let begin = Instant::now();
-    let result = catch_unwind(AssertUnwindSafe(|| match &method {
+    let sampled = || match &method {
         Method::Mpm(options) => options.sample(target, &frame, &run, observer),
         Method::Paper(options) => options.sample(target, &frame, &run, observer),
         other => parvi::sample(target, other, &run, observer),
-    }));
-    row.wall_seconds = begin.elapsed().as_secs_f64();
+    };
+    let (seconds, result) = timed(|| catch_unwind(AssertUnwindSafe(sampled)));
+    row.set("wall_seconds", seconds);
     match result {
-        Ok(Ok(samples)) => row.ended(&own, &frame, &samples),
+        Ok(Ok(samples)) => end(row, &own, &frame, &samples),
         Ok(Err(error @ SampleError::Interrupted { .. })) => return Err(error.into()),
-        Ok(Err(error)) => row.failed(&error),
+        Ok(Err(error)) => fail(row, &error),
         Err(payload) => {
-            row.ending = Ending::Panicked;
-            row.message = single_line(panic_message(payload.as_ref()));
+            row.set("ending", Status::Panicked);
+            row.set("message", single_line(panic_message(payload.as_ref())));
         }
     }
-    Ok(row)
+    Ok(())
 }
 
 /// The target's frame, larger or smaller by the case's factor and turned: μ + (s Q L) z, by its covariance.
-fn wrong_frame<const D: usize>(own: &Frame<D>, case: &Case) -> Result<Frame<D>, TargetError> {
+fn wrong_frame<const D: usize>(own: &Frame<D>, case: &Configuration) -> Result<Frame<D>, TargetError> {
     let turn = case.turn.map_or(Matrix::IDENTITY, turn);
     let covariance = turn * own.covariance() * turn.transpose() * case.scale.powi(2);
     Frame::new(*own.centre(), covariance.symmetric_part())
@@ -88,44 +87,43 @@ fn turn<const D: usize>(seed: u64) -> Matrix<D> {
     Polar::new(&draws).map_or(Matrix::IDENTITY, |polar| polar.rotation)
 }
 
-impl Row {
-    /// Notes particles.
-    fn ended<const D: usize>(&mut self, own: &Frame<D>, frame: &Frame<D>, samples: &Samples<D>) {
-        let weights = samples.weights.iter().flatten();
-        let mut numbers = samples.positions.as_flattened().iter().chain(weights);
-        if let Some(value) = numbers.find(|value| !value.is_finite()) {
-            self.ending = Ending::NotFinite;
-            self.message = format!("a particle has the value {value}");
-            return;
-        }
-        let root = (D as f64).sqrt();
-        let (mean, sd) = (self.start_mean.unwrap_or(0.0), self.start_sd.unwrap_or(0.0));
-        let start_reach = (mean * root + sd * (root + 4.0)) * stretch(own, frame);
-        let bound = ESCAPE * (start_reach + TARGET_REACH);
-        let distances = || samples.positions.iter().map(|x| vector::norm(&own.to_reference(x)));
-        self.reach = distances().reduce(f64::max);
-        // An overflow of the distance is an escape as well.
-        self.escaped = distances().any(|distance| distance.is_nan() || distance > bound);
-        self.residual = samples.residual.filter(|value| value.is_finite());
+/// Notes particles.
+fn end<const D: usize>(row: &mut Row, own: &Frame<D>, frame: &Frame<D>, samples: &Samples<D>) {
+    let weights = samples.weights.iter().flatten();
+    let mut numbers = samples.positions.as_flattened().iter().chain(weights);
+    if let Some(value) = numbers.find(|value| !value.is_finite()) {
+        row.set("ending", Status::NotFinite);
+        row.set("message", format!("a particle has the value {value}"));
+        return;
     }
+    let root = (D as f64).sqrt();
+    let [mean, sd] = ["start_mean", "start_sd"].map(|column| row.number(column).unwrap_or(0.0));
+    let start_reach = (mean * root + sd * (root + 4.0)) * stretch(own, frame);
+    let bound = ESCAPE * (start_reach + TARGET_REACH);
+    let distances = || samples.positions.iter().map(|x| vector::norm(&own.to_reference(x)));
+    // An overflow of the distance is an escape as well.
+    let escaped = distances().any(|distance| distance.is_nan() || distance > bound);
+    row.set("reach", distances().reduce(f64::max));
+    row.set("escaped", escaped.to_string());
+    row.set("residual", samples.residual.filter(|value| value.is_finite()));
+}
 
-    /// Notes a typed error of the sampler.
-    fn failed(&mut self, error: &SampleError) {
-        match error {
-            SampleError::Mechanics { step, source } => self.refused(source, Some(*step), error),
-            SampleError::ScoreNotFinite { step, .. } | SampleError::Diverged { step, .. } => {
-                self.refused(error, Some(*step), error);
-            }
-            _ => self.refused(error, None, error),
+/// Notes a typed error of the sampler.
+fn fail(row: &mut Row, error: &SampleError) {
+    match error {
+        SampleError::Mechanics { step, source } => refuse(row, source, Some(*step), error),
+        SampleError::ScoreNotFinite { step, .. } | SampleError::Diverged { step, .. } => {
+            refuse(row, error, Some(*step), error);
         }
+        _ => refuse(row, error, None, error),
     }
+}
 
-    fn refused(&mut self, kind: &impl Debug, step: Option<usize>, error: &impl ToString) {
-        self.ending = Ending::Refused;
-        self.reason = variant(kind);
-        self.failed_step = step;
-        self.message = single_line(error.to_string());
-    }
+fn refuse(row: &mut Row, kind: &impl Debug, step: Option<usize>, error: &impl ToString) {
+    row.set("ending", Status::Refused);
+    row.set("reason", variant(kind));
+    row.set("failed_step", step);
+    row.set("message", single_line(error.to_string()));
 }
 
 /// The name of an error's variant.

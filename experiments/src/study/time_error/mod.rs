@@ -3,18 +3,11 @@
 //! The yardstick is a set of independent exact draws of the same size M; where a target has none, they are drawn
 //! from its reference draws. A run that diverges is a row with its reason.
 
-mod groups;
 mod report;
 
-use serde::Deserialize;
+use parvi_metrics::yardstick::Coordinates;
 
-use super::checks::{distinct, not_empty};
-use super::definition::{self, Report, Study, Work};
-use super::directory::StudyDirectory;
-use super::run_row::RunRow;
-use super::yardstick::{Coordinates, CurrentYardstick, YardstickOptions};
-use crate::CommandError;
-use crate::options::{Bounded, MethodName, MethodSpecification, ParticleCount, StepCount, TargetSpecification};
+use super::prelude::*;
 
 /// All methods on all targets.
 #[derive(Clone, Debug, Deserialize)]
@@ -36,44 +29,6 @@ pub struct TimeError {
     targets: Vec<TargetSpecification>,
     /// Methods.
     methods: Vec<MethodSpecification>,
-}
-
-/// One run.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Case {
-    target: TargetSpecification,
-    method: MethodSpecification,
-    particles: usize,
-    steps: Option<usize>,
-    seed: u64,
-}
-
-impl definition::Case for Case {
-    fn id(&self) -> String {
-        let steps = self.steps.map_or(String::new(), |steps| format!("-t{steps}"));
-        format!(
-            "{}-{}-m{}{steps}-s{}",
-            self.target.label(),
-            self.method.label(),
-            self.particles,
-            self.seed
-        )
-    }
-
-    fn method(&self) -> Option<&MethodSpecification> {
-        Some(&self.method)
-    }
-
-    fn cost(&self) -> f64 {
-        // Milliseconds, roughly: a distance to the reference, and M² pairs or M · 3ᵈ nodes per step.
-        let steps = self.steps.unwrap_or(0) as f64;
-        let dimension = self.target.dimension().unwrap_or(1) as i32;
-        let per_step = match self.method.name {
-            MethodName::Svgd => 10.0,
-            _ => 0.03 * 3f64.powi(dimension),
-        };
-        100.0 + per_step * steps
-    }
 }
 
 impl TimeError {
@@ -98,19 +53,41 @@ impl TimeError {
             (None, None) => vec![None],
         }
     }
+
+    fn case(
+        &self,
+        target: &TargetSpecification,
+        method: &MethodSpecification,
+        steps: Option<usize>,
+        seed: u64,
+    ) -> Result<Case<Sampled>, CommandError> {
+        let of_steps = steps.map_or(String::new(), |steps| format!("-t{steps}"));
+        let (name, label) = (target.label(), method.label());
+        let id = format!("{name}-{label}-m{}{of_steps}-s{seed}", self.particles);
+        // Milliseconds, roughly: a distance to the reference, and M² pairs or M · 3ᵈ nodes per step.
+        let per_step = match method.name {
+            MethodName::Svgd => 10.0,
+            _ => 0.03 * 3f64.powi(target.dimension()? as i32),
+        };
+        let work = Sampled::new(target, method, steps, (self.particles.get(), seed))?;
+        let case = work.case(id, label)?.with("steps", steps);
+        Ok(case.costing(100.0 + per_step * steps.unwrap_or(0) as f64))
+    }
 }
 
 impl Study for TimeError {
-    type Case = Case;
-    type Row = RunRow;
-    type Shared = CurrentYardstick;
+    type Work = Sampled;
 
     const KIND: &'static str = "time-error";
     const COLUMNS: &'static str = "case status note target dim method particles steps seed score_evaluations density_evaluations \
          wall_seconds energy_distance_squared energy_level sliced_wasserstein mean_error deviation_error mass_error residual";
 
+    fn methods(&self) -> Vec<&MethodSpecification> {
+        self.methods.iter().collect()
+    }
+
     /// The cases, target by target, so that a target's reference is made once.
-    fn cases(&self) -> Result<Vec<Case>, CommandError> {
+    fn cases(&self) -> Result<Vec<Case<Sampled>>, CommandError> {
         not_empty("seeds", &self.seeds)?;
         if let Some(steps) = &self.steps {
             not_empty("steps", steps)?;
@@ -120,15 +97,7 @@ impl Study for TimeError {
             for method in &self.methods {
                 for steps in self.sweep(method) {
                     for &seed in &self.seeds {
-                        let (target, method) = (target.clone(), method.clone());
-                        let particles = self.particles.get();
-                        cases.push(Case {
-                            target,
-                            method,
-                            particles,
-                            steps,
-                            seed,
-                        });
+                        cases.push(self.case(target, method, steps, seed)?);
                     }
                 }
             }
@@ -137,26 +106,18 @@ impl Study for TimeError {
         Ok(cases)
     }
 
-    fn run(&self, case: &Case, work: Work<'_, CurrentYardstick>) -> Result<RunRow, CommandError> {
-        let yardstick = work.shared.of(&case.target, &self.yardstick(), None)?;
-        let mut row = RunRow {
-            particles: case.particles,
-            seed: Some(case.seed),
-            energy_level: Some(yardstick.mean_distance() / case.particles as f64),
-            ..RunRow::on(case, &case.target, &case.method)?
-        };
-        let run = case.method.run(case.particles, case.seed);
-        let method = case.method.method(case.steps)?;
-        let drawn_from_sample = row.run(&case.target, &method, &run, yardstick, work.observer)?;
-        if drawn_from_sample && row.finished() {
-            row.note = "drawn from the importance sample".to_owned();
+    fn run(&self, case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
+        let yardstick = tools.yardstick.of(&case.work.target, &self.yardstick(), None)?;
+        case.work.run(row, yardstick, tools.observer)?;
+        if case.work.draws_from(yardstick) && row.finished() {
+            row.set("note", "drawn from the importance sample");
         }
         // Diverged runs keep the steps they were asked for, as finished ones do.
-        row.steps = case.steps;
-        Ok(row)
+        row.set("steps", case.row.count("steps"));
+        Ok(())
     }
 
-    fn report(&self, rows: &[RunRow], _: &StudyDirectory) -> Result<Report, CommandError> {
+    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Report, CommandError> {
         Ok(report::report(self, rows))
     }
 }

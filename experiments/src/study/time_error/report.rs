@@ -1,16 +1,11 @@
 //! The report of the study `time-error`.
 
 use super::TimeError;
-use super::groups::{Setting, energy_level, independent_level, settings};
-use crate::options::MethodName;
-use crate::plots::page::{Cell, Page, line};
 use crate::plots::{TimeErrorCurve, TimeErrorPanel, TimeErrorPlot, TimeErrorPoint, time_error};
-use crate::study::attempt::Status;
-use crate::study::definition::Report;
-use crate::study::run_row::{ENERGY, EVALUATIONS, Quantity, RunRow, SECONDS, SLICED};
+use crate::study::prelude::*;
 
 /// Tables and figures.
-pub fn report(study: &TimeError, rows: &[RunRow]) -> Report {
+pub fn report(study: &TimeError, rows: &Rows<'_>) -> Report {
     let mut page = Page::new("Error against wall time and evaluations");
     page.paragraph(format!(
         "M = {} particles, {} seeds; medians over the seeds. ED² is the squared energy distance, exact against Gaussians and \
@@ -27,14 +22,14 @@ pub fn report(study: &TimeError, rows: &[RunRow]) -> Report {
         Some(_) => "Errors at the largest number of steps",
         None => "Errors",
     });
-    for target in targets(study) {
-        target_table(study, rows, &target, &mut page);
+    for target in &study.targets {
+        target_table(study, rows, &target.label(), &mut page);
     }
     if study.methods.iter().any(|method| is_paper(method.name)) {
         paper_part(study, rows, &mut page);
     }
 
-    let count = |status: Status| rows.iter().filter(|row| row.status == status).count();
+    let count = |status: Status| rows.count(|row| row.status() == status);
     Report::new(page)
         .with("finished", count(Status::Finished))
         .with("diverged", count(Status::Diverged))
@@ -45,42 +40,49 @@ fn is_paper(name: MethodName) -> bool {
     matches!(name, MethodName::PaperPic | MethodName::PaperApic)
 }
 
-fn targets(study: &TimeError) -> Vec<String> {
-    study.targets.iter().map(|target| target.label()).collect()
+/// The runs of a method on a target by their steps, from few to many; `None`: the method's own, or draws.
+fn by_steps<'a>(rows: &Rows<'a>, target: &str, method: &str) -> Vec<(Option<usize>, Rows<'a>)> {
+    let here = rows.with("target", target).with("method", method);
+    let mut steps = each_once(here.iter().map(|row| row.count("steps")));
+    steps.sort_unstable();
+    steps
+        .into_iter()
+        .map(|steps| (steps, here.with("steps", steps)))
+        .collect()
 }
 
-fn figures(study: &TimeError, rows: &[RunRow], page: &mut Page) {
+/// The expected squared energy distance of M independent draws from a target.
+fn energy_level(rows: &Rows<'_>, target: &str) -> Option<f64> {
+    rows.with("target", target).first()?.number("energy_level")
+}
+
+/// The median of a quantity over the independent draws from a target.
+fn independent_level(rows: &Rows<'_>, target: &str, quantity: &str) -> Option<f64> {
+    by_steps(rows, target, "iid").first()?.1.median(quantity)
+}
+
+fn figures(study: &TimeError, rows: &Rows<'_>, page: &mut Page) {
     page.heading("Figures");
     let errors = [
         ("energy", "ED²", "ED²", ENERGY),
         ("sliced", "SW₂", "sliced Wasserstein SW_{2}", SLICED),
     ];
-    let costs = [
-        ("time", "wall time", "wall time (s)", SECONDS),
+    let costs: [(&str, &str, &str, Computed); 2] = [
+        ("time", "wall time", "wall time (s)", |row| row.number(SECONDS)),
         ("evaluations", "evaluations", "evaluations", EVALUATIONS),
     ];
     for (error_file, error_name, y_label, error) in errors {
         for (cost_file, cost_name, x_label, cost) in costs {
-            let panels = targets(study)
-                .iter()
-                .map(|target| TimeErrorPanel {
-                    target: target.clone(),
-                    curves: curves(study, rows, target, cost, error),
-                    iid_level: if error_file == "energy" {
-                        energy_level(rows, target)
-                    } else {
-                        independent_level(rows, target, error)
-                    },
-                })
-                .filter(|panel: &TimeErrorPanel| !panel.curves.is_empty())
-                .collect();
-            let plot = TimeErrorPlot {
-                x_label: x_label.to_owned(),
-                y_label: y_label.to_owned(),
-                iid_label: "independent draws".to_owned(),
-                panels,
-                ..TimeErrorPlot::default()
+            let panel = |target: &TargetSpecification| TimeErrorPanel {
+                target: target.label(),
+                curves: curves(study, rows, &target.label(), cost, error),
+                iid_level: match error {
+                    ENERGY => energy_level(rows, &target.label()),
+                    _ => independent_level(rows, &target.label(), error),
+                },
             };
+            let panels = study.targets.iter().map(panel).filter(|panel| !panel.curves.is_empty());
+            let plot = TimeErrorPlot::new(x_label, y_label, panels);
             let caption = format!(
                 "{error_name} against {cost_name}, a point per number of steps; medians over the seeds, bars from least to most."
             );
@@ -91,31 +93,31 @@ fn figures(study: &TimeError, rows: &[RunRow], page: &mut Page) {
 }
 
 /// One curve per method; independent draws are a level instead, and draws have no place on an axis of evaluations.
-fn curves(study: &TimeError, rows: &[RunRow], target: &str, cost: Quantity, error: Quantity) -> Vec<TimeErrorCurve> {
-    let mut curves = Vec::new();
-    for method in study.methods.iter().filter(|method| method.name != MethodName::Iid) {
-        let points: Vec<TimeErrorPoint> = settings(rows, target, method.label())
+fn curves(study: &TimeError, rows: &Rows<'_>, target: &str, cost: Computed, error: &str) -> Vec<TimeErrorCurve> {
+    let point = |runs: &Rows<'_>| TimeErrorPoint {
+        cost: runs.iter().map(|row| cost(row).unwrap_or(f64::NAN)).collect(),
+        error: runs.iter().map(|row| row.number(error).unwrap_or(f64::NAN)).collect(),
+    };
+    let curve = |method: &MethodSpecification| TimeErrorCurve {
+        method: method.label().to_owned(),
+        points: by_steps(rows, target, method.label())
             .iter()
-            .filter(|setting| setting.median(cost).is_none_or(|cost| cost > 0.0))
-            .map(|setting| TimeErrorPoint {
-                cost: setting.runs.iter().map(|row| cost(row).unwrap_or(f64::NAN)).collect(),
-                error: setting.runs.iter().map(|row| error(row).unwrap_or(f64::NAN)).collect(),
-            })
-            .collect();
-        if points
+            .filter(|(_, runs)| runs.median(cost).is_none_or(|cost| cost > 0.0))
+            .map(|(_, runs)| point(runs))
+            .collect(),
+    };
+    let methods = study.methods.iter().filter(|method| method.name != MethodName::Iid);
+    let drawable = |curve: &TimeErrorCurve| {
+        curve
+            .points
             .iter()
-            .any(|point| point.error.iter().any(|error| error.is_finite()))
-        {
-            curves.push(TimeErrorCurve {
-                method: method.label().to_owned(),
-                points,
-            });
-        }
-    }
-    curves
+            .flat_map(|point| &point.error)
+            .any(|y| y.is_finite())
+    };
+    methods.map(curve).filter(drawable).collect()
 }
 
-fn target_table(study: &TimeError, rows: &[RunRow], target: &str, page: &mut Page) {
+fn target_table(study: &TimeError, rows: &Rows<'_>, target: &str, page: &mut Page) {
     let level = energy_level(rows, target);
     let independent = independent_level(rows, target, SLICED);
     page.paragraph(format!(
@@ -124,30 +126,20 @@ fn target_table(study: &TimeError, rows: &[RunRow], target: &str, page: &mut Pag
         independent.cell(),
     ));
     let header = "method | steps | finished | ED² | ED² / i.i.d. | SW₂ | SW₂ / i.i.d. | mean (sd) | sd (relative) | mode mass | evaluations | time (s)";
-    let mut table = Vec::new();
-    for method in &study.methods {
-        let settings = settings(rows, target, method.label());
-        let Some(setting) = settings.last() else { continue };
-        let (energy, sliced) = (setting.median(ENERGY), setting.median(SLICED));
-        let finished = format!("{}/{}", setting.finished(), setting.runs.len());
-        let mut cells = line(&[&method.label(), &setting.steps, &finished]);
+    let cells = |method: &MethodSpecification| {
+        let (steps, runs) = by_steps(rows, target, method.label()).pop()?;
+        let (energy, sliced) = (runs.median(ENERGY), runs.median(SLICED));
+        let mut cells = line(&[&method.label(), &steps, &runs.finished()]);
         cells.extend(line(&[
             &energy,
             &ratio(energy, level),
             &sliced,
             &ratio(sliced, independent),
         ]));
-        let quantities: [Quantity; 5] = [
-            |row| row.mean_error,
-            |row| row.deviation_error,
-            |row| row.mass_error,
-            EVALUATIONS,
-            SECONDS,
-        ];
-        cells.extend(quantities.map(|quantity| setting.median(quantity).cell()));
-        table.push(cells);
-    }
-    page.table(header, &table);
+        cells.extend(runs.medians(&[&"mean_error", &"deviation_error", &"mass_error", &EVALUATIONS, &SECONDS]));
+        Some(cells)
+    };
+    page.table(header, study.methods.iter().filter_map(cells));
 }
 
 fn ratio(value: Option<f64>, level: Option<f64>) -> Option<f64> {
@@ -155,7 +147,7 @@ fn ratio(value: Option<f64>, level: Option<f64>) -> Option<f64> {
 }
 
 /// What the paper's two algorithms reach in the plane.
-fn paper_part(study: &TimeError, rows: &[RunRow], page: &mut Page) {
+fn paper_part(study: &TimeError, rows: &Rows<'_>, page: &mut Page) {
     page.heading("The paper's algorithms on the two-dimensional targets");
     page.paragraph(
         "Finished runs had finite particles, with the guards of the method's options. The best setting is the number of steps \
@@ -164,23 +156,16 @@ fn paper_part(study: &TimeError, rows: &[RunRow], page: &mut Page) {
     let header = "target | method | finished | best steps | best ED² / i.i.d. | best SW₂ | last ED² / i.i.d. | last SW₂ | last mean (sd) | last sd (relative)";
     let mut table = Vec::new();
     let mut failures: Vec<String> = Vec::new();
-    for target in targets(study) {
-        if rows
-            .iter()
-            .find(|row| row.target == target)
-            .is_none_or(|row| row.dim != 2)
-        {
-            continue;
-        }
+    let planar = |target: &String| {
+        rows.with("target", target.as_str())
+            .first()
+            .is_some_and(|row| row.is("dim", 2_usize))
+    };
+    for target in study.targets.iter().map(TargetSpecification::label).filter(planar) {
         for method in study.methods.iter().filter(|method| is_paper(method.name)) {
-            let settings = settings(rows, &target, method.label());
-            let Some(last) = settings.last() else { continue };
-            table.push(paper_row(rows, &target, method.label(), &settings, last));
-            let failed = settings
-                .iter()
-                .flat_map(|setting| &setting.runs)
-                .filter(|row| !row.finished());
-            failures.extend(failed.map(|row| row.failure()));
+            table.extend(paper_row(rows, &target, method.label()));
+            let runs = by_steps(rows, &target, method.label());
+            failures.extend(runs.iter().flat_map(|(_, runs)| runs.failures()));
         }
     }
     page.table(header, &table);
@@ -191,26 +176,23 @@ fn paper_part(study: &TimeError, rows: &[RunRow], page: &mut Page) {
     }
 }
 
-fn paper_row(rows: &[RunRow], target: &str, method: &str, settings: &[Setting<'_>], last: &Setting<'_>) -> Vec<String> {
+fn paper_row(rows: &Rows<'_>, target: &str, method: &str) -> Option<Vec<String>> {
     let level = energy_level(rows, target);
-    let over_level = |setting: &Setting<'_>| ratio(setting.median(ENERGY), level);
-    let best = settings
+    let settings = by_steps(rows, target, method);
+    let (_, last) = settings.last()?;
+    let errors = settings
         .iter()
-        .filter_map(|setting| Some((setting, setting.median(ENERGY)?)))
-        .min_by(|left, right| left.1.total_cmp(&right.1))
-        .map(|(setting, _)| setting);
-    let finished: usize = settings.iter().map(Setting::finished).sum();
-    let all: usize = settings.iter().map(|setting| setting.runs.len()).sum();
-    line(&[
+        .filter_map(|(steps, runs)| Some((runs.median(ENERGY)?, *steps, runs)));
+    let best = errors.min_by(|left, right| left.0.total_cmp(&right.0));
+    let mut cells = line(&[
         &target,
         &method,
-        &format!("{finished}/{all}"),
-        &best.and_then(|setting| setting.steps),
-        &best.and_then(over_level),
-        &best.and_then(|setting| setting.median(SLICED)),
-        &over_level(last),
-        &last.median(SLICED),
-        &last.median(|row| row.mean_error),
-        &last.median(|row| row.deviation_error),
-    ])
+        &rows.with("target", target).with("method", method).finished(),
+        &best.as_ref().and_then(|(_, steps, _)| *steps),
+        &ratio(best.as_ref().map(|(energy, ..)| *energy), level),
+        &best.as_ref().and_then(|(.., runs)| runs.median(SLICED)),
+        &ratio(last.median(ENERGY), level),
+    ]);
+    cells.extend(last.medians(&[&SLICED, &"mean_error", &"deviation_error"]));
+    Some(cells)
 }

@@ -1,18 +1,17 @@
 //! The figure of the study `time-to-equal-error`: squared energy distance against wall time, a panel per target.
 
-use super::row::Row;
+use super::TimeToEqualError;
 use super::search::Trial;
-use super::{Case, TimeToEqualError};
-use crate::CommandError;
-use crate::options::TargetSpecification;
-use crate::output::table_file;
 use crate::plots::{TimeErrorCurve, TimeErrorPanel, TimeErrorPlot, TimeErrorPoint};
-use crate::study::definition::{self, Study};
-use crate::study::directory::StudyDirectory;
+use crate::study::prelude::*;
 
 /// The method with a point per M; chains and independent draws with a point per number of draws; other rivals with a curve for every
 /// M, a point per number of steps.
-pub fn plot(study: &TimeToEqualError, rows: &[Row], directory: &StudyDirectory) -> Result<TimeErrorPlot, CommandError> {
+pub fn plot(
+    study: &TimeToEqualError,
+    rows: &Rows<'_>,
+    directory: &StudyDirectory,
+) -> Result<TimeErrorPlot, CommandError> {
     let mut panels = Vec::new();
     for target in &study.targets {
         let curves = curves(study, rows, target, directory)?;
@@ -24,30 +23,21 @@ pub fn plot(study: &TimeToEqualError, rows: &[Row], directory: &StudyDirectory) 
             });
         }
     }
-    Ok(TimeErrorPlot {
-        x_label: "wall time (s)".to_owned(),
-        y_label: "ED²".to_owned(),
-        panels,
-        ..TimeErrorPlot::default()
-    })
+    Ok(TimeErrorPlot::new("wall time (s)", "ED²", panels))
 }
 
 fn curves(
     study: &TimeToEqualError,
-    rows: &[Row],
+    rows: &Rows<'_>,
     target: &TargetSpecification,
     directory: &StudyDirectory,
 ) -> Result<Vec<TimeErrorCurve>, CommandError> {
-    let cases: Vec<Case> = study
-        .cases()?
-        .into_iter()
-        .filter(|case| case.target == *target)
-        .filter(|case| rows.iter().any(|row| row.case == definition::Case::id(case)))
-        .collect();
     let mut curves: Vec<TimeErrorCurve> = Vec::new();
-    for case in &cases {
-        let trials: Vec<Trial> = table_file::read(&case.trials_file(directory))?;
-        let points = points(&trials);
+    for Case { row, work: case, .. } in study.cases()? {
+        if case.target != *target || rows.with("case", row.case()).is_empty() {
+            continue;
+        }
+        let points = points(&case.trials(directory)?);
         if points.is_empty() {
             continue;
         }

@@ -8,24 +8,18 @@
 
 mod figure;
 mod report;
-mod row;
-mod run;
 mod runs;
 mod search;
 
 use std::path::PathBuf;
 
-use serde::Deserialize;
+use parvi_metrics::yardstick::Coordinates;
 
-use row::Row;
-use search::Doubling;
+use runs::{Goal, OWN, Runs};
+use search::{Doubling, Medians, Trial};
 
-use super::checks::{all_given, distinct, positive, refusal, unset};
-use super::definition::{self, Report, Study, Work};
-use super::directory::StudyDirectory;
-use super::yardstick::{Coordinates, CurrentYardstick, YardstickOptions};
-use crate::CommandError;
-use crate::options::{Bounded, MethodName, MethodSpecification, ParticleCount, TargetSpecification};
+use super::prelude::*;
+use crate::output::table_file;
 
 /// A method and its rivals, to the same error on every target.
 #[derive(Clone, Debug, Deserialize)]
@@ -66,10 +60,8 @@ struct Range {
 impl Range {
     fn check(self, field: &str) -> Result<(), CommandError> {
         if self.to < self.from {
-            return Err(refusal(
-                &format!("{field}.to"),
-                format!("{} is below `from` = {}", self.to, self.from),
-            ));
+            let message = format!("{} is below `from` = {}", self.to, self.from);
+            return Err(refusal(&format!("{field}.to"), message));
         }
         Ok(())
     }
@@ -83,20 +75,9 @@ impl Range {
     }
 }
 
-impl TimeToEqualError {
-    /// The sliced distance is not looked at.
-    fn yardstick(&self) -> YardstickOptions {
-        YardstickOptions::of_energy(
-            self.reference_points.get(),
-            self.reference_seed,
-            Coordinates::Standardised,
-        )
-    }
-}
-
 /// One method on one target for one M, with all seeds.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Case {
+#[derive(Clone, Debug)]
+pub struct Entry {
     target: TargetSpecification,
     particles: usize,
     /// 0 for the method whose error is to be reached, then its rivals.
@@ -104,42 +85,33 @@ pub struct Case {
     method: MethodSpecification,
 }
 
-impl definition::Case for Case {
-    fn id(&self) -> String {
-        format!("{}-m{}-{}", self.target.label(), self.particles, self.method.label())
-    }
-
-    fn method(&self) -> Option<&MethodSpecification> {
-        Some(&self.method)
-    }
-
-    fn cost(&self) -> f64 {
-        // Rivals get many runs, each with a distance to the reference.
-        if self.index == 0 { 1.0 } else { 10.0 }
-    }
-}
-
-impl Case {
+impl Entry {
     /// The file of its runs.
     fn trials_file(&self, directory: &StudyDirectory) -> PathBuf {
-        let target = self.target.label();
-        directory.raw(&format!(
-            "{target}-m{}-{}-{}.csv",
-            self.particles, self.index, self.method.name
-        ))
+        let (target, method) = (self.target.label(), self.method.name);
+        directory.raw(&format!("{target}-m{}-{}-{method}.csv", self.particles, self.index))
+    }
+
+    /// Its runs, as far as they have been made.
+    fn trials(&self, directory: &StudyDirectory) -> Result<Vec<Trial>, CommandError> {
+        table_file::read(&self.trials_file(directory))
     }
 }
 
 impl Study for TimeToEqualError {
-    type Case = Case;
-    type Row = Row;
-    type Shared = CurrentYardstick;
+    type Work = Entry;
 
     const KIND: &'static str = "time-to-equal-error";
     const HEAD: &[&str] = &["kind"];
+    const COLUMNS: &'static str = "case ending reason target dim particles method mean_distance goal size score_evaluations \
+         density_evaluations energy_distance_squared wall_seconds wall_seconds_least wall_seconds_most missed_size wall_seconds_missed";
+
+    fn methods(&self) -> Vec<&MethodSpecification> {
+        std::iter::once(&self.method).chain(&self.rivals).collect()
+    }
 
     /// The cases: on every target and for every M the method first, then its rivals.
-    fn cases(&self) -> Result<Vec<Case>, CommandError> {
+    fn cases(&self) -> Result<Vec<Case<Entry>>, CommandError> {
         all_given!(self: seeds, particles, targets);
         positive("largest-ratio", &[self.largest_ratio])?;
         self.draws.check("draws")?;
@@ -154,25 +126,113 @@ impl Study for TimeToEqualError {
         let mut cases = Vec::new();
         for target in &self.targets {
             for particles in &self.particles {
-                let methods = std::iter::once(&self.method).chain(&self.rivals);
-                cases.extend(methods.enumerate().map(|(index, method)| Case {
-                    target: target.clone(),
-                    particles: particles.get(),
-                    index,
-                    method: method.clone(),
-                }));
+                for (index, method) in self.methods().into_iter().enumerate() {
+                    let entry = Entry {
+                        target: target.clone(),
+                        particles: particles.get(),
+                        index,
+                        method: method.clone(),
+                    };
+                    let (name, label) = (target.label(), method.label());
+                    // Rivals get many runs, each with a distance to the reference.
+                    let case = Case::new(format!("{name}-m{particles}-{label}"), entry);
+                    let case = case.costing(if index == 0 { 1.0 } else { 10.0 });
+                    let case = case.with("target", name).with("dim", target.dimension()?);
+                    cases.push(case.with("particles", *particles).with("method", label));
+                }
             }
         }
         distinct("targets, particles or rivals", &cases)?;
         Ok(cases)
     }
 
-    fn run(&self, case: &Case, work: Work<'_, CurrentYardstick>) -> Result<Row, CommandError> {
-        let yardstick = work.shared.of(&case.target, &self.yardstick(), None)?;
-        run::run(self, case, yardstick, work.directory, work.observer)
+    fn run(&self, case: &Case<Entry>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
+        let (entry, directory) = (&case.work, tools.directory);
+        // The sliced distance is not looked at.
+        let (points, seed) = (self.reference_points.get(), self.reference_seed);
+        let options = YardstickOptions::of_energy(points, seed, Coordinates::Standardised);
+        let yardstick = tools.yardstick.of(&entry.target, &options, None)?;
+        row.set("mean_distance", yardstick.mean_distance());
+        let mut runs = Runs {
+            study: self,
+            entry,
+            yardstick,
+            observer: tools.observer,
+            trials: Vec::new(),
+        };
+        let found = if entry.index == 0 {
+            attempt(runs.own())?
+        } else if let Some(goal) = self.goal(entry, directory)? {
+            row.set("goal", goal.energy_distance_squared);
+            runs.trials = self.earlier_trials(entry, directory)?;
+            match entry.method.name {
+                MethodName::Iid => attempt(runs.independent(goal))?,
+                _ => attempt(runs.search(goal))?,
+            }
+        } else {
+            let reason = "the method that sets the error has none above 0";
+            Err(Failure::new(Status::Unsupported, reason))
+        };
+        table_file::write(&runs.trials, &entry.trials_file(directory))?;
+        match found {
+            Ok(found) => {
+                row.set("ending", found.ending);
+                found.last.fill(row);
+                row.set("missed_size", found.missed.map(|missed| missed.size));
+                row.set("wall_seconds_missed", found.missed.map(|missed| missed.seconds()));
+            }
+            Err(failure) => {
+                row.set("ending", Status::Unsupported);
+                row.set("reason", failure.reason);
+            }
+        }
+        Ok(())
     }
 
-    fn report(&self, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
+    fn report(&self, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Report, CommandError> {
         report::report(self, rows, directory)
+    }
+}
+
+impl TimeToEqualError {
+    /// What the method reached on the target of a rival's case; `None` unless it is a positive number.
+    fn goal(&self, entry: &Entry, directory: &StudyDirectory) -> Result<Option<Goal>, CommandError> {
+        let (index, method) = (0, self.method.clone());
+        let trials = Entry {
+            index,
+            method,
+            ..entry.clone()
+        }
+        .trials(directory)?;
+        if trials.is_empty() {
+            return Ok(None);
+        }
+        let medians = Medians::of(&trials, OWN)?;
+        let energy_distance_squared = medians.energy_distance_squared;
+        let goal = Goal {
+            energy_distance_squared,
+            seconds: medians.seconds(),
+        };
+        Ok(Some(goal).filter(|_| energy_distance_squared.is_finite() && energy_distance_squared > 0.0))
+    }
+
+    /// The runs of the same rival for smaller M: draws do not depend on it, so they are not made twice.
+    fn earlier_trials(&self, entry: &Entry, directory: &StudyDirectory) -> Result<Vec<Trial>, CommandError> {
+        let mut trials: Vec<Trial> = Vec::new();
+        if entry.method.name.iterates() {
+            return Ok(trials);
+        }
+        let sizes = self.particles.iter().map(|particles| particles.get());
+        for particles in sizes.take_while(|particles| *particles != entry.particles) {
+            let known = Entry {
+                particles,
+                ..entry.clone()
+            }
+            .trials(directory)?;
+            if known.len() > trials.len() {
+                trials = known;
+            }
+        }
+        Ok(trials)
     }
 }

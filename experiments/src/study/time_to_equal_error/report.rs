@@ -2,17 +2,11 @@
 
 use super::TimeToEqualError;
 use super::figure::plot;
-use super::row::Row;
-use super::search::Ending;
-use crate::CommandError;
-use crate::options::{MethodName, MethodSpecification};
-use crate::plots::page::{MISSING, Page, line, number};
 use crate::plots::time_error;
-use crate::study::definition::Report;
-use crate::study::directory::StudyDirectory;
+use crate::study::prelude::*;
 
 /// Tables and figure.
-pub fn report(study: &TimeToEqualError, rows: &[Row], directory: &StudyDirectory) -> Result<Report, CommandError> {
+pub fn report(study: &TimeToEqualError, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Report, CommandError> {
     let label = study.method.label();
     let mut page = Page::new("Wall time to equal error");
     page.paragraph(format!(
@@ -47,42 +41,46 @@ pub fn report(study: &TimeToEqualError, rows: &[Row], directory: &StudyDirectory
     let plot = plot(study, rows, directory)?;
     page.figure("time-to-equal-error.svg", caption, time_error(&plot));
 
-    let rivals = || rows.iter().filter(|row| row.method != label);
-    let count = |ending: Ending| rivals().filter(|row| row.ending == ending).count();
+    let rivals = rows.having(|row| row.text("method") != label);
+    let count = |ending: Status| rivals.count(|row| row.status() == ending);
     Ok(Report::new(page)
-        .with("reached", count(Ending::Reached))
-        .with("out_of_time", count(Ending::OutOfTime))
-        .with("out_of_sizes", count(Ending::OutOfSizes))
-        .with("unsupported", count(Ending::Unsupported)))
+        .with("reached", count(Status::Reached))
+        .with("out_of_time", count(Status::OutOfTime))
+        .with("out_of_sizes", count(Status::OutOfSizes))
+        .with("unsupported", count(Status::Unsupported)))
 }
 
 /// The row of a method for a target and M.
-fn find<'a>(rows: &'a [Row], target: &str, particles: usize, method: &str) -> Option<&'a Row> {
-    rows.iter()
-        .find(|row| row.target == target && row.particles == particles && row.method == method)
+fn find<'a>(rows: &Rows<'a>, target: &str, particles: usize, method: &str) -> Option<&'a Row> {
+    let here = rows.with("target", target).with("particles", particles);
+    here.with("method", method).first()
 }
 
 /// Every target with every M.
 fn comparisons(study: &TimeToEqualError) -> impl Iterator<Item = (String, usize)> {
     let sizes = study.particles.iter().map(|particles| particles.get());
-    study
-        .targets
-        .iter()
-        .flat_map(move |target| sizes.clone().map(|particles| (target.label(), particles)))
+    let of = move |target: &TargetSpecification| {
+        let label = target.label();
+        sizes.clone().map(move |particles| (label.clone(), particles))
+    };
+    study.targets.iter().flat_map(of)
 }
 
-fn worth(study: &TimeToEqualError, rows: &[Row], page: &mut Page) {
+fn worth(study: &TimeToEqualError, rows: &Rows<'_>, page: &mut Page) {
+    // ED² relative to as many independent draws as there are particles.
+    let levels = |row: &Row| Some(row.number(ENERGY)? * row.number("particles")? / row.number("mean_distance")?);
     let line = |(target, particles): (String, usize)| {
         let row = find(rows, &target, particles, study.method.label());
-        let levels = row.and_then(Row::levels);
+        let number = |column: &str| row.and_then(|row| row.number(column));
+        let levels = row.and_then(levels);
         line(&[
             &target,
             &particles,
-            &row.and_then(|row| row.energy_distance_squared),
+            &number(ENERGY),
             &levels,
             &levels.map(f64::recip),
-            &row.and_then(Row::evaluations),
-            &row.and_then(|row| row.wall_seconds),
+            &row.and_then(EVALUATIONS),
+            &number(SECONDS),
         ])
     };
     let header = "target | M | ED² | ED² / i.i.d. | draws per particle | evaluations | time (s)";
@@ -90,7 +88,7 @@ fn worth(study: &TimeToEqualError, rows: &[Row], page: &mut Page) {
 }
 
 /// One line per target and M: what the rival needs, and how many times longer that takes.
-fn against(study: &TimeToEqualError, rows: &[Row], rival: &MethodSpecification, page: &mut Page) {
+fn against(study: &TimeToEqualError, rows: &Rows<'_>, rival: &MethodSpecification, page: &mut Page) {
     let label = study.method.label();
     let size = if rival.name.iterates() { "steps" } else { "draws" };
     let its = rival.label();
@@ -99,22 +97,21 @@ fn against(study: &TimeToEqualError, rows: &[Row], rival: &MethodSpecification, 
     let mut table = Vec::new();
     let mut reasons = Vec::new();
     for (target, particles) in comparisons(study) {
-        let own = find(rows, &target, particles, label).and_then(|row| row.wall_seconds);
+        let own = find(rows, &target, particles, label).and_then(|row| row.number(SECONDS));
         let row = find(rows, &target, particles, rival.label());
-        if let Some(row) = row.filter(|row| row.ending == Ending::Unsupported) {
-            reasons.push(format!("- {target}, M = {particles}: {}.", row.reason));
+        if let Some(row) = row.filter(|row| row.status() == Status::Unsupported) {
+            reasons.push(format!("- {target}, M = {particles}: {}.", row.text("reason")));
         }
-        let over_goal = row.and_then(|row| Some(row.energy_distance_squared? / row.goal?));
         table.push(line(&[
             &target,
             &particles,
-            &sizes(row),
-            &over_goal,
-            &row.and_then(Row::evaluations),
+            &row.and_then(sizes),
+            &row.and_then(|row| Some(row.number(ENERGY)? / row.number("goal")?)),
+            &row.and_then(EVALUATIONS),
             &own,
-            &row.and_then(|row| row.wall_seconds),
-            &ratios(row, own),
-            &row.map(|row| in_words(row.ending)),
+            &row.and_then(|row| row.number(SECONDS)),
+            &row.zip(own).and_then(|(row, own)| ratios(row, own)),
+            &row.map(|row| in_words(row.status())),
         ]));
     }
     page.paragraph(match rival.name {
@@ -130,35 +127,31 @@ fn against(study: &TimeToEqualError, rows: &[Row], rival: &MethodSpecification, 
     }
 }
 
-fn sizes(row: Option<&Row>) -> String {
-    let Some((row, size)) = row.and_then(|row| Some((row, row.size?))) else {
-        return MISSING.to_owned();
-    };
-    match (row.ending, row.missed_size) {
-        (Ending::Reached, Some(missed)) => format!("{missed} to {size}"),
-        (Ending::Reached, None) => size.to_string(),
-        _ => format!("> {size}"),
+/// From the last that missed to the first that reached, or a bound.
+fn between(row: &Row, missed: Option<String>, last: String) -> String {
+    match (row.status(), missed) {
+        (Status::Reached, Some(missed)) => format!("{missed} to {last}"),
+        (Status::Reached, None) => last,
+        _ => format!("> {last}"),
     }
+}
+
+fn sizes(row: &Row) -> Option<String> {
+    let size = |column: &str| row.count(column).map(|size| size.to_string());
+    Some(between(row, size("missed_size"), size("size")?))
 }
 
 /// The times relative to the method's.
-fn ratios(row: Option<&Row>, own: Option<f64>) -> String {
-    let ratio = |seconds: Option<f64>| seconds.zip(own).map(|(seconds, own)| seconds / own);
-    let Some((row, last)) = row.and_then(|row| Some((row, ratio(row.wall_seconds)?))) else {
-        return MISSING.to_owned();
-    };
-    match (row.ending, ratio(row.wall_seconds_missed)) {
-        (Ending::Reached, Some(missed)) => format!("{} to {}", number(missed), number(last)),
-        (Ending::Reached, None) => number(last),
-        _ => format!("> {}", number(last)),
-    }
+fn ratios(row: &Row, own: f64) -> Option<String> {
+    let ratio = |column: &str| row.number(column).map(|seconds| number(seconds / own));
+    Some(between(row, ratio("wall_seconds_missed"), ratio(SECONDS)?))
 }
 
-fn in_words(ending: Ending) -> &'static str {
+fn in_words(ending: Status) -> &'static str {
     match ending {
-        Ending::Reached => "reached",
-        Ending::OutOfTime => "out of time",
-        Ending::OutOfSizes => "largest number missed",
-        Ending::Unsupported => "unsupported",
+        Status::Reached => "reached",
+        Status::OutOfTime => "out of time",
+        Status::OutOfSizes => "largest number missed",
+        _ => "unsupported",
     }
 }

@@ -1,9 +1,9 @@
 //! The search for the size – draws of a chain, or steps of particles – at which a rival's error is as small as the method's.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
-use crate::CommandError;
 use crate::statistics::summarize;
+use crate::study::prelude::*;
 
 /// One run.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -65,6 +65,19 @@ impl Medians {
         })
     }
 
+    /// Notes them as those of the last runs.
+    pub fn fill(&self, row: &mut Row) {
+        let energy = Some(self.energy_distance_squared).filter(|energy| energy.is_finite());
+        row.set("size", Some(self.size).filter(|size| *size > 0));
+        row.set("score_evaluations", self.score_evaluations);
+        row.set("density_evaluations", self.density_evaluations);
+        row.set(ENERGY, energy);
+        let columns = ["wall_seconds_least", "wall_seconds", "wall_seconds_most"];
+        for (column, seconds) in columns.into_iter().zip(self.wall_seconds) {
+            row.set(column, seconds);
+        }
+    }
+
     /// The median time.
     pub fn seconds(&self) -> f64 {
         self.wall_seconds[1]
@@ -87,42 +100,16 @@ pub struct Doubling {
     pub last: usize,
 }
 
-/// How a search ended.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Ending {
-    /// The error was reached.
-    #[default]
-    Reached,
-    /// A run took longer than allowed without reaching it.
-    OutOfTime,
-    /// Even the largest size did not reach it.
-    OutOfSizes,
-    /// There was nothing to search: the target lacks what the method needs, or the first method has no error to reach.
-    Unsupported,
-}
-
-/// What comes after the runs so far.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Next {
-    /// Runs of this size.
-    Run(usize),
-    /// Nothing.
-    End(Ending),
-}
-
-/// Decides from the latest size.
-pub fn next(sizes: Doubling, latest: &Medians, goal: f64, budget: f64) -> Next {
+/// What comes after the runs so far: the next size, or an ending.
+pub fn next(sizes: Doubling, latest: &Medians, goal: f64, budget: f64) -> Result<usize, Status> {
     if latest.energy_distance_squared <= goal {
-        return Next::End(Ending::Reached);
+        return Err(Status::Reached);
     }
     if latest.seconds() >= budget {
-        return Next::End(Ending::OutOfTime);
+        return Err(Status::OutOfTime);
     }
-    match latest.size.checked_mul(2).filter(|size| *size <= sizes.last) {
-        Some(size) => Next::Run(size),
-        None => Next::End(Ending::OutOfSizes),
-    }
+    let larger = latest.size.checked_mul(2).filter(|size| *size <= sizes.last);
+    larger.ok_or(Status::OutOfSizes)
 }
 
 #[cfg(test)]
@@ -148,10 +135,10 @@ mod tests {
             let latest = Medians::of(&[trial(size, seconds, energy)], size).unwrap();
             next(SIZES, &latest, 1.0, 9.0)
         };
-        assert_eq!(after(10, 1.0, Some(1.1)), Next::Run(20));
-        assert_eq!(after(20, 10.0, Some(1.0)), Next::End(Ending::Reached));
-        assert_eq!(after(20, 9.0, None), Next::End(Ending::OutOfTime));
-        assert_eq!(after(40, 1.0, Some(1.1)), Next::End(Ending::OutOfSizes));
+        assert_eq!(after(10, 1.0, Some(1.1)), Ok(20));
+        assert_eq!(after(20, 10.0, Some(1.0)), Err(Status::Reached));
+        assert_eq!(after(20, 9.0, None), Err(Status::OutOfTime));
+        assert_eq!(after(40, 1.0, Some(1.1)), Err(Status::OutOfSizes));
     }
 
     #[test]

@@ -1,13 +1,11 @@
 //! The search for the number of steps that reaches the level, within a budget of time.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
-use super::{Case, TimeToLevel};
-use crate::CommandError;
-use crate::progress::CaseObserver;
+use super::TimeToLevel;
 use crate::statistics::weighted_quantile;
-use crate::study::attempt::Attempt;
-use crate::study::gaussian_runs::measured;
+use crate::study::gaussian_runs;
+use crate::study::prelude::*;
 
 /// A run whose predicted time exceeds the budget by no more than this factor is begun.
 const TOLERANCE: f64 = 1.2;
@@ -32,71 +30,45 @@ impl Trial {
     }
 }
 
-/// How a search ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Ending {
-    /// The level was reached.
-    Reached,
-    /// A run took the whole budget without reaching it.
-    OutOfTime,
-    /// Even the largest number of steps did not reach it.
-    OutOfSteps,
-}
-
 /// Least, median and largest time of the last run and its repeats, which have the same number of steps.
 ///
 /// # Errors
 /// [`CommandError::Statistics`] without any run.
 pub fn seconds(trials: &[Trial]) -> Result<[f64; 3], CommandError> {
-    let repeats = trials
-        .iter()
-        .rev()
-        .take_while(|trial| Some(trial.steps) == trials.last().map(|last| last.steps));
+    let last = trials.last().map(|last| last.steps);
+    let repeats = trials.iter().rev().take_while(|trial| Some(trial.steps) == last);
     let times: Vec<f64> = repeats.map(|trial| trial.wall_seconds).collect();
     let quantiles = weighted_quantile(&times, None, &[0.0, 0.5, 1.0])?;
     Ok([quantiles[0], quantiles[1], quantiles[2]])
 }
 
-/// What comes after the trials so far.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Next {
-    /// A run with so many steps.
-    Run(usize),
-    /// Nothing.
-    End(Ending),
-}
-
-/// Decides from the trials so far: the next number of steps, or as many as fit into the budget where those would not.
-fn next(steps: &[usize], trials: &[Trial], level: f64, budget: Option<f64>) -> Next {
-    let Some(last) = trials.last() else {
-        return steps
-            .first()
-            .map_or(Next::End(Ending::OutOfSteps), |&steps| Next::Run(steps));
-    };
+/// What comes after the trials so far: the next number of steps, or as many as fit into the budget where those would not; an ending.
+fn next(steps: &[usize], trials: &[Trial], level: f64, budget: Option<f64>) -> Result<usize, Status> {
+    let done = trials.last().map_or(0, |last| last.steps);
+    let following = steps
+        .iter()
+        .copied()
+        .find(|&steps| steps > done)
+        .ok_or(Status::OutOfSteps);
+    let Some(last) = trials.last() else { return following };
     if last.reaches(level) {
-        return Next::End(Ending::Reached);
+        return Err(Status::Reached);
     }
-    let following = steps.iter().copied().find(|&steps| steps > last.steps);
-    let Some(budget) = budget else {
-        return following.map_or(Next::End(Ending::OutOfSteps), Next::Run);
-    };
+    let Some(budget) = budget else { return following };
     if last.wall_seconds >= budget {
-        return Next::End(Ending::OutOfTime);
+        return Err(Status::OutOfTime);
     }
-    let Some(following) = following else {
-        return Next::End(Ending::OutOfSteps);
-    };
+    let following = following?;
     let per_step = last.wall_seconds / last.steps.max(1) as f64;
     if per_step * following as f64 <= TOLERANCE * budget {
-        return Next::Run(following);
+        return Ok(following);
     }
     // Rounded up, so that the run takes the budget rather than a little less.
     let fitting = ((budget / per_step).ceil() as usize).min(following);
     if fitting > last.steps {
-        Next::Run(fitting)
+        Ok(fitting)
     } else {
-        Next::End(Ending::OutOfTime)
+        Err(Status::OutOfTime)
     }
 }
 
@@ -104,19 +76,19 @@ fn next(steps: &[usize], trials: &[Trial], level: f64, budget: Option<f64>) -> N
 /// number of steps again if it is quick. Returns all runs in order.
 pub fn search(
     study: &TimeToLevel,
-    case: &Case,
-    level: f64,
-    budget: Option<f64>,
+    dim: Dimension,
+    method: &MethodSpecification,
+    (level, budget): (f64, Option<f64>),
     observer: &mut CaseObserver,
-) -> Result<(Ending, Vec<Trial>), CommandError> {
-    let mut run = case.method.run(case.particles, study.seed);
-    run.start = study.start.start(run.start);
+) -> Result<(Status, Vec<Trial>), CommandError> {
+    let target = TargetSpecification::plain("gaussian", Some(dim));
     let mut one = |steps: usize| -> Result<Trial, CommandError> {
-        let method = case.method.method(Some(steps))?;
-        let begin = std::time::Instant::now();
-        let (wall_seconds, energy_distance_squared) = match measured(case.dim, &method, &run, observer)? {
-            Attempt::Finished((outcome, energy)) => (outcome.wall_seconds, Some(energy)),
-            Attempt::Failed(..) => (begin.elapsed().as_secs_f64(), None),
+        let mut work = Sampled::new(&target, method, Some(steps), (study.particles.get(), study.seed))?;
+        work.run.start = study.start.start(work.run.start);
+        let (seconds, run) = timed(|| gaussian_runs::sampled(&work, observer));
+        let (wall_seconds, energy_distance_squared) = match attempt(run)? {
+            Ok((outcome, energy)) => (outcome.wall_seconds, Some(energy)),
+            Err(_) => (seconds, None),
         };
         Ok(Trial {
             steps,
@@ -128,12 +100,12 @@ pub fn search(
     let mut trials = Vec::new();
     let ending = loop {
         match next(&steps, &trials, level, budget) {
-            Next::Run(steps) => trials.push(one(steps)?),
-            Next::End(ending) => break ending,
+            Ok(steps) => trials.push(one(steps)?),
+            Err(ending) => break ending,
         }
     };
     if let Some(last) = trials.last().copied()
-        && ending == Ending::Reached
+        && ending == Status::Reached
         && last.wall_seconds < LONG
     {
         for _ in 1..study.repeats.get() {
@@ -159,13 +131,13 @@ mod tests {
 
     #[test]
     fn steps_grow_until_the_level_is_reached() {
-        assert_eq!(next(&STEPS, &[], 1.0, None), Next::Run(1));
-        assert_eq!(next(&STEPS, &[trial(1, 9.0, Some(3.0))], 1.0, None), Next::Run(2));
+        assert_eq!(next(&STEPS, &[], 1.0, None), Ok(1));
+        assert_eq!(next(&STEPS, &[trial(1, 9.0, Some(3.0))], 1.0, None), Ok(2));
         let reached = [trial(2, 9.0, Some(1.0))];
-        assert_eq!(next(&STEPS, &reached, 1.0, None), Next::End(Ending::Reached));
+        assert_eq!(next(&STEPS, &reached, 1.0, None), Err(Status::Reached));
         let diverged = [trial(8, 9.0, None)];
-        assert_eq!(next(&STEPS, &diverged, 1.0, None), Next::End(Ending::OutOfSteps));
-        assert_eq!(next(&[], &[], 1.0, None), Next::End(Ending::OutOfSteps));
+        assert_eq!(next(&STEPS, &diverged, 1.0, None), Err(Status::OutOfSteps));
+        assert_eq!(next(&[], &[], 1.0, None), Err(Status::OutOfSteps));
     }
 
     #[test]
@@ -181,10 +153,10 @@ mod tests {
     #[test]
     fn a_run_too_long_for_the_budget_is_shortened_to_it() {
         let trials = [trial(4, 4.0, Some(3.0))];
-        assert_eq!(next(&STEPS, &trials, 1.0, Some(7.0)), Next::Run(8), "within a fifth");
-        assert_eq!(next(&STEPS, &trials, 1.0, Some(6.0)), Next::Run(6));
-        assert_eq!(next(&STEPS, &trials, 1.0, Some(4.0)), Next::End(Ending::OutOfTime));
+        assert_eq!(next(&STEPS, &trials, 1.0, Some(7.0)), Ok(8), "within a fifth");
+        assert_eq!(next(&STEPS, &trials, 1.0, Some(6.0)), Ok(6));
+        assert_eq!(next(&STEPS, &trials, 1.0, Some(4.0)), Err(Status::OutOfTime));
         let slow = [trial(1, 3.0, Some(3.0))];
-        assert_eq!(next(&STEPS, &slow, 1.0, Some(2.0)), Next::End(Ending::OutOfTime));
+        assert_eq!(next(&STEPS, &slow, 1.0, Some(2.0)), Err(Status::OutOfTime));
     }
 }

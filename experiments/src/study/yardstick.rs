@@ -1,10 +1,8 @@
 //! What particles on a target are measured against, for every study that compares methods on the catalogue: the yardsticks of `parvi-metrics`, whatever their dimension.
 
-mod measured_run;
-
 use std::time::Instant;
 
-pub use parvi_metrics::yardstick::{Coordinates, Errors, YardstickOptions};
+pub use parvi_metrics::yardstick::{Errors, YardstickOptions};
 use parvi_metrics::yardstick::{TargetYardstick, YardstickError};
 use parvi_targets::BoxedTarget;
 
@@ -14,8 +12,6 @@ use crate::options::TargetSpecification;
 use crate::output::Particles;
 use crate::sampling::Outcome;
 use crate::statistics::summarize;
-
-pub use measured_run::{measured, measured_run};
 
 /// Sets of independent draws, whose median sliced Wasserstein distance is the level of that distance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,0 +1,276 @@
+//! A line of results: cells by the names of their columns.
+
+use std::collections::BTreeMap;
+
+use serde::{Serialize, Serializer};
+
+use super::attempt::{Failure, Status, attempt};
+use super::yardstick::Errors;
+use crate::CommandError;
+use crate::plots::page::{Cell, number};
+use crate::sampling::Outcome;
+
+/// The columns that hold words; all others hold numbers.
+const WORDS: &str = "case status ending reason note message outcome target method series sweep family label quantity scene against variant \
+     material schedule score volumes basis start_draws transfer shifts rotation settling_shifts moment_correction guards escaped turned";
+
+/// The columns that hold a [`Status`].
+const ENDINGS: [&str; 2] = ["status", "ending"];
+
+/// What stands in a cell.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Value {
+    /// Nothing.
+    #[default]
+    Empty,
+    /// A word, or several.
+    Text(String),
+    /// A whole number.
+    Count(u64),
+    /// A number.
+    Number(f64),
+}
+
+impl Value {
+    /// What a file holds in a column.
+    ///
+    /// # Errors
+    /// A text that does not belong there, in words.
+    pub fn read(column: &str, text: &str) -> Result<Self, String> {
+        let is_ending = ENDINGS.contains(&column);
+        if is_ending && Status::of(text).is_none() {
+            return Err(format!("`{text}` is no `{column}`"));
+        }
+        match text {
+            "" => Ok(Self::Empty),
+            text if WORDS.split(' ').any(|name| name == column) => Ok(Self::Text(text.to_owned())),
+            text => {
+                let number = || text.parse().map(Self::Number);
+                let value = text.parse().map(Self::Count).or_else(|_| number());
+                value.map_err(|_| format!("`{text}` in the column `{column}` is no number"))
+            }
+        }
+    }
+}
+
+impl Serialize for Value {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Empty => serializer.serialize_none(),
+            Self::Text(text) => serializer.serialize_str(text),
+            Self::Count(count) => serializer.serialize_u64(*count),
+            Self::Number(number) => serializer.serialize_f64(*number),
+        }
+    }
+}
+
+impl Cell for Value {
+    fn cell(&self) -> String {
+        match self {
+            Self::Empty => None::<f64>.cell(),
+            Self::Text(text) => text.clone(),
+            Self::Count(count) => count.to_string(),
+            Self::Number(value) => number(*value),
+        }
+    }
+}
+
+impl From<f64> for Value {
+    fn from(number: f64) -> Self {
+        Self::Number(number)
+    }
+}
+
+impl From<u64> for Value {
+    fn from(count: u64) -> Self {
+        Self::Count(count)
+    }
+}
+
+impl From<usize> for Value {
+    fn from(count: usize) -> Self {
+        Self::Count(count as u64)
+    }
+}
+
+impl From<&str> for Value {
+    fn from(text: &str) -> Self {
+        match text {
+            "" => Self::Empty,
+            text => Self::Text(text.to_owned()),
+        }
+    }
+}
+
+impl From<String> for Value {
+    fn from(text: String) -> Self {
+        text.as_str().into()
+    }
+}
+
+impl<T: Into<Value>> From<Option<T>> for Value {
+    fn from(value: Option<T>) -> Self {
+        value.map_or(Self::Empty, T::into)
+    }
+}
+
+/// What a case gave. Columns that begin with `wall` depend on the machine, the others only on the seeds.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Row {
+    cells: BTreeMap<&'static str, Value>,
+}
+
+impl Row {
+    /// The row of a case of this name.
+    pub fn of(case: impl Into<Value>) -> Self {
+        Self::default().with("case", case)
+    }
+
+    /// The same with one cell more.
+    pub fn with(mut self, column: &'static str, value: impl Into<Value>) -> Self {
+        self.set(column, value);
+        self
+    }
+
+    /// Fills a cell.
+    pub fn set(&mut self, column: &'static str, value: impl Into<Value>) {
+        self.cells.insert(column, value.into());
+    }
+
+    /// A cell.
+    pub fn value(&self, column: &str) -> &Value {
+        self.cells.get(column).unwrap_or(&Value::Empty)
+    }
+
+    /// A word; empty where there is none.
+    pub fn text(&self, column: &str) -> &str {
+        match self.value(column) {
+            Value::Text(text) => text,
+            _ => "",
+        }
+    }
+
+    /// A number.
+    pub fn number(&self, column: &str) -> Option<f64> {
+        match self.value(column) {
+            Value::Number(number) => Some(*number),
+            Value::Count(count) => Some(*count as f64),
+            _ => None,
+        }
+    }
+
+    /// A whole number.
+    pub fn count(&self, column: &str) -> Option<usize> {
+        match self.value(column) {
+            Value::Count(count) => usize::try_from(*count).ok(),
+            _ => None,
+        }
+    }
+
+    /// Whether a cell holds this.
+    pub fn is(&self, column: &str, value: impl Into<Value>) -> bool {
+        *self.value(column) == value.into()
+    }
+
+    /// Cells as they stand in a table, by names with ` | ` between them.
+    pub fn cells(&self, columns: &str) -> Vec<String> {
+        columns.split(" | ").map(|column| self.value(column).cell()).collect()
+    }
+
+    /// The name of the case.
+    pub fn case(&self) -> &str {
+        self.text("case")
+    }
+
+    /// How the run ended; with finite particles unless something else is noted.
+    pub fn status(&self) -> Status {
+        let noted = ENDINGS.iter().find_map(|column| Status::of(self.text(column)));
+        noted.unwrap_or_default()
+    }
+
+    /// Whether it gave particles.
+    pub fn finished(&self) -> bool {
+        self.status() == Status::Finished
+    }
+
+    /// Whether the run claims to stand for the target.
+    pub fn claims(&self) -> bool {
+        self.text("outcome") == "converged"
+    }
+
+    /// How it ended, with the reason.
+    pub fn ending(&self) -> String {
+        match self.text("reason") {
+            "" => self.status().as_str().to_owned(),
+            reason => format!("{}: {reason}", self.status().as_str()),
+        }
+    }
+
+    /// The row as an item of a list of runs that gave nothing.
+    pub fn failure(&self) -> String {
+        // A study writes one of both.
+        let reason = match self.text("reason") {
+            "" => self.text("note"),
+            reason => reason,
+        };
+        format!("- `{}`: {}: {reason}", self.case(), self.status().as_str())
+    }
+
+    /// Notes a run without particles.
+    pub fn fail(&mut self, failure: Failure) {
+        self.set("status", failure.status.as_str());
+        self.set("note", failure.reason.as_str());
+        self.set("reason", failure.reason);
+    }
+
+    /// Notes what the sampler says; hands the particles on, if there are some.
+    ///
+    /// # Errors
+    /// What [`attempt`] does not take for a result.
+    pub fn note(&mut self, sampled: Result<Outcome, CommandError>) -> Result<Option<Outcome>, CommandError> {
+        match attempt(sampled)? {
+            Ok(outcome) => {
+                self.take(&outcome);
+                Ok(Some(outcome))
+            }
+            Err(failure) => {
+                self.fail(failure);
+                Ok(None)
+            }
+        }
+    }
+
+    /// Notes what the sampler says of particles.
+    pub fn take(&mut self, outcome: &Outcome) {
+        let certificate = outcome.certificate.as_ref();
+        self.set("outcome", certificate.map(|certificate| certificate.outcome.name()));
+        self.set("log_evidence_deviation", outcome.log_evidence_deviation);
+        self.set("log_evidence_error", outcome.log_evidence_error);
+        self.set("residual", outcome.residual);
+        self.set("steps", outcome.steps);
+        self.set("score_evaluations", outcome.score_evaluations);
+        self.set("density_evaluations", outcome.density_evaluations);
+        self.set("spacing", outcome.spacing);
+        self.set("active_nodes", outcome.active_nodes);
+        self.set("storage_bytes", outcome.storage_bytes);
+        self.set("wall_seconds", outcome.wall_seconds);
+    }
+
+    /// Notes the errors of the particles, or why there are none.
+    ///
+    /// # Errors
+    /// What [`attempt`] does not take for a result.
+    pub fn measured(&mut self, errors: Result<Errors, CommandError>) -> Result<(), CommandError> {
+        match attempt(errors)? {
+            Err(failure) => self.fail(failure),
+            Ok(errors) => {
+                self.set("energy_distance_squared", errors.energy_distance_squared);
+                self.set("sliced_wasserstein", errors.sliced_wasserstein);
+                self.set("mean_error", errors.mean);
+                self.set("deviation_error", errors.deviation);
+                self.set("mass_error", errors.mass);
+            }
+        }
+        Ok(())
+    }
+}

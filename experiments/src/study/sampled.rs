@@ -1,0 +1,107 @@
+//! The work of most studies: a method on a target, measured or not.
+
+use std::time::Instant;
+
+use parvi::{Method, Run};
+
+use super::definition::Case;
+use super::row::Row;
+use super::yardstick::Yardstick;
+use crate::CommandError;
+use crate::options::{MethodSpecification, OptionError, TargetSpecification};
+use crate::progress::CaseObserver;
+use crate::sampling::{self, Outcome};
+
+/// A method on a target.
+#[derive(Clone, Debug)]
+pub struct Sampled {
+    /// The target.
+    pub target: TargetSpecification,
+    /// The method.
+    pub method: Method,
+    /// Number of particles, seed and start.
+    pub run: Run,
+}
+
+impl Sampled {
+    /// A method with its own options, and this number of steps where one is given and it takes steps.
+    ///
+    /// # Errors
+    /// Options that do not fit.
+    pub fn new(
+        target: &TargetSpecification,
+        method: &MethodSpecification,
+        steps: Option<usize>,
+        (particles, seed): (usize, u64),
+    ) -> Result<Self, OptionError> {
+        Ok(Self {
+            target: target.clone(),
+            method: method.method(steps)?,
+            run: method.run(particles, seed),
+        })
+    }
+
+    /// A case of it, whose row says what is run.
+    ///
+    /// # Errors
+    /// A target that there is not.
+    pub fn case(self, id: String, method: &str) -> Result<Case<Self>, CommandError> {
+        let (target, dim) = (self.target.label(), self.target.dimension()?);
+        let (particles, seed) = (self.run.particles, self.run.seed);
+        let case = Case::new(id, self).with("target", target).with("dim", dim);
+        let case = case.with("method", method).with("particles", particles);
+        Ok(case.with("seed", seed))
+    }
+
+    /// Samples.
+    ///
+    /// # Errors
+    /// What target and sampler refuse.
+    pub fn sample(&self, observer: &mut CaseObserver) -> Result<Outcome, CommandError> {
+        sampling::sample(&self.target, &self.method, &self.run, observer)
+    }
+
+    /// Samples, or draws from the importance sample of a target without exact draws.
+    ///
+    /// # Errors
+    /// As for [`sample`](Self::sample).
+    pub fn sample_or_draw(
+        &self,
+        yardstick: &dyn Yardstick,
+        observer: &mut CaseObserver,
+    ) -> Result<Outcome, CommandError> {
+        if self.draws_from(yardstick) {
+            return Ok(yardstick.independent_draws(self.run.particles, self.run.seed));
+        }
+        self.sample(observer)
+    }
+
+    /// Whether its independent draws come from an importance sample.
+    pub fn draws_from(&self, yardstick: &dyn Yardstick) -> bool {
+        self.method == Method::Iid && !yardstick.has_exact_draws()
+    }
+
+    /// Samples and measures, and notes what comes of it.
+    ///
+    /// # Errors
+    /// What ends a study.
+    pub fn run(
+        &self,
+        row: &mut Row,
+        yardstick: &dyn Yardstick,
+        observer: &mut CaseObserver,
+    ) -> Result<(), CommandError> {
+        row.set("energy_level", yardstick.mean_distance() / self.run.particles as f64);
+        if let Some(outcome) = row.note(self.sample_or_draw(yardstick, observer))? {
+            row.measured(yardstick.measure(&outcome.particles))?;
+        }
+        Ok(())
+    }
+}
+
+/// Seconds that some work took, and what it gave.
+pub fn timed<T>(work: impl FnOnce() -> T) -> (f64, T) {
+    let begin = Instant::now();
+    let result = work();
+    (begin.elapsed().as_secs_f64(), result)
+}
