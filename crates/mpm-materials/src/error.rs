@@ -1,7 +1,9 @@
 //! What can be wrong with a parameter or with a deformation.
 
+use std::borrow::Cow;
+
 /// A material parameter outside its range.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{parameter} must be {expected}, not {value}")]
 pub struct ParameterError {
     /// The parameter as documents call it, as in `young_modulus`.
@@ -9,7 +11,7 @@ pub struct ParameterError {
     /// The value as given.
     pub value: f64,
     /// What is allowed.
-    pub expected: &'static str,
+    pub expected: Cow<'static, str>,
 }
 
 impl ParameterError {
@@ -45,14 +47,13 @@ pub(crate) fn within(
     parameter: &'static str,
     value: f64,
     valid: bool,
-    expected: &'static str,
+    expected: impl Into<Cow<'static, str>>,
 ) -> Result<f64, ParameterError> {
-    let error = ParameterError {
+    valid.then_some(value).ok_or_else(|| ParameterError {
         parameter,
         value,
-        expected,
-    };
-    valid.then_some(value).ok_or(error)
+        expected: expected.into(),
+    })
 }
 
 /// The value, if it is finite and not negative.

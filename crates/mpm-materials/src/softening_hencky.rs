@@ -90,7 +90,12 @@ impl SofteningHencky {
         Ok(Self {
             elastic: Hencky::new(moduli),
             peak,
-            residual: within("residual_yield_stress", residual, lower, "between 0 and the peak")?,
+            residual: within(
+                "residual_yield_stress",
+                residual,
+                lower,
+                format!("between 0 and the peak {peak}"),
+            )?,
             rate: not_negative("softening_rate", softening_rate)?,
         })
     }
@@ -295,7 +300,7 @@ mod tests {
             |peak, residual, rate| SofteningHencky::new(moduli(), peak, residual, rate).expect_err("out of range");
         assert_eq!(new(0.0, 0.0, 1.0).parameter(), ("peak_yield_stress", 0.0));
         let error = new(1.0, 2.0, 1.0).to_string();
-        assert_eq!(error, "residual_yield_stress must be between 0 and the peak, not 2");
+        assert_eq!(error, "residual_yield_stress must be between 0 and the peak 1, not 2");
         assert_eq!(new(1.0, 0.5, -1.0).parameter(), ("softening_rate", -1.0));
         assert!(SofteningHencky::new(moduli(), 1.0, f64::NAN, 1.0).is_err());
         assert!(SofteningHencky::new(moduli(), 1.0, 0.5, f64::INFINITY).is_err());
