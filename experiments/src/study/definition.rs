@@ -4,14 +4,15 @@ use std::path::Path;
 
 use serde::de::DeserializeOwned;
 
-use super::attempt::Status;
 use super::directory::StudyDirectory;
-use super::row::{Row, Value};
+use super::report::Report;
+use super::row::Row;
 use super::rows::Rows;
+use super::status::Status;
+use super::value::Value;
 use super::yardstick::CurrentYardstick;
 use crate::CommandError;
 use crate::options::MethodSpecification;
-use crate::plots::page::Page;
 use crate::progress::CaseObserver;
 
 /// One piece of work of a study.
@@ -116,26 +117,4 @@ pub trait Study: DeserializeOwned + Sync {
     /// # Errors
     /// Files that cannot be read.
     fn report(&self, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Report, CommandError>;
-}
-
-/// What a report says.
-pub struct Report {
-    /// The page with its figures.
-    pub page: Page,
-    /// The most important of it, as `key=value` lines for standard output.
-    pub summary: Vec<(&'static str, String)>,
-}
-
-impl Report {
-    /// A page, and nothing beside it.
-    pub fn new(page: Page) -> Self {
-        let summary = Vec::new();
-        Self { page, summary }
-    }
-
-    /// The same with a line more.
-    pub fn with(mut self, key: &'static str, value: impl ToString) -> Self {
-        self.summary.push((key, value.to_string()));
-        self
-    }
 }

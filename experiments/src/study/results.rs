@@ -4,7 +4,8 @@ use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-use super::row::{Row, Value};
+use super::row::Row;
+use super::value::Value;
 use crate::CommandError;
 
 /// The file's name.
@@ -139,11 +140,6 @@ fn parse(path: &Path, bytes: &[u8], columns: &'static str) -> Result<Vec<Row>, C
         rows.push(row);
     }
     Ok(rows)
-}
-
-/// A text for one cell: without line breaks, so that a file whose last line has no end was cut off.
-pub fn single_line(text: impl ToString) -> String {
-    text.to_string().split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 #[cfg(test)]

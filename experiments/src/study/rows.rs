@@ -1,12 +1,13 @@
 //! Rows of a study, of which parts are looked at.
 
 use super::each_once::each_once;
-use super::row::{Row, Value};
+use super::report::Report;
+use super::row::Row;
+use super::value::Value;
 use crate::options::Bounded;
 use crate::plots::LineSeries;
 use crate::plots::page::{Cell, Page};
 use crate::statistics::{summarize, weighted_quantile};
-use crate::study::definition::Report;
 
 /// A number of a row, where the row has it: a column by its name, or what is computed from some.
 pub trait Quantity {

@@ -4,9 +4,10 @@ use std::collections::HashSet;
 use std::path::Path;
 
 use super::configuration::Configuration;
-use super::definition::{Case, Report, Study, Tools};
+use super::definition::{Case, Study, Tools};
 use super::directory::StudyDirectory;
 use super::manifest::{self, Manifest, Provenance};
+use super::report::Report;
 use super::results::{self, ResultsFile};
 use super::row::Row;
 use super::yardstick::CurrentYardstick;

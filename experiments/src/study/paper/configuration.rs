@@ -5,8 +5,8 @@ use std::collections::HashSet;
 use parvi::ReferenceVolumes;
 use parvi_metrics::yardstick::Coordinates;
 
-use super::body::{Schedule, Variant};
 use super::material::MaterialTable;
+use super::variant::{Schedule, Variant};
 use crate::study::prelude::*;
 
 /// The paper's algorithms, a base and its changes.

@@ -10,6 +10,7 @@ mod figure;
 mod material;
 mod report;
 mod table;
+mod variant;
 mod watch;
 
 use parvi::{Method, Run, SampleError};

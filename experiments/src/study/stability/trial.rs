@@ -12,7 +12,7 @@ use rand::{RngExt, SeedableRng};
 
 use super::draw::Configuration;
 use crate::study::prelude::*;
-use crate::study::results::single_line;
+use crate::study::value::single_line;
 
 /// Finite particles have escaped if one is this many times farther out than start and target could explain.
 const ESCAPE: f64 = 10.0;
