@@ -67,7 +67,12 @@ impl Place {
     }
 
     /// Whether a list here is as long as it should be.
-    pub(super) fn expect(self, field: &'static str, found: usize, expected: usize) -> Result<(), SnapshotsError> {
+    pub(super) fn require_length(
+        self,
+        field: &'static str,
+        found: usize,
+        expected: usize,
+    ) -> Result<(), SnapshotsError> {
         let error = SnapshotsError::Length {
             place: self,
             field,

@@ -141,7 +141,7 @@ impl<const D: usize> Run<D> {
             run: Some(run),
             ..Place::default()
         };
-        place.expect("parameters", self.parameters.len(), body.parameters.len())?;
+        place.require_length("parameters", self.parameters.len(), body.parameters.len())?;
         for (name, value) in body.parameters.iter().zip(&self.parameters) {
             all_finite(place, name, std::slice::from_ref(value))?;
         }
@@ -174,9 +174,9 @@ impl<const D: usize> Frame<D> {
     }
 
     fn check(&self, place: Place, points: usize) -> Result<(), SnapshotsError> {
-        place.expect("positions", self.positions.len(), points)?;
-        place.expect("deformation_gradients", self.deformation_gradients.len(), points)?;
-        place.expect("velocities", self.velocities.len(), points)?;
+        place.require_length("positions", self.positions.len(), points)?;
+        place.require_length("deformation_gradients", self.deformation_gradients.len(), points)?;
+        place.require_length("velocities", self.velocities.len(), points)?;
         for point in 0..points {
             let (gradient, number) = (&self.deformation_gradients[point], Some(point));
             let place = Place { point: number, ..place };
