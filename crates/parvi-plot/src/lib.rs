@@ -3,7 +3,7 @@
 //! ## Where to begin
 //!
 //! With [`multiples`], lines over one pair of axes or several, and [`histogram`]. All figures share [`style`] and a small drawing layer: `svg` for the
-//! document, `scale` and `panel` for axes, `legend`, `contour` for lines of equal density. [`page`] puts figures and tables into Markdown. It is no general plotting
+//! document, `scale` and `panel` for axes, `legend`, `contour` for lines of equal density. [`page`] puts figures and tables into Markdown, [`results`] are the rows that they are made of. It is no general plotting
 //! library, and knows nothing of samplers and files.
 
 mod chart;
@@ -20,6 +20,7 @@ mod legend;
 mod multiples;
 pub mod page;
 mod panel;
+pub mod results;
 mod scale;
 mod scaling;
 mod series;

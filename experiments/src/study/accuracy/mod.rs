@@ -96,7 +96,7 @@ impl Study for Accuracy {
         gaussian_runs::run(case, row, tools)
     }
 
-    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Report, CommandError> {
+    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
         Ok(report::report(self, rows))
     }
 }
@@ -106,18 +106,10 @@ impl Accuracy {
     fn labels(&self) -> impl Iterator<Item = &str> {
         self.methods.iter().map(|entry| entry.method.label())
     }
-
-    /// The runs of a method by the number of particles, few first.
-    fn by_size<'a>(&self, rows: &Rows<'a>, dim: Dimension, label: &str) -> Vec<(usize, Rows<'a>)> {
-        let here = rows.with("dim", dim).with("series", label);
-        let sizes = ascending(&self.particles).into_iter();
-        sizes.map(|size| (size, here.with("particles", size))).collect()
-    }
 }
 
-/// ED² of as many independent draws, in expectation.
-fn expected(rows: &Rows<'_>, dim: Dimension, particles: f64) -> Option<f64> {
-    let here = rows.with("dim", dim);
+/// ED² of as many independent draws, in expectation; of runs in one dimension.
+fn expected(here: &Rows<'_>, particles: f64) -> Option<f64> {
     let row = here.first()?;
     Some(row.number("energy_level")? * row.number("particles")? / particles)
 }

@@ -10,7 +10,7 @@ use crate::plots::trace;
 use crate::study::prelude::*;
 
 /// Judgements, then each family with its figure and its numbers.
-pub fn report(study: &Scenes, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Report, CommandError> {
+pub fn report(study: &Scenes, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
     let families = study.resolved()?;
     let all: Vec<Vec<MeasuredSeries>> = families.iter().map(|family| series(rows, &family.name)).collect();
     let mut page = Page::new(&study.title);
@@ -41,7 +41,7 @@ pub fn report(study: &Scenes, rows: &Rows<'_>, directory: &StudyDirectory) -> Re
     }
     let failed = rows.count(|row| row.number("value").is_none());
     let verdict = if judged > 0 && passed == judged { "pass" } else { "fail" };
-    Ok(Report::new(page)
+    Ok(page
         .with("cases", rows.len())
         .with("failed", failed)
         .with("judged", judged)

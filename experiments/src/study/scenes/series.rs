@@ -40,19 +40,16 @@ impl MeasuredSeries {
 
 /// The series of a family in the order in which their rows came.
 pub fn series(rows: &Rows<'_>, family: &str) -> Vec<MeasuredSeries> {
-    let here = rows.with("family", family);
-    let of = |label: &str| {
+    let of = |(label, here): (String, Rows<'_>)| {
         let mut series = MeasuredSeries {
-            label: label.to_owned(),
+            label,
             ..MeasuredSeries::default()
         };
-        for row in here.with("label", label).iter() {
-            add(&mut series, row);
-        }
+        here.iter().for_each(|row| add(&mut series, row));
         series.points.sort_by(|left, right| left.x.total_cmp(&right.x));
         series
     };
-    here.words("label").into_iter().map(of).collect()
+    rows.with("family", family).by("label").into_iter().map(of).collect()
 }
 
 fn add(series: &mut MeasuredSeries, row: &Row) {

@@ -16,10 +16,10 @@ use std::path::PathBuf;
 use parvi_metrics::yardstick::Coordinates;
 
 use runs::{Goal, OWN, Runs};
-use search::{Doubling, Medians, Trial};
+use search::{COLUMNS, Doubling, median_energy, of_size};
 
 use super::prelude::*;
-use crate::output::table_file;
+use super::row_file;
 
 /// A method and its rivals, to the same error on every target.
 #[derive(Clone, Debug, Deserialize)]
@@ -93,8 +93,8 @@ impl Entry {
     }
 
     /// Its runs, as far as they have been made.
-    fn trials(&self, directory: &StudyDirectory) -> Result<Vec<Trial>, CommandError> {
-        table_file::read(&self.trials_file(directory))
+    fn trials(&self, directory: &StudyDirectory) -> Result<Vec<Row>, CommandError> {
+        row_file::read(&self.trials_file(directory), COLUMNS)
     }
 }
 
@@ -173,14 +173,9 @@ impl Study for TimeToEqualError {
             let reason = "the method that sets the error has none above 0";
             Err(Failure::new(Status::Unsupported, reason))
         };
-        table_file::write(&runs.trials, &entry.trials_file(directory))?;
+        runs.write(directory)?;
         match found {
-            Ok(found) => {
-                row.set("ending", found.ending);
-                found.last.fill(row);
-                row.set("missed_size", found.missed.map(|missed| missed.size));
-                row.set("wall_seconds_missed", found.missed.map(|missed| missed.seconds()));
-            }
+            Ok(found) => runs.note(found, row),
             Err(failure) => {
                 row.set("ending", Status::Unsupported);
                 row.set("reason", failure.reason);
@@ -189,7 +184,7 @@ impl Study for TimeToEqualError {
         Ok(())
     }
 
-    fn report(&self, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Report, CommandError> {
+    fn report(&self, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
         report::report(self, rows, directory)
     }
 }
@@ -204,21 +199,19 @@ impl TimeToEqualError {
             ..entry.clone()
         }
         .trials(directory)?;
-        if trials.is_empty() {
-            return Ok(None);
-        }
-        let medians = Medians::of(&trials, OWN)?;
-        let energy_distance_squared = medians.energy_distance_squared;
-        let goal = Goal {
+        let runs = of_size(&trials, OWN);
+        let energy_distance_squared = median_energy(&runs);
+        let is_positive = energy_distance_squared.is_finite() && energy_distance_squared > 0.0;
+        let seconds = runs.median(SECONDS).filter(|_| is_positive);
+        Ok(seconds.map(|seconds| Goal {
             energy_distance_squared,
-            seconds: medians.seconds(),
-        };
-        Ok(Some(goal).filter(|_| energy_distance_squared.is_finite() && energy_distance_squared > 0.0))
+            seconds,
+        }))
     }
 
     /// The runs of the same rival for smaller M: draws do not depend on it, so they are not made twice.
-    fn earlier_trials(&self, entry: &Entry, directory: &StudyDirectory) -> Result<Vec<Trial>, CommandError> {
-        let mut trials: Vec<Trial> = Vec::new();
+    fn earlier_trials(&self, entry: &Entry, directory: &StudyDirectory) -> Result<Vec<Row>, CommandError> {
+        let mut trials: Vec<Row> = Vec::new();
         if entry.method.name.iterates() {
             return Ok(trials);
         }

@@ -11,8 +11,8 @@ use std::path::PathBuf;
 
 use super::gaussian_runs::energy_level;
 use super::prelude::*;
+use super::row_file;
 use super::start_law::StartLaw;
-use crate::output::table_file;
 
 /// A method and its rivals, from the same start to the same error.
 #[derive(Clone, Debug, Deserialize)]
@@ -116,27 +116,30 @@ impl Study for TimeToLevel {
         let budget = match index {
             0 => None,
             _ => {
-                let clock = table_file::read(&self.trials_file(*dim, 0, tools.directory))?;
-                Some(self.largest_ratio * search::seconds(&clock)?[1])
+                let clock = search::read(&self.trials_file(*dim, 0, tools.directory))?;
+                search::last(&clock)
+                    .median(SECONDS)
+                    .map(|seconds| self.largest_ratio * seconds)
             }
         };
         let (ending, trials) = search::search(self, *dim, method, (level, budget), tools.observer)?;
-        table_file::write(&trials, &self.trials_file(*dim, *index, tools.directory))?;
-        let [least, median, most] = search::seconds(&trials)?;
-        let last = trials.last();
+        row_file::write(
+            &self.trials_file(*dim, *index, tools.directory),
+            search::COLUMNS,
+            &trials,
+        )?;
+        let last = search::last(&trials);
         row.set("ending", ending);
         row.set("energy_level", level);
         row.set("runs", trials.len());
-        row.set("steps", last.map_or(0, |trial| trial.steps));
-        row.set(ENERGY, last.and_then(|trial| trial.energy_distance_squared));
-        row.set("wall_seconds", median);
-        row.set("wall_seconds_least", least);
-        row.set("wall_seconds_most", most);
+        row.set("steps", trials.last().map_or(Some(0), |trial| trial.count("steps")));
+        row.set(ENERGY, trials.last().and_then(|trial| trial.number(ENERGY)));
+        row.set_range("wall_seconds_least", SECONDS, "wall_seconds_most", &last);
         row.set("wall_budget_seconds", budget);
         Ok(())
     }
 
-    fn report(&self, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Report, CommandError> {
+    fn report(&self, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
         report::report(self, rows, directory)
     }
 }
