@@ -7,6 +7,9 @@ pub const ENERGY: &str = "energy_distance_squared";
 /// Wall time.
 pub const SECONDS: &str = "wall_seconds";
 
+/// Wall time, least, median and most.
+pub const WALL: [&str; 3] = ["wall_seconds_least", SECONDS, "wall_seconds_most"];
+
 /// A name and the number, where the row has what it takes, earlier ones included.
 type Derived = (&'static str, fn(&Row) -> Option<f64>);
 

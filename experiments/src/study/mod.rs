@@ -13,7 +13,6 @@ mod directory;
 mod evidence;
 mod gaussian_runs;
 mod manifest;
-mod moments;
 mod paper;
 mod prelude;
 mod quickstart;

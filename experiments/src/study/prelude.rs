@@ -7,7 +7,7 @@ pub use super::checks::{
     unset,
 };
 pub use super::definition::{Case, Study, Tools};
-pub use super::derived::{ENERGY, SECONDS};
+pub use super::derived::{ENERGY, SECONDS, WALL};
 pub use super::directory::StudyDirectory;
 pub use super::row::{RunRow, RunRows};
 pub use super::sampled::{Sampled, timed};

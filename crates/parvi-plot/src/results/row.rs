@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Rows, Value};
+use super::Value;
 use crate::page::Cell;
 
 /// What one case gave, by the names of the columns.
@@ -26,13 +26,6 @@ impl Row {
     /// Fills a cell.
     pub fn set(&mut self, column: &'static str, value: impl Into<Value>) {
         self.cells.insert(column, value.into());
-    }
-
-    /// Fills a cell with the median of a column over some rows, and two with the least and the largest value of it.
-    pub fn set_range(&mut self, least: &'static str, column: &'static str, largest: &'static str, rows: &Rows<'_>) {
-        self.set(least, rows.least(column));
-        self.set(column, rows.median(column));
-        self.set(largest, rows.largest(column));
     }
 
     /// The name of the case.

@@ -118,6 +118,13 @@ impl<'a> Rows<'a> {
         self.values(column).into_iter().reduce(f64::max)
     }
 
+    /// Notes in a row the least value of a column, its median and the largest value.
+    pub fn note_range(&self, column: &str, row: &mut Row, [least, median, largest]: [&'static str; 3]) {
+        row.set(least, self.least(column));
+        row.set(median, self.median(column));
+        row.set(largest, self.largest(column));
+    }
+
     /// The row with the largest value of a column.
     pub fn worst(&self, column: &str) -> Option<&'a Row> {
         let known = self.iter().filter_map(|row| Some((row.number(column)?, row)));

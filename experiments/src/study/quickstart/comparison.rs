@@ -3,7 +3,7 @@
 use super::Bounds;
 use super::reference::ReferenceAxis;
 use crate::output::Particles;
-use crate::study::moments::SampleMoments;
+use crate::statistics::SampleMoments;
 
 /// One coordinate.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,7 +36,8 @@ pub struct Comparison {
 impl Comparison {
     /// Compares particles with a reference of the same dimension.
     pub fn new(particles: &Particles, reference: Vec<ReferenceAxis>) -> Self {
-        let moments = SampleMoments::of(particles);
+        let points = particles.to_rows();
+        let moments = SampleMoments::of(&points, particles.weights());
         let own = moments.mean.iter().copied().zip(moments.standard_deviations());
         let axis = |(reference, (mean, standard_deviation)): (ReferenceAxis, (f64, f64))| AxisComparison {
             mean,

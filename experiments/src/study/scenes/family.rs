@@ -3,8 +3,9 @@
 use toml::Table;
 
 use super::axis::Axis;
-use super::judgement::Judgement;
+use super::judgement;
 use super::reading::Reading;
+use crate::plots::judgement::Judgement;
 use crate::study::prelude::*;
 
 /// Runs of one scene with changes, of each of which one number is read.
@@ -36,7 +37,7 @@ pub struct Family {
     /// The number.
     pub read: Reading,
     /// What is asked of the numbers.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "judgement::list")]
     pub judgements: Vec<Judgement>,
     /// Parts of the labels of the series that are judged; empty: all.
     #[serde(default)]

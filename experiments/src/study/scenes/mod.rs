@@ -12,7 +12,6 @@ mod judgement;
 mod reading;
 mod report;
 mod scene_files;
-mod series;
 
 use std::path::Path;
 

@@ -85,7 +85,7 @@ impl Runs<'_> {
         row.set("score_evaluations", last.median("score_evaluations"));
         row.set("density_evaluations", last.median("density_evaluations"));
         row.set(ENERGY, energy);
-        row.set_range("wall_seconds_least", SECONDS, "wall_seconds_most", &last);
+        last.note_range(SECONDS, row, WALL);
         row.set("missed_size", missed);
         let seconds = missed.map(|size| of_size(&self.trials, size).median(SECONDS));
         row.set("wall_seconds_missed", seconds.flatten());

@@ -134,7 +134,7 @@ impl Study for TimeToLevel {
         row.set("runs", trials.len());
         row.set("steps", trials.last().map_or(Some(0), |trial| trial.count("steps")));
         row.set(ENERGY, trials.last().and_then(|trial| trial.number(ENERGY)));
-        row.set_range("wall_seconds_least", SECONDS, "wall_seconds_most", &last);
+        last.note_range(SECONDS, row, WALL);
         row.set("wall_budget_seconds", budget);
         Ok(())
     }
