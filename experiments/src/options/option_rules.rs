@@ -2,116 +2,26 @@
 
 use super::{AlphaSchedule, Basis, Limit, MethodName, MethodOptions, OptionError, PoolChoice, Transfer};
 
-/// An option, one that it does not go with, and what is to be said behind its value.
-const EXCLUDED: [(&str, &str, &str); 11] = [
-    ("alpha-from", "alpha", "contradicts a constant alpha"),
-    ("alpha-to", "alpha", "contradicts a constant alpha"),
-    ("start-law", "start", "contradicts --start"),
-    ("start-centre", "start", "contradicts --start"),
-    ("start-centre", "start-law", "contradicts --start-law"),
-    ("start-mean", "start", "contradicts --start"),
-    ("start-mean", "start-law", "contradicts --start-law"),
-    ("start-mean", "start-centre", "contradicts --start-centre"),
-    ("start-sd", "start", "contradicts --start"),
-    ("start-sd", "start-law", "contradicts --start-law"),
-    ("start-sd", "start-centre", "contradicts --start-centre"),
-];
+/// What has to hold where an option is given.
+struct Rules {
+    /// Options for which it does not, and what is to be said behind their values.
+    broken: Vec<(&'static str, &'static str)>,
+}
 
-/// An option, one without which it says nothing, and what is to be said behind its value.
-const NEEDED: [(&str, &str, &str); 4] = [
-    (
-        "alpha-schedule",
-        "alpha-from",
-        "needs alpha-from and alpha-to beside it",
-    ),
-    ("alpha-from", "alpha-to", "needs alpha-to beside it"),
-    ("alpha-to", "alpha-from", "needs alpha-from beside it"),
-    ("start-covariance", "start-centre", "needs --start-centre beside it"),
-];
-
-/// Options with spaces between, when they are out of place, and what is to be said behind their values.
-type Rule = (&'static str, fn(&MethodOptions) -> bool, &'static str);
-
-/// Of all methods.
-const RULES: [Rule; 4] = [
-    (
-        "mesh",
-        |given| given.basis != Some(Basis::Mesh),
-        "needs the basis `mesh`",
-    ),
-    (
-        "alpha-to",
-        |given| given.has_ends_of_both_signs(),
-        "must have the sign of alpha-from in a geometric schedule, and neither may be 0",
-    ),
-    (
-        "alpha-cycles",
-        |given| given.alpha_schedule != Some(AlphaSchedule::Cyclic),
-        "needs the alpha-schedule `cyclic`",
-    ),
-    (
-        "volumes",
-        |given| given.start.is_some() && given.volumes_of_start(),
-        "needs a start law, which a file of positions does not have",
-    ),
-];
-
-/// Of the calibrated gas.
-const RULES_OF_GAS: [Rule; 9] = [
-    (
-        "flip-share",
-        |given| !matches!(given.transfer, Some(Transfer::Flip | Transfer::AffineFlip)),
-        "needs the transfer `flip` or `affine-flip`",
-    ),
-    (
-        "start start-law start-centre",
-        MethodOptions::surveys,
-        "needs --survey off: a survey says where the particles begin",
-    ),
-    ("evaluations pool", |given| !given.surveys(), "needs a survey"),
-    (
-        "rounds",
-        |given| !given.surveys() && given.rounds.is_some_and(|rounds| rounds.get() == 0),
-        "needs a survey",
-    ),
-    // A score that drives the gas away.
-    ("alpha", |given| given.alpha <= Some(0.0), "must be a number above 0"),
-    (
-        "alpha-from",
-        |given| given.alpha_from <= Some(0.0),
-        "must be a number above 0",
-    ),
-    (
-        "alpha-to",
-        |given| given.alpha_to <= Some(0.0),
-        "must be a number above 0",
-    ),
-    (
-        "basis",
-        |given| given.basis == Some(Basis::Mesh) && given.mesh.is_none(),
-        "needs --mesh FILE.msh beside it",
-    ),
-    (
-        "displacement-limit",
-        |given| given.displacement_limit == Some(Limit::Off),
-        "does not fit method `mpm`",
-    ),
-];
-
-/// Of Stein thinning: options of the chains.
-const RULES_OF_THINNING: [Rule; 1] = [(
-    "warm-up chains thinning target-acceptance start-mean start-sd start-draws",
-    |given| !matches!(given.pool_choice(), Ok(Some(PoolChoice::Nuts))),
-    "needs the pool `nuts`",
-)];
+impl Rules {
+    /// For this option, if it is given, that has to hold.
+    fn ask(&mut self, option: &'static str, holds: bool, otherwise: &'static str) {
+        if !holds {
+            self.broken.push((option, otherwise));
+        }
+    }
+}
 
 impl MethodOptions {
     /// Refuses numbers outside of their range.
     pub(super) fn check_ranges(&self) -> Result<(), OptionError> {
         for (name, value, (holds, expected)) in self.ranged() {
-            if let Some(value) = value
-                && !holds(value)
-            {
+            if let Some(value) = value.filter(|value| !holds(*value)) {
                 return Err(OptionError::out_of_range(&name, value, expected));
             }
         }
@@ -120,35 +30,84 @@ impl MethodOptions {
 
     /// Refuses options that need or exclude each other.
     pub(super) fn check_rules(&self, method: MethodName) -> Result<(), OptionError> {
+        let mut rules = Rules { broken: Vec::new() };
+        self.rules_of_all(&mut rules);
+        match method {
+            MethodName::Mpm => self.rules_of_gas(&mut rules),
+            MethodName::SteinThinning => self.rules_of_thinning(&mut rules),
+            _ => {}
+        }
         let given: Vec<(String, String)> = self.given().collect();
-        let value = |option: &str| given.iter().find(|(name, _)| name == option).map(|(_, value)| value);
-        let refuse = |option: &str, reason: &str| match value(option) {
-            Some(value) => Err(OptionError::new(option, format!("{value} {reason}"))),
-            None => Ok(()),
-        };
-        for (option, other, reason) in EXCLUDED {
-            value(other).map_or(Ok(()), |_| refuse(option, reason))?;
-        }
-        for (option, other, reason) in NEEDED {
-            value(other).map_or_else(|| refuse(option, reason), |_| Ok(()))?;
-        }
-        let of_method: &[Rule] = match method {
-            MethodName::Mpm => &RULES_OF_GAS,
-            MethodName::SteinThinning => &RULES_OF_THINNING,
-            _ => &[],
-        };
-        for (options, broken, reason) in RULES.iter().chain(of_method) {
-            for option in options.split(' ').filter(|_| broken(self)) {
-                refuse(option, reason)?;
+        for (option, reason) in rules.broken {
+            if let Some((_, value)) = given.iter().find(|(name, _)| name == option) {
+                return Err(OptionError::new(option, format!("{value} {reason}")));
             }
         }
         Ok(())
     }
 
-    /// Whether a geometric schedule would have to pass 0.
-    fn has_ends_of_both_signs(&self) -> bool {
+    fn rules_of_all(&self, rules: &mut Rules) {
         let is_geometric = matches!(self.alpha_schedule, None | Some(AlphaSchedule::Geometric));
-        let apart = |(from, to): (f64, f64)| from == 0.0 || to == 0.0 || from.signum() != to.signum();
-        is_geometric && self.alpha_from.zip(self.alpha_to).is_some_and(apart)
+        let alike = |(from, to): (f64, f64)| from != 0.0 && to != 0.0 && from.signum() == to.signum();
+        let reaches = !is_geometric || self.alpha_from.zip(self.alpha_to).is_none_or(alike);
+        let otherwise = "must have the sign of alpha-from in a geometric schedule, and neither may be 0";
+        rules.ask("alpha-to", reaches, otherwise);
+        let has_from = self.alpha_from.is_some();
+        rules.ask("alpha-schedule", has_from, "needs alpha-from and alpha-to beside it");
+        let is_cyclic = self.alpha_schedule == Some(AlphaSchedule::Cyclic);
+        rules.ask("alpha-cycles", is_cyclic, "needs the alpha-schedule `cyclic`");
+        rules.ask("alpha-from", self.alpha.is_none(), "contradicts a constant alpha");
+        rules.ask("alpha-to", self.alpha.is_none(), "contradicts a constant alpha");
+        rules.ask("alpha-from", self.alpha_to.is_some(), "needs alpha-to beside it");
+        rules.ask("alpha-to", has_from, "needs alpha-from beside it");
+        rules.ask("mesh", self.basis == Some(Basis::Mesh), "needs the basis `mesh`");
+        for option in ["start-law", "start-centre", "start-mean", "start-sd"] {
+            rules.ask(option, self.start.is_none(), "contradicts --start");
+        }
+        for option in ["start-centre", "start-mean", "start-sd"] {
+            rules.ask(option, self.start_law.is_none(), "contradicts --start-law");
+        }
+        let has_centre = self.start_centre.is_some();
+        for option in ["start-mean", "start-sd"] {
+            rules.ask(option, !has_centre, "contradicts --start-centre");
+        }
+        rules.ask("start-covariance", has_centre, "needs --start-centre beside it");
+        let has_law = self.start.is_none() || !self.volumes_of_start();
+        let otherwise = "needs a start law, which a file of positions does not have";
+        rules.ask("volumes", has_law, otherwise);
+    }
+
+    fn rules_of_gas(&self, rules: &mut Rules) {
+        let flips = matches!(self.transfer, Some(Transfer::Flip | Transfer::AffineFlip));
+        rules.ask("flip-share", flips, "needs the transfer `flip` or `affine-flip`");
+        let surveys = self.surveys();
+        for option in ["start", "start-law", "start-centre"] {
+            let otherwise = "needs --survey off: a survey says where the particles begin";
+            rules.ask(option, !surveys, otherwise);
+        }
+        let has_rounds = self.rounds.is_none_or(|rounds| rounds.get() > 0);
+        rules.ask("evaluations", surveys, "needs a survey");
+        rules.ask("rounds", surveys || has_rounds, "needs a survey");
+        rules.ask("pool", surveys, "needs a survey");
+        // Another score drives the gas away.
+        let factors = [
+            ("alpha", self.alpha),
+            ("alpha-from", self.alpha_from),
+            ("alpha-to", self.alpha_to),
+        ];
+        for (option, alpha) in factors {
+            rules.ask(option, alpha > Some(0.0), "must be a number above 0");
+        }
+        let has_mesh = self.basis != Some(Basis::Mesh) || self.mesh.is_some();
+        rules.ask("basis", has_mesh, "needs --mesh FILE.msh beside it");
+        let is_limited = self.displacement_limit != Some(Limit::Off);
+        rules.ask("displacement-limit", is_limited, "does not fit method `mpm`");
+    }
+
+    fn rules_of_thinning(&self, rules: &mut Rules) {
+        let has_chains = matches!(self.pool_choice(), Ok(Some(PoolChoice::Nuts)));
+        for option in MethodName::Nuts.kind().options.split(' ') {
+            rules.ask(option, has_chains, "needs the pool `nuts`");
+        }
     }
 }

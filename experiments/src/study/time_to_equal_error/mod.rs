@@ -16,7 +16,7 @@ use std::path::PathBuf;
 use parvi_metrics::yardstick::Coordinates;
 
 use runs::{Goal, OWN, Runs};
-use search::{COLUMNS, Doubling, median_energy, of_size};
+use search::{COLUMNS, Range, median_energy, of_size};
 
 use super::prelude::*;
 use super::row_file;
@@ -47,32 +47,6 @@ pub struct TimeToEqualError {
     method: MethodSpecification,
     /// What it is compared with.
     rivals: Vec<MethodSpecification>,
-}
-
-/// `{ from = 1000, to = 128000 }`.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Range {
-    from: Bounded<2, 100_000_000>,
-    to: Bounded<2, 100_000_000>,
-}
-
-impl Range {
-    fn check(self, field: &str) -> Result<(), CommandError> {
-        if self.to < self.from {
-            let message = format!("{} is below `from` = {}", self.to, self.from);
-            return Err(refusal(&format!("{field}.to"), message));
-        }
-        Ok(())
-    }
-
-    /// The sizes from one end to the other.
-    fn doubling(self) -> Doubling {
-        Doubling {
-            first: self.from.get(),
-            last: self.to.get(),
-        }
-    }
 }
 
 /// One method on one target for one M, with all seeds.
@@ -192,13 +166,9 @@ impl Study for TimeToEqualError {
 impl TimeToEqualError {
     /// What the method reached on the target of a rival's case; `None` unless it is a positive number.
     fn goal(&self, entry: &Entry, directory: &StudyDirectory) -> Result<Option<Goal>, CommandError> {
-        let (index, method) = (0, self.method.clone());
-        let trials = Entry {
-            index,
-            method,
-            ..entry.clone()
-        }
-        .trials(directory)?;
+        let mut own = entry.clone();
+        (own.index, own.method) = (0, self.method.clone());
+        let trials = own.trials(directory)?;
         let runs = of_size(&trials, OWN);
         let energy_distance_squared = median_energy(&runs);
         let is_positive = energy_distance_squared.is_finite() && energy_distance_squared > 0.0;
@@ -212,16 +182,14 @@ impl TimeToEqualError {
     /// The runs of the same rival for smaller M: draws do not depend on it, so they are not made twice.
     fn earlier_trials(&self, entry: &Entry, directory: &StudyDirectory) -> Result<Vec<Row>, CommandError> {
         let mut trials: Vec<Row> = Vec::new();
-        if entry.method.name.iterates() {
-            return Ok(trials);
-        }
+        let mut earlier = entry.clone();
         let sizes = self.particles.iter().map(|particles| particles.get());
         for particles in sizes.take_while(|particles| *particles != entry.particles) {
-            let known = Entry {
-                particles,
-                ..entry.clone()
+            if entry.method.name.iterates() {
+                break;
             }
-            .trials(directory)?;
+            earlier.particles = particles;
+            let known = earlier.trials(directory)?;
             if known.len() > trials.len() {
                 trials = known;
             }

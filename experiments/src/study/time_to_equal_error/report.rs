@@ -20,10 +20,10 @@ pub fn report(study: &TimeToEqualError, rows: &Rows<'_>, directory: &StudyDirect
         study
             .threads
             .map_or(String::new(), |threads| format!(" (at most {threads})")),
-        study.draws.doubling().first,
-        study.draws.doubling().last,
-        study.steps.doubling().first,
-        study.steps.doubling().last,
+        study.draws.from,
+        study.draws.to,
+        study.steps.from,
+        study.steps.to,
         number(study.largest_ratio),
     ));
     page.heading("What a particle is worth");

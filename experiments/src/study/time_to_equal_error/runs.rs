@@ -48,11 +48,11 @@ impl Runs<'_> {
     /// Doubles the size until the error is reached.
     pub fn search(&mut self, goal: Goal) -> Result<Found, CommandError> {
         let sizes = match self.entry.method.name.iterates() {
-            true => self.study.steps.doubling(),
-            false => self.study.draws.doubling(),
+            true => self.study.steps,
+            false => self.study.draws,
         };
         let budget = self.study.largest_ratio * goal.seconds;
-        let (mut size, mut missed) = (sizes.first, None);
+        let (mut size, mut missed) = (sizes.from.get(), None);
         loop {
             self.make(size)?;
             let latest = of_size(&self.trials, size);

@@ -19,32 +19,42 @@ pub fn median_energy(runs: &Rows<'_>) -> f64 {
     energies.get(energies.len() / 2).copied().unwrap_or(f64::INFINITY)
 }
 
-/// Sizes that double.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Doubling {
+/// Sizes that double: `{ from = 1000, to = 128000 }`.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Range {
     /// The first.
-    pub first: usize,
+    pub from: Bounded<2, 100_000_000>,
     /// None is larger.
-    pub last: usize,
+    pub to: Bounded<2, 100_000_000>,
+}
+
+impl Range {
+    /// Refuses a range without sizes; `field` is its place in the configuration.
+    pub fn check(self, field: &str) -> Result<(), CommandError> {
+        if self.to < self.from {
+            let message = format!("{} is below `from` = {}", self.to, self.from);
+            return Err(refusal(&format!("{field}.to"), message));
+        }
+        Ok(())
+    }
 }
 
 /// What comes after the latest runs, which have this size: the next one, or an ending.
-pub fn next(sizes: Doubling, size: usize, latest: &Rows<'_>, goal: f64, budget: f64) -> Result<usize, Status> {
+pub fn next(sizes: Range, size: usize, latest: &Rows<'_>, goal: f64, budget: f64) -> Result<usize, Status> {
     if median_energy(latest) <= goal {
         return Err(Status::Reached);
     }
     if latest.median(SECONDS).is_some_and(|seconds| seconds >= budget) {
         return Err(Status::OutOfTime);
     }
-    let larger = size.checked_mul(2).filter(|size| *size <= sizes.last);
+    let larger = size.checked_mul(2).filter(|size| *size <= sizes.to.get());
     larger.ok_or(Status::OutOfSizes)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    const SIZES: Doubling = Doubling { first: 10, last: 45 };
 
     fn trial(size: usize, wall_seconds: f64, energy: Option<f64>) -> Row {
         let trial = Row::default().with("size", size).with(SECONDS, wall_seconds);
@@ -53,9 +63,10 @@ mod tests {
 
     #[test]
     fn sizes_double_until_the_error_is_reached() {
+        let [from, to] = [10, 45].map(|size| Bounded::new(size).unwrap());
         let after = |size, seconds, energy| {
             let latest = [trial(size, seconds, energy)];
-            next(SIZES, size, &of_size(&latest, size), 1.0, 9.0)
+            next(Range { from, to }, size, &of_size(&latest, size), 1.0, 9.0)
         };
         assert_eq!(after(10, 1.0, Some(1.1)), Ok(20));
         assert_eq!(after(20, 10.0, Some(1.0)), Err(Status::Reached));
