@@ -88,11 +88,6 @@ pub trait Study: DeserializeOwned + Sync {
         Ok(())
     }
 
-    /// The seeds, for the manifest, where `seed` or `seeds` of the configuration do not say them.
-    fn seeds(&self) -> Vec<u64> {
-        Vec::new()
-    }
-
     /// Methods that this build may lack.
     fn methods(&self) -> Vec<&MethodSpecification> {
         Vec::new()

@@ -32,7 +32,7 @@ pub fn run<S: Study>(configuration: &Configuration, out: &Path) -> Result<(), Co
     in_threads(configuration.threads(), || {
         let mut results = ResultsFile::open(&directory.file(results::FILE_NAME), S::COLUMNS)?;
         study.check_earlier(results.rows()).map_err(located)?;
-        note_start(&study, configuration, &directory)?;
+        note_start::<S>(&cases, configuration, &directory)?;
         run_missing(&study, &cases, &directory, &mut results).map_err(located)?;
         write_report(&study, results.rows(), &directory)
     })
@@ -72,9 +72,9 @@ fn in_threads<T: Send>(
         .install(work)
 }
 
-/// Writes the manifest, or adds this start to it.
+/// Writes the manifest, or adds this start to it. Seeds that the configuration does not say are those of the cases.
 fn note_start<S: Study>(
-    study: &S,
+    cases: &[Case<S::Work>],
     configuration: &Configuration,
     directory: &StudyDirectory,
 ) -> Result<(), CommandError> {
@@ -87,7 +87,10 @@ fn note_start<S: Study>(
     } else {
         let mut seeds = configuration.seeds().to_vec();
         if seeds.is_empty() {
-            seeds = study.seeds();
+            let of_cases = cases.iter().filter_map(|case| case.row.count("seed"));
+            seeds.extend(of_cases.map(|seed| seed as u64));
+            seeds.sort_unstable();
+            seeds.dedup();
         }
         Manifest::new(S::KIND, configuration.hash(), seeds, threads)
     };

@@ -196,16 +196,6 @@ impl Paper {
         Ok(())
     }
 
-    /// All seeds, for the manifest.
-    pub fn all_seeds(&self) -> Vec<u64> {
-        let settings = self.sweeps.iter().chain([&self.base]);
-        let all = settings.filter_map(|settings| settings.seeds.as_ref());
-        let mut seeds: Vec<u64> = all.flatten().copied().collect();
-        seeds.sort_unstable();
-        seeds.dedup();
-        seeds
-    }
-
     /// In the target's own coordinates, where the energy distance to a Gaussian is exact.
     pub fn yardstick(&self) -> YardstickOptions {
         YardstickOptions {

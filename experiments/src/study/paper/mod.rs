@@ -29,10 +29,6 @@ impl Study for Paper {
          seed status reason failed_step message energy_level start_energy final_energy final_sliced final_mean final_deviation final_mass \
          best_step best_energy best_sliced evaluations active_nodes storage_bytes wall_seconds";
 
-    fn seeds(&self) -> Vec<u64> {
-        self.all_seeds()
-    }
-
     fn methods(&self) -> Vec<&MethodSpecification> {
         self.rivals.iter().collect()
     }
