@@ -77,14 +77,7 @@ impl Study for Accuracy {
             for &particles in &self.particles {
                 let within = |entry: &&Entry| entry.largest_particles.is_none_or(|most| particles <= most);
                 for Entry { method, .. } in self.methods.iter().filter(within) {
-                    let setting = Setting {
-                        dim,
-                        particles: particles.get(),
-                        series: method.label().to_owned(),
-                        method,
-                        spacing_factor: None,
-                    };
-                    cases.extend(setting.cases(&self.seeds)?);
+                    cases.extend(Setting::new(dim, particles, method).cases(&self.seeds)?);
                 }
             }
         }

@@ -54,17 +54,6 @@ impl TimeToLevel {
         unset(&format!("{field}.options.start-mean"), &options.start_mean, "start")?;
         unset(&format!("{field}.options.start-sd"), &options.start_sd, "start")
     }
-
-    /// The method that sets the clock, then its rivals.
-    fn all_methods(&self) -> impl Iterator<Item = &MethodSpecification> {
-        std::iter::once(&self.method).chain(&self.rivals)
-    }
-
-    /// The file of the runs of a method: 0 for the one that sets the clock, then its rivals.
-    fn trials_file(&self, dim: Dimension, index: usize, directory: &StudyDirectory) -> PathBuf {
-        let name = self.all_methods().nth(index).map_or("", |method| method.name.as_str());
-        directory.raw(&format!("d{dim}-{index}-{name}.csv"))
-    }
 }
 
 /// One method in one dimension.
@@ -74,6 +63,14 @@ pub struct Entry {
     /// 0 for the method that sets the clock, then its rivals.
     index: usize,
     method: MethodSpecification,
+}
+
+impl Entry {
+    /// The file of its runs.
+    fn trials_file(&self, directory: &StudyDirectory) -> PathBuf {
+        let Self { dim, index, method } = self;
+        directory.raw(&format!("d{dim}-{index}-{}.csv", method.name))
+    }
 }
 
 impl Study for TimeToLevel {
@@ -96,9 +93,10 @@ impl Study for TimeToLevel {
         for rival in &self.rivals {
             self.check_method("rivals", rival)?;
         }
+        let methods = || std::iter::once(&self.method).chain(&self.rivals);
         let mut cases = Vec::new();
         for &dim in &self.dims {
-            for (index, method) in self.all_methods().cloned().enumerate() {
+            for (index, method) in methods().cloned().enumerate() {
                 let (label, particles) = (method.label().to_owned(), self.particles);
                 let case = Case::new(format!("d{dim}-m{particles}-{label}"), Entry { dim, index, method });
                 // The budget of a rival is a multiple of the method's time.
@@ -111,23 +109,18 @@ impl Study for TimeToLevel {
     }
 
     fn run(&self, case: &Case<Entry>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
-        let Entry { dim, index, method } = &case.work;
-        let level = energy_level(dim.get(), self.particles.get())?;
-        let budget = match index {
-            0 => None,
-            _ => {
-                let clock = search::read(&self.trials_file(*dim, 0, tools.directory))?;
-                search::last(&clock)
-                    .median(SECONDS)
-                    .map(|seconds| self.largest_ratio * seconds)
-            }
-        };
-        let (ending, trials) = search::search(self, *dim, method, (level, budget), tools.observer)?;
-        row_file::write(
-            &self.trials_file(*dim, *index, tools.directory),
-            search::COLUMNS,
-            &trials,
-        )?;
+        let entry = &case.work;
+        let level = energy_level(entry.dim.get(), self.particles.get())?;
+        let mut budget = None;
+        if entry.index > 0 {
+            let mut clock = entry.clone();
+            (clock.index, clock.method) = (0, self.method.clone());
+            let trials = search::read(&clock.trials_file(tools.directory))?;
+            let seconds = search::last(&trials).median(SECONDS);
+            budget = seconds.map(|seconds| self.largest_ratio * seconds);
+        }
+        let (ending, trials) = search::search(self, entry.dim, &entry.method, (level, budget), tools.observer)?;
+        row_file::write(&entry.trials_file(tools.directory), search::COLUMNS, &trials)?;
         let last = search::last(&trials);
         row.set("ending", ending);
         row.set("energy_level", level);

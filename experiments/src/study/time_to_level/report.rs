@@ -1,7 +1,7 @@
 //! The report of the study `time-to-level`.
 
+use super::TimeToLevel;
 use super::search;
-use super::{Entry, TimeToLevel};
 use crate::study::prelude::*;
 
 /// Tables and figure.
@@ -122,10 +122,9 @@ fn plot(study: &TimeToLevel, rows: &Rows<'_>, directory: &StudyDirectory) -> Res
         let Some(row) = rows.with("case", case.id()).first() else {
             continue;
         };
-        let Entry { dim, index, method } = &case.work;
-        let title = format!("d = {dim}");
-        let trials = search::read(&study.trials_file(*dim, *index, directory))?;
-        let line = curve_of(method.label(), row, &trials.iter().collect());
+        let title = format!("d = {}", case.work.dim);
+        let trials = search::read(&case.work.trials_file(directory))?;
+        let line = curve_of(case.work.method.label(), row, &trials.iter().collect());
         match panels.last_mut().filter(|panel| panel.title == title) {
             Some(panel) => panel.series.push(line),
             None => panels.push(MultiplesPanel::new(title, [line]).with_level(1.0, "level of i.i.d. draws")),
