@@ -53,6 +53,15 @@ impl LineSeries {
             self.bars.push((summary.minimum, summary.maximum));
         }
     }
+
+    /// Adds the mean of the values, with a bar from the least to the largest; a value that is not finite interrupts the line.
+    pub fn push_mean(&mut self, x: f64, values: &[f64]) {
+        let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+        let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        self.x.push(x);
+        self.y.push(values.iter().sum::<f64>() / values.len() as f64);
+        self.bars.push((least, largest));
+    }
 }
 
 /// A theoretical curve for comparison.

@@ -72,3 +72,22 @@ pub fn completed(row: &Row) -> Row {
     };
     DERIVED.into_iter().fold(row.clone(), with)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_study_writes_itself_stays() {
+        let row = Row::of("a").with(ENERGY, 0.04).with("energy_level", 0.08);
+        let row = row
+            .with("score_evaluations", 3_usize)
+            .with("density_evaluations", 5_usize);
+        let completed = completed(&row.clone().with("evaluations", 1_usize));
+        assert_eq!(completed.number("energy_ratio"), Some(0.5));
+        assert_eq!(completed.number("energy_root"), Some(0.2));
+        assert_eq!(completed.number("evaluations"), Some(1.0));
+        assert_eq!(super::completed(&row).number("evaluations"), Some(8.0));
+        assert_eq!(completed.number("evidence_ratio"), None);
+    }
+}

@@ -181,3 +181,60 @@ impl<'a> Rows<'a> {
         line
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rows() -> Vec<Row> {
+        let row = |case: &str, method: &str, size: usize, error: Option<f64>| {
+            let row = Row::of(case).with("method", method).with("size", size);
+            row.with("error", error)
+        };
+        vec![
+            row("a", "mpm", 64, Some(0.5)),
+            row("b", "iid", 16, Some(2.0)),
+            row("c", "mpm", 16, Some(1.0)),
+            row("d", "mpm", 16, None),
+            row("e", "mpm", 16, Some(4.0)),
+        ]
+    }
+
+    #[test]
+    fn rows_are_told_apart_in_the_order_in_which_they_come() {
+        let rows = rows();
+        let rows: Rows<'_> = rows.iter().collect();
+        assert_eq!(rows.words("method"), ["mpm", "iid"]);
+        let sizes: Vec<usize> = rows.by("size").iter().map(|(_, here)| here.len()).collect();
+        assert_eq!(sizes, [1, 4]);
+        assert_eq!(rows.with("method", "mpm").with("size", 16_usize).len(), 3);
+        assert_eq!(rows.places("size"), [16.0, 64.0]);
+    }
+
+    #[test]
+    fn statistics_have_names() {
+        let rows = rows();
+        let here = rows.iter().collect::<Rows<'_>>().with("method", "mpm");
+        assert_eq!(here.cells("rows | median error | least error"), ["4", "1.00", "0.500"]);
+        assert_eq!(
+            here.cells("largest error | worst error | first size"),
+            ["4.00", "`e`", "64"]
+        );
+        assert_eq!(here.cells("median of all error | quantile 1 error"), ["2.50", "4.00"]);
+        assert_eq!(here.with("case", "d").cells("median of all error"), ["∞"]);
+        assert_eq!(
+            Rows::default().cells("median error | median of all error | mode error"),
+            [MISSING; 3]
+        );
+    }
+
+    #[test]
+    fn lines_go_through_medians_or_through_every_row() {
+        let rows = rows();
+        let here = rows.iter().collect::<Rows<'_>>().with("method", "mpm");
+        let curve = here.curve("mpm", "size", "error");
+        assert_eq!((curve.x, curve.y), (vec![16.0, 64.0], vec![2.5, 0.5]));
+        assert_eq!(curve.bars, [(1.0, 4.0), (0.5, 0.5)]);
+        assert_eq!(here.line("mpm", "size", "error").x, [64.0, 16.0, 16.0]);
+    }
+}

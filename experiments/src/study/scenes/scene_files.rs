@@ -91,7 +91,7 @@ impl SceneFiles {
         let table = self.tables.get(name).cloned().unwrap_or_default();
         let table = changed(table, family.chain(own), &case.combination.drop);
         let own = prepared(table.map_err(|message| case.refuse(message))?, name, case)?;
-        let keys = case.family.x_keys();
+        let keys = &case.family.x;
         let x = keys.iter().find_map(|key| keys::number(&own.table, key));
         let x = x.filter(|x| x.is_finite()).ok_or_else(|| {
             case.family
