@@ -19,6 +19,7 @@ mod heat_map;
 mod histogram;
 pub mod judgement;
 mod legend;
+mod line_series;
 mod multiples;
 pub mod page;
 mod panel;
@@ -44,7 +45,8 @@ pub use data::{Curve, DensityPlot, PairDensity, PlotError, PointCloud, Reference
 pub use dots::{DotPlot, DotRow, DotSeries, dots};
 pub use heat_map::{HeatMapPlot, HeatPanel, cell_of, heat_map, logarithmic_edges};
 pub use histogram::histogram;
-pub use multiples::{GuideCurve, LineSeries, MultiplesPanel, MultiplesPlot, multiples};
+pub use line_series::{GuideCurve, LineSeries};
+pub use multiples::{MultiplesPanel, MultiplesPlot, multiples};
 pub use scale::AxisKind;
 pub use scaling::{ScalingPlot, exponent_text, scaling, scaling_fit};
 pub use series::ReferenceLevel;

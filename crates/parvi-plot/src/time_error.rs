@@ -4,7 +4,8 @@ use crate::results::Rows;
 use crate::statistics::summarize;
 
 use super::data::{PlotError, check_size};
-use super::multiples::{LineSeries, MultiplesPanel, MultiplesPlot, draw};
+use super::line_series::LineSeries;
+use super::multiples::{MultiplesPanel, MultiplesPlot, draw};
 use super::scale::AxisKind;
 use super::series::ReferenceLevel;
 

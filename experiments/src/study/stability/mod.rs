@@ -9,6 +9,7 @@ mod report;
 mod trial;
 
 use draw::{Configuration, draw};
+use parvi_targets::{Dimensions, target_info};
 
 use super::prelude::*;
 use crate::dispatch::on_target;
@@ -37,6 +38,9 @@ impl Stability {
         };
         let mut places = Vec::new();
         for name in names {
+            if target_info(name).is_ok_and(|info| info.dimensions == Dimensions::FromData) {
+                return Err(refusal("targets", format!("`{name}` needs a data file")));
+            }
             places.push(in_dimensions(&TargetSpecification::plain(name, None), &self.dims)?);
         }
         places.retain(|place| !place.is_empty());
