@@ -42,6 +42,7 @@ impl Bar {
     }
 
     /// What it says, where it is seen.
+    #[cfg(any(feature = "mechanics", feature = "rom"))]
     pub fn say(&self, message: impl FnOnce() -> String) {
         if !self.bar.is_hidden() {
             self.bar.set_message(message());
@@ -49,6 +50,7 @@ impl Bar {
     }
 
     /// Begins anew with another layout.
+    #[cfg(feature = "rom")]
     pub fn restyle(&mut self, template: &str) {
         self.bar.set_style(style(template));
         self.begun = false;
