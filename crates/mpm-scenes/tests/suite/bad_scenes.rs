@@ -129,7 +129,11 @@ fn errors_name_the_file_the_field_and_the_value() {
             "lower = [0.5, 1.5], upper = [0.8, 1.7]",
             &["loads[0].region", "particles in it"],
         ),
-        ("friction_speed = 0.01", "", &["barrier.friction_speed"]),
+        (
+            "friction_speed = 0.01",
+            "friction_speed = -0.01",
+            &["barrier.friction_speed"],
+        ),
         ("gap = 0.02", "gap = 0.0", &["barrier.gap = 0.0"]),
         (
             "series_interval = 0.01",
