@@ -93,8 +93,12 @@ impl SceneFiles {
         let own = case.combination.set.iter().map(|(key, value)| (key, value));
         let table = self.tables.get(name).cloned().unwrap_or_default();
         let table = changed(table, family.chain(own), &case.combination.drop);
-        let own = prepared(table.map_err(|message| case.refuse(message))?, &self.directory.join(name), case)?;
-        let keys = case.family.x_keys();
+        let own = prepared(
+            table.map_err(|message| case.refuse(message))?,
+            &self.directory.join(name),
+            case,
+        )?;
+        let keys = &case.family.x;
         let x = keys.iter().find_map(|key| keys::number(&own.table, key));
         let x = x.filter(|x| x.is_finite()).ok_or_else(|| {
             case.family
