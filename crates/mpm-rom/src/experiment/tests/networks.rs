@@ -72,11 +72,7 @@ fn of_several_starts_the_one_with_the_best_training_runs_is_kept() {
     impl Watch for StopTrial {
         fn after_trial(&mut self) -> ControlFlow<()> {
             self.0 -= 1;
-            if self.0 == 0 {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
+            break_if(self.0 == 0)
         }
     }
     let stopped = directory.path().join("stopped");
