@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use mpm_scenes::Scene;
-use mpm_scenes::reference::REFERENCES;
+use mpm_scenes::reference::references;
 
 /// The committed scenes with their references.
 fn with_references() -> Vec<(Scene, String)> {
@@ -31,7 +31,7 @@ fn a_reference_is_for_scenes_of_its_own_problem() {
     let scenes = with_references();
     assert_eq!(scenes.len(), 20);
     for (scene, own) in &scenes {
-        for other in REFERENCES.iter().filter(|other| kind(other) != kind(own)) {
+        for other in references().iter().filter(|other| kind(other) != kind(own)) {
             // Momenta are kept in every plane scene that nothing pulls.
             if kind(other) == "conservation" {
                 continue;
