@@ -166,6 +166,24 @@ pub trait Basis<const D: usize>: Sync {
         sum
     }
 
+    /// Add w_ip times either scalar to the sums of the nodes of the stencil, which count as in [`for_each_node`](Self::for_each_node).
+    #[inline(always)]
+    fn deposit_scalars(&self, particle: usize, x: &[f64; D], scalars: [f64; 2], sums: [&mut [f64]; 2]) {
+        let ([first, second], [sums, others]) = (scalars, sums);
+        self.for_each_node(particle, x, |index, entry| {
+            sums[index] += entry.weight * first;
+            others[index] += entry.weight * second;
+        });
+    }
+
+    /// Σ_i w_ip s_i; `nodes` has s_i at i, i counting as in [`for_each_node`](Self::for_each_node).
+    #[inline(always)]
+    fn interpolate_scalar(&self, particle: usize, x: &[f64; D], nodes: &[f64]) -> f64 {
+        let mut sum = 0.0;
+        self.for_each_node(particle, x, |index, entry| sum += entry.weight * nodes[index]);
+        sum
+    }
+
     /// w_ip D_p⁻¹ (x_i − x_p), by which APIC sends the affine part of a particle's velocity to node i, with
     /// D_p = Σ_i w_ip (x_i − x_p)(x_i − x_p)ᵀ; equals ∇w_ip for piecewise linear bases (Jiang et al. 2015, §5.3).
     fn affine_direction(&self, particle: usize, x: &[f64; D], entry: &Entry<D>) -> [f64; D];

@@ -30,9 +30,14 @@ where
     pub(crate) fn deform_particles(&mut self, dt: f64) {
         self.grid_to_particles::<false, true>(dt, 1.0);
         if self.volume_averaging {
-            let nodes = &mut self.node_volumes;
-            average_volume_ratios(&self.basis, &self.medium, &mut self.particles, nodes);
+            self.average_volume_ratios();
         }
+    }
+
+    /// The second half of a deformation with averaged volumes, at the positions that the basis was activated with.
+    pub(crate) fn average_volume_ratios(&mut self) {
+        let nodes = &mut self.node_volumes;
+        average_volume_ratios(&self.basis, &self.medium, &mut self.particles, nodes);
     }
 
     /// G2P. With volume averaging the trial deformation gradient is left for [`average_volume_ratios`].

@@ -90,8 +90,11 @@ where
         match self.stress_update {
             StressUpdate::First => self.move_particles(dt, damping),
             StressUpdate::Last if self.volume_averaging => {
-                self.deform_particles(dt);
-                self.move_particles(dt, damping);
+                let start = self.particles.positions.clone();
+                self.move_and_deform_particles(dt, damping);
+                let moved = std::mem::replace(&mut self.particles.positions, start);
+                self.average_volume_ratios();
+                self.particles.positions = moved;
             }
             StressUpdate::Last => self.move_and_deform_particles(dt, damping),
             StressUpdate::ModifiedLast => {

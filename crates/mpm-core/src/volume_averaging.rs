@@ -1,7 +1,7 @@
 //! F̄: volume ratios averaged over the nodes, against volumetric locking.
 
-use crate::transfer::{Moving, NodeSums, Sum, gather};
-use crate::{Basis, Medium, Particles};
+use crate::transfer::{Moving, NodeSums, Sum, gather_cells};
+use crate::{Basis, Medium, NO_NODE, Particles};
 
 /// Reference and present volume around a node.
 #[derive(Clone, Copy, Debug, Default)]
@@ -33,41 +33,74 @@ pub(crate) fn average_volume_ratios<const D: usize, B: Basis<D>, M: Medium<D>>(
     node_volumes: &mut NodeSums<NodeVolume>,
 ) {
     let particles = &*moving;
-    node_volumes.scatter(basis, &particles.positions, move |p, x, stencil| {
-        let reference = particles.reference_volumes[p];
-        let ratio = medium.volume_ratio(&particles.deformation_gradients[p], &particles.states[p]);
-        let present = reference * ratio;
-        basis.for_each_node(p, x, |index, entry| {
-            let node = stencil.node(index);
-            node.reference += entry.weight * reference;
-            node.present += entry.weight * present;
+    node_volumes.scatter_cells(basis, move |cell, stencil, volumes: &mut [Vec<f64>; 2]| {
+        for volumes in volumes.iter_mut() {
+            volumes.clear();
+            volumes.resize(stencil.len(), 0.0);
+        }
+        for p in cell {
+            let reference = particles.reference_volumes[p];
+            let ratio = medium.volume_ratio(&particles.deformation_gradients[p], &particles.states[p]);
+            let sums = volumes.each_mut().map(Vec::as_mut_slice);
+            basis.deposit_scalars(p, &particles.positions[p], [reference, reference * ratio], sums);
+        }
+        let [reference, present] = &*volumes;
+        stencil.for_each_with(reference.iter().zip(present), |node, (reference, present)| {
+            node.reference += reference;
+            node.present += present;
         });
     });
     let nodes = node_volumes.as_slice();
-    gather(
+    gather_cells(
         basis,
         Moving::of(moving),
-        move |data: &mut Moving<D, M::State>, k, p, cell_nodes| {
-            let own = medium.volume_ratio(&data.deformation_gradients[k], &data.states[k]);
-            let mut average = 0.0;
-            basis.for_each_node(p, &data.positions[k], |index, entry| {
-                let node = &nodes[cell_nodes[index] as usize];
-                // Negative weights may leave a node no volume; then there is nothing to average.
-                let ratio = if node.reference > 0.0 {
-                    node.present / node.reference
+        move |data: &mut Moving<D, M::State>, cell, numbers, first, ratios: &mut Ratios| {
+            ratios.collect(numbers, nodes);
+            for p in cell {
+                let k = p - first;
+                let (deformation, state) = (&mut data.deformation_gradients[k], &mut data.states[k]);
+                let own = medium.volume_ratio(deformation, state);
+                let average = basis.interpolate_scalar(p, &data.positions[k], ratios.seen_by(own));
+                let ratio = average / own;
+                let trial = if ratio > 0.0 && ratio < f64::INFINITY {
+                    *deformation * ratio.powf(1.0 / D as f64)
                 } else {
-                    own
+                    *deformation
                 };
-                average += entry.weight * ratio;
-            });
-            let deformation = &mut data.deformation_gradients[k];
-            let ratio = average / own;
-            let trial = if ratio > 0.0 && ratio < f64::INFINITY {
-                *deformation * ratio.powf(1.0 / D as f64)
-            } else {
-                *deformation
-            };
-            *deformation = medium.advance(&trial, &mut data.states[k]);
+                *deformation = medium.advance(&trial, state);
+            }
         },
     );
+}
+
+/// Volume ratios at the nodes of a cell, by place.
+#[derive(Default)]
+struct Ratios {
+    values: Vec<f64>,
+    /// Places of the nodes that negative weights have left no volume: there is nothing to average.
+    unknown: Vec<usize>,
+}
+
+impl Ratios {
+    #[inline(always)]
+    fn collect(&mut self, numbers: &[u32], nodes: &[NodeVolume]) {
+        self.values.clear();
+        self.unknown.clear();
+        for (place, &number) in numbers.iter().enumerate() {
+            let node = if number == NO_NODE { NodeVolume::default() } else { nodes[number as usize] };
+            if node.reference <= 0.0 {
+                self.unknown.push(place);
+            }
+            self.values.push(node.present / node.reference);
+        }
+    }
+
+    /// With a particle's own ratio where there is no other.
+    #[inline(always)]
+    fn seen_by(&mut self, own: f64) -> &[f64] {
+        for &place in &self.unknown {
+            self.values[place] = own;
+        }
+        &self.values
+    }
 }

@@ -213,7 +213,10 @@ impl<const D: usize> Law<D> for SofteningHencky {
     /// det F e^((3 − D) ε_z) for D < 3: plastic flow keeps it.
     #[inline]
     fn volume_ratio(&self, F: &Matrix<D>, state: &SofteningState) -> f64 {
-        F.determinant() * (axes_left_out(D) as f64 * state.out_of_plane_strain).exp()
+        match axes_left_out(D) {
+            0 => F.determinant(),
+            left_out => F.determinant() * (left_out as f64 * state.out_of_plane_strain).exp(),
+        }
     }
 }
 

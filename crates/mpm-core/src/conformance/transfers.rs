@@ -93,6 +93,20 @@ pub fn transfers_are_sums<const D: usize, B: Basis<D>>(
     basis.deposit(particle, x, &value, &(), &(0.7 * h), &mut nodes);
     close(&nodes.0, &pressed);
 
+    let (mut first, mut second) = (vec![1.0; field.len()], vec![0.0; field.len()]);
+    basis.deposit_scalars(particle, x, [0.7, -2.0], [&mut first, &mut second]);
+    let mut expected = vec![[1.0, 0.0]; field.len()];
+    basis.for_each_node(particle, x, |i, entry| {
+        expected[i] = [1.0 + 0.7 * entry.weight, -2.0 * entry.weight];
+    });
+    for ((first, second), expected) in first.iter().zip(&second).zip(&expected) {
+        let error = (first - expected[0]).abs().max((second - expected[1]).abs());
+        assert!(error < 1e-14, "{what}: scalars {first}, {second} for {expected:?}");
+    }
+    let scalars: Vec<f64> = field.iter().map(|node| node.vector[0]).collect();
+    let seen = basis.interpolate_scalar(particle, x, &scalars);
+    assert!((seen - mean[0]).abs() < 1e-12, "{what}: scalar");
+
     let field = Nodes(field);
     for bits in 0..8 {
         let wanted = Wanted {

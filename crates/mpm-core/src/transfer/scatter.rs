@@ -106,7 +106,7 @@ impl<N: Sum> NodeSums<N> {
     }
 
     /// Start from zero and call `add(particles, stencil, memory)` for every cell.
-    fn scatter_cells<const D: usize, B: Basis<D>, S: Default>(
+    pub(crate) fn scatter_cells<const D: usize, B: Basis<D>, S: Default>(
         &mut self,
         basis: &B,
         add: impl Fn(Range<usize>, &mut StencilNodes<N>, &mut S) + Sync + Copy,
@@ -191,9 +191,15 @@ impl<N> StencilNodes<'_, N> {
         &mut self.nodes[self.numbers[index] as usize - self.first]
     }
 
+    /// Places of the stencil.
+    #[inline(always)]
+    pub(crate) fn len(&self) -> usize {
+        self.numbers.len()
+    }
+
     /// Every node that a particle of the cell touches, with what `others` has for its place.
     #[inline(always)]
-    pub(super) fn for_each_with<T>(&mut self, others: impl Iterator<Item = T>, mut visit: impl FnMut(&mut N, T)) {
+    pub(crate) fn for_each_with<T>(&mut self, others: impl Iterator<Item = T>, mut visit: impl FnMut(&mut N, T)) {
         for (&number, other) in self.numbers.iter().zip(others) {
             if number != NO_NODE {
                 visit(&mut self.nodes[number as usize - self.first], other);

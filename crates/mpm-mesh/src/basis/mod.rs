@@ -8,11 +8,14 @@ mod stencils;
 mod transfers;
 mod weights;
 
+use std::sync::OnceLock;
+
 use mpm_core::{Basis, CellSort, MpmError, Schedule};
 use mpm_kernels::{Columns, Deposit, Entry, Interpolated, Lanes, NodeField, NodeSink, Wanted};
 use mpm_tensor::vector::{distance, subtract};
 
 use self::curve::AlongCurve;
+use self::node_at::VertexBoxes;
 use self::stencils::Stencils;
 pub use self::weights::WeightAt;
 use crate::kernel::Fit;
@@ -82,6 +85,8 @@ pub struct MeshBasis<const D: usize> {
     cell_sort: CellSort,
     /// Whether a vertex is active.
     marks: Vec<u8>,
+    /// Made when a node is first asked for by its position.
+    vertex_boxes: OnceLock<VertexBoxes<D>>,
 }
 
 /// What is kept of a particle from the activation on.
@@ -123,6 +128,7 @@ impl<const D: usize> MeshBasis<D> {
             schedule: Schedule::default(),
             cell_sort: CellSort::default(),
             marks: Vec::new(),
+            vertex_boxes: OnceLock::new(),
         })
     }
 
@@ -291,6 +297,16 @@ impl<const D: usize> Basis<D> for MeshBasis<D> {
     }
 
     #[inline(always)]
+    fn deposit_scalars(&self, particle: usize, x: &[f64; D], scalars: [f64; 2], sums: [&mut [f64]; 2]) {
+        self.deposit_scalars_in_lanes(particle, x, scalars, sums);
+    }
+
+    #[inline(always)]
+    fn interpolate_scalar(&self, particle: usize, x: &[f64; D], nodes: &[f64]) -> f64 {
+        self.interpolate_scalar_in_lanes(particle, x, nodes)
+    }
+
+    #[inline(always)]
     fn affine_direction(&self, particle: usize, _: &[f64; D], entry: &Entry<D>) -> [f64; D] {
         self.particles[particle].fit.direction(entry)
     }
@@ -314,5 +330,6 @@ impl<const D: usize> Basis<D> for MeshBasis<D> {
             + self.samples.capacity() * size_of::<Lanes>()
             + (self.cell_node_starts.capacity() + self.widths.capacity()) * 8
             + self.marks.capacity()
+            + self.vertex_boxes.get().map_or(0, VertexBoxes::storage_bytes)
     }
 }

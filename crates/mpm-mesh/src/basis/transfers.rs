@@ -150,6 +150,52 @@ impl<const D: usize> MeshBasis<D> {
     }
 }
 
+impl<const D: usize> MeshBasis<D> {
+    /// Visit the weights of four nodes at a time, in order.
+    #[inline(always)]
+    fn for_each_weight_group(&self, particle: usize, x: &[f64; D], mut visit: impl FnMut(Lanes)) {
+        let fit = &self.particles[particle].fit;
+        let (level, slope) = (Lanes::splat(fit.level), fit.slope.map(Lanes::splat));
+        self.for_each_group(particle, x, |_, sample, r| {
+            let mut weight = level;
+            for a in 0..D {
+                weight = slope[a].mul_add(r[a], weight);
+            }
+            visit(weight * sample);
+        });
+    }
+
+    #[inline(always)]
+    pub(super) fn deposit_scalars_in_lanes(
+        &self,
+        particle: usize,
+        x: &[f64; D],
+        scalars: [f64; 2],
+        sums: [&mut [f64]; 2],
+    ) {
+        let scalars = scalars.map(Lanes::splat);
+        let [mut first, mut second] = sums.map(|sums| sums.as_chunks_mut().0.iter_mut());
+        self.for_each_weight_group(particle, x, |weight| {
+            for (sums, scalar) in [&mut first, &mut second].into_iter().zip(scalars) {
+                if let Some(sums) = sums.next() {
+                    *sums = weight.mul_add(scalar, Lanes::new(*sums)).to_array();
+                }
+            }
+        });
+    }
+
+    #[inline(always)]
+    pub(super) fn interpolate_scalar_in_lanes(&self, particle: usize, x: &[f64; D], nodes: &[f64]) -> f64 {
+        let (mut sum, mut nodes) = (Lanes::ZERO, nodes.as_chunks().0.iter());
+        self.for_each_weight_group(particle, x, |weight| {
+            if let Some(&nodes) = nodes.next() {
+                sum = weight.mul_add(Lanes::new(nodes), sum);
+            }
+        });
+        sum.reduce_add()
+    }
+}
+
 /// The components of a vector, each in all lanes.
 #[inline(always)]
 fn splats<const D: usize>(pack: &Pack) -> [Lanes; D] {

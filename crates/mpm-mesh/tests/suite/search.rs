@@ -44,7 +44,7 @@ fn agrees_with_brute_force_on_a_graded_mesh_with_a_hole() {
 }
 
 #[test]
-fn points_on_facets_and_vertices_belong_to_the_lowest_cell_from_wherever_they_are_looked_for() {
+fn points_on_facets_edges_and_vertices_belong_to_the_lowest_cell_from_wherever_they_are_looked_for() {
     fn check<const D: usize>(mesh: SimplexMesh<D>) {
         let search = CellSearch::new(mesh);
         let mesh = search.mesh();
@@ -52,7 +52,8 @@ fn points_on_facets_and_vertices_belong_to_the_lowest_cell_from_wherever_they_ar
         for cell in 0..mesh.cell_count() {
             let corner = |n: usize| mesh.vertices()[mesh.cell(cell)[n] as usize];
             let middle = std::array::from_fn(|a| (1..=D).map(|n| corner(n)[a]).sum::<f64>() / D as f64);
-            for x in [corner(0), middle] {
+            let edge = std::array::from_fn(|a| 0.5 * (corner(0)[a] + corner(1)[a]));
+            for x in [corner(0), middle, edge] {
                 let holds = |&other: &usize| mesh.frame(other).least_coordinate(&x) > -1e-12;
                 let lowest = (0..mesh.cell_count()).find(holds).map(|cell| cell as u32);
                 for _ in 0..8 {

@@ -75,9 +75,11 @@ impl<const D: usize> Barrier<D> {
     pub fn traction(&self, x: &[f64; D], velocity: &[f64; D]) -> [f64; D] {
         let mut sum = [0.0; D];
         for shape in &self.shapes {
-            let pressure = self.pressure(shape.distance(x));
+            let Some((g, normal)) = shape.closer_than(x, self.gap) else {
+                continue;
+            };
+            let pressure = self.pressure(g);
             if pressure > 0.0 {
-                let normal = shape.normal(x);
                 vector::accumulate(&mut sum, pressure, &normal);
                 let sliding = vector::add_scaled(velocity, -vector::dot(velocity, &normal), &normal);
                 let speed = vector::norm(&sliding);
@@ -103,14 +105,14 @@ impl<const D: usize> Barrier<D> {
     pub fn longest_step(&self, x: &[f64; D], velocity: &[f64; D], mass: f64, area: f64) -> Result<f64, f64> {
         let mut longest = f64::INFINITY;
         for shape in &self.shapes {
-            let g = shape.distance(x);
+            let Some((g, normal)) = shape.closer_than(x, self.gap + self.reach) else {
+                continue;
+            };
             if g.is_nan() || g <= 0.0 {
                 return Err(g);
             }
-            if g < self.gap + self.reach {
-                let approach = -vector::dot(velocity, &shape.normal(x));
-                longest = longest.min(self.step_from(g, approach, mass, area));
-            }
+            let approach = -vector::dot(velocity, &normal);
+            longest = longest.min(self.step_from(g, approach, mass, area));
         }
         Ok(longest)
     }

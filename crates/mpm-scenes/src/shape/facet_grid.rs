@@ -1,6 +1,6 @@
 //! Facets of a mesh's boundary by the boxes of a grid.
 
-use mpm_mesh::CellSearch;
+use mpm_mesh::{CellSearch, NO_CELL};
 
 use super::Bounds;
 
@@ -15,16 +15,16 @@ pub(super) struct FacetGrid<const D: usize> {
     /// Where the facets of a box begin in the list.
     starts: Vec<u32>,
     facets: Vec<u32>,
-    /// Of boxes without facets.
-    inside: Vec<bool>,
+    /// The cell of the mesh that the middle of a box is in.
+    cells: Vec<u32>,
 }
 
 /// What the grid knows of a point.
 pub(super) enum Near<'a> {
     /// No facet is within reach.
     None { inside: bool },
-    /// These may be.
-    Facets(&'a [u32]),
+    /// These may be; and a cell not far away, or none.
+    Facets(&'a [u32], u32),
 }
 
 impl<const D: usize> FacetGrid<D> {
@@ -40,19 +40,19 @@ impl<const D: usize> FacetGrid<D> {
             counts: extents.map(|extent| (extent / edge) as usize + 1),
             starts: Vec::new(),
             facets: Vec::new(),
-            inside: Vec::new(),
+            cells: Vec::new(),
         };
         let mut lists: Vec<Vec<u32>> = vec![Vec::new(); grid.counts.iter().product()];
         for (number, corners) in facets.iter().enumerate() {
             let (low, high) = bounds(corners, reach);
             grid.for_each_in(&low, &high, |place, _| lists[place].push(number as u32));
         }
-        let mut inside = vec![false; lists.len()];
+        let mut cells = vec![NO_CELL; lists.len()];
         grid.for_each_in(&low, &high, |number, place| {
             let middle = std::array::from_fn(|a| low[a] + (place[a] as f64 + 0.5) * edge);
-            inside[number] = lists[number].is_empty() && search.locate(&middle, None).is_some();
+            cells[number] = search.locate(&middle, None).map_or(NO_CELL, |located| located.cell);
         });
-        grid.inside = inside;
+        grid.cells = cells;
         grid.starts.push(0);
         for list in lists {
             grid.facets.extend(list);
@@ -73,9 +73,9 @@ impl<const D: usize> FacetGrid<D> {
         }
         match &self.facets[self.starts[number] as usize..self.starts[number + 1] as usize] {
             [] => Near::None {
-                inside: self.inside[number],
+                inside: self.cells[number] != NO_CELL,
             },
-            facets => Near::Facets(facets),
+            facets => Near::Facets(facets, self.cells[number]),
         }
     }
 

@@ -28,8 +28,13 @@ struct Facet<const D: usize> {
     inward: [f64; D],
 }
 
-/// The nearest point of the boundary, its facet and its distance.
-type Nearest<'a, const D: usize> = (f64, [f64; D], &'a Facet<D>);
+/// The nearest point of the boundary, its facet and its distance, and whether it is seen from inside.
+struct Nearest<'a, const D: usize> {
+    distance: f64,
+    point: [f64; D],
+    facet: &'a Facet<D>,
+    inside: bool,
+}
 
 impl<const D: usize> MeshOutside<D> {
     /// Of a mesh; distances are exact up to `reach`.
@@ -54,9 +59,9 @@ impl<const D: usize> MeshOutside<D> {
 
     /// The nearest point of the boundary, if there is one within reach, or whether x is inside.
     fn nearest(&self, x: &[f64; D]) -> Result<Nearest<'_, D>, bool> {
-        let near = match self.grid.near(x) {
+        let (near, cell) = match self.grid.near(x) {
             Near::None { inside } => return Err(inside),
-            Near::Facets(near) => near.iter(),
+            Near::Facets(near, cell) => (near.iter(), cell),
         };
         let (mut nearest, mut least) = (None, self.reach);
         for facet in near.map(|&number| &self.facets[number as usize]) {
@@ -64,20 +69,50 @@ impl<const D: usize> MeshOutside<D> {
                 let point = facet.nearest_point(x);
                 let distance = distance(x, &point);
                 if distance < least {
-                    (nearest, least) = (Some((distance, point, facet)), distance);
+                    (nearest, least) = (Some((point, facet)), distance);
                 }
             }
         }
-        nearest.ok_or_else(|| self.search.locate(x, None).is_some())
+        let is_in_a_cell = || self.search.locate(x, Some(cell)).is_some();
+        let Some((point, facet)) = nearest else {
+            return Err(is_in_a_cell());
+        };
+        // Right above or below its nearest facet that facet tells, else the search for its cell.
+        let height = dot(&subtract(x, &point), &facet.inward);
+        let inside = if height.abs() > (1.0 - 1e-9) * least {
+            height > 0.0
+        } else {
+            is_in_a_cell()
+        };
+        Ok(Nearest {
+            distance: least,
+            point,
+            facet,
+            inside,
+        })
     }
 
-    /// Whether x is inside: right above or below its nearest facet that facet tells, else the search for its cell.
-    fn is_inside(&self, x: &[f64; D], (distance, point, facet): &Nearest<'_, D>) -> bool {
-        let height = dot(&subtract(x, point), &facet.inward);
-        if height.abs() > (1.0 - 1e-9) * distance {
-            return height > 0.0;
+    /// [`Shape::distance`] of what has been found.
+    fn signed(&self, nearest: &Result<Nearest<'_, D>, bool>) -> f64 {
+        match nearest {
+            Ok(Nearest { distance, inside: true, .. }) => *distance,
+            Ok(Nearest { distance, .. }) => -distance,
+            Err(true) => self.reach,
+            Err(false) => -self.reach,
         }
-        self.search.locate(x, None).is_some()
+    }
+}
+
+impl<const D: usize> Nearest<'_, D> {
+    /// [`Shape::normal`] at x.
+    fn normal(&self, x: &[f64; D]) -> [f64; D] {
+        if self.distance == 0.0 {
+            self.facet.inward
+        } else if self.inside {
+            unit(subtract(x, &self.point))
+        } else {
+            unit(subtract(&self.point, x))
+        }
     }
 }
 
@@ -134,11 +169,14 @@ fn nearest_on_triangle<const D: usize>(x: &[f64; D], a: &[f64; D], b: &[f64; D],
 
 impl<const D: usize> Shape<D> for MeshOutside<D> {
     fn distance(&self, x: &[f64; D]) -> f64 {
-        let (distance, inside) = match self.nearest(x) {
-            Ok(nearest) => (nearest.0, self.is_inside(x, &nearest)),
-            Err(inside) => (self.reach, inside),
-        };
-        if inside { distance } else { -distance }
+        self.signed(&self.nearest(x))
+    }
+
+    fn closer_than(&self, x: &[f64; D], limit: f64) -> Option<(f64, [f64; D])> {
+        let nearest = self.nearest(x);
+        let distance = self.signed(&nearest);
+        let is_far = distance >= limit;
+        (!is_far).then(|| (distance, nearest.map_or([0.0; D], |nearest| nearest.normal(x))))
     }
 
     fn bounds(&self) -> Bounds<D> {
@@ -147,12 +185,7 @@ impl<const D: usize> Shape<D> for MeshOutside<D> {
 
     /// From the nearest point of the boundary to x inside the mesh, the other way outside, into the mesh on the boundary itself; zero beyond reach.
     fn normal(&self, x: &[f64; D]) -> [f64; D] {
-        match self.nearest(x) {
-            Err(_) => [0.0; D],
-            Ok((0.0, _, facet)) => facet.inward,
-            Ok(nearest) if self.is_inside(x, &nearest) => unit(subtract(x, &nearest.1)),
-            Ok(nearest) => unit(subtract(&nearest.1, x)),
-        }
+        self.nearest(x).map_or([0.0; D], |nearest| nearest.normal(x))
     }
 }
 

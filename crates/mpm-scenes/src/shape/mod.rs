@@ -49,6 +49,13 @@ pub trait Shape<const D: usize>: std::fmt::Debug + Send + Sync {
             self.distance(&above) - self.distance(&below)
         }))
     }
+
+    /// Distance and normal where the distance is less than a limit, or is no number.
+    fn closer_than(&self, x: &[f64; D], limit: f64) -> Option<(f64, [f64; D])> {
+        let distance = self.distance(x);
+        let is_far = distance >= limit;
+        (!is_far).then(|| (distance, self.normal(x)))
+    }
 }
 
 /// v / |v|; zero for the zero vector.
