@@ -1,6 +1,6 @@
 //! External forces: per unit mass at the particles, or as a force at the nodes.
 
-use crate::MpmError;
+use crate::{Friction, MpmError};
 
 /// Where an external force acts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,6 +57,12 @@ pub trait BodyForce<const D: usize>: Sync {
         _forces: &mut [[f64; D]],
     ) -> Result<(), MpmError> {
         Ok(())
+    }
+
+    /// Friction where the force of the last [`at_particles`](Self::at_particles) presses particles on something; `None` where there is none. It acts on the nodes once all forces
+    /// have.
+    fn friction(&self) -> Option<Friction<'_, D>> {
+        None
     }
 }
 

@@ -9,6 +9,7 @@ mod control;
 mod counting_sort;
 mod diagnosis;
 mod error;
+mod friction;
 mod grid;
 mod grid_to_particles;
 mod key_map;
@@ -35,6 +36,7 @@ pub use boundary::{
 pub use cell_sort::CellSort;
 pub use control::{StepControl, StepReport};
 pub use error::MpmError;
+pub use friction::Friction;
 pub use grid::SplineGrid;
 pub use lattice::SimplexLattice;
 pub use medium::{Continuum, DeformsLast, Medium, StressImpulse};

@@ -2,6 +2,7 @@
 
 use mpm_tensor::Matrix;
 
+use crate::friction::NormalImpulse;
 use crate::volume_averaging::NodeVolume;
 use crate::{
     Basis, BodyForce, Boundary, Medium, NoBoundary, NodeSums, Particles, StressUpdate, Transfer, VelocityFilter,
@@ -39,6 +40,8 @@ pub struct Mpm<const D: usize, B, T: Transfer<D>, M: Medium<D>, F, C = NoBoundar
     pub(crate) node_forces: Vec<[f64; D]>,
     /// Volumes around the nodes; empty without volume averaging.
     pub(crate) node_volumes: NodeSums<NodeVolume>,
+    /// What presses on the nodes; empty without friction.
+    pub(crate) normal_impulses: NodeSums<NormalImpulse<D>>,
 }
 
 impl<const D: usize, B, T, M, F> Mpm<D, B, T, M, F>
@@ -73,6 +76,7 @@ where
             node_positions: Vec::new(),
             node_forces: Vec::new(),
             node_volumes: NodeSums::default(),
+            normal_impulses: NodeSums::default(),
         }
     }
 }
@@ -103,6 +107,7 @@ where
             node_positions: self.node_positions,
             node_forces: self.node_forces,
             node_volumes: self.node_volumes,
+            normal_impulses: self.normal_impulses,
         }
     }
 
@@ -113,6 +118,7 @@ where
             + self.basis.storage_bytes()
             + self.nodes.storage_bytes()
             + self.node_volumes.storage_bytes()
+            + self.normal_impulses.storage_bytes()
             + self.velocity_filter.as_ref().map_or(0, VelocityFilter::storage_bytes)
             + vectors * size_of::<[f64; D]>()
     }

@@ -1,6 +1,7 @@
 //! One step of the material point method, phase by phase.
 
 use crate::diagnosis::what_is_not_finite;
+use crate::friction::slow_nodes;
 use crate::transfer::{GridNode, Transfer, advance};
 use crate::{
     Basis, BodyForce, Boundary, ForceLocation, GridMotion, Medium, Mpm, MpmError, Particles, Sites, StepControl,
@@ -49,6 +50,7 @@ where
             &mut self.node_forces,
         )?;
         let speed = self.update_grid(dt, damping, control.speed_limit(h, dt))?;
+        self.slow_by_friction(dt);
         self.constrain_grid(dt, true);
         self.update_particles(dt, damping);
         self.time += dt;
@@ -139,6 +141,23 @@ where
             ));
         }
         Ok(square.sqrt())
+    }
+
+    /// Friction of the forces on the particles, at the nodes.
+    fn slow_by_friction(&mut self, dt: f64) {
+        if let Some(friction) = self.body_force.friction() {
+            let (particles, nodes) = (&self.particles, self.nodes.as_mut_slice());
+            let impulses = &mut self.normal_impulses;
+            slow_nodes(
+                &self.basis,
+                &particles.positions,
+                &particles.masses,
+                &friction,
+                dt,
+                impulses,
+                nodes,
+            );
+        }
     }
 
     /// Velocities of the nodes that walls and obstacles touch.

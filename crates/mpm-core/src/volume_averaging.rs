@@ -87,7 +87,11 @@ impl Ratios {
         self.values.clear();
         self.unknown.clear();
         for (place, &number) in numbers.iter().enumerate() {
-            let node = if number == NO_NODE { NodeVolume::default() } else { nodes[number as usize] };
+            let node = if number == NO_NODE {
+                NodeVolume::default()
+            } else {
+                nodes[number as usize]
+            };
             if node.reference <= 0.0 {
                 self.unknown.push(place);
             }

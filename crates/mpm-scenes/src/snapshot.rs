@@ -30,8 +30,8 @@ pub struct Snapshot {
     pub bodies: Vec<u32>,
     /// Numbers of the materials, in the order of their names.
     pub materials: Vec<u32>,
-    /// What the laws remember, by name, as in `plastic_strain`; zero for particles of other laws.
-    pub internal_variables: Vec<(String, Vec<f64>)>,
+    /// One number for every particle, by name: what the laws remember, as in `plastic_strain` (zero for particles of other laws), and with a barrier the normal `contact_force`.
+    pub scalars: Vec<(String, Vec<f64>)>,
 }
 
 impl Snapshot {

@@ -268,3 +268,59 @@ fn numbers_that_the_run_does_not_have() {
         assert_refused(&output, &["study.toml", parts[0], parts[1]]);
     }
 }
+
+/// From wherever the command is called, a scene's mesh is looked for beside the scene.
+#[test]
+fn meshes_of_scenes_are_found_from_anywhere() {
+    let study = r#"
+kind = "scenes"
+title = "Disk"
+
+[[families]]
+name = "disk"
+title = "Disk"
+scene = "scenes/disk.toml"
+x = "bodies.0.spacing"
+x-label = "spacing (m)"
+y-label = "kinetic energy (J)"
+read = { column = "kinetic_energy", take = "largest" }
+axes = [{ key = "bodies.0.spacing", values = [0.5] }]
+"#;
+    let scene = r#"
+title = "disk"
+dimension = 2
+
+[mesh]
+file = "../meshes/disk.msh"
+
+[transfer]
+kind = "apic"
+
+[time]
+end = 1e-4
+
+[materials.rubber]
+law = "neo-hookean"
+density = 1000.0
+young_modulus = 1e5
+poisson_ratio = 0.3
+
+[[bodies]]
+name = "ball"
+material = "rubber"
+shape = { kind = "sphere", centre = [0.0, 0.0], radius = 1.0 }
+spacing = 0.5
+velocity = [1.0, 0.0]
+
+[output]
+interval = 1e-4
+"#;
+    let root = root(study);
+    std::fs::create_dir(root.path().join("meshes")).unwrap();
+    std::fs::create_dir(root.path().join("elsewhere")).unwrap();
+    std::fs::write(root.path().join("scenes/disk.toml"), scene).unwrap();
+    let mesh = include_str!("../../meshes/disk.msh");
+    std::fs::write(root.path().join("meshes/disk.msh"), mesh).unwrap();
+    let output = succeeds(&root.path().join("elsewhere"), "run ../study.toml --out out");
+    assert_eq!(value(&output, "failed").as_deref(), Some("0"));
+}

@@ -37,7 +37,9 @@ impl<const D: usize> VertexBoxes<D> {
         let corner = |set: usize| std::array::from_fn(|a| if set >> a & 1 == 1 { high[a] } else { low[a] });
         // Sets of axes on which the cube reaches into a second box.
         let is_new = |set: &usize| (0..D).all(|a| set >> a & 1 == 0 || low[a] != high[a]);
-        let found = (0..1 << D).filter(is_new).filter_map(|set| self.vertices.get(&corner(set)));
+        let found = (0..1 << D)
+            .filter(is_new)
+            .filter_map(|set| self.vertices.get(&corner(set)));
         found.copied().find(|&vertex| is_there(vertex))
     }
 

@@ -92,7 +92,7 @@ pub(super) fn beside<const D: usize>(
         if let Some(files) = &mut files {
             let mut snapshot = reduced.snapshot(&finest.points);
             let errors = ("position_error".to_owned(), finest.distances(expected));
-            snapshot.internal_variables.push(errors);
+            snapshot.scalars.push(errors);
             files.write(&snapshot)?;
         }
     }

@@ -44,7 +44,7 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
             reference_volumes: vec![volume; count],
             bodies: vec![0; count],
             materials: vec![0; count],
-            internal_variables: Vec::new(),
+            scalars: Vec::new(),
         }
     }
 }

@@ -6,10 +6,9 @@ use crate::shape::Shape;
 /// and without bound towards g = 0.
 ///
 /// A particle has the contact area A_p = (V⁰_p)^{(D−1)/D} (1 for D = 1), so that a force per area does not depend on how finely a body is filled. The normal force is
-/// A_p p n with the pressure p = −b'(g) = k [2 (g − ĝ) ln(g/ĝ) + (g − ĝ)²/g]; friction is −μ A_p p f(|v_t| / ε) v_t / |v_t| with the tangential velocity v_t,
-/// f(y) = 2y − y² below y = 1 and 1 from there on.
+/// A_p p n with the pressure p = −b'(g) = k [2 (g − ĝ) ln(g/ĝ) + (g − ĝ)²/g]; friction is that of [`mpm_core::Friction`].
 ///
-/// Source: Li et al., *Incremental potential contact*, ACM Trans. Graph. 39 (2020), Eqs. 6 and 14; Li, Fang, Li & Jiang, *BFEMP*, Comput. Methods Appl.
+/// Source: Li et al., *Incremental potential contact*, ACM Trans. Graph. 39 (2020), Eq. 6; Li, Fang, Li & Jiang, *BFEMP*, Comput. Methods Appl.
 /// Mech. Engrg. 390 (2022) 114350.
 #[derive(Debug)]
 pub struct Barrier<const D: usize> {
@@ -21,7 +20,7 @@ pub struct Barrier<const D: usize> {
     pub gap: f64,
     /// μ ≥ 0.
     pub friction: f64,
-    /// ε > 0, the sliding speed from which friction is full.
+    /// ε ≥ 0, the sliding speed from which friction is full.
     pub friction_speed: f64,
     /// No particle goes farther than this in a step, whatever the barrier says.
     pub reach: f64,
@@ -71,23 +70,12 @@ impl<const D: usize> Barrier<D> {
         self.shapes.iter().map(|shape| self.energy(shape.distance(x))).sum()
     }
 
-    /// Force per area on a particle, friction included.
-    pub fn traction(&self, x: &[f64; D], velocity: &[f64; D]) -> [f64; D] {
+    /// Normal force per area on a particle.
+    pub fn traction(&self, x: &[f64; D]) -> [f64; D] {
         let mut sum = [0.0; D];
         for shape in &self.shapes {
-            let Some((g, normal)) = shape.closer_than(x, self.gap) else {
-                continue;
-            };
-            let pressure = self.pressure(g);
-            if pressure > 0.0 {
-                vector::accumulate(&mut sum, pressure, &normal);
-                let sliding = vector::add_scaled(velocity, -vector::dot(velocity, &normal), &normal);
-                let speed = vector::norm(&sliding);
-                if self.friction > 0.0 && speed > 0.0 {
-                    let y = (speed / self.friction_speed).min(1.0);
-                    let friction = self.friction * pressure * (2.0 * y - y * y);
-                    vector::accumulate(&mut sum, -friction / speed, &sliding);
-                }
+            if let Some((g, normal)) = shape.closer_than(x, self.gap) {
+                vector::accumulate(&mut sum, self.pressure(g), &normal);
             }
         }
         sum
@@ -96,9 +84,9 @@ impl<const D: usize> Barrier<D> {
     /// The longest time step for one particle of mass m and contact area A.
     ///
     /// A particle in the gap has the energy E = ½ m v_n² + A b(g) and comes as close as g_t, A b(g_t) = E. Its step is a quarter of √(m / (A b''(g_t))), the time of the
-    /// contact's spring there, and of m ε / (μ A p(g_t)), that of friction. E and so the step stay the same from touch to release: with the spring's time at the
+    /// contact's spring there. E and so the step stay the same from touch to release: with the spring's time at the
     /// present g the step would grow and shrink, and symplectic Euler hand the particle a tenth of its energy. A particle on its way may enter the gap by one
-    /// such step, and none goes more than half the way to the surface.
+    /// such step, and none goes more than half the way to the surface. Friction asks for nothing.
     ///
     /// # Errors
     /// The distance to a surface that the particle has reached.
@@ -123,9 +111,7 @@ impl<const D: usize> Barrier<D> {
             return f64::INFINITY;
         }
         let nearest = self.turning_point(0.5 * mass * approach * approach / area + self.energy(g));
-        let spring = (mass / (area * self.second_derivative(nearest))).sqrt();
-        let friction = mass * self.friction_speed / (self.friction * area * self.pressure(nearest));
-        let contact = 0.25 * spring.min(friction);
+        let contact = 0.25 * (mass / (area * self.second_derivative(nearest))).sqrt();
         let before = if g > self.gap { (g - self.gap) / approach } else { 0.0 };
         let half_way = if approach > 0.0 {
             0.5 * g / approach
@@ -159,7 +145,7 @@ mod tests {
     use super::*;
     use crate::shape::HalfSpace;
 
-    fn floor(friction: f64) -> Barrier<2> {
+    fn floor() -> Barrier<2> {
         Barrier {
             shapes: vec![Box::new(HalfSpace {
                 point: [0.0, 0.0],
@@ -167,15 +153,15 @@ mod tests {
             })],
             stiffness: 3.0,
             gap: 0.1,
-            friction,
-            friction_speed: 0.5,
+            friction: 0.0,
+            friction_speed: 0.0,
             reach: 10.0,
         }
     }
 
     #[test]
     fn pressure_and_stiffness_are_the_derivatives_of_the_energy() {
-        let barrier = floor(0.0);
+        let barrier = floor();
         for g in [1e-3, 0.01, 0.05, 0.0999] {
             let step = 1e-5 * g;
             let slope = (barrier.energy(g + step) - barrier.energy(g - step)) / (2.0 * step);
@@ -201,22 +187,17 @@ mod tests {
     }
 
     #[test]
-    fn friction_opposes_sliding_and_is_full_above_its_speed() {
-        let barrier = floor(0.4);
-        let x = [2.0, 0.03];
-        let pressure = barrier.pressure(0.03);
-        let [along, across] = barrier.traction(&x, &[0.5, -7.0]);
-        assert!((across - pressure).abs() < 1e-12 && (along + 0.4 * pressure).abs() < 1e-12);
-        let [along, _] = barrier.traction(&x, &[-0.25, 0.0]);
-        assert!((along - 0.75 * 0.4 * pressure).abs() < 1e-12);
-        assert_eq!(barrier.traction(&[0.0, 0.2], &[1.0, -1.0]), [0.0, 0.0]);
+    fn the_traction_is_the_pressure_along_the_normal() {
+        let barrier = floor();
+        assert_eq!(barrier.traction(&[2.0, 0.03]), [0.0, barrier.pressure(0.03)]);
+        assert_eq!(barrier.traction(&[0.0, 0.2]), [0.0, 0.0]);
     }
 
     /// One particle that falls on the floor, by symplectic Euler with the steps that the barrier allows, leaves as it came: E from a millionth to three
     /// times k A ĝ².
     #[test]
     fn a_bounce_keeps_the_energy() {
-        let (barrier, mass, area) = (floor(0.0), 2.0, 0.3);
+        let (barrier, mass, area) = (floor(), 2.0, 0.3);
         for share in [1e-6, 1e-3, 0.1, 1.0, 3.0] {
             let energy = share * barrier.stiffness * area * barrier.gap * barrier.gap;
             let speed = (2.0 * energy / mass).sqrt();
@@ -225,7 +206,7 @@ mod tests {
             while v[1] < 0.0 || x[1] < height {
                 let step = barrier.longest_step(&x, &v, mass, area).expect("outside");
                 let step = step.min(0.4 * height / speed);
-                v[1] += step * area / mass * barrier.traction(&x, &v)[1];
+                v[1] += step * area / mass * barrier.traction(&x)[1];
                 x[1] += step * v[1];
                 steps += 1;
                 assert!(steps < 1000);
@@ -240,7 +221,7 @@ mod tests {
 
     #[test]
     fn the_turning_point_has_the_energy() {
-        let barrier = floor(0.0);
+        let barrier = floor();
         for g in [1e-9, 1e-3, 0.05, 0.0999] {
             let found = barrier.turning_point(barrier.energy(g));
             assert!(found <= g * (1.0 + 1e-12) && found > g * (1.0 - 1e-6), "{g}: {found}");
@@ -249,7 +230,7 @@ mod tests {
 
     #[test]
     fn a_particle_at_the_surface_is_an_error_and_one_on_its_way_gets_half_the_way() {
-        let barrier = floor(0.0);
+        let barrier = floor();
         assert_eq!(barrier.longest_step(&[0.0, -0.5], &[0.0, 0.0], 1.0, 1.0), Err(-0.5));
         assert_eq!(barrier.longest_step(&[0.0, 2.0], &[0.0, -4.0], 1.0, 1.0), Ok(0.25));
         assert_eq!(

@@ -97,7 +97,7 @@ fn barrier<const D: usize>(table: &BarrierTable, background: &Background<D>) -> 
         stiffness: table.stiffness,
         gap: table.gap,
         friction: table.friction,
-        friction_speed: table.friction_speed.unwrap_or(f64::INFINITY),
+        friction_speed: table.friction_speed,
         reach: spacing,
     })
 }

@@ -1,4 +1,4 @@
-use mpm_core::{BodyForce, ForceLocation, MpmError, Particles, Sites};
+use mpm_core::{BodyForce, ForceLocation, Friction, MpmError, Particles, Sites};
 use mpm_tensor::vector;
 use rayon::prelude::*;
 
@@ -25,14 +25,16 @@ pub struct Loads<const D: usize> {
     pub masses: Vec<f64>,
     /// Contact areas A_p by the particle's number; empty without a barrier.
     pub areas: Vec<f64>,
+    /// The barrier's force per unit mass by the present order, of the last step; empty without a barrier.
+    pub contact: Vec<[f64; D]>,
 }
 
 /// Particles of one piece of work.
 const PIECE: usize = 1 << 10;
 
 impl<const D: usize> Loads<D> {
-    /// The acceleration of a particle.
-    fn acceleration(&self, identity: usize, x: &[f64; D], velocity: &[f64; D], time: f64) -> [f64; D] {
+    /// The acceleration of a particle, without the barrier.
+    fn acceleration(&self, identity: usize, time: f64) -> [f64; D] {
         let mut sum = self.gravity.unwrap_or([0.0; D]);
         if time < self.gravity_ramp {
             sum = vector::scale(&sum, time / self.gravity_ramp);
@@ -48,12 +50,15 @@ impl<const D: usize> Loads<D> {
                 vector::accumulate(&mut sum, 1.0, &acceleration);
             }
         }
-        if let (Some(barrier), Some(area), Some(mass)) =
-            (&self.barrier, self.areas.get(identity), self.masses.get(identity))
-        {
-            vector::accumulate(&mut sum, area / mass, &barrier.traction(x, velocity));
-        }
         sum
+    }
+
+    /// The barrier's force on a particle, per unit mass.
+    fn contact_of(&self, identity: usize, x: &[f64; D]) -> [f64; D] {
+        match (&self.barrier, self.areas.get(identity), self.masses.get(identity)) {
+            (Some(barrier), Some(area), Some(mass)) => vector::scale(&barrier.traction(x), area / mass),
+            _ => [0.0; D],
+        }
     }
 
     /// The longest time step that the barrier allows; infinite without one.
@@ -80,6 +85,15 @@ impl<const D: usize> Loads<D> {
                 (Err(error), _) | (_, Err(error)) => Err(error),
             },
         )
+    }
+
+    /// The magnitude of the barrier's normal force on every particle, A_p p(g_p), in the present order; `None` without a barrier.
+    pub fn contact_forces(&self, particles: &Particles<D, LawState>) -> Option<Vec<f64>> {
+        self.barrier.as_ref()?;
+        let each = particles.positions.iter().enumerate();
+        let force =
+            |(index, x)| particles.masses.get(index) * vector::norm(&self.contact_of(particles.identity(index), x));
+        Some(each.map(force).collect())
     }
 
     /// Σ_p A_p b(g_p); 0 without a barrier.
@@ -116,12 +130,29 @@ impl<const D: usize> BodyForce<D> for Loads<D> {
     }
 
     fn at_particles(&mut self, sites: &Sites<D>, accelerations: &mut [[f64; D]]) -> Result<(), MpmError> {
+        let mut contact = std::mem::take(&mut self.contact);
+        if self.barrier.is_some() {
+            contact.resize(sites.positions.len(), [0.0; D]);
+            let places = sites.positions.par_iter().zip(sites.identities);
+            let each = contact.par_iter_mut().zip(places).with_min_len(PIECE);
+            each.for_each(|(contact, (x, &identity))| *contact = self.contact_of(identity as usize, x));
+        }
         let own = &*self;
-        let places = sites.positions.par_iter().zip(sites.velocities).zip(sites.identities);
-        let each = accelerations.par_iter_mut().zip(places).with_min_len(PIECE);
-        each.for_each(|(acceleration, ((x, v), &identity))| {
-            *acceleration = own.acceleration(identity as usize, x, v, sites.time);
-        });
+        let each = accelerations.par_iter_mut().zip(sites.identities).with_min_len(PIECE);
+        each.for_each(|(acceleration, &identity)| *acceleration = own.acceleration(identity as usize, sites.time));
+        for (acceleration, contact) in accelerations.iter_mut().zip(&contact) {
+            vector::accumulate(acceleration, 1.0, contact);
+        }
+        self.contact = contact;
         Ok(())
+    }
+
+    fn friction(&self) -> Option<Friction<'_, D>> {
+        let barrier = self.barrier.as_ref().filter(|barrier| barrier.friction > 0.0)?;
+        Some(Friction {
+            coefficient: barrier.friction,
+            full_speed: barrier.friction_speed,
+            normal_forces: &self.contact,
+        })
     }
 }

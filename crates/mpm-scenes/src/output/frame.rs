@@ -107,7 +107,7 @@ mod tests {
             reference_volumes: vec![1.0, 1.0],
             bodies: vec![0, 0],
             materials: vec![0, 0],
-            internal_variables: Vec::new(),
+            scalars: Vec::new(),
         })
     }
 

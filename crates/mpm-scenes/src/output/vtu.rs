@@ -61,7 +61,7 @@ fn point_data(snapshot: &Snapshot, appended: &mut Appended) -> String {
         snapshot.materials.iter().map(|&material| i64::from(material)),
     );
     text += &appended.integers("particle", (0..snapshot.len()).map(|p| p as i64));
-    for (name, values) in &snapshot.internal_variables {
+    for (name, values) in &snapshot.scalars {
         text += &appended.floats(name, 1, values);
     }
     text
@@ -106,7 +106,7 @@ mod tests {
             reference_volumes: vec![0.25, 0.5],
             bodies: vec![0, 1],
             materials: vec![1, 0],
-            internal_variables: vec![("plastic_strain".into(), vec![0.0, 0.125])],
+            scalars: vec![("plastic_strain".into(), vec![0.0, 0.125])],
         }
     }
 

@@ -40,6 +40,10 @@ pub(super) fn snapshot<const D: usize>(motion: &dyn Motion<D>, start: &Populatio
             )
         })
     };
+    let mut scalars: Vec<_> = laws.internal_variables().into_iter().filter_map(variable).collect();
+    if let Some(forces) = motion.loads().contact_forces(particles) {
+        scalars.push(("contact_force".to_owned(), particles.in_creation_order(&forces)));
+    }
     Snapshot {
         dimension: D,
         time: motion.time(),
@@ -53,7 +57,7 @@ pub(super) fn snapshot<const D: usize>(motion: &dyn Motion<D>, start: &Populatio
         reference_volumes: start.volumes.clone(),
         bodies: start.bodies.clone(),
         materials: start.materials.clone(),
-        internal_variables: laws.internal_variables().into_iter().filter_map(variable).collect(),
+        scalars,
     }
 }
 

@@ -20,9 +20,9 @@ pub struct BarrierTable {
     /// Coefficient of friction μ. Default 0.
     #[serde(default)]
     pub friction: f64,
-    /// Sliding speed below which friction is proportional to the speed. Needed
-    /// where there is friction.
-    pub friction_speed: Option<f64>,
+    /// Sliding speed from which friction is full. Default 0: sticking, as Coulomb's law has it.
+    #[serde(default)]
+    pub friction_speed: f64,
 }
 
 /// `barrier.against`.

@@ -95,7 +95,9 @@ impl<const D: usize> MeshOutside<D> {
     /// [`Shape::distance`] of what has been found.
     fn signed(&self, nearest: &Result<Nearest<'_, D>, bool>) -> f64 {
         match nearest {
-            Ok(Nearest { distance, inside: true, .. }) => *distance,
+            Ok(Nearest {
+                distance, inside: true, ..
+            }) => *distance,
             Ok(Nearest { distance, .. }) => -distance,
             Err(true) => self.reach,
             Err(false) => -self.reach,

@@ -123,3 +123,80 @@ fn gravity_grows_up_to_its_ramp() {
     }
     assert!(momentum[20] > 2.9);
 }
+
+/// A block on a slope, turned so that the slope is level, its motion damped at the rate γ: with μ = 0.5 it stays where the slope is 0.4, and where it is 0.8 it slides at
+/// g (sin θ − μ cos θ) / γ, whatever the small speed from which friction is full.
+#[test]
+fn a_block_sticks_to_a_gentle_slope_and_slides_down_a_steep_one() {
+    let slide = |slope: f64, friction_speed: f64| {
+        let across = 10.0 / (1.0 + slope * slope).sqrt();
+        let text = format!(
+            r#"
+title = "block on a slope"
+dimension = 2
+gravity = [{}, {}]
+gravity_ramp = 0.4
+
+[domain]
+lower = [0.0, 0.0]
+upper = [6.0, 2.0]
+
+[grid]
+spacing = 0.25
+
+[transfer]
+kind = "apic"
+
+[time]
+end = 1.2
+step = 2e-4
+damping = 20.0
+
+[materials.rubber]
+law = "neo-hookean"
+density = 1000.0
+young_modulus = 1e6
+poisson_ratio = 0.3
+
+[[bodies]]
+name = "block"
+shape = {{ kind = "box", lower = [1.0, 0.5], upper = [2.0, 1.0] }}
+material = "rubber"
+
+[barrier]
+shapes = [{{ kind = "half-space", point = [0.0, 0.44], normal = [0.0, 1.0] }}]
+stiffness = 2e5
+gap = 0.1225
+friction = 0.5
+friction_speed = {friction_speed}
+
+[output]
+interval = 1.2
+series_interval = 0.05
+"#,
+            slope * across,
+            -across
+        );
+        let directory = tempfile::tempdir().expect("a directory");
+        simulate(&scene(&text), directory.path(), &mut ()).expect("runs");
+        let series = read_series(directory.path()).expect("written");
+        let column = |name| series.column(name).expect("a column").to_vec();
+        let (centre, momentum) = (column("centre_x"), column("momentum_x"));
+        let last = centre.len() - 1;
+        (across, centre[last] - centre[last - 2], momentum[last] / 500.0)
+    };
+    for friction_speed in [0.0, 1e-6, 1e-3] {
+        let (_, way, speed) = slide(0.4, friction_speed);
+        let still = 2e-4 + friction_speed;
+        assert!(
+            way.abs() < still && speed.abs() < still,
+            "{friction_speed}: {way}, {speed}"
+        );
+        let (across, _, speed) = slide(0.8, friction_speed);
+        let expected = across * (0.8 - 0.5) / 20.0;
+        assert!(
+            (speed / expected - 1.0).abs() < 0.02,
+            "{friction_speed}: {speed} for {expected}"
+        );
+    }
+}

@@ -1,7 +1,7 @@
 //! The scenes that families name, and the scenes of the cases that follow from them.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use mpm_document::DocumentError;
 use mpm_scenes::scene::keys;
@@ -17,6 +17,8 @@ use crate::study::configuration::fingerprint;
 #[derive(Clone, Debug, Default)]
 pub struct SceneFiles {
     tables: BTreeMap<String, Table>,
+    /// That of the configuration, from which the names and what scenes name count.
+    directory: PathBuf,
 }
 
 /// The scene of a case, ready to run.
@@ -54,14 +56,15 @@ impl SceneFiles {
     /// # Errors
     /// A family whose scene cannot be read.
     pub fn read(families: &[Family], directory: &Path) -> Result<Self, CommandError> {
-        let mut files = Self::default();
+        let mut files = Self {
+            directory: directory.to_owned(),
+            ..Self::default()
+        };
         for family in families {
             let other = family.read.against.as_ref().and_then(|other| other.scene.as_ref());
             for (field, name) in [("scene", family.scene.as_ref()), ("read.against.scene", other)] {
                 if let Some(name) = name {
-                    files
-                        .add(name, directory)
-                        .map_err(|message| family.refuse(field, message))?;
+                    files.add(name).map_err(|message| family.refuse(field, message))?;
                 }
             }
         }
@@ -69,11 +72,11 @@ impl SceneFiles {
     }
 
     /// Reads one scene, if it has not been; an error is in words.
-    fn add(&mut self, name: &str, directory: &Path) -> Result<(), String> {
+    fn add(&mut self, name: &str) -> Result<(), String> {
         if self.tables.contains_key(name) {
             return Ok(());
         }
-        let path = directory.join(name);
+        let path = self.directory.join(name);
         let text = std::fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
         let table = mpm_document::parse::<Table>(&text, &path).map_err(|error| error.to_string())?;
         self.tables.insert(name.to_owned(), table);
@@ -90,7 +93,11 @@ impl SceneFiles {
         let own = case.combination.set.iter().map(|(key, value)| (key, value));
         let table = self.tables.get(name).cloned().unwrap_or_default();
         let table = changed(table, family.chain(own), &case.combination.drop);
-        let own = prepared(table.map_err(|message| case.refuse(message))?, name, case)?;
+        let own = prepared(
+            table.map_err(|message| case.refuse(message))?,
+            &self.directory.join(name),
+            case,
+        )?;
         let keys = case.family.x_keys();
         let x = keys.iter().find_map(|key| keys::number(&own.table, key));
         let x = x.filter(|x| x.is_finite()).ok_or_else(|| {
@@ -112,7 +119,8 @@ impl SceneFiles {
                 };
                 let table = changed(table, other.set.iter(), &other.drop);
                 let table = table.map_err(|message| case.family.refuse("read.against", message))?;
-                Some(prepared(table, other.scene.as_deref().unwrap_or(name), case)?)
+                let path = self.directory.join(other.scene.as_deref().unwrap_or(name));
+                Some(prepared(table, &path, case)?)
             }
         };
         Ok(CaseScene { own, against, x })
@@ -134,9 +142,9 @@ fn changed<'a>(
     Ok(table)
 }
 
-fn prepared(table: Table, name: &str, case: &Variant) -> Result<PreparedScene, CommandError> {
+fn prepared(table: Table, path: &Path, case: &Variant) -> Result<PreparedScene, CommandError> {
     let text = toml::to_string(&Value::Table(table.clone())).map_err(|error| case.refuse(error.to_string()))?;
-    let scene = Scene::parse(&text, Path::new(name)).map_err(|error| case.refuse(refusal_text(error)))?;
+    let scene = Scene::parse(&text, path).map_err(|error| case.refuse(refusal_text(error)))?;
     Ok(PreparedScene {
         scene,
         fingerprint: fingerprint(&text),
