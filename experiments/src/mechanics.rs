@@ -2,11 +2,10 @@
 
 use std::ops::ControlFlow;
 
-use indicatif::ProgressBar;
 use mpm_scenes::{Observer, Progress, SceneError, SimulationError};
 
 use crate::CommandError;
-use crate::progress::{CaseObserver, style, unless_interrupted};
+use crate::progress::{Bar, CaseObserver, unless_interrupted};
 
 impl From<SceneError> for CommandError {
     fn from(error: SceneError) -> Self {
@@ -21,11 +20,7 @@ impl From<SimulationError> for CommandError {
 }
 
 /// The bar of a simulation: time simulated.
-pub struct SimulationProgress {
-    bar: ProgressBar,
-    /// Whether the bar has moved; a run that goes on from a checkpoint does not begin at 0.
-    begun: bool,
-}
+pub struct SimulationProgress(Bar);
 
 /// Units of its bar from begin to end.
 const SIMULATION_UNITS: f64 = 1e6;
@@ -33,29 +28,21 @@ const SIMULATION_UNITS: f64 = 1e6;
 impl SimulationProgress {
     /// A bar up to the time `end`.
     pub fn new(end: f64) -> Self {
-        let style = style(&format!("{{bar:30}} {{msg}} of {end}, {{eta}} left"));
-        let bar = ProgressBar::new(SIMULATION_UNITS as u64).with_style(style);
-        Self { bar, begun: false }
+        Self(Bar::new(&format!("{{bar:30}} {{msg}} of {end}, {{eta}} left")))
     }
 
     /// Takes the bar off the screen.
     pub fn clear(&self) {
-        self.bar.finish_and_clear();
+        self.0.clear();
     }
 }
 
 impl Observer for SimulationProgress {
     fn after_step(&mut self, progress: Progress) -> ControlFlow<()> {
         let share = progress.time / progress.end * SIMULATION_UNITS;
-        self.bar.set_position(share as u64);
-        if !self.begun {
-            self.bar.reset_eta();
-            self.begun = true;
-        }
-        if !self.bar.is_hidden() {
-            self.bar
-                .set_message(format!("step {}, t = {:.4}", progress.step, progress.time));
-        }
+        self.0.set(share as u64, SIMULATION_UNITS as u64);
+        self.0
+            .say(|| format!("step {}, t = {:.4}", progress.step, progress.time));
         unless_interrupted()
     }
 }

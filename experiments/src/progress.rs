@@ -8,11 +8,6 @@ use parvi::{Observer, Progress};
 
 use crate::interrupt;
 
-/// A bar's layout.
-pub(crate) fn style(template: &str) -> ProgressStyle {
-    ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
-}
-
 /// Whether a sampler should go on.
 pub(crate) fn unless_interrupted() -> ControlFlow<()> {
     if interrupt::requested() {
@@ -22,28 +17,72 @@ pub(crate) fn unless_interrupted() -> ControlFlow<()> {
     }
 }
 
-/// The bar of a number of like things.
-pub struct CountProgress {
+/// A bar that appears with the first thing done, from which on the time left is told.
+pub struct Bar {
     bar: ProgressBar,
+    begun: bool,
 }
 
-impl CountProgress {
-    /// A bar for things of this name, which appears with the first one done.
-    pub fn new(name: &str) -> Self {
-        let style = style(&format!("{{bar:30}} {name} {{pos}}/{{len}}, {{eta}} left"));
-        let bar = ProgressBar::new(0).with_style(style);
-        Self { bar }
+impl Bar {
+    /// A bar with this layout.
+    pub fn new(template: &str) -> Self {
+        let bar = ProgressBar::new(0);
+        bar.set_style(style(template));
+        Self { bar, begun: false }
     }
 
     /// So many of so many are done.
-    pub fn set(&self, done: usize, count: usize) {
-        self.bar.set_length(count as u64);
-        self.bar.set_position(done as u64);
+    pub fn set(&mut self, done: u64, count: u64) {
+        self.bar.set_length(count);
+        self.bar.set_position(done);
+        if !self.begun {
+            self.bar.reset_eta();
+            self.begun = true;
+        }
+    }
+
+    /// What it says, where it is seen.
+    #[cfg(any(feature = "mechanics", feature = "rom"))]
+    pub fn say(&self, message: impl FnOnce() -> String) {
+        if !self.bar.is_hidden() {
+            self.bar.set_message(message());
+        }
+    }
+
+    /// Begins anew with another layout.
+    #[cfg(feature = "rom")]
+    pub fn restyle(&mut self, template: &str) {
+        self.bar.set_style(style(template));
+        self.begun = false;
     }
 
     /// Takes the bar off the screen.
     pub fn clear(&self) {
         self.bar.finish_and_clear();
+    }
+}
+
+fn style(template: &str) -> ProgressStyle {
+    ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
+}
+
+/// The bar of a number of like things, `step` or `run`.
+pub struct CountProgress(Bar);
+
+impl CountProgress {
+    /// A bar for things of this name.
+    pub fn new(name: &str) -> Self {
+        Self(Bar::new(&format!("{{bar:30}} {name} {{pos}}/{{len}}, {{eta}} left")))
+    }
+
+    /// So many of so many are done.
+    pub fn set(&mut self, done: usize, count: usize) {
+        self.0.set(done as u64, count as u64);
+    }
+
+    /// Takes the bar off the screen.
+    pub fn clear(&self) {
+        self.0.clear();
     }
 }
 

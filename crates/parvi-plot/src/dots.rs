@@ -52,6 +52,23 @@ pub struct DotPlot {
     pub notes: Vec<String>,
 }
 
+impl DotPlot {
+    /// Labelled rows with a bound each over a logarithmic axis, and no series yet.
+    pub fn bounded(x_label: &str, rows: impl IntoIterator<Item = (String, f64)>, bound_label: &str) -> Self {
+        let row = |(label, bound)| DotRow {
+            label,
+            bound: Some(bound),
+        };
+        Self {
+            x_label: x_label.to_owned(),
+            x_axis: AxisKind::Logarithmic,
+            rows: rows.into_iter().map(row).collect(),
+            bound_label: bound_label.to_owned(),
+            ..Self::default()
+        }
+    }
+}
+
 /// Draws a dot plot as an SVG document.
 ///
 /// # Errors

@@ -3,6 +3,7 @@
 use super::data::{PlotError, check_size};
 use super::legend::{LegendEntry, Swatch, draw_legend, noted, titled};
 use super::panel::{AxesParts, Panel, TITLE_ROOM, label_lines, label_room, x_axis_room, x_ticks, y_tick_room, y_ticks};
+use super::results::{Row, Rows};
 use super::scale::{AxisKind, Scale};
 use super::style::{ESTIMATE, FIGURE_WIDTH, GRID, MARGIN};
 use super::svg::{Drawing, Rectangle};
@@ -46,6 +47,32 @@ pub struct HeatMapPlot {
     pub panels: Vec<HeatPanel>,
     /// Notes below the figure.
     pub notes: Vec<String>,
+}
+
+impl HeatMapPlot {
+    /// The same with a panel more: the share of the rows that have a property, over two columns whose edges are those of the plot.
+    pub fn with_shares(
+        mut self,
+        title: &str,
+        rows: &Rows<'_>,
+        columns: [&str; 2],
+        property: impl Fn(&Row) -> bool,
+    ) -> Self {
+        let place = |row: &Row, column: &str, edges: &[f64]| cell_of(edges, row.number(column)?);
+        let [across, up] = [&self.x_edges, &self.y_edges].map(|edges| edges.len().saturating_sub(1));
+        let mut shares = Vec::with_capacity(across * up);
+        for y in 0..up {
+            let here = rows.having(|row| place(row, columns[1], &self.y_edges) == Some(y));
+            for x in 0..across {
+                let inside = here.having(|row| place(row, columns[0], &self.x_edges) == Some(x));
+                let share = || inside.count(&property) as f64 / inside.len() as f64;
+                shares.push((!inside.is_empty()).then(share));
+            }
+        }
+        let title = title.to_owned();
+        self.panels.push(HeatPanel { title, shares });
+        self
+    }
 }
 
 /// The edges of so many cells of equal factors between two positive ends.

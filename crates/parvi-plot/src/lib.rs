@@ -3,7 +3,8 @@
 //! ## Where to begin
 //!
 //! With [`multiples`], lines over one pair of axes or several, and [`histogram`]. All figures share [`style`] and a small drawing layer: `svg` for the
-//! document, `scale` and `panel` for axes, `legend`, `contour` for lines of equal density. [`page`] puts figures and tables into Markdown. It is no general plotting
+//! document, `scale` and `panel` for axes, `legend`, `contour` for lines of equal density. [`page`] puts figures and tables into Markdown, [`results`] are the rows that they are made of, [`judgement`] is
+//! what is asked of them. It is no general plotting
 //! library, and knows nothing of samplers and files.
 
 mod chart;
@@ -16,10 +17,13 @@ mod density_panel;
 mod dots;
 mod heat_map;
 mod histogram;
+pub mod judgement;
 mod legend;
+mod line_series;
 mod multiples;
 pub mod page;
 mod panel;
+pub mod results;
 mod scale;
 mod scaling;
 mod series;
@@ -41,11 +45,12 @@ pub use data::{Curve, DensityPlot, PairDensity, PlotError, PointCloud, Reference
 pub use dots::{DotPlot, DotRow, DotSeries, dots};
 pub use heat_map::{HeatMapPlot, HeatPanel, cell_of, heat_map, logarithmic_edges};
 pub use histogram::histogram;
-pub use multiples::{GuideCurve, LineSeries, MultiplesPanel, MultiplesPlot, multiples};
+pub use line_series::{GuideCurve, LineSeries};
+pub use multiples::{MultiplesPanel, MultiplesPlot, multiples};
 pub use scale::AxisKind;
 pub use scaling::{ScalingPlot, exponent_text, scaling, scaling_fit};
 pub use series::ReferenceLevel;
 pub use snapshots::{SnapshotPanel, SnapshotsPlot, snapshots};
-pub use strip::{StripPanel, StripPlot, strip};
+pub use strip::{StripPanel, StripPlot, moments, strip};
 pub use time_error::{TimeErrorCurve, TimeErrorPanel, TimeErrorPlot, TimeErrorPoint, time_error};
-pub use trace::{TracePanel, TracePlot, TraceSeries, trace};
+pub use trace::{TracePanel, TracePlot, TraceQuantity, TraceSeries, trace};

@@ -1,89 +1,10 @@
 //! Small multiples: lines with markers, error bars and guides, one panel per setting, under one legend.
 
 use super::chart::{Chart, Legend, arrangement};
-use super::data::{Curve, PlotError};
+use super::data::PlotError;
+use super::line_series::{GuideCurve, LineSeries};
 use super::scale::AxisKind;
 use super::series::{ChartPanel, ChartSeries, Connection, ReferenceLevel};
-use super::statistics::summarize;
-
-/// A labelled sequence of points.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct LineSeries {
-    /// The text in the legend.
-    pub label: String,
-    /// The abscissas, in the order in which points are connected.
-    pub x: Vec<f64>,
-    /// The ordinates; a value that is not finite interrupts the line.
-    pub y: Vec<f64>,
-    /// The lower and upper ends of error bars, one pair per point, or empty.
-    pub bars: Vec<(f64, f64)>,
-}
-
-impl LineSeries {
-    /// A line without points yet.
-    pub fn named(label: impl Into<String>) -> Self {
-        Self {
-            label: label.into(),
-            ..Self::default()
-        }
-    }
-
-    /// The values in order of size against the share of all that are no larger, in percent; `all` may be more than have a value.
-    pub fn in_order(label: impl Into<String>, mut values: Vec<f64>, all: usize) -> Self {
-        values.sort_by(f64::total_cmp);
-        Self {
-            x: (0..values.len())
-                .map(|k| 100.0 * (k as f64 + 0.5) / all as f64)
-                .collect(),
-            y: values,
-            ..Self::named(label)
-        }
-    }
-
-    /// The points (x, y).
-    pub fn points(&self) -> impl Iterator<Item = (f64, f64)> {
-        self.x.iter().copied().zip(self.y.iter().copied())
-    }
-
-    /// Adds the median of the values, with a bar from the least to the largest; nothing where there are none.
-    pub fn push_median(&mut self, x: f64, values: &[f64]) {
-        if let Ok(summary) = summarize(values) {
-            self.x.push(x);
-            self.y.push(summary.median);
-            self.bars.push((summary.minimum, summary.maximum));
-        }
-    }
-}
-
-/// A theoretical curve for comparison.
-#[derive(Debug, Clone, PartialEq)]
-pub struct GuideCurve {
-    /// The text in the legend; guides with the same text share an entry.
-    pub label: String,
-    /// The curve.
-    pub curve: Curve,
-    /// Whether it is dotted; else dashed.
-    pub dotted: bool,
-}
-
-impl GuideCurve {
-    /// The line between the values at two ends.
-    pub fn through(
-        label: impl Into<String>,
-        (low, high): (f64, f64),
-        dotted: bool,
-        value: impl Fn(f64) -> f64,
-    ) -> Self {
-        Self {
-            label: label.into(),
-            curve: Curve {
-                x: vec![low, high],
-                y: vec![value(low), value(high)],
-            },
-            dotted,
-        }
-    }
-}
 
 /// One setting, e.g. one dimension.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -10,6 +10,7 @@ use crate::{PlotError, exponent_text};
 pub struct Page {
     text: String,
     figures: Vec<(String, String)>,
+    summary: Vec<(&'static str, String)>,
 }
 
 impl Page {
@@ -17,7 +18,7 @@ impl Page {
     pub fn new(title: &str) -> Self {
         Self {
             text: format!("# {title}\n"),
-            figures: Vec::new(),
+            ..Self::default()
         }
     }
 
@@ -84,6 +85,17 @@ impl Page {
     /// The figures on the page with the names of their files, which it expects beside it in `figures/`.
     pub fn figures(&self) -> &[(String, String)] {
         &self.figures
+    }
+
+    /// The same with a line more in its summary.
+    pub fn with(mut self, key: &'static str, value: impl ToString) -> Self {
+        self.summary.push((key, value.to_string()));
+        self
+    }
+
+    /// The most important of the page, by name; it is no part of the text.
+    pub fn summary(&self) -> &[(&'static str, String)] {
+        &self.summary
     }
 
     /// The page as text.

@@ -4,7 +4,7 @@ use crate::statistics::{PowerLaw, fit_power_law};
 
 use super::chart::{Chart, arrangement};
 use super::data::{PlotError, check_size};
-use super::multiples::{GuideCurve, LineSeries};
+use super::line_series::{GuideCurve, LineSeries};
 use super::scale::AxisKind;
 use super::series::{ChartPanel, ChartSeries, Connection};
 use super::style::styles;

@@ -37,6 +37,26 @@ const COLUMNS: usize = 3;
 /// The space between panels.
 const GAP: f64 = 8.0;
 
+/// The places, among growing steps, of so many moments from the first step to the last one, closer together at the beginning, where most happens: nearest to
+/// s + (N − s) (k / n)², k = 0 … n − 1; all, if there are not more.
+pub fn moments(steps: &[usize], count: usize) -> Vec<usize> {
+    let (Some(&first), Some(&last)) = (steps.first(), steps.last()) else {
+        return Vec::new();
+    };
+    let count = count.min(steps.len());
+    let (first, last) = (first as f64, last as f64);
+    let mut chosen: Vec<usize> = Vec::with_capacity(count);
+    for k in 0..count {
+        let goal = first + (last - first) * (k as f64 / count as f64).powi(2);
+        let away = |place: usize| (steps[place] as f64 - goal).abs();
+        let from = chosen.last().map_or(0, |place| place + 1);
+        // Later ones need a place each.
+        let places = from..steps.len() - (count - 1 - k);
+        chosen.extend(places.min_by(|&a, &b| away(a).total_cmp(&away(b))));
+    }
+    chosen
+}
+
 /// Draws the strip as an SVG document. A unit has the same length along both axes as far as panels between 0.6 and 1.5 times as high as wide allow; beyond, an axis shows more
 /// than the particles.
 ///
@@ -141,4 +161,18 @@ fn notes(plot: &StripPlot<'_>, clouds: &[Vec<Vec<f64>>], scales: &[Scale]) -> Ve
     };
     let largest = clouds.iter().map(|cloud| cloud[0].len()).max().unwrap_or(0);
     hidden.into_iter().chain(cloud_notes(largest, 0, true)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn chosen_moments_are_different_and_in_order() {
+        let chosen = |first: usize, end: usize| moments(&(first..end).collect::<Vec<_>>(), 5);
+        assert_eq!(chosen(0, 101), [0, 4, 16, 36, 64]);
+        assert_eq!(chosen(0, 6), [0, 1, 2, 3, 4]);
+        assert_eq!(chosen(3, 6), [0, 1, 2]);
+        assert_eq!(chosen(0, 0), [0; 0]);
+    }
 }

@@ -1,9 +1,11 @@
 //! Error against cost: what each method reaches for its time, on every target.
 
+use crate::results::Rows;
 use crate::statistics::summarize;
 
 use super::data::{PlotError, check_size};
-use super::multiples::{LineSeries, MultiplesPanel, MultiplesPlot, draw};
+use super::line_series::LineSeries;
+use super::multiples::{MultiplesPanel, MultiplesPlot, draw};
 use super::scale::AxisKind;
 use super::series::ReferenceLevel;
 
@@ -16,6 +18,17 @@ pub struct TimeErrorPoint {
     pub error: Vec<f64>,
 }
 
+impl TimeErrorPoint {
+    /// The runs of these rows; what they do not have is not finite.
+    pub fn of(rows: &Rows<'_>, cost: &str, error: &str) -> Self {
+        let numbers = |column: &str| rows.iter().map(|row| row.number(column).unwrap_or(f64::NAN)).collect();
+        Self {
+            cost: numbers(cost),
+            error: numbers(error),
+        }
+    }
+}
+
 /// A method at growing budgets.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct TimeErrorCurve {
@@ -23,6 +36,14 @@ pub struct TimeErrorCurve {
     pub method: String,
     /// The settings, in the order in which they are connected.
     pub points: Vec<TimeErrorPoint>,
+}
+
+impl TimeErrorCurve {
+    /// Whether a run has a finite error.
+    pub fn is_drawable(&self) -> bool {
+        let mut errors = self.points.iter().flat_map(|point| &point.error);
+        errors.any(|error| error.is_finite())
+    }
 }
 
 /// One target.

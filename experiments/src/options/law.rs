@@ -2,15 +2,13 @@
 //!
 //! A new law is a line of `materials!` below.
 
-use std::fmt::{self, Display, Formatter};
-
-use clap::ValueEnum;
 use mpm_materials::{
     DruckerPrager, ElasticModuli, FixedCorotated, Hencky, IsothermalGas, KelvinVoigt, LinearCauchy, LinearElastic,
     NeoHookean, ParameterError, Snow, SofteningHencky, TaitFluid,
 };
 use parvi::PaperMaterial;
-use serde::{Deserialize, Serialize};
+
+use super::words;
 
 /// A parameter of a law.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,11 +45,9 @@ const PRESSURE: Parameter = Parameter::of("pressure-per-density", Some(("pressur
 /// The laws by the names of the scenes: variant, what `--help` says, the parameters in the order in which tables state them, and the law.
 macro_rules! materials {
     (($given:ident); $($(#[$meta:meta])* $variant:ident [$($parameter:ident),*] => $law:expr;)*) => {
-        /// Constitutive law of the paper's algorithms, by the names of the scenes.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
-        #[serde(rename_all = "kebab-case")]
-        pub enum Material {
-            $($(#[$meta])* $variant,)*
+        words! {
+            /// Constitutive law of the paper's algorithms, by the names of the scenes.
+            Material { $($(#[$meta])* $variant,)* }
         }
 
         impl Material {
@@ -108,13 +104,6 @@ materials! {
     };
     /// Isothermal gas as a law of F, whose rest state is the target
     IsothermalGas [PRESSURE] => IsothermalGas::new(given.value(&PRESSURE))?;
-}
-
-impl Display for Material {
-    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
-        self.to_possible_value()
-            .map_or(Ok(()), |word| formatter.write_str(word.get_name()))
-    }
 }
 
 /// What is given of a law's parameters.

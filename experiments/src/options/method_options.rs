@@ -234,9 +234,7 @@ impl MethodOptions {
     pub fn method(&self, name: MethodName) -> Result<Method, OptionError> {
         self.check_fit(name)?;
         self.check_ranges()?;
-        self.check_pairs(name)?;
-        self.check_starts(name)?;
-        self.check_pool(name)?;
+        self.check_rules(name)?;
         (name.kind().build)(self, self.steps.map(StepCount::get))
     }
 

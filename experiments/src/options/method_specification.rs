@@ -43,7 +43,6 @@ impl MethodSpecification {
     pub fn new(name: MethodName, label: Option<String>, options: MethodOptions) -> Result<Self, OptionError> {
         options.method(name)?;
         options.check_study(name)?;
-        options.check_study_start()?;
         Ok(Self { name, label, options })
     }
 

@@ -7,8 +7,8 @@ mod material_options;
 mod method_options;
 mod method_specification;
 mod methods;
-mod option_checks;
 mod option_error;
+mod option_rules;
 mod option_values;
 mod pool_option;
 mod start_options;
@@ -22,6 +22,7 @@ pub use method_options::MethodOptions;
 pub use method_specification::MethodSpecification;
 pub use methods::{MethodName, owners};
 pub use option_error::OptionError;
+pub(crate) use option_values::words;
 pub use option_values::{
     AlphaSchedule, Basis, Correction, Draws, FrameName, MonitorName, NonFinite, PoolChoice, Score, Switch, Transfer,
 };

@@ -1,28 +1,32 @@
 //! Options whose values are words.
 
-use std::fmt::{self, Display, Formatter};
-
-use clap::ValueEnum;
 use parvi::{BasisChoice, MomentCorrection, Monitor, NonFiniteScores, ScoreLocation, StartDraws};
-use serde::{Deserialize, Serialize};
 
 /// Choices by the words that are typed; what `--help` says of a word is its documentation.
 macro_rules! words {
     ($($(#[$meta:meta])* $words:ident { $($(#[$about:meta])* $word:ident,)* })*) => {$(
         $(#[$meta])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum, serde::Serialize, serde::Deserialize)]
         #[serde(rename_all = "kebab-case")]
         pub enum $words {
             $($(#[$about])* $word,)*
         }
 
-        impl Display for $words {
-            fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
-                self.to_possible_value().map_or(Ok(()), |word| formatter.write_str(word.get_name()))
+        impl From<$words> for $crate::plots::results::Value {
+            fn from(word: $words) -> Self {
+                word.to_string().into()
+            }
+        }
+
+        impl std::fmt::Display for $words {
+            fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                let word = clap::ValueEnum::to_possible_value(self);
+                word.map_or(Ok(()), |word| formatter.write_str(word.get_name()))
             }
         }
     )*};
 }
+pub(crate) use words;
 
 words! {
     /// Background basis.

@@ -31,33 +31,7 @@ impl MethodOptions {
 
     /// The file that a method writes its weighted pool into.
     pub fn pool_file(&self, method: MethodName) -> Option<&PathBuf> {
-        self.pool.as_ref().filter(|_| weighs(method))
+        let weighs = method.kind().has("pool") && method != MethodName::SteinThinning;
+        self.pool.as_ref().filter(|_| weighs)
     }
-
-    /// Refuses a file for a pool, which belongs to a single run.
-    pub(super) fn check_study(&self, method: MethodName) -> Result<(), OptionError> {
-        match self.pool_file(method) {
-            Some(file) => Err(OptionError::new(
-                "pool",
-                format!("{}: a study writes no pools, `parvi sample` does", file.display()),
-            )),
-            None => Ok(()),
-        }
-    }
-
-    /// Refuses options of the No-U-Turn sampler where Stein thinning does not use it.
-    pub(super) fn check_pool(&self, method: MethodName) -> Result<(), OptionError> {
-        if method != MethodName::SteinThinning || self.pool_choice()? == Some(PoolChoice::Nuts) {
-            return Ok(());
-        }
-        match self.given().find(|(name, _)| MethodName::Nuts.kind().has(name)) {
-            None => Ok(()),
-            Some((name, value)) => Err(OptionError::new(&name, format!("{value} needs the pool `nuts`"))),
-        }
-    }
-}
-
-/// Whether a method weighs a pool.
-fn weighs(method: MethodName) -> bool {
-    method.kind().has("pool") && method != MethodName::SteinThinning
 }

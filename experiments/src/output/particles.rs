@@ -77,14 +77,6 @@ impl Particles {
         self.weights.as_deref()
     }
 
-    /// The weight of one point.
-    pub fn weight(&self, index: usize) -> f64 {
-        match &self.weights {
-            Some(weights) => weights.get(index).copied().unwrap_or(0.0),
-            None => 1.0 / self.len() as f64,
-        }
-    }
-
     /// log p at the points, where it is noted; −∞ where it is not a number to count with.
     pub fn log_densities(&self) -> Option<&[f64]> {
         self.log_densities.as_deref()

@@ -4,6 +4,8 @@ use std::ops::ControlFlow;
 
 use parvi::{Observer, ParticleView, Progress};
 
+use crate::plots::moments;
+
 /// Moments kept, at most; beyond, every second one is dropped.
 const MOST: usize = 128;
 /// Particles kept of a moment, at most.
@@ -43,30 +45,11 @@ impl History {
         self.rounds
     }
 
-    /// So many moments from the first step to the last one, closer together at the beginning, where most happens: nearest to s + (N − s) (k / n)², k = 0 … n − 1; all, if there are not more.
+    /// So many moments from the first step to the last one, closer together at the beginning.
     pub fn selected(&self, count: usize) -> Vec<&Moment> {
-        let (Some(first), Some(last)) = (self.moments.first(), self.moments.last()) else {
-            return Vec::new();
-        };
-        if self.moments.len() <= count {
-            return self.moments.iter().collect();
-        }
-        let (first, last) = (first.step as f64, last.step as f64);
-        let mut from = 0;
-        let mut chosen = Vec::with_capacity(count);
-        for k in 0..count {
-            let goal = first + (last - first) * (k as f64 / count as f64).powi(2);
-            // Later ones need a moment each.
-            let until = self.moments.len() - (count - 1 - k);
-            let nearest = (from..until).min_by(|&a, &b| {
-                let away = |index: usize| (self.moments[index].step as f64 - goal).abs();
-                away(a).total_cmp(&away(b))
-            });
-            let Some(index) = nearest else { break };
-            chosen.push(&self.moments[index]);
-            from = index + 1;
-        }
-        chosen
+        let steps: Vec<usize> = self.moments.iter().map(|moment| moment.step).collect();
+        let places = moments(&steps, count).into_iter();
+        places.map(|place| &self.moments[place]).collect()
     }
 }
 
@@ -94,33 +77,5 @@ impl Observer for History {
             }
         }
         ControlFlow::Continue(())
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn of_steps(steps: impl Iterator<Item = usize>) -> History {
-        let moments = steps.map(|step| Moment {
-            step,
-            points: Vec::new(),
-        });
-        History {
-            moments: moments.collect(),
-            ..History::default()
-        }
-    }
-
-    fn steps(history: &History) -> Vec<usize> {
-        history.selected(5).iter().map(|moment| moment.step).collect()
-    }
-
-    #[test]
-    fn selected_moments_are_different_and_in_order() {
-        assert_eq!(steps(&of_steps(0..101)), [0, 4, 16, 36, 64]);
-        assert_eq!(steps(&of_steps(0..6)), [0, 1, 2, 3, 4]);
-        assert_eq!(steps(&of_steps(3..6)), [3, 4, 5]);
-        assert_eq!(steps(&of_steps(0..0)), [0; 0]);
     }
 }

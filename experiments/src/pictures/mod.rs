@@ -62,42 +62,31 @@ impl Subject<'_> {
             console::notice(&format!("--plots: no exact marginals and no contours: {reason}"));
         }
         let dimension = self.outcome.particles.dimension();
+        let drawings = [
+            (HISTOGRAM, Some(self.histogram(&known))),
+            (CORNER, (dimension > 1).then(|| self.corner(&known))),
+            (TRACE, self.trace()),
+            (STRIP, if dimension == 2 { self.strip(&known) } else { None }),
+        ];
         let mut written = Vec::new();
-        let mut write = |name: &'static str, drawing: Drawing| -> Result<(), CommandError> {
+        for (name, drawing) in drawings {
             match drawing {
-                Drawing::Done(Ok(svg)) => {
+                Some(Ok(svg)) => {
                     AtomicFile::write(directory.file(name), svg)?;
                     written.push(name);
-                    return Ok(());
+                    continue;
                 }
-                Drawing::Done(Err(error)) => console::notice(&format!("--plots: {name} was not drawn: {error}")),
-                Drawing::LeftOut(Some(reason)) => console::notice(&format!("--plots: no {name}: {reason}")),
-                Drawing::LeftOut(None) => {}
+                Some(Err(error)) => console::notice(&format!("--plots: {name} was not drawn: {error}")),
+                None => {}
             }
-            directory.remove(name)
-        };
-        write(HISTOGRAM, Drawing::Done(self.histogram(&known)))?;
-        let corner = match dimension {
-            1 => Drawing::LeftOut(None),
-            _ => Drawing::Done(self.corner(&known)),
-        };
-        write(CORNER, corner)?;
-        write(TRACE, self.trace())?;
-        let strip = match dimension {
-            2 => self.strip(&known),
-            _ => Drawing::LeftOut(None),
-        };
-        write(STRIP, strip)?;
+            directory.remove(name)?;
+        }
         Ok(written)
     }
 
     fn title(&self) -> String {
-        format!(
-            "{}: {} particles of {}",
-            self.target.label(),
-            self.outcome.particles.len(),
-            self.method
-        )
+        let (target, count) = (self.target.label(), self.outcome.particles.len());
+        format!("{target}: {count} particles of {}", self.method)
     }
 
     fn histogram(&self, known: &Known) -> Result<String, PlotError> {
@@ -119,12 +108,9 @@ impl Subject<'_> {
                 "--plots: {CORNER} shows the first {shown} of {dimension} coordinates"
             ));
         }
-        let cut = |all: Vec<Vec<f64>>| -> Vec<Vec<f64>> {
-            let cut = |mut row: Vec<f64>| {
-                row.truncate(shown);
-                row
-            };
-            all.into_iter().map(cut).collect()
+        let cut = |mut rows: Vec<Vec<f64>>| {
+            rows.iter_mut().for_each(|row| row.truncate(shown));
+            rows
         };
         let points = cut(self.outcome.particles.to_rows());
         let draws = cut(known.draws().to_vec());
@@ -139,15 +125,17 @@ impl Subject<'_> {
         })
     }
 
-    fn trace(&self) -> Drawing {
+    /// None without a trace, which is said.
+    fn trace(&self) -> Option<Result<String, PlotError>> {
         let rows: Vec<TracePoint> = self.outcome.trace.clone();
         if rows.is_empty() {
             let reason = self.untraced.unwrap_or("the run has no trace of steps");
-            return Drawing::LeftOut(Some(reason.to_owned()));
+            console::notice(&format!("--plots: no {TRACE}: {reason}"));
+            return None;
         }
         let watched = self.outcome.watched.as_ref().map(|seen| self.watched(seen));
         let runs = [(self.method.to_owned(), rows)];
-        let mut panels: Vec<_> = trace_panels::ALL.map(|quantity| quantity.panel(&runs)).into();
+        let mut panels: Vec<_> = trace_panels::panels(trace_panels::ALL, &runs).into();
         panels.extend(watched);
         // A quantity that the method does not have is zero or not there.
         let holds = |panel: &TracePanel| {
@@ -158,7 +146,7 @@ impl Subject<'_> {
         // Of several rounds it is that of the one whose particles were returned.
         let several = self.history.rounds() > 1;
         let x_label = if several { "step of the round returned" } else { "step" };
-        Drawing::Done(trace(&TracePlot::new(self.title(), x_label, panels)))
+        Some(trace(&TracePlot::new(self.title(), x_label, panels)))
     }
 
     /// What the monitor said.
@@ -168,10 +156,12 @@ impl Subject<'_> {
         TracePanel::new(y_label, AxisKind::Linear, [TraceSeries::through(self.method, looks)])
     }
 
-    fn strip(&self, known: &Known) -> Drawing {
+    /// None where nothing has moved, which is said.
+    fn strip(&self, known: &Known) -> Option<Result<String, PlotError>> {
         let moments = self.history.selected(MOMENTS - 1);
         if moments.is_empty() {
-            return Drawing::LeftOut(Some("no particles have moved".to_owned()));
+            console::notice(&format!("--plots: no {STRIP}: no particles have moved"));
+            return None;
         }
         let titles: Vec<String> = moments.iter().map(|moment| format!("step {}", moment.step)).collect();
         let returned = self.outcome.particles.to_rows();
@@ -187,7 +177,7 @@ impl Subject<'_> {
             title: "returned",
             particles: self.weighted(&returned),
         });
-        Drawing::Done(strip(&StripPlot {
+        Some(strip(&StripPlot {
             title: &self.title(),
             panels: &panels,
             labels: &self.target.coordinate_names(),
@@ -200,12 +190,6 @@ impl Subject<'_> {
     fn weighted<'a>(&'a self, points: &'a [Vec<f64>]) -> PointCloud<'a> {
         PointCloud::weighted(points, self.outcome.particles.weights())
     }
-}
-
-/// A figure, or why there is none, where that is worth a word.
-enum Drawing {
-    Done(Result<String, PlotError>),
-    LeftOut(Option<String>),
 }
 
 fn label(known: &Known) -> &'static str {

@@ -3,11 +3,11 @@
 use std::collections::HashSet;
 
 use parvi::Method;
-use parvi_targets::Dimensions;
+use parvi_targets::{Dimensions, TargetError, target_info};
 
 use super::definition::Case;
 use crate::CommandError;
-use crate::options::{Bounded, MethodSpecification, OptionError};
+use crate::options::{Bounded, Dimension, MethodSpecification, OptionError, TargetSpecification};
 
 /// The error for a field whose value does not fit; the runner adds the file.
 pub fn refusal(field: &str, message: impl Into<String>) -> CommandError {
@@ -75,6 +75,32 @@ pub fn ascending<const LEAST: i64, const MOST: i64>(sizes: &[Bounded<LEAST, MOST
     let mut sizes: Vec<usize> = sizes.iter().map(|size| size.get()).collect();
     sizes.sort_unstable();
     sizes
+}
+
+/// A target in each of its dimensions that is among `dims`.
+///
+/// # Errors
+/// A target that there is not, or parameters that it does not have.
+pub fn in_dimensions(
+    target: &TargetSpecification,
+    dims: &[Dimension],
+) -> Result<Vec<TargetSpecification>, CommandError> {
+    let refused = |error: TargetError| refusal("targets", error.to_string());
+    let dimensions = target_info(&target.name).map_err(refused)?.dimensions;
+    let mut found = Vec::new();
+    for &dim in dims {
+        let mut here = target.clone();
+        here.dim = matches!(dimensions, Dimensions::Range { .. }).then_some(dim);
+        let is_there = match dimensions {
+            Dimensions::Range { minimum, maximum, .. } => (minimum..=maximum).contains(&dim.get()),
+            _ => here.dimension().map_err(refused)? == dim.get(),
+        };
+        if is_there {
+            here.dimension().map_err(refused)?;
+            found.push(here);
+        }
+    }
+    Ok(found)
 }
 
 /// The names of all targets but those whose data the user brings.

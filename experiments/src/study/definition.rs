@@ -5,14 +5,12 @@ use std::path::Path;
 use serde::de::DeserializeOwned;
 
 use super::directory::StudyDirectory;
-use super::report::Report;
-use super::row::Row;
-use super::rows::Rows;
 use super::status::Status;
-use super::value::Value;
 use super::yardstick::CurrentYardstick;
 use crate::CommandError;
 use crate::options::MethodSpecification;
+use crate::plots::page::Page;
+use crate::plots::results::{Row, Rows, Value};
 use crate::progress::CaseObserver;
 
 /// One piece of work of a study.
@@ -90,11 +88,6 @@ pub trait Study: DeserializeOwned + Sync {
         Ok(())
     }
 
-    /// The seeds, for the manifest, where `seed` or `seeds` of the configuration do not say them.
-    fn seeds(&self) -> Vec<u64> {
-        Vec::new()
-    }
-
     /// Methods that this build may lack.
     fn methods(&self) -> Vec<&MethodSpecification> {
         Vec::new()
@@ -112,9 +105,10 @@ pub trait Study: DeserializeOwned + Sync {
     /// What ends the whole study; a run that diverges is a row.
     fn run(&self, case: &Case<Self::Work>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError>;
 
-    /// Tables and plots of the rows, which may be a part of all; nothing is sampled.
+    /// Tables and plots of the rows, which may be a part of all; nothing is sampled. Beside their columns rows have the numbers of
+    /// [`derived`](super::derived); the summary of the page goes to standard output.
     ///
     /// # Errors
     /// Files that cannot be read.
-    fn report(&self, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Report, CommandError>;
+    fn report(&self, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError>;
 }

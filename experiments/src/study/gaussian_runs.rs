@@ -25,7 +25,18 @@ pub struct Setting<'a> {
     pub spacing_factor: Option<f64>,
 }
 
-impl Setting<'_> {
+impl<'a> Setting<'a> {
+    /// A method as it is.
+    pub fn new(dim: Dimension, particles: ParticleCount, method: &'a MethodSpecification) -> Self {
+        Self {
+            dim,
+            particles: particles.get(),
+            series: method.label().to_owned(),
+            method,
+            spacing_factor: None,
+        }
+    }
+
     /// A case for every seed.
     ///
     /// # Errors

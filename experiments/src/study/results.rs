@@ -4,9 +4,9 @@ use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-use super::row::Row;
-use super::value::Value;
+use super::row_file;
 use crate::CommandError;
+use crate::plots::results::Row;
 
 /// The file's name.
 pub const FILE_NAME: &str = "results.csv";
@@ -49,26 +49,19 @@ impl ResultsFile {
         }
         let mut bytes = Vec::new();
         file.read_to_end(&mut bytes).map_err(failed("read"))?;
-        let whole = whole(&bytes);
+        let whole = row_file::whole(&bytes);
         if whole < bytes.len() {
             file.set_len(whole as u64).map_err(failed("write"))?;
             bytes.truncate(whole);
         }
         file.seek(SeekFrom::Start(whole as u64)).map_err(failed("read"))?;
         Ok(Self {
-            rows: parse(path, &bytes, columns)?,
+            rows: row_file::parse(path, &bytes, columns)?,
             has_header: whole > 0,
             path: path.to_owned(),
             file,
             columns,
         })
-    }
-
-    /// Reads the rows without changing the file; a last line without its end is skipped.
-    pub fn read(path: &Path, columns: &'static str) -> Result<Vec<Row>, CommandError> {
-        let mut bytes = std::fs::read(path).map_err(|source| CommandError::file("read", path, source))?;
-        bytes.truncate(whole(&bytes));
-        parse(path, &bytes, columns)
     }
 
     /// The rows so far, in the order of the file.
@@ -79,9 +72,10 @@ impl ResultsFile {
     /// Adds a row with one write and waits until it is on the disk.
     pub fn append(&mut self, row: &Row) -> Result<(), CommandError> {
         let failed = |source| CommandError::file("write", &self.path, source);
-        let line = self.line(row).map_err(|error| failed(std::io::Error::other(error)))?;
+        let lines = row_file::lines(self.columns, !self.has_header, [row]);
+        let lines = lines.map_err(|error| failed(std::io::Error::other(error)))?;
         self.file
-            .write_all(&line)
+            .write_all(&lines)
             .and_then(|()| self.file.sync_data())
             .map_err(failed)?;
         self.has_header = true;
@@ -93,53 +87,6 @@ impl ResultsFile {
             .push(kept.fold(Row::default(), |row, (column, value)| row.with(column, value)));
         Ok(())
     }
-
-    /// The row as a line, after a header where the file has none yet.
-    fn line(&self, row: &Row) -> Result<Vec<u8>, csv::Error> {
-        let mut writer = csv::Writer::from_writer(Vec::new());
-        if !self.has_header {
-            writer.write_record(self.columns.split(' '))?;
-        }
-        let values: Vec<&Value> = self.columns.split(' ').map(|column| row.value(column)).collect();
-        writer.serialize(values)?;
-        writer.into_inner().map_err(|error| error.into_error().into())
-    }
-}
-
-/// The length of the lines that have an end.
-fn whole(bytes: &[u8]) -> usize {
-    let end = bytes.iter().rposition(|&byte| byte == b'\n');
-    end.map_or(0, |position| position + 1)
-}
-
-/// The rows of a file; what it holds in other columns is left alone.
-fn parse(path: &Path, bytes: &[u8], columns: &'static str) -> Result<Vec<Row>, CommandError> {
-    let unreadable = |message: String| CommandError::ResultsUnreadable {
-        file: path.display().to_string(),
-        message,
-    };
-    let mut reader = csv::Reader::from_reader(bytes);
-    let header = reader.headers().map_err(|error| unreadable(error.to_string()))?.clone();
-    let place = |column: &'static str| Some((column, header.iter().position(|name| name == column)?));
-    let places: Vec<(&str, usize)> = columns.split(' ').filter_map(place).collect();
-    if !bytes.is_empty() && places.first().is_none_or(|(column, _)| *column != "case") {
-        return Err(unreadable("line 1: the column `case` is missing".to_owned()));
-    }
-    let mut rows = Vec::new();
-    for record in reader.records() {
-        let record = record.map_err(|error| unreadable(error.to_string()))?;
-        let line = record.position().map_or(0, csv::Position::line);
-        let mut row = Row::default();
-        for &(column, place) in &places {
-            let value = Value::read(column, record.get(place).unwrap_or_default());
-            row.set(
-                column,
-                value.map_err(|message| unreadable(format!("line {line}: {message}")))?,
-            );
-        }
-        rows.push(row);
-    }
-    Ok(rows)
 }
 
 #[cfg(test)]
@@ -163,7 +110,7 @@ mod tests {
         results.append(&row("b", None)).unwrap();
         drop(results);
         let expected = [row("a, with comma", Some(0.1 + 0.2)), row("b", None)];
-        assert_eq!(ResultsFile::read(&path, COLUMNS).unwrap(), expected);
+        assert_eq!(row_file::read(&path, COLUMNS).unwrap(), expected);
     }
 
     #[test]
@@ -196,10 +143,7 @@ mod tests {
             std::fs::read_to_string(&path).unwrap(),
             "case,steps,note,seed\n\"a \"\"b\"\", c\",3,,18446744073709551615\n"
         );
-        assert_eq!(
-            results.rows(),
-            ResultsFile::read(&path, "case steps note seed").unwrap()
-        );
+        assert_eq!(results.rows(), row_file::read(&path, "case steps note seed").unwrap());
     }
 
     #[test]
@@ -222,7 +166,7 @@ mod tests {
             ("case,value\na\n", "line"),
         ] {
             std::fs::write(&path, text).unwrap();
-            let message = ResultsFile::read(&path, "case status value").err().unwrap().to_string();
+            let message = row_file::read(&path, "case status value").err().unwrap().to_string();
             assert!(message.contains(expected), "{message}");
         }
     }

@@ -1,109 +1,70 @@
-//! A line of results: cells by the names of their columns.
-
-use std::collections::BTreeMap;
+//! What studies note in a row of results, and what they say of several.
 
 use super::attempt::{Failure, attempt};
 use super::status::Status;
-use super::value::{ENDINGS, Value};
+use super::value::ENDINGS;
 use super::yardstick::Errors;
 use crate::CommandError;
-use crate::plots::page::Cell;
+use crate::plots::page::Page;
+use crate::plots::results::{Row, Rows};
 use crate::sampling::Outcome;
 
-/// What a case gave. Columns that begin with `wall` depend on the machine, the others only on the seeds.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Row {
-    cells: BTreeMap<&'static str, Value>,
-}
-
-impl Row {
-    /// The row of a case of this name.
-    pub fn of(case: impl Into<Value>) -> Self {
-        Self::default().with("case", case)
-    }
-
-    /// The same with one cell more.
-    pub fn with(mut self, column: &'static str, value: impl Into<Value>) -> Self {
-        self.set(column, value);
-        self
-    }
-
-    /// Fills a cell.
-    pub fn set(&mut self, column: &'static str, value: impl Into<Value>) {
-        self.cells.insert(column, value.into());
-    }
-
-    /// A cell.
-    pub fn value(&self, column: &str) -> &Value {
-        self.cells.get(column).unwrap_or(&Value::Empty)
-    }
-
-    /// A word; empty where there is none.
-    pub fn text(&self, column: &str) -> &str {
-        match self.value(column) {
-            Value::Text(text) => text,
-            _ => "",
-        }
-    }
-
-    /// A number.
-    pub fn number(&self, column: &str) -> Option<f64> {
-        match self.value(column) {
-            Value::Number(number) => Some(*number),
-            Value::Count(count) => Some(*count as f64),
-            _ => None,
-        }
-    }
-
-    /// A whole number.
-    pub fn count(&self, column: &str) -> Option<usize> {
-        match self.value(column) {
-            Value::Count(count) => usize::try_from(*count).ok(),
-            _ => None,
-        }
-    }
-
-    /// Whether a cell holds this.
-    pub fn is(&self, column: &str, value: impl Into<Value>) -> bool {
-        *self.value(column) == value.into()
-    }
-
-    /// Cells as they stand in a table, by names with ` | ` between them.
-    pub fn cells(&self, columns: &str) -> Vec<String> {
-        columns.split(" | ").map(|column| self.value(column).cell()).collect()
-    }
-
-    /// The name of the case.
-    pub fn case(&self) -> &str {
-        self.text("case")
-    }
-
+/// A run as a row. Columns that begin with `wall` depend on the machine, the others only on the seeds.
+pub trait RunRow {
     /// How the run ended; with finite particles unless something else is noted.
-    pub fn status(&self) -> Status {
-        let noted = ENDINGS.iter().find_map(|column| Status::of(self.text(column)));
-        noted.unwrap_or_default()
-    }
+    fn status(&self) -> Status;
 
     /// Whether it gave particles.
-    pub fn finished(&self) -> bool {
+    fn finished(&self) -> bool {
         self.status() == Status::Finished
     }
 
     /// Whether the run claims to stand for the target.
-    pub fn claims(&self) -> bool {
+    fn claims(&self) -> bool;
+
+    /// How it ended, with the reason.
+    fn ending(&self) -> String;
+
+    /// The row as an item of a list of runs that gave nothing.
+    fn failure(&self) -> String;
+
+    /// Notes a run without particles.
+    fn fail(&mut self, failure: Failure);
+
+    /// Notes what the sampler says; hands the particles on, if there are some.
+    ///
+    /// # Errors
+    /// What [`attempt`] does not take for a result.
+    fn note(&mut self, sampled: Result<Outcome, CommandError>) -> Result<Option<Outcome>, CommandError>;
+
+    /// Notes what the sampler says of particles.
+    fn take(&mut self, outcome: &Outcome);
+
+    /// Notes the errors of the particles, or why there are none.
+    ///
+    /// # Errors
+    /// What [`attempt`] does not take for a result.
+    fn measured(&mut self, errors: Result<Errors, CommandError>) -> Result<(), CommandError>;
+}
+
+impl RunRow for Row {
+    fn status(&self) -> Status {
+        let noted = ENDINGS.iter().find_map(|column| Status::of(self.text(column)));
+        noted.unwrap_or_default()
+    }
+
+    fn claims(&self) -> bool {
         self.text("outcome") == "converged"
     }
 
-    /// How it ended, with the reason.
-    pub fn ending(&self) -> String {
+    fn ending(&self) -> String {
         match self.text("reason") {
             "" => self.status().as_str().to_owned(),
             reason => format!("{}: {reason}", self.status().as_str()),
         }
     }
 
-    /// The row as an item of a list of runs that gave nothing.
-    pub fn failure(&self) -> String {
+    fn failure(&self) -> String {
         // A study writes one of both.
         let reason = match self.text("reason") {
             "" => self.text("note"),
@@ -112,18 +73,13 @@ impl Row {
         format!("- `{}`: {}: {reason}", self.case(), self.status().as_str())
     }
 
-    /// Notes a run without particles.
-    pub fn fail(&mut self, failure: Failure) {
-        self.set("status", failure.status.as_str());
+    fn fail(&mut self, failure: Failure) {
+        self.set("status", failure.status);
         self.set("note", failure.reason.as_str());
         self.set("reason", failure.reason);
     }
 
-    /// Notes what the sampler says; hands the particles on, if there are some.
-    ///
-    /// # Errors
-    /// What [`attempt`] does not take for a result.
-    pub fn note(&mut self, sampled: Result<Outcome, CommandError>) -> Result<Option<Outcome>, CommandError> {
+    fn note(&mut self, sampled: Result<Outcome, CommandError>) -> Result<Option<Outcome>, CommandError> {
         match attempt(sampled)? {
             Ok(outcome) => {
                 self.take(&outcome);
@@ -136,8 +92,7 @@ impl Row {
         }
     }
 
-    /// Notes what the sampler says of particles.
-    pub fn take(&mut self, outcome: &Outcome) {
+    fn take(&mut self, outcome: &Outcome) {
         let certificate = outcome.certificate.as_ref();
         self.set("outcome", certificate.map(|certificate| certificate.outcome.name()));
         self.set("log_evidence_deviation", outcome.log_evidence_deviation);
@@ -152,11 +107,7 @@ impl Row {
         self.set("wall_seconds", outcome.wall_seconds);
     }
 
-    /// Notes the errors of the particles, or why there are none.
-    ///
-    /// # Errors
-    /// What [`attempt`] does not take for a result.
-    pub fn measured(&mut self, errors: Result<Errors, CommandError>) -> Result<(), CommandError> {
+    fn measured(&mut self, errors: Result<Errors, CommandError>) -> Result<(), CommandError> {
         match attempt(errors)? {
             Err(failure) => self.fail(failure),
             Ok(errors) => {
@@ -168,5 +119,40 @@ impl Row {
             }
         }
         Ok(())
+    }
+}
+
+/// Several runs.
+pub trait RunRows {
+    /// How many gave particles, of how many.
+    fn finished(&self) -> String;
+
+    /// How many ended so.
+    fn ended(&self, ending: Status) -> usize;
+
+    /// The runs that gave nothing, each as an item of a list.
+    fn failures(&self) -> Vec<String>;
+
+    /// A page that ends with the runs that gave nothing, and how many these are.
+    fn close(&self, page: Page) -> Page;
+}
+
+impl RunRows for Rows<'_> {
+    fn finished(&self) -> String {
+        format!("{}/{}", self.count(Row::finished), self.len())
+    }
+
+    fn ended(&self, ending: Status) -> usize {
+        self.count(|row| row.status() == ending)
+    }
+
+    fn failures(&self) -> Vec<String> {
+        self.iter().filter(|row| !row.finished()).map(Row::failure).collect()
+    }
+
+    fn close(&self, mut page: Page) -> Page {
+        let failed = self.failures();
+        page.list("Runs that did not finish", &failed, None);
+        page.with("cases", self.len()).with("failed", failed.len())
     }
 }

@@ -5,13 +5,14 @@ use std::path::Path;
 
 use super::configuration::Configuration;
 use super::definition::{Case, Study, Tools};
+use super::derived;
 use super::directory::StudyDirectory;
 use super::manifest::{self, Manifest, Provenance};
-use super::report::Report;
 use super::results::{self, ResultsFile};
-use super::row::Row;
+use super::row_file;
 use super::yardstick::CurrentYardstick;
 use crate::output::AtomicFile;
+use crate::plots::results::Row;
 use crate::progress::StudyProgress;
 use crate::{CommandError, console, interrupt};
 
@@ -31,7 +32,7 @@ pub fn run<S: Study>(configuration: &Configuration, out: &Path) -> Result<(), Co
     in_threads(configuration.threads(), || {
         let mut results = ResultsFile::open(&directory.file(results::FILE_NAME), S::COLUMNS)?;
         study.check_earlier(results.rows()).map_err(located)?;
-        note_start(&study, configuration, &directory)?;
+        note_start::<S>(&cases, configuration, &directory)?;
         run_missing(&study, &cases, &directory, &mut results).map_err(located)?;
         write_report(&study, results.rows(), &directory)
     })
@@ -40,7 +41,7 @@ pub fn run<S: Study>(configuration: &Configuration, out: &Path) -> Result<(), Co
 /// Writes the report of what a directory holds.
 pub fn report<S: Study>(configuration: &Configuration, directory: &StudyDirectory) -> Result<(), CommandError> {
     let study: S = configuration.parse(S::HEAD)?;
-    let rows = ResultsFile::read(&directory.file(results::FILE_NAME), S::COLUMNS)?;
+    let rows = row_file::read(&directory.file(results::FILE_NAME), S::COLUMNS)?;
     in_threads(configuration.threads(), || write_report(&study, &rows, directory))
 }
 
@@ -71,9 +72,9 @@ fn in_threads<T: Send>(
         .install(work)
 }
 
-/// Writes the manifest, or adds this start to it.
+/// Writes the manifest, or adds this start to it. Seeds that the configuration does not say are those of the cases.
 fn note_start<S: Study>(
-    study: &S,
+    cases: &[Case<S::Work>],
     configuration: &Configuration,
     directory: &StudyDirectory,
 ) -> Result<(), CommandError> {
@@ -86,7 +87,10 @@ fn note_start<S: Study>(
     } else {
         let mut seeds = configuration.seeds().to_vec();
         if seeds.is_empty() {
-            seeds = study.seeds();
+            let of_cases = cases.iter().filter_map(|case| case.row.count("seed"));
+            seeds.extend(of_cases.map(|seed| seed as u64));
+            seeds.sort_unstable();
+            seeds.dedup();
         }
         Manifest::new(S::KIND, configuration.hash(), seeds, threads)
     };
@@ -135,7 +139,8 @@ fn run_missing<S: Study>(
 }
 
 fn write_report<S: Study>(study: &S, rows: &[Row], directory: &StudyDirectory) -> Result<(), CommandError> {
-    let Report { mut page, summary } = study.report(&rows.iter().collect(), directory)?;
+    let completed: Vec<Row> = rows.iter().map(derived::completed).collect();
+    let mut page = study.report(&completed.iter().collect(), directory)?;
     let manifest = Manifest::read(&directory.file(manifest::FILE_NAME))?;
     page.heading("Provenance");
     page.paragraph(provenance(&manifest, rows.len(), study.cases()?.len()));
@@ -144,7 +149,7 @@ fn write_report<S: Study>(study: &S, rows: &[Row], directory: &StudyDirectory) -
     }
     AtomicFile::write(directory.file(REPORT), page.as_str())?;
     let mut pairs = vec![("study", S::KIND.to_owned())];
-    pairs.extend(summary);
+    pairs.extend_from_slice(page.summary());
     pairs.push(("report", directory.file(REPORT).display().to_string()));
     console::print_pairs(&pairs)
 }

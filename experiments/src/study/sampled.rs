@@ -5,10 +5,11 @@ use std::time::Instant;
 use parvi::{Method, Run};
 
 use super::definition::Case;
-use super::row::Row;
+use super::row::RunRow;
 use super::yardstick::Yardstick;
 use crate::CommandError;
 use crate::options::{MethodSpecification, OptionError, TargetSpecification};
+use crate::plots::results::Row;
 use crate::progress::CaseObserver;
 use crate::sampling::{self, Outcome};
 

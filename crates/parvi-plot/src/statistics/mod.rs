@@ -3,12 +3,14 @@
 mod bandwidth;
 mod kernel_density;
 mod kernel_density_grid;
+mod moments;
 mod power_law;
 mod summary;
 
 pub use bandwidth::{Bandwidth, bandwidth};
 pub use kernel_density::{DensityGrid, equidistant, kernel_density};
 pub use kernel_density_grid::kernel_density_grid;
+pub use moments::SampleMoments;
 pub use power_law::{Exponent, PowerLaw, fit_power_law, fit_power_law_of};
 pub use summary::{Summary, summarize, weighted_quantile};
 

@@ -76,13 +76,12 @@ pub fn errors(directory: &Path, title: &str, rows: &[ReducedRow]) -> Result<(), 
         }),
     ];
     for (file, y_label, value) in figures {
+        let x_label = "sample points (mean and range over the test cases)";
         let plot = MultiplesPlot {
             title: title.to_owned(),
-            x_label: "sample points (mean and range over the test cases)".to_owned(),
-            y_label: y_label.to_owned(),
-            x_axis: AxisKind::Logarithmic,
+            y_axis: AxisKind::Automatic,
             panels: vec![MultiplesPanel::new("", series(rows, value))],
-            ..MultiplesPlot::default()
+            ..MultiplesPlot::logarithmic(x_label, y_label)
         };
         AtomicFile::write(directory.join(file), multiples(&plot)?)?;
     }
@@ -109,14 +108,8 @@ fn series(rows: &[ReducedRow], value: Value<ReducedRow>) -> Vec<LineSeries> {
             lines.push((way.clone(), chosen, LineSeries::named(label.join(", "))));
         }
         let values: Vec<f64> = group.iter().map(|row| value(row)).collect();
-        let mean = values.iter().sum::<f64>() / values.len() as f64;
-        let ends = values.iter().fold((f64::INFINITY, 0.0f64), |(low, high), &value| {
-            (low.min(value), high.max(value))
-        });
         for (_, _, line) in lines.iter_mut().filter(|line| is_of(line)) {
-            line.x.push(group[0].samples as f64);
-            line.y.push(mean);
-            line.bars.push(ends);
+            line.push_mean(group[0].samples as f64, &values);
         }
     }
     lines.into_iter().map(|(_, _, line)| line).collect()

@@ -10,7 +10,7 @@ use crate::{CommandError, console, interrupt};
 
 /// Reduced runs of all test cases, their table and figures.
 pub fn execute(experiment: &Experiment, directory: &Path) -> Result<(), CommandError> {
-    let progress = CountProgress::new("run");
+    let mut progress = CountProgress::new("run");
     let result = run_experiment(experiment, directory, &mut |done, runs| {
         progress.set(done, runs);
         !interrupt::requested()

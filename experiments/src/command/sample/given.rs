@@ -33,8 +33,8 @@ pub fn given(arguments: &Arguments, dimension: usize, run: &Run) -> Result<Given
         law.dimension().map_err(|error| of_law(error.to_string()))?;
         Some(on_target!(&law, law, D => drawn::<D>(law.as_ref(), run, volumes))?)
     } else if let Some(centre) = &options.start_centre {
-        let law = NormalLaw::parse(centre, options.start_covariance.as_deref(), dimension)?;
-        Some(in_dimension!("gaussian", dimension, D => drawn::<D>(&law.gaussian()?, run, volumes))?)
+        let covariance = options.start_covariance.as_deref();
+        Some(in_dimension!("gaussian", dimension, D => drawn::<D>(&normal(centre, covariance)?, run, volumes))?)
     } else {
         None
     };
@@ -66,30 +66,22 @@ fn of_law(reason: String) -> CommandError {
 }
 
 /// N(centre, covariance) in the target's own coordinates, the covariance row by row; without one the identity.
-struct NormalLaw {
-    centre: Vec<f64>,
-    covariance: Option<Vec<f64>>,
-}
-
-impl NormalLaw {
-    fn parse(centre: &str, covariance: Option<&str>, dimension: usize) -> Result<Self, OptionError> {
-        let centre = numbers("start-centre", centre, dimension)?;
-        let rows = covariance.map(|text| text.split(';').map(|row| numbers("start-covariance", row, dimension)));
-        let rows: Option<Vec<Vec<f64>>> = rows.map(|rows| rows.collect::<Result<_, _>>()).transpose()?;
-        if let Some(rows) = rows.as_ref().filter(|rows| rows.len() != dimension) {
-            let reason = format!("there are {} rows, the target has {dimension} dimensions", rows.len());
-            return Err(OptionError::new("start-covariance", reason));
+fn normal<const D: usize>(centre: &str, covariance: Option<&str>) -> Result<Gaussian<D>, CommandError> {
+    const FLAG: &str = "start-covariance";
+    let centre = numbers("start-centre", centre, D)?;
+    let mut matrix = Matrix::IDENTITY;
+    if let Some(text) = covariance {
+        let rows: Vec<&str> = text.split(';').collect();
+        if rows.len() != D {
+            let reason = format!("there are {} rows, the target has {D} dimensions", rows.len());
+            return Err(OptionError::new(FLAG, reason).into());
         }
-        let covariance = rows.map(|rows| rows.concat());
-        Ok(Self { centre, covariance })
+        for (entries, row) in matrix.0.iter_mut().zip(rows) {
+            entries.copy_from_slice(&numbers(FLAG, row, D)?);
+        }
     }
-
-    fn gaussian<const D: usize>(&self) -> Result<Gaussian<D>, CommandError> {
-        let identity = |i: usize, j: usize| f64::from(u8::from(i == j));
-        let entry = |i: usize, j: usize| self.covariance.as_ref().map_or(identity(i, j), |rows| rows[D * i + j]);
-        let law = Gaussian::new(std::array::from_fn(|a| self.centre[a]), Matrix::from_fn(entry));
-        law.map_err(|error| OptionError::new("start-covariance", error.to_string()).into())
-    }
+    let law = Gaussian::new(std::array::from_fn(|axis| centre[axis]), matrix);
+    law.map_err(|error| OptionError::new(FLAG, error.to_string()).into())
 }
 
 /// As many finite numbers as there are dimensions, with commas between.

@@ -8,7 +8,7 @@ mod watch;
 use std::path::PathBuf;
 
 use clap::Args;
-use parvi::{Checkpoint, Method, MpmOptions, Run};
+use parvi::{Checkpoint, Method, Run};
 
 use crate::diagnostics::diagnose;
 use crate::machine::MemoryGauge;
@@ -86,12 +86,9 @@ pub fn with_owners(command: clap::Command) -> clap::Command {
 pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let method = with_checkpoint(traced(arguments).method(arguments.method)?, arguments)?;
     let pool = arguments.options.pool_file(arguments.method);
-    ParticleFormat::of("out", &arguments.out)?;
-    if let Some(path) = pool {
-        ParticleFormat::of("pool", path)?;
-    }
-    if let Some(path) = &arguments.options.best {
-        ParticleFormat::of("best", path)?;
+    let best = arguments.options.best.as_ref();
+    for (flag, path) in [("out", Some(&arguments.out)), ("pool", pool), ("best", best)] {
+        path.map(|path| ParticleFormat::of(flag, path)).transpose()?;
     }
     files::check(arguments)?;
     let target = TargetSpecification {
@@ -115,7 +112,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let plots = directory("plots", &arguments.plots)?;
     let file = ParticleFile::create(&arguments.out)?;
     let pool = pool.map(ParticleFile::create).transpose()?;
-    let best = arguments.options.best.as_ref();
     let best = best.map(ParticleFile::create).transpose()?;
     let diagnostics = arguments.diagnostics.as_ref().map(AtomicFile::create).transpose()?;
     interrupt::listen();
@@ -181,17 +177,12 @@ fn particles(arguments: &Arguments) -> Result<usize, CommandError> {
 
 /// An error of a target, or of particles, that a flag asks for is one of this flag.
 fn of_flags(error: CommandError) -> CommandError {
-    match error {
-        CommandError::Sample(error) => match given::flag_of(&error) {
-            Some(error) => error.into(),
-            None => error.into(),
-        },
-        CommandError::Target(error) => match OptionError::of_target(&error) {
-            Some(error) => error.into(),
-            None => error.into(),
-        },
-        error => error,
-    }
+    let of_flag = match &error {
+        CommandError::Sample(error) => given::flag_of(error),
+        CommandError::Target(error) => OptionError::of_target(error),
+        _ => None,
+    };
+    of_flag.map_or(error, CommandError::from)
 }
 
 /// Records of the trace that a picture shows.
@@ -211,22 +202,23 @@ fn traced(arguments: &Arguments) -> MethodOptions {
 
 /// The method with the checkpoint that was asked for.
 fn with_checkpoint(method: Method, arguments: &Arguments) -> Result<Method, CommandError> {
-    match (method, &arguments.checkpoint) {
-        (Method::Mpm(options), Some(path)) => Ok(Method::Mpm(MpmOptions {
-            checkpoint: Some(Checkpoint {
+    let Some(path) = &arguments.checkpoint else {
+        return Ok(method);
+    };
+    let shown = path.display().to_string();
+    let refused = match method {
+        Method::Mpm(mut options) => {
+            options.checkpoint = Some(Checkpoint {
                 path: path.clone(),
                 every: arguments.checkpoint_every.get(),
-            }),
-            ..options
-        })),
-        (Method::OnMesh(_), Some(path)) => Err(OptionError::new(
-            "checkpoint",
-            format!("{}: sampling on a mesh has no checkpoint", path.display()),
-        )
-        .into()),
-        (_, Some(path)) => {
-            Err(OptionError::misfit("checkpoint", &path.display().to_string(), arguments.method.as_str()).into())
+            });
+            return Ok(Method::Mpm(options));
         }
-        (method, None) => Ok(method),
-    }
+        Method::OnMesh(_) => {
+            let reason = format!("{shown}: sampling on a mesh has no checkpoint");
+            OptionError::new("checkpoint", reason)
+        }
+        _ => OptionError::misfit("checkpoint", &shown, arguments.method.as_str()),
+    };
+    Err(refused.into())
 }

@@ -9,11 +9,8 @@ use crate::CommandError;
 use crate::output::AtomicFile;
 use crate::plots::{AxisKind, TracePanel, TracePlot, TraceSeries, trace};
 
-/// Columns that share a panel, by what their names begin with; the rest of a name is the line's label.
-struct Panel {
-    prefix: String,
-    y_label: String,
-}
+/// Columns that share a panel, by what their names begin with, the rest of a name being the line's label; and the label of the axis.
+type Panel = (String, &'static str);
 
 /// Draws the series of a directory; nothing where there is none.
 pub fn draw(directory: &Path, title: &str) -> Result<(), CommandError> {
@@ -65,17 +62,13 @@ const GROUPS: [(&str, &[(&str, &str)]); 4] = [
 
 /// Files and their panels.
 fn groups(series: &Series) -> Vec<(String, Vec<Panel>)> {
-    let panel = |prefix: &str, y_label: &str| Panel {
-        prefix: prefix.to_owned(),
-        y_label: y_label.to_owned(),
-    };
     let of_run = GROUPS.iter().map(|(name, panels)| {
-        let panels = panels.iter().map(|(prefix, y_label)| panel(prefix, y_label));
+        let panels = panels.iter().map(|(prefix, y_label)| ((*prefix).to_owned(), *y_label));
         ((*name).to_owned(), panels.collect())
     });
     let of_probe = probes(series).map(|probe| {
-        let fields = ["displacement", "velocity", "stress"];
-        let panels = fields.map(|field| panel(&format!("{probe}_{field}_"), field));
+        let panel = |field| (format!("{probe}_{field}_"), field);
+        let panels = ["displacement", "velocity", "stress"].map(panel);
         (format!("probe_{probe}"), panels.into())
     });
     of_run.chain(of_probe).collect()
@@ -88,32 +81,26 @@ fn probes(series: &Series) -> impl Iterator<Item = &str> {
 }
 
 /// The lines of a panel; `None` without any.
-fn drawn(series: &Series, panel: &Panel) -> Option<TracePanel> {
-    let times = series.column("time")?;
+fn drawn(series: &Series, (prefix, y_label): &Panel) -> Option<TracePanel> {
+    let step = series.column("time")?;
     let mut lines: Vec<TraceSeries> = Vec::new();
     for column in series.columns() {
-        let label = if panel.prefix.is_empty() {
-            column.strip_suffix("_energy")
-        } else {
-            column.strip_prefix(panel.prefix.as_str())
+        let rest = match prefix.as_str() {
+            "" => column.strip_suffix("_energy"),
+            prefix => column.strip_prefix(prefix),
         };
-        let Some(label) = label else { continue };
-        lines.push(TraceSeries {
-            label: label.trim_start_matches('_').to_owned(),
-            step: times.clone(),
-            value: series.column(column)?,
-        });
+        let Some(label) = rest else { continue };
+        let (label, step) = (label.trim_start_matches('_').to_owned(), step.clone());
+        let value = series.column(column)?;
+        lines.push(TraceSeries { label, step, value });
     }
-    if panel.prefix.is_empty() && !lines.is_empty() {
+    if prefix.is_empty() && !lines.is_empty() {
         let sum = |k: usize| lines.iter().filter_map(|line| line.value.get(k)).sum();
-        let value = (0..times.len()).map(sum).collect();
-        lines.push(TraceSeries {
-            label: "total".to_owned(),
-            step: times,
-            value,
-        });
+        let value = (0..step.len()).map(sum).collect();
+        let label = "total".to_owned();
+        lines.push(TraceSeries { label, step, value });
     }
-    (!lines.is_empty()).then(|| TracePanel::new(panel.y_label.as_str(), AxisKind::Linear, lines))
+    (!lines.is_empty()).then(|| TracePanel::new(*y_label, AxisKind::Linear, lines))
 }
 
 #[cfg(test)]

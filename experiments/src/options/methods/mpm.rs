@@ -14,11 +14,9 @@ pub const KIND: MethodKind = MethodKind {
         start-draws",
     iterates: true,
     build: |options, steps| {
-        options.check_survey()?;
-        options.check_attraction()?;
         Ok(match options.basis {
             Some(Basis::Mesh) => Method::OnMesh(options.on_mesh(steps)?),
-            _ => Method::Mpm(options.mpm(steps)?),
+            _ => Method::Mpm(options.mpm(steps)),
         })
     },
 };
@@ -29,7 +27,7 @@ const ON_MESH: &str =
 
 impl MethodOptions {
     /// The calibrated gas.
-    fn mpm(&self, steps: Option<usize>) -> Result<MpmOptions, OptionError> {
+    fn mpm(&self, steps: Option<usize>) -> MpmOptions {
         let default = MpmOptions::default();
         let transfer = match self.transfer {
             None => default.transfer,
@@ -38,8 +36,7 @@ impl MethodOptions {
             Some(Transfer::Flip) => TransferChoice::Flip(self.flip_share.unwrap_or(0.95)),
             Some(Transfer::AffineFlip) => TransferChoice::AffineFlip(self.flip_share.unwrap_or(0.95)),
         };
-        let displacement_limit = self.displacement_limit_of_gas(default.displacement_limit)?;
-        Ok(MpmOptions {
+        MpmOptions {
             basis: self.basis.and_then(Basis::uniform).unwrap_or(default.basis),
             transfer,
             spacing: self.spacing.or(default.spacing),
@@ -58,7 +55,7 @@ impl MethodOptions {
             settling: self.settling(default.settling),
             moment_correction: self.moment_correction.map_or(default.moment_correction, Into::into),
             score_location: self.score.map_or(default.score_location, Into::into),
-            displacement_limit,
+            displacement_limit: self.displacement_limit_of_gas(default.displacement_limit),
             rounds: self.rounds.map(RoundCount::get).or(default.rounds),
             non_finite_scores: self.non_finite.map_or(default.non_finite_scores, Into::into),
             annealing: self.annealing().unwrap_or(default.annealing),
@@ -66,16 +63,12 @@ impl MethodOptions {
             checkpoint: default.checkpoint,
             weighted: self.weighted.map_or(default.weighted, Switch::is_on),
             trace_every: self.trace_every,
-        })
+        }
     }
 
     /// The calibrated gas within a mesh.
     fn on_mesh(&self, steps: Option<usize>) -> Result<OnMesh, OptionError> {
         let default = MeshOptions::default();
-        let Some(file) = self.mesh.clone() else {
-            let reason = "mesh needs --mesh FILE.msh beside it";
-            return Err(OptionError::new("basis", reason));
-        };
         let is_known = |name: &str| ON_MESH.split(' ').any(|known| known == name);
         if let Some((name, value)) = self.given().find(|(name, _)| !is_known(name)) {
             return Err(OptionError::misfit(&name, &value, "mpm on a mesh"));
@@ -87,9 +80,10 @@ impl MethodOptions {
             shifts: self.shifts.map_or(default.shifts, Switch::is_on),
             settling: self.settling(default.settling),
             non_finite_scores: self.non_finite.map_or(default.non_finite_scores, Into::into),
-            displacement_limit: self.displacement_limit_of_gas(default.displacement_limit)?,
+            displacement_limit: self.displacement_limit_of_gas(default.displacement_limit),
             trace_every: self.trace_every,
         };
+        let file = self.mesh.clone().unwrap_or_default();
         Ok(OnMesh { file, options })
     }
 
@@ -112,11 +106,7 @@ impl MethodOptions {
         }
     }
 
-    fn displacement_limit_of_gas(&self, default: f64) -> Result<f64, OptionError> {
-        match self.displacement_limit {
-            None => Ok(default),
-            Some(Limit::At(limit)) => Ok(limit),
-            Some(Limit::Off) => Err(OptionError::misfit("displacement-limit", "off", "mpm")),
-        }
+    fn displacement_limit_of_gas(&self, default: f64) -> f64 {
+        self.displacement_limit.and_then(Limit::value).unwrap_or(default)
     }
 }

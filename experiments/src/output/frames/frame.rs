@@ -88,7 +88,7 @@ impl Frame {
     pub fn vtp(&self, stamp: &Stamp, names: &[String]) -> Vec<u8> {
         let count = self.particles();
         let mut appended = Appended::default();
-        let points = appended.floats("position", 3, &self.padded(&self.positions));
+        let points = appended.floats("position", 3, &self.padded(&self.positions, 3));
         let connectivity = appended.integers("connectivity", (0..count).map(|p| p as i64));
         let offsets = appended.integers("offsets", (1..=count).map(|p| p as i64));
         let data = self.point_data(&mut appended, names);
@@ -120,23 +120,14 @@ impl Frame {
             let column: Vec<f64> = self.positions.iter().skip(axis).step_by(d.max(1)).copied().collect();
             text += &appended.floats(name, 1, &column);
         }
+        let wide = d.max(3);
         if let Some(velocities) = &self.velocities {
-            text += &if d <= 3 {
-                appended.floats("velocity", 3, &self.padded(velocities))
-            } else {
-                appended.floats("velocity", d, velocities)
-            };
+            text += &appended.floats("velocity", wide, &self.padded(velocities, wide));
         }
         if let Some(gradients) = &self.deformation_gradients {
-            text += &if d <= 3 {
-                let padded: Vec<f64> = gradients
-                    .chunks_exact((d * d).max(1))
-                    .flat_map(|f| padded_gradient(f, d))
-                    .collect();
-                appended.floats("deformation_gradient", 9, &padded)
-            } else {
-                appended.floats("deformation_gradient", d * d, gradients)
-            };
+            let gradients = gradients.chunks_exact((d * d).max(1));
+            let padded: Vec<f64> = gradients.flat_map(|f| padded_gradient(f, d)).collect();
+            text += &appended.floats("deformation_gradient", wide * wide, &padded);
         }
         if let Some(weights) = &self.weights {
             text += &appended.floats("weight", 1, weights);
@@ -144,10 +135,10 @@ impl Frame {
         text + &appended.integers("particle", (0..count).map(|p| p as i64))
     }
 
-    /// The first three entries of every row, with zeros behind shorter ones.
-    fn padded(&self, list: &[f64]) -> Vec<f64> {
+    /// The first `wide` entries of every row, with zeros behind shorter ones.
+    fn padded(&self, list: &[f64], wide: usize) -> Vec<f64> {
         let rows = list.chunks_exact(self.dimension.max(1));
-        rows.flat_map(|row| (0..3).map(|a| row.get(a).copied().unwrap_or(0.0)))
+        rows.flat_map(|row| (0..wide).map(|a| row.get(a).copied().unwrap_or(0.0)))
             .collect()
     }
 }
@@ -164,9 +155,11 @@ fn array_names(names: &[String], dimension: usize) -> Vec<String> {
         .collect()
 }
 
-fn padded_gradient(gradient: &[f64], dimension: usize) -> [f64; 9] {
-    std::array::from_fn(|k| {
-        let (i, j) = (k / 3, k % 3);
+/// A gradient of at least three rows and columns, which beyond its own are those of no deformation.
+fn padded_gradient(gradient: &[f64], dimension: usize) -> impl Iterator<Item = f64> {
+    let wide = dimension.max(3);
+    (0..wide * wide).map(move |k| {
+        let (i, j) = (k / wide, k % wide);
         if i < dimension && j < dimension {
             gradient.get(i * dimension + j).copied().unwrap_or(0.0)
         } else {

@@ -5,7 +5,7 @@ use crate::study::prelude::*;
 
 /// The energy distance against M, one panel per dimension.
 pub fn plot(study: &Accuracy, rows: &Rows<'_>) -> MultiplesPlot {
-    let panels = study.dims.iter().map(|&dim| panel(study, rows, dim));
+    let panels = study.dims.iter().map(|&dim| panel(study, &rows.with("dim", dim), dim));
     MultiplesPlot::logarithmic("number of particles M", "energy distance ED (standard deviations^{½})")
         .with_panels(panels.filter(|panel| !panel.series.is_empty()))
         .with_note("Medians over the seeds; bars from the smallest to the largest.")
@@ -16,20 +16,17 @@ pub fn best_exponent(dim: Dimension) -> f64 {
     -0.5 * (1.0 + 1.0 / dim.get() as f64)
 }
 
-fn panel(study: &Accuracy, rows: &Rows<'_>, dim: Dimension) -> MultiplesPanel {
-    let line = |label: &str| {
-        let points = study.by_size(rows, dim, label).into_iter();
-        curve(label, points.map(|(count, rows)| (count as f64, rows)), ENERGY_ROOT)
-    };
+fn panel(study: &Accuracy, here: &Rows<'_>, dim: Dimension) -> MultiplesPanel {
+    let line = |label: &str| here.with("series", label).curve(label, "particles", "energy_root");
     let series: Vec<LineSeries> = study.labels().map(line).filter(|line| !line.x.is_empty()).collect();
     MultiplesPanel {
-        guides: guides(rows, dim, &series),
+        guides: guides(here, dim, &series),
         ..MultiplesPanel::new(format!("d = {dim}"), series)
     }
 }
 
 /// The expectation of independent draws, and the best possible slope a little below the lowest first point.
-fn guides(rows: &Rows<'_>, dim: Dimension, series: &[LineSeries]) -> Vec<GuideCurve> {
+fn guides(here: &Rows<'_>, dim: Dimension, series: &[LineSeries]) -> Vec<GuideCurve> {
     let points = || series.iter().flat_map(LineSeries::points);
     let first = points().map(|(x, _)| x).fold(f64::INFINITY, f64::min);
     let last = points().map(|(x, _)| x).fold(0.0, f64::max);
@@ -37,7 +34,7 @@ fn guides(rows: &Rows<'_>, dim: Dimension, series: &[LineSeries]) -> Vec<GuideCu
         .filter(|(x, _)| *x == first)
         .map(|(_, y)| y)
         .fold(f64::INFINITY, f64::min);
-    let independent = expected(rows, dim, first).map_or(f64::NAN, f64::sqrt);
+    let independent = expected(here, first).map_or(f64::NAN, f64::sqrt);
     let guide = |label: &str, start: f64, exponent: f64, dotted: bool| {
         GuideCurve::through(label, (first, last), dotted, |x| start * (x / first).powf(exponent))
     };

@@ -77,14 +77,7 @@ impl Study for Accuracy {
             for &particles in &self.particles {
                 let within = |entry: &&Entry| entry.largest_particles.is_none_or(|most| particles <= most);
                 for Entry { method, .. } in self.methods.iter().filter(within) {
-                    let setting = Setting {
-                        dim,
-                        particles: particles.get(),
-                        series: method.label().to_owned(),
-                        method,
-                        spacing_factor: None,
-                    };
-                    cases.extend(setting.cases(&self.seeds)?);
+                    cases.extend(Setting::new(dim, particles, method).cases(&self.seeds)?);
                 }
             }
         }
@@ -96,7 +89,7 @@ impl Study for Accuracy {
         gaussian_runs::run(case, row, tools)
     }
 
-    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Report, CommandError> {
+    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
         Ok(report::report(self, rows))
     }
 }
@@ -106,18 +99,10 @@ impl Accuracy {
     fn labels(&self) -> impl Iterator<Item = &str> {
         self.methods.iter().map(|entry| entry.method.label())
     }
-
-    /// The runs of a method by the number of particles, few first.
-    fn by_size<'a>(&self, rows: &Rows<'a>, dim: Dimension, label: &str) -> Vec<(usize, Rows<'a>)> {
-        let here = rows.with("dim", dim).with("series", label);
-        let sizes = ascending(&self.particles).into_iter();
-        sizes.map(|size| (size, here.with("particles", size))).collect()
-    }
 }
 
-/// ED² of as many independent draws, in expectation.
-fn expected(rows: &Rows<'_>, dim: Dimension, particles: f64) -> Option<f64> {
-    let here = rows.with("dim", dim);
+/// ED² of as many independent draws, in expectation; of runs in one dimension.
+fn expected(here: &Rows<'_>, particles: f64) -> Option<f64> {
     let row = here.first()?;
     Some(row.number("energy_level")? * row.number("particles")? / particles)
 }

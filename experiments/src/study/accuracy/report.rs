@@ -8,7 +8,7 @@ use crate::study::prelude::*;
 const MOST_LINES: usize = 8;
 
 /// Tables and figure.
-pub fn report(study: &Accuracy, rows: &Rows<'_>) -> Report {
+pub fn report(study: &Accuracy, rows: &Rows<'_>) -> Page {
     let mut page = Page::new("Accuracy against the number of particles");
     page.paragraph(format!(
         "Target N(0, I), {} seeds. ED² is the squared energy distance, exact in the expectation over the Gaussian; \
@@ -28,48 +28,44 @@ pub fn report(study: &Accuracy, rows: &Rows<'_>) -> Report {
     );
     for &dim in &study.dims {
         page.paragraph(format!("**d = {dim}**"));
-        energy_table(study, rows, dim, &mut page);
+        energy_table(study, &rows.with("dim", dim), &mut page);
     }
     slopes(study, rows, &mut page);
     costs(study, rows, &mut page);
-    rows.report(page)
+    rows.close(page)
 }
 
-/// A line per method, a column or two per size.
-fn energy_table(study: &Accuracy, rows: &Rows<'_>, dim: Dimension, page: &mut Page) {
+/// A line per method, a column or two per size; of runs in one dimension.
+fn energy_table(study: &Accuracy, here: &Rows<'_>, page: &mut Page) {
     let sobol = |entry: &&super::Entry| entry.method.name == MethodName::Sobol;
     let yardstick = study.methods.iter().find(sobol).map(|entry| entry.method.label());
-    let here = rows.with("dim", dim);
+    let runs = |label: &str, size: usize| here.with("series", label).with("particles", size);
     // Over the median ED² of the yardstick's runs, where there is one.
-    let relative = |value: Option<f64>, particles: usize| {
-        let runs = |label: &str| here.with("particles", particles).with("series", label);
-        yardstick.map(|label| {
-            value
-                .zip(runs(label).median(ENERGY))
-                .map(|(value, level)| value / level)
-                .cell()
-        })
+    let relative = |value: Option<f64>, size: usize| {
+        let level = |label: &str| runs(label, size).median(ENERGY);
+        yardstick.map(|label| value.zip(level(label)).map(|(value, level)| value / level).cell())
     };
     let mut header = vec!["method".to_owned()];
     let mut independent = vec!["i.i.d., expected".to_owned()];
-    for particles in ascending(&study.particles) {
-        header.push(format!("M = {particles}"));
+    let sizes = ascending(&study.particles);
+    for &size in &sizes {
+        header.push(format!("M = {size}"));
         header.extend(yardstick.map(|label| format!("/ {label}")));
-        let expected = expected(rows, dim, particles as f64);
+        let expected = expected(here, size as f64);
         independent.push(expected.map(|value| 1e3 * value).cell());
-        independent.extend(relative(expected, particles));
+        independent.extend(relative(expected, size));
     }
     let mut table = vec![independent];
     for label in study.labels() {
         let mut line = vec![label.to_owned()];
-        for (particles, runs) in study.by_size(rows, dim, label) {
-            let middle = runs.median(ENERGY);
-            let both = middle.zip(runs.largest(ENERGY));
-            line.push(
-                both.map(|(middle, most)| format!("{} ({})", number(1e3 * middle), number(1e3 * most)))
-                    .cell(),
-            );
-            line.extend(relative(middle, particles));
+        for &size in &sizes {
+            let runs = runs(label, size);
+            let cells = runs.cells("median energy_thousandths | largest energy_thousandths");
+            line.push(match runs.median(ENERGY) {
+                Some(_) => format!("{} ({})", cells[0], cells[1]),
+                None => MISSING.to_owned(),
+            });
+            line.extend(relative(runs.median(ENERGY), size));
         }
         table.push(line);
     }
@@ -83,9 +79,9 @@ fn slopes(study: &Accuracy, rows: &Rows<'_>, page: &mut Page) {
         "Exponents b of ED ∝ M^b: least squares in logarithms over the medians, with 95 % confidence intervals. No M points \
          can do better than the order M^(−(1 + 1/d)/2) of optimally spread ones; independent draws have −1/2.",
     );
-    let slope = |dim: Dimension, label: &str| {
-        let sizes = study.by_size(rows, dim, label).into_iter();
-        exponent(sizes.filter_map(|(particles, runs)| Some((particles as f64, runs.median(ENERGY_ROOT)?))))
+    let slope = |label: &str, dim: Dimension| {
+        let here = rows.with("dim", dim).with("series", label);
+        exponent(here.curve(label, "particles", "energy_root").points())
     };
     let line = |name: &str, cell: &dyn Fn(Dimension) -> String| {
         let cells = study.dims.iter().map(|&dim| cell(dim));
@@ -96,37 +92,33 @@ fn slopes(study: &Accuracy, rows: &Rows<'_>, page: &mut Page) {
         line("best possible", &|dim| exact(best_exponent(dim))),
         line("independent draws", &|_| exact(-0.5)),
     ];
-    table.extend(study.labels().map(|label| line(label, &|dim| slope(dim, label))));
+    table.extend(study.labels().map(|label| line(label, &|dim| slope(label, dim))));
     page.table(&by_dimension("method", &study.dims), &table);
 }
 
-/// What the runs took: a line per method and size, a column per dimension.
+/// What the runs took.
+const COSTS: [(&str, &str); 3] = [
+    ("Wall time of the sampler in seconds, medians over the seeds.", SECONDS),
+    (
+        "Evaluations per particle, of the score and of the log density.",
+        "evaluations_per_particle",
+    ),
+    ("Active nodes in the last step.", "active_nodes"),
+];
+
+/// A line per method and size, a column per dimension.
 fn costs(study: &Accuracy, rows: &Rows<'_>, page: &mut Page) {
     page.heading("Costs");
-    let per_particle: Computed = |row| Some(EVALUATIONS(row)? / row.number("particles")?);
-    let quantities: [(&str, &dyn Quantity); 3] = [
-        ("Wall time of the sampler in seconds, medians over the seeds.", &SECONDS),
-        (
-            "Evaluations per particle, of the score and of the log density.",
-            &per_particle,
-        ),
-        ("Active nodes in the last step.", &"active_nodes"),
-    ];
-    for (name, quantity) in quantities {
+    for (name, column) in COSTS {
         let mut table = Vec::new();
         for label in study.labels() {
-            for particles in ascending(&study.particles) {
-                let here = rows.with("series", label).with("particles", particles);
-                let value = |&dim: &Dimension| here.with("dim", dim).median(|row: &Row| quantity.of(row));
-                let values: Vec<Option<f64>> = study.dims.iter().map(value).collect();
+            for size in ascending(&study.particles) {
+                let here = rows.with("series", label).with("particles", size);
+                let values = study.dims.iter().map(|&dim| here.with("dim", dim).median(column));
+                let values: Vec<Option<f64>> = values.collect();
                 if values.iter().flatten().any(|&value| value > 0.0) {
-                    let names = [label.to_owned(), particles.to_string()];
-                    table.push(
-                        names
-                            .into_iter()
-                            .chain(values.iter().map(Cell::cell))
-                            .collect::<Vec<_>>(),
-                    );
+                    let names = [label.to_owned(), size.to_string()].into_iter();
+                    table.push(names.chain(values.iter().map(Cell::cell)).collect::<Vec<_>>());
                 }
             }
         }

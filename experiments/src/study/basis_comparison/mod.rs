@@ -50,11 +50,10 @@ impl Study for BasisComparison {
         unset("method.options.basis", &options.basis, "bases")?;
         unset("method.options.spacing", &options.spacing, "spacings")?;
         unset("method.options.steps", &options.steps, "steps")?;
-        let particles = self.particles.get();
         let mut cases = Vec::new();
         for &dim in &self.dims {
             for &basis in &self.bases {
-                let default = default_spacing(dim, basis, particles)?;
+                let default = default_spacing(dim, basis, self.particles.get())?;
                 for &factor in &self.spacings {
                     for &steps in &self.steps {
                         let mut method = self.method.clone();
@@ -63,11 +62,9 @@ impl Study for BasisComparison {
                         method.options.steps = Some(steps);
                         fitting("method", &method)?;
                         let setting = Setting {
-                            dim,
-                            particles,
                             series: basis.to_string(),
-                            method: &method,
                             spacing_factor: Some(factor),
+                            ..Setting::new(dim, self.particles, &method)
                         };
                         cases.extend(setting.cases(&self.seeds)?);
                     }
@@ -82,7 +79,7 @@ impl Study for BasisComparison {
         gaussian_runs::run(case, row, tools)
     }
 
-    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Report, CommandError> {
+    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
         Ok(report::report(self, rows))
     }
 }

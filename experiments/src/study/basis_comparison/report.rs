@@ -1,20 +1,20 @@
 //! The report of the study `basis-comparison`.
 
 use super::BasisComparison;
-use super::choice::{Choice, at};
+use super::choice::Choice;
 use crate::study::prelude::*;
 
 /// Tables and figure.
-pub fn report(study: &BasisComparison, rows: &Rows<'_>) -> Report {
+pub fn report(study: &BasisComparison, rows: &Rows<'_>) -> Page {
     let mut page = Page::new("Bases at equal time");
+    let most = study.step_counts().last().copied().unwrap_or(0);
     page.paragraph(format!(
         "Target N(0, I), M = {} particles, method `{}`, {} seeds; medians over the seeds. ED² is the squared energy distance, \
          exact in the expectation over the Gaussian. Spacings h, in standard deviations, are multiples of each basis's own \
-         default; the best is the one with the lowest ED² at {} steps.",
+         default; the best is the one with the lowest ED² at {most} steps.",
         study.particles,
         study.method.label(),
         study.seeds.len(),
-        study.step_counts().last().copied().unwrap_or(0),
     ));
     page.heading("Figure");
     let caption =
@@ -28,67 +28,61 @@ pub fn report(study: &BasisComparison, rows: &Rows<'_>) -> Report {
              takes no longer than the largest T of `{first}`. An asterisk marks a best spacing at the edge of the scan.",
         ));
     }
-    for &dim in &study.dims {
+    for dim in &study.dims {
         page.paragraph(format!("**d = {dim}**"));
-        best_table(study, rows, dim, &mut page);
+        best_table(study, &rows.with("dim", *dim), &mut page);
     }
     page.heading("Spacings");
-    spacings(study, rows, &mut page);
-    rows.report(page)
+    spacings(study, &rows.with("requested_steps", most), &mut page);
+    rows.close(page)
 }
 
-/// The median ED² × 10³.
-fn thousandths(rows: &Rows<'_>) -> Option<f64> {
-    rows.median(ENERGY).map(|energy| 1e3 * energy)
-}
-
-fn best_table(study: &BasisComparison, rows: &Rows<'_>, dim: Dimension, page: &mut Page) {
-    let first = study.bases.first();
-    let allowed = first.and_then(|&basis| Choice::of(study, rows, dim, basis)?.longest());
+/// A line per basis, in one dimension.
+fn best_table(study: &BasisComparison, here: &Rows<'_>, page: &mut Page) {
+    let (Some(first), Some(&most)) = (study.bases.first(), study.step_counts().last()) else {
+        return;
+    };
+    let longest = |choice: Choice<'_>| choice.with_steps(most).median(SECONDS);
+    let allowed = Choice::of(study, here, *first).and_then(longest);
     let mut header = "basis | best h | h / default".names();
     for steps in study.step_counts() {
         header.extend([format!("ED², T = {steps}"), format!("time (s), T = {steps}")]);
     }
-    let name = first.map_or(String::new(), Basis::to_string);
-    header.push(format!("ED² in the time of {name}"));
-    let mut table = Vec::new();
-    for &basis in &study.bases {
-        let Some(choice) = Choice::of(study, rows, dim, basis) else {
-            continue;
-        };
+    header.push(format!("ED² in the time of {first}"));
+    let cells = |&basis: &Basis| {
+        let choice = Choice::of(study, here, basis)?;
         let edge = if choice.is_at_the_edge(study) { "*" } else { "" };
-        let factor = format!("{}{edge}", choice.factor);
-        let mut cells = line(&[&basis.to_string(), &choice.spacing(), &factor]);
+        let mut cells = vec![basis.to_string()];
+        cells.extend(choice.runs.cells("first requested_spacing"));
+        cells.push(format!("{}{edge}", choice.factor));
         for steps in study.step_counts() {
-            let here = at(rows, dim, basis, choice.factor).with("requested_steps", steps);
-            cells.extend(line(&[&thousandths(&here), &here.median(SECONDS)]));
+            let statistics = "median energy_thousandths | median wall_seconds";
+            cells.extend(choice.with_steps(steps).cells(statistics));
         }
-        let equal = allowed.and_then(|seconds| choice.within(seconds));
+        let equal = allowed.and_then(|seconds| choice.within(study, seconds));
         cells.push(
             equal
-                .map(|(steps, energy)| format!("{} (T = {steps})", number(1e3 * energy)))
+                .map(|(steps, energy)| format!("{} (T = {steps})", number(energy)))
                 .cell(),
         );
-        table.push(cells);
-    }
-    page.table(&header, &table);
+        Some(cells)
+    };
+    page.table(&header, study.bases.iter().filter_map(cells));
 }
 
 /// The errors of all spacings at the largest number of steps.
 fn spacings(study: &BasisComparison, rows: &Rows<'_>, page: &mut Page) {
-    let Some(&most) = study.step_counts().last() else {
-        return;
-    };
+    let most = study.step_counts().last().copied().unwrap_or(0);
     page.paragraph(format!("All spacings at {most} steps."));
+    let statistics =
+        "first requested_spacing | median energy_thousandths | median nodes_per_particle | median wall_seconds";
     let mut table = Vec::new();
     for &dim in &study.dims {
-        for &basis in &study.bases {
+        for basis in &study.bases {
             for &factor in &study.spacings {
-                let here = at(rows, dim, basis, factor).with("requested_steps", most);
-                let spacing = here.first().and_then(|row| row.number("requested_spacing"));
-                let names = line(&[&dim.to_string(), &basis.to_string(), &factor.to_string(), &spacing]);
-                let cells = here.medians(&[&NODES_PER_PARTICLE, &SECONDS]);
-                table.push([names, vec![thousandths(&here).cell()], cells].concat());
+                let here = rows.with("dim", dim).with("series", basis.to_string());
+                let names = [dim.to_string(), basis.to_string(), factor.to_string()];
+                table.push([&names[..], &here.with("spacing_factor", factor).cells(statistics)].concat());
             }
         }
     }
@@ -103,10 +97,7 @@ fn plot(study: &BasisComparison, rows: &Rows<'_>) -> MultiplesPlot {
     let panel = |&dim: &Dimension| {
         let here = rows.with("dim", dim);
         let expected = here.first().and_then(|row| row.number("energy_level"));
-        let lines = study
-            .bases
-            .iter()
-            .filter_map(|&basis| line_of(study, &here, dim, basis));
+        let lines = study.bases.iter().filter_map(|&basis| line_of(study, &here, basis));
         let panel = MultiplesPanel::new(format!("d = {dim}"), lines);
         match expected {
             Some(level) => panel.with_level(level, "expected of i.i.d. draws"),
@@ -118,9 +109,14 @@ fn plot(study: &BasisComparison, rows: &Rows<'_>) -> MultiplesPlot {
         .with_note("Medians over the seeds; bars from the smallest to the largest ED².")
 }
 
-fn line_of(study: &BasisComparison, rows: &Rows<'_>, dim: Dimension, basis: Basis) -> Option<LineSeries> {
-    let choice = Choice::of(study, rows, dim, basis)?;
-    let timed = choice.by_steps.into_iter();
-    let points = timed.filter_map(|(_, runs)| Some((runs.median(SECONDS)?, runs)));
-    Some(curve(basis.to_string(), points, ENERGY))
+fn line_of(study: &BasisComparison, here: &Rows<'_>, basis: Basis) -> Option<LineSeries> {
+    let choice = Choice::of(study, here, basis)?;
+    let mut line = LineSeries::named(basis.to_string());
+    for steps in study.step_counts() {
+        let runs = choice.with_steps(steps);
+        if let Some(seconds) = runs.median(SECONDS) {
+            line.push_median(seconds, &runs.values(ENERGY));
+        }
+    }
+    Some(line)
 }

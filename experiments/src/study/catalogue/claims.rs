@@ -13,7 +13,8 @@ const DEVIATION: &str = "deviation_error";
 
 /// The runs of a method, by what they claim and what is measured.
 pub struct Claims<'a> {
-    runs: Rows<'a>,
+    /// All of them.
+    pub runs: Rows<'a>,
 }
 
 impl<'a> Claims<'a> {
@@ -56,28 +57,20 @@ impl<'a> Claims<'a> {
         let on = |target: &String| Self::new(self.runs.with("target", target.as_str())).line(target);
         let lines = targets.iter().map(on);
         page.table(header, lines.chain([self.line("all")]));
-        let false_claims = self.false_claims();
-        if false_claims.is_empty() {
-            page.paragraph("No claim is false.");
-        } else {
-            let lines: Vec<String> = false_claims.iter().map(false_claim).collect();
-            page.paragraph(format!("Claims that are false:\n\n{}", lines.join("\n")));
-        }
+        let false_claims: Vec<String> = self.false_claims().iter().map(false_claim).collect();
+        page.paragraph(match false_claims.is_empty() {
+            true => "No claim is false.".to_owned(),
+            false => format!("Claims that are false:\n\n{}", false_claims.join("\n")),
+        });
         self.write_outcomes(page);
     }
 
     fn line(&self, name: &str) -> Vec<String> {
-        let claimed = self.claimed();
-        line(&[
-            &name,
-            &self.runs.len(),
-            &claimed.len(),
-            &percent(claimed.len(), self.runs.len()),
-            &claimed.largest(MEAN),
-            &claimed.largest(DEVIATION),
-            &self.false_claims().len(),
-            &self.unclaimed().len(),
-        ])
+        let (all, claimed) = (self.runs.len(), self.claimed());
+        let counts = line(&[&name, &all, &claimed.len(), &percent(claimed.len(), all)]);
+        let errors = claimed.cells("largest mean_error | largest deviation_error");
+        let others = line(&[&self.false_claims().len(), &self.unclaimed().len()]);
+        [counts, errors, others].concat()
     }
 
     /// A line per outcome, with the largest errors among the runs that state it.
@@ -85,30 +78,16 @@ impl<'a> Claims<'a> {
         page.paragraph(format!(
             "All outcomes that are stated ({MISSING}: none), with the largest errors beside them:"
         ));
-        let mut outcomes = self.runs.words("outcome");
-        outcomes.sort_unstable();
-        let line = |outcome: &&str| {
-            let here = self.runs.with("outcome", *outcome);
-            let larger = |row: &Row| Some(row.number(MEAN)?.max(row.number(DEVIATION)?));
-            line(&[
-                &Some(*outcome).filter(|outcome| !outcome.is_empty()),
-                &here.len(),
-                &here.largest(MEAN),
-                &here.largest(DEVIATION),
-                &here.largest("mass_error"),
-                &here.worst(larger).map(|(_, row)| format!("`{}`", row.case())),
-            ])
-        };
+        let mut outcomes = self.runs.by("outcome");
+        outcomes.sort_by(|left, right| left.0.cmp(&right.0));
+        let statistics = "first outcome | rows | largest mean_error | largest deviation_error | largest mass_error | worst larger_error";
         let header = "outcome | runs | worst mean (sd) | worst sd (relative) | worst mode mass | worst case";
-        page.table(header, outcomes.iter().map(line));
+        page.table(header, outcomes.iter().map(|(_, here)| here.cells(statistics)));
     }
 }
 
 fn is_within(row: &Row) -> bool {
-    let mean = row.number(MEAN).is_some_and(|error| error <= LARGEST_MEAN_ERROR);
-    mean && row
-        .number(DEVIATION)
-        .is_some_and(|error| error <= LARGEST_DEVIATION_ERROR)
+    row.is_within(MEAN, LARGEST_MEAN_ERROR) && row.is_within(DEVIATION, LARGEST_DEVIATION_ERROR)
 }
 
 fn false_claim(row: &Row) -> String {
@@ -126,6 +105,7 @@ fn false_claim(row: &Row) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::study::derived::completed;
 
     /// A run on `target` that states `outcome` with the errors of a mean and of a standard deviation.
     fn run(case: &str, target: &str, outcome: Option<&str>, errors: Option<(f64, f64)>) -> Row {
@@ -138,7 +118,7 @@ mod tests {
     }
 
     fn rows() -> Vec<Row> {
-        vec![
+        let rows = [
             run("a", "ring", Some("converged"), Some((0.1, 0.02))),
             run("b", "ring", Some("converged"), Some((0.01, 0.1001))),
             run("c", "ring", Some("stalled"), Some((0.01, 0.01))),
@@ -146,7 +126,8 @@ mod tests {
             run("e", "funnel", Some("converged"), None),
             run("f", "funnel", None, Some((0.0, 0.0))),
             Row::of("g").with("outcome", "converged").with("method", "svgd"),
-        ]
+        ];
+        rows.iter().map(completed).collect()
     }
 
     fn claims(rows: &[Row]) -> Claims<'_> {

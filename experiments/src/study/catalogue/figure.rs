@@ -8,19 +8,13 @@ use crate::study::prelude::*;
 
 /// ED² relative to independent draws, a row per target, a marker per start.
 pub fn plot(study: &Catalogue, rows: &Rows<'_>) -> Result<DotPlot, CommandError> {
-    let targets = study.all_targets()?;
-    let mut plot = DotPlot {
-        x_label: "ED^{2} relative to independent draws".to_owned(),
-        x_axis: AxisKind::Logarithmic,
-        bound_label: "requirement".to_owned(),
-        ..DotPlot::default()
-    };
-    for target in &targets {
-        plot.rows.push(DotRow {
-            label: target.label(),
-            bound: Some(Requirement::of(target)?.bound),
-        });
-    }
+    let asked = |target: &TargetSpecification| Ok((target.label(), Requirement::of(target)?.bound));
+    let asked: Vec<(String, f64)> = study
+        .all_targets()?
+        .iter()
+        .map(asked)
+        .collect::<Result<_, CommandError>>()?;
+    let mut plot = DotPlot::bounded("ED^{2} relative to independent draws", asked, "requirement");
     let Some(judged) = study.judged() else {
         return Ok(plot);
     };
@@ -41,7 +35,7 @@ pub fn plot(study: &Catalogue, rows: &Rows<'_>) -> Result<DotPlot, CommandError>
         };
         let here = from_start(&judged_runs, start);
         let value = |target: &DotRow| {
-            let median = here.with("target", target.label.as_str()).median(ENERGY_RATIO);
+            let median = here.with("target", target.label.as_str()).median("energy_ratio");
             median.filter(|value| *value > 0.0).unwrap_or(f64::NAN)
         };
         let values: Vec<f64> = plot.rows.iter().map(value).collect();

@@ -10,7 +10,6 @@ mod report;
 mod requirement;
 
 use parvi_metrics::yardstick::Coordinates;
-use parvi_targets::{Dimensions, TargetError, target_info};
 
 use super::prelude::*;
 use super::start_law::StartLaw;
@@ -64,26 +63,13 @@ impl Catalogue {
             None => targets_without_data().map(plain).collect(),
         };
         let mut targets = Vec::new();
-        for Named { name, parameters } in &named {
-            let here = |dim| TargetSpecification {
-                name: name.clone(),
-                dim,
-                parameters: parameters.clone(),
+        for Named { name, parameters } in named {
+            let target = TargetSpecification {
+                name,
+                dim: None,
+                parameters,
             };
-            let dimensions = target_info(name).map_err(wrong_target)?.dimensions;
-            let mut found: Vec<TargetSpecification> = Vec::new();
-            if let Dimensions::Range { minimum, maximum, .. } = dimensions {
-                let inside = |dim: &&Dimension| (minimum..=maximum).contains(&dim.get());
-                found.extend(self.dims.iter().filter(inside).map(|&dim| here(Some(dim))));
-            } else {
-                let only = here(None);
-                let dimension = only.dimension().map_err(wrong_target)?;
-                found.extend(self.dims.iter().any(|dim| dim.get() == dimension).then_some(only));
-            }
-            for target in &found {
-                target.dimension().map_err(wrong_target)?;
-            }
-            targets.extend(found);
+            targets.extend(in_dimensions(&target, &self.dims)?);
         }
         Ok(targets)
     }
@@ -109,11 +95,6 @@ impl Catalogue {
     fn judged(&self) -> Option<&MethodSpecification> {
         self.methods.first()
     }
-}
-
-/// The error of a target that the configuration names.
-fn wrong_target(error: TargetError) -> CommandError {
-    refusal("targets", error.to_string())
 }
 
 impl Study for Catalogue {
@@ -174,7 +155,7 @@ impl Study for Catalogue {
         case.work.run(row, yardstick, tools.observer)
     }
 
-    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Report, CommandError> {
+    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
         report::report(self, rows)
     }
 }

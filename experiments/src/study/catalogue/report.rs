@@ -9,7 +9,7 @@ use crate::study::prelude::*;
 use crate::study::start_law::StartLaw;
 
 /// Tables and figure.
-pub fn report(study: &Catalogue, rows: &Rows<'_>) -> Result<Report, CommandError> {
+pub fn report(study: &Catalogue, rows: &Rows<'_>) -> Result<Page, CommandError> {
     let mut page = Page::new("Defaults on every target");
     page.paragraph(format!(
         "M = {} particles, {} seeds, nothing set per target. ED² is the squared energy distance and SW₂ the sliced Wasserstein \
@@ -28,67 +28,57 @@ pub fn report(study: &Catalogue, rows: &Rows<'_>) -> Result<Report, CommandError
 
     let targets = study.all_targets()?;
     let judged = study.judged().map_or("", MethodSpecification::label);
-    let runs = rows.with("method", judged);
-    let verdicts = verdicts(&targets, &runs)?;
-    requirements(study, judged, &verdicts, &mut page);
+    let claims = Claims::new(rows.with("method", judged));
+    let asked = |target: &TargetSpecification| {
+        let runs = claims.runs.with("target", target.label());
+        Ok((Requirement::of(target)?, runs))
+    };
+    let asked: Vec<Asked<'_>> = targets.iter().map(asked).collect::<Result<_, CommandError>>()?;
+    requirements(study, judged, &asked, &mut page);
     for start in &study.starts {
         page.heading(&format!("From {start}"));
-        start_table(study, &targets, rows, start, &mut page)?;
+        start_table(study, &targets, &from_start(rows, start), &mut page)?;
     }
-    let claims = Claims::new(runs);
     let labels: Vec<String> = targets.iter().map(TargetSpecification::label).collect();
     claims.write(&labels, &mut page);
-    let missed = verdicts.iter().filter(|verdict| !verdict.met());
-    let misses: Vec<String> = missed.map(Verdict::miss).collect();
+    let misses: Vec<String> = asked.iter().flat_map(misses).collect();
     page.list("Cases that miss their bound", &misses, Some("None."));
     let others = rows.having(|row| row.text("method") != judged).failures();
     page.list("Runs of other methods that did not finish", &others, None);
 
-    Ok(Report::new(page)
+    let runs = asked.iter().map(|(_, runs)| runs.len());
+    Ok(page
         .with("cases", rows.len())
-        .with("judged", verdicts.len())
+        .with("judged", runs.sum::<usize>())
         .with("missed", misses.len())
         .with("claimed", claims.claimed().len())
         .with("false_claims", claims.false_claims().len()))
 }
 
-/// A run of the judged method beside what is asked of it.
-struct Verdict<'a> {
-    row: &'a Row,
-    requirement: Requirement,
+/// What is asked on a target, and the runs of the judged method.
+type Asked<'a> = (Requirement, Rows<'a>);
+
+/// Whether a run keeps what is asked.
+fn met(row: &Row, requirement: Requirement) -> bool {
+    row.is_within("energy_ratio", requirement.bound)
 }
 
-impl Verdict<'_> {
-    fn met(&self) -> bool {
-        ENERGY_RATIO(self.row).is_some_and(|ratio| ratio <= self.requirement.bound)
-    }
-
-    /// What is missed, as an item of a list.
-    fn miss(&self) -> String {
-        match ENERGY_RATIO(self.row) {
-            Some(ratio) => format!(
-                "- `{}`: ED² {} of independent draws, at most {}",
-                self.row.case(),
-                number(ratio),
-                self.requirement.bound
-            ),
-            None => self.row.failure(),
-        }
-    }
-}
-
-fn verdicts<'a>(targets: &[TargetSpecification], runs: &Rows<'a>) -> Result<Vec<Verdict<'a>>, CommandError> {
-    let mut verdicts = Vec::new();
-    for target in targets {
-        let requirement = Requirement::of(target)?;
-        let here = runs.with("target", target.label());
-        verdicts.extend(here.iter().map(|row| Verdict { row, requirement }));
-    }
-    Ok(verdicts)
+/// What is missed, as items of a list.
+fn misses((requirement, runs): &Asked<'_>) -> Vec<String> {
+    let miss = |row: &Row| match row.number("energy_ratio") {
+        Some(ratio) => format!(
+            "- `{}`: ED² {} of independent draws, at most {}",
+            row.case(),
+            number(ratio),
+            requirement.bound
+        ),
+        None => row.failure(),
+    };
+    runs.having(|row| !met(row, *requirement)).iter().map(miss).collect()
 }
 
 /// How many cases meet what is asked, by class and by start.
-fn requirements(study: &Catalogue, judged: &str, verdicts: &[Verdict<'_>], page: &mut Page) {
+fn requirements(study: &Catalogue, judged: &str, asked: &[Asked<'_>], page: &mut Page) {
     page.heading("Requirements");
     page.paragraph(format!(
         "What is asked of {judged}: ED² relative to independent draws at most the bound, in every case. A cell counts the cases \
@@ -98,21 +88,17 @@ fn requirements(study: &Catalogue, judged: &str, verdicts: &[Verdict<'_>], page:
     header.extend(study.starts.iter().map(StartLaw::to_string));
     header.extend("all | worst | worst case".names());
     let line = |class: Requirement| {
-        let here = || verdicts.iter().filter(move |verdict| verdict.requirement == class);
-        let count = |chosen: &dyn Fn(&Row) -> bool| {
-            let all = here().filter(|verdict| chosen(verdict.row)).count();
-            let met = here().filter(|verdict| chosen(verdict.row) && verdict.met()).count();
-            (all > 0).then(|| format!("{met}/{all}")).cell()
+        let of_class = asked.iter().filter(|(requirement, _)| *requirement == class);
+        let here: Rows<'_> = of_class.flat_map(|(_, runs)| runs.iter()).collect();
+        let count = |chosen: Rows<'_>| {
+            let met = chosen.count(|row| met(row, class));
+            (!chosen.is_empty()).then(|| format!("{met}/{}", chosen.len())).cell()
         };
+        let from = |start: &StartLaw| here.having(|row| is_from(row, start));
         let mut cells = line(&[&class.class, &class.bound]);
-        cells.extend(study.starts.iter().map(|start| count(&|row| is_from(row, start))));
-        cells.push(count(&|_| true));
-        let worst = here()
-            .map(|verdict| verdict.row)
-            .collect::<Rows<'_>>()
-            .worst(ENERGY_RATIO);
-        cells.push(worst.map(|(value, _)| value).cell());
-        cells.push(worst.map(|(_, row)| format!("`{}`", row.case())).cell());
+        cells.extend(study.starts.iter().map(|start| count(from(start))));
+        cells.push(count(here.clone()));
+        cells.extend(here.cells("largest energy_ratio | worst energy_ratio"));
         cells
     };
     page.table(&header, Requirement::ALL.map(line));
@@ -123,7 +109,6 @@ fn start_table(
     study: &Catalogue,
     targets: &[TargetSpecification],
     rows: &Rows<'_>,
-    start: &StartLaw,
     page: &mut Page,
 ) -> Result<(), CommandError> {
     let mut header = "target | bound".names();
@@ -131,25 +116,19 @@ fn start_table(
         header.extend(["ED²", "SW₂"].map(|error| format!("{error} {}", method.label())));
     }
     header.extend("finished | mean (sd) | sd (relative) | mode mass | residual | evaluations | time (s)".names());
-    let rows = from_start(rows, start);
+    let errors = "median mean_error | median deviation_error | median mass_error | median residual";
     let mut table = Vec::new();
     for target in targets {
         let here = rows.with("target", target.label());
         let of = |method: &MethodSpecification| here.with("method", method.label());
         let mut cells = line(&[&target.label(), &Requirement::of(target)?.bound]);
         for method in &study.methods {
-            cells.extend(of(method).medians(&[&ENERGY_RATIO, &SLICED_RATIO]));
+            cells.extend(of(method).cells("median energy_ratio | median sliced_ratio"));
         }
         let judged = study.judged().map(of).unwrap_or_default();
         cells.push(judged.finished());
-        cells.extend(judged.medians(&[
-            &"mean_error",
-            &"deviation_error",
-            &"mass_error",
-            &"residual",
-            &EVALUATIONS,
-            &SECONDS,
-        ]));
+        cells.extend(judged.cells(errors));
+        cells.extend(judged.cells("median evaluations | median wall_seconds"));
         table.push(cells);
     }
     page.paragraph("Medians over the seeds; ED² and SW₂ relative to independent draws.");

@@ -6,8 +6,8 @@
 
 mod report;
 
-use super::moments::SampleMoments;
 use super::prelude::*;
+use crate::statistics::SampleMoments;
 
 /// Resting particles at several spacings, one series per dimension.
 #[derive(Clone, Debug, Deserialize)]
@@ -84,7 +84,8 @@ impl Study for CovarianceSpacing {
 
     fn run(&self, case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
         if let Some(outcome) = row.note(case.work.sample(tools.observer))? {
-            let moments = SampleMoments::of(&outcome.particles);
+            let points = outcome.particles.to_rows();
+            let moments = SampleMoments::of(&points, outcome.particles.weights());
             row.set("covariance_error", moments.distance_from_identity());
             row.set("mean_error", moments.largest_mean());
         }
@@ -92,7 +93,7 @@ impl Study for CovarianceSpacing {
         Ok(())
     }
 
-    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Report, CommandError> {
+    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
         Ok(report::report(self, rows))
     }
 }

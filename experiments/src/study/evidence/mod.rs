@@ -26,10 +26,6 @@ impl Study for Evidence {
     const COLUMNS: &'static str = "case status reason target dim method seed outcome log_evidence_deviation log_evidence_error \
          score_evaluations density_evaluations wall_seconds";
 
-    fn seeds(&self) -> Vec<u64> {
-        self.run_seeds.all().collect()
-    }
-
     fn methods(&self) -> Vec<&MethodSpecification> {
         self.methods.iter().collect()
     }
@@ -58,7 +54,7 @@ impl Study for Evidence {
         Ok(())
     }
 
-    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Report, CommandError> {
+    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
         Ok(report::report(self, rows))
     }
 }

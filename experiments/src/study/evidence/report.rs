@@ -3,13 +3,8 @@
 use super::Evidence;
 use crate::study::prelude::*;
 
-/// |log Z − exact|.
-const ERROR: Computed = |row| row.number("log_evidence_deviation").map(f64::abs);
-/// The same in standard errors of the method's own.
-const RATIO: Computed = |row| Some(ERROR(row)? / row.number("log_evidence_error")?);
-
 /// Tables and figure.
-pub fn report(study: &Evidence, rows: &Rows<'_>) -> Report {
+pub fn report(study: &Evidence, rows: &Rows<'_>) -> Page {
     let mut page = Page::new("Evidence");
     page.paragraph(format!(
         "log Z = log ∫ p with M = {} particles, {} seeds from {} on, beside its known value; s.e. is the standard error that the method states. \
@@ -26,34 +21,27 @@ pub fn report(study: &Evidence, rows: &Rows<'_>) -> Report {
         page.heading(&target.label());
         table(study, &rows.with("target", target.label()), &mut page);
     }
-    let far = rows.having(|row| RATIO(row).is_some_and(|ratio| ratio > 3.0));
+    let far = rows.having(|row| row.number("evidence_ratio").is_some_and(|ratio| ratio > 3.0));
     let stated = |row: &Row| {
-        let error = row.value("log_evidence_error");
-        format!("- `{}`: {} of {}", row.case(), ERROR(row).cell(), error.cell())
+        let cells = row.cells("evidence_deviation | log_evidence_error");
+        format!("- `{}`: {}", row.case(), cells.join(" of "))
     };
     let far: Vec<String> = far.iter().map(stated).collect();
     page.list("Errors beyond three standard errors", &far, Some("None."));
-    rows.report(page).with("beyond_three_errors", far.len())
+    rows.close(page).with("beyond_three_errors", far.len())
 }
 
 /// A line per method.
 fn table(study: &Evidence, rows: &Rows<'_>, page: &mut Page) {
     let cells = |method: &MethodSpecification| {
         let here = rows.with("method", method.label());
-        let ratios = here.values(RATIO);
-        let within = |most: f64| percent(ratios.iter().filter(|ratio| **ratio <= most).count(), ratios.len());
-        line(&[
-            &method.label(),
-            &format!("{}/{}", ratios.len(), here.len()),
-            &here.median(ERROR),
-            &here.largest(ERROR),
-            &here.median("log_evidence_error"),
-            &within(1.0),
-            &within(2.0),
-            &within(3.0),
-            &here.median(EVALUATIONS),
-            &here.median(SECONDS),
-        ])
+        let stated = here.having(|row| row.number("evidence_ratio").is_some());
+        let within = |most: f64| percent(stated.count(|row| row.is_within("evidence_ratio", most)), stated.len());
+        let names = vec![method.label().to_owned(), format!("{}/{}", stated.len(), here.len())];
+        let errors = "median evidence_deviation | largest evidence_deviation | median log_evidence_error";
+        let shares = [1.0, 2.0, 3.0].map(|most| within(most).cell());
+        let costs = here.cells("median evaluations | median wall_seconds");
+        [names, here.cells(errors), shares.into(), costs].concat()
     };
     let header = "method | stated | median error | largest | median s.e. | within 1 | within 2 | within 3 | evaluations | time (s)";
     page.table(header, study.methods.iter().map(cells));
@@ -64,7 +52,7 @@ fn plot(study: &Evidence, rows: &Rows<'_>) -> MultiplesPlot {
     let panel = |target: &TargetSpecification| {
         let here = rows.with("target", target.label());
         let line = |method: &MethodSpecification| {
-            let ratios = here.with("method", method.label()).values(RATIO);
+            let ratios = here.with("method", method.label()).values("evidence_ratio");
             let count = ratios.len();
             LineSeries::in_order(method.label(), ratios, count)
         };

@@ -5,6 +5,34 @@ use parvi::{PaperMaterial, PaperOptions, ReferenceVolumes};
 use super::configuration::Setting;
 use crate::study::prelude::*;
 
+/// What tells settings apart, seed and target apart: the columns, and the symbols that stand before their values.
+pub const PARTS: [(&str, &str); 11] = [
+    ("method", ""),
+    ("variant", ""),
+    ("material", ""),
+    ("schedule", "α "),
+    ("score", "force at "),
+    ("volumes", "V⁰ "),
+    ("friction", "friction "),
+    ("spacing", "h "),
+    ("time_step", "Δt "),
+    ("particles", "M "),
+    ("steps", "T "),
+];
+
+/// Whether a row is that of a rival, of which only method and size are settings.
+pub fn is_rival(row: &Row) -> bool {
+    row.text("variant").is_empty()
+}
+
+/// A value as a setting names it.
+pub fn part(row: &Row, column: &str) -> String {
+    match row.value(column).to_string() {
+        empty if empty.is_empty() => "default".to_owned(),
+        text => text,
+    }
+}
+
 impl Setting {
     /// The options of the sampler; the material has been checked.
     pub fn options(&self, material: PaperMaterial) -> PaperOptions {
@@ -17,7 +45,7 @@ impl Setting {
             steps: Some(self.steps.get()),
             time_step: self.time_step,
             friction: self.friction,
-            guards: self.variant.guards.guards(),
+            guards: self.variant.guards(),
             coordinates: self.variant.coordinates,
             reference_volumes: self.volume,
             certificate: false,
@@ -25,37 +53,48 @@ impl Setting {
         }
     }
 
-    /// Everything but target and seed: the column of the results, the name in labels, and the value.
-    pub fn parts(&self) -> Vec<(&'static str, &'static str, String)> {
-        let size = ("particles", "M", self.particles.to_string());
+    /// Notes in a row what is run.
+    fn note(&self, row: &mut Row) {
+        row.set("target", self.target.label());
+        row.set("friction", self.friction);
+        row.set("spacing", self.spacing);
+        row.set("time_step", self.time_step);
+        row.set("steps", self.steps);
+        row.set("particles", self.particles);
+        row.set("seed", self.seed);
         if let Some(rival) = &self.rival {
-            return vec![("method", "method", rival.label().to_owned()), size];
+            row.set("method", rival.label());
+            return;
         }
-        let number = |value: Option<f64>| value.map_or("default".to_owned(), |value| value.to_string());
         let volumes = match self.volume {
             ReferenceVolumes::Uniform => "uniform",
             ReferenceVolumes::OfStartDensity => "of-start-density",
             ReferenceVolumes::OfGrid => "of-grid",
         };
-        vec![
-            ("algorithm", "algorithm", self.algorithm.to_string()),
-            ("variant", "variant", self.variant.text()),
-            ("material", "material", self.material.text()),
-            ("schedule", "α", self.schedule.text()),
-            ("score", "force at", self.score.to_string()),
-            ("volumes", "V⁰", volumes.to_owned()),
-            ("friction", "friction", self.friction.to_string()),
-            ("spacing", "h", number(self.spacing)),
-            ("time_step", "Δt", number(self.time_step)),
-            size,
-            ("steps", "T", self.steps.to_string()),
-        ]
+        row.set("method", format!("algorithm {}", self.algorithm));
+        row.set("variant", self.variant.text());
+        row.set("material", self.material.text());
+        row.set("schedule", self.schedule.text());
+        row.set("score", self.score);
+        row.set("volumes", volumes);
     }
 
-    /// A name made of all of them.
+    /// A name made of all of it.
     pub fn id(&self) -> String {
-        let parts = self.parts().into_iter();
-        let parts: Vec<String> = parts.map(|(_, name, text)| format!("{name} {text}")).collect();
+        let mut row = Row::default();
+        self.note(&mut row);
+        let named = |(column, symbol): (&str, &str)| {
+            let word = match column {
+                "method" if is_rival(&row) => "method ".to_owned(),
+                "variant" | "material" => format!("{column} "),
+                _ => symbol.to_owned(),
+            };
+            word + &part(&row, column)
+        };
+        let told = PARTS
+            .into_iter()
+            .filter(|(column, _)| !is_rival(&row) || ["method", "particles"].contains(column));
+        let parts: Vec<String> = told.map(named).collect();
         format!("{}, {}, seed {}", self.target.label(), parts.join(", "), self.seed)
     }
 
@@ -67,23 +106,9 @@ impl Setting {
         let looks = 100.0;
         let dim = self.target.dimension()?;
         let work = (self.particles.get() * self.steps.get()) as f64;
-        let mut case = Case::new(self.id(), self.clone())
-            .costing(work * (3f64.powi(dim as i32) + looks))
-            .with("target", self.target.label())
-            .with("dim", dim)
-            .with("friction", self.friction)
-            .with("spacing", self.spacing)
-            .with("time_step", self.time_step)
-            .with("steps", self.steps)
-            .with("particles", self.particles)
-            .with("seed", self.seed);
-        for (column, _, text) in self.parts() {
-            match column {
-                "algorithm" => case.row.set("method", format!("algorithm {text}")),
-                "method" | "variant" | "material" | "schedule" | "score" | "volumes" => case.row.set(column, text),
-                _ => {}
-            }
-        }
+        let case = Case::new(self.id(), self.clone()).costing(work * (3f64.powi(dim as i32) + looks));
+        let mut case = case.with("dim", dim);
+        self.note(&mut case.row);
         Ok(case)
     }
 }

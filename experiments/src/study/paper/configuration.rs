@@ -140,10 +140,9 @@ impl Paper {
         for sweep in &self.sweeps {
             cases.extend(self.cases_of(sweep)?);
         }
-        let mut known = HashSet::new();
-        cases.retain(|case| known.insert(case.id()));
-        let order = each_once(cases.iter().map(|case| case.target.clone()));
-        cases.sort_by_key(|case| order.iter().position(|target| *target == case.target));
+        let mut cases = each_once(cases);
+        let targets: Vec<TargetSpecification> = cases.iter().map(|case| case.target.clone()).collect();
+        cases.sort_by_key(|case| targets.iter().position(|target| *target == case.target));
         Ok(cases)
     }
 
@@ -156,15 +155,12 @@ impl Paper {
     pub fn rival_cases(&self) -> Result<Vec<Setting>, CommandError> {
         let mut cases: Vec<Setting> = Vec::new();
         for case in self.base_cases()? {
-            for rival in &self.rivals {
-                let rival = Some(rival.clone());
-                let case = Setting { rival, ..case.clone() };
-                if cases.iter().all(|known| known.id() != case.id()) {
-                    cases.push(case);
-                }
-            }
+            cases.extend(self.rivals.iter().map(|rival| Setting {
+                rival: Some(rival.clone()),
+                ..case.clone()
+            }));
         }
-        Ok(cases)
+        Ok(each_once(cases))
     }
 
     /// The cases of one table.
@@ -172,8 +168,8 @@ impl Paper {
         let name = |name: &String| format!("case.{name}");
         let table = sweep.name.as_ref().map_or("base".to_owned(), name);
         let settings = sweep.combinations(&self.base, &table)?;
-        if let Some((key, fault)) = settings.iter().find_map(Setting::fault) {
-            return Err(refusal(&format!("{table}.{key}"), fault));
+        for setting in &settings {
+            setting.check(&table)?;
         }
         distinct_names(&table, settings.iter().map(Setting::id))?;
         Ok(settings)
@@ -200,16 +196,6 @@ impl Paper {
         Ok(())
     }
 
-    /// All seeds, for the manifest.
-    pub fn all_seeds(&self) -> Vec<u64> {
-        let settings = self.sweeps.iter().chain([&self.base]);
-        let all = settings.filter_map(|settings| settings.seeds.as_ref());
-        let mut seeds: Vec<u64> = all.flatten().copied().collect();
-        seeds.sort_unstable();
-        seeds.dedup();
-        seeds
-    }
-
     /// In the target's own coordinates, where the energy distance to a Gaussian is exact.
     pub fn yardstick(&self) -> YardstickOptions {
         YardstickOptions {
@@ -220,26 +206,27 @@ impl Paper {
 }
 
 impl Setting {
-    /// The list that holds a value out of its range, and what is wrong with it.
-    fn fault(&self) -> Option<(&'static str, String)> {
-        let positive = |value: Option<f64>| {
-            let wrong = value.filter(|value| !(*value > 0.0 && value.is_finite()));
-            wrong.map(|value| format!("{value} must be a number above 0"))
-        };
-        let friction = Some(self.friction).filter(|value| !(*value >= 0.0 && value.is_finite()));
-        let faults = [
-            (
-                "materials",
-                self.material.material().err().map(|error| error.to_string()),
-            ),
-            ("schedules", self.schedule.fault()),
-            (
-                "frictions",
-                friction.map(|value| format!("{value} must be a number of at least 0")),
-            ),
-            ("spacings", positive(self.spacing)),
-            ("time-steps", positive(self.time_step)),
-        ];
-        faults.into_iter().find_map(|(key, fault)| Some((key, fault?)))
+    /// Refuses a value out of its range; `table` is the place of its list.
+    fn check(&self, table: &str) -> Result<(), CommandError> {
+        let field = |key: &str| format!("{table}.{key}");
+        if let Err(error) = self.material.material() {
+            return Err(refusal(&field("materials"), error.to_string()));
+        }
+        if let Some(fault) = self.schedule.fault() {
+            return Err(refusal(&field("schedules"), fault));
+        }
+        if !(self.friction >= 0.0 && self.friction.is_finite()) {
+            let fault = format!("{} must be a number of at least 0", self.friction);
+            return Err(refusal(&field("frictions"), fault));
+        }
+        positive(&field("spacings"), self.spacing.as_slice())?;
+        positive(&field("time-steps"), self.time_step.as_slice())
     }
+}
+
+/// The settings, of those with the same name only the first.
+fn each_once(mut settings: Vec<Setting>) -> Vec<Setting> {
+    let mut known = HashSet::new();
+    settings.retain(|setting| known.insert(setting.id()));
+    settings
 }

@@ -19,7 +19,7 @@ pub use configuration::{Paper, Setting};
 use watch::Watch;
 
 use super::prelude::*;
-use crate::sampling;
+use crate::sampling::{self, Outcome};
 
 impl Study for Paper {
     type Work = Setting;
@@ -28,10 +28,6 @@ impl Study for Paper {
     const COLUMNS: &'static str = "case method variant target dim material schedule score volumes friction spacing time_step steps particles \
          seed status reason failed_step message energy_level start_energy final_energy final_sliced final_mean final_deviation final_mass \
          best_step best_energy best_sliced evaluations active_nodes storage_bytes wall_seconds";
-
-    fn seeds(&self) -> Vec<u64> {
-        self.all_seeds()
-    }
 
     fn methods(&self) -> Vec<&MethodSpecification> {
         self.rivals.iter().collect()
@@ -50,16 +46,21 @@ impl Study for Paper {
         );
         let mut run = Run::new(setting.particles.get(), setting.seed);
         (run.start.mean, run.start.standard_deviation) = (self.start_mean, self.start_sd);
-        match &setting.rival {
-            Some(rival) => {
-                let (target, method) = (setting.target.clone(), rival.method(None)?);
-                run_rival(&Sampled { target, method, run }, yardstick, tools.observer, row)
+        let Some(rival) = &setting.rival else {
+            return self.run_body(setting, &run, yardstick, tools.observer, row);
+        };
+        let (target, method) = (setting.target.clone(), rival.method(None)?);
+        match attempt(Sampled { target, method, run }.sample_or_draw(yardstick, tools.observer))? {
+            Err(failure) => fail(row, "other", None, failure),
+            Ok(outcome) => {
+                row.set("wall_seconds", outcome.wall_seconds);
+                end(row, &outcome, yardstick, None)?;
             }
-            None => self.run_body(setting, &run, yardstick, tools.observer, row),
         }
+        Ok(())
     }
 
-    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Report, CommandError> {
+    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
         report::report(self, rows)
     }
 }
@@ -79,12 +80,8 @@ impl Paper {
         let mut watch = Watch::new(observer, yardstick, self.look_every.get(), self.reach);
         let (seconds, result) = timed(|| sampling::sample(&setting.target, &method, run, &mut watch));
         if let Some((step, message)) = watch.ended.take() {
-            fail(
-                row,
-                "outside range",
-                Some(step),
-                Failure::new(Status::Diverged, message),
-            );
+            let failure = Failure::new(Status::Diverged, message);
+            fail(row, "outside range", Some(step), failure);
         } else {
             let why = result.as_ref().err().map(reason);
             match attempt(result)? {
@@ -93,49 +90,23 @@ impl Paper {
                     fail(row, word, step, failure);
                 }
                 Ok(outcome) => {
-                    row.set("evaluations", outcome.evaluations());
                     row.set("active_nodes", outcome.active_nodes);
                     row.set("storage_bytes", outcome.storage_bytes);
                     row.set("wall_seconds", seconds - watch.looking.as_secs_f64());
-                    match attempt(yardstick.measure(&outcome.particles))? {
-                        Ok(errors) => {
-                            watch.note(outcome.steps, errors);
-                            end(row, &errors);
-                        }
-                        Err(failure) => fail(row, "outside range", Some(outcome.steps), failure),
+                    if let Some(errors) = end(row, &outcome, yardstick, Some(outcome.steps))? {
+                        watch.note(outcome.steps, errors);
                     }
                 }
             }
         }
         row.set("start_energy", watch.start.map(|errors| errors.energy_distance_squared));
-        row.set("best_step", watch.best.map(|(step, _)| step));
-        row.set(
-            "best_energy",
-            watch.best.map(|(_, errors)| errors.energy_distance_squared),
-        );
-        row.set("best_sliced", watch.best.map(|(_, errors)| errors.sliced_wasserstein));
+        if let Some((step, errors)) = watch.best {
+            row.set("best_step", step);
+            row.set("best_energy", errors.energy_distance_squared);
+            row.set("best_sliced", errors.sliced_wasserstein);
+        }
         Ok(())
     }
-}
-
-fn run_rival(
-    work: &Sampled,
-    yardstick: &dyn Yardstick,
-    observer: &mut CaseObserver,
-    row: &mut Row,
-) -> Result<(), CommandError> {
-    match attempt(work.sample_or_draw(yardstick, observer))? {
-        Err(failure) => fail(row, "other", None, failure),
-        Ok(outcome) => {
-            row.set("evaluations", outcome.evaluations());
-            row.set("wall_seconds", outcome.wall_seconds);
-            match attempt(yardstick.measure(&outcome.particles))? {
-                Ok(errors) => end(row, &errors),
-                Err(failure) => fail(row, "outside range", None, failure),
-            }
-        }
-    }
-    Ok(())
 }
 
 /// Notes a run without particles: why, in a word or two, and the step in which that was seen.
@@ -146,13 +117,27 @@ fn fail(row: &mut Row, reason: &str, step: Option<usize>, failure: Failure) {
     row.set("failed_step", step);
 }
 
-/// Notes the errors at the end.
-fn end(row: &mut Row, errors: &Errors) {
+/// Notes particles and their errors at the end, which is after so many steps of a body.
+fn end(
+    row: &mut Row,
+    outcome: &Outcome,
+    yardstick: &dyn Yardstick,
+    step: Option<usize>,
+) -> Result<Option<Errors>, CommandError> {
+    row.set("evaluations", outcome.evaluations());
+    let errors = match attempt(yardstick.measure(&outcome.particles))? {
+        Ok(errors) => errors,
+        Err(failure) => {
+            fail(row, "outside range", step, failure);
+            return Ok(None);
+        }
+    };
     row.set("final_energy", errors.energy_distance_squared);
     row.set("final_sliced", errors.sliced_wasserstein);
     row.set("final_mean", errors.mean);
     row.set("final_deviation", errors.deviation);
     row.set("final_mass", errors.mass);
+    Ok(Some(errors))
 }
 
 /// Why the sampler gave nothing, and in which step.

@@ -1,16 +1,17 @@
 //! The report of the study `paper`.
 
 use super::answers::answers;
+use super::body::is_rival;
 use super::table::{Findings, TIE, against, is_good, settings};
 use super::{Paper, figure};
 use crate::plots::dots;
 use crate::study::prelude::*;
 
 /// Tables and figures.
-pub fn report(study: &Paper, rows: &Rows<'_>) -> Result<Report, CommandError> {
+pub fn report(study: &Paper, rows: &Rows<'_>) -> Result<Page, CommandError> {
     let findings = Findings::new(study, rows);
     let all = findings.of(study.all_cases()?);
-    let bodies = all.having(|row| !row.text("variant").is_empty());
+    let bodies = all.having(|row| !is_rival(row));
     let mut page = Page::new("What Algorithms 1 and 2 of the MPM-ParVI paper reach");
     page.paragraph(format!(
         "Huang, arXiv 2407.20287, has no experiments; these are some. `as written`: the target's own coordinates, the force of Eq. 3, no guard. `guards on, frame`: this project's defaults. \
@@ -50,44 +51,41 @@ pub fn report(study: &Paper, rows: &Rows<'_>) -> Result<Report, CommandError> {
             settings(&findings.sweep(name)?, &mut page);
         }
     }
-    Ok(Report::new(page)
+    let good = rows.count(|row| !is_rival(row) && is_good(row));
+    Ok(page
         .with("cases", rows.len())
-        .with("diverged", rows.count(|row| row.status() == Status::Diverged))
-        .with(
-            "as_good_as_independent",
-            rows.count(|row| !row.text("variant").is_empty() && is_good(row)),
-        ))
+        .with("diverged", rows.ended(Status::Diverged))
+        .with("as_good_as_independent", good))
 }
 
 /// Bodies by variant and algorithm.
-fn by_method<'a>(bodies: &Rows<'a>) -> Vec<(&'a str, &'static str, Rows<'a>)> {
-    let of = |variant: &'a str| {
-        let here = bodies.with("variant", variant);
-        ["algorithm 1", "algorithm 2"].map(|method| (variant, method, here.with("method", method)))
-    };
-    bodies.words("variant").into_iter().flat_map(of).collect()
+fn by_method<'a>(bodies: &Rows<'a>) -> Vec<(String, &'static str, Rows<'a>)> {
+    let mut all = Vec::new();
+    for (variant, here) in bodies.by("variant") {
+        for method in ["algorithm 1", "algorithm 2"] {
+            all.push((variant.clone(), method, here.with("method", method)));
+        }
+    }
+    all.retain(|(.., here)| !here.is_empty());
+    all
 }
 
 /// How many runs diverge, why and when.
 fn failures(bodies: &Rows<'_>, page: &mut Page) {
     let reasons = ["not finite", "outside range", "turned inside out", "other"];
-    let mut lines = Vec::new();
-    for (variant, method, here) in by_method(bodies) {
+    let cells = |(variant, method, here): (String, &str, Rows<'_>)| {
         let failed = here.having(|row| !row.finished());
         let mut steps: Vec<usize> = failed.iter().filter_map(|row| row.count("failed_step")).collect();
         steps.sort_unstable();
-        let share = 100.0 * failed.len() as f64 / here.len().max(1) as f64;
-        let share = format!("{share:.1}");
+        let share = format!("{:.1}", 100.0 * failed.len() as f64 / here.len() as f64);
         let mut cells = line(&[&variant, &method, &here.len(), &failed.len(), &share]);
         cells.extend(reasons.map(|reason| failed.with("reason", reason).len().to_string()));
         cells.extend(line(&[&steps.get(steps.len() / 2), &steps.last()]));
-        if !here.is_empty() {
-            lines.push(cells);
-        }
-    }
-    let reasons = reasons.join(" | ");
-    let header = format!("variant | method | runs | diverged | % | {reasons} | median step | last step");
-    page.table(header.as_str(), &lines);
+        cells
+    };
+    let names = reasons.join(" | ");
+    let header = format!("variant | method | runs | diverged | % | {names} | median step | last step");
+    page.table(header.as_str(), by_method(bodies).into_iter().map(cells));
 }
 
 /// The base beside its rivals, run by run.
@@ -100,18 +98,10 @@ fn against_rivals(findings: &Findings, page: &mut Page) -> Result<(), CommandErr
     for (variant, method, here) in by_method(&base) {
         for rival in findings.study.rivals.iter().map(MethodSpecification::label) {
             let others = rivals.with("method", rival);
-            let same = |row: &Row, other: &Row| {
-                let alike = |column: &str| row.value(column) == other.value(column);
-                ["target", "seed", "particles"].into_iter().all(alike)
-            };
-            let pairs = here
-                .iter()
-                .filter_map(|row| Some((row, others.iter().find(|other| same(row, other))?)));
-            let counts = against(pairs);
+            let counts = against(&here, &others, &["target", "seed", "particles"]);
             if counts.iter().sum::<usize>() > 0 {
-                let mut cells = line(&[&variant, &method, &rival]);
-                cells.extend(counts.map(|count| count.to_string()));
-                lines.push(cells);
+                let counts = counts.map(|count| count.to_string());
+                lines.push([line(&[&variant, &method, &rival]), counts.into()].concat());
             }
         }
     }

@@ -2,50 +2,24 @@
 
 use parvi::{Annealing, Coordinates, Guards};
 
+use crate::options::words;
 use crate::study::prelude::*;
 
-/// Which of the guards a run has.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum GuardChoice {
-    /// None, as the paper has it.
-    Off,
-    /// The force times the mass, alone.
-    MassWeightedForce,
-    /// The mass floor alone.
-    MassFloor,
-    /// The Courant condition alone.
-    Courant,
-    /// The displacement limit alone.
-    DisplacementLimit,
-    /// All.
-    On,
-}
-
-impl GuardChoice {
-    pub fn guards(self) -> Guards {
-        let all = Guards::default();
-        let mut guards = Guards::none();
-        match self {
-            Self::Off => {}
-            Self::MassWeightedForce => guards.mass_weighted_force = all.mass_weighted_force,
-            Self::MassFloor => guards.mass_floor = all.mass_floor,
-            Self::Courant => guards.courant = all.courant,
-            Self::DisplacementLimit => guards.displacement_limit = all.displacement_limit,
-            Self::On => guards = all,
-        }
-        guards
-    }
-
-    pub fn text(self) -> &'static str {
-        match self {
-            Self::Off => "off",
-            Self::MassWeightedForce => "mass-weighted-force",
-            Self::MassFloor => "mass-floor",
-            Self::Courant => "courant",
-            Self::DisplacementLimit => "displacement-limit",
-            Self::On => "on",
-        }
+words! {
+    /// Which of the guards a run has.
+    GuardChoice {
+        /// None, as the paper has it.
+        Off,
+        /// The force times the mass, alone.
+        MassWeightedForce,
+        /// The mass floor alone.
+        MassFloor,
+        /// The Courant condition alone.
+        Courant,
+        /// The displacement limit alone.
+        DisplacementLimit,
+        /// All.
+        On,
     }
 }
 
@@ -60,12 +34,27 @@ pub struct Variant {
 }
 
 impl Variant {
+    /// The guards for the sampler.
+    pub fn guards(self) -> Guards {
+        let all = Guards::default();
+        let mut guards = Guards::none();
+        match self.guards {
+            GuardChoice::Off => {}
+            GuardChoice::MassWeightedForce => guards.mass_weighted_force = all.mass_weighted_force,
+            GuardChoice::MassFloor => guards.mass_floor = all.mass_floor,
+            GuardChoice::Courant => guards.courant = all.courant,
+            GuardChoice::DisplacementLimit => guards.displacement_limit = all.displacement_limit,
+            GuardChoice::On => guards = all,
+        }
+        guards
+    }
+
     /// In words.
     pub fn text(self) -> String {
         match (self.guards, self.coordinates) {
             (GuardChoice::Off, Coordinates::Own) => "as written".to_owned(),
-            (guards, Coordinates::Own) => format!("guards {}", guards.text()),
-            (guards, Coordinates::Frame) => format!("guards {}, frame", guards.text()),
+            (guards, Coordinates::Own) => format!("guards {guards}"),
+            (guards, Coordinates::Frame) => format!("guards {guards}, frame"),
         }
     }
 }

@@ -1,9 +1,9 @@
-//! The posterior's moments beside the reference's, and the verdict.
+//! The posterior's moments beside the reference's.
 
 use super::Bounds;
 use super::reference::ReferenceAxis;
 use crate::output::Particles;
-use crate::study::moments::SampleMoments;
+use crate::statistics::SampleMoments;
 
 /// One coordinate.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,59 +20,49 @@ pub struct AxisComparison {
     pub deviation_error: f64,
 }
 
-/// All coordinates.
+/// All coordinates, and the largest errors among them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
     /// One entry per coordinate.
     pub axes: Vec<AxisComparison>,
+    /// Of a mean in posterior standard deviations.
+    pub mean_error: f64,
+    /// Of a standard deviation, relative.
+    pub deviation_error: f64,
+    /// The standard error of a reference mean in posterior standard deviations.
+    pub reference_error: f64,
 }
 
 impl Comparison {
     /// Compares particles with a reference of the same dimension.
-    pub fn new(particles: &Particles, reference: &[ReferenceAxis]) -> Self {
-        let moments = SampleMoments::of(particles);
-        let deviations = moments.standard_deviations();
-        let axes = reference
-            .iter()
-            .zip(moments.mean.iter().zip(&deviations))
-            .map(|(reference, (&mean, &standard_deviation))| AxisComparison {
-                reference: reference.clone(),
-                mean,
-                standard_deviation,
-                mean_error: (mean - reference.mean) / reference.standard_deviation,
-                deviation_error: standard_deviation / reference.standard_deviation - 1.0,
-            })
-            .collect();
-        Self { axes }
+    pub fn new(particles: &Particles, reference: Vec<ReferenceAxis>) -> Self {
+        let points = particles.to_rows();
+        let moments = SampleMoments::of(&points, particles.weights());
+        let own = moments.mean.iter().copied().zip(moments.standard_deviations());
+        let axis = |(reference, (mean, standard_deviation)): (ReferenceAxis, (f64, f64))| AxisComparison {
+            mean,
+            standard_deviation,
+            mean_error: (mean - reference.mean) / reference.standard_deviation,
+            deviation_error: standard_deviation / reference.standard_deviation - 1.0,
+            reference,
+        };
+        let axes: Vec<AxisComparison> = reference.into_iter().zip(own).map(axis).collect();
+        let largest = |error: fn(&AxisComparison) -> f64| axes.iter().map(error).fold(0.0, f64::max);
+        Self {
+            mean_error: largest(|axis| axis.mean_error.abs()),
+            deviation_error: largest(|axis| axis.deviation_error.abs()),
+            reference_error: largest(|axis| axis.reference.mean_standard_error / axis.reference.standard_deviation),
+            axes,
+        }
     }
 
-    fn largest(&self, error: impl Fn(&AxisComparison) -> f64) -> f64 {
-        self.axes.iter().map(error).fold(0.0, f64::max)
-    }
-
-    /// The largest error of a mean in posterior standard deviations.
-    pub fn largest_mean_error(&self) -> f64 {
-        self.largest(|axis| axis.mean_error.abs())
-    }
-
-    /// The largest relative error of a standard deviation.
-    pub fn largest_deviation_error(&self) -> f64 {
-        self.largest(|axis| axis.deviation_error.abs())
-    }
-
-    /// The largest standard error of a reference mean in posterior standard deviations.
-    pub fn largest_reference_error(&self) -> f64 {
-        self.largest(|axis| axis.reference.mean_standard_error / axis.reference.standard_deviation)
-    }
-
-    /// Whether all means keep their bound.
-    pub fn means_pass(&self, bounds: &Bounds) -> bool {
-        !self.axes.is_empty() && self.largest_mean_error() <= bounds.mean
-    }
-
-    /// Whether all standard deviations keep their bound.
-    pub fn deviations_pass(&self, bounds: &Bounds) -> bool {
-        !self.axes.is_empty() && self.largest_deviation_error() <= bounds.standard_deviation
+    /// Whether means and standard deviations keep their bounds.
+    pub fn kept(&self, bounds: &Bounds) -> [bool; 2] {
+        let kept = |error: f64, bound: f64| !self.axes.is_empty() && error <= bound;
+        [
+            kept(self.mean_error, bounds.mean),
+            kept(self.deviation_error, bounds.standard_deviation),
+        ]
     }
 }
 
@@ -90,15 +80,14 @@ mod tests {
             standard_deviation_standard_error: 0.001,
         };
         let particles = Particles::new(&[[-0.9], [3.1]], None);
-        let comparison = Comparison::new(&particles, &[reference]);
-        assert!((comparison.largest_mean_error() - 0.05).abs() < 1e-12);
-        assert!(comparison.largest_deviation_error() < 1e-12);
-        assert!((comparison.largest_reference_error() - 0.001).abs() < 1e-12);
+        let comparison = Comparison::new(&particles, vec![reference]);
+        assert!((comparison.mean_error - 0.05).abs() < 1e-12);
+        assert!(comparison.deviation_error < 1e-12);
+        assert!((comparison.reference_error - 0.001).abs() < 1e-12);
         let bounds = Bounds {
             mean: 0.02,
             standard_deviation: 0.03,
         };
-        assert!(!comparison.means_pass(&bounds));
-        assert!(comparison.deviations_pass(&bounds));
+        assert_eq!(comparison.kept(&bounds), [false, true]);
     }
 }

@@ -6,7 +6,7 @@ use super::{Piece, Quickstart};
 use crate::dispatch::on_target;
 use crate::output::{Particles, particles_csv, table_file};
 use crate::pictures::density;
-use crate::pictures::trace_panels::{KINETIC_ENERGY, POTENTIAL_ENERGY, RESIDUAL};
+use crate::pictures::trace_panels::{KINETIC_ENERGY, POTENTIAL_ENERGY, RESIDUAL, panels};
 use crate::plots::{DensityPlot, PairDensity, PointCloud, Reference, TracePlot, cloud, corner, histogram, trace};
 use crate::study::prelude::*;
 
@@ -82,7 +82,7 @@ pub fn traces(study: &Quickstart, directory: &StudyDirectory, page: &mut Page) -
         return Ok(());
     }
     let quantities = [RESIDUAL, KINETIC_ENERGY, POTENTIAL_ENERGY];
-    let plot = TracePlot::new("", "step", quantities.map(|quantity| quantity.panel(&labelled)));
+    let plot = TracePlot::new("", "step", panels(quantities, &labelled));
     let caption = "Galerkin–Stein residual and energies (frame coordinates, total mass 1) against the steps.";
     page.figure("traces.svg", caption, trace(&plot));
     Ok(())

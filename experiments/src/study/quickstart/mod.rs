@@ -143,7 +143,7 @@ impl Study for Quickstart {
         }
     }
 
-    fn report(&self, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Report, CommandError> {
+    fn report(&self, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
         report::report(self, rows, directory)
     }
 }

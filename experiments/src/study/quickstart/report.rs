@@ -6,28 +6,21 @@ use crate::output::{particles_csv, table_file};
 use crate::study::prelude::*;
 
 /// Tables, figures and verdict.
-pub fn report(study: &Quickstart, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Report, CommandError> {
+pub fn report(study: &Quickstart, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
     let mut page = Page::new("Quickstart: a posterior from real data");
-    let mut summary = Vec::new();
     let finished = |piece: Piece| rows.with("case", piece.name()).count(Row::finished) > 0;
     let particles = |piece: Piece| particles_csv::read(&piece.file(directory, "particles"));
     if finished(Piece::Reference) && finished(Piece::Posterior) {
         let particles = particles(Piece::Posterior)?;
         let reference = table_file::read(&Piece::Reference.file(directory, "moments"))?;
-        let comparison = Comparison::new(&particles, &reference);
-        verdict(study, &comparison, rows, &mut page);
-        let number = |number: f64| format!("{number:.6}");
-        summary.extend([
-            ("largest_mean_error", number(comparison.largest_mean_error())),
-            ("largest_sd_error", number(comparison.largest_deviation_error())),
-            ("verdict", word(passes(study, &comparison)).to_owned()),
-        ]);
+        let comparison = Comparison::new(&particles, reference);
+        page = verdict(study, &comparison, rows, page);
         moments_table(&comparison, &mut page);
         page.heading("The posterior");
         figures::posterior(study, &particles, directory, &mut page)?;
     } else {
         page.paragraph("The posterior or its reference is missing, so there is nothing to compare yet.");
-        summary.push(("verdict", "incomplete".to_owned()));
+        page = page.with("verdict", "incomplete");
     }
     if finished(Piece::Picture) {
         page.heading("A target for the eye");
@@ -36,31 +29,22 @@ pub fn report(study: &Quickstart, rows: &Rows<'_>, directory: &StudyDirectory) -
     page.heading("The way there");
     figures::traces(study, directory, &mut page)?;
     runs_table(rows, &mut page);
-    Ok(Report { page, summary })
+    Ok(page)
 }
 
-fn passes(study: &Quickstart, comparison: &Comparison) -> bool {
-    comparison.means_pass(&study.bounds) && comparison.deviations_pass(&study.bounds)
-}
-
-fn word(pass: bool) -> &'static str {
-    if pass { "pass" } else { "fail" }
-}
-
-fn verdict(study: &Quickstart, comparison: &Comparison, rows: &Rows<'_>, page: &mut Page) {
+fn verdict(study: &Quickstart, comparison: &Comparison, rows: &Rows<'_>, mut page: Page) -> Page {
     let bounds = &study.bounds;
-    let within = |pass: bool| if pass { "within" } else { "beyond" };
+    let kept = comparison.kept(bounds);
+    let [means, deviations] = kept.map(|kept| if kept { "within" } else { "beyond" });
+    let verdict = if kept == [true, true] { "pass" } else { "fail" };
     let reference = rows.with("case", Piece::Reference.name());
     let size = reference.first().and_then(|row| row.number("effective_sample_size"));
     page.paragraph(format!(
-        "**Verdict: {}.** The largest error of a posterior mean is {} posterior standard deviations, {} the bound of {}; the \
-         largest error of a posterior standard deviation is {} %, {} the bound of {} %.",
-        word(passes(study, comparison)),
-        number(comparison.largest_mean_error()),
-        within(comparison.means_pass(bounds)),
+        "**Verdict: {verdict}.** The largest error of a posterior mean is {} posterior standard deviations, {means} the bound of {}; the \
+         largest error of a posterior standard deviation is {} %, {deviations} the bound of {} %.",
+        number(comparison.mean_error),
         bounds.mean,
-        number(100.0 * comparison.largest_deviation_error()),
-        within(comparison.deviations_pass(bounds)),
+        number(100.0 * comparison.deviation_error),
         100.0 * bounds.standard_deviation,
     ));
     page.paragraph(format!(
@@ -74,8 +58,11 @@ fn verdict(study: &Quickstart, comparison: &Comparison, rows: &Rows<'_>, page: &
         study.reference.points,
         study.reference.scramblings,
         size.map(|size| format!("{size:.0}")).cell(),
-        number(comparison.largest_reference_error()),
+        number(comparison.reference_error),
     ));
+    page.with("largest_mean_error", format!("{:.6}", comparison.mean_error))
+        .with("largest_sd_error", format!("{:.6}", comparison.deviation_error))
+        .with("verdict", verdict)
 }
 
 fn moments_table(comparison: &Comparison, page: &mut Page) {

@@ -4,7 +4,7 @@ use super::{KnownFrame, RandomTargets};
 use crate::study::prelude::*;
 
 /// Tables and figure.
-pub fn report(study: &RandomTargets, rows: &Rows<'_>) -> Report {
+pub fn report(study: &RandomTargets, rows: &Rows<'_>) -> Page {
     let mut page = Page::new("Random targets");
     page.paragraph(format!(
         "M = {} particles on {} random targets per dimension, of seeds from {} on; the methods {}. ED² is the squared energy distance \
@@ -28,17 +28,17 @@ pub fn report(study: &RandomTargets, rows: &Rows<'_>) -> Report {
         page.heading(&format!("d = {dim}"));
         table(study, &rows.with("dim", dim), &mut page);
     }
-    let false_claim = |row: &Row| format!("- `{}`: ED² {}", row.case(), ENERGY_RATIO(row).cell());
+    let false_claim = |row: &Row| format!("- `{}`: ED² {}", row.case(), row.value("energy_ratio").cell());
     let false_claims: Vec<String> = rows.having(claims_falsely).iter().map(false_claim).collect();
     page.list("Claims that are false", &false_claims, None);
-    rows.report(page)
+    rows.close(page)
         .with("claimed", rows.count(Row::claims))
         .with("false_claims", false_claims.len())
 }
 
 /// Whether a run claims to stand for the target and is no better than independent draws.
 fn claims_falsely(row: &Row) -> bool {
-    row.claims() && ENERGY_RATIO(row).is_none_or(|ratio| ratio > 1.0)
+    row.claims() && !row.is_within("energy_ratio", 1.0)
 }
 
 /// A line per method, of the runs in one dimension.
@@ -47,28 +47,19 @@ fn table(study: &RandomTargets, rows: &Rows<'_>, page: &mut Page) {
     let labels = || study.methods.iter().map(MethodSpecification::label);
     let mut header = first.names();
     header.extend(labels().map(|label| format!("better than {label}")));
-    let deviation: Computed = |row| row.number("log_evidence_deviation").map(f64::abs);
-    // log Z in its standard errors, where the method states both.
-    let ratio = |row: &Row| Some((deviation(row)?, row.number("log_evidence_error")?));
     let cells = |label: &str| {
         let here = rows.with("method", label);
-        let stated: Vec<(f64, f64)> = here.iter().filter_map(ratio).collect();
-        let within = stated
-            .iter()
-            .filter(|(deviation, error)| *deviation <= 3.0 * error)
-            .count();
+        // log Z in its standard errors, where the method states both.
+        let stated = here.having(|row| row.number("evidence_ratio").is_some());
+        let within = percent(stated.count(|row| row.is_within("evidence_ratio", 3.0)), stated.len());
+        let others = labels().map(|other| (other != label).then(|| better(&here, &rows.with("method", other))));
         let mut cells = line(&[&label, &here.finished()]);
-        cells.extend([0.5, 0.95, 1.0].map(|level| here.quantile(ENERGY_RATIO, level).cell()));
-        let medians: [&dyn Quantity; 3] = [&EVALUATIONS, &SECONDS, &deviation];
-        cells.extend(medians.map(|quantity| here.quantile(|row: &Row| quantity.of(row), 0.5).cell()));
-        cells.push(percent(within, stated.len()).cell());
-        cells.extend([here.count(Row::claims), here.count(claims_falsely)].map(|count| count.to_string()));
-        let others = labels().map(|other| {
-            (other != label)
-                .then(|| better(&here, &rows.with("method", other)))
-                .cell()
-        });
-        cells.extend(others);
+        cells.extend(here.cells("quantile 0.5 energy_ratio | quantile 0.95 energy_ratio | quantile 1 energy_ratio"));
+        cells.extend(
+            here.cells("quantile 0.5 evaluations | quantile 0.5 wall_seconds | quantile 0.5 evidence_deviation"),
+        );
+        cells.extend(line(&[&within, &here.count(Row::claims), &here.count(claims_falsely)]));
+        cells.extend(others.map(|other| other.cell()));
         cells
     };
     page.table(&header, labels().map(cells));
@@ -76,7 +67,7 @@ fn table(study: &RandomTargets, rows: &Rows<'_>, page: &mut Page) {
 
 /// The share of the targets on which the ED² of `rows` is smaller; a run without particles is infinitely far.
 fn better(rows: &Rows<'_>, others: &Rows<'_>) -> String {
-    let far = |row: &Row| ENERGY_RATIO(row).unwrap_or(f64::INFINITY);
+    let far = |row: &Row| row.number("energy_ratio").unwrap_or(f64::INFINITY);
     let pair = |row: &Row| {
         let same = |other: &&Row| other.value("target_seed") == row.value("target_seed");
         Some((far(row), far(others.iter().find(same)?)))
@@ -90,7 +81,7 @@ fn plot(study: &RandomTargets, rows: &Rows<'_>) -> MultiplesPlot {
     let panel = |dim: &Dimension| {
         let here = rows.with("dim", *dim);
         let line = |method: &MethodSpecification| {
-            let ratios = here.with("method", method.label()).values(ENERGY_RATIO);
+            let ratios = here.with("method", method.label()).values("energy_ratio");
             LineSeries::in_order(method.label(), ratios, study.target_seeds.count.get())
         };
         let lines = study.methods.iter().map(line);

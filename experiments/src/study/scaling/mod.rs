@@ -64,11 +64,6 @@ struct NodesSweep {
     interval: [f64; 2],
 }
 
-/// Over d and M.
-const PARTICLES: &str = "particles";
-/// Over k.
-const NODES: &str = "nodes";
-
 /// One size.
 #[derive(Clone, Debug)]
 pub struct Size {
@@ -79,20 +74,26 @@ pub struct Size {
 }
 
 impl Size {
+    /// M · 3ᵈ.
+    fn work(&self) -> f64 {
+        self.particles as f64 * 3f64.powi(self.dim.get() as i32)
+    }
+
     /// The case of a sweep.
     fn case(self, sweep: &str, nodes_per_axis: Option<usize>) -> Case<Self> {
         let nodes = nodes_per_axis.map_or(String::new(), |nodes| format!("-k{nodes}"));
-        let cost = self.particles as f64 * 3f64.powi(self.dim.get() as i32) + 1e3;
-        Case::new(
-            format!("{sweep}-d{}-m{}{nodes}", self.dim, self.particles),
-            self.clone(),
-        )
-        .costing(cost)
-        .with("sweep", sweep)
-        .with("dim", self.dim)
-        .with("particles", self.particles)
-        .with("nodes_per_axis", nodes_per_axis)
-        .with("spacing", self.spacing)
+        let Self {
+            dim,
+            particles,
+            spacing,
+        } = self;
+        Case::new(format!("{sweep}-d{dim}-m{particles}{nodes}"), self.clone())
+            .costing(self.work() + 1e3)
+            .with("sweep", sweep)
+            .with("dim", dim)
+            .with("particles", particles)
+            .with("nodes_per_axis", nodes_per_axis)
+            .with("spacing", spacing)
     }
 }
 
@@ -123,16 +124,14 @@ impl Study for Scaling {
         let mut cases = Vec::new();
         for &dim in &sweep.dims {
             for particles in sweep.particles.iter().map(|count| count.get()) {
-                if particles as f64 * 3f64.powi(dim.get() as i32) <= sweep.largest_work {
-                    let spacing = None;
-                    cases.push(
-                        Size {
-                            dim,
-                            particles,
-                            spacing,
-                        }
-                        .case(PARTICLES, None),
-                    );
+                let spacing = None;
+                let size = Size {
+                    dim,
+                    particles,
+                    spacing,
+                };
+                if size.work() <= sweep.largest_work {
+                    cases.push(size.case(quantity::PARTICLES.name, None));
                 }
             }
         }
@@ -143,7 +142,7 @@ impl Study for Scaling {
                     particles: nodes.particles.get(),
                     spacing: Some((high - low) / count as f64),
                 };
-                cases.push(size.case(NODES, Some(count)));
+                cases.push(size.case(quantity::NODES.name, Some(count)));
             }
         }
         Ok(cases)
@@ -154,12 +153,8 @@ impl Study for Scaling {
         let mut specification = self.method.clone();
         specification.options.spacing = size.spacing.or(specification.options.spacing);
         let target = TargetSpecification::plain(&self.target, Some(size.dim));
-        let work = Sampled::new(
-            &target,
-            &specification,
-            Some(self.steps.get()),
-            (size.particles, self.seed),
-        )?;
+        let size = (size.particles, self.seed);
+        let work = Sampled::new(&target, &specification, Some(self.steps.get()), size)?;
         let mut times = Vec::new();
         for repeat in 0..=self.repeats.get() {
             let outcome = match attempt(work.sample(tools.observer))? {
@@ -171,17 +166,15 @@ impl Study for Scaling {
             };
             if repeat == 0 {
                 row.take(&outcome);
-                row.set("spacing", outcome.spacing.or(size.spacing));
+                row.set("spacing", outcome.spacing.or(case.work.spacing));
             } else {
                 times.push(outcome.wall_seconds / outcome.steps.max(1) as f64);
             }
         }
         specification.options.steps = Some(self.steps);
         let threads = self.threads.map(Bounded::get);
-        row.set(
-            "memory_peak_bytes",
-            memory::peak_of_own_process(&target, &specification, &work.run, threads),
-        );
+        let peak = memory::peak_of_own_process(&target, &specification, &work.run, threads);
+        row.set("memory_peak_bytes", peak);
         let quantiles = statistics::weighted_quantile(&times, None, &[0.0, 0.5, 1.0])?;
         row.set("wall_seconds_per_step_least", quantiles[0]);
         row.set("wall_seconds_per_step", quantiles[1]);
@@ -189,7 +182,7 @@ impl Study for Scaling {
         Ok(())
     }
 
-    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Report, CommandError> {
+    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
         Ok(report::report(self, rows))
     }
 }

@@ -1,12 +1,12 @@
 //! The report of the study `scaling`.
 
-use super::quantity::{Measured, QUANTITIES};
-use super::{NODES, PARTICLES, Scaling};
+use super::Scaling;
+use super::quantity::{Measured, NODES, PARTICLES, QUANTITIES, Sweep, TIME};
 use crate::plots::{ScalingPlot, scaling};
 use crate::study::prelude::*;
 
 /// Tables and figures.
-pub fn report(study: &Scaling, rows: &Rows<'_>) -> Report {
+pub fn report(study: &Scaling, rows: &Rows<'_>) -> Page {
     let mut page = Page::new("Scaling with d, M and N = kᵈ");
     page.paragraph(format!(
         "Target `{}`, method `{}`, {} steps per run, {} threads. Times are medians of {} runs after one to warm up: the \
@@ -23,8 +23,7 @@ pub fn report(study: &Scaling, rows: &Rows<'_>) -> Report {
     nodes_part(study, rows, &mut page);
     all_rows(rows, &mut page);
 
-    let failed = rows.count(|row| !row.finished());
-    Report::new(page).with("cases", rows.len()).with("failed", failed)
+    page.with("cases", rows.len()).with("failed", rows.failures().len())
 }
 
 fn particles_part(study: &Scaling, rows: &Rows<'_>, page: &mut Page) {
@@ -37,9 +36,9 @@ fn particles_part(study: &Scaling, rows: &Rows<'_>, page: &mut Page) {
         sweep.fit_from,
         number(sweep.largest_work),
     ));
-    exponent_table(page, rows, PARTICLES, &sweep.dims, fit_from);
+    exponent_table(page, rows, &PARTICLES, &sweep.dims, fit_from);
     for (quantity, file) in drawn() {
-        let plot = plot(quantity, rows, PARTICLES, &sweep.dims, fit_from);
+        let plot = plot(quantity, rows, &PARTICLES, &sweep.dims, fit_from);
         let caption = format!("{} against the number of particles.", capitalised(quantity.name));
         page.figure(&format!("particles-{file}.svg"), &caption, scaling(&plot));
     }
@@ -50,11 +49,9 @@ fn particles_part(study: &Scaling, rows: &Rows<'_>, page: &mut Page) {
 fn growth_with_dimension(study: &Scaling, rows: &Rows<'_>, page: &mut Page) {
     let sweep = &study.particles_sweep;
     let time = |dim: usize, particles: usize| {
-        let here = rows
-            .with("sweep", PARTICLES)
-            .with("dim", dim)
-            .with("particles", particles);
-        Some(here.first()?.number("wall_seconds_per_step")? / particles as f64 * 1e9)
+        let here = rows.with("sweep", PARTICLES.name).with("dim", dim);
+        let row = here.with("particles", particles).first()?;
+        Some(row.number(TIME)? / particles as f64 * 1e9)
     };
     page.paragraph(
         "Nanoseconds per particle and step, and the exponents b in d^b and (3ᵈ)^b: a particle touches d + 1 nodes of a simplex \
@@ -90,14 +87,14 @@ fn nodes_part(study: &Scaling, rows: &Rows<'_>, page: &mut Page) {
         high - low,
         largest_dense_grid(study),
     ));
-    exponent_table(page, rows, NODES, &sweep.dims, 0.0);
+    exponent_table(page, rows, &NODES, &sweep.dims, 0.0);
     page.paragraph(format!(
         "The same from k = {} on, where most particles are alone among their nodes:",
         sweep.fit_from,
     ));
-    exponent_table(page, rows, NODES, &sweep.dims, sweep.fit_from.get() as f64);
+    exponent_table(page, rows, &NODES, &sweep.dims, sweep.fit_from.get() as f64);
     for (quantity, file) in drawn() {
-        let mut plot = plot(quantity, rows, NODES, &sweep.dims, 0.0);
+        let mut plot = plot(quantity, rows, &NODES, &sweep.dims, 0.0);
         if file == "time" {
             let guides = sweep.dims.iter().filter_map(|dim| dense_guide(&plot, dim.get()));
             plot.guides = guides.collect();
@@ -123,9 +120,8 @@ fn dense_guide(plot: &ScalingPlot, dim: usize) -> Option<GuideCurve> {
     let most = 1e3 * times.fold(0.0, |most: f64, &y| most.max(y));
     let power = |size: f64| first_time * (size / first_size).powi(dim as i32);
     let reach = (first_size * (most / first_time).powf(1.0 / dim as f64)).min(last_size);
-    let x: Vec<f64> = (0..=20)
-        .map(|i| first_size * (reach / first_size).powf(f64::from(i) / 20.0))
-        .collect();
+    let place = |i: i32| first_size * (reach / first_size).powf(f64::from(i) / 20.0);
+    let x: Vec<f64> = (0..=20).map(place).collect();
     let y = x.iter().map(|&size| power(size)).collect();
     Some(GuideCurve {
         label: format!("dense grid, k^{{{dim}}}"),
@@ -136,43 +132,34 @@ fn dense_guide(plot: &ScalingPlot, dim: usize) -> Option<GuideCurve> {
 
 /// The quantities that have a figure.
 fn drawn() -> impl Iterator<Item = (&'static Measured, &'static str)> {
-    QUANTITIES
-        .iter()
-        .filter_map(|quantity| Some((quantity, quantity.file?)))
+    let named = QUANTITIES.iter().map(|quantity| Some((quantity, quantity.file?)));
+    named.flatten()
 }
 
-fn plot(quantity: &Measured, rows: &Rows<'_>, sweep: &str, dims: &[Dimension], fit_from: f64) -> ScalingPlot {
-    let (x_label, x_symbol) = match sweep {
-        PARTICLES => ("number of particles M", "M"),
-        _ => ("nodes per axis k", "k"),
-    };
+fn plot(quantity: &Measured, rows: &Rows<'_>, sweep: &Sweep, dims: &[Dimension], fit_from: f64) -> ScalingPlot {
     ScalingPlot {
-        x_label: x_label.to_owned(),
+        x_label: sweep.label.to_owned(),
         y_label: quantity.axis.to_owned(),
-        x_symbol: x_symbol.to_owned(),
+        x_symbol: sweep.symbol.to_owned(),
         fit_from,
         series: dims.iter().map(|&dim| quantity.series(rows, sweep, dim)).collect(),
         ..ScalingPlot::default()
     }
 }
 
-fn exponent_table(page: &mut Page, rows: &Rows<'_>, sweep: &str, dims: &[Dimension], fit_from: f64) {
-    let mut header = vec!["d"];
-    header.extend(QUANTITIES.iter().map(|quantity| quantity.name));
-    header.push("paper, dense grid");
+fn exponent_table(page: &mut Page, rows: &Rows<'_>, sweep: &Sweep, dims: &[Dimension], fit_from: f64) {
+    let names = QUANTITIES.iter().map(|quantity| quantity.name);
+    let header: Vec<&str> = ["d"].into_iter().chain(names).chain(["paper, dense grid"]).collect();
     let line = |&dim: &Dimension| {
-        let mut line = vec![dim.to_string()];
-        line.extend(
-            QUANTITIES
-                .iter()
-                .map(|quantity| quantity.exponent(rows, sweep, dim, fit_from)),
-        );
-        line.push(if sweep == PARTICLES {
-            "1".to_owned()
-        } else {
-            dim.to_string()
-        });
-        line
+        let exponents = QUANTITIES
+            .iter()
+            .map(|quantity| quantity.exponent(rows, sweep, dim, fit_from));
+        let paper = match sweep.symbol {
+            "M" => "1".to_owned(),
+            _ => dim.to_string(),
+        };
+        let cells = [dim.to_string()].into_iter().chain(exponents).chain([paper]);
+        cells.collect::<Vec<_>>()
     };
     page.table(&header, dims.iter().map(line));
 }
@@ -190,8 +177,6 @@ fn all_rows(rows: &Rows<'_>, page: &mut Page) {
 }
 
 fn capitalised(text: &str) -> String {
-    let mut letters = text.chars();
-    letters
-        .next()
-        .map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+    let (first, rest) = text.split_at(1);
+    first.to_uppercase() + rest
 }

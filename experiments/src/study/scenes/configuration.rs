@@ -49,7 +49,7 @@ impl Scenes {
     pub fn all_cases(&self) -> Result<Vec<Case<Variant>>, CommandError> {
         let mut cases = Vec::new();
         for family in self.resolved()? {
-            let combinations = combinations(&family.axes, family.x_keys());
+            let combinations = combinations(&family.axes, &family.x);
             for combination in combinations.map_err(|message| family.refuse("axes", message))? {
                 let (name, label) = (combination.name.clone(), combination.label.clone());
                 let family = family.clone();

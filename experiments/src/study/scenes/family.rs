@@ -1,10 +1,12 @@
 //! A family of runs of one scene.
 
+use serde::Deserializer;
 use toml::Table;
 
 use super::axis::Axis;
-use super::judgement::Judgement;
+use super::judgement;
 use super::reading::Reading;
+use crate::plots::judgement::Judgement;
 use crate::study::prelude::*;
 
 /// Runs of one scene with changes, of each of which one number is read.
@@ -28,7 +30,8 @@ pub struct Family {
     #[serde(default)]
     pub axes: Vec<Axis>,
     /// The dotted key of a number of the scene: the horizontal axis. Of several the first that is there.
-    pub x: Option<Keys>,
+    #[serde(default, deserialize_with = "one_or_several")]
+    pub x: Vec<String>,
     /// The label of that axis, with its unit.
     pub x_label: Option<String>,
     /// The label of the vertical axis, with its unit.
@@ -36,7 +39,7 @@ pub struct Family {
     /// The number.
     pub read: Reading,
     /// What is asked of the numbers.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "judgement::list")]
     pub judgements: Vec<Judgement>,
     /// Parts of the labels of the series that are judged; empty: all.
     #[serde(default)]
@@ -49,14 +52,19 @@ pub struct Family {
     pub drawn: Vec<f64>,
 }
 
-/// A dotted key, or several.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(untagged)]
-pub enum Keys {
-    /// One.
-    One(String),
-    /// Several.
-    Several(Vec<String>),
+/// A dotted key, or a list of them.
+fn one_or_several<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<String>, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(untagged)]
+    enum Keys {
+        One(String),
+        Several(Vec<String>),
+    }
+
+    Ok(match Keys::deserialize(deserializer)? {
+        Keys::One(key) => vec![key],
+        Keys::Several(keys) => keys,
+    })
 }
 
 /// A panel of the figure of histories.
@@ -75,8 +83,10 @@ impl Family {
         let mut family = self.clone();
         if let Some(model) = model {
             family.scene = family.scene.or_else(|| model.scene.clone());
-            family.x = family.x.or_else(|| model.x.clone());
             family.x_label = family.x_label.or_else(|| model.x_label.clone());
+            if family.x.is_empty() {
+                family.x.clone_from(&model.x);
+            }
             if family.axes.is_empty() {
                 family.axes.clone_from(&model.axes);
             }
@@ -94,7 +104,7 @@ impl Family {
         }
         let given = [
             ("scene", self.scene.is_some()),
-            ("x", !self.x_keys().is_empty()),
+            ("x", !self.x.is_empty()),
             ("x-label", self.x_label.is_some()),
         ];
         if let Some((field, _)) = given.iter().find(|(_, given)| !given) {
@@ -104,15 +114,6 @@ impl Family {
         self.read
             .check()
             .map_err(|(field, message)| self.refuse(field, message))
-    }
-
-    /// The dotted keys of the horizontal axis.
-    pub fn x_keys(&self) -> &[String] {
-        match &self.x {
-            None => &[],
-            Some(Keys::One(key)) => std::slice::from_ref(key),
-            Some(Keys::Several(keys)) => keys,
-        }
     }
 
     /// The error for a field of the family.

@@ -12,7 +12,6 @@ mod judgement;
 mod reading;
 mod report;
 mod scene_files;
-mod series;
 
 use std::path::Path;
 
@@ -111,7 +110,7 @@ impl Study for Scenes {
         Ok(())
     }
 
-    fn report(&self, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Report, CommandError> {
+    fn report(&self, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
         report::report(self, rows, directory)
     }
 }

@@ -4,15 +4,14 @@ use super::configuration::Scenes;
 use super::family::Family;
 use super::figure;
 use super::history;
-use super::judgement::{Judgement, Verdict, orders};
-use super::series::{MeasuredSeries, series};
+use crate::plots::judgement::{Judgement, MeasuredSeries, Verdict, orders};
 use crate::plots::trace;
 use crate::study::prelude::*;
 
 /// Judgements, then each family with its figure and its numbers.
-pub fn report(study: &Scenes, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Report, CommandError> {
+pub fn report(study: &Scenes, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
     let families = study.resolved()?;
-    let all: Vec<Vec<MeasuredSeries>> = families.iter().map(|family| series(rows, &family.name)).collect();
+    let all: Vec<Vec<MeasuredSeries>> = families.iter().map(|family| of_family(rows, family)).collect();
     let mut page = Page::new(&study.title);
     page.heading("Judgements");
     let mut table = Vec::new();
@@ -41,12 +40,16 @@ pub fn report(study: &Scenes, rows: &Rows<'_>, directory: &StudyDirectory) -> Re
     }
     let failed = rows.count(|row| row.number("value").is_none());
     let verdict = if judged > 0 && passed == judged { "pass" } else { "fail" };
-    Ok(Report::new(page)
+    Ok(page
         .with("cases", rows.len())
         .with("failed", failed)
         .with("judged", judged)
         .with("passed", passed)
         .with("verdict", verdict))
+}
+
+fn of_family(rows: &Rows<'_>, family: &Family) -> Vec<MeasuredSeries> {
+    MeasuredSeries::of(&rows.with("family", family.name.as_str()))
 }
 
 /// What the family's judgements say; one that finds nothing to judge is not kept.
@@ -123,8 +126,8 @@ fn digits(value: f64, reference: Option<f64>) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::series::Point;
     use super::*;
+    use crate::plots::judgement::Point;
 
     #[test]
     fn a_judgement_that_finds_nothing_to_judge_is_not_kept() {

@@ -98,7 +98,7 @@ impl SceneFiles {
             &self.directory.join(name),
             case,
         )?;
-        let keys = case.family.x_keys();
+        let keys = &case.family.x;
         let x = keys.iter().find_map(|key| keys::number(&own.table, key));
         let x = x.filter(|x| x.is_finite()).ok_or_else(|| {
             case.family

@@ -6,17 +6,16 @@ use crate::study::prelude::*;
 /// More particles help if they lower ED² at least by this factor.
 const HELP: f64 = 0.9;
 
-/// The runs of one dimension, number of particles and spacing.
-pub fn runs<'a>(rows: &Rows<'a>, dim: Dimension, particles: usize, spacing: f64) -> Rows<'a> {
-    let here = rows.with("dim", dim).with("particles", particles);
-    here.with("requested_spacing", spacing)
-}
-
-/// The spacing with the lowest median ED², and that.
-pub fn best(rows: &Rows<'_>, series: &Series, particles: usize) -> Option<(f64, f64)> {
-    let error = |spacing: f64| Some((spacing, runs(rows, series.dim, particles, spacing).median(ENERGY)?));
-    let errors = series.sorted().into_iter().filter_map(error);
-    errors.min_by(|left, right| left.1.total_cmp(&right.1))
+/// The spacing with the lowest median ED², and its runs; of runs in one dimension.
+pub fn best<'a>(here: &Rows<'a>, series: &Series, particles: usize) -> Option<(f64, Rows<'a>)> {
+    let here = here.with("particles", particles);
+    let at = |spacing: f64| {
+        let runs = here.with("requested_spacing", spacing);
+        Some((runs.median(ENERGY)?, spacing, runs))
+    };
+    let errors = series.sorted().into_iter().filter_map(at);
+    let (_, spacing, runs) = errors.min_by(|left, right| left.0.total_cmp(&right.0))?;
+    Some((spacing, runs))
 }
 
 /// Where the error stops being that of the particles.

@@ -67,14 +67,7 @@ impl Study for SpacingParticles {
                     let mut method = self.method.clone();
                     method.options.spacing = Some(spacing);
                     fitting("method", &method)?;
-                    let setting = Setting {
-                        dim: series.dim,
-                        particles: particles.get(),
-                        series: method.label().to_owned(),
-                        method: &method,
-                        spacing_factor: None,
-                    };
-                    cases.extend(setting.cases(&self.seeds)?);
+                    cases.extend(Setting::new(series.dim, particles, &method).cases(&self.seeds)?);
                 }
             }
         }
@@ -86,7 +79,7 @@ impl Study for SpacingParticles {
         gaussian_runs::run(case, row, tools)
     }
 
-    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Report, CommandError> {
+    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
         Ok(report::report(self, rows))
     }
 }

@@ -1,12 +1,12 @@
 //! The report of the study `spacing-particles`.
 
-use super::curves::{Saturation, best, gain, runs, saturation};
+use super::curves::{Saturation, best, gain, saturation};
 use super::{Series, SpacingParticles};
 use crate::statistics::fit_power_law;
 use crate::study::prelude::*;
 
 /// Tables and figure.
-pub fn report(study: &SpacingParticles, rows: &Rows<'_>) -> Report {
+pub fn report(study: &SpacingParticles, rows: &Rows<'_>) -> Page {
     let mut page = Page::new("Spacing and number of particles together");
     page.paragraph(format!(
         "Target N(0, I), method `{}`, {} seeds; medians over the seeds. ED² is the squared energy distance, exact in the \
@@ -27,9 +27,9 @@ pub fn report(study: &SpacingParticles, rows: &Rows<'_>) -> Report {
     );
     for series in &study.series {
         page.paragraph(format!("**d = {}**: ED² × 10³ by number of particles.", series.dim));
-        saturations(study, rows, series, &mut page);
+        saturations(study, &rows.with("dim", series.dim), series, &mut page);
     }
-    rows.report(page)
+    rows.close(page)
 }
 
 fn best_spacings(study: &SpacingParticles, rows: &Rows<'_>, page: &mut Page) {
@@ -38,9 +38,10 @@ fn best_spacings(study: &SpacingParticles, rows: &Rows<'_>, page: &mut Page) {
     let mut table = Vec::new();
     let mut fits = Vec::new();
     for series in &study.series {
+        let here = rows.with("dim", series.dim);
         let (mut counts, mut spacings) = (Vec::new(), Vec::new());
         for particles in study.counts() {
-            let Some((spacing, energy)) = best(rows, series, particles) else {
+            let Some((spacing, runs)) = best(&here, series, particles) else {
                 continue;
             };
             let ends = series.sorted();
@@ -49,10 +50,15 @@ fn best_spacings(study: &SpacingParticles, rows: &Rows<'_>, page: &mut Page) {
                 counts.push(particles as f64);
                 spacings.push(spacing);
             }
-            let here = runs(rows, series.dim, particles, spacing);
             let named = format!("{spacing}{}", if at_the_edge { "*" } else { "" });
-            let nodes = here.median(NODES_PER_PARTICLE);
-            table.push(line(&[&series.dim.get(), &particles, &named, &(1e3 * energy), &nodes]));
+            let names = line(&[&series.dim.get(), &particles, &named]);
+            table.push(
+                [
+                    names,
+                    runs.cells("median energy_thousandths | median nodes_per_particle"),
+                ]
+                .concat(),
+            );
         }
         let law = fit_power_law(&counts, &spacings).ok();
         let exponent = law.as_ref().map(|law| exponent_text(law, 0));
@@ -64,20 +70,21 @@ fn best_spacings(study: &SpacingParticles, rows: &Rows<'_>, page: &mut Page) {
     page.table("d | b | h at M = 512 | points", &fits);
 }
 
-/// One line per spacing: ED² by number of particles, and where it stops falling.
-fn saturations(study: &SpacingParticles, rows: &Rows<'_>, series: &Series, page: &mut Page) {
+/// One line per spacing: ED² by number of particles, and where it stops falling; of runs in one dimension.
+fn saturations(study: &SpacingParticles, here: &Rows<'_>, series: &Series, page: &mut Page) {
     let mut header = vec!["h".to_owned()];
     header.extend(study.counts().iter().map(|count| format!("M = {count}")));
-    header.extend(["b at the end", "more particles do not help"].map(str::to_owned));
+    header.extend("b at the end | more particles do not help".names());
     let mut table = Vec::new();
     for spacing in series.sorted() {
-        let energy = |particles: usize| runs(rows, series.dim, particles, spacing).median(ENERGY);
-        let counts = study.counts().into_iter();
-        let known = counts.filter_map(|particles| Some((particles, energy(particles)?)));
-        let known: Vec<(usize, f64)> = known.collect();
+        let here = here.with("requested_spacing", spacing);
+        let energy = |particles: &usize| here.with("particles", *particles).median("energy_thousandths");
+        let counts = study.counts();
+        let energies: Vec<Option<f64>> = counts.iter().map(energy).collect();
+        let pairs = counts.into_iter().zip(&energies);
+        let known: Vec<(usize, f64)> = pairs.filter_map(|(count, energy)| Some((count, (*energy)?))).collect();
         let mut line = vec![spacing.to_string()];
-        let energies = study.counts().into_iter().map(energy);
-        line.extend(energies.map(|energy| energy.map(|e| 1e3 * e).cell()));
+        line.extend(energies.iter().map(Cell::cell));
         line.push(gain(&known).map(|gain| number(gain).replace('-', "−")).cell());
         line.push(match saturation(&known) {
             Some(Saturation::Beyond(particles)) => format!("beyond {particles}"),
@@ -91,20 +98,16 @@ fn saturations(study: &SpacingParticles, rows: &Rows<'_>, series: &Series, page:
 
 /// One panel per dimension, one line per number of particles.
 fn plot(study: &SpacingParticles, rows: &Rows<'_>) -> MultiplesPlot {
-    let line = |series: &Series, particles: usize| {
-        let spacings = series.sorted().into_iter();
-        let points = spacings.map(|spacing| (spacing, runs(rows, series.dim, particles, spacing)));
-        curve(format!("M = {particles}"), points, ENERGY_ROOT)
+    let panel = |Series { dim, .. }: &Series| {
+        let here = rows.with("dim", *dim);
+        let line = |particles: usize| {
+            let here = here.with("particles", particles);
+            here.curve(format!("M = {particles}"), "requested_spacing", "energy_root")
+        };
+        MultiplesPanel::new(format!("d = {dim}"), study.counts().into_iter().map(line))
     };
-    let panel = |series: &Series| {
-        let lines = study.counts().into_iter().map(|count| line(series, count));
-        MultiplesPanel::new(format!("d = {}", series.dim), lines)
-    };
-    let (x_label, y_label) = (
-        "spacing h (standard deviations)",
-        "energy distance ED (standard deviations^{½})",
-    );
-    MultiplesPlot::logarithmic(x_label, y_label)
+    let y_label = "energy distance ED (standard deviations^{½})";
+    MultiplesPlot::logarithmic("spacing h (standard deviations)", y_label)
         .with_panels(study.series.iter().map(panel))
         .with_note("Medians over the seeds; bars from the smallest to the largest.")
 }

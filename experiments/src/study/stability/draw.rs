@@ -31,17 +31,6 @@ const MOST_ENTRIES: usize = 60_000;
 /// What an entry costs on `wells`, whose score is a sum over thousands of rows and may be taken at every node.
 const ROWS_COST: usize = 40;
 
-/// A target and the dimensions to draw from.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Place {
-    /// The name in the catalogue.
-    pub name: String,
-    /// At least one.
-    pub dims: Vec<Dimension>,
-    /// Whether it has no other dimension than that one.
-    pub fixed: bool,
-}
-
 /// A random configuration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Configuration {
@@ -79,15 +68,14 @@ fn spread(generator: &mut ChaCha8Rng, [least, most]: [f64; 2]) -> f64 {
     (least * (most / least).powf(generator.random::<f64>())).clamp(least, most)
 }
 
-/// The configuration with a number; `places` has at least one entry.
-pub fn draw(seed: u64, index: usize, places: &[Place]) -> Configuration {
+/// The configuration with a number; `places` are targets, each in at least one dimension.
+pub fn draw(seed: u64, index: usize, places: &[Vec<TargetSpecification>]) -> Configuration {
     let mut generator = ChaCha8Rng::seed_from_u64(seed);
     generator.set_stream(index as u64);
     let draws = &mut generator;
     let place = one_of(draws, places);
-    let dim = one_of(draws, &place.dims);
-    let target = TargetSpecification::plain(&place.name, (!place.fixed).then_some(dim));
-    let dim = dim.get();
+    let target = one_of(draws, &place);
+    let dim = target.dimension().unwrap_or(1);
     let methods = [
         MethodName::Mpm,
         MethodName::Mpm,
@@ -132,7 +120,7 @@ pub fn draw(seed: u64, index: usize, places: &[Place]) -> Configuration {
         options.guards = Some(one_of(draws, &switches));
         options.material = Some(one_of(draws, &[Material::NeoHookean, Material::LinearElastic]));
     }
-    let entry_cost = if place.name == "wells" { ROWS_COST } else { 1 };
+    let entry_cost = if target.name == "wells" { ROWS_COST } else { 1 };
     let most = (MOST_ENTRIES / (basis.stencil(dim) * entry_cost)).max(2);
     Configuration {
         target,
@@ -155,24 +143,15 @@ mod tests {
 
     use super::*;
 
-    fn places() -> Vec<Place> {
-        let dims = |from: i64, to: i64| (from..=to).filter_map(Dimension::new).collect();
+    fn places() -> Vec<Vec<TargetSpecification>> {
+        let place = |name: &str, to: i64| {
+            let dims = (1..=to).map(Dimension::new);
+            dims.map(|dim| TargetSpecification::plain(name, dim)).collect()
+        };
         vec![
-            Place {
-                name: "gaussian".to_owned(),
-                dims: dims(1, 6),
-                fixed: false,
-            },
-            Place {
-                name: "ring".to_owned(),
-                dims: dims(2, 2),
-                fixed: true,
-            },
-            Place {
-                name: "wells".to_owned(),
-                dims: dims(1, 6),
-                fixed: false,
-            },
+            place("gaussian", 6),
+            vec![TargetSpecification::plain("ring", None)],
+            place("wells", 6),
         ]
     }
 

@@ -8,7 +8,7 @@ mod figure;
 mod report;
 mod trial;
 
-use draw::{Configuration, Place, draw};
+use draw::{Configuration, draw};
 use parvi_targets::{Dimensions, target_info};
 
 use super::prelude::*;
@@ -29,8 +29,8 @@ pub struct Stability {
 }
 
 impl Stability {
-    /// The targets with the dimensions that they have among `dims`.
-    fn places(&self) -> Result<Vec<Place>, CommandError> {
+    /// The targets, each in the dimensions that it has among `dims`.
+    fn places(&self) -> Result<Vec<Vec<TargetSpecification>>, CommandError> {
         not_empty("dims", &self.dims)?;
         let names: Vec<&str> = match &self.targets {
             Some(names) => names.iter().map(String::as_str).collect(),
@@ -38,22 +38,12 @@ impl Stability {
         };
         let mut places = Vec::new();
         for name in names {
-            let info = target_info(name).map_err(|error| refusal("targets", error.to_string()))?;
-            let allowed = match info.dimensions {
-                Dimensions::Fixed(only) => only..=only,
-                Dimensions::Range { minimum, maximum, .. } => minimum..=maximum,
-                Dimensions::FromData => {
-                    return Err(refusal("targets", format!("`{name}` needs a data file")));
-                }
-            };
-            let inside = |dim: &&Dimension| allowed.contains(&dim.get());
-            let dims: Vec<Dimension> = self.dims.iter().filter(inside).copied().collect();
-            if !dims.is_empty() {
-                let fixed = matches!(info.dimensions, Dimensions::Fixed(_));
-                let name = name.to_owned();
-                places.push(Place { name, dims, fixed });
+            if target_info(name).is_ok_and(|info| info.dimensions == Dimensions::FromData) {
+                return Err(refusal("targets", format!("`{name}` needs a data file")));
             }
+            places.push(in_dimensions(&TargetSpecification::plain(name, None), &self.dims)?);
         }
+        places.retain(|place| !place.is_empty());
         not_empty("targets", &places)?;
         Ok(places)
     }
@@ -79,7 +69,7 @@ impl Study for Stability {
         on_target!(&work.target, target, D => trial::run::<D>(target.as_ref(), work, row, tools.observer))
     }
 
-    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Report, CommandError> {
+    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
         Ok(report::report(self, rows))
     }
 }
@@ -96,30 +86,27 @@ fn case(index: usize, drawn: Configuration) -> Case<Configuration> {
         .with("target", drawn.target.name)
         .with("dim", drawn.dim)
         .with("method", drawn.method.as_str())
-        .with("basis", drawn.basis.to_string())
+        .with("basis", drawn.basis)
         .with("particles", drawn.particles)
         .with("steps", options.steps)
         .with("scale", drawn.scale)
         .with("turned", drawn.turn.is_some().to_string())
         .with("start_mean", options.start_mean)
         .with("start_sd", options.start_sd)
-        .with("start_draws", options.start_draws.map(|word| word.to_string()))
+        .with("start_draws", options.start_draws)
         .with("spacing_factor", drawn.spacing_factor)
         .with("time_step_factor", drawn.time_step_factor)
-        .with("score", options.score.map(|word| word.to_string()))
-        .with("transfer", options.transfer.map(|word| word.to_string()))
+        .with("score", options.score)
+        .with("transfer", options.transfer)
         .with("flip_share", options.flip_share)
         .with("friction", options.friction)
-        .with("shifts", options.shifts.map(|word| word.to_string()))
-        .with("rotation", options.rotation.map(|word| word.to_string()))
+        .with("shifts", options.shifts)
+        .with("rotation", options.rotation)
         .with("settling", options.settling)
-        .with("settling_shifts", options.settling_shifts.map(|word| word.to_string()))
-        .with(
-            "moment_correction",
-            options.moment_correction.map(|word| word.to_string()),
-        )
-        .with("guards", options.guards.map(|word| word.to_string()))
-        .with("material", options.material.map(|word| word.to_string()))
+        .with("settling_shifts", options.settling_shifts)
+        .with("moment_correction", options.moment_correction)
+        .with("guards", options.guards)
+        .with("material", options.material)
         .with("seed", drawn.seed)
         .with("wall_seconds", 0.0)
 }

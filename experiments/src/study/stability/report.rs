@@ -9,7 +9,7 @@ use crate::study::prelude::*;
 const MOST_NAMED: usize = 100;
 
 /// Tables and figure.
-pub fn report(study: &Stability, rows: &Rows<'_>) -> Report {
+pub fn report(study: &Stability, rows: &Rows<'_>) -> Page {
     let mut page = Page::new("Random configurations");
     page.paragraph(format!(
         "{} random configurations of seed {}: target, dimension, basis, spacing (0.1 to 10 times the default), time step (0.1 to 30 \
@@ -32,12 +32,10 @@ pub fn report(study: &Stability, rows: &Rows<'_>) -> Report {
     page.list("Panics and numbers that are not finite", &faults, Some("None."));
     refusals(rows, &mut page);
 
-    let count = |ending: Status| rows.count(|row| row.status() == ending);
-    Report::new(page)
-        .with("finite", count(Status::Finite))
-        .with("refused", count(Status::Refused))
-        .with("panicked", count(Status::Panicked))
-        .with("not_finite", count(Status::NotFinite))
+    page.with("finite", rows.ended(Status::Finite))
+        .with("refused", rows.ended(Status::Refused))
+        .with("panicked", rows.ended(Status::Panicked))
+        .with("not_finite", rows.ended(Status::NotFinite))
 }
 
 /// The method, for the paper's algorithms with their guards.
@@ -50,30 +48,22 @@ fn group(row: &Row) -> String {
 
 /// The methods, the paper's ones with their guards, in alphabetical order, and their runs.
 fn groups<'a>(rows: &Rows<'a>) -> Vec<(String, Rows<'a>)> {
-    let mut names = each_once(rows.iter().map(group));
-    names.sort_unstable();
-    let of = |name: String| {
-        let runs = rows.having(|row| group(row) == name);
-        (name, runs)
-    };
-    names.into_iter().map(of).collect()
+    let mut groups = rows.by_name(group);
+    groups.sort_by(|left, right| left.0.cmp(&right.0));
+    groups
 }
 
 /// How the runs of each method ended.
 fn endings(groups: &[(String, Rows<'_>)], page: &mut Page) {
     page.heading("Endings");
     let line = |(name, here): &(String, Rows<'_>)| {
-        let ended = |ending: Status| here.count(|row| row.status() == ending);
-        line(&[
-            name,
-            &here.len(),
-            &ended(Status::Finite),
-            &here.count(|row| row.is("escaped", "true")),
-            &ended(Status::Refused),
-            &ended(Status::Panicked),
-            &ended(Status::NotFinite),
-            &percent(here.count(diverged), here.len()),
-        ])
+        let escaped = here.with("escaped", "true").len();
+        let mut cells = line(&[name, &here.len(), &here.ended(Status::Finite), &escaped]);
+        cells.extend(
+            [Status::Refused, Status::Panicked, Status::NotFinite].map(|ending| here.ended(ending).to_string()),
+        );
+        cells.push(percent(here.count(diverged), here.len()));
+        cells
     };
     let header =
         "method | runs | finite | of these escaped | typed error | panic | not finite, no error | diverged (%)";
@@ -86,25 +76,24 @@ fn percent(part: usize, all: usize) -> String {
 
 /// How often each kind of error ended a run.
 fn reasons(rows: &Rows<'_>, groups: &[(String, Rows<'_>)], page: &mut Page) {
-    let reasons = sorted(rows, |row| {
-        Some(row.text("reason").to_owned()).filter(|reason| !reason.is_empty())
-    });
+    let reasons = sorted(rows, "reason");
     if reasons.is_empty() {
         page.paragraph("No run ended with an error.");
         return;
     }
     let line = |reason: &String| {
-        let counts = groups
-            .iter()
-            .map(|(_, here)| here.with("reason", reason.as_str()).len().to_string());
-        std::iter::once(reason.clone()).chain(counts).collect()
+        let count = |(_, here): &(String, Rows<'_>)| here.with("reason", reason.as_str()).len().to_string();
+        std::iter::once(reason.clone())
+            .chain(groups.iter().map(count))
+            .collect()
     };
     table("error", groups, reasons.iter().map(line).collect(), page);
 }
 
-/// The words that occur, in alphabetical order.
-fn sorted(rows: &Rows<'_>, word: impl Fn(&Row) -> Option<String>) -> Vec<String> {
-    let mut words = each_once(rows.iter().filter_map(word));
+/// What stands in a column, in alphabetical order.
+fn sorted(rows: &Rows<'_>, column: &str) -> Vec<String> {
+    let mut words = rows.words(column);
+    words.retain(|word| !word.is_empty());
     words.sort_unstable();
     words
 }
@@ -138,12 +127,11 @@ fn breakdowns(rows: &Rows<'_>, groups: &[(String, Rows<'_>)], page: &mut Page) {
         ("elastic law", "material"),
     ];
     for (name, column) in words {
-        let word = |row: &Row| Some(row.value(column).cell()).filter(|word| word != MISSING);
-        let line = |value: String| {
-            let label = value.clone();
-            shares(label, groups, &|row| word(row).as_ref() == Some(&value))
+        let line = |word: String| {
+            let chosen = |row: &Row| row.value(column).to_string() == word;
+            shares(word.clone(), groups, &chosen)
         };
-        table(name, groups, sorted(rows, word).into_iter().map(line).collect(), page);
+        table(name, groups, sorted(rows, column).into_iter().map(line).collect(), page);
     }
 }
 
@@ -189,19 +177,14 @@ fn named(row: &Row) -> String {
         (_, _, "") => row.text("message").to_owned(),
         (_, _, reason) => format!("{reason}: {}", row.text("message")),
     };
-    let cell = |column: &str| row.value(column).cell();
+    let drawn = "target | dim | basis | particles | scale | start_mean | start_sd | spacing_factor | time_step_factor";
+    let [target, dim, basis, particles, scale, mean, sd, spacing, step] = &row.cells(drawn)[..] else {
+        return what;
+    };
     format!(
-        "- `{}`: {} on {} (d = {}), {}, M = {}, frame × {}, start N({}, {}²), spacing × {}, time step × {}: {what}",
+        "- `{}`: {} on {target} (d = {dim}), {basis}, M = {particles}, frame × {scale}, start N({mean}, {sd}²), spacing × {spacing}, \
+         time step × {step}: {what}",
         row.case(),
         group(row),
-        cell("target"),
-        cell("dim"),
-        cell("basis"),
-        cell("particles"),
-        cell("scale"),
-        cell("start_mean"),
-        cell("start_sd"),
-        cell("spacing_factor"),
-        cell("time_step_factor"),
     )
 }

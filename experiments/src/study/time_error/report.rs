@@ -5,7 +5,7 @@ use crate::plots::{TimeErrorCurve, TimeErrorPanel, TimeErrorPlot, TimeErrorPoint
 use crate::study::prelude::*;
 
 /// Tables and figures.
-pub fn report(study: &TimeError, rows: &Rows<'_>) -> Report {
+pub fn report(study: &TimeError, rows: &Rows<'_>) -> Page {
     let mut page = Page::new("Error against wall time and evaluations");
     page.paragraph(format!(
         "M = {} particles, {} seeds; medians over the seeds. ED² is the squared energy distance, exact against Gaussians and \
@@ -29,37 +29,30 @@ pub fn report(study: &TimeError, rows: &Rows<'_>) -> Report {
         paper_part(study, rows, &mut page);
     }
 
-    let count = |status: Status| rows.count(|row| row.status() == status);
-    Report::new(page)
-        .with("finished", count(Status::Finished))
-        .with("diverged", count(Status::Diverged))
-        .with("unsupported", count(Status::Unsupported))
+    page.with("finished", rows.ended(Status::Finished))
+        .with("diverged", rows.ended(Status::Diverged))
+        .with("unsupported", rows.ended(Status::Unsupported))
 }
 
 fn is_paper(name: MethodName) -> bool {
     matches!(name, MethodName::PaperPic | MethodName::PaperApic)
 }
 
-/// The runs of a method on a target by their steps, from few to many; `None`: the method's own, or draws.
-fn by_steps<'a>(rows: &Rows<'a>, target: &str, method: &str) -> Vec<(Option<usize>, Rows<'a>)> {
-    let here = rows.with("target", target).with("method", method);
-    let mut steps = each_once(here.iter().map(|row| row.count("steps")));
-    steps.sort_unstable();
-    steps
-        .into_iter()
-        .map(|steps| (steps, here.with("steps", steps)))
-        .collect()
+/// The runs of a method by their steps, from few to many; the method's own number, or draws, come first.
+fn by_steps<'a>(rows: &Rows<'a>, method: &str) -> Vec<Rows<'a>> {
+    let groups = rows.with("method", method).by("steps").into_iter();
+    let mut groups: Vec<Rows<'_>> = groups.map(|(_, runs)| runs).collect();
+    groups.sort_by_key(|runs| runs.first().and_then(|row| row.count("steps")));
+    groups
 }
 
-/// The expected squared energy distance of M independent draws from a target.
-fn energy_level(rows: &Rows<'_>, target: &str) -> Option<f64> {
-    rows.with("target", target).first()?.number("energy_level")
+/// The median of the sliced distance over the independent draws from a target.
+fn independent_level(here: &Rows<'_>) -> Option<f64> {
+    by_steps(here, "iid").first()?.median(SLICED)
 }
 
-/// The median of a quantity over the independent draws from a target.
-fn independent_level(rows: &Rows<'_>, target: &str, quantity: &str) -> Option<f64> {
-    by_steps(rows, target, "iid").first()?.1.median(quantity)
-}
+/// SW₂.
+const SLICED: &str = "sliced_wasserstein";
 
 fn figures(study: &TimeError, rows: &Rows<'_>, page: &mut Page) {
     page.heading("Figures");
@@ -67,19 +60,22 @@ fn figures(study: &TimeError, rows: &Rows<'_>, page: &mut Page) {
         ("energy", "ED²", "ED²", ENERGY),
         ("sliced", "SW₂", "sliced Wasserstein SW_{2}", SLICED),
     ];
-    let costs: [(&str, &str, &str, Computed); 2] = [
-        ("time", "wall time", "wall time (s)", |row| row.number(SECONDS)),
-        ("evaluations", "evaluations", "evaluations", EVALUATIONS),
+    let costs = [
+        ("time", "wall time", "wall time (s)", SECONDS),
+        ("evaluations", "evaluations", "evaluations", "evaluations"),
     ];
     for (error_file, error_name, y_label, error) in errors {
         for (cost_file, cost_name, x_label, cost) in costs {
-            let panel = |target: &TargetSpecification| TimeErrorPanel {
-                target: target.label(),
-                curves: curves(study, rows, &target.label(), cost, error),
-                iid_level: match error {
-                    ENERGY => energy_level(rows, &target.label()),
-                    _ => independent_level(rows, &target.label(), error),
-                },
+            let panel = |target: &TargetSpecification| {
+                let here = rows.with("target", target.label());
+                TimeErrorPanel {
+                    target: target.label(),
+                    curves: curves(study, &here, cost, error),
+                    iid_level: match error {
+                        ENERGY => here.first().and_then(|row| row.number("energy_level")),
+                        _ => independent_level(&here),
+                    },
+                }
             };
             let panels = study.targets.iter().map(panel).filter(|panel| !panel.curves.is_empty());
             let plot = TimeErrorPlot::new(x_label, y_label, panels);
@@ -93,57 +89,42 @@ fn figures(study: &TimeError, rows: &Rows<'_>, page: &mut Page) {
 }
 
 /// One curve per method; independent draws are a level instead, and draws have no place on an axis of evaluations.
-fn curves(study: &TimeError, rows: &Rows<'_>, target: &str, cost: Computed, error: &str) -> Vec<TimeErrorCurve> {
-    let point = |runs: &Rows<'_>| TimeErrorPoint {
-        cost: runs.iter().map(|row| cost(row).unwrap_or(f64::NAN)).collect(),
-        error: runs.iter().map(|row| row.number(error).unwrap_or(f64::NAN)).collect(),
-    };
-    let curve = |method: &MethodSpecification| TimeErrorCurve {
-        method: method.label().to_owned(),
-        points: by_steps(rows, target, method.label())
-            .iter()
-            .filter(|(_, runs)| runs.median(cost).is_none_or(|cost| cost > 0.0))
-            .map(|(_, runs)| point(runs))
-            .collect(),
+fn curves(study: &TimeError, here: &Rows<'_>, cost: &str, error: &str) -> Vec<TimeErrorCurve> {
+    let has_place = |runs: &Rows<'_>| runs.median(cost).is_none_or(|cost| cost > 0.0);
+    let curve = |method: &MethodSpecification| {
+        let settings = by_steps(here, method.label()).into_iter().filter(has_place);
+        TimeErrorCurve {
+            method: method.label().to_owned(),
+            points: settings.map(|runs| TimeErrorPoint::of(&runs, cost, error)).collect(),
+        }
     };
     let methods = study.methods.iter().filter(|method| method.name != MethodName::Iid);
-    let drawable = |curve: &TimeErrorCurve| {
-        curve
-            .points
-            .iter()
-            .flat_map(|point| &point.error)
-            .any(|y| y.is_finite())
-    };
-    methods.map(curve).filter(drawable).collect()
+    methods.map(curve).filter(TimeErrorCurve::is_drawable).collect()
 }
 
 fn target_table(study: &TimeError, rows: &Rows<'_>, target: &str, page: &mut Page) {
-    let level = energy_level(rows, target);
-    let independent = independent_level(rows, target, SLICED);
+    let here = rows.with("target", target);
+    let independent = independent_level(&here);
     page.paragraph(format!(
         "**{target}**: independent draws have ED² {} and SW₂ {}.",
-        level.cell(),
+        here.cells("first energy_level").concat(),
         independent.cell(),
     ));
     let header = "method | steps | finished | ED² | ED² / i.i.d. | SW₂ | SW₂ / i.i.d. | mean (sd) | sd (relative) | mode mass | evaluations | time (s)";
+    let errors = "median mean_error | median deviation_error | median mass_error";
     let cells = |method: &MethodSpecification| {
-        let (steps, runs) = by_steps(rows, target, method.label()).pop()?;
-        let (energy, sliced) = (runs.median(ENERGY), runs.median(SLICED));
-        let mut cells = line(&[&method.label(), &steps, &runs.finished()]);
-        cells.extend(line(&[
-            &energy,
-            &ratio(energy, level),
-            &sliced,
-            &ratio(sliced, independent),
-        ]));
-        cells.extend(runs.medians(&[&"mean_error", &"deviation_error", &"mass_error", &EVALUATIONS, &SECONDS]));
+        let runs = by_steps(&here, method.label()).pop()?;
+        let sliced = runs.median(SLICED).zip(independent);
+        let mut cells = vec![method.label().to_owned()];
+        cells.extend(runs.cells("first steps"));
+        cells.push(runs.finished());
+        cells.extend(runs.cells("median energy_distance_squared | median energy_ratio | median sliced_wasserstein"));
+        cells.push(sliced.map(|(value, level)| value / level).cell());
+        cells.extend(runs.cells(errors));
+        cells.extend(runs.cells("median evaluations | median wall_seconds"));
         Some(cells)
     };
     page.table(header, study.methods.iter().filter_map(cells));
-}
-
-fn ratio(value: Option<f64>, level: Option<f64>) -> Option<f64> {
-    Some(value? / level?)
 }
 
 /// What the paper's two algorithms reach in the plane.
@@ -156,43 +137,30 @@ fn paper_part(study: &TimeError, rows: &Rows<'_>, page: &mut Page) {
     let header = "target | method | finished | best steps | best ED² / i.i.d. | best SW₂ | last ED² / i.i.d. | last SW₂ | last mean (sd) | last sd (relative)";
     let mut table = Vec::new();
     let mut failures: Vec<String> = Vec::new();
-    let planar = |target: &String| {
-        rows.with("target", target.as_str())
-            .first()
-            .is_some_and(|row| row.is("dim", 2_usize))
-    };
-    for target in study.targets.iter().map(TargetSpecification::label).filter(planar) {
+    for target in study.targets.iter().map(TargetSpecification::label) {
+        let here = rows.with("target", target.as_str()).with("dim", 2_usize);
         for method in study.methods.iter().filter(|method| is_paper(method.name)) {
-            table.extend(paper_row(rows, &target, method.label()));
-            let runs = by_steps(rows, &target, method.label());
-            failures.extend(runs.iter().flat_map(|(_, runs)| runs.failures()));
+            let settings = by_steps(&here, method.label());
+            failures.extend(settings.iter().flat_map(RunRows::failures));
+            table.extend(paper_row(&target, method.label(), &settings));
         }
     }
     page.table(header, &table);
-    if failures.is_empty() {
-        page.paragraph("Every run finished with finite particles.");
-    } else {
-        page.paragraph(format!("Runs that did not finish:\n\n{}", failures.join("\n")));
-    }
+    page.paragraph(match failures.is_empty() {
+        true => "Every run finished with finite particles.".to_owned(),
+        false => format!("Runs that did not finish:\n\n{}", failures.join("\n")),
+    });
 }
 
-fn paper_row(rows: &Rows<'_>, target: &str, method: &str) -> Option<Vec<String>> {
-    let level = energy_level(rows, target);
-    let settings = by_steps(rows, target, method);
-    let (_, last) = settings.last()?;
-    let errors = settings
-        .iter()
-        .filter_map(|(steps, runs)| Some((runs.median(ENERGY)?, *steps, runs)));
+/// The best and the last of the settings of a method, by their steps.
+fn paper_row(target: &str, method: &str, settings: &[Rows<'_>]) -> Option<Vec<String>> {
+    let last = settings.last()?;
+    let all: Rows<'_> = settings.iter().flat_map(Rows::iter).collect();
+    let errors = settings.iter().filter_map(|runs| Some((runs.median(ENERGY)?, runs)));
     let best = errors.min_by(|left, right| left.0.total_cmp(&right.0));
-    let mut cells = line(&[
-        &target,
-        &method,
-        &rows.with("target", target).with("method", method).finished(),
-        &best.as_ref().and_then(|(_, steps, _)| *steps),
-        &ratio(best.as_ref().map(|(energy, ..)| *energy), level),
-        &best.as_ref().and_then(|(.., runs)| runs.median(SLICED)),
-        &ratio(last.median(ENERGY), level),
-    ]);
-    cells.extend(last.medians(&[&SLICED, &"mean_error", &"deviation_error"]));
-    Some(cells)
+    let best = best.map(|(_, runs)| runs.clone()).unwrap_or_default();
+    let names = line(&[&target, &method, &all.finished()]);
+    let best = best.cells("first steps | median energy_ratio | median sliced_wasserstein");
+    let errors = "median energy_ratio | median sliced_wasserstein | median mean_error | median deviation_error";
+    Some([names, best, last.cells(errors)].concat())
 }

@@ -1,7 +1,6 @@
 //! The figure of the study `time-to-equal-error`: squared energy distance against wall time, a panel per target.
 
 use super::TimeToEqualError;
-use super::search::Trial;
 use crate::plots::{TimeErrorCurve, TimeErrorPanel, TimeErrorPlot, TimeErrorPoint};
 use crate::study::prelude::*;
 
@@ -37,7 +36,8 @@ fn curves(
         if case.target != *target || rows.with("case", row.case()).is_empty() {
             continue;
         }
-        let points = points(&case.trials(directory)?);
+        let trials = case.trials(directory)?;
+        let points = points(&trials.iter().collect());
         if points.is_empty() {
             continue;
         }
@@ -58,18 +58,14 @@ fn curves(
 }
 
 /// A point per size, in the order of the sizes.
-fn points(trials: &[Trial]) -> Vec<TimeErrorPoint> {
-    let mut sizes: Vec<usize> = trials.iter().map(|trial| trial.size).collect();
-    sizes.sort_unstable();
-    sizes.dedup();
-    let point = |size: usize| {
-        let here = || trials.iter().filter(move |trial| trial.size == size);
+fn points(trials: &Rows<'_>) -> Vec<TimeErrorPoint> {
+    let point = |size: f64| {
+        let here = trials.having(|trial| trial.number("size") == Some(size));
+        let mut point = TimeErrorPoint::of(&here, SECONDS, ENERGY);
         // On a logarithmic axis there is no place for zero and below.
-        let positive = |trial: &Trial| trial.energy_distance_squared.filter(|energy| *energy > 0.0);
-        TimeErrorPoint {
-            cost: here().map(|trial| trial.wall_seconds).collect(),
-            error: here().map(|trial| positive(trial).unwrap_or(f64::NAN)).collect(),
-        }
+        let unplaced = point.error.iter_mut().filter(|energy| **energy <= 0.0);
+        unplaced.for_each(|energy| *energy = f64::NAN);
+        point
     };
-    sizes.into_iter().map(point).collect()
+    trials.places("size").into_iter().map(point).collect()
 }

@@ -16,10 +16,10 @@ use std::path::PathBuf;
 use parvi_metrics::yardstick::Coordinates;
 
 use runs::{Goal, OWN, Runs};
-use search::{Doubling, Medians, Trial};
+use search::{COLUMNS, Range, median_energy, of_size};
 
 use super::prelude::*;
-use crate::output::table_file;
+use super::row_file;
 
 /// A method and its rivals, to the same error on every target.
 #[derive(Clone, Debug, Deserialize)]
@@ -49,32 +49,6 @@ pub struct TimeToEqualError {
     rivals: Vec<MethodSpecification>,
 }
 
-/// `{ from = 1000, to = 128000 }`.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Range {
-    from: Bounded<2, 100_000_000>,
-    to: Bounded<2, 100_000_000>,
-}
-
-impl Range {
-    fn check(self, field: &str) -> Result<(), CommandError> {
-        if self.to < self.from {
-            let message = format!("{} is below `from` = {}", self.to, self.from);
-            return Err(refusal(&format!("{field}.to"), message));
-        }
-        Ok(())
-    }
-
-    /// The sizes from one end to the other.
-    fn doubling(self) -> Doubling {
-        Doubling {
-            first: self.from.get(),
-            last: self.to.get(),
-        }
-    }
-}
-
 /// One method on one target for one M, with all seeds.
 #[derive(Clone, Debug)]
 pub struct Entry {
@@ -93,8 +67,8 @@ impl Entry {
     }
 
     /// Its runs, as far as they have been made.
-    fn trials(&self, directory: &StudyDirectory) -> Result<Vec<Trial>, CommandError> {
-        table_file::read(&self.trials_file(directory))
+    fn trials(&self, directory: &StudyDirectory) -> Result<Vec<Row>, CommandError> {
+        row_file::read(&self.trials_file(directory), COLUMNS)
     }
 }
 
@@ -173,14 +147,9 @@ impl Study for TimeToEqualError {
             let reason = "the method that sets the error has none above 0";
             Err(Failure::new(Status::Unsupported, reason))
         };
-        table_file::write(&runs.trials, &entry.trials_file(directory))?;
+        runs.write(directory)?;
         match found {
-            Ok(found) => {
-                row.set("ending", found.ending);
-                found.last.fill(row);
-                row.set("missed_size", found.missed.map(|missed| missed.size));
-                row.set("wall_seconds_missed", found.missed.map(|missed| missed.seconds()));
-            }
+            Ok(found) => runs.note(found, row),
             Err(failure) => {
                 row.set("ending", Status::Unsupported);
                 row.set("reason", failure.reason);
@@ -189,7 +158,7 @@ impl Study for TimeToEqualError {
         Ok(())
     }
 
-    fn report(&self, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Report, CommandError> {
+    fn report(&self, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
         report::report(self, rows, directory)
     }
 }
@@ -197,38 +166,30 @@ impl Study for TimeToEqualError {
 impl TimeToEqualError {
     /// What the method reached on the target of a rival's case; `None` unless it is a positive number.
     fn goal(&self, entry: &Entry, directory: &StudyDirectory) -> Result<Option<Goal>, CommandError> {
-        let (index, method) = (0, self.method.clone());
-        let trials = Entry {
-            index,
-            method,
-            ..entry.clone()
-        }
-        .trials(directory)?;
-        if trials.is_empty() {
-            return Ok(None);
-        }
-        let medians = Medians::of(&trials, OWN)?;
-        let energy_distance_squared = medians.energy_distance_squared;
-        let goal = Goal {
+        let mut own = entry.clone();
+        (own.index, own.method) = (0, self.method.clone());
+        let trials = own.trials(directory)?;
+        let runs = of_size(&trials, OWN);
+        let energy_distance_squared = median_energy(&runs);
+        let is_positive = energy_distance_squared.is_finite() && energy_distance_squared > 0.0;
+        let seconds = runs.median(SECONDS).filter(|_| is_positive);
+        Ok(seconds.map(|seconds| Goal {
             energy_distance_squared,
-            seconds: medians.seconds(),
-        };
-        Ok(Some(goal).filter(|_| energy_distance_squared.is_finite() && energy_distance_squared > 0.0))
+            seconds,
+        }))
     }
 
     /// The runs of the same rival for smaller M: draws do not depend on it, so they are not made twice.
-    fn earlier_trials(&self, entry: &Entry, directory: &StudyDirectory) -> Result<Vec<Trial>, CommandError> {
-        let mut trials: Vec<Trial> = Vec::new();
-        if entry.method.name.iterates() {
-            return Ok(trials);
-        }
+    fn earlier_trials(&self, entry: &Entry, directory: &StudyDirectory) -> Result<Vec<Row>, CommandError> {
+        let mut trials: Vec<Row> = Vec::new();
+        let mut earlier = entry.clone();
         let sizes = self.particles.iter().map(|particles| particles.get());
         for particles in sizes.take_while(|particles| *particles != entry.particles) {
-            let known = Entry {
-                particles,
-                ..entry.clone()
+            if entry.method.name.iterates() {
+                break;
             }
-            .trials(directory)?;
+            earlier.particles = particles;
+            let known = earlier.trials(directory)?;
             if known.len() > trials.len() {
                 trials = known;
             }

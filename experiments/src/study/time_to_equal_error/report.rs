@@ -6,7 +6,7 @@ use crate::plots::time_error;
 use crate::study::prelude::*;
 
 /// Tables and figure.
-pub fn report(study: &TimeToEqualError, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Report, CommandError> {
+pub fn report(study: &TimeToEqualError, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
     let label = study.method.label();
     let mut page = Page::new("Wall time to equal error");
     page.paragraph(format!(
@@ -20,10 +20,10 @@ pub fn report(study: &TimeToEqualError, rows: &Rows<'_>, directory: &StudyDirect
         study
             .threads
             .map_or(String::new(), |threads| format!(" (at most {threads})")),
-        study.draws.doubling().first,
-        study.draws.doubling().last,
-        study.steps.doubling().first,
-        study.steps.doubling().last,
+        study.draws.from,
+        study.draws.to,
+        study.steps.from,
+        study.steps.to,
         number(study.largest_ratio),
     ));
     page.heading("What a particle is worth");
@@ -42,18 +42,17 @@ pub fn report(study: &TimeToEqualError, rows: &Rows<'_>, directory: &StudyDirect
     page.figure("time-to-equal-error.svg", caption, time_error(&plot));
 
     let rivals = rows.having(|row| row.text("method") != label);
-    let count = |ending: Status| rivals.count(|row| row.status() == ending);
-    Ok(Report::new(page)
-        .with("reached", count(Status::Reached))
-        .with("out_of_time", count(Status::OutOfTime))
-        .with("out_of_sizes", count(Status::OutOfSizes))
-        .with("unsupported", count(Status::Unsupported)))
+    Ok(page
+        .with("reached", rivals.ended(Status::Reached))
+        .with("out_of_time", rivals.ended(Status::OutOfTime))
+        .with("out_of_sizes", rivals.ended(Status::OutOfSizes))
+        .with("unsupported", rivals.ended(Status::Unsupported)))
 }
 
-/// The row of a method for a target and M.
-fn find<'a>(rows: &Rows<'a>, target: &str, particles: usize, method: &str) -> Option<&'a Row> {
+/// The row of a method for a target and M, if there is one.
+fn find<'a>(rows: &Rows<'a>, target: &str, particles: usize, method: &str) -> Rows<'a> {
     let here = rows.with("target", target).with("particles", particles);
-    here.with("method", method).first()
+    here.with("method", method)
 }
 
 /// Every target with every M.
@@ -67,21 +66,18 @@ fn comparisons(study: &TimeToEqualError) -> impl Iterator<Item = (String, usize)
 }
 
 fn worth(study: &TimeToEqualError, rows: &Rows<'_>, page: &mut Page) {
-    // ED² relative to as many independent draws as there are particles.
-    let levels = |row: &Row| Some(row.number(ENERGY)? * row.number("particles")? / row.number("mean_distance")?);
     let line = |(target, particles): (String, usize)| {
-        let row = find(rows, &target, particles, study.method.label());
-        let number = |column: &str| row.and_then(|row| row.number(column));
-        let levels = row.and_then(levels);
-        line(&[
-            &target,
-            &particles,
-            &number(ENERGY),
-            &levels,
-            &levels.map(f64::recip),
-            &row.and_then(EVALUATIONS),
-            &number(SECONDS),
-        ])
+        let here = find(rows, &target, particles, study.method.label());
+        let draws = here.first().and_then(|row| row.number("draws_ratio")).map(f64::recip);
+        let names = line(&[&target, &particles]);
+        let errors = here.cells("first energy_distance_squared | first draws_ratio");
+        [
+            names,
+            errors,
+            line(&[&draws]),
+            here.cells("first evaluations | first wall_seconds"),
+        ]
+        .concat()
     };
     let header = "target | M | ED² | ED² / i.i.d. | draws per particle | evaluations | time (s)";
     page.table(header, comparisons(study).map(line));
@@ -97,22 +93,19 @@ fn against(study: &TimeToEqualError, rows: &Rows<'_>, rival: &MethodSpecificatio
     let mut table = Vec::new();
     let mut reasons = Vec::new();
     for (target, particles) in comparisons(study) {
-        let own = find(rows, &target, particles, label).and_then(|row| row.number(SECONDS));
-        let row = find(rows, &target, particles, rival.label());
+        let own = find(rows, &target, particles, label).first();
+        let own = own.and_then(|row| row.number(SECONDS));
+        let here = find(rows, &target, particles, its);
+        let row = here.first();
         if let Some(row) = row.filter(|row| row.status() == Status::Unsupported) {
             reasons.push(format!("- {target}, M = {particles}: {}.", row.text("reason")));
         }
-        table.push(line(&[
-            &target,
-            &particles,
-            &row.and_then(sizes),
-            &row.and_then(|row| Some(row.number(ENERGY)? / row.number("goal")?)),
-            &row.and_then(EVALUATIONS),
-            &own,
-            &row.and_then(|row| row.number(SECONDS)),
-            &row.zip(own).and_then(|(row, own)| ratios(row, own)),
-            &row.map(|row| in_words(row.status())),
-        ]));
+        let names = line(&[&target, &particles, &row.and_then(sizes)]);
+        let errors = here.cells("first energy_over_goal | first evaluations");
+        let seconds = line(&[&own, &row.and_then(|row| row.number(SECONDS))]);
+        let ratios = row.zip(own).and_then(|(row, own)| ratios(row, own));
+        let ends = line(&[&ratios, &row.map(|row| in_words(row.status()))]);
+        table.push([names, errors, seconds, ends].concat());
     }
     page.paragraph(match rival.name {
         MethodName::Iid => "Draws are what the expectation asks for; their ED² is not measured.".to_owned(),

@@ -2,9 +2,10 @@
 
 use parvi::SampleError;
 
-use super::search::{Medians, Trial, next};
+use super::search::{COLUMNS, median_energy, next, of_size};
 use super::{Entry, TimeToEqualError};
 use crate::study::prelude::*;
+use crate::study::row_file;
 
 /// The size of the method's own runs: its own number of steps.
 pub const OWN: usize = 0;
@@ -20,26 +21,8 @@ pub struct Goal {
     pub seconds: f64,
 }
 
-/// What a search came to.
-pub struct Found {
-    /// How it ended.
-    pub ending: Status,
-    /// The last runs.
-    pub last: Medians,
-    /// The runs of the largest size that missed the error before it was reached.
-    pub missed: Option<Medians>,
-}
-
-impl Found {
-    /// Without a size that missed the error.
-    fn at_once(ending: Status, last: Medians) -> Self {
-        Self {
-            ending,
-            last,
-            missed: None,
-        }
-    }
-}
+/// What a search came to: how it ended, the size of the last runs, and the largest one that missed the error before it was reached.
+pub type Found = (Status, usize, Option<usize>);
 
 /// The runs of a case.
 pub struct Runs<'a> {
@@ -52,28 +35,30 @@ pub struct Runs<'a> {
     /// Watches the runs.
     pub observer: &'a mut CaseObserver,
     /// All runs so far.
-    pub trials: Vec<Trial>,
+    pub trials: Vec<Row>,
 }
 
 impl Runs<'_> {
     /// The method as it is.
     pub fn own(&mut self) -> Result<Found, CommandError> {
-        Ok(Found::at_once(Status::Reached, self.of_size(OWN)?))
+        self.make(OWN)?;
+        Ok((Status::Reached, OWN, None))
     }
 
     /// Doubles the size until the error is reached.
     pub fn search(&mut self, goal: Goal) -> Result<Found, CommandError> {
         let sizes = match self.entry.method.name.iterates() {
-            true => self.study.steps.doubling(),
-            false => self.study.draws.doubling(),
+            true => self.study.steps,
+            false => self.study.draws,
         };
         let budget = self.study.largest_ratio * goal.seconds;
-        let (mut size, mut missed) = (sizes.first, None);
+        let (mut size, mut missed) = (sizes.from.get(), None);
         loop {
-            let last = self.of_size(size)?;
-            match next(sizes, &last, goal.energy_distance_squared, budget) {
-                Ok(larger) => (size, missed) = (larger, Some(last)),
-                Err(ending) => return Ok(Found { ending, last, missed }),
+            self.make(size)?;
+            let latest = of_size(&self.trials, size);
+            match next(sizes, size, &latest, goal.energy_distance_squared, budget) {
+                Ok(larger) => (size, missed) = (larger, Some(size)),
+                Err(ending) => return Ok((ending, size, missed)),
             }
         }
     }
@@ -85,25 +70,45 @@ impl Runs<'_> {
             true => Status::Reached,
             false => Status::OutOfSizes,
         };
-        self.of_size(self.entry.particles)?;
-        let last = self.of_size(needed.clamp(2, MOST_INDEPENDENT))?;
-        Ok(Found::at_once(ending, last))
+        self.make(self.entry.particles)?;
+        let size = needed.clamp(2, MOST_INDEPENDENT);
+        self.make(size)?;
+        Ok((ending, size, None))
     }
 
-    /// The medians of a size; the runs that are missing are made.
-    fn of_size(&mut self, size: usize) -> Result<Medians, CommandError> {
+    /// Notes what was found in the row of the case.
+    pub fn note(&self, (ending, size, missed): Found, row: &mut Row) {
+        let last = of_size(&self.trials, size);
+        let energy = Some(median_energy(&last)).filter(|energy| energy.is_finite());
+        row.set("ending", ending);
+        row.set("size", Some(size).filter(|size| *size > OWN));
+        row.set("score_evaluations", last.median("score_evaluations"));
+        row.set("density_evaluations", last.median("density_evaluations"));
+        row.set(ENERGY, energy);
+        last.note_range(SECONDS, row, WALL);
+        row.set("missed_size", missed);
+        let seconds = missed.map(|size| of_size(&self.trials, size).median(SECONDS));
+        row.set("wall_seconds_missed", seconds.flatten());
+    }
+
+    /// Writes the runs into the file of the case.
+    pub fn write(&self, directory: &StudyDirectory) -> Result<(), CommandError> {
+        row_file::write(&self.entry.trials_file(directory), COLUMNS, &self.trials)
+    }
+
+    /// Makes the runs of a size that are missing.
+    fn make(&mut self, size: usize) -> Result<(), CommandError> {
         for &seed in &self.study.seeds {
-            let is_known = |trial: &Trial| trial.size == size && trial.seed == seed;
-            if !self.trials.iter().any(is_known) {
+            if of_size(&self.trials, size).with("seed", seed).is_empty() {
                 let trial = self.one(size, seed)?;
                 self.trials.push(trial);
             }
         }
-        Medians::of(&self.trials, size)
+        Ok(())
     }
 
     /// One run; one that diverges is a trial without an error, and one that the target does not allow is an error.
-    fn one(&mut self, size: usize, seed: u64) -> Result<Trial, CommandError> {
+    fn one(&mut self, size: usize, seed: u64) -> Result<Row, CommandError> {
         let Entry { target, method, .. } = self.entry;
         let is_own = size == OWN;
         let has_steps = method.name.iterates() && !is_own;
@@ -122,21 +127,22 @@ impl Runs<'_> {
             Err(error @ CommandError::Sample(SampleError::Unsupported { .. })) => return Err(error),
             sampled => attempt(sampled)?.ok(),
         };
-        let energy_distance_squared = match &outcome {
-            None => None,
-            Some(_) if is_expected => Some(self.yardstick.mean_distance() / size as f64),
-            Some(outcome) => {
+        let trial = Row::default()
+            .with("size", size)
+            .with("seed", seed)
+            .with(SECONDS, seconds);
+        let Some(outcome) = outcome else { return Ok(trial) };
+        let energy = match is_expected {
+            true => Some(self.yardstick.mean_distance() / size as f64),
+            false => {
                 let errors = attempt(self.yardstick.measure(&outcome.particles))?.ok();
                 errors.map(|errors| errors.energy_distance_squared)
             }
         };
-        Ok(Trial {
-            size,
-            seed,
-            score_evaluations: outcome.as_ref().map(|outcome| outcome.score_evaluations),
-            density_evaluations: outcome.as_ref().map(|outcome| outcome.density_evaluations),
-            wall_seconds: outcome.map_or(seconds, |outcome| outcome.wall_seconds),
-            energy_distance_squared,
-        })
+        Ok(trial
+            .with("score_evaluations", outcome.score_evaluations)
+            .with("density_evaluations", outcome.density_evaluations)
+            .with(SECONDS, outcome.wall_seconds)
+            .with(ENERGY, energy))
     }
 }

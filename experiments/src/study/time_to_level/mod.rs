@@ -11,8 +11,8 @@ use std::path::PathBuf;
 
 use super::gaussian_runs::energy_level;
 use super::prelude::*;
+use super::row_file;
 use super::start_law::StartLaw;
-use crate::output::table_file;
 
 /// A method and its rivals, from the same start to the same error.
 #[derive(Clone, Debug, Deserialize)]
@@ -54,17 +54,6 @@ impl TimeToLevel {
         unset(&format!("{field}.options.start-mean"), &options.start_mean, "start")?;
         unset(&format!("{field}.options.start-sd"), &options.start_sd, "start")
     }
-
-    /// The method that sets the clock, then its rivals.
-    fn all_methods(&self) -> impl Iterator<Item = &MethodSpecification> {
-        std::iter::once(&self.method).chain(&self.rivals)
-    }
-
-    /// The file of the runs of a method: 0 for the one that sets the clock, then its rivals.
-    fn trials_file(&self, dim: Dimension, index: usize, directory: &StudyDirectory) -> PathBuf {
-        let name = self.all_methods().nth(index).map_or("", |method| method.name.as_str());
-        directory.raw(&format!("d{dim}-{index}-{name}.csv"))
-    }
 }
 
 /// One method in one dimension.
@@ -74,6 +63,14 @@ pub struct Entry {
     /// 0 for the method that sets the clock, then its rivals.
     index: usize,
     method: MethodSpecification,
+}
+
+impl Entry {
+    /// The file of its runs.
+    fn trials_file(&self, directory: &StudyDirectory) -> PathBuf {
+        let Self { dim, index, method } = self;
+        directory.raw(&format!("d{dim}-{index}-{}.csv", method.name))
+    }
 }
 
 impl Study for TimeToLevel {
@@ -96,9 +93,10 @@ impl Study for TimeToLevel {
         for rival in &self.rivals {
             self.check_method("rivals", rival)?;
         }
+        let methods = || std::iter::once(&self.method).chain(&self.rivals);
         let mut cases = Vec::new();
         for &dim in &self.dims {
-            for (index, method) in self.all_methods().cloned().enumerate() {
+            for (index, method) in methods().cloned().enumerate() {
                 let (label, particles) = (method.label().to_owned(), self.particles);
                 let case = Case::new(format!("d{dim}-m{particles}-{label}"), Entry { dim, index, method });
                 // The budget of a rival is a multiple of the method's time.
@@ -111,32 +109,30 @@ impl Study for TimeToLevel {
     }
 
     fn run(&self, case: &Case<Entry>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
-        let Entry { dim, index, method } = &case.work;
-        let level = energy_level(dim.get(), self.particles.get())?;
-        let budget = match index {
-            0 => None,
-            _ => {
-                let clock = table_file::read(&self.trials_file(*dim, 0, tools.directory))?;
-                Some(self.largest_ratio * search::seconds(&clock)?[1])
-            }
-        };
-        let (ending, trials) = search::search(self, *dim, method, (level, budget), tools.observer)?;
-        table_file::write(&trials, &self.trials_file(*dim, *index, tools.directory))?;
-        let [least, median, most] = search::seconds(&trials)?;
-        let last = trials.last();
+        let entry = &case.work;
+        let level = energy_level(entry.dim.get(), self.particles.get())?;
+        let mut budget = None;
+        if entry.index > 0 {
+            let mut clock = entry.clone();
+            (clock.index, clock.method) = (0, self.method.clone());
+            let trials = search::read(&clock.trials_file(tools.directory))?;
+            let seconds = search::last(&trials).median(SECONDS);
+            budget = seconds.map(|seconds| self.largest_ratio * seconds);
+        }
+        let (ending, trials) = search::search(self, entry.dim, &entry.method, (level, budget), tools.observer)?;
+        row_file::write(&entry.trials_file(tools.directory), search::COLUMNS, &trials)?;
+        let last = search::last(&trials);
         row.set("ending", ending);
         row.set("energy_level", level);
         row.set("runs", trials.len());
-        row.set("steps", last.map_or(0, |trial| trial.steps));
-        row.set(ENERGY, last.and_then(|trial| trial.energy_distance_squared));
-        row.set("wall_seconds", median);
-        row.set("wall_seconds_least", least);
-        row.set("wall_seconds_most", most);
+        row.set("steps", trials.last().map_or(Some(0), |trial| trial.count("steps")));
+        row.set(ENERGY, trials.last().and_then(|trial| trial.number(ENERGY)));
+        last.note_range(SECONDS, row, WALL);
         row.set("wall_budget_seconds", budget);
         Ok(())
     }
 
-    fn report(&self, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Report, CommandError> {
+    fn report(&self, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
         report::report(self, rows, directory)
     }
 }

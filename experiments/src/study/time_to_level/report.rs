@@ -1,13 +1,11 @@
 //! The report of the study `time-to-level`.
 
-use super::search::Trial;
-use super::{Entry, TimeToLevel};
-use crate::output::table_file;
-use crate::statistics::summarize;
+use super::TimeToLevel;
+use super::search;
 use crate::study::prelude::*;
 
 /// Tables and figure.
-pub fn report(study: &TimeToLevel, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Report, CommandError> {
+pub fn report(study: &TimeToLevel, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
     let mut page = Page::new("Wall time to the error of independent draws");
     page.paragraph(format!(
         "Target N(0, I), M = {} particles, which begin as N({} · 1, {}² I); seed {}, all methods on the same threads{}. The \
@@ -34,11 +32,10 @@ pub fn report(study: &TimeToLevel, rows: &Rows<'_>, directory: &StudyDirectory) 
     page.heading("All searches");
     searches(rows, &mut page);
 
-    let count = |ending: Status| rows.count(|row| row.status() == ending);
-    Ok(Report::new(page)
-        .with("reached", count(Status::Reached))
-        .with("out_of_time", count(Status::OutOfTime))
-        .with("out_of_steps", count(Status::OutOfSteps)))
+    Ok(page
+        .with("reached", rows.ended(Status::Reached))
+        .with("out_of_time", rows.ended(Status::OutOfTime))
+        .with("out_of_steps", rows.ended(Status::OutOfSteps)))
 }
 
 /// Whether a search ended at the level or below.
@@ -95,7 +92,7 @@ fn steps_and_time(row: Option<&Row>) -> Vec<String> {
 }
 
 fn bound(row: &Row, clock: &str, ratio: f64) -> String {
-    let state = ENERGY_RATIO(row).map_or("diverged".to_owned(), |levels| {
+    let state = row.number("energy_ratio").map_or("diverged".to_owned(), |levels| {
         format!("ED² is still {} times the level", number(levels))
     });
     format!(
@@ -109,10 +106,9 @@ fn bound(row: &Row, clock: &str, ratio: f64) -> String {
 
 fn searches(rows: &Rows<'_>, page: &mut Page) {
     let line = |row: &Row| {
-        let mut cells = row.cells("dim | method | ending | runs | steps");
+        let columns = "dim | method | ending | runs | steps | energy_ratio | wall_seconds | wall_seconds_least | wall_seconds_most | wall_budget_seconds";
+        let mut cells = row.cells(columns);
         cells[2] = cells[2].replace('-', " ");
-        cells.push(ENERGY_RATIO(row).cell());
-        cells.extend(row.cells("wall_seconds | wall_seconds_least | wall_seconds_most | wall_budget_seconds"));
         cells
     };
     let header = "d | method | ending | runs | steps | ED² / level | time (s) | least (s) | most (s) | budget (s)";
@@ -126,10 +122,9 @@ fn plot(study: &TimeToLevel, rows: &Rows<'_>, directory: &StudyDirectory) -> Res
         let Some(row) = rows.with("case", case.id()).first() else {
             continue;
         };
-        let Entry { dim, index, method } = &case.work;
-        let title = format!("d = {dim}");
-        let trials = table_file::read(&study.trials_file(*dim, *index, directory))?;
-        let line = curve_of(method.label(), row, &trials)?;
+        let title = format!("d = {}", case.work.dim);
+        let trials = search::read(&case.work.trials_file(directory))?;
+        let line = curve_of(case.work.method.label(), row, &trials.iter().collect());
         match panels.last_mut().filter(|panel| panel.title == title) {
             Some(panel) => panel.series.push(line),
             None => panels.push(MultiplesPanel::new(title, [line]).with_level(1.0, "level of i.i.d. draws")),
@@ -139,14 +134,13 @@ fn plot(study: &TimeToLevel, rows: &Rows<'_>, directory: &StudyDirectory) -> Res
 }
 
 /// The runs of one search: ED² in levels against the time, repeats in one point.
-fn curve_of(label: &str, row: &Row, trials: &[Trial]) -> Result<LineSeries, CommandError> {
+fn curve_of(label: &str, row: &Row, trials: &Rows<'_>) -> LineSeries {
     let mut line = LineSeries::named(label);
     let level = row.number("energy_level").unwrap_or(f64::NAN);
-    for repeats in trials.chunk_by(|left, right| left.steps == right.steps) {
-        let times: Vec<f64> = repeats.iter().map(|trial| trial.wall_seconds).collect();
-        let energy = repeats.first().and_then(|trial| trial.energy_distance_squared);
-        line.x.push(summarize(&times)?.median);
+    for (_, repeats) in trials.by("steps") {
+        let energy = repeats.first().and_then(|trial| trial.number(ENERGY));
+        line.x.extend(repeats.median(SECONDS));
         line.y.push(energy.map_or(f64::NAN, |energy| energy / level));
     }
-    Ok(line)
+    line
 }

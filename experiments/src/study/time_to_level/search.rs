@@ -1,71 +1,55 @@
 //! The search for the number of steps that reaches the level, within a budget of time.
 
-use serde::Serialize;
+use std::path::Path;
 
 use super::TimeToLevel;
-use crate::statistics::weighted_quantile;
-use crate::study::gaussian_runs;
 use crate::study::prelude::*;
+use crate::study::{gaussian_runs, row_file};
 
 /// A run whose predicted time exceeds the budget by no more than this factor is begun.
 const TOLERANCE: f64 = 1.2;
 /// A run that takes longer than this is not repeated, in seconds.
 const LONG: f64 = 1.0;
+/// What is kept of a run: its steps, the sampler's time, and the squared energy distance at the end, where it did not diverge.
+pub const COLUMNS: &str = "steps wall_seconds energy_distance_squared";
 
-/// One run from the start.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Trial {
-    /// Steps.
-    pub steps: usize,
-    /// Time of the sampler.
-    pub wall_seconds: f64,
-    /// Squared energy distance at the end; `None`: diverged.
-    pub energy_distance_squared: Option<f64>,
-}
-
-impl Trial {
-    /// Whether it ended at the level or below.
-    pub fn reaches(&self, level: f64) -> bool {
-        self.energy_distance_squared.is_some_and(|energy| energy <= level)
-    }
-}
-
-/// Least, median and largest time of the last run and its repeats, which have the same number of steps.
+/// The runs of a search in order.
 ///
 /// # Errors
-/// [`CommandError::Statistics`] without any run.
-pub fn seconds(trials: &[Trial]) -> Result<[f64; 3], CommandError> {
-    let last = trials.last().map(|last| last.steps);
-    let repeats = trials.iter().rev().take_while(|trial| Some(trial.steps) == last);
-    let times: Vec<f64> = repeats.map(|trial| trial.wall_seconds).collect();
-    let quantiles = weighted_quantile(&times, None, &[0.0, 0.5, 1.0])?;
-    Ok([quantiles[0], quantiles[1], quantiles[2]])
+/// A file that cannot be read.
+pub fn read(path: &Path) -> Result<Vec<Row>, CommandError> {
+    row_file::read(path, COLUMNS)
+}
+
+/// The last run and its repeats, which have the same number of steps.
+pub fn last(trials: &[Row]) -> Rows<'_> {
+    let last = trials.last().and_then(|trial| trial.count("steps"));
+    trials.iter().collect::<Rows<'_>>().with("steps", last)
 }
 
 /// What comes after the trials so far: the next number of steps, or as many as fit into the budget where those would not; an ending.
-fn next(steps: &[usize], trials: &[Trial], level: f64, budget: Option<f64>) -> Result<usize, Status> {
-    let done = trials.last().map_or(0, |last| last.steps);
-    let following = steps
-        .iter()
-        .copied()
-        .find(|&steps| steps > done)
-        .ok_or(Status::OutOfSteps);
+fn next(steps: &[usize], trials: &[Row], level: f64, budget: Option<f64>) -> Result<usize, Status> {
+    let done = trials.last().and_then(|last| last.count("steps")).unwrap_or(0);
+    let larger = steps.iter().copied().find(|&steps| steps > done);
+    let following = larger.ok_or(Status::OutOfSteps);
     let Some(last) = trials.last() else { return following };
-    if last.reaches(level) {
+    if last.is_within(ENERGY, level) {
         return Err(Status::Reached);
     }
-    let Some(budget) = budget else { return following };
-    if last.wall_seconds >= budget {
+    let (Some(budget), Some(seconds)) = (budget, last.number(SECONDS)) else {
+        return following;
+    };
+    if seconds >= budget {
         return Err(Status::OutOfTime);
     }
     let following = following?;
-    let per_step = last.wall_seconds / last.steps.max(1) as f64;
+    let per_step = seconds / done.max(1) as f64;
     if per_step * following as f64 <= TOLERANCE * budget {
         return Ok(following);
     }
     // Rounded up, so that the run takes the budget rather than a little less.
     let fitting = ((budget / per_step).ceil() as usize).min(following);
-    if fitting > last.steps {
+    if fitting > done {
         Ok(fitting)
     } else {
         Err(Status::OutOfTime)
@@ -80,21 +64,16 @@ pub fn search(
     method: &MethodSpecification,
     (level, budget): (f64, Option<f64>),
     observer: &mut CaseObserver,
-) -> Result<(Status, Vec<Trial>), CommandError> {
+) -> Result<(Status, Vec<Row>), CommandError> {
     let target = TargetSpecification::plain("gaussian", Some(dim));
-    let mut one = |steps: usize| -> Result<Trial, CommandError> {
+    let mut one = |steps: usize| -> Result<Row, CommandError> {
         let mut work = Sampled::new(&target, method, Some(steps), (study.particles.get(), study.seed))?;
         work.run.start = study.start.start(work.run.start);
         let (seconds, run) = timed(|| gaussian_runs::sampled(&work, observer));
-        let (wall_seconds, energy_distance_squared) = match attempt(run)? {
-            Ok((outcome, energy)) => (outcome.wall_seconds, Some(energy)),
-            Err(_) => (seconds, None),
-        };
-        Ok(Trial {
-            steps,
-            wall_seconds,
-            energy_distance_squared,
-        })
+        let run = attempt(run)?.ok();
+        let seconds = run.as_ref().map_or(seconds, |(outcome, _)| outcome.wall_seconds);
+        let trial = Row::default().with("steps", steps).with(SECONDS, seconds);
+        Ok(trial.with(ENERGY, run.map(|(_, energy)| energy)))
     };
     let steps: Vec<usize> = study.steps.iter().map(|steps| steps.get()).collect();
     let mut trials = Vec::new();
@@ -104,12 +83,14 @@ pub fn search(
             Err(ending) => break ending,
         }
     };
-    if let Some(last) = trials.last().copied()
+    let quick = trials
+        .last()
+        .filter(|last| last.number(SECONDS).is_some_and(|seconds| seconds < LONG));
+    if let Some(steps) = quick.and_then(|last| last.count("steps"))
         && ending == Status::Reached
-        && last.wall_seconds < LONG
     {
         for _ in 1..study.repeats.get() {
-            trials.push(one(last.steps)?);
+            trials.push(one(steps)?);
         }
     }
     Ok((ending, trials))
@@ -121,12 +102,9 @@ mod tests {
 
     const STEPS: [usize; 4] = [1, 2, 4, 8];
 
-    fn trial(steps: usize, wall_seconds: f64, energy: Option<f64>) -> Trial {
-        Trial {
-            steps,
-            wall_seconds,
-            energy_distance_squared: energy,
-        }
+    fn trial(steps: usize, wall_seconds: f64, energy: Option<f64>) -> Row {
+        let trial = Row::default().with("steps", steps).with(SECONDS, wall_seconds);
+        trial.with(ENERGY, energy)
     }
 
     #[test]
@@ -143,11 +121,9 @@ mod tests {
     #[test]
     fn the_time_is_that_of_the_last_number_of_steps() {
         let times = [(1, 9.0), (2, 3.0), (2, 1.0), (2, 2.0)];
-        assert_eq!(
-            seconds(&times.map(|(steps, time)| trial(steps, time, None))).unwrap(),
-            [1.0, 2.0, 3.0]
-        );
-        assert!(seconds(&[]).is_err());
+        let trials = times.map(|(steps, time)| trial(steps, time, None));
+        assert_eq!(last(&trials).values(SECONDS), [3.0, 1.0, 2.0]);
+        assert!(last(&[]).is_empty());
     }
 
     #[test]

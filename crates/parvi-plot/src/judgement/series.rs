@@ -1,6 +1,6 @@
-//! The rows of a family, ordered for figures and judgements.
+//! Rows of one label, ordered for figures and judgements.
 
-use crate::study::prelude::*;
+use crate::results::{Row, Rows};
 
 /// The rows of one label.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -20,7 +20,7 @@ pub struct Point {
     pub x: f64,
     /// The value.
     pub value: f64,
-    /// What validation.csv compares it with.
+    /// What the rows compare it with.
     pub reference: Option<f64>,
     /// How far from the reference it may be.
     pub tolerance: Option<f64>,
@@ -32,27 +32,33 @@ impl MeasuredSeries {
         self.points.iter().map(|point| (point.x, point.value)).collect()
     }
 
+    /// The label, or a word for the only one.
+    pub fn name(&self) -> String {
+        match self.label.as_str() {
+            "" => "all".to_owned(),
+            label => label.to_owned(),
+        }
+    }
+
     /// Whether the series is one of those named: all of them with an empty list, else those of which a part of the label is in it.
     pub fn is_among(&self, names: &[String]) -> bool {
         names.is_empty() || self.label.split(", ").any(|part| names.iter().any(|name| name == part))
     }
-}
 
-/// The series of a family in the order in which their rows came.
-pub fn series(rows: &Rows<'_>, family: &str) -> Vec<MeasuredSeries> {
-    let here = rows.with("family", family);
-    let of = |label: &str| {
-        let mut series = MeasuredSeries {
-            label: label.to_owned(),
-            ..MeasuredSeries::default()
+    /// The series of rows by their `label`, in the order in which these come first: points are in `x` and `value`, beside `reference` and `tolerance`; a row without a value is
+    /// a run that ended before its time.
+    pub fn of(rows: &Rows<'_>) -> Vec<Self> {
+        let of = |(label, here): (String, Rows<'_>)| {
+            let mut series = Self {
+                label,
+                ..Self::default()
+            };
+            here.iter().for_each(|row| add(&mut series, row));
+            series.points.sort_by(|left, right| left.x.total_cmp(&right.x));
+            series
         };
-        for row in here.with("label", label).iter() {
-            add(&mut series, row);
-        }
-        series.points.sort_by(|left, right| left.x.total_cmp(&right.x));
-        series
-    };
-    here.words("label").into_iter().map(of).collect()
+        rows.by("label").into_iter().map(of).collect()
+    }
 }
 
 fn add(series: &mut MeasuredSeries, row: &Row) {
@@ -78,11 +84,7 @@ mod tests {
     use super::*;
 
     fn row(label: &str, x: f64, value: Option<f64>) -> Row {
-        Row::default()
-            .with("family", "f")
-            .with("label", label)
-            .with("x", x)
-            .with("value", value)
+        Row::default().with("label", label).with("x", x).with("value", value)
     }
 
     #[test]
@@ -94,11 +96,11 @@ mod tests {
             row("c", 1.0, None),
         ];
         let rows: Rows<'_> = rows.iter().collect();
-        let all = series(&rows, "f");
+        let all = MeasuredSeries::of(&rows);
         assert_eq!(all[0].pairs(), [(1.0, 7.0), (2.0, 1.0)]);
         assert_eq!((all[1].points.len(), all[1].failed), (0, 1));
         let among = |names: &[&str]| all[0].is_among(&names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>());
         assert!(among(&[]) && among(&["b"]) && !among(&["c"]));
-        assert!(series(&rows, "g").is_empty());
+        assert!(MeasuredSeries::of(&Rows::default()).is_empty());
     }
 }

@@ -1,8 +1,7 @@
 //! Values near a reference.
 
-use super::{Verdict, name};
-use crate::plots::page::number;
-use crate::study::scenes::series::{MeasuredSeries, Point};
+use super::{MeasuredSeries, Point, Verdict};
+use crate::page::number;
 
 /// What a point is held against: the values given, else those of validation.csv.
 pub fn limits(point: &Point, (reference, tolerance): (Option<f64>, Option<f64>)) -> Option<(f64, f64)> {
@@ -15,7 +14,7 @@ pub fn judge(series: &MeasuredSeries, given: (Option<f64>, Option<f64>), at: &[f
         .points
         .iter()
         .filter(|point| at.is_empty() || at.contains(&point.x));
-    judged.map(|point| judge_point(&name(series), point, given)).collect()
+    judged.map(|point| judge_point(&series.name(), point, given)).collect()
 }
 
 fn judge_point(label: &str, point: &Point, given: (Option<f64>, Option<f64>)) -> Verdict {
@@ -34,7 +33,7 @@ fn judge_point(label: &str, point: &Point, given: (Option<f64>, Option<f64>)) ->
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::through;
+    use super::super::through;
     use super::*;
 
     #[test]

@@ -1,20 +1,20 @@
 //! The order of convergence.
 
-use mpm_scenes::reference::convergence;
-
-use super::{Verdict, name};
-use crate::plots::page::MISSING;
+use super::{MeasuredSeries, Verdict};
+use crate::page::MISSING;
 use crate::statistics::fit_power_law;
-use crate::study::scenes::series::MeasuredSeries;
 
-/// Orders between refinements, from the coarsest on, and that of least squares in logarithms, `None` with fewer than two points or values that are not positive.
+/// Orders p = ln(y₀ / y₁) / ln(x₀ / x₁) between refinements, from the coarsest on, and that of least squares in logarithms, `None` with fewer than two points or values that are not positive.
 pub fn orders(series: &MeasuredSeries) -> (Vec<f64>, Option<f64>) {
     let mut pairs = series.pairs();
     pairs.reverse();
     let (x, y): (Vec<f64>, Vec<f64>) = pairs.iter().copied().unzip();
     let law = fit_power_law(&x, &y).ok();
     let overall = law.and_then(|law| Some(law.exponents.first()?.value));
-    (convergence::orders(&pairs), overall)
+    let between = pairs
+        .windows(2)
+        .map(|pair| (pair[0].1 / pair[1].1).ln() / (pair[0].0 / pair[1].0).ln());
+    (between.collect(), overall)
 }
 
 /// Whether the order of least squares is at least so much.
@@ -23,7 +23,7 @@ pub fn judge(series: &MeasuredSeries, at_least: f64) -> Verdict {
     let between: Vec<String> = between.iter().map(|order| format!("{order:.2}")).collect();
     let overall_text = overall.map_or(MISSING.to_owned(), |order| format!("{order:.2}"));
     Verdict {
-        of: name(series),
+        of: series.name(),
         asked: format!("order ≥ {at_least}"),
         reached: format!("{overall_text} ({})", between.join(", ")),
         pass: overall.is_some_and(|order| order >= at_least),
@@ -32,7 +32,7 @@ pub fn judge(series: &MeasuredSeries, at_least: f64) -> Verdict {
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::through;
+    use super::super::through;
     use super::*;
 
     #[test]

@@ -1,11 +1,10 @@
 //! A power law over a range, as the run-out of collapsing columns has it (Lube, Huppert, Sparks & Freundt 2005; Lajeunesse, Monnier & Homsy
 //! 2005).
 
-use super::{Verdict, name};
-use crate::plots::exponent_text;
-use crate::plots::page::MISSING;
+use super::{MeasuredSeries, Verdict};
+use crate::exponent_text;
+use crate::page::MISSING;
 use crate::statistics::{PowerLaw, fit_power_law};
-use crate::study::scenes::series::MeasuredSeries;
 
 /// The law through the points with `from` ≤ x ≤ `to`; `None` with fewer than two, or values that are not positive.
 pub fn fit(series: &MeasuredSeries, (from, to): (Option<f64>, Option<f64>)) -> Option<PowerLaw> {
@@ -31,7 +30,7 @@ pub fn judge(series: &MeasuredSeries, (asked, tolerance): (f64, f64), range: (Op
         )
     });
     Verdict {
-        of: name(series),
+        of: series.name(),
         asked: format!("exponent {asked:.3} ± {tolerance}"),
         reached,
         pass: deviation <= tolerance,
@@ -40,7 +39,7 @@ pub fn judge(series: &MeasuredSeries, (asked, tolerance): (f64, f64), range: (Op
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::through;
+    use super::super::through;
     use super::*;
 
     const ASPECTS: [f64; 8] = [0.5, 0.75, 1.0, 1.5, 3.0, 6.0, 10.0, 20.0];

@@ -1,10 +1,9 @@
 //! How much meshes differ, where nothing exact is known.
 
-use super::{Verdict, name};
-use crate::study::scenes::series::MeasuredSeries;
+use super::{MeasuredSeries, Verdict};
 
 /// Largest value minus the least, over that at the least x; NaN without points.
-pub fn relative_spread(series: &MeasuredSeries) -> f64 {
+fn relative_spread(series: &MeasuredSeries) -> f64 {
     let values = || series.points.iter().map(|point| point.value);
     let (largest, least) = (
         values().fold(f64::NEG_INFINITY, f64::max),
@@ -18,7 +17,7 @@ pub fn relative_spread(series: &MeasuredSeries) -> f64 {
 pub fn judge(series: &MeasuredSeries, at_most: f64) -> Verdict {
     let spread = relative_spread(series);
     Verdict {
-        of: name(series),
+        of: series.name(),
         asked: format!("spread ≤ {} %", 100.0 * at_most),
         reached: format!("{:.1} % over {} meshes", 100.0 * spread, series.points.len()),
         pass: series.points.len() > 1 && spread <= at_most,
@@ -27,7 +26,7 @@ pub fn judge(series: &MeasuredSeries, at_most: f64) -> Verdict {
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::through;
+    use super::super::through;
     use super::*;
 
     #[test]

@@ -1,6 +1,4 @@
-//! Mean and covariance of particles whose dimension is known at run time.
-
-use crate::output::Particles;
+//! Mean and covariance of weighted points.
 
 /// First and second moments of weighted points.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,22 +10,24 @@ pub struct SampleMoments {
 }
 
 impl SampleMoments {
-    /// Of the particles with their weights (1/M each where they are equal).
-    pub fn of(particles: &Particles) -> Self {
-        let dimension = particles.dimension();
+    /// Of points with their weights (1/M each where they are equal), whose sum is one.
+    pub fn of(points: &[Vec<f64>], weights: Option<&[f64]>) -> Self {
+        let dimension = points.first().map_or(0, Vec::len);
+        let weight = |index: usize| match weights {
+            Some(weights) => weights.get(index).copied().unwrap_or(0.0),
+            None => 1.0 / points.len() as f64,
+        };
         let mut mean = vec![0.0; dimension];
-        for (index, row) in particles.rows().enumerate() {
-            let weight = particles.weight(index);
+        for (index, row) in points.iter().enumerate() {
             for (sum, value) in mean.iter_mut().zip(row) {
-                *sum += weight * value;
+                *sum += weight(index) * value;
             }
         }
         let mut covariance = vec![vec![0.0; dimension]; dimension];
-        for (index, row) in particles.rows().enumerate() {
-            let weight = particles.weight(index);
+        for (index, row) in points.iter().enumerate() {
             for i in 0..dimension {
                 for j in 0..dimension {
-                    covariance[i][j] += weight * (row[i] - mean[i]) * (row[j] - mean[j]);
+                    covariance[i][j] += weight(index) * (row[i] - mean[i]) * (row[j] - mean[j]);
                 }
             }
         }
@@ -64,8 +64,8 @@ mod tests {
 
     #[test]
     fn the_corners_of_a_square_have_unit_covariance() {
-        let corners = [[4.0, 1.0], [4.0, -1.0], [2.0, 1.0], [2.0, -1.0]];
-        let moments = SampleMoments::of(&Particles::new(&corners, None));
+        let corners = [[4.0, 1.0], [4.0, -1.0], [2.0, 1.0], [2.0, -1.0]].map(Vec::from);
+        let moments = SampleMoments::of(&corners, None);
         assert_eq!(moments.mean, [3.0, 0.0]);
         assert_eq!(moments.distance_from_identity(), 0.0);
         assert_eq!(moments.largest_mean(), 3.0);
@@ -73,7 +73,8 @@ mod tests {
 
     #[test]
     fn weights_count() {
-        let moments = SampleMoments::of(&Particles::new(&[[0.0], [4.0]], Some(&[0.75, 0.25])));
+        let points = [vec![0.0], vec![4.0]];
+        let moments = SampleMoments::of(&points, Some(&[0.75, 0.25]));
         assert_eq!((moments.mean[0], moments.covariance[0][0]), (1.0, 3.0));
     }
 }

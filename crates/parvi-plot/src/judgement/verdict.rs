@@ -1,0 +1,26 @@
+//! What a judgement says.
+
+/// One line of the table of judgements.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Verdict {
+    /// What was judged: a series, or one of its points.
+    pub of: String,
+    /// What was asked.
+    pub asked: String,
+    /// What was reached.
+    pub reached: String,
+    /// Whether that is enough. Never where a run of the series ended before its time.
+    pub pass: bool,
+}
+
+impl Verdict {
+    /// That there was nothing to judge.
+    pub fn of_nothing(of: String) -> Self {
+        Self {
+            of,
+            asked: "something to judge".to_owned(),
+            reached: "none".to_owned(),
+            pass: false,
+        }
+    }
+}

@@ -1,0 +1,80 @@
+//! A line of results: cells by the names of their columns.
+
+use std::collections::BTreeMap;
+
+use super::Value;
+use crate::page::Cell;
+
+/// What one case gave, by the names of the columns.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Row {
+    cells: BTreeMap<&'static str, Value>,
+}
+
+impl Row {
+    /// The row of a case of this name, which is in the column `case`.
+    pub fn of(case: impl Into<Value>) -> Self {
+        Self::default().with("case", case)
+    }
+
+    /// The same with one cell more.
+    pub fn with(mut self, column: &'static str, value: impl Into<Value>) -> Self {
+        self.set(column, value);
+        self
+    }
+
+    /// Fills a cell.
+    pub fn set(&mut self, column: &'static str, value: impl Into<Value>) {
+        self.cells.insert(column, value.into());
+    }
+
+    /// The name of the case.
+    pub fn case(&self) -> &str {
+        self.text("case")
+    }
+
+    /// A cell.
+    pub fn value(&self, column: &str) -> &Value {
+        self.cells.get(column).unwrap_or(&Value::Empty)
+    }
+
+    /// A word; empty where there is none.
+    pub fn text(&self, column: &str) -> &str {
+        match self.value(column) {
+            Value::Text(text) => text,
+            _ => "",
+        }
+    }
+
+    /// A number.
+    pub fn number(&self, column: &str) -> Option<f64> {
+        match self.value(column) {
+            Value::Number(number) => Some(*number),
+            Value::Count(count) => Some(*count as f64),
+            _ => None,
+        }
+    }
+
+    /// A whole number.
+    pub fn count(&self, column: &str) -> Option<usize> {
+        match self.value(column) {
+            Value::Count(count) => usize::try_from(*count).ok(),
+            _ => None,
+        }
+    }
+
+    /// Whether a cell holds this.
+    pub fn is(&self, column: &str, value: impl Into<Value>) -> bool {
+        *self.value(column) == value.into()
+    }
+
+    /// Whether a number is at most so much; not where there is none.
+    pub fn is_within(&self, column: &str, most: f64) -> bool {
+        self.number(column).is_some_and(|number| number <= most)
+    }
+
+    /// Cells as they stand in a table, by the names of their columns with ` | ` between them.
+    pub fn cells(&self, columns: &str) -> Vec<String> {
+        columns.split(" | ").map(|column| self.value(column).cell()).collect()
+    }
+}

@@ -1,0 +1,240 @@
+//! Rows of results, of which parts are looked at.
+
+use super::{Row, Value};
+use crate::LineSeries;
+use crate::page::{Cell, MISSING};
+use crate::statistics::{summarize, weighted_quantile};
+
+/// Some rows.
+#[derive(Clone, Debug, Default)]
+pub struct Rows<'a>(Vec<&'a Row>);
+
+impl<'a> FromIterator<&'a Row> for Rows<'a> {
+    fn from_iter<I: IntoIterator<Item = &'a Row>>(rows: I) -> Self {
+        Self(rows.into_iter().collect())
+    }
+}
+
+impl<'a> Rows<'a> {
+    /// The rows one by one.
+    pub fn iter(&self) -> impl Iterator<Item = &'a Row> + Clone {
+        self.0.iter().copied()
+    }
+
+    /// Their number.
+    pub fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// The first.
+    pub fn first(&self) -> Option<&'a Row> {
+        self.0.first().copied()
+    }
+
+    /// Those with a property.
+    pub fn having(&self, property: impl Fn(&Row) -> bool) -> Self {
+        self.iter().filter(|row| property(row)).collect()
+    }
+
+    /// Those that hold this in a column.
+    pub fn with(&self, column: &str, value: impl Into<Value>) -> Self {
+        let value = value.into();
+        self.having(|row| *row.value(column) == value)
+    }
+
+    /// How many have a property.
+    pub fn count(&self, property: impl Fn(&Row) -> bool) -> usize {
+        self.iter().filter(|row| property(row)).count()
+    }
+
+    /// The rows by a name, in the order in which the names come first.
+    pub fn by_name(&self, name: impl Fn(&Row) -> String) -> Vec<(String, Self)> {
+        let mut groups: Vec<(String, Self)> = Vec::new();
+        for row in self.iter() {
+            let name = name(row);
+            match groups.iter_mut().find(|(known, _)| *known == name) {
+                Some((_, group)) => group.0.push(row),
+                None => groups.push((name, Self(vec![row]))),
+            }
+        }
+        groups
+    }
+
+    /// The rows by what they hold in a column, in the order in which that comes first.
+    pub fn by(&self, column: &str) -> Vec<(String, Self)> {
+        self.by_name(|row| row.value(column).to_string())
+    }
+
+    /// What stands in a column, each once, in the order in which it comes first.
+    pub fn words(&self, column: &str) -> Vec<String> {
+        self.by(column).into_iter().map(|(word, _)| word).collect()
+    }
+
+    /// The values of a column in those rows that have it.
+    pub fn values(&self, column: &str) -> Vec<f64> {
+        self.iter().filter_map(|row| row.number(column)).collect()
+    }
+
+    /// The values of a column from least to most, each once.
+    pub fn places(&self, column: &str) -> Vec<f64> {
+        let mut places = self.values(column);
+        places.sort_by(f64::total_cmp);
+        places.dedup();
+        places
+    }
+
+    /// The median of a column over the rows that have it.
+    pub fn median(&self, column: &str) -> Option<f64> {
+        summarize(&self.values(column)).ok().map(|summary| summary.median)
+    }
+
+    /// The median of a column, of an even number half-way; a row without it counts as infinitely large. `None` without rows.
+    pub fn median_of_all(&self, column: &str) -> Option<f64> {
+        let number = |row: &Row| row.number(column).unwrap_or(f64::INFINITY);
+        let mut values: Vec<f64> = self.iter().map(number).collect();
+        values.sort_by(f64::total_cmp);
+        let middle = values.len().checked_sub(1)? / 2;
+        Some(0.5 * (values[middle] + values[values.len() / 2]))
+    }
+
+    /// A quantile of a column over the rows that have it.
+    pub fn quantile(&self, column: &str, level: f64) -> Option<f64> {
+        let quantiles = weighted_quantile(&self.values(column), None, &[level]);
+        quantiles.ok()?.first().copied()
+    }
+
+    /// The least value of a column.
+    pub fn least(&self, column: &str) -> Option<f64> {
+        self.values(column).into_iter().reduce(f64::min)
+    }
+
+    /// The largest value of a column.
+    pub fn largest(&self, column: &str) -> Option<f64> {
+        self.values(column).into_iter().reduce(f64::max)
+    }
+
+    /// Notes in a row the least value of a column, its median and the largest value.
+    pub fn note_range(&self, column: &str, row: &mut Row, [least, median, largest]: [&'static str; 3]) {
+        row.set(least, self.least(column));
+        row.set(median, self.median(column));
+        row.set(largest, self.largest(column));
+    }
+
+    /// The row with the largest value of a column.
+    pub fn worst(&self, column: &str) -> Option<&'a Row> {
+        let known = self.iter().filter_map(|row| Some((row.number(column)?, row)));
+        known
+            .max_by(|left, right| left.0.total_cmp(&right.0))
+            .map(|(_, row)| row)
+    }
+
+    /// Statistics as they stand in a table, with ` | ` between them: `rows`, their number, and of a column `first`, `median`, `median of all` (the rows without it
+    /// infinitely large, ∞), `quantile 0.95`, `least`, `largest` and
+    /// `worst`, the case with the largest.
+    pub fn cells(&self, statistics: &str) -> Vec<String> {
+        statistics.split(" | ").map(|statistic| self.cell(statistic)).collect()
+    }
+
+    fn cell(&self, statistic: &str) -> String {
+        let (name, column) = statistic.rsplit_once(' ').unwrap_or((statistic, ""));
+        match name {
+            "rows" => self.len().to_string(),
+            "first" => self.first().map(|row| row.value(column)).cell(),
+            "median" => self.median(column).cell(),
+            "median of all" => match self.median_of_all(column) {
+                Some(f64::INFINITY) => "∞".to_owned(),
+                median => median.cell(),
+            },
+            "least" => self.least(column).cell(),
+            "largest" => self.largest(column).cell(),
+            "worst" => self.worst(column).map(|row| format!("`{}`", row.case())).cell(),
+            name => match name.strip_prefix("quantile ").map(str::parse) {
+                Some(Ok(level)) => self.quantile(column, level).cell(),
+                _ => MISSING.to_owned(),
+            },
+        }
+    }
+
+    /// A line through the rows that have both columns, in their order.
+    pub fn line(&self, label: impl Into<String>, x: &str, y: &str) -> LineSeries {
+        let points = self.iter().filter_map(|row| Some((row.number(x)?, row.number(y)?)));
+        let (x, y) = points.unzip();
+        LineSeries {
+            x,
+            y,
+            ..LineSeries::named(label)
+        }
+    }
+
+    /// A line through the medians of `y` at each value of `x`, with bars from the least to the largest.
+    pub fn curve(&self, label: impl Into<String>, x: &str, y: &str) -> LineSeries {
+        let mut line = LineSeries::named(label);
+        for place in self.places(x) {
+            let here = self.having(|row| row.number(x) == Some(place));
+            line.push_median(place, &here.values(y));
+        }
+        line
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rows() -> Vec<Row> {
+        let row = |case: &str, method: &str, size: usize, error: Option<f64>| {
+            let row = Row::of(case).with("method", method).with("size", size);
+            row.with("error", error)
+        };
+        vec![
+            row("a", "mpm", 64, Some(0.5)),
+            row("b", "iid", 16, Some(2.0)),
+            row("c", "mpm", 16, Some(1.0)),
+            row("d", "mpm", 16, None),
+            row("e", "mpm", 16, Some(4.0)),
+        ]
+    }
+
+    #[test]
+    fn rows_are_told_apart_in_the_order_in_which_they_come() {
+        let rows = rows();
+        let rows: Rows<'_> = rows.iter().collect();
+        assert_eq!(rows.words("method"), ["mpm", "iid"]);
+        let sizes: Vec<usize> = rows.by("size").iter().map(|(_, here)| here.len()).collect();
+        assert_eq!(sizes, [1, 4]);
+        assert_eq!(rows.with("method", "mpm").with("size", 16_usize).len(), 3);
+        assert_eq!(rows.places("size"), [16.0, 64.0]);
+    }
+
+    #[test]
+    fn statistics_have_names() {
+        let rows = rows();
+        let here = rows.iter().collect::<Rows<'_>>().with("method", "mpm");
+        assert_eq!(here.cells("rows | median error | least error"), ["4", "1.00", "0.500"]);
+        assert_eq!(
+            here.cells("largest error | worst error | first size"),
+            ["4.00", "`e`", "64"]
+        );
+        assert_eq!(here.cells("median of all error | quantile 1 error"), ["2.50", "4.00"]);
+        assert_eq!(here.with("case", "d").cells("median of all error"), ["∞"]);
+        assert_eq!(
+            Rows::default().cells("median error | median of all error | mode error"),
+            [MISSING; 3]
+        );
+    }
+
+    #[test]
+    fn lines_go_through_medians_or_through_every_row() {
+        let rows = rows();
+        let here = rows.iter().collect::<Rows<'_>>().with("method", "mpm");
+        let curve = here.curve("mpm", "size", "error");
+        assert_eq!((curve.x, curve.y), (vec![16.0, 64.0], vec![2.5, 0.5]));
+        assert_eq!(curve.bars, [(1.0, 4.0), (0.5, 0.5)]);
+        assert_eq!(here.line("mpm", "size", "error").x, [64.0, 16.0, 16.0]);
+    }
+}

@@ -1,0 +1,80 @@
+//! What stands in a cell of results.
+
+use std::fmt::{self, Display, Formatter};
+
+use crate::page::{Cell, number};
+
+/// What stands in a cell.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Value {
+    /// Nothing.
+    #[default]
+    Empty,
+    /// A word, or several.
+    Text(String),
+    /// A whole number.
+    Count(u64),
+    /// A number.
+    Number(f64),
+}
+
+/// As it is, numbers with all their digits.
+impl Display for Value {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Empty => Ok(()),
+            Self::Text(text) => formatter.write_str(text),
+            Self::Count(count) => write!(formatter, "{count}"),
+            Self::Number(number) => write!(formatter, "{number}"),
+        }
+    }
+}
+
+impl Cell for Value {
+    fn cell(&self) -> String {
+        match self {
+            Self::Empty => None::<f64>.cell(),
+            Self::Number(value) => number(*value),
+            value => value.to_string(),
+        }
+    }
+}
+
+impl From<f64> for Value {
+    fn from(number: f64) -> Self {
+        Self::Number(number)
+    }
+}
+
+impl From<u64> for Value {
+    fn from(count: u64) -> Self {
+        Self::Count(count)
+    }
+}
+
+impl From<usize> for Value {
+    fn from(count: usize) -> Self {
+        Self::Count(count as u64)
+    }
+}
+
+impl From<&str> for Value {
+    fn from(text: &str) -> Self {
+        match text {
+            "" => Self::Empty,
+            text => Self::Text(text.to_owned()),
+        }
+    }
+}
+
+impl From<String> for Value {
+    fn from(text: String) -> Self {
+        text.as_str().into()
+    }
+}
+
+impl<T: Into<Value>> From<Option<T>> for Value {
+    fn from(value: Option<T>) -> Self {
+        value.map_or(Self::Empty, T::into)
+    }
+}
