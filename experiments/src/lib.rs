@@ -23,3 +23,8 @@ mod study;
 pub use error::CommandError;
 pub use output::AtomicFile;
 pub use parvi_plot::{self as plots, statistics};
+
+/// Runs the code of the workspace's README as a doc test.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct WorkspaceReadme;

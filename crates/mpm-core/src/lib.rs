@@ -4,6 +4,7 @@ mod basis;
 mod body_force;
 mod boundary;
 mod cell_sort;
+pub mod conformance;
 mod control;
 mod counting_sort;
 mod diagnosis;

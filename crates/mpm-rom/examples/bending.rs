@@ -8,6 +8,7 @@ mod common;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
+use mpm_rom::snapshots::{Run, Snapshots};
 use mpm_rom::training::{EpochReport, Optimizer, Trainer, Training};
 
 #[allow(clippy::print_stdout)]
@@ -34,10 +35,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ..standard
     };
     let all = common::bending_cylinder(1368, 30, 30);
-    let (training, unseen) = (
-        all.select(&(0..24).collect::<Vec<_>>())?,
-        all.select(&(24..30).collect::<Vec<_>>())?,
-    );
+    let part = |runs: &[Run<3>]| Snapshots::new(all.body().clone(), runs.to_vec());
+    let (training, unseen) = (part(&all.runs()[..24])?, part(&all.runs()[24..])?);
     println!("{config:?}");
     let every = (config.epochs / 10).max(1);
     let mut observer = |report: &EpochReport| {

@@ -15,3 +15,4 @@ mod product;
 pub mod snapshots;
 pub mod tensor_file;
 pub mod training;
+mod words;

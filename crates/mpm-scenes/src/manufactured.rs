@@ -3,6 +3,9 @@
 /// A motion x = X + u(X, t) of a plane body and the body force per unit mass that produces it in the scene's material.
 #[allow(non_snake_case)]
 pub trait ManufacturedSolution: Send + Sync {
+    /// The position x(X, t).
+    fn position(&self, X: &[f64; 2], time: f64) -> [f64; 2];
+
     /// The velocity ∂u/∂t (X, t).
     fn velocity(&self, X: &[f64; 2], time: f64) -> [f64; 2];
 

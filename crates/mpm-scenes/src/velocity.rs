@@ -5,36 +5,22 @@ use mpm_tensor::{Matrix, vector as algebra};
 use crate::manufactured::in_the_plane;
 use crate::scene::{Scene, VelocityField, VelocityTable};
 use crate::values::{finite, vector, within};
-use crate::{ManufacturedSolution, SceneFault, reference};
+use crate::{SceneFault, reference};
 
 /// A velocity as a function of the reference position.
-pub(crate) enum InitialVelocity<const D: usize> {
-    Uniform([f64; D]),
-    Sine {
-        amplitude: [f64; D],
-        wave_vector: [f64; D],
-        phase: f64,
-    },
-    Linear {
-        centre: [f64; D],
-        gradient: Matrix<D>,
-    },
-    Manufactured(Box<dyn ManufacturedSolution>),
-}
+pub(crate) struct InitialVelocity<const D: usize>(Box<Field<D>>);
+
+type Field<const D: usize> = dyn Fn(&[f64; D]) -> [f64; D];
 
 impl<const D: usize> InitialVelocity<D> {
+    /// v(X) = G (X − c).
+    fn linear(centre: [f64; D], gradient: Matrix<D>) -> Self {
+        Self(Box::new(move |x| gradient.apply(&algebra::subtract(x, &centre))))
+    }
+
     /// v(X).
     pub fn at(&self, x: &[f64; D]) -> [f64; D] {
-        match self {
-            Self::Uniform(velocity) => *velocity,
-            Self::Sine {
-                amplitude,
-                wave_vector,
-                phase,
-            } => algebra::scale(amplitude, (algebra::dot(wave_vector, x) + phase).sin()),
-            Self::Linear { centre, gradient } => gradient.apply(&algebra::subtract(x, centre)),
-            Self::Manufactured(solution) => in_the_plane(x, |start| solution.velocity(start, 0.0)),
-        }
+        (self.0)(x)
     }
 }
 
@@ -49,8 +35,11 @@ pub(crate) fn build<const D: usize>(
 ) -> Result<InitialVelocity<D>, SceneFault> {
     let vector_of = |key: &str, list: &[f64]| vector::<D>(&format!("{field}.{key}"), list);
     let table = match table {
-        None => return Ok(InitialVelocity::Uniform([0.0; D])),
-        Some(VelocityTable::Uniform(list)) => return Ok(InitialVelocity::Uniform(vector(field, list)?)),
+        None => return Ok(InitialVelocity(Box::new(|_| [0.0; D]))),
+        Some(VelocityTable::Uniform(list)) => {
+            let velocity = vector(field, list)?;
+            return Ok(InitialVelocity(Box::new(move |_| velocity)));
+        }
         Some(VelocityTable::Field(table)) => table,
     };
     Ok(match table {
@@ -58,15 +47,19 @@ pub(crate) fn build<const D: usize>(
             amplitude,
             wave_vector,
             phase,
-        } => InitialVelocity::Sine {
-            amplitude: vector_of("amplitude", amplitude)?,
-            wave_vector: vector_of("wave_vector", wave_vector)?,
-            phase: finite(&format!("{field}.phase"), *phase)?,
-        },
-        VelocityField::Rotation { centre, rate } => InitialVelocity::Linear {
-            centre: vector_of("centre", centre)?,
-            gradient: spin(&format!("{field}.rate"), rate)?,
-        },
+        } => {
+            let (amplitude, waves) = (
+                vector_of("amplitude", amplitude)?,
+                vector_of("wave_vector", wave_vector)?,
+            );
+            let phase = finite(&format!("{field}.phase"), *phase)?;
+            InitialVelocity(Box::new(move |x| {
+                algebra::scale(&amplitude, (algebra::dot(&waves, x) + phase).sin())
+            }))
+        }
+        VelocityField::Rotation { centre, rate } => {
+            InitialVelocity::linear(vector_of("centre", centre)?, spin(&format!("{field}.rate"), rate)?)
+        }
         VelocityField::Linear { centre, gradient } => {
             let mut rows = [[0.0; D]; D];
             let (name, square) = (format!("{field}.gradient"), gradient.len() == D);
@@ -74,13 +67,13 @@ pub(crate) fn build<const D: usize>(
             for (row, list) in rows.iter_mut().zip(gradient) {
                 *row = vector_of("gradient", list)?;
             }
-            InitialVelocity::Linear {
-                centre: vector_of("centre", centre)?,
-                gradient: Matrix(rows),
-            }
+            InitialVelocity::linear(vector_of("centre", centre)?, Matrix(rows))
         }
         VelocityField::Manufactured { solution } => {
-            InitialVelocity::Manufactured(reference::manufactured(solution, scene)?)
+            let solution = reference::manufactured(solution, scene)?;
+            InitialVelocity(Box::new(move |x| {
+                in_the_plane(x, |start| solution.velocity(start, 0.0))
+            }))
         }
     })
 }

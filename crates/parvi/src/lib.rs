@@ -65,8 +65,3 @@ pub use smc::SmcOptions;
 pub use stein_thinning::stein_thinning;
 pub use support_points::{SupportPoints, support_points};
 pub use view::ParticleView;
-
-/// Runs the code of the workspace's README as a doc test.
-#[cfg(doctest)]
-#[doc = include_str!("../../../README.md")]
-struct WorkspaceReadme;

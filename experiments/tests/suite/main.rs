@@ -1,4 +1,4 @@
-//! The command `parvi`, from the outside. One theme per file.
+//! The command `parvi` from the outside, and what is committed beside it. One theme per file.
 
 mod evidence;
 mod gaussian_studies;
@@ -27,3 +27,5 @@ mod study_resume;
 mod support;
 mod target_studies;
 mod time_to_equal_error;
+#[cfg(feature = "mechanics")]
+mod validation;

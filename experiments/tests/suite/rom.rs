@@ -1,4 +1,8 @@
-//! `parvi rom`: training, reduced runs, refusals.
+//! `parvi rom`: training, reduced runs, refusals; the committed experiments.
+
+use std::path::Path;
+
+use mpm_rom::experiment::Experiment;
 
 use crate::support::{assert_refused, files, parvi, stderr, stdout, succeeds, value};
 
@@ -104,4 +108,13 @@ fn committed_experiments_can_be_read() {
         let message = stderr(&parvi(&experiments, &format!("rom run {name} --out {name}/out")));
         assert!(message.contains(&format!("{name}/out")), "{message}");
     }
+}
+
+#[test]
+fn random_pokes_are_none_of_those_that_their_network_is_tested_on() {
+    let directory = Path::new(env!("CARGO_MANIFEST_DIR")).join("rom");
+    let read = |name: &str| Experiment::read(&directory.join(name)).unwrap();
+    let (pokes, random) = (read("poke.toml"), read("poke_random.toml"));
+    assert_eq!(pokes.training, random.training);
+    assert!(random.cases.test.iter().all(|angle| !pokes.cases.test.contains(angle)));
 }

@@ -2,14 +2,13 @@
 
 use std::collections::HashSet;
 
+use mpm_core::conformance::{layout_is_sound, transfers_are_sums};
 use mpm_core::{Basis, NO_NODE, SimplexLattice};
 use mpm_kernels::Deposit;
 use mpm_tensor::Matrix;
 use rand::RngExt;
 
 use crate::basis_gradients::gradients_are_derivatives;
-use crate::basis_layout::layout_is_sound;
-use crate::basis_transfers::transfers_are_sums;
 use crate::scenes::{dot, generator, norm, normal, stencil};
 
 /// Random clouds on a randomly placed basis, each on a basis that was in use before.

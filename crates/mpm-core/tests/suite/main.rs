@@ -5,8 +5,6 @@ mod scenes;
 
 mod basis_conformance;
 mod basis_gradients;
-mod basis_layout;
-mod basis_transfers;
 mod boundaries;
 mod conservation;
 mod deformation;

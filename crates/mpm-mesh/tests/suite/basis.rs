@@ -1,8 +1,7 @@
 //! What every basis must do, on meshes.
 
-use crate::basis_layout::layout_is_sound;
 use crate::basis_scenes::{cloud, cube, line, naive_weights};
-use crate::basis_transfers::transfers_are_sums;
+use mpm_core::conformance::{layout_is_sound, transfers_are_sums};
 use mpm_core::{Basis, MpmError, NodeSums};
 use mpm_kernels::LANES;
 use mpm_mesh::{MeshBasis, Outside, SampleWeight, SimplexMesh};

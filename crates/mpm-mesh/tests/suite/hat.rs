@@ -1,11 +1,10 @@
 //! Hat functions on meshes: what every basis must do, and that they are the barycentric coordinates.
 
 use mpm_core::Basis;
+use mpm_core::conformance::{layout_is_sound, transfers_are_sums};
 use mpm_mesh::{HatBasis, SimplexMesh};
 
-use crate::basis_layout::layout_is_sound;
 use crate::basis_scenes::{cloud, cube, line};
-use crate::basis_transfers::transfers_are_sums;
 
 fn conforms<const D: usize>(mesh: SimplexMesh<D>, size: f64) {
     let mut basis = HatBasis::new(mesh);

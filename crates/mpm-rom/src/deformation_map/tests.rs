@@ -9,25 +9,41 @@ fn points() -> Vec<[f64; 3]> {
         .collect()
 }
 
-/// A family that is nowhere the identity: X + 0.1 + fields.
-struct Shifted(Fields<3>);
+/// What a family adds to [`Fields`]: a way and its gradient at X.
+type Bend = fn(&[f64; 3]) -> (f64, [f64; 3]);
 
-impl Manifold<3> for Shifted {
+/// X + w(X) e_2 + fields.
+struct Bent(Fields<3>, Bend);
+
+/// Nowhere the identity.
+const SHIFTED: Bend = |_| (0.1, [0.0, 0.0, 0.05]);
+
+/// Bent at rest.
+const WAVY: Bend = |x| {
+    let (sin, cos) = (x[0] + 2.0 * x[1]).sin_cos();
+    (0.05 * sin, [0.05 * cos, 0.1 * cos, 0.0])
+};
+
+impl Manifold<3> for Bent {
     fn coordinates(&self) -> usize {
         self.0.coordinates()
     }
 
     fn evaluate(&self, reference: &[[f64; 3]], latent: &[f64], wanted: Wanted, out: &mut Evaluation<3>) {
         self.0.evaluate(reference, latent, wanted, out);
-        out.positions.iter_mut().for_each(|g| g[2] += 0.1);
-        out.gradients.iter_mut().for_each(|gradient| gradient.0[2][2] += 0.05);
+        for (x, g) in reference.iter().zip(&mut out.positions) {
+            g[2] += (self.1)(x).0;
+        }
+        for (x, gradient) in reference.iter().zip(&mut out.gradients) {
+            gradient.0[2] = vector::add(&gradient.0[2], &(self.1)(x).1);
+        }
     }
 }
 
 #[test]
 fn at_rest_every_point_is_where_it_was_and_nothing_is_deformed() {
     let (reference, mut prepared, mut out) = (points(), MaterialPoints::default(), Evaluation::default());
-    let mut map = DeformationMap::new(Shifted(Fields::bending(3)), &reference, &[0.2; 3]).expect("solvable");
+    let mut map = DeformationMap::new(Bent(Fields::bending(3), SHIFTED), &reference, &[0.2; 3]).expect("solvable");
     map.prepare(&reference, &mut prepared);
     let rest = map.rest().to_vec();
     map.evaluate(&prepared, &rest, Wanted::ALL, &mut out);
@@ -72,31 +88,10 @@ fn a_wrong_start_is_refused() {
     assert_eq!(error, Some(DeformationMapError::Coordinates { found: 2, expected: 3 }));
 }
 
-/// A family that is bent at rest: X + 0.05 sin(X_0 + 2 X_1) e_2 + fields.
-struct Wavy(Fields<3>);
-
-impl Manifold<3> for Wavy {
-    fn coordinates(&self) -> usize {
-        self.0.coordinates()
-    }
-
-    fn evaluate(&self, reference: &[[f64; 3]], latent: &[f64], wanted: Wanted, out: &mut Evaluation<3>) {
-        self.0.evaluate(reference, latent, wanted, out);
-        for (x, g) in reference.iter().zip(&mut out.positions) {
-            g[2] += 0.05 * (x[0] + 2.0 * x[1]).sin();
-        }
-        for (x, gradient) in reference.iter().zip(&mut out.gradients) {
-            let slope = 0.05 * (x[0] + 2.0 * x[1]).cos();
-            gradient.0[2][0] += slope;
-            gradient.0[2][1] += 2.0 * slope;
-        }
-    }
-}
-
 #[test]
 fn a_table_gives_what_is_computed() {
     let reference = points();
-    let mut map = DeformationMap::new(Wavy(Fields::bending(3)), &reference, &[0.2; 3]).expect("solvable");
+    let mut map = DeformationMap::new(Bent(Fields::bending(3), WAVY), &reference, &[0.2; 3]).expect("solvable");
     let table = map.tabulate(&reference, 0.1, 0.1).expect("small");
     // The last one is outside of the table.
     let places: Vec<[f64; 3]> = reference

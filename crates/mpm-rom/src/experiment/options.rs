@@ -2,6 +2,8 @@
 
 use serde::Deserialize;
 
+use crate::words::words;
+
 /// Larger numbers of sample points are not tried: choices then differ little. The first one is taken.
 pub(super) const MOST_TRIED: usize = 24;
 
@@ -33,76 +35,46 @@ pub enum All {
     All,
 }
 
-/// How sample points are chosen; see [`SampleChoice`](crate::online::SampleChoice).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum ChoiceName {
-    /// Drawn evenly.
-    Drawn,
-    /// Each the farthest from those before it.
-    Spread,
-    /// Those that stand for all points best in steps from frames of the training data ([`choose_greedily`](crate::online::choose_greedily)).
-    #[default]
-    Greedy,
-    /// Those with weights of their own that sum as all points do in such steps ([`choose_cubature`](crate::online::choose_cubature)).
-    Cubature,
+words! {
+    /// How sample points are chosen; see [`SampleChoice`](crate::online::SampleChoice).
+    ChoiceName {
+        /// Drawn evenly.
+        Drawn = "drawn",
+        /// Each the farthest from those before it.
+        Spread = "spread",
+        /// Those that stand for all points best in steps from frames of the training data ([`choose_greedily`](crate::online::choose_greedily)).
+        #[default]
+        Greedy = "greedy",
+        /// Those with weights of their own that sum as all points do in such steps ([`choose_cubature`](crate::online::choose_cubature)).
+        Cubature = "cubature",
+    }
 }
 
 impl ChoiceName {
-    /// As in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Drawn => "drawn",
-            Self::Spread => "spread",
-            Self::Greedy => "greedy",
-            Self::Cubature => "cubature",
-        }
-    }
-
     /// Whether it is made on training runs.
     pub fn needs_training(self) -> bool {
         matches!(self, Self::Greedy | Self::Cubature)
     }
 }
 
-/// Where the momentum balance is summed; see [`Quadrature`](crate::online::Quadrature).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum QuadratureName {
-    /// At material points.
-    #[default]
-    Lagrangian,
-    /// At points of space.
-    Eulerian,
-}
-
-impl QuadratureName {
-    /// As in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Lagrangian => "lagrangian",
-            Self::Eulerian => "eulerian",
-        }
+words! {
+    /// Where the momentum balance is summed; see [`Quadrature`](crate::online::Quadrature).
+    QuadratureName {
+        /// At material points.
+        #[default]
+        Lagrangian = "lagrangian",
+        /// At points of space.
+        Eulerian = "eulerian",
     }
 }
 
-/// The family of maps; see [`manifold`](crate::manifold).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum ManifoldName {
-    /// The trained network.
-    #[default]
-    Network,
-    /// The linear manifold of as many coordinates from the same training data ([`Pod`](crate::manifold::Pod)).
-    Linear,
-}
-
-impl ManifoldName {
-    /// As in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Network => "network",
-            Self::Linear => "linear",
-        }
+words! {
+    /// The family of maps; see [`manifold`](crate::manifold).
+    ManifoldName {
+        /// The trained network.
+        #[default]
+        Network = "network",
+        /// The linear manifold of as many coordinates from the same training data ([`Pod`](crate::manifold::Pod)).
+        Linear = "linear",
     }
 }

@@ -45,15 +45,7 @@ pub fn read_results(experiment: &Experiment, directory: &Path) -> Result<Vec<Red
 fn row(experiment: &Experiment, line: &Line) -> Result<ReducedRow, ExperimentError> {
     let parameters = experiment.parameters.iter().map(|name| line.value(name));
     let samples = line.value("samples")?;
-    let choices = [
-        ChoiceName::Drawn,
-        ChoiceName::Spread,
-        ChoiceName::Greedy,
-        ChoiceName::Cubature,
-    ];
-    let mut chosen = vec!["all"];
-    chosen.extend(choices.map(ChoiceName::name));
-    let chosen = line.word("choice", &chosen)?;
+    let chosen = line.word("choice", &[&["all"], ChoiceName::WORDS].concat())?;
     let super_resolved = match line.optional("super_resolution_points")? {
         None => None,
         Some(points) => Some(SuperResolved {
@@ -65,10 +57,7 @@ fn row(experiment: &Experiment, line: &Line) -> Result<ReducedRow, ExperimentErr
     Ok(ReducedRow {
         case: line.value("case")?,
         parameters: parameters.collect::<Result<_, _>>()?,
-        manifold: line.word(
-            "manifold",
-            &[ManifoldName::Network, ManifoldName::Linear].map(ManifoldName::name),
-        )?,
+        manifold: line.word("manifold", ManifoldName::WORDS)?,
         variant: line.text("variant")?.to_owned(),
         samples,
         asked: match chosen {
@@ -76,14 +65,8 @@ fn row(experiment: &Experiment, line: &Line) -> Result<ReducedRow, ExperimentErr
             _ => SampleCount::Drawn(samples),
         },
         chosen,
-        quadrature: line.word(
-            "quadrature",
-            &[QuadratureName::Lagrangian, QuadratureName::Eulerian].map(QuadratureName::name),
-        )?,
-        update: line.word(
-            "update",
-            &[Update::VelocityOnly, Update::PositionVelocity].map(Update::name),
-        )?,
+        quadrature: line.word("quadrature", QuadratureName::WORDS)?,
+        update: line.word("update", Update::WORDS)?,
         step_factor: line.value("step_factor")?,
         error: line.value("position_error_percent")?,
         reconstruction_error: line.optional("reconstruction_error_percent")?,

@@ -13,18 +13,7 @@ mod refused;
 /// A strip whose left end is held, and which falls.
 const SCENE: &str = include_str!("../../tests/data/bending_strip.toml");
 
-const EXPERIMENT: &str = r#"
-title = "A strip"
-scene = "strip.toml"
-parameters = ["gravity", "angle"]
-keys = [
-    { key = "gravity.0", product = ["gravity", "sin angle"] },
-    { key = "gravity.1", factor = -1.0, product = ["gravity", "cos angle"] },
-]
-cases = { train = [[1.0, 0.0], [3.0, 0.2]], test = [[2.0, 0.1]] }
-training = { coordinates = 2, width = 6, depth = 2, epochs = 7, batch = 2, checkpoint_interval = 2 }
-run = { manifold = ["network", "linear"], samples = [20, "all"], quadrature = ["lagrangian"], update = ["position-velocity", "velocity-only"] }
-"#;
+const EXPERIMENT: &str = include_str!("../../tests/data/strip_rom.toml");
 
 fn files() -> (tempfile::TempDir, PathBuf) {
     let directory = tempfile::tempdir().expect("a directory");
@@ -55,19 +44,19 @@ struct Stop(u64);
 
 impl Watch for Stop {
     fn after_run(&mut self, done: usize, _: usize) -> ControlFlow<()> {
-        if done as u64 == self.0 {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
+        break_if(done as u64 == self.0)
     }
 
     fn after_epoch(&mut self, report: &EpochReport) -> ControlFlow<()> {
-        if report.epoch + 1 == self.0 {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
+        break_if(report.epoch + 1 == self.0)
+    }
+}
+
+fn break_if(stop: bool) -> ControlFlow<()> {
+    if stop {
+        ControlFlow::Break(())
+    } else {
+        ControlFlow::Continue(())
     }
 }
 

@@ -4,6 +4,7 @@ use serde::Deserialize;
 
 use super::neighbours::Search;
 use super::samples::SampleChoice;
+use crate::words::words;
 
 /// The choices of a reduced run; quadrature and update are independent of each other.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,23 +58,13 @@ pub enum Inverted {
     Limit,
 }
 
-/// How x̂ moves.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Update {
-    /// x̂ ← x̂ + Δt v̂; kinematic points have the velocity that takes them to their prescribed position (ours), so that errors at them do not add up.
-    VelocityOnly,
-    /// x̂ = argmin Σ|g(X_p, x̂) − x_p|², begun at 2 x̂_n − x̂_{n−1}, with at most three steps, the paper's number.
-    #[default]
-    PositionVelocity,
-}
-
-impl Update {
-    /// As in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::VelocityOnly => "velocity-only",
-            Self::PositionVelocity => "position-velocity",
-        }
+words! {
+    /// How x̂ moves.
+    Update {
+        /// x̂ ← x̂ + Δt v̂; kinematic points have the velocity that takes them to their prescribed position (ours), so that errors at them do not add up.
+        VelocityOnly = "velocity-only",
+        /// x̂ = argmin Σ|g(X_p, x̂) − x_p|², begun at 2 x̂_n − x̂_{n−1}, with at most three steps, the paper's number.
+        #[default]
+        PositionVelocity = "position-velocity",
     }
 }

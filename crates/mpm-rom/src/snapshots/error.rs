@@ -34,14 +34,6 @@ pub enum SnapshotsError {
         /// The number of parameters or points of the body.
         expected: usize,
     },
-    /// There is no run of that number.
-    #[error("run {number} of {runs}")]
-    NoSuchRun {
-        /// The number.
-        number: usize,
-        /// How many runs there are.
-        runs: usize,
-    },
 }
 
 /// A place in snapshots, as far as there is one; all counted from 0.

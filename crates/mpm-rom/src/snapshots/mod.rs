@@ -93,27 +93,6 @@ impl<const D: usize> Snapshots<D> {
     pub fn points(&self) -> usize {
         self.body.reference.len()
     }
-
-    /// The same body with the runs of these numbers, in this order.
-    ///
-    /// # Errors
-    /// [`SnapshotsError::NoSuchRun`]; [`SnapshotsError::Empty`] for no number.
-    pub fn select(&self, numbers: &[usize]) -> Result<Self, SnapshotsError> {
-        let run = |&number: &usize| {
-            self.runs.get(number).cloned().ok_or(SnapshotsError::NoSuchRun {
-                number,
-                runs: self.runs.len(),
-            })
-        };
-        let runs: Vec<_> = numbers.iter().map(run).collect::<Result<_, _>>()?;
-        if runs.is_empty() {
-            return Err(SnapshotsError::Empty { what: "runs" });
-        }
-        Ok(Self {
-            body: self.body.clone(),
-            runs,
-        })
-    }
 }
 
 impl<const D: usize> Body<D> {

@@ -54,19 +54,6 @@ fn a_file_reads_back_to_the_same_bits() {
 }
 
 #[test]
-fn a_selection_keeps_the_order_asked_for() {
-    let snapshots = Snapshots::new(body(), runs()).unwrap();
-    let selected = snapshots.select(&[1, 0, 1]).unwrap();
-    let parameters: Vec<_> = selected.runs().iter().map(|run| run.parameters[0]).collect();
-    assert_eq!(parameters, [2.0, 1.0, 2.0]);
-    assert_eq!(
-        snapshots.select(&[2]),
-        Err(SnapshotsError::NoSuchRun { number: 2, runs: 2 })
-    );
-    assert_eq!(snapshots.select(&[]), Err(SnapshotsError::Empty { what: "runs" }));
-}
-
-#[test]
 fn faults_are_named_with_run_frame_and_point() {
     use SnapshotsError as E;
     assert_eq!(refused(|b, _| b.reference.clear()), E::Empty { what: "points" });

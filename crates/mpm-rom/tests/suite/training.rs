@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use mpm_rom::snapshots::Snapshots;
+use mpm_rom::snapshots::{Run, Snapshots};
 use mpm_rom::training::{EpochReport, Optimizer, Trainer, Training, TrainingError};
 
 fn small() -> (Snapshots<3>, Training) {
@@ -119,10 +119,8 @@ fn a_loss_that_is_not_finite_has_its_error() {
 #[test]
 fn unseen_runs_are_reproduced() {
     let all = crate::common::bending_cylinder(200, 16, 12);
-    let (seen, unseen) = (
-        all.select(&(0..12).collect::<Vec<_>>()).unwrap(),
-        all.select(&[12, 13, 14, 15]).unwrap(),
-    );
+    let part = |runs: &[Run<3>]| Snapshots::new(all.body().clone(), runs.to_vec()).unwrap();
+    let (seen, unseen) = (part(&all.runs()[..12]), part(&all.runs()[12..]));
     let config = Training {
         epochs: 600,
         ..Training::default()

@@ -6,7 +6,7 @@ use std::ops::Range;
 use mpm_materials::{DeformationError, Law, Memory};
 use mpm_tensor::Matrix;
 
-use super::{AnyLaw, MEMORY_SIZE};
+use super::AnyLaw;
 
 /// The laws of a scene in the order of the materials' names: a law whose particles say by their state which one they follow.
 #[derive(Clone)]
@@ -29,26 +29,18 @@ pub struct LawState {
     pub memory: Memory,
 }
 
+impl LawState {
+    /// The state of a particle of this law that has not moved yet.
+    pub fn virgin(law: u32) -> Self {
+        let memory = Memory::default();
+        Self { law, memory }
+    }
+}
+
 impl<const D: usize> Laws<D> {
     /// The laws; `None` if there are none.
     pub fn new(table: Vec<AnyLaw<D>>) -> Option<Self> {
         (!table.is_empty()).then_some(Self { table })
-    }
-
-    /// The virgin state of a particle that follows the law of this number.
-    pub fn virgin(&self, law: u32) -> LawState {
-        LawState {
-            law,
-            memory: Memory::default(),
-        }
-    }
-
-    /// The state of a particle that follows the law of this number and remembers these numbers.
-    pub fn recall(&self, law: u32, numbers: &[f64; MEMORY_SIZE]) -> LawState {
-        LawState {
-            law,
-            memory: Memory(*numbers),
-        }
     }
 
     /// The longest explicit step for viscous stresses on a grid of this spacing, that of the law for which it is shortest; infinite without viscosity.
@@ -195,7 +187,7 @@ mod tests {
         let rates: Vec<Matrix<2>> = F.iter().map(|F| *F * 3.0).collect();
         // Long runs, short runs and single particles.
         let law = |k: usize| if k < 70 { 0 } else { (k / (1 + k % 4) % 3) as u32 };
-        let mut states: Vec<LawState> = (0..count).map(|k| laws.virgin(law(k))).collect();
+        let mut states: Vec<LawState> = (0..count).map(|k| LawState::virgin(law(k))).collect();
         let F: Vec<Matrix<2>> = F
             .iter()
             .zip(&mut states)
@@ -236,7 +228,7 @@ mod tests {
         );
         let trial = Matrix([[1.1, 0.2], [0.0, 1.05]]);
         let rate = Matrix([[0.0, 1.0], [2.0, 0.5]]);
-        let mut states: Vec<LawState> = (0..4).map(|law| laws.virgin(law)).collect();
+        let mut states: Vec<LawState> = (0..4).map(LawState::virgin).collect();
         let advanced: Vec<Matrix<2>> = states.iter_mut().map(|state| laws.advance(&trial, state)).collect();
 
         let mut own = Default::default();
@@ -269,8 +261,5 @@ mod tests {
         assert!(laws.rate_dependent());
         assert!((laws.viscous_step(0.1) - 0.01 * 2.0 / 0.4).abs() < 1e-15);
         assert!(Law::<2>::check(&laws, &Matrix([[1.0, 0.0], [0.0, -1.0]])).is_err());
-        for state in states {
-            assert_eq!(laws.recall(state.law, &state.memory.0), state);
-        }
     }
 }

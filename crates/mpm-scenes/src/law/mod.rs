@@ -5,6 +5,3 @@ mod laws;
 
 pub use build::{AnyLaw, build};
 pub use laws::{LawState, Laws};
-
-/// Numbers that say all that a law remembers.
-pub const MEMORY_SIZE: usize = 2;

@@ -21,38 +21,27 @@ impl<const D: usize> Loads<D> {
         }
         for (index, table) in scene.loads.iter().enumerate() {
             let field = |key: &str| format!("loads[{index}].{key}");
-            match table {
-                LoadTable::PointForce {
-                    region,
-                    body,
-                    force,
-                    ramp,
-                } => {
-                    let force = vector::<D>(&field("force"), force)?;
-                    let chosen = within(scene, particles, &field("region"), region, body.as_ref())?;
-                    let mass: f64 = chosen.iter().map(|&p| particles.masses[p]).sum();
-                    loads
-                        .direct
-                        .push(direct(particles, &chosen, *ramp, |_| force.map(|c| c / mass)));
+            if let Some(part) = table.part() {
+                let (key, force) = part.force;
+                let force = vector::<D>(&field(key), force)?;
+                let chosen = within(scene, particles, &field("region"), part.region, part.body)?;
+                let mass: f64 = chosen.iter().map(|&p| particles.masses[p]).sum();
+                let mut accelerations = vec![[0.0; D]; particles.positions.len()];
+                for p in chosen {
+                    accelerations[p] = match table {
+                        LoadTable::Traction { thickness, .. } => {
+                            let scale = particles.volumes[p] / (thickness * particles.masses[p]);
+                            force.map(|c| scale * c)
+                        }
+                        _ => force.map(|c| c / mass),
+                    };
                 }
-                LoadTable::Traction {
-                    region,
-                    body,
-                    traction,
-                    thickness,
-                    ramp,
-                } => {
-                    let traction = vector::<D>(&field("traction"), traction)?;
-                    let chosen = within(scene, particles, &field("region"), region, body.as_ref())?;
-                    loads.direct.push(direct(particles, &chosen, *ramp, |p| {
-                        let scale = particles.volumes[p] / (thickness * particles.masses[p]);
-                        traction.map(|c| scale * c)
-                    }));
-                }
-                LoadTable::Manufactured { solution } => {
-                    loads.manufactured.push(reference::manufactured(solution, scene)?);
-                    loads.reference_positions.clone_from(&particles.positions);
-                }
+                let ramp = part.ramp;
+                loads.direct.push(DirectLoad { accelerations, ramp });
+            }
+            if let LoadTable::Manufactured { solution } = table {
+                loads.manufactured.push(reference::manufactured(solution, scene)?);
+                loads.reference_positions.clone_from(&particles.positions);
             }
         }
         if let Some(table) = &scene.barrier {
@@ -85,19 +74,6 @@ pub(crate) fn within<const D: usize>(
         .map(|(p, _)| p);
     let chosen: Vec<usize> = chosen.collect();
     within_range(field, region, !chosen.is_empty(), "a region with particles in it").map(|_| chosen)
-}
-
-fn direct<const D: usize>(
-    particles: &Population<D>,
-    chosen: &[usize],
-    ramp: f64,
-    acceleration: impl Fn(usize) -> [f64; D],
-) -> DirectLoad<D> {
-    let mut accelerations = vec![[0.0; D]; particles.positions.len()];
-    for &p in chosen {
-        accelerations[p] = acceleration(p);
-    }
-    DirectLoad { accelerations, ramp }
 }
 
 /// With a Courant number of at most 1 no particle goes farther than one spacing in a step.

@@ -4,6 +4,10 @@
 
 use std::ops::{Add, Div, Mul, Sub};
 
+use mpm_materials::ElasticModuli;
+
+use crate::ManufacturedSolution;
+
 /// What the formulas of a motion need of a number.
 pub(super) trait Number:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
@@ -111,8 +115,28 @@ fn piola<N: Number>(F: [[N; 2]; 2], lambda: f64, mu: f64) -> [[N; 2]; 2] {
     std::array::from_fn(|i| std::array::from_fn(|j| N::constant(mu) * F[i][j] + pressure * inverse_transpose[i][j]))
 }
 
+/// Asserts that position, velocity and body force of a solution are those of the motion that it states, at some places and times.
+pub(super) fn assert_moves_by_its_force(
+    solution: &dyn ManufacturedSolution,
+    motion: &impl Motion,
+    (moduli, density): (&ElasticModuli, f64),
+    places: [([f64; 2], f64); 3],
+) {
+    let constants = (moduli.first_lame_parameter(), moduli.shear_modulus(), density);
+    for (X, t) in places {
+        let (velocity, force) = velocity_and_body_force(motion, X, t, constants);
+        let close = |found: [f64; 2], expected: [f64; 2], tolerance: f64| {
+            let near = (0..2).all(|a| (found[a] - expected[a]).abs() < tolerance);
+            assert!(near, "{found:?} for {expected:?} at {X:?}, {t}");
+        };
+        close(solution.position(&X, t), motion.position(X, t), 1e-14);
+        close(solution.velocity(&X, t), velocity, 1e-13);
+        close(solution.body_force(&X, t), force, 1e-11);
+    }
+}
+
 /// (v, b) of a motion at (X, t): v = ∂x/∂t and b = ∂²x/∂t² − Div P / ρ₀.
-pub(super) fn velocity_and_body_force(
+fn velocity_and_body_force(
     motion: &impl Motion,
     X: [f64; 2],
     t: f64,

@@ -11,49 +11,93 @@ use crate::scene::{BodyTable, FillKind, LoadTable, MaterialTable, ShapeTable, Ve
 pub struct Problem(pub fn(&Scene) -> bool, pub &'static str);
 
 pub const AXIS_ALIGNED: Problem = Problem(
-    axis_aligned,
+    |scene| manufactured(scene, "axis-aligned"),
     "a plane body of one elastic material, with the manufactured solution `axis-aligned` as velocity or load",
 );
 pub const GENERALIZED_VORTEX: Problem = Problem(
-    generalized_vortex,
+    |scene| manufactured(scene, "generalized-vortex"),
     "a plane body of one elastic material, with the manufactured solution `generalized-vortex` as velocity or load",
 );
 pub const CANTILEVER: Problem = Problem(
-    cantilever,
+    |scene| {
+        let box_of_one_solid = solid(scene).is_ok() && sides(scene).is_ok();
+        scene.dimension == 2 && box_of_one_solid && gravity(scene) > 0.0 && has_probe(scene, "tip")
+    },
     "a plane box of one elastic material under gravity, with the probe `tip`",
 );
-pub const CONSERVATION: Problem = Problem(conservation, "a plane scene without gravity");
+pub const CONSERVATION: Problem = Problem(
+    |scene| scene.dimension == 2 && gravity(scene) == 0.0,
+    "a plane scene without gravity",
+);
 pub const DAM_BREAK: Problem = Problem(
-    dam_break,
+    |scene| {
+        let fluid = scene
+            .materials
+            .values()
+            .all(|material| matches!(material, MaterialTable::TaitFluid(_)));
+        let column = sides(scene).is_ok_and(|sides| super::dam_break::is_column(&sides));
+        fluid && column && gravity(scene) > 0.0
+    },
     "a plane box of a tait-fluid under gravity, twice as high as wide",
 );
 pub const TWO_DISKS: Problem = Problem(
-    two_disks,
+    |scene| {
+        let sphere = |body: &BodyTable| matches!(body.shape, ShapeTable::Sphere { .. });
+        let two = scene.dimension == 2 && scene.bodies.len() == 2 && scene.bodies.iter().all(sphere);
+        two && spacing(scene).is_ok() && has_probe(scene, "first")
+    },
     "two spheres in the plane on a grid or a generated mesh, with the probe `first`",
 );
 pub const BAR: Problem = Problem(
-    bar,
+    |scene| {
+        let velocity = scene.bodies.first().and_then(|body| body.velocity.as_ref());
+        let sine = matches!(velocity, Some(VelocityTable::Field(VelocityField::Sine { .. })));
+        scene.dimension == 1 && sine && solid(scene).is_ok() && sides(scene).is_ok()
+    },
     "a box in one dimension of one elastic material, with a sine as its velocity",
 );
 pub const BAR_WITH_PROBE: Problem = Problem(
-    bar_with_probe,
+    |scene| {
+        let mut probes = scene.probes.iter();
+        (BAR.0)(scene) && probes.any(|probe| probe.name == "middle" && probe.at.is_some())
+    },
     "a box in one dimension of one elastic material, with a sine as its velocity, and the probe `middle` at a point",
 );
 pub const TILTED_CANTILEVER: Problem = Problem(
-    tilted_cantilever,
+    |scene| scene.dimension == 2 && tilted_cantilever::fine_run_of(scene).is_some() && has_probe(scene, "tip"),
     "a plane body turned by 0, 15, 30 or 45 degrees, with the probe `tip`",
 );
 pub const CHANNEL: Problem = Problem(
-    channel,
+    |scene| {
+        let random = |body: &BodyTable| body.fill == FillKind::Random;
+        let falls = scene.dimension == 2 && gravity(scene) > 0.0;
+        let walled = scene.barrier.is_some() || !scene.facets.is_empty();
+        falls && walled && scene.bodies.iter().all(random)
+    },
     "randomly filled plane bodies under gravity, with a barrier or facets",
 );
 pub const CYLINDER: Problem = Problem(
-    cylinder,
+    |scene| scene.dimension == 2 && ThickWalledCylinder::of(scene).is_some(),
     "a plane ring (a sphere less a smaller one about its centre) of one elastic material, with a pressure on facets",
 );
-pub const EXPANSION: Problem = Problem(expansion, "a scene in three dimensions with a barrier");
+pub const EXPANSION: Problem = Problem(
+    |scene| scene.dimension == 3 && scene.barrier.is_some(),
+    "a scene in three dimensions with a barrier",
+);
 pub const SLOPE: Problem = Problem(
-    slope,
+    |scene| {
+        let body = scene.bodies.first();
+        let base = body.and_then(|body| slope_run_out::base(&body.shape));
+        let spaced = body.is_some_and(|body| body.spacing.is_some());
+        let yields = |material: &MaterialTable| {
+            matches!(
+                material,
+                MaterialTable::SofteningHencky(_) | MaterialTable::DruckerPrager(_)
+            )
+        };
+        let falls = scene.dimension > 1 && gravity(scene) > 0.0 && scene.materials.values().all(yields);
+        falls && base.is_some() && spaced
+    },
     "a polygon or box of a softening-hencky or drucker-prager material under gravity, whose particles have a spacing",
 );
 
@@ -67,80 +111,4 @@ fn manufactured(scene: &Scene, name: &str) -> bool {
     let pulls = |load: &LoadTable| matches!(load, LoadTable::Manufactured { solution } if solution == name);
     let named = scene.bodies.iter().any(moves) || scene.loads.iter().any(pulls);
     named && scene.dimension == 2 && solid(scene).is_ok()
-}
-
-fn axis_aligned(scene: &Scene) -> bool {
-    manufactured(scene, "axis-aligned")
-}
-
-fn generalized_vortex(scene: &Scene) -> bool {
-    manufactured(scene, "generalized-vortex")
-}
-
-fn cantilever(scene: &Scene) -> bool {
-    let box_of_one_solid = solid(scene).is_ok() && sides(scene).is_ok();
-    scene.dimension == 2 && box_of_one_solid && gravity(scene) > 0.0 && has_probe(scene, "tip")
-}
-
-fn conservation(scene: &Scene) -> bool {
-    scene.dimension == 2 && gravity(scene) == 0.0
-}
-
-fn dam_break(scene: &Scene) -> bool {
-    let fluid = scene
-        .materials
-        .values()
-        .all(|material| matches!(material, MaterialTable::TaitFluid(_)));
-    let column = sides(scene).is_ok_and(|sides| super::dam_break::is_column(&sides));
-    fluid && column && gravity(scene) > 0.0
-}
-
-fn two_disks(scene: &Scene) -> bool {
-    let sphere = |body: &BodyTable| matches!(body.shape, ShapeTable::Sphere { .. });
-    let two = scene.dimension == 2 && scene.bodies.len() == 2 && scene.bodies.iter().all(sphere);
-    two && spacing(scene).is_ok() && has_probe(scene, "first")
-}
-
-fn bar(scene: &Scene) -> bool {
-    let velocity = scene.bodies.first().and_then(|body| body.velocity.as_ref());
-    let sine = matches!(velocity, Some(VelocityTable::Field(VelocityField::Sine { .. })));
-    scene.dimension == 1 && sine && solid(scene).is_ok() && sides(scene).is_ok()
-}
-
-fn bar_with_probe(scene: &Scene) -> bool {
-    let mut probes = scene.probes.iter();
-    bar(scene) && probes.any(|probe| probe.name == "middle" && probe.at.is_some())
-}
-
-fn tilted_cantilever(scene: &Scene) -> bool {
-    scene.dimension == 2 && tilted_cantilever::fine_run_of(scene).is_some() && has_probe(scene, "tip")
-}
-
-fn channel(scene: &Scene) -> bool {
-    let random = |body: &BodyTable| body.fill == FillKind::Random;
-    let falls = scene.dimension == 2 && gravity(scene) > 0.0;
-    let walled = scene.barrier.is_some() || !scene.facets.is_empty();
-    falls && walled && scene.bodies.iter().all(random)
-}
-
-fn cylinder(scene: &Scene) -> bool {
-    scene.dimension == 2 && ThickWalledCylinder::of(scene).is_some()
-}
-
-fn expansion(scene: &Scene) -> bool {
-    scene.dimension == 3 && scene.barrier.is_some()
-}
-
-fn slope(scene: &Scene) -> bool {
-    let body = scene.bodies.first();
-    let base = body.and_then(|body| slope_run_out::base(&body.shape));
-    let spaced = body.is_some_and(|body| body.spacing.is_some());
-    let yields = |material: &MaterialTable| {
-        matches!(
-            material,
-            MaterialTable::SofteningHencky(_) | MaterialTable::DruckerPrager(_)
-        )
-    };
-    let falls = scene.dimension > 1 && gravity(scene) > 0.0 && scene.materials.values().all(yields);
-    falls && base.is_some() && spaced
 }

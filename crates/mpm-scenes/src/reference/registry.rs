@@ -49,37 +49,20 @@ const SOLUTIONS: [(&str, Manufacture); 2] = [
 ];
 
 /// Names that `validation.reference` may have.
-pub const REFERENCES: &[&str] = &{
-    let mut names = [""; VALIDATIONS.len()];
-    let mut k = 0;
-    while k < names.len() {
-        names[k] = VALIDATIONS[k].0;
-        k += 1;
-    }
-    names
-};
-
-/// Names of manufactured solutions, for bodies (`velocity = { kind = "manufactured", solution = NAME }`) and loads.
-pub const MANUFACTURED: &[&str] = &{
-    let mut names = [""; SOLUTIONS.len()];
-    let mut k = 0;
-    while k < names.len() {
-        names[k] = SOLUTIONS[k].0;
-        k += 1;
-    }
-    names
-};
+pub fn references() -> [&'static str; VALIDATIONS.len()] {
+    VALIDATIONS.map(|(name, ..)| name)
+}
 
 /// The reference of this name.
 fn named(name: &str) -> Result<&'static Reference, SceneFault> {
     let entry = VALIDATIONS.iter().find(|(known, ..)| *known == name);
-    entry.ok_or_else(|| SceneFault::value("validation.reference", name, format!("one of {REFERENCES:?}")))
+    entry.ok_or_else(|| SceneFault::value("validation.reference", name, format!("one of {:?}", references())))
 }
 
 /// Whether the reference `name` is one for this scene.
 ///
 /// # Errors
-/// [`SceneFault::Value`] for a name that is none of [`REFERENCES`], or a scene that the reference does not describe.
+/// [`SceneFault::Value`] for a name that is none of [`references`], or a scene that the reference does not describe.
 pub fn check(name: &str, scene: &Scene) -> Result<(), SceneFault> {
     let (_, Problem(fits, described), _) = named(name)?;
     let expected = format!("one for this scene: {name} is for {described}");
@@ -89,7 +72,7 @@ pub fn check(name: &str, scene: &Scene) -> Result<(), SceneFault> {
 /// Compares a finished run with the reference `name`, by its series and its last particles.
 ///
 /// # Errors
-/// [`SceneFault::Value`] for a name that is none of [`REFERENCES`], or a scene that the reference does not describe.
+/// [`SceneFault::Value`] for a name that is none of [`references`], or a scene that the reference does not describe.
 pub fn validate(name: &str, scene: &Scene, series: &Series, last: &Snapshot) -> Rows {
     (named(name)?.2)(&Run { scene, series, last })
 }
@@ -105,9 +88,9 @@ pub fn displacement(scene: &Scene) -> Option<Displacement> {
 /// The manufactured solution `name` for the material of this scene.
 ///
 /// # Errors
-/// [`SceneFault::Value`] for a name that is none of [`MANUFACTURED`], or a scene that it does not describe.
+/// [`SceneFault::Value`] for a name that is not known, or a scene that it does not describe.
 pub fn manufactured(name: &str, scene: &Scene) -> Result<Box<dyn ManufacturedSolution>, SceneFault> {
-    let expected = || format!("one of {MANUFACTURED:?}");
+    let expected = || format!("one of {:?}", SOLUTIONS.map(|(name, _)| name));
     let entry = SOLUTIONS.iter().find(|(known, _)| *known == name);
     let (_, manufacture) = entry.ok_or_else(|| SceneFault::value("solution", name, expected()))?;
     manufacture(scene)

@@ -49,12 +49,11 @@ pub(super) fn build<const D: usize>(
     background: Background<D>,
     boundaries: Boundaries<D>,
 ) -> Result<Box<dyn Motion<D>>, SceneFault> {
-    let laws = laws(scene)?;
     let parts = Parts {
         scene,
-        particles: particles(population, &laws)?,
+        particles: particles(population)?,
         loads: Loads::of(scene, population, &background)?,
-        laws,
+        laws: laws(scene)?,
         boundaries,
     };
     match (scene.discretisation()?, background) {
@@ -96,7 +95,7 @@ fn laws<const D: usize>(scene: &Scene) -> Result<Laws<D>, SceneFault> {
     laws.ok_or_else(|| SceneFault::value("materials", [0; 0], "at least one material"))
 }
 
-fn particles<const D: usize>(population: &Population<D>, laws: &Laws<D>) -> Result<Particles<D, LawState>, SceneFault> {
+fn particles<const D: usize>(population: &Population<D>) -> Result<Particles<D, LawState>, SceneFault> {
     let particles = Particles::in_order(
         population.positions.clone(),
         population.velocities.clone(),
@@ -104,7 +103,7 @@ fn particles<const D: usize>(population: &Population<D>, laws: &Laws<D>) -> Resu
         Vec::new(),
         (0..population.positions.len() as u32).collect(),
     );
-    let states = population.materials.iter().map(|&law| laws.virgin(law)).collect();
+    let states = population.materials.iter().map(|&law| LawState::virgin(law)).collect();
     let particles = particles.map_err(refused)?;
     let mut particles = particles.with_states(population.volumes.clone(), states);
     let stretches = population.stretches.iter();

@@ -64,7 +64,7 @@ impl<'a, const D: usize> Driver<'a, D> {
         (self.body.step, self.earlier, self.body.free_step) = (saved.step, saved.step, saved.free_step);
         self.resumed_at = Some(saved.time);
         self.body.motion.set_time(saved.time);
-        let particles = saved.particles(self.body.motion.laws());
+        let particles = saved.particles();
         let path = self.out.join(names::CHECKPOINT);
         let particles = particles.map_err(|error| checkpoint::refused(&path, error.to_string()))?;
         self.body.motion.set_particles(particles);

@@ -42,3 +42,40 @@ pub enum LoadTable {
         solution: String,
     },
 }
+
+/// What the loads on a part of the particles have in common.
+pub(crate) struct LoadPart<'a> {
+    pub region: &'a ShapeTable,
+    pub body: Option<&'a String>,
+    /// Force or traction, and its key.
+    pub force: (&'static str, &'a [f64]),
+    pub ramp: f64,
+}
+
+impl LoadTable {
+    /// What a load acts on, unless that is all particles.
+    pub(crate) fn part(&self) -> Option<LoadPart<'_>> {
+        let (region, body, force, ramp) = match self {
+            Self::PointForce {
+                region,
+                body,
+                force,
+                ramp,
+            } => (region, body, ("force", force), ramp),
+            Self::Traction {
+                region,
+                body,
+                traction,
+                ramp,
+                ..
+            } => (region, body, ("traction", traction), ramp),
+            Self::Manufactured { .. } => return None,
+        };
+        Some(LoadPart {
+            region,
+            body: body.as_ref(),
+            force: (force.0, force.1.as_slice()),
+            ramp: *ramp,
+        })
+    }
+}

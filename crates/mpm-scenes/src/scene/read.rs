@@ -15,10 +15,7 @@ impl Scene {
         let file = path.into();
         match std::fs::read_to_string(&file) {
             Ok(text) => Self::parse(&text, &file),
-            Err(error) => Err(SceneError {
-                file,
-                fault: Box::new(error.into()),
-            }),
+            Err(error) => Err(refused(&file, error.into())),
         }
     }
 
@@ -34,17 +31,18 @@ impl Scene {
             scene.check()?;
             Ok(scene)
         });
-        checked.map_err(|fault| SceneError {
-            file: file.to_owned(),
-            fault: Box::new(fault),
-        })
+        checked.map_err(|fault| refused(file, fault))
     }
 
     /// A fault of this scene as an error that names its file.
     pub fn error(&self, fault: SceneFault) -> SceneError {
-        SceneError {
-            file: self.file.clone(),
-            fault: Box::new(fault),
-        }
+        refused(&self.file, fault)
+    }
+}
+
+fn refused(file: &Path, fault: SceneFault) -> SceneError {
+    SceneError {
+        file: file.to_owned(),
+        fault: Box::new(fault),
     }
 }

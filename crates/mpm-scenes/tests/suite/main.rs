@@ -12,4 +12,3 @@ mod refusal;
 mod resume;
 mod runs;
 mod scenes;
-mod validation;

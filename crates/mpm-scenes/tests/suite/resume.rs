@@ -19,6 +19,14 @@ fn files(directory: &Path) -> BTreeMap<String, Vec<u8>> {
         .collect()
 }
 
+fn break_if(stop: bool) -> ControlFlow<()> {
+    if stop {
+        ControlFlow::Break(())
+    } else {
+        ControlFlow::Continue(())
+    }
+}
+
 #[test]
 fn a_stopped_run_ends_with_the_files_of_one_that_was_not() {
     for text in [BAR, BLOCK, HEAPS, CUBE, BLOCK_ON_MESH] {
@@ -32,13 +40,7 @@ fn a_stopped_run_ends_with_the_files_of_one_that_was_not() {
         let every = summary.steps / 4 + 1;
         let mut stops = 0;
         let resumed = loop {
-            let stop = &mut |progress: Progress| {
-                if progress.step.is_multiple_of(every) {
-                    ControlFlow::Break(())
-                } else {
-                    ControlFlow::Continue(())
-                }
-            };
+            let stop = &mut |progress: Progress| break_if(progress.step.is_multiple_of(every));
             let part = simulate(&scene, parts.path(), stop).expect("runs");
             if part.outcome == Outcome::Finished {
                 break part;
@@ -88,11 +90,7 @@ fn a_run_that_was_killed_goes_on_from_its_last_checkpoint() {
         if old.is_none() && progress.time > 0.05 {
             old = std::fs::read(&checkpoint).ok();
         }
-        if progress.time > 0.16 {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
+        break_if(progress.time > 0.16)
     };
     simulate(&scene, killed.path(), stop).expect("runs");
     std::fs::write(&checkpoint, old.expect("one at t = 0.04")).expect("writable");

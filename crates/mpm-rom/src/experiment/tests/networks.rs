@@ -72,11 +72,7 @@ fn of_several_starts_the_one_with_the_best_training_runs_is_kept() {
     impl Watch for StopTrial {
         fn after_trial(&mut self) -> ControlFlow<()> {
             self.0 -= 1;
-            if self.0 == 0 {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
+            break_if(self.0 == 0)
         }
     }
     let stopped = directory.path().join("stopped");
@@ -104,16 +100,4 @@ fn of_several_starts_the_one_with_the_best_training_runs_is_kept() {
         message(("cases = {", "starts = 0\ncases = {")),
         "rom.toml, starts: 0: at least 1"
     );
-}
-
-#[test]
-fn the_experiments_of_the_repository_are_sound() {
-    let directory = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../experiments/rom");
-    let read = |name: &str| Experiment::read(&directory.join(name)).expect("sound");
-    for entry in std::fs::read_dir(&directory).expect("a directory") {
-        read(&entry.expect("an entry").file_name().to_string_lossy());
-    }
-    let (pokes, random) = (read("poke.toml"), read("poke_random.toml"));
-    assert_eq!(pokes.training, random.training);
-    assert!(random.cases.test.iter().all(|angle| !pokes.cases.test.contains(angle)));
 }

@@ -4,6 +4,11 @@ use super::*;
 use crate::online::eulerian::Eulerian;
 use crate::online::step::Scheme;
 
+/// The block, held at its left end and pulled down.
+fn held_and_pulled() -> String {
+    BLOCK.replace("gravity = [0.0, 0.0]", "gravity = [0.0, -8.0]") + HELD
+}
+
 #[test]
 fn at_rest_the_points_of_space_fill_the_body() {
     let chosen = options(SampleChoice::All, EULERIAN, Update::VelocityOnly);
@@ -17,13 +22,9 @@ fn at_rest_the_points_of_space_fill_the_body() {
 
 #[test]
 fn points_of_space_give_nearly_the_motion_of_the_material_points() {
-    let text = format!(
-        "{}{HELD}",
-        BLOCK.replace("gravity = [0.0, 0.0]", "gravity = [0.0, -8.0]")
-    );
     let run = |quadrature| {
         let chosen = options(SampleChoice::All, quadrature, Update::VelocityOnly);
-        let mut model = model(&text, Fields::bending(4), chosen);
+        let mut model = model(&held_and_pulled(), Fields::bending(4), chosen);
         (0..10).for_each(|_| {
             advance_frame(&mut model).expect("a frame");
         });
@@ -39,16 +40,12 @@ fn points_of_space_give_nearly_the_motion_of_the_material_points() {
 
 #[test]
 fn held_points_hold_the_coordinates() {
-    let text = format!(
-        "{}{HELD}",
-        BLOCK.replace("gravity = [0.0, 0.0]", "gravity = [0.0, -8.0]")
-    );
     let chosen = options(
         SampleChoice::Drawn { count: 20, seed: 0 },
         LAGRANGIAN,
         Update::PositionVelocity,
     );
-    let mut model = model(&text, Fields::affine(), chosen);
+    let mut model = model(&held_and_pulled(), Fields::affine(), chosen);
     let held = model
         .samples()
         .iter()
@@ -114,14 +111,10 @@ fn held_nodes_that_turn_carry_the_body() {
 /// A search that begins anew in every step and goes on to rounding is the oracle for points that are followed.
 #[test]
 fn points_of_space_are_followed_to_where_a_search_finds_them() {
-    let text = format!(
-        "{}{HELD}",
-        BLOCK.replace("gravity = [0.0, 0.0]", "gravity = [0.0, -8.0]")
-    );
     let samples = SampleChoice::Drawn { count: 12, seed: 1 };
     let run = |fresh: bool| {
         let chosen = options(samples.clone(), EULERIAN, Update::VelocityOnly);
-        let mut model = model(&text, Fields::bending(4), chosen);
+        let mut model = model(&held_and_pulled(), Fields::bending(4), chosen);
         let mut sums = Vec::new();
         for _ in 0..100 {
             if fresh {

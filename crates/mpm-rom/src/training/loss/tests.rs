@@ -152,18 +152,7 @@ fn the_last_frame_has_no_velocity_term() {
 
 #[test]
 fn terms_without_weight_are_left_out() {
-    check(
-        Weights {
-            gradient: 0.0,
-            ..WEIGHTS
-        },
-        0,
-    );
-    check(
-        Weights {
-            velocity: 0.0,
-            ..WEIGHTS
-        },
-        0,
-    );
+    let (gradient, velocity) = (0.0, 0.0);
+    check(Weights { gradient, ..WEIGHTS }, 0);
+    check(Weights { velocity, ..WEIGHTS }, 0);
 }

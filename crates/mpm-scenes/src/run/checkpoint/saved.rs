@@ -1,10 +1,11 @@
 //! A run on its way as plain numbers.
 
 use mpm_core::{Masses, MpmError, Particles};
+use mpm_materials::Memory;
 use mpm_tensor::Matrix;
 use serde::{Deserialize, Serialize};
 
-use crate::law::{LawState, Laws, MEMORY_SIZE};
+use crate::law::LawState;
 
 /// All that a run needs to go on. Scene, bodies and forces are built again.
 #[derive(Serialize, Deserialize)]
@@ -27,7 +28,7 @@ pub(in crate::run) struct Saved {
     velocity_gradients: Vec<f64>,
     reference_volumes: Vec<f64>,
     laws: Vec<u32>,
-    memories: Vec<[f64; MEMORY_SIZE]>,
+    memories: Vec<[f64; 2]>,
     identities: Vec<u32>,
 }
 
@@ -66,7 +67,7 @@ impl Saved {
     ///
     /// # Errors
     /// [`MpmError`] for lists that do not fit together.
-    pub fn particles<const D: usize>(self, laws: &Laws<D>) -> Result<Particles<D, LawState>, MpmError> {
+    pub fn particles<const D: usize>(self) -> Result<Particles<D, LawState>, MpmError> {
         let particles = Particles::in_order(
             self.positions.as_chunks().0.to_vec(),
             self.velocities.as_chunks().0.to_vec(),
@@ -75,8 +76,11 @@ impl Saved {
             self.identities,
         )?;
         let states = self.laws.iter().zip(&self.memories);
-        let states = states.map(|(&law, memory)| laws.recall(law, memory)).collect();
-        let mut particles = particles.with_states(self.reference_volumes, states);
+        let states = states.map(|(&law, &memory)| LawState {
+            law,
+            memory: Memory(memory),
+        });
+        let mut particles = particles.with_states(self.reference_volumes, states.collect());
         particles.deformation_gradients = matrices(&self.deformation_gradients);
         particles.velocity_gradients = matrices(&self.velocity_gradients);
         Ok(particles)

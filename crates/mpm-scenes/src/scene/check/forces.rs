@@ -8,35 +8,18 @@ impl Scene {
     pub(super) fn check_forces<const D: usize>(&self) -> Result<(), SceneFault> {
         for (index, load) in self.loads.iter().enumerate() {
             let field = |key: &str| format!("loads[{index}].{key}");
-            let (region, body, ramp) = match load {
-                LoadTable::PointForce {
-                    region,
-                    body,
-                    force,
-                    ramp,
-                } => {
-                    vector::<D>(&field("force"), force)?;
-                    (region, body, *ramp)
-                }
-                LoadTable::Traction {
-                    region,
-                    body,
-                    traction,
-                    thickness,
-                    ramp,
-                } => {
-                    vector::<D>(&field("traction"), traction)?;
-                    positive(&field("thickness"), *thickness)?;
-                    (region, body, *ramp)
-                }
-                LoadTable::Manufactured { solution } => {
-                    reference::manufactured(solution, self)?;
-                    continue;
-                }
-            };
-            shape::build::<D>(&field("region"), region)?;
-            self.check_body_name(field("body"), body.as_ref())?;
-            not_negative(&field("ramp"), ramp)?;
+            match load {
+                LoadTable::Traction { thickness, .. } => drop(positive(&field("thickness"), *thickness)?),
+                LoadTable::Manufactured { solution } => drop(reference::manufactured(solution, self)?),
+                LoadTable::PointForce { .. } => {}
+            }
+            if let Some(part) = load.part() {
+                let (key, force) = part.force;
+                vector::<D>(&field(key), force)?;
+                shape::build::<D>(&field("region"), part.region)?;
+                self.check_body_name(field("body"), part.body)?;
+                not_negative(&field("ramp"), part.ramp)?;
+            }
         }
         self.check_barrier::<D>()
     }

@@ -1,8 +1,9 @@
-//! Conformance of a basis, part: deposits and interpolations against its entries.
+//! Deposits and interpolations against the entries of a basis.
 
-use mpm_core::Basis;
 use mpm_kernels::{Deposit, NodeField, NodeSink, Packed, Wanted};
 use mpm_tensor::Matrix;
+
+use crate::Basis;
 
 /// One sum, or one vector, per node of a stencil.
 struct Nodes<const D: usize>(Vec<Deposit<D>>);
@@ -28,7 +29,11 @@ impl<const D: usize> NodeField<D> for Nodes<D> {
     }
 }
 
-/// What a particle at `x`, in a cell of so many `places`, sends to its nodes and reads from them.
+/// What a particle at `x`, in a cell of so many `places`, sends to its nodes and reads from them: the sums over [`Basis::for_each_node`], to rounding.
+///
+/// # Panics
+///
+/// Where that is not so, with `what` in the message.
 pub fn transfers_are_sums<const D: usize, B: Basis<D>>(
     basis: &B,
     particle: usize,

@@ -5,5 +5,6 @@ mod cantilever;
 mod convergence;
 mod flows;
 mod problem;
+mod references;
 mod solids;
 mod umls;

@@ -20,7 +20,7 @@ const SAME: f64 = 1e-3;
 
 /// Runs the committed scene `name` with texts of it replaced.
 pub fn run(name: &str, changes: &[(&str, &str)]) -> Finished {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../experiments/scenes/{name}.toml"));
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("scenes/{name}.toml"));
     let mut text = std::fs::read_to_string(&path).expect("a committed scene");
     for (old, new) in changes {
         assert!(text.contains(old), "{name} has no {old:?}");

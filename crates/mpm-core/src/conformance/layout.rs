@@ -1,8 +1,12 @@
-//! Conformance of a basis, part: who works when.
+//! Who works when.
 
-use mpm_core::{Basis, NO_NODE};
+use crate::{Basis, NO_NODE};
 
-/// The schedule is a permutation in cells and parts, and a part's cells touch no node outside its range.
+/// The schedule of a basis rebuilt for `positions` is a permutation in cells and parts, and a part's cells touch no node outside its range.
+///
+/// # Panics
+///
+/// Where that is not so, with `what` in the message.
 pub fn layout_is_sound<const D: usize, B: Basis<D>>(basis: &B, positions: &[[f64; D]], what: &str) {
     let schedule = basis.schedule();
     let mut order = schedule.order().to_vec();

@@ -1,0 +1,7 @@
+//! What every [`Basis`](crate::Basis) must do, as assertions for the tests of whoever writes one. A basis that does not do it panics.
+
+mod layout;
+mod transfers;
+
+pub use layout::layout_is_sound;
+pub use transfers::transfers_are_sums;
