@@ -55,8 +55,7 @@ pub(crate) fn slow_nodes<const D: usize, B: Basis<D>, N: GridNode<D>>(
         return;
     }
     impulses.scatter(basis, positions, move |p, x, stencil| {
-        let force = &forces[p];
-        if *force != [0.0; D] {
+        if let Some(force) = forces.get(p).filter(|force| **force != [0.0; D]) {
             let scale = time_step * masses.get(p);
             basis.for_each_node(p, x, |index, entry| {
                 vector::accumulate(&mut stencil.node(index).0, scale * entry.weight, force);
