@@ -53,11 +53,7 @@ impl<const D: usize> MeshBasis<D> {
             (tilts[a], bends[a]) = (splats::<D>(&tilt[a]), splats::<D>(&bend[a]));
         }
         self.for_each_group(particle, x, |first, sample, r| {
-            let mut weight = level;
-            for a in 0..D {
-                weight = slope[a].mul_add(r[a], weight);
-            }
-            weight *= sample;
+            let weight = weight_of(sample, level, &slope, r);
             let mut sent = [Lanes::ZERO; LANES];
             sent[0] = weight * mass;
             for c in 0..D {
@@ -101,11 +97,7 @@ impl<const D: usize> MeshBasis<D> {
         // Σ w v or, with a gradient, Σ d′ v; Σ d′ v r_a; Σ w v r_a.
         let (mut zeroth, mut first, mut moment) = (Pack::ZERO, [Pack::ZERO; D], [Pack::ZERO; D]);
         self.for_each_group(particle, x, |place, sample, r| {
-            let mut weight = level;
-            for a in 0..D {
-                weight = slope[a].mul_add(r[a], weight);
-            }
-            weight *= sample;
+            let weight = weight_of(sample, level, &slope, r);
             let (mut sampled, mut weighted) = (*r, *r);
             for a in 0..D {
                 sampled[a] *= sample;
@@ -157,11 +149,7 @@ impl<const D: usize> MeshBasis<D> {
         let fit = &self.particles[particle].fit;
         let (level, slope) = (Lanes::splat(fit.level), fit.slope.map(Lanes::splat));
         self.for_each_group(particle, x, |_, sample, r| {
-            let mut weight = level;
-            for a in 0..D {
-                weight = slope[a].mul_add(r[a], weight);
-            }
-            visit(weight * sample);
+            visit(weight_of(sample, level, &slope, r));
         });
     }
 
@@ -194,6 +182,16 @@ impl<const D: usize> MeshBasis<D> {
         });
         sum.reduce_add()
     }
+}
+
+/// d′ (α + β·r) of four nodes.
+#[inline(always)]
+fn weight_of<const D: usize>(sample: Lanes, level: Lanes, slope: &[Lanes; D], r: &[Lanes; D]) -> Lanes {
+    let mut sum = level;
+    for a in 0..D {
+        sum = slope[a].mul_add(r[a], sum);
+    }
+    sum * sample
 }
 
 /// The components of a vector, each in all lanes.
