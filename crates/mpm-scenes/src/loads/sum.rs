@@ -137,12 +137,14 @@ impl<const D: usize> BodyForce<D> for Loads<D> {
             let each = contact.par_iter_mut().zip(places).with_min_len(PIECE);
             each.for_each(|(contact, (x, &identity))| *contact = self.contact_of(identity as usize, x));
         }
-        let own = &*self;
-        let each = accelerations.par_iter_mut().zip(sites.identities).with_min_len(PIECE);
-        each.for_each(|(acceleration, &identity)| *acceleration = own.acceleration(identity as usize, sites.time));
-        for (acceleration, contact) in accelerations.iter_mut().zip(&contact) {
-            vector::accumulate(acceleration, 1.0, contact);
-        }
+        let (own, contact_of) = (&*self, &contact);
+        let each = accelerations.par_iter_mut().zip(sites.identities).enumerate();
+        each.with_min_len(PIECE).for_each(|(index, (acceleration, &identity))| {
+            *acceleration = own.acceleration(identity as usize, sites.time);
+            if let Some(contact) = contact_of.get(index) {
+                vector::accumulate(acceleration, 1.0, contact);
+            }
+        });
         self.contact = contact;
         Ok(())
     }
