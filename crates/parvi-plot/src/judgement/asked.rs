@@ -1,9 +1,17 @@
 //! What is asked of a series.
 
+use serde::Deserialize;
+
 use super::{MeasuredSeries, Verdict, bound, order, power_law, spread};
 
-/// What is asked.
-#[derive(Clone, Debug, PartialEq)]
+/// What is asked; read from a table with its `kind`, as in `{ kind = "order", at-least = 1.9 }`.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(
+    tag = "kind",
+    deny_unknown_fields,
+    rename_all = "kebab-case",
+    rename_all_fields = "kebab-case"
+)]
 pub enum Judgement {
     /// value ∝ xᵖ with p ≥ `at_least`, by least squares in logarithms: the order of convergence where x is a spacing.
     Order {
@@ -33,6 +41,7 @@ pub enum Judgement {
         /// The tolerance; that of the rows if absent.
         tolerance: Option<f64>,
         /// The x that are judged; empty: all.
+        #[serde(default)]
         at: Vec<f64>,
     },
 }

@@ -4,7 +4,6 @@ use serde::Deserializer;
 use toml::Table;
 
 use super::axis::Axis;
-use super::judgement;
 use super::reading::Reading;
 use crate::plots::judgement::Judgement;
 use crate::study::prelude::*;
@@ -39,7 +38,7 @@ pub struct Family {
     /// The number.
     pub read: Reading,
     /// What is asked of the numbers.
-    #[serde(default, deserialize_with = "judgement::list")]
+    #[serde(default)]
     pub judgements: Vec<Judgement>,
     /// Parts of the labels of the series that are judged; empty: all.
     #[serde(default)]

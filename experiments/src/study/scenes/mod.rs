@@ -8,7 +8,6 @@ mod configuration;
 mod family;
 mod figure;
 mod history;
-mod judgement;
 mod reading;
 mod report;
 mod scene_files;
