@@ -5,8 +5,8 @@ use crate::making::{BoxedTarget, boxed, data_path, file_or, in_dimension, regres
 use crate::synthetic::synthetic_counts;
 use crate::wells::{WELLS_MAXIMUM_DIMENSION, WELLS_SMALL_ROWS, wells};
 use crate::{
-    Banana, Cross, Eggbox, Funnel, Gaussian, GaussianMixture, GaussianShells, LogGamma, Logarithm, Logit, Probit,
-    RandomTarget, RegressionData, Ring, Rosenbrock, Schools, SpikeSlab, StudentT, TargetError,
+    Banana, Cross, Eggbox, Funnel, Gaussian, GaussianMixture, GaussianShells, LinearModel, LogGamma, Logarithm, Logit,
+    Probit, RandomTarget, RegressionData, Ring, Rosenbrock, Schools, SpikeSlab, StudentT, TargetError,
 };
 
 /// Every target of the catalogue, in the order of the documentation.
@@ -346,4 +346,22 @@ targets! {
             let path = data_path(name, parameters)?;
             regression::<Logit, D>(name, RegressionData::from_csv_file(path)?, parameters)
         };
+    of_data(
+        "kidscore",
+        Dimensions::Fixed(5),
+        "linear model: test scores of 434 children by their mothers' schooling and intelligence (posteriordb)",
+        &[],
+    ) => in_dimension(LinearModel::kidscore());
+    of_data(
+        "mesquite",
+        Dimensions::Fixed(5),
+        "linear model of logarithms: leaf weight of 46 mesquite bushes by their size (posteriordb)",
+        &[],
+    ) => in_dimension(LinearModel::mesquite());
+    of_data(
+        "blr",
+        Dimensions::Fixed(6),
+        "linear model: 100 responses to five strongly correlated covariates (posteriordb)",
+        &[],
+    ) => in_dimension(LinearModel::blr());
 }
