@@ -17,6 +17,11 @@ pub(super) fn rows<const K: usize>(file: &str, text: &str) -> Result<Vec<[f64; K
     text.lines().skip(1).map(read).collect()
 }
 
+/// The numbers of a CSV file with a header and one column.
+pub(super) fn series(file: &str, text: &str) -> Result<Vec<f64>, TargetError> {
+    Ok(rows::<1>(file, text)?.into_iter().map(|[y]| y).collect())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -27,7 +32,7 @@ mod tests {
             rows::<2>("a.csv", "x,y\n1,-2\n3.5,4e1\n"),
             Ok(vec![[1.0, -2.0], [3.5, 40.0]])
         );
-        assert_eq!(rows::<1>("a.csv", "y\n"), Ok(vec![]));
+        assert_eq!(series("a.csv", "y\n"), Ok(vec![]));
         for bad in ["x,y\n1\n", "x,y\n1,2,3\n", "x,y\n1,two\n"] {
             let error = rows::<2>("a.csv", bad).unwrap_err().to_string();
             assert!(error.starts_with("cannot read a.csv: '1"), "{error}");

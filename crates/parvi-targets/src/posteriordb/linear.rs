@@ -28,7 +28,7 @@ impl LinearModel<5> {
     /// Multilevel/Hierarchical Models*, 2006, ch. 3.
     ///
     /// # Errors
-    /// Those of [`Laplace::find`](crate::Laplace::find).
+    /// Those of [`Laplace::find`](crate::Laplace::find) and [`ImportanceSample::new`](crate::ImportanceSample::new).
     pub fn kidscore() -> Result<LinearPosterior<5>, TargetError> {
         let data = rows("kidiq.csv", include_str!("../../data/posteriordb/kidiq.csv"))?;
         let rows = data
@@ -44,7 +44,7 @@ impl LinearModel<5> {
     /// Source: posteriordb, `mesquite-logmesquite_logva`; Gelman & Hill 2006, ch. 4.
     ///
     /// # Errors
-    /// Those of [`Laplace::find`](crate::Laplace::find).
+    /// Those of [`Laplace::find`](crate::Laplace::find) and [`ImportanceSample::new`](crate::ImportanceSample::new).
     pub fn mesquite() -> Result<LinearPosterior<5>, TargetError> {
         let data = rows("mesquite.csv", include_str!("../../data/posteriordb/mesquite.csv"))?;
         let rows = data.iter().map(|&[long, short, height, group, weight]: &[f64; 5]| {
@@ -61,7 +61,7 @@ impl LinearModel<6> {
     /// Source: posteriordb, `sblrc-blr`.
     ///
     /// # Errors
-    /// Those of [`Laplace::find`](crate::Laplace::find).
+    /// Those of [`Laplace::find`](crate::Laplace::find) and [`ImportanceSample::new`](crate::ImportanceSample::new).
     pub fn blr() -> Result<LinearPosterior<6>, TargetError> {
         let rows = rows("sblrc.csv", include_str!("../../data/posteriordb/sblrc.csv"))?;
         let prior = centred_normal(10.0);
