@@ -8,7 +8,7 @@ use crate::fold::Fold;
 use crate::weights::{tempered, top};
 
 /// Free draws of a last proposal, per point wanted.
-const FREE: usize = 16;
+const FREE: usize = 8;
 
 /// Control variates are worth their draws where they take this much of the variance away.
 const WORTH: f64 = 0.2;
