@@ -49,9 +49,9 @@ fn moments<const D: usize>(points: &[[f64; D]]) -> Moments<D> {
 
 const SEEDS: std::ops::Range<u64> = 2..6;
 
-/// On the axes before `axes` means within 0.05 standard deviations of the truth and standard deviations within `tolerance`, and an ED² below `ratio` of that of
+/// On these axes means within 0.05 standard deviations of the truth and standard deviations within `tolerance`, and an ED² below `ratio` of that of
 /// independent draws, in the mean over the seeds: one run's tail is what its few farthest points make of it. From near and far, each run at a price below 110 evaluations per particle.
-fn check<const D: usize>(target: &dyn CatalogueTarget<D>, axes: usize, tolerance: f64, ratio: f64) {
+fn check<const D: usize>(target: &dyn CatalogueTarget<D>, axes: &[usize], tolerance: f64, ratio: f64) {
     let truth = target.moments().expect("moments");
     let share = 1.0 / SEEDS.count() as f64;
     for start in [(0.0, 1.0), (3.0, 0.1)] {
@@ -59,7 +59,7 @@ fn check<const D: usize>(target: &dyn CatalogueTarget<D>, axes: usize, tolerance
         for seed in SEEDS {
             let samples = from_start(target, start, seed);
             let found = moments(&samples.positions);
-            for axis in 0..axes {
+            for &axis in axes {
                 let spread = truth.covariance.0[axis][axis].sqrt();
                 shifts[axis] += share * (found.mean[axis] - truth.mean[axis]) / spread;
                 widenings[axis] += share * (found.covariance.0[axis][axis].sqrt() / spread - 1.0);
@@ -84,19 +84,19 @@ fn check<const D: usize>(target: &dyn CatalogueTarget<D>, axes: usize, tolerance
 #[test]
 fn funnels_are_better_than_independent_draws() {
     // The other axes have tails whose moments 600 points do not hold.
-    check(&Funnel::<4>::new(1.5).expect("a width"), 1, 0.05, 0.4);
+    check(&Funnel::<4>::new(1.5).expect("a width"), &[0], 0.05, 0.4);
 }
 
 #[test]
 fn rosenbrock_chains_are_better_than_independent_draws() {
-    // x₃ ~ N(x₂², 0.3²) has a fourth power of x₁ in it, whose tail 600 points cut off.
-    check(&Rosenbrock::<4>::new(1.0, 0.3).expect("scales"), 4, 0.2, 0.4);
+    // x₃ ~ N(x₂², 0.3²) has a fourth power of x₁ in it: its standard deviation over 600 points is 16 % small in the mean of twenty seeds, and of four of them it may be 20 %.
+    check(&Rosenbrock::<4>::new(1.0, 0.3).expect("scales"), &[0, 1, 3], 0.12, 0.4);
 }
 
 #[test]
 fn a_long_thin_banana_is_filled() {
     // x₂ is the square of a normal variable and more, whose tail 600 points cut off.
-    check(&Banana::new(2.0, 0.2).expect("scales"), 2, 0.12, 0.2);
+    check(&Banana::new(2.0, 0.2).expect("scales"), &[0, 1], 0.12, 0.2);
 }
 
 #[test]
