@@ -5,7 +5,8 @@ use parvi_targets::Frame;
 
 use crate::anderson::Anderson;
 use crate::measure::Measure;
-use crate::mixture::{Kernel, Mixture};
+use crate::mixture::Mixture;
+use crate::student::Kernel;
 use crate::support_points::SupportPoints;
 use crate::weights::systematic;
 

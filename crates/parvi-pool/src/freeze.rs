@@ -8,9 +8,10 @@ use crate::density::Density;
 use crate::fold::Fold;
 use crate::lanes::{LANES, packed};
 use crate::learn::{Spending, learn};
-use crate::mixture::{Kernel, Mixture};
+use crate::mixture::Mixture;
 use crate::options::Plan;
 use crate::propose::{best_form, proposal};
+use crate::student::Kernel;
 
 /// Share of the evaluations that scores for it may take.
 const SHARPENING: f64 = 0.05;

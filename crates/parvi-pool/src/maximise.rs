@@ -3,9 +3,9 @@
 use mpm_tensor::{Matrix, vector};
 
 use crate::lanes::{LANES, packed};
-use crate::mixture::{Kernel, Mixture};
+use crate::mixture::Mixture;
 use crate::sample::{Sample, root};
-use crate::student::{HALF_FREEDOM, Responsible};
+use crate::student::{HALF_FREEDOM, Kernel, Responsible};
 use crate::weights::effective_size;
 
 /// Points a kernel's first covariance counts for.

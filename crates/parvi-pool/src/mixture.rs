@@ -1,22 +1,11 @@
 //! Mixtures of Student kernels: drawn from by quasi-random points, evaluated eight points at a time.
 
-use mpm_tensor::{Matrix, vector};
+use mpm_tensor::vector;
 use parvi_targets::{SobolSequence, normal_quantile};
 
 use crate::gamma::gamma_quantile;
 use crate::lanes::{Group, LANES, Lanes};
-use crate::student::{HALF_FREEDOM, Responsible, Student, add_densities};
-
-/// A kernel t_ν(centre, factor factorᵀ) with its share of the mixture.
-#[derive(Clone, Copy, Debug)]
-pub struct Kernel<const D: usize> {
-    /// Centre c.
-    pub centre: [f64; D],
-    /// Lower triangular root L of the scale matrix.
-    pub factor: Matrix<D>,
-    /// Share of the mixture; the shares need not sum to one.
-    pub share: f64,
-}
+use crate::student::{HALF_FREEDOM, Kernel, Responsible, Student, add_densities};
 
 /// A normalised mixture of Student kernels with ν = 16 degrees of freedom.
 ///

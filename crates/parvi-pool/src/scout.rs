@@ -4,8 +4,9 @@ use mpm_tensor::{Matrix, vector};
 
 use crate::ascent::ascend;
 use crate::density::Density;
-use crate::mixture::{Kernel, Mixture};
+use crate::mixture::Mixture;
 use crate::sample::{moments, root};
+use crate::student::Kernel;
 use crate::summit::Summit;
 
 /// Scouts end after so many that found nothing new, and so many for every summit known: one of n summits that are reached alike is then overlooked with probability e⁻⁸.

@@ -8,9 +8,10 @@ use crate::ascent::ascend;
 use crate::density::Density;
 use crate::fold::Fold;
 use crate::lanes::packed;
-use crate::mixture::{Kernel, Mixture};
+use crate::mixture::Mixture;
 use crate::sample::{moments, root};
 use crate::scout::{about, wide};
+use crate::student::Kernel;
 use crate::summit::Summit;
 use crate::weights::tempered;
 

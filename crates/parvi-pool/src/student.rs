@@ -5,10 +5,20 @@ use pulp::{Simd, WithSimd};
 
 use crate::gamma::log_gamma_of_half;
 use crate::lanes::{Group, LANES, Lanes};
-use crate::mixture::Kernel;
 
 /// ν/2 of all kernels.
 pub(crate) const HALF_FREEDOM: u32 = 8;
+
+/// A kernel t_ν(centre, factor factorᵀ) with its share of the mixture.
+#[derive(Clone, Copy, Debug)]
+pub struct Kernel<const D: usize> {
+    /// Centre c.
+    pub centre: [f64; D],
+    /// Lower triangular root L of the scale matrix.
+    pub factor: Matrix<D>,
+    /// Share of the mixture; the shares need not sum to one.
+    pub share: f64,
+}
 
 /// What an evaluation needs of a kernel: z = A x − b, then height · (1 + |z|²/ν)^(−(ν+D)/2).
 #[derive(Clone, Copy, Debug)]
