@@ -8,6 +8,10 @@ use super::text::{Anchor, TextStyle, power_of_ten, width, wrap};
 /// The distance between a tick and its label.
 const TICK_GAP: f64 = 2.5;
 
+/// Widths of bold letters over those of plain ones, and the least size of a title that is too wide, over the usual one.
+const BOLDER: f64 = 1.12;
+const LEAST_TITLE: f64 = 0.75;
+
 /// A rectangle with a horizontal and a vertical scale.
 #[derive(Debug, Clone, Copy)]
 pub struct Panel {
@@ -72,11 +76,12 @@ impl Panel {
         drawing.lines(&segments, Stroke::solid(GRID, 0.6));
     }
 
-    /// A title above the frame.
+    /// A title above the frame, smaller where it would be wider than that.
     pub fn draw_title(&self, drawing: &mut Drawing, title: &str) {
+        let share = self.area.width / (BOLDER * width(title, LABEL_SIZE)).max(f64::MIN_POSITIVE);
         let style = TextStyle {
             bold: true,
-            ..TextStyle::sized(LABEL_SIZE, Anchor::Start)
+            ..TextStyle::sized(LABEL_SIZE * share.clamp(LEAST_TITLE, 1.0), Anchor::Start)
         };
         drawing.text((self.area.x, self.area.y - 4.5), title, style);
     }

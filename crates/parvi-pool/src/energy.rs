@@ -2,8 +2,10 @@
 
 use mpm_tensor::vector;
 use parvi_targets::{Frame, SobolSequence, normal_quantile};
+use pulp::{Simd, WithSimd};
 
 use crate::gamma::log_gamma_of_half;
+use crate::lanes::{Group, LANES, Lanes, packed};
 use crate::measure::Measure;
 
 /// Directions of the projections that energies are taken from.
@@ -26,8 +28,9 @@ impl<const D: usize> EnergyDistance<D> {
     /// From a measure, in the coordinates of a frame.
     pub fn new(measure: &Measure<D>, frame: Frame<D>) -> Self {
         let points = measure.points.iter().zip(&measure.weights).filter(|(_, c)| **c != 0.0);
-        let points: Vec<([f64; D], f64)> = points.map(|(y, c)| (frame.to_reference(y), *c)).collect();
-        let projections = mpm_parallel::map(directions().iter(), &|u| Projection::new(*u, &points));
+        let (points, weights): (Vec<[f64; D]>, Vec<f64>) = points.map(|(y, c)| (frame.to_reference(y), *c)).unzip();
+        let groups = packed(&points);
+        let projections = mpm_parallel::map(directions().iter(), &|u| Projection::new(*u, &groups, &weights));
         Self { frame, projections }
     }
 
@@ -48,13 +51,20 @@ struct Projection<const D: usize> {
 }
 
 impl<const D: usize> Projection<D> {
-    fn new(direction: [f64; D], points: &[([f64; D], f64)]) -> Self {
+    fn new(direction: [f64; D], groups: &[Group<D>], weights: &[f64]) -> Self {
         let (mut masses, mut moments) = (vec![0.0; BINS + 1], vec![0.0; BINS + 1]);
-        for (z, c) in points {
-            let s = vector::dot(&direction, z);
-            let bin = bin(s);
-            masses[bin + 1] += c;
-            moments[bin + 1] += c * s;
+        let mut places = vec![([0.0; LANES], [0.0; LANES]); groups.len()];
+        pulp::Arch::new().dispatch(Along {
+            direction: &direction,
+            groups,
+            places: &mut places,
+        });
+        for ((places, bins), weights) in places.iter().zip(weights.chunks(LANES)) {
+            for ((s, bin), c) in places.iter().zip(bins).zip(weights) {
+                let bin = numbered(*bin);
+                masses[bin + 1] += c;
+                moments[bin + 1] += c * s;
+            }
         }
         for bin in 0..BINS {
             masses[bin + 1] += masses[bin];
@@ -90,10 +100,47 @@ impl<const D: usize> Projection<D> {
     }
 }
 
-/// Bins are of equal width in s/(1 + |s|).
+/// Places of points along a direction, and their bins.
+struct Along<'a, const D: usize> {
+    direction: &'a [f64; D],
+    groups: &'a [Group<D>],
+    places: &'a mut [(Lanes, Lanes)],
+}
+
+impl<const D: usize> WithSimd for Along<'_, D> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        for (group, (places, bins)) in self.groups.iter().zip(self.places) {
+            let (places, bins) = (S::as_mut_simd_f64s(places).0, S::as_mut_simd_f64s(bins).0);
+            for part in 0..LANES / S::F64_LANES {
+                let mut place = simd.splat_f64s(0.0);
+                for axis in 0..D {
+                    let coordinate = S::as_simd_f64s(&group[axis]).0[part];
+                    place = simd.mul_add_e_f64s(simd.splat_f64s(self.direction[axis]), coordinate, place);
+                }
+                places[part] = place;
+                bins[part] = bin_of(simd, place);
+            }
+        }
+    }
+}
+
+/// Bins are of equal width in s/(1 + |s|): their numbers, with fractions.
+#[inline(always)]
+fn bin_of<S: Simd>(simd: S, place: S::f64s) -> S::f64s {
+    let squeezed = simd.div_f64s(place, simd.add_f64s(simd.splat_f64s(1.0), simd.abs_f64s(place)));
+    let half = simd.splat_f64s(0.5 * BINS as f64);
+    simd.mul_add_e_f64s(squeezed, half, half)
+}
+
 fn bin(s: f64) -> usize {
-    let squeezed = s / (1.0 + s.abs());
-    ((0.5 * (squeezed + 1.0) * BINS as f64) as usize).min(BINS - 1)
+    numbered(bin_of(pulp::Scalar, s))
+}
+
+fn numbered(bin: f64) -> usize {
+    (bin as usize).min(BINS - 1)
 }
 
 fn middle(bin: usize) -> f64 {

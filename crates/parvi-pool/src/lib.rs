@@ -3,6 +3,7 @@
 mod adapt;
 mod anderson;
 mod ascent;
+mod cloud;
 mod compiled;
 mod condense;
 mod curvature;
@@ -28,6 +29,7 @@ mod referee;
 mod sample;
 mod scout;
 mod search;
+mod student;
 mod summit;
 mod support_points;
 #[cfg(test)]

@@ -3,8 +3,9 @@
 use mpm_tensor::{Matrix, vector};
 
 use crate::lanes::{LANES, packed};
-use crate::mixture::{HALF_FREEDOM, Kernel, Mixture};
+use crate::mixture::{Kernel, Mixture};
 use crate::sample::{Sample, root};
+use crate::student::{HALF_FREEDOM, Responsible};
 use crate::weights::effective_size;
 
 /// Points a kernel's first covariance counts for.
@@ -54,22 +55,17 @@ fn summed<const D: usize>(
     let count = mixture.kernels().len();
     let part = |(groups, weights): (&[crate::lanes::Group<D>], &[f64])| {
         let mut sums = vec![Sums::<D>::default(); count];
-        let mut shares = vec![([0.0; LANES], [0.0; LANES]); count];
+        let mut responsible = Responsible::new(count);
         for (group, weights) in groups.iter().zip(weights.chunks(LANES)) {
-            let mut total = [f64::MIN_POSITIVE; LANES];
-            mixture.each_kernel(group, |k, squares, density| {
-                shares[k] = (*squares, *density);
-                for lane in 0..LANES {
-                    total[lane] += density[lane];
-                }
-            });
-            let least = total.map(|total| SMALLEST * total);
-            for (k, (squares, density)) in shares.iter().enumerate() {
+            mixture.responsible(group, SMALLEST, &mut responsible);
+            for &k in &responsible.kernels {
+                let (squares, densities) = &responsible.each[k];
+                let centre = &mixture.kernels()[k].centre;
                 for lane in 0..weights.len() {
-                    if density[lane] > least[lane] {
-                        let centre = &mixture.kernels()[k].centre;
+                    let responsibility = densities[lane] / responsible.totals[lane];
+                    if responsibility > SMALLEST {
                         let apart = std::array::from_fn(|axis| group[axis][lane] - centre[axis]);
-                        let mass = unit * weights[lane] * density[lane] / total[lane];
+                        let mass = unit * weights[lane] * responsibility;
                         sums[k].add(mass, mass * (nu + D as f64) / (nu + squares[lane]), &apart);
                     }
                 }

@@ -3,8 +3,9 @@
 use mpm_tensor::{Matrix, vector};
 use parvi_targets::{SobolSequence, normal_quantile};
 
-use crate::gamma::{gamma_quantile, log_gamma_of_half};
+use crate::gamma::gamma_quantile;
 use crate::lanes::{Group, LANES, Lanes};
+use crate::student::{HALF_FREEDOM, Responsible, Student, add_densities};
 
 /// A kernel t_ν(centre, factor factorᵀ) with its share of the mixture.
 #[derive(Clone, Copy, Debug)]
@@ -17,14 +18,6 @@ pub struct Kernel<const D: usize> {
     pub share: f64,
 }
 
-/// What an evaluation needs of a kernel: z = A x − b, then height · (1 + |z|²/ν)^(−(ν+D)/2).
-#[derive(Clone, Copy, Debug)]
-struct Coefficients<const D: usize> {
-    whitener: Matrix<D>,
-    offset: [f64; D],
-    height: f64,
-}
-
 /// A normalised mixture of Student kernels with ν = 16 degrees of freedom.
 ///
 /// t_ν(x; c, L Lᵀ) = Γ((ν+D)/2) / (Γ(ν/2) (πν)^{D/2} det L) · (1 + |L⁻¹(x − c)|²/ν)^{−(ν+D)/2}: polynomial in |z|², so that no exponential has to
@@ -32,13 +25,10 @@ struct Coefficients<const D: usize> {
 #[derive(Clone, Debug)]
 pub struct Mixture<const D: usize> {
     kernels: Vec<Kernel<D>>,
-    coefficients: Vec<Coefficients<D>>,
+    students: Vec<Student<D>>,
     /// So many kernels, the first ones, are fitted; the others are there to be on the safe side.
     core: usize,
 }
-
-/// ν/2 of all kernels.
-pub(super) const HALF_FREEDOM: u32 = 8;
 
 /// Groups of points that one task evaluates.
 const TILE: usize = 32;
@@ -46,41 +36,26 @@ const TILE: usize = 32;
 impl<const D: usize> Mixture<D> {
     /// The mixture with shares scaled to one. Kernels that are not finite, singular or without share are left out; `None` if none is left.
     pub fn new(kernels: Vec<Kernel<D>>) -> Option<Self> {
-        let nu = 2.0 * f64::from(HALF_FREEDOM);
-        let d = D as f64;
-        let norm = log_gamma_of_half(2 * HALF_FREEDOM + D as u32)
-            - log_gamma_of_half(2 * HALF_FREEDOM)
-            - 0.5 * d * (nu * std::f64::consts::PI).ln();
-        let usable = |kernel: &Kernel<D>| {
-            let whitener = kernel.factor.lower_triangular_inverse()?;
-            let log_det: f64 = (0..D).map(|i| kernel.factor.0[i][i].ln()).sum();
-            let height = (norm - log_det).exp();
-            let sound = kernel.share > 0.0 && kernel.share.is_finite() && vector::is_finite(&kernel.centre);
-            (sound && height > 0.0 && height.is_finite()).then(|| Coefficients {
-                whitener,
-                offset: whitener.apply(&kernel.centre),
-                height,
-            })
-        };
-        let (mut kept, mut coefficients) = (Vec::new(), Vec::new());
+        let (mut kept, mut students) = (Vec::new(), Vec::new());
         for kernel in kernels {
-            if let Some(found) = usable(&kernel).filter(|found| vector::is_finite(&found.offset)) {
+            let sound = kernel.share > 0.0 && kernel.share.is_finite() && vector::is_finite(&kernel.centre);
+            if let Some(student) = Student::of(&kernel).filter(|_| sound) {
                 kept.push(kernel);
-                coefficients.push(found);
+                students.push(student);
             }
         }
         let total: f64 = kept.iter().map(|kernel| kernel.share).sum();
         if !(total > 0.0 && total.is_finite()) {
             return None;
         }
-        for (kernel, coefficients) in kept.iter_mut().zip(&mut coefficients) {
+        for (kernel, student) in kept.iter_mut().zip(&mut students) {
             kernel.share /= total;
-            coefficients.height *= kernel.share;
+            student.height *= kernel.share;
         }
         Some(Self {
             core: kept.len(),
             kernels: kept,
-            coefficients,
+            students,
         })
     }
 
@@ -135,18 +110,7 @@ impl<const D: usize> Mixture<D> {
     pub(super) fn add_density(&self, groups: &[Group<D>], factor: f64, sums: &mut [Lanes]) {
         let tiles = groups.chunks(TILE).zip(sums.chunks_mut(TILE));
         mpm_parallel::each(tiles, &|(groups, sums): (&[Group<D>], &mut [Lanes])| {
-            for (group, sum) in groups.iter().zip(sums) {
-                let mut density = [0.0; LANES];
-                for kernel in &self.coefficients {
-                    let value = self.kernel_density(kernel, group);
-                    for lane in 0..LANES {
-                        density[lane] += value[lane];
-                    }
-                }
-                for lane in 0..LANES {
-                    sum[lane] += factor * density[lane];
-                }
-            }
+            add_densities(&self.students, groups, factor, sums);
         });
     }
 
@@ -157,58 +121,8 @@ impl<const D: usize> Mixture<D> {
         sums
     }
 
-    /// share · t_ν(x) of every kernel for one group, handed to `take` with the kernel's number, its squared distance and its density.
-    pub(super) fn each_kernel(&self, group: &Group<D>, mut take: impl FnMut(usize, &Lanes, &Lanes)) {
-        for (k, kernel) in self.coefficients.iter().enumerate() {
-            let squares = squared_distances(kernel, group);
-            let density = self.profile(kernel.height, &squares);
-            take(k, &squares, &density);
-        }
+    /// Which kernels the points of a group are due to.
+    pub(super) fn responsible(&self, group: &Group<D>, least: f64, found: &mut Responsible) {
+        found.find(&self.students, group, least);
     }
-
-    #[inline]
-    fn kernel_density(&self, kernel: &Coefficients<D>, group: &Group<D>) -> Lanes {
-        self.profile(kernel.height, &squared_distances(kernel, group))
-    }
-
-    /// height · (1 + r²/ν)^(−(ν+D)/2).
-    #[inline]
-    fn profile(&self, height: f64, squares: &Lanes) -> Lanes {
-        let scale = 0.5 / f64::from(HALF_FREEDOM);
-        let base = squares.map(|r2| 1.0 + r2 * scale);
-        let mut power = if D % 2 == 1 { base.map(f64::sqrt) } else { [1.0; LANES] };
-        let mut exponent = HALF_FREEDOM + D as u32 / 2;
-        let mut factor = base;
-        while exponent > 0 {
-            if exponent & 1 == 1 {
-                for lane in 0..LANES {
-                    power[lane] *= factor[lane];
-                }
-            }
-            for lane in 0..LANES {
-                factor[lane] *= factor[lane];
-            }
-            exponent >>= 1;
-        }
-        power.map(|p| height / p)
-    }
-}
-
-/// |A x − b|² of the points of a group.
-#[inline]
-fn squared_distances<const D: usize>(kernel: &Coefficients<D>, group: &Group<D>) -> Lanes {
-    let mut squares = [0.0; LANES];
-    for i in 0..D {
-        let mut z = [-kernel.offset[i]; LANES];
-        for j in 0..=i {
-            let a = kernel.whitener.0[i][j];
-            for lane in 0..LANES {
-                z[lane] = vector::multiply_add(a, group[j][lane], z[lane]);
-            }
-        }
-        for lane in 0..LANES {
-            squares[lane] = vector::multiply_add(z[lane], z[lane], squares[lane]);
-        }
-    }
-    squares
 }

@@ -8,9 +8,10 @@ use rand::rngs::ChaCha8Rng;
 use crate::curvature::sharpened;
 use crate::lanes::packed;
 use crate::maximise::maximised;
-use crate::mixture::{HALF_FREEDOM, Kernel, Mixture};
+use crate::mixture::{Kernel, Mixture};
 use crate::neighbours::local_covariances;
 use crate::sample::{Sample, root};
+use crate::student::HALF_FREEDOM;
 
 /// Share of a local covariance's root that displaces the centre; the rest is left to the kernel.
 const JITTER: f64 = 0.7;

@@ -28,6 +28,7 @@ mod mixture;
 mod nested;
 mod normal_tail;
 mod posterior;
+mod posteriordb;
 mod probit;
 mod random;
 mod reference;
@@ -73,6 +74,9 @@ pub use making::BoxedTarget;
 pub use minibatch::MinibatchScore;
 pub use mixture::GaussianMixture;
 pub use nested::{Eggbox, GaussianShells, LogGamma, SpikeSlab};
+pub use posteriordb::{
+    Arma, Garch, GaussianProcess, HiddenMarkov, LinearModel, LotkaVolterra, ModelPosterior, NormalMixture, Prior,
+};
 pub use probit::Probit;
 pub use random::{
     Affine, AxisLaw, Bijection, BoxedBijection, BoxedLaw, Law, MixtureLaw, Neck, ProductLaw, Profile, PushForward,

@@ -40,11 +40,11 @@ pub(crate) fn boxed<const D: usize>(
     Ok(Box::new(target?))
 }
 
-/// A target of dimension 2 as one of dimension D, which are the same type where D = 2.
-pub(crate) fn in_dimension<const D: usize>(
-    target: Result<impl CatalogueTarget<2> + Send + Sync + 'static, TargetError>,
+/// A target of dimension E as one of dimension D, which are the same type where D = E.
+pub(crate) fn in_dimension<const D: usize, const E: usize>(
+    target: Result<impl CatalogueTarget<E> + Send + Sync + 'static, TargetError>,
 ) -> Result<BoxedTarget<D>, TargetError> {
-    let target: BoxedTarget<2> = boxed(target)?;
+    let target: BoxedTarget<E> = boxed(target)?;
     let name = target.name().to_owned();
     let same: Box<dyn Any> = Box::new(target);
     same.downcast::<BoxedTarget<D>>()
@@ -52,7 +52,7 @@ pub(crate) fn in_dimension<const D: usize>(
         .map_err(|_| TargetError::DimensionNotAllowed {
             target: name,
             dimension: D,
-            allowed: "2".to_owned(),
+            allowed: E.to_string(),
         })
 }
 

@@ -5,8 +5,9 @@ use crate::making::{BoxedTarget, boxed, data_path, file_or, in_dimension, regres
 use crate::synthetic::synthetic_counts;
 use crate::wells::{WELLS_MAXIMUM_DIMENSION, WELLS_SMALL_ROWS, wells};
 use crate::{
-    Banana, Cross, Eggbox, Funnel, Gaussian, GaussianMixture, GaussianShells, LogGamma, Logarithm, Logit, Probit,
-    RandomTarget, RegressionData, Ring, Rosenbrock, Schools, SpikeSlab, StudentT, TargetError,
+    Arma, Banana, Cross, Eggbox, Funnel, Garch, Gaussian, GaussianMixture, GaussianProcess, GaussianShells,
+    HiddenMarkov, LinearModel, LogGamma, Logarithm, Logit, LotkaVolterra, NormalMixture, Probit, RandomTarget,
+    RegressionData, Ring, Rosenbrock, Schools, SpikeSlab, StudentT, TargetError,
 };
 
 /// Every target of the catalogue, in the order of the documentation.
@@ -346,4 +347,58 @@ targets! {
             let path = data_path(name, parameters)?;
             regression::<Logit, D>(name, RegressionData::from_csv_file(path)?, parameters)
         };
+    of_data(
+        "arma",
+        Dimensions::Fixed(4),
+        "autoregressive moving average of order (1, 1), a series of 200 (posteriordb)",
+        &[],
+    ) => in_dimension(Arma::posterior());
+    of_data(
+        "garch",
+        Dimensions::Fixed(4),
+        "a series of 200 whose variance depends on the past: GARCH(1, 1) (posteriordb)",
+        &[],
+    ) => in_dimension(Garch::posterior());
+    of_data(
+        "gaussian-process",
+        Dimensions::Fixed(3),
+        "length, height and noise of a Gaussian process through 11 points (posteriordb)",
+        &[],
+    ) => in_dimension(GaussianProcess::posterior());
+    of_data(
+        "hidden-markov",
+        Dimensions::Fixed(4),
+        "transitions and means of a hidden Markov model of two states, a series of 100 (posteriordb)",
+        &[],
+    ) => in_dimension(HiddenMarkov::posterior());
+    of_data(
+        "gaussian-mixture-posterior",
+        Dimensions::Fixed(5),
+        "means, widths and masses of two normal distributions, fitted to 1,000 numbers (posteriordb)",
+        &[],
+    ) => in_dimension(NormalMixture::posterior());
+    of_data(
+        "kidscore",
+        Dimensions::Fixed(5),
+        "linear model: test scores of 434 children by their mothers' schooling and intelligence (posteriordb)",
+        &[],
+    ) => in_dimension(LinearModel::kidscore());
+    of_data(
+        "mesquite",
+        Dimensions::Fixed(5),
+        "linear model of logarithms: leaf weight of 46 mesquite bushes by their size (posteriordb)",
+        &[],
+    ) => in_dimension(LinearModel::mesquite());
+    of_data(
+        "blr",
+        Dimensions::Fixed(6),
+        "linear model: 100 responses to five strongly correlated covariates (posteriordb)",
+        &[],
+    ) => in_dimension(LinearModel::blr());
+    of_data(
+        "lotka-volterra",
+        Dimensions::Fixed(8),
+        "predator-prey equations of hares and lynxes, 21 years (posteriordb)",
+        &[],
+    ) => in_dimension(LotkaVolterra::posterior());
 }

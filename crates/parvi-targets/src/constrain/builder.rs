@@ -61,7 +61,14 @@ impl<const N: usize, const D: usize> ConstraintsBuilder<N, D> {
 
     /// `count` increasing coordinates: x₁ = y₁, x_k = x_{k−1} + e^{y_k}.
     pub fn ordered(self, count: usize) -> Self {
-        self.sized("ordered", count, 1, Ordered { count })
+        let positive = false;
+        self.sized("ordered", count, 1, Ordered { count, positive })
+    }
+
+    /// `count` increasing coordinates above 0: x₁ = e^{y₁}, x_k = x_{k−1} + e^{y_k}.
+    pub fn positive_ordered(self, count: usize) -> Self {
+        let positive = true;
+        self.sized("positive ordered", count, 1, Ordered { count, positive })
     }
 
     /// `count` ≥ 2 positive coordinates of sum 1, from `count` − 1 unconstrained ones by a softmax of isometric log ratios.

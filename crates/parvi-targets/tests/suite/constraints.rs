@@ -92,6 +92,7 @@ macro_rules! for_every_transform {
         $check::<2, 2>(|list| list.bounded(2, -1.0, 3.0), $($argument),+)?;
         $check::<1, 1>(|list| list.ordered(1), $($argument),+)?;
         $check::<4, 4>(|list| list.ordered(4), $($argument),+)?;
+        $check::<3, 3>(|list| list.positive_ordered(3), $($argument),+)?;
         $check::<2, 1>(|list| list.simplex(2), $($argument),+)?;
         $check::<6, 5>(|list| list.simplex(6), $($argument),+)?;
         $check::<1, 1>(|list| list.correlation(2), $($argument),+)?;
@@ -179,6 +180,8 @@ proptest! {
 fn values_are_the_textbook_ones() {
     let ordered = Constraints::<3, 3>::builder().ordered(3).build().unwrap();
     assert_eq!(ordered.constrain(&[-1.0, 0.0, 0.0]), [-1.0, 0.0, 1.0]);
+    let positive = Constraints::<2, 2>::builder().positive_ordered(2).build().unwrap();
+    assert_eq!(positive.constrain(&[0.0, 0.0]), [1.0, 2.0]);
     let even = Constraints::<4, 3>::builder().simplex(4).build().unwrap();
     assert_eq!(even.constrain(&[0.0; 3]), [0.25; 4]);
     // Bartlett: the factor of R₂₁ = 0.6, and correlations that multiply along a chain.
@@ -279,6 +282,7 @@ fn points_outside_of_the_support_are_refused() {
     outside::<1, 1>(|list| list.upper_bounded(1, 2.0), [3.0], 0);
     outside::<2, 2>(|list| list.bounded(2, 0.0, 1.0), [0.5, 1.0], 1);
     outside::<3, 3>(|list| list.ordered(3), [0.0, 1.0, 1.0], 2);
+    outside::<3, 3>(|list| list.positive_ordered(3), [0.0, 1.0, 2.0], 0);
     outside::<3, 2>(|list| list.simplex(3), [0.5, 0.6, -0.1], 2);
     outside::<3, 2>(|list| list.simplex(3), [0.5, 0.2, 0.2], 2);
     outside::<3, 3>(|list| list.correlation(3), [1.0, 0.0, 0.0], 0);

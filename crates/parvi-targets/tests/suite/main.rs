@@ -19,6 +19,7 @@ mod generalised_linear;
 mod logistic;
 mod minibatch;
 mod nested_problems;
+mod posteriordb;
 mod random_targets;
 mod student_t;
 mod support;

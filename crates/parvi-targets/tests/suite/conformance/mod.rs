@@ -5,7 +5,7 @@ mod evidence;
 mod mixtures;
 mod normalisation;
 mod posteriors;
-mod promises;
+pub mod promises;
 mod references;
 
 use parvi_targets::{BoxedTarget, Parameters, build};

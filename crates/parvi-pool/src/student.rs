@@ -1,0 +1,232 @@
+//! Student kernels evaluated in vector instructions, as many points at a time as the machine has lanes for.
+
+use mpm_tensor::{Matrix, vector};
+use pulp::{Simd, WithSimd};
+
+use crate::gamma::log_gamma_of_half;
+use crate::lanes::{Group, LANES, Lanes};
+use crate::mixture::Kernel;
+
+/// ν/2 of all kernels.
+pub(crate) const HALF_FREEDOM: u32 = 8;
+
+/// What an evaluation needs of a kernel: z = A x − b, then height · (1 + |z|²/ν)^(−(ν+D)/2).
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Student<const D: usize> {
+    whitener: Matrix<D>,
+    offset: [f64; D],
+    /// Times the kernel's share.
+    pub height: f64,
+}
+
+impl<const D: usize> Student<D> {
+    /// Of a kernel, without its share; `None` where that is singular or not finite.
+    pub fn of(kernel: &Kernel<D>) -> Option<Self> {
+        let nu = 2.0 * f64::from(HALF_FREEDOM);
+        let norm = log_gamma_of_half(2 * HALF_FREEDOM + D as u32)
+            - log_gamma_of_half(2 * HALF_FREEDOM)
+            - 0.5 * D as f64 * (nu * std::f64::consts::PI).ln();
+        let whitener = kernel.factor.lower_triangular_inverse()?;
+        let log_det: f64 = (0..D).map(|i| kernel.factor.0[i][i].ln()).sum();
+        let (offset, height) = (whitener.apply(&kernel.centre), (norm - log_det).exp());
+        let sound = vector::is_finite(&offset) && height > 0.0 && height.is_finite();
+        sound.then_some(Self {
+            whitener,
+            offset,
+            height,
+        })
+    }
+
+    /// |A x − b|² and the density.
+    #[inline(always)]
+    fn at<S: Simd>(&self, simd: S, x: &[S::f64s; D]) -> (S::f64s, S::f64s) {
+        let mut square = simd.splat_f64s(0.0);
+        for i in 0..D {
+            let mut z = simd.splat_f64s(-self.offset[i]);
+            for j in 0..=i {
+                z = simd.mul_add_e_f64s(simd.splat_f64s(self.whitener.0[i][j]), x[j], z);
+            }
+            square = simd.mul_add_e_f64s(z, z, square);
+        }
+        let (one, scale) = (simd.splat_f64s(1.0), simd.splat_f64s(0.5 / f64::from(HALF_FREEDOM)));
+        let mut factor = simd.mul_add_e_f64s(square, scale, one);
+        let mut power = if D % 2 == 1 { simd.sqrt_f64s(factor) } else { one };
+        let mut exponent = HALF_FREEDOM + D as u32 / 2;
+        while exponent > 0 {
+            if exponent & 1 == 1 {
+                power = simd.mul_f64s(power, factor);
+            }
+            factor = simd.mul_f64s(factor, factor);
+            exponent >>= 1;
+        }
+        (square, simd.div_f64s(simd.splat_f64s(self.height), power))
+    }
+}
+
+/// Adds `factor` times the densities of all kernels to `sums` for every point.
+pub(crate) fn add_densities<const D: usize>(
+    kernels: &[Student<D>],
+    groups: &[Group<D>],
+    factor: f64,
+    sums: &mut [Lanes],
+) {
+    pulp::Arch::new().dispatch(Summed {
+        kernels,
+        groups,
+        factor,
+        sums,
+    });
+}
+
+/// What kernels are to the points of a group.
+pub(crate) struct Responsible {
+    /// Squared distance from every kernel, and its density.
+    pub each: Vec<(Lanes, Lanes)>,
+    /// Sums of the densities.
+    pub totals: Lanes,
+    /// The kernels that have more than a given share of the density at any of the points.
+    pub kernels: Vec<usize>,
+}
+
+impl Responsible {
+    /// For so many kernels.
+    pub fn new(count: usize) -> Self {
+        Self {
+            each: vec![([0.0; LANES], [0.0; LANES]); count],
+            totals: [0.0; LANES],
+            kernels: Vec::with_capacity(count),
+        }
+    }
+
+    /// Of these kernels for this group; shares up to `least` are none.
+    pub fn find<const D: usize>(&mut self, kernels: &[Student<D>], group: &Group<D>, least: f64) {
+        pulp::Arch::new().dispatch(Find {
+            responsible: self,
+            kernels,
+            group,
+            least,
+        });
+    }
+}
+
+struct Summed<'a, const D: usize> {
+    kernels: &'a [Student<D>],
+    groups: &'a [Group<D>],
+    factor: f64,
+    sums: &'a mut [Lanes],
+}
+
+impl<const D: usize> WithSimd for Summed<'_, D> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let factor = simd.splat_f64s(self.factor);
+        for (group, sums) in self.groups.iter().zip(self.sums) {
+            let sums = S::as_mut_simd_f64s(sums).0;
+            for (part, sum) in sums.iter_mut().enumerate() {
+                let x = part_of::<S, D>(group, part);
+                let mut density = simd.splat_f64s(0.0);
+                for kernel in self.kernels {
+                    density = simd.add_f64s(density, kernel.at(simd, &x).1);
+                }
+                *sum = simd.mul_add_e_f64s(factor, density, *sum);
+            }
+        }
+    }
+}
+
+struct Find<'a, const D: usize> {
+    responsible: &'a mut Responsible,
+    kernels: &'a [Student<D>],
+    group: &'a Group<D>,
+    least: f64,
+}
+
+impl<const D: usize> WithSimd for Find<'_, D> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Responsible { each, totals, kernels } = self.responsible;
+        let parts = LANES / S::F64_LANES;
+        let totals = S::as_mut_simd_f64s(totals).0;
+        totals.fill(simd.splat_f64s(f64::MIN_POSITIVE));
+        for (kernel, (squares, densities)) in self.kernels.iter().zip(each.iter_mut()) {
+            let (squares, densities) = (S::as_mut_simd_f64s(squares).0, S::as_mut_simd_f64s(densities).0);
+            for part in 0..parts {
+                (squares[part], densities[part]) = kernel.at(simd, &part_of::<S, D>(self.group, part));
+                totals[part] = simd.add_f64s(totals[part], densities[part]);
+            }
+        }
+        kernels.clear();
+        let least = simd.splat_f64s(-self.least);
+        for (index, (_, densities)) in each.iter().enumerate() {
+            let densities = S::as_simd_f64s(densities).0;
+            let mut most = simd.splat_f64s(f64::NEG_INFINITY);
+            for part in 0..parts {
+                most = simd.max_f64s(most, simd.mul_add_e_f64s(least, totals[part], densities[part]));
+            }
+            if simd.reduce_max_f64s(most) > 0.0 {
+                kernels.push(index);
+            }
+        }
+    }
+}
+
+/// Some points of a group, as many as there are lanes.
+#[inline(always)]
+fn part_of<S: Simd, const D: usize>(group: &Group<D>, part: usize) -> [S::f64s; D] {
+    std::array::from_fn(|axis| S::as_simd_f64s(&group[axis]).0[part])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lanes::packed;
+
+    #[test]
+    fn densities_are_the_formula() {
+        let kernel = |k: f64| Kernel {
+            centre: [0.3 * k, -0.1, 0.2],
+            factor: Matrix([[1.0 + k, 0.0, 0.0], [0.4, 0.7, 0.0], [-0.2, k, 2.0]]),
+            share: 1.0,
+        };
+        let kernels = [kernel(0.0), kernel(1.5)];
+        let students = kernels.map(|kernel| Student::of(&kernel).unwrap());
+        let points: Vec<[f64; 3]> = (0..8)
+            .map(|n| [0.1, 0.5, 0.9].map(|rate| (rate * f64::from(n)).sin()))
+            .collect();
+        let group = &packed(&points)[0];
+        let mut responsible = Responsible::new(2);
+        responsible.find(&students, group, 1e-4);
+        let mut sums = [[1.0; LANES]];
+        add_densities(&students, &packed(&points), 2.0, &mut sums);
+        for (lane, x) in points.iter().enumerate() {
+            let mut total = 0.0;
+            for (kernel, (squares, densities)) in kernels.iter().zip(&responsible.each) {
+                let z = kernel
+                    .factor
+                    .lower_triangular_inverse()
+                    .unwrap()
+                    .apply(&vector::subtract(x, &kernel.centre));
+                let square = vector::norm_squared(&z);
+                // Γ(19/2)/Γ(8) (16 π)^(−3/2) (1 + r²/16)^(−19/2)/det L.
+                let constant =
+                    (log_gamma_of_half(19) - log_gamma_of_half(16) - 1.5 * (16.0 * std::f64::consts::PI).ln()).exp();
+                let determinant: f64 = (0..3).map(|i| kernel.factor.0[i][i]).product();
+                let wanted = constant / determinant * (1.0 + square / 16.0).powf(-9.5);
+                assert!((squares[lane] - square).abs() < 1e-12 * (1.0 + square));
+                assert!(
+                    (densities[lane] / wanted - 1.0).abs() < 1e-12,
+                    "{} {wanted}",
+                    densities[lane]
+                );
+                total += wanted;
+            }
+            assert!((responsible.totals[lane] / total - 1.0).abs() < 1e-12);
+            assert!((sums[0][lane] - 1.0 - 2.0 * total).abs() < 1e-12);
+        }
+        assert_eq!(responsible.kernels, [0, 1]);
+    }
+}
