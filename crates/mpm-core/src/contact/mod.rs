@@ -27,7 +27,9 @@ pub struct ContactPoint<const D: usize> {
 ///
 /// v_i* the velocity without the contact. As b is convex, Σ_i w_ip b(g_p + n_p · u_i) ≥ b(g_p + n_p · Σ_i w_ip u_i): where weights are not negative, no particle comes to a plane surface, and
 /// kinetic energy and potential together never grow, however long the step. What a step dissipates is at least Σ m_i |v_i − v_i*|² / 2, as by backward Euler; it is small where Δt is
-/// small beside the time of the contact's spring. Bodies that rest are pressed on by A_p p(g_p), whatever the step. The distance to curved surfaces is linear in a step, and a term with
+/// small beside the time of the contact's spring. Bodies that rest are pressed on by A_p p(g_p), whatever the step.
+/// The price of nodes that are solved alone: where they would move against each other and no particle with them, each is held by itself, so that a layer of a cell along the surface is stiffer than it
+/// should be until Δt is small beside the spring's time. The distance to curved surfaces is linear in a step, and a term with
 /// a negative weight is linear in u_i.
 ///
 /// Source: Li et al., *Incremental potential contact*, ACM Trans. Graph. 39 (2020); at the nodes Li, Fang, Li & Jiang, *BFEMP*, Comput. Methods Appl. Mech. Engrg. 390 (2022)
