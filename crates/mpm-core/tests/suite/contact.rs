@@ -2,7 +2,7 @@
 
 use mpm_core::{
     Apic, BodyForce, ContactPoint, ContactPotential, Flip, ForceLocation, Friction, Mpm, MpmError, Particles, Pic,
-    Sites, SplineGrid, StepControl, Transfer,
+    Sites, SplineGrid, Transfer,
 };
 use mpm_kernels::Quadratic;
 use mpm_materials::IsothermalGas;
