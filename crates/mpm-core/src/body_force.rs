@@ -1,6 +1,6 @@
 //! External forces: per unit mass at the particles, or as a force at the nodes.
 
-use crate::{Friction, MpmError};
+use crate::{ContactPotential, Friction, MpmError};
 
 /// Where an external force acts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,8 +59,13 @@ pub trait BodyForce<const D: usize>: Sync {
         Ok(())
     }
 
-    /// Friction where the force of the last [`at_particles`](Self::at_particles) presses particles on something; `None` where there is none. It acts on the nodes once all forces
-    /// have.
+    /// A contact that the step takes implicitly, once all forces have acted; its force is then no part of [`at_particles`](Self::at_particles). `None` where there is none.
+    fn contact(&self) -> Option<&dyn ContactPotential<D>> {
+        None
+    }
+
+    /// Friction where the [`contact`](Self::contact), or the force of the last [`at_particles`](Self::at_particles), presses particles on something; `None` where there is none. It
+    /// acts on the nodes once all forces have.
     fn friction(&self) -> Option<Friction<'_, D>> {
         None
     }

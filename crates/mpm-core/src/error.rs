@@ -73,6 +73,14 @@ pub enum MpmError {
         /// Its velocity.
         velocity: Vec<f64>,
     },
+    /// A particle has reached the surface of something rigid that a [`ContactPotential`](crate::ContactPotential) should keep it from.
+    #[error("particle {particle} is at distance {distance} from a rigid surface")]
+    Penetration {
+        /// As in [`PositionOutOfRange`](Self::PositionOutOfRange).
+        particle: usize,
+        /// Its distance, ≤ 0.
+        distance: f64,
+    },
     /// The Courant condition leaves no time step.
     #[error("no time step is short enough for wave speed {wave_speed} and particle speed {particle_speed}")]
     NoTimeStep {

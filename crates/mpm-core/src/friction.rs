@@ -12,13 +12,14 @@ pub struct Friction<'a, const D: usize> {
     pub coefficient: f64,
     /// The sliding speed ε ≥ 0 from which friction is full; 0: Coulomb's law, with sticking.
     pub full_speed: f64,
-    /// The normal force per unit mass on every particle, in the present order; zero where nothing presses.
+    /// The normal force per unit mass on every particle, in the present order; zero where nothing presses. What a [`ContactPotential`](crate::ContactPotential) gives is
+    /// added.
     pub normal_forces: &'a [[f64; D]],
 }
 
 /// Impulse of the normal forces around a node.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct NormalImpulse<const D: usize>([f64; D]);
+pub(crate) struct NormalImpulse<const D: usize>(pub [f64; D]);
 
 impl<const D: usize> Default for NormalImpulse<D> {
     fn default() -> Self {
@@ -33,25 +34,18 @@ impl<const D: usize> Sum for NormalImpulse<D> {
     }
 }
 
-/// Slow the nodes, after all forces: with N_i = Δt Σ_p w_ip f_p, f_p the normal force on a particle, and v_t the part of v_i across N_i, |v_t| becomes y ε with
-///
-/// y ε + (μ |N_i| / m_i) φ(y) = |v_t|, φ(y) = 2y − y² below y = 1 and 1 from there on (backward Euler; φ: Li et al., *Incremental potential contact*, ACM Trans. Graph. 39
-/// (2020), Eq. 14);
-///
-/// in the limit ε → 0 it falls by μ |N_i| / m_i or to 0. So friction takes at most what sliding there is, whatever Δt, and what sticks stays where it is: internal forces have
-/// acted already. Nodes of no mass and of negative mass, which negative weights may leave, are left alone.
+/// N_i = Δt Σ_p w_ip m_p f_p, f_p the normal force per mass on a particle; all zero where nothing presses.
 #[inline(never)]
-pub(crate) fn slow_nodes<const D: usize, B: Basis<D>, N: GridNode<D>>(
+pub(crate) fn sum_up_impulses<const D: usize, B: Basis<D>>(
     basis: &B,
     positions: &[[f64; D]],
     masses: &Masses,
-    friction: &Friction<D>,
+    forces: &[[f64; D]],
     time_step: f64,
     impulses: &mut NodeSums<NormalImpulse<D>>,
-    nodes: &mut [N],
 ) {
-    let forces = friction.normal_forces;
     if forces.iter().all(|force| *force == [0.0; D]) {
+        impulses.clear(basis.node_count());
         return;
     }
     impulses.scatter(basis, positions, move |p, x, stencil| {
@@ -62,6 +56,21 @@ pub(crate) fn slow_nodes<const D: usize, B: Basis<D>, N: GridNode<D>>(
             });
         }
     });
+}
+
+/// Slow the nodes, after all forces: with N_i the impulse of the normal forces and v_t the part of v_i across it, |v_t| becomes y ε with
+///
+/// y ε + (μ |N_i| / m_i) φ(y) = |v_t|, φ(y) = 2y − y² below y = 1 and 1 from there on (backward Euler; φ: Li et al., *Incremental potential contact*, ACM Trans. Graph. 39
+/// (2020), Eq. 14);
+///
+/// in the limit ε → 0 it falls by μ |N_i| / m_i or to 0. So friction takes at most what sliding there is, whatever Δt, and what sticks stays where it is: internal forces have
+/// acted already. Nodes of no mass and of negative mass, which negative weights may leave, are left alone.
+#[inline(never)]
+pub(crate) fn slow_nodes<const D: usize, N: GridNode<D>>(
+    friction: &Friction<D>,
+    impulses: &NodeSums<NormalImpulse<D>>,
+    nodes: &mut [N],
+) {
     for (node, impulse) in nodes.iter_mut().zip(impulses.as_slice()) {
         let (mass, size) = (node.mass(), vector::norm(&impulse.0));
         if !(mass >= f64::MIN_POSITIVE && size > 0.0) {

@@ -5,9 +5,11 @@ mod body_force;
 mod boundary;
 mod cell_sort;
 pub mod conformance;
+mod contact;
 mod control;
 mod counting_sort;
 mod diagnosis;
+mod energy_budget;
 mod error;
 mod friction;
 mod grid;
@@ -34,7 +36,9 @@ pub use boundary::{
     Side, SignedDistance, Sphere, Wall,
 };
 pub use cell_sort::CellSort;
+pub use contact::{ContactPoint, ContactPotential};
 pub use control::{StepControl, StepReport};
+pub use energy_budget::EnergyBudget;
 pub use error::MpmError;
 pub use friction::Friction;
 pub use grid::SplineGrid;

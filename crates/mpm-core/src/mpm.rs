@@ -2,10 +2,12 @@
 
 use mpm_tensor::Matrix;
 
+use crate::contact::NodalContact;
 use crate::friction::NormalImpulse;
 use crate::volume_averaging::NodeVolume;
 use crate::{
-    Basis, BodyForce, Boundary, Medium, NoBoundary, NodeSums, Particles, StressUpdate, Transfer, VelocityFilter,
+    Basis, BodyForce, Boundary, EnergyBudget, Medium, NoBoundary, NodeSums, Particles, StressUpdate, Transfer,
+    VelocityFilter,
 };
 
 /// A body of particles on a basis: what moves (`particles`), where (`basis`), how velocities travel (`transfer`), what it
@@ -29,6 +31,8 @@ pub struct Mpm<const D: usize, B, T: Transfer<D>, M: Medium<D>, F, C = NoBoundar
     pub volume_averaging: bool,
     /// What is forgotten of velocities that the nodes do not see.
     pub velocity_filter: Option<VelocityFilter<D>>,
+    /// Where kinetic energy has gone; `None`, as at first: nobody asks.
+    pub energy_budget: Option<EnergyBudget>,
     /// Time since the body was made; every step adds its Δt.
     pub time: f64,
     /// Nodal masses and velocities, in the order of the basis' numbers.
@@ -42,6 +46,8 @@ pub struct Mpm<const D: usize, B, T: Transfer<D>, M: Medium<D>, F, C = NoBoundar
     pub(crate) node_volumes: NodeSums<NodeVolume>,
     /// What presses on the nodes; empty without friction.
     pub(crate) normal_impulses: NodeSums<NormalImpulse<D>>,
+    /// Particles in contact, by nodes; empty without a contact.
+    pub(crate) contact: NodalContact<D>,
 }
 
 impl<const D: usize, B, T, M, F> Mpm<D, B, T, M, F>
@@ -70,6 +76,7 @@ where
             stress_update: StressUpdate::default(),
             volume_averaging: false,
             velocity_filter: None,
+            energy_budget: None,
             time: 0.0,
             nodes: NodeSums::default(),
             accelerations: Vec::new(),
@@ -77,6 +84,7 @@ where
             node_forces: Vec::new(),
             node_volumes: NodeSums::default(),
             normal_impulses: NodeSums::default(),
+            contact: NodalContact::default(),
         }
     }
 }
@@ -101,6 +109,7 @@ where
             stress_update: self.stress_update,
             volume_averaging: self.volume_averaging,
             velocity_filter: self.velocity_filter,
+            energy_budget: self.energy_budget,
             time: self.time,
             nodes: self.nodes,
             accelerations: self.accelerations,
@@ -108,6 +117,7 @@ where
             node_forces: self.node_forces,
             node_volumes: self.node_volumes,
             normal_impulses: self.normal_impulses,
+            contact: self.contact,
         }
     }
 
@@ -119,6 +129,7 @@ where
             + self.nodes.storage_bytes()
             + self.node_volumes.storage_bytes()
             + self.normal_impulses.storage_bytes()
+            + self.contact.storage_bytes()
             + self.velocity_filter.as_ref().map_or(0, VelocityFilter::storage_bytes)
             + vectors * size_of::<[f64; D]>()
     }

@@ -246,6 +246,10 @@ impl<const D: usize, S: Copy + Send + Sync> Particles<D, S> {
                 particle: created(particle),
                 position,
             },
+            MpmError::Penetration { particle, distance } => MpmError::Penetration {
+                particle: created(particle),
+                distance,
+            },
             MpmError::Deformation { particle, source } => MpmError::Deformation {
                 particle: created(particle),
                 source,

@@ -122,10 +122,15 @@ where
 
     /// The velocities of the nodes without any force: mass and momentum alone, then the boundary.
     pub(crate) fn momentum_to_grid(&mut self, dt: f64) {
+        self.momentum_of_particles(dt);
+        self.constrain_grid(dt, false);
+    }
+
+    /// The velocities v_iⁿ of the nodes that the particles bring.
+    pub(crate) fn momentum_of_particles(&mut self, dt: f64) {
         self.scatter(dt, false);
         for node in self.nodes.as_mut_slice() {
             node.advance(&[0.0; D], 1.0, f64::INFINITY);
         }
-        self.constrain_grid(dt, false);
     }
 }

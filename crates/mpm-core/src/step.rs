@@ -1,7 +1,9 @@
 //! One step of the material point method, phase by phase.
 
+use mpm_tensor::vector;
+
 use crate::diagnosis::what_is_not_finite;
-use crate::friction::slow_nodes;
+use crate::friction::{slow_nodes, sum_up_impulses};
 use crate::transfer::{GridNode, Transfer, advance};
 use crate::{
     Basis, BodyForce, Boundary, ForceLocation, GridMotion, Medium, Mpm, MpmError, Particles, Sites, StepControl,
@@ -41,6 +43,7 @@ where
             &mut self.accelerations,
         )?;
         self.deform_first(dt);
+        let mut stages = self.velocities_brought(dt);
         self.particles_to_grid(dt);
         evaluate_node_forces(
             &mut self.body_force,
@@ -50,8 +53,14 @@ where
             &mut self.node_forces,
         )?;
         let speed = self.update_grid(dt, damping, control.speed_limit(h, dt))?;
-        self.slow_by_friction(dt);
+        self.record(&mut stages);
+        self.press_on_surfaces(dt, speed * dt)?;
+        self.record(&mut stages);
+        self.slow_by_friction();
+        self.record(&mut stages);
         self.constrain_grid(dt, true);
+        self.record(&mut stages);
+        self.account(&stages, damping);
         self.update_particles(dt, damping);
         self.time += dt;
         Ok(StepReport {
@@ -143,20 +152,33 @@ where
         Ok(square.sqrt())
     }
 
-    /// Friction of the forces on the particles, at the nodes.
-    fn slow_by_friction(&mut self, dt: f64) {
+    /// The contact that is solved at the nodes, and what presses on them altogether if there is friction. No particle goes farther than `reach`.
+    fn press_on_surfaces(&mut self, dt: f64, reach: f64) -> Result<(), MpmError> {
+        let (particles, impulses) = (&self.particles, &mut self.normal_impulses);
         if let Some(friction) = self.body_force.friction() {
-            let (particles, nodes) = (&self.particles, self.nodes.as_mut_slice());
-            let impulses = &mut self.normal_impulses;
-            slow_nodes(
-                &self.basis,
-                &particles.positions,
-                &particles.masses,
-                &friction,
-                dt,
-                impulses,
-                nodes,
-            );
+            let (positions, masses) = (&particles.positions, &particles.masses);
+            sum_up_impulses(&self.basis, positions, masses, friction.normal_forces, dt, impulses);
+        }
+        if let Some(potential) = self.body_force.contact() {
+            let sites = sites(particles, self.time);
+            let mut add = |node: usize, impulse: [f64; D]| {
+                if let Some(sum) = impulses.as_mut_slice().get_mut(node) {
+                    vector::accumulate(&mut sum.0, 1.0, &impulse);
+                }
+            };
+            let nodes = self.nodes.as_mut_slice();
+            let acted = self
+                .contact
+                .act(&self.basis, potential, &sites, (dt, reach), nodes, &mut add);
+            acted.map_err(|error| particles.name(error))?;
+        }
+        Ok(())
+    }
+
+    /// Friction of what presses on the nodes.
+    fn slow_by_friction(&mut self) {
+        if let Some(friction) = self.body_force.friction() {
+            slow_nodes(&friction, &self.normal_impulses, self.nodes.as_mut_slice());
         }
     }
 
@@ -211,6 +233,16 @@ fn rebuild<const D: usize, B: Basis<D>, S: Copy + Send + Sync>(
     basis.activate(&particles.positions)
 }
 
+/// The particles as forces see them.
+fn sites<const D: usize, S: Copy + Send + Sync>(particles: &Particles<D, S>, time: f64) -> Sites<'_, D> {
+    Sites {
+        positions: &particles.positions,
+        velocities: &particles.velocities,
+        identities: particles.identities(),
+        time,
+    }
+}
+
 /// Force per unit mass at the particles.
 #[inline(never)]
 fn evaluate_particle_forces<const D: usize, F: BodyForce<D>, S: Copy + Send + Sync>(
@@ -221,14 +253,8 @@ fn evaluate_particle_forces<const D: usize, F: BodyForce<D>, S: Copy + Send + Sy
 ) -> Result<(), MpmError> {
     if body_force.location() == ForceLocation::Particles {
         accelerations.resize(particles.len(), [0.0; D]);
-        let sites = Sites {
-            positions: &particles.positions,
-            velocities: &particles.velocities,
-            identities: particles.identities(),
-            time,
-        };
         body_force
-            .at_particles(&sites, accelerations)
+            .at_particles(&sites(particles, time), accelerations)
             .map_err(|error| particles.name(error))?;
     }
     Ok(())

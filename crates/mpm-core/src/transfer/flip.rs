@@ -114,6 +114,11 @@ impl<const D: usize> GridNode<D> for FlipNode<D> {
     }
 
     #[inline(always)]
+    fn velocity_brought(&self) -> &[f64; D] {
+        &self.previous
+    }
+
+    #[inline(always)]
     fn change(&self, damping: f64) -> [f64; D] {
         std::array::from_fn(|a| self.velocity[a] - damping * self.previous[a])
     }

@@ -59,6 +59,12 @@ pub trait GridNode<const D: usize>: Sum {
     /// v_i after [`advance`](Self::advance), for a boundary to change. v_iⁿ stays, so that an incremental transfer sees the reaction.
     fn velocity_mut(&mut self) -> &mut [f64; D];
 
+    /// v_iⁿ, what the particles brought, where the transfer keeps it; elsewhere it is [`velocity`](Self::velocity).
+    #[inline(always)]
+    fn velocity_brought(&self) -> &[f64; D] {
+        self.velocity()
+    }
+
     /// v_iⁿ⁺¹ − damping v_iⁿ, where the transfer keeps v_iⁿ.
     fn change(&self, damping: f64) -> [f64; D];
 }

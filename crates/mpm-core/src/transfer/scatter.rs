@@ -61,6 +61,12 @@ impl<N: Sum> NodeSums<N> {
         &mut self.nodes
     }
 
+    /// Zero at so many nodes.
+    pub(crate) fn clear(&mut self, node_count: usize) {
+        self.nodes.clear();
+        self.nodes.resize(node_count, N::default());
+    }
+
     /// Start from zero and call `deposit(p, x_p, stencil)` for every particle p (schedule order); it adds to the nodes of
     /// the particle's stencil. `positions` are in schedule order.
     ///
@@ -132,8 +138,7 @@ impl<N: Sum> NodeSums<N> {
 
     /// Let `work` add up the nodes of every part, and add the parts.
     fn add_up(&mut self, schedule: &Schedule, node_count: usize, work: &(dyn Fn(Share<N>) + Sync)) {
-        self.nodes.clear();
-        self.nodes.resize(node_count, N::default());
+        self.clear(node_count);
         if let [part] = schedule.parts() {
             work((part.cells.clone(), 0, &mut self.nodes));
             return;

@@ -7,6 +7,7 @@ mod basis_conformance;
 mod basis_gradients;
 mod boundaries;
 mod conservation;
+mod contact;
 mod deformation;
 mod determinism;
 mod dissipation;

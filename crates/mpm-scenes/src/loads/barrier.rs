@@ -24,6 +24,8 @@ pub struct Barrier<const D: usize> {
     pub friction_speed: f64,
     /// No particle goes farther than this in a step, whatever the barrier says.
     pub reach: f64,
+    /// Whether a step takes it at the nodes, by the distances at its end ([`mpm_core::ContactPotential`]), or as a force at the particles, by those at its start.
+    pub implicit: bool,
 }
 
 /// A particle that has reached or passed the surface of a rigid shape.
@@ -81,7 +83,7 @@ impl<const D: usize> Barrier<D> {
         sum
     }
 
-    /// The longest time step for one particle of mass m and contact area A.
+    /// The longest time step for one particle of mass m and contact area A, where the force is that at the start of the step.
     ///
     /// A particle in the gap has the energy E = ½ m v_n² + A b(g) and comes as close as g_t, A b(g_t) = E. Its step is a quarter of √(m / (A b''(g_t))), the time of the
     /// contact's spring there. E and so the step stay the same from touch to release: with the spring's time at the
@@ -156,6 +158,7 @@ mod tests {
             friction: 0.0,
             friction_speed: 0.0,
             reach: 10.0,
+            implicit: false,
         }
     }
 

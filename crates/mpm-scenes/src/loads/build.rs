@@ -3,7 +3,7 @@
 use super::{Barrier, DirectLoad, Loads};
 use crate::background::Background;
 use crate::population::Population;
-use crate::scene::{BarrierAgainst, BarrierTable, LoadTable, Scene, ShapeTable};
+use crate::scene::{BarrierAgainst, BarrierIntegration, BarrierTable, LoadTable, Scene, ShapeTable};
 use crate::shape::{MeshOutside, Shape};
 use crate::values::{vector, within as within_range};
 use crate::{SceneFault, reference, shape};
@@ -14,7 +14,10 @@ impl<const D: usize> Loads<D> {
     /// # Errors
     /// [`SceneFault::Value`] for a load whose region holds no particle, and for tables that [`Scene::read`] refuses.
     pub(crate) fn of(scene: &Scene, particles: &Population<D>, background: &Background<D>) -> Result<Self, SceneFault> {
-        let mut loads = Self::default();
+        let mut loads = Self {
+            masses: particles.masses.clone(),
+            ..Self::default()
+        };
         if !scene.gravity.is_empty() {
             loads.gravity = Some(vector("gravity", &scene.gravity)?);
             loads.gravity_ramp = scene.gravity_ramp;
@@ -46,7 +49,6 @@ impl<const D: usize> Loads<D> {
         }
         if let Some(table) = &scene.barrier {
             loads.barrier = Some(barrier(table, background)?);
-            loads.masses.clone_from(&particles.masses);
             let power = (D as f64 - 1.0) / D as f64;
             loads.areas = particles.volumes.iter().map(|volume| volume.powf(power)).collect();
         }
@@ -99,5 +101,6 @@ fn barrier<const D: usize>(table: &BarrierTable, background: &Background<D>) -> 
         friction: table.friction,
         friction_speed: table.friction_speed,
         reach: spacing,
+        implicit: table.integration == BarrierIntegration::Implicit,
     })
 }

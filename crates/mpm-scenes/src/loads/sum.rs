@@ -1,4 +1,4 @@
-use mpm_core::{BodyForce, ForceLocation, Friction, MpmError, Particles, Sites};
+use mpm_core::{BodyForce, ContactPoint, ContactPotential, ForceLocation, Friction, MpmError, Particles, Sites};
 use mpm_tensor::vector;
 use rayon::prelude::*;
 
@@ -21,11 +21,11 @@ pub struct Loads<const D: usize> {
     pub barrier: Option<Barrier<D>>,
     /// Reference positions X_p by the particle's number; empty without manufactured solutions.
     pub reference_positions: Vec<[f64; D]>,
-    /// m_p by the particle's number; empty without a barrier.
+    /// m_p by the particle's number.
     pub masses: Vec<f64>,
     /// Contact areas A_p by the particle's number; empty without a barrier.
     pub areas: Vec<f64>,
-    /// The barrier's force per unit mass by the present order, of the last step; empty without a barrier.
+    /// The barrier's force per unit mass by the present order, of the last step; empty without a barrier, and where it is implicit.
     pub contact: Vec<[f64; D]>,
 }
 
@@ -53,6 +53,22 @@ impl<const D: usize> Loads<D> {
         sum
     }
 
+    /// Whether forces act that neither gravity's energy nor the barrier's stands for.
+    pub(crate) fn has_more_than_potentials(&self) -> bool {
+        self.gravity_ramp > 0.0 || !self.direct.is_empty() || !self.manufactured.is_empty()
+    }
+
+    /// The work of those forces at a time, on particles that go from place to place (in the order of creation): Σ m_p (a_p − g) · Δx_p, a_p without the barrier.
+    pub(crate) fn work_beside_potentials(&self, time: f64, from: &[[f64; D]], to: &[[f64; D]]) -> f64 {
+        let gravity = self.gravity.unwrap_or([0.0; D]);
+        let each = from.iter().zip(to).zip(&self.masses).enumerate();
+        let work = each.map(|(identity, ((from, to), mass))| {
+            let acceleration = vector::subtract(&self.acceleration(identity, time), &gravity);
+            mass * vector::dot(&acceleration, &vector::subtract(to, from))
+        });
+        work.sum()
+    }
+
     /// The barrier's force on a particle, per unit mass.
     fn contact_of(&self, identity: usize, x: &[f64; D]) -> [f64; D] {
         match (&self.barrier, self.areas.get(identity), self.masses.get(identity)) {
@@ -61,12 +77,12 @@ impl<const D: usize> Loads<D> {
         }
     }
 
-    /// The longest time step that the barrier allows; infinite without one.
+    /// The longest time step that the barrier allows; infinite without one, and where it is implicit.
     ///
     /// # Errors
     /// [`Penetration`] of the first particle that has reached a rigid shape.
     pub fn longest_step(&self, particles: &Particles<D, LawState>) -> Result<f64, Penetration> {
-        let Some(barrier) = &self.barrier else {
+        let Some(barrier) = self.barrier.as_ref().filter(|barrier| !barrier.implicit) else {
             return Ok(f64::INFINITY);
         };
         let longest = (0..particles.len()).into_par_iter().with_min_len(PIECE).map(|index| {
@@ -131,7 +147,7 @@ impl<const D: usize> BodyForce<D> for Loads<D> {
 
     fn at_particles(&mut self, sites: &Sites<D>, accelerations: &mut [[f64; D]]) -> Result<(), MpmError> {
         let mut contact = std::mem::take(&mut self.contact);
-        if self.barrier.is_some() {
+        if self.barrier.as_ref().is_some_and(|barrier| !barrier.implicit) {
             contact.resize(sites.positions.len(), [0.0; D]);
             let places = sites.positions.par_iter().zip(sites.identities);
             let each = contact.par_iter_mut().zip(places).with_min_len(PIECE);
@@ -149,6 +165,11 @@ impl<const D: usize> BodyForce<D> for Loads<D> {
         Ok(())
     }
 
+    fn contact(&self) -> Option<&dyn ContactPotential<D>> {
+        self.barrier.as_ref().filter(|barrier| barrier.implicit)?;
+        Some(self)
+    }
+
     fn friction(&self) -> Option<Friction<'_, D>> {
         let barrier = self.barrier.as_ref().filter(|barrier| barrier.friction > 0.0)?;
         Some(Friction {
@@ -156,5 +177,31 @@ impl<const D: usize> BodyForce<D> for Loads<D> {
             full_speed: barrier.friction_speed,
             normal_forces: &self.contact,
         })
+    }
+}
+
+impl<const D: usize> ContactPotential<D> for Loads<D> {
+    fn points(&self, sites: &Sites<D>, reach: f64, points: &mut Vec<ContactPoint<D>>) {
+        let Some(barrier) = &self.barrier else { return };
+        let limit = barrier.gap + reach.min(barrier.reach);
+        let each = sites.positions.par_iter().zip(sites.identities).enumerate();
+        let near = each.with_min_len(PIECE).flat_map_iter(|(particle, (x, &identity))| {
+            let area = self.areas.get(identity as usize).copied().unwrap_or(0.0);
+            barrier.shapes.iter().filter_map(move |shape| {
+                let (distance, normal) = shape.closer_than(x, limit)?;
+                Some(ContactPoint {
+                    particle,
+                    area,
+                    distance,
+                    normal,
+                })
+            })
+        });
+        points.par_extend(near);
+    }
+
+    fn pressure_and_stiffness(&self, distance: f64) -> (f64, f64) {
+        let both = |barrier: &Barrier<D>| (barrier.pressure(distance), barrier.second_derivative(distance));
+        self.barrier.as_ref().map_or((0.0, 0.0), both)
     }
 }

@@ -4,6 +4,7 @@ use mpm_core::{MpmError, StepControl};
 
 use super::SimulationError;
 use super::boundary::{self, MovingObstacles};
+use super::budget::Budget;
 use super::dispatch;
 use super::motion::Motion;
 use super::schedule::{SAME, Schedule};
@@ -18,6 +19,8 @@ pub(super) struct Body<'a, const D: usize> {
     pub motion: Box<dyn Motion<D>>,
     moving: MovingObstacles<D>,
     kinematics: Kinematics<D>,
+    /// Where the energy has gone, if the scene asks.
+    pub budget: Option<Budget>,
     pub frames: Schedule,
     pub rows: Schedule,
     pub checkpoints: Schedule,
@@ -38,15 +41,17 @@ impl<'a, const D: usize> Body<'a, D> {
         let start = Population::<D>::fill_on(scene, &background).map_err(refused)?;
         let (boundaries, moving) = boundary::build::<D>(scene, &background).map_err(refused)?;
         let kinematics = Kinematics::of(scene, &start).map_err(refused)?;
-        let motion = dispatch::build(scene, &start, background, boundaries).map_err(refused)?;
+        let mut motion = dispatch::build(scene, &start, background, boundaries).map_err(refused)?;
         check_step(scene, &*motion)?;
         let (end, output) = (scene.time.end, &scene.output);
+        let budget = output.energy_budget.then(|| Budget::begin(&mut *motion));
         Ok(Self {
             scene,
             start,
             motion,
             moving,
             kinematics,
+            budget,
             frames: Schedule::new(output.interval, end),
             rows: Schedule::new(output.series_interval.unwrap_or(output.interval), end),
             checkpoints: Schedule::new(output.checkpoint_interval.unwrap_or(output.interval), end),
@@ -85,17 +90,27 @@ impl<'a, const D: usize> Body<'a, D> {
             friction: self.scene.time.damping,
         };
         self.moving.place(self.motion.boundaries_mut(), time);
-        let report = self.motion.step(&control);
-        let taken = report
-            .map_err(|source| SimulationError::step(step, time, source))?
-            .time_step;
+        let mut taken = 0.0;
+        let mut one = |motion: &mut dyn Motion<D>| {
+            taken = motion.step(&control)?.time_step;
+            Ok(())
+        };
+        let done = match &mut self.budget {
+            Some(budget) => budget.over_step(&mut *self.motion, one),
+            None => one(&mut *self.motion),
+        };
+        done.map_err(|source| SimulationError::step(step, time, source))?;
         if taken < cut {
             self.free_step = taken;
         }
         if event - self.motion.time() <= SAME * rest {
             self.motion.set_time(event);
         }
-        self.motion.prescribe(&self.kinematics, &self.start.positions);
+        let (motion, positions) = (&mut *self.motion, &self.start.positions);
+        match &mut self.budget {
+            Some(budget) => budget.over_prescription(motion, &self.kinematics, positions),
+            None => motion.prescribe(&self.kinematics, positions),
+        }
         self.step = step;
         Ok(())
     }

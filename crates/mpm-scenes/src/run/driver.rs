@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::body::Body;
+use super::budget::Budget;
 use super::checkpoint::{self, Place, Saved};
 use super::probe::Probe;
 use super::{Observer, Outcome, Progress, SimulationError, Summary, measure, snapshot};
@@ -30,7 +31,7 @@ impl<'a, const D: usize> Driver<'a, D> {
         let probes = scene.probes.iter().enumerate();
         let probes = probes.map(|(index, table)| Probe::build(scene, index, table, &body.start));
         let probes: Vec<Probe<D>> = probes.collect::<Result<_, _>>().map_err(|fault| scene.error(fault))?;
-        let columns = measure::columns(&*body.motion, &probes);
+        let columns = measure::columns(&*body.motion, &probes, body.budget.as_ref());
         let path = out.join(names::CHECKPOINT);
         let saved = checkpoint::read(&path)?;
         if saved.as_ref().is_some_and(|saved| saved.identity != identity(scene)) {
@@ -64,6 +65,9 @@ impl<'a, const D: usize> Driver<'a, D> {
         (self.body.step, self.earlier, self.body.free_step) = (saved.step, saved.step, saved.free_step);
         self.resumed_at = Some(saved.time);
         self.body.motion.set_time(saved.time);
+        if let Some(budget) = &saved.budget {
+            self.body.budget = Some(Budget::restore(budget, &mut *self.body.motion));
+        }
         let particles = saved.particles();
         let path = self.out.join(names::CHECKPOINT);
         let particles = particles.map_err(|error| checkpoint::refused(&path, error.to_string()))?;
@@ -111,7 +115,8 @@ impl<'a, const D: usize> Driver<'a, D> {
     /// What belongs to this time: a row, a frame, a checkpoint.
     fn write(&mut self, time: f64) -> Result<(), SimulationError> {
         if self.body.rows.at(time).is_some() {
-            self.series.push(measure::row(&*self.body.motion, &self.probes))?;
+            let row = measure::row(&*self.body.motion, &self.probes, self.body.budget.as_ref());
+            self.series.push(row)?;
         }
         if let Some(number) = self.body.frames.at(time) {
             let frame = vtu(&snapshot::snapshot(&*self.body.motion, &self.body.start));
@@ -132,6 +137,7 @@ impl<'a, const D: usize> Driver<'a, D> {
             time: self.body.motion.time(),
             free_step: self.body.free_step,
             rows: self.series.series().rows().len(),
+            budget: self.body.budget.map(|budget| budget.save(&*self.body.motion)),
         };
         let saved = Saved::new(place, self.body.motion.particles());
         checkpoint::write(&self.out.join(names::CHECKPOINT), &saved)

@@ -64,6 +64,14 @@ impl SimulationError {
     }
 
     pub(super) fn step(step: u64, time: f64, source: MpmError) -> Self {
+        if let MpmError::Penetration { particle, distance } = source {
+            return Self::Penetration {
+                step,
+                time,
+                particle,
+                distance,
+            };
+        }
         let particle = match &source {
             MpmError::PositionOutOfRange { particle, .. }
             | MpmError::OutsideDomain { particle, .. }

@@ -4,6 +4,7 @@ use mpm_core::Particles;
 use mpm_materials::Law;
 use mpm_tensor::vector;
 
+use super::budget::{self, Budget};
 use super::motion::Motion;
 use super::probe::{AXES, Probe};
 use crate::law::LawState;
@@ -22,7 +23,11 @@ fn axis_names<const D: usize>(name: &str) -> impl Iterator<Item = String> {
 }
 
 /// The names of the columns, as [`Series`](crate::Series) lists them.
-pub(super) fn columns<const D: usize>(motion: &dyn Motion<D>, probes: &[Probe<D>]) -> Vec<String> {
+pub(super) fn columns<const D: usize>(
+    motion: &dyn Motion<D>,
+    probes: &[Probe<D>],
+    budget: Option<&Budget>,
+) -> Vec<String> {
     let mut columns = vec!["time".to_owned()];
     columns.extend(axis_names::<D>("centre"));
     columns.push("kinetic_energy".to_owned());
@@ -32,6 +37,9 @@ pub(super) fn columns<const D: usize>(motion: &dyn Motion<D>, probes: &[Probe<D>
     columns.extend(["strain_energy", "potential_energy"].map(str::to_owned));
     if motion.loads().barrier.is_some() {
         columns.push("barrier_energy".to_owned());
+    }
+    if budget.is_some() {
+        columns.extend(budget::COLUMNS.map(str::to_owned));
     }
     columns.extend(axis_names::<D>("momentum"));
     match D {
@@ -49,19 +57,22 @@ pub(super) fn columns<const D: usize>(motion: &dyn Motion<D>, probes: &[Probe<D>
 }
 
 /// The values of the columns now.
-pub(super) fn row<const D: usize>(motion: &dyn Motion<D>, probes: &[Probe<D>]) -> Vec<f64> {
-    let (particles, loads) = (motion.particles(), motion.loads());
+pub(super) fn row<const D: usize>(motion: &dyn Motion<D>, probes: &[Probe<D>], budget: Option<&Budget>) -> Vec<f64> {
+    let particles = motion.particles();
     let sums = Sums::of(particles);
     let mut row = vec![motion.time()];
     row.extend(sums.moment.map(|c| c / sums.mass));
-    row.push(particles.kinetic_energy());
+    let energies = Energies::of(motion);
+    row.push(energies.kinetic);
     if motion.is_affine() {
-        row.push(affine_energy(motion));
+        row.push(energies.affine);
     }
-    row.push(strain_energy(motion));
-    row.push(loads.gravity_energy(particles));
-    if loads.barrier.is_some() {
-        row.push(loads.barrier_energy(particles));
+    row.extend([energies.strain, energies.potential]);
+    if motion.loads().barrier.is_some() {
+        row.push(energies.barrier);
+    }
+    if let Some(budget) = budget {
+        row.extend(budget.row(motion, &energies));
     }
     row.extend(sums.momentum);
     row.extend(rotations::<D>().iter().map(|&pair| angular_momentum(particles, pair)));
@@ -110,6 +121,35 @@ impl<const D: usize> Sums<D> {
             }
         }
         sums
+    }
+}
+
+/// The energies of a body; what it has not is 0.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Energies {
+    pub kinetic: f64,
+    pub affine: f64,
+    pub strain: f64,
+    pub potential: f64,
+    pub barrier: f64,
+}
+
+impl Energies {
+    /// Those now.
+    pub fn of<const D: usize>(motion: &dyn Motion<D>) -> Self {
+        let (particles, loads) = (motion.particles(), motion.loads());
+        Self {
+            kinetic: particles.kinetic_energy(),
+            affine: if motion.is_affine() { affine_energy(motion) } else { 0.0 },
+            strain: strain_energy(motion),
+            potential: loads.gravity_energy(particles),
+            barrier: loads.barrier_energy(particles),
+        }
+    }
+
+    /// All together.
+    pub fn sum(&self) -> f64 {
+        self.kinetic + self.affine + self.strain + self.potential + self.barrier
     }
 }
 

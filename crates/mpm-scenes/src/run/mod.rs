@@ -3,6 +3,7 @@
 mod basis;
 mod body;
 mod boundary;
+mod budget;
 mod checkpoint;
 mod dispatch;
 mod driver;

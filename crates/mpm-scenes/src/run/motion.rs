@@ -1,6 +1,8 @@
 //! A body on its way, whatever its basis and transfer: compiled once per dimension.
 
-use mpm_core::{Boundaries, Continuum, Medium, Mpm, MpmError, Particles, StepControl, StepReport, Transfer};
+use mpm_core::{
+    Boundaries, Continuum, EnergyBudget, Medium, Mpm, MpmError, Particles, StepControl, StepReport, Transfer,
+};
 use mpm_tensor::Matrix;
 
 use super::basis::SecondMoments;
@@ -45,6 +47,12 @@ pub(super) trait Motion<const D: usize> {
 
     /// Gives kinematic particles the position and velocity that they have at this time; `reference` has X in the order of creation.
     fn prescribe(&mut self, kinematics: &Kinematics<D>, reference: &[[f64; D]]);
+
+    /// What the nodes' kinetic energy has gained; none unless it was asked for.
+    fn energy_budget(&self) -> Option<EnergyBudget>;
+
+    /// As [`energy_budget`](Self::energy_budget), to ask for it or to put it right.
+    fn energy_budget_mut(&mut self) -> &mut Option<EnergyBudget>;
 
     /// One step.
     fn step(&mut self, control: &StepControl) -> Result<StepReport, MpmError>;
@@ -112,6 +120,14 @@ where
                 self.particles.velocities[index] = velocity;
             }
         }
+    }
+
+    fn energy_budget(&self) -> Option<EnergyBudget> {
+        self.energy_budget
+    }
+
+    fn energy_budget_mut(&mut self) -> &mut Option<EnergyBudget> {
+        &mut self.energy_budget
     }
 
     fn step(&mut self, control: &StepControl) -> Result<StepReport, MpmError> {

@@ -23,6 +23,20 @@ pub struct BarrierTable {
     /// Sliding speed from which friction is full. Default 0: sticking, as Coulomb's law has it.
     #[serde(default)]
     pub friction_speed: f64,
+    /// How its force is taken in a step. Default: explicitly.
+    #[serde(default)]
+    pub integration: BarrierIntegration,
+}
+
+/// `barrier.integration`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum BarrierIntegration {
+    /// By the distances at the start of the step, which is a fraction of the time of the contact's spring: bounces keep their energy.
+    #[default]
+    Explicit,
+    /// By the distances at its end ([`mpm_core::ContactPotential`]): the step is as long as without a barrier, and impacts lose energy.
+    Implicit,
 }
 
 /// `barrier.against`.

@@ -21,7 +21,7 @@ use std::path::PathBuf;
 
 use serde::Deserialize;
 
-pub use barrier::{BarrierAgainst, BarrierTable};
+pub use barrier::{BarrierAgainst, BarrierIntegration, BarrierTable};
 pub use body::{BodyTable, FillKind};
 pub use boundary::{
     AxisName, Contact, HeldTable, KinematicTable, ObstacleTable, Side, TurningTable, WallCondition, WallTable,

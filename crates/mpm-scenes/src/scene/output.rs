@@ -14,6 +14,9 @@ pub struct OutputTable {
     pub series_interval: Option<f64>,
     /// Time between checkpoints. Default: `interval`.
     pub checkpoint_interval: Option<f64>,
+    /// Whether the series says where energy has gone; with transfers that are not FLIP it costs a pass to the nodes in every step. Default: no.
+    #[serde(default)]
+    pub energy_budget: bool,
 }
 
 /// `[[probes]]`: the mean displacement, velocity and stress of some particles as columns of the series, and how far their mass reaches.

@@ -72,7 +72,11 @@ fn a_traction_stretches_by_its_stress_over_the_modulus() {
 /// A disk that a barrier throws back has no more energy than before, whatever it hits it with.
 #[test]
 fn a_bounce_on_a_barrier_adds_no_energy() {
-    for (speed, transfer) in [(0.5, "apic"), (2.0, "apic"), (2.0, "flip")] {
+    let cases = [(0.5, "apic"), (2.0, "apic"), (2.0, "flip")];
+    let cases = cases
+        .iter()
+        .flat_map(|case| ["explicit", "implicit"].map(|integration| (*case, integration)));
+    for ((speed, transfer), integration) in cases {
         let text = format!(
             r#"
 title = "bounce"
@@ -83,7 +87,7 @@ transfer = {{ kind = "{transfer}" }}
 time = {{ end = {end} }}
 materials.rubber = {{ law = "neo-hookean", density = 1000.0, young_modulus = 1e5, poisson_ratio = 0.3 }}
 output = {{ interval = 1.0, series_interval = 0.005 }}
-barrier = {{ shapes = [{{ kind = "half-space", point = [0.0, 0.5], normal = [0.0, 1.0] }}], stiffness = 1e8, gap = 0.02 }}
+barrier = {{ shapes = [{{ kind = "half-space", point = [0.0, 0.5], normal = [0.0, 1.0] }}], stiffness = 1e8, gap = 0.02, integration = "{integration}" }}
 
 [[bodies]]
 name = "disk"
@@ -102,7 +106,7 @@ velocity = [0.0, -{speed}]
         let largest = (0..energies[0].len()).map(total).fold(0.0, f64::max);
         assert!(
             largest < 1.01 * total(0),
-            "{speed}, {transfer}: {largest} from {}",
+            "{speed}, {transfer}, {integration}: {largest} from {}",
             total(0)
         );
         let last = series.column("momentum_y").and_then(|values| values.last().copied());
@@ -125,10 +129,10 @@ fn gravity_grows_up_to_its_ramp() {
 }
 
 /// A block on a slope, turned so that the slope is level, its motion damped at the rate γ: with μ = 0.5 it stays where the slope is 0.4, and where it is 0.8 it slides at
-/// g (sin θ − μ cos θ) / γ, whatever the small speed from which friction is full.
+/// g (sin θ − μ cos θ) / γ, whatever the small speed from which friction is full and whether the barrier is explicit or implicit.
 #[test]
 fn a_block_sticks_to_a_gentle_slope_and_slides_down_a_steep_one() {
-    let slide = |slope: f64, friction_speed: f64| {
+    let slide = |slope: f64, friction_speed: f64, integration: &str| {
         let across = 10.0 / (1.0 + slope * slope).sqrt();
         let text = format!(
             r#"
@@ -169,6 +173,7 @@ stiffness = 2e5
 gap = 0.1225
 friction = 0.5
 friction_speed = {friction_speed}
+integration = "{integration}"
 
 [output]
 interval = 1.2
@@ -185,18 +190,24 @@ series_interval = 0.05
         let last = centre.len() - 1;
         (across, centre[last] - centre[last - 2], momentum[last] / 500.0)
     };
-    for friction_speed in [0.0, 1e-6, 1e-3] {
-        let (_, way, speed) = slide(0.4, friction_speed);
+    let cases = [
+        (0.0, "explicit"),
+        (1e-6, "explicit"),
+        (1e-3, "explicit"),
+        (0.0, "implicit"),
+    ];
+    for (friction_speed, integration) in cases {
+        let (_, way, speed) = slide(0.4, friction_speed, integration);
         let still = 2e-4 + friction_speed;
         assert!(
             way.abs() < still && speed.abs() < still,
-            "{friction_speed}: {way}, {speed}"
+            "{friction_speed}, {integration}: {way}, {speed}"
         );
-        let (across, _, speed) = slide(0.8, friction_speed);
+        let (across, _, speed) = slide(0.8, friction_speed, integration);
         let expected = across * (0.8 - 0.5) / 20.0;
         assert!(
             (speed / expected - 1.0).abs() < 0.02,
-            "{friction_speed}: {speed} for {expected}"
+            "{friction_speed}, {integration}: {speed} for {expected}"
         );
     }
 }

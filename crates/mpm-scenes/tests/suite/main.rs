@@ -2,6 +2,7 @@
 
 mod bad_meshes;
 mod bad_scenes;
+mod budget;
 mod document;
 mod facets;
 mod failures;

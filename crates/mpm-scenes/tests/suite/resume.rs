@@ -29,7 +29,9 @@ fn break_if(stop: bool) -> ControlFlow<()> {
 
 #[test]
 fn a_stopped_run_ends_with_the_files_of_one_that_was_not() {
-    for text in [BAR, BLOCK, HEAPS, CUBE, BLOCK_ON_MESH] {
+    let accounted = BLOCK.replace("[output]", "[output]\nenergy_budget = true");
+    let accounted = accounted.replace("gap = 0.02", "gap = 0.02\nintegration = \"implicit\"");
+    for text in [BAR, BLOCK, HEAPS, CUBE, BLOCK_ON_MESH, &accounted] {
         let scene = scene(text);
         let (whole, parts) = (
             tempfile::tempdir().expect("a directory"),

@@ -6,6 +6,7 @@ use mpm_tensor::Matrix;
 use serde::{Deserialize, Serialize};
 
 use crate::law::LawState;
+use crate::run::budget;
 
 /// All that a run needs to go on. Scene, bodies and forces are built again.
 #[derive(Serialize, Deserialize)]
@@ -20,6 +21,9 @@ pub(in crate::run) struct Saved {
     pub free_step: f64,
     /// Rows of the series.
     pub rows: usize,
+    /// The energy budget, where there is one.
+    #[serde(default)]
+    pub budget: Option<budget::Saved>,
     positions: Vec<f64>,
     velocities: Vec<f64>,
     masses: Vec<f64>,
@@ -39,6 +43,7 @@ pub(in crate::run) struct Place {
     pub time: f64,
     pub free_step: f64,
     pub rows: usize,
+    pub budget: Option<budget::Saved>,
 }
 
 impl Saved {
@@ -50,6 +55,7 @@ impl Saved {
             time: place.time,
             free_step: place.free_step,
             rows: place.rows,
+            budget: place.budget,
             positions: particles.positions.as_flattened().to_vec(),
             velocities: particles.velocities.as_flattened().to_vec(),
             masses: (0..particles.len()).map(|p| particles.masses.get(p)).collect(),

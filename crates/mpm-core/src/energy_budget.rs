@@ -1,0 +1,95 @@
+//! Where kinetic energy goes in a step.
+
+use mpm_tensor::vector::{add, dot, scale, subtract};
+
+use crate::transfer::{GridNode, Transfer};
+use crate::{Basis, BodyForce, Boundary, Medium, Mpm};
+
+/// What the kinetic energy of the nodes, K = ½ Σ m_i |v_i|², has gained in all steps, by what gave them impulses. Nodes get v_iⁿ from the particles; then forces, contact, friction and
+/// boundary give impulses J_i, each in its turn, up to v_iⁿ⁺¹. All of them act over the same step, so that the work of each is Σ J_i · (v_iⁿ + v_iⁿ⁺¹) / 2: together they are what K gains,
+/// and what neither moves nor has moved, as a body that sticks, does no work.
+///
+/// With it what every other part takes follows. Particles have gained less than the nodes have altogether: the transfer takes the difference, on both its ways. What forces have given is
+/// the energy that strain, gravity and other potentials have lost, but for the error of the time integration.
+///
+/// Where transfers do not keep v_iⁿ at the nodes, it costs a second pass from the particles to the nodes in every step.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct EnergyBudget {
+    /// The work of stresses and body forces, less what the limit of the [`displacement`](crate::StepControl::displacement) takes.
+    pub forces: f64,
+    /// The work of damping at the rate [`friction`](crate::StepControl::friction).
+    pub damping: f64,
+    /// The work of a [`ContactPotential`](crate::ContactPotential).
+    pub contact: f64,
+    /// The work of Coulomb's [`Friction`](crate::Friction).
+    pub friction: f64,
+    /// The work of the [`Boundary`](crate::Boundary).
+    pub boundary: f64,
+}
+
+impl EnergyBudget {
+    /// Σ of all parts: what the nodes have gained altogether.
+    pub fn sum(&self) -> f64 {
+        self.forces + self.damping + self.contact + self.friction + self.boundary
+    }
+}
+
+impl<const D: usize, B, T, M, F, C> Mpm<D, B, T, M, F, C>
+where
+    B: Basis<D>,
+    T: Transfer<D>,
+    M: Medium<D>,
+    F: BodyForce<D>,
+    C: Boundary<D>,
+{
+    /// The velocities of the nodes so far, v_iⁿ, before any force; none without a budget, or where the nodes keep them.
+    pub(crate) fn velocities_brought(&mut self, dt: f64) -> Stages<D> {
+        let mut stages = Stages::default();
+        if self.energy_budget.is_some() && !T::INCREMENTAL {
+            self.momentum_of_particles(dt);
+            stages.push(self.nodes.as_slice(), GridNode::velocity);
+        }
+        stages
+    }
+
+    /// Something has given the nodes impulses.
+    pub(crate) fn record(&self, stages: &mut Stages<D>) {
+        if self.energy_budget.is_some() {
+            if T::INCREMENTAL && stages.0.is_empty() {
+                stages.push(self.nodes.as_slice(), GridNode::velocity_brought);
+            }
+            stages.push(self.nodes.as_slice(), GridNode::velocity);
+        }
+    }
+
+    /// Add the works of a step, now that the velocities are v_iⁿ⁺¹ and forces with damping, contact, friction and boundary have been recorded.
+    pub(crate) fn account(&mut self, stages: &Stages<D>, damping: f64) {
+        if let (Some(budget), [brought, advanced, pressed, slowed, last]) = (&mut self.energy_budget, &stages.0[..]) {
+            let nodes = self.nodes.as_slice();
+            let work = |from: &[[f64; D]], to: &[[f64; D]]| -> f64 {
+                let each = (0..nodes.len()).map(|i| {
+                    let (impulse, way) = (subtract(&to[i], &from[i]), add(&brought[i], &last[i]));
+                    0.5 * nodes[i].mass() * dot(&impulse, &way)
+                });
+                each.sum()
+            };
+            // v* = e^(−γΔt) (vⁿ + J/m).
+            let undamped: Vec<[f64; D]> = advanced.iter().map(|v| scale(v, 1.0 / damping)).collect();
+            budget.forces += work(brought, &undamped);
+            budget.damping += work(&undamped, advanced);
+            budget.contact += work(advanced, pressed);
+            budget.friction += work(pressed, slowed);
+            budget.boundary += work(slowed, last);
+        }
+    }
+}
+
+/// The velocities of the nodes at several moments of a step.
+#[derive(Default)]
+pub(crate) struct Stages<const D: usize>(Vec<Vec<[f64; D]>>);
+
+impl<const D: usize> Stages<D> {
+    fn push<N: GridNode<D>>(&mut self, nodes: &[N], velocity: impl Fn(&N) -> &[f64; D]) {
+        self.0.push(nodes.iter().map(|node| *velocity(node)).collect());
+    }
+}

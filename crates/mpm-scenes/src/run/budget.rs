@@ -1,0 +1,144 @@
+//! The energy budget of a run: what has become of the energy that it began with.
+
+use mpm_core::EnergyBudget;
+
+use super::measure::Energies;
+use super::motion::Motion;
+use crate::Kinematics;
+
+/// What the columns of the budget follow from, beside the present energies.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Budget {
+    /// Kinetic energy at t = 0, the affine part with it.
+    kinetic: f64,
+    /// Energy of the barrier at t = 0.
+    barrier: f64,
+    /// The work of prescribed motions of particles.
+    prescribed: f64,
+    /// The work of all forces on particles that have no potential in the series.
+    loads: f64,
+}
+
+/// The names of its columns. Dissipations and works are those since t = 0; `energy_balance` is constant but for the error of the time integration, and for what plastic and viscous laws
+/// dissipate.
+pub(super) const COLUMNS: [&str; 7] = [
+    "transfer_dissipation",
+    "friction_dissipation",
+    "contact_dissipation",
+    "damping_dissipation",
+    "boundary_work",
+    "load_work",
+    "energy_balance",
+];
+
+/// Numbers in a checkpoint: those of the nodes, then those of the run.
+pub(super) type Saved = [f64; 9];
+
+impl Budget {
+    /// At t = 0.
+    pub fn begin<const D: usize>(motion: &mut dyn Motion<D>) -> Self {
+        *motion.energy_budget_mut() = Some(EnergyBudget::default());
+        let energies = Energies::of(motion);
+        Self {
+            kinetic: energies.kinetic + energies.affine,
+            barrier: energies.barrier,
+            prescribed: 0.0,
+            loads: 0.0,
+        }
+    }
+
+    /// The values of its columns.
+    pub fn row<const D: usize>(&self, motion: &dyn Motion<D>, now: &Energies) -> [f64; COLUMNS.len()] {
+        let nodes = motion.energy_budget().unwrap_or_default();
+        let transfer = self.kinetic + nodes.sum() + self.prescribed - (now.kinetic + now.affine);
+        let barrier = motion.loads().barrier.as_ref();
+        let contact = match barrier.filter(|barrier| barrier.implicit) {
+            Some(_) => self.barrier - nodes.contact - now.barrier,
+            None => 0.0,
+        };
+        let (friction, damping) = (0.0 - nodes.friction, 0.0 - nodes.damping);
+        let boundary = nodes.boundary + self.prescribed;
+        let total = now.sum() + transfer + friction + contact + damping - boundary - self.loads;
+        [transfer, friction, contact, damping, boundary, self.loads, total]
+    }
+
+    /// One step by `step`, with the work of the loads in it.
+    pub fn over_step<const D: usize, E>(
+        &mut self,
+        motion: &mut dyn Motion<D>,
+        step: impl FnOnce(&mut dyn Motion<D>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        if !motion.loads().has_more_than_potentials() {
+            return step(motion);
+        }
+        let (time, before) = (motion.time(), in_creation_order(motion));
+        step(motion)?;
+        self.loads += motion
+            .loads()
+            .work_beside_potentials(time, &before, &in_creation_order(motion));
+        Ok(())
+    }
+
+    /// The prescribed motion of particles, with its work.
+    pub fn over_prescription<const D: usize>(
+        &mut self,
+        motion: &mut dyn Motion<D>,
+        kinematics: &Kinematics<D>,
+        reference: &[[f64; D]],
+    ) {
+        if kinematics.regions().is_empty() {
+            return;
+        }
+        let before = motion.particles().kinetic_energy();
+        motion.prescribe(kinematics, reference);
+        self.prescribed += motion.particles().kinetic_energy() - before;
+    }
+
+    /// As a checkpoint keeps it.
+    pub fn save<const D: usize>(&self, motion: &dyn Motion<D>) -> Saved {
+        let nodes = motion.energy_budget().unwrap_or_default();
+        [
+            nodes.forces,
+            nodes.damping,
+            nodes.contact,
+            nodes.friction,
+            nodes.boundary,
+            self.kinetic,
+            self.barrier,
+            self.prescribed,
+            self.loads,
+        ]
+    }
+
+    /// As it was saved.
+    pub fn restore<const D: usize>(saved: &Saved, motion: &mut dyn Motion<D>) -> Self {
+        let [
+            forces,
+            damping,
+            contact,
+            friction,
+            boundary,
+            kinetic,
+            barrier,
+            prescribed,
+            loads,
+        ] = *saved;
+        *motion.energy_budget_mut() = Some(EnergyBudget {
+            forces,
+            damping,
+            contact,
+            friction,
+            boundary,
+        });
+        Self {
+            kinetic,
+            barrier,
+            prescribed,
+            loads,
+        }
+    }
+}
+
+fn in_creation_order<const D: usize>(motion: &dyn Motion<D>) -> Vec<[f64; D]> {
+    motion.particles().in_creation_order(&motion.particles().positions)
+}

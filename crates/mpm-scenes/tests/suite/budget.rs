@@ -1,0 +1,113 @@
+//! Where the energy of a run goes.
+
+use mpm_scenes::output::read_series;
+use mpm_scenes::{Series, simulate};
+
+use super::scenes::{BAR, BLOCK, scene};
+
+/// The series of a scene.
+fn series(text: &str) -> Series {
+    let directory = tempfile::tempdir().expect("a directory");
+    simulate(&scene(text), directory.path(), &mut ()).expect("runs");
+    read_series(directory.path()).expect("written")
+}
+
+/// A disk that bounces on a rough floor.
+fn bounce(transfer: &str, integration: &str, courant: f64) -> Series {
+    series(&format!(
+        r#"
+title = "bounce"
+dimension = 2
+gravity = [0.0, -2.0]
+domain = {{ lower = [0.0, 0.0], upper = [4.0, 2.0] }}
+grid = {{ spacing = 0.1 }}
+transfer = {{ kind = "{transfer}" }}
+time = {{ end = 0.5, courant = {courant} }}
+materials.rubber = {{ law = "neo-hookean", density = 1000.0, young_modulus = 1e5, poisson_ratio = 0.3 }}
+output = {{ interval = 0.5, series_interval = 0.01, energy_budget = true }}
+
+[barrier]
+shapes = [{{ kind = "half-space", point = [0.0, 0.5], normal = [0.0, 1.0] }}]
+stiffness = 1e8
+gap = 0.02
+friction = 0.3
+integration = "{integration}"
+
+[[bodies]]
+name = "disk"
+shape = {{ kind = "sphere", centre = [1.0, 0.95], radius = 0.4 }}
+material = "rubber"
+velocity = [1.0, -2.0]
+"#
+    ))
+}
+
+/// The farthest that `energy_balance` goes from where it begins.
+fn drift(series: &Series) -> f64 {
+    let total = series.column("energy_balance").expect("a budget");
+    total.iter().map(|now| (now - total[0]).abs()).fold(0.0, f64::max)
+}
+
+/// Friction, contact, transfer and what is left add up to what there was: in short steps to 1 % of the energy that the disk moves with.
+#[test]
+fn the_budget_of_a_bounce_with_friction_closes() {
+    for transfer in ["apic", "flip", "affine-flip"] {
+        let disk = bounce(transfer, "implicit", 0.02);
+        let column = |name: &str| disk.column(name).expect("a budget");
+        let last = |name: &str| *column(name).last().expect("a row");
+        let start = column("kinetic_energy")[0];
+        assert!(drift(&disk) < 0.01 * start, "{transfer}: {} of {start}", drift(&disk));
+        for part in ["friction_dissipation", "contact_dissipation", "transfer_dissipation"] {
+            assert!(last(part) > 0.01 * start, "{transfer}: {part} is {}", last(part));
+        }
+        for part in ["friction_dissipation", "contact_dissipation"] {
+            assert!(column(part).is_sorted(), "{transfer}: {part} is given back");
+        }
+        assert_eq!(
+            (last("boundary_work"), last("load_work"), last("damping_dissipation")),
+            (0.0, 0.0, 0.0)
+        );
+    }
+}
+
+/// What does not close is the error of the time integration: it goes with the step.
+#[test]
+fn the_drift_goes_with_the_step() {
+    for integration in ["explicit", "implicit"] {
+        let [long, short] = [0.3, 0.02].map(|courant| drift(&bounce("affine-flip", integration, courant)));
+        assert!(short < 0.6 * long, "{integration}: {short}, {long}");
+    }
+}
+
+/// A bar that is pulled and damped: the work of the load is what strain, motion and damping have.
+#[test]
+fn the_work_of_a_load_and_damping_are_in_the_budget() {
+    let pulled = BAR
+        .replace(
+            "velocity = { kind = \"sine\", amplitude = [0.1], wave_vector = [0.15707963267948966] }\n",
+            "",
+        )
+        .replace("courant = 0.2", "courant = 0.05\ndamping = 1.0")
+        .replace("series_interval = 0.1", "series_interval = 0.1\nenergy_budget = true");
+    let load = "[[loads]]\nkind = \"traction\"\nregion = { kind = \"box\", lower = [9.0], upper = [10.0] }\ntraction = [1.0]\nthickness = 1.0\nramp = 1.0\n";
+    let bar = series(&(pulled + load));
+    let last = |name: &str| {
+        bar.column(name)
+            .and_then(|values| values.last().copied())
+            .expect("a budget")
+    };
+    let work = last("load_work");
+    assert!(work > 0.0 && last("damping_dissipation") > 0.05 * work);
+    assert!(drift(&bar) < 0.01 * work, "{} of {work}", drift(&bar));
+}
+
+/// What a budget costs is its own: the run is the same.
+#[test]
+fn a_budget_changes_nothing_else() {
+    let with = BLOCK.replace("[output]", "[output]\nenergy_budget = true");
+    assert_ne!(with, BLOCK);
+    let (with, without) = (series(&with), series(BLOCK));
+    for name in without.columns() {
+        assert_eq!(with.column(name), without.column(name), "{name}");
+    }
+}
