@@ -74,7 +74,10 @@ where
                 each.sum()
             };
             // v* = e^(−γΔt) (vⁿ + J/m).
-            let undamped: Vec<[f64; D]> = advanced.iter().map(|v| scale(v, 1.0 / damping)).collect();
+            let undamped: Vec<[f64; D]> = advanced
+                .iter()
+                .map(|v| scale(v, 1.0 / damping.max(f64::MIN_POSITIVE)))
+                .collect();
             budget.forces += work(brought, &undamped);
             budget.damping += work(&undamped, advanced);
             budget.contact += work(advanced, pressed);
