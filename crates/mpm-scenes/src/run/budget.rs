@@ -2,7 +2,7 @@
 
 use mpm_core::EnergyBudget;
 
-use super::measure::Energies;
+use super::energies::Energies;
 use super::motion::Motion;
 use crate::Kinematics;
 

@@ -7,6 +7,7 @@ mod budget;
 mod checkpoint;
 mod dispatch;
 mod driver;
+mod energies;
 mod error;
 mod frames;
 mod measure;
