@@ -238,5 +238,8 @@ mod tests {
             assert!((sums[0][lane] - 1.0 - 2.0 * total).abs() < 1e-12);
         }
         assert_eq!(responsible.kernels, [0, 1]);
+        // No kernel has all of the density, where there are two.
+        responsible.find(&students, group, 1.0);
+        assert!(responsible.kernels.is_empty());
     }
 }
