@@ -7,7 +7,9 @@ use std::error::Error;
 use std::path::Path;
 
 use parvi_experiments::AtomicFile;
-use parvi_experiments::plots::{AxisKind, HeatMapPlot, HeatPanel, TracePanel, TracePlot, TraceSeries, heat_map, trace};
+use parvi_experiments::plots::{
+    AxisKind, HeatMapPlot, HeatPanel, LineSeries, MultiplesPanel, MultiplesPlot, heat_map, multiples,
+};
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
@@ -60,25 +62,12 @@ fn graded(table: &Table, ratio: &str) -> Result<String> {
         let values = table.column(column)?;
         let of_node = |node: u32| {
             let rows = (0..x.len()).filter(move |&row| nodes[row] == f64::from(node));
-            TraceSeries {
-                label: format!("node {node}"),
-                step: rows.clone().map(|row| x[row]).collect(),
-                value: rows.map(|row| values[row]).collect(),
-            }
+            LineSeries::through(format!("node {node}"), rows.map(|row| (x[row], values[row])))
         };
-        panels.push(TracePanel {
-            y_label: label.to_owned(),
-            y_axis: AxisKind::Linear,
-            series: (5..=8).map(of_node).collect(),
-            levels: Vec::new(),
-        });
+        panels.push(MultiplesPanel::over(label, AxisKind::Linear, (5..=8).map(of_node)));
     }
-    let plot = TracePlot {
-        title: format!("Kernels of segments of sizes 1, R, R², R in turn, R = {ratio}"),
-        x_label: "x (m)".to_owned(),
-        panels,
-    };
-    Ok(trace(&plot)?)
+    let title = format!("Kernels of segments of sizes 1, R, R², R in turn, R = {ratio}");
+    Ok(multiples(&MultiplesPlot::traces(title, "x (m)", panels))?)
 }
 
 /// Parts of the figure's edge.

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use mpm_scenes::{Observer, Progress, SceneError, SimulationError};
 
 use crate::CommandError;
-use crate::progress::{Bar, CaseObserver, unless_interrupted};
+use crate::progress::{Bar, unless_interrupted};
 
 impl From<SceneError> for CommandError {
     fn from(error: SceneError) -> Self {
@@ -19,36 +19,11 @@ impl From<SimulationError> for CommandError {
     }
 }
 
-/// The bar of a simulation: time simulated.
-pub struct SimulationProgress(Bar);
-
-/// Units of its bar from begin to end.
-const SIMULATION_UNITS: f64 = 1e6;
-
-impl SimulationProgress {
-    /// A bar up to the time `end`.
-    pub fn new(end: f64) -> Self {
-        Self(Bar::new(&format!("{{bar:30}} {{msg}} of {end}, {{eta}} left")))
-    }
-
-    /// Takes the bar off the screen.
-    pub fn clear(&self) {
-        self.0.clear();
-    }
-}
-
-impl Observer for SimulationProgress {
+/// Shows the time simulated, and stops the simulation on Ctrl-C.
+impl Observer for Bar {
     fn after_step(&mut self, progress: Progress) -> ControlFlow<()> {
-        let share = progress.time / progress.end * SIMULATION_UNITS;
-        self.0.set(share as u64, SIMULATION_UNITS as u64);
-        self.0
-            .say(|| format!("step {}, t = {:.4}", progress.step, progress.time));
+        self.set_share(progress.time / progress.end);
+        self.say(|| format!("step {}, t = {:.4}", progress.step, progress.time));
         unless_interrupted()
-    }
-}
-
-impl Observer for CaseObserver {
-    fn after_step(&mut self, progress: Progress) -> ControlFlow<()> {
-        self.advance(progress.time / progress.end)
     }
 }

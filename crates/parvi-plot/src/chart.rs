@@ -44,19 +44,10 @@ impl<'a> Legend<'a> {
 pub(super) struct Chart {
     pub title: String,
     pub panels: Vec<ChartPanel>,
+    /// Panels in a row; one that stands alone is narrower.
     pub columns: usize,
-    pub width: f64,
     pub panel_height: f64,
     pub notes: Vec<String>,
-}
-
-/// The number of columns and the figure's width for so many small multiples.
-pub(super) fn arrangement(panels: usize) -> (usize, f64) {
-    match panels {
-        0 | 1 => (1, 0.76 * FIGURE_WIDTH),
-        2 | 4 => (2, FIGURE_WIDTH),
-        _ => (3, FIGURE_WIDTH),
-    }
 }
 
 struct Prepared {
@@ -70,6 +61,11 @@ impl Chart {
     pub fn draw(&self) -> Result<String, PlotError> {
         let prepared = self.prepare()?;
         let columns = self.columns.clamp(1, self.panels.len());
+        let width = if self.columns == 1 {
+            0.76 * FIGURE_WIDTH
+        } else {
+            FIGURE_WIDTH
+        };
         let rows = self.panels.len().div_ceil(columns);
         let one_y_label = self.panels.windows(2).all(|p| p[0].y_label == p[1].y_label);
         let one_x_label = self.panels.windows(2).all(|p| p[0].x_label == p[1].x_label);
@@ -101,12 +97,12 @@ impl Chart {
         let gap = 10.0;
         let right = MARGIN + 8.0;
         let taken: f64 = left_rooms.iter().sum::<f64>() + gap * (columns - 1) as f64 + MARGIN + right;
-        let panel_width = ((self.width - taken) / columns as f64).max(40.0);
+        let panel_width = ((width - taken) / columns as f64).max(40.0);
 
-        let (mut drawing, mut top) = titled(&self.title, self.width);
+        let (mut drawing, mut top) = titled(&self.title, width);
         let entries = self.legend_entries();
         let indent = MARGIN + left_rooms[0];
-        let legend = draw_legend(&mut drawing, (indent, top), self.width - indent - MARGIN, &entries);
+        let legend = draw_legend(&mut drawing, (indent, top), width - indent - MARGIN, &entries);
         top += if legend > 0.0 { legend + 6.0 } else { 2.0 };
 
         let title_room = if has_titles { TITLE_ROOM } else { 4.0 };
@@ -153,7 +149,7 @@ impl Chart {
             draw_panel(&mut drawing, &axes, panel, &parts);
         }
         let bottom = row_tops[rows];
-        Ok(noted(drawing, self.width, bottom - 4.0, &self.notes))
+        Ok(noted(drawing, width, bottom - 4.0, &self.notes))
     }
 
     /// Checks sizes, fits the scales and divides the vertical axes.

@@ -1,8 +1,6 @@
 //! What histograms, corner plots and scatter plots share: marginals and particles over density contours.
 
-use crate::statistics::{
-    Bandwidth, DensityGrid, bandwidth, equidistant, kernel_density, kernel_density_grid, weighted_quantile,
-};
+use crate::statistics::{DensityGrid, bandwidth, equidistant, kernel_density, kernel_density_grid, weighted_quantile};
 
 use super::contour::{contour_lines, levels_of_mass};
 use super::data::{CheckedPlot, CheckedReference, Curve, PlotError};
@@ -51,12 +49,10 @@ impl Marginal {
         let locations = equidistant(scale.ends(), 301);
         // Without spread there is no estimate; the histogram's single bar says so.
         let estimate = |values: &[f64], weights: Option<&[f64]>| {
-            kernel_density(values, weights, Bandwidth::default(), &locations)
-                .ok()
-                .map(|y| Curve {
-                    x: locations.clone(),
-                    y,
-                })
+            kernel_density(values, weights, &locations).ok().map(|y| Curve {
+                x: locations.clone(),
+                y,
+            })
         };
         Ok(Marginal {
             bars: histogram_bars(column, weights, scale)?,
@@ -78,16 +74,6 @@ impl Marginal {
             .chain(curves.flat_map(|curve| curve.y.iter().copied()))
             .filter(|value| plottable(*value))
             .fold(0.0, f64::max)
-    }
-
-    /// Whether a kernel estimate of the particles exists.
-    pub fn has_estimate(&self) -> bool {
-        self.estimate.is_some()
-    }
-
-    /// Whether a reference curve exists.
-    pub fn has_reference(&self) -> bool {
-        self.reference.is_some()
     }
 
     /// Draws bars and curves.
@@ -136,7 +122,7 @@ fn histogram_bars(column: &[f64], weights: Option<&[f64]>, scale: &Scale) -> Res
     let squares: f64 = (0..column.len()).map(|i| (weight(i) / total).powi(2)).sum();
     let quartiles = weighted_quantile(column, weights, &[0.25, 0.75])?;
     let mut natural = 2.0 * (quartiles[1] - quartiles[0]) * squares.cbrt();
-    if let Ok(width) = bandwidth(column, weights, Bandwidth::default()) {
+    if let Ok(width) = bandwidth(column, weights) {
         // For a Gaussian: 2.7 σ n^(−1/3) = 2.55 h n^(−2/15) with h = 1.06 σ n^(−1/5).
         natural = natural.min(2.55 * width * squares.powf(2.0 / 15.0));
     }
@@ -284,13 +270,13 @@ pub(super) fn marginal_entries<'a>(marginals: &[Marginal], reference_label: &str
         swatch: Swatch::Area(PARTICLES, HISTOGRAM_OPACITY),
         label: "particles, histogram".to_string(),
     }];
-    if marginals.iter().any(Marginal::has_estimate) {
+    if marginals.iter().any(|marginal| marginal.estimate.is_some()) {
         entries.push(LegendEntry {
             swatch: Swatch::Line(Stroke::dashed(ESTIMATE, LINE_WIDTH)),
             label: "particles, kernel density".to_string(),
         });
     }
-    if marginals.iter().any(Marginal::has_reference) {
+    if marginals.iter().any(|marginal| marginal.reference.is_some()) {
         entries.push(LegendEntry {
             swatch: REFERENCE_SWATCH,
             label: or_target(reference_label),

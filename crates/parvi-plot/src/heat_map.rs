@@ -2,7 +2,8 @@
 
 use super::data::{PlotError, check_size};
 use super::legend::{LegendEntry, Swatch, draw_legend, noted, titled};
-use super::panel::{AxesParts, Panel, TITLE_ROOM, label_lines, label_room, x_axis_room, x_ticks, y_tick_room, y_ticks};
+use super::panel::{Panel, label_lines, label_room, x_ticks, y_tick_room, y_ticks};
+use super::panel_grid::PanelGrid;
 use super::results::{Row, Rows};
 use super::scale::{AxisKind, Scale};
 use super::style::{ESTIMATE, FIGURE_WIDTH, GRID, MARGIN};
@@ -107,7 +108,6 @@ pub fn heat_map(plot: &HeatMapPlot) -> Result<String, PlotError> {
     let (x, y) = (scale(&plot.x_edges), scale(&plot.y_edges));
     let vertical = y_ticks(&y, PANEL_HEIGHT, 5.0);
     let columns = plot.panels.len().min(2);
-    let rows = plot.panels.len().div_ceil(columns);
     let tick_room = y_tick_room(&vertical);
     let label_lines_left = label_lines(&plot.y_label, vertical.exponent, PANEL_HEIGHT).len();
     let left = MARGIN + tick_room + label_room(label_lines_left);
@@ -122,40 +122,18 @@ pub fn heat_map(plot: &HeatMapPlot) -> Result<String, PlotError> {
         FIGURE_WIDTH - left - MARGIN,
         &legend_entries(),
     ) + 6.0;
-    for row in 0..rows {
-        let lowest = row + 1 == rows;
-        for column in 0..columns {
-            let Some(panel) = plot.panels.get(row * columns + column) else {
-                continue;
-            };
-            let axes = Panel {
-                area: Rectangle {
-                    x: left + column as f64 * (panel_width + gap),
-                    y: top + TITLE_ROOM,
-                    width: panel_width,
-                    height: PANEL_HEIGHT,
-                },
-                x,
-                y,
-            };
-            draw_cells(&mut drawing, &axes, plot, panel);
-            let parts = AxesParts {
-                x_ticks: horizontal.clone(),
-                y_ticks: vertical.clone(),
-                x_label: Some(if lowest { plot.x_label.as_str() } else { "" }),
-                y_label: if column == 0 { &plot.y_label } else { "" },
-                y_tick_room: Some(tick_room),
-            };
-            axes.draw_axes(&mut drawing, &parts);
-            axes.draw_title(&mut drawing, &panel.title);
-        }
-        let lines = if lowest {
-            label_lines(&plot.x_label, horizontal.exponent, panel_width).len()
-        } else {
-            0
-        };
-        top += TITLE_ROOM + PANEL_HEIGHT + x_axis_room(lines) + 6.0;
-    }
+    let grid = PanelGrid {
+        columns,
+        left,
+        gap,
+        size: (panel_width, PANEL_HEIGHT),
+        x: (x, horizontal, &plot.x_label),
+        y: (y, vertical, &plot.y_label),
+    };
+    let panels: Vec<_> = plot.panels.iter().map(|panel| (panel.title.as_str(), panel)).collect();
+    top = grid.draw(&mut drawing, top, &panels, |drawing, axes, panel| {
+        draw_cells(drawing, axes, plot, panel);
+    });
     Ok(noted(drawing, FIGURE_WIDTH, top - 4.0, &plot.notes))
 }
 

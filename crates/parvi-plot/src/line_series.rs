@@ -25,16 +25,24 @@ impl LineSeries {
         }
     }
 
+    /// A line through points (x, y).
+    pub fn through(label: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        let (x, y) = points.into_iter().unzip();
+        Self {
+            x,
+            y,
+            ..Self::named(label)
+        }
+    }
+
     /// The values in order of size against the share of all that are no larger, in percent; `all` may be more than have a value.
     pub fn in_order(label: impl Into<String>, mut values: Vec<f64>, all: usize) -> Self {
         values.sort_by(f64::total_cmp);
-        Self {
-            x: (0..values.len())
-                .map(|k| 100.0 * (k as f64 + 0.5) / all as f64)
-                .collect(),
-            y: values,
-            ..Self::named(label)
-        }
+        let place = |k: usize| 100.0 * (k as f64 + 0.5) / all as f64;
+        Self::through(
+            label,
+            values.into_iter().enumerate().map(|(k, value)| (place(k), value)),
+        )
     }
 
     /// The points (x, y).

@@ -1,6 +1,6 @@
 //! Small multiples: lines with markers, error bars and guides, one panel per setting, under one legend.
 
-use super::chart::{Chart, Legend, arrangement};
+use super::chart::{Chart, Legend};
 use super::data::PlotError;
 use super::line_series::{GuideCurve, LineSeries};
 use super::scale::AxisKind;
@@ -11,6 +11,8 @@ use super::series::{ChartPanel, ChartSeries, Connection, ReferenceLevel};
 pub struct MultiplesPanel {
     /// The setting.
     pub title: String,
+    /// A vertical axis of its own, its label with the unit and its division; else that of the figure.
+    pub y: Option<(String, AxisKind)>,
     /// The lines; those with the same label look the same in every panel.
     pub series: Vec<LineSeries>,
     /// Curves for comparison.
@@ -29,11 +31,31 @@ impl MultiplesPanel {
         }
     }
 
+    /// Lines over a vertical axis of their own.
+    pub fn over(y_label: impl Into<String>, y_axis: AxisKind, series: impl IntoIterator<Item = LineSeries>) -> Self {
+        Self {
+            y: Some((y_label.into(), y_axis)),
+            ..Self::new("", series)
+        }
+    }
+
     /// The same with a horizontal line more.
     pub fn with_level(mut self, value: f64, label: &str) -> Self {
         self.levels.push(ReferenceLevel::new(value, label));
         self
     }
+}
+
+/// How lines look and panels stand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Look {
+    /// Marked points, as many panels in a row as go well together.
+    #[default]
+    Points,
+    /// The same in lower panels.
+    LowPoints,
+    /// Bare lines, two panels in a row; one that is alone needs no legend.
+    Traces,
 }
 
 /// A figure of panels whose axes have the same meaning.
@@ -49,6 +71,8 @@ pub struct MultiplesPlot {
     pub x_axis: AxisKind,
     /// The division of the vertical axes.
     pub y_axis: AxisKind,
+    /// Markers and layout.
+    pub look: Look,
     /// The panels.
     pub panels: Vec<MultiplesPanel>,
     /// Notes below the figure.
@@ -64,6 +88,15 @@ impl MultiplesPlot {
             x_axis: AxisKind::Logarithmic,
             y_axis: AxisKind::Logarithmic,
             ..Self::default()
+        }
+    }
+
+    /// Quantities of runs, each over a vertical axis of its own, against steps or time.
+    pub fn traces(title: impl Into<String>, x_label: &str, panels: impl IntoIterator<Item = MultiplesPanel>) -> Self {
+        Self {
+            title: title.into(),
+            look: Look::Traces,
+            ..Self::logarithmic(x_label, "").over_linear().with_panels(panels)
         }
     }
 
@@ -91,45 +124,56 @@ impl MultiplesPlot {
 /// # Errors
 /// [`PlotError::Empty`] if no point can be drawn, [`PlotError::Size`] if lengths differ.
 pub fn multiples(plot: &MultiplesPlot) -> Result<String, PlotError> {
-    draw(plot, 140.0)
-}
-
-/// The same with panels of this height, where there are several.
-pub(super) fn draw(plot: &MultiplesPlot, panel_height: f64) -> Result<String, PlotError> {
     let all = plot.panels.iter().flat_map(|panel| &panel.series);
     let legend = Legend::of(all.map(|series| &series.label));
+    let bare = plot.look == Look::Traces;
+    let line = |series: &LineSeries| {
+        let label = if bare && legend.len() < 2 { "" } else { &series.label };
+        ChartSeries {
+            bars: series.bars.clone(),
+            // A line of one point is invisible.
+            markers: !bare || series.x.len() == 1,
+            ..ChartSeries::line(label, legend.style(&series.label), &series.x, &series.y)
+        }
+    };
     let mut panels = Vec::with_capacity(plot.panels.len());
     for panel in &plot.panels {
-        let lines = panel.series.iter().map(|series| ChartSeries {
-            bars: series.bars.clone(),
-            ..ChartSeries::line(&series.label, legend.style(&series.label), &series.x, &series.y)
-        });
-        let mut drawn: Vec<ChartSeries> = lines.collect();
+        let mut series: Vec<ChartSeries> = panel.series.iter().map(line).collect();
         for guide in &panel.guides {
             let dashes = if guide.dotted {
                 Connection::Dotted
             } else {
                 Connection::Dashed
             };
-            drawn.push(ChartSeries::guide(&guide.label, &guide.curve, dashes)?);
+            series.push(ChartSeries::guide(&guide.label, &guide.curve, dashes)?);
         }
+        let (y_label, y_kind) = panel.y.clone().unwrap_or((plot.y_label.clone(), plot.y_axis));
         panels.push(ChartPanel {
             title: panel.title.clone(),
             x_label: plot.x_label.clone(),
-            y_label: plot.y_label.clone(),
+            y_label,
             x_kind: plot.x_axis,
-            y_kind: plot.y_axis,
-            series: drawn,
+            y_kind,
+            series,
             levels: panel.levels.clone(),
         });
     }
-    let (columns, width) = arrangement(plot.panels.len());
+    let columns = match panels.len() {
+        0 | 1 => 1,
+        2 | 4 => 2,
+        _ if bare => 2,
+        _ => 3,
+    };
     Chart {
         title: plot.title.clone(),
         panels,
         columns,
-        width,
-        panel_height: if columns == 1 { 210.0 } else { panel_height },
+        panel_height: match plot.look {
+            Look::Traces => 150.0,
+            _ if columns == 1 => 210.0,
+            Look::Points => 140.0,
+            Look::LowPoints => 130.0,
+        },
         notes: plot.notes.clone(),
     }
     .draw()

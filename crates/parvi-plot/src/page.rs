@@ -8,9 +8,12 @@ use crate::{PlotError, exponent_text};
 /// A page that grows by paragraphs, tables and figures.
 #[derive(Clone, Debug, Default)]
 pub struct Page {
-    text: String,
-    figures: Vec<(String, String)>,
-    summary: Vec<(&'static str, String)>,
+    /// The page as text.
+    pub text: String,
+    /// The figures on the page with the names of their files, which it expects beside it in `figures/`.
+    pub figures: Vec<(String, String)>,
+    /// The most important of the page, by name; it is no part of the text.
+    pub summary: Vec<(&'static str, String)>,
 }
 
 impl Page {
@@ -82,25 +85,10 @@ impl Page {
         }
     }
 
-    /// The figures on the page with the names of their files, which it expects beside it in `figures/`.
-    pub fn figures(&self) -> &[(String, String)] {
-        &self.figures
-    }
-
     /// The same with a line more in its summary.
     pub fn with(mut self, key: &'static str, value: impl ToString) -> Self {
         self.summary.push((key, value.to_string()));
         self
-    }
-
-    /// The most important of the page, by name; it is no part of the text.
-    pub fn summary(&self) -> &[(&'static str, String)] {
-        &self.summary
-    }
-
-    /// The page as text.
-    pub fn as_str(&self) -> &str {
-        &self.text
     }
 }
 
@@ -146,29 +134,17 @@ impl Cell for f64 {
     }
 }
 
-impl Cell for str {
-    fn cell(&self) -> String {
-        self.to_owned()
-    }
+macro_rules! as_displayed {
+    ($($type:ty),*) => {$(
+        impl Cell for $type {
+            fn cell(&self) -> String {
+                self.to_string()
+            }
+        }
+    )*};
 }
 
-impl Cell for String {
-    fn cell(&self) -> String {
-        self.clone()
-    }
-}
-
-impl Cell for usize {
-    fn cell(&self) -> String {
-        self.to_string()
-    }
-}
-
-impl Cell for u64 {
-    fn cell(&self) -> String {
-        self.to_string()
-    }
-}
+as_displayed!(str, String, usize, u64);
 
 impl<T: Cell + ?Sized> Cell for &T {
     fn cell(&self) -> String {
@@ -237,13 +213,13 @@ mod tests {
         page.heading("Part");
         page.table("name | value", [line(&[&"a|b", &1_usize]), line(&[&"c", &None::<f64>])]);
         assert_eq!(
-            page.as_str(),
+            page.text,
             "# Title\n\n## Part\n\n| name | value |\n| --- | ---: |\n| a\\|b | 1 |\n| c | – |\n"
         );
         let mut other = Page::new("Title");
         other.heading("Part");
         other.table(&["name", "value"], [line(&[&"a|b", &1.0]), line(&[&"c", &f64::NAN])]);
-        assert_eq!(other.as_str(), page.as_str().replace("| 1 |", "| 1.00 |"));
+        assert_eq!(other.text, page.text.replace("| 1 |", "| 1.00 |"));
     }
 
     #[test]
@@ -252,6 +228,6 @@ mod tests {
         page.list("Misses", &[], None);
         page.list("Misses", &[], Some("None."));
         page.list("Misses", &["- a".to_owned(), "- b".to_owned()], None);
-        assert_eq!(page.as_str(), "\n## Misses\n\nNone.\n\n## Misses\n\n- a\n- b\n");
+        assert_eq!(page.text, "\n## Misses\n\nNone.\n\n## Misses\n\n- a\n- b\n");
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::statistics::{PowerLaw, fit_power_law};
 
-use super::chart::{Chart, arrangement};
+use super::chart::Chart;
 use super::data::{PlotError, check_size};
 use super::line_series::{GuideCurve, LineSeries};
 use super::scale::AxisKind;
@@ -13,8 +13,6 @@ use super::text::decimal;
 /// A figure of costs against a size.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ScalingPlot {
-    /// The title; empty for none.
-    pub title: String,
     /// The label of the horizontal axis, with its unit.
     pub x_label: String,
     /// The label of the vertical axis, with its unit.
@@ -53,12 +51,9 @@ pub fn exponent_text(law: &PowerLaw, index: usize) -> String {
 
 fn usable(series: &LineSeries, fit_from: f64) -> (Vec<f64>, Vec<f64>) {
     let positive = |value: f64| value.is_finite() && value > 0.0;
-    series
-        .x
-        .iter()
-        .zip(&series.y)
-        .filter(|(x, y)| positive(**x) && positive(**y) && **x >= fit_from)
-        .map(|(x, y)| (*x, *y))
+    let points = series.points();
+    points
+        .filter(|&(x, y)| positive(x) && positive(y) && x >= fit_from)
         .unzip()
 }
 
@@ -112,7 +107,6 @@ pub fn scaling(plot: &ScalingPlot) -> Result<String, PlotError> {
             "Lines: least-squares fits ∝ {symbol}^{{b}}{range}; b with its 95 % confidence interval."
         ));
     }
-    let (columns, width) = arrangement(1);
     let panel = ChartPanel {
         title: String::new(),
         x_label: plot.x_label.clone(),
@@ -123,10 +117,9 @@ pub fn scaling(plot: &ScalingPlot) -> Result<String, PlotError> {
         levels: Vec::new(),
     };
     Chart {
-        title: plot.title.clone(),
+        title: String::new(),
         panels: vec![panel],
-        columns,
-        width,
+        columns: 1,
         panel_height: 220.0,
         notes,
     }

@@ -2,10 +2,11 @@
 
 use super::data::{PlotError, check_size};
 use super::legend::{LegendEntry, Swatch, draw_legend, noted, titled};
-use super::panel::{AxesParts, Panel, TITLE_ROOM, label_lines, label_room, x_axis_room, x_ticks, y_tick_room, y_ticks};
+use super::panel::{Panel, label_room, x_ticks, y_tick_room, y_ticks};
+use super::panel_grid::PanelGrid;
 use super::scale::{AxisKind, Scale, plottable};
 use super::style::{FIGURE_WIDTH, MARGIN};
-use super::svg::{Drawing, Rectangle, Stroke};
+use super::svg::{Drawing, Stroke};
 
 /// Colours of classes from low to high, each darker than the one before.
 const CLASSES: [&str; 5] = ["#c6d5e8", "#8fb8de", "#f2b46b", "#d55e00", "#5a1200"];
@@ -67,7 +68,6 @@ pub fn snapshots(plot: &SnapshotsPlot) -> Result<String, PlotError> {
     let x = Scale::around([low[0], high[0]], AxisKind::Linear, 0.0);
     let y = Scale::around([low[1], high[1]], AxisKind::Linear, 0.0);
     let columns = plot.columns.clamp(1, plot.panels.len());
-    let rows = plot.panels.len().div_ceil(columns);
     // Left margin, gap, width and height with so much room for the labels of vertical ticks.
     let layout = |room: f64| {
         let (left, gap) = (MARGIN + room + 4.0 + label_room(1), room + 6.0);
@@ -88,34 +88,18 @@ pub fn snapshots(plot: &SnapshotsPlot) -> Result<String, PlotError> {
         FIGURE_WIDTH - 2.0 * MARGIN - left,
         &legend(plot),
     ) + 6.0;
-    for (row, members) in plot.panels.chunks(columns).enumerate() {
-        let lowest = row + 1 == rows;
-        for (column, panel) in members.iter().enumerate() {
-            let area = Rectangle {
-                x: left + column as f64 * (width + gap),
-                y: top + TITLE_ROOM,
-                width,
-                height,
-            };
-            let axes = Panel { area, x, y };
-            draw_particles(&mut drawing, &axes, plot, panel, unit);
-            let parts = AxesParts {
-                x_ticks: horizontal.clone(),
-                y_ticks: vertical.clone(),
-                x_label: Some(if lowest { plot.x_label.as_str() } else { "" }),
-                y_label: if column == 0 { &plot.y_label } else { "" },
-                y_tick_room: Some(y_tick_room(&vertical)),
-            };
-            axes.draw_axes(&mut drawing, &parts);
-            axes.draw_title(&mut drawing, &panel.title);
-        }
-        let lines = if lowest {
-            label_lines(&plot.x_label, horizontal.exponent, width).len()
-        } else {
-            0
-        };
-        top += TITLE_ROOM + height + x_axis_room(lines) + 6.0;
-    }
+    let grid = PanelGrid {
+        columns,
+        left,
+        gap,
+        size: (width, height),
+        x: (x, horizontal, &plot.x_label),
+        y: (y, vertical, &plot.y_label),
+    };
+    let panels: Vec<_> = plot.panels.iter().map(|panel| (panel.title.as_str(), panel)).collect();
+    top = grid.draw(&mut drawing, top, &panels, |drawing, axes, panel| {
+        draw_particles(drawing, axes, plot, panel, unit);
+    });
     Ok(noted(drawing, FIGURE_WIDTH, top - 4.0, &plot.notes))
 }
 

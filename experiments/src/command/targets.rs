@@ -29,27 +29,20 @@ fn entry(info: &TargetInfo, width: usize) -> String {
             parameter.name, parameter.meaning
         ));
     }
-    let mut known = Vec::new();
-    if info.exact_draws {
-        known.push("exact draws".to_owned());
-    }
-    if info.unit_cube_transport {
-        known.push("quasi-random draws".to_owned());
-    }
-    known.push(
-        if info.moments {
-            "moments"
-        } else {
-            "moments by importance sampling"
-        }
-        .to_owned(),
-    );
-    if info.modes > 1 {
-        known.push(format!("{} modes with their masses", info.modes));
-    }
-    if info.log_evidence {
-        known.push("log evidence".to_owned());
-    }
+    let modes = format!("{} modes with their masses", info.modes);
+    let facts = [
+        (info.exact_draws, "exact draws"),
+        (info.unit_cube_transport, "quasi-random draws"),
+        (info.moments, "moments"),
+        (!info.moments, "moments by importance sampling"),
+        (info.modes > 1, &modes),
+        (info.log_evidence, "log evidence"),
+    ];
+    let known: Vec<&str> = facts
+        .iter()
+        .filter(|(known, _)| *known)
+        .map(|(_, fact)| *fact)
+        .collect();
     text.push_str(&format!("{indent}known: {}\n", known.join(", ")));
     text
 }

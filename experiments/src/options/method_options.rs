@@ -1,14 +1,12 @@
 //! The options of all methods.
 
-use std::path::PathBuf;
-
 use clap::Args;
 use parvi::{Method, Start};
 use serde::Deserialize;
 
 use super::{
     AlphaSchedule, Basis, Correction, Draws, EvaluationCount, FrameName, Limit, Material, MethodName, MonitorName,
-    NonFinite, OptionError, ParticleCount, RoundCount, Score, StepCount, Switch, Transfer, Typed, WarmUp,
+    NonFinite, OptionError, ParticleCount, RoundCount, Score, StepCount, Switch, Transfer, WarmUp,
 };
 
 /// A range for numbers, and its name.
@@ -51,7 +49,7 @@ macro_rules! options {
 
             /// The options that are set: name, value as typed.
             pub(super) fn given(&self) -> impl Iterator<Item = (String, String)> {
-                let all = [$((stringify!($name), self.$name.as_ref().map(Typed::typed))),*];
+                let all = [$((stringify!($name), self.$name.as_ref().map(ToString::to_string))),*];
                 all.into_iter().filter_map(|(name, value)| Some((flag(name), value?)))
             }
 
@@ -59,7 +57,7 @@ macro_rules! options {
             pub(super) fn ranged(&self) -> Vec<(String, Option<f64>, Range)> {
                 vec![$($($((
                     flag(stringify!($name)),
-                    self.$name.as_ref().and_then(Typed::number),
+                    self.$name.as_ref().and_then(|value| value.to_string().parse().ok()),
                     $range,
                 ),)?)?)*]
             }
@@ -78,7 +76,7 @@ options! {
     /// Background basis
     basis: Basis,
     /// Mesh of the domain that the density is kept to, a .msh file of Gmsh; with --basis mesh
-    mesh: PathBuf = "FILE.msh",
+    mesh: String = "FILE.msh",
     /// Grid spacing in units of the target's scale
     spacing: f64 = "H" in POSITIVE,
     /// Time step
@@ -167,11 +165,11 @@ options! {
     /// A new grid, with its origin drawn anew, every so many steps; default: one grid, with nodes at the integer multiples of the spacing
     grid_renewal: StepCount = "STEPS",
     /// Masses of the particles: `equal`, 1/M each, or a file with a column of them [default: equal]
-    masses: PathBuf = "equal|FILE.csv|.npy",
+    masses: String = "equal|FILE.csv|.npy",
     /// Reference volumes: `uniform`, 1/M each; `start-density`, mass over density of the start's law; `grid`, mass over density on the grid; or a file with a column of them [default: uniform]
-    volumes: PathBuf = "uniform|start-density|grid|FILE.csv|.npy",
+    volumes: String = "uniform|start-density|grid|FILE.csv|.npy",
     /// Velocities at the start: `zero`, or a file with a column per dimension [default: zero]
-    velocities: PathBuf = "zero|FILE.csv|.npy",
+    velocities: String = "zero|FILE.csv|.npy",
     /// What is watched on the way to find the best configuration [default with --best, --monitor-every or --patience: stein]
     monitor: MonitorName,
     /// Look every so many steps [default: 10]
@@ -179,7 +177,7 @@ options! {
     /// End the run after so many looks in a row that were not better than the best one by a hundredth [default: take all steps]
     patience: StepCount = "LOOKS",
     /// File of the best configuration on the way, .csv or .npy
-    best: PathBuf = "FILE.csv|.npy",
+    best: String = "FILE.csv|.npy",
     /// All guards at once; single guards can be set beside it
     guards: Switch,
     /// Nodes lighter than this share of the mean particle mass get no force, 0: off
@@ -203,13 +201,13 @@ options! {
     /// Acceptance that the step size is tuned to, between 0 and 1; stein-thinning: with --pool nuts
     target_acceptance: f64 = "A" in BETWEEN,
     /// What the draws are chosen from, `exact` or `nuts` (stein-thinning); file for the weighted pool
-    pool: PathBuf = "exact|nuts|FILE.csv|.npy",
+    pool: String = "exact|nuts|FILE.csv|.npy",
     /// Size of the bigger sample, at least the number of particles
     pool_size: ParticleCount = "N",
     /// End when no point moves farther, in units of the sample's spread
     tolerance: f64 = "TOL" in NOT_NEGATIVE,
     /// File of the positions at the start, a row per particle, in the target's own coordinates; mpm: with --survey off
-    start: PathBuf = "FILE.csv|.npy",
+    start: String = "FILE.csv|.npy",
     /// Target whose draws the particles start at, in its own coordinates: the paper's p0 by name; mpm: with --survey off
     start_law: String = "TARGET",
     /// Mean of a normal law to start from, in the target's own coordinates; mpm: with --survey off

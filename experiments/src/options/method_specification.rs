@@ -1,49 +1,40 @@
 //! A method with its options, as a configuration states it.
 
 use parvi::{Method, Run, SampleError};
-use serde::Deserialize;
+use serde::de::Error;
+use serde::{Deserialize, Deserializer};
 
 use super::{MethodName, MethodOptions, OptionError};
 
 /// `{ name = "mpm", options = { spacing = 0.5 } }`; options that do not fit the method are refused while reading.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(try_from = "Stated")]
+#[serde(remote = "Self", deny_unknown_fields)]
 pub struct MethodSpecification {
     /// The method.
     pub name: MethodName,
     /// A name of its own in tables and figures, where one method appears with several options.
     pub label: Option<String>,
     /// Its options.
+    #[serde(default)]
     pub options: MethodOptions,
 }
 
-/// What the configuration says, before it is checked.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Stated {
-    name: MethodName,
-    label: Option<String>,
-    #[serde(default)]
-    options: MethodOptions,
-}
-
-impl TryFrom<Stated> for MethodSpecification {
-    type Error = OptionError;
-
-    fn try_from(stated: Stated) -> Result<Self, OptionError> {
-        Self::new(stated.name, stated.label, stated.options)
+impl<'de> Deserialize<'de> for MethodSpecification {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let stated = Self::deserialize(deserializer)?;
+        stated.checked().map_err(D::Error::custom)
     }
 }
 
 impl MethodSpecification {
-    /// A method with options that fit it.
+    /// The same, if its options fit.
     ///
     /// # Errors
     /// An option that does not fit, or that no study has.
-    pub fn new(name: MethodName, label: Option<String>, options: MethodOptions) -> Result<Self, OptionError> {
-        options.method(name)?;
-        options.check_study(name)?;
-        Ok(Self { name, label, options })
+    pub fn checked(self) -> Result<Self, OptionError> {
+        self.options.method(self.name)?;
+        self.options.check_study(self.name)?;
+        Ok(self)
     }
 
     /// The name in tables and figures.

@@ -10,10 +10,8 @@ mod methods;
 mod option_error;
 mod option_rules;
 mod option_values;
-mod pool_option;
-mod start_options;
 mod target_specification;
-mod typed;
+mod words_or_files;
 
 pub use bounded::{Bounded, Dimension, EvaluationCount, ParticleCount, RoundCount, StepCount, WarmUp};
 pub use law::{Given, Material, Parameter};
@@ -27,4 +25,3 @@ pub use option_values::{
     AlphaSchedule, Basis, Correction, Draws, FrameName, MonitorName, NonFinite, PoolChoice, Score, Switch, Transfer,
 };
 pub use target_specification::{TargetParameters, TargetSpecification};
-pub use typed::Typed;

@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 use parvi_targets::{BoxedTarget, Parameters, TargetError};
-use serde::Deserialize;
+use serde::de::Error;
+use serde::{Deserialize, Deserializer};
 
 use super::Dimension;
 
@@ -62,37 +63,22 @@ impl TargetParameters {
 /// `{ name = "gaussian", dim = 4, parameters = { correlation = 0.5 } }`; an unknown name or a dimension that the
 /// target does not have is refused while reading.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(try_from = "Stated")]
+#[serde(remote = "Self", deny_unknown_fields)]
 pub struct TargetSpecification {
     /// The name in the catalogue.
     pub name: String,
     /// The dimension, where the target leaves it free.
     pub dim: Option<Dimension>,
     /// The parameters.
+    #[serde(default)]
     pub parameters: TargetParameters,
 }
 
-/// What the configuration says, before it is checked.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Stated {
-    name: String,
-    dim: Option<Dimension>,
-    #[serde(default)]
-    parameters: TargetParameters,
-}
-
-impl TryFrom<Stated> for TargetSpecification {
-    type Error = TargetError;
-
-    fn try_from(stated: Stated) -> Result<Self, TargetError> {
-        let specification = Self {
-            name: stated.name,
-            dim: stated.dim,
-            parameters: stated.parameters,
-        };
-        specification.dimension()?;
-        Ok(specification)
+impl<'de> Deserialize<'de> for TargetSpecification {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let stated = Self::deserialize(deserializer)?;
+        stated.dimension().map_err(D::Error::custom)?;
+        Ok(stated)
     }
 }
 

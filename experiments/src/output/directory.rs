@@ -8,7 +8,8 @@ use crate::options::OptionError;
 
 /// A directory for files of a run; one that was made for it and has stayed empty is removed again.
 pub struct OutputDirectory {
-    path: PathBuf,
+    /// The directory.
+    pub path: PathBuf,
     /// Whether it was made here.
     made: bool,
 }
@@ -49,11 +50,6 @@ impl OutputDirectory {
             }
             _ => Ok(()),
         }
-    }
-
-    /// The directory.
-    pub fn path(&self) -> &Path {
-        &self.path
     }
 }
 

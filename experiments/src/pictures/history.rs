@@ -25,8 +25,8 @@ pub struct Moment {
 pub struct History {
     moments: Vec<Moment>,
     every: usize,
-    /// Bodies seen, in any dimension.
-    rounds: usize,
+    /// Bodies that moved one after the other, in any dimension.
+    pub rounds: usize,
 }
 
 impl Default for History {
@@ -40,11 +40,6 @@ impl Default for History {
 }
 
 impl History {
-    /// Bodies that moved one after the other.
-    pub fn rounds(&self) -> usize {
-        self.rounds
-    }
-
     /// So many moments from the first step to the last one, closer together at the beginning.
     pub fn selected(&self, count: usize) -> Vec<&Moment> {
         let steps: Vec<usize> = self.moments.iter().map(|moment| moment.step).collect();

@@ -6,8 +6,6 @@ pub mod trace_panels;
 
 use std::path::Path;
 
-use parvi::TracePoint;
-
 pub use self::history::History;
 pub use self::known::density;
 use self::known::{Known, look};
@@ -15,8 +13,8 @@ use crate::dispatch::on_target;
 use crate::options::TargetSpecification;
 use crate::output::{AtomicFile, OutputDirectory};
 use crate::plots::{
-    AxisKind, DensityPlot, PlotError, PointCloud, StripPanel, StripPlot, TracePanel, TracePlot, TraceSeries, corner,
-    histogram, strip, trace,
+    AxisKind, DensityPlot, LineSeries, MultiplesPanel, MultiplesPlot, PlotError, PointCloud, StripPanel, StripPlot,
+    corner, histogram, multiples, strip,
 };
 use crate::sampling::{Outcome, Watched};
 use crate::{CommandError, console};
@@ -127,33 +125,32 @@ impl Subject<'_> {
 
     /// None without a trace, which is said.
     fn trace(&self) -> Option<Result<String, PlotError>> {
-        let rows: Vec<TracePoint> = self.outcome.trace.clone();
-        if rows.is_empty() {
+        if self.outcome.trace.is_empty() {
             let reason = self.untraced.unwrap_or("the run has no trace of steps");
             console::notice(&format!("--plots: no {TRACE}: {reason}"));
             return None;
         }
         let watched = self.outcome.watched.as_ref().map(|seen| self.watched(seen));
-        let runs = [(self.method.to_owned(), rows)];
+        let runs = [(self.method.to_owned(), self.outcome.trace.clone())];
         let mut panels: Vec<_> = trace_panels::panels(trace_panels::ALL, &runs).into();
         panels.extend(watched);
         // A quantity that the method does not have is zero or not there.
-        let holds = |panel: &TracePanel| {
-            let mut values = panel.series.iter().flat_map(|series| &series.value);
+        let holds = |panel: &MultiplesPanel| {
+            let mut values = panel.series.iter().flat_map(|series| &series.y);
             values.any(|&value| value != 0.0)
         };
         panels.retain(holds);
         // Of several rounds it is that of the one whose particles were returned.
-        let several = self.history.rounds() > 1;
+        let several = self.history.rounds > 1;
         let x_label = if several { "step of the round returned" } else { "step" };
-        Some(trace(&TracePlot::new(self.title(), x_label, panels)))
+        Some(multiples(&MultiplesPlot::traces(self.title(), x_label, panels)))
     }
 
     /// What the monitor said.
-    fn watched(&self, seen: &Watched) -> TracePanel {
+    fn watched(&self, seen: &Watched) -> MultiplesPanel {
         let looks = seen.history.iter().map(|look| (look.0 as f64, look.1));
         let y_label = format!("monitor, least after step {}", seen.best_step);
-        TracePanel::new(y_label, AxisKind::Linear, [TraceSeries::through(self.method, looks)])
+        MultiplesPanel::over(y_label, AxisKind::Linear, [LineSeries::through(self.method, looks)])
     }
 
     /// None where nothing has moved, which is said.

@@ -2,7 +2,7 @@
 
 use parvi::TracePoint;
 
-use crate::plots::{AxisKind, TracePanel, TraceQuantity};
+use crate::plots::{AxisKind, MultiplesPanel, TraceQuantity};
 
 /// Galerkin–Stein residual.
 pub const RESIDUAL: TraceQuantity<TracePoint> = TraceQuantity {
@@ -48,6 +48,6 @@ pub const ALL: [TraceQuantity<TracePoint>; 5] = [
 pub fn panels<const N: usize>(
     quantities: [TraceQuantity<TracePoint>; N],
     runs: &[(String, Vec<TracePoint>)],
-) -> [TracePanel; N] {
+) -> [MultiplesPanel; N] {
     quantities.map(|quantity| quantity.panel(runs, |row| row.step as f64))
 }

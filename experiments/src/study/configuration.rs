@@ -15,11 +15,15 @@ use crate::options::Bounded;
 /// The text of a configuration and what can be said about it before its kind is known.
 #[derive(Clone, Debug)]
 pub struct Configuration {
-    file: String,
-    text: String,
+    /// The file it came from.
+    pub file: String,
+    /// The text, as read.
+    pub text: String,
+    /// A fingerprint of all keys and values; comments, spaces and the order of keys do not matter.
+    pub hash: String,
+    /// The seeds in `seed` or `seeds`, if it has one of both.
+    pub seeds: Vec<u64>,
     head: Head,
-    hash: String,
-    seeds: Vec<u64>,
 }
 
 /// What every configuration has, or may have.
@@ -43,7 +47,8 @@ impl Configuration {
         let head: Head = mpm_document::parse(&text, Path::new(&file))?;
         let table: toml::Table = mpm_document::parse(&text, Path::new(&file))?;
         Ok(Self {
-            hash: fingerprint(&canonical(&table)),
+            // A TOML table has string keys and plain values only, all of which JSON can hold.
+            hash: fingerprint(&serde_json::to_string(&table).unwrap_or_default()),
             seeds: whole_numbers(["seed", "seeds"].iter().find_map(|key| table.get(*key))),
             head,
             file,
@@ -54,26 +59,6 @@ impl Configuration {
     /// The study's kind, as written.
     pub fn kind(&self) -> &str {
         self.head.kind.get_ref()
-    }
-
-    /// The text, as read.
-    pub fn text(&self) -> &str {
-        &self.text
-    }
-
-    /// The file it came from.
-    pub fn file(&self) -> &str {
-        &self.file
-    }
-
-    /// A fingerprint of all keys and values; comments, spaces and the order of keys do not matter.
-    pub fn hash(&self) -> &str {
-        &self.hash
-    }
-
-    /// The seeds in `seed` or `seeds`, if it has one of both.
-    pub fn seeds(&self) -> &[u64] {
-        &self.seeds
     }
 
     /// The number in `threads`, if it has one.
@@ -124,12 +109,6 @@ fn whole_numbers(value: Option<&toml::Value>) -> Vec<u64> {
     };
     let numbers = list.iter().filter_map(toml::Value::as_integer);
     numbers.filter_map(|number| u64::try_from(number).ok()).collect()
-}
-
-/// All keys in alphabetical order, as JSON.
-fn canonical(table: &toml::Table) -> String {
-    // A TOML table has string keys and plain values only, all of which JSON can hold.
-    serde_json::to_string(table).unwrap_or_default()
 }
 
 /// The 64-bit FNV-1a hash in hexadecimal digits.
@@ -192,9 +171,9 @@ mod tests {
     fn seeds_and_threads_are_those_of_the_file() {
         let read = |text: &str| Configuration::from_text(String::new(), text.to_owned()).unwrap();
         let one = read("kind = \"a\"\nseed = 3\nthreads = 2");
-        assert_eq!((one.seeds(), one.threads()), (&[3][..], Some(2)));
+        assert_eq!((one.threads(), one.seeds), (Some(2), vec![3]));
         let many = read("kind = \"a\"\nseeds = [1, 2]\n[part]\nthreads = 4");
-        assert_eq!((many.seeds(), many.threads()), (&[1, 2][..], None));
+        assert_eq!((many.threads(), many.seeds), (None, vec![1, 2]));
     }
 
     #[test]

@@ -11,7 +11,7 @@ use crate::CommandError;
 use crate::options::MethodSpecification;
 use crate::plots::page::Page;
 use crate::plots::results::{Row, Rows, Value};
-use crate::progress::CaseObserver;
+use crate::progress::Bar;
 
 /// One piece of work of a study.
 #[derive(Clone, Debug)]
@@ -55,8 +55,12 @@ pub struct Tools<'a> {
     /// Where raw results go.
     pub directory: &'a StudyDirectory,
     /// Watches the runs, and stops them.
-    pub observer: &'a mut CaseObserver,
+    pub observer: &'a mut Bar,
 }
+
+/// Tables and plots of a study's rows, which may be a part of all; nothing is sampled. Beside their columns rows have the numbers of
+/// [`derived`](super::derived); the summary of the page goes to standard output. An error is a file that cannot be read.
+pub type Report<S> = fn(&S, &Rows<'_>, &StudyDirectory) -> Result<Page, CommandError>;
 
 /// A study: its configuration, which is a list of cases, and the report on their rows.
 pub trait Study: DeserializeOwned + Sync {
@@ -68,6 +72,9 @@ pub trait Study: DeserializeOwned + Sync {
 
     /// The columns of results.csv with spaces between.
     const COLUMNS: &'static str;
+
+    /// Its report.
+    const REPORT: Report<Self>;
 
     /// The keys of the configuration that are read before its kind is known; the study has the others.
     const HEAD: &[&str] = &["kind", "threads"];
@@ -104,11 +111,4 @@ pub trait Study: DeserializeOwned + Sync {
     /// # Errors
     /// What ends the whole study; a run that diverges is a row.
     fn run(&self, case: &Case<Self::Work>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError>;
-
-    /// Tables and plots of the rows, which may be a part of all; nothing is sampled. Beside their columns rows have the numbers of
-    /// [`derived`](super::derived); the summary of the page goes to standard output.
-    ///
-    /// # Errors
-    /// Files that cannot be read.
-    fn report(&self, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError>;
 }

@@ -30,7 +30,7 @@ impl StudyDirectory {
         } else {
             directory.check_empty()?;
             fs::create_dir_all(path).map_err(|source| CommandError::file("create", path, source))?;
-            AtomicFile::write(existing, configuration.text())?;
+            AtomicFile::write(existing, &configuration.text)?;
         }
         directory.make_parts()?;
         Ok(directory)
@@ -56,16 +56,16 @@ impl StudyDirectory {
         // A config.toml that is no study's is a stranger's as well.
         let here = Configuration::read(&self.file(CONFIGURATION))
             .map_err(|error| self.occupied(format!("holds a {CONFIGURATION} that is no study's ({error})")))?;
-        if here.hash() == configuration.hash() {
+        if here.hash == configuration.hash {
             return Ok(());
         }
         Err(self.occupied(format!(
             "holds another study (kind `{}`, config hash {}; {} has kind `{}`, config hash {})",
             here.kind(),
-            here.hash(),
-            configuration.file(),
+            here.hash,
+            configuration.file,
             configuration.kind(),
-            configuration.hash(),
+            configuration.hash,
         )))
     }
 
@@ -127,7 +127,7 @@ mod tests {
         let empty = root.path().join("empty");
         fs::create_dir(&empty).unwrap();
         StudyDirectory::claim(&empty, &study).unwrap();
-        assert_eq!(fs::read_to_string(empty.join(CONFIGURATION)).unwrap(), study.text());
+        assert_eq!(fs::read_to_string(empty.join(CONFIGURATION)).unwrap(), study.text);
     }
 
     #[test]

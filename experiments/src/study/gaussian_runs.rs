@@ -111,7 +111,7 @@ pub fn run(case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), 
 ///
 /// # Errors
 /// What the sampler refuses, and particles too far out to be measured.
-pub fn sampled(work: &Sampled, observer: &mut CaseObserver) -> Result<(Outcome, f64), CommandError> {
+pub fn sampled(work: &Sampled, observer: &mut Bar) -> Result<(Outcome, f64), CommandError> {
     let outcome = work.sample(observer)?;
     let particles = &outcome.particles;
     let energy = in_dimension!("gaussian", particles.dimension(), D => energy::<D>(particles))?;

@@ -6,7 +6,7 @@ pub use super::checks::{
     ascending, distinct, distinct_names, fitting, in_dimensions, not_empty, positive, refusal, targets_without_data,
     unset,
 };
-pub use super::definition::{Case, Study, Tools};
+pub use super::definition::{Case, Report, Study, Tools};
 pub use super::derived::{ENERGY, SECONDS, WALL};
 pub use super::directory::StudyDirectory;
 pub use super::row::{RunRow, RunRows};
@@ -23,5 +23,5 @@ pub use crate::plots::results::{Row, Rows};
 pub use crate::plots::{
     AxisKind, Curve, GuideCurve, LineSeries, MultiplesPanel, MultiplesPlot, exponent_text, multiples,
 };
-pub use crate::progress::CaseObserver;
+pub use crate::progress::Bar;
 pub use serde::Deserialize;

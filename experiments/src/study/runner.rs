@@ -13,7 +13,7 @@ use super::row_file;
 use super::yardstick::CurrentYardstick;
 use crate::output::AtomicFile;
 use crate::plots::results::Row;
-use crate::progress::StudyProgress;
+use crate::progress::Bar;
 use crate::{CommandError, console, interrupt};
 
 /// The page that a study ends with.
@@ -23,7 +23,7 @@ const REPORT: &str = "report.md";
 pub fn run<S: Study>(configuration: &Configuration, out: &Path) -> Result<(), CommandError> {
     let mut study: S = configuration.parse(S::HEAD)?;
     let located = |error| in_file(error, configuration);
-    study.open(Path::new(configuration.file())).map_err(located)?;
+    study.open(Path::new(&configuration.file)).map_err(located)?;
     let cases = study.cases().map_err(located)?;
     for method in study.methods() {
         method.check_built()?;
@@ -49,7 +49,7 @@ pub fn report<S: Study>(configuration: &Configuration, directory: &StudyDirector
 fn in_file(error: CommandError, configuration: &Configuration) -> CommandError {
     match error {
         CommandError::ConfigField { field, message, .. } => CommandError::ConfigField {
-            file: configuration.file().to_owned(),
+            file: configuration.file.clone(),
             field,
             message,
         },
@@ -85,14 +85,14 @@ fn note_start<S: Study>(
         manifest.resumed.push(Provenance::now(threads));
         manifest
     } else {
-        let mut seeds = configuration.seeds().to_vec();
+        let mut seeds = configuration.seeds.clone();
         if seeds.is_empty() {
             let of_cases = cases.iter().filter_map(|case| case.row.count("seed"));
             seeds.extend(of_cases.map(|seed| seed as u64));
             seeds.sort_unstable();
             seeds.dedup();
         }
-        Manifest::new(S::KIND, configuration.hash(), seeds, threads)
+        Manifest::new(S::KIND, &configuration.hash, seeds, threads)
     };
     manifest.write(&path)
 }
@@ -106,14 +106,15 @@ fn run_missing<S: Study>(
     let finished: HashSet<String> = results.rows().iter().map(|row| row.case().to_owned()).collect();
     let (done, missing): (Vec<_>, Vec<_>) = cases.iter().partition(|case| finished.contains(case.id()));
     let cost = |cases: &[&Case<S::Work>]| cases.iter().map(|case| case.cost).sum::<f64>();
-    let mut progress = StudyProgress::new(cost(&done) + cost(&missing), cost(&done));
+    let mut progress = Bar::of_study(cost(&done) + cost(&missing), cost(&done));
     let mut yardstick = CurrentYardstick::default();
     for case in missing {
         let mut row = case.row.clone();
+        progress.begin(case.id(), case.cost);
         let tools = Tools {
             yardstick: &mut yardstick,
             directory,
-            observer: &mut progress.begin(case.id(), case.cost),
+            observer: &mut progress,
         };
         let stopped = interrupt::requested();
         let result = if stopped {
@@ -132,7 +133,6 @@ fn run_missing<S: Study>(
         }
         result?;
         results.append(&row)?;
-        progress.end(case.cost);
     }
     progress.clear();
     Ok(())
@@ -140,16 +140,16 @@ fn run_missing<S: Study>(
 
 fn write_report<S: Study>(study: &S, rows: &[Row], directory: &StudyDirectory) -> Result<(), CommandError> {
     let completed: Vec<Row> = rows.iter().map(derived::completed).collect();
-    let mut page = study.report(&completed.iter().collect(), directory)?;
+    let mut page = (S::REPORT)(study, &completed.iter().collect(), directory)?;
     let manifest = Manifest::read(&directory.file(manifest::FILE_NAME))?;
     page.heading("Provenance");
     page.paragraph(provenance(&manifest, rows.len(), study.cases()?.len()));
-    for (name, svg) in page.figures() {
+    for (name, svg) in &page.figures {
         AtomicFile::write(directory.figure(name), svg)?;
     }
-    AtomicFile::write(directory.file(REPORT), page.as_str())?;
+    AtomicFile::write(directory.file(REPORT), &page.text)?;
     let mut pairs = vec![("study", S::KIND.to_owned())];
-    pairs.extend_from_slice(page.summary());
+    pairs.extend(page.summary);
     pairs.push(("report", directory.file(REPORT).display().to_string()));
     console::print_pairs(&pairs)
 }

@@ -10,7 +10,7 @@ use super::yardstick::Yardstick;
 use crate::CommandError;
 use crate::options::{MethodSpecification, OptionError, TargetSpecification};
 use crate::plots::results::Row;
-use crate::progress::CaseObserver;
+use crate::progress::Bar;
 use crate::sampling::{self, Outcome};
 
 /// A method on a target.
@@ -58,7 +58,7 @@ impl Sampled {
     ///
     /// # Errors
     /// What target and sampler refuse.
-    pub fn sample(&self, observer: &mut CaseObserver) -> Result<Outcome, CommandError> {
+    pub fn sample(&self, observer: &mut Bar) -> Result<Outcome, CommandError> {
         sampling::sample(&self.target, &self.method, &self.run, observer)
     }
 
@@ -66,11 +66,7 @@ impl Sampled {
     ///
     /// # Errors
     /// As for [`sample`](Self::sample).
-    pub fn sample_or_draw(
-        &self,
-        yardstick: &dyn Yardstick,
-        observer: &mut CaseObserver,
-    ) -> Result<Outcome, CommandError> {
+    pub fn sample_or_draw(&self, yardstick: &dyn Yardstick, observer: &mut Bar) -> Result<Outcome, CommandError> {
         if self.draws_from(yardstick) {
             return Ok(yardstick.independent_draws(self.run.particles, self.run.seed));
         }
@@ -86,12 +82,7 @@ impl Sampled {
     ///
     /// # Errors
     /// What ends a study.
-    pub fn run(
-        &self,
-        row: &mut Row,
-        yardstick: &dyn Yardstick,
-        observer: &mut CaseObserver,
-    ) -> Result<(), CommandError> {
+    pub fn run(&self, row: &mut Row, yardstick: &dyn Yardstick, observer: &mut Bar) -> Result<(), CommandError> {
         row.set("energy_level", yardstick.mean_distance() / self.run.particles as f64);
         if let Some(outcome) = row.note(self.sample_or_draw(yardstick, observer))? {
             row.measured(yardstick.measure(&outcome.particles))?;

@@ -27,8 +27,8 @@ pub trait Yardstick: Send {
     /// E‖Y − Y'‖ of the target: divided by M, the expected squared energy distance of M independent draws.
     fn mean_distance(&self) -> f64;
 
-    /// The median sliced Wasserstein distance of the sets of independent draws; `None` without such sets.
-    fn sliced_level(&self) -> Option<f64>;
+    /// The median sliced Wasserstein distance of sets of independent draws.
+    fn sliced_level(&self, sets: IndependentSets, seed: u64) -> Result<f64, CommandError>;
 
     /// Whether the target has exact draws.
     fn has_exact_draws(&self) -> bool;
@@ -40,10 +40,10 @@ pub trait Yardstick: Send {
     fn measure(&self, particles: &Particles) -> Result<Errors, CommandError>;
 }
 
-/// The yardstick of the target at hand, made once for all cases of the target.
+/// The yardstick of the target at hand, made once for all cases of the target, and the level of its sliced distance.
 #[derive(Default)]
 pub struct CurrentYardstick {
-    current: Option<(TargetSpecification, Box<dyn Yardstick>)>,
+    current: Option<(TargetSpecification, Box<dyn Yardstick>, Option<f64>)>,
 }
 
 impl CurrentYardstick {
@@ -52,42 +52,34 @@ impl CurrentYardstick {
         &mut self,
         target: &TargetSpecification,
         options: &YardstickOptions,
-        sets: Option<IndependentSets>,
     ) -> Result<&dyn Yardstick, CommandError> {
-        let (_, yardstick) = match self.current.take() {
-            Some((known, yardstick)) if known == *target => self.current.insert((known, yardstick)),
+        Ok(self.levelled(target, options, None)?.0)
+    }
+
+    /// The same with the median sliced Wasserstein distance of sets of independent draws, if there are to be any.
+    pub fn levelled(
+        &mut self,
+        target: &TargetSpecification,
+        options: &YardstickOptions,
+        sets: Option<IndependentSets>,
+    ) -> Result<(&dyn Yardstick, Option<f64>), CommandError> {
+        let (_, yardstick, level) = match self.current.take() {
+            Some(current) if current.0 == *target => self.current.insert(current),
             _ => {
-                let made: Box<dyn Yardstick> = on_target!(target, built, D => boxed::<D>(built, options, sets))?;
-                self.current.insert((target.clone(), made))
+                let made = on_target!(target, built, D => boxed::<D>(built, options))?;
+                let level = sets.map(|sets| made.sliced_level(sets, options.seed)).transpose()?;
+                self.current.insert((target.clone(), made, level))
             }
         };
-        Ok(&**yardstick)
+        Ok((&**yardstick, *level))
     }
-}
-
-/// A yardstick with the level of its sliced distance.
-struct Levelled<const D: usize> {
-    yardstick: TargetYardstick<D>,
-    sliced_level: Option<f64>,
 }
 
 fn boxed<const D: usize>(
     target: BoxedTarget<D>,
     options: &YardstickOptions,
-    sets: Option<IndependentSets>,
 ) -> Result<Box<dyn Yardstick>, CommandError> {
-    let yardstick = TargetYardstick::new(target, options)?;
-    let sliced_level = match sets {
-        None => None,
-        Some(sets) => {
-            let levels = yardstick.sliced_of_draws(sets.count, sets.size, options.seed)?;
-            Some(summarize(&levels)?.median)
-        }
-    };
-    Ok(Box::new(Levelled {
-        yardstick,
-        sliced_level,
-    }))
+    Ok(Box::new(TargetYardstick::new(target, options)?))
 }
 
 impl From<YardstickError> for CommandError {
@@ -100,27 +92,28 @@ impl From<YardstickError> for CommandError {
     }
 }
 
-impl<const D: usize> Yardstick for Levelled<D> {
+impl<const D: usize> Yardstick for TargetYardstick<D> {
     fn mean_distance(&self) -> f64 {
-        self.yardstick.mean_distance()
+        TargetYardstick::mean_distance(self)
     }
 
-    fn sliced_level(&self) -> Option<f64> {
-        self.sliced_level
+    fn sliced_level(&self, sets: IndependentSets, seed: u64) -> Result<f64, CommandError> {
+        let levels = self.sliced_of_draws(sets.count, sets.size, seed)?;
+        Ok(summarize(&levels)?.median)
     }
 
     fn has_exact_draws(&self) -> bool {
-        self.yardstick.has_exact_draws()
+        TargetYardstick::has_exact_draws(self)
     }
 
     fn independent_draws(&self, count: usize, seed: u64) -> Outcome {
         let begin = Instant::now();
-        let points = self.yardstick.draws(count, seed);
+        let points = self.draws(count, seed);
         Outcome::of_draws(Particles::new(&points, None), begin.elapsed().as_secs_f64())
     }
 
     fn measure(&self, particles: &Particles) -> Result<Errors, CommandError> {
         let points = particles.points::<D>().unwrap_or_default();
-        Ok(self.yardstick.measure(&points, particles.weights())?)
+        Ok(TargetYardstick::measure(self, &points, particles.weights())?)
     }
 }

@@ -16,7 +16,7 @@ impl<const D: usize> Sampling<'_, D> {
         if most == 0 {
             return Ok(());
         }
-        let body = ReducedBody::of(&self.scene(trials.first())?)?;
+        let body = ReducedBody::of(&self.scene(trials.0[0])?)?;
         let (mut ranked, mut tried) = (best.ranked(r, &body)?, HashSet::new());
         for _ in 0..most {
             let Some(&(from, to)) = ranked.iter().find(|pair| !tried.contains(*pair)) else {

@@ -66,7 +66,7 @@ impl<const D: usize> Sampling<'_, D> {
         points: &mut dyn FnMut(&ReducedBody<D>) -> Result<SampleChoice, OnlineError>,
     ) -> Result<f64, ExperimentError> {
         let (mut errors, mut mean_square) = (Vec::new(), 0.0);
-        for &case in trials.cases() {
+        for &case in &trials.0 {
             let whole = &self.snapshots.runs()[case];
             let part = Run {
                 parameters: whole.parameters.clone(),
@@ -87,7 +87,7 @@ impl<const D: usize> Sampling<'_, D> {
                 return Err(ExperimentError::Stopped);
             }
             errors.push((case, row.error));
-            mean_square += row.error.powi(2) / trials.cases().len() as f64;
+            mean_square += row.error.powi(2) / trials.0.len() as f64;
             let promising = row.outcome == "finished" && mean_square.sqrt() <= least;
             if !promising {
                 return Ok(f64::INFINITY);

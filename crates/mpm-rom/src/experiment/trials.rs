@@ -5,22 +5,12 @@ use super::spread::spread;
 /// Training runs that networks and choices of points are tried on, at most. What is tried may do well in most cases and fail in one.
 const RUNS: usize = 8;
 
-/// The numbers of training cases that something is tried on. Those with the largest errors of the best trial come first: what is worse shows there soonest.
-pub(super) struct Trials(Vec<usize>);
+/// The numbers of training cases that something is tried on. Those with the largest errors of the best trial come first: what is worse shows there soonest. An experiment has one at least.
+pub(super) struct Trials(pub Vec<usize>);
 
 impl Trials {
     pub fn of(cases: &[Vec<f64>]) -> Self {
         Self(spread(cases, RUNS))
-    }
-
-    /// The numbers, in order; an experiment has one at least.
-    pub fn cases(&self) -> &[usize] {
-        &self.0
-    }
-
-    /// The first of them.
-    pub fn first(&self) -> usize {
-        self.0[0]
     }
 
     /// Puts the cases with the largest errors first.

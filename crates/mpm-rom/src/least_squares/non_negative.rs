@@ -9,9 +9,10 @@ use faer::{Mat, Par};
 pub struct NonNegative {
     matrix: Mat<f64>,
     right: Vec<f64>,
-    weights: Vec<f64>,
+    /// w.
+    pub weights: Vec<f64>,
     /// The entries that are positive, in the order in which they came.
-    positive: Vec<usize>,
+    pub positive: Vec<usize>,
     /// Entries that rounding threw out again as soon as they came, since another came last.
     barred: Vec<usize>,
 }
@@ -26,16 +27,6 @@ impl NonNegative {
             positive: Vec::new(),
             barred: Vec::new(),
         }
-    }
-
-    /// w.
-    pub fn weights(&self) -> &[f64] {
-        &self.weights
-    }
-
-    /// The entries that are positive.
-    pub fn positive(&self) -> &[usize] {
-        &self.positive
     }
 
     /// Lets the entry with the steepest descent become positive, (q − Q w)_k / √Q_kk, the first of equals, and finds the least value with the entries that are; some may fall back to zero. False where no
@@ -130,10 +121,10 @@ mod tests {
         let mut solver = NonNegative::new(matrix.clone(), right.to_vec());
         while solver.raise_one() {}
         assert_eq!(
-            solver.positive().len(),
-            solver.weights().iter().filter(|w| **w > 0.0).count()
+            solver.positive.len(),
+            solver.weights.iter().filter(|w| **w > 0.0).count()
         );
-        solver.weights().to_vec()
+        solver.weights.clone()
     }
 
     #[test]

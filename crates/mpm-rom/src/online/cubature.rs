@@ -55,8 +55,8 @@ pub fn choose_cubature<const D: usize>(
             break;
         }
     }
-    let positive = problem.positive().iter();
-    let mut weighted: Vec<_> = positive.map(|&k| (candidates[k], problem.weights()[k])).collect();
+    let positive = problem.positive.iter();
+    let mut weighted: Vec<_> = positive.map(|&k| (candidates[k], problem.weights[k])).collect();
     let unused = unused(kinematics, known, &numbers(&problem, &candidates));
     weighted.extend(unused.into_iter().map(|point| (point, 0.0)));
     weighted.sort_unstable_by_key(|(point, _)| *point);
@@ -65,7 +65,7 @@ pub fn choose_cubature<const D: usize>(
 
 /// The points with positive weights.
 fn numbers(problem: &NonNegative, candidates: &[u32]) -> Vec<u32> {
-    problem.positive().iter().map(|&k| candidates[k]).collect()
+    problem.positive.iter().map(|&k| candidates[k]).collect()
 }
 
 /// At most `MOST_CANDIDATES` of these points, evenly spaced in the list of those that readings know.

@@ -128,7 +128,7 @@ impl<const D: usize> Eulerian<D> {
         self.known.clear();
         self.sought.clear();
         self.guesses.clear();
-        for &(node, before) in self.support.cells() {
+        for &(node, before) in &self.support.cells {
             let centre = nodes.grid.node_position(&node.map(|c| c as i32));
             let known = before.and_then(|cell| self.known_before.get(cell * count..(cell + 1) * count));
             let mut start = None;

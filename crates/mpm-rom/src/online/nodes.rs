@@ -20,7 +20,7 @@ pub(super) struct Nodes<const D: usize> {
     /// Number of the active node at a place, from 1; 0: none.
     table: Vec<u32>,
     /// Places of the active nodes.
-    places: Vec<usize>,
+    pub places: Vec<usize>,
     /// Places of a stencil's nodes relative to its first.
     offsets: Vec<usize>,
     masses: Vec<f64>,
@@ -40,11 +40,6 @@ impl<const D: usize> Nodes<D> {
             masses: Vec::new(),
             velocities: Vec::new(),
         }
-    }
-
-    /// Number of active nodes.
-    pub fn len(&self) -> usize {
-        self.places.len()
     }
 
     /// Makes the nodes that these points touch the active ones, without mass; each with the number that an error calls it by.
@@ -142,11 +137,6 @@ impl<const D: usize> Nodes<D> {
     /// Places in the box.
     pub fn box_size(&self) -> usize {
         self.table.len()
-    }
-
-    /// Places of the active nodes.
-    pub fn active(&self) -> &[usize] {
-        &self.places
     }
 
     /// Place of the first node that a point touches; `None` where its stencil is not wholly in the box, so that it touches no active node.

@@ -78,7 +78,7 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
         let mut report = self.place_quadrature()?;
         self.sum_at_nodes();
         self.move_samples()?;
-        report.nodes = self.nodes.len();
+        report.nodes = self.nodes.places.len();
         report.quadrature_points = self.quadrature.len();
         Ok(report)
     }

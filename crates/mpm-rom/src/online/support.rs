@@ -11,7 +11,7 @@ pub(super) struct Support<const D: usize> {
     marked: Vec<bool>,
     marked_places: Vec<usize>,
     /// The nodes in the middle of the cells, and where these cells were.
-    cells: Vec<([i64; D], Option<usize>)>,
+    pub cells: Vec<([i64; D], Option<usize>)>,
     numbers: HashMap<[i64; D], usize>,
 }
 
@@ -29,7 +29,7 @@ impl<const D: usize> Support<D> {
         }
         self.marked_places.clear();
         self.marked.resize(nodes.box_size(), false);
-        for &active in nodes.active() {
+        for &active in &nodes.places {
             let node = nodes.node(active);
             for number in 0..3usize.pow(D as u32) {
                 let cell = std::array::from_fn(|a| node[a] + (number / 3usize.pow(a as u32) % 3) as i64 - 1);
@@ -43,10 +43,5 @@ impl<const D: usize> Support<D> {
                 }
             }
         }
-    }
-
-    /// The node in the middle of each cell, and the cell's number in the step before.
-    pub fn cells(&self) -> &[([i64; D], Option<usize>)] {
-        &self.cells
     }
 }

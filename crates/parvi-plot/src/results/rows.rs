@@ -160,15 +160,16 @@ impl<'a> Rows<'a> {
         }
     }
 
+    /// Two columns of all rows; what a row does not have is not finite.
+    pub fn pairs(&self, x: &str, y: &str) -> Vec<(f64, f64)> {
+        let number = |row: &Row, column: &str| row.number(column).unwrap_or(f64::NAN);
+        self.iter().map(|row| (number(row, x), number(row, y))).collect()
+    }
+
     /// A line through the rows that have both columns, in their order.
     pub fn line(&self, label: impl Into<String>, x: &str, y: &str) -> LineSeries {
         let points = self.iter().filter_map(|row| Some((row.number(x)?, row.number(y)?)));
-        let (x, y) = points.unzip();
-        LineSeries {
-            x,
-            y,
-            ..LineSeries::named(label)
-        }
+        LineSeries::through(label, points)
     }
 
     /// A line through the medians of `y` at each value of `x`, with bars from the least to the largest.

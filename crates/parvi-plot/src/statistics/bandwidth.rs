@@ -4,37 +4,14 @@ use std::f64::consts::PI;
 
 use super::{StatisticsError, check_weighted, weighted_quantile};
 
-/// A rule for the standard deviation of a Gaussian kernel. With weights, the sample size n of each rule is the effective
-/// one, (Σw)² / Σw².
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub enum Bandwidth {
-    /// The plug-in estimate of Botev, Grotowski & Kroese (Ann. Statist. 38, 2010, Algorithm 1), which does not assume that
-    /// the density resembles a Gaussian and so keeps separated modes apart; Silverman's rule where it finds no solution.
-    #[default]
-    SheatherJones,
-    /// 0.9 min(σ, IQR / 1.34) n^(−1/5).
-    Silverman,
-    /// This width, in the units of the data; must be positive.
-    Fixed(f64),
-}
-
-/// The width that `rule` gives for `values` with `weights` (equal if `None`).
+/// The standard deviation of a Gaussian kernel for `values` with `weights` (equal if `None`): the plug-in estimate of Botev, Grotowski & Kroese (Ann. Statist. 38, 2010, Algorithm 1), which does
+/// not assume that the density resembles a Gaussian and so keeps separated modes apart; where it finds no solution, Silverman's rule 0.9 min(σ, IQR / 1.34) n^(−1/5). With
+/// weights, the sample size n is the effective one, (Σw)² / Σw².
 ///
 /// # Errors
-/// [`StatisticsError::NoSpread`] if all values with a positive weight are equal (except for a fixed width), otherwise what is
-/// wrong with the values or weights.
-pub fn bandwidth(values: &[f64], weights: Option<&[f64]>, rule: Bandwidth) -> Result<f64, StatisticsError> {
+/// [`StatisticsError::NoSpread`] if all values with a positive weight are equal, otherwise what is wrong with the values or weights.
+pub fn bandwidth(values: &[f64], weights: Option<&[f64]>) -> Result<f64, StatisticsError> {
     let total = check_weighted("values", values, weights)?;
-    if let Bandwidth::Fixed(width) = rule {
-        if width.is_finite() && width > 0.0 {
-            return Ok(width);
-        }
-        return Err(StatisticsError::NotPositive {
-            what: "bandwidth",
-            index: 0,
-            value: width,
-        });
-    }
     let weight = |index: usize| weights.map_or(1.0, |weights| weights[index]) / total;
     let mean: f64 = (0..values.len()).map(|i| weight(i) * values[i]).sum();
     let variance: f64 = (0..values.len()).map(|i| weight(i) * (values[i] - mean).powi(2)).sum();
@@ -48,15 +25,12 @@ pub fn bandwidth(values: &[f64], weights: Option<&[f64]>, rule: Bandwidth) -> Re
         });
     }
     let levels = weighted_quantile(values, weights, &[0.001, 0.25, 0.75, 0.999])?;
-    let silverman = {
+    let silverman = || {
         let spread = (levels[2] - levels[1]) / 1.34;
         let scale = if spread > 0.0 { spread.min(deviation) } else { deviation };
         0.9 * scale * size.powf(-0.2)
     };
-    Ok(match rule {
-        Bandwidth::SheatherJones => sheather_jones(values, weights, size, (levels[0], levels[3])).unwrap_or(silverman),
-        _ => silverman,
-    })
+    Ok(sheather_jones(values, weights, size, (levels[0], levels[3])).unwrap_or_else(silverman))
 }
 
 /// The number of bins of the histogram that the plug-in estimate works on.
@@ -155,40 +129,34 @@ mod tests {
     }
 
     #[test]
-    fn all_rules_agree_on_a_gaussian() {
+    fn the_width_for_a_gaussian_is_near_the_best_one() {
         let points = normal_points(2000, 3.0, 2.0);
         let best = 1.06 * 2.0 * 2000f64.powf(-0.2);
-        for rule in [Bandwidth::SheatherJones, Bandwidth::Silverman] {
-            let width = bandwidth(&points, None, rule).unwrap();
-            assert!((0.75..1.15).contains(&(width / best)), "{rule:?}: {width}");
-        }
+        let width = bandwidth(&points, None).unwrap();
+        assert!((0.75..1.15).contains(&(width / best)), "{width}");
     }
 
     #[test]
     fn the_plug_in_rule_keeps_separated_modes_apart() {
         let mut points = normal_points(500, -4.0, 0.4);
         points.extend(normal_points(500, 4.0, 0.4));
-        let plug_in = bandwidth(&points, None, Bandwidth::SheatherJones).unwrap();
-        let silverman = bandwidth(&points, None, Bandwidth::Silverman).unwrap();
+        let plug_in = bandwidth(&points, None).unwrap();
         assert!((0.06..0.2).contains(&plug_in), "{plug_in}");
-        assert!(silverman > 0.5);
     }
 
     #[test]
     fn weights_count_as_repetitions_of_the_distribution() {
         let points = normal_points(400, 0.0, 1.0);
-        let equal = bandwidth(&points, Some(&[0.3; 400]), Bandwidth::SheatherJones).unwrap();
-        let without = bandwidth(&points, None, Bandwidth::SheatherJones).unwrap();
+        let equal = bandwidth(&points, Some(&[0.3; 400])).unwrap();
+        let without = bandwidth(&points, None).unwrap();
         assert!((equal / without - 1.0).abs() < 1e-9);
     }
 
     #[test]
     fn constant_values_have_no_width() {
         assert!(matches!(
-            bandwidth(&[2.0; 5], None, Bandwidth::Silverman),
+            bandwidth(&[2.0; 5], None),
             Err(StatisticsError::NoSpread { .. })
         ));
-        assert_eq!(bandwidth(&[2.0; 5], None, Bandwidth::Fixed(0.1)), Ok(0.1));
-        assert!(bandwidth(&[2.0], None, Bandwidth::Fixed(-0.1)).is_err());
     }
 }

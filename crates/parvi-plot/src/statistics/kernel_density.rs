@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{Bandwidth, StatisticsError, bandwidth, check_weighted};
+use super::{StatisticsError, bandwidth};
 
 /// Beyond this many standard deviations the kernel is taken as zero (it is below 4e-6 of its height there).
 pub(super) const REACH: f64 = 5.0;
@@ -10,18 +10,18 @@ pub(super) const REACH: f64 = 5.0;
 /// Large samples are gathered on nodes this many to a kernel width, which widens the kernel by less than 0.1 %.
 const BINS_PER_WIDTH: f64 = 12.0;
 
-/// The density Σ_p w_p N(x; x_p, h²) / Σ_p w_p at each of `locations`, which must ascend.
+/// The density Σ_p w_p N(x; x_p, h²) / Σ_p w_p at each of `locations`, which must ascend, with the width h of [`bandwidth`].
 ///
 /// # Errors
-/// What is wrong with the values, weights or width; [`StatisticsError::NoSpread`] for constant values unless the width is fixed.
-pub fn kernel_density(
-    values: &[f64],
-    weights: Option<&[f64]>,
-    rule: Bandwidth,
-    locations: &[f64],
-) -> Result<Vec<f64>, StatisticsError> {
-    let total = check_weighted("values", values, weights)?;
-    let width = bandwidth(values, weights, rule)?;
+/// As [`bandwidth`].
+pub fn kernel_density(values: &[f64], weights: Option<&[f64]>, locations: &[f64]) -> Result<Vec<f64>, StatisticsError> {
+    let width = bandwidth(values, weights)?;
+    Ok(density_of_width(values, weights, width, locations))
+}
+
+/// The same with another width.
+fn density_of_width(values: &[f64], weights: Option<&[f64]>, width: f64, locations: &[f64]) -> Vec<f64> {
+    let total = weights.map_or(values.len() as f64, |weights| weights.iter().sum());
     let mut density = vec![0.0; locations.len()];
     let height = 1.0 / (total * width * (2.0 * PI).sqrt());
     let binned = binned(values, weights, width / BINS_PER_WIDTH);
@@ -40,7 +40,7 @@ pub fn kernel_density(
             *sum += weight * (-0.5 * distance * distance).exp();
         }
     }
-    Ok(density)
+    density
 }
 
 /// The sample's weight shared linearly between neighbouring nodes `spacing` apart; `None` for samples so small or so far
@@ -158,7 +158,7 @@ mod tests {
     #[test]
     fn the_estimate_of_a_gaussian_is_a_gaussian_of_total_mass_one() {
         let locations = equidistant((-6.0, 6.0), 241);
-        let density = kernel_density(&normal_points(2000), None, Bandwidth::default(), &locations).unwrap();
+        let density = kernel_density(&normal_points(2000), None, &locations).unwrap();
         let mass: f64 = density.iter().sum::<f64>() * 0.05;
         assert!((mass - 1.0).abs() < 1e-4, "{mass}");
         let normal = Normal::new(0.0, 1.0).unwrap();
@@ -169,7 +169,7 @@ mod tests {
 
     #[test]
     fn a_fixed_width_gives_the_kernel_itself() {
-        let density = kernel_density(&[1.0], None, Bandwidth::Fixed(0.5), &[0.5, 1.0]).unwrap();
+        let density = density_of_width(&[1.0], None, 0.5, &[0.5, 1.0]);
         let kernel = Normal::new(1.0, 0.5).unwrap();
         assert!((density[0] - kernel.pdf(0.5)).abs() < 1e-14);
         assert!((density[1] - kernel.pdf(1.0)).abs() < 1e-14);
@@ -179,8 +179,7 @@ mod tests {
     fn binning_changes_a_large_sample_by_less_than_a_thousandth() {
         let points = normal_points(20_000);
         let locations = equidistant((-3.0, 3.0), 31);
-        let rule = Bandwidth::Fixed(0.1);
-        let density = kernel_density(&points, None, rule, &locations).unwrap();
+        let density = density_of_width(&points, None, 0.1, &locations);
         // The normal density convolved with the kernel.
         let exact = Normal::new(0.0, 1.01f64.sqrt()).unwrap();
         for (x, value) in locations.iter().zip(&density) {
@@ -195,15 +194,15 @@ mod tests {
 
     #[test]
     fn weights_shift_the_mass() {
-        let density = kernel_density(&[-1.0, 1.0], Some(&[1.0, 3.0]), Bandwidth::Fixed(0.1), &[-1.0, 1.0]).unwrap();
+        let density = density_of_width(&[-1.0, 1.0], Some(&[1.0, 3.0]), 0.1, &[-1.0, 1.0]);
         assert!((density[1] / density[0] - 3.0).abs() < 1e-12);
     }
 
     #[test]
     fn degenerate_samples_are_errors() {
-        assert!(kernel_density(&[], None, Bandwidth::default(), &[0.0]).is_err());
+        assert!(kernel_density(&[], None, &[0.0]).is_err());
         assert_eq!(
-            kernel_density(&[1.0], Some(&[0.0]), Bandwidth::Fixed(1.0), &[0.0]),
+            kernel_density(&[1.0], Some(&[0.0]), &[0.0]),
             Err(StatisticsError::NoWeight)
         );
     }

@@ -3,7 +3,7 @@
 use std::f64::consts::{LN_2, PI};
 
 use super::kernel_density::{DensityGrid, REACH, equidistant};
-use super::{Bandwidth, StatisticsError, bandwidth, check_weighted};
+use super::{StatisticsError, bandwidth, check_weighted};
 
 /// The two-dimensional density of weighted points (x_p, y_p) on `size` × `size` equidistant points of a rectangle.
 ///
@@ -189,8 +189,8 @@ fn whitened_kernel(
     let rate = size.powf(1.0 / 30.0);
     let floor_x = 0.7 * spacing[0] / l11;
     let floor_y = 0.7 * spacing[1] / l22;
-    let h1 = bandwidth(&first, weights, Bandwidth::SheatherJones)? * rate;
-    let h2 = bandwidth(&second, weights, Bandwidth::SheatherJones)? * rate;
+    let h1 = bandwidth(&first, weights)? * rate;
+    let h2 = bandwidth(&second, weights)? * rate;
     Ok(Kernel {
         lower: [l11, l21, l22],
         widths: [h1.max(floor_x), h2.max(floor_y)],

@@ -7,7 +7,7 @@ mod moments;
 mod power_law;
 mod summary;
 
-pub use bandwidth::{Bandwidth, bandwidth};
+pub use bandwidth::bandwidth;
 pub use kernel_density::{DensityGrid, equidistant, kernel_density};
 pub use kernel_density_grid::kernel_density_grid;
 pub use moments::SampleMoments;

@@ -7,37 +7,20 @@ fn traces_break_where_values_end() {
     let step: Vec<f64> = (0..5000).map(f64::from).collect();
     let mut value: Vec<f64> = step.iter().map(|s| (-0.01 * s).exp() + 1e-3).collect();
     value[4000..].fill(f64::NAN);
-    let series = |label: &str| TraceSeries {
-        label: label.to_string(),
-        step: step.clone(),
-        value: value.clone(),
-    };
-    let plot = TracePlot {
-        title: "Run".to_string(),
-        x_label: "step".to_string(),
-        panels: vec![
-            TracePanel {
-                y_label: "residual".to_string(),
-                series: vec![series("mpm"), series("svgd")],
-                levels: vec![ReferenceLevel {
-                    value: 1.0,
-                    label: "i.i.d.".to_string(),
-                }],
-                ..TracePanel::default()
-            },
-            TracePanel {
-                y_label: "energy (nats)".to_string(),
-                ..TracePanel::default()
-            },
-        ],
-    };
-    let svg = trace(&plot).unwrap();
+    let series = |label: &str| LineSeries::through(label, step.iter().copied().zip(value.iter().copied()));
+    let panels = [
+        MultiplesPanel::over("residual", AxisKind::Automatic, ["mpm", "svgd"].map(series)).with_level(1.0, "i.i.d."),
+        MultiplesPanel::over("energy (nats)", AxisKind::Automatic, []),
+    ];
+    let svg = multiples(&MultiplesPlot::traces("Run", "step", panels)).unwrap();
     assert_well_formed(&svg);
     for text in ["step", "residual", "energy (nats)", "mpm", "svgd", "i.i.d."] {
         assert!(svg.contains(text), "{text}");
     }
     assert!(svg.len() < 60_000, "long traces are thinned: {}", svg.len());
-    assert!(matches!(trace(&TracePlot::default()), Err(PlotError::Empty { .. })));
+    let alone = MultiplesPanel::over("residual", AxisKind::Automatic, [series("mpm")]);
+    let svg = multiples(&MultiplesPlot::traces("Run", "step", [alone])).unwrap();
+    assert!(!svg.contains("mpm"), "one line needs no legend");
 }
 
 #[test]
@@ -87,10 +70,7 @@ fn scalings_state_their_exponents() {
 fn failed_runs_are_counted_below_the_figure() {
     let curve = |method: &str, errors: [f64; 3]| TimeErrorCurve {
         method: method.to_string(),
-        points: vec![TimeErrorPoint {
-            cost: vec![1.0, 1.1, 0.9],
-            error: errors.to_vec(),
-        }],
+        settings: vec![[1.0, 1.1, 0.9].into_iter().zip(errors).collect()],
     };
     let panel = |target: &str| TimeErrorPanel {
         target: target.to_string(),
@@ -101,22 +81,18 @@ fn failed_runs_are_counted_below_the_figure() {
         ],
         iid_level: Some(2e-3),
     };
-    let mut plot = TimeErrorPlot {
-        x_label: "wall time (s)".to_string(),
-        y_label: "energy distance squared".to_string(),
-        iid_label: "i.i.d. draws".to_string(),
-        panels: vec![panel("ring"), panel("banana")],
-        ..TimeErrorPlot::default()
-    };
-    let svg = time_error(&plot).unwrap();
+    let plot = time_error(
+        "wall time (s)",
+        "energy distance squared",
+        ["ring", "banana"].map(panel),
+    );
+    let svg = multiples(&plot).unwrap();
     assert_well_formed(&svg);
-    for text in ["ring", "banana", "i.i.d. draws", "paper-pic on ring (2 of 3)"] {
+    for text in ["ring", "banana", "independent draws", "paper-pic on ring (2 of 3)"] {
         assert!(svg.contains(text), "{text}");
     }
-    plot.panels[0].curves[0].points[0].cost.pop();
-    assert!(matches!(time_error(&plot), Err(PlotError::Size { .. })));
     assert!(matches!(
-        time_error(&TimeErrorPlot::default()),
+        multiples(&time_error("", "", [])),
         Err(PlotError::Empty { .. })
     ));
 }
@@ -177,10 +153,8 @@ fn small_multiples_share_styles_and_legend() {
         title: title.to_string(),
         series: names.iter().map(|name| series(name)).collect(),
         guides: vec![guide("slope −½", false), guide("best slope", true)],
-        levels: vec![ReferenceLevel {
-            value: 0.05,
-            label: "level".to_string(),
-        }],
+        levels: vec![ReferenceLevel::new(0.05, "level")],
+        ..MultiplesPanel::default()
     };
     let mut plot = MultiplesPlot {
         x_label: "number of particles M".to_string(),

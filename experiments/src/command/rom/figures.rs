@@ -8,9 +8,7 @@ use mpm_rom::training::EpochReport;
 use super::groups;
 use crate::CommandError;
 use crate::output::AtomicFile;
-use crate::plots::{
-    AxisKind, LineSeries, MultiplesPanel, MultiplesPlot, TracePanel, TracePlot, TraceSeries, multiples, trace,
-};
+use crate::plots::{AxisKind, LineSeries, MultiplesPanel, MultiplesPlot, multiples};
 
 /// A number of an epoch or of a run.
 type Value<T> = fn(&T) -> f64;
@@ -25,11 +23,11 @@ pub fn losses(directory: &Path, title: &str, history: &[EpochReport]) -> Result<
     ];
     let series = terms.map(|(label, value)| {
         let point = |report: &EpochReport| ((report.epoch + 1) as f64, value(report));
-        TraceSeries::through(label, history.iter().map(point))
+        LineSeries::through(label, history.iter().map(point))
     });
-    let panel = TracePanel::new("mean loss", AxisKind::Logarithmic, series);
-    let plot = TracePlot::new(format!("{title}: training"), "epoch", [panel]);
-    AtomicFile::write(directory.join("losses.svg"), trace(&plot)?)
+    let panel = MultiplesPanel::over("mean loss", AxisKind::Logarithmic, series);
+    let plot = MultiplesPlot::traces(format!("{title}: training"), "epoch", [panel]);
+    AtomicFile::write(directory.join("losses.svg"), multiples(&plot)?)
 }
 
 /// Test cases whose coordinates are drawn, at most.
@@ -47,13 +45,13 @@ pub fn coordinates(directory: &Path, experiment: &Experiment, rows: &[ReducedRow
             let values: Vec<String> = named.map(|(name, value)| format!("{name} {value}")).collect();
             let frames = row.frames.iter();
             let points = frames.map(|frame| (frame.time, frame.latent[coordinate]));
-            TraceSeries::through(values.join(", "), points)
+            LineSeries::through(values.join(", "), points)
         };
-        TracePanel::new(format!("x̂{}", coordinate + 1), AxisKind::Linear, shown.iter().map(line))
+        MultiplesPanel::over(format!("x̂{}", coordinate + 1), AxisKind::Linear, shown.iter().map(line))
     };
     let title = format!("{}: coordinates, {} sample points", experiment.title, shown[0].samples);
-    let plot = TracePlot::new(title, "time (s)", (0..count).map(panel));
-    AtomicFile::write(directory.join("coordinates.svg"), trace(&plot)?)
+    let plot = MultiplesPlot::traces(title, "time (s)", (0..count).map(panel));
+    AtomicFile::write(directory.join("coordinates.svg"), multiples(&plot)?)
 }
 
 /// What lines may differ in, besides the choice of their points.

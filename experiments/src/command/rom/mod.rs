@@ -1,6 +1,5 @@
 //! `parvi rom`: the reduced-order model, trained and run.
 
-mod error;
 mod figures;
 mod progress;
 mod run;
@@ -9,10 +8,19 @@ mod train;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
-use mpm_rom::experiment::{Experiment, ReducedRow, names, read_results};
+use mpm_rom::experiment::{Experiment, ExperimentError, ReducedRow, names, read_results};
 
 use super::file_kind::FileKind;
 use crate::{CommandError, interrupt};
+
+impl From<ExperimentError> for CommandError {
+    fn from(error: ExperimentError) -> Self {
+        match error {
+            ExperimentError::Stopped => Self::Stopped(error.into()),
+            error => Self::Library(error.into()),
+        }
+    }
+}
 
 /// What to do with a reduced-order model.
 #[derive(Args)]

@@ -19,7 +19,7 @@ pub struct TrainingProgress {
     bar: Bar,
     /// The layout of the phase at hand.
     phase: &'static str,
-    trials: u64,
+    trials: usize,
 }
 
 impl TrainingProgress {
@@ -30,7 +30,7 @@ impl TrainingProgress {
     }
 
     /// So many of so many are done in a phase, which may be another one.
-    fn set(&mut self, phase: &'static str, done: u64, count: u64) {
+    fn set(&mut self, phase: &'static str, done: usize, count: usize) {
         if self.phase != phase {
             self.phase = phase;
             self.bar.restyle(phase);
@@ -46,13 +46,13 @@ impl TrainingProgress {
 
 impl Watch for TrainingProgress {
     fn after_run(&mut self, done: usize, runs: usize) -> ControlFlow<()> {
-        self.set(self.phase, done as u64, runs as u64);
+        self.set(self.phase, done, runs);
         unless_interrupted()
     }
 
     fn after_epoch(&mut self, report: &EpochReport) -> ControlFlow<()> {
         self.trials = 0;
-        self.set(EPOCHS, report.epoch + 1, report.epochs);
+        self.set(EPOCHS, report.epoch as usize + 1, report.epochs as usize);
         self.bar.say(|| format!("{:.3e}", report.terms.total()));
         unless_interrupted()
     }

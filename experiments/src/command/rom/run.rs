@@ -5,12 +5,12 @@ use std::path::Path;
 use mpm_rom::experiment::{Experiment, ReducedRow, SuperResolved, run_experiment};
 
 use super::{figures, groups};
-use crate::progress::CountProgress;
+use crate::progress::Bar;
 use crate::{CommandError, console, interrupt};
 
 /// Reduced runs of all test cases, their table and figures.
 pub fn execute(experiment: &Experiment, directory: &Path) -> Result<(), CommandError> {
-    let mut progress = CountProgress::new("run");
+    let mut progress = Bar::counting("run");
     let result = run_experiment(experiment, directory, &mut |done, runs| {
         progress.set(done, runs);
         !interrupt::requested()

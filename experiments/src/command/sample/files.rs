@@ -8,19 +8,20 @@ use crate::options::OptionError;
 
 /// Refuses one path in two roles; frames and pictures may share a directory, and files that are only read may be one.
 pub fn check(arguments: &Arguments) -> Result<(), CommandError> {
+    let options = &arguments.options;
     let files = [
-        ("out", Some(&arguments.out)),
-        ("pool", arguments.options.pool_file(arguments.method)),
-        ("best", arguments.options.best.as_ref()),
-        ("diagnostics", arguments.diagnostics.as_ref()),
-        ("checkpoint", arguments.checkpoint.as_ref()),
-        ("data", arguments.parameters.data.as_ref()),
-        ("frames", arguments.frames.as_ref()),
-        ("plots", arguments.plots.as_ref()),
-        ("start", arguments.options.start.as_ref()),
-        ("masses", arguments.options.masses.as_ref()),
-        ("volumes", arguments.options.volumes.as_ref()),
-        ("velocities", arguments.options.velocities.as_ref()),
+        ("out", Some(arguments.out.as_path())),
+        ("pool", options.pool_file(arguments.method)),
+        ("best", options.best.as_deref().map(Path::new)),
+        ("diagnostics", arguments.diagnostics.as_deref()),
+        ("checkpoint", arguments.checkpoint.as_deref()),
+        ("data", arguments.parameters.data.as_deref()),
+        ("frames", arguments.frames.as_deref()),
+        ("plots", arguments.plots.as_deref()),
+        ("start", options.start.as_deref().map(Path::new)),
+        ("masses", options.masses.as_deref().map(Path::new)),
+        ("volumes", options.volumes.as_deref().map(Path::new)),
+        ("velocities", options.velocities.as_deref().map(Path::new)),
     ];
     let is_read = |name: &str| ["data", "start", "masses", "volumes", "velocities"].contains(&name);
     let given: Vec<_> = files

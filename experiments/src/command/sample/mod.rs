@@ -5,7 +5,7 @@ mod given;
 mod said;
 mod watch;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use parvi::{Checkpoint, Method, Run};
@@ -18,7 +18,7 @@ use crate::options::{
 };
 use crate::output::{AtomicFile, FrameWriter, NumberTable, OutputDirectory, ParticleFile, ParticleFormat};
 use crate::pictures::{History, Subject};
-use crate::progress::CountProgress;
+use crate::progress::Bar;
 use crate::sampling;
 use crate::{CommandError, console, interrupt};
 use watch::Watch;
@@ -86,8 +86,8 @@ pub fn with_owners(command: clap::Command) -> clap::Command {
 pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let method = with_checkpoint(traced(arguments).method(arguments.method)?, arguments)?;
     let pool = arguments.options.pool_file(arguments.method);
-    let best = arguments.options.best.as_ref();
-    for (flag, path) in [("out", Some(&arguments.out)), ("pool", pool), ("best", best)] {
+    let best = arguments.options.best.as_deref().map(Path::new);
+    for (flag, path) in [("out", Some(arguments.out.as_path())), ("pool", pool), ("best", best)] {
         path.map(|path| ParticleFormat::of(flag, path)).transpose()?;
     }
     files::check(arguments)?;
@@ -119,7 +119,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let goes_on = arguments.checkpoint.as_ref().is_some_and(|path| path.exists());
     let frames = frames.map(|directory| FrameWriter::new(directory, arguments.every.get(), names.clone(), goes_on));
     let mut watch = Watch {
-        progress: CountProgress::new("step"),
+        progress: Bar::counting("step"),
         frames: frames.transpose()?,
         history: plots.is_some().then(History::default),
     };
@@ -152,7 +152,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     if let (Some(directory), Some(history)) = (&plots, &watch.history) {
         let subject = Subject {
             target: &target,
-            mesh: arguments.options.mesh.as_deref(),
+            mesh: arguments.options.mesh.as_deref().map(Path::new),
             method: arguments.method.as_str(),
             outcome: &outcome,
             history,

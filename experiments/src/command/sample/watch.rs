@@ -7,12 +7,12 @@ use parvi::{Observer, ParticleView, Progress};
 use crate::CommandError;
 use crate::output::FrameWriter;
 use crate::pictures::History;
-use crate::progress::CountProgress;
+use crate::progress::Bar;
 
 /// Several observers as one.
 pub struct Watch {
     /// The bar, and Ctrl-C.
-    pub progress: CountProgress,
+    pub progress: Bar,
     /// Where frames are asked for.
     pub frames: Option<FrameWriter>,
     /// Where pictures are asked for.

@@ -7,7 +7,7 @@ use mpm_scenes::output::read_series;
 
 use crate::CommandError;
 use crate::output::AtomicFile;
-use crate::plots::{AxisKind, TracePanel, TracePlot, TraceSeries, trace};
+use crate::plots::{AxisKind, LineSeries, MultiplesPanel, MultiplesPlot, multiples};
 
 /// Columns that share a panel, by what their names begin with, the rest of a name being the line's label; and the label of the axis.
 type Panel = (String, &'static str);
@@ -22,8 +22,8 @@ pub fn draw(directory: &Path, title: &str) -> Result<(), CommandError> {
     remove_others(directory, &groups)?;
     for (name, panels) in groups {
         let panels = panels.iter().filter_map(|panel| drawn(&series, panel));
-        let plot = TracePlot::new(format!("{title}: {}", name.replace('_', " ")), "time", panels);
-        AtomicFile::write(directory.join(file_name(&name)), trace(&plot)?)?;
+        let plot = MultiplesPlot::traces(format!("{title}: {}", name.replace('_', " ")), "time", panels);
+        AtomicFile::write(directory.join(file_name(&name)), multiples(&plot)?)?;
     }
     Ok(())
 }
@@ -81,26 +81,23 @@ fn probes(series: &Series) -> impl Iterator<Item = &str> {
 }
 
 /// The lines of a panel; `None` without any.
-fn drawn(series: &Series, (prefix, y_label): &Panel) -> Option<TracePanel> {
-    let step = series.column("time")?;
-    let mut lines: Vec<TraceSeries> = Vec::new();
+fn drawn(series: &Series, (prefix, y_label): &Panel) -> Option<MultiplesPanel> {
+    let times = series.column("time")?;
+    let through = |label: &str, values: Vec<f64>| LineSeries::through(label, times.iter().copied().zip(values));
+    let mut lines: Vec<LineSeries> = Vec::new();
     for column in series.columns() {
         let rest = match prefix.as_str() {
             "" => column.strip_suffix("_energy"),
             prefix => column.strip_prefix(prefix),
         };
         let Some(label) = rest else { continue };
-        let (label, step) = (label.trim_start_matches('_').to_owned(), step.clone());
-        let value = series.column(column)?;
-        lines.push(TraceSeries { label, step, value });
+        lines.push(through(label.trim_start_matches('_'), series.column(column)?));
     }
     if prefix.is_empty() && !lines.is_empty() {
-        let sum = |k: usize| lines.iter().filter_map(|line| line.value.get(k)).sum();
-        let value = (0..step.len()).map(sum).collect();
-        let label = "total".to_owned();
-        lines.push(TraceSeries { label, step, value });
+        let sum = |k: usize| lines.iter().filter_map(|line| line.y.get(k)).sum();
+        lines.push(through("total", (0..times.len()).map(sum).collect()));
     }
-    (!lines.is_empty()).then(|| TracePanel::new(*y_label, AxisKind::Linear, lines))
+    (!lines.is_empty()).then(|| MultiplesPanel::over(*y_label, AxisKind::Linear, lines))
 }
 
 #[cfg(test)]

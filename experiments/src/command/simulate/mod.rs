@@ -9,7 +9,7 @@ use clap::Args;
 use mpm_scenes::{Outcome, Scene, Summary, ValidationRow};
 
 use super::file_kind::FileKind;
-use crate::mechanics::SimulationProgress;
+use crate::progress::Bar;
 use crate::{CommandError, console, interrupt};
 
 /// What to simulate and where.
@@ -28,7 +28,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     FileKind::Scene.check(&arguments.scene)?;
     let scene = Scene::read(&arguments.scene)?;
     interrupt::listen();
-    let mut progress = SimulationProgress::new(scene.time.end);
+    let mut progress = Bar::new(&format!("{{bar:30}} {{msg}} of {}, {{eta}} left", scene.time.end));
     let start = Instant::now();
     let result = mpm_scenes::simulate(&scene, &arguments.out, &mut progress);
     let seconds = start.elapsed().as_secs_f64();

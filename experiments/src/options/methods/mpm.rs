@@ -83,7 +83,7 @@ impl MethodOptions {
             displacement_limit: self.displacement_limit_of_gas(default.displacement_limit),
             trace_every: self.trace_every,
         };
-        let file = self.mesh.clone().unwrap_or_default();
+        let file = self.mesh.clone().unwrap_or_default().into();
         Ok(OnMesh { file, options })
     }
 

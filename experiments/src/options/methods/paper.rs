@@ -94,7 +94,7 @@ impl MethodOptions {
 
     /// How reference volumes are found, where a word says it.
     pub(in crate::options) fn volume_rule(&self) -> Option<ReferenceVolumes> {
-        match self.volumes.as_ref()?.to_str()? {
+        match self.volumes.as_deref()? {
             "uniform" => Some(ReferenceVolumes::Uniform),
             "start-density" => Some(ReferenceVolumes::OfStartDensity),
             "grid" => Some(ReferenceVolumes::OfGrid),

@@ -95,7 +95,7 @@ impl FrameWriter {
     pub fn finish(mut self, returned: &Particles, steps: usize) -> Result<usize, CommandError> {
         if !self.begun && self.goes_on {
             // The run came to its end before; only what it returned is missing.
-            self.entries = index::read(self.directory.path())?.unwrap_or_default();
+            self.entries = index::read(&self.directory.path)?.unwrap_or_default();
         }
         let stamp = Stamp {
             time: index::time_of_returned(&self.entries),
@@ -138,8 +138,8 @@ impl FrameWriter {
         if step == 0 {
             return if self.goes_on { self.remove_earlier() } else { Ok(()) };
         }
-        let directory = self.directory.path().display().to_string();
-        match index::read(self.directory.path())? {
+        let directory = self.directory.path.display().to_string();
+        match index::read(&self.directory.path)? {
             Some(entries) => self.entries = entries,
             None => console::notice(&format!(
                 "--frames {directory}: the run goes on from step {step}, and there are no frames of the steps before it"
@@ -155,7 +155,7 @@ impl FrameWriter {
             return Ok(());
         }
         let void = self.entries.split_off(kept);
-        index::write(self.directory.path(), &self.entries)?;
+        index::write(&self.directory.path, &self.entries)?;
         for entry in void {
             for array in names::ARRAYS {
                 self.directory.remove(&names::npy(array, &entry.frame))?;
@@ -181,12 +181,12 @@ impl FrameWriter {
             body: stamp.of_body.map(|(body, _)| body),
             pseudo_time: stamp.of_body.map(|(_, time)| time),
         });
-        index::write(self.directory.path(), &self.entries)
+        index::write(&self.directory.path, &self.entries)
     }
 
     /// Removes all frames and their tables, and nothing else.
     fn remove_earlier(&self) -> Result<(), CommandError> {
-        let directory = self.directory.path();
+        let directory = &self.directory.path;
         let refused = |error| CommandError::file("read", directory, error);
         for entry in std::fs::read_dir(directory).map_err(refused)? {
             let name = entry.map_err(refused)?.file_name();

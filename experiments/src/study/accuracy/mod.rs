@@ -49,9 +49,13 @@ impl TryFrom<Stated> for Entry {
     type Error = OptionError;
 
     fn try_from(stated: Stated) -> Result<Self, OptionError> {
-        let method = MethodSpecification::new(stated.name, stated.label, stated.options)?;
+        let method = MethodSpecification {
+            name: stated.name,
+            label: stated.label,
+            options: stated.options,
+        };
         Ok(Self {
-            method,
+            method: method.checked()?,
             largest_particles: stated.largest_particles,
         })
     }
@@ -62,6 +66,7 @@ impl Study for Accuracy {
 
     const KIND: &'static str = "accuracy";
     const COLUMNS: &'static str = gaussian_runs::COLUMNS;
+    const REPORT: Report<Self> = report::report;
 
     /// The cases, dimension by dimension, few particles first.
     fn cases(&self) -> Result<Vec<Case<Sampled>>, CommandError> {
@@ -87,10 +92,6 @@ impl Study for Accuracy {
 
     fn run(&self, case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
         gaussian_runs::run(case, row, tools)
-    }
-
-    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
-        Ok(report::report(self, rows))
     }
 }
 

@@ -8,7 +8,7 @@ use crate::study::prelude::*;
 const MOST_LINES: usize = 8;
 
 /// Tables and figure.
-pub fn report(study: &Accuracy, rows: &Rows<'_>) -> Page {
+pub fn report(study: &Accuracy, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
     let mut page = Page::new("Accuracy against the number of particles");
     page.paragraph(format!(
         "Target N(0, I), {} seeds. ED² is the squared energy distance, exact in the expectation over the Gaussian; \
@@ -32,7 +32,7 @@ pub fn report(study: &Accuracy, rows: &Rows<'_>) -> Page {
     }
     slopes(study, rows, &mut page);
     costs(study, rows, &mut page);
-    rows.close(page)
+    Ok(rows.close(page))
 }
 
 /// A line per method, a column or two per size; of runs in one dimension.

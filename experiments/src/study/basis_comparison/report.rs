@@ -5,7 +5,7 @@ use super::choice::Choice;
 use crate::study::prelude::*;
 
 /// Tables and figure.
-pub fn report(study: &BasisComparison, rows: &Rows<'_>) -> Page {
+pub fn report(study: &BasisComparison, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
     let mut page = Page::new("Bases at equal time");
     let most = study.step_counts().last().copied().unwrap_or(0);
     page.paragraph(format!(
@@ -34,7 +34,7 @@ pub fn report(study: &BasisComparison, rows: &Rows<'_>) -> Page {
     }
     page.heading("Spacings");
     spacings(study, &rows.with("requested_steps", most), &mut page);
-    rows.close(page)
+    Ok(rows.close(page))
 }
 
 /// A line per basis, in one dimension.

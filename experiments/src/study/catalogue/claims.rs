@@ -161,9 +161,9 @@ mod tests {
             "| stalled | 1 | 0.0100 | 0.0100 | – | `c` |",
             "| budget exhausted | 1 | 3.00 | 0.500 | – | `d` |",
         ] {
-            assert!(page.as_str().contains(line), "{line} is missing in {}", page.as_str());
+            assert!(page.text.contains(line), "{line} is missing in {}", page.text);
         }
-        assert!(!page.as_str().contains("`g`"));
+        assert!(!page.text.contains("`g`"));
     }
 
     #[test]
@@ -171,10 +171,10 @@ mod tests {
         let rows = [run("a", "ring", None, Some((0.0, 0.0)))];
         let mut page = Page::default();
         claims(&rows).write(&["ring".to_owned()], &mut page);
-        assert!(page.as_str().contains("No run says anything"));
+        assert!(page.text.contains("No run says anything"));
         let rows = [run("a", "ring", Some("converged"), Some((0.0, 0.0)))];
         let mut page = Page::default();
         claims(&rows).write(&["ring".to_owned()], &mut page);
-        assert!(page.as_str().contains("No claim is false."));
+        assert!(page.text.contains("No claim is false."));
     }
 }

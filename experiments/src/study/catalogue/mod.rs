@@ -83,14 +83,6 @@ impl Catalogue {
         }
     }
 
-    /// The level of the sliced Wasserstein distance is that of as many draws as there are particles.
-    fn sets(&self) -> IndependentSets {
-        IndependentSets {
-            count: self.draws.get(),
-            size: self.particles.get(),
-        }
-    }
-
     /// The method that the requirements are for.
     fn judged(&self) -> Option<&MethodSpecification> {
         self.methods.first()
@@ -104,6 +96,7 @@ impl Study for Catalogue {
     const COLUMNS: &'static str = "case status reason outcome target dim method start_mean start_sd particles seed energy_distance_squared \
          energy_level sliced_wasserstein sliced_level mean_error deviation_error mass_error residual steps score_evaluations \
          density_evaluations wall_seconds";
+    const REPORT: Report<Self> = report::report;
 
     fn methods(&self) -> Vec<&MethodSpecification> {
         self.methods.iter().collect()
@@ -148,15 +141,15 @@ impl Study for Catalogue {
     }
 
     fn run(&self, case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
-        let yardstick = tools
-            .yardstick
-            .of(&case.work.target, &self.yardstick(), Some(self.sets()))?;
-        row.set("sliced_level", yardstick.sliced_level());
+        // The level is that of as many draws as there are particles.
+        let sets = IndependentSets {
+            count: self.draws.get(),
+            size: self.particles.get(),
+        };
+        let yardstick = tools.yardstick;
+        let (yardstick, level) = yardstick.levelled(&case.work.target, &self.yardstick(), Some(sets))?;
+        row.set("sliced_level", level);
         case.work.run(row, yardstick, tools.observer)
-    }
-
-    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
-        report::report(self, rows)
     }
 }
 

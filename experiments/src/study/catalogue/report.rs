@@ -9,7 +9,7 @@ use crate::study::prelude::*;
 use crate::study::start_law::StartLaw;
 
 /// Tables and figure.
-pub fn report(study: &Catalogue, rows: &Rows<'_>) -> Result<Page, CommandError> {
+pub fn report(study: &Catalogue, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
     let mut page = Page::new("Defaults on every target");
     page.paragraph(format!(
         "M = {} particles, {} seeds, nothing set per target. ED² is the squared energy distance and SW₂ the sliced Wasserstein \

@@ -62,6 +62,7 @@ impl Study for CovarianceSpacing {
     const KIND: &'static str = "covariance-spacing";
     const COLUMNS: &'static str = "case status reason dim particles spacing seed steps covariance_error mean_error residual active_nodes \
          score_evaluations density_evaluations wall_seconds";
+    const REPORT: Report<Self> = report::report;
 
     fn cases(&self) -> Result<Vec<Case<Sampled>>, CommandError> {
         self.check()?;
@@ -91,9 +92,5 @@ impl Study for CovarianceSpacing {
         }
         row.set("spacing", case.row.number("spacing"));
         Ok(())
-    }
-
-    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
-        Ok(report::report(self, rows))
     }
 }

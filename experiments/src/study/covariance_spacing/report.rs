@@ -7,7 +7,7 @@ use crate::study::prelude::*;
 const ERROR: &str = "covariance_error";
 
 /// Tables and figure.
-pub fn report(study: &CovarianceSpacing, rows: &Rows<'_>) -> Page {
+pub fn report(study: &CovarianceSpacing, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
     let mut page = Page::new("Covariance error of resting particles against the grid spacing");
     page.paragraph(format!(
         "Target N(0, I), M = {} particles, {} seed(s), method `{}` without shifts of the grid and without a moment \
@@ -58,7 +58,7 @@ pub fn report(study: &CovarianceSpacing, rows: &Rows<'_>) -> Page {
     page.table("d | h | median error | active nodes | failed", &table);
 
     let all_kept = !kept.is_empty() && !kept.contains(&false);
-    page.with("verdict", if all_kept { "pass" } else { "fail" })
+    Ok(page.with("verdict", if all_kept { "pass" } else { "fail" }))
 }
 
 /// The errors against the spacing, a line per dimension.

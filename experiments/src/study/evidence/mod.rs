@@ -25,6 +25,7 @@ impl Study for Evidence {
     const KIND: &'static str = "evidence";
     const COLUMNS: &'static str = "case status reason target dim method seed outcome log_evidence_deviation log_evidence_error \
          score_evaluations density_evaluations wall_seconds";
+    const REPORT: Report<Self> = report::report;
 
     fn methods(&self) -> Vec<&MethodSpecification> {
         self.methods.iter().collect()
@@ -52,9 +53,5 @@ impl Study for Evidence {
     fn run(&self, case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
         row.note(case.work.sample(tools.observer))?;
         Ok(())
-    }
-
-    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
-        Ok(report::report(self, rows))
     }
 }

@@ -4,7 +4,7 @@ use super::Evidence;
 use crate::study::prelude::*;
 
 /// Tables and figure.
-pub fn report(study: &Evidence, rows: &Rows<'_>) -> Page {
+pub fn report(study: &Evidence, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
     let mut page = Page::new("Evidence");
     page.paragraph(format!(
         "log Z = log ∫ p with M = {} particles, {} seeds from {} on, beside its known value; s.e. is the standard error that the method states. \
@@ -28,7 +28,7 @@ pub fn report(study: &Evidence, rows: &Rows<'_>) -> Page {
     };
     let far: Vec<String> = far.iter().map(stated).collect();
     page.list("Errors beyond three standard errors", &far, Some("None."));
-    rows.close(page).with("beyond_three_errors", far.len())
+    Ok(rows.close(page).with("beyond_three_errors", far.len()))
 }
 
 /// A line per method.

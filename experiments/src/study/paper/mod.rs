@@ -28,6 +28,7 @@ impl Study for Paper {
     const COLUMNS: &'static str = "case method variant target dim material schedule score volumes friction spacing time_step steps particles \
          seed status reason failed_step message energy_level start_energy final_energy final_sliced final_mean final_deviation final_mass \
          best_step best_energy best_sliced evaluations active_nodes storage_bytes wall_seconds";
+    const REPORT: Report<Self> = report::report;
 
     fn methods(&self) -> Vec<&MethodSpecification> {
         self.rivals.iter().collect()
@@ -39,7 +40,7 @@ impl Study for Paper {
 
     fn run(&self, case: &Case<Setting>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
         let setting = &case.work;
-        let yardstick = tools.yardstick.of(&setting.target, &self.yardstick(), None)?;
+        let yardstick = tools.yardstick.of(&setting.target, &self.yardstick())?;
         row.set(
             "energy_level",
             yardstick.mean_distance() / setting.particles.get() as f64,
@@ -59,10 +60,6 @@ impl Study for Paper {
         }
         Ok(())
     }
-
-    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
-        report::report(self, rows)
-    }
 }
 
 impl Paper {
@@ -71,7 +68,7 @@ impl Paper {
         setting: &Setting,
         run: &Run,
         yardstick: &dyn Yardstick,
-        observer: &mut CaseObserver,
+        observer: &mut Bar,
         row: &mut Row,
     ) -> Result<(), CommandError> {
         let material = setting.material.material();

@@ -8,7 +8,7 @@ use crate::plots::dots;
 use crate::study::prelude::*;
 
 /// Tables and figures.
-pub fn report(study: &Paper, rows: &Rows<'_>) -> Result<Page, CommandError> {
+pub fn report(study: &Paper, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
     let findings = Findings::new(study, rows);
     let all = findings.of(study.all_cases()?);
     let bodies = all.having(|row| !is_rival(row));

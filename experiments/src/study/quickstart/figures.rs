@@ -7,7 +7,7 @@ use crate::dispatch::on_target;
 use crate::output::{Particles, particles_csv, table_file};
 use crate::pictures::density;
 use crate::pictures::trace_panels::{KINETIC_ENERGY, POTENTIAL_ENERGY, RESIDUAL, panels};
-use crate::plots::{DensityPlot, PairDensity, PointCloud, Reference, TracePlot, cloud, corner, histogram, trace};
+use crate::plots::{DensityPlot, PairDensity, PointCloud, Reference, cloud, corner, histogram};
 use crate::study::prelude::*;
 
 /// Corner plot and marginals of the posterior over the reference draws.
@@ -82,8 +82,8 @@ pub fn traces(study: &Quickstart, directory: &StudyDirectory, page: &mut Page) -
         return Ok(());
     }
     let quantities = [RESIDUAL, KINETIC_ENERGY, POTENTIAL_ENERGY];
-    let plot = TracePlot::new("", "step", panels(quantities, &labelled));
+    let plot = MultiplesPlot::traces("", "step", panels(quantities, &labelled));
     let caption = "Galerkin–Stein residual and energies (frame coordinates, total mass 1) against the steps.";
-    page.figure("traces.svg", caption, trace(&plot));
+    page.figure("traces.svg", caption, multiples(&plot));
     Ok(())
 }

@@ -121,6 +121,7 @@ impl Study for Quickstart {
     const KIND: &'static str = "quickstart";
     const COLUMNS: &'static str = "case status reason target dim method particles steps score_evaluations density_evaluations residual \
          spacing active_nodes storage_bytes effective_sample_size wall_seconds";
+    const REPORT: Report<Self> = report::report;
 
     fn cases(&self) -> Result<Vec<Case<Piece>>, CommandError> {
         self.check()?;
@@ -141,10 +142,6 @@ impl Study for Quickstart {
             Piece::Posterior => self.run_sampler(case.work, &self.posterior, row, tools),
             Piece::Picture => self.run_sampler(case.work, &self.picture, row, tools),
         }
-    }
-
-    fn report(&self, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
-        report::report(self, rows, directory)
     }
 }
 

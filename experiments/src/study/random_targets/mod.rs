@@ -49,7 +49,7 @@ enum KnownFrame {
 
 impl RandomTargets {
     /// Samples the target in the frame that methods get.
-    fn sampled(&self, work: &Sampled, observer: &mut CaseObserver) -> Result<Outcome, CommandError> {
+    fn sampled(&self, work: &Sampled, observer: &mut Bar) -> Result<Outcome, CommandError> {
         let Sampled { target, method, run } = work;
         on_target!(target, target, D => match self.frame {
             KnownFrame::Own => sample_target::<D>(target.as_ref(), method, run, observer),
@@ -67,6 +67,7 @@ impl Study for RandomTargets {
     const KIND: &'static str = "random-targets";
     const COLUMNS: &'static str = "case status reason dim target_seed method outcome energy_distance_squared energy_level \
          log_evidence_deviation log_evidence_error score_evaluations density_evaluations wall_seconds";
+    const REPORT: Report<Self> = report::report;
 
     fn methods(&self) -> Vec<&MethodSpecification> {
         self.methods.iter().collect()
@@ -95,15 +96,11 @@ impl Study for RandomTargets {
         // In standard deviations per axis; the sliced distance is not looked at.
         let options =
             YardstickOptions::of_energy(self.reference_points.get(), self.reference_seed, Coordinates::Scaled);
-        let yardstick = tools.yardstick.of(&case.work.target, &options, None)?;
+        let yardstick = tools.yardstick.of(&case.work.target, &options)?;
         row.set("energy_level", yardstick.mean_distance() / self.particles.get() as f64);
         if let Some(outcome) = row.note(self.sampled(&case.work, tools.observer))? {
             row.measured(yardstick.measure(&outcome.particles))?;
         }
         Ok(())
-    }
-
-    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
-        Ok(report::report(self, rows))
     }
 }

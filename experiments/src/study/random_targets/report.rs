@@ -4,7 +4,7 @@ use super::{KnownFrame, RandomTargets};
 use crate::study::prelude::*;
 
 /// Tables and figure.
-pub fn report(study: &RandomTargets, rows: &Rows<'_>) -> Page {
+pub fn report(study: &RandomTargets, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
     let mut page = Page::new("Random targets");
     page.paragraph(format!(
         "M = {} particles on {} random targets per dimension, of seeds from {} on; the methods {}. ED² is the squared energy distance \
@@ -31,9 +31,10 @@ pub fn report(study: &RandomTargets, rows: &Rows<'_>) -> Page {
     let false_claim = |row: &Row| format!("- `{}`: ED² {}", row.case(), row.value("energy_ratio").cell());
     let false_claims: Vec<String> = rows.having(claims_falsely).iter().map(false_claim).collect();
     page.list("Claims that are false", &false_claims, None);
-    rows.close(page)
+    Ok(rows
+        .close(page)
         .with("claimed", rows.count(Row::claims))
-        .with("false_claims", false_claims.len())
+        .with("false_claims", false_claims.len()))
 }
 
 /// Whether a run claims to stand for the target and is no better than independent draws.

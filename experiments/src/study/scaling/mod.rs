@@ -105,6 +105,7 @@ impl Study for Scaling {
     const COLUMNS: &'static str = "case status reason sweep dim particles nodes_per_axis spacing steps active_nodes score_evaluations \
          density_evaluations storage_bytes memory_peak_bytes wall_seconds_per_step wall_seconds_per_step_least \
          wall_seconds_per_step_most";
+    const REPORT: Report<Self> = report::report;
 
     /// The cases of both sweeps, cheap ones first within each dimension.
     fn cases(&self) -> Result<Vec<Case<Size>>, CommandError> {
@@ -180,9 +181,5 @@ impl Study for Scaling {
         row.set("wall_seconds_per_step", quantiles[1]);
         row.set("wall_seconds_per_step_most", quantiles[2]);
         Ok(())
-    }
-
-    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
-        Ok(report::report(self, rows))
     }
 }

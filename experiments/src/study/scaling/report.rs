@@ -6,7 +6,7 @@ use crate::plots::{ScalingPlot, scaling};
 use crate::study::prelude::*;
 
 /// Tables and figures.
-pub fn report(study: &Scaling, rows: &Rows<'_>) -> Page {
+pub fn report(study: &Scaling, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
     let mut page = Page::new("Scaling with d, M and N = kᵈ");
     page.paragraph(format!(
         "Target `{}`, method `{}`, {} steps per run, {} threads. Times are medians of {} runs after one to warm up: the \
@@ -23,7 +23,7 @@ pub fn report(study: &Scaling, rows: &Rows<'_>) -> Page {
     nodes_part(study, rows, &mut page);
     all_rows(rows, &mut page);
 
-    page.with("cases", rows.len()).with("failed", rows.failures().len())
+    Ok(page.with("cases", rows.len()).with("failed", rows.failures().len()))
 }
 
 fn particles_part(study: &Scaling, rows: &Rows<'_>, page: &mut Page) {

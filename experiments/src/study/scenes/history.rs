@@ -4,7 +4,6 @@ use mpm_scenes::output::read_series;
 use mpm_scenes::reading::curve;
 
 use super::family::{Family, HistoryPanel};
-use crate::plots::{TracePanel, TracePlot, TraceSeries};
 use crate::study::prelude::*;
 
 /// Points of a line, at most.
@@ -14,7 +13,11 @@ const MOST_POINTS: usize = 400;
 ///
 /// # Errors
 /// Series that cannot be read, or without the column.
-pub fn plot(family: &Family, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Option<TracePlot>, CommandError> {
+pub fn plot(
+    family: &Family,
+    rows: &Rows<'_>,
+    directory: &StudyDirectory,
+) -> Result<Option<MultiplesPlot>, CommandError> {
     let x = |row: &Row| row.number("x").unwrap_or(f64::NAN);
     let is_drawn =
         |row: &Row| row.number("value").is_some() && (family.drawn.is_empty() || family.drawn.contains(&x(row)));
@@ -40,8 +43,8 @@ pub fn plot(family: &Family, rows: &Rows<'_>, directory: &StudyDirectory) -> Res
             runs.push((other.label.clone(), against));
         }
     }
-    let panel = |panel: &HistoryPanel| TracePanel::new(panel.label.as_str(), AxisKind::Linear, []);
-    let mut panels: Vec<TracePanel> = family.history.iter().map(panel).collect();
+    let panel = |panel: &HistoryPanel| MultiplesPanel::over(panel.label.as_str(), AxisKind::Linear, []);
+    let mut panels: Vec<MultiplesPanel> = family.history.iter().map(panel).collect();
     for (label, scene) in runs {
         let series = read_series(&directory.raw(scene))?;
         for (panel, history) in panels.iter_mut().zip(&family.history) {
@@ -49,8 +52,8 @@ pub fn plot(family: &Family, rows: &Rows<'_>, directory: &StudyDirectory) -> Res
             let curve = curve.map_err(|name| family.refuse("history", format!("the series has no column `{name}`")))?;
             let every = curve.times.len().div_ceil(MOST_POINTS).max(1);
             let points = curve.points().step_by(every);
-            panel.series.push(TraceSeries::through(label.as_str(), points));
+            panel.series.push(LineSeries::through(label.as_str(), points));
         }
     }
-    Ok(Some(TracePlot::new("", "time (s)", panels)))
+    Ok(Some(MultiplesPlot::traces("", "time (s)", panels)))
 }

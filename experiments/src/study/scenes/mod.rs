@@ -12,15 +12,14 @@ mod reading;
 mod report;
 mod scene_files;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use mpm_scenes::output::read_series;
-use mpm_scenes::{Outcome, SimulationError};
+use mpm_scenes::{Outcome, Series, SimulationError, Summary};
 
 use axis::Combination;
 pub use configuration::Scenes;
 use family::Family;
-use reading::FinishedRun;
 use scene_files::{PreparedScene, SceneFiles, refusal_text};
 
 use super::prelude::*;
@@ -42,11 +41,24 @@ impl Variant {
     }
 }
 
+/// A run that came to its end.
+pub struct FinishedRun<'a> {
+    /// What was run.
+    prepared: &'a PreparedScene,
+    /// Where its files are.
+    directory: PathBuf,
+    /// How it ended.
+    summary: Summary,
+    /// Its time series.
+    series: Series,
+}
+
 impl Study for Scenes {
     type Work = Variant;
 
     const KIND: &'static str = "scenes";
     const COLUMNS: &'static str = "case status reason family label x quantity value reference tolerance steps particles scene against wall_seconds";
+    const REPORT: Report<Self> = report::report;
 
     fn open(&mut self, configuration: &Path) -> Result<(), CommandError> {
         let directory = configuration.parent().unwrap_or(Path::new(""));
@@ -108,10 +120,6 @@ impl Study for Scenes {
         row.set("value", measured.value);
         Ok(())
     }
-
-    fn report(&self, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
-        report::report(self, rows, directory)
-    }
 }
 
 /// Notes why there is no value.
@@ -126,7 +134,7 @@ fn finished<'a>(
     variant: &Variant,
     prepared: &'a PreparedScene,
     directory: &StudyDirectory,
-    observer: &mut CaseObserver,
+    observer: &mut Bar,
 ) -> Result<Result<FinishedRun<'a>, String>, CommandError> {
     let path = directory.raw(&prepared.fingerprint);
     let summary = match mpm_scenes::simulate(&prepared.scene, &path, observer) {

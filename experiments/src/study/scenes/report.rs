@@ -5,7 +5,6 @@ use super::family::Family;
 use super::figure;
 use super::history;
 use crate::plots::judgement::{Judgement, MeasuredSeries, Verdict, orders};
-use crate::plots::trace;
 use crate::study::prelude::*;
 
 /// Judgements, then each family with its figure and its numbers.
@@ -83,7 +82,7 @@ fn section(
     if let Some(plot) = history::plot(family, rows, directory)? {
         let name = format!("{}_history.svg", family.name);
         let caption = format!("{}: over time.", family.title);
-        page.figure(&name, &caption, trace(&plot));
+        page.figure(&name, &caption, multiples(&plot));
     }
     let order = |judgement: &Judgement| matches!(judgement, Judgement::Order { .. });
     if family.judgements.iter().any(order) {

@@ -53,6 +53,7 @@ impl Study for SpacingParticles {
 
     const KIND: &'static str = "spacing-particles";
     const COLUMNS: &'static str = gaussian_runs::COLUMNS;
+    const REPORT: Report<Self> = report::report;
 
     /// The cases, dimension by dimension.
     fn cases(&self) -> Result<Vec<Case<Sampled>>, CommandError> {
@@ -77,9 +78,5 @@ impl Study for SpacingParticles {
 
     fn run(&self, case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
         gaussian_runs::run(case, row, tools)
-    }
-
-    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
-        Ok(report::report(self, rows))
     }
 }

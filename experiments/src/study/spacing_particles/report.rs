@@ -6,7 +6,7 @@ use crate::statistics::fit_power_law;
 use crate::study::prelude::*;
 
 /// Tables and figure.
-pub fn report(study: &SpacingParticles, rows: &Rows<'_>) -> Page {
+pub fn report(study: &SpacingParticles, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
     let mut page = Page::new("Spacing and number of particles together");
     page.paragraph(format!(
         "Target N(0, I), method `{}`, {} seeds; medians over the seeds. ED² is the squared energy distance, exact in the \
@@ -29,7 +29,7 @@ pub fn report(study: &SpacingParticles, rows: &Rows<'_>) -> Page {
         page.paragraph(format!("**d = {}**: ED² × 10³ by number of particles.", series.dim));
         saturations(study, &rows.with("dim", series.dim), series, &mut page);
     }
-    rows.close(page)
+    Ok(rows.close(page))
 }
 
 fn best_spacings(study: &SpacingParticles, rows: &Rows<'_>, page: &mut Page) {

@@ -56,6 +56,7 @@ impl Study for Stability {
     const COLUMNS: &'static str = "case ending reason message failed_step escaped reach residual target dim method basis particles steps \
          scale turned start_mean start_sd start_draws spacing_factor spacing time_step_factor time_step score transfer flip_share friction \
          shifts rotation settling settling_shifts moment_correction guards material seed wall_seconds";
+    const REPORT: Report<Self> = report::report;
 
     /// The cases, in the order of their numbers.
     fn cases(&self) -> Result<Vec<Case<Configuration>>, CommandError> {
@@ -67,10 +68,6 @@ impl Study for Stability {
     fn run(&self, case: &Case<Configuration>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
         let work = &case.work;
         on_target!(&work.target, target, D => trial::run::<D>(target.as_ref(), work, row, tools.observer))
-    }
-
-    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
-        Ok(report::report(self, rows))
     }
 }
 

@@ -9,7 +9,7 @@ use crate::study::prelude::*;
 const MOST_NAMED: usize = 100;
 
 /// Tables and figure.
-pub fn report(study: &Stability, rows: &Rows<'_>) -> Page {
+pub fn report(study: &Stability, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
     let mut page = Page::new("Random configurations");
     page.paragraph(format!(
         "{} random configurations of seed {}: target, dimension, basis, spacing (0.1 to 10 times the default), time step (0.1 to 30 \
@@ -32,10 +32,11 @@ pub fn report(study: &Stability, rows: &Rows<'_>) -> Page {
     page.list("Panics and numbers that are not finite", &faults, Some("None."));
     refusals(rows, &mut page);
 
-    page.with("finite", rows.ended(Status::Finite))
+    Ok(page
+        .with("finite", rows.ended(Status::Finite))
         .with("refused", rows.ended(Status::Refused))
         .with("panicked", rows.ended(Status::Panicked))
-        .with("not_finite", rows.ended(Status::NotFinite))
+        .with("not_finite", rows.ended(Status::NotFinite)))
 }
 
 /// The method, for the paper's algorithms with their guards.

@@ -81,6 +81,7 @@ impl Study for TimeError {
     const KIND: &'static str = "time-error";
     const COLUMNS: &'static str = "case status note target dim method particles steps seed score_evaluations density_evaluations \
          wall_seconds energy_distance_squared energy_level sliced_wasserstein mean_error deviation_error mass_error residual";
+    const REPORT: Report<Self> = report::report;
 
     fn methods(&self) -> Vec<&MethodSpecification> {
         self.methods.iter().collect()
@@ -107,7 +108,7 @@ impl Study for TimeError {
     }
 
     fn run(&self, case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
-        let yardstick = tools.yardstick.of(&case.work.target, &self.yardstick(), None)?;
+        let yardstick = tools.yardstick.of(&case.work.target, &self.yardstick())?;
         case.work.run(row, yardstick, tools.observer)?;
         if case.work.draws_from(yardstick) && row.finished() {
             row.set("note", "drawn from the importance sample");
@@ -115,9 +116,5 @@ impl Study for TimeError {
         // Diverged runs keep the steps they were asked for, as finished ones do.
         row.set("steps", case.row.count("steps"));
         Ok(())
-    }
-
-    fn report(&self, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
-        Ok(report::report(self, rows))
     }
 }

@@ -1,11 +1,11 @@
 //! The report of the study `time-error`.
 
 use super::TimeError;
-use crate::plots::{TimeErrorCurve, TimeErrorPanel, TimeErrorPlot, TimeErrorPoint, time_error};
+use crate::plots::{TimeErrorCurve, TimeErrorPanel, time_error};
 use crate::study::prelude::*;
 
 /// Tables and figures.
-pub fn report(study: &TimeError, rows: &Rows<'_>) -> Page {
+pub fn report(study: &TimeError, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
     let mut page = Page::new("Error against wall time and evaluations");
     page.paragraph(format!(
         "M = {} particles, {} seeds; medians over the seeds. ED² is the squared energy distance, exact against Gaussians and \
@@ -29,9 +29,10 @@ pub fn report(study: &TimeError, rows: &Rows<'_>) -> Page {
         paper_part(study, rows, &mut page);
     }
 
-    page.with("finished", rows.ended(Status::Finished))
+    Ok(page
+        .with("finished", rows.ended(Status::Finished))
         .with("diverged", rows.ended(Status::Diverged))
-        .with("unsupported", rows.ended(Status::Unsupported))
+        .with("unsupported", rows.ended(Status::Unsupported)))
 }
 
 fn is_paper(name: MethodName) -> bool {
@@ -78,12 +79,12 @@ fn figures(study: &TimeError, rows: &Rows<'_>, page: &mut Page) {
                 }
             };
             let panels = study.targets.iter().map(panel).filter(|panel| !panel.curves.is_empty());
-            let plot = TimeErrorPlot::new(x_label, y_label, panels);
+            let plot = time_error(x_label, y_label, panels);
             let caption = format!(
                 "{error_name} against {cost_name}, a point per number of steps; medians over the seeds, bars from least to most."
             );
             let name = format!("{error_file}-{cost_file}.svg");
-            page.figure(&name, &caption, time_error(&plot));
+            page.figure(&name, &caption, multiples(&plot));
         }
     }
 }
@@ -95,7 +96,7 @@ fn curves(study: &TimeError, here: &Rows<'_>, cost: &str, error: &str) -> Vec<Ti
         let settings = by_steps(here, method.label()).into_iter().filter(has_place);
         TimeErrorCurve {
             method: method.label().to_owned(),
-            points: settings.map(|runs| TimeErrorPoint::of(&runs, cost, error)).collect(),
+            settings: settings.map(|runs| runs.pairs(cost, error)).collect(),
         }
     };
     let methods = study.methods.iter().filter(|method| method.name != MethodName::Iid);

@@ -1,7 +1,7 @@
 //! The figure of the study `time-to-equal-error`: squared energy distance against wall time, a panel per target.
 
 use super::TimeToEqualError;
-use crate::plots::{TimeErrorCurve, TimeErrorPanel, TimeErrorPlot, TimeErrorPoint};
+use crate::plots::{TimeErrorCurve, TimeErrorPanel, time_error};
 use crate::study::prelude::*;
 
 /// The method with a point per M; chains and independent draws with a point per number of draws; other rivals with a curve for every
@@ -10,7 +10,7 @@ pub fn plot(
     study: &TimeToEqualError,
     rows: &Rows<'_>,
     directory: &StudyDirectory,
-) -> Result<TimeErrorPlot, CommandError> {
+) -> Result<MultiplesPlot, CommandError> {
     let mut panels = Vec::new();
     for target in &study.targets {
         let curves = curves(study, rows, target, directory)?;
@@ -22,7 +22,7 @@ pub fn plot(
             });
         }
     }
-    Ok(TimeErrorPlot::new("wall time (s)", "ED²", panels))
+    Ok(time_error("wall time (s)", "ED²", panels))
 }
 
 fn curves(
@@ -37,8 +37,8 @@ fn curves(
             continue;
         }
         let trials = case.trials(directory)?;
-        let points = points(&trials.iter().collect());
-        if points.is_empty() {
+        let settings = settings(&trials.iter().collect());
+        if settings.is_empty() {
             continue;
         }
         let one_curve = case.index == 0 || !case.method.name.iterates();
@@ -48,24 +48,23 @@ fn curves(
         };
         match curves.iter_mut().find(|curve| curve.method == method) {
             // The runs of a chain for the larger M begin with those for the smaller one.
-            Some(curve) if case.index > 0 && points.len() > curve.points.len() => curve.points = points,
-            Some(curve) if case.index == 0 => curve.points.extend(points),
+            Some(curve) if case.index > 0 && settings.len() > curve.settings.len() => curve.settings = settings,
+            Some(curve) if case.index == 0 => curve.settings.extend(settings),
             Some(_) => {}
-            None => curves.push(TimeErrorCurve { method, points }),
+            None => curves.push(TimeErrorCurve { method, settings }),
         }
     }
     Ok(curves)
 }
 
-/// A point per size, in the order of the sizes.
-fn points(trials: &Rows<'_>) -> Vec<TimeErrorPoint> {
-    let point = |size: f64| {
+/// Times and errors of every size, in the order of the sizes.
+fn settings(trials: &Rows<'_>) -> Vec<Vec<(f64, f64)>> {
+    // On a logarithmic axis there is no place for zero and below.
+    let placed = |energy: f64| if energy <= 0.0 { f64::NAN } else { energy };
+    let setting = |size: f64| {
         let here = trials.having(|trial| trial.number("size") == Some(size));
-        let mut point = TimeErrorPoint::of(&here, SECONDS, ENERGY);
-        // On a logarithmic axis there is no place for zero and below.
-        let unplaced = point.error.iter_mut().filter(|energy| **energy <= 0.0);
-        unplaced.for_each(|energy| *energy = f64::NAN);
-        point
+        let pairs = here.pairs(SECONDS, ENERGY).into_iter();
+        pairs.map(|(seconds, energy)| (seconds, placed(energy))).collect()
     };
-    trials.places("size").into_iter().map(point).collect()
+    trials.places("size").into_iter().map(setting).collect()
 }

@@ -79,6 +79,7 @@ impl Study for TimeToEqualError {
     const HEAD: &[&str] = &["kind"];
     const COLUMNS: &'static str = "case ending reason target dim particles method mean_distance goal size score_evaluations \
          density_evaluations energy_distance_squared wall_seconds wall_seconds_least wall_seconds_most missed_size wall_seconds_missed";
+    const REPORT: Report<Self> = report::report;
 
     fn methods(&self) -> Vec<&MethodSpecification> {
         std::iter::once(&self.method).chain(&self.rivals).collect()
@@ -125,7 +126,7 @@ impl Study for TimeToEqualError {
         // The sliced distance is not looked at.
         let (points, seed) = (self.reference_points.get(), self.reference_seed);
         let options = YardstickOptions::of_energy(points, seed, Coordinates::Standardised);
-        let yardstick = tools.yardstick.of(&entry.target, &options, None)?;
+        let yardstick = tools.yardstick.of(&entry.target, &options)?;
         row.set("mean_distance", yardstick.mean_distance());
         let mut runs = Runs {
             study: self,
@@ -156,10 +157,6 @@ impl Study for TimeToEqualError {
             }
         }
         Ok(())
-    }
-
-    fn report(&self, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
-        report::report(self, rows, directory)
     }
 }
 

@@ -2,7 +2,6 @@
 
 use super::TimeToEqualError;
 use super::figure::plot;
-use crate::plots::time_error;
 use crate::study::prelude::*;
 
 /// Tables and figure.
@@ -39,7 +38,7 @@ pub fn report(study: &TimeToEqualError, rows: &Rows<'_>, directory: &StudyDirect
     page.heading("Figure");
     let caption = "ED² against wall time: a point per M, per number of draws or per number of steps.";
     let plot = plot(study, rows, directory)?;
-    page.figure("time-to-equal-error.svg", caption, time_error(&plot));
+    page.figure("time-to-equal-error.svg", caption, multiples(&plot));
 
     let rivals = rows.having(|row| row.text("method") != label);
     Ok(page

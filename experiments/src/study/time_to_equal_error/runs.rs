@@ -33,7 +33,7 @@ pub struct Runs<'a> {
     /// Of its target.
     pub yardstick: &'a dyn Yardstick,
     /// Watches the runs.
-    pub observer: &'a mut CaseObserver,
+    pub observer: &'a mut Bar,
     /// All runs so far.
     pub trials: Vec<Row>,
 }

@@ -80,6 +80,7 @@ impl Study for TimeToLevel {
     const HEAD: &[&str] = &["kind"];
     const COLUMNS: &'static str = "case ending dim particles method energy_level runs steps energy_distance_squared wall_seconds \
          wall_seconds_least wall_seconds_most wall_budget_seconds";
+    const REPORT: Report<Self> = report::report;
 
     /// The cases: in every dimension the method first, then its rivals.
     fn cases(&self) -> Result<Vec<Case<Entry>>, CommandError> {
@@ -130,9 +131,5 @@ impl Study for TimeToLevel {
         last.note_range(SECONDS, row, WALL);
         row.set("wall_budget_seconds", budget);
         Ok(())
-    }
-
-    fn report(&self, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
-        report::report(self, rows, directory)
     }
 }

@@ -63,7 +63,7 @@ pub fn search(
     dim: Dimension,
     method: &MethodSpecification,
     (level, budget): (f64, Option<f64>),
-    observer: &mut CaseObserver,
+    observer: &mut Bar,
 ) -> Result<(Status, Vec<Row>), CommandError> {
     let target = TargetSpecification::plain("gaussian", Some(dim));
     let mut one = |steps: usize| -> Result<Row, CommandError> {

@@ -1,7 +1,5 @@
 //! Which number is read from a run.
 
-mod finished_run;
-
 use std::collections::BTreeMap;
 
 use mpm_scenes::reading::{ReadingError, Take, curve, displacement_error};
@@ -9,8 +7,7 @@ use mpm_scenes::scene::keys;
 use serde::Deserialize;
 use toml::Table;
 
-pub use finished_run::FinishedRun;
-
+use super::FinishedRun;
 use crate::CommandError;
 
 /// f (r + o + Σ c_k s_k) with a number r of the run, a factor f, an offset o, and multiples c_k of numbers s_k of the scene.
@@ -193,7 +190,7 @@ mod tests {
     use super::super::scene_files::PreparedScene;
     use super::*;
 
-    const BAR: &str = include_str!("../../../../scenes/vibrating_bar.toml");
+    const BAR: &str = include_str!("../../../scenes/vibrating_bar.toml");
 
     fn reading(text: &str) -> Reading {
         toml::from_str(text).unwrap()

@@ -1,0 +1,65 @@
+//! Panels of one size on common axes, in rows.
+
+use super::panel::{AxesParts, Panel, TITLE_ROOM, label_lines, x_axis_room, y_tick_room};
+use super::scale::{Scale, Ticks};
+use super::svg::{Drawing, Rectangle};
+
+/// Where the panels are, and their axes.
+pub struct PanelGrid<'a> {
+    /// Panels in a row.
+    pub columns: usize,
+    /// The left edge of the first column.
+    pub left: f64,
+    /// The space between two columns.
+    pub gap: f64,
+    /// Width and height of a panel.
+    pub size: (f64, f64),
+    /// The horizontal axis: scale, ticks and label.
+    pub x: (Scale, Ticks, &'a str),
+    /// The vertical axis.
+    pub y: (Scale, Ticks, &'a str),
+}
+
+impl PanelGrid<'_> {
+    /// Draws titled panels with their content from `top` on, and returns where they end.
+    pub fn draw<T>(
+        &self,
+        drawing: &mut Drawing,
+        mut top: f64,
+        panels: &[(&str, T)],
+        content: impl Fn(&mut Drawing, &Panel, &T),
+    ) -> f64 {
+        let (width, height) = self.size;
+        let ((x, x_ticks, x_label), (y, y_ticks, y_label)) = (&self.x, &self.y);
+        let rows = panels.chunks(self.columns);
+        let last = rows.len();
+        for (row, members) in (1..).zip(rows) {
+            let x_label = if row == last { *x_label } else { "" };
+            for (column, (title, panel)) in members.iter().enumerate() {
+                let area = Rectangle {
+                    x: self.left + column as f64 * (width + self.gap),
+                    y: top + TITLE_ROOM,
+                    width,
+                    height,
+                };
+                let axes = Panel { area, x: *x, y: *y };
+                content(drawing, &axes, panel);
+                let parts = AxesParts {
+                    x_ticks: x_ticks.clone(),
+                    y_ticks: y_ticks.clone(),
+                    x_label: Some(x_label),
+                    y_label: if column == 0 { y_label } else { "" },
+                    y_tick_room: Some(y_tick_room(y_ticks)),
+                };
+                axes.draw_axes(drawing, &parts);
+                axes.draw_title(drawing, title);
+            }
+            let lines = match x_label {
+                "" => 0,
+                label => label_lines(label, x_ticks.exponent, width).len(),
+            };
+            top += TITLE_ROOM + height + x_axis_room(lines) + 6.0;
+        }
+        top
+    }
+}
