@@ -46,7 +46,7 @@ pub enum CommandError {
     #[error(transparent)]
     Statistics(#[from] StatisticsError),
     /// A flag does not fit the method or has a value outside of its range.
-    #[error("--{}: {}", .0.name, .0.reason)]
+    #[error("--{0}")]
     Flag(#[from] OptionError),
     /// The extension of the output file is not one that can be written.
     #[error("--{flag} {}: the extension must be .csv or .npy", .path.display())]

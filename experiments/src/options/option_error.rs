@@ -1,11 +1,13 @@
 //! What is wrong with one option.
 
-use std::fmt::{self, Display, Formatter};
+use std::fmt::Display;
 
 use parvi_targets::TargetError;
+use thiserror::Error;
 
 /// An option that is out of place or out of range.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Error)]
+#[error("{name}: {reason}")]
 pub struct OptionError {
     /// The option's name, as on the command line but without dashes in front.
     pub name: String,
@@ -66,11 +68,3 @@ fn parameter_in(field: &str) -> &'static str {
     let known = PARAMETERS.iter().find(|(word, _)| field.contains(word));
     known.map_or("target", |(_, flag)| flag)
 }
-
-impl Display for OptionError {
-    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
-        write!(formatter, "{}: {}", self.name, self.reason)
-    }
-}
-
-impl std::error::Error for OptionError {}

@@ -29,22 +29,24 @@ pub enum ParticleFormat {
 }
 
 impl ParticleFormat {
-    /// The format that the extension of `path` stands for (upper or lower case); `flag` asked for the file.
+    /// The format that the extension of `path` stands for, in upper or lower case.
+    fn told(path: &Path) -> Option<Self> {
+        match path.extension()?.to_str()?.to_lowercase().as_str() {
+            "csv" => Some(Self::Csv),
+            "npy" => Some(Self::Npy),
+            _ => None,
+        }
+    }
+
+    /// The same; `flag` asked for the file.
     ///
     /// # Errors
     /// [`CommandError::OutputExtension`] for any other extension.
     pub fn of(flag: &'static str, path: &Path) -> Result<Self, CommandError> {
-        let extension = path
-            .extension()
-            .map(|extension| extension.to_string_lossy().to_lowercase());
-        match extension.as_deref() {
-            Some("csv") => Ok(Self::Csv),
-            Some("npy") => Ok(Self::Npy),
-            _ => Err(CommandError::OutputExtension {
-                flag,
-                path: path.to_owned(),
-            }),
-        }
+        Self::told(path).ok_or_else(|| CommandError::OutputExtension {
+            flag,
+            path: path.to_owned(),
+        })
     }
 }
 

@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
+use super::ParticleFormat;
 use crate::options::OptionError;
 
 /// Rows of as many numbers each.
@@ -23,13 +24,10 @@ impl NumberTable {
     /// # Errors
     /// [`OptionError`] of the flag, with the line where it can be told.
     pub fn read(flag: &str, path: &Path) -> Result<Self, OptionError> {
-        let extension = path
-            .extension()
-            .map(|extension| extension.to_string_lossy().to_lowercase());
-        let table = match extension.as_deref() {
-            Some("csv") => Self::of_csv(path),
-            Some("npy") => of_npy(path),
-            _ => Err("the extension must be .csv or .npy".to_owned()),
+        let table = match ParticleFormat::told(path) {
+            Some(ParticleFormat::Csv) => Self::of_csv(path),
+            Some(ParticleFormat::Npy) => of_npy(path),
+            None => Err("the extension must be .csv or .npy".to_owned()),
         };
         table.map_err(|reason| OptionError::new(flag, format!("{}: {reason}", path.display())))
     }

@@ -27,29 +27,16 @@ pub struct Entry {
 /// # Errors
 /// [`CommandError::File`].
 pub fn write(directory: &Path, entries: &[Entry]) -> Result<(), CommandError> {
-    let files: Vec<(f64, String)> = entries
-        .iter()
-        .zip(times(entries))
-        .map(|(entry, time)| (time, names::vtp(&entry.frame)))
+    let time = |k: usize| match entries[k].body {
+        Some(_) => entries[k].step as f64,
+        None => time_of_returned(&entries[..k]),
+    };
+    let files: Vec<_> = (0..entries.len())
+        .map(|k| (time(k), names::vtp(&entries[k].frame)))
         .collect();
     let files = files.iter().map(|(time, file)| (*time, file.as_str()));
     AtomicFile::write(directory.join(names::COLLECTION), collection(files))?;
     table_file::write(entries, &directory.join(names::TABLE))
-}
-
-/// The time of every frame in the animation.
-fn times(entries: &[Entry]) -> Vec<f64> {
-    let mut last = None;
-    let time = |entry: &Entry| {
-        let time = match (entry.body, last) {
-            (Some(_), _) => entry.step as f64,
-            (None, Some(last)) => last + 1.0,
-            (None, None) => 0.0,
-        };
-        last = Some(time);
-        time
-    };
-    entries.iter().map(time).collect()
 }
 
 /// The time of the animation that what the run returned has behind these frames.
