@@ -2,7 +2,7 @@
 
     pip install nautilus-sampler==1.0.6
     cargo build --release -p parvi-targets --example log_densities
-    python3 nautilus_calls.py target/release/examples/log_densities NAME[:DIM:TARGET_SEED]=LOG_Z ... > nautilus.csv
+    python3 nautilus_calls.py target/release/examples/log_densities NAME[:DIM:TARGET_SEED] ... > nautilus.csv
 
 The prior is logistic on every axis: about 0 with scale 1 for the posteriors of sbibm, whose own that is; about the centre of a random target's rough frame
 with three of its scales. Calls and seconds are all of a run with 1,000 live points and nautilus' other defaults.
@@ -27,9 +27,9 @@ class Target:
         name, *rest = specification.split(":")
         pipe = subprocess.PIPE
         self.process = subprocess.Popen([program, name, *rest], stdin=pipe, stdout=pipe)
-        dimension, *numbers = self.process.stdout.readline().split()
-        self.dimension = int(dimension)
-        centre, scales = np.array(numbers, dtype=float).reshape(2, self.dimension)
+        self.log_evidence, *numbers = map(float, self.process.stdout.readline().split())
+        centre, scales = np.array(numbers).reshape(2, -1)
+        self.dimension = len(centre)
         own = name.startswith("sbibm-")
         self.centre, self.scales = (0.0 * centre, 1.0 + 0.0 * scales) if own else (centre, 3.0 * scales)
         self.seconds = 0.0
@@ -65,14 +65,13 @@ class Target:
         return sampler.n_like, wall, processor, self.seconds, sampler.log_z
 
 
-def main(program, *cases):
+def main(program, *specifications):
     print("target,seed,density_evaluations,wall_seconds,processor_seconds,density_seconds,log_evidence_deviation", flush=True)
-    for case in cases:
-        specification, log_z = case.split("=")
+    for specification in specifications:
         target = Target(program, specification)
         for seed in SEEDS:
             calls, wall, processor, density, found = target.run(seed)
-            deviation = found - float(log_z)
+            deviation = found - target.log_evidence
             print(f"{specification},{seed},{calls},{wall:.2f},{processor:.2f},{density:.2f},{deviation:.4f}", flush=True)
         target.process.stdin.close()
 

@@ -1,8 +1,8 @@
 //! A target of the catalogue for programs in other languages: log densities of batches of points, over pipes.
 //!
-//! `cargo run --release -p parvi-targets --example log_densities -- NAME [DIM [TARGET_SEED]]` writes a line with d, the centre and the scales
-//! of the target's frame, then for every batch on standard input, the number of points n as u64 and n × d coordinates as f64, n log
-//! densities as f64, all little-endian.
+//! `cargo run --release -p parvi-targets --example log_densities -- NAME [DIM [TARGET_SEED]]` writes a line with log ∫ p (NaN: not
+//! known), the centre and the scales of the target's frame, then for every batch on standard input, the number of points n as u64 and n × d
+//! coordinates as f64, n log densities as f64, all little-endian.
 
 use std::error::Error;
 use std::io::{ErrorKind, Read, Write};
@@ -13,9 +13,11 @@ fn serve<const D: usize>(name: &str, parameters: &Parameters) -> Result<(), Box<
     let target = build::<D>(name, parameters)?;
     let frame = target.frame();
     let scales: [f64; D] = std::array::from_fn(|axis| frame.covariance().0[axis][axis].sqrt());
-    let numbers = frame.centre().iter().chain(&scales).map(f64::to_string);
+    let log_evidence = target.log_evidence().unwrap_or(f64::NAN);
+    let numbers = [&log_evidence].into_iter().chain(frame.centre()).chain(&scales);
+    let numbers: Vec<String> = numbers.map(f64::to_string).collect();
     let (mut input, mut output) = (std::io::stdin().lock(), std::io::stdout().lock());
-    writeln!(output, "{D} {}", numbers.collect::<Vec<_>>().join(" "))?;
+    writeln!(output, "{}", numbers.join(" "))?;
     output.flush()?;
     loop {
         let mut word = [0; 8];
