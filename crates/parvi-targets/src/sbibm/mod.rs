@@ -1,7 +1,7 @@
 //! Posteriors of a benchmark of simulation-based inference whose likelihoods are known: uniform priors on a box, numbered observations.
 //!
 //! Source: J.-M. Lueckmann, J. Boelts, D. S. Greenberg, P. J. Gonçalves, J. H. Macke, *Benchmarking simulation-based inference*,
-//! AISTATS 2021, appendix T; the observations are those of <https://github.com/sbi-benchmark/sbibm>, commit 1a45fa72.
+//! AISTATS 2021, the appendix on tasks; the observations are those of <https://github.com/sbi-benchmark/sbibm>, commit 1a45fa72.
 
 mod box_posterior;
 mod inverse_wishart;
