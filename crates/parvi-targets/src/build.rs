@@ -107,7 +107,7 @@ pub fn coordinate_names(
             let effects = (1..=dimension - 2).map(|school| format!("η_{{{school}}}"));
             Some(["μ", "log τ"].map(str::to_owned).into_iter().chain(effects).collect())
         }
-        _ => crate::posteriordb::coordinate_names(name),
+        _ => crate::posteriordb::coordinate_names(name).or_else(|| crate::sbibm::coordinate_names(name)),
     })
 }
 

@@ -37,6 +37,7 @@ mod regression_sum;
 mod response;
 mod ring;
 mod rosenbrock;
+mod sbibm;
 mod scales;
 mod schools;
 mod schools_scale;
@@ -89,6 +90,7 @@ pub use regression::{
 pub use response::Response;
 pub use ring::Ring;
 pub use rosenbrock::Rosenbrock;
+pub use sbibm::{BoxPosterior, NestedNormals, SimpleLikelihood, Simulator, TwoMoons};
 pub use schools::Schools;
 pub use score_only::ScoreOnly;
 pub use sobol::SobolSequence;

@@ -59,7 +59,7 @@ pub struct ReferenceMoments<const D: usize> {
 /// The proposal stands in the target's frame (for a regression its Laplace approximation). A pilot run replaces frame
 /// and proposal by the mean and covariance it estimates, if its effective sample size allows. Weights are normalised, so
 /// the density's constant is not needed. Works for unimodal targets that a Student t distribution covers; the effective
-/// sample size tells.
+/// sample size tells. A target with exact draws and no map from the unit cube stands for itself: as many of them, of equal weight.
 #[derive(Clone, Debug)]
 pub struct ImportanceSample<const D: usize> {
     draws: WeightedDraws<D>,
@@ -89,6 +89,14 @@ impl<const D: usize> ImportanceSample<D> {
         }
 
         let mut seeds = ChaCha8Rng::seed_from_u64(options.seed);
+        if let (Some(exact), None) = (target.exact_draws(), target.unit_cube_transport()) {
+            let count = options.scramblings * per_scrambling;
+            let draws = WeightedDraws {
+                points: (0..count).map(|_| exact.draw(&mut seeds)).collect(),
+                weights: vec![(count as f64).recip(); count],
+            };
+            return Ok(Self { draws, per_scrambling });
+        }
         let mut frame = target.frame();
         let pilot_count = PILOT_POINTS.min(options.points);
         let pilot = weighed(target, &frame, options, &[seeds.random()], pilot_count)?;

@@ -6,8 +6,9 @@ use crate::synthetic::synthetic_counts;
 use crate::wells::{WELLS_MAXIMUM_DIMENSION, WELLS_SMALL_ROWS, wells};
 use crate::{
     Arma, Banana, Cross, Eggbox, Funnel, Garch, Gaussian, GaussianMixture, GaussianProcess, GaussianShells,
-    HiddenMarkov, LinearModel, LogGamma, Logarithm, Logit, LotkaVolterra, NormalMixture, Probit, RandomTarget,
-    RegressionData, Ring, Rosenbrock, Schools, SpikeSlab, StudentT, TargetError,
+    HiddenMarkov, LinearModel, LogGamma, Logarithm, Logit, LotkaVolterra, NestedNormals, NormalMixture, Probit,
+    RandomTarget, RegressionData, Ring, Rosenbrock, Schools, SimpleLikelihood, SpikeSlab, StudentT, TargetError,
+    TwoMoons,
 };
 
 /// Every target of the catalogue, in the order of the documentation.
@@ -89,6 +90,39 @@ const fn of_data(
         modes: 1,
         log_evidence: false,
     }
+}
+
+/// A posterior of the benchmark of simulation-based inference.
+const fn of_simulator(name: &'static str, dimension: usize, summary: &'static str, modes: usize) -> TargetInfo {
+    TargetInfo {
+        exact_draws: true,
+        modes,
+        log_evidence: true,
+        ..of_data(name, Dimensions::Fixed(dimension), summary, &[])
+    }
+}
+
+const fn two_moons(name: &'static str) -> TargetInfo {
+    of_simulator(
+        name,
+        2,
+        "two crescents with straight ends, in log odds of a box (sbibm)",
+        2,
+    )
+}
+
+const fn nested_normals(name: &'static str) -> TargetInfo {
+    of_simulator(
+        name,
+        2,
+        "a peak on another ten times as wide, in log odds of a box (sbibm)",
+        1,
+    )
+}
+
+const fn simple_likelihood(name: &'static str) -> TargetInfo {
+    let summary = "mean and covariance of four points in the plane, four equal parts, in log odds of a box (sbibm)";
+    of_simulator(name, 5, summary, 4)
 }
 
 const PRIOR: ParameterInfo = parameter(
@@ -401,4 +435,15 @@ targets! {
         "predator-prey equations of hares and lynxes, 21 years (posteriordb)",
         &[],
     ) => in_dimension(LotkaVolterra::posterior());
+    two_moons("sbibm-two-moons-1") => in_dimension(TwoMoons::posterior(1));
+    two_moons("sbibm-two-moons-2") => in_dimension(TwoMoons::posterior(2));
+    two_moons("sbibm-two-moons-3") => in_dimension(TwoMoons::posterior(3));
+    nested_normals("sbibm-gaussian-mixture-1") => in_dimension(NestedNormals::posterior(1));
+    nested_normals("sbibm-gaussian-mixture-2") => in_dimension(NestedNormals::posterior(2));
+    nested_normals("sbibm-gaussian-mixture-3") => in_dimension(NestedNormals::posterior(3));
+    simple_likelihood("sbibm-slcp-1") => in_dimension(SimpleLikelihood::posterior(1));
+    simple_likelihood("sbibm-slcp-2") => in_dimension(SimpleLikelihood::posterior(2));
+    simple_likelihood("sbibm-slcp-3") => in_dimension(SimpleLikelihood::posterior(3));
+    simple_likelihood("sbibm-slcp-4") => in_dimension(SimpleLikelihood::posterior(4));
+    simple_likelihood("sbibm-slcp-5") => in_dimension(SimpleLikelihood::posterior(5));
 }

@@ -21,5 +21,6 @@ mod minibatch;
 mod nested_problems;
 mod posteriordb;
 mod random_targets;
+mod sbibm;
 mod student_t;
 mod support;

@@ -190,8 +190,9 @@ fn catalogue_states_evidence() {
             continue;
         };
         assert_eq!(target.log_evidence().is_some(), info.log_evidence, "{}", info.name);
-        // The random one has a test of its own.
-        let Some(stated) = target.log_evidence().filter(|_| info.name != "random") else {
+        // Random ones have a test of their own, and so have posteriors with ends or exponential tails.
+        let elsewhere = info.name == "random" || info.name.starts_with("sbibm-");
+        let Some(stated) = target.log_evidence().filter(|_| !elsewhere) else {
             continue;
         };
         let sides = target
