@@ -2,6 +2,7 @@
 
 use mpm_tensor::vector::{add, dot, scale, subtract};
 
+use crate::integration_error::{half_the_lead, stored_beyond_work};
 use crate::transfer::{GridNode, Transfer};
 use crate::{Basis, BodyForce, Boundary, Medium, Mpm};
 
@@ -25,10 +26,15 @@ pub struct EnergyBudget {
     pub friction: f64,
     /// The work of the [`Boundary`](crate::Boundary).
     pub boundary: f64,
+    /// What the integration in time takes of the energy of the whole body, negative where it gives some; no part of what the nodes gain. Forces are those where a step begins, the
+    /// motion is the one with v_iⁿ⁺¹: particles then store V⁰ψ((I + Δt L_p) F_p), which is not what they had and the work of their stresses (of second order in Δt), and forces do
+    /// Σ J_i · (v_iⁿ⁺¹ − v_iⁿ) / 2 more along the motion than above. Both are computed for what they are, by particles and by nodes, so that the energy of a body without plastic and viscous parts
+    /// is what it began with less all that is said here, up to rounding, if it deforms last ([`StressUpdate::Last`](crate::StressUpdate::Last)) and without averaged volumes.
+    pub time_integration: f64,
 }
 
 impl EnergyBudget {
-    /// Σ of all parts: what the nodes have gained altogether.
+    /// Σ of all works: what the nodes have gained altogether.
     pub fn sum(&self) -> f64 {
         self.forces + self.damping + self.contact + self.friction + self.boundary
     }
@@ -63,7 +69,7 @@ where
     }
 
     /// Add the works of a step, now that the velocities are v_iⁿ⁺¹ and forces with damping, contact, friction and boundary have been recorded.
-    pub(crate) fn account(&mut self, stages: &Stages<D>, damping: f64) {
+    pub(crate) fn account(&mut self, stages: &Stages<D>, dt: f64, damping: f64) {
         if let (Some(budget), [brought, advanced, pressed, slowed, last]) = (&mut self.energy_budget, &stages.0[..]) {
             let nodes = self.nodes.as_slice();
             let work = |from: &[[f64; D]], to: &[[f64; D]]| -> f64 {
@@ -83,6 +89,10 @@ where
             budget.contact += work(advanced, pressed);
             budget.friction += work(pressed, slowed);
             budget.boundary += work(slowed, last);
+            let masses = nodes.iter().map(GridNode::mass);
+            let (basis, least_squares) = (&self.basis, T::MOVING_LEAST_SQUARES);
+            budget.time_integration += half_the_lead(masses, (brought, &undamped, last))
+                - stored_beyond_work(basis, &self.medium, &self.particles, last, dt, least_squares);
         }
     }
 }

@@ -60,7 +60,7 @@ where
         self.record(&mut stages);
         self.constrain_grid(dt, true);
         self.record(&mut stages);
-        self.account(&stages, damping);
+        self.account(&stages, dt, damping);
         self.update_particles(dt, damping);
         self.time += dt;
         Ok(StepReport {

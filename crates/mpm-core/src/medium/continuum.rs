@@ -111,6 +111,11 @@ impl<const D: usize, L: Law<D>> Medium<D> for Continuum<L> {
         self.law.advance(trial, state)
     }
 
+    fn stored_energy(&self, particles: &Particles<D, L::State>, particle: usize, deformation: &Matrix<D>) -> f64 {
+        let density = self.law.energy_density(deformation, &particles.states[particle]);
+        particles.reference_volumes[particle] * density
+    }
+
     #[inline]
     fn volume_ratio(&self, deformation_gradient: &Matrix<D>, state: &L::State) -> f64 {
         self.law.volume_ratio(deformation_gradient, state)

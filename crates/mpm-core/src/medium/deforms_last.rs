@@ -44,6 +44,10 @@ impl<const D: usize, M: Medium<D>> Medium<D> for DeformsLast<M> {
         self.0.advance(trial, state)
     }
 
+    fn stored_energy(&self, particles: &Particles<D, M::State>, particle: usize, deformation: &Matrix<D>) -> f64 {
+        self.0.stored_energy(particles, particle, deformation)
+    }
+
     #[inline(always)]
     fn volume_ratio(&self, deformation_gradient: &Matrix<D>, state: &M::State) -> f64 {
         self.0.volume_ratio(deformation_gradient, state)

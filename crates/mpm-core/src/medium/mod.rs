@@ -83,6 +83,11 @@ pub trait Medium<const D: usize>: Sync {
         *trial
     }
 
+    /// V⁰_p ψ, what a particle stores that is deformed by F; 0 for a medium that does not deform.
+    fn stored_energy(&self, _particles: &Particles<D, Self::State>, _particle: usize, _deformation: &Matrix<D>) -> f64 {
+        0.0
+    }
+
     /// J, the present volume of a particle over its reference volume.
     #[inline(always)]
     fn volume_ratio(&self, deformation_gradient: &Matrix<D>, _state: &Self::State) -> f64 {
