@@ -2,9 +2,8 @@
 
 use mpm_tensor::vector::{add, dot, scale, subtract};
 
-use crate::integration_error::{half_the_lead, stored_beyond_work};
 use crate::transfer::{GridNode, Transfer};
-use crate::{Basis, BodyForce, Boundary, Medium, Mpm};
+use crate::{Basis, BodyForce, Boundary, Medium, Mpm, StressUpdate};
 
 /// What the kinetic energy of the nodes, K = ½ Σ m_i |v_i|², has gained in all steps, by what gave them impulses. Nodes get v_iⁿ from the particles; then forces, contact, friction and
 /// boundary give impulses J_i, each in its turn, up to v_iⁿ⁺¹. All of them act over the same step, so that the work of each is Σ J_i · (v_iⁿ + v_iⁿ⁺¹) / 2: together they are what K gains,
@@ -28,8 +27,8 @@ pub struct EnergyBudget {
     pub boundary: f64,
     /// What the integration in time takes of the energy of the whole body, negative where it gives some; no part of what the nodes gain. Forces are those where a step begins, the
     /// motion is the one with v_iⁿ⁺¹: particles then store V⁰ψ((I + Δt L_p) F_p), which is not what they had and the work of their stresses (of second order in Δt), and forces do
-    /// Σ J_i · (v_iⁿ⁺¹ − v_iⁿ) / 2 more along the motion than above. Both are computed for what they are, by particles and by nodes, so that the energy of a body without plastic and viscous parts
-    /// is what it began with less all that is said here, up to rounding, if it deforms last ([`StressUpdate::Last`](crate::StressUpdate::Last)) and without averaged volumes.
+    /// Σ J_i · (v_iⁿ⁺¹ − v_iⁿ) / 2 more along the motion than above. Both are computed for what they are, by particles and by nodes, so that the energy of an elastic body without averaged volumes
+    /// is what it began with less all that is said here, up to rounding. 0 unless particles deform last ([`StressUpdate::Last`](crate::StressUpdate::Last)).
     pub time_integration: f64,
 }
 
@@ -69,7 +68,7 @@ where
     }
 
     /// Add the works of a step, now that the velocities are v_iⁿ⁺¹ and forces with damping, contact, friction and boundary have been recorded.
-    pub(crate) fn account(&mut self, stages: &Stages<D>, dt: f64, damping: f64) {
+    pub(crate) fn account(&mut self, stages: &Stages<D>, damping: f64) {
         if let (Some(budget), [brought, advanced, pressed, slowed, last]) = (&mut self.energy_budget, &stages.0[..]) {
             let nodes = self.nodes.as_slice();
             let work = |from: &[[f64; D]], to: &[[f64; D]]| -> f64 {
@@ -89,11 +88,24 @@ where
             budget.contact += work(advanced, pressed);
             budget.friction += work(pressed, slowed);
             budget.boundary += work(slowed, last);
-            let masses = nodes.iter().map(GridNode::mass);
-            let (basis, least_squares) = (&self.basis, T::MOVING_LEAST_SQUARES);
-            budget.time_integration += half_the_lead(masses, (brought, &undamped, last))
-                - stored_beyond_work(basis, &self.medium, &self.particles, last, dt, least_squares);
+            if M::DEFORMS && self.stress_update == StressUpdate::Last {
+                let lead = |i: usize| {
+                    let (impulse, change) = (subtract(&undamped[i], &brought[i]), subtract(&last[i], &brought[i]));
+                    0.5 * nodes[i].mass() * dot(&impulse, &change)
+                };
+                budget.time_integration += (0..nodes.len()).map(lead).sum::<f64>();
+                self.excesses.resize(self.particles.len(), 0.0);
+            }
         }
+    }
+
+    /// Add what the particles have stored more than the work of their stresses, now that they have deformed.
+    pub(crate) fn account_for_deformation(&mut self) {
+        if let Some(budget) = &mut self.energy_budget {
+            let each = self.excesses.iter().zip(&self.particles.reference_volumes);
+            budget.time_integration -= each.map(|(excess, volume)| excess * volume).sum::<f64>();
+        }
+        self.excesses.clear();
     }
 }
 

@@ -14,7 +14,6 @@ mod error;
 mod friction;
 mod grid;
 mod grid_to_particles;
-mod integration_error;
 mod key_map;
 mod largest;
 mod lattice;

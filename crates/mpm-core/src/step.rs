@@ -60,8 +60,9 @@ where
         self.record(&mut stages);
         self.constrain_grid(dt, true);
         self.record(&mut stages);
-        self.account(&stages, dt, damping);
+        self.account(&stages, damping);
         self.update_particles(dt, damping);
+        self.account_for_deformation();
         self.time += dt;
         Ok(StepReport {
             time_step: dt,

@@ -111,9 +111,16 @@ impl<const D: usize, L: Law<D>> Medium<D> for Continuum<L> {
         self.law.advance(trial, state)
     }
 
-    fn stored_energy(&self, particles: &Particles<D, L::State>, particle: usize, deformation: &Matrix<D>) -> f64 {
-        let density = self.law.energy_density(deformation, &particles.states[particle]);
-        particles.reference_volumes[particle] * density
+    #[inline(never)]
+    fn stored_beyond_work(
+        &self,
+        [from, to]: [&Matrix<D>; 2],
+        way: &Matrix<D>,
+        state: &L::State,
+        velocity_gradient: &Matrix<D>,
+    ) -> f64 {
+        let stored = self.law.energy_density(to, state) - self.law.energy_density(from, state);
+        stored - self.law.kirchhoff_stress(from, state, velocity_gradient).contract(way)
     }
 
     #[inline]

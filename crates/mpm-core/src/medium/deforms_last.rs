@@ -44,8 +44,14 @@ impl<const D: usize, M: Medium<D>> Medium<D> for DeformsLast<M> {
         self.0.advance(trial, state)
     }
 
-    fn stored_energy(&self, particles: &Particles<D, M::State>, particle: usize, deformation: &Matrix<D>) -> f64 {
-        self.0.stored_energy(particles, particle, deformation)
+    fn stored_beyond_work(
+        &self,
+        deformations: [&Matrix<D>; 2],
+        way: &Matrix<D>,
+        state: &M::State,
+        velocity_gradient: &Matrix<D>,
+    ) -> f64 {
+        self.0.stored_beyond_work(deformations, way, state, velocity_gradient)
     }
 
     #[inline(always)]

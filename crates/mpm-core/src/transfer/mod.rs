@@ -19,7 +19,7 @@ use crate::largest::larger_or_nan;
 pub use affine_flip::AffineFlip;
 pub(crate) use ahead::Prepare;
 pub use apic::Apic;
-pub(crate) use cell_field::{CellField, Changes, GridField, Numbered, Velocities};
+pub(crate) use cell_field::{CellField, Changes, Numbered, Velocities};
 pub(crate) use cell_sums::CellSums;
 pub use flip::{Flip, FlipNode};
 pub(crate) use gather::gather_cells;
