@@ -56,6 +56,9 @@ fn remove_others(directory: &Path, groups: &[(String, Vec<Panel>)]) -> Result<()
 /// The ends of the names of energies, of which the sum is drawn too.
 const ENERGY: &str = "_energy";
 
+/// The ends of the names of what has become of energy; columns of 0 alone are left out.
+const SHARES: [&str; 2] = ["_dissipation", "_work"];
+
 /// What the columns of a panel begin and end with, and the label of its axis.
 type PanelOfRun = (&'static str, &'static str, &'static str);
 
@@ -66,8 +69,8 @@ const GROUPS: [(&str, &[PanelOfRun]); 5] = [
     (
         "energy_budget",
         &[
-            ("", "_dissipation", "energy taken"),
-            ("", "_work", "work"),
+            ("", SHARES[0], "energy taken"),
+            ("", SHARES[1], "work"),
             ("energy_balance", "", "energy balance"),
         ],
     ),
@@ -123,6 +126,9 @@ fn drawn(series: &Series, Panel { begin, end, y_label }: &Panel) -> Option<Trace
         let Some(label) = rest else { continue };
         let (label, step) = (label.trim_matches('_').replace('_', " "), step.clone());
         let value = series.column(column)?;
+        if SHARES.contains(end) && value.iter().all(|&share| share == 0.0) {
+            continue;
+        }
         lines.push(TraceSeries { label, step, value });
     }
     if *end == ENERGY && !lines.is_empty() {
