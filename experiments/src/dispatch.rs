@@ -7,7 +7,7 @@ use crate::CommandError;
 /// Work in a dimension known at run time: `in_dimension!(name, d, D => …)` is the work, which gives a result, with `D` as a constant; an error calls the target by the name.
 macro_rules! in_dimension {
     ($name:expr, $dimension:expr, $D:ident => $work:expr) => {
-        $crate::dispatch::in_dimension!($name, $dimension, $D => $work; 1 2 3 4 5 6, 7 8)
+        $crate::dispatch::in_dimension!($name, $dimension, $D => $work; 2 5, 1 3 4 6 7 8)
     };
     ($name:expr, $dimension:expr, $D:ident => $work:expr; $($always:literal)+, $($seldom:literal)+) => {
         match $dimension {
@@ -15,7 +15,7 @@ macro_rules! in_dimension {
                 const $D: usize = $always;
                 $work
             })+
-            $(#[cfg(feature = "seven-and-eight")]
+            $(#[cfg(feature = "every-dimension")]
             $seldom => {
                 const $D: usize = $seldom;
                 $work
@@ -41,9 +41,9 @@ pub(crate) use on_target;
 /// The error for a dimension that this build does not have.
 pub fn refused(target: &str, dimension: usize) -> CommandError {
     match dimension {
-        7 | 8 => CommandError::LeftOut {
-            asked: "a target of 7 or 8 dimensions",
-            feature: "seven-and-eight",
+        1..=8 => CommandError::LeftOut {
+            asked: "targets of other than 2 and 5 dimensions",
+            feature: "every-dimension",
         },
         _ => CommandError::Target(TargetError::DimensionNotAllowed {
             target: target.to_owned(),

@@ -40,7 +40,7 @@ impl PaperOptions {
     /// Masses are 1/M, velocities 0 and reference volumes those of the options, unless [`Run::given`] has others.
     ///
     /// # Errors
-    /// [`SampleError`]: an option or a given particle out of range, a score or a deformation that is not finite, or the observer's stop.
+    /// [`SampleError`]: without the cargo feature `paper` always [`SampleError::NotBuilt`]; an option or a given particle out of range, a score or a deformation that is not finite, or the observer's stop.
     pub fn sample<const D: usize>(
         &self,
         target: &dyn Target<D>,

@@ -61,8 +61,7 @@ pub fn time_step(spacing: f64) -> f64 {
     (0.6 * spacing).min(0.6).max(0.23 * spacing)
 }
 
-/// Largest Δt √λ, λ the curvature of −log p where the particles are: the angle by which an oscillation advances in a step.
-pub const OSCILLATION_ANGLE: f64 = 1.0;
+pub use parvi_body::OSCILLATION_ANGLE;
 
 /// Ratio of the largest to the smallest spacing that a run draws from.
 pub const SPACING_RANGE: f64 = 3.0;

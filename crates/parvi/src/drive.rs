@@ -1,16 +1,14 @@
 //! The loop around the step, shared by the calibrated sampler and the paper's algorithms.
 
 use mpm_core::{MpmError, StepReport};
+use parvi_body::{Cloud, FramedScore, Moving, PlannedStep};
 use parvi_targets::Frame;
 
 use crate::checkpoint::Journal;
 use crate::driven::Driven;
 use crate::extent::Extent;
-use crate::framed_score::FramedScore;
 use crate::guard::{Guard, Progressed, check_energy};
 use crate::moment_correction::correct_moments;
-use crate::moving::{Cloud, Moving};
-use crate::planned_step::PlannedStep;
 use crate::view::Moment;
 use crate::watching::Watching;
 use crate::{MomentCorrection, NonFiniteScores, Observer, Progress, SampleError, Samples, TracePoint, Watched};

@@ -6,9 +6,7 @@ use std::collections::VecDeque;
 use mpm_core::StepReport;
 
 use crate::extent::Extent;
-use crate::moving::{Cloud, Moving};
-use crate::planned_step::PlannedStep;
-use crate::stiffness::Stiffness;
+use parvi_body::{Cloud, Moving, PlannedStep, Stiffness};
 
 /// Steps between two states that are kept.
 pub(crate) const INTERVAL: usize = 8;

@@ -4,7 +4,7 @@ use mpm_core::MpmError;
 use mpm_tensor::{Matrix, SymmetricEigen, vector};
 
 use crate::MomentCorrection;
-use crate::framed_score::FramedScore;
+use parvi_body::FramedScore;
 
 /// Moves beyond this size (in frame units, or relative) are not a correction any more and are left undone.
 const LIMIT: f64 = 0.25;

@@ -2,20 +2,16 @@
 
 use mpm_core::{Particles, StepControl};
 use mpm_materials::IsothermalGas;
+use parvi_body::{FramedScore, Parts, PlannedStep, ScoreForce, Stiffness};
 use parvi_targets::{Frame, Target};
 
-use crate::basis_choice::Parts;
 use crate::checkpoint::Journal;
-use crate::compiled_bodies::body_of_gas;
 use crate::drive::{Plan, drive};
 use crate::driven::Driven;
-use crate::framed_score::{FramedScore, ScoreForce};
 use crate::guard::RETRIES;
 use crate::kronecker::Kronecker;
-use crate::planned_step::PlannedStep;
 use crate::rotation::random_rotation;
-use crate::start::{Stream, check, positive, steps};
-use crate::stiffness::Stiffness;
+use crate::start::{Stream, check, checked_transfer, positive, steps};
 use crate::{Annealing, MpmOptions, Observer, Run, SampleError, defaults};
 
 /// One body, and what every layer of the dispatch hands on.
@@ -90,7 +86,7 @@ impl<const D: usize> Body<'_, D> {
             basis: options.basis,
             spacing,
         };
-        let mut body = body_of_gas(parts, gas)?;
+        let mut body = parts.of_gas(gas).map_err(|error| SampleError::in_step(0, error))?;
         let driven = drive(body.as_mut(), self.frame, plan, self.journal, self.observer)?;
         self.journal.finish(&driven)?;
         Ok(driven)
@@ -107,7 +103,7 @@ pub(crate) struct Motion {
 impl Motion {
     /// At spacing h; an option out of range is an error that names it.
     pub fn of(options: &MpmOptions, particles: usize, spacing: f64) -> Result<Self, SampleError> {
-        options.transfer.checked()?;
+        checked_transfer(options.transfer)?;
         options.spacing_schedule.check()?;
         options.settling.check()?;
         let friction = options.friction.unwrap_or(defaults::FRICTION);

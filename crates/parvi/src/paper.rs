@@ -1,37 +1,21 @@
 //! Algorithms 1 (PIC) and 2 (APIC) of the MPM-ParVI paper: a body of some material under the score.
 
 use mpm_core::{Masses, MpmError, Particles, StepControl};
-use mpm_materials::{Law, Material, Memory, Numbered};
+use mpm_materials::{Law, Memory, Numbered};
+use parvi_body::{Cloud, FramedScore, Moving, NodeScores, Parts, PlannedStep, ScoreForce};
 use parvi_targets::{Frame, Target};
 
-use crate::basis_choice::Parts;
 use crate::certificate::Certificate;
 use crate::checkpoint::Journal;
-use crate::compiled_bodies::body_of_law;
 use crate::drive::{Plan, drive};
-use crate::framed_score::{FramedScore, ScoreForce};
 use crate::kronecker::Kronecker;
-use crate::moving::{Cloud, Moving};
-use crate::node_scores::NodeScores;
-use crate::planned_step::PlannedStep;
-use crate::start::{Stream, check, positive, steps};
+use crate::start::{Stream, check, checked_transfer, positive, steps};
 use crate::stretch_limit::StretchLimited;
 use crate::watching::Watching;
 use crate::{
-    Coordinates, MomentCorrection, Monitor, Observer, PaperOptions, ReferenceVolumes, Run, SampleError, Samples,
-    ScoreLocation, TransferChoice, defaults,
+    Coordinates, MomentCorrection, Monitor, Observer, PaperBody, PaperOptions, ReferenceVolumes, Run, SampleError,
+    Samples, ScoreLocation, TransferChoice, defaults,
 };
-
-/// What a body of the paper's algorithms is handed beside its options: inputs that depend on the dimension or are code.
-#[derive(Clone, Copy, Default)]
-pub struct PaperBody<'a, const D: usize> {
-    /// The material, Ψ of the paper's inputs; `None`: that of the options.
-    pub material: Option<&'a dyn Material<D>>,
-    /// A law with memory or rates in the place of a material: `&Numbered(law)`.
-    pub law: Option<&'a dyn Law<D, State = Memory>>,
-    /// α in step t of T, (t, T) ↦ α with t from 1: any finite number of either sign. Asked for once per step, in order, before the run. `None`: that of the options.
-    pub alpha: Option<&'a dyn Fn(usize, usize) -> f64>,
-}
 
 /// [`PaperOptions::sample_body`].
 pub(crate) fn sample<const D: usize>(
@@ -42,6 +26,12 @@ pub(crate) fn sample<const D: usize>(
     run: &Run,
     observer: &mut dyn Observer,
 ) -> Result<Samples<D>, SampleError> {
+    if const { cfg!(not(feature = "paper")) } {
+        return Err(SampleError::NotBuilt {
+            method: "paper",
+            feature: "paper",
+        });
+    }
     if options.score_location == ScoreLocation::Cached {
         return Err(SampleError::NotTaken {
             method: "paper",
@@ -245,15 +235,14 @@ impl<const D: usize> Job<'_, D> {
         let parts = Parts {
             particles: particles.with_states(volumes, states),
             force,
-            transfer: match (options.affine, options.flip_share) {
+            transfer: checked_transfer(match (options.affine, options.flip_share) {
                 (true, share) => TransferChoice::AffineFlip(share),
                 (false, share) => TransferChoice::Flip(share),
-            }
-            .checked()?,
+            })?,
             basis: options.basis,
             spacing,
         };
-        let mut body = body_of_law(parts, self.law)?;
+        let mut body = parts.of_law(self.law).map_err(|error| SampleError::in_step(0, error))?;
         if options.reference_volumes == ReferenceVolumes::OfGrid && run.given.reference_volumes.is_none() {
             let densities = body.grid_densities(spacing);
             let densities = densities.map_err(|error: MpmError| SampleError::in_step(0, error))?;

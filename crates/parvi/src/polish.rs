@@ -3,14 +3,12 @@
 use mpm_core::Particles;
 use mpm_materials::IsothermalGas;
 use mpm_tensor::vector;
+use parvi_body::{FramedScore, Parts, ScoreForce};
 use parvi_pool::{EnergyDistance, Pool};
 use parvi_targets::{Frame, Target};
 
-use crate::basis_choice::Parts;
 use crate::checkpoint::Journal;
-use crate::compiled_bodies::body_of_gas;
 use crate::driven::Driven;
-use crate::framed_score::{FramedScore, ScoreForce};
 use crate::moment_correction::correct_moments;
 use crate::mpm_body::Body;
 use crate::start::positive;
@@ -157,7 +155,9 @@ impl<'a, const D: usize> Polish<'a, D> {
             basis: self.options.basis,
             spacing: self.spacing,
         };
-        let mut body = body_of_gas(parts, IsothermalGas::new(1.0)?)?;
+        let mut body = parts
+            .of_gas(IsothermalGas::new(1.0)?)
+            .map_err(|error| SampleError::in_step(0, error))?;
         let failed = |error| SampleError::in_step(0, error);
         let mut scores = vec![[0.0; D]; condensed.positions.len()];
         let score = &mut body.force().score;

@@ -1,5 +1,6 @@
 //! Where the particles begin, and what a run may ask for.
 
+use parvi_body::TransferChoice;
 use parvi_targets::{CatalogueTarget, Frame, Gaussian, SobolSequence};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
@@ -143,4 +144,15 @@ pub(crate) fn steps(value: Option<usize>, default: usize) -> Result<usize, Sampl
     let value = value.unwrap_or(default);
     check("steps", value as f64, value >= 1, "at least 1")?;
     Ok(value)
+}
+
+/// The transfer, if its share of FLIP is one.
+pub(crate) fn checked_transfer(choice: TransferChoice) -> Result<TransferChoice, SampleError> {
+    match choice {
+        TransferChoice::Pic | TransferChoice::Apic => {}
+        TransferChoice::Flip(share) | TransferChoice::AffineFlip(share) => {
+            check("FLIP share", share, (0.0..=1.0).contains(&share), "in [0, 1]")?;
+        }
+    }
+    Ok(choice)
 }

@@ -145,8 +145,9 @@ impl<const D: usize> ConvexConcave<D> {
                     squares[lane] += apart[axis][lane] * apart[axis][lane];
                 }
             }
-            let inverse = squares.map(|square| 1.0 / square.sqrt().max(self.least_distance));
+            let mut inverse = [0.0; LANES];
             for lane in 0..LANES {
+                inverse[lane] = 1.0 / squares[lane].sqrt().max(self.least_distance);
                 weights[lane] += inverse[lane];
             }
             for axis in 0..D {

@@ -1,11 +1,11 @@
 //! Stein variational gradient descent (Liu & Wang 2016), the O(M²) baseline.
 
 use mpm_tensor::vector;
+use parvi_body::FramedScore;
 use parvi_targets::{Frame, Target};
 use rand::seq::index;
 
 use crate::drive::finite;
-use crate::framed_score::FramedScore;
 use crate::start::{check, positive, steps};
 use crate::view::Moment;
 use crate::{Observer, Progress, Run, SampleError, Samples, SvgdOptions, TracePoint, defaults};

@@ -1,9 +1,9 @@
 //! The best configuration of a body on its way.
 
 use mpm_core::MpmError;
+use parvi_body::Moving;
 use parvi_targets::Frame;
 
-use crate::moving::Moving;
 use crate::start::check;
 use crate::stein_discrepancy::squared_discrepancy;
 use crate::{Monitor, SampleError, Watch, Watched};

@@ -56,13 +56,21 @@ impl MethodSpecification {
     /// # Errors
     /// [`SampleError::NotBuilt`].
     pub fn check_built(&self) -> Result<(), SampleError> {
-        if self.options.uses_chains(self.name) && cfg!(not(feature = "nuts")) {
-            return Err(SampleError::NotBuilt {
-                method: "nuts",
-                feature: "nuts",
-            });
+        let needs = [
+            ("nuts", cfg!(feature = "nuts"), self.options.uses_chains(self.name)),
+            (
+                "paper",
+                cfg!(feature = "paper"),
+                matches!(self.name, MethodName::PaperPic | MethodName::PaperApic),
+            ),
+        ];
+        match needs.into_iter().find(|&(_, built, needed)| needed && !built) {
+            Some((name, ..)) => Err(SampleError::NotBuilt {
+                method: name,
+                feature: name,
+            }),
+            None => Ok(()),
         }
-        Ok(())
     }
 
     /// A run that begins where the options say.

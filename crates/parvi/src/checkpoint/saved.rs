@@ -2,13 +2,13 @@
 
 use mpm_core::{Masses, MpmError, Particles};
 use mpm_tensor::Matrix;
+use parvi_body::{Record, Stiffness};
 use serde::{Deserialize, Serialize};
 
 use crate::Samples;
 use crate::driven::Driven;
 use crate::extent::Extent;
 use crate::guard::{Progressed, State};
-use crate::stiffness::{Record, Stiffness};
 
 /// A body at its end.
 #[derive(Serialize, Deserialize)]

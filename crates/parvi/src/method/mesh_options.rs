@@ -1,6 +1,8 @@
 use std::path::PathBuf;
 
-use super::{NonFiniteScores, Settling};
+use parvi_body::NonFiniteScores;
+
+use super::Settling;
 
 /// The calibrated sampler on the mesh of a file.
 #[derive(Clone, Debug, PartialEq)]

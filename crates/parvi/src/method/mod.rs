@@ -5,6 +5,7 @@ mod annealing;
 mod mesh_options;
 mod mpm_options;
 mod nuts_options;
+mod paper_body;
 mod paper_material;
 mod paper_options;
 mod schedule;
@@ -16,8 +17,9 @@ mod watch;
 pub use ais_options::AisOptions;
 pub use annealing::Annealing;
 pub use mesh_options::{MeshOptions, OnMesh};
-pub use mpm_options::{MomentCorrection, MpmOptions, NonFiniteScores, ScoreLocation};
+pub use mpm_options::{MomentCorrection, MpmOptions};
 pub use nuts_options::NutsOptions;
+pub use paper_body::PaperBody;
 pub use paper_material::PaperMaterial;
 pub use paper_options::{Coordinates, Guards, PaperOptions, ReferenceVolumes};
 pub use schedule::{Settling, SpacingSchedule};
@@ -28,49 +30,7 @@ pub use watch::{Monitor, Watch};
 
 use parvi_targets::{CatalogueTarget, Frame};
 
-use crate::start::check;
 use crate::{Observer, Run, SampleError, Samples, SmcOptions, independent_draws, sobol_points};
-
-/// Background basis of the mechanics.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum BasisChoice {
-    /// Hat functions on the simplices of the lattice A_D*: D + 1 nodes per particle.
-    #[default]
-    Lattice,
-    /// Tensor-product hat functions: 2ᴰ nodes per particle.
-    Linear,
-    /// Tensor-product quadratic B-splines: 3ᴰ nodes per particle.
-    Quadratic,
-    /// Tensor-product cubic B-splines: 4ᴰ nodes per particle.
-    Cubic,
-}
-
-/// How velocities travel between particles and nodes.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum TransferChoice {
-    /// Particle in cell: v_p = Σ w_ip v_i.
-    #[default]
-    Pic,
-    /// Affine particle in cell: PIC with a velocity gradient per particle.
-    Apic,
-    /// FLIP blend with share `a` ∈ [0, 1] of FLIP.
-    Flip(f64),
-    /// The same with a velocity gradient per particle (affine FLIP, Fei et al. 2021).
-    AffineFlip(f64),
-}
-
-impl TransferChoice {
-    /// The transfer, if its share of FLIP is one.
-    pub(crate) fn checked(self) -> Result<Self, SampleError> {
-        match self {
-            Self::Pic | Self::Apic => {}
-            Self::Flip(share) | Self::AffineFlip(share) => {
-                check("FLIP share", share, (0.0..=1.0).contains(&share), "in [0, 1]")?;
-            }
-        }
-        Ok(self)
-    }
-}
 
 /// What is known of a method, in one place: its variant of [`Method`], and how it samples a target of the catalogue in the target's frame.
 macro_rules! methods {

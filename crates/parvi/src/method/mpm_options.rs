@@ -1,32 +1,7 @@
-use super::{Annealing, BasisChoice, Settling, SpacingSchedule, TransferChoice};
+use parvi_body::{BasisChoice, NonFiniteScores, ScoreLocation, TransferChoice};
+
+use super::{Annealing, Settling, SpacingSchedule};
 use crate::Checkpoint;
-
-/// Where the score is evaluated.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum ScoreLocation {
-    /// At the particles (paper, Eq. 5); exact moments.
-    #[default]
-    Particles,
-    /// At the nodes, weighted by nodal mass (paper, Eq. 3); cheaper when nodes are few, but the particles'
-    /// covariance shrinks by the variance of the kernel.
-    Nodes,
-    /// At the particles, but evaluated at the nodes of a grid of its own only, each once, and interpolated (docs/theory.md, §15): for targets whose score takes seconds. Without a survey,
-    /// which would take more evaluations than the grid. Of the calibrated sampler.
-    Cached,
-}
-
-/// What is done about a particle whose score is not finite.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum NonFiniteScores {
-    /// It is pulled towards the centre of the frame with the score of N(0, I) there, −z; the number of such replacements is in
-    /// [`Samples::scores_replaced`](crate::Samples::scores_replaced). A score that is not finite at the end is an error.
-    #[default]
-    PullBack,
-    /// Steps are taken back to the last good state and made again with half of Δt, a limited number of times; then it is an error.
-    RejectStep,
-    /// It is an error at once.
-    Report,
-}
 
 /// What the affine Stein correction puts right at the end of a run (docs/theory.md, Eq. 12).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -1,6 +1,8 @@
 use serde::Deserialize;
 
-use super::{Annealing, BasisChoice, PaperMaterial, ScoreLocation, Watch};
+use parvi_body::{BasisChoice, ScoreLocation};
+
+use super::{Annealing, PaperMaterial, Watch};
 
 /// In which coordinates the body moves: those of grid, masses per volume, F and Δt.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]

@@ -1,31 +1,22 @@
 //! The calibrated sampler on a bounded domain: a gas on the hat functions of a mesh, within its wall.
 
 mod frame;
-mod meshes;
 mod start;
-mod wall;
 
-use mpm_core::{Basis, Mpm, MpmError, Particles, Pic, StepControl};
+use mpm_core::{Basis, MpmError, Particles, StepControl};
 use mpm_materials::IsothermalGas;
 use mpm_mesh::{SimplexMesh, read_msh};
+use parvi_body::{FramedScore, Meshes, MovingOnMesh, PartsOnMesh, ScoreForce, SmoothWall, Stiffness};
 use parvi_targets::Target;
 use rand::{Rng, RngExt};
 
 use self::frame::{frame_of, in_frame};
-use self::meshes::Meshes;
-use self::wall::SmoothWall;
 use crate::drive::finite;
-use crate::framed_score::{FramedScore, ScoreForce};
-use crate::residual::galerkin_stein_residual_at;
 use crate::start::{Stream, check, positive, steps};
-use crate::stiffness::Stiffness;
 use crate::view::Moment;
 use crate::{
     MeshOptions, NonFiniteScores, Observer, OnMesh, Progress, Run, SampleError, Samples, TracePoint, defaults,
 };
-
-/// The gas within its wall.
-type Body<'a, const D: usize> = Mpm<D, Meshes<D>, Pic, IsothermalGas, ScoreForce<'a, D>, SmoothWall<D>>;
 
 /// Copies of the mesh with moved vertices; the last one serves the residual alone.
 const COPIES: usize = 16;
@@ -77,7 +68,6 @@ impl MeshOptions {
         let copies = if self.shifts { COPIES } else { 1 };
         let meshes = Meshes::new(&mesh, copies, &mut generator)?;
         let wall = SmoothWall::around(&mesh);
-        let inner: Vec<bool> = wall.marks(mesh.vertices().len()).into_iter().map(|on| !on).collect();
 
         let spacing = meshes.spacing();
         let time_step = positive("time step", self.time_step, defaults::time_step(spacing))?;
@@ -98,8 +88,18 @@ impl MeshOptions {
             ..ScoreForce::at_particles(score)
         };
         let start = start::uniform_in(&mesh, count, &mut run.generator(Stream::Start.of_body(0)));
-        let particles = Particles::at_rest(start, 1.0);
-        let mut body: Body<D> = Mpm::new(particles, meshes, Pic, IsothermalGas::new(1.0)?, force).with_boundary(wall);
+        let parts = PartsOnMesh {
+            particles: Particles::at_rest(start, 1.0),
+            force,
+            meshes,
+            wall,
+        };
+        let body = parts.of_gas(IsothermalGas::new(1.0)?);
+        let mut body = body.ok_or_else(|| SampleError::Unsupported {
+            method: "mpm on a mesh",
+            target: format!("of {D} dimensions"),
+            needs: "2 or 3 dimensions",
+        })?;
         let mut trace = Vec::new();
         let mut time = 0.0;
         let seen_after = |step, time| Moment {
@@ -108,11 +108,11 @@ impl MeshOptions {
             time,
             ..Moment::default()
         };
-        seen_after(0, time).show(&body.particles, &frame, observer)?;
+        seen_after(0, time).show(body.particles(), &frame, observer)?;
         for step in 1..=steps {
             let failed = |error| SampleError::in_step(step, error);
-            body.basis.chosen = self.choice(step, steps, &mut generator);
-            let stiffness = body.body_force.stiffness.as_ref();
+            let copy = self.choice(step, steps, &mut generator);
+            let stiffness = body.force().stiffness.as_ref();
             let control = StepControl {
                 time_step: (time_step * self.settling.factor(step, steps))
                     .min(stiffness.map_or(f64::INFINITY, Stiffness::time_limit)),
@@ -120,39 +120,38 @@ impl MeshOptions {
                 displacement,
                 friction,
             };
-            let report = body.step(&control).map_err(failed)?;
-            if let Some(stiffness) = &mut body.body_force.stiffness {
-                stiffness.update(body.basis.schedule().order());
-            }
-            body.basis.basis().pull_inside(&mut body.particles.positions);
+            let report = body.step(copy, &control).map_err(failed)?;
             time += report.time_step;
             if self.trace_every > 0 && (step % self.trace_every == 0 || step == 1) {
+                let positions = body.particles().positions.clone();
                 trace.push(TracePoint {
                     step,
                     time,
-                    residual: Some(residual(&mut body, &inner).map_err(failed)?),
-                    kinetic_energy: body.particles.kinetic_energy(),
+                    residual: Some(residual(body.as_mut(), &positions).map_err(failed)?),
+                    kinetic_energy: body.particles().kinetic_energy(),
                     internal_energy: None,
-                    potential_energy: body.body_force.score.potential_energy(&body.particles.positions),
+                    potential_energy: body.force().score.potential_energy(&positions),
                     displacement: report.displacement,
                 });
             }
-            seen_after(step, time).show(&body.particles, &frame, observer)?;
+            seen_after(step, time).show(body.particles(), &frame, observer)?;
             if observer.after_step(Progress { step, steps }).is_break() {
                 return Err(SampleError::Interrupted { step });
             }
         }
-        body.body_force.score.non_finite = NonFiniteScores::Report;
-        let residual = residual(&mut body, &inner).map_err(|error| SampleError::in_step(steps, error))?;
-        let in_order = body.particles.in_creation_order(&body.particles.positions);
+        body.force().score.non_finite = NonFiniteScores::Report;
+        let positions = body.particles().positions.clone();
+        let residual = residual(body.as_mut(), &positions).map_err(|error| SampleError::in_step(steps, error))?;
+        let in_order = body.particles().in_creation_order(&positions);
+        let (evaluations, replaced) = (body.force().score.evaluations, body.force().score.replaced);
         Ok(Samples {
             positions: finite(in_order.iter().map(|z| frame.to_target(z)).collect(), steps)?,
             steps,
-            score_evaluations: body.body_force.score.evaluations,
-            scores_replaced: body.body_force.score.replaced,
+            score_evaluations: evaluations,
+            scores_replaced: replaced,
             residual: Some(residual),
             spacing: Some(spacing),
-            active_nodes: Some(body.basis.node_count()),
+            active_nodes: Some(body.node_count()),
             bodies: Some(1),
             storage_bytes: Some(body.storage_bytes()),
             trace,
@@ -183,14 +182,11 @@ impl MeshOptions {
     }
 }
 
-/// The residual relative to independent draws, of the vertices that are `inner`, on the copy that no particle was moved on.
-fn residual<const D: usize>(body: &mut Body<'_, D>, inner: &[bool]) -> Result<f64, MpmError> {
-    let positions = &body.particles.positions;
+/// The residual of the particles relative to independent draws.
+fn residual<const D: usize>(body: &mut dyn MovingOnMesh<'_, D>, positions: &[[f64; D]]) -> Result<f64, MpmError> {
     let mut scores = vec![[0.0; D]; positions.len()];
-    body.body_force.score.evaluate(positions, &mut scores)?;
-    body.basis.choose_last();
-    let residual = galerkin_stein_residual_at(&mut body.basis, positions, &scores, |node| inner[node])?;
-    Ok(residual.ratio())
+    body.force().score.evaluate(positions, &mut scores)?;
+    Ok(body.residual(&scores)?.ratio())
 }
 
 /// Times that the gas could cross the mesh before settling begins.

@@ -2,7 +2,8 @@
 
 use mpm_tensor::vector;
 
-use crate::defaults;
+/// Largest Δt √λ, λ the curvature of −log p where the particles are: the angle by which an oscillation advances in a step.
+pub const OSCILLATION_ANGLE: f64 = 1.0;
 
 /// Particles that are looked at, at most.
 const SAMPLE: usize = 1 << 12;
@@ -11,16 +12,19 @@ const SAMPLE: usize = 1 << 12;
 ///
 /// In a well of curvature λ the body oscillates with the frequency √λ, and a Δt beyond 2/√λ would be unstable.
 #[derive(Clone, Debug)]
-pub(crate) struct Stiffness<const D: usize> {
-    pub(crate) estimate: f64,
+pub struct Stiffness<const D: usize> {
+    /// λ.
+    pub estimate: f64,
     /// Every so many particles are looked at.
-    pub(crate) stride: usize,
-    pub(crate) now: Vec<Record<D>>,
-    pub(crate) before: Vec<Record<D>>,
+    pub stride: usize,
+    /// Records of this step.
+    pub now: Vec<Record<D>>,
+    /// Records of the step before.
+    pub before: Vec<Record<D>>,
 }
 
 /// Position and score of a particle.
-pub(crate) type Record<const D: usize> = ([f64; D], [f64; D]);
+pub type Record<const D: usize> = ([f64; D], [f64; D]);
 
 impl<const D: usize> Default for Stiffness<D> {
     fn default() -> Self {
@@ -63,9 +67,9 @@ impl<const D: usize> Stiffness<D> {
         }
     }
 
-    /// The largest Δt that follows the motion in such a well: [`defaults::OSCILLATION_ANGLE`] / √λ.
+    /// The largest Δt that follows the motion in such a well: [`OSCILLATION_ANGLE`] / √λ.
     pub fn time_limit(&self) -> f64 {
-        defaults::OSCILLATION_ANGLE / self.estimate.sqrt()
+        OSCILLATION_ANGLE / self.estimate.sqrt()
     }
 }
 
@@ -92,7 +96,7 @@ mod tests {
                 stiffness.record(&positions, &scores);
                 stiffness.update(&order);
             }
-            let expected = defaults::OSCILLATION_ANGLE / f64::sqrt(curvature);
+            let expected = OSCILLATION_ANGLE / f64::sqrt(curvature);
             assert!((stiffness.time_limit() - expected).abs() < 1e-6, "{count}, {curvature}");
         }
     }

@@ -9,7 +9,7 @@ use mpm_core::MpmError;
 ///
 /// A node is known by its position, origin + h k, which has the same bits in every step on the same grid.
 #[derive(Debug, Default)]
-pub(crate) struct NodeScores<const D: usize> {
+pub struct NodeScores<const D: usize> {
     /// Origin and spacing of the grid.
     grid: Option<([f64; D], f64)>,
     known: HashMap<[u64; D], [f64; D]>,
@@ -29,6 +29,9 @@ impl<const D: usize> NodeScores<D> {
     }
 
     /// The scores at the nodes: known ones, and those of the others from `evaluate`, in one batch. All fresh ones are forgotten if one of them is not finite.
+    ///
+    /// # Errors
+    /// What `evaluate` says.
     pub fn evaluate(
         &mut self,
         nodes: &[[f64; D]],

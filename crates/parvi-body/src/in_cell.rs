@@ -2,7 +2,7 @@
 
 use mpm_core::{AffineFlip, Flip, FlipNode, Transfer};
 
-use crate::TransferChoice;
+use crate::choices::TransferChoice;
 
 /// Affine FLIP, of which FLIP is B_p = 0, APIC a share of 0, and PIC both.
 #[derive(Clone, Copy)]

@@ -10,14 +10,17 @@ const AMPLITUDE: f64 = 0.7;
 
 /// Hat functions on a mesh and on copies of it with inner vertices moved at random; vertices keep their numbers.
 #[derive(Clone, Debug)]
-pub(super) struct Meshes<const D: usize> {
+pub struct Meshes<const D: usize> {
     bases: Vec<HatBasis<D>>,
     /// The one that particles meet.
-    pub chosen: usize,
+    pub(super) chosen: usize,
 }
 
 impl<const D: usize> Meshes<D> {
     /// The mesh itself, number 0, and `copies` of it.
+    ///
+    /// # Errors
+    /// [`MeshError`]: a cell without volume.
     pub fn new(mesh: &SimplexMesh<D>, copies: usize, generator: &mut impl Rng) -> Result<Self, MeshError> {
         let mut bases = vec![HatBasis::new(mesh.clone())];
         for _ in 0..copies {
@@ -27,7 +30,7 @@ impl<const D: usize> Meshes<D> {
     }
 
     /// Choose the copy made last.
-    pub fn choose_last(&mut self) {
+    pub(super) fn choose_last(&mut self) {
         self.chosen = self.bases.len() - 1;
     }
 

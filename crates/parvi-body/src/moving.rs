@@ -11,10 +11,10 @@ use crate::planned_step::PlannedStep;
 use crate::residual::{Residual, galerkin_stein_residual};
 
 /// Particles of whatever medium; internal variables only where it has some.
-pub(crate) type Cloud<const D: usize> = Particles<D, Memory>;
+pub type Cloud<const D: usize> = Particles<D, Memory>;
 
 /// Particles that a score moves.
-pub(crate) trait Moving<'a, const D: usize> {
+pub trait Moving<'a, const D: usize> {
     /// Their state.
     fn particles(&mut self) -> &mut Cloud<D>;
 
@@ -25,6 +25,9 @@ pub(crate) trait Moving<'a, const D: usize> {
     fn turn(&mut self, planned: &PlannedStep<D>);
 
     /// Place the basis and make the step.
+    ///
+    /// # Errors
+    /// [`MpmError`]: a force, a velocity or a place that is not finite.
     fn step(&mut self, planned: &PlannedStep<D>) -> Result<StepReport, MpmError>;
 
     /// Where every particle was before the last sort ([`Schedule::order`](mpm_core::Schedule::order)).
@@ -32,9 +35,15 @@ pub(crate) trait Moving<'a, const D: usize> {
 
     /// The residual of the particles with these scores, on a basis of spacing h that they were not moved on: half a cell off the origin of
     /// a step.
+    ///
+    /// # Errors
+    /// [`MpmError`]: a particle that has no place on the basis.
     fn residual(&mut self, origin: &[f64; D], spacing: f64, scores: &[[f64; D]]) -> Result<Residual, MpmError>;
 
     /// ρ_h(x_p) = Σ_i w_ip m_i / h^D, the density on the grid of spacing h with a node at the origin, in the present order.
+    ///
+    /// # Errors
+    /// [`MpmError`]: a particle that has no place on the basis.
     fn grid_densities(&mut self, spacing: f64) -> Result<Vec<f64>, MpmError>;
 
     /// Bytes held.

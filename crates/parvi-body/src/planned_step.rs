@@ -5,7 +5,7 @@ use mpm_tensor::Matrix;
 
 /// One step of a plan.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct PlannedStep<const D: usize> {
+pub struct PlannedStep<const D: usize> {
     /// Where the basis has its origin, in coordinates of its unit cell.
     pub origin: [f64; D],
     /// Spacing h.

@@ -13,12 +13,13 @@ const CORNER: f64 = 0.1;
 /// With the facets around a vertex, of areas A_f and normals n_f, these are the eigenvectors of Σ A_f n_f n_fᵀ / Σ A_f with eigenvalues above 0.1: on a
 /// smooth wall one, the mean normal; at a corner all.
 #[derive(Clone, Debug)]
-pub(super) struct SmoothWall<const D: usize> {
+pub struct SmoothWall<const D: usize> {
     /// Vertices on the wall, each with its Q.
-    pub projections: Vec<(u32, Matrix<D>)>,
+    projections: Vec<(u32, Matrix<D>)>,
 }
 
 impl<const D: usize> SmoothWall<D> {
+    /// Around that mesh.
     pub fn around(mesh: &SimplexMesh<D>) -> Self {
         let mut sums = vec![(0.0, Matrix::<D>::ZERO); mesh.vertices().len()];
         for facet in mesh.boundary() {
@@ -36,7 +37,7 @@ impl<const D: usize> SmoothWall<D> {
     }
 
     /// For each vertex of the mesh whether it lies on the wall.
-    pub fn marks(&self, vertex_count: usize) -> Vec<bool> {
+    pub(super) fn marks(&self, vertex_count: usize) -> Vec<bool> {
         let mut marks = vec![false; vertex_count];
         for &(vertex, _) in &self.projections {
             marks[vertex as usize] = true;

@@ -3,13 +3,15 @@
 use mpm_core::{BodyForce, ForceLocation, Masses, MpmError, Sites};
 use parvi_targets::{Frame, Target};
 
+use crate::choices::{NonFiniteScores, ScoreLocation};
 use crate::node_scores::NodeScores;
 use crate::stiffness::Stiffness;
-use crate::{NonFiniteScores, ScoreLocation};
 
 /// Scores of `target` pulled back to frame coordinates: x = μ + L z, s_z = Lᵀ ∇ log p(x).
-pub(crate) struct FramedScore<'a, const D: usize> {
+pub struct FramedScore<'a, const D: usize> {
+    /// The target.
     pub target: &'a (dyn Target<D> + 'a),
+    /// μ and L.
     pub frame: &'a Frame<D>,
     /// Points evaluated so far.
     pub evaluations: u64,
@@ -21,6 +23,7 @@ pub(crate) struct FramedScore<'a, const D: usize> {
 }
 
 impl<'a, const D: usize> FramedScore<'a, D> {
+    /// Nothing evaluated yet; a score that is not finite is an error.
     pub fn new(target: &'a (dyn Target<D> + 'a), frame: &'a Frame<D>) -> Self {
         Self {
             target,
@@ -33,6 +36,9 @@ impl<'a, const D: usize> FramedScore<'a, D> {
     }
 
     /// Scores at `zs`; one that is not finite is replaced or an error, as `non_finite` says.
+    ///
+    /// # Errors
+    /// [`MpmError::BodyForceNotFinite`].
     pub fn evaluate(&mut self, zs: &[[f64; D]], out: &mut [[f64; D]]) -> Result<(), MpmError> {
         self.points.clear();
         self.points.extend(zs.iter().map(|z| self.frame.to_target(z)));
@@ -70,7 +76,7 @@ impl<'a, const D: usize> FramedScore<'a, D> {
 }
 
 /// The score as the force of a step, times a factor α that a schedule may change.
-pub(crate) struct ScoreForce<'a, const D: usize> {
+pub struct ScoreForce<'a, const D: usize> {
     /// The score.
     pub score: FramedScore<'a, D>,
     /// Factor α.
