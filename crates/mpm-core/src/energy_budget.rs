@@ -3,7 +3,7 @@
 use mpm_tensor::vector::{add, dot, scale, subtract};
 
 use crate::transfer::{GridNode, Transfer};
-use crate::{Basis, BodyForce, Boundary, Medium, Mpm};
+use crate::{Basis, BodyForce, Boundary, Medium, Mpm, StressUpdate};
 
 /// What the kinetic energy of the nodes, K = ½ Σ m_i |v_i|², has gained in all steps, by what gave them impulses. Nodes get v_iⁿ from the particles; then forces, contact, friction and
 /// boundary give impulses J_i, each in its turn, up to v_iⁿ⁺¹. All of them act over the same step, so that the work of each is Σ J_i · (v_iⁿ + v_iⁿ⁺¹) / 2: together they are what K gains,
@@ -25,10 +25,15 @@ pub struct EnergyBudget {
     pub friction: f64,
     /// The work of the [`Boundary`](crate::Boundary).
     pub boundary: f64,
+    /// What the integration in time takes of the energy of the whole body, negative where it gives some; no part of what the nodes gain. Forces are those where a step begins, the
+    /// motion is the one with v_iⁿ⁺¹: particles then store V⁰ψ((I + Δt L_p) F_p), which is not what they had and the work of their stresses (of second order in Δt), and forces do
+    /// Σ J_i · (v_iⁿ⁺¹ − v_iⁿ) / 2 more along the motion than above. Both are computed for what they are, by particles and by nodes, so that the energy of an elastic body without averaged volumes
+    /// is what it began with less all that is said here, up to rounding. 0 unless particles deform last ([`StressUpdate::Last`](crate::StressUpdate::Last)).
+    pub time_integration: f64,
 }
 
 impl EnergyBudget {
-    /// Σ of all parts: what the nodes have gained altogether.
+    /// Σ of all works: what the nodes have gained altogether.
     pub fn sum(&self) -> f64 {
         self.forces + self.damping + self.contact + self.friction + self.boundary
     }
@@ -83,7 +88,24 @@ where
             budget.contact += work(advanced, pressed);
             budget.friction += work(pressed, slowed);
             budget.boundary += work(slowed, last);
+            if M::DEFORMS && self.stress_update == StressUpdate::Last {
+                let lead = |i: usize| {
+                    let (impulse, change) = (subtract(&undamped[i], &brought[i]), subtract(&last[i], &brought[i]));
+                    0.5 * nodes[i].mass() * dot(&impulse, &change)
+                };
+                budget.time_integration += (0..nodes.len()).map(lead).sum::<f64>();
+                self.excesses.resize(self.particles.len(), 0.0);
+            }
         }
+    }
+
+    /// Add what the particles have stored more than the work of their stresses, now that they have deformed.
+    pub(crate) fn account_for_deformation(&mut self) {
+        if let Some(budget) = &mut self.energy_budget {
+            let each = self.excesses.iter().zip(&self.particles.reference_volumes);
+            budget.time_integration -= each.map(|(excess, volume)| excess * volume).sum::<f64>();
+        }
+        self.excesses.clear();
     }
 }
 

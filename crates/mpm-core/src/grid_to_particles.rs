@@ -1,6 +1,7 @@
 //! Grid → particles: particles move and deform with the nodes around them.
 
 use mpm_kernels::{Interpolated, Wanted, deformed};
+use mpm_tensor::Matrix;
 use mpm_tensor::vector::multiply_add;
 
 use crate::transfer::{CellField, Changes, Moving, MovingParticle, Numbered, Transfer, Velocities, gather_cells};
@@ -46,6 +47,10 @@ where
     fn grid_to_particles<const MOVE: bool, const DEFORM: bool>(&mut self, dt: f64, damping: f64) {
         let (basis, nodes, transfer) = (&self.basis, self.nodes.as_slice(), self.transfer.over(dt));
         let (medium, admit) = (&self.medium, !self.volume_averaging);
+        let mut moving = Moving::of(&mut self.particles);
+        if MOVE && DEFORM {
+            moving.excesses = &mut self.excesses;
+        }
         let (rate_dependent, takes_moments) = (medium.rate_dependent(), transfer.takes_moments());
         let velocity = Velocities::<_, D>(nodes);
         let change = Changes::<_, D> { nodes, damping };
@@ -62,6 +67,10 @@ where
             #[allow(non_snake_case)]
             if let Some((F, state)) = particle.deformation {
                 let trial = deformed(F, &seen.gradient, dt);
+                if let Some(excess) = particle.excess {
+                    let before = particle.velocity_gradient.as_deref().unwrap_or(&Matrix::ZERO);
+                    *excess = medium.stored_beyond_work([F, &trial], &(seen.gradient * dt), state, before);
+                }
                 *F = if admit { medium.advance(&trial, state) } else { trial };
                 if let (true, Some(velocity_gradient)) = (rate_dependent, particle.velocity_gradient) {
                     *velocity_gradient = seen.gradient;
@@ -70,7 +79,7 @@ where
         };
         gather_cells(
             basis,
-            Moving::of(&mut self.particles),
+            moving,
             move |data: &mut Moving<D, M::State>, particles, numbers, first, fields: &mut [CellField; 2]| {
                 // In here and not captured, so that they are known when this is compiled.
                 let incremental = MOVE && T::INCREMENTAL;

@@ -35,6 +35,8 @@ pub struct Mpm<const D: usize, B, T: Transfer<D>, M: Medium<D>, F, C = NoBoundar
     pub energy_budget: Option<EnergyBudget>,
     /// Time since the body was made; every step adds its Δt.
     pub time: f64,
+    /// What every particle has stored per reference volume, in the step, more than the work of its stress; empty without an energy budget.
+    pub(crate) excesses: Vec<f64>,
     /// Nodal masses and velocities, in the order of the basis' numbers.
     pub(crate) nodes: NodeSums<T::Node>,
     /// Body force per unit mass at the particles; empty where it acts at nodes.
@@ -78,6 +80,7 @@ where
             velocity_filter: None,
             energy_budget: None,
             time: 0.0,
+            excesses: Vec::new(),
             nodes: NodeSums::default(),
             accelerations: Vec::new(),
             node_positions: Vec::new(),
@@ -111,6 +114,7 @@ where
             velocity_filter: self.velocity_filter,
             energy_budget: self.energy_budget,
             time: self.time,
+            excesses: self.excesses,
             nodes: self.nodes,
             accelerations: self.accelerations,
             node_positions: self.node_positions,
@@ -131,6 +135,7 @@ where
             + self.normal_impulses.storage_bytes()
             + self.contact.storage_bytes()
             + self.velocity_filter.as_ref().map_or(0, VelocityFilter::storage_bytes)
+            + self.excesses.capacity() * 8
             + vectors * size_of::<[f64; D]>()
     }
 }

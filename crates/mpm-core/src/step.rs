@@ -62,6 +62,7 @@ where
         self.record(&mut stages);
         self.account(&stages, damping);
         self.update_particles(dt, damping);
+        self.account_for_deformation();
         self.time += dt;
         Ok(StepReport {
             time_step: dt,

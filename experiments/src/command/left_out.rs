@@ -26,6 +26,11 @@ pub mod simulate {
     pub fn execute(_: &Arguments) -> Result<(), CommandError> {
         Err(left_out("parvi simulate", "mechanics"))
     }
+
+    /// As [`execute`].
+    pub fn report(_: &std::path::Path) -> Result<(), CommandError> {
+        Err(left_out("parvi report of a simulated scene", "mechanics"))
+    }
 }
 
 /// For `rom`.
@@ -71,6 +76,6 @@ mod tests {
                 "parvi rom: built without rom: cargo build --features rom"
             );
         }
-        assert!(rom::report(Path::new("")).is_err());
+        assert!(rom::report(Path::new("")).is_err() && simulate::report(Path::new("")).is_err());
     }
 }

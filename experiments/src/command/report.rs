@@ -1,20 +1,23 @@
-//! `parvi report`: tables and plots of a study, or of reduced runs, again.
+//! `parvi report`: tables and plots of a study, of reduced runs or of a simulated scene, again.
 
 use std::path::PathBuf;
 
 use clap::Args;
 
-use super::rom;
+use super::{rom, simulate};
 use crate::CommandError;
 use crate::study;
 
 /// The file that tells the directory of a reduced-order model.
 const MODEL: &str = "model.safetensors";
 
+/// The file that tells the directory of a simulated scene.
+const SCENE: &str = "scene.toml";
+
 /// Of what.
 #[derive(Args)]
 pub struct Arguments {
-    /// Directory of a study or of `parvi rom run`, complete or not
+    /// Directory of a study, of `parvi simulate` or of `parvi rom run`, complete or not
     #[arg(value_name = "DIR")]
     directory: PathBuf,
 }
@@ -24,6 +27,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     if arguments.directory.join(MODEL).exists() {
         return rom::report(&arguments.directory);
     }
+    if arguments.directory.join(SCENE).exists() {
+        return simulate::report(&arguments.directory);
+    }
     study::report(&arguments.directory)
 }
 
@@ -32,5 +38,10 @@ mod tests {
     #[test]
     fn a_model_is_found_by_the_name_that_training_gives_it() {
         assert_eq!(super::MODEL, mpm_rom::experiment::names::MODEL);
+    }
+
+    #[test]
+    fn a_scene_is_found_by_the_name_that_simulating_gives_it() {
+        assert_eq!(super::SCENE, mpm_scenes::output::names::SCENE);
     }
 }

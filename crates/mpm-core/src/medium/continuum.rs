@@ -111,6 +111,18 @@ impl<const D: usize, L: Law<D>> Medium<D> for Continuum<L> {
         self.law.advance(trial, state)
     }
 
+    #[inline(never)]
+    fn stored_beyond_work(
+        &self,
+        [from, to]: [&Matrix<D>; 2],
+        way: &Matrix<D>,
+        state: &L::State,
+        velocity_gradient: &Matrix<D>,
+    ) -> f64 {
+        let stored = self.law.energy_density(to, state) - self.law.energy_density(from, state);
+        stored - self.law.kirchhoff_stress(from, state, velocity_gradient).contract(way)
+    }
+
     #[inline]
     fn volume_ratio(&self, deformation_gradient: &Matrix<D>, state: &L::State) -> f64 {
         self.law.volume_ratio(deformation_gradient, state)

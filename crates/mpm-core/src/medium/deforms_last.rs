@@ -44,6 +44,16 @@ impl<const D: usize, M: Medium<D>> Medium<D> for DeformsLast<M> {
         self.0.advance(trial, state)
     }
 
+    fn stored_beyond_work(
+        &self,
+        deformations: [&Matrix<D>; 2],
+        way: &Matrix<D>,
+        state: &M::State,
+        velocity_gradient: &Matrix<D>,
+    ) -> f64 {
+        self.0.stored_beyond_work(deformations, way, state, velocity_gradient)
+    }
+
     #[inline(always)]
     fn volume_ratio(&self, deformation_gradient: &Matrix<D>, state: &M::State) -> f64 {
         self.0.volume_ratio(deformation_gradient, state)

@@ -83,6 +83,18 @@ pub trait Medium<const D: usize>: Sync {
         *trial
     }
 
+    /// ψ((I + Δt L) F) − ψ(F) − τ : Δt L, what a particle stores per reference volume more than the work of its stress along the motion `way` = Δt L, which takes its deformation gradient
+    /// from `from` to `to`; τ by its present state and velocity gradient. 0 for a medium that does not deform.
+    fn stored_beyond_work(
+        &self,
+        [_from, _to]: [&Matrix<D>; 2],
+        _way: &Matrix<D>,
+        _state: &Self::State,
+        _velocity_gradient: &Matrix<D>,
+    ) -> f64 {
+        0.0
+    }
+
     /// J, the present volume of a particle over its reference volume.
     #[inline(always)]
     fn volume_ratio(&self, deformation_gradient: &Matrix<D>, _state: &Self::State) -> f64 {

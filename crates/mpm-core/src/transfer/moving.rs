@@ -11,6 +11,8 @@ pub struct Moving<'a, const D: usize, S> {
     pub deformation_gradients: &'a mut [Matrix<D>],
     pub velocity_gradients: &'a mut [Matrix<D>],
     pub states: &'a mut [S],
+    /// What they store more than the work of their stresses; empty where nobody asks.
+    pub excesses: &'a mut [f64],
 }
 
 /// Those of one particle.
@@ -21,6 +23,7 @@ pub struct MovingParticle<'a, const D: usize, S> {
     /// With its internal variables.
     pub deformation: Option<(&'a mut Matrix<D>, &'a mut S)>,
     pub velocity_gradient: Option<&'a mut Matrix<D>>,
+    pub excess: Option<&'a mut f64>,
 }
 
 impl<const D: usize, S> Moving<'_, D, S> {
@@ -41,6 +44,7 @@ impl<const D: usize, S> Moving<'_, D, S> {
             } else {
                 None
             },
+            excess: if deforms { self.excesses.get_mut(k) } else { None },
         }
     }
 }
@@ -54,6 +58,7 @@ impl<'a, const D: usize, S> Moving<'a, D, S> {
             deformation_gradients: &mut particles.deformation_gradients,
             velocity_gradients: &mut particles.velocity_gradients,
             states: &mut particles.states,
+            excesses: &mut [],
         }
     }
 }
@@ -66,6 +71,7 @@ impl<const D: usize, S: Send> Divide for Moving<'_, D, S> {
         let (deformation_gradients, right_deformation_gradients) = self.deformation_gradients.divide(count);
         let (velocity_gradients, right_velocity_gradients) = self.velocity_gradients.divide(count);
         let (states, right_states) = self.states.divide(count);
+        let (excesses, right_excesses) = self.excesses.divide(count);
         let left = Self {
             positions,
             velocities,
@@ -73,6 +79,7 @@ impl<const D: usize, S: Send> Divide for Moving<'_, D, S> {
             deformation_gradients,
             velocity_gradients,
             states,
+            excesses,
         };
         let right = Self {
             positions: right_positions,
@@ -81,6 +88,7 @@ impl<const D: usize, S: Send> Divide for Moving<'_, D, S> {
             deformation_gradients: right_deformation_gradients,
             velocity_gradients: right_velocity_gradients,
             states: right_states,
+            excesses: right_excesses,
         };
         (left, right)
     }

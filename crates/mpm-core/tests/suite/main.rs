@@ -11,6 +11,7 @@ mod contact;
 mod deformation;
 mod determinism;
 mod dissipation;
+mod energy_budget;
 mod errors;
 mod force_identities;
 mod golden_counters;

@@ -58,6 +58,24 @@ impl<const D: usize> Loads<D> {
         self.gravity_ramp > 0.0 || !self.direct.is_empty() || !self.manufactured.is_empty()
     }
 
+    /// Whether there is a barrier whose forces are those at the start of a step.
+    pub(crate) fn has_explicit_barrier(&self) -> bool {
+        self.barrier.as_ref().is_some_and(|barrier| !barrier.implicit)
+    }
+
+    /// Σ_p A_p [b(x_p') − b(x_p) + t(x_p) · (x_p' − x_p)] of an explicit barrier on particles that go from x_p to x_p' (in the order of creation), t its traction: what it stores more than
+    /// the work against its forces; 0 where there is none.
+    pub(crate) fn barrier_stored_beyond_work(&self, from: &[[f64; D]], to: &[[f64; D]]) -> f64 {
+        let Some(barrier) = self.barrier.as_ref().filter(|barrier| !barrier.implicit) else {
+            return 0.0;
+        };
+        let each = from.iter().zip(to).zip(&self.areas).map(|((from, to), area)| {
+            let work = vector::dot(&barrier.traction(from), &vector::subtract(to, from));
+            area * (barrier.energy_at(to) - barrier.energy_at(from) + work)
+        });
+        each.sum()
+    }
+
     /// The work of those forces at a time, on particles that go from place to place (in the order of creation): Σ m_p (a_p − g) · Δx_p, a_p without the barrier.
     pub(crate) fn work_beside_potentials(&self, time: f64, from: &[[f64; D]], to: &[[f64; D]]) -> f64 {
         let gravity = self.gravity.unwrap_or([0.0; D]);

@@ -17,22 +17,24 @@ pub(super) struct Budget {
     prescribed: f64,
     /// The work of all forces on particles that have no potential in the series.
     loads: f64,
+    /// What an explicit barrier has stored more than the work of its forces along the motion.
+    barrier_integration: f64,
 }
 
-/// The names of its columns. Dissipations and works are those since t = 0; `energy_balance` is constant but for the error of the time integration, and for what plastic and viscous laws
-/// dissipate.
-pub(super) const COLUMNS: [&str; 7] = [
+/// The names of its columns. Dissipations and works are those since t = 0; `energy_balance` is constant but for what plastic laws dissipate.
+pub(super) const COLUMNS: [&str; 8] = [
     "transfer_dissipation",
     "friction_dissipation",
     "contact_dissipation",
     "damping_dissipation",
+    "time_integration_dissipation",
     "boundary_work",
     "load_work",
     "energy_balance",
 ];
 
 /// Numbers in a checkpoint: those of the nodes, then those of the run.
-pub(super) type Saved = [f64; 9];
+pub(super) type Saved = [f64; 11];
 
 impl Budget {
     /// At t = 0.
@@ -42,8 +44,7 @@ impl Budget {
         Self {
             kinetic: energies.kinetic + energies.affine,
             barrier: energies.barrier,
-            prescribed: 0.0,
-            loads: 0.0,
+            ..Self::default()
         }
     }
 
@@ -58,8 +59,19 @@ impl Budget {
         };
         let (friction, damping) = (0.0 - nodes.friction, 0.0 - nodes.damping);
         let boundary = nodes.boundary + self.prescribed;
-        let total = now.sum() + transfer + friction + contact + damping - boundary - self.loads;
-        [transfer, friction, contact, damping, boundary, self.loads, total]
+        let integration = nodes.time_integration - self.barrier_integration;
+        let dissipated = transfer + friction + contact + damping + integration;
+        let total = now.sum() + dissipated - boundary - self.loads;
+        [
+            transfer,
+            friction,
+            contact,
+            damping,
+            integration,
+            boundary,
+            self.loads,
+            total,
+        ]
     }
 
     /// One step by `step`, with the work of the loads in it.
@@ -68,14 +80,15 @@ impl Budget {
         motion: &mut dyn Motion<D>,
         step: impl FnOnce(&mut dyn Motion<D>) -> Result<(), E>,
     ) -> Result<(), E> {
-        if !motion.loads().has_more_than_potentials() {
+        let loads = motion.loads();
+        if !loads.has_more_than_potentials() && !loads.has_explicit_barrier() {
             return step(motion);
         }
         let (time, before) = (motion.time(), in_creation_order(motion));
         step(motion)?;
-        self.loads += motion
-            .loads()
-            .work_beside_potentials(time, &before, &in_creation_order(motion));
+        let (loads, after) = (motion.loads(), in_creation_order(motion));
+        self.loads += loads.work_beside_potentials(time, &before, &after);
+        self.barrier_integration += loads.barrier_stored_beyond_work(&before, &after);
         Ok(())
     }
 
@@ -103,10 +116,12 @@ impl Budget {
             nodes.contact,
             nodes.friction,
             nodes.boundary,
+            nodes.time_integration,
             self.kinetic,
             self.barrier,
             self.prescribed,
             self.loads,
+            self.barrier_integration,
         ]
     }
 
@@ -118,10 +133,12 @@ impl Budget {
             contact,
             friction,
             boundary,
+            time_integration,
             kinetic,
             barrier,
             prescribed,
             loads,
+            barrier_integration,
         ] = *saved;
         *motion.energy_budget_mut() = Some(EnergyBudget {
             forces,
@@ -129,12 +146,14 @@ impl Budget {
             contact,
             friction,
             boundary,
+            time_integration,
         });
         Self {
             kinetic,
             barrier,
             prescribed,
             loads,
+            barrier_integration,
         }
     }
 }

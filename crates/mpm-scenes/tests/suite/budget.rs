@@ -48,20 +48,30 @@ fn drift(series: &Series) -> f64 {
     total.iter().map(|now| (now - total[0]).abs()).fold(0.0, f64::max)
 }
 
-/// Friction, contact, transfer and what is left add up to what there was: in short steps to 1 % of the energy that the disk moves with.
+/// The largest size of a value.
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |largest, value| value.abs().max(largest))
+}
+
+/// Friction, contact, transfer, integration and what is left add up to what there was, whatever the step. In short steps friction and contact never give anything back; in long ones the
+/// velocity before a step may point against the sliding that friction acts on.
 #[test]
 fn the_budget_of_a_bounce_with_friction_closes() {
-    for transfer in ["apic", "flip", "affine-flip"] {
-        let disk = bounce(transfer, "implicit", 0.02);
+    for (transfer, courant) in ["apic", "mls", "flip", "affine-flip"]
+        .into_iter()
+        .flat_map(|t| [(t, 0.3), (t, 0.02)])
+    {
+        let disk = bounce(transfer, "implicit", courant);
         let column = |name: &str| disk.column(name).expect("a budget");
         let last = |name: &str| *column(name).last().expect("a row");
         let start = column("kinetic_energy")[0];
-        assert!(drift(&disk) < 0.01 * start, "{transfer}: {} of {start}", drift(&disk));
+        assert!(drift(&disk) < 1e-9 * start, "{transfer}: {} of {start}", drift(&disk));
         for part in ["friction_dissipation", "contact_dissipation", "transfer_dissipation"] {
             assert!(last(part) > 0.01 * start, "{transfer}: {part} is {}", last(part));
         }
         for part in ["friction_dissipation", "contact_dissipation"] {
-            assert!(column(part).is_sorted(), "{transfer}: {part} is given back");
+            let never_back = courant > 0.1 || column(part).is_sorted();
+            assert!(never_back, "{transfer}: {part} is given back");
         }
         assert_eq!(
             (last("boundary_work"), last("load_work"), last("damping_dissipation")),
@@ -70,13 +80,29 @@ fn the_budget_of_a_bounce_with_friction_closes() {
     }
 }
 
-/// What does not close is the error of the time integration: it goes with the step.
+/// What the integration in time takes or gives goes with the step, and the forces of an explicit barrier are in it.
 #[test]
-fn the_drift_goes_with_the_step() {
+fn the_share_of_the_time_integration_goes_with_the_step() {
     for integration in ["explicit", "implicit"] {
-        let [long, short] = [0.3, 0.02].map(|courant| drift(&bounce("affine-flip", integration, courant)));
+        let [long, short] = [0.3, 0.02].map(|courant| {
+            let disk = bounce("affine-flip", integration, courant);
+            let start = disk.column("kinetic_energy").expect("a column")[0];
+            assert!(drift(&disk) < 1e-9 * start, "{integration}: {}", drift(&disk));
+            largest(&disk.column("time_integration_dissipation").expect("a budget"))
+        });
         assert!(short < 0.6 * long, "{integration}: {short}, {long}");
     }
+}
+
+/// A bar that swings, fixed at one end: the integration takes part of the energy to and fro, and with it the sum stays.
+#[test]
+fn the_budget_of_a_swinging_bar_closes() {
+    let swinging = BAR.replace("series_interval = 0.1", "series_interval = 0.1\nenergy_budget = true");
+    let bar = series(&swinging);
+    let start = bar.column("kinetic_energy").expect("a column")[0];
+    let taken = largest(&bar.column("time_integration_dissipation").expect("a budget"));
+    assert!(taken > 1e-3 * start, "{taken} of {start}");
+    assert!(drift(&bar) < 1e-9 * start, "{} of {start}", drift(&bar));
 }
 
 /// A bar that is pulled and damped: the work of the load is what strain, motion and damping have.
@@ -87,7 +113,7 @@ fn the_work_of_a_load_and_damping_are_in_the_budget() {
             "velocity = { kind = \"sine\", amplitude = [0.1], wave_vector = [0.15707963267948966] }\n",
             "",
         )
-        .replace("courant = 0.2", "courant = 0.05\ndamping = 1.0")
+        .replace("courant = 0.2", "courant = 0.2\ndamping = 1.0")
         .replace("series_interval = 0.1", "series_interval = 0.1\nenergy_budget = true");
     let load = "[[loads]]\nkind = \"traction\"\nregion = { kind = \"box\", lower = [9.0], upper = [10.0] }\ntraction = [1.0]\nthickness = 1.0\nramp = 1.0\n";
     let bar = series(&(pulled + load));
@@ -98,7 +124,7 @@ fn the_work_of_a_load_and_damping_are_in_the_budget() {
     };
     let work = last("load_work");
     assert!(work > 0.0 && last("damping_dissipation") > 0.05 * work);
-    assert!(drift(&bar) < 0.01 * work, "{} of {work}", drift(&bar));
+    assert!(drift(&bar) < 1e-9 * work, "{} of {work}", drift(&bar));
 }
 
 /// What a budget costs is its own: the run is the same.

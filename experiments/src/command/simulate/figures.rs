@@ -1,4 +1,4 @@
-//! Figures of a run's time series, one file per group of columns.
+//! Figures of a run's time series, one file per group of columns that it has.
 
 use std::path::Path;
 
@@ -9,8 +9,12 @@ use crate::CommandError;
 use crate::output::AtomicFile;
 use crate::plots::{AxisKind, LineSeries, MultiplesPanel, MultiplesPlot, multiples};
 
-/// Columns that share a panel, by what their names begin with, the rest of a name being the line's label; and the label of the axis.
-type Panel = (String, &'static str);
+/// Columns that share a panel, by what their names begin and end with, the rest of a name being the line's label; and the label of the axis.
+struct Panel {
+    begin: String,
+    end: &'static str,
+    y_label: &'static str,
+}
 
 /// Draws the series of a directory; nothing where there is none.
 pub fn draw(directory: &Path, title: &str) -> Result<(), CommandError> {
@@ -21,7 +25,10 @@ pub fn draw(directory: &Path, title: &str) -> Result<(), CommandError> {
     let groups = groups(&series);
     remove_others(directory, &groups)?;
     for (name, panels) in groups {
-        let panels = panels.iter().filter_map(|panel| drawn(&series, panel));
+        let panels: Vec<_> = panels.iter().filter_map(|panel| drawn(&series, panel)).collect();
+        if panels.is_empty() {
+            continue;
+        }
         let plot = MultiplesPlot::traces(format!("{title}: {}", name.replace('_', " ")), "time", panels);
         AtomicFile::write(directory.join(file_name(&name)), multiples(&plot)?)?;
     }
@@ -46,28 +53,56 @@ fn remove_others(directory: &Path, groups: &[(String, Vec<Panel>)]) -> Result<()
     Ok(())
 }
 
-/// Files of every run and their panels: what the columns begin with, and the label of the axis.
-const GROUPS: [(&str, &[(&str, &str)]); 4] = [
-    ("centre_of_mass", &[("centre_", "centre of mass")]),
-    ("energies", &[("", "energy")]),
+/// The ends of the names of energies, of which the sum is drawn too.
+const ENERGY: &str = "_energy";
+
+/// The ends of the names of what has become of energy; columns of 0 alone are left out.
+const SHARES: [&str; 2] = ["_dissipation", "_work"];
+
+/// What the columns of a panel begin and end with, and the label of its axis.
+type PanelOfRun = (&'static str, &'static str, &'static str);
+
+/// Files of every run and their panels.
+const GROUPS: [(&str, &[PanelOfRun]); 5] = [
+    ("centre_of_mass", &[("centre_", "", "centre of mass")]),
+    ("energies", &[("", ENERGY, "energy")]),
+    (
+        "energy_budget",
+        &[
+            ("", SHARES[0], "energy taken"),
+            ("", SHARES[1], "work"),
+            ("energy_balance", "", "energy balance"),
+        ],
+    ),
     (
         "momenta",
-        &[("momentum_", "momentum"), ("angular_momentum", "angular momentum")],
+        &[
+            ("momentum_", "", "momentum"),
+            ("angular_momentum", "", "angular momentum"),
+        ],
     ),
     (
         "extent",
-        &[("lower_", "lowest position"), ("upper_", "highest position")],
+        &[("lower_", "", "lowest position"), ("upper_", "", "highest position")],
     ),
 ];
 
 /// Files and their panels.
 fn groups(series: &Series) -> Vec<(String, Vec<Panel>)> {
     let of_run = GROUPS.iter().map(|(name, panels)| {
-        let panels = panels.iter().map(|(prefix, y_label)| ((*prefix).to_owned(), *y_label));
+        let panels = panels.iter().map(|&(begin, end, y_label)| Panel {
+            begin: begin.to_owned(),
+            end,
+            y_label,
+        });
         ((*name).to_owned(), panels.collect())
     });
     let of_probe = probes(series).map(|probe| {
-        let panel = |field| (format!("{probe}_{field}_"), field);
+        let panel = |y_label| Panel {
+            begin: format!("{probe}_{y_label}_"),
+            end: "",
+            y_label,
+        };
         let panels = ["displacement", "velocity", "stress"].map(panel);
         (format!("probe_{probe}"), panels.into())
     });
@@ -81,19 +116,22 @@ fn probes(series: &Series) -> impl Iterator<Item = &str> {
 }
 
 /// The lines of a panel; `None` without any.
-fn drawn(series: &Series, (prefix, y_label): &Panel) -> Option<MultiplesPanel> {
+fn drawn(series: &Series, Panel { begin, end, y_label }: &Panel) -> Option<MultiplesPanel> {
     let times = series.column("time")?;
     let through = |label: &str, values: Vec<f64>| LineSeries::through(label, times.iter().copied().zip(values));
     let mut lines: Vec<LineSeries> = Vec::new();
     for column in series.columns() {
-        let rest = match prefix.as_str() {
-            "" => column.strip_suffix("_energy"),
-            prefix => column.strip_prefix(prefix),
-        };
+        let rest = column
+            .strip_prefix(begin.as_str())
+            .and_then(|rest| rest.strip_suffix(end));
         let Some(label) = rest else { continue };
-        lines.push(through(label.trim_start_matches('_'), series.column(column)?));
+        let values = series.column(column)?;
+        if SHARES.contains(end) && values.iter().all(|&share| share == 0.0) {
+            continue;
+        }
+        lines.push(through(&label.trim_matches('_').replace('_', " "), values));
     }
-    if prefix.is_empty() && !lines.is_empty() {
+    if *end == ENERGY && !lines.is_empty() {
         let sum = |k: usize| lines.iter().filter_map(|line| line.y.get(k)).sum();
         lines.push(through("total", (0..times.len()).map(sum).collect()));
     }
@@ -111,6 +149,7 @@ mod tests {
             "centre_x",
             "kinetic_energy",
             "strain_energy",
+            "transfer_dissipation",
             "momentum_x",
             "angular_momentum",
             "lower_x",
@@ -120,14 +159,21 @@ mod tests {
             "tip_stress_xx",
         ];
         let directory = tempfile::tempdir().unwrap();
-        let rows = ["0.0,0,1,2,3,4,5,6,7,8,9", "1.0,1,2,3,4,5,6,7,8,9,10"];
+        let rows = ["0.0,0,1,2,3,4,5,6,7,8,9,10", "1.0,1,2,3,4,5,6,7,8,9,10,11"];
         let text = format!("{}\n{}\n", columns.join(","), rows.join("\n"));
         std::fs::write(directory.path().join("series.csv"), text).unwrap();
         let earlier = directory.path().join("series_probe_head.svg");
         std::fs::write(&earlier, "").unwrap();
         draw(directory.path(), "bar").unwrap();
         assert!(!earlier.exists());
-        for name in ["centre_of_mass", "energies", "momenta", "extent", "probe_tip"] {
+        for name in [
+            "centre_of_mass",
+            "energies",
+            "energy_budget",
+            "momenta",
+            "extent",
+            "probe_tip",
+        ] {
             let figure = std::fs::read_to_string(directory.path().join(format!("series_{name}.svg"))).unwrap();
             assert!(figure.contains("bar: ") && figure.contains("</svg>"), "{name}");
         }

@@ -2,7 +2,7 @@
 
 mod figures;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::Args;
@@ -45,6 +45,12 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
             hint: "; the same line started again goes on".to_owned(),
         }),
     }
+}
+
+/// Draws the series of a run again.
+pub fn report(directory: &Path) -> Result<(), CommandError> {
+    let scene = Scene::read(directory.join(mpm_scenes::output::names::SCENE))?;
+    figures::draw(directory, &scene.title)
 }
 
 /// The comparisons that failed.
