@@ -29,7 +29,7 @@ impl<'a, const D: usize> Parts<'a, D, Memory> {
 }
 
 impl<'a, const D: usize> PartsOnMesh<'a, D> {
-    /// The gas within a mesh; none where D is neither 2 nor 3.
+    /// The gas within a mesh; none where D is above 3.
     pub fn of_gas(self, gas: IsothermalGas) -> Option<Box<dyn MovingOnMesh<'a, D> + 'a>> {
         (Compiled::of().on_mesh)(self, gas)
     }

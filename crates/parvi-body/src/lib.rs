@@ -18,7 +18,7 @@ pub use choices::{BasisChoice, NonFiniteScores, ScoreLocation, TransferChoice};
 pub use framed_score::{FramedScore, ScoreForce};
 pub use moving::{Cloud, Moving};
 pub use node_scores::NodeScores;
-pub use on_mesh::{Meshes, MovingOnMesh, PartsOnMesh, SmoothWall};
+pub use on_mesh::{Meshes, MovingOnMesh, PartsOnMesh};
 pub use parts::{Parts, Ready};
 pub use planned_step::PlannedStep;
 pub use residual::{Residual, galerkin_stein_residual};

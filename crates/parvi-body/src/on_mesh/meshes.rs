@@ -13,7 +13,7 @@ const AMPLITUDE: f64 = 0.7;
 pub struct Meshes<const D: usize> {
     bases: Vec<HatBasis<D>>,
     /// The one that particles meet.
-    pub(super) chosen: usize,
+    chosen: usize,
 }
 
 impl<const D: usize> Meshes<D> {
@@ -27,6 +27,16 @@ impl<const D: usize> Meshes<D> {
             bases.push(HatBasis::new(mesh.jittered(AMPLITUDE, || generator.random())?));
         }
         Ok(Self { bases, chosen: 0 })
+    }
+
+    /// The mesh itself.
+    pub(super) fn mesh(&self) -> &SimplexMesh<D> {
+        self.bases[0].mesh()
+    }
+
+    /// Choose the mesh, number 0, or one of its copies, counted round.
+    pub(super) fn choose(&mut self, copy: usize) {
+        self.chosen = copy % self.bases.len();
     }
 
     /// Choose the copy made last.

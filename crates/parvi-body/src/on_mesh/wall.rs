@@ -13,7 +13,7 @@ const CORNER: f64 = 0.1;
 /// With the facets around a vertex, of areas A_f and normals n_f, these are the eigenvectors of Σ A_f n_f n_fᵀ / Σ A_f with eigenvalues above 0.1: on a
 /// smooth wall one, the mean normal; at a corner all.
 #[derive(Clone, Debug)]
-pub struct SmoothWall<const D: usize> {
+pub(super) struct SmoothWall<const D: usize> {
     /// Vertices on the wall, each with its Q.
     projections: Vec<(u32, Matrix<D>)>,
 }
@@ -37,7 +37,7 @@ impl<const D: usize> SmoothWall<D> {
     }
 
     /// For each vertex of the mesh whether it lies on the wall.
-    pub(super) fn marks(&self, vertex_count: usize) -> Vec<bool> {
+    pub fn marks(&self, vertex_count: usize) -> Vec<bool> {
         let mut marks = vec![false; vertex_count];
         for &(vertex, _) in &self.projections {
             marks[vertex as usize] = true;

@@ -6,7 +6,7 @@ mod start;
 use mpm_core::{Basis, MpmError, Particles, StepControl};
 use mpm_materials::IsothermalGas;
 use mpm_mesh::{SimplexMesh, read_msh};
-use parvi_body::{FramedScore, Meshes, MovingOnMesh, PartsOnMesh, ScoreForce, SmoothWall, Stiffness};
+use parvi_body::{FramedScore, Meshes, MovingOnMesh, PartsOnMesh, ScoreForce, Stiffness};
 use parvi_targets::Target;
 use rand::{Rng, RngExt};
 
@@ -52,7 +52,7 @@ impl MeshOptions {
     /// The residual is that of the hat functions which vanish on the boundary.
     ///
     /// # Errors
-    /// [`SampleError`]: an option out of range, a score that is not finite, or the observer's stop.
+    /// [`SampleError`]: a mesh of more than three dimensions, an option out of range, a score that is not finite, or the observer's stop.
     pub fn sample<const D: usize>(
         &self,
         target: &dyn Target<D>,
@@ -67,7 +67,6 @@ impl MeshOptions {
         let mut generator = run.generator(Stream::Places.of_body(0));
         let copies = if self.shifts { COPIES } else { 1 };
         let meshes = Meshes::new(&mesh, copies, &mut generator)?;
-        let wall = SmoothWall::around(&mesh);
 
         let spacing = meshes.spacing();
         let time_step = positive("time step", self.time_step, defaults::time_step(spacing))?;
@@ -92,13 +91,12 @@ impl MeshOptions {
             particles: Particles::at_rest(start, 1.0),
             force,
             meshes,
-            wall,
         };
         let body = parts.of_gas(IsothermalGas::new(1.0)?);
         let mut body = body.ok_or_else(|| SampleError::Unsupported {
             method: "mpm on a mesh",
-            target: format!("of {D} dimensions"),
-            needs: "2 or 3 dimensions",
+            target: format!("in {D} dimensions"),
+            needs: "a mesh of at most 3 dimensions",
         })?;
         let mut trace = Vec::new();
         let mut time = 0.0;
