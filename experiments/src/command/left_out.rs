@@ -19,6 +19,7 @@ const fn left_out(asked: &'static str, feature: &'static str) -> CommandError {
 }
 
 /// For `simulate`.
+#[cfg(any(test, not(feature = "mechanics")))]
 pub mod simulate {
     pub use super::*;
 
@@ -34,10 +35,11 @@ pub mod simulate {
 }
 
 /// For `rom`.
+#[cfg(any(test, not(feature = "rom")))]
 pub mod rom {
     pub use super::*;
 
-    /// As [`simulate::execute`].
+    /// Says which feature has the command.
     pub fn execute(_: &Arguments) -> Result<(), CommandError> {
         Err(left_out("parvi rom", "rom"))
     }
