@@ -48,7 +48,7 @@ macro_rules! options {
             }
 
             /// The options that are set: name, value as typed.
-            pub(super) fn given(&self) -> impl Iterator<Item = (String, String)> {
+            pub fn given(&self) -> impl Iterator<Item = (String, String)> {
                 let all = [$((stringify!($name), self.$name.as_ref().map(ToString::to_string))),*];
                 all.into_iter().filter_map(|(name, value)| Some((flag(name), value?)))
             }

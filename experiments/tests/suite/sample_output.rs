@@ -163,3 +163,20 @@ fn columns_of_a_regression_have_the_names_of_its_data() {
     let text = std::fs::read_to_string(directory.path().join("x.csv")).unwrap();
     assert_eq!(text.lines().next(), Some("intercept,age,dose"));
 }
+
+#[test]
+fn options_of_a_body_that_has_not_moved_are_named() {
+    let directory = tempfile::tempdir().unwrap();
+    let said = |options: &str| {
+        let line = format!("sample --target banana --particles 300 --out x.csv {options}");
+        let output = succeeds(directory.path(), &line);
+        (value(&output, "steps").unwrap(), stderr(&output))
+    };
+    let (steps, notice) = said("--spacing 0.5 --shifts off");
+    assert_eq!(steps, "0");
+    assert!(notice.starts_with("--spacing, --shifts: without effect"), "{notice}");
+    let (steps, notice) = said("--spacing 0.5 --rounds 2");
+    assert!(steps != "0" && !notice.contains("without effect"), "{steps}: {notice}");
+    let (_, notice) = said("--moment-correction off");
+    assert!(!notice.contains("without effect"), "{notice}");
+}

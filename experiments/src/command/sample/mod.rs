@@ -135,7 +135,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
         diagnostics.commit()?;
     }
     file.write(&outcome.particles, &names)?;
-    said::warn(&outcome);
+    said::warn(arguments, &outcome);
     if let Some(file) = pool {
         file.write(outcome.pool.as_ref().ok_or(CommandError::NoPool)?, &names)?;
     }

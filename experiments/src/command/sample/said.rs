@@ -3,10 +3,48 @@
 use super::Arguments;
 use crate::console;
 use crate::machine::PEAK_MEMORY_KEY;
+use crate::options::MethodName;
 use crate::sampling::{Outcome, Watched};
 
+/// What only moves of `mpm`'s particles depend on.
+const OF_MOVES: [&str; 14] = [
+    "basis",
+    "coarse-start",
+    "displacement-limit",
+    "flip-share",
+    "friction",
+    "rotation",
+    "score",
+    "settling",
+    "settling-shifts",
+    "shifts",
+    "spacing",
+    "spacing-range",
+    "time-step",
+    "transfer",
+];
+
+/// Says which of the options that were given did nothing, since the material has moved no particle.
+fn warn_of_rest(arguments: &Arguments, outcome: &Outcome) {
+    if arguments.method != MethodName::Mpm || outcome.steps > 0 {
+        return;
+    }
+    let idle = arguments.options.given().map(|(name, _)| name);
+    let idle: Vec<String> = idle
+        .filter(|name| OF_MOVES.contains(&name.as_str()))
+        .map(|name| format!("--{name}"))
+        .collect();
+    if !idle.is_empty() {
+        console::notice(&format!(
+            "{}: without effect, for the material has moved no particle; --rounds and --steps let it try, but not with weights",
+            idle.join(", ")
+        ));
+    }
+}
+
 /// What a user should know before trusting the particles.
-pub fn warn(outcome: &Outcome) {
+pub fn warn(arguments: &Arguments, outcome: &Outcome) {
+    warn_of_rest(arguments, outcome);
     if outcome.scores_replaced > 0 {
         console::notice(&format!(
             "{} scores on the way were not finite; the particles were pulled back to where they are",
