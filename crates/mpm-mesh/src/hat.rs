@@ -89,6 +89,8 @@ impl<const D: usize> HatBasis<D> {
 }
 
 impl<const D: usize> Basis<D> for HatBasis<D> {
+    type Cell = ();
+
     fn sort(&mut self, positions: &[[f64; D]]) -> Result<(), MpmError> {
         if let Err(error) = self.locate_particles(positions) {
             self.schedule = Schedule::default();
