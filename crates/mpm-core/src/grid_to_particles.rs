@@ -8,14 +8,7 @@ use crate::transfer::{CellField, Changes, Moving, MovingParticle, Numbered, Tran
 use crate::volume_averaging::average_volume_ratios;
 use crate::{Basis, BodyForce, Boundary, Medium, Member, Mpm};
 
-impl<const D: usize, B, T, M, F, C> Mpm<D, B, T, M, F, C>
-where
-    B: Basis<D>,
-    T: Transfer<D>,
-    M: Medium<D>,
-    F: BodyForce<D>,
-    C: Boundary<D>,
-{
+impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>, C: Boundary<D>> Mpm<D, B, T, M, F, C> {
     /// v_p = Σ_i w_ip v_i, B_p = Σ_i w_ip v_i (x_i − x_p)ᵀ, x_p ← x_p + Δt Σ_i w_ip v_i; in the same pass, where the medium deforms,
     /// F_p ← (I + Δt Σ_i v_i ∇w_ipᵀ) F_p, then whatever the medium admits of it.
     pub(crate) fn move_and_deform_particles(&mut self, dt: f64, damping: f64) {

@@ -114,8 +114,9 @@ impl CellField {
     fn collect_side_by_side<const D: usize>(&mut self, numbers: &[u32], field: impl GridField<D>) {
         self.0.resize(numbers.len(), Lanes::ZERO);
         let at = |number: u32| field.packed::<1>(number as usize).lanes()[0];
-        for (lanes, &[a, b, c, d]) in self.0.as_chunks_mut().0.iter_mut().zip(numbers.as_chunks().0) {
-            *lanes = Lanes::transpose([at(a), at(b), at(c), at(d)]);
+        for (lanes, &[a, b, c, d]) in self.0.as_chunks_mut::<LANES>().0.iter_mut().zip(numbers.as_chunks().0) {
+            // What has no meaning is not written.
+            lanes[1..].copy_from_slice(&Lanes::transpose([at(a), at(b), at(c), at(d)])[1..]);
         }
     }
 

@@ -17,6 +17,7 @@ use mpm_tensor::vector::{distance, subtract};
 
 use self::cell_ring::CellRing;
 use self::curve::AlongCurve;
+pub(crate) use self::locate::all_found;
 use self::node_at::VertexBoxes;
 use self::stencils::Stencils;
 pub use self::weights::WeightAt;

@@ -1,4 +1,4 @@
-//! What particles send to their nodes and read from them: factors of four nodes side by side in lanes, or mass and momentum of one.
+//! What particles send to their nodes and read from them, four nodes side by side in lanes.
 
 use std::hint::black_box;
 
@@ -98,7 +98,7 @@ impl<const D: usize> MeshBasis<D> {
         let with_moment = wanted.moment || by_moment;
         let (level, slope) = (Lanes::splat(fit.level), fit.slope.map(Lanes::splat));
         let (mut zeroth, mut first, mut moment) = (Pack::ZERO, [Pack::ZERO; D], [Pack::ZERO; D]);
-        // One after the other, since all sums together do not fit into registers.
+        // One after the other, since all sums together do not fit into registers: the box keeps those of the first loop out of them in the second.
         if by_gradient {
             (zeroth, first) = black_box(self.moments::<true, true>(member, nodes, |sample, _| sample));
         }
