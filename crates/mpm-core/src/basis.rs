@@ -9,6 +9,25 @@ use crate::{MpmError, Schedule};
 /// In [`Basis::cell_nodes`]: no particle of the cell touches this one.
 pub const NO_NODE: u32 = u32::MAX;
 
+/// A particle of the cell that `cell` was collected of.
+#[derive(Debug)]
+pub struct Member<'a, C, const D: usize> {
+    /// What [`Basis::enter`] has collected.
+    pub cell: &'a C,
+    /// Place in the schedule.
+    pub particle: usize,
+    /// The position that it was activated with.
+    pub x: &'a [f64; D],
+}
+
+impl<C, const D: usize> Clone for Member<'_, C, D> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<C, const D: usize> Copy for Member<'_, C, D> {}
+
 /// A background discretisation: shape functions w_i that sum to one. They may be negative.
 ///
 /// The step is written once over this trait; a uniform B-spline grid, a simplex lattice and an unstructured mesh are
@@ -19,6 +38,12 @@ pub const NO_NODE: u32 = u32::MAX;
 pub trait Basis<const D: usize>: Sync {
     /// Whether every particle is a cell of its own, so that collecting the nodes of a cell is of no use.
     const LONE_PARTICLES: bool = false;
+
+    /// Whether fields are asked for four nodes side by side and not node by node; cells then have whole groups of places, and a node at each.
+    const NODES_SIDE_BY_SIDE: bool = false;
+
+    /// What is collected once per cell for all of its particles; `()` where that is nothing.
+    type Cell: Default;
 
     /// Lay out the particles by cell: afterwards `schedule().order()` and the cells are those of these positions. Particles that are
     /// nearly in the order of the cells may stay in their own.
@@ -84,6 +109,10 @@ pub trait Basis<const D: usize>: Sync {
     /// visited. Written to `scratch` where they are not stored.
     fn cell_nodes<'a>(&'a self, cell: usize, scratch: &'a mut Vec<u32>) -> &'a [u32];
 
+    /// Collect what the particles of `cell` have in common in the place of what is there: asked before they deposit and interpolate.
+    #[inline(always)]
+    fn enter(&self, _cell: usize, _collected: &mut Self::Cell) {}
+
     /// Visit the stencil of a particle, given by its place in the schedule and the position `x` that it was activated with:
     /// place in [`cell_nodes`](Self::cell_nodes), weight, gradient, offset.
     fn for_each_node(&self, particle: usize, x: &[f64; D], visit: impl FnMut(usize, &Entry<D>));
@@ -115,8 +144,7 @@ pub trait Basis<const D: usize>: Sync {
     #[inline(always)]
     fn deposit<A: Columns<D>, S: Columns<D>>(
         &self,
-        particle: usize,
-        x: &[f64; D],
+        Member { particle, x, .. }: Member<Self::Cell, D>,
         value: &Deposit<D>,
         affine: &A,
         flux: &S,
@@ -146,7 +174,12 @@ pub trait Basis<const D: usize>: Sync {
     /// Σ_i w_ip v_i and what is `wanted` beside it; `nodes` has v_i at i, i counting as in
     /// [`for_each_node`](Self::for_each_node).
     #[inline(always)]
-    fn interpolate(&self, particle: usize, x: &[f64; D], wanted: Wanted, nodes: &impl NodeField<D>) -> Interpolated<D> {
+    fn interpolate(
+        &self,
+        Member { particle, x, .. }: Member<Self::Cell, D>,
+        wanted: Wanted,
+        nodes: &impl NodeField<D>,
+    ) -> Interpolated<D> {
         let mut sum = Interpolated::ZERO;
         if wanted == Wanted::default() {
             let value = &mut sum.value;
@@ -168,7 +201,12 @@ pub trait Basis<const D: usize>: Sync {
 
     /// Add w_ip times either scalar to the sums of the nodes of the stencil, which count as in [`for_each_node`](Self::for_each_node).
     #[inline(always)]
-    fn deposit_scalars(&self, particle: usize, x: &[f64; D], scalars: [f64; 2], sums: [&mut [f64]; 2]) {
+    fn deposit_scalars(
+        &self,
+        Member { particle, x, .. }: Member<Self::Cell, D>,
+        scalars: [f64; 2],
+        sums: [&mut [f64]; 2],
+    ) {
         let ([first, second], [sums, others]) = (scalars, sums);
         self.for_each_node(particle, x, |index, entry| {
             sums[index] += entry.weight * first;
@@ -178,7 +216,7 @@ pub trait Basis<const D: usize>: Sync {
 
     /// Σ_i w_ip s_i; `nodes` has s_i at i, i counting as in [`for_each_node`](Self::for_each_node).
     #[inline(always)]
-    fn interpolate_scalar(&self, particle: usize, x: &[f64; D], nodes: &[f64]) -> f64 {
+    fn interpolate_scalar(&self, Member { particle, x, .. }: Member<Self::Cell, D>, nodes: &[f64]) -> f64 {
         let mut sum = 0.0;
         self.for_each_node(particle, x, |index, entry| sum += entry.weight * nodes[index]);
         sum

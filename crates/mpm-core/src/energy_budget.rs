@@ -39,14 +39,7 @@ impl EnergyBudget {
     }
 }
 
-impl<const D: usize, B, T, M, F, C> Mpm<D, B, T, M, F, C>
-where
-    B: Basis<D>,
-    T: Transfer<D>,
-    M: Medium<D>,
-    F: BodyForce<D>,
-    C: Boundary<D>,
-{
+impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>, C: Boundary<D>> Mpm<D, B, T, M, F, C> {
     /// The velocities of the nodes so far, v_iⁿ, before any force; none without a budget, or where the nodes keep them.
     pub(crate) fn velocities_brought(&mut self, dt: f64) -> Stages<D> {
         let mut stages = Stages::default();

@@ -6,16 +6,9 @@ use mpm_tensor::vector::multiply_add;
 
 use crate::transfer::{CellField, Changes, Moving, MovingParticle, Numbered, Transfer, Velocities, gather_cells};
 use crate::volume_averaging::average_volume_ratios;
-use crate::{Basis, BodyForce, Boundary, Medium, Mpm};
+use crate::{Basis, BodyForce, Boundary, Medium, Member, Mpm};
 
-impl<const D: usize, B, T, M, F, C> Mpm<D, B, T, M, F, C>
-where
-    B: Basis<D>,
-    T: Transfer<D>,
-    M: Medium<D>,
-    F: BodyForce<D>,
-    C: Boundary<D>,
-{
+impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>, C: Boundary<D>> Mpm<D, B, T, M, F, C> {
     /// v_p = Σ_i w_ip v_i, B_p = Σ_i w_ip v_i (x_i − x_p)ᵀ, x_p ← x_p + Δt Σ_i w_ip v_i; in the same pass, where the medium deforms,
     /// F_p ← (I + Δt Σ_i v_i ∇w_ipᵀ) F_p, then whatever the medium admits of it.
     pub(crate) fn move_and_deform_particles(&mut self, dt: f64, damping: f64) {
@@ -80,7 +73,7 @@ where
         gather_cells(
             basis,
             moving,
-            move |data: &mut Moving<D, M::State>, particles, numbers, first, fields: &mut [CellField; 2]| {
+            move |data: &mut Moving<D, M::State>, work, first, (collected, fields): &mut (B::Cell, [CellField; 2])| {
                 // In here and not captured, so that they are known when this is compiled.
                 let incremental = MOVE && T::INCREMENTAL;
                 let (affine, deforms) = (MOVE && T::AFFINE, DEFORM && M::DEFORMS);
@@ -89,26 +82,31 @@ where
                     least_squares: T::MOVING_LEAST_SQUARES,
                     moment: affine,
                 };
-                let (size, value) = (numbers.len(), Wanted::default());
+                let (numbers, size, value) = (work.nodes, work.nodes.len(), Wanted::default());
+                basis.enter(work.cell, collected);
                 let [velocities, changes] = fields;
                 if !B::LONE_PARTICLES {
-                    velocities.collect(numbers, velocity);
+                    velocities.collect(basis, numbers, velocity);
                     if incremental {
-                        changes.collect(numbers, change);
+                        changes.collect(basis, numbers, change);
                     }
                 }
-                for p in particles {
+                for p in work.particles {
                     let particle = data.particle(p - first, affine, deforms);
                     let x = *particle.position;
+                    let member = Member {
+                        cell: collected,
+                        particle: p,
+                        x: &x,
+                    };
                     let mut changed = [0.0; D];
                     let seen = if B::LONE_PARTICLES {
                         if incremental {
                             let changes = Numbered { field: change, numbers };
-                            changed = basis.interpolate(p, &x, value, &changes).value;
+                            changed = basis.interpolate(member, value, &changes).value;
                         }
                         basis.interpolate(
-                            p,
-                            &x,
+                            member,
                             wanted,
                             &Numbered {
                                 field: velocity,
@@ -117,9 +115,9 @@ where
                         )
                     } else {
                         if incremental {
-                            changed = basis.interpolate(p, &x, value, &changes.nodes(size)).value;
+                            changed = basis.interpolate(member, value, &changes.nodes(basis, size)).value;
                         }
-                        basis.interpolate(p, &x, wanted, &velocities.nodes(size))
+                        basis.interpolate(member, wanted, &velocities.nodes(basis, size))
                     };
                     update(particle, &seen, &changed);
                 }

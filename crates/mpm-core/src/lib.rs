@@ -29,7 +29,7 @@ mod transfer;
 mod velocity_filter;
 mod volume_averaging;
 
-pub use basis::{Basis, NO_NODE, UniformBasis};
+pub use basis::{Basis, Member, NO_NODE, UniformBasis};
 pub use body_force::{BodyForce, ForceLocation, NoBodyForce, Sites};
 pub use boundary::{
     Boundaries, Boundary, Contact, GridMotion, HalfSpace, NoBoundary, NodeForces, Obstacle, Plane, PrescribedVelocity,

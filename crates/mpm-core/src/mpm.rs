@@ -92,14 +92,7 @@ where
     }
 }
 
-impl<const D: usize, B, T, M, F, C> Mpm<D, B, T, M, F, C>
-where
-    B: Basis<D>,
-    T: Transfer<D>,
-    M: Medium<D>,
-    F: BodyForce<D>,
-    C: Boundary<D>,
-{
+impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>, C: Boundary<D>> Mpm<D, B, T, M, F, C> {
     /// The same body with a boundary.
     pub fn with_boundary<N: Boundary<D>>(self, boundary: N) -> Mpm<D, B, T, M, F, N> {
         Mpm {

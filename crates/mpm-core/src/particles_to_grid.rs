@@ -6,7 +6,7 @@ use mpm_kernels::Deposit;
 use mpm_tensor::vector::scale;
 
 use crate::transfer::{CellSums, GridNode, Prepare, Transfer};
-use crate::{Basis, BodyForce, Boundary, ForceLocation, Medium, Mpm, Particles, StressImpulse};
+use crate::{Basis, BodyForce, Boundary, ForceLocation, Medium, Member, Mpm, Particles, StressImpulse};
 
 /// −Δt V⁰_p τ_p of a medium that deforms.
 struct Stresses<'a, M: Medium<D>, const D: usize> {
@@ -46,14 +46,7 @@ fn unprepared<const D: usize, I: StressImpulse<D>>() -> I {
     I::ZERO
 }
 
-impl<const D: usize, B, T, M, F, C> Mpm<D, B, T, M, F, C>
-where
-    B: Basis<D>,
-    T: Transfer<D>,
-    M: Medium<D>,
-    F: BodyForce<D>,
-    C: Boundary<D>,
-{
+impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>, C: Boundary<D>> Mpm<D, B, T, M, F, C> {
     /// P2G: m_i = Σ_p w_ip m_p; m_i v_i = Σ_p w_ip m_p [v_p + B_p D_p⁻¹ (x_i − x_p)] + Δt Σ_p (w_ip m_p g_p − V⁰_p τ_p ∇w_ip).
     ///
     /// Moving least squares have w_ip D_p⁻¹ (x_i − x_p) in the place of ∇w_ip.
@@ -72,50 +65,52 @@ where
             time_step: dt,
             forces,
         };
-        let deposit = move |p: usize, x: &[f64; D], stress: Option<&M::Impulse>, cell: &mut CellSums<B, T::Node, D>| {
-            let mass = particles.masses.get(p);
-            let mut impulse = [0.0; D];
-            if pulled {
-                impulse = scale(&accelerations[p], dt * mass);
-            }
-            let stress = if M::DEFORMS {
-                stress.copied().unwrap_or_else(unprepared)
-            } else {
-                medium.impulse(particles, p, dt)
-            };
-            let mut value = Deposit {
-                scalar: mass,
-                vector: scale(&velocities[p], mass),
-            };
-            if T::INCREMENTAL {
-                let force = Deposit {
-                    scalar: 0.0,
-                    vector: impulse,
-                };
-                if T::AFFINE {
-                    let affine = particles.affine[p] * mass;
-                    basis.deposit(p, x, &value, &affine, &(), &mut cell.sums());
+        let deposit =
+            move |member: Member<B::Cell, D>, stress: Option<&M::Impulse>, cell: &mut CellSums<B, T::Node, D>| {
+                let p = member.particle;
+                let mass = particles.masses.get(p);
+                let mut impulse = [0.0; D];
+                if pulled {
+                    impulse = scale(&accelerations[p], dt * mass);
+                }
+                let stress = if M::DEFORMS {
+                    stress.copied().unwrap_or_else(unprepared)
                 } else {
-                    basis.deposit(p, x, &value, &(), &(), &mut cell.sums());
+                    medium.impulse(particles, p, dt)
+                };
+                let mut value = Deposit {
+                    scalar: mass,
+                    vector: scale(&velocities[p], mass),
+                };
+                if T::INCREMENTAL {
+                    let force = Deposit {
+                        scalar: 0.0,
+                        vector: impulse,
+                    };
+                    if T::AFFINE {
+                        let affine = particles.affine[p] * mass;
+                        basis.deposit(member, &value, &affine, &(), &mut cell.sums());
+                    } else {
+                        basis.deposit(member, &value, &(), &(), &mut cell.sums());
+                    }
+                    if forces {
+                        basis.deposit(member, &force, &(), &stress, &mut cell.impulses());
+                    }
+                    return;
                 }
-                if forces {
-                    basis.deposit(p, x, &force, &(), &stress, &mut cell.impulses());
+                for a in 0..D {
+                    value.vector[a] += impulse[a];
                 }
-                return;
-            }
-            for a in 0..D {
-                value.vector[a] += impulse[a];
-            }
-            if T::MOVING_LEAST_SQUARES {
-                let affine = particles.affine[p] * mass + stress.matrix();
-                basis.deposit(p, x, &value, &affine, &(), &mut cell.sums());
-            } else if T::AFFINE {
-                let affine = particles.affine[p] * mass;
-                basis.deposit(p, x, &value, &affine, &stress, &mut cell.sums());
-            } else {
-                basis.deposit(p, x, &value, &(), &stress, &mut cell.sums());
-            }
-        };
+                if T::MOVING_LEAST_SQUARES {
+                    let affine = particles.affine[p] * mass + stress.matrix();
+                    basis.deposit(member, &value, &affine, &(), &mut cell.sums());
+                } else if T::AFFINE {
+                    let affine = particles.affine[p] * mass;
+                    basis.deposit(member, &value, &affine, &stress, &mut cell.sums());
+                } else {
+                    basis.deposit(member, &value, &(), &stress, &mut cell.sums());
+                }
+            };
         self.nodes
             .scatter_packed(basis, &particles.positions, T::INCREMENTAL, stresses, deposit);
     }

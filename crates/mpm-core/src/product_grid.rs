@@ -146,6 +146,7 @@ fn advance<const D: usize>(place: &mut [i32; D], width: i32) -> usize {
 
 impl<const D: usize> Basis<D> for ProductGrid<D> {
     const LONE_PARTICLES: bool = true;
+    type Cell = ();
 
     /// Particles stay in their order.
     fn sort(&mut self, positions: &[[f64; D]]) -> Result<(), MpmError> {

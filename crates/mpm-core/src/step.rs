@@ -10,14 +10,7 @@ use crate::{
     StepReport, StressUpdate,
 };
 
-impl<const D: usize, B, T, M, F, C> Mpm<D, B, T, M, F, C>
-where
-    B: Basis<D>,
-    T: Transfer<D>,
-    M: Medium<D>,
-    F: BodyForce<D>,
-    C: Boundary<D>,
-{
+impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>, C: Boundary<D>> Mpm<D, B, T, M, F, C> {
     /// One explicit step (symplectic Euler), as long as `control` allows.
     ///
     /// # Errors

@@ -4,7 +4,7 @@ use mpm_kernels::Deposit;
 use mpm_tensor::vector::scale;
 
 use crate::transfer::{CellSums, GridNode, NodeSums, VelocityNode, gather};
-use crate::{Basis, Masses, MpmError};
+use crate::{Basis, Masses, Member, MpmError};
 
 /// v ← v − (1 − e^{−rτ}) (1 − 𝒫)ᵐ v over a time τ, where 𝒫 takes velocities to the nodes and back as PIC does.
 ///
@@ -91,13 +91,14 @@ impl<const D: usize> VelocityFilter<D> {
     /// u ← u − 𝒫 u.
     fn subtract_what_nodes_see<B: Basis<D>>(&mut self, basis: &B, positions: &[[f64; D]], masses: &Masses) {
         let unseen = &self.unseen[..];
-        let deposit = move |p: usize, x: &[f64; D], _: Option<&()>, cell: &mut CellSums<B, VelocityNode<D>, D>| {
+        let deposit = move |member: Member<B::Cell, D>, _: Option<&()>, cell: &mut CellSums<B, VelocityNode<D>, D>| {
+            let p = member.particle;
             let mass = masses.get(p);
             let value = Deposit {
                 scalar: mass,
                 vector: scale(&unseen[p], mass),
             };
-            basis.deposit(p, x, &value, &(), &(), &mut cell.sums());
+            basis.deposit(member, &value, &(), &(), &mut cell.sums());
         };
         self.nodes.scatter_packed(basis, positions, false, (), deposit);
         for node in self.nodes.as_mut_slice() {

@@ -1,7 +1,7 @@
 //! F̄: volume ratios averaged over the nodes, against volumetric locking.
 
 use crate::transfer::{Moving, NodeSums, Sum, gather_cells};
-use crate::{Basis, Medium, NO_NODE, Particles};
+use crate::{Basis, Medium, Member, NO_NODE, Particles};
 
 /// Reference and present volume around a node.
 #[derive(Clone, Copy, Debug, Default)]
@@ -33,34 +33,49 @@ pub(crate) fn average_volume_ratios<const D: usize, B: Basis<D>, M: Medium<D>>(
     node_volumes: &mut NodeSums<NodeVolume>,
 ) {
     let particles = &*moving;
-    node_volumes.scatter_cells(basis, move |cell, stencil, volumes: &mut [Vec<f64>; 2]| {
-        for volumes in volumes.iter_mut() {
-            volumes.clear();
-            volumes.resize(stencil.len(), 0.0);
-        }
-        for p in cell {
-            let reference = particles.reference_volumes[p];
-            let ratio = medium.volume_ratio(&particles.deformation_gradients[p], &particles.states[p]);
-            let sums = volumes.each_mut().map(Vec::as_mut_slice);
-            basis.deposit_scalars(p, &particles.positions[p], [reference, reference * ratio], sums);
-        }
-        let [reference, present] = &*volumes;
-        stencil.for_each_with(reference.iter().zip(present), |node, (reference, present)| {
-            node.reference += reference;
-            node.present += present;
-        });
-    });
+    node_volumes.scatter_cells(
+        basis,
+        move |cell, particles_of_cell, stencil, (collected, volumes): &mut (B::Cell, [Vec<f64>; 2])| {
+            basis.enter(cell, collected);
+            for volumes in volumes.iter_mut() {
+                volumes.clear();
+                volumes.resize(stencil.len(), 0.0);
+            }
+            for p in particles_of_cell {
+                let reference = particles.reference_volumes[p];
+                let ratio = medium.volume_ratio(&particles.deformation_gradients[p], &particles.states[p]);
+                let sums = volumes.each_mut().map(Vec::as_mut_slice);
+                let member = Member {
+                    cell: collected,
+                    particle: p,
+                    x: &particles.positions[p],
+                };
+                basis.deposit_scalars(member, [reference, reference * ratio], sums);
+            }
+            let [reference, present] = &*volumes;
+            stencil.for_each_with(reference.iter().zip(present), |node, (reference, present)| {
+                node.reference += reference;
+                node.present += present;
+            });
+        },
+    );
     let nodes = node_volumes.as_slice();
     gather_cells(
         basis,
         Moving::of(moving),
-        move |data: &mut Moving<D, M::State>, cell, numbers, first, ratios: &mut Ratios| {
-            ratios.collect(numbers, nodes);
-            for p in cell {
+        move |data: &mut Moving<D, M::State>, work, first, (collected, ratios): &mut (B::Cell, Ratios)| {
+            basis.enter(work.cell, collected);
+            ratios.collect(work.nodes, nodes);
+            for p in work.particles {
                 let k = p - first;
                 let (deformation, state) = (&mut data.deformation_gradients[k], &mut data.states[k]);
                 let own = medium.volume_ratio(deformation, state);
-                let average = basis.interpolate_scalar(p, &data.positions[k], ratios.seen_by(own));
+                let member = Member {
+                    cell: collected,
+                    particle: p,
+                    x: &data.positions[k],
+                };
+                let average = basis.interpolate_scalar(member, ratios.seen_by(own));
                 let ratio = average / own;
                 let trial = if ratio > 0.0 && ratio < f64::INFINITY {
                     *deformation * ratio.powf(1.0 / D as f64)

@@ -54,6 +54,12 @@ impl<const G: usize> Packed<G> {
         self.plus(Lanes::splat(1.0), &Self::new(deposit.scalar, &deposit.vector))
     }
 
+    /// The groups of lanes.
+    #[inline(always)]
+    pub fn lanes(&self) -> &[Lanes; G] {
+        &self.0
+    }
+
     /// From the first `G` entries.
     #[inline(always)]
     pub fn read(from: &[Lanes]) -> Self {
@@ -114,6 +120,14 @@ pub trait NodeField<const D: usize> {
     #[inline(always)]
     fn lanes(&self, index: usize) -> Lanes {
         self.packed::<1>(index).0[0]
+    }
+
+    /// Those of the nodes 4 `group` to 4 `group` + 3 side by side: no meaning, then component by component; for D ≤ 3.
+    #[inline(always)]
+    fn side_by_side(&self, group: usize) -> [Lanes; LANES] {
+        let first = group * LANES;
+        let [a, b, c, d] = [first, first + 1, first + 2, first + 3].map(|index| self.lanes(index));
+        Lanes::transpose([a, b, c, d])
     }
 
     /// The `length` places from `first` on, as [`NodeSink::window`].

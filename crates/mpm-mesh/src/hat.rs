@@ -5,6 +5,7 @@ use mpm_kernels::Entry;
 use mpm_tensor::vector::subtract;
 use rayon::prelude::*;
 
+use crate::basis::all_found;
 use crate::{CellSearch, NO_CELL, SimplexMesh};
 
 /// Particles of one piece of work.
@@ -73,13 +74,7 @@ impl<const D: usize> HatBasis<D> {
                 *cell = search.locate(x, Some(*cell)).map_or(NO_CELL, |located| located.cell);
             }
         });
-        match self.particle_cells.iter().position(|&cell| cell == NO_CELL) {
-            None => Ok(()),
-            Some(particle) => Err(MpmError::OutsideMesh {
-                particle,
-                position: positions[particle].to_vec(),
-            }),
-        }
+        all_found(&self.particle_cells, positions)
     }
 
     fn cell_of(&self, cell: usize) -> &[u32] {
@@ -89,6 +84,8 @@ impl<const D: usize> HatBasis<D> {
 }
 
 impl<const D: usize> Basis<D> for HatBasis<D> {
+    type Cell = ();
+
     fn sort(&mut self, positions: &[[f64; D]]) -> Result<(), MpmError> {
         if let Err(error) = self.locate_particles(positions) {
             self.schedule = Schedule::default();

@@ -3,7 +3,7 @@
 use mpm_kernels::{Deposit, NodeField, NodeSink, Packed, Wanted};
 use mpm_tensor::Matrix;
 
-use crate::Basis;
+use crate::{Basis, Member};
 
 /// One sum, or one vector, per node of a stencil.
 struct Nodes<const D: usize>(Vec<Deposit<D>>);
@@ -41,7 +41,17 @@ pub fn transfers_are_sums<const D: usize, B: Basis<D>>(
     places: usize,
     what: &str,
 ) {
-    let h = basis.spacing();
+    let (h, mut collected) = (basis.spacing(), B::Cell::default());
+    let schedule = basis.schedule();
+    let cells = 0..schedule.cell_count();
+    if let Some(cell) = cells.into_iter().find(|&cell| schedule.cell(cell).contains(&particle)) {
+        basis.enter(cell, &mut collected);
+    }
+    let member = Member {
+        cell: &collected,
+        particle,
+        x,
+    };
     let vector = |i: usize| std::array::from_fn(|a| ((7 * i + 3 * a) % 11) as f64 - 5.0);
     let field: Vec<Deposit<D>> = (0..places)
         .map(|i| Deposit {
@@ -87,14 +97,14 @@ pub fn transfers_are_sums<const D: usize, B: Basis<D>>(
         }
     };
     let mut nodes = Nodes(vec![Deposit::ZERO; field.len()]);
-    basis.deposit(particle, x, &value, &affine, &flux, &mut nodes);
+    basis.deposit(member, &value, &affine, &flux, &mut nodes);
     close(&nodes.0, &sent);
     nodes.0.fill(Deposit::ZERO);
-    basis.deposit(particle, x, &value, &(), &(0.7 * h), &mut nodes);
+    basis.deposit(member, &value, &(), &(0.7 * h), &mut nodes);
     close(&nodes.0, &pressed);
 
     let (mut first, mut second) = (vec![1.0; field.len()], vec![0.0; field.len()]);
-    basis.deposit_scalars(particle, x, [0.7, -2.0], [&mut first, &mut second]);
+    basis.deposit_scalars(member, [0.7, -2.0], [&mut first, &mut second]);
     let mut expected = vec![[1.0, 0.0]; field.len()];
     basis.for_each_node(particle, x, |i, entry| {
         expected[i] = [1.0 + 0.7 * entry.weight, -2.0 * entry.weight];
@@ -104,7 +114,7 @@ pub fn transfers_are_sums<const D: usize, B: Basis<D>>(
         assert!(error < 1e-14, "{what}: scalars {first}, {second} for {expected:?}");
     }
     let scalars: Vec<f64> = field.iter().map(|node| node.vector[0]).collect();
-    let seen = basis.interpolate_scalar(particle, x, &scalars);
+    let seen = basis.interpolate_scalar(member, &scalars);
     assert!((seen - mean[0]).abs() < 1e-12, "{what}: scalar");
 
     let field = Nodes(field);
@@ -114,7 +124,7 @@ pub fn transfers_are_sums<const D: usize, B: Basis<D>>(
             least_squares: bits & 2 != 0,
             moment: bits & 4 != 0,
         };
-        let seen = basis.interpolate(particle, x, wanted, &field);
+        let seen = basis.interpolate(member, wanted, &field);
         let gradient = if wanted.least_squares { least_squares } else { slope };
         let gradient = if wanted.gradient { gradient } else { Matrix::ZERO };
         let moment = if wanted.moment { moment } else { Matrix::ZERO };

@@ -21,7 +21,7 @@ use self::template::Template;
 use self::tile::has_tiles;
 use crate::basis::check_placement;
 use crate::key_map::KeyMap;
-use crate::{Basis, MpmError, Schedule, UniformBasis};
+use crate::{Basis, Member, MpmError, Schedule, UniformBasis};
 
 /// The nodes {origin + h i : i ∈ ℤᴰ} with tensor-product B-splines of kernel `S`; only touched nodes are stored.
 #[derive(Clone, Debug)]
@@ -157,6 +157,8 @@ impl<S: Spline<W>, const W: usize, const D: usize> UniformBasis<D> for SplineGri
 }
 
 impl<S: Spline<W>, const W: usize, const D: usize> Basis<D> for SplineGrid<S, W, D> {
+    type Cell = ();
+
     fn sort(&mut self, positions: &[[f64; D]]) -> Result<(), MpmError> {
         let sorted = self.sort_or_keep(positions);
         if sorted.is_err() {
@@ -243,8 +245,7 @@ impl<S: Spline<W>, const W: usize, const D: usize> Basis<D> for SplineGrid<S, W,
     #[inline(always)]
     fn deposit<A: Columns<D>, F: Columns<D>>(
         &self,
-        particle: usize,
-        x: &[f64; D],
+        Member { particle, x, .. }: Member<(), D>,
         value: &Deposit<D>,
         affine: &A,
         flux: &F,
@@ -254,7 +255,12 @@ impl<S: Spline<W>, const W: usize, const D: usize> Basis<D> for SplineGrid<S, W,
     }
 
     #[inline(always)]
-    fn interpolate(&self, particle: usize, x: &[f64; D], wanted: Wanted, nodes: &impl NodeField<D>) -> Interpolated<D> {
+    fn interpolate(
+        &self,
+        Member { particle, x, .. }: Member<(), D>,
+        wanted: Wanted,
+        nodes: &impl NodeField<D>,
+    ) -> Interpolated<D> {
         let with_slopes = wanted != Wanted::default();
         if S::IS_QUADRATIC
             && with_slopes

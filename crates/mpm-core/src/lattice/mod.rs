@@ -107,6 +107,7 @@ impl<const D: usize> SimplexLattice<D> {
 
 impl<const D: usize> Basis<D> for SimplexLattice<D> {
     const LONE_PARTICLES: bool = true;
+    type Cell = ();
 
     fn sort(&mut self, positions: &[[f64; D]]) -> Result<(), MpmError> {
         let result = self.measure(positions);

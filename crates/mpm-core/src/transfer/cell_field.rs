@@ -1,9 +1,11 @@
 //! Vector fields at the nodes, as the particles of a cell read them.
 
+use std::marker::PhantomData;
+
 use mpm_kernels::{LANES, Lanes, NodeField, Packed, groups_of};
 
 use super::GridNode;
-use crate::NO_NODE;
+use crate::{Basis, NO_NODE};
 
 /// A vector field by number of the node.
 pub(crate) trait GridField<const D: usize>: Copy {
@@ -86,10 +88,11 @@ impl<F: GridField<D>, const D: usize> NodeField<D> for Numbered<'_, F> {
 pub(crate) struct CellField(Vec<Lanes>);
 
 impl CellField {
-    /// Collect the field at the nodes of a cell.
+    /// Collect the field at the nodes of a cell of a basis.
     #[inline(always)]
-    pub fn collect<const D: usize>(&mut self, numbers: &[u32], field: impl GridField<D>) {
+    pub fn collect<const D: usize, B: Basis<D>>(&mut self, _: &B, numbers: &[u32], field: impl GridField<D>) {
         match const { groups_of(D) } {
+            1 if B::NODES_SIDE_BY_SIDE => self.collect_side_by_side(numbers, field),
             1 => self.collect_in::<1, D>(numbers, field),
             2 => self.collect_in::<2, D>(numbers, field),
             3 => self.collect_in::<3, D>(numbers, field),
@@ -107,29 +110,58 @@ impl CellField {
         }
     }
 
-    /// The field at the `size` nodes.
     #[inline(always)]
-    pub fn nodes<const D: usize>(&self, size: usize) -> impl NodeField<D> {
-        Collected(&self.0[..size * groups_of(D)])
+    fn collect_side_by_side<const D: usize>(&mut self, numbers: &[u32], field: impl GridField<D>) {
+        self.0.resize(numbers.len(), Lanes::ZERO);
+        let at = |number: u32| field.packed::<1>(number as usize).lanes()[0];
+        for (lanes, &[a, b, c, d]) in self.0.as_chunks_mut::<LANES>().0.iter_mut().zip(numbers.as_chunks().0) {
+            // What has no meaning is not written.
+            lanes[1..].copy_from_slice(&Lanes::transpose([at(a), at(b), at(c), at(d)])[1..]);
+        }
+    }
+
+    /// The field at the `size` nodes of the cell.
+    #[inline(always)]
+    pub fn nodes<const D: usize, B: Basis<D>>(&self, _: &B, size: usize) -> Collected<'_, B> {
+        Collected(&self.0[..size * groups_of(D)], PhantomData)
     }
 }
 
-struct Collected<'a>(&'a [Lanes]);
+/// A collected field; `B` says how it lies in memory.
+pub(crate) struct Collected<'a, B>(&'a [Lanes], PhantomData<B>);
 
-impl<const D: usize> NodeField<D> for Collected<'_> {
+impl<const D: usize, B: Basis<D>> NodeField<D> for Collected<'_, B> {
     #[inline(always)]
     fn vector(&self, index: usize) -> [f64; D] {
-        let at = |component: usize| self.0[index * groups_of(D) + component / LANES].to_array()[component % LANES];
-        std::array::from_fn(|a| at(a + 1))
+        let place = |component: usize| match B::NODES_SIDE_BY_SIDE {
+            true => (index / LANES * LANES + component, index % LANES),
+            false => (index * groups_of(D) + component / LANES, component % LANES),
+        };
+        std::array::from_fn(|a| {
+            let (lanes, lane) = place(a + 1);
+            self.0[lanes].as_array()[lane]
+        })
     }
 
     #[inline(always)]
     fn packed<const G: usize>(&self, index: usize) -> Packed<G> {
+        if B::NODES_SIDE_BY_SIDE {
+            return Packed::new(0.0, &NodeField::<D>::vector(self, index));
+        }
         Packed::read(&self.0[index * G..][..G])
     }
 
     #[inline(always)]
+    fn side_by_side(&self, group: usize) -> [Lanes; LANES] {
+        if B::NODES_SIDE_BY_SIDE {
+            return self.0.as_chunks().0[group];
+        }
+        let at = |lane| NodeField::<D>::lanes(self, group * LANES + lane);
+        Lanes::transpose([at(0), at(1), at(2), at(3)])
+    }
+
+    #[inline(always)]
     fn window(&self, first: usize, length: usize) -> impl NodeField<D> {
-        Collected(&self.0[first * groups_of(D)..][..length * groups_of(D)])
+        Collected(&self.0[first * groups_of(D)..][..length * groups_of(D)], self.1)
     }
 }

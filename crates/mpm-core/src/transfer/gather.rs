@@ -4,6 +4,15 @@ use std::ops::Range;
 
 use crate::{Basis, Schedule};
 
+/// A cell of a schedule at work.
+pub(crate) struct CellWork<'a> {
+    /// Its place in the schedule.
+    pub cell: usize,
+    pub particles: Range<usize>,
+    /// Numbers of its nodes.
+    pub nodes: &'a [u32],
+}
+
 /// Mutable per-particle data that can be cut in two at a particle.
 pub trait Divide: Sized + Send {
     /// The data of the first `count` particles, and the rest.
@@ -27,19 +36,19 @@ pub fn gather<const D: usize, B, V>(
     B: Basis<D>,
     V: Divide,
 {
-    gather_cells(basis, data, move |data, particles, cell_nodes, first, _: &mut ()| {
-        for p in particles {
-            update(data, p - first, p, cell_nodes);
+    gather_cells(basis, data, move |data, work, first, _: &mut ()| {
+        for p in work.particles {
+            update(data, p - first, p, work.nodes);
         }
     });
 }
 
-/// Call `update(data, particles, cell_nodes, first, memory)` for every cell: `data` begins with particle `first`, and `memory` is
+/// Call `update(data, cell, first, memory)` for every cell: `data` begins with particle `first`, and `memory` is
 /// what the cells before have left.
 pub(crate) fn gather_cells<const D: usize, B, V, S: Default>(
     basis: &B,
     data: V,
-    update: impl Fn(&mut V, Range<usize>, &[u32], usize, &mut S) + Sync + Send + Copy,
+    update: impl Fn(&mut V, CellWork, usize, &mut S) + Sync + Send + Copy,
 ) where
     B: Basis<D>,
     V: Divide,
@@ -63,7 +72,7 @@ fn gather_stretch<const D: usize, B, V, S: Default>(
     basis: &B,
     cells: Range<usize>,
     mut data: V,
-    update: impl Fn(&mut V, Range<usize>, &[u32], usize, &mut S),
+    update: impl Fn(&mut V, CellWork, usize, &mut S),
 ) where
     B: Basis<D>,
 {
@@ -71,7 +80,11 @@ fn gather_stretch<const D: usize, B, V, S: Default>(
     let first = schedule.particles(&cells).start;
     let (mut scratch, mut memory) = (Vec::new(), S::default());
     for cell in cells {
-        let cell_nodes = &basis.cell_nodes(cell, &mut scratch)[..basis.cell_stencil_size(cell)]; // no check per node
-        update(&mut data, schedule.cell(cell), cell_nodes, first, &mut memory);
+        let work = CellWork {
+            cell,
+            particles: schedule.cell(cell),
+            nodes: &basis.cell_nodes(cell, &mut scratch)[..basis.cell_stencil_size(cell)], // no check per node
+        };
+        update(&mut data, work, first, &mut memory);
     }
 }

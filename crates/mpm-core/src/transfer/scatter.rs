@@ -7,7 +7,7 @@ use mpm_parallel::each;
 
 use super::ahead::{Ahead, Prepare};
 use super::{CellSums, GridNode};
-use crate::{Basis, NO_NODE, Part, Schedule};
+use crate::{Basis, Member, Part, Schedule};
 
 /// Sums that several parts of the particles contribute to.
 pub trait Sum: Copy + Default + Send + Sync {
@@ -29,14 +29,16 @@ type Share<'a, N> = (Range<usize>, usize, &'a mut [N]);
 const MERGE_LENGTH: usize = 1 << 12;
 
 /// What the cells of a part leave to each other.
-struct Memory<I> {
+struct Memory<C, I> {
+    collected: C,
     lanes: Vec<Lanes>,
     ahead: Ahead<I>,
 }
 
-impl<I> Default for Memory<I> {
+impl<C: Default, I> Default for Memory<C, I> {
     fn default() -> Self {
         Self {
+            collected: C::default(),
             lanes: Vec::new(),
             ahead: Ahead::default(),
         }
@@ -77,14 +79,14 @@ impl<N: Sum> NodeSums<N> {
         positions: &[[f64; D]],
         deposit: impl Fn(usize, &[f64; D], &mut StencilNodes<N>) + Sync + Copy,
     ) {
-        self.scatter_cells(basis, move |particles, stencil, _: &mut ()| {
+        self.scatter_cells(basis, move |_, particles, stencil, _: &mut ()| {
             for particle in particles {
                 deposit(particle, &positions[particle], stencil);
             }
         });
     }
 
-    /// As [`scatter`](Self::scatter), for sums with lanes: `deposit(p, x_p, I, sums)` adds to the sums of a cell, which are added to the nodes
+    /// As [`scatter`](Self::scatter), for sums with lanes: `deposit(p, I, sums)` adds to the sums of a cell, which are added to the nodes
     /// once per cell. Bases with lone particles have no use for them; there the sums are the nodes themselves.
     ///
     /// I is what `source` has prepared for the particle, some particles ahead at a time; `None` where nothing is wanted of it.
@@ -94,28 +96,37 @@ impl<N: Sum> NodeSums<N> {
         positions: &[[f64; D]],
         with_impulses: bool,
         source: P,
-        deposit: impl Fn(usize, &[f64; D], Option<&P::Value>, &mut CellSums<B, N, D>) + Sync + Copy,
+        deposit: impl Fn(Member<B::Cell, D>, Option<&P::Value>, &mut CellSums<B, N, D>) + Sync + Copy,
     ) where
         N: GridNode<D>,
     {
-        self.scatter_cells(basis, move |particles, stencil, memory: &mut Memory<P::Value>| {
-            if P::WANTED {
-                memory.ahead.reach(&particles, positions.len(), &source);
-            }
-            let mut sums = CellSums::<B, N, D>::new(stencil, &mut memory.lanes, with_impulses);
-            for particle in particles {
-                let prepared = if P::WANTED { memory.ahead.get(particle) } else { None };
-                deposit(particle, &positions[particle], prepared, &mut sums);
-            }
-            sums.close();
-        });
+        self.scatter_cells(
+            basis,
+            move |cell, particles, stencil, memory: &mut Memory<B::Cell, P::Value>| {
+                basis.enter(cell, &mut memory.collected);
+                if P::WANTED {
+                    memory.ahead.reach(&particles, positions.len(), &source);
+                }
+                let mut sums = CellSums::<B, N, D>::new(stencil, &mut memory.lanes, with_impulses);
+                for particle in particles {
+                    let prepared = if P::WANTED { memory.ahead.get(particle) } else { None };
+                    let member = Member {
+                        cell: &memory.collected,
+                        particle,
+                        x: &positions[particle],
+                    };
+                    deposit(member, prepared, &mut sums);
+                }
+                sums.close();
+            },
+        );
     }
 
-    /// Start from zero and call `add(particles, stencil, memory)` for every cell.
+    /// Start from zero and call `add(cell, particles, stencil, memory)` for every cell.
     pub(crate) fn scatter_cells<const D: usize, B: Basis<D>, S: Default>(
         &mut self,
         basis: &B,
-        add: impl Fn(Range<usize>, &mut StencilNodes<N>, &mut S) + Sync + Copy,
+        add: impl Fn(usize, Range<usize>, &mut StencilNodes<N>, &mut S) + Sync + Copy,
     ) {
         let schedule = basis.schedule();
         self.add_up(schedule, basis.node_count(), &|(cells, first, nodes)| {
@@ -131,7 +142,7 @@ impl<N: Sum> NodeSums<N> {
                     first,
                     nodes,
                 };
-                add(schedule.cell(cell), &mut stencil, &mut memory);
+                add(cell, schedule.cell(cell), &mut stencil, &mut memory);
             }
         });
     }
@@ -206,8 +217,9 @@ impl<N> StencilNodes<'_, N> {
     #[inline(always)]
     pub(crate) fn for_each_with<T>(&mut self, others: impl Iterator<Item = T>, mut visit: impl FnMut(&mut N, T)) {
         for (&number, other) in self.numbers.iter().zip(others) {
-            if number != NO_NODE {
-                visit(&mut self.nodes[number as usize - self.first], other);
+            // NO_NODE is behind them all.
+            if let Some(node) = self.nodes.get_mut((number as usize).wrapping_sub(self.first)) {
+                visit(node, other);
             }
         }
     }

@@ -5,6 +5,10 @@ use super::MeshBasis;
 /// Vertices that are looked at together when numbers are given.
 const STRETCH: usize = 32;
 
+/// Of vertices: that of an occupied cell; that of its ring, which is what the former are joined to, and they themselves.
+const OF_CELL: u8 = 1;
+pub(super) const ACTIVE: u8 = 2;
+
 impl<const D: usize> MeshBasis<D> {
     /// Phase 3 (activate): number the vertices that particles touch, in the order of the vertices, and write down those of every cell.
     pub(super) fn number_nodes(&mut self) {
@@ -13,13 +17,20 @@ impl<const D: usize> MeshBasis<D> {
         self.marks.resize(vertex_count.next_multiple_of(STRETCH), 0);
         self.numbers.resize(vertex_count, 0);
         let occupied = (0..self.schedule.cell_count()).map(|cell| self.particle_cells[self.schedule.cell(cell).start]);
-        let (stencils, marks) = (&self.stencils, self.marks.as_mut_slice());
-        let mut places = 0;
+        let (mesh, stencils) = (self.search.mesh(), &self.stencils);
+        let (mut places, marks) = (0, self.marks.as_mut_slice());
         for cell in occupied.clone() {
-            let nodes = stencils.groups(cell);
-            places += nodes.len();
-            for &vertex in nodes {
-                marks[vertex as usize] = 1;
+            places += stencils.groups(cell).len();
+            for &vertex in mesh.cell(cell as usize) {
+                marks[vertex as usize] = OF_CELL;
+            }
+        }
+        for vertex in 0..vertex_count {
+            if marks[vertex] & OF_CELL != 0 {
+                marks[vertex] |= ACTIVE;
+                for &joined in stencils.joined_to(vertex) {
+                    marks[joined as usize] |= ACTIVE;
+                }
             }
         }
         self.active.clear();
@@ -27,12 +38,16 @@ impl<const D: usize> MeshBasis<D> {
             if marks.iter().fold(0, |any, mark| any | mark) == 0 {
                 continue;
             }
-            for place in (0..STRETCH).filter(|&place| marks[place] != 0) {
+            for place in (0..STRETCH).filter(|&place| marks[place] & ACTIVE != 0) {
                 let vertex = stretch * STRETCH + place;
                 self.numbers[vertex] = self.active.len() as u32;
                 self.active.push(vertex as u32);
             }
         }
+        let active = self.active.iter();
+        self.active_positions.clear();
+        self.active_positions
+            .extend(active.map(|&vertex| self.stencils.position(vertex)));
         self.cell_node_starts.clear();
         self.cell_node_starts.push(0);
         self.cell_nodes.resize(places, 0);

@@ -34,13 +34,7 @@ impl<const D: usize> MeshBasis<D> {
                 *cell = near;
             }
         });
-        match self.particle_cells.iter().position(|&cell| cell == NO_CELL) {
-            None => Ok(()),
-            Some(particle) => Err(MpmError::OutsideMesh {
-                particle,
-                position: positions[particle].to_vec(),
-            }),
-        }
+        all_found(&self.particle_cells, positions)
     }
 
     /// Phase 2 (sort): order the particles by cell, where they are far from it; their cells follow them.
@@ -52,5 +46,16 @@ impl<const D: usize> MeshBasis<D> {
             let order = self.schedule.order().iter();
             self.particle_cells = order.map(|&particle| self.particle_cells[particle as usize]).collect();
         }
+    }
+}
+
+/// The first of the particles that no cell was found for is an error.
+pub(crate) fn all_found<const D: usize>(cells: &[u32], positions: &[[f64; D]]) -> Result<(), MpmError> {
+    match cells.iter().position(|&cell| cell == NO_CELL) {
+        None => Ok(()),
+        Some(particle) => Err(MpmError::OutsideMesh {
+            particle,
+            position: positions[particle].to_vec(),
+        }),
     }
 }

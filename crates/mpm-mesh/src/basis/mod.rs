@@ -1,6 +1,7 @@
 //! The basis of UMLS-MPM.
 
 mod activate;
+mod cell_ring;
 mod curve;
 mod locate;
 mod node_at;
@@ -10,11 +11,13 @@ mod weights;
 
 use std::sync::OnceLock;
 
-use mpm_core::{Basis, CellSort, MpmError, Schedule};
+use mpm_core::{Basis, CellSort, Member, MpmError, Schedule};
 use mpm_kernels::{Columns, Deposit, Entry, Interpolated, Lanes, NodeField, NodeSink, Wanted};
 use mpm_tensor::vector::{distance, subtract};
 
+use self::cell_ring::CellRing;
 use self::curve::AlongCurve;
+pub(crate) use self::locate::all_found;
 use self::node_at::VertexBoxes;
 use self::stencils::Stencils;
 pub use self::weights::WeightAt;
@@ -78,12 +81,14 @@ pub struct MeshBasis<const D: usize> {
     numbers: Vec<u32>,
     /// Vertex by number, ascending.
     active: Vec<u32>,
+    /// Their positions, zeros behind the coordinates.
+    active_positions: Vec<Lanes>,
     /// Node numbers of the cells of the schedule, in the groups of their rings, one cell after the other, and where those of a cell begin.
     cell_nodes: Vec<u32>,
     cell_node_starts: Vec<usize>,
     schedule: Schedule,
     cell_sort: CellSort,
-    /// Whether a vertex is active.
+    /// What is known of a vertex while numbers are given.
     marks: Vec<u8>,
     /// Made when a node is first asked for by its position.
     vertex_boxes: OnceLock<VertexBoxes<D>>,
@@ -123,6 +128,7 @@ impl<const D: usize> MeshBasis<D> {
             spreads: true,
             numbers: Vec::new(),
             active: Vec::new(),
+            active_positions: Vec::new(),
             cell_nodes: Vec::new(),
             cell_node_starts: Vec::new(),
             schedule: Schedule::default(),
@@ -214,6 +220,9 @@ fn longest_edges<const D: usize>(mesh: &SimplexMesh<D>) -> Vec<f64> {
 }
 
 impl<const D: usize> Basis<D> for MeshBasis<D> {
+    const NODES_SIDE_BY_SIDE: bool = true;
+    type Cell = CellRing<D>;
+
     fn sort(&mut self, positions: &[[f64; D]]) -> Result<(), MpmError> {
         let result = self.locate_particles(positions);
         match result {
@@ -271,6 +280,11 @@ impl<const D: usize> Basis<D> for MeshBasis<D> {
     }
 
     #[inline(always)]
+    fn enter(&self, cell: usize, ring: &mut CellRing<D>) {
+        ring.collect(self.cell_nodes(cell, &mut Vec::new()), &self.active_positions);
+    }
+
+    #[inline(always)]
     fn for_each_node(&self, particle: usize, x: &[f64; D], mut visit: impl FnMut(usize, &Entry<D>)) {
         let fit = &self.particles[particle].fit;
         self.for_each_sample(particle, |index, sample, node| {
@@ -281,29 +295,33 @@ impl<const D: usize> Basis<D> for MeshBasis<D> {
     #[inline(always)]
     fn deposit<A: Columns<D>, S: Columns<D>>(
         &self,
-        particle: usize,
-        x: &[f64; D],
+        member: Member<CellRing<D>, D>,
         value: &Deposit<D>,
         affine: &A,
         flux: &S,
         sink: &mut impl NodeSink<D>,
     ) {
-        self.deposit_in_lanes(particle, x, value, affine, flux, sink);
+        self.deposit_in_lanes(member, value, affine, flux, sink);
     }
 
     #[inline(always)]
-    fn interpolate(&self, particle: usize, x: &[f64; D], wanted: Wanted, nodes: &impl NodeField<D>) -> Interpolated<D> {
-        self.interpolate_in_lanes(particle, x, wanted, nodes)
+    fn interpolate(
+        &self,
+        member: Member<CellRing<D>, D>,
+        wanted: Wanted,
+        nodes: &impl NodeField<D>,
+    ) -> Interpolated<D> {
+        self.interpolate_in_lanes(member, wanted, nodes)
     }
 
     #[inline(always)]
-    fn deposit_scalars(&self, particle: usize, x: &[f64; D], scalars: [f64; 2], sums: [&mut [f64]; 2]) {
-        self.deposit_scalars_in_lanes(particle, x, scalars, sums);
+    fn deposit_scalars(&self, member: Member<CellRing<D>, D>, scalars: [f64; 2], sums: [&mut [f64]; 2]) {
+        self.deposit_scalars_in_lanes(member, scalars, sums);
     }
 
     #[inline(always)]
-    fn interpolate_scalar(&self, particle: usize, x: &[f64; D], nodes: &[f64]) -> f64 {
-        self.interpolate_scalar_in_lanes(particle, x, nodes)
+    fn interpolate_scalar(&self, member: Member<CellRing<D>, D>, nodes: &[f64]) -> f64 {
+        self.interpolate_scalar_in_lanes(member, nodes)
     }
 
     #[inline(always)]
@@ -327,7 +345,7 @@ impl<const D: usize> Basis<D> for MeshBasis<D> {
             + self.cell_sort.storage_bytes()
             + words.iter().map(|v| v.capacity() * 4).sum::<usize>()
             + self.particles.capacity() * size_of::<ParticleFit<D>>()
-            + self.samples.capacity() * size_of::<Lanes>()
+            + (self.samples.capacity() + self.active_positions.capacity()) * size_of::<Lanes>()
             + (self.cell_node_starts.capacity() + self.widths.capacity()) * 8
             + self.marks.capacity()
             + self.vertex_boxes.get().map_or(0, VertexBoxes::storage_bytes)

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use mpm_tensor::vector::distance;
 
 use super::MeshBasis;
+use super::activate::ACTIVE;
 use crate::SimplexMesh;
 
 /// A vertex this close to a position, in units of the shortest edge, is there.
@@ -62,6 +63,7 @@ impl<const D: usize> MeshBasis<D> {
         let close = SAME_PLACE * self.shortest_edge;
         let is_there = |vertex: u32| distance(position, &mesh.vertices()[vertex as usize]) <= close;
         let vertex = boxes.find(position, close, is_there)? as usize;
-        (self.marks.get(vertex) == Some(&1)).then(|| self.numbers[vertex])
+        let is_active = self.marks.get(vertex).is_some_and(|mark| mark & ACTIVE != 0);
+        is_active.then(|| self.numbers[vertex])
     }
 }

@@ -2,6 +2,7 @@
 
 use mpm_kernels::{LANES, Lanes};
 
+use super::cell_ring::side_by_side;
 use crate::adjacency::Lists;
 use crate::{Rings, SimplexMesh};
 
@@ -12,6 +13,8 @@ pub(super) struct Stencils {
     /// For every node of every ring the set of the cell's vertices that it is joined to or is: vertex n is bit n; nothing for what is repeated. The adjacency
     /// matrix A, A_ii = 1.
     joined: Vec<u8>,
+    /// Vertices that an edge joins to each.
+    neighbours: Lists,
     /// Vertices, zeros behind their coordinates.
     vertices: Vec<Lanes>,
     largest: usize,
@@ -42,6 +45,7 @@ impl Stencils {
         Self {
             rings: padded,
             joined,
+            neighbours,
             vertices: mesh.vertices().iter().map(lanes).collect(),
             largest,
         }
@@ -67,12 +71,22 @@ impl Stencils {
         &self.joined[self.rings.start(cell as usize)..self.rings.start(cell as usize + 1)]
     }
 
+    /// The vertices that an edge joins to a vertex.
+    #[inline(always)]
+    pub fn joined_to(&self, vertex: usize) -> &[u32] {
+        self.neighbours.get(vertex)
+    }
+
+    /// Position of a vertex, zeros behind the coordinates.
+    #[inline(always)]
+    pub fn position(&self, vertex: u32) -> Lanes {
+        self.vertices[vertex as usize]
+    }
+
     /// Positions of four vertices by component; only the first D have a meaning.
     #[inline(always)]
     pub fn positions(&self, vertices: &[u32; LANES]) -> [Lanes; LANES] {
-        let [a, b, c, d] = *vertices;
-        let at = |vertex: u32| self.vertices[vertex as usize];
-        Lanes::transpose([at(a), at(b), at(c), at(d)])
+        side_by_side(vertices, &self.vertices)
     }
 
     /// Places of the largest ring.
@@ -81,6 +95,8 @@ impl Stencils {
     }
 
     pub fn storage_bytes(&self) -> usize {
-        self.joined.len() * 5 + self.rings.len() * size_of::<usize>() + self.vertices.len() * size_of::<Lanes>()
+        let items = self.joined.len() * 5 + self.neighbours.items().len() * 4;
+        let starts = (self.rings.len() + self.neighbours.len()) * size_of::<usize>();
+        items + starts + self.vertices.len() * size_of::<Lanes>()
     }
 }

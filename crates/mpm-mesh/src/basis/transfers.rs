@@ -1,9 +1,14 @@
-//! What particles send to their nodes and read from them: factors of four nodes side by side in lanes, or mass and momentum of one.
+//! What particles send to their nodes and read from them, four nodes side by side in lanes.
 
+use std::hint::black_box;
+
+use mpm_core::Member;
 use mpm_kernels::{Columns, Deposit, Interpolated, LANES, Lanes, NodeField, NodeSink, Packed, Wanted};
 use mpm_tensor::Matrix;
 
 use super::MeshBasis;
+use super::cell_ring::CellRing;
+use crate::kernel::sums;
 
 /// A mass and a vector of up to three components.
 type Pack = Packed<1>;
@@ -13,14 +18,13 @@ impl<const D: usize> MeshBasis<D> {
     #[inline(always)]
     pub(super) fn deposit_in_lanes<A: Columns<D>, S: Columns<D>>(
         &self,
-        particle: usize,
-        x: &[f64; D],
+        member: Member<CellRing<D>, D>,
         value: &Deposit<D>,
         affine: &A,
         flux: &S,
         sink: &mut impl NodeSink<D>,
     ) {
-        let fit = &self.particles[particle].fit;
+        let fit = &self.particles[member.particle].fit;
         let pack = |column: Option<[f64; D]>| column.map(|column| Pack::new(0.0, &column));
         let (tilted, mut pushes) = (affine.column(0).is_some(), flux.column(0).is_some());
         let mut tilt = [Pack::ZERO; D]; // columns of C
@@ -52,7 +56,7 @@ impl<const D: usize> MeshBasis<D> {
         for a in 0..D {
             (tilts[a], bends[a]) = (splats::<D>(&tilt[a]), splats::<D>(&bend[a]));
         }
-        self.for_each_group(particle, x, |first, sample, r| {
+        self.for_each_group(member, |first, sample, r| {
             let weight = weight_of(sample, level, &slope, r);
             let mut sent = [Lanes::ZERO; LANES];
             sent[0] = weight * mass;
@@ -84,41 +88,27 @@ impl<const D: usize> MeshBasis<D> {
     #[inline(always)]
     pub(super) fn interpolate_in_lanes(
         &self,
-        particle: usize,
-        x: &[f64; D],
+        member: Member<CellRing<D>, D>,
         wanted: Wanted,
         nodes: &impl NodeField<D>,
     ) -> Interpolated<D> {
-        let fit = &self.particles[particle].fit;
+        let fit = &self.particles[member.particle].fit;
         let by_moment = wanted.gradient && wanted.least_squares && fit.inverse_spread.is_some();
         let by_gradient = wanted.gradient && !by_moment;
         let with_moment = wanted.moment || by_moment;
         let (level, slope) = (Lanes::splat(fit.level), fit.slope.map(Lanes::splat));
-        // Σ w v or, with a gradient, Σ d′ v; Σ d′ v r_a; Σ w v r_a.
         let (mut zeroth, mut first, mut moment) = (Pack::ZERO, [Pack::ZERO; D], [Pack::ZERO; D]);
-        self.for_each_group(particle, x, |place, sample, r| {
-            let weight = weight_of(sample, level, &slope, r);
-            let (mut sampled, mut weighted) = (*r, *r);
-            for a in 0..D {
-                sampled[a] *= sample;
-                weighted[a] *= weight;
-            }
-            let window = nodes.window(place, LANES);
-            let head = if by_gradient { sample } else { weight };
-            for lane in 0..LANES {
-                let v = Pack::read(&[window.lanes(lane)]);
-                let of = |factors: &Lanes| Lanes::splat(factors.as_array()[lane]);
-                zeroth = zeroth.plus(of(&head), &v);
-                for a in 0..D {
-                    if by_gradient {
-                        first[a] = first[a].plus(of(&sampled[a]), &v);
-                    }
-                    if with_moment {
-                        moment[a] = moment[a].plus(of(&weighted[a]), &v);
-                    }
-                }
-            }
-        });
+        // One after the other, since all sums together do not fit into registers: the box keeps those of the first loop out of them in the second.
+        if by_gradient {
+            (zeroth, first) = black_box(self.moments::<true, true>(member, nodes, |sample, _| sample));
+        }
+        let weight = |sample, r: &[Lanes; D]| weight_of(sample, level, &slope, r);
+        match (by_gradient, with_moment) {
+            (true, true) => moment = self.moments::<false, true>(member, nodes, weight).1,
+            (true, false) => {}
+            (false, true) => (zeroth, moment) = self.moments::<true, true>(member, nodes, weight),
+            (false, false) => zeroth = self.moments::<true, false>(member, nodes, weight).0,
+        }
         let (mut value, mut gradient) = (zeroth, [Pack::ZERO; D]);
         if by_gradient {
             value = zeroth.times(level);
@@ -143,12 +133,48 @@ impl<const D: usize> MeshBasis<D> {
 }
 
 impl<const D: usize> MeshBasis<D> {
+    /// Σ f v and, if they are asked for, Σ f v r_a, with f from d′ and r of every node.
+    #[inline(always)]
+    fn moments<const ZEROTH: bool, const FIRST: bool>(
+        &self,
+        member: Member<CellRing<D>, D>,
+        nodes: &impl NodeField<D>,
+        factor: impl Fn(Lanes, &[Lanes; D]) -> Lanes,
+    ) -> (Pack, [Pack; D]) {
+        let (mut zeroth, mut first) = ([Lanes::ZERO; D], [[Lanes::ZERO; D]; D]);
+        self.for_each_group(member, |place, sample, r| {
+            let factor = factor(sample, r);
+            let [_, v @ ..] = nodes.side_by_side(place / LANES);
+            let mut factors = *r;
+            for a in 0..D {
+                factors[a] *= factor;
+            }
+            for c in 0..D {
+                if ZEROTH {
+                    zeroth[c] = factor.mul_add(v[c], zeroth[c]);
+                }
+                if FIRST {
+                    for a in 0..D {
+                        first[a][c] = factors[a].mul_add(v[c], first[a][c]);
+                    }
+                }
+            }
+        });
+        let mut packed = [Pack::ZERO; D];
+        if FIRST {
+            for a in 0..D {
+                packed[a] = pack_of_sums(&first[a]);
+            }
+        }
+        (if ZEROTH { pack_of_sums(&zeroth) } else { Pack::ZERO }, packed)
+    }
+
     /// Visit the weights of four nodes at a time, in order.
     #[inline(always)]
-    fn for_each_weight_group(&self, particle: usize, x: &[f64; D], mut visit: impl FnMut(Lanes)) {
-        let fit = &self.particles[particle].fit;
+    fn for_each_weight_group(&self, member: Member<CellRing<D>, D>, mut visit: impl FnMut(Lanes)) {
+        let fit = &self.particles[member.particle].fit;
         let (level, slope) = (Lanes::splat(fit.level), fit.slope.map(Lanes::splat));
-        self.for_each_group(particle, x, |_, sample, r| {
+        self.for_each_group(member, |_, sample, r| {
             visit(weight_of(sample, level, &slope, r));
         });
     }
@@ -156,14 +182,13 @@ impl<const D: usize> MeshBasis<D> {
     #[inline(always)]
     pub(super) fn deposit_scalars_in_lanes(
         &self,
-        particle: usize,
-        x: &[f64; D],
+        member: Member<CellRing<D>, D>,
         scalars: [f64; 2],
         sums: [&mut [f64]; 2],
     ) {
         let scalars = scalars.map(Lanes::splat);
         let [mut first, mut second] = sums.map(|sums| sums.as_chunks_mut().0.iter_mut());
-        self.for_each_weight_group(particle, x, |weight| {
+        self.for_each_weight_group(member, |weight| {
             for (sums, scalar) in [&mut first, &mut second].into_iter().zip(scalars) {
                 if let Some(sums) = sums.next() {
                     *sums = weight.mul_add(scalar, Lanes::new(*sums)).to_array();
@@ -173,9 +198,9 @@ impl<const D: usize> MeshBasis<D> {
     }
 
     #[inline(always)]
-    pub(super) fn interpolate_scalar_in_lanes(&self, particle: usize, x: &[f64; D], nodes: &[f64]) -> f64 {
+    pub(super) fn interpolate_scalar_in_lanes(&self, member: Member<CellRing<D>, D>, nodes: &[f64]) -> f64 {
         let (mut sum, mut nodes) = (Lanes::ZERO, nodes.as_chunks().0.iter());
-        self.for_each_weight_group(particle, x, |weight| {
+        self.for_each_weight_group(member, |weight| {
             if let Some(&nodes) = nodes.next() {
                 sum = weight.mul_add(Lanes::new(nodes), sum);
             }
@@ -192,6 +217,14 @@ fn weight_of<const D: usize>(sample: Lanes, level: Lanes, slope: &[Lanes; D], r:
         sum = slope[a].mul_add(r[a], sum);
     }
     sum * sample
+}
+
+/// The vector of the sums over the lanes of each component; the scalar has no meaning.
+#[inline(always)]
+fn pack_of_sums<const D: usize>(components: &[Lanes; D]) -> Pack {
+    let mut rows = [components[0]; LANES];
+    rows[1..=D].copy_from_slice(components);
+    Pack::read(&[sums(&rows)])
 }
 
 /// The components of a vector, each in all lanes.

@@ -1,10 +1,11 @@
 //! The rebuild, phase 5: the fit of every particle; and weights at any point, to look at them.
 
-use mpm_core::MpmError;
+use mpm_core::{Member, MpmError};
 use mpm_kernels::{Entry, LANES, Lanes};
 use mpm_tensor::vector::subtract;
 use rayon::prelude::*;
 
+use super::cell_ring::CellRing;
 use super::{MeshBasis, ParticleFit};
 use crate::kernel::{Fit, RingLanes};
 use crate::{Located, NO_CELL};
@@ -68,10 +69,8 @@ impl<const D: usize> MeshBasis<D> {
                     next += 1;
                     sample += length;
                     if pending == LANES || next == particles.len() {
-                        let fits = lanes.solve(self.spreads, samples);
-                        for (particle, fit) in particles[solved..next].iter_mut().zip(fits) {
-                            particle.fit = fit;
-                        }
+                        let fits = particles[solved..next].iter_mut().map(|particle| &mut particle.fit);
+                        lanes.solve(self.spreads, samples, fits);
                         solved = next;
                     }
                 }
@@ -121,16 +120,16 @@ impl<const D: usize> MeshBasis<D> {
     #[inline(always)]
     pub(super) fn for_each_group(
         &self,
-        particle: usize,
-        x: &[f64; D],
+        member: Member<CellRing<D>, D>,
         mut visit: impl FnMut(usize, Lanes, &[Lanes; D]),
     ) {
-        let ParticleFit { cell, samples, .. } = self.particles[particle];
-        let ring = self.stencils.groups(cell).as_chunks().0;
-        let samples = &self.samples[samples as usize..][..ring.len()];
-        let point = x.map(Lanes::splat);
-        for (group, (four, &sample)) in ring.iter().zip(samples).enumerate() {
-            let positions = self.stencils.positions(four);
+        let ring = member.cell.groups();
+        let samples = &self.samples[self.particles[member.particle].samples as usize..][..ring.len()];
+        let mut point = [Lanes::ZERO; D];
+        for a in 0..D {
+            point[a] = Lanes::splat(member.x[a]);
+        }
+        for (group, (positions, &sample)) in ring.iter().zip(samples).enumerate() {
             let mut r = [Lanes::ZERO; D];
             for a in 0..D {
                 r[a] = positions[a] - point[a];
@@ -152,7 +151,8 @@ impl<const D: usize> MeshBasis<D> {
         self.collect(cell, &mut lanes);
         let mut samples = vec![Lanes::ZERO; ring.len().div_ceil(LANES)];
         self.push(cell, x, &mut lanes, 0);
-        let [fit, ..] = lanes.solve(false, &mut samples);
+        let mut fit = Fit::NOTHING;
+        lanes.solve(false, &mut samples, [&mut fit]);
         let entry = |(&vertex, sample)| {
             let node = &self.mesh().vertices()[vertex as usize];
             let entry = fit.entry(sample, subtract(node, x));

@@ -64,21 +64,20 @@ impl<const D: usize> Fit<D> {
 }
 
 impl<const D: usize> RingLanes<D> {
-    /// The fits of all pending particles, which are no longer pending then, and what they need to be found again; writes their d′_pi to their places in
-    /// `samples`. Not finite where cells are degenerate. Without `spread` there is no D_p⁻¹.
+    /// The fits of all pending particles, which are no longer pending then; writes their d′_pi to their places in `samples`. Not finite where cells are
+    /// degenerate. Without `spread` there is no D_p⁻¹.
     #[inline(always)]
-    pub fn solve(&mut self, spread: bool, samples: &mut [Lanes]) -> [Fit<D>; LANES] {
-        let mut sums_of = [[Lanes::ZERO; LARGEST_COUNT]; LANES];
-        for (sums, particle) in sums_of.iter_mut().zip(&self.pending[..self.count]) {
-            *sums = sample_ring(
-                particle,
-                &self.groups[particle.groups()],
-                &mut samples[particle.samples()],
-            );
+    pub fn solve<'a>(&mut self, spread: bool, samples: &mut [Lanes], fits: impl IntoIterator<Item = &'a mut Fit<D>>) {
+        for (sums, particle) in self.sums.iter_mut().zip(&self.pending[..self.count]) {
+            let groups = &self.groups[particle.groups()];
+            *sums = sample_ring(particle, groups, &mut samples[particle.samples()]);
         }
-        let moments = Moments::<D>::side_by_side(&sums_of);
+        let moments = Moments::<D>::side_by_side(&self.sums);
         let total = moments.zeroth;
-        let centre = moments.first.map(|first| first / total);
+        let mut centre = moments.first;
+        for a in 0..D {
+            centre[a] /= total;
+        }
         let mut scatter = moments.second;
         for i in 0..D {
             for j in 0..=i {
@@ -97,29 +96,38 @@ impl<const D: usize> RingLanes<D> {
         for a in 0..D {
             level = (-slope[a]).mul_add(centre[a], level);
         }
-        let mut fits = [Fit::NOTHING; LANES];
-        for (k, fit) in fits.iter_mut().enumerate() {
+        let mut least = [Lanes::ZERO; D];
+        for a in 0..D {
+            least[a] = moments.second[a][a] * LEAST_SAMPLED;
+        }
+        let (inverse, definite) = if spread {
+            self.inverse_spreads(&level, &slope, samples, &least)
+        } else {
+            ([[Lanes::ZERO; D]; D], 0)
+        };
+        for (k, fit) in fits.into_iter().take(self.count).enumerate() {
             fit.level = level.as_array()[k];
             for a in 0..D {
                 fit.slope[a] = slope[a].as_array()[k];
             }
             fit.curvature = one_of(&curvature, k);
-        }
-        if spread {
-            let least = std::array::from_fn(|a| moments.second[a][a] * LEAST_SAMPLED);
-            self.spreads(&mut fits, samples, &least);
+            fit.inverse_spread = (definite >> k & 1 == 1).then(|| one_of(&inverse, k));
         }
         self.count = 0;
-        fits
     }
 
-    /// D_p⁻¹, once the weights are known; its pivots have to be above `least`.
+    /// D_p⁻¹, once the weights are known, and a bit per particle where its pivots are above `least`.
     #[inline(always)]
-    fn spreads(&self, fits: &mut [Fit<D>; LANES], samples: &[Lanes], least: &[Lanes; D]) {
-        let mut sums_of = [[Lanes::ZERO; LARGEST_COUNT]; LANES];
+    fn inverse_spreads(
+        &mut self,
+        level: &Lanes,
+        slope: &[Lanes; D],
+        samples: &[Lanes],
+        least: &[Lanes; D],
+    ) -> (LaneMatrix<D>, u32) {
         let mut sizes = [[None; LANES]; D];
         for (k, particle) in self.pending[..self.count].iter().enumerate() {
-            let weighting = Weighting::new(particle, &fits[k]);
+            let weighting = Weighting::new(particle, level, slope, k);
             let ring = || self.groups[particle.groups()].iter().zip(&samples[particle.samples()]);
             let (mut second, mut lowest) = ([[Lanes::ZERO; D]; D], Lanes::ZERO);
             for (group, &sample) in ring() {
@@ -132,7 +140,11 @@ impl<const D: usize> RingLanes<D> {
                     }
                 }
             }
-            sums_of[k] = in_a_row(Lanes::ZERO, &[Lanes::ZERO; D], &second);
+            for i in 0..D {
+                for j in 0..=i {
+                    self.sums[k][place_of(D, i, j)] = second[i][j];
+                }
+            }
             // Σ |w| r² is Σ w r² unless a weight is negative.
             if lowest.to_array().iter().any(|&weight| weight < 0.0) {
                 let mut lanes = [Lanes::ZERO; D];
@@ -147,17 +159,17 @@ impl<const D: usize> RingLanes<D> {
                 }
             }
         }
-        let second = Moments::<D>::side_by_side(&sums_of).second;
-        let floor = std::array::from_fn(|a| {
-            let own = second[a][a].as_array();
-            let size = Lanes::new(std::array::from_fn(|k| sizes[a][k].unwrap_or(own[k])));
-            least[a].fast_max(size * LEAST_SPREAD)
-        });
-        let (inverse, definite) = inverse_of_definite(&second, &floor);
-        let definite = definite.to_bitmask();
-        for (k, fit) in fits.iter_mut().enumerate() {
-            fit.inverse_spread = (definite >> k & 1 == 1).then_some(one_of(&inverse, k));
+        let second = Moments::<D>::side_by_side(&self.sums).second;
+        let mut floor = *least;
+        for a in 0..D {
+            let mut size = second[a][a].to_array();
+            for k in 0..LANES {
+                size[k] = sizes[a][k].unwrap_or(size[k]);
+            }
+            floor[a] = floor[a].fast_max(Lanes::new(size) * LEAST_SPREAD);
         }
+        let (inverse, definite) = inverse_of_definite(&second, &floor);
+        (inverse, definite.to_bitmask())
     }
 }
 
@@ -174,7 +186,15 @@ fn one_of<const D: usize>(matrix: &LaneMatrix<D>, lane: usize) -> Matrix<D> {
 }
 
 /// 1, D and D (D + 1) / 2 sums for D = 3.
-const LARGEST_COUNT: usize = 10;
+pub(super) const LARGEST_COUNT: usize = 10;
+
+/// What [`Moments`] are of, one after the other: Σ d′, Σ d′ r, and the lower triangle of Σ d′ r rᵀ by rows.
+pub(super) type Sums = [Lanes; LARGEST_COUNT];
+
+/// The place of entry i, j of the triangle.
+const fn place_of(dimension: usize, i: usize, j: usize) -> usize {
+    1 + dimension + i * (i + 1) / 2 + j
+}
 
 /// Σ d′, Σ d′ r and the lower triangle of Σ d′ r rᵀ of four particles side by side.
 struct Moments<const D: usize> {
@@ -186,45 +206,26 @@ struct Moments<const D: usize> {
 impl<const D: usize> Moments<D> {
     /// From the lanes of each particle by themselves.
     #[inline(always)]
-    fn side_by_side(rows: &[[Lanes; LARGEST_COUNT]; LANES]) -> Self {
-        let sum = |place: usize| sums(&std::array::from_fn(|k| rows[k][place]));
+    fn side_by_side([a, b, c, d]: &[Sums; LANES]) -> Self {
+        let sum = |place: usize| sums(&[a[place], b[place], c[place], d[place]]);
+        let (mut first, mut second) = ([Lanes::ZERO; D], [[Lanes::ZERO; D]; D]);
+        for i in 0..D {
+            first[i] = sum(1 + i);
+            for j in 0..=i {
+                second[i][j] = sum(place_of(D, i, j));
+            }
+        }
         Self {
             zeroth: sum(0),
-            first: std::array::from_fn(|a| sum(1 + a)),
-            second: std::array::from_fn(|i| {
-                std::array::from_fn(|j| {
-                    if j <= i {
-                        sum(1 + D + i * (i + 1) / 2 + j)
-                    } else {
-                        Lanes::ZERO
-                    }
-                })
-            }),
+            first,
+            second,
         }
     }
-}
-
-/// What [`Moments`] are of, one after the other.
-#[inline(always)]
-fn in_a_row<const D: usize>(zeroth: Lanes, first: &[Lanes; D], second: &LaneMatrix<D>) -> [Lanes; LARGEST_COUNT] {
-    let mut row = [Lanes::ZERO; LARGEST_COUNT];
-    row[0] = zeroth;
-    for i in 0..D {
-        row[1 + i] = first[i];
-        for j in 0..=i {
-            row[1 + D + i * (i + 1) / 2 + j] = second[i][j];
-        }
-    }
-    row
 }
 
 /// d′ of the nodes of a particle, and their moments.
 #[inline(always)]
-fn sample_ring<const D: usize>(
-    particle: &Pending<D>,
-    groups: &[Group<D>],
-    samples: &mut [Lanes],
-) -> [Lanes; LARGEST_COUNT] {
+fn sample_ring<const D: usize>(particle: &Pending<D>, groups: &[Group<D>], samples: &mut [Lanes]) -> Sums {
     let point = particle.point.map(Lanes::splat);
     let inverse_square = Lanes::splat(particle.inverse_h * particle.inverse_h);
     for (group, out) in groups.iter().zip(samples.iter_mut()) {
@@ -254,7 +255,15 @@ fn sample_ring<const D: usize>(
             }
         }
     }
-    in_a_row(zeroth, &first, &second)
+    let mut row = [Lanes::ZERO; LARGEST_COUNT];
+    row[0] = zeroth;
+    for i in 0..D {
+        row[1 + i] = first[i];
+        for j in 0..=i {
+            row[place_of(D, i, j)] = second[i][j];
+        }
+    }
+    row
 }
 
 /// w = d′ (α + β·r) of one particle.
@@ -266,11 +275,16 @@ struct Weighting<const D: usize> {
 
 impl<const D: usize> Weighting<D> {
     #[inline(always)]
-    fn new(particle: &Pending<D>, fit: &Fit<D>) -> Self {
+    fn new(particle: &Pending<D>, level: &Lanes, slope: &[Lanes; D], lane: usize) -> Self {
+        let of = |lanes: &Lanes| Lanes::splat(lanes.as_array()[lane]);
+        let (mut point, mut own) = ([Lanes::ZERO; D], [Lanes::ZERO; D]);
+        for a in 0..D {
+            (point[a], own[a]) = (Lanes::splat(particle.point[a]), of(&slope[a]));
+        }
         Self {
-            point: particle.point.map(Lanes::splat),
-            level: Lanes::splat(fit.level),
-            slope: fit.slope.map(Lanes::splat),
+            point,
+            level: of(level),
+            slope: own,
         }
     }
 

@@ -5,12 +5,20 @@ use std::ops::Range;
 use mpm_kernels::{LANES, Lanes};
 
 use super::SampleWeight;
+use super::fit::{LARGEST_COUNT, Sums};
 
 /// Four nodes of a ring, and the sets of vertices of the cell that each is joined to, vertex n being bit n.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Group<const D: usize> {
     pub positions: [Lanes; D],
     pub joined: [u8; LANES],
+}
+
+impl<const D: usize> Group<D> {
+    const NOTHING: Self = Self {
+        positions: [Lanes::ZERO; D],
+        joined: [0; LANES],
+    };
 }
 
 /// A particle whose ring is collected.
@@ -30,6 +38,10 @@ pub(super) struct Pending<const D: usize> {
 #[derive(Clone, Debug)]
 pub(crate) struct RingLanes<const D: usize> {
     pub(super) groups: Vec<Group<D>>,
+    /// Those in use.
+    used: usize,
+    /// Sums over the ring of each particle.
+    pub(super) sums: [Sums; LANES],
     pub(super) pending: [Pending<D>; LANES],
     pub(super) count: usize,
     weight: SampleWeight,
@@ -71,6 +83,8 @@ impl<const D: usize> RingLanes<D> {
         };
         Self {
             groups: Vec::new(),
+            used: 0,
+            sums: [[Lanes::ZERO; LARGEST_COUNT]; LANES],
             pending: [nothing; LANES],
             count: 0,
             weight,
@@ -88,21 +102,21 @@ impl<const D: usize> RingLanes<D> {
         joined: &[u8],
         positions: impl Fn(&[u32; LANES]) -> [Lanes; LANES],
     ) {
-        if self.groups.len() >= MANY {
+        if self.used >= MANY {
             self.forget();
         }
-        self.start = self.groups.len();
-        let fours = ring.as_chunks().0.iter().zip(joined.as_chunks().0);
-        self.groups.extend(fours.map(|(ring, joined)| {
-            let (all, mut own) = (positions(ring), [Lanes::ZERO; D]);
-            own.copy_from_slice(&all[..D]);
-            Group {
-                positions: own,
-                joined: *joined,
-            }
-        }));
+        let (rings, sets) = (ring.as_chunks().0, joined.as_chunks().0);
+        (self.start, self.used) = (self.used, self.used + rings.len());
+        if self.used > self.groups.len() {
+            self.groups.resize(self.used, Group::NOTHING);
+        }
+        let groups = &mut self.groups[self.start..self.used];
+        for ((group, ring), joined) in groups.iter_mut().zip(rings).zip(sets) {
+            group.positions.copy_from_slice(&positions(ring)[..D]);
+            group.joined = *joined;
+        }
         if self.weight != SampleWeight::Continuous {
-            let groups = self.groups[self.start..].iter_mut();
+            let groups = self.groups[self.start..self.used].iter_mut();
             for (group, ring) in groups.zip(ring.as_chunks::<LANES>().0) {
                 for (set, vertex) in group.joined.iter_mut().zip(ring) {
                     let counts = self.weight == SampleWeight::DistanceAlone || cell.contains(vertex);
@@ -116,11 +130,12 @@ impl<const D: usize> RingLanes<D> {
     #[cold]
     fn forget(&mut self) {
         let pending = &mut self.pending[..self.count];
-        let kept = pending.first().map_or(self.groups.len(), |particle| particle.group);
+        let first = pending.first().map_or(self.used, |particle| particle.group);
         for particle in pending {
-            particle.group -= kept;
+            particle.group -= first;
         }
-        self.groups.drain(..kept);
+        self.groups.copy_within(first..self.used, 0);
+        self.used -= first;
     }
 
     /// A particle at `x` in the cell, by its barycentric coordinates from vertex 1 on; its d′ go to `sample` and behind. Returns how many are pending, at most
@@ -133,7 +148,7 @@ impl<const D: usize> RingLanes<D> {
             inverse_h,
             group: self.start,
             sample,
-            length: self.groups.len() - self.start,
+            length: self.used - self.start,
         };
         self.count += 1;
         self.count

@@ -51,6 +51,8 @@ impl<const D: usize> Meshes<D> {
 }
 
 impl<const D: usize> Basis<D> for Meshes<D> {
+    type Cell = ();
+
     fn sort(&mut self, positions: &[[f64; D]]) -> Result<(), MpmError> {
         self.bases[self.chosen].sort(positions)
     }
