@@ -302,7 +302,7 @@ mod tests {
     fn half_a_reading_is_refused() {
         for (text, field) in [
             ("take = \"last\"", ""),
-            ("quantity = \"a\"\ncolumn = \"b\"", "read"),
+            ("quantity = \"a\"\ncolumn = \"b\"", ""),
             ("quantity = \"a\"\ntake = \"last\"", "take"),
             ("column = \"a\"\ntake = \"difference\"", "against"),
             ("column = \"a\"\nagainst = { label = \"b\" }", "against"),
