@@ -2,6 +2,7 @@
 
 use mpm_materials::{IsothermalGas, Law, Memory};
 
+#[cfg(feature = "mesh")]
 use crate::on_mesh::{MovingOnMesh, PartsOnMesh};
 use crate::parts::{Parts, Ready};
 
@@ -28,6 +29,7 @@ impl<'a, const D: usize> Parts<'a, D, Memory> {
     }
 }
 
+#[cfg(feature = "mesh")]
 impl<'a, const D: usize> PartsOnMesh<'a, D> {
     /// The gas within a mesh; none where D is above 3.
     pub fn of_gas(self, gas: IsothermalGas) -> Option<Box<dyn MovingOnMesh<'a, D> + 'a>> {
@@ -38,6 +40,7 @@ impl<'a, const D: usize> PartsOnMesh<'a, D> {
 #[cfg(feature = "paper")]
 type OfLaw<const D: usize> = for<'a> fn(Parts<'a, D, Memory>, &'a dyn Law<D, State = Memory>) -> Ready<'a, D>;
 
+#[cfg(feature = "mesh")]
 type OnMesh<const D: usize> =
     for<'a> fn(PartsOnMesh<'a, D>, IsothermalGas) -> Option<Box<dyn MovingOnMesh<'a, D> + 'a>>;
 
@@ -45,6 +48,7 @@ struct Compiled<const D: usize> {
     gas: for<'a> fn(Parts<'a, D>, IsothermalGas) -> Ready<'a, D>,
     #[cfg(feature = "paper")]
     law: OfLaw<D>,
+    #[cfg(feature = "mesh")]
     on_mesh: OnMesh<D>,
 }
 
@@ -53,6 +57,7 @@ impl<const D: usize> Compiled<D> {
         gas: |parts, gas| parts.gas_here(gas),
         #[cfg(feature = "paper")]
         law: |parts, law| parts.law_here(law),
+        #[cfg(feature = "mesh")]
         on_mesh: |parts, gas| parts.gas_here(gas),
     };
 }

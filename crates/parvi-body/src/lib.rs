@@ -7,6 +7,7 @@ mod grid_density;
 mod in_cell;
 mod moving;
 mod node_scores;
+#[cfg(feature = "mesh")]
 mod on_mesh;
 mod parts;
 mod planned_step;
@@ -18,6 +19,7 @@ pub use choices::{BasisChoice, NonFiniteScores, ScoreLocation, TransferChoice};
 pub use framed_score::{FramedScore, ScoreForce};
 pub use moving::{Cloud, Moving};
 pub use node_scores::NodeScores;
+#[cfg(feature = "mesh")]
 pub use on_mesh::{Meshes, MovingOnMesh, PartsOnMesh};
 pub use parts::{Parts, Ready};
 pub use planned_step::PlannedStep;

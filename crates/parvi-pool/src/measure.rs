@@ -122,10 +122,14 @@ impl<const D: usize> Measure<D> {
         self
     }
 
-    /// The mass that is nearer to a particle than to any other one, for every particle; none negative, and their sum is one.
+    /// The mass that is nearer to a particle than to any other one in coordinates of the [`frame`](Self::frame), for every particle; none negative, and their
+    /// sum is one.
     pub fn shares(&self, particles: &[[f64; D]]) -> Vec<f64> {
+        let frame = self.frame();
+        let particles: Vec<[f64; D]> = particles.iter().map(|x| frame.to_reference(x)).collect();
         let nearest = |y: &[f64; D]| {
-            let distances = particles.iter().map(|x| vector::distance_squared(x, y));
+            let y = frame.to_reference(y);
+            let distances = particles.iter().map(|x| vector::distance_squared(x, &y));
             distances
                 .enumerate()
                 .min_by(|a, b| a.1.total_cmp(&b.1))
@@ -176,5 +180,12 @@ mod tests {
     fn shares_are_the_masses_nearest_to_the_particles() {
         let measure = Measure::new(vec![[0.0], [1.0], [4.0]], vec![0.5, 0.2, 0.3]);
         assert_eq!(measure.shares(&[[0.4], [5.0]]), [0.7, 0.3]);
+        // The second axis is a thousandth as wide as the first.
+        let measure = Measure::new(
+            vec![[0.0, 0.0], [0.0, 1e-3], [1.0, 0.0], [1.0, 1e-3]],
+            vec![0.1, 0.2, 0.3, 0.4],
+        );
+        let shares = measure.shares(&[[0.4, 0.0], [0.6, 1e-3]]);
+        assert!((shares[0] - 0.4).abs() < 1e-15, "{shares:?}");
     }
 }

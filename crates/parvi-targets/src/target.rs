@@ -138,6 +138,9 @@ pub trait CatalogueTarget<const D: usize>: Target<D> {
     }
 }
 
+/// A target of the catalogue, whichever it is.
+pub type BoxedTarget<const D: usize> = Box<dyn CatalogueTarget<D> + Send + Sync>;
+
 /// What a catalogue target says that has exact draws and a map from the unit cube of its own.
 macro_rules! its_own_source {
     ($dimension:tt) => {

@@ -12,12 +12,18 @@ pub(crate) struct Extent<const D: usize> {
 impl<const D: usize> Extent<D> {
     /// Of equally heavy particles.
     pub fn of(positions: &[[f64; D]]) -> Self {
-        let share = 1.0 / positions.len() as f64;
+        Self::of_weighted(positions, None)
+    }
+
+    /// Of particles whose weights, equal ones where there are none, have the sum one.
+    pub fn of_weighted(positions: &[[f64; D]], weights: Option<&[f64]>) -> Self {
+        let equal = 1.0 / positions.len() as f64;
+        let shares = (0..positions.len()).map(|p| weights.map_or(equal, |weights| weights[p]));
         let (mut mean, mut square) = ([0.0; D], [0.0; D]);
-        for x in positions {
+        for (x, share) in positions.iter().zip(shares.clone()) {
             vector::accumulate(&mut mean, share, x);
         }
-        for x in positions {
+        for (x, share) in positions.iter().zip(shares) {
             for a in 0..D {
                 square[a] += share * (x[a] - mean[a]).powi(2);
             }
@@ -56,6 +62,8 @@ mod tests {
         assert_eq!(before.mean, [1.0, 20.0]);
         assert_eq!(before.deviation, [1.0, 10.0]);
         assert_eq!(before.drift_to(&after), 0.5);
+        let weighted = Extent::of_weighted(&cloud, Some(&[0.75, 0.25]));
+        assert_eq!((weighted.mean, weighted.deviation[0]), ([0.5, 15.0], 0.75_f64.sqrt()));
         assert!(before.outgrows_the_frame());
         assert!(!Extent::of(&[[-1.0], [1.0]]).outgrows_the_frame());
     }

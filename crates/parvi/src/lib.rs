@@ -22,6 +22,7 @@ mod mpm;
 mod mpm_body;
 #[cfg(feature = "nuts")]
 mod nuts;
+#[cfg(feature = "mesh")]
 mod on_mesh;
 mod paper;
 mod point_set_error;

@@ -4,7 +4,6 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use mpm_core::MpmError;
-use mpm_mesh::MeshError;
 use parvi_pool::{Pool, PoolError};
 use serde::{Deserialize, Serialize};
 
@@ -315,8 +314,9 @@ pub enum SampleError {
         reason: String,
     },
     /// The mesh to sample on cannot be used.
+    #[cfg(feature = "mesh")]
     #[error("mesh: {0}")]
-    Mesh(#[from] MeshError),
+    Mesh(#[from] mpm_mesh::MeshError),
     /// The file of a mesh cannot be read.
     #[error("mesh {}: {reason}", path.display())]
     MeshFile {

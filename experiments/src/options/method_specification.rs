@@ -4,7 +4,7 @@ use parvi::{Method, Run, SampleError};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer};
 
-use super::{MethodName, MethodOptions, OptionError};
+use super::{Basis, MethodName, MethodOptions, OptionError};
 
 /// `{ name = "mpm", options = { spacing = 0.5 } }`; options that do not fit the method are refused while reading.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -48,6 +48,7 @@ impl MethodSpecification {
     /// [`SampleError::NotBuilt`].
     pub fn check_built(&self) -> Result<(), SampleError> {
         let needs = [
+            ("mesh", cfg!(feature = "mesh"), self.options.basis == Some(Basis::Mesh)),
             ("nuts", cfg!(feature = "nuts"), self.options.uses_chains(self.name)),
             (
                 "paper",

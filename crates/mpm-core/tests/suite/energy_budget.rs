@@ -1,6 +1,7 @@
 //! What the energy budget says is what particles store.
 
-use mpm_core::{AffineFlip, Apic, Basis, EnergyBudget, Flip, Mls, Mpm, Particles, Transfer};
+use mpm_core::{AffineFlip, Apic, Basis, EnergyBudget, Flip, Mls, Mpm, Particles, SplineGrid, Transfer};
+use mpm_kernels::Quadratic;
 use mpm_materials::Law;
 
 use crate::scenes::{Pull, free, neo_hookean, uniform_cloud};
@@ -32,15 +33,19 @@ fn strain_is_accounted_for<const D: usize, B: Basis<D>, T: Transfer<D>>(name: &s
     assert!(left.abs() < 1e-12 * stored, "{name}: {left} of {stored}");
 }
 
-fn on_every_transfer<const D: usize, B: Basis<D>>(name: &str, make: impl Fn([f64; D], f64) -> B) {
-    let basis = || make([0.0; D], 0.3);
-    strain_is_accounted_for(&format!("{name}, APIC"), basis(), Apic);
-    strain_is_accounted_for(&format!("{name}, MLS"), basis(), Mls);
-    strain_is_accounted_for(&format!("{name}, FLIP"), basis(), Flip::blend(0.9));
-    strain_is_accounted_for(&format!("{name}, affine FLIP"), basis(), AffineFlip(Flip::blend(1.0)));
+fn with_apic<const D: usize, B: Basis<D>>(name: &str, make: impl Fn([f64; D], f64) -> B) {
+    strain_is_accounted_for(name, make([0.0; D], 0.3), Apic);
 }
 
 #[test]
 fn strain_is_accounted_for_on_every_basis() {
-    every_basis!(on_every_transfer, 2);
+    every_basis!(with_apic, 2);
+}
+
+#[test]
+fn strain_is_accounted_for_with_every_transfer() {
+    let basis = || SplineGrid::<Quadratic, 3, 2>::new([0.0; 2], 0.3).unwrap();
+    strain_is_accounted_for("MLS", basis(), Mls);
+    strain_is_accounted_for("FLIP", basis(), Flip::blend(0.9));
+    strain_is_accounted_for("affine FLIP", basis(), AffineFlip(Flip::blend(1.0)));
 }

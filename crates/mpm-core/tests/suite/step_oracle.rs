@@ -117,13 +117,16 @@ fn every_force<S: Spline<W>, T: Transfer<D>, M: Medium<D, State = ()> + Copy, co
     agree::<S, T, M, W, D>((kernel, velocity, law, Force::Nodes(nodal_pull)), ours, (0.7, 0.05));
 }
 
-fn every_law<S: Spline<W>, T: Transfer<D>, const W: usize, const D: usize>(
+fn gas<S: Spline<W>, T: Transfer<D>, const W: usize, const D: usize>(kernel: Kernel, velocity: Velocity, transfer: T) {
+    let gas = IsothermalGas::new(0.8).unwrap();
+    every_force::<S, T, _, W, D>((kernel, velocity, Law::Gas { kappa: 0.8 }), (transfer, gas));
+}
+
+fn solids<S: Spline<W>, T: Transfer<D>, const W: usize, const D: usize>(
     kernel: Kernel,
     velocity: Velocity,
     transfer: T,
 ) {
-    let gas = IsothermalGas::new(0.8).unwrap();
-    every_force::<S, T, _, W, D>((kernel, velocity, Law::Gas { kappa: 0.8 }), (transfer, gas));
     let moduli = ElasticModuli::from_lame(LAMBDA, MU).unwrap();
     let (lambda, mu) = (LAMBDA, MU);
     let neo_hookean = solid(NeoHookean::new(moduli));
@@ -138,29 +141,50 @@ fn every_law<S: Spline<W>, T: Transfer<D>, const W: usize, const D: usize>(
     );
 }
 
-fn every_transfer<S: Spline<W>, const W: usize, const D: usize>(kernel: Kernel) {
-    every_law::<S, _, W, D>(kernel, Velocity::Pic, Pic);
-    every_law::<S, _, W, D>(kernel, Velocity::Apic, Apic);
-    every_law::<S, _, W, D>(kernel, Velocity::Flip(0.9), Flip::blend(0.9));
-    let decaying = Flip {
-        share: 0.95,
-        pic_rate: 6.0,
-    };
-    let share = 0.95 * (-6.0 * TIME_STEP).exp();
-    every_law::<S, _, W, D>(kernel, Velocity::Flip(share), decaying);
-    every_law::<S, _, W, D>(kernel, Velocity::AffineFlip(0.9), AffineFlip(Flip::blend(0.9)));
-    every_law::<S, _, W, D>(kernel, Velocity::AffineFlip(share), AffineFlip(decaying));
+/// With a rate at which the share decays, and the share that is left after a step of it.
+const DECAYING: Flip = Flip {
+    share: 0.95,
+    pic_rate: 6.0,
+};
+
+fn decayed() -> f64 {
+    DECAYING.share * (-DECAYING.pic_rate * TIME_STEP).exp()
 }
+
+/// Every transfer, with a gas under those that have no gradient of velocities and with solids under the others.
+fn affine_solids<S: Spline<W>, const W: usize, const D: usize>(kernel: Kernel) {
+    gas::<S, _, W, D>(kernel, Velocity::Pic, Pic);
+    gas::<S, _, W, D>(kernel, Velocity::Flip(0.9), Flip::blend(0.9));
+    gas::<S, _, W, D>(kernel, Velocity::Flip(decayed()), DECAYING);
+    solids::<S, _, W, D>(kernel, Velocity::Apic, Apic);
+    let (blend, decaying) = (AffineFlip(Flip::blend(0.9)), AffineFlip(DECAYING));
+    solids::<S, _, W, D>(kernel, Velocity::AffineFlip(0.9), blend);
+    solids::<S, _, W, D>(kernel, Velocity::AffineFlip(decayed()), decaying);
+}
+
+/// Every transfer, the other way round.
+fn affine_gas<S: Spline<W>, const W: usize, const D: usize>(kernel: Kernel) {
+    solids::<S, _, W, D>(kernel, Velocity::Pic, Pic);
+    solids::<S, _, W, D>(kernel, Velocity::Flip(0.9), Flip::blend(0.9));
+    solids::<S, _, W, D>(kernel, Velocity::Flip(decayed()), DECAYING);
+    gas::<S, _, W, D>(kernel, Velocity::Apic, Apic);
+    let (blend, decaying) = (AffineFlip(Flip::blend(0.9)), AffineFlip(DECAYING));
+    gas::<S, _, W, D>(kernel, Velocity::AffineFlip(0.9), blend);
+    gas::<S, _, W, D>(kernel, Velocity::AffineFlip(decayed()), decaying);
+}
+
+// Every pair of transfer, medium, kernel and dimension occurs; every triple would take twice as long to compile.
 
 #[test]
 fn the_step_is_the_textbook_s_in_every_dimension() {
-    every_transfer::<Quadratic, 3, 1>(Kernel::Quadratic);
-    every_transfer::<Quadratic, 3, 2>(Kernel::Quadratic);
-    every_transfer::<Quadratic, 3, 3>(Kernel::Quadratic);
+    affine_solids::<Quadratic, 3, 1>(Kernel::Quadratic);
+    affine_solids::<Quadratic, 3, 2>(Kernel::Quadratic);
+    affine_gas::<Quadratic, 3, 2>(Kernel::Quadratic);
+    affine_gas::<Quadratic, 3, 3>(Kernel::Quadratic);
 }
 
 #[test]
 fn the_step_is_the_textbook_s_with_every_kernel() {
-    every_transfer::<Linear, 2, 2>(Kernel::Linear);
-    every_transfer::<Cubic, 4, 2>(Kernel::Cubic);
+    affine_solids::<Linear, 2, 2>(Kernel::Linear);
+    affine_gas::<Cubic, 4, 2>(Kernel::Cubic);
 }

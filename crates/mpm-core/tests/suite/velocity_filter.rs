@@ -84,9 +84,9 @@ fn is_the_formula<const D: usize, B: UniformBasis<D>>(name: &str, make: fn([f64;
 
 #[test]
 fn a_filter_is_its_formula() {
-    every_basis!(is_the_formula, 1);
     every_basis!(is_the_formula, 2);
-    every_basis!(is_the_formula, 3);
+    is_the_formula::<1, _>("quadratic", |o, h| SplineGrid::<Quadratic, 3, 1>::new(o, h).unwrap());
+    is_the_formula::<3, _>("quadratic", |o, h| SplineGrid::<Quadratic, 3, 3>::new(o, h).unwrap());
 }
 
 proptest! {

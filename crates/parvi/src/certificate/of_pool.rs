@@ -36,7 +36,7 @@ impl Certificate {
 
 /// The particles' moments beside those of the pool.
 fn moments<const D: usize>(pool: &Pool<D>, samples: &Samples<D>) -> Vec<MomentEstimate> {
-    let own = Extent::of(&samples.positions);
+    let own = Extent::of_weighted(&samples.positions, samples.weights.as_deref());
     let rate = (samples.positions.len() as f64).sqrt();
     let of_axis = |a: usize| {
         let mean = pool.expectation(|x| x[a]);

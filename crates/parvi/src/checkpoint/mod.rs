@@ -203,8 +203,7 @@ impl Journal {
         let mut part = path.clone().into_os_string();
         part.push(".part");
         let part = PathBuf::from(part);
-        let mut content = Vec::new();
-        ciborium::into_writer(&self.saved, &mut content).map_err(|error| refused(path, &error))?;
+        let content = cbor4ii::serde::to_vec(Vec::new(), &self.saved).map_err(|error| refused(path, &error))?;
         let replaced = File::create(&part).and_then(|mut file| {
             file.write_all(MAGIC)?;
             file.write_all(&checksum(&content).to_le_bytes())?;
@@ -232,7 +231,7 @@ fn read(mut file: File) -> Result<Saved, String> {
     if u64::from_le_bytes(*sum) != checksum(content) {
         return Err(damaged());
     }
-    ciborium::from_reader(content).map_err(|_| damaged())
+    cbor4ii::serde::from_slice(content).map_err(|_| damaged())
 }
 
 /// FNV-1a (G. Fowler, L. C. Noll, K.-P. Vo), 64 bits.

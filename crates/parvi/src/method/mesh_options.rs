@@ -1,8 +1,10 @@
 use std::path::PathBuf;
 
 use parvi_body::NonFiniteScores;
+use parvi_targets::Target;
 
 use super::Settling;
+use crate::{Observer, Run, SampleError, Samples};
 
 /// The calibrated sampler on the mesh of a file.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,6 +13,31 @@ pub struct OnMesh {
     pub file: PathBuf,
     /// How it is sampled.
     pub options: MeshOptions,
+}
+
+impl OnMesh {
+    /// As `MeshOptions::sample`, on the mesh of the file.
+    ///
+    /// # Errors
+    /// [`SampleError`]: without the cargo feature `mesh` always [`SampleError::NotBuilt`]; [`SampleError::MeshFile`] for a file that is no mesh of
+    /// this dimension, and in other dimensions than 2 and 3.
+    pub fn sample<const D: usize>(
+        &self,
+        target: &dyn Target<D>,
+        run: &Run,
+        observer: &mut dyn Observer,
+    ) -> Result<Samples<D>, SampleError> {
+        #[cfg(feature = "mesh")]
+        return crate::on_mesh::sample_on(self, target, run, observer);
+        #[cfg(not(feature = "mesh"))]
+        {
+            let _ = (target, run, observer);
+            Err(SampleError::NotBuilt {
+                method: "mpm on a mesh",
+                feature: "mesh",
+            })
+        }
+    }
 }
 
 /// Options of the calibrated sampler on the hat functions of a mesh; `None` means: chosen by the rule beside.

@@ -21,28 +21,23 @@ use crate::{
 /// Copies of the mesh with moved vertices; the last one serves the residual alone.
 const COPIES: usize = 16;
 
-impl OnMesh {
-    /// As [`MeshOptions::sample`], on the mesh of the file.
-    ///
-    /// # Errors
-    /// [`SampleError::MeshFile`] for a file that is no mesh of this dimension, and in other dimensions than 2 and 3.
-    pub fn sample<const D: usize>(
-        &self,
-        target: &dyn Target<D>,
-        run: &Run,
-        observer: &mut dyn Observer,
-    ) -> Result<Samples<D>, SampleError> {
-        let refused = |reason: String| SampleError::MeshFile {
-            path: self.file.clone(),
-            reason,
-        };
-        if const { D == 2 || D == 3 } {
-            let bytes = std::fs::read(&self.file).map_err(|error| refused(error.to_string()))?;
-            let mesh = read_msh::<D>(&bytes).map_err(|error| refused(error.to_string()))?;
-            self.options.sample(target, &mesh, run, observer)
-        } else {
-            Err(refused(format!("a mesh has 2 or 3 dimensions, the target has {D}")))
-        }
+/// [`OnMesh::sample`].
+pub(crate) fn sample_on<const D: usize>(
+    on_mesh: &OnMesh,
+    target: &dyn Target<D>,
+    run: &Run,
+    observer: &mut dyn Observer,
+) -> Result<Samples<D>, SampleError> {
+    let refused = |reason: String| SampleError::MeshFile {
+        path: on_mesh.file.clone(),
+        reason,
+    };
+    if const { D == 2 || D == 3 } {
+        let bytes = std::fs::read(&on_mesh.file).map_err(|error| refused(error.to_string()))?;
+        let mesh = read_msh::<D>(&bytes).map_err(|error| refused(error.to_string()))?;
+        on_mesh.options.sample(target, &mesh, run, observer)
+    } else {
+        Err(refused(format!("a mesh has 2 or 3 dimensions, the target has {D}")))
     }
 }
 

@@ -138,6 +138,33 @@ fn light_pieces_have_more_particles_where_they_are_weighted() {
 }
 
 #[test]
+fn weights_are_those_of_coordinates_of_any_scale_and_the_certificate_knows_them() {
+    let scales = [1e-3, 1.0, 1e3];
+    let covariance = Matrix::from_fn(|i, j| scales[i] * scales[j] * if i == j { 1.0 } else { 0.5 });
+    let target = Gaussian::new([0.2, -30.0, 400.0], covariance).expect("a covariance");
+    let options = MpmOptions {
+        weighted: true,
+        ..MpmOptions::default()
+    };
+    let samples = options
+        .sample(&target, &target.frame(), &Run::new(500, 4), &mut Silent)
+        .expect("particles");
+    let weights = samples.weights.expect("weights");
+    let said = samples.certificate.expect("a certificate").moments;
+    for a in 0..3 {
+        let weighed = |f: &dyn Fn(f64) -> f64| -> f64 {
+            let each = samples.positions.iter().zip(&weights);
+            each.map(|(x, w)| w * f(x[a])).sum()
+        };
+        let mean = weighed(&|x| x);
+        let deviation = weighed(&|x| (x - mean).powi(2)).sqrt();
+        assert!((deviation / scales[a] - 1.0).abs() < 0.04, "axis {a}: {deviation}");
+        assert!((said[a].mean - mean).abs() < 1e-9 * scales[a], "axis {a}: {mean}");
+        assert!((said[a].standard_deviation / deviation - 1.0).abs() < 1e-9, "axis {a}");
+    }
+}
+
+#[test]
 fn the_evidence_is_within_its_error() {
     fn check<const D: usize>(target: &dyn CatalogueTarget<D>) {
         let exact = target.log_evidence().expect("a known evidence");

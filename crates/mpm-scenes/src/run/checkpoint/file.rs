@@ -14,8 +14,7 @@ const MAGIC: &[u8] = b"mpm-scenes checkpoint 1\n";
 /// # Errors
 /// [`SimulationError::File`], [`SimulationError::Checkpoint`].
 pub fn write(path: &Path, saved: &Saved) -> Result<(), SimulationError> {
-    let mut content = Vec::new();
-    ciborium::into_writer(saved, &mut content).map_err(|error| refused(path, error.to_string()))?;
+    let content = cbor4ii::serde::to_vec(Vec::new(), saved).map_err(|error| refused(path, error.to_string()))?;
     let bytes = [MAGIC, &checksum(&content).to_le_bytes(), &content].concat();
     write_whole(path, &bytes)
 }
@@ -32,7 +31,7 @@ pub fn read(path: &Path) -> Result<Option<Saved>, SimulationError> {
     };
     let content = bytes.strip_prefix(MAGIC).and_then(|rest| rest.split_first_chunk());
     let whole = content.filter(|(sum, content)| u64::from_le_bytes(**sum) == checksum(content));
-    let saved = whole.and_then(|(_, content)| ciborium::from_reader(content).ok());
+    let saved = whole.and_then(|(_, content)| cbor4ii::serde::from_slice(content).ok());
     let damaged = || {
         refused(
             path,

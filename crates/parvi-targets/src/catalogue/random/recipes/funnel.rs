@@ -1,7 +1,7 @@
 //! Scales that depend on a place.
 
 use super::parts::{bend, on_axes, pushed};
-use crate::random::dice::Dice;
+use crate::catalogue::random::dice::Dice;
 use crate::{AxisLaw, BoxedBijection, BoxedLaw, Neck, TargetError};
 
 /// Normal laws whose thickness on all axes but the first changes along it, by factors of 3 to 12 either way; sometimes bent.

@@ -1,7 +1,7 @@
 //! Cusps.
 
 use super::parts::{on_axes, placed, pushed, wave};
-use crate::random::dice::Dice;
+use crate::catalogue::random::dice::Dice;
 use crate::{AxisLaw, BoxedBijection, BoxedLaw, Skew, TargetError};
 
 /// Laplace laws with unequal scales along directions of their own, then a wave or a skewed axis.

@@ -3,12 +3,9 @@
 use std::any::Any;
 use std::path::Path;
 
-use crate::catalogue::Parameters;
+use super::info::Parameters;
 use crate::regression::DEFAULT_PRIOR_STANDARD_DEVIATION;
-use crate::{CatalogueTarget, Link, Regression, RegressionTable, Response, TargetError};
-
-/// A target of the catalogue, whichever it is.
-pub type BoxedTarget<const D: usize> = Box<dyn CatalogueTarget<D> + Send + Sync>;
+use crate::{BoxedTarget, CatalogueTarget, Link, Regression, RegressionTable, Response, TargetError};
 
 /// The data of the file that is given, or else the target's own.
 pub(crate) fn file_or<Y: Response>(

@@ -1,7 +1,7 @@
 //! Flat tops with soft edges.
 
 use super::parts::{on_axes, pushed, soft_uniform, wave};
-use crate::random::dice::Dice;
+use crate::catalogue::random::dice::Dice;
 use crate::{Affine, BoxedBijection, BoxedLaw, TargetError, Twist};
 
 /// A box with edges of its own per axis, then a wave or a slow twist.

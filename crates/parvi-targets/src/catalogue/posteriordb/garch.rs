@@ -28,7 +28,7 @@ impl Garch {
     /// # Errors
     /// Those of [`Laplace::find`](crate::Laplace::find) and [`ImportanceSample::new`](crate::ImportanceSample::new).
     pub fn posterior() -> Result<ModelPosterior<Self, 5, 4>, TargetError> {
-        let series = series("garch.csv", include_str!("../../data/posteriordb/garch.csv"))?;
+        let series = series("garch.csv", include_str!("../../../data/posteriordb/garch.csv"))?;
         let description = Description {
             name: "garch",
             priors: [Prior::Flat; 5],

@@ -32,7 +32,7 @@ impl Arma {
     /// # Errors
     /// Those of [`Laplace::find`](crate::Laplace::find) and [`ImportanceSample::new`](crate::ImportanceSample::new).
     pub fn posterior() -> Result<ModelPosterior<Self, 4, 4>, TargetError> {
-        let series = series("arma.csv", include_str!("../../data/posteriordb/arma.csv"))?;
+        let series = series("arma.csv", include_str!("../../../data/posteriordb/arma.csv"))?;
         let description = Description {
             name: "arma",
             priors: [

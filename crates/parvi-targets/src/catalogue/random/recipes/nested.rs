@@ -1,7 +1,7 @@
 //! Scales within scales.
 
 use super::parts::{boxed, placed, simple};
-use crate::random::dice::Dice;
+use crate::catalogue::random::dice::Dice;
 use crate::{BoxedLaw, MixtureLaw, TargetError};
 
 /// Two or three simple laws, each 10 to 100 (with three: 5 to 20) times as narrow as the one it stands in.

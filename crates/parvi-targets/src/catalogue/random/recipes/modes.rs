@@ -1,7 +1,7 @@
 //! Many unequal modes.
 
 use super::parts::{bend, boxed, placed, pushed, simple};
-use crate::random::dice::Dice;
+use crate::catalogue::random::dice::Dice;
 use crate::{BoxedLaw, MixtureLaw, TargetError};
 
 /// 4 to 16 simple laws, some of them bent, in a box of ±4.

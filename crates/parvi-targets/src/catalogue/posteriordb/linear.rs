@@ -30,7 +30,7 @@ impl LinearModel<5> {
     /// # Errors
     /// Those of [`Laplace::find`](crate::Laplace::find) and [`ImportanceSample::new`](crate::ImportanceSample::new).
     pub fn kidscore() -> Result<LinearPosterior<5>, TargetError> {
-        let data = rows("kidiq.csv", include_str!("../../data/posteriordb/kidiq.csv"))?;
+        let data = rows("kidiq.csv", include_str!("../../../data/posteriordb/kidiq.csv"))?;
         let rows = data
             .iter()
             .map(|&[school, quotient, score]| [1.0, school, quotient, school * quotient, score]);
@@ -46,7 +46,7 @@ impl LinearModel<5> {
     /// # Errors
     /// Those of [`Laplace::find`](crate::Laplace::find) and [`ImportanceSample::new`](crate::ImportanceSample::new).
     pub fn mesquite() -> Result<LinearPosterior<5>, TargetError> {
-        let data = rows("mesquite.csv", include_str!("../../data/posteriordb/mesquite.csv"))?;
+        let data = rows("mesquite.csv", include_str!("../../../data/posteriordb/mesquite.csv"))?;
         let rows = data.iter().map(|&[long, short, height, group, weight]: &[f64; 5]| {
             let area = long * short;
             [1.0, (area * height).ln(), area.ln(), group, weight.ln()]
@@ -63,7 +63,7 @@ impl LinearModel<6> {
     /// # Errors
     /// Those of [`Laplace::find`](crate::Laplace::find) and [`ImportanceSample::new`](crate::ImportanceSample::new).
     pub fn blr() -> Result<LinearPosterior<6>, TargetError> {
-        let rows = rows("sblrc.csv", include_str!("../../data/posteriordb/sblrc.csv"))?;
+        let rows = rows("sblrc.csv", include_str!("../../../data/posteriordb/sblrc.csv"))?;
         let prior = centred_normal(10.0);
         Self::posterior("blr", rows, prior, prior, [1.0; 6])
     }

@@ -1,7 +1,7 @@
 //! Spirals and helices.
 
 use super::parts::{line, long_first, pushed};
-use crate::random::dice::Dice;
+use crate::catalogue::random::dice::Dice;
 use crate::{Affine, BoxedBijection, BoxedLaw, TargetError, Twist};
 
 /// A long piece wound up by its distance from a centre: two arms where it lies across the centre, one where it lies beside it.

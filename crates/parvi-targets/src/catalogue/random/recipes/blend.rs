@@ -2,7 +2,7 @@
 
 use super::parts::{boxed, placed};
 use super::{cusp, funnel, heavy_tail, moons, plateau, ridge, spiral};
-use crate::random::dice::Dice;
+use crate::catalogue::random::dice::Dice;
 use crate::{BoxedLaw, MixtureLaw, TargetError};
 
 /// Two to four laws of different families, within a few of their scales of each other, of unequal sizes and masses.

@@ -31,7 +31,7 @@ impl HiddenMarkov {
     pub fn posterior() -> Result<ModelPosterior<Self, 4, 4>, TargetError> {
         let series = series(
             "hmm_example.csv",
-            include_str!("../../data/posteriordb/hmm_example.csv"),
+            include_str!("../../../data/posteriordb/hmm_example.csv"),
         )?;
         let [low, high] = [3.0, 10.0].map(|mean| Prior::Normal {
             mean,

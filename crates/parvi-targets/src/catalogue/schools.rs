@@ -5,8 +5,8 @@ use rand::Rng;
 use rand::RngExt;
 use rand_distr::Open01;
 
+use crate::catalogue::schools_scale::{GivenScale, PRIOR_SCALE, ScaleMarginal, School};
 use crate::gaussian::{box_of_standard_deviations, normal_quantiles, standard_normal};
-use crate::schools_scale::{GivenScale, PRIOR_SCALE, ScaleMarginal, School};
 use crate::special::{HALF_LOG_TWO_PI, log_cosh};
 use crate::target::its_own_source;
 use crate::{CatalogueTarget, ExactDraws, Frame, MAXIMUM_DIMENSION, Moments, Target, TargetError, UnitCubeTransport};

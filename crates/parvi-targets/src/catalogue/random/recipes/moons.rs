@@ -1,7 +1,7 @@
 //! Two moons.
 
 use super::parts::{bend, boxed, long_first, on_axes, pushed};
-use crate::random::dice::Dice;
+use crate::catalogue::random::dice::Dice;
 use crate::{Affine, AxisLaw, BoxedLaw, MixtureLaw, TargetError};
 
 /// Two pieces 0.04 to 0.1 thick and bent to opposite sides, the arm of one within the other, of unequal masses.

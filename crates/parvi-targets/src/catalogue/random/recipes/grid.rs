@@ -1,8 +1,8 @@
 //! Lattices of modes.
 
 use super::parts::boxed;
-use crate::random::axis_law::Bump;
-use crate::random::dice::Dice;
+use crate::catalogue::random::axis_law::Bump;
+use crate::catalogue::random::dice::Dice;
 use crate::{AxisLaw, BoxedLaw, MixtureLaw, ProductLaw, TargetError};
 
 /// Modes per axis and axes with modes: 8 and 64 in the plane, 64 and 512 beyond it.

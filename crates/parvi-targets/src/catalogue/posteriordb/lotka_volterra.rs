@@ -43,7 +43,7 @@ impl LotkaVolterra {
     /// # Errors
     /// Those of [`Laplace::find`](crate::Laplace::find) and [`ImportanceSample::new`](crate::ImportanceSample::new).
     pub fn posterior() -> Result<ModelPosterior<Self, 8, 8>, TargetError> {
-        let file = include_str!("../../data/posteriordb/hudson_lynx_hare.csv");
+        let file = include_str!("../../../data/posteriordb/hudson_lynx_hare.csv");
         let numbers = rows::<2>("hudson_lynx_hare.csv", file)?;
         let logarithms = numbers.iter().map(|pair| pair.map(f64::ln)).collect();
         let normal = |mean, standard_deviation| Prior::Normal {

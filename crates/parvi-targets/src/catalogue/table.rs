@@ -1,14 +1,14 @@
 //! The targets by name: what is known of each, and how it is made. A new target is a file, and its entry here.
 
-use crate::catalogue::{Dimensions, MAXIMUM_DIMENSION, ParameterInfo, Parameters, TargetInfo};
-use crate::making::{BoxedTarget, boxed, data_path, file_or, in_dimension, regression};
-use crate::synthetic::synthetic_counts;
-use crate::wells::{WELLS_MAXIMUM_DIMENSION, WELLS_SMALL_ROWS, wells};
+use super::info::{Dimensions, MAXIMUM_DIMENSION, ParameterInfo, Parameters, TargetInfo};
+use super::making::{boxed, data_path, file_or, in_dimension, regression};
+use super::synthetic::synthetic_counts;
+use super::wells::{WELLS_MAXIMUM_DIMENSION, WELLS_SMALL_ROWS, wells};
 use crate::{
-    Arma, Banana, Cross, Eggbox, Funnel, Garch, Gaussian, GaussianMixture, GaussianProcess, GaussianShells,
-    HiddenMarkov, LinearModel, LogGamma, Logarithm, Logit, LotkaVolterra, NestedNormals, NormalMixture, Probit,
-    RandomTarget, RegressionData, Ring, Rosenbrock, Schools, SimpleLikelihood, SpikeSlab, StudentT, TargetError,
-    TwoMoons,
+    Arma, Banana, BoxedTarget, Cross, Eggbox, Funnel, Garch, Gaussian, GaussianMixture, GaussianProcess,
+    GaussianShells, HiddenMarkov, LinearModel, LogGamma, Logarithm, Logit, LotkaVolterra, NestedNormals, NormalMixture,
+    Probit, RandomTarget, RegressionData, Ring, Rosenbrock, Schools, SimpleLikelihood, SpikeSlab, StudentT,
+    TargetError, TwoMoons,
 };
 
 /// Every target of the catalogue, in the order of the documentation.

@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use crate::catalogue::{Dimensions, MAXIMUM_DIMENSION, Parameters};
-use crate::making::{BoxedTarget, data_path};
-use crate::synthetic::synthetic_counts;
-use crate::table::{make, target_info};
-use crate::wells::wells;
-use crate::{CountData, RegressionData, TargetError};
+use super::info::{Dimensions, MAXIMUM_DIMENSION, Parameters};
+use super::making::data_path;
+use super::synthetic::synthetic_counts;
+use super::table::{make, target_info};
+use super::wells::wells;
+use crate::{BoxedTarget, CountData, RegressionData, TargetError};
 
 /// The dimension of a target: `requested` if it exists there, else its only or its default dimension.
 ///
@@ -107,7 +107,8 @@ pub fn coordinate_names(
             let effects = (1..=dimension - 2).map(|school| format!("η_{{{school}}}"));
             Some(["μ", "log τ"].map(str::to_owned).into_iter().chain(effects).collect())
         }
-        _ => crate::posteriordb::coordinate_names(name).or_else(|| crate::sbibm::coordinate_names(name)),
+        _ => crate::catalogue::posteriordb::coordinate_names(name)
+            .or_else(|| crate::catalogue::sbibm::coordinate_names(name)),
     })
 }
 

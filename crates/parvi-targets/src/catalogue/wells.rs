@@ -3,7 +3,7 @@
 use crate::{RegressionData, TargetError};
 
 /// 3,020 households of Araihazar; see `data/README.md` for the columns and the source.
-const WELLS: &str = include_str!("../data/wells.csv");
+const WELLS: &str = include_str!("../../data/wells.csv");
 
 /// The largest nested model.
 pub const WELLS_MAXIMUM_DIMENSION: usize = 6;

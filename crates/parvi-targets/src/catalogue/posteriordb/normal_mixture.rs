@@ -24,7 +24,7 @@ impl NormalMixture {
     /// # Errors
     /// Those of [`Laplace::find`](crate::Laplace::find) and [`ImportanceSample::new`](crate::ImportanceSample::new).
     pub fn posterior() -> Result<ModelPosterior<Self, 5, 5>, TargetError> {
-        let file = include_str!("../../data/posteriordb/low_dim_gauss_mix.csv");
+        let file = include_str!("../../../data/posteriordb/low_dim_gauss_mix.csv");
         let responses = series("low_dim_gauss_mix.csv", file)?;
         let normal = centred_normal(2.0);
         let constraints = Constraints::builder().ordered(2).positive(2).bounded(1, 0.0, 1.0);

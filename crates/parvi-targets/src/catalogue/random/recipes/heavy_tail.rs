@@ -1,7 +1,7 @@
 //! Heavy tails.
 
 use super::parts::{boxed, pushed, wave};
-use crate::random::dice::Dice;
+use crate::catalogue::random::dice::Dice;
 use crate::{BoxedBijection, BoxedLaw, Skew, StudentT, TargetError};
 
 /// A multivariate t whose first axis is skewed, then a wave. The tails keep a finite variance: ν δ > 2.6.

@@ -2,7 +2,7 @@
 
 use super::parts::{boxed, placed, simple};
 use super::{modes, moons, plateau, ridge, spiral};
-use crate::random::dice::Dice;
+use crate::catalogue::random::dice::Dice;
 use crate::{BoxedLaw, ProductLaw, TargetError};
 
 /// A plane for every two coordinates, of equal or different families, and a line where D is odd. Half of them are planes of two

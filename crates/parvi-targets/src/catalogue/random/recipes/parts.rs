@@ -2,7 +2,7 @@
 
 use mpm_tensor::Matrix;
 
-use crate::random::dice::Dice;
+use crate::catalogue::random::dice::Dice;
 use crate::{
     Affine, AxisLaw, BoxedBijection, BoxedLaw, Law, ProductLaw, Profile, PushForward, Shear, StudentT, TargetError,
 };

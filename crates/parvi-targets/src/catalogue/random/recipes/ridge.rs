@@ -1,7 +1,7 @@
 //! Thin curved ridges.
 
 use super::parts::{bend, line, long_first, pushed, wave};
-use crate::random::dice::Dice;
+use crate::catalogue::random::dice::Dice;
 use crate::{BoxedLaw, TargetError};
 
 /// A long piece, 1 to 2 along and 0.03 to 0.4 across, that bends or waves into one or more of the other axes; sometimes a
