@@ -62,6 +62,7 @@ outcome! {
     log_evidence: Option<f64>,
     log_evidence_error: Option<f64>,
     pareto_k: Option<f64>,
+    unseen: Option<f64>,
     certificate: Option<Certificate>,
     trace: Vec<TracePoint>,
 }
@@ -156,6 +157,7 @@ pub fn sample_target<const D: usize>(
         &mut outcome.log_evidence_error,
         &mut outcome.log_evidence_deviation,
         &mut outcome.pareto_k,
+        &mut outcome.unseen,
         &mut outcome.score_disagreement,
         &mut outcome.residual,
         &mut outcome.spacing,

@@ -152,8 +152,13 @@ impl<const D: usize> Adaptation<D> {
         if self.met == 0 {
             f64::INFINITY
         } else {
-            (self.searched as f64 - met) / met
+            self.searched_in_vain() as f64 / met
         }
+    }
+
+    /// Evaluations of searches since they last met a piece.
+    pub fn searched_in_vain(&self) -> u64 {
+        self.searched - self.met
     }
 
     /// Takes fresh points in after all: they met what the rounds had not.

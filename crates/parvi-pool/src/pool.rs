@@ -15,6 +15,9 @@ use crate::referee::{Objection, Verdict};
 use crate::sample::moments;
 use crate::weights::effective_size;
 
+/// Probability with which a piece that is seen from a share [`Pool::unseen`] of all draws is overlooked.
+const OVERLOOKED: f64 = 0.05;
+
 /// The points of all proposals but those of the first rounds that had few effective points and of the scouts, with weights.
 #[derive(Clone)]
 pub struct Pool<const D: usize> {
@@ -34,6 +37,8 @@ pub struct Pool<const D: usize> {
     pub verdict: Verdict,
     /// Evaluations of searches since they last met a piece, over those before; infinite where they met none.
     pub quiet: f64,
+    /// Evaluations of searches since they last met a piece.
+    pub searched: u64,
     /// Points at which log p was evaluated.
     pub density_evaluations: u64,
     /// Points at which the score was evaluated.
@@ -87,6 +92,7 @@ impl<const D: usize> Pool<D> {
             log_evidence_error,
             verdict,
             quiet: adaptation.quiet(),
+            searched: adaptation.searched_in_vain(),
             density_evaluations: density.density_evaluations,
             score_evaluations: density.score_evaluations,
             values_replaced: density.replaced,
@@ -113,6 +119,12 @@ impl<const D: usize> Pool<D> {
         let variance = self.measure.variance * particles as f64;
         let objection = self.verdict.objection(self.log_evidence_error, variance);
         objection.or((self.quiet < QUIET).then_some(Objection::Searching(self.quiet)))
+    }
+
+    /// What searches can have overlooked: the share v of their law's draws from which a piece is seen, such that with probability 0.05 none of the `n` that met
+    /// nothing was one, (1 − v)ⁿ = 0.05; about 3/n. A piece that is seen from more of them is known, with 95 % confidence.
+    pub fn unseen(&self) -> f64 {
+        1.0 - OVERLOOKED.powf(1.0 / self.searched as f64)
     }
 
     /// Kish's effective size of the weights.

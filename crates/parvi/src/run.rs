@@ -103,6 +103,9 @@ pub struct Samples<const D: usize> {
     pub log_evidence_error: Option<f64>,
     /// Shape k̂ of the tail of the importance weights, where there are such and they have one: above 0.7 nothing that rests on them is to be relied on.
     pub pareto_k: Option<f64>,
+    /// The share of a wide law from which a piece of the target would have to be seen to be known of with 95 % confidence ([`Pool::unseen`]), where the method searches
+    /// for pieces.
+    pub unseen: Option<f64>,
     /// The weighted pool, where the method has one.
     pub pool: Option<Box<Pool<D>>>,
     /// How good the particles are, as far as the method can tell.

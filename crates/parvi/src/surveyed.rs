@@ -42,6 +42,7 @@ pub(crate) fn sample<const D: usize>(
     samples.log_evidence = Some(pool.log_evidence);
     samples.log_evidence_error = Some(pool.log_evidence_error);
     samples.pareto_k = pool.verdict.pareto_k;
+    samples.unseen = Some(pool.unseen());
     samples.pool = Some(Box::new(pool));
     Ok(Some(samples))
 }

@@ -85,7 +85,7 @@ fn standard_output_has_the_keys_of_the_contract() {
         directory.path(),
         "sample --target gaussian --dim 2 --particles 200 --method ais --out x.csv",
     );
-    insta::assert_snapshot!(keys(&stdout(&output)).join(" "), @"method steps score_evaluations density_evaluations log_evidence log_evidence_error pareto_k wall_seconds peak_memory_bytes outcome mean_error sd_error unexplained drift target dim particles seed");
+    insta::assert_snapshot!(keys(&stdout(&output)).join(" "), @"method steps score_evaluations density_evaluations log_evidence log_evidence_error pareto_k unseen wall_seconds peak_memory_bytes outcome mean_error sd_error unexplained drift target dim particles seed");
 
     let output = parvi(
         directory.path(),

@@ -53,6 +53,8 @@ fn what_searches_met_of_late_is_followed_by_quiet_or_an_objection() {
     // Searches of this seed meet both needles.
     let mut pool = pool_of(&target, 500, 2).unwrap();
     assert!(pool.quiet.is_finite() && pool.quiet >= 2.0, "{}", pool.quiet);
+    let overlooked = (1.0 - pool.unseen()).powf(pool.searched as f64);
+    assert!(pool.searched > 1000 && (overlooked - 0.05).abs() < 1e-9, "{overlooked}");
     assert_eq!(pool.objection(500), None, "{pool:?}");
     pool.quiet = 1.9;
     assert_eq!(pool.objection(500), Some(Objection::Searching(1.9)));

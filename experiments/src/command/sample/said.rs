@@ -58,6 +58,7 @@ pub fn pairs(arguments: &Arguments, outcome: &Outcome, peak_memory: Option<u64>)
         ("log_evidence_error", text(outcome.log_evidence_error)),
         ("score_disagreement", text(outcome.score_disagreement)),
         ("pareto_k", text(outcome.pareto_k)),
+        ("unseen", text(outcome.unseen)),
         ("wall_seconds", Some(format!("{:.6}", outcome.wall_seconds))),
         ("best_step", watched(|seen| seen.best_step.to_string())),
         ("best_monitor", watched(|seen| seen.best_value.to_string())),
