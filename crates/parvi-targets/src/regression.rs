@@ -52,8 +52,8 @@ impl<L: Link, const D: usize> Regression<L, D> {
         data: RegressionTable<L::Response>,
         prior_standard_deviations: [f64; D],
     ) -> Result<Self, TargetError> {
+        let posterior = Posterior::<L, D>::new(&data)?;
         let mut precision = [0.0; D];
-        let posterior = Posterior::<L, D>::new(&data, precision)?;
         for (k, &s) in prior_standard_deviations.iter().enumerate() {
             if s != f64::INFINITY {
                 let field = format!("the prior standard deviation of '{}'", data.names()[k]);
@@ -61,13 +61,13 @@ impl<L: Link, const D: usize> Regression<L, D> {
                 crate::error::finite(&format!("the inverse square of {field}"), precision[k])?;
             }
         }
-        let posterior = Posterior { precision, ..posterior };
+        let posterior = posterior.with_priors(precision);
         let flat = precision.map(|precision| precision == 0.0);
         check_independence(&data, &posterior.rows, &flat)?;
         if flat.contains(&true) {
             // Overlap is a matter of the data, and the canonical link's Newton steps tell it most clearly.
-            let canonical = Posterior::<<L::Response as Response>::Canonical, D>::new(&data, precision)?;
-            check_overlap(&data, &canonical)?;
+            let canonical = Posterior::<<L::Response as Response>::Canonical, D>::new(&data)?;
+            check_overlap(&data, &canonical.with_priors(precision))?;
         }
         let laplace = Laplace::find(name, &posterior, [0.0; D])?;
         Ok(Self {

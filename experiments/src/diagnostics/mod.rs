@@ -87,15 +87,23 @@ struct Quantile {
     standard_error: f64,
 }
 
-/// Looks at the particles of a run.
+/// Looks at the particles of a run, whose coordinates are called `names`.
 ///
 /// # Errors
 /// Particles or scores that are not finite.
-pub fn diagnose(target: &TargetSpecification, outcome: &Outcome) -> Result<Diagnostics, CommandError> {
-    on_target!(target, target, D => of_target::<D>(target.as_ref(), outcome))
+pub fn diagnose(
+    target: &TargetSpecification,
+    outcome: &Outcome,
+    names: &[String],
+) -> Result<Diagnostics, CommandError> {
+    on_target!(target, target, D => of_target::<D>(target.as_ref(), outcome, names))
 }
 
-fn of_target<const D: usize>(target: &dyn CatalogueTarget<D>, outcome: &Outcome) -> Result<Diagnostics, CommandError> {
+fn of_target<const D: usize>(
+    target: &dyn CatalogueTarget<D>,
+    outcome: &Outcome,
+    names: &[String],
+) -> Result<Diagnostics, CommandError> {
     let particles = &outcome.particles;
     let points = particles.points::<D>().unwrap_or_default();
     let weights = particles.weights();
@@ -110,7 +118,7 @@ fn of_target<const D: usize>(target: &dyn CatalogueTarget<D>, outcome: &Outcome)
         _ => of_expectations(target, &points, weights),
     };
     let tails = tails(&cloud, size)?;
-    let coordinates = moments.into_iter().zip(tails).enumerate();
+    let coordinates = moments.into_iter().zip(tails).zip(names);
     Ok(Diagnostics {
         particles: points.len(),
         effective_sample_size: size,
@@ -125,8 +133,8 @@ fn of_target<const D: usize>(target: &dyn CatalogueTarget<D>, outcome: &Outcome)
         residual: outcome.residual,
         kernel_stein_discrepancy: discrepancy(target, &points, weights)?,
         coordinates: coordinates
-            .map(|(axis, ((mean, standard_deviation), quantiles))| Coordinate {
-                name: format!("x{}", axis + 1),
+            .map(|(((mean, standard_deviation), quantiles), name)| Coordinate {
+                name: name.clone(),
                 mean,
                 standard_deviation,
                 quantiles,

@@ -113,9 +113,9 @@ options! {
     rounds: RoundCount = "N",
     /// More particles than their share for light parts of the target, with weights; after a survey [default: off]
     weighted: Switch,
-    /// Judge the particles at the end (mpm, paper-*) [default: on]
+    /// What is done about a particle whose score is not finite [default: pull-back]
     non_finite: NonFinite,
-    /// Judge the particles at the end
+    /// Judge the particles at the end (mpm, paper-*) [default: on]
     certificate: Switch,
     /// The algorithms exactly as the paper writes them: the target's own coordinates, no guard; every departure can be set beside it
     #[arg(num_args = 0..=1, default_missing_value = "on")]

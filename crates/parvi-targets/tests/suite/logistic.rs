@@ -2,6 +2,8 @@
 
 use parvi_targets::{CatalogueTarget, Curvature, LogisticRegression, RegressionData, Target, TargetError, wells};
 
+use crate::support::log_prior;
+
 /// Coefficients of moderate size, different for every particle and axis.
 fn particles<const D: usize>(count: usize) -> Vec<[f64; D]> {
     (0..count)
@@ -83,7 +85,7 @@ fn agrees_with_the_definition() {
     let (scores, densities) = (scores(&target, &xs), log_densities(&target, &xs));
     for (p, beta) in xs.iter().enumerate() {
         let mut score = beta.map(|b| -b / 100.0);
-        let mut density = -beta.iter().map(|b| b * b).sum::<f64>() / 200.0;
+        let mut density = log_prior(beta, 10.0);
         for (row, &response) in data.responses().iter().enumerate() {
             let x = data.covariates(row).unwrap();
             let logit: f64 = x.iter().zip(beta).map(|(x, b)| x * b).sum();
@@ -100,6 +102,36 @@ fn agrees_with_the_definition() {
             assert!((target.score(beta)[k] - score[k]).abs() < 1e-11);
         }
     }
+}
+
+/// A balanced column ±1 on an intercept: two independent predictors, whose evidence is the mean of the likelihood over the prior.
+#[test]
+fn the_integral_of_the_density_is_the_evidence() {
+    let rows: Vec<(bool, Vec<f64>)> = (0..12)
+        .map(|i| (i % 3 == 0, vec![f64::from(i % 2) * 2.0 - 1.0]))
+        .collect();
+    let data = RegressionData::new("two groups", &["side"], &rows).unwrap();
+    let target = LogisticRegression::<2>::with_prior("two groups", data, 1.5).unwrap();
+    let (mut integral, mut mean, mut mass) = (0.0, 0.0, 0.0);
+    let step = 0.05;
+    let places = (-240..=240).map(|k| f64::from(k) * step);
+    for a in places.clone() {
+        for b in places.clone() {
+            let prior = (-0.5 * (a * a + b * b) / 2.25).exp();
+            let likelihood = |(yes, x): &(bool, Vec<f64>)| {
+                let margin = if *yes { 1.0 } else { -1.0 } * (a + b * x[0]);
+                1.0 / (1.0 + (-margin).exp())
+            };
+            mean += prior * rows.iter().map(likelihood).product::<f64>();
+            mass += prior;
+            integral += target.log_density(&[a, b]).exp() * step * step;
+        }
+    }
+    assert!(
+        (integral / (mean / mass) - 1.0).abs() < 1e-9,
+        "{integral}, {}",
+        mean / mass
+    );
 }
 
 #[test]

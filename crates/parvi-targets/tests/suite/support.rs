@@ -8,3 +8,9 @@ pub fn with(change: impl FnOnce(&mut Parameters)) -> Parameters {
     change(&mut parameters);
     parameters
 }
+
+/// log Π N(β_k; 0, s²).
+pub fn log_prior<const D: usize>(beta: &[f64; D], deviation: f64) -> f64 {
+    let constant = (deviation * std::f64::consts::TAU.sqrt()).ln();
+    beta.iter().map(|b| -0.5 * (b / deviation).powi(2) - constant).sum()
+}

@@ -16,6 +16,7 @@ use crate::options::{
     Dimension, MethodName, MethodOptions, OptionError, ParticleCount, StepCount, TargetParameters, TargetSpecification,
     owners,
 };
+use crate::output::particles_csv::column_names;
 use crate::output::{AtomicFile, FrameWriter, NumberTable, OutputDirectory, ParticleFile, ParticleFormat};
 use crate::pictures::{History, Subject};
 use crate::progress::Bar;
@@ -129,7 +130,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     watch.progress.clear();
     let outcome = sampled.map_err(|error| watch.reason(of_flags(error)))?;
     if let Some(mut diagnostics) = diagnostics {
-        let content = diagnose(&target, &outcome)?;
+        let content = diagnose(&target, &outcome, &column_names(&names, dimension))?;
         diagnostics.fill(|writer| Ok(serde_json::to_writer_pretty(writer, &content)?))?;
         diagnostics.commit()?;
     }
