@@ -4,6 +4,8 @@
 //! One thread unless `RAYON_NUM_THREADS` says otherwise. `src/bin/time_mechanics.rs` tells the median of few steps, without
 //! building parvi.
 
+mod support;
+
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group};
 use mpm_core::{Apic, Flip, Mls, Pic, Transfer};
 use parvi_benches::elastic_block::{Order, block, control};
@@ -37,11 +39,7 @@ fn benches(c: &mut Criterion) {
 }
 
 fn main() {
-    let threads = std::env::var("RAYON_NUM_THREADS").map_or(1, |n| n.parse().expect("a number of threads"));
-    rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build_global()
-        .expect("the first pool");
+    support::one_thread_unless_told();
     mechanics();
     Criterion::default().configure_from_args().final_summary();
 }

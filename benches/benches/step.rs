@@ -2,6 +2,8 @@
 //!
 //! One thread unless `RAYON_NUM_THREADS` says otherwise.
 
+mod support;
+
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group};
 use mpm_core::{
     BodyForce, ForceLocation, Mpm, MpmError, Particles, Pic, SimplexLattice, Sites, SplineGrid, StepControl,
@@ -122,11 +124,7 @@ fn benches(c: &mut Criterion) {
 }
 
 fn main() {
-    let threads = std::env::var("RAYON_NUM_THREADS").map_or(1, |n| n.parse().expect("a number of threads"));
-    rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build_global()
-        .expect("the first pool");
+    support::one_thread_unless_told();
     step();
     Criterion::default().configure_from_args().final_summary();
 }

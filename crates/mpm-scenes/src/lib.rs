@@ -22,6 +22,7 @@ mod snapshot;
 mod toml_value;
 mod validation_row;
 mod values;
+pub mod variation;
 mod velocity;
 
 pub use error::{SceneError, SceneFault};

@@ -2,29 +2,21 @@
 
 use crate::error::finite;
 use crate::lanes::Lanes;
-use crate::pair_sum::{Packed, PackedWeights, PairFunction, cross_sum, squared_distances, symmetric_sum};
+use crate::pair_sum::{OfDistance, Packed, PackedWeights, cross_sum, symmetric_sum};
 use crate::sorted::SortedSample;
 use crate::{Cloud, MetricError};
 
 const NAME: &str = "the energy distance";
 
 /// |x_i − y_j|.
-struct Distance<'a, const D: usize> {
-    rows: &'a [[f64; D]],
+fn distance<'a, const D: usize>(
+    cloud: &'a Cloud<'_, D>,
     columns: &'a Packed<D>,
-}
-
-impl<const D: usize> PairFunction for Distance<'_, D> {
-    type Row = [f64; D];
-
-    #[inline]
-    fn row(&self, index: usize) -> [f64; D] {
-        self.rows[index]
-    }
-
-    #[inline]
-    fn evaluate(&self, x: &[f64; D], group: usize) -> Lanes {
-        squared_distances(x, self.columns.group(group)).map(f64::sqrt)
+) -> OfDistance<'a, impl Fn(Lanes) -> Lanes, D> {
+    OfDistance {
+        rows: cloud.points(),
+        columns,
+        function: |squares: Lanes| squares.map(f64::sqrt),
     }
 }
 
@@ -62,20 +54,13 @@ pub fn mean_pair_distance<const D: usize>(cloud: &Cloud<'_, D>) -> Result<f64, M
 
 /// Σ_ij w_i w_j ‖x_i − x_j‖.
 fn pair_distances<const D: usize>(cloud: &Cloud<'_, D>) -> f64 {
-    let function = Distance {
-        rows: cloud.points(),
-        columns: &Packed::new(cloud.points()),
-    };
-    symmetric_sum(&function, &PackedWeights::new(cloud))
+    let points = Packed::new(cloud.points());
+    symmetric_sum(&distance(cloud, &points), &PackedWeights::new(cloud))
 }
 
 /// Σ_ij w_i u_j ‖x_i − y_j‖ for points y_j of weights u_j.
 fn cross_distances<const D: usize>(cloud: &Cloud<'_, D>, points: &Packed<D>, weights: &PackedWeights) -> f64 {
-    let function = Distance {
-        rows: cloud.points(),
-        columns: points,
-    };
-    cross_sum(&function, &PackedWeights::new(cloud), weights)
+    cross_sum(&distance(cloud, points), &PackedWeights::new(cloud), weights)
 }
 
 /// Squared energy distance between two clouds, both as they are (V-statistics):

@@ -2,40 +2,29 @@
 
 use crate::error::finite;
 use crate::lanes::{Lanes, negative_exponential};
-use crate::pair_sum::{Packed, PackedWeights, PairFunction, cross_sum, squared_distances, symmetric_sum};
+use crate::pair_sum::{OfDistance, Packed, PackedWeights, cross_sum, symmetric_sum};
 use crate::{Cloud, MetricError, RadialKernel};
 
 const NAME: &str = "the maximum mean discrepancy";
 
-/// exp(−|x_i − y_j|² rate).
-struct Kernel<'a, const D: usize> {
-    rate: f64,
-    rows: &'a [[f64; D]],
+/// k(x_i, y_j) = exp(−|x_i − y_j|² rate).
+fn pairs<'a, const D: usize>(
+    kernel: &RadialKernel,
+    cloud: &'a Cloud<'_, D>,
     columns: &'a Packed<D>,
-}
-
-impl<const D: usize> PairFunction for Kernel<'_, D> {
-    type Row = [f64; D];
-
-    #[inline]
-    fn row(&self, index: usize) -> [f64; D] {
-        self.rows[index]
-    }
-
-    #[inline]
-    fn evaluate(&self, x: &[f64; D], group: usize) -> Lanes {
-        negative_exponential(&squared_distances(x, self.columns.group(group)).map(|square| square * self.rate))
+) -> OfDistance<'a, impl Fn(Lanes) -> Lanes, D> {
+    let rate = kernel.rate();
+    OfDistance {
+        rows: cloud.points(),
+        columns,
+        function: move |squares: Lanes| negative_exponential(&squares.map(|square| square * rate)),
     }
 }
 
 /// Σ_ij w_i w_j k(x_i, x_j), the diagonal included.
 pub(crate) fn mean_kernel<const D: usize>(cloud: &Cloud<'_, D>, kernel: &RadialKernel) -> f64 {
-    let function = Kernel {
-        rate: kernel.rate(),
-        rows: cloud.points(),
-        columns: &Packed::new(cloud.points()),
-    };
-    symmetric_sum(&function, &PackedWeights::new(cloud))
+    let points = Packed::new(cloud.points());
+    symmetric_sum(&pairs(kernel, cloud, &points), &PackedWeights::new(cloud))
 }
 
 /// The squared maximum mean discrepancy between two clouds, both as they are (V-statistics):
@@ -56,11 +45,8 @@ pub fn maximum_mean_discrepancy_squared<const D: usize>(
     second: &Cloud<'_, D>,
     kernel: &RadialKernel,
 ) -> Result<f64, MetricError> {
-    let function = Kernel {
-        rate: kernel.rate(),
-        rows: first.points(),
-        columns: &Packed::new(second.points()),
-    };
+    let points = Packed::new(second.points());
+    let function = pairs(kernel, first, &points);
     let cross = cross_sum(&function, &PackedWeights::new(first), &PackedWeights::new(second));
     finite(
         NAME,
@@ -105,11 +91,7 @@ impl<const D: usize> DiscrepancyReference<D> {
     /// # Errors
     /// [`MetricError::Overflow`] if a term is not finite.
     pub fn squared(&self, cloud: &Cloud<'_, D>) -> Result<f64, MetricError> {
-        let function = Kernel {
-            rate: self.kernel.rate(),
-            rows: cloud.points(),
-            columns: &self.points,
-        };
+        let function = pairs(&self.kernel, cloud, &self.points);
         let cross = cross_sum(&function, &PackedWeights::new(cloud), &self.weights);
         finite(NAME, mean_kernel(cloud, &self.kernel) + self.mean_kernel - 2.0 * cross)
     }

@@ -62,6 +62,27 @@ pub(crate) trait PairFunction: Sync {
     fn evaluate(&self, row: &Self::Row, group: usize) -> Lanes;
 }
 
+/// A function of the squared distance |x_i − y_j|².
+pub(crate) struct OfDistance<'a, F, const D: usize> {
+    pub rows: &'a [[f64; D]],
+    pub columns: &'a Packed<D>,
+    pub function: F,
+}
+
+impl<F: Fn(Lanes) -> Lanes + Sync, const D: usize> PairFunction for OfDistance<'_, F, D> {
+    type Row = [f64; D];
+
+    #[inline]
+    fn row(&self, index: usize) -> [f64; D] {
+        self.rows[index]
+    }
+
+    #[inline]
+    fn evaluate(&self, x: &[f64; D], group: usize) -> Lanes {
+        (self.function)(squared_distances(x, self.columns.group(group)))
+    }
+}
+
 /// Normalised weights of rows or columns, padded with zeros to whole groups.
 pub(crate) struct PackedWeights {
     count: usize,

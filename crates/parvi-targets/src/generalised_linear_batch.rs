@@ -9,7 +9,7 @@ use mpm_parallel::each;
 
 use crate::Link;
 use crate::exponential::with_widest_vectors;
-use crate::link::PARTICLES_PER_GROUP as GROUP;
+use crate::link::{PARTICLES_PER_GROUP as GROUP, slopes};
 use crate::posterior::Posterior;
 
 /// Rows in a block.
@@ -115,7 +115,7 @@ pub(crate) fn scores<L: Link, const D: usize>(posterior: &Posterior<L, D>, xs: &
         let mut buffers = Buffers::new::<D>();
         buffers.load(xs);
         for rows in posterior.rows.chunks(BLOCK) {
-            L::slopes(buffers.predictors_of(rows));
+            slopes::<L>(buffers.predictors_of(rows));
             buffers.add_scores(rows);
         }
         for (particle, (x, score)) in xs.iter().zip(out).enumerate() {

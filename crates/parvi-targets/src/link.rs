@@ -3,6 +3,7 @@
 use std::fmt::Debug;
 
 use crate::Response;
+use crate::exponential::with_widest_vectors;
 
 /// Particles whose predictors are computed together, the last group of a batch filled up.
 pub const PARTICLES_PER_GROUP: usize = 64;
@@ -10,8 +11,7 @@ pub const PARTICLES_PER_GROUP: usize = 64;
 /// The part ℓ(t) of a row's log likelihood that is not linear in its predictor t = b(y) xᵀβ (see [`Response`]), concave,
 /// with ℓ′ and −ℓ″ finite for every finite t.
 ///
-/// A link of one's own needs the three scalar functions; the two for whole blocks of predictors may be overridden by forms
-/// that vectorise.
+/// A link of one's own needs the three scalar functions; the other two may be overridden by forms that vectorise.
 pub trait Link: Copy + Debug + Send + Sync + 'static {
     /// The responses that the likelihood is for.
     type Response: Response;
@@ -25,11 +25,10 @@ pub trait Link: Copy + Debug + Send + Sync + 'static {
     /// −ℓ″(t) ≥ 0, without cancellation in either tail.
     fn curvature(t: f64) -> f64;
 
-    /// t ↦ ℓ′(t) in place.
-    fn slopes(predictors: &mut [f64]) {
-        for t in predictors {
-            *t = Self::slope(*t);
-        }
+    /// ℓ′(t) as it is taken of many predictors side by side; by default [`slope`](Self::slope). Best inlined.
+    #[inline(always)]
+    fn slope_among_many(t: f64) -> f64 {
+        Self::slope(t)
     }
 
     /// `sums[p]` += Σ_r ℓ(`predictors[r][p]`) over rows r, for each particle p of a group.
@@ -42,4 +41,16 @@ pub trait Link: Copy + Debug + Send + Sync + 'static {
             }
         }
     }
+}
+
+/// t ↦ ℓ′(t) in place.
+pub(crate) fn slopes<L: Link>(predictors: &mut [f64]) {
+    with_widest_vectors(
+        #[inline(always)]
+        || {
+            for t in predictors {
+                *t = L::slope_among_many(*t);
+            }
+        },
+    );
 }

@@ -29,15 +29,9 @@ impl Link for Logarithm {
         if t > LARGEST_PREDICTOR { 0.0 } else { t.exp() }
     }
 
-    fn slopes(predictors: &mut [f64]) {
-        with_widest_vectors(
-            #[inline(always)]
-            || {
-                for t in predictors {
-                    *t = -exponential(held(*t));
-                }
-            },
-        );
+    #[inline(always)]
+    fn slope_among_many(t: f64) -> f64 {
+        -exponential(held(t))
     }
 
     fn add_log_likelihoods(predictors: &[[f64; PARTICLES_PER_GROUP]], sums: &mut [f64; PARTICLES_PER_GROUP]) {

@@ -26,15 +26,9 @@ impl Link for Logit {
         small / ((1.0 + small) * (1.0 + small))
     }
 
-    fn slopes(predictors: &mut [f64]) {
-        with_widest_vectors(
-            #[inline(always)]
-            || {
-                for t in predictors {
-                    *t = 1.0 / (1.0 + exponential(*t));
-                }
-            },
-        );
+    #[inline(always)]
+    fn slope_among_many(t: f64) -> f64 {
+        1.0 / (1.0 + exponential(t))
     }
 
     /// −log(1 + e^−t) = min(t, 0) − log(1 + e^−|t|), and the logarithm is taken once per 128 rows, of the product: as many

@@ -27,6 +27,7 @@ impl Link for Probit {
         log_normal_distribution(t)
     }
 
+    #[inline(always)]
     fn slope(t: f64) -> f64 {
         inverse_mills_ratio(t)
     }
@@ -40,17 +41,6 @@ impl Link for Probit {
             let ratio = inverse_mills_ratio(t);
             ratio * (t + ratio)
         }
-    }
-
-    fn slopes(predictors: &mut [f64]) {
-        with_widest_vectors(
-            #[inline(always)]
-            || {
-                for t in predictors {
-                    *t = inverse_mills_ratio(*t);
-                }
-            },
-        );
     }
 
     fn add_log_likelihoods(predictors: &[[f64; PARTICLES_PER_GROUP]], sums: &mut [f64; PARTICLES_PER_GROUP]) {

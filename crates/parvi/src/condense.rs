@@ -5,7 +5,7 @@ use parvi_targets::CatalogueTarget;
 
 use crate::drive::finite;
 use crate::exact::exact_draws;
-use crate::start::{check, steps};
+use crate::start::{check, not_negative, steps};
 use crate::stein_thinning::GreedyChoice;
 use crate::support_points::ConvexConcave;
 use crate::view::Moment;
@@ -89,9 +89,7 @@ impl SupportPointsOptions {
         let count = run.particles_of("support-points")?;
         let size = pool_size(self.pool_size, count)?;
         let steps = steps(self.steps, defaults::SUPPORT_POINTS_STEPS)?;
-        let tolerance = self.tolerance;
-        let allowed = tolerance >= 0.0 && tolerance.is_finite();
-        check("tolerance", tolerance, allowed, "finite and at least 0")?;
+        let tolerance = not_negative("tolerance", self.tolerance)?;
         let covariance = target.frame().covariance();
         let scales: [f64; D] = std::array::from_fn(|a| covariance.0[a][a].sqrt());
         let scaled = |stream, count| -> Result<Vec<[f64; D]>, SampleError> {

@@ -41,7 +41,7 @@ mod svgd;
 mod view;
 mod watching;
 
-pub use certificate::{Certificate, Expectation, MomentEstimate, Outcome, expectation};
+pub use certificate::{Certificate, EstimatedMoment, Expectation, MomentEstimate, Outcome, expectation};
 pub use checkpoint::Checkpoint;
 pub use compiled::sample;
 pub use exact::{independent_draws, sobol_points};

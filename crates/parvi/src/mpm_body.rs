@@ -11,7 +11,7 @@ use crate::driven::Driven;
 use crate::guard::RETRIES;
 use crate::kronecker::Kronecker;
 use crate::rotation::random_rotation;
-use crate::start::{Stream, check, checked_transfer, positive, steps};
+use crate::start::{Stream, checked_transfer, not_negative, positive, steps};
 use crate::{Annealing, MpmOptions, Observer, Run, SampleError, defaults};
 
 /// One body, and what every layer of the dispatch hands on.
@@ -106,13 +106,7 @@ impl Motion {
         checked_transfer(options.transfer)?;
         options.spacing_schedule.check()?;
         options.settling.check()?;
-        let friction = options.friction.unwrap_or(defaults::FRICTION);
-        check(
-            "friction",
-            friction,
-            friction >= 0.0 && friction.is_finite(),
-            "at least 0 and finite",
-        )?;
+        let friction = not_negative("friction", options.friction.unwrap_or(defaults::FRICTION))?;
         Ok(Self {
             steps: steps(options.steps, defaults::steps(particles))?,
             control: StepControl {

@@ -9,7 +9,7 @@ use crate::certificate::Certificate;
 use crate::checkpoint::Journal;
 use crate::drive::{Plan, drive};
 use crate::kronecker::Kronecker;
-use crate::start::{Stream, check, checked_transfer, positive, steps};
+use crate::start::{Stream, check, checked_transfer, not_negative, positive, steps};
 use crate::stretch_limit::StretchLimited;
 use crate::watching::Watching;
 use crate::{
@@ -150,16 +150,7 @@ impl<const D: usize> Job<'_, D> {
             time_step: positive("time step", options.time_step, defaults::time_step(spacing))?,
             courant: optional("Courant number", guards.courant)?,
             displacement: optional("displacement limit", guards.displacement_limit)?,
-            friction: {
-                let friction = options.friction;
-                check(
-                    "friction",
-                    friction,
-                    friction >= 0.0 && friction.is_finite(),
-                    "at least 0 and finite",
-                )?;
-                friction
-            },
+            friction: not_negative("friction", options.friction)?,
         })
     }
 
@@ -216,13 +207,7 @@ impl<const D: usize> Job<'_, D> {
             .enumerate()
             .map(|(p, &volume)| virgin(masses.get(p), volume))
             .collect();
-        let floor = options.guards.mass_floor;
-        check(
-            "mass floor",
-            floor,
-            floor >= 0.0 && floor.is_finite(),
-            "at least 0 and finite",
-        )?;
+        let floor = not_negative("mass floor", options.guards.mass_floor)?;
         let nodal = options.score_location == ScoreLocation::Nodes;
         let force = ScoreForce {
             location: options.score_location,

@@ -173,8 +173,10 @@ pub struct Progress {
 
 /// Watches a run; a return of `Break` stops it with [`SampleError::Interrupted`].
 pub trait Observer {
-    /// Called after every step.
-    fn after_step(&mut self, progress: Progress) -> ControlFlow<()>;
+    /// Called after every step. The default goes on.
+    fn after_step(&mut self, _progress: Progress) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
 
     /// Called with the particles where a body begins and after every step that moved them, before [`after_step`](Self::after_step).
     ///
@@ -191,11 +193,7 @@ pub trait Observer {
 /// Watches nothing.
 pub struct Silent;
 
-impl Observer for Silent {
-    fn after_step(&mut self, _progress: Progress) -> ControlFlow<()> {
-        ControlFlow::Continue(())
-    }
-}
+impl Observer for Silent {}
 
 impl SampleError {
     /// The same failure, said of a step of a run.

@@ -52,13 +52,7 @@ impl Run {
 
     /// The start law, checked to be one.
     pub(crate) fn checked_start(&self) -> Result<Start, SampleError> {
-        let sd = self.start.standard_deviation;
-        check(
-            "start standard deviation",
-            sd,
-            sd > 0.0 && sd.is_finite(),
-            "positive and finite",
-        )?;
+        positive("start standard deviation", Some(self.start.standard_deviation), 0.0)?;
         check("start mean", self.start.mean, self.start.mean.is_finite(), "finite")?;
         Ok(self.start)
     }
@@ -136,6 +130,12 @@ pub(crate) fn check(field: &'static str, value: f64, allowed: bool, expected: &'
 pub(crate) fn positive(field: &'static str, value: Option<f64>, default: f64) -> Result<f64, SampleError> {
     let value = value.unwrap_or(default);
     check(field, value, value > 0.0 && value.is_finite(), "positive and finite")?;
+    Ok(value)
+}
+
+/// `value`, checked to be finite and not negative.
+pub(crate) fn not_negative(field: &'static str, value: f64) -> Result<f64, SampleError> {
+    check(field, value, value >= 0.0 && value.is_finite(), "at least 0 and finite")?;
     Ok(value)
 }
 

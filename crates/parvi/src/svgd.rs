@@ -6,7 +6,7 @@ use parvi_targets::{Frame, Target};
 use rand::seq::index;
 
 use crate::drive::finite;
-use crate::start::{check, positive, steps};
+use crate::start::{positive, steps};
 use crate::view::Moment;
 use crate::{Observer, Progress, Run, SampleError, Samples, SvgdOptions, TracePoint, defaults};
 
@@ -29,12 +29,7 @@ impl SvgdOptions {
         let steps = steps(self.steps, defaults::SVGD_STEPS)?;
         let rate = positive("step size", Some(self.step_size), 0.0)?;
         if let Some(bandwidth) = self.bandwidth {
-            check(
-                "bandwidth",
-                bandwidth,
-                bandwidth > 0.0 && bandwidth.is_finite(),
-                "positive and finite",
-            )?;
+            positive("bandwidth", Some(bandwidth), 0.0)?;
         }
         run.given.check_taken("svgd", true)?;
         let mut positions = run.begin(frame)?;

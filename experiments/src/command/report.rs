@@ -33,7 +33,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     study::report(&arguments.directory)
 }
 
-#[cfg(all(test, feature = "rom"))]
+#[cfg(all(test, feature = "mechanics", feature = "rom"))]
 mod tests {
     #[test]
     fn a_model_is_found_by_the_name_that_training_gives_it() {

@@ -1,6 +1,6 @@
 //! Mean and standard deviation of every coordinate, with what is known of their errors.
 
-use parvi::{Certificate, Expectation, MomentEstimate, Samples, expectation};
+use parvi::{Certificate, EstimatedMoment, Expectation, MomentEstimate, Samples, expectation};
 use parvi_targets::CatalogueTarget;
 use serde::Serialize;
 
@@ -17,24 +17,20 @@ pub struct Moment {
     pub unexplained: Option<f64>,
 }
 
+impl From<EstimatedMoment> for Moment {
+    fn from(known: EstimatedMoment) -> Self {
+        Self {
+            value: known.value,
+            estimate: Some(known.estimate),
+            standard_error: Some(known.standard_error),
+            unexplained: Some(known.unexplained),
+        }
+    }
+}
+
 /// Mean and standard deviation of every coordinate, as the certificate has them.
 pub fn of_certificate(certificate: &Certificate) -> Vec<(Moment, Moment)> {
-    let of = |value, estimate, standard_error, unexplained| Moment {
-        value,
-        estimate: Some(estimate),
-        standard_error: Some(standard_error),
-        unexplained: Some(unexplained),
-    };
-    let both = |m: &MomentEstimate| {
-        let mean = of(m.mean, m.mean_estimate, m.mean_standard_error, m.mean_unexplained);
-        let deviation = of(
-            m.standard_deviation,
-            m.standard_deviation_estimate,
-            m.standard_deviation_standard_error,
-            m.standard_deviation_unexplained,
-        );
-        (mean, deviation)
-    };
+    let both = |known: &MomentEstimate| (known.mean.into(), known.standard_deviation.into());
     certificate.moments.iter().map(both).collect()
 }
 

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use parvi::{Observer, ParticleView, Progress};
+use parvi::{Observer, ParticleView};
 
 use crate::plots::moments;
 
@@ -49,10 +49,6 @@ impl History {
 }
 
 impl Observer for History {
-    fn after_step(&mut self, _: Progress) -> ControlFlow<()> {
-        ControlFlow::Continue(())
-    }
-
     fn see(&mut self, view: &ParticleView<'_>) -> ControlFlow<()> {
         let step = view.earlier_steps + view.step;
         self.rounds = self.rounds.max(view.body + 1);

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use parvi::Method;
-use parvi_targets::{Dimensions, TargetError, target_info};
+use parvi_targets::{Dimensions, TargetError, TargetInfo, target_info};
 
 use super::definition::Case;
 use crate::CommandError;
@@ -42,6 +42,14 @@ pub fn positive(field: &str, values: &[f64]) -> Result<(), CommandError> {
     }
 }
 
+/// Refuses a number that is not finite.
+pub fn finite(field: &str, value: f64) -> Result<(), CommandError> {
+    if value.is_finite() {
+        return Ok(());
+    }
+    Err(refusal(field, format!("{value} must be finite")))
+}
+
 /// Refuses an option that the study sets itself.
 pub fn unset<T>(field: &str, value: &Option<T>, place: &str) -> Result<(), CommandError> {
     match value {
@@ -77,14 +85,36 @@ pub fn ascending<const LEAST: i64, const MOST: i64>(sizes: &[Bounded<LEAST, MOST
     sizes
 }
 
-/// A target in each of its dimensions that is among `dims`.
+/// Targets, each in those of its dimensions that are among `dims`; without a list all of the catalogue that have one and whose data no user brings.
 ///
 /// # Errors
-/// A target that there is not, or parameters that it does not have.
-pub fn in_dimensions(
-    target: &TargetSpecification,
+/// A target that there is not, that has none of the dimensions, or parameters that it does not have.
+pub fn places(
+    listed: Option<Vec<TargetSpecification>>,
     dims: &[Dimension],
-) -> Result<Vec<TargetSpecification>, CommandError> {
+) -> Result<Vec<Vec<TargetSpecification>>, CommandError> {
+    not_empty("dims", dims)?;
+    let Some(listed) = listed else {
+        let own = |info: &&TargetInfo| info.dimensions != Dimensions::FromData;
+        let all = parvi_targets::catalogue().iter().filter(own);
+        let all = all.map(|info| in_dimensions(&TargetSpecification::plain(info.name, None), dims));
+        let mut places = all.collect::<Result<Vec<_>, _>>()?;
+        places.retain(|place| !place.is_empty());
+        return Ok(places);
+    };
+    not_empty("targets", &listed)?;
+    let place = |target: &TargetSpecification| {
+        let place = in_dimensions(target, dims)?;
+        let missed = || format!("`{}` has none of the dimensions in `dims`", target.name);
+        (!place.is_empty())
+            .then_some(place)
+            .ok_or_else(|| refusal("targets", missed()))
+    };
+    listed.iter().map(place).collect()
+}
+
+/// A target in each of its dimensions that is among `dims`.
+fn in_dimensions(target: &TargetSpecification, dims: &[Dimension]) -> Result<Vec<TargetSpecification>, CommandError> {
     let refused = |error: TargetError| refusal("targets", error.to_string());
     let dimensions = target_info(&target.name).map_err(refused)?.dimensions;
     let mut found = Vec::new();
@@ -101,11 +131,4 @@ pub fn in_dimensions(
         }
     }
     Ok(found)
-}
-
-/// The names of all targets but those whose data the user brings.
-pub fn targets_without_data() -> impl Iterator<Item = &'static str> {
-    let infos = parvi_targets::catalogue().iter();
-    let without = infos.filter(|info| info.dimensions != Dimensions::FromData);
-    without.map(|info| info.name)
 }

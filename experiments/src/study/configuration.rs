@@ -66,15 +66,11 @@ impl Configuration {
         self.head.threads.as_ref().map(|threads| threads.get_ref().get())
     }
 
-    /// The configuration as its kind understands it, without the keys of `head`. Unknown keys are errors.
-    pub fn parse<T: DeserializeOwned>(&self, head: &[&str]) -> Result<T, CommandError> {
-        let threads = self.head.threads.as_ref().map(Spanned::span);
-        let known = [("kind", Some(self.head.kind.span())), ("threads", threads)];
-        let mut text = self.text.clone();
-        for (_, value) in known.iter().filter(|(key, _)| head.contains(key)) {
-            if let Some(value) = value {
-                text = without_key(&text, value);
-            }
+    /// The configuration as its kind understands it, without the keys of the head. Unknown keys are errors.
+    pub fn parse<T: DeserializeOwned>(&self) -> Result<T, CommandError> {
+        let mut text = without_key(&self.text, &self.head.kind.span());
+        if let Some(threads) = &self.head.threads {
+            text = without_key(&text, &threads.span());
         }
         Ok(mpm_document::parse(&text, Path::new(&self.file))?)
     }
@@ -134,7 +130,7 @@ mod tests {
 
     fn message(text: &str) -> String {
         Configuration::from_text("c.toml".to_owned(), text.to_owned())
-            .and_then(|configuration| configuration.parse::<Example>(&["kind", "threads"]))
+            .and_then(|configuration| configuration.parse::<Example>())
             .unwrap_err()
             .to_string()
     }

@@ -62,7 +62,7 @@ pub struct Tools<'a> {
 /// [`derived`](super::derived); the summary of the page goes to standard output. An error is a file that cannot be read.
 pub type Report<S> = fn(&S, &Rows<'_>, &StudyDirectory) -> Result<Page, CommandError>;
 
-/// A study: its configuration, which is a list of cases, and the report on their rows.
+/// A study: its configuration but for `kind` and `threads`, which all have, is a list of cases; and the report on their rows.
 pub trait Study: DeserializeOwned + Sync {
     /// What is run in a case.
     type Work: Sync;
@@ -75,9 +75,6 @@ pub trait Study: DeserializeOwned + Sync {
 
     /// Its report.
     const REPORT: Report<Self>;
-
-    /// The keys of the configuration that are read before its kind is known; the study has the others.
-    const HEAD: &[&str] = &["kind", "threads"];
 
     /// Reads and checks the files that the configuration names, relative to its own file. Before a run, not for a report.
     ///

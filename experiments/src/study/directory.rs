@@ -14,6 +14,8 @@ pub const CONFIGURATION: &str = "config.toml";
 #[derive(Clone, Debug)]
 pub struct StudyDirectory {
     path: PathBuf,
+    /// Threads that the study asks for; `None`: as many as the environment gives.
+    pub threads: Option<usize>,
 }
 
 impl StudyDirectory {
@@ -23,7 +25,10 @@ impl StudyDirectory {
     /// [`CommandError::DirectoryOccupied`] if it holds something else, which is left untouched;
     /// [`CommandError::File`] if it cannot be made or written.
     pub fn claim(path: &Path, configuration: &Configuration) -> Result<Self, CommandError> {
-        let directory = Self { path: path.to_owned() };
+        let directory = Self {
+            path: path.to_owned(),
+            threads: configuration.threads(),
+        };
         let existing = directory.file(CONFIGURATION);
         if existing.exists() {
             directory.check_same_study(configuration)?;
@@ -38,8 +43,11 @@ impl StudyDirectory {
 
     /// A directory in which a study was run before.
     pub fn existing(path: &Path) -> Result<(Self, Configuration), CommandError> {
-        let directory = Self { path: path.to_owned() };
-        let configuration = Configuration::read(&directory.file(CONFIGURATION))?;
+        let configuration = Configuration::read(&path.join(CONFIGURATION))?;
+        let directory = Self {
+            path: path.to_owned(),
+            threads: configuration.threads(),
+        };
         directory.make_parts()?;
         Ok((directory, configuration))
     }
@@ -89,6 +97,12 @@ impl StudyDirectory {
             directory: self.path.display().to_string(),
             occupant,
         }
+    }
+
+    /// ` (at most 2)`, where the study asks for a number of threads.
+    pub fn at_most_threads(&self) -> String {
+        self.threads
+            .map_or(String::new(), |threads| format!(" (at most {threads})"))
     }
 
     /// A file by its name: report.md, manifest.json, results.csv.

@@ -3,8 +3,7 @@
 pub use super::attempt::{Failure, attempt};
 pub(crate) use super::checks::all_given;
 pub use super::checks::{
-    ascending, distinct, distinct_names, fitting, in_dimensions, not_empty, positive, refusal, targets_without_data,
-    unset,
+    ascending, distinct, distinct_names, finite, fitting, not_empty, places, positive, refusal, unset,
 };
 pub use super::definition::{Case, Report, Study, Tools};
 pub use super::derived::{ENERGY, SECONDS, WALL};

@@ -21,7 +21,7 @@ const REPORT: &str = "report.md";
 
 /// Runs a study into a directory, or the rest of it.
 pub fn run<S: Study>(configuration: &Configuration, out: &Path) -> Result<(), CommandError> {
-    let mut study: S = configuration.parse(S::HEAD)?;
+    let mut study: S = configuration.parse()?;
     let located = |error| in_file(error, configuration);
     study.open(Path::new(&configuration.file)).map_err(located)?;
     let cases = study.cases().map_err(located)?;
@@ -40,7 +40,7 @@ pub fn run<S: Study>(configuration: &Configuration, out: &Path) -> Result<(), Co
 
 /// Writes the report of what a directory holds.
 pub fn report<S: Study>(configuration: &Configuration, directory: &StudyDirectory) -> Result<(), CommandError> {
-    let study: S = configuration.parse(S::HEAD)?;
+    let study: S = configuration.parse()?;
     let rows = row_file::read(&directory.file(results::FILE_NAME), S::COLUMNS)?;
     in_threads(configuration.threads(), || write_report(&study, &rows, directory))
 }

@@ -5,7 +5,7 @@ use std::fmt::{self, Display, Formatter};
 use parvi::Start;
 use serde::Deserialize;
 
-use super::checks::{positive, refusal};
+use super::checks::{finite, positive};
 use crate::CommandError;
 
 /// N(mean · 1, standard-deviation² I), in the coordinates of the target's frame.
@@ -28,13 +28,7 @@ impl StartLaw {
     /// Refuses a law that cannot be drawn from; `field` is its place in the configuration.
     pub fn check(&self, field: &str) -> Result<(), CommandError> {
         positive(&format!("{field}.standard-deviation"), &[self.standard_deviation])?;
-        if !self.mean.is_finite() {
-            return Err(refusal(
-                &format!("{field}.mean"),
-                format!("{} must be finite", self.mean),
-            ));
-        }
-        Ok(())
+        finite(&format!("{field}.mean"), self.mean)
     }
 
     /// The same for the sampler; how it is drawn from is left as in `otherwise`.

@@ -122,6 +122,7 @@ fn bad_catalogue() {
         seeds = [0, 1] | seeds = [0, 0] | seeds | gaussian-d1-r0.9-mpm-m60-mean0-sd1-s0
         dims = [1, 2] | dims = [] | dims | empty
         dims = [1, 2] | dims = [9] | line 5 | 9 is out of range
+        dims = [1, 2] | dims = [1] | targets | `banana` | `dims`
         "mixture-2" | "mixture-9" | mixture-9 | mixture-3
         correlation = 0.9 | width = 0.9 | gaussian | width
         standard-deviation = 0.5 | standard-deviation = 0.0 | starts.standard-deviation | 0
@@ -189,9 +190,9 @@ fn bad_stability() {
         r#"
         cases = 60 | cases = 0 | line 4 | 0 is out of range
         dims = [1, 2, 3] | dims = [] | dims | empty
-        dims = [1, 2, 3] | dims = [1]\ntargets = ["ring"] | targets | empty
+        dims = [1, 2, 3] | dims = [1]\ntargets = ["gaussian", "ring"] | targets | `ring` | `dims`
         dims = [1, 2, 3] | dims = [1]\ntargets = ["bell"] | bell | ring
-        dims = [1, 2, 3] | dims = [1]\ntargets = ["logistic"] | targets | `logistic`
+        dims = [1, 2, 3] | dims = [1]\ntargets = ["logistic"] | targets | logistic | data
         seed = 3 | seeds = [3] | line 3 | `seeds`
         "#,
         |line| refused(line[0], line[1], &line[2..]),

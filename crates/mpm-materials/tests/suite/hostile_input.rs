@@ -143,3 +143,24 @@ proptest! {
         }
     }
 }
+
+/// A diagonal of the stress alone may be NaN.
+#[test]
+fn an_element_turned_inside_out_is_an_error_with_its_volume_ratio() {
+    let moduli = ElasticModuli::new(1.0, 0.3).expect("in range");
+    let materials: [&dyn Material<2>; 3] = [
+        &NeoHookean::new(moduli),
+        &Hencky::new(moduli),
+        &FixedCorotated::new(moduli),
+    ];
+    for material in materials {
+        for (stretches, volume_ratio) in [([1.0, -0.5], -0.5), ([0.0, 2.0], 0.0)] {
+            let F = Matrix::diagonal(&stretches);
+            let error = material.checked_kirchhoff_stress(&F).expect_err("inside out");
+            assert_eq!(error, DeformationError::VolumeRatio { volume_ratio });
+            assert!(material.kirchhoff_stress(&F).trace().is_nan());
+            assert!(material.first_piola_kirchhoff(&F).trace().is_nan());
+            assert!(material.energy_density(&F).is_nan() && material.wave_speed(&F, 1.0).is_nan());
+        }
+    }
+}

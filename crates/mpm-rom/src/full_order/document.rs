@@ -2,10 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use mpm_document::DocumentError;
-use mpm_scenes::scene::keys;
+use mpm_scenes::variation;
 use mpm_scenes::{Scene, SceneError, SceneFault};
-use toml::Table;
 pub use toml::Value;
 
 use super::FullOrderError;
@@ -13,7 +11,7 @@ use super::FullOrderError;
 /// The document of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneDocument {
-    table: Table,
+    document: variation::SceneDocument,
     text: String,
     file: PathBuf,
 }
@@ -22,7 +20,7 @@ impl SceneDocument {
     /// Reads a file.
     ///
     /// # Errors
-    /// [`FullOrderError::Unreadable`], [`FullOrderError::Syntax`].
+    /// [`FullOrderError::Unreadable`], and as [`parse`](Self::parse).
     pub fn read(file: &Path) -> Result<Self, FullOrderError> {
         let text = std::fs::read_to_string(file).map_err(|source| FullOrderError::Unreadable {
             file: file.display().to_string(),
@@ -34,10 +32,10 @@ impl SceneDocument {
     /// As [`read`](Self::read), of a text; `file` is what errors call it.
     ///
     /// # Errors
-    /// [`FullOrderError::Syntax`].
+    /// [`FullOrderError::Scene`] for what is no TOML.
     pub fn parse(text: &str, file: &Path) -> Result<Self, FullOrderError> {
         Ok(Self {
-            table: mpm_document::parse(text, file)?,
+            document: variation::SceneDocument::parse(text, file)?,
             text: text.to_owned(),
             file: file.to_owned(),
         })
@@ -56,17 +54,12 @@ impl SceneDocument {
     }
 
     fn changed(&self, changes: &[(String, Value)]) -> Result<Scene, FullOrderError> {
-        let mut whole = Value::Table(self.table.clone());
+        let mut document = self.document.clone();
         for (key, value) in changes {
-            let place = keys::find(&mut whole, key).map_err(|reason| self.refused(key, reason))?;
-            *place = value.clone();
+            let exchanged = document.exchange(key, value.clone());
+            exchanged.map_err(|reason| self.refused(key, reason))?;
         }
-        let text = toml::to_string(&whole).map_err(|error| DocumentError {
-            file: self.file.clone(),
-            place: None,
-            message: error.to_string(),
-        })?;
-        Ok(Scene::parse(&text, &self.file)?)
+        Ok(document.scene()?)
     }
 
     /// What is to blame for a document that is no scene: the file, whose own lines the error then has, or the first change that makes it none.

@@ -1,4 +1,3 @@
-use mpm_document::DocumentError;
 use mpm_scenes::{SceneError, SimulationError};
 
 use crate::snapshots::SnapshotsError;
@@ -24,9 +23,6 @@ pub enum FullOrderError {
         /// What the system says.
         source: std::io::Error,
     },
-    /// The file is no TOML.
-    #[error(transparent)]
-    Syntax(#[from] DocumentError),
     /// A key of a change does not fit the document.
     #[error("{file}, change of `{key}`: {reason}")]
     Change {
@@ -45,7 +41,7 @@ pub enum FullOrderError {
         /// What is asked for.
         expected: usize,
     },
-    /// The scene cannot be run.
+    /// The file is no TOML, or the scene cannot be run.
     #[error(transparent)]
     Scene(#[from] SceneError),
     /// Materials of different density.

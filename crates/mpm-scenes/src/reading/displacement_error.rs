@@ -29,6 +29,14 @@ pub enum ReadingError {
     /// What a run lacks.
     #[error("{0}")]
     Lacks(String),
+    /// A field of a [`Reading`](super::Reading) that does not fit the others, or the run.
+    #[error("{field}: {message}")]
+    Unfit {
+        /// The field; empty for the whole.
+        field: &'static str,
+        /// What is wrong.
+        message: String,
+    },
 }
 
 /// Root mean square of |u_p − u(X_p)| by volume, over the particles and all frames of a run's directory but that of the start, over the largest |u|. u is the displacement of the run in

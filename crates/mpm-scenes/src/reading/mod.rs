@@ -2,7 +2,9 @@
 
 mod column;
 mod displacement_error;
+mod stated;
 mod stencil;
 
 pub use column::{Take, curve};
 pub use displacement_error::{ReadingError, displacement_error};
+pub use stated::{FinishedRun, Measured, OtherRun, ParticleReading, Reading};

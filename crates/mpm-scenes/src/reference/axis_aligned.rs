@@ -82,7 +82,10 @@ impl ManufacturedSolution for AxisAligned {
 }
 
 /// The solution with A = 0.02 in the material of a scene.
-fn of_scene(scene: &Scene) -> Result<AxisAligned, SceneFault> {
+///
+/// # Errors
+/// [`SceneFault::Value`] for a scene without one elastic material, or not of two dimensions.
+pub(super) fn of_scene(scene: &Scene) -> Result<AxisAligned, SceneFault> {
     let (material, moduli) = plane_solid(scene)?;
     Ok(AxisAligned {
         amplitude: 0.02,
@@ -91,18 +94,10 @@ fn of_scene(scene: &Scene) -> Result<AxisAligned, SceneFault> {
     })
 }
 
-/// The solution for a scene.
-///
-/// # Errors
-/// [`SceneFault::Value`] for a scene without one elastic material, or not of two dimensions.
-pub(super) fn manufacture(scene: &Scene) -> Result<Box<dyn ManufacturedSolution>, SceneFault> {
-    Ok(Box::new(of_scene(scene)?))
-}
-
 /// The error of the displacement at the end in the L² norm over the amplitude: at most 3 %, which 32 cells per side reach.
 ///
 /// # Errors
-/// As [`manufacture`].
+/// As [`of_scene`].
 pub(super) fn validate(run: &Run) -> Rows {
     let exact = of_scene(run.scene)?;
     let error = run.position_error(|start, time| exact.position(start, time));

@@ -93,7 +93,10 @@ impl ManufacturedSolution for GeneralizedVortex {
 }
 
 /// The ring 0.75 ≤ R ≤ 1.25 with A = 0.1 and T = 1 in the material of a scene.
-fn of_scene(scene: &Scene) -> Result<GeneralizedVortex, SceneFault> {
+///
+/// # Errors
+/// [`SceneFault::Value`] for a scene without one elastic material, or not of two dimensions.
+pub(super) fn of_scene(scene: &Scene) -> Result<GeneralizedVortex, SceneFault> {
     let (material, moduli) = plane_solid(scene)?;
     Ok(GeneralizedVortex {
         amplitude: 0.1,
@@ -105,18 +108,10 @@ fn of_scene(scene: &Scene) -> Result<GeneralizedVortex, SceneFault> {
     })
 }
 
-/// The solution for a scene.
-///
-/// # Errors
-/// [`SceneFault::Value`] for a scene without one elastic material, or not of two dimensions.
-pub(super) fn manufacture(scene: &Scene) -> Result<Box<dyn ManufacturedSolution>, SceneFault> {
-    Ok(Box::new(of_scene(scene)?))
-}
-
 /// The error of the positions at the end in the L² norm over the way A R̄ of the middle circle: at most 3 %, which h = 1/32 reaches.
 ///
 /// # Errors
-/// As [`manufacture`].
+/// As [`of_scene`].
 pub(super) fn validate(run: &Run) -> Rows {
     let exact = of_scene(run.scene)?;
     let error = run.position_error(|start, time| exact.position(start, time));

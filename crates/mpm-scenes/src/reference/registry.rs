@@ -44,8 +44,10 @@ const VALIDATIONS: [Reference; 17] = [
 ];
 
 const SOLUTIONS: [(&str, Manufacture); 2] = [
-    ("axis-aligned", axis_aligned::manufacture),
-    ("generalized-vortex", generalized_vortex::manufacture),
+    ("axis-aligned", |scene| Ok(Box::new(axis_aligned::of_scene(scene)?))),
+    ("generalized-vortex", |scene| {
+        Ok(Box::new(generalized_vortex::of_scene(scene)?))
+    }),
 ];
 
 /// Names that `validation.reference` may have.

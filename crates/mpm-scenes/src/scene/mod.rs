@@ -6,7 +6,6 @@ mod boundary;
 mod check;
 mod discretisation;
 mod facets;
-pub mod keys;
 mod load;
 mod material;
 mod mesh;

@@ -73,55 +73,59 @@ impl<const D: usize> Evidence<D> {
             let mean_unexplained = first.unexplained / deviation;
             let deviation_unexplained = second.unexplained / (2.0 * second.average);
             MomentEstimate {
-                mean,
-                mean_estimate: mean + shift,
-                mean_standard_error: shift.hypot(rate * mean_unexplained * deviation),
-                mean_unexplained,
-                standard_deviation: deviation,
-                standard_deviation_estimate: deviation_estimate,
-                standard_deviation_standard_error: (deviation_estimate - deviation)
-                    .hypot(rate * deviation_unexplained * deviation),
-                standard_deviation_unexplained: deviation_unexplained,
+                mean: EstimatedMoment {
+                    value: mean,
+                    estimate: mean + shift,
+                    standard_error: shift.hypot(rate * mean_unexplained * deviation),
+                    unexplained: mean_unexplained,
+                },
+                standard_deviation: EstimatedMoment {
+                    value: deviation,
+                    estimate: deviation_estimate,
+                    standard_error: (deviation_estimate - deviation).hypot(rate * deviation_unexplained * deviation),
+                    unexplained: deviation_unexplained,
+                },
             }
         };
         (0..D).map(of_axis).collect()
     }
 }
 
-/// Mean and standard deviation of a coordinate, and what the scores say about them.
+/// Mean and standard deviation of a coordinate, and what the pool or the scores say about them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MomentEstimate {
-    /// Mean of the particles.
-    pub mean: f64,
-    /// The target's mean by the pool or by the scores.
-    pub mean_estimate: f64,
-    /// Standard error of `mean`: the difference between both, and what is unexplained as if from independent draws, or the standard error of the pool.
-    pub mean_standard_error: f64,
-    /// Standard deviation, in units of `standard_deviation`, of what is unexplained of the coordinate: over √M it is the standard error of the estimate.
-    pub mean_unexplained: f64,
-    /// Standard deviation of the particles.
-    pub standard_deviation: f64,
-    /// The target's standard deviation by the pool or by the scores.
-    pub standard_deviation_estimate: f64,
-    /// Standard error of `standard_deviation`, as that of the mean.
-    pub standard_deviation_standard_error: f64,
-    /// As `mean_unexplained`, of the squared distance from the mean over twice the variance.
-    pub standard_deviation_unexplained: f64,
+    /// The mean; unexplained is the coordinate, in units of the standard deviation.
+    pub mean: EstimatedMoment,
+    /// The standard deviation; unexplained is the squared distance from the mean, in units of twice the variance.
+    pub standard_deviation: EstimatedMoment,
+}
+
+/// A moment of the particles, and what is known of the target's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EstimatedMoment {
+    /// The particles' own.
+    pub value: f64,
+    /// The target's by the pool or by the scores.
+    pub estimate: f64,
+    /// Standard error of `value`: the difference between both, and what is unexplained as if from independent draws, or the standard error of the pool.
+    pub standard_error: f64,
+    /// Standard deviation of what is unexplained: over √M it is the standard error of the estimate, in its units.
+    pub unexplained: f64,
 }
 
 impl MomentEstimate {
     /// |m̂ − m| in standard deviations.
     pub fn mean_error(&self) -> f64 {
-        (self.mean_estimate - self.mean).abs() / self.standard_deviation
+        (self.mean.estimate - self.mean.value).abs() / self.standard_deviation.value
     }
 
     /// The larger of what is unexplained of the coordinate and of its square.
     pub fn unexplained(&self) -> f64 {
-        self.mean_unexplained.max(self.standard_deviation_unexplained)
+        self.mean.unexplained.max(self.standard_deviation.unexplained)
     }
 
     /// |σ / σ̂ − 1|, infinite where the estimated variance is not positive.
     pub fn standard_deviation_error(&self) -> f64 {
-        (self.standard_deviation / self.standard_deviation_estimate - 1.0).abs()
+        (self.standard_deviation.value / self.standard_deviation.estimate - 1.0).abs()
     }
 }

@@ -9,7 +9,7 @@ mod stein_polynomials;
 
 pub use control_variates::Expectation;
 use evidence::Evidence;
-pub use evidence::MomentEstimate;
+pub use evidence::{EstimatedMoment, MomentEstimate};
 pub use expectation::expectation;
 pub use outcome::{Doubt, Outcome};
 

@@ -2,7 +2,7 @@
 
 use parvi_pool::{Objection, Pool};
 
-use super::{Certificate, Doubt, MomentEstimate, Outcome, doubt_of_moments};
+use super::{Certificate, Doubt, EstimatedMoment, MomentEstimate, Outcome, doubt_of_moments};
 use crate::Samples;
 use crate::extent::Extent;
 
@@ -44,14 +44,18 @@ fn moments<const D: usize>(pool: &Pool<D>, samples: &Samples<D>) -> Vec<MomentEs
         let deviation = square.value.max(0.0).sqrt();
         let deviation_error = square.standard_error / (2.0 * deviation);
         MomentEstimate {
-            mean: own.mean[a],
-            mean_estimate: mean.value,
-            mean_standard_error: (own.mean[a] - mean.value).hypot(mean.standard_error),
-            mean_unexplained: rate * mean.standard_error / own.deviation[a],
-            standard_deviation: own.deviation[a],
-            standard_deviation_estimate: deviation,
-            standard_deviation_standard_error: (own.deviation[a] - deviation).hypot(deviation_error),
-            standard_deviation_unexplained: rate * deviation_error / own.deviation[a],
+            mean: EstimatedMoment {
+                value: own.mean[a],
+                estimate: mean.value,
+                standard_error: (own.mean[a] - mean.value).hypot(mean.standard_error),
+                unexplained: rate * mean.standard_error / own.deviation[a],
+            },
+            standard_deviation: EstimatedMoment {
+                value: own.deviation[a],
+                estimate: deviation,
+                standard_error: (own.deviation[a] - deviation).hypot(deviation_error),
+                unexplained: rate * deviation_error / own.deviation[a],
+            },
         }
     };
     (0..D).map(of_axis).collect()

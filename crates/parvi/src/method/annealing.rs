@@ -1,15 +1,23 @@
 //! How the factor of the score varies over a run.
 
+use std::fmt::{self, Display, Formatter};
+
+use serde::Deserialize;
+
 use crate::SampleError;
 use crate::start::check;
 
 /// Factor α(t) before the external force (MPM-ParVI paper, Eq. 3, and limitation 2 for one that varies in time); t = 1…T are the steps.
 ///
-/// The calibrated sampler needs α > 0. The paper's algorithms take either sign.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// The calibrated sampler needs α > 0. The paper's algorithms take either sign. In files `{ shape = "geometric", from = 0.1, to = 1.0 }`.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(tag = "shape", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Annealing {
     /// The same in every step.
-    Constant(f64),
+    Constant {
+        /// α.
+        alpha: f64,
+    },
     /// Geometric from the first value in the first step to the second in the last: a^{1−s} b^s, s = (t − 1)/(T − 1). Both have one sign.
     Geometric {
         /// α in the first step.
@@ -40,7 +48,7 @@ impl Annealing {
     /// The two ends between which α stays.
     fn ends(self) -> [f64; 2] {
         match self {
-            Self::Constant(alpha) => [alpha, alpha],
+            Self::Constant { alpha } => [alpha, alpha],
             Self::Geometric { from, to } | Self::Linear { from, to } | Self::Cyclic { from, to, .. } => [from, to],
         }
     }
@@ -80,7 +88,7 @@ impl Annealing {
     pub fn at(self, step: usize, steps: usize) -> f64 {
         let progress = (step.max(1) - 1) as f64 / steps.saturating_sub(1).max(1) as f64;
         match self {
-            Self::Constant(alpha) => alpha,
+            Self::Constant { alpha } => alpha,
             Self::Geometric { from, to } => from.signum() * (from.abs().powf(1.0 - progress) * to.abs().powf(progress)),
             Self::Linear { from, to } => from + (to - from) * progress,
             Self::Cyclic { from, to, cycles } => {
@@ -89,6 +97,18 @@ impl Annealing {
                 let share = if place < last { place as f64 / last as f64 } else { 1.0 };
                 from + (to - from) * share
             }
+        }
+    }
+}
+
+/// `0.5`, `geometric 0.1…1`, `4 × linear 0.1…1`.
+impl Display for Annealing {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Constant { alpha } => write!(formatter, "{alpha}"),
+            Self::Geometric { from, to } => write!(formatter, "geometric {from}…{to}"),
+            Self::Linear { from, to } => write!(formatter, "linear {from}…{to}"),
+            Self::Cyclic { from, to, cycles } => write!(formatter, "{cycles} × linear {from}…{to}"),
         }
     }
 }
@@ -140,7 +160,7 @@ mod tests {
                 from: f64::NAN,
                 to: 1.0,
             },
-            Annealing::Constant(f64::INFINITY),
+            Annealing::Constant { alpha: f64::INFINITY },
             Annealing::Cyclic {
                 from: 1.0,
                 to: 2.0,

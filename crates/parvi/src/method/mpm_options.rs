@@ -91,7 +91,7 @@ impl Default for MpmOptions {
             score_location: ScoreLocation::default(),
             non_finite_scores: NonFiniteScores::default(),
             displacement_limit: 0.5,
-            annealing: Annealing::Constant(1.0),
+            annealing: Annealing::Constant { alpha: 1.0 },
             certificate: true,
             checkpoint: None,
             weighted: false,

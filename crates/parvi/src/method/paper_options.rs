@@ -123,7 +123,7 @@ impl Default for PaperOptions {
             flip_share: 0.0,
             basis: BasisChoice::Quadratic,
             material: PaperMaterial::default(),
-            annealing: Annealing::Constant(1.0),
+            annealing: Annealing::Constant { alpha: 1.0 },
             score_location: ScoreLocation::Nodes,
             spacing: None,
             steps: None,

@@ -12,7 +12,7 @@ use rand::{Rng, RngExt};
 
 use self::frame::{frame_of, in_frame};
 use crate::drive::finite;
-use crate::start::{Stream, check, positive, steps};
+use crate::start::{Stream, not_negative, positive, steps};
 use crate::view::Moment;
 use crate::{
     MeshOptions, NonFiniteScores, Observer, OnMesh, Progress, Run, SampleError, Samples, TracePoint, defaults,
@@ -66,13 +66,7 @@ impl MeshOptions {
         let spacing = meshes.spacing();
         let time_step = positive("time step", self.time_step, defaults::time_step(spacing))?;
         let steps = steps(self.steps, self.default_steps(&mesh, time_step, count))?;
-        let friction = self.friction.unwrap_or(defaults::FRICTION);
-        check(
-            "friction",
-            friction,
-            friction >= 0.0 && friction.is_finite(),
-            "at least 0 and finite",
-        )?;
+        let friction = not_negative("friction", self.friction.unwrap_or(defaults::FRICTION))?;
         let displacement = positive("displacement limit", Some(self.displacement_limit), 0.0)?;
 
         let mut score = FramedScore::new(target, &frame);

@@ -16,7 +16,7 @@ fn gentle() -> PaperOptions {
     PaperOptions {
         steps: Some(6),
         time_step: Some(0.02),
-        annealing: Annealing::Constant(1e-3),
+        annealing: Annealing::Constant { alpha: 1e-3 },
         ..PaperOptions::as_written(false)
     }
 }
@@ -32,7 +32,7 @@ fn run_of(options: &PaperOptions, run: &Run) -> Samples<2> {
 fn as_written_has_no_frame_no_guard_and_the_papers_defaults() {
     let options = PaperOptions::as_written(true);
     assert!(options.affine && options.coordinates == Coordinates::Own && options.guards == Guards::none());
-    assert_eq!(options.annealing, Annealing::Constant(1.0));
+    assert_eq!(options.annealing, Annealing::Constant { alpha: 1.0 });
     assert_eq!(options.score_location, ScoreLocation::Nodes);
     assert_eq!(
         options.material,
@@ -64,7 +64,7 @@ fn every_departure_is_an_option_of_its_own() {
         with(|options| options.grid_renewal = Some(2)),
         with(|options| options.reference_volumes = ReferenceVolumes::OfStartDensity),
         with(|options| options.reference_volumes = ReferenceVolumes::OfGrid),
-        with(|options| options.annealing = Annealing::Constant(-1e-3)),
+        with(|options| options.annealing = Annealing::Constant { alpha: -1e-3 }),
         with(|options| options.score_location = ScoreLocation::Particles),
     ];
     for (k, departure) in departures.iter().enumerate() {
@@ -111,7 +111,7 @@ fn a_closure_is_the_schedule_it_computes() {
 fn a_negative_factor_drives_the_particles_apart() {
     let spread = |alpha: f64| {
         let options = PaperOptions {
-            annealing: Annealing::Constant(alpha),
+            annealing: Annealing::Constant { alpha },
             steps: Some(40),
             ..PaperOptions::default()
         };
@@ -176,7 +176,7 @@ fn volumes_by_density_are_those_of_the_law_or_of_the_grid() {
     let moved = |volumes: ReferenceVolumes| {
         let options = PaperOptions {
             reference_volumes: volumes,
-            annealing: Annealing::Constant(0.0),
+            annealing: Annealing::Constant { alpha: 0.0 },
             spacing: Some(0.3),
             steps: Some(2),
             time_step: Some(0.02),

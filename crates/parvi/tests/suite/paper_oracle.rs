@@ -245,7 +245,7 @@ fn agrees<const D: usize>() {
                 spacing: Some(inputs.h),
                 time_step: Some(inputs.dt),
                 steps: Some(inputs.steps),
-                annealing: Annealing::Constant(inputs.alpha),
+                annealing: Annealing::Constant { alpha: inputs.alpha },
                 score_location: if at_nodes {
                     ScoreLocation::Nodes
                 } else {

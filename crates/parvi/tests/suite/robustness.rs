@@ -154,7 +154,7 @@ fn annealing_ends_at_the_target() {
     let samples = sample(&options, &Gaussian::<2>::standard(), &from(0.0, 1.0)).expect("particles");
     assert_eq!(samples.certificate.expect("a certificate").outcome, Outcome::Converged);
     let options = MpmOptions {
-        annealing: Annealing::Constant(-1.0),
+        annealing: Annealing::Constant { alpha: -1.0 },
         ..MpmOptions::default()
     };
     assert!(matches!(
@@ -286,7 +286,7 @@ fn few_particles_on_many_pieces_are_described_as_they_are() {
         let certificate = samples.certificate.expect("a certificate");
         for axis in 0..2 {
             let mean = samples.positions.iter().map(|x| x[axis]).sum::<f64>() / count as f64;
-            assert!((certificate.moments[axis].mean - mean).abs() < 1e-9);
+            assert!((certificate.moments[axis].mean.value - mean).abs() < 1e-9);
         }
     }
 }
@@ -294,7 +294,7 @@ fn few_particles_on_many_pieces_are_described_as_they_are() {
 #[test]
 fn a_tempered_target_is_not_called_converged() {
     let options = MpmOptions {
-        annealing: Annealing::Constant(0.5),
+        annealing: Annealing::Constant { alpha: 0.5 },
         ..MpmOptions::default()
     };
     let samples = sample(&options, &Gaussian::<2>::standard(), &from(0.0, 1.0)).expect("particles");

@@ -78,7 +78,7 @@ impl MethodOptions {
     /// α over the steps, where one is given.
     pub(in crate::options) fn annealing(&self) -> Option<Annealing> {
         match (self.alpha, self.alpha_from, self.alpha_to) {
-            (Some(alpha), _, _) => Some(Annealing::Constant(alpha)),
+            (Some(alpha), _, _) => Some(Annealing::Constant { alpha }),
             (None, Some(from), Some(to)) => Some(match self.alpha_schedule {
                 None | Some(AlphaSchedule::Geometric) => Annealing::Geometric { from, to },
                 Some(AlphaSchedule::Linear) => Annealing::Linear { from, to },

@@ -5,7 +5,7 @@ mod index;
 
 use std::ops::ControlFlow;
 
-use parvi::{Observer, ParticleView, Progress};
+use parvi::{Observer, ParticleView};
 
 use self::frame::{Frame, Stamp};
 use self::index::Entry;
@@ -201,10 +201,6 @@ impl FrameWriter {
 }
 
 impl Observer for FrameWriter {
-    fn after_step(&mut self, _: Progress) -> ControlFlow<()> {
-        ControlFlow::Continue(())
-    }
-
     fn see(&mut self, view: &ParticleView<'_>) -> ControlFlow<()> {
         match self.look(view) {
             Ok(()) => ControlFlow::Continue(()),

@@ -54,24 +54,14 @@ struct Named {
 impl Catalogue {
     /// Every target in each of its dimensions, in the order of the list and then of `dims`.
     fn all_targets(&self) -> Result<Vec<TargetSpecification>, CommandError> {
-        let plain = |name: &str| Named {
-            name: name.to_owned(),
-            parameters: TargetParameters::default(),
+        let target = |Named { name, parameters }: &Named| TargetSpecification {
+            name: name.clone(),
+            dim: None,
+            parameters: parameters.clone(),
         };
-        let named = match &self.targets {
-            Some(named) => named.clone(),
-            None => targets_without_data().map(plain).collect(),
-        };
-        let mut targets = Vec::new();
-        for Named { name, parameters } in named {
-            let target = TargetSpecification {
-                name,
-                dim: None,
-                parameters,
-            };
-            targets.extend(in_dimensions(&target, &self.dims)?);
-        }
-        Ok(targets)
+        let listed = self.targets.as_ref();
+        let places = places(listed.map(|named| named.iter().map(target).collect()), &self.dims)?;
+        Ok(places.concat())
     }
 
     fn yardstick(&self) -> YardstickOptions {
@@ -118,9 +108,6 @@ impl Study for Catalogue {
             return Err(refusal("methods", message));
         }
         let targets = self.all_targets()?;
-        if targets.is_empty() {
-            return Err(refusal("targets", "none of them has one of the dimensions in `dims`"));
-        }
         let mut cases = Vec::new();
         for target in &targets {
             for method in &self.methods {

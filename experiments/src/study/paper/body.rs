@@ -39,7 +39,7 @@ impl Setting {
         PaperOptions {
             affine: self.algorithm.get() == 2,
             material,
-            annealing: self.schedule.annealing(),
+            annealing: self.schedule,
             score_location: self.score.into(),
             spacing: self.spacing,
             steps: Some(self.steps.get()),
@@ -74,7 +74,7 @@ impl Setting {
         row.set("method", format!("algorithm {}", self.algorithm));
         row.set("variant", self.variant.text());
         row.set("material", self.material.text());
-        row.set("schedule", self.schedule.text());
+        row.set("schedule", self.schedule.to_string());
         row.set("score", self.score);
         row.set("volumes", volumes);
     }

@@ -2,11 +2,11 @@
 
 use std::collections::HashSet;
 
-use parvi::ReferenceVolumes;
+use parvi::{Annealing, ReferenceVolumes};
 use parvi_metrics::yardstick::Coordinates;
 
 use super::material::MaterialTable;
-use super::variant::{Schedule, Variant};
+use super::variant::Variant;
 use crate::study::prelude::*;
 
 /// The paper's algorithms, a base and its changes.
@@ -79,7 +79,7 @@ axes! {
     /// Ψ.
     materials => material: MaterialTable,
     /// α(t).
-    schedules => schedule: Schedule,
+    schedules => schedule: Annealing,
     /// γ.
     frictions => friction: f64,
     /// Where the force acts.
@@ -178,9 +178,7 @@ impl Paper {
     fn check(&self) -> Result<(), CommandError> {
         positive("start-sd", &[self.start_sd])?;
         positive("reach", &[self.reach])?;
-        if !self.start_mean.is_finite() {
-            return Err(refusal("start-mean", format!("{} must be finite", self.start_mean)));
-        }
+        finite("start-mean", self.start_mean)?;
         if self.base.name.is_some() {
             return Err(refusal("base.name", "belongs into a case"));
         }
@@ -212,8 +210,8 @@ impl Setting {
         if let Err(error) = self.material.material() {
             return Err(refusal(&field("materials"), error.to_string()));
         }
-        if let Some(fault) = self.schedule.fault() {
-            return Err(refusal(&field("schedules"), fault));
+        if let Err(error) = self.schedule.of_either_sign() {
+            return Err(refusal(&field("schedules"), error.to_string()));
         }
         if !(self.friction >= 0.0 && self.friction.is_finite()) {
             let fault = format!("{} must be a number of at least 0", self.friction);

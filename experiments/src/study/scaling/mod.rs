@@ -17,8 +17,6 @@ use crate::statistics;
 pub struct Scaling {
     /// Seed of every case.
     seed: u64,
-    /// Threads; absent: as many as the environment gives.
-    threads: Option<Bounded<1, 1024>>,
     /// A target of the catalogue that exists in every dimension of the sweeps.
     target: String,
     /// Steps of a run.
@@ -101,7 +99,6 @@ impl Study for Scaling {
     type Work = Size;
 
     const KIND: &'static str = "scaling";
-    const HEAD: &[&str] = &["kind"];
     const COLUMNS: &'static str = "case status reason sweep dim particles nodes_per_axis spacing steps active_nodes score_evaluations \
          density_evaluations storage_bytes memory_peak_bytes wall_seconds_per_step wall_seconds_per_step_least \
          wall_seconds_per_step_most";
@@ -173,8 +170,7 @@ impl Study for Scaling {
             }
         }
         specification.options.steps = Some(self.steps);
-        let threads = self.threads.map(Bounded::get);
-        let peak = memory::peak_of_own_process(&target, &specification, &work.run, threads);
+        let peak = memory::peak_of_own_process(&target, &specification, &work.run, tools.directory.threads);
         row.set("memory_peak_bytes", peak);
         let quantiles = statistics::weighted_quantile(&times, None, &[0.0, 0.5, 1.0])?;
         row.set("wall_seconds_per_step_least", quantiles[0]);

@@ -6,7 +6,7 @@ use crate::plots::{ScalingPlot, scaling};
 use crate::study::prelude::*;
 
 /// Tables and figures.
-pub fn report(study: &Scaling, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
+pub fn report(study: &Scaling, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
     let mut page = Page::new("Scaling with d, M and N = kᵈ");
     page.paragraph(format!(
         "Target `{}`, method `{}`, {} steps per run, {} threads. Times are medians of {} runs after one to warm up: the \
@@ -16,7 +16,7 @@ pub fn report(study: &Scaling, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Pa
         study.target,
         study.method.label(),
         study.steps,
-        study.threads.map_or("all".to_owned(), |threads| threads.to_string()),
+        directory.threads.map_or("all".to_owned(), |threads| threads.to_string()),
         study.repeats,
     ));
     particles_part(study, rows, &mut page);

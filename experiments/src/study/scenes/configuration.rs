@@ -1,7 +1,8 @@
 //! The configuration of the study `scenes`.
 
+use mpm_scenes::variation::combinations;
+
 use super::Variant;
-use super::axis::combinations;
 use super::family::Family;
 use super::scene_files::SceneFiles;
 use crate::study::prelude::*;

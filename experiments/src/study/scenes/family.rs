@@ -1,10 +1,10 @@
 //! A family of runs of one scene.
 
+use mpm_scenes::reading::{Reading, ReadingError};
+use mpm_scenes::variation::Axis;
 use serde::Deserializer;
 use toml::Table;
 
-use super::axis::Axis;
-use super::reading::Reading;
 use crate::plots::judgement::Judgement;
 use crate::study::prelude::*;
 
@@ -110,9 +110,17 @@ impl Family {
             return Err(self.refuse(field, "is missing"));
         }
         not_empty(&format!("families.{}.axes", self.name), &self.axes)?;
-        self.read
-            .check()
-            .map_err(|(field, message)| self.refuse(field, message))
+        self.read.check().map_err(|error| self.misread(error))
+    }
+
+    /// What a reading refuses, of the family.
+    pub fn misread(&self, error: ReadingError) -> CommandError {
+        match error {
+            ReadingError::File(error) => error.into(),
+            ReadingError::Unfit { field: "", message } => self.refuse("read", message),
+            ReadingError::Unfit { field, message } => self.refuse(&format!("read.{field}"), message),
+            error => self.refuse("read", error.to_string()),
+        }
     }
 
     /// The error for a field of the family.

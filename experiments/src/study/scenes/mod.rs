@@ -3,21 +3,20 @@
 //! A case is a scene with changes of some of its keys. Its run is in `raw/` under the fingerprint of the changed scene, so that families which
 //! read different numbers of the same runs share them, and a run that was cut off goes on from its checkpoint.
 
-mod axis;
 mod configuration;
 mod family;
 mod figure;
 mod history;
-mod reading;
 mod report;
 mod scene_files;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use mpm_scenes::output::read_series;
-use mpm_scenes::{Outcome, Series, SimulationError, Summary};
+use mpm_scenes::reading::FinishedRun;
+use mpm_scenes::variation::Combination;
+use mpm_scenes::{Outcome, SimulationError};
 
-use axis::Combination;
 pub use configuration::Scenes;
 use family::Family;
 use scene_files::{PreparedScene, SceneFiles, refusal_text};
@@ -39,18 +38,6 @@ impl Variant {
         let (family, name) = (&self.family.name, &self.combination.name);
         refusal(&format!("families.{family}, case `{name}`"), message)
     }
-}
-
-/// A run that came to its end.
-pub struct FinishedRun<'a> {
-    /// What was run.
-    prepared: &'a PreparedScene,
-    /// Where its files are.
-    directory: PathBuf,
-    /// How it ended.
-    summary: Summary,
-    /// Its time series.
-    series: Series,
 }
 
 impl Study for Scenes {
@@ -110,8 +97,8 @@ impl Study for Scenes {
             Ok(other) => other,
             Err(reason) => return diverged(row, format!("what it is compared with: {reason}")),
         };
-        let measured = variant.family.read.read(&run, other.as_ref())?;
-        let measured = measured.map_err(|(field, message)| variant.family.refuse(field, message))?;
+        let measured = variant.family.read.read(&run, other.as_ref());
+        let measured = measured.map_err(|error| variant.family.misread(error))?;
         row.set("reference", measured.reference);
         row.set("tolerance", measured.tolerance);
         if !measured.value.is_finite() {
@@ -149,7 +136,8 @@ fn finished<'a>(
     Ok(Ok(FinishedRun {
         series: read_series(&path)?,
         directory: path,
-        prepared,
+        document: &prepared.document,
+        scene: &prepared.scene,
         summary,
     }))
 }

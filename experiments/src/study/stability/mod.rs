@@ -9,7 +9,6 @@ mod report;
 mod trial;
 
 use draw::{Configuration, draw};
-use parvi_targets::{Dimensions, target_info};
 
 use super::prelude::*;
 use crate::dispatch::on_target;
@@ -31,21 +30,9 @@ pub struct Stability {
 impl Stability {
     /// The targets, each in the dimensions that it has among `dims`.
     fn places(&self) -> Result<Vec<Vec<TargetSpecification>>, CommandError> {
-        not_empty("dims", &self.dims)?;
-        let names: Vec<&str> = match &self.targets {
-            Some(names) => names.iter().map(String::as_str).collect(),
-            None => targets_without_data().collect(),
-        };
-        let mut places = Vec::new();
-        for name in names {
-            if target_info(name).is_ok_and(|info| info.dimensions == Dimensions::FromData) {
-                return Err(refusal("targets", format!("`{name}` needs a data file")));
-            }
-            places.push(in_dimensions(&TargetSpecification::plain(name, None), &self.dims)?);
-        }
-        places.retain(|place| !place.is_empty());
-        not_empty("targets", &places)?;
-        Ok(places)
+        let plain = |name: &String| TargetSpecification::plain(name, None);
+        let listed = self.targets.as_ref();
+        places(listed.map(|names| names.iter().map(plain).collect()), &self.dims)
     }
 }
 

@@ -27,8 +27,6 @@ use super::row_file;
 pub struct TimeToEqualError {
     /// One run per seed; all that is compared are medians over them.
     seeds: Vec<u64>,
-    /// Threads; absent: as many as the environment gives.
-    threads: Option<Bounded<1, 1024>>,
     /// M, one comparison each.
     particles: Vec<ParticleCount>,
     /// Draws that a Markov chain begins with and ends at, doubled in between.
@@ -76,7 +74,6 @@ impl Study for TimeToEqualError {
     type Work = Entry;
 
     const KIND: &'static str = "time-to-equal-error";
-    const HEAD: &[&str] = &["kind"];
     const COLUMNS: &'static str = "case ending reason target dim particles method mean_distance goal size score_evaluations \
          density_evaluations energy_distance_squared wall_seconds wall_seconds_least wall_seconds_most missed_size wall_seconds_missed";
     const REPORT: Report<Self> = report::report;

@@ -16,9 +16,7 @@ pub fn report(study: &TimeToEqualError, rows: &Rows<'_>, directory: &StudyDirect
          once a run takes {} times as long as `{label}`.",
         study.seeds.len(),
         study.reference_points,
-        study
-            .threads
-            .map_or(String::new(), |threads| format!(" (at most {threads})")),
+        directory.at_most_threads(),
         study.draws.from,
         study.draws.to,
         study.steps.from,

@@ -20,8 +20,6 @@ use super::start_law::StartLaw;
 pub struct TimeToLevel {
     /// Seed of every run.
     seed: u64,
-    /// Threads; absent: as many as the environment gives.
-    threads: Option<Bounded<1, 1024>>,
     /// d.
     dims: Vec<Dimension>,
     /// M.
@@ -77,7 +75,6 @@ impl Study for TimeToLevel {
     type Work = Entry;
 
     const KIND: &'static str = "time-to-level";
-    const HEAD: &[&str] = &["kind"];
     const COLUMNS: &'static str = "case ending dim particles method energy_level runs steps energy_distance_squared wall_seconds \
          wall_seconds_least wall_seconds_most wall_budget_seconds";
     const REPORT: Report<Self> = report::report;

@@ -16,9 +16,7 @@ pub fn report(study: &TimeToLevel, rows: &Rows<'_>, directory: &StudyDirectory) 
         study.start.mean,
         study.start.standard_deviation,
         study.seed,
-        study
-            .threads
-            .map_or(String::new(), |threads| format!(" (at most {threads})")),
+        directory.at_most_threads(),
         study.repeats,
         number(study.largest_ratio),
         study.method.label(),

@@ -1,14 +1,28 @@
 //! Which number is read from a run.
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
-use mpm_scenes::reading::{ReadingError, Take, curve, displacement_error};
-use mpm_scenes::scene::keys;
 use serde::Deserialize;
 use toml::Table;
 
-use super::FinishedRun;
-use crate::CommandError;
+use super::{ReadingError, Take, curve, displacement_error};
+use crate::variation::SceneDocument;
+use crate::{Scene, Series, Summary};
+
+/// A run that came to its end.
+pub struct FinishedRun<'a> {
+    /// All keys of its scene.
+    pub document: &'a SceneDocument,
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Where its files are.
+    pub directory: PathBuf,
+    /// How it ended.
+    pub summary: Summary,
+    /// Its time series.
+    pub series: Series,
+}
 
 /// f (r + o + Σ c_k s_k) with a number r of the run, a factor f, an offset o, and multiples c_k of numbers s_k of the scene.
 #[derive(Clone, Debug, Deserialize)]
@@ -70,32 +84,31 @@ pub struct Measured {
     pub tolerance: Option<f64>,
 }
 
-/// A field of the reading, and what is wrong with it.
-type Refused = (&'static str, String);
-
 impl Reading {
     /// Refuses a reading of nothing, of two things, or of a difference to nothing.
-    pub fn check(&self) -> Result<(), Refused> {
+    ///
+    /// # Errors
+    /// [`ReadingError::Unfit`].
+    pub fn check(&self) -> Result<(), ReadingError> {
         let kinds = [self.quantity.is_some(), self.column.is_some(), self.particles.is_some()];
         if kinds.iter().filter(|&&given| given).count() != 1 {
             let expected = "needs one of `quantity`, `column` and `particles`";
-            return Err(("read", expected.to_owned()));
+            return Err(unfit("", expected));
         }
         if self.take.is_some() && self.column.is_none() {
-            return Err(("read.take", "belongs to a `column`".to_owned()));
+            return Err(unfit("take", "belongs to a `column`"));
         }
         let compares = self.take.is_some_and(Take::compares);
         match &self.against {
-            None if compares => Err(("read.against", "is missing".to_owned())),
+            None if compares => Err(unfit("against", "is missing")),
             Some(_) if !compares && self.particles.is_none() => {
-                let expected = "belongs to differences and errors of displacements";
-                Err(("read.against", expected.to_owned()))
+                Err(unfit("against", "belongs to differences and errors of displacements"))
             }
             _ => Ok(()),
         }
     }
 
-    /// What it is called in results.csv.
+    /// What it is called in tables.
     pub fn name(&self) -> &str {
         let particles = self.particles.map(|_| "displacement error");
         let named = self.quantity.as_deref().or(self.column.as_deref());
@@ -105,32 +118,27 @@ impl Reading {
     /// Reads the number of a run.
     ///
     /// # Errors
-    /// Files that cannot be read; inside, a field that does not fit the run.
-    pub fn read(
-        &self,
-        run: &FinishedRun,
-        other: Option<&FinishedRun>,
-    ) -> Result<Result<Measured, Refused>, CommandError> {
+    /// [`ReadingError::File`] for files that cannot be read, [`ReadingError::Unfit`] for a field that does not fit the run.
+    pub fn read(&self, run: &FinishedRun, other: Option<&FinishedRun>) -> Result<Measured, ReadingError> {
         if self.particles.is_none() {
-            return Ok(self.read_numbers(run, other));
+            return self.read_numbers(run, other);
         }
         let other = other.map(|other| other.directory.as_path());
-        match displacement_error(&run.prepared.scene, &run.directory, other) {
-            Ok(error) => Ok(self.scaled(&run.prepared.table, error)),
-            Err(ReadingError::File(error)) => Err(error.into()),
-            Err(error) => Ok(Err(("read.particles", error.to_string()))),
+        match displacement_error(run.scene, &run.directory, other) {
+            Ok(error) => self.scaled(run.document, error),
+            Err(ReadingError::Lacks(what)) => Err(unfit("particles", what)),
+            Err(error) => Err(error),
         }
     }
 
     /// What needs no frames.
-    fn read_numbers(&self, run: &FinishedRun, other: Option<&FinishedRun>) -> Result<Measured, Refused> {
-        let scene = &run.prepared.table;
+    fn read_numbers(&self, run: &FinishedRun, other: Option<&FinishedRun>) -> Result<Measured, ReadingError> {
         if let Some(name) = &self.quantity {
             let validation = &run.summary.validation;
             let row = validation.iter().find(|row| row.quantity == *name);
             let known = || validation.iter().map(|row| row.quantity.as_str());
-            let row = row.ok_or_else(|| ("read.quantity", missing(name, known())))?;
-            let (shift, factor) = (self.shift(scene)?, self.factor.unwrap_or(1.0));
+            let row = row.ok_or_else(|| unfit("quantity", missing(name, known())))?;
+            let (shift, factor) = (self.shift(run.document)?, self.factor.unwrap_or(1.0));
             return Ok(Measured {
                 value: factor * (row.measured + shift),
                 reference: Some(factor * (row.reference + shift)),
@@ -139,21 +147,19 @@ impl Reading {
         }
         let column = |run: &FinishedRun, columns: &str, field: &'static str| {
             let known = || run.series.columns().iter().map(String::as_str);
-            curve(&run.series, columns).map_err(|name| (field, missing(&name, known())))
+            curve(&run.series, columns).map_err(|name| unfit(field, missing(&name, known())))
         };
-        let own = column(run, self.name(), "read.column")?;
-        let other = other
-            .map(|other| column(other, self.name(), "read.column"))
-            .transpose()?;
+        let own = column(run, self.name(), "column")?;
+        let other = other.map(|other| column(other, self.name(), "column")).transpose()?;
         let mut value = self.take.unwrap_or_default().of(&own, other.as_ref());
         if let Some(over) = &self.over {
-            value /= column(run, over, "read.over")?.peak();
+            value /= column(run, over, "over")?.peak();
         }
-        self.scaled(scene, value)
+        self.scaled(run.document, value)
     }
 
     /// f (r + o + Σ c_k s_k).
-    fn scaled(&self, scene: &Table, value: f64) -> Result<Measured, Refused> {
+    fn scaled(&self, scene: &SceneDocument, value: f64) -> Result<Measured, ReadingError> {
         Ok(Measured {
             value: self.factor.unwrap_or(1.0) * (value + self.shift(scene)?),
             reference: None,
@@ -162,15 +168,23 @@ impl Reading {
     }
 
     /// o + Σ c_k s_k.
-    pub fn shift(&self, scene: &Table) -> Result<f64, Refused> {
+    ///
+    /// # Errors
+    /// [`ReadingError::Unfit`] for a key at which the scene has no number.
+    pub fn shift(&self, scene: &SceneDocument) -> Result<f64, ReadingError> {
         self.offsets
             .iter()
             .try_fold(self.offset.unwrap_or(0.0), |sum, (key, factor)| {
-                let number = keys::number(scene, key);
-                let number = number.ok_or_else(|| ("read.offsets", format!("`{key}` is no number of the scene")))?;
+                let number = scene.number(key);
+                let number = number.ok_or_else(|| unfit("offsets", format!("`{key}` is no number of the scene")))?;
                 Ok(sum + factor * number)
             })
     }
+}
+
+fn unfit(field: &'static str, message: impl Into<String>) -> ReadingError {
+    let message = message.into();
+    ReadingError::Unfit { field, message }
 }
 
 fn missing<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> String {
@@ -183,34 +197,46 @@ fn missing<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> String {
 
 #[cfg(test)]
 mod tests {
-    use std::path::{Path, PathBuf};
-
-    use mpm_scenes::{Outcome, Scene, Series, Summary, ValidationRow};
-
-    use super::super::scene_files::PreparedScene;
     use super::*;
+    use crate::{Outcome, ValidationRow};
 
-    const BAR: &str = include_str!("../../../scenes/vibrating_bar.toml");
+    const BAR: &str = r#"
+        title = "bar"
+        dimension = 1
+        domain = { lower = [0.0], upper = [2.0] }
+        grid = { spacing = 0.4 }
+        time = { end = 2.0 }
+        materials.bar = { law = "linear-elastic", density = 1.0, young_modulus = 1.0, poisson_ratio = 0.0 }
+        bodies = [{ name = "bar", material = "bar", shape = { kind = "box", lower = [0.0], upper = [1.0] } }]
+        output = { interval = 1.0 }
+    "#;
 
     fn reading(text: &str) -> Reading {
         toml::from_str(text).unwrap()
     }
 
-    fn scene() -> PreparedScene {
-        PreparedScene {
-            table: "grid = { spacing = 0.4 }".parse().unwrap(),
-            scene: Scene::parse(BAR, Path::new("bar.toml")).unwrap(),
-            fingerprint: String::new(),
+    /// The field that does not fit, and why.
+    fn refused<T>(result: Result<T, ReadingError>) -> (&'static str, String) {
+        match result {
+            Err(ReadingError::Unfit { field, message }) => (field, message),
+            _ => panic!("a field that does not fit"),
         }
     }
 
-    fn run<'a>(prepared: &'a PreparedScene, validation: &[ValidationRow]) -> FinishedRun<'a> {
+    fn scene() -> (SceneDocument, Scene) {
+        let document = SceneDocument::parse(BAR, "bar.toml".as_ref()).unwrap();
+        let scene = document.scene().unwrap();
+        (document, scene)
+    }
+
+    fn run<'a>((document, scene): &'a (SceneDocument, Scene), validation: &[ValidationRow]) -> FinishedRun<'a> {
         let mut series = Series::new(vec!["time".to_owned(), "upper_x".to_owned()]);
         for (time, x) in [(0.0, 0.9), (1.0, 2.5), (2.0, 2.25)] {
             series.push(vec![time, x]);
         }
         FinishedRun {
-            prepared,
+            document,
+            scene,
             directory: PathBuf::new(),
             summary: Summary {
                 outcome: Outcome::Finished,
@@ -230,7 +256,7 @@ mod tests {
         let run_out = "column = \"upper_x\"\nfactor = 0.5\noffset = -1.0\noffsets = { \"grid.spacing\" = 0.25 }";
         let value = |take: &str| {
             let reading = reading(&format!("{run_out}{take}"));
-            reading.read(&run(&scene(), &[]), None).unwrap().unwrap().value
+            reading.read(&run(&scene(), &[]), None).unwrap().value
         };
         assert!((value("") - 0.5 * (2.25 - 1.0 + 0.1)).abs() < 1e-15);
         assert!((value("\ntake = \"largest\"") - 0.5 * (2.5 - 1.0 + 0.1)).abs() < 1e-15);
@@ -243,7 +269,7 @@ mod tests {
     fn a_quantity_brings_what_it_is_compared_with() {
         let rows = [ValidationRow::near("period", 1.01, 1.0, 0.02)];
         let reading = reading("quantity = \"period\"\nfactor = -100.0");
-        let measured = reading.read(&run(&scene(), &rows), None).unwrap().unwrap();
+        let measured = reading.read(&run(&scene(), &rows), None).unwrap();
         assert_eq!(
             (measured.value, measured.reference, measured.tolerance),
             (-101.0, Some(-100.0), Some(2.0))
@@ -253,24 +279,18 @@ mod tests {
     #[test]
     fn what_is_missing_is_named_with_what_there_is() {
         let rows = [ValidationRow::near("period", 1.01, 1.0, 0.02)];
-        let message = |text: &str, rows: &[ValidationRow]| {
-            let refused = reading(text).read(&run(&scene(), rows), None).unwrap();
-            refused.unwrap_err()
-        };
+        let message = |text: &str, rows: &[ValidationRow]| refused(reading(text).read(&run(&scene(), rows), None));
         assert_eq!(
             message("quantity = \"tip\"", &rows),
-            ("read.quantity", "`tip` is none of `period`".to_owned())
+            ("quantity", "`tip` is none of `period`".to_owned())
         );
         assert!(message("quantity = \"tip\"", &[]).1.contains("no reference"));
         assert_eq!(
             message("column = \"y\"", &rows),
-            ("read.column", "`y` is none of `time`, `upper_x`".to_owned())
+            ("column", "`y` is none of `time`, `upper_x`".to_owned())
         );
-        assert_eq!(message("column = \"time\"\nover = \"z\"", &rows).0, "read.over");
-        assert_eq!(
-            message("column = \"time\"\noffsets = { h = 1.0 }", &rows).0,
-            "read.offsets"
-        );
+        assert_eq!(message("column = \"time\"\nover = \"z\"", &rows).0, "over");
+        assert_eq!(message("column = \"time\"\noffsets = { h = 1.0 }", &rows).0, "offsets");
         assert!(
             message("particles = \"displacement-error\"", &[])
                 .1
@@ -281,16 +301,16 @@ mod tests {
     #[test]
     fn half_a_reading_is_refused() {
         for (text, field) in [
-            ("take = \"last\"", "read"),
-            ("quantity = \"a\"\ncolumn = \"b\"", "read"),
-            ("quantity = \"a\"\ntake = \"last\"", "read.take"),
-            ("column = \"a\"\ntake = \"difference\"", "read.against"),
-            ("column = \"a\"\nagainst = { label = \"b\" }", "read.against"),
+            ("take = \"last\"", ""),
+            ("quantity = \"a\"\ncolumn = \"b\"", ""),
+            ("quantity = \"a\"\ntake = \"last\"", "take"),
+            ("column = \"a\"\ntake = \"difference\"", "against"),
+            ("column = \"a\"\nagainst = { label = \"b\" }", "against"),
         ] {
-            assert_eq!(reading(text).check().unwrap_err().0, field, "{text}");
+            assert_eq!(refused(reading(text).check()).0, field, "{text}");
         }
         let difference = "column = \"a\"\ntake = \"largest-difference\"\nagainst = { label = \"b\" }";
-        assert_eq!(reading(difference).check(), Ok(()));
-        assert_eq!(reading("particles = \"displacement-error\"").check(), Ok(()));
+        assert!(reading(difference).check().is_ok());
+        assert!(reading("particles = \"displacement-error\"").check().is_ok());
     }
 }

@@ -1,4 +1,4 @@
-//! Values of a scene's document at dotted keys: `bodies.0.shape.upper.1` is the second entry of `upper` of the first body's shape.
+//! Values at dotted keys.
 
 use toml::{Table, Value};
 
@@ -69,22 +69,26 @@ pub fn number(scene: &Table, key: &str) -> Option<f64> {
     }
 }
 
-/// The value at a dotted key of a scene, to be exchanged.
+/// Puts a value in the place of one at a dotted key.
 ///
 /// # Errors
 /// What there is not, in words.
-pub fn find<'a>(scene: &'a mut Value, key: &str) -> Result<&'a mut Value, String> {
-    let mut known = "the scene";
-    key.split('.').try_fold(scene, |place, name| {
+pub fn exchange(scene: &mut Table, key: &str, value: Value) -> Result<(), String> {
+    let missing = |holder: &str, name: &str| format!("{holder} has no `{name}`");
+    let (mut holder, rest) = split(key);
+    let first = scene.get_mut(holder).ok_or_else(|| missing("the scene", holder))?;
+    let names = rest.into_iter().flat_map(|rest| rest.split('.'));
+    let mut place = first;
+    for name in names {
         let found = match place {
             Value::Array(elements) => name.parse::<usize>().ok().and_then(|index| elements.get_mut(index)),
             other => other.get_mut(name),
         };
-        let missing = || format!("{known} has no `{name}`");
-        let found = found.ok_or_else(missing)?;
-        known = name;
-        Ok(found)
-    })
+        place = found.ok_or_else(|| missing(holder, name))?;
+        holder = name;
+    }
+    *place = value;
+    Ok(())
 }
 
 /// The first part of a key, and what follows its dot.
