@@ -7,7 +7,7 @@ use mpm_tensor::vector::dot;
 use super::definite::{LaneMatrix, inverse_of_definite};
 use super::ring_lanes::{Group, Pending, RingLanes, SETS};
 use super::spline::quadratic;
-use super::sums;
+use super::{LARGEST_COUNT, Sums, sums};
 
 /// D_p is used where each of its pivots is above this share of Σ_i |w_ip| r_ia², since weights of both signs may make it singular, and above
 /// that share of Σ_i d′_ip r_ia², since it is also where a particle is at a vertex of the boundary (ours).
@@ -184,12 +184,6 @@ fn one_of<const D: usize>(matrix: &LaneMatrix<D>, lane: usize) -> Matrix<D> {
     }
     one
 }
-
-/// 1, D and D (D + 1) / 2 sums for D = 3.
-pub(super) const LARGEST_COUNT: usize = 10;
-
-/// What [`Moments`] are of, one after the other: Σ d′, Σ d′ r, and the lower triangle of Σ d′ r rᵀ by rows.
-pub(super) type Sums = [Lanes; LARGEST_COUNT];
 
 /// The place of entry i, j of the triangle.
 const fn place_of(dimension: usize, i: usize, j: usize) -> usize {

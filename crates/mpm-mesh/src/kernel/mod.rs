@@ -25,6 +25,12 @@ pub enum SampleWeight {
     CellAlone,
 }
 
+/// 1, D and D (D + 1) / 2 sums for D = 3.
+const LARGEST_COUNT: usize = 10;
+
+/// Sums over a ring, one after the other: Σ d′, Σ d′ r, and the lower triangle of Σ d′ r rᵀ by rows.
+type Sums = [Lanes; LARGEST_COUNT];
+
 /// The sum over the lanes of each of four rows.
 #[inline(always)]
 pub(crate) fn sums(rows: &[Lanes; LANES]) -> Lanes {

@@ -5,7 +5,7 @@ use std::ops::Range;
 use mpm_kernels::{LANES, Lanes};
 
 use super::SampleWeight;
-use super::fit::{LARGEST_COUNT, Sums};
+use super::{LARGEST_COUNT, Sums};
 
 /// Four nodes of a ring, and the sets of vertices of the cell that each is joined to, vertex n being bit n.
 #[derive(Clone, Copy, Debug)]
