@@ -2,6 +2,7 @@
 
 mod atomic_file;
 mod directory;
+mod distinct_names;
 pub mod frames;
 mod number_table;
 mod particles;
@@ -13,6 +14,7 @@ use std::path::{Path, PathBuf};
 
 pub use atomic_file::{AtomicFile, PARTIAL_SUFFIX};
 pub use directory::OutputDirectory;
+pub use distinct_names::distinct_names;
 pub use frames::FrameWriter;
 pub use number_table::NumberTable;
 pub use particles::Particles;

@@ -4,33 +4,17 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use super::particles::{LOG_DENSITY, WEIGHT};
-use super::{NumberTable, Particles};
+use super::{NumberTable, Particles, distinct_names};
 use crate::CommandError;
 
-/// What coordinates are called in files: by `names`; x1,…,xD where there are none, and for a coordinate that is called like an earlier one or one of the further columns. No
-/// two alike.
+/// What the columns of coordinates are called.
 pub fn column_names(names: &[String], dimension: usize) -> Vec<String> {
-    let mut taken = vec![WEIGHT.to_owned(), LOG_DENSITY.to_owned()];
-    let mut columns = vec![String::new(); dimension];
-    for (column, name) in columns.iter_mut().zip(names) {
-        if !taken.contains(name) {
-            column.clone_from(name);
-            taken.push(name.clone());
-        }
-    }
-    for (axis, column) in columns.iter_mut().enumerate().filter(|(_, column)| column.is_empty()) {
-        *column = format!("x{}", axis + 1);
-        while taken.contains(column) {
-            column.push('_');
-        }
-        taken.push(column.clone());
-    }
-    columns
+    distinct_names(names, dimension, &[WEIGHT, LOG_DENSITY])
 }
 
 /// Writes a header and one particle per row: its coordinates, its weight where weights differ, log p where it is noted.
 ///
-/// Columns are called as [`column_names`] says, and quoted where they have to be. Numbers are the shortest that read back to the same bits.
+/// Columns are called as [`distinct_names`] says, and quoted where they have to be. Numbers are the shortest that read back to the same bits.
 pub fn write(particles: &Particles, names: &[String], writer: &mut dyn Write) -> io::Result<()> {
     let mut header = column_names(names, particles.dimension());
     let further = particles.further_columns();
@@ -107,17 +91,6 @@ mod tests {
         write(&Particles::new(&[[1.0, 2.0, 3.0]], None), &names, &mut bytes).unwrap();
         let text = String::from_utf8(bytes).unwrap();
         assert_eq!(text, "intercept,\"age, in years\",x3\n1.0,2.0,3.0\n");
-    }
-
-    #[test]
-    fn no_two_columns_have_a_name() {
-        let named = |names: &[&str]| {
-            let names: Vec<String> = names.iter().map(|&name| name.to_owned()).collect();
-            column_names(&names, names.len()).join(" ")
-        };
-        assert_eq!(named(&["intercept", "intercept", "x1"]), "intercept x2 x1");
-        assert_eq!(named(&["intercept", "x3", "weight"]), "intercept x3 x3_");
-        assert_eq!(column_names(&[], 2), ["x1", "x2"]);
     }
 
     #[test]

@@ -3,8 +3,8 @@
 use mpm_mesh::Appended;
 use parvi::ParticleView;
 
-use crate::output::Particles;
 use crate::output::particles_npy::array;
+use crate::output::{Particles, distinct_names};
 
 /// What the files say of particles.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -116,7 +116,7 @@ impl Frame {
     fn point_data(&self, appended: &mut Appended, names: &[String]) -> String {
         let (d, count) = (self.dimension, self.particles());
         let mut text = String::new();
-        for (axis, name) in array_names(names, d).iter().enumerate() {
+        for (axis, name) in distinct_names(names, d, &OTHERS).iter().enumerate() {
             let column: Vec<f64> = self.positions.iter().skip(axis).step_by(d.max(1)).copied().collect();
             text += &appended.floats(name, 1, &column);
         }
@@ -143,17 +143,8 @@ impl Frame {
     }
 }
 
-/// Names of the arrays of the coordinates, none of which is that of another array.
-fn array_names(names: &[String], dimension: usize) -> Vec<String> {
-    const OTHERS: [&str; 5] = ["position", "velocity", "deformation_gradient", "weight", "particle"];
-    let free = |axis: usize, name: &String| !OTHERS.contains(&name.as_str()) && !names[..axis].contains(name);
-    (0..dimension)
-        .map(|axis| match names.get(axis) {
-            Some(name) if free(axis, name) => name.clone(),
-            _ => format!("x{}", axis + 1),
-        })
-        .collect()
-}
+/// Names of the other arrays.
+const OTHERS: [&str; 5] = ["position", "velocity", "deformation_gradient", "weight", "particle"];
 
 /// A gradient of at least three rows and columns, which beyond its own are those of no deformation.
 fn padded_gradient(gradient: &[f64], dimension: usize) -> impl Iterator<Item = f64> {
