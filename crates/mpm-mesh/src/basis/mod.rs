@@ -5,6 +5,7 @@ mod cell_ring;
 mod curve;
 mod locate;
 mod node_at;
+mod one_by_one;
 mod stencils;
 mod transfers;
 mod weights;
@@ -323,6 +324,9 @@ impl<const D: usize> Basis<D> for MeshBasis<D> {
         flux: &S,
         sink: &mut impl NodeSink<D>,
     ) {
+        if self.is_kept_positive(member.particle) {
+            return self.deposit_one_by_one(member, value, affine, flux, sink);
+        }
         self.deposit_in_lanes(member, value, affine, flux, sink);
     }
 
@@ -333,6 +337,9 @@ impl<const D: usize> Basis<D> for MeshBasis<D> {
         wanted: Wanted,
         nodes: &impl NodeField<D>,
     ) -> Interpolated<D> {
+        if self.is_kept_positive(member.particle) {
+            return self.interpolate_one_by_one(member, wanted, nodes);
+        }
         self.interpolate_in_lanes(member, wanted, nodes)
     }
 

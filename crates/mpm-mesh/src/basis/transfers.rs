@@ -8,7 +8,7 @@ use mpm_tensor::Matrix;
 
 use super::MeshBasis;
 use super::cell_ring::CellRing;
-use crate::kernel::{Fit, Floor, sums};
+use crate::kernel::sums;
 
 /// A mass and a vector of up to three components.
 type Pack = Packed<1>;
@@ -24,7 +24,7 @@ impl<const D: usize> MeshBasis<D> {
         flux: &S,
         sink: &mut impl NodeSink<D>,
     ) {
-        let (fit, floor) = (&self.particles[member.particle].fit, self.floor(member.particle));
+        let fit = &self.particles[member.particle].fit;
         let pack = |column: Option<[f64; D]>| column.map(|column| Pack::new(0.0, &column));
         let (tilted, mut pushes) = (affine.column(0).is_some(), flux.column(0).is_some());
         let mut tilt = [Pack::ZERO; D]; // columns of C
@@ -44,20 +44,20 @@ impl<const D: usize> MeshBasis<D> {
                 }
             }
             if let Some(column) = flux {
-                push = push.plus(Lanes::splat(floor.slope[b]), &column);
+                push = push.plus(Lanes::splat(fit.slope[b]), &column);
                 for a in 0..D {
                     bend[a] = bend[a].plus(Lanes::splat(fit.curvature.0[b][a]), &column);
                 }
             }
         }
         let (mass, value) = (Lanes::splat(value.scalar), splats::<D>(&Pack::new(0.0, &value.vector)));
-        let weighting = Weighting::of(fit, &floor);
+        let (level, slope) = (Lanes::splat(fit.level), fit.slope.map(Lanes::splat));
         let (push, mut tilts, mut bends) = (splats::<D>(&push), [[Lanes::ZERO; D]; D], [[Lanes::ZERO; D]; D]);
         for a in 0..D {
             (tilts[a], bends[a]) = (splats::<D>(&tilt[a]), splats::<D>(&bend[a]));
         }
         self.for_each_group(member, |first, sample, r| {
-            let weight = weighting.weight(sample, r);
+            let weight = weight_of(sample, level, &slope, r);
             let mut sent = [Lanes::ZERO; LANES];
             sent[0] = weight * mass;
             for c in 0..D {
@@ -92,36 +92,29 @@ impl<const D: usize> MeshBasis<D> {
         wanted: Wanted,
         nodes: &impl NodeField<D>,
     ) -> Interpolated<D> {
-        let (fit, floor) = (&self.particles[member.particle].fit, self.floor(member.particle));
+        let fit = &self.particles[member.particle].fit;
         let by_moment = wanted.gradient && wanted.least_squares && fit.inverse_spread.is_some();
         let by_gradient = wanted.gradient && !by_moment;
         let with_moment = wanted.moment || by_moment;
-        let weighting = Weighting::of(fit, &floor);
+        let (level, slope) = (Lanes::splat(fit.level), fit.slope.map(Lanes::splat));
         let (mut zeroth, mut first, mut moment) = (Pack::ZERO, [Pack::ZERO; D], [Pack::ZERO; D]);
         // One after the other, since all sums together do not fit into registers: the box keeps those of the first loop out of them in the second.
         if by_gradient {
             (zeroth, first) = black_box(self.moments::<true, true>(member, nodes, |sample, _| sample));
         }
-        let weight = |sample, r: &[Lanes; D]| weighting.weight(sample, r);
-        let mut value = zeroth;
+        let weight = |sample, r: &[Lanes; D]| weight_of(sample, level, &slope, r);
         match (by_gradient, with_moment) {
-            (true, true) if floor.is_reached() => (value, moment) = self.moments::<true, true>(member, nodes, weight),
             (true, true) => moment = self.moments::<false, true>(member, nodes, weight).1,
-            (true, false) if floor.is_reached() => value = self.moments::<true, false>(member, nodes, weight).0,
             (true, false) => {}
-            (false, true) => (value, moment) = self.moments::<true, true>(member, nodes, weight),
-            (false, false) => value = self.moments::<true, false>(member, nodes, weight).0,
+            (false, true) => (zeroth, moment) = self.moments::<true, true>(member, nodes, weight),
+            (false, false) => zeroth = self.moments::<true, false>(member, nodes, weight).0,
         }
-        if by_gradient && !floor.is_reached() {
-            value = zeroth.times(weighting.level);
-            for a in 0..D {
-                value = value.plus(weighting.slope[a], &first[a]);
-            }
-        }
-        let mut gradient = [Pack::ZERO; D];
+        let (mut value, mut gradient) = (zeroth, [Pack::ZERO; D]);
         if by_gradient {
+            value = zeroth.times(level);
             for a in 0..D {
-                gradient[a] = zeroth.times(Lanes::splat(floor.slope[a]));
+                value = value.plus(slope[a], &first[a]);
+                gradient[a] = zeroth.times(slope[a]);
                 for b in 0..D {
                     gradient[a] = gradient[a].plus(Lanes::splat(fit.curvature.0[b][a]), &first[b]);
                 }
@@ -179,8 +172,13 @@ impl<const D: usize> MeshBasis<D> {
     /// Visit the weights of four nodes at a time, in order.
     #[inline(always)]
     fn for_each_weight_group(&self, member: Member<CellRing<D>, D>, mut visit: impl FnMut(Lanes)) {
-        let weighting = Weighting::of(&self.particles[member.particle].fit, &self.floor(member.particle));
-        self.for_each_group(member, |_, sample, r| visit(weighting.weight(sample, r)));
+        let (fit, twice) = (&self.particles[member.particle].fit, self.floor(member.particle).twice);
+        let (level, slope) = (Lanes::splat(fit.level), fit.slope.map(Lanes::splat));
+        let twice = Lanes::splat(twice);
+        self.for_each_group(member, |_, sample, r| {
+            let s = affine(level, &slope, r);
+            visit(s.fast_max(twice - s) * sample);
+        });
     }
 
     #[inline(always)]
@@ -213,32 +211,20 @@ impl<const D: usize> MeshBasis<D> {
     }
 }
 
-/// w = d′ max(s, 2θ − s) with s = α + β·r of one particle; 2θ = −∞ where weights are those of least squares.
-struct Weighting<const D: usize> {
-    level: Lanes,
-    slope: [Lanes; D],
-    twice: Lanes,
+/// d′ (α + β·r) of four nodes.
+#[inline(always)]
+fn weight_of<const D: usize>(sample: Lanes, level: Lanes, slope: &[Lanes; D], r: &[Lanes; D]) -> Lanes {
+    affine(level, slope, r) * sample
 }
 
-impl<const D: usize> Weighting<D> {
-    #[inline(always)]
-    fn of(fit: &Fit<D>, floor: &Floor<D>) -> Self {
-        Self {
-            level: Lanes::splat(fit.level),
-            slope: fit.slope.map(Lanes::splat),
-            twice: Lanes::splat(floor.twice),
-        }
+/// α + β·r of four nodes.
+#[inline(always)]
+fn affine<const D: usize>(level: Lanes, slope: &[Lanes; D], r: &[Lanes; D]) -> Lanes {
+    let mut sum = level;
+    for a in 0..D {
+        sum = slope[a].mul_add(r[a], sum);
     }
-
-    /// w of four nodes.
-    #[inline(always)]
-    fn weight(&self, sample: Lanes, r: &[Lanes; D]) -> Lanes {
-        let mut sum = self.level;
-        for a in 0..D {
-            sum = self.slope[a].mul_add(r[a], sum);
-        }
-        sum.fast_max(self.twice - sum) * sample
-    }
+    sum
 }
 
 /// The vector of the sums over the lanes of each component; the scalar has no meaning.

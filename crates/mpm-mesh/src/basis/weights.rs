@@ -76,9 +76,11 @@ impl<const D: usize> MeshBasis<D> {
                         if pending == LANES || next == particles.len() {
                             let fits = particles[solved..next].iter_mut().map(|particle| &mut particle.fit);
                             lanes.solve(self.spreads, samples, fits);
-                            for (k, floor) in floors.iter_mut().take(next).skip(solved).enumerate() {
-                                let fit = &mut particles[solved + k].fit;
-                                *floor = lanes.make_positive(k, self.spreads, samples, fit);
+                            if !floors.is_empty() {
+                                let own = particles[solved..next].iter_mut().zip(&mut floors[solved..next]);
+                                for (k, (particle, floor)) in own.enumerate() {
+                                    *floor = lanes.make_positive(k, self.spreads, samples, &mut particle.fit);
+                                }
                             }
                             solved = next;
                         }

@@ -28,7 +28,7 @@ const TOLERANCE: f64 = 1e-13;
 /// Least squares give w = d s, which passes through zero where g does not. A node that only one particle reaches then has a mass that vanishes before the force on it does, m_p w and V τ g, and its velocity has no bound.
 /// Here |g|² / w ≤ d |β̂ + Γ r|² / θ, which falls to zero with d.
 ///
-/// In lanes d is stored as d ψ′(s), of which w is the multiple max(s, 2θ − s).
+/// d is stored as d ψ′(s), of which w is the multiple max(s, 2θ − s).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Floor<const D: usize> {
     /// 2θ; −∞ where weights are those of least squares.
@@ -61,6 +61,7 @@ impl<const D: usize> Floor<D> {
 
 impl<const D: usize> RingLanes<D> {
     /// Makes the weights of the particle that was solved at place `k` positive; its d′ become d ψ′. As they were where no such weights exist, because the particle is at the boundary of its ring or beyond.
+    #[inline(never)]
     pub fn make_positive(&self, k: usize, spread: bool, samples: &mut [Lanes], fit: &mut Fit<D>) -> Floor<D> {
         let particle = &self.pending[k];
         let own = &samples[particle.samples()];
