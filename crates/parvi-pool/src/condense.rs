@@ -12,7 +12,7 @@ use crate::weights::systematic;
 
 /// Passes over space, which is cut into pieces so that the cost is that of many small measures: particles of one piece at most, iterations with few equally
 /// weighted points (with all, where there are not many more), and iterations with all of them. The last pass mends the seams of the first.
-const PASSES: [(usize, usize, usize); 2] = [(256, 25, 4), (1024, 0, 1)];
+const PASSES: [(usize, usize, usize); 2] = [(128, 25, 2), (256, 0, 4)];
 
 /// Those few points, per particle.
 const COARSE: usize = 8;
