@@ -110,8 +110,8 @@ impl<const D: usize> Mixture<D> {
         sums
     }
 
-    /// Which kernels the points of a group are due to.
-    pub(super) fn responsible(&self, group: &Group<D>, least: f64, found: &mut Responsible) {
-        found.find(&self.students, group, least);
+    /// Which of the kernels with these numbers the points of a group are due to.
+    pub(super) fn responsible(&self, numbers: &[u32], group: &Group<D>, least: f64, found: &mut Responsible) {
+        found.find(&self.students, numbers, group, least);
     }
 }
