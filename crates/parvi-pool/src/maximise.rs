@@ -63,6 +63,9 @@ pub(super) fn maximised<const D: usize>(sample: &Sample<D>, start: Mixture<D>, i
     mixture
 }
 
+/// Groups, their points' weights, and the kernels near each group.
+type Task<'a, const D: usize> = ((&'a [Group<D>], &'a [f64]), &'a mut [Vec<u32>]);
+
 /// The sums over all points, for every kernel. Of the kernels `near` a group only those stay in the list that have more than `least` of the density at one of
 /// its points.
 fn summed<const D: usize>(
@@ -74,7 +77,7 @@ fn summed<const D: usize>(
 ) -> Vec<Sums<D>> {
     let nu = 2.0 * f64::from(HALF_FREEDOM);
     let count = mixture.kernels().len();
-    let part = |((groups, weights), near): ((&[Group<D>], &[f64]), &mut [Vec<u32>])| {
+    let part = |((groups, weights), near): Task<'_, D>| {
         let mut sums = vec![Sums::<D>::default(); count];
         let mut responsible = Responsible::new(count);
         for ((group, weights), near) in groups.iter().zip(weights.chunks(LANES)).zip(near) {
