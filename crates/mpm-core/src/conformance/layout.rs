@@ -1,13 +1,14 @@
 //! Who works when.
 
-use crate::{Basis, NO_NODE};
+use super::AnyBasis;
+use crate::NO_NODE;
 
 /// The schedule of a basis rebuilt for `positions` is a permutation in cells and parts, and a part's cells touch no node outside its range.
 ///
 /// # Panics
 ///
 /// Where that is not so, with `what` in the message.
-pub fn layout_is_sound<const D: usize, B: Basis<D>>(basis: &B, positions: &[[f64; D]], what: &str) {
+pub fn layout_is_sound<const D: usize>(basis: &dyn AnyBasis<D>, positions: &[[f64; D]], what: &str) {
     let schedule = basis.schedule();
     let mut order = schedule.order().to_vec();
     if schedule.keeps_order() {

@@ -1,57 +1,28 @@
 //! Deposits and interpolations against the entries of a basis.
 
-use mpm_kernels::{Deposit, NodeField, NodeSink, Packed, Wanted};
+use mpm_kernels::{Deposit, Wanted};
 use mpm_tensor::Matrix;
 
-use crate::{Basis, Member};
+use super::{AnyBasis, Located};
 
-/// One sum, or one vector, per node of a stencil.
-struct Nodes<const D: usize>(Vec<Deposit<D>>);
-
-impl<const D: usize> NodeSink<D> for Nodes<D> {
-    fn add(&mut self, index: usize, deposit: &Deposit<D>) {
-        self.0[index].add(deposit);
-    }
-
-    fn update<const G: usize>(&mut self, index: usize, add: impl FnOnce(&Packed<G>) -> Packed<G>) {
-        let before = &self.0[index];
-        self.0[index] = add(&Packed::new(before.scalar, &before.vector)).deposit();
-    }
-}
-
-impl<const D: usize> NodeField<D> for Nodes<D> {
-    fn vector(&self, index: usize) -> [f64; D] {
-        self.0[index].vector
-    }
-
-    fn packed<const G: usize>(&self, index: usize) -> Packed<G> {
-        Packed::new(0.0, &self.0[index].vector)
-    }
-}
-
-/// What a particle at `x`, in a cell of so many `places`, sends to its nodes and reads from them: the sums over [`Basis::for_each_node`], to rounding.
+/// What a particle at `x`, in a cell of so many `places`, sends to its nodes and reads from them: the sums over [`Basis::for_each_node`](crate::Basis::for_each_node), to rounding.
 ///
 /// # Panics
 ///
 /// Where that is not so, with `what` in the message.
-pub fn transfers_are_sums<const D: usize, B: Basis<D>>(
-    basis: &B,
+pub fn transfers_are_sums<const D: usize>(
+    basis: &dyn AnyBasis<D>,
     particle: usize,
     x: &[f64; D],
     places: usize,
     what: &str,
 ) {
-    let (h, mut collected) = (basis.spacing(), B::Cell::default());
-    let schedule = basis.schedule();
-    let cells = 0..schedule.cell_count();
-    if let Some(cell) = cells.into_iter().find(|&cell| schedule.cell(cell).contains(&particle)) {
-        basis.enter(cell, &mut collected);
-    }
-    let member = Member {
-        cell: &collected,
-        particle,
-        x,
+    let (h, schedule) = (basis.spacing(), basis.schedule());
+    let mut cells = 0..schedule.cell_count();
+    let Some(cell) = cells.find(|&cell| schedule.cell(cell).contains(&particle)) else {
+        panic!("{what}: particle {particle} is in no cell");
     };
+    let member = Located { cell, particle, x };
     let vector = |i: usize| std::array::from_fn(|a| ((7 * i + 3 * a) % 11) as f64 - 5.0);
     let field: Vec<Deposit<D>> = (0..places)
         .map(|i| Deposit {
@@ -65,7 +36,7 @@ pub fn transfers_are_sums<const D: usize, B: Basis<D>>(
     let (mut sent, mut pressed) = (vec![Deposit::ZERO; field.len()], vec![Deposit::ZERO; field.len()]);
     let (mut mean, mut size) = ([0.0; D], 1.0f64);
     let (mut slope, mut least_squares, mut moment) = (Matrix::ZERO, Matrix::ZERO, Matrix::ZERO);
-    basis.for_each_node(particle, x, |i, entry| {
+    basis.for_each_node(particle, x, &mut |i, entry| {
         let direction = basis.affine_direction(particle, x, entry);
         let gradient = |scale: f64, map: &Matrix<D>, v: &[f64; D]| Deposit {
             scalar: 0.0,
@@ -96,17 +67,17 @@ pub fn transfers_are_sums<const D: usize, B: Basis<D>>(
             assert!(largest < 1e-11 * size, "{what}: deposit {found:?} for {expected:?}");
         }
     };
-    let mut nodes = Nodes(vec![Deposit::ZERO; field.len()]);
-    basis.deposit(member, &value, &affine, &flux, &mut nodes);
-    close(&nodes.0, &sent);
-    nodes.0.fill(Deposit::ZERO);
-    basis.deposit(member, &value, &(), &(0.7 * h), &mut nodes);
-    close(&nodes.0, &pressed);
+    let mut nodes = vec![Deposit::ZERO; field.len()];
+    basis.deposit_matrices(member, &value, &affine, &flux, &mut nodes);
+    close(&nodes, &sent);
+    nodes.fill(Deposit::ZERO);
+    basis.deposit_pressure(member, &value, 0.7 * h, &mut nodes);
+    close(&nodes, &pressed);
 
     let (mut first, mut second) = (vec![1.0; field.len()], vec![0.0; field.len()]);
     basis.deposit_scalars(member, [0.7, -2.0], [&mut first, &mut second]);
     let mut expected = vec![[1.0, 0.0]; field.len()];
-    basis.for_each_node(particle, x, |i, entry| {
+    basis.for_each_node(particle, x, &mut |i, entry| {
         expected[i] = [1.0 + 0.7 * entry.weight, -2.0 * entry.weight];
     });
     for ((first, second), expected) in first.iter().zip(&second).zip(&expected) {
@@ -117,7 +88,6 @@ pub fn transfers_are_sums<const D: usize, B: Basis<D>>(
     let seen = basis.interpolate_scalar(member, &scalars);
     assert!((seen - mean[0]).abs() < 1e-12, "{what}: scalar");
 
-    let field = Nodes(field);
     for bits in 0..8 {
         let wanted = Wanted {
             gradient: bits & 1 != 0,

@@ -2,17 +2,17 @@
 
 use std::collections::HashSet;
 
-use mpm_core::conformance::{layout_is_sound, transfers_are_sums};
-use mpm_core::{Basis, NO_NODE, SimplexLattice};
-use mpm_kernels::Deposit;
+use mpm_core::conformance::{AnyBasis, layout_is_sound, transfers_are_sums};
+use mpm_core::{NO_NODE, ProductGrid, SimplexLattice, SplineDegree, SplineGrid};
+use mpm_kernels::{Deposit, Quadratic};
 use mpm_tensor::Matrix;
 use rand::RngExt;
 
 use crate::basis_gradients::gradients_are_derivatives;
-use crate::scenes::{dot, generator, norm, normal, stencil};
+use crate::scenes::{Make, dot, generator, norm, normal, stencil};
 
 /// Random clouds on a randomly placed basis, each on a basis that was in use before.
-fn conforms<const D: usize, B: Basis<D>>(name: &str, make: impl Fn([f64; D], f64) -> B) {
+fn conforms<const D: usize>(name: &str, make: Make<D>) {
     for case in 0..3 {
         let mut random = generator(100 * D as u64 + case);
         let h = 10f64.powf(random.random_range(-1.5..1.5));
@@ -23,9 +23,9 @@ fn conforms<const D: usize, B: Basis<D>>(name: &str, make: impl Fn([f64; D], f64
             let positions = cloud(count, origin, h, &mut random);
             let sorted = basis.rebuild(&positions).unwrap();
             let what = format!("{name}, D = {D}, case {case}, round {round}");
-            layout_is_sound(&basis, &positions, &what);
-            stencils_are_right(&basis, &sorted, &what);
-            gradients_are_derivatives(name, &mut basis, &sorted, &what);
+            layout_is_sound(&*basis, &positions, &what);
+            stencils_are_right(&*basis, &sorted, &what);
+            gradients_are_derivatives(name, &mut *basis, &sorted, &what);
         }
     }
 }
@@ -44,7 +44,7 @@ fn cloud<const D: usize>(count: usize, origin: [f64; D], h: f64, random: &mut ra
 }
 
 /// Weights, offsets, fluxes and node numbers, and that the active nodes are the touched ones.
-fn stencils_are_right<const D: usize, B: Basis<D>>(basis: &B, sorted: &[[f64; D]], what: &str) {
+fn stencils_are_right<const D: usize>(basis: &dyn AnyBasis<D>, sorted: &[[f64; D]], what: &str) {
     let (schedule, h) = (basis.schedule(), basis.spacing());
     let mut node_positions = Vec::new();
     basis.node_positions(&mut node_positions);
@@ -85,8 +85,8 @@ fn stencils_are_right<const D: usize, B: Basis<D>>(basis: &B, sorted: &[[f64; D]
     assert_eq!(distinct.len(), node_positions.len(), "{what}: one node has two numbers");
 }
 
-fn stencil_is_right<const D: usize, B: Basis<D>>(
-    basis: &B,
+fn stencil_is_right<const D: usize>(
+    basis: &dyn AnyBasis<D>,
     particle: usize,
     x: &[f64; D],
     cell_nodes: &[u32],
@@ -132,7 +132,7 @@ fn stencil_is_right<const D: usize, B: Basis<D>>(
     }
 
     // w D⁻¹ (x_i − x) times D, so that no inverse is taken where D is singular.
-    basis.for_each_node(particle, x, |_, entry| {
+    basis.for_each_node(particle, x, &mut |_, entry| {
         let direction = second_moment.apply(&basis.affine_direction(particle, x, entry));
         for a in 0..D {
             let expected = entry.weight * entry.offset[a];
@@ -146,7 +146,7 @@ fn stencil_is_right<const D: usize, B: Basis<D>>(
     };
     let scale = 0.3 * h;
     let mut visits = seen.iter();
-    basis.for_each_deposit(particle, x, &value, scale, |place, weight, deposit| {
+    basis.for_each_deposit(particle, x, &value, scale, &mut |place, weight, deposit| {
         let &(expected_place, expected_weight, gradient, _) = visits.next().unwrap();
         assert_eq!(place, expected_place, "{what}");
         assert!((weight - expected_weight).abs() < 1e-15, "{what}");
@@ -166,7 +166,7 @@ fn stencil_is_right<const D: usize, B: Basis<D>>(
 }
 
 /// A displaced point reads the same shape functions: w_i is a function of space, not of the cell that evaluates it.
-fn fields_are_continuous<const D: usize, B: Basis<D>>(name: &str, make: impl Fn([f64; D], f64) -> B) {
+fn fields_are_continuous<const D: usize>(name: &str, make: Make<D>) {
     let mut random = generator(7);
     let mut basis = make([0.0; D], 1.0);
     let direction = normal::<D>(&mut random);
@@ -179,7 +179,7 @@ fn fields_are_continuous<const D: usize, B: Basis<D>>(name: &str, make: impl Fn(
     let field = |particle: usize| {
         let x = &sorted[particle];
         let mut sum = 0.0;
-        for (_, weight, _, offset) in stencil(&basis, particle, x) {
+        for (_, weight, _, offset) in stencil(&*basis, particle, x) {
             let node: [f64; D] = std::array::from_fn(|a| x[a] + offset[a]);
             sum += weight * dot(&node, &node);
         }
@@ -201,44 +201,62 @@ fn fields_are_continuous<const D: usize, B: Basis<D>>(name: &str, make: impl Fn(
 
 #[test]
 fn every_basis_conforms_in_one_dimension() {
-    every_basis!(conforms, 1);
+    any_basis!(conforms, 1);
 }
 
 #[test]
 fn every_basis_conforms_in_two_dimensions() {
-    every_basis!(conforms, 2);
+    any_basis!(conforms, 2);
 }
 
 #[test]
 fn every_basis_conforms_in_three_dimensions() {
-    every_basis!(conforms, 3);
+    any_basis!(conforms, 3);
 }
 
 #[test]
 fn every_basis_conforms_in_four_dimensions() {
-    every_basis!(conforms, 4);
+    any_basis!(conforms, 4);
 }
 
+/// What is new with a dimension is the shape of a block of nodes, which hangs on no kernel: of the splines one; linear, cubic and GIMP are met in four dimensions and in six.
 #[test]
-fn every_basis_conforms_in_five_dimensions() {
-    every_basis!(conforms, 5);
+fn bases_conform_in_five_dimensions() {
+    conforms::<5>("quadratic", &|o, h| {
+        Box::new(SplineGrid::<Quadratic, 3, 5>::new(o, h).unwrap())
+    });
+    conforms::<5>("lattice", &|o, h| {
+        Box::new(SimplexLattice::<5>::permutohedral(o, h).unwrap())
+    });
+    conforms::<5>("Kuhn lattice", &|o, h| {
+        Box::new(SimplexLattice::<5>::kuhn(o, h).unwrap())
+    });
+    conforms::<5>("quadratic by a loop", &|o, h| {
+        Box::new(ProductGrid::<5>::new(SplineDegree::Quadratic, o, h).unwrap())
+    });
 }
 
 #[test]
 fn every_basis_conforms_in_six_dimensions() {
-    every_basis!(conforms, 6);
+    any_basis!(conforms, 6);
 }
 
 #[test]
 fn fields_are_continuous_along_lines() {
-    every_basis!(fields_are_continuous, 1);
-    every_basis!(fields_are_continuous, 2);
-    every_basis!(fields_are_continuous, 3);
+    any_basis!(fields_are_continuous, 1);
+    any_basis!(fields_are_continuous, 2);
+    any_basis!(fields_are_continuous, 3);
 }
 
 #[test]
 fn lattices_conform_in_seven_and_eight_dimensions() {
-    conforms::<7, _>("lattice", |o, h| SimplexLattice::<7>::permutohedral(o, h).unwrap());
-    conforms::<8, _>("lattice", |o, h| SimplexLattice::<8>::permutohedral(o, h).unwrap());
-    conforms::<8, _>("Kuhn lattice", |o, h| SimplexLattice::<8>::kuhn(o, h).unwrap());
+    conforms::<7>("lattice", &|o, h| {
+        Box::new(SimplexLattice::<7>::permutohedral(o, h).unwrap())
+    });
+    conforms::<8>("lattice", &|o, h| {
+        Box::new(SimplexLattice::<8>::permutohedral(o, h).unwrap())
+    });
+    conforms::<8>("Kuhn lattice", &|o, h| {
+        Box::new(SimplexLattice::<8>::kuhn(o, h).unwrap())
+    });
 }

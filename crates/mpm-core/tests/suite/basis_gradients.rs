@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use mpm_core::Basis;
+use mpm_core::conformance::AnyBasis;
 
 use crate::scenes::{norm, stencil};
 
@@ -24,9 +24,9 @@ impl<const D: usize> Seen<D> {
 }
 
 /// ∇w against central differences, where w has no kink within the step: hats have one at the points put on nodes.
-pub fn gradients_are_derivatives<const D: usize, B: Basis<D>>(
+pub fn gradients_are_derivatives<const D: usize>(
     name: &str,
-    basis: &mut B,
+    basis: &mut dyn AnyBasis<D>,
     positions: &[[f64; D]],
     what: &str,
 ) {
@@ -71,7 +71,7 @@ pub fn gradients_are_derivatives<const D: usize, B: Basis<D>>(
 }
 
 /// What each of the points sees, by node number.
-fn seen_by<const D: usize, B: Basis<D>>(basis: &mut B, points: &[[f64; D]]) -> Vec<HashMap<u32, Seen<D>>> {
+fn seen_by<const D: usize>(basis: &mut dyn AnyBasis<D>, points: &[[f64; D]]) -> Vec<HashMap<u32, Seen<D>>> {
     let sorted = basis.rebuild(points).unwrap();
     let schedule = basis.schedule();
     let mut seen = vec![HashMap::new(); points.len()];

@@ -1,16 +1,15 @@
 //! Mass, momentum and, with APIC, angular momentum.
 
 use mpm_core::{
-    AffineFlip, Apic, Basis, Flip, Masses, Medium, Mls, Mpm, NodeSums, Particles, Pic, SimplexLattice, SplineGrid,
-    Transfer,
+    AffineFlip, Apic, Basis, Flip, Masses, Medium, Mls, Mpm, Particles, Pic, SimplexLattice, SplineGrid, Transfer,
 };
-use mpm_kernels::{Cubic, Linear, Quadratic, Spline};
+use mpm_kernels::{Cubic, Deposit, Linear, Quadratic, Spline};
 use mpm_materials::IsothermalGas;
 use mpm_tensor::Matrix;
 use proptest::prelude::*;
 use rand::RngExt;
 
-use crate::scenes::{Pull, free, gaussian_cloud, generator, neo_hookean, normal};
+use crate::scenes::{Make, Pull, free, gaussian_cloud, generator, neo_hookean, normal};
 
 /// Σ m_p v_p and Σ m_p (x_a v_b − x_b v_a + B_ba − B_ab), the affine part being Σ_i w_ip (x_i − x_p) ∧ C_p (x_i − x_p).
 fn momenta<const D: usize>(particles: &Particles<D>) -> ([f64; D], Matrix<D>) {
@@ -114,17 +113,19 @@ fn lattice<const D: usize>(h: f64) -> SimplexLattice<D> {
 }
 
 /// Σ_i m_i = Σ_p m_p and Σ_i m_i x_i = Σ_p m_p x_p.
-fn mass_arrives<const D: usize, B: Basis<D>>(name: &str, make: impl Fn([f64; D], f64) -> B) {
+fn mass_arrives<const D: usize>(name: &str, make: Make<D>) {
     let particles = cloud::<D>(3, 200);
     let mut basis = make([0.17; D], 0.6);
     let sorted = basis.rebuild(&particles.positions).unwrap();
-    let (order, masses, stencils) = (basis.schedule().order(), &particles.masses, &basis);
-    let mut sums = NodeSums::default();
-    sums.scatter(&basis, &sorted, |p, x, stencil| {
-        let mass = masses.get(order[p] as usize);
-        stencils.for_each_node(p, x, |index, entry| *stencil.node(index) += mass * entry.weight);
+    let (order, masses) = (basis.schedule().order(), &particles.masses);
+    let sums = basis.scatter(&sorted, &|p, _| {
+        let mass = Deposit {
+            scalar: masses.get(order[p] as usize),
+            vector: [0.0; D],
+        };
+        (mass, 0.0)
     });
-    let nodes = sums.as_slice();
+    let nodes: Vec<f64> = sums.iter().map(|sum| sum.scalar).collect();
     let mut positions = Vec::new();
     basis.node_positions(&mut positions);
     let total: f64 = (0..particles.len()).map(|p| particles.masses.get(p)).sum();
@@ -156,10 +157,10 @@ proptest! {
 
 #[test]
 fn mass_and_its_centre_arrive_at_the_nodes() {
-    every_basis!(mass_arrives, 1);
-    every_basis!(mass_arrives, 2);
-    every_basis!(mass_arrives, 3);
-    every_basis!(mass_arrives, 4);
+    any_basis!(mass_arrives, 1);
+    any_basis!(mass_arrives, 2);
+    any_basis!(mass_arrives, 3);
+    any_basis!(mass_arrives, 4);
 }
 
 #[test]

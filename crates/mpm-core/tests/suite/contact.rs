@@ -7,7 +7,7 @@ use mpm_core::{
 use mpm_kernels::Quadratic;
 use mpm_materials::IsothermalGas;
 
-use crate::scenes::{bits, free, neo_hookean, uniform_cloud};
+use crate::scenes::{Pull, bits, free, neo_hookean, uniform_cloud};
 
 /// A floor at y = 0 with b(g) = −k (g − ĝ)² ln(g/ĝ), and gravity.
 #[derive(Clone, Copy)]
@@ -103,7 +103,7 @@ fn dust<T: Transfer<2>>(
     velocity: [f64; 2],
     transfer: T,
     floor: Floor,
-) -> Mpm<2, SplineGrid<Quadratic, 3, 2>, T, IsothermalGas, Floor> {
+) -> Mpm<2, SplineGrid<Quadratic, 3, 2>, T, IsothermalGas, Pull<'static, 2>> {
     let total = positions.len() as f64;
     let mut particles = Particles::at_rest(positions, total);
     particles.velocities.fill(velocity);
@@ -113,7 +113,7 @@ fn dust<T: Transfer<2>>(
         grid,
         transfer,
         IsothermalGas::new(1e-300).expect("a gas"),
-        floor,
+        Pull::by(floor),
     )
 }
 
@@ -180,7 +180,7 @@ fn no_particle_reaches_a_plane_and_energy_never_grows() {
             .map(|x| [x[0], x[1] + 1.05])
             .collect();
         let mut body = dust(cloud, [3.0, -20.0], Pic, floor);
-        let energy = |body: &Mpm<2, SplineGrid<Quadratic, 3, 2>, Pic, IsothermalGas, Floor>| {
+        let energy = |body: &Mpm<2, SplineGrid<Quadratic, 3, 2>, Pic, IsothermalGas, Pull<2>>| {
             let each = body.particles.positions.iter();
             let stored: f64 = each
                 .map(|x| floor.gravity * x[1] + floor.area * floor.energy(x[1]))
@@ -262,7 +262,7 @@ fn any_number_of_threads_gives_the_same_bits() {
             ..FLOOR
         };
         let grid = SplineGrid::<Quadratic, 3, 2>::new([0.0, 0.0], 0.1).expect("a grid");
-        let mut body = Mpm::new(particles, grid, Apic, neo_hookean(1e4), floor);
+        let mut body = Mpm::new(particles, grid, Apic, neo_hookean(1e4), Pull::by(floor));
         for _ in 0..30 {
             body.step(&free(1e-2)).expect("outside");
         }

@@ -1,8 +1,7 @@
 //! When and how particles deform: the orders of a step, averaged volume ratios, moving least squares, materials with memory.
 
 use mpm_core::{
-    Apic, Basis, Continuum, DeformsLast, Flip, Mls, Mpm, NoBodyForce, Particles, Pic, SplineGrid, StressUpdate,
-    Transfer,
+    Apic, Basis, Continuum, DeformsLast, Flip, Mls, Mpm, Particles, Pic, SplineGrid, StressUpdate, Transfer,
 };
 use mpm_kernels::{Cubic, Linear, Quadratic, SecondMoment, Spline};
 use mpm_materials::{DeformationError, ElasticModuli, Law, NeoHookean};
@@ -211,13 +210,13 @@ fn a_medium_with_a_fixed_order_moves_as_without_and_refuses_other_orders() {
     let cloud = uniform_cloud::<2>(200, 1.0, 4);
     let grid = || SplineGrid::<Quadratic, 3, 2>::new([0.0; 2], 0.2).unwrap();
     let particles = || Particles::at_rest(cloud.clone(), 1.0).with_elastic_state(vec![1.0 / 200.0; 200]);
-    let mut free_order = Mpm::new(particles(), grid(), Apic, neo_hookean::<2>(10.0), NoBodyForce);
+    let mut free_order = Mpm::new(particles(), grid(), Apic, neo_hookean::<2>(10.0), Pull::none());
     let mut fixed = Mpm::new(
         particles(),
         grid(),
         Apic,
         DeformsLast(neo_hookean::<2>(10.0)),
-        NoBodyForce,
+        Pull::none(),
     );
     free_order.particles.velocities = cloud.iter().map(|x| [x[1], -x[0]]).collect();
     fixed.particles.velocities.clone_from(&free_order.particles.velocities);

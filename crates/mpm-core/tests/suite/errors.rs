@@ -124,7 +124,7 @@ impl BodyForce<2> for Reporting {
 
 #[test]
 fn a_reported_force_is_renamed() {
-    let mut mpm = Mpm::new(cloud(), grid(), Pic, IsothermalGas::CALIBRATED, Reporting);
+    let mut mpm = Mpm::new(cloud(), grid(), Pic, IsothermalGas::CALIBRATED, Pull::by(Reporting));
     assert!(matches!(
         refused(&mut mpm),
         MpmError::BodyForceNotFinite { index: 8, .. }

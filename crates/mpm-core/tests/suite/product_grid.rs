@@ -2,13 +2,14 @@
 
 use std::collections::HashMap;
 
-use mpm_core::{Basis, MpmError, ProductGrid, SplineDegree, SplineGrid};
+use mpm_core::conformance::AnyBasis;
+use mpm_core::{MpmError, ProductGrid, SplineDegree, SplineGrid};
 use mpm_kernels::{Cubic, Entry, Linear, Quadratic, Spline};
 
 use crate::scenes::gaussian_cloud;
 
 /// Every particle's nodes: weight, gradient, offset and affine direction by position, in units of a ten-thousandth of the spacing.
-fn entries<B: Basis<D>, const D: usize>(basis: &mut B, cloud: &[[f64; D]]) -> Vec<HashMap<[i64; D], [f64; 10]>> {
+fn entries<const D: usize>(basis: &mut dyn AnyBasis<D>, cloud: &[[f64; D]]) -> Vec<HashMap<[i64; D], [f64; 10]>> {
     let sorted = basis.rebuild(cloud).unwrap();
     let (mut nodes, mut scratch) = (Vec::new(), Vec::new());
     basis.node_positions(&mut nodes);
@@ -17,7 +18,7 @@ fn entries<B: Basis<D>, const D: usize>(basis: &mut B, cloud: &[[f64; D]]) -> Ve
         let numbers = basis.cell_nodes(cell, &mut scratch).to_vec();
         for particle in basis.schedule().cell(cell) {
             let of = &mut found[basis.schedule().order()[particle] as usize];
-            basis.for_each_node(particle, &sorted[particle], |index, entry: &Entry<D>| {
+            basis.for_each_node(particle, &sorted[particle], &mut |index, entry: &Entry<D>| {
                 let place = nodes[numbers[index] as usize].map(|c| (1e4 * c).round() as i64);
                 let direction = basis.affine_direction(particle, &sorted[particle], entry);
                 let mut numbers = [0.0; 10];

@@ -1,6 +1,7 @@
 //! Clouds, forces and controls that the themes share, and the list of bases.
 
-use mpm_core::{Basis, BodyForce, Continuum, ForceLocation, MpmError, Sites, StepControl};
+use mpm_core::conformance::AnyBasis;
+use mpm_core::{BodyForce, ContactPotential, Continuum, ForceLocation, Friction, MpmError, Sites, StepControl};
 use mpm_materials::{ElasticModuli, Material, NeoHookean};
 use mpm_tensor::Matrix;
 use rand::{RngExt, SeedableRng, rngs::ChaCha8Rng};
@@ -33,6 +34,19 @@ macro_rules! every_basis {
         });
     }};
 }
+
+/// As [`every_basis`], with a `make` of which only the dimension is known: `$check::<D>(name, make)`.
+macro_rules! any_basis {
+    ($check:ident, $dimension:literal) => {{
+        fn boxed<const D: usize, B: mpm_core::Basis<D> + 'static>(name: &str, make: impl Fn([f64; D], f64) -> B) {
+            $check::<D>(name, &|origin, h| Box::new(make(origin, h)));
+        }
+        every_basis!(boxed, $dimension);
+    }};
+}
+
+/// An empty basis at an origin, with a spacing.
+pub type Make<'a, const D: usize> = &'a dyn Fn([f64; D], f64) -> Box<dyn AnyBasis<D>>;
 
 pub fn generator(seed: u64) -> ChaCha8Rng {
     ChaCha8Rng::seed_from_u64(seed)
@@ -86,37 +100,35 @@ pub fn neo_hookean<const D: usize>(young: f64) -> Solid<D> {
     solid(NeoHookean::new(ElasticModuli::new(young, 0.3).unwrap()))
 }
 
-/// A force as a function of position and mass.
-type ForceField<'a, const D: usize> = dyn Fn(&[f64; D], f64) -> [f64; D] + Sync + 'a;
-
-/// A body force by a function of position and mass; one type for all scenes.
-pub struct Pull<'a, const D: usize> {
-    location: ForceLocation,
-    value: Box<ForceField<'a, D>>,
-}
+/// A body force, of which only the dimension is known; one type for all scenes, so that a step is compiled once for all of them.
+pub struct Pull<'a, const D: usize>(Box<dyn BodyForce<D> + 'a>);
 
 impl<'a, const D: usize> Pull<'a, D> {
+    pub fn by(force: impl BodyForce<D> + 'a) -> Self {
+        Self(Box::new(force))
+    }
+
     pub fn none() -> Self {
-        Self {
+        Self::by(Field {
             location: ForceLocation::Nowhere,
             value: Box::new(|_, _| unreachable!("there is no force")),
-        }
+        })
     }
 
     /// A force per unit mass at the particles.
     pub fn at_particles(value: impl Fn(&[f64; D]) -> [f64; D] + Sync + 'a) -> Self {
-        Self {
+        Self::by(Field {
             location: ForceLocation::Particles,
             value: Box::new(move |x, _| value(x)),
-        }
+        })
     }
 
     /// A force at the nodes, from position and mass.
     pub fn at_nodes(value: impl Fn(&[f64; D], f64) -> [f64; D] + Sync + 'a) -> Self {
-        Self {
+        Self::by(Field {
             location: ForceLocation::Nodes,
             value: Box::new(value),
-        }
+        })
     }
 
     /// The score of N(0, I) at the particles.
@@ -126,6 +138,42 @@ impl<'a, const D: usize> Pull<'a, D> {
 }
 
 impl<const D: usize> BodyForce<D> for Pull<'_, D> {
+    fn location(&self) -> ForceLocation {
+        self.0.location()
+    }
+
+    fn at_particles(&mut self, sites: &Sites<D>, accelerations: &mut [[f64; D]]) -> Result<(), MpmError> {
+        self.0.at_particles(sites, accelerations)
+    }
+
+    fn at_nodes(
+        &mut self,
+        positions: &[[f64; D]],
+        masses: &dyn Fn(usize) -> f64,
+        forces: &mut [[f64; D]],
+    ) -> Result<(), MpmError> {
+        self.0.at_nodes(positions, masses, forces)
+    }
+
+    fn contact(&self) -> Option<&dyn ContactPotential<D>> {
+        self.0.contact()
+    }
+
+    fn friction(&self) -> Option<Friction<'_, D>> {
+        self.0.friction()
+    }
+}
+
+/// A force by a function of position and mass.
+struct Field<'a, const D: usize> {
+    location: ForceLocation,
+    value: Box<ForceField<'a, D>>,
+}
+
+/// The function.
+type ForceField<'a, const D: usize> = dyn Fn(&[f64; D], f64) -> [f64; D] + Sync + 'a;
+
+impl<const D: usize> BodyForce<D> for Field<'_, D> {
     fn location(&self) -> ForceLocation {
         self.location
     }
@@ -154,10 +202,9 @@ impl<const D: usize> BodyForce<D> for Pull<'_, D> {
 pub type Seen<const D: usize> = (usize, f64, [f64; D], [f64; D]);
 
 /// The whole stencil of a particle, by its place in the schedule.
-#[inline(never)]
-pub fn stencil<const D: usize>(basis: &impl Basis<D>, particle: usize, x: &[f64; D]) -> Vec<Seen<D>> {
+pub fn stencil<const D: usize>(basis: &dyn AnyBasis<D>, particle: usize, x: &[f64; D]) -> Vec<Seen<D>> {
     let mut seen = Vec::new();
-    basis.for_each_node(particle, x, |index, entry| {
+    basis.for_each_node(particle, x, &mut |index, entry| {
         seen.push((index, entry.weight, entry.gradient, entry.offset))
     });
     seen

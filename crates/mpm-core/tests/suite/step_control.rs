@@ -82,7 +82,7 @@ fn speeds_that_leave_no_time_step_are_an_error() {
 
 fn time_step<M: Medium<1, State = ()>>(particles: Particles<1>, medium: M, control: &StepControl) -> f64 {
     let grid = SplineGrid::<Quadratic, 3, 1>::new([0.0], 0.5).unwrap();
-    let mut mpm = Mpm::new(particles, grid, Pic, medium, Pull::none());
+    let mut mpm = Mpm::new(particles, grid, Apic, medium, Pull::none());
     mpm.step(control).unwrap().time_step
 }
 
@@ -152,7 +152,7 @@ fn limits_out_of_range_are_named() {
             assert!(field == name && value.to_bits() == bad.to_bits());
             let mut mpm = Mpm::new(
                 Particles::at_rest(vec![[0.0]], 1.0),
-                SplineGrid::<Linear, 2, 1>::new([0.0], 1.0).unwrap(),
+                SplineGrid::<Quadratic, 3, 1>::new([0.0], 1.0).unwrap(),
                 Pic,
                 IsothermalGas::CALIBRATED,
                 Pull::none(),

@@ -180,11 +180,11 @@ fn the_step_is_the_textbook_s_in_every_dimension() {
     affine_solids::<Quadratic, 3, 1>(Kernel::Quadratic);
     affine_solids::<Quadratic, 3, 2>(Kernel::Quadratic);
     affine_gas::<Quadratic, 3, 2>(Kernel::Quadratic);
-    affine_gas::<Quadratic, 3, 3>(Kernel::Quadratic);
+    affine_solids::<Quadratic, 3, 3>(Kernel::Quadratic);
 }
 
 #[test]
 fn the_step_is_the_textbook_s_with_every_kernel() {
     affine_solids::<Linear, 2, 2>(Kernel::Linear);
-    affine_gas::<Cubic, 4, 2>(Kernel::Cubic);
+    affine_solids::<Cubic, 4, 2>(Kernel::Cubic);
 }

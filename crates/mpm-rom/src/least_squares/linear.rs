@@ -1,9 +1,5 @@
 //! min_w Σ_p ω_p |J_p w − y_p|².
 
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::qr::no_pivoting::{factor, solve};
-use faer::{Mat, Par};
-
 /// Pivots below this multiple of the largest one count as zero.
 const RANK_TOLERANCE: f64 = 1e-12;
 
@@ -43,25 +39,11 @@ pub enum LeastSquaresError {
 }
 
 /// Solver of min_w Σ_p ω_p |J_p w − y_p|² by Householder QR; it keeps its storage from one problem to the next.
+#[derive(Default)]
 pub struct LeastSquares {
     /// √ω_p; none where all points weigh the same.
     roots: Vec<f64>,
-    matrix: Mat<f64>,
-    coefficients: Mat<f64>,
-    right: Mat<f64>,
-    scratch: MemBuffer,
-}
-
-impl Default for LeastSquares {
-    fn default() -> Self {
-        Self {
-            roots: Vec::new(),
-            matrix: Mat::new(),
-            coefficients: Mat::new(),
-            right: Mat::new(),
-            scratch: MemBuffer::new(faer::dyn_stack::StackReq::EMPTY),
-        }
-    }
+    problem: mpm_dense::LeastSquares,
 }
 
 impl LeastSquares {
@@ -94,54 +76,28 @@ impl LeastSquares {
         if unknowns == 0 {
             return Ok(());
         }
-        self.shape(equations, unknowns);
+        self.problem.shape(equations, unknowns);
         for (p, (row, target)) in jacobians.chunks_exact(unknowns).zip(targets).enumerate() {
             let root = self.roots.get(p).copied().unwrap_or(1.0);
             for a in 0..D {
-                self.right[(D * p + a, 0)] = root * target[a];
+                self.problem.right[(D * p + a, 0)] = root * target[a];
                 for (k, column) in row.iter().enumerate() {
-                    self.matrix[(D * p + a, k)] = root * column[a];
+                    self.problem.matrix[(D * p + a, k)] = root * column[a];
                 }
             }
         }
-        let stack = MemStack::new(&mut self.scratch);
-        let parameters = Default::default();
-        factor::qr_in_place(
-            self.matrix.as_mut(),
-            self.coefficients.as_mut(),
-            Par::Seq,
-            stack,
-            parameters,
-        );
-        self.check_rank(unknowns)?;
-        let (factors, coefficients) = (self.matrix.as_ref(), self.coefficients.as_ref());
-        let stack = MemStack::new(&mut self.scratch);
-        solve::solve_lstsq_in_place(factors, coefficients, factors, self.right.as_mut(), Par::Seq, stack);
-        if !(0..unknowns).all(|k| self.right[(k, 0)].is_finite()) {
+        self.problem.factorise();
+        self.check_rank()?;
+        let found = self.problem.solve();
+        if !found.iter().all(|entry| entry.is_finite()) {
             return Err(LeastSquaresError::NotFinite);
         }
-        for (k, entry) in solution.iter_mut().enumerate() {
-            *entry = self.right[(k, 0)];
-        }
+        solution.copy_from_slice(found);
         Ok(())
     }
 
-    /// Storage for a problem of this size.
-    fn shape(&mut self, equations: usize, unknowns: usize) {
-        if (self.matrix.nrows(), self.matrix.ncols()) == (equations, unknowns) {
-            return;
-        }
-        let block = factor::recommended_block_size::<f64>(equations, unknowns);
-        let factoring = factor::qr_in_place_scratch::<f64>(equations, unknowns, block, Par::Seq, Default::default());
-        let solving = solve::solve_lstsq_in_place_scratch::<f64>(equations, unknowns, block, 1, Par::Seq);
-        self.matrix = Mat::zeros(equations, unknowns);
-        self.coefficients = Mat::zeros(block, unknowns);
-        self.right = Mat::zeros(equations, 1);
-        self.scratch = MemBuffer::new(factoring.or(solving));
-    }
-
-    fn check_rank(&self, unknowns: usize) -> Result<(), LeastSquaresError> {
-        let pivots = (0..unknowns).map(|k| self.matrix[(k, k)].abs());
+    fn check_rank(&self) -> Result<(), LeastSquaresError> {
+        let pivots = self.problem.pivots();
         let largest = pivots.clone().fold(0.0, f64::max);
         for (coordinate, pivot) in pivots.enumerate() {
             if !pivot.is_finite() {

@@ -1,13 +1,11 @@
 //! min_w ½ wᵀ Q w − qᵀ w over w ≥ 0.
 
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::cholesky::llt::{factor, solve};
-use faer::{Mat, Par};
+use mpm_dense::{Cholesky, DenseMatrix};
 
 /// min_w ½ wᵀ Q w − qᵀ w over w ≥ 0 with Q positive definite, by the active sets of Lawson & Hanson (*Solving least squares problems*, 1974, algorithm 23.10), one entry at a time, so that it can be
 /// ended while few entries are positive.
 pub struct NonNegative {
-    matrix: Mat<f64>,
+    matrix: DenseMatrix,
     right: Vec<f64>,
     /// w.
     pub weights: Vec<f64>,
@@ -19,7 +17,7 @@ pub struct NonNegative {
 
 impl NonNegative {
     /// w = 0.
-    pub fn new(matrix: Mat<f64>, right: Vec<f64>) -> Self {
+    pub fn new(matrix: DenseMatrix, right: Vec<f64>) -> Self {
         Self {
             weights: vec![0.0; right.len()],
             matrix,
@@ -88,18 +86,12 @@ impl NonNegative {
         }
     }
 
-    /// Q⁻¹ q of the positive entries, on one thread: sums in another order would be other bits.
+    /// Q⁻¹ q of the positive entries.
     fn unconstrained(&self) -> Option<Vec<f64>> {
         let (entries, count) = (&self.positive, self.positive.len());
-        let mut matrix = Mat::from_fn(count, count, |i, j| self.matrix[(entries[i], entries[j])]);
-        let mut right = Mat::from_fn(count, 1, |i, _| self.right[entries[i]]);
-        let factoring = factor::cholesky_in_place_scratch::<f64>(count, Par::Seq, Default::default());
-        let mut scratch = MemBuffer::new(factoring.or(solve::solve_in_place_scratch::<f64>(count, 1, Par::Seq)));
-        let (stack, parameters) = (MemStack::new(&mut scratch), Default::default());
-        factor::cholesky_in_place(matrix.as_mut(), Default::default(), Par::Seq, stack, parameters).ok()?;
-        let stack = MemStack::new(&mut scratch);
-        solve::solve_in_place(matrix.as_ref(), right.as_mut(), Par::Seq, stack);
-        let solution: Vec<f64> = (0..count).map(|i| right[(i, 0)]).collect();
+        let matrix = DenseMatrix::from_fn(count, count, |i, j| self.matrix[(entries[i], entries[j])]);
+        let right: Vec<f64> = entries.iter().map(|&entry| self.right[entry]).collect();
+        let solution = Cholesky::new(&matrix)?.solve(&right);
         solution.iter().all(|w| w.is_finite()).then_some(solution)
     }
 }
@@ -109,15 +101,15 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn problem(rows: &[Vec<f64>], target: &[f64]) -> (Mat<f64>, Vec<f64>) {
+    fn problem(rows: &[Vec<f64>], target: &[f64]) -> (DenseMatrix, Vec<f64>) {
         let n = rows[0].len();
         let product = |i: usize, j: usize| rows.iter().map(|row| row[i] * row[j]).sum::<f64>();
-        let matrix = Mat::from_fn(n, n, |i, j| product(i, j) + if i == j { 0.01 } else { 0.0 });
+        let matrix = DenseMatrix::from_fn(n, n, |i, j| product(i, j) + if i == j { 0.01 } else { 0.0 });
         let right = (0..n).map(|i| rows.iter().zip(target).map(|(row, y)| row[i] * y).sum());
         (matrix, right.collect())
     }
 
-    fn solved(matrix: &Mat<f64>, right: &[f64]) -> Vec<f64> {
+    fn solved(matrix: &DenseMatrix, right: &[f64]) -> Vec<f64> {
         let mut solver = NonNegative::new(matrix.clone(), right.to_vec());
         while solver.raise_one() {}
         assert_eq!(
@@ -129,7 +121,7 @@ mod tests {
 
     #[test]
     fn a_solution_that_is_positive_anyway_is_that_of_the_equations() {
-        let matrix = Mat::from_fn(2, 2, |i, j| if i == j { 2.0 } else { 0.5 });
+        let matrix = DenseMatrix::from_fn(2, 2, |i, j| if i == j { 2.0 } else { 0.5 });
         let weights = solved(&matrix, &[3.0, 1.5]);
         assert!(
             (weights[0] - 1.4).abs() < 1e-14 && (weights[1] - 0.4).abs() < 1e-14,

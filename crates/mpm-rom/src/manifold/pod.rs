@@ -1,6 +1,6 @@
 use std::collections::HashMap;
 
-use faer::Mat;
+use mpm_dense::{DenseMatrix, SingularValues};
 use mpm_tensor::{Matrix, vector};
 
 use super::{Evaluation, Manifold, Wanted};
@@ -52,12 +52,11 @@ impl<const D: usize> Pod<D> {
     pub fn new(snapshots: &Snapshots<D>, coordinates: usize) -> Result<Self, LinearError> {
         let reference = snapshots.reference();
         let frames: Vec<_> = snapshots.runs().iter().flat_map(|run| &run.frames).collect();
-        let displacements = Mat::from_fn(reference.len() * D, frames.len(), |row, column| {
+        let displacements = DenseMatrix::from_fn(reference.len() * D, frames.len(), |row, column| {
             frames[column].positions[row / D][row % D] - reference[row / D][row % D]
         });
-        let decomposition = displacements.thin_svd();
-        let decomposition = decomposition.map_err(|_| LinearError::Decomposition)?;
-        let sizes: Vec<f64> = decomposition.S().column_vector().iter().copied().collect();
+        let decomposition = SingularValues::new(&displacements).ok_or(LinearError::Decomposition)?;
+        let sizes = &decomposition.values;
         let largest = sizes.first().copied().unwrap_or(0.0);
         let rank = sizes.iter().filter(|&&size| size > 1e-12 * largest).count();
         if coordinates == 0 || coordinates > rank {
@@ -71,7 +70,7 @@ impl<const D: usize> Pod<D> {
         let mut gradients = vec![Matrix::ZERO; reference.len() * coordinates];
         for (number, frame) in frames.iter().enumerate() {
             for k in 0..coordinates {
-                let share = decomposition.V()[(number, k)] / count.sqrt();
+                let share = decomposition.right[(number, k)] / count.sqrt();
                 for (p, rest) in reference.iter().enumerate() {
                     let displacement = vector::subtract(&frame.positions[p], rest);
                     vector::accumulate(&mut modes[p * coordinates + k], share, &displacement);

@@ -1,7 +1,6 @@
 //! Sample points and weights that sum as all points do.
 
-use faer::linalg::matmul::matmul;
-use faer::{Accum, Mat, Par};
+use mpm_dense::DenseMatrix;
 use mpm_scenes::Kinematics;
 use mpm_tensor::vector;
 
@@ -104,10 +103,10 @@ fn problem<const D: usize>(
     let places: Vec<usize> = candidates.iter().filter_map(|&point| known.place(point)).collect();
     let balance = (D * r) as f64 / count as f64;
     let products = r * (r + 1) / 2;
-    let mut matrix = Mat::<f64>::zeros(candidates.len(), candidates.len());
+    let mut matrix = DenseMatrix::zeros(candidates.len(), candidates.len());
     let mut squares = vec![0.0; candidates.len()];
     for part in readings.chunks(AT_A_TIME) {
-        let mut rows = Mat::<f64>::zeros(part.len() * (r + products), candidates.len());
+        let mut rows = DenseMatrix::zeros(part.len() * (r + products), candidates.len());
         for (first, reading) in part
             .iter()
             .enumerate()
@@ -128,14 +127,7 @@ fn problem<const D: usize>(
             }
         }
         // On one thread: sums in another order would be other bits, and perhaps other points.
-        matmul(
-            matrix.as_mut(),
-            Accum::Add,
-            rows.transpose(),
-            rows.as_ref(),
-            1.0,
-            Par::Seq,
-        );
+        matrix.add_square_of(&rows);
     }
     let right = squares.iter().map(|square| balance * points as f64 * square).collect();
     for (k, square) in squares.iter().enumerate() {

@@ -1,7 +1,6 @@
 //! The sums over sample points that a greedy choice makes small.
 
-use faer::Mat;
-use faer::linalg::solvers::Solve;
+use mpm_dense::DenseMatrix;
 use mpm_kernels::{LANES, Lanes};
 use mpm_tensor::vector;
 use rayon::prelude::*;
@@ -132,8 +131,7 @@ impl<const D: usize> State<D> {
 
     fn solve(&mut self) {
         let r = self.right.len();
-        let matrix = Mat::from_fn(r, r, |i, j| self.information[i * r + j]);
-        let inverse = matrix.partial_piv_lu().solve(&Mat::<f64>::identity(r, r));
+        let inverse = DenseMatrix::from_fn(r, r, |i, j| self.information[i * r + j]).inverse();
         self.inverse = (0..r * r).map(|n| inverse[(n / r, n % r)]).collect();
         let rows = self.inverse.chunks_exact(r.max(1));
         self.difference = rows

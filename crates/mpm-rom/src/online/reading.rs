@@ -1,6 +1,6 @@
 //! What a step says of the velocities of all points, without being taken.
 
-use faer::Side;
+use mpm_dense::SymmetricEigen;
 
 use super::scaled_reading::mean_product;
 use super::{OnlineError, ReducedModel};
@@ -44,12 +44,12 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
     pub fn states_around(&self, latent: &[f64], distance: f64) -> Vec<Vec<f64>> {
         let (mut there, r) = (Evaluation::default(), latent.len());
         self.evaluate_at(latent, Wanted::JACOBIANS, &mut there);
-        let Ok(eigen) = mean_product(r, &there.jacobians).self_adjoint_eigen(Side::Lower) else {
+        let Some(eigen) = SymmetricEigen::new(&mean_product(r, &there.jacobians)) else {
             return Vec::new();
         };
-        let lengths = (0..r).map(|k| distance / eigen.S().column_vector()[k].sqrt());
+        let lengths = eigen.values.iter().map(|value| distance / value.sqrt());
         let states = lengths.enumerate().flat_map(|(k, length)| {
-            [length, -length].map(|length| (0..r).map(|i| latent[i] + length * eigen.U()[(i, k)]).collect())
+            [length, -length].map(|length| (0..r).map(|i| latent[i] + length * eigen.vectors[(i, k)]).collect())
         });
         states
             .filter(|state: &Vec<f64>| state.iter().all(|y| y.is_finite()))

@@ -1,6 +1,6 @@
 //! Readings in coordinates that all points together see alike.
 
-use faer::{Mat, Side};
+use mpm_dense::{Cholesky, DenseMatrix};
 use mpm_tensor::vector;
 use rayon::prelude::*;
 
@@ -71,26 +71,25 @@ impl<const D: usize> ScaledReading<D> {
 
 /// J L⁻ᵀ with L Lᵀ = N⁻¹ Σ J_pᵀ J_p; `None` where that is not positive definite.
 fn whitened<const D: usize>(r: usize, columns: &[[f64; D]]) -> Option<Vec<[f64; D]>> {
-    let factor = mean_product(r, columns).llt(Side::Lower).ok()?;
-    let lower = factor.L();
+    let factor = Cholesky::new(&mean_product(r, columns))?;
     let mut all = columns.to_vec();
     for rows in all.chunks_exact_mut(r.max(1)) {
         // J̃ Lᵀ = J, hence forward substitution.
         for k in 0..r {
             for j in 0..k {
                 let earlier = rows[j];
-                vector::accumulate(&mut rows[k], -lower[(k, j)], &earlier);
+                vector::accumulate(&mut rows[k], -factor.lower(k, j), &earlier);
             }
-            rows[k] = vector::scale(&rows[k], 1.0 / lower[(k, k)]);
+            rows[k] = vector::scale(&rows[k], 1.0 / factor.lower(k, k));
         }
     }
     all.iter().all(vector::is_finite).then_some(all)
 }
 
 /// N⁻¹ Σ_p J_pᵀ J_p.
-pub(super) fn mean_product<const D: usize>(r: usize, columns: &[[f64; D]]) -> Mat<f64> {
+pub(super) fn mean_product<const D: usize>(r: usize, columns: &[[f64; D]]) -> DenseMatrix {
     let share = 1.0 / (columns.len() / r.max(1)).max(1) as f64;
-    let mut mean = Mat::<f64>::zeros(r, r);
+    let mut mean = DenseMatrix::zeros(r, r);
     for rows in columns.chunks_exact(r.max(1)) {
         for i in 0..r {
             for j in 0..r {

@@ -1,7 +1,7 @@
-//! Matrices of every kind that the decompositions must survive, and faer as the oracle.
+//! Matrices of every kind that the decompositions must survive, and mpm-dense, which is faer, as the oracle.
 #![allow(dead_code)]
 
-use faer::Mat;
+use mpm_dense::DenseMatrix;
 use mpm_tensor::{Matrix, SingularValues, vector};
 use proptest::prelude::*;
 
@@ -158,6 +158,6 @@ pub fn condition<const D: usize>(matrix: &Matrix<D>) -> f64 {
     values[0] / values[D - 1]
 }
 
-pub fn to_faer<const D: usize>(matrix: &Matrix<D>) -> Mat<f64> {
-    Mat::from_fn(D, D, |i, j| matrix.0[i][j])
+pub fn to_dense<const D: usize>(matrix: &Matrix<D>) -> DenseMatrix {
+    DenseMatrix::from_fn(D, D, |i, j| matrix.0[i][j])
 }

@@ -1,6 +1,6 @@
 //! SOAP (N. Vyas et al. 2024, arXiv 2409.11321, Algorithms 3 and 4): Adam in the eigenvectors of Shampoo's preconditioners.
 
-use faer::{Mat, Scale, Side};
+use mpm_dense::{DenseMatrix, SymmetricEigen};
 
 use crate::manifold::network::Layer;
 
@@ -31,13 +31,13 @@ pub(in crate::training) struct Soap {
 struct Eigenbasis {
     layer: Layer,
     /// L, R.
-    covariances: [Mat<f64>; 2],
+    covariances: [DenseMatrix; 2],
     /// Q_L, Q_R.
-    vectors: [Mat<f64>; 2],
+    vectors: [DenseMatrix; 2],
     /// M.
-    first: Mat<f64>,
+    first: DenseMatrix,
     /// S.
-    second: Mat<f64>,
+    second: DenseMatrix,
 }
 
 impl Soap {
@@ -70,7 +70,7 @@ impl Soap {
             let moments = [&mut layer.first, &mut layer.second];
             [left, right, left_vectors, right_vectors].into_iter().chain(moments)
         });
-        matrices.flat_map(|matrix| matrix.col_iter_mut().flat_map(|column| column.iter_mut()))
+        matrices.flat_map(DenseMatrix::entries_mut)
     }
 }
 
@@ -79,10 +79,10 @@ impl Eigenbasis {
         let (m, n) = (layer.outputs, layer.inputs + 1);
         Self {
             layer,
-            covariances: [Mat::zeros(m, m), Mat::zeros(n, n)],
-            vectors: [Mat::identity(m, m), Mat::identity(n, n)],
-            first: Mat::zeros(m, n),
-            second: Mat::zeros(m, n),
+            covariances: [DenseMatrix::zeros(m, m), DenseMatrix::zeros(n, n)],
+            vectors: [DenseMatrix::identity(m), DenseMatrix::identity(n)],
+            first: DenseMatrix::zeros(m, n),
+            second: DenseMatrix::zeros(m, n),
         }
     }
 
@@ -96,18 +96,25 @@ impl Eigenbasis {
     }
 
     fn step(&mut self, gradient: &[f64], rate: f64, steps: u64, change: &mut [f64]) {
-        let gradient = Mat::from_fn(self.first.nrows(), self.first.ncols(), |i, j| {
+        let gradient = DenseMatrix::from_fn(self.first.rows(), self.first.columns(), |i, j| {
             gradient[Self::position(&self.layer, i, j)]
         });
         let direction = self.direction(&gradient, steps);
-        for j in 0..direction.ncols() {
-            for i in 0..direction.nrows() {
+        for j in 0..direction.columns() {
+            for i in 0..direction.rows() {
                 change[Self::position(&self.layer, i, j)] = -rate * direction[(i, j)];
             }
         }
-        let products = [&gradient * gradient.transpose(), gradient.transpose() * &gradient];
+        let products = [
+            gradient.times_transposed(&gradient),
+            gradient.transposed_times(&gradient),
+        ];
         for (covariance, product) in self.covariances.iter_mut().zip(products) {
-            *covariance = &*covariance * Scale(COVARIANCE_DECAY) + product * Scale(1.0 - COVARIANCE_DECAY);
+            for j in 0..product.columns() {
+                for (entry, new) in covariance.column_mut(j).iter_mut().zip(product.column(j)) {
+                    *entry = COVARIANCE_DECAY * *entry + (1.0 - COVARIANCE_DECAY) * new;
+                }
+            }
         }
         if steps % INTERVAL == 1 {
             self.turn(steps == 1);
@@ -115,33 +122,30 @@ impl Eigenbasis {
     }
 
     /// Q_L [M̂ / (√Ŝ + ε)] Q_Rᵀ with this gradient in the moments.
-    fn direction(&mut self, gradient: &Mat<f64>, steps: u64) -> Mat<f64> {
+    fn direction(&mut self, gradient: &DenseMatrix, steps: u64) -> DenseMatrix {
         let [left, right] = &self.vectors;
-        let gradient = left.transpose() * gradient * right;
+        let gradient = &left.transposed_times(gradient) * right;
         let power = steps as f64;
         let first_scale = 1.0 / (1.0 - FIRST_DECAY.powf(power));
         let second_scale = 1.0 / (1.0 - SECOND_DECAY.powf(power));
-        let within = Mat::from_fn(gradient.nrows(), gradient.ncols(), |i, j| {
+        let within = DenseMatrix::from_fn(gradient.rows(), gradient.columns(), |i, j| {
             let (gradient, first, second) = (gradient[(i, j)], &mut self.first[(i, j)], &mut self.second[(i, j)]);
             *first = FIRST_DECAY * *first + (1.0 - FIRST_DECAY) * gradient;
             *second = SECOND_DECAY * *second + (1.0 - SECOND_DECAY) * gradient * gradient;
             (*first * first_scale) / ((*second * second_scale).sqrt() + SMALLEST)
         });
-        left * within * right.transpose()
+        (left * &within).times_transposed(right)
     }
 
     /// The eigenvectors follow the covariances: all at once at the beginning, later by a step of orthogonal iteration, which keeps their order.
     fn turn(&mut self, begins: bool) {
         let [left, right] = &self.vectors;
-        let first = left * &self.first * right.transpose();
+        let first = (left * &self.first).times_transposed(right);
         for (vectors, covariance) in self.vectors.iter_mut().zip(&self.covariances) {
             let found = if begins {
-                covariance
-                    .self_adjoint_eigen(Side::Lower)
-                    .ok()
-                    .map(|found| found.U().to_owned())
+                SymmetricEigen::new(covariance).map(|found| found.vectors)
             } else {
-                Some((covariance * &*vectors).qr().compute_thin_Q())
+                Some((covariance * vectors).orthonormal_columns())
             };
             // None where the gradient is not finite, which the loss will tell.
             if let Some(found) = found {
@@ -149,7 +153,7 @@ impl Eigenbasis {
             }
         }
         let [left, right] = &self.vectors;
-        self.first = left.transpose() * first * right;
+        self.first = &left.transposed_times(&first) * right;
     }
 }
 

@@ -29,9 +29,9 @@ fn vectors_stay_orthonormal_and_become_those_of_the_covariance() {
     }
     let layer = &soap.layers[0];
     for (vectors, covariance) in layer.vectors.iter().zip(&layer.covariances) {
-        let size = vectors.nrows();
-        let product = vectors.transpose() * vectors;
-        let diagonal = vectors.transpose() * covariance * vectors;
+        let size = vectors.rows();
+        let product = vectors.transposed_times(vectors);
+        let diagonal = &vectors.transposed_times(covariance) * vectors;
         for i in 0..size {
             for j in 0..size {
                 let unit = f64::from(u8::from(i == j));
@@ -47,7 +47,7 @@ fn vectors_stay_orthonormal_and_become_those_of_the_covariance() {
 #[test]
 fn a_turned_quadratic_is_minimised_faster_than_by_adam() {
     let size = 4;
-    let turned = Mat::from_fn(size, size, |i, j| {
+    let turned = DenseMatrix::from_fn(size, size, |i, j| {
         let sum = |k: usize| {
             let wave = |i: usize| ((i as f64 + 0.5) * k as f64 * std::f64::consts::PI / size as f64).cos();
             let norm = if k == 0 { 1.0 } else { 2.0 } / size as f64;
@@ -57,18 +57,18 @@ fn a_turned_quadratic_is_minimised_faster_than_by_adam() {
     });
     let layer = Layer::at(0, size - 1, size);
     let loss_and_gradient = |parameters: &[f64]| {
-        let error = Mat::from_fn(size, size, |i, j| {
+        let error = DenseMatrix::from_fn(size, size, |i, j| {
             parameters[Eigenbasis::position(&layer, i, j)] - (1.0 + (i + 2 * j) as f64).sin()
         });
-        let residual = &turned * &error * &turned;
-        let matrix = &turned * &residual * &turned;
+        let residual = &(&turned * &error) * &turned;
+        let matrix = &(&turned * &residual) * &turned;
         let mut gradient = vec![0.0; size * size];
         for i in 0..size {
             for j in 0..size {
                 gradient[Eigenbasis::position(&layer, i, j)] = 2.0 * matrix[(i, j)];
             }
         }
-        (residual.squared_norm_l2(), gradient)
+        (residual.entries().map(|entry| entry * entry).sum::<f64>(), gradient)
     };
     let minimise = |change: &mut dyn FnMut(&[f64], f64) -> Vec<f64>| {
         let mut parameters = vec![0.0; size * size];

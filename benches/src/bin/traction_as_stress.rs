@@ -1,5 +1,5 @@
 //! A thick-walled cylinder (radii 1 and 2, E = 10⁶, ν = 0.3, ρ = 1000, pressure 1000 inside) loaded in two ways, beside Lamé's solution:
-//! `cargo run --release -p mpm-mesh --example traction_as_stress -- experiments/meshes/ring.msh 0.04`.
+//! `cargo run --release -p parvi-benches --bin traction_as_stress -- experiments/meshes/ring.msh 0.04`.
 //!
 //! At nodes: f_i = Σ_v w_i(x_v) Σ_f t A_f / 2, as the facets of scenes do. As a stress: f_i = Σ_p V_p (S_p g_ip + w_ip div S_p) with S = −p φ I, φ falling from 1 at the hole to 0 a
 //! band outside; the same sums as the internal forces, so that their errors cancel where σ = S. div S is scaled so that the work on u = x is exact.
