@@ -6,13 +6,14 @@ use parvi_targets::Frame;
 use crate::anderson::Anderson;
 use crate::measure::Measure;
 use crate::mixture::Mixture;
+use crate::order::near_together;
 use crate::student::Kernel;
 use crate::support_points::SupportPoints;
 use crate::weights::systematic;
 
 /// Passes over space, which is cut into pieces so that the cost is that of many small measures: particles of one piece at most, iterations with few equally
 /// weighted points (with all, where there are not many more), and iterations with all of them. The last pass mends the seams of the first.
-const PASSES: [(usize, usize, usize); 2] = [(256, 25, 4), (1024, 0, 1)];
+const PASSES: [(usize, usize, usize); 2] = [(128, 25, 2), (256, 0, 4)];
 
 /// Those few points, per particle.
 const COARSE: usize = 8;
@@ -35,7 +36,7 @@ pub(crate) fn condense<const D: usize>(measure: &Measure<D>, count: usize, offse
     if scaled.is_empty() {
         return Vec::new();
     }
-    bisect(&mut scaled);
+    near_together(&mut scaled, &[1.0; D]);
     let sample: Vec<[f64; D]> = scaled.iter().map(|(x, _)| *x).collect();
     let weights: Vec<f64> = scaled.iter().map(|(_, c)| *c).collect();
     // A particle on a point of the sample would stay there, and equal particles do not push each other: every one begins beside its point.
@@ -138,27 +139,6 @@ fn standardised<const D: usize>(measure: &Measure<D>) -> (Vec<([f64; D], f64)>, 
         *y = frame.to_reference(y);
     }
     (kept, frame)
-}
-
-/// Orders points so that near ones stand near: halves along the longest axis, and so on.
-fn bisect<const D: usize>(points: &mut [([f64; D], f64)]) {
-    if points.len() < 3 || D == 0 {
-        return;
-    }
-    let extent = |axis: usize| {
-        let (low, high) = points
-            .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (x, _)| {
-                (low.min(x[axis]), high.max(x[axis]))
-            });
-        high - low
-    };
-    let axis = (0..D).max_by(|&a, &b| extent(a).total_cmp(&extent(b))).unwrap_or(0);
-    let middle = points.len() / 2;
-    points.select_nth_unstable_by(middle, |a, b| a.0[axis].total_cmp(&b.0[axis]));
-    let (low, high) = points.split_at_mut(middle);
-    bisect(low);
-    bisect(high);
 }
 
 #[cfg(test)]

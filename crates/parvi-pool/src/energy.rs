@@ -14,6 +14,12 @@ const DIRECTIONS: usize = 128;
 /// Bins of the measure along a direction.
 const BINS: usize = 4096;
 
+/// Numbers from here on are whole.
+const WHOLE: f64 = (1_u64 << 52) as f64;
+
+/// Groups of points whose places are found at a time.
+const TOGETHER: usize = 16;
+
 /// 2 E|x − Y| − E|x − x′| of particles x against a measure of Y: the energy distance up to a constant of the measure.
 ///
 /// |x| is c_D times the mean of |⟨u, x⟩| over directions u, c_D = √π Γ((D + 1)/2)/Γ(D/2), so that the distance is that of projections, here on 128 of them,
@@ -46,35 +52,29 @@ impl<const D: usize> EnergyDistance<D> {
 /// The measure along a direction: Σ c and Σ c s below the bottom of every bin, and in all.
 struct Projection<const D: usize> {
     direction: [f64; D],
-    masses: Vec<f64>,
-    moments: Vec<f64>,
+    below: Vec<[f64; 2]>,
 }
 
 impl<const D: usize> Projection<D> {
     fn new(direction: [f64; D], groups: &[Group<D>], weights: &[f64]) -> Self {
-        let (mut masses, mut moments) = (vec![0.0; BINS + 1], vec![0.0; BINS + 1]);
-        let mut places = vec![([0.0; LANES], [0.0; LANES]); groups.len()];
-        pulp::Arch::new().dispatch(Along {
-            direction: &direction,
-            groups,
-            places: &mut places,
-        });
-        for ((places, bins), weights) in places.iter().zip(weights.chunks(LANES)) {
-            for ((s, bin), c) in places.iter().zip(bins).zip(weights) {
-                let bin = numbered(*bin);
-                masses[bin + 1] += c;
-                moments[bin + 1] += c * s;
+        let mut below = vec![[0.0; 2]; BINS + 1];
+        let mut places = [([0.0; LANES], [0.0; LANES]); TOGETHER];
+        for (groups, weights) in groups.chunks(TOGETHER).zip(weights.chunks(TOGETHER * LANES)) {
+            pulp::Arch::new().dispatch(Along {
+                direction: &direction,
+                groups,
+                places: &mut places,
+            });
+            for ((places, bins), weights) in places.iter().zip(weights.chunks(LANES)) {
+                for ((s, bin), c) in places.iter().zip(bins).zip(weights) {
+                    vector::accumulate(&mut below[numbered(*bin) + 1], *c, &[1.0, *s]);
+                }
             }
         }
         for bin in 0..BINS {
-            masses[bin + 1] += masses[bin];
-            moments[bin + 1] += moments[bin];
+            below[bin + 1] = vector::add(&below[bin], &below[bin + 1]);
         }
-        Self {
-            direction,
-            masses,
-            moments,
-        }
+        Self { direction, below }
     }
 
     /// 2 E|t − S| − E|t − t′| of the particles' projections t.
@@ -91,10 +91,8 @@ impl<const D: usize> Projection<D> {
     /// E|t − S|: the bins below and above exactly, the mass of its own as if it were all on the other side of t than the bin's middle, or on that.
     fn distance(&self, t: f64) -> f64 {
         let bin = bin(t);
-        let excess = |mass: f64, moment: f64| mass * t - moment;
-        let below = excess(self.masses[bin], self.moments[bin]);
-        let up_to = excess(self.masses[bin + 1], self.moments[bin + 1]);
-        let all = excess(self.masses[BINS], self.moments[BINS]);
+        let excess = |end: usize| self.below[end][0] * t - self.below[end][1];
+        let (below, up_to, all) = (excess(bin), excess(bin + 1), excess(BINS));
         let own = if t > middle(bin) { up_to - below } else { below - up_to };
         below - (all - up_to) + own
     }
@@ -127,20 +125,26 @@ impl<const D: usize> WithSimd for Along<'_, D> {
     }
 }
 
-/// Bins are of equal width in s/(1 + |s|): their numbers, with fractions.
+/// Bins are of equal width in s/(1 + |s|): their numbers, in the lowest bits of a number beyond which every other one is whole.
 #[inline(always)]
 fn bin_of<S: Simd>(simd: S, place: S::f64s) -> S::f64s {
     let squeezed = simd.div_f64s(place, simd.add_f64s(simd.splat_f64s(1.0), simd.abs_f64s(place)));
-    let half = simd.splat_f64s(0.5 * BINS as f64);
-    simd.mul_add_e_f64s(squeezed, half, half)
+    let half = 0.5 * BINS as f64;
+    let bin = simd.mul_add_e_f64s(squeezed, simd.splat_f64s(half), simd.splat_f64s(half - 0.5));
+    let kept = simd.min_f64s(
+        simd.max_f64s(bin, simd.splat_f64s(0.0)),
+        simd.splat_f64s((BINS - 1) as f64),
+    );
+    simd.add_f64s(kept, simd.splat_f64s(WHOLE))
 }
 
 fn bin(s: f64) -> usize {
     numbered(bin_of(pulp::Scalar, s))
 }
 
+#[inline(always)]
 fn numbered(bin: f64) -> usize {
-    (bin as usize).min(BINS - 1)
+    bin.to_bits() as usize % BINS
 }
 
 fn middle(bin: usize) -> f64 {

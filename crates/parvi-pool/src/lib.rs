@@ -22,6 +22,7 @@ mod measure;
 mod mixture;
 mod neighbours;
 mod options;
+mod order;
 mod pareto;
 mod pool;
 mod propose;

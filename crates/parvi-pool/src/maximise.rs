@@ -2,8 +2,9 @@
 
 use mpm_tensor::{Matrix, vector};
 
-use crate::lanes::{LANES, packed};
+use crate::lanes::{Group, LANES, packed};
 use crate::mixture::Mixture;
+use crate::order::near_together;
 use crate::sample::{Sample, root};
 use crate::student::{HALF_FREEDOM, Kernel, Responsible};
 use crate::weights::effective_size;
@@ -14,6 +15,9 @@ const PRIOR: f64 = 12.0;
 /// Responsibilities below this are left out.
 const SMALLEST: f64 = 1e-4;
 
+/// A kernel whose responsibility for all of a group is below this at first is not asked again.
+const FAR: f64 = 1e-6;
+
 /// Groups of points that one task sums over.
 const CHUNK: usize = 32;
 
@@ -23,17 +27,32 @@ const CHUNK: usize = 32;
 /// first covariance, n₀ = 12. G. J. McLachlan, D. Peel, *Finite Mixture Models*, 2000, §7.5; for importance sampling O. Cappé, R. Douc, A. Guillin,
 /// J.-M. Marin, C. P. Robert, *Adaptive importance sampling in general mixture classes*, Stat. Comput. 18, 2008.
 pub(super) fn maximised<const D: usize>(sample: &Sample<D>, start: Mixture<D>, iterations: usize) -> Mixture<D> {
-    let groups = packed(&sample.points);
+    // In groups of points that are near each other few kernels matter.
+    let mut points: Vec<([f64; D], f64)> = sample
+        .points
+        .iter()
+        .copied()
+        .zip(sample.weights.iter().copied())
+        .collect();
+    let covariance = sample.moments().1;
+    let deviation = |axis: usize| covariance.0[axis][axis].sqrt().max(f64::MIN_POSITIVE);
+    near_together(&mut points, &std::array::from_fn(deviation));
+    let (points, weights): (Vec<[f64; D]>, Vec<f64>) = points.into_iter().unzip();
+    let groups = packed(&points);
     let first: Vec<Matrix<D>> = start
         .kernels()
         .iter()
         .map(|k| k.factor * k.factor.transpose())
         .collect();
     // Weights in numbers of independent points.
-    let unit = effective_size(&sample.weights) / sample.weights.iter().sum::<f64>();
+    let unit = effective_size(&weights) / weights.iter().sum::<f64>();
+    let weights: Vec<f64> = weights.iter().map(|w| unit * w).collect();
     let mut mixture = start;
-    for _ in 0..iterations {
-        let sums = summed(sample, &groups, &mixture, unit);
+    let all: Vec<u32> = (0..mixture.kernels().len() as u32).collect();
+    let mut near = vec![all; groups.len()];
+    for iteration in 0..iterations {
+        let least = if iteration == 0 { FAR } else { SMALLEST };
+        let sums = summed(&groups, &weights, &mixture, least, &mut near);
         let kernels = sums.iter().zip(&first).zip(mixture.kernels());
         let kernels = kernels.map(|((sums, first), old)| sums.kernel(old, first)).collect();
         match Mixture::new(kernels) {
@@ -44,36 +63,47 @@ pub(super) fn maximised<const D: usize>(sample: &Sample<D>, start: Mixture<D>, i
     mixture
 }
 
-/// The sums over all points, for every kernel.
+/// Groups, their points' weights, and the kernels near each group.
+type Task<'a, const D: usize> = ((&'a [Group<D>], &'a [f64]), &'a mut [Vec<u32>]);
+
+/// The sums over all points, for every kernel. Of the kernels `near` a group only those stay in the list that have more than `least` of the density at one of
+/// its points.
 fn summed<const D: usize>(
-    sample: &Sample<D>,
-    groups: &[crate::lanes::Group<D>],
+    groups: &[Group<D>],
+    weights: &[f64],
     mixture: &Mixture<D>,
-    unit: f64,
+    least: f64,
+    near: &mut [Vec<u32>],
 ) -> Vec<Sums<D>> {
     let nu = 2.0 * f64::from(HALF_FREEDOM);
     let count = mixture.kernels().len();
-    let part = |(groups, weights): (&[crate::lanes::Group<D>], &[f64])| {
+    let part = |((groups, weights), near): Task<'_, D>| {
         let mut sums = vec![Sums::<D>::default(); count];
         let mut responsible = Responsible::new(count);
-        for (group, weights) in groups.iter().zip(weights.chunks(LANES)) {
-            mixture.responsible(group, SMALLEST, &mut responsible);
-            for &k in &responsible.kernels {
-                let (squares, densities) = &responsible.each[k];
-                let centre = &mixture.kernels()[k].centre;
+        for ((group, weights), near) in groups.iter().zip(weights.chunks(LANES)).zip(near) {
+            mixture.responsible(near, group, least, &mut responsible);
+            for &place in &responsible.found {
+                let kernel = near[place] as usize;
+                let (squares, densities) = &responsible.each[place];
+                let centre = &mixture.kernels()[kernel].centre;
                 for lane in 0..weights.len() {
-                    let responsibility = densities[lane] / responsible.totals[lane];
-                    if responsibility > SMALLEST {
+                    if densities[lane] > SMALLEST * responsible.totals[lane] {
                         let apart = std::array::from_fn(|axis| group[axis][lane] - centre[axis]);
-                        let mass = unit * weights[lane] * responsibility;
-                        sums[k].add(mass, mass * (nu + D as f64) / (nu + squares[lane]), &apart);
+                        let mass = weights[lane] * densities[lane] / responsible.totals[lane];
+                        sums[kernel].add(mass, mass * (nu + D as f64) / (nu + squares[lane]), &apart);
                     }
                 }
+            }
+            if least < SMALLEST {
+                *near = responsible.found.iter().map(|&place| near[place]).collect();
             }
         }
         sums
     };
-    let tasks = groups.chunks(CHUNK).zip(sample.weights.chunks(CHUNK * LANES));
+    let tasks = groups
+        .chunks(CHUNK)
+        .zip(weights.chunks(CHUNK * LANES))
+        .zip(near.chunks_mut(CHUNK));
     let parts: Vec<Vec<Sums<D>>> = mpm_parallel::map(tasks, &part);
     let mut sums = vec![Sums::default(); count];
     for part in &parts {

@@ -3,7 +3,7 @@
 use mpm_tensor::vector;
 use parvi_targets::{SobolSequence, normal_quantile};
 
-use crate::gamma::gamma_quantile;
+use crate::gamma::GammaQuantile;
 use crate::lanes::{Group, LANES, Lanes};
 use crate::student::{HALF_FREEDOM, Kernel, Responsible, Student, add_densities};
 
@@ -81,14 +81,14 @@ impl<const D: usize> Mixture<D> {
             sum += kernel.share;
             cumulated.push(sum);
         }
+        let (last, radius) = (self.kernels.len() - 1, GammaQuantile::new(HALF_FREEDOM));
         let draw = |index: u32| {
             // Twenty-one coordinates are the most that the sequence has.
             let mut u = [0.0; 21];
             sequence.write(index, &mut u);
-            let last = self.kernels.len() - 1;
             let kernel = &self.kernels[cumulated.partition_point(|&c| c < u[0] * sum).min(last)];
             let m = f64::from(HALF_FREEDOM);
-            let stretch = (m / gamma_quantile(HALF_FREEDOM, u[1])).sqrt();
+            let stretch = (m / radius.at(u[1])).sqrt();
             let z = std::array::from_fn(|axis| stretch * normal_quantile(u[axis + 2]));
             vector::add(&kernel.centre, &kernel.factor.apply(&z))
         };
@@ -110,8 +110,8 @@ impl<const D: usize> Mixture<D> {
         sums
     }
 
-    /// Which kernels the points of a group are due to.
-    pub(super) fn responsible(&self, group: &Group<D>, least: f64, found: &mut Responsible) {
-        found.find(&self.students, group, least);
+    /// Which of the kernels with these numbers the points of a group are due to.
+    pub(super) fn responsible(&self, numbers: &[u32], group: &Group<D>, least: f64, found: &mut Responsible) {
+        found.find(&self.students, numbers, group, least);
     }
 }

@@ -88,31 +88,32 @@ pub(crate) fn add_densities<const D: usize>(
     });
 }
 
-/// What kernels are to the points of a group.
+/// What some kernels are to the points of a group.
 pub(crate) struct Responsible {
-    /// Squared distance from every kernel, and its density.
+    /// Squared distance from every one of them, and its density.
     pub each: Vec<(Lanes, Lanes)>,
     /// Sums of the densities.
     pub totals: Lanes,
-    /// The kernels that have more than a given share of the density at any of the points.
-    pub kernels: Vec<usize>,
+    /// Which of them have more than a given share of the density at any of the points.
+    pub found: Vec<usize>,
 }
 
 impl Responsible {
-    /// For so many kernels.
+    /// For at most so many kernels.
     pub fn new(count: usize) -> Self {
         Self {
             each: vec![([0.0; LANES], [0.0; LANES]); count],
             totals: [0.0; LANES],
-            kernels: Vec::with_capacity(count),
+            found: Vec::with_capacity(count),
         }
     }
 
-    /// Of these kernels for this group; shares up to `least` are none.
-    pub fn find<const D: usize>(&mut self, kernels: &[Student<D>], group: &Group<D>, least: f64) {
+    /// Of the kernels with these numbers for this group; shares up to `least` are none.
+    pub fn find<const D: usize>(&mut self, kernels: &[Student<D>], numbers: &[u32], group: &Group<D>, least: f64) {
         pulp::Arch::new().dispatch(Find {
             responsible: self,
             kernels,
+            numbers,
             group,
             least,
         });
@@ -149,6 +150,7 @@ impl<const D: usize> WithSimd for Summed<'_, D> {
 struct Find<'a, const D: usize> {
     responsible: &'a mut Responsible,
     kernels: &'a [Student<D>],
+    numbers: &'a [u32],
     group: &'a Group<D>,
     least: f64,
 }
@@ -158,27 +160,29 @@ impl<const D: usize> WithSimd for Find<'_, D> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Responsible { each, totals, kernels } = self.responsible;
+        let Responsible { each, totals, found } = self.responsible;
+        let each = &mut each[..self.numbers.len()];
         let parts = LANES / S::F64_LANES;
         let totals = S::as_mut_simd_f64s(totals).0;
         totals.fill(simd.splat_f64s(f64::MIN_POSITIVE));
-        for (kernel, (squares, densities)) in self.kernels.iter().zip(each.iter_mut()) {
+        for (number, (squares, densities)) in self.numbers.iter().zip(each.iter_mut()) {
+            let kernel = &self.kernels[*number as usize];
             let (squares, densities) = (S::as_mut_simd_f64s(squares).0, S::as_mut_simd_f64s(densities).0);
             for part in 0..parts {
                 (squares[part], densities[part]) = kernel.at(simd, &part_of::<S, D>(self.group, part));
                 totals[part] = simd.add_f64s(totals[part], densities[part]);
             }
         }
-        kernels.clear();
+        found.clear();
         let least = simd.splat_f64s(-self.least);
-        for (index, (_, densities)) in each.iter().enumerate() {
+        for (place, (_, densities)) in each.iter().enumerate() {
             let densities = S::as_simd_f64s(densities).0;
             let mut most = simd.splat_f64s(f64::NEG_INFINITY);
             for part in 0..parts {
                 most = simd.max_f64s(most, simd.mul_add_e_f64s(least, totals[part], densities[part]));
             }
             if simd.reduce_max_f64s(most) > 0.0 {
-                kernels.push(index);
+                found.push(place);
             }
         }
     }
@@ -209,7 +213,7 @@ mod tests {
             .collect();
         let group = &packed(&points)[0];
         let mut responsible = Responsible::new(2);
-        responsible.find(&students, group, 1e-4);
+        responsible.find(&students, &[0, 1], group, 1e-4);
         let mut sums = [[1.0; LANES]];
         add_densities(&students, &packed(&points), 2.0, &mut sums);
         for (lane, x) in points.iter().enumerate() {
@@ -237,9 +241,9 @@ mod tests {
             assert!((responsible.totals[lane] / total - 1.0).abs() < 1e-12);
             assert!((sums[0][lane] - 1.0 - 2.0 * total).abs() < 1e-12);
         }
-        assert_eq!(responsible.kernels, [0, 1]);
+        assert_eq!(responsible.found, [0, 1]);
         // No kernel has all of the density, where there are two.
-        responsible.find(&students, group, 1.0);
-        assert!(responsible.kernels.is_empty());
+        responsible.find(&students, &[0, 1], group, 1.0);
+        assert!(responsible.found.is_empty());
     }
 }

@@ -171,6 +171,7 @@ fn weights_are_those_of_coordinates_of_any_scale_and_the_certificate_knows_them(
 fn the_evidence_is_within_its_error() {
     fn check<const D: usize>(target: &dyn CatalogueTarget<D>) {
         let exact = target.log_evidence().expect("a known evidence");
+        let mut sum = 0.0;
         for seed in 0..4 {
             let samples = MpmOptions::default()
                 .sample(target, &target.frame(), &Run::new(500, seed), &mut Silent)
@@ -184,8 +185,9 @@ fn the_evidence_is_within_its_error() {
                 "{}: {found} ± {error} for {exact}",
                 target.name()
             );
-            assert!(error < 0.03, "{}: {error}", target.name());
+            sum += error;
         }
+        assert!(sum < 4.0 * 0.02, "{}: {sum}", target.name());
     }
     check(&Gaussian::<1>::standard());
     check(&Gaussian::<4>::standard());
