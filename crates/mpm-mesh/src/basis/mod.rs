@@ -5,6 +5,7 @@ mod cell_ring;
 mod curve;
 mod locate;
 mod node_at;
+mod one_by_one;
 mod stencils;
 mod transfers;
 mod weights;
@@ -21,7 +22,7 @@ pub(crate) use self::locate::all_found;
 use self::node_at::VertexBoxes;
 use self::stencils::Stencils;
 pub use self::weights::WeightAt;
-use crate::kernel::Fit;
+use crate::kernel::{Fit, Floor};
 use crate::{CellSearch, MeshError, SampleWeight, SimplexMesh};
 
 /// What becomes of a particle that is in no cell.
@@ -56,7 +57,8 @@ pub enum KernelWidth {
 ///
 /// With r_i = x_i − x_p, P_i = \[1, r_i\] and M_p = Σ_i d′_pi P_i P_iᵀ: (w_ip, g_ip) = d′_pi M_p⁻¹ P_i. So Σ w = 1, Σ w r = 0, Σ g = 0 and
 /// Σ g rᵀ = I. The gradient g is *diffuse*: not ∇ of w. Both are continuous. Weights may be negative: hardly inside usual
-/// meshes, and by a tenth in cells at the boundary, so a mesh should have a layer of cells around what particles reach.
+/// meshes, and by a tenth in cells at the boundary, so a mesh should have a layer of cells around what particles reach. Where w passes through zero g does not: a node that only one
+/// particle reaches has then no mass for the stress that acts on it, and turns the particle inside out; [`with_positive_weights`](Self::with_positive_weights) does away with that.
 #[derive(Clone, Debug)]
 pub struct MeshBasis<const D: usize> {
     search: CellSearch<D>,
@@ -75,6 +77,9 @@ pub struct MeshBasis<const D: usize> {
     particles: Vec<ParticleFit<D>>,
     /// d′_pi of all particles, in the groups of their rings.
     samples: Vec<Lanes>,
+    /// Whether weights are kept positive, and by what, by particle; empty unless they are.
+    positive: bool,
+    floors: Vec<Floor<D>>,
     /// Whether D_p⁻¹ is computed.
     spreads: bool,
     /// Number by vertex; of no meaning where a vertex is not active.
@@ -125,6 +130,8 @@ impl<const D: usize> MeshBasis<D> {
             particle_cells: Vec::new(),
             particles: Vec::new(),
             samples: Vec::new(),
+            positive: false,
+            floors: Vec::new(),
             spreads: true,
             numbers: Vec::new(),
             active: Vec::new(),
@@ -141,6 +148,15 @@ impl<const D: usize> MeshBasis<D> {
     /// The same basis with other sample weights.
     pub fn with_sample_weight(mut self, weight: SampleWeight) -> Self {
         self.weight = weight;
+        self
+    }
+
+    /// The same basis with weights that are positive wherever a particle is inside the hull of its ring, or again with those of least squares, which need not be.
+    ///
+    /// w = d′ ψ(α + β·r) with ψ(s) = s for s ≥ θ = 1 / (4 Σ d′) and θ² / (2θ − s) below, and Σ w = 1, Σ w r = 0; gradients are those of the fit with the sample weights d′ ψ′. Particles without a weight
+    /// below θ d′ have those of the paper, to the bit.
+    pub fn with_positive_weights(mut self, positive: bool) -> Self {
+        self.positive = positive;
         self
     }
 
@@ -192,6 +208,13 @@ impl<const D: usize> MeshBasis<D> {
     /// The largest h of the sample weights: the longest edge.
     pub fn kernel_width(&self) -> f64 {
         self.longest_edge
+    }
+
+    /// What keeps the weights of a particle positive.
+    #[inline(always)]
+    fn floor(&self, particle: usize) -> Floor<D> {
+        let own = self.floors.get(particle).copied();
+        own.unwrap_or_else(|| Floor::none(&self.particles[particle].fit))
     }
 
     /// h at a point of a cell, by its barycentric coordinates from vertex 1 on.
@@ -286,9 +309,9 @@ impl<const D: usize> Basis<D> for MeshBasis<D> {
 
     #[inline(always)]
     fn for_each_node(&self, particle: usize, x: &[f64; D], mut visit: impl FnMut(usize, &Entry<D>)) {
-        let fit = &self.particles[particle].fit;
+        let (fit, floor) = (&self.particles[particle].fit, self.floor(particle));
         self.for_each_sample(particle, |index, sample, node| {
-            visit(index, &fit.entry(sample, subtract(node, x)));
+            visit(index, &fit.entry(&floor, sample, subtract(node, x)));
         });
     }
 
@@ -301,6 +324,9 @@ impl<const D: usize> Basis<D> for MeshBasis<D> {
         flux: &S,
         sink: &mut impl NodeSink<D>,
     ) {
+        if self.is_kept_positive(member.particle) {
+            return self.deposit_one_by_one(member, value, affine, flux, sink);
+        }
         self.deposit_in_lanes(member, value, affine, flux, sink);
     }
 
@@ -311,6 +337,9 @@ impl<const D: usize> Basis<D> for MeshBasis<D> {
         wanted: Wanted,
         nodes: &impl NodeField<D>,
     ) -> Interpolated<D> {
+        if self.is_kept_positive(member.particle) {
+            return self.interpolate_one_by_one(member, wanted, nodes);
+        }
         self.interpolate_in_lanes(member, wanted, nodes)
     }
 
@@ -345,6 +374,7 @@ impl<const D: usize> Basis<D> for MeshBasis<D> {
             + self.cell_sort.storage_bytes()
             + words.iter().map(|v| v.capacity() * 4).sum::<usize>()
             + self.particles.capacity() * size_of::<ParticleFit<D>>()
+            + self.floors.capacity() * size_of::<Floor<D>>()
             + (self.samples.capacity() + self.active_positions.capacity()) * size_of::<Lanes>()
             + (self.cell_node_starts.capacity() + self.widths.capacity()) * 8
             + self.marks.capacity()

@@ -172,10 +172,12 @@ impl<const D: usize> MeshBasis<D> {
     /// Visit the weights of four nodes at a time, in order.
     #[inline(always)]
     fn for_each_weight_group(&self, member: Member<CellRing<D>, D>, mut visit: impl FnMut(Lanes)) {
-        let fit = &self.particles[member.particle].fit;
+        let (fit, twice) = (&self.particles[member.particle].fit, self.floor(member.particle).twice);
         let (level, slope) = (Lanes::splat(fit.level), fit.slope.map(Lanes::splat));
+        let twice = Lanes::splat(twice);
         self.for_each_group(member, |_, sample, r| {
-            visit(weight_of(sample, level, &slope, r));
+            let s = affine(level, &slope, r);
+            visit(s.fast_max(twice - s) * sample);
         });
     }
 
@@ -212,11 +214,17 @@ impl<const D: usize> MeshBasis<D> {
 /// d′ (α + β·r) of four nodes.
 #[inline(always)]
 fn weight_of<const D: usize>(sample: Lanes, level: Lanes, slope: &[Lanes; D], r: &[Lanes; D]) -> Lanes {
+    affine(level, slope, r) * sample
+}
+
+/// α + β·r of four nodes.
+#[inline(always)]
+fn affine<const D: usize>(level: Lanes, slope: &[Lanes; D], r: &[Lanes; D]) -> Lanes {
     let mut sum = level;
     for a in 0..D {
         sum = slope[a].mul_add(r[a], sum);
     }
-    sum * sample
+    sum
 }
 
 /// The vector of the sums over the lanes of each component; the scalar has no meaning.

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::cell_ring::CellRing;
 use super::{MeshBasis, ParticleFit};
-use crate::kernel::{Fit, RingLanes};
+use crate::kernel::{Fit, Floor, RingLanes};
 use crate::{Located, NO_CELL};
 
 /// Weight and gradient of a node at a point.
@@ -24,24 +24,28 @@ impl<const D: usize> MeshBasis<D> {
     pub(super) fn fit_particles(&mut self, sorted: &[[f64; D]]) -> Result<(), MpmError> {
         let mut particles = std::mem::take(&mut self.particles);
         let mut samples = std::mem::take(&mut self.samples);
+        let mut floors = std::mem::take(&mut self.floors);
         let nothing = ParticleFit {
             fit: Fit::NOTHING,
             cell: NO_CELL,
             samples: 0,
         };
         particles.resize(sorted.len(), nothing);
+        floors.resize(if self.positive { sorted.len() } else { 0 }, Floor::none(&Fit::NOTHING));
         let mut groups = 0;
         let schedule = &self.schedule;
         let mut shares = Vec::with_capacity(schedule.parts().len());
-        let mut rest = particles.as_mut_slice();
+        let (mut rest, mut rest_of_floors) = (particles.as_mut_slice(), floors.as_mut_slice());
         for part in schedule.parts() {
             let first = groups;
             for cell in part.cells.clone() {
                 groups += self.groups_of(cell) * schedule.cell(cell).len();
             }
-            let (own, others) = rest.split_at_mut(schedule.particles(&part.cells).len());
-            rest = others;
-            shares.push((part, own, first..groups));
+            let count = schedule.particles(&part.cells).len();
+            let (own, others) = rest.split_at_mut(count);
+            let (own_floors, other_floors) = rest_of_floors.split_at_mut(count.min(rest_of_floors.len()));
+            (rest, rest_of_floors) = (others, other_floors);
+            shares.push((part, own, own_floors, first..groups));
         }
         if groups > u32::MAX as usize {
             let nodes = groups as u64;
@@ -50,33 +54,40 @@ impl<const D: usize> MeshBasis<D> {
         samples.resize(groups, Lanes::ZERO);
         let mut rest = samples.as_mut_slice();
         let mut work = Vec::with_capacity(shares.len());
-        for (part, particles, groups) in shares {
+        for (part, particles, floors, groups) in shares {
             let (own, others) = rest.split_at_mut(groups.len());
             rest = others;
-            work.push((part, particles, own, groups.start));
+            work.push((part, particles, floors, own, groups.start));
         }
-        work.into_par_iter().for_each(|(part, particles, samples, first)| {
-            let mut lanes = RingLanes::new(self.weight);
-            let (mut solved, mut next, mut sample) = (0, 0, 0);
-            for cell in part.cells.clone() {
-                let (range, length) = (schedule.cell(cell), self.groups_of(cell));
-                let mesh_cell = self.particle_cells[range.start];
-                self.collect(mesh_cell, &mut lanes);
-                for x in &sorted[range] {
-                    particles[next].cell = mesh_cell;
-                    particles[next].samples = (first + sample) as u32;
-                    let pending = self.push(mesh_cell, x, &mut lanes, sample);
-                    next += 1;
-                    sample += length;
-                    if pending == LANES || next == particles.len() {
-                        let fits = particles[solved..next].iter_mut().map(|particle| &mut particle.fit);
-                        lanes.solve(self.spreads, samples, fits);
-                        solved = next;
+        work.into_par_iter()
+            .for_each(|(part, particles, floors, samples, first)| {
+                let mut lanes = RingLanes::new(self.weight);
+                let (mut solved, mut next, mut sample) = (0, 0, 0);
+                for cell in part.cells.clone() {
+                    let (range, length) = (schedule.cell(cell), self.groups_of(cell));
+                    let mesh_cell = self.particle_cells[range.start];
+                    self.collect(mesh_cell, &mut lanes);
+                    for x in &sorted[range] {
+                        particles[next].cell = mesh_cell;
+                        particles[next].samples = (first + sample) as u32;
+                        let pending = self.push(mesh_cell, x, &mut lanes, sample);
+                        next += 1;
+                        sample += length;
+                        if pending == LANES || next == particles.len() {
+                            let fits = particles[solved..next].iter_mut().map(|particle| &mut particle.fit);
+                            lanes.solve(self.spreads, samples, fits);
+                            if !floors.is_empty() {
+                                let own = particles[solved..next].iter_mut().zip(&mut floors[solved..next]);
+                                for (k, (particle, floor)) in own.enumerate() {
+                                    *floor = lanes.make_positive(k, self.spreads, samples, &mut particle.fit);
+                                }
+                            }
+                            solved = next;
+                        }
                     }
                 }
-            }
-        });
-        (self.particles, self.samples) = (particles, samples);
+            });
+        (self.particles, self.samples, self.floors) = (particles, samples, floors);
         Ok(())
     }
 
@@ -153,9 +164,13 @@ impl<const D: usize> MeshBasis<D> {
         self.push(cell, x, &mut lanes, 0);
         let mut fit = Fit::NOTHING;
         lanes.solve(false, &mut samples, [&mut fit]);
+        let mut floor = Floor::none(&fit);
+        if self.positive {
+            floor = lanes.make_positive(0, false, &mut samples, &mut fit);
+        }
         let entry = |(&vertex, sample)| {
             let node = &self.mesh().vertices()[vertex as usize];
-            let entry = fit.entry(sample, subtract(node, x));
+            let entry = fit.entry(&floor, sample, subtract(node, x));
             WeightAt { vertex, entry }
         };
         let samples = samples.into_iter().flat_map(Lanes::to_array);

@@ -7,12 +7,12 @@ use mpm_tensor::vector::dot;
 use super::definite::{LaneMatrix, inverse_of_definite};
 use super::ring_lanes::{Group, Pending, RingLanes, SETS};
 use super::spline::quadratic;
-use super::{LARGEST_COUNT, Sums, sums};
+use super::{Floor, LARGEST_COUNT, Sums, sums};
 
 /// D_p is used where each of its pivots is above this share of Σ_i |w_ip| r_ia², since weights of both signs may make it singular, and above
 /// that share of Σ_i d′_ip r_ia², since it is also where a particle is at a vertex of the boundary (ours).
-const LEAST_SPREAD: f64 = 1.0 / 16.0;
-const LEAST_SAMPLED: f64 = 1e-3;
+pub(super) const LEAST_SPREAD: f64 = 1.0 / 16.0;
+pub(super) const LEAST_SAMPLED: f64 = 1e-3;
 
 /// What a particle needs, beside d′_pi, for its weights and gradients (Cao et al. 2024, Eqs. 22 and 29): M_p⁻¹ of
 /// M_p = Σ_i d′_pi P_i P_iᵀ with P_i = [1, r_i], r_i = x_i − x_p, in blocks \[α, βᵀ; β, Γ\], so that
@@ -43,11 +43,11 @@ impl<const D: usize> Fit<D> {
 
     /// Weight, gradient and offset of a node at offset r with sample weight d′.
     #[inline(always)]
-    pub fn entry(&self, sample: f64, offset: [f64; D]) -> Entry<D> {
+    pub fn entry(&self, floor: &Floor<D>, sample: f64, offset: [f64; D]) -> Entry<D> {
         let curved = self.curvature.apply(&offset);
         Entry {
-            weight: sample * (self.level + dot(&self.slope, &offset)),
-            gradient: std::array::from_fn(|a| sample * (self.slope[a] + curved[a])),
+            weight: sample * floor.factor(self.level + dot(&self.slope, &offset)),
+            gradient: std::array::from_fn(|a| sample * (floor.slope[a] + curved[a])),
             offset,
         }
     }
@@ -186,7 +186,7 @@ fn one_of<const D: usize>(matrix: &LaneMatrix<D>, lane: usize) -> Matrix<D> {
 }
 
 /// The place of entry i, j of the triangle.
-const fn place_of(dimension: usize, i: usize, j: usize) -> usize {
+pub(super) const fn place_of(dimension: usize, i: usize, j: usize) -> usize {
     1 + dimension + i * (i + 1) / 2 + j
 }
 

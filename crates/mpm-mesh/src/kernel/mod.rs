@@ -2,12 +2,14 @@
 
 mod definite;
 mod fit;
+mod positive;
 mod ring_lanes;
 mod spline;
 
 use mpm_kernels::{LANES, Lanes};
 
 pub(crate) use fit::Fit;
+pub(crate) use positive::Floor;
 pub(crate) use ring_lanes::RingLanes;
 
 /// How the nodes of a first ring are weighted in the least squares fit of a particle (Cao et al. 2024, §2.3).

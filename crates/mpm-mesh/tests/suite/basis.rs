@@ -7,10 +7,11 @@ use mpm_kernels::LANES;
 use mpm_mesh::{MeshBasis, Outside, SampleWeight, SimplexMesh};
 use mpm_tensor::Matrix;
 
-/// Random clouds, each on a basis that was in use before.
+/// Random clouds, each on a basis that was in use before, by least squares and with positive weights in turn.
 fn conforms<const D: usize>(mesh: &SimplexMesh<D>, low: f64, high: f64) {
     let mut basis = MeshBasis::new(mesh).unwrap();
-    for round in 0..3 {
+    for round in 0..4 {
+        basis = basis.with_positive_weights(round % 2 == 1);
         let mut positions = cloud::<D>(300 + 100 * round, low, high, round as u64);
         positions.extend(
             mesh.vertices()

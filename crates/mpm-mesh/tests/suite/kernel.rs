@@ -30,7 +30,7 @@ fn difference<const D: usize>(one: &[(f64, [f64; D])], other: &[(f64, [f64; D])]
 }
 
 /// The largest jump of weights and gradients across the inner facets of a mesh.
-fn largest_jump<const D: usize>(basis: &MeshBasis<D>, seed: u64, vertices: impl Fn(u32) -> bool) -> f64 {
+pub fn largest_jump<const D: usize>(basis: &MeshBasis<D>, seed: u64, vertices: impl Fn(u32) -> bool) -> f64 {
     let mesh = basis.mesh();
     let mut random = generator(seed);
     let mut largest = 0.0;

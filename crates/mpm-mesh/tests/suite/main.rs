@@ -8,6 +8,7 @@ mod kernel;
 mod kernel_closed_form;
 mod kernel_polynomial;
 mod mesh;
+mod positive;
 mod recovery;
 mod search;
 mod step;

@@ -185,7 +185,8 @@ pub(super) fn mesh_basis<const D: usize>(scene: &Scene, mesh: &SimplexMesh<D>) -
         WidthName::Local => KernelWidth::Local,
     };
     let basis = MeshBasis::new(mesh).map_err(invalid)?.with_kernel_width(width);
-    Ok(basis.with_outside(outside).with_sample_weight(weight))
+    let basis = basis.with_outside(outside).with_sample_weight(weight);
+    Ok(basis.with_positive_weights(table.positive_weights))
 }
 
 fn with_transfer<const D: usize, B: SecondMoments<D> + 'static, T: Transfer<D> + 'static>(

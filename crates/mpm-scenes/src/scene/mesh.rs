@@ -23,6 +23,9 @@ pub struct MeshTable {
     /// How far the shape functions reach; with `kernel = "umls"` and `"without-diminishing"`.
     #[serde(default)]
     pub width: WidthName,
+    /// Whether weights that least squares make small or negative are kept positive; not with `kernel = "hat"`. Default false, as in the paper.
+    #[serde(default)]
+    pub positive_weights: bool,
     /// A turn of the mesh; two dimensions only.
     pub rotation: Option<RotationTable>,
     /// Whether cells are added around the mesh: mirrored ones at walls, others elsewhere. Default true.

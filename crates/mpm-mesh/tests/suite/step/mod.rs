@@ -12,17 +12,17 @@ use mpm_core::{Continuum, StepControl};
 use mpm_materials::Material;
 
 /// Any elastic law; behind a reference, so that the step is compiled once for all laws.
-type Solid<const D: usize> = Continuum<&'static dyn Material<D>>;
+pub type Solid<const D: usize> = Continuum<&'static dyn Material<D>>;
 
 /// A solid of the given law.
-fn solid<const D: usize>(law: impl Material<D> + 'static) -> Solid<D> {
+pub fn solid<const D: usize>(law: impl Material<D> + 'static) -> Solid<D> {
     Continuum {
         law: Box::leak(Box::new(law)),
     }
 }
 
 /// A step of the given length with no other limit.
-fn control(time_step: f64) -> StepControl {
+pub fn control(time_step: f64) -> StepControl {
     StepControl {
         time_step,
         courant: f64::INFINITY,

@@ -1,6 +1,6 @@
 //! The background: a grid or a mesh.
 
-use crate::scene::{Discretisation, MeshShapeTable, MeshTable, RotationTable, Scene};
+use crate::scene::{Discretisation, KernelName, MeshShapeTable, MeshTable, RotationTable, Scene};
 use crate::values::{finite, not_negative, positive, vector, within};
 use crate::{SceneFault, rotation};
 
@@ -62,6 +62,9 @@ fn check_mesh<const D: usize>(mesh: &MeshTable) -> Result<(), SceneFault> {
             return Err(SceneFault::value("mesh.file", file, expected));
         }
     }
+    let needed = mesh.kernel != KernelName::Hat || !mesh.positive_weights;
+    let expected = "left out with mesh.kernel = \"hat\", whose weights are positive";
+    within("mesh.positive_weights", mesh.positive_weights, needed, expected)?;
     check_points_inside(mesh)?;
     Scene::check_rotation::<D>("mesh.rotation", mesh.rotation.as_ref())?;
     not_negative("mesh.reach", mesh.reach).map(drop)

@@ -1,0 +1,299 @@
+//! Weights that are positive: the fit of one particle once more, where least squares give a node next to nothing or less.
+
+use mpm_kernels::Lanes;
+use mpm_tensor::Matrix;
+
+use super::definite::inverse_of_definite;
+use super::fit::{Fit, LEAST_SAMPLED, LEAST_SPREAD, place_of};
+use super::ring_lanes::{Group, RingLanes};
+use super::{LARGEST_COUNT, Sums};
+
+/// θ Σ d′: a node of weight w keeps what least squares give it while w is at least this share of the d′ / Σ d′ that it has in a ring without a lean (ours).
+const LEAST_SHARE: f64 = 0.25;
+
+/// Iterations of Newton's method, and halvings of each, at most.
+const ITERATIONS: usize = 40;
+const HALVINGS: usize = 20;
+
+/// What may be left of Σ w − 1, and of Σ w r / h.
+const TOLERANCE: f64 = 1e-13;
+
+/// The weights of a particle are w = d ψ(s), s = α + β·r, with
+///
+/// ψ(s) = s for s ≥ θ and θ² / (2θ − s) below,
+///
+/// and α, β such that Σ w = 1 and Σ w r = 0: the minimum of a convex function, Σ d Ψ(s) − α with Ψ′ = ψ. Where all s are at least θ this is the least squares fit itself. Gradients are
+/// d ψ′(s) (β̂ + Γ r), the fit with the sample weights d ψ′(s), so that Σ g = 0 and Σ g rᵀ = I as before; both stay continuous.
+///
+/// Least squares give w = d s, which passes through zero where g does not. A node that only one particle reaches then has a mass that vanishes before the force on it does, m_p w and V τ g, and its velocity has no bound.
+/// Here |g|² / w ≤ d |β̂ + Γ r|² / θ, which falls to zero with d.
+///
+/// d is stored as d ψ′(s), of which w is the multiple max(s, 2θ − s).
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Floor<const D: usize> {
+    /// 2θ; −∞ where weights are those of least squares.
+    pub twice: f64,
+    /// β̂.
+    pub slope: [f64; D],
+}
+
+impl<const D: usize> Floor<D> {
+    /// None: least squares.
+    pub fn none(fit: &Fit<D>) -> Self {
+        Self {
+            twice: f64::NEG_INFINITY,
+            slope: fit.slope,
+        }
+    }
+
+    /// Whether weights are not those of least squares.
+    #[inline(always)]
+    pub fn is_reached(&self) -> bool {
+        self.twice > f64::NEG_INFINITY
+    }
+
+    /// w / (d ψ′) from s.
+    #[inline(always)]
+    pub fn factor(&self, s: f64) -> f64 {
+        s.max(self.twice - s)
+    }
+}
+
+impl<const D: usize> RingLanes<D> {
+    /// Makes the weights of the particle that was solved at place `k` positive; its d′ become d ψ′. As they were where no such weights exist, because the particle is at the boundary of its ring or beyond.
+    #[inline(never)]
+    pub fn make_positive(&self, k: usize, spread: bool, samples: &mut [Lanes], fit: &mut Fit<D>) -> Floor<D> {
+        let particle = &self.pending[k];
+        let own = &samples[particle.samples()];
+        let total = own.iter().fold(Lanes::ZERO, |sum, &sample| sum + sample).reduce_add();
+        let problem = Problem {
+            groups: &self.groups[particle.groups()],
+            samples: own,
+            point: particle.point.map(Lanes::splat),
+            inverse_h: particle.inverse_h,
+            floor: LEAST_SHARE / total,
+        };
+        let start = State {
+            level: fit.level,
+            slope: fit.slope,
+        };
+        if !problem.is_below(&start) {
+            return Floor::none(fit);
+        }
+        let Some((state, sums)) = problem.solution(start) else {
+            return Floor::none(fit);
+        };
+        let Some(system) = System::<D>::of(&sums) else {
+            return Floor::none(fit);
+        };
+        let floor = Floor {
+            twice: 2.0 * problem.floor,
+            slope: system.slope,
+        };
+        let (tilted, inverse_spread) = problem.weighted(&state, spread);
+        samples[particle.samples()].copy_from_slice(&tilted);
+        (fit.level, fit.slope, fit.curvature) = (state.level, state.slope, system.curvature);
+        fit.inverse_spread = inverse_spread;
+        floor
+    }
+}
+
+/// α and β.
+#[derive(Clone, Copy)]
+struct State<const D: usize> {
+    level: f64,
+    slope: [f64; D],
+}
+
+/// The ring of a particle, its d′, and θ.
+struct Problem<'a, const D: usize> {
+    groups: &'a [Group<D>],
+    samples: &'a [Lanes],
+    point: [Lanes; D],
+    inverse_h: f64,
+    floor: f64,
+}
+
+/// Σ d ψ, Σ d ψ r, and the moments of d ψ′ from the zeroth to the second.
+struct Totals {
+    values: [f64; 4],
+    slopes: [f64; LARGEST_COUNT],
+}
+
+impl<const D: usize> Problem<'_, D> {
+    /// Visit d′, s and r of four nodes at a time.
+    #[inline(always)]
+    fn for_each(&self, state: &State<D>, mut visit: impl FnMut(Lanes, Lanes, &[Lanes; D])) {
+        let (level, slope) = (Lanes::splat(state.level), state.slope.map(Lanes::splat));
+        for (group, &sample) in self.groups.iter().zip(self.samples) {
+            let (mut s, mut r) = (level, [Lanes::ZERO; D]);
+            for a in 0..D {
+                r[a] = group.positions[a] - self.point[a];
+                s = slope[a].mul_add(r[a], s);
+            }
+            visit(sample, s, &r);
+        }
+    }
+
+    /// ψ and ψ′ of four nodes.
+    #[inline(always)]
+    fn shape(&self, s: Lanes) -> (Lanes, Lanes) {
+        let floor = Lanes::splat(self.floor);
+        let below = s.simd_lt(floor);
+        let quotient = floor / (floor + floor - s);
+        (
+            below.select(floor * quotient, s),
+            below.select(quotient * quotient, Lanes::splat(1.0)),
+        )
+    }
+
+    /// Whether a node has s < θ.
+    fn is_below(&self, state: &State<D>) -> bool {
+        let mut below = false;
+        self.for_each(state, |sample, s, _| {
+            let low = s.simd_lt(Lanes::splat(self.floor)) & sample.simd_gt(Lanes::ZERO);
+            below |= low.to_bitmask() != 0;
+        });
+        below
+    }
+
+    fn totals(&self, state: &State<D>) -> Totals {
+        let (mut values, mut slopes): ([Lanes; 4], Sums) = ([Lanes::ZERO; 4], [Lanes::ZERO; LARGEST_COUNT]);
+        self.for_each(state, |sample, s, r| {
+            let (value, slope) = self.shape(s);
+            let (value, slope) = (sample * value, sample * slope);
+            values[0] += value;
+            slopes[0] += slope;
+            for i in 0..D {
+                values[1 + i] = value.mul_add(r[i], values[1 + i]);
+                let weighted = slope * r[i];
+                slopes[1 + i] += weighted;
+                for j in 0..=i {
+                    let place = place_of(D, i, j);
+                    slopes[place] = weighted.mul_add(r[j], slopes[place]);
+                }
+            }
+        });
+        Totals {
+            values: values.map(Lanes::reduce_add),
+            slopes: slopes.map(Lanes::reduce_add),
+        }
+    }
+
+    /// How far Σ w is from 1 and Σ w r / h from 0.
+    fn error(&self, totals: &Totals) -> f64 {
+        let first = totals.values[1..=D].iter();
+        let first = first.map(|value| (value * self.inverse_h).abs());
+        first.fold((totals.values[0] - 1.0).abs(), f64::max)
+    }
+
+    /// Newton's method, with directions halved until the error falls.
+    fn solution(&self, start: State<D>) -> Option<(State<D>, Totals)> {
+        let mut here = (start, self.totals(&start));
+        let mut error = self.error(&here.1);
+        for _ in 0..ITERATIONS {
+            let direction = System::<D>::of(&here.1)?.solve(&here.1);
+            let mut way = 1.0;
+            let mut next = None;
+            for _ in 0..HALVINGS {
+                let state = here.0.moved(way, &direction);
+                let totals = self.totals(&state);
+                let left = self.error(&totals);
+                if left < error {
+                    next = Some((state, totals, left));
+                    break;
+                }
+                way *= 0.5;
+            }
+            match next {
+                Some((state, totals, left)) => (here, error) = ((state, totals), left),
+                None => break, // rounding
+            }
+            if error < 0.01 * TOLERANCE {
+                break;
+            }
+        }
+        (error <= TOLERANCE).then_some(here)
+    }
+
+    /// d ψ′ of all nodes, and D_p⁻¹ of the weights.
+    fn weighted(&self, state: &State<D>, spread: bool) -> (Vec<Lanes>, Option<Matrix<D>>) {
+        let mut tilted = Vec::with_capacity(self.samples.len());
+        let (mut moments, mut sampled) = ([[Lanes::ZERO; D]; D], [Lanes::ZERO; D]);
+        self.for_each(state, |sample, s, r| {
+            let (value, slope) = self.shape(s);
+            tilted.push(sample * slope);
+            let weight = sample * value;
+            for i in 0..D {
+                sampled[i] += sample * r[i] * r[i];
+                for j in 0..=i {
+                    moments[i][j] = (weight * r[i]).mul_add(r[j], moments[i][j]);
+                }
+            }
+        });
+        if !spread {
+            return (tilted, None);
+        }
+        let moments = moments.map(|row| row.map(|entry| Lanes::splat(entry.reduce_add())));
+        let mut floor = [Lanes::ZERO; D];
+        for a in 0..D {
+            let least = LEAST_SAMPLED * sampled[a].reduce_add();
+            floor[a] = Lanes::splat(least).fast_max(moments[a][a] * LEAST_SPREAD);
+        }
+        let (inverse, definite) = inverse_of_definite(&moments, &floor);
+        let inverse = Matrix(inverse.map(|row| row.map(|entry| entry.to_array()[0])));
+        (tilted, (definite.to_bitmask() & 1 == 1).then_some(inverse))
+    }
+}
+
+impl<const D: usize> State<D> {
+    fn moved(&self, way: f64, direction: &Self) -> Self {
+        Self {
+            level: self.level + way * direction.level,
+            slope: std::array::from_fn(|a| self.slope[a] + way * direction.slope[a]),
+        }
+    }
+}
+
+/// The inverse of the moments of d ψ′, as of [`Fit`]: α̂, β̂ and Γ.
+struct System<const D: usize> {
+    level: f64,
+    slope: [f64; D],
+    curvature: Matrix<D>,
+}
+
+impl<const D: usize> System<D> {
+    fn of(totals: &Totals) -> Option<Self> {
+        let sums = &totals.slopes;
+        let centre: [f64; D] = std::array::from_fn(|a| sums[1 + a] / sums[0]);
+        let mut scatter = [[Lanes::ZERO; D]; D];
+        for i in 0..D {
+            for j in 0..=i {
+                scatter[i][j] = Lanes::splat(sums[place_of(D, i, j)] - sums[0] * centre[i] * centre[j]);
+            }
+        }
+        let (inverse, definite) = inverse_of_definite(&scatter, &[Lanes::ZERO; D]);
+        if definite.to_bitmask() & 1 == 0 {
+            return None;
+        }
+        let curvature = Matrix(inverse.map(|row| row.map(|entry| entry.to_array()[0])));
+        let slope = curvature.apply(&centre).map(|c| -c);
+        let level = 1.0 / sums[0] - (0..D).map(|a| slope[a] * centre[a]).sum::<f64>();
+        Some(Self {
+            level,
+            slope,
+            curvature,
+        })
+    }
+
+    /// The direction that Newton's method takes.
+    fn solve(&self, totals: &Totals) -> State<D> {
+        let zeroth = 1.0 - totals.values[0];
+        let first: [f64; D] = std::array::from_fn(|a| -totals.values[1 + a]);
+        let curved = self.curvature.apply(&first);
+        State {
+            level: self.level * zeroth + (0..D).map(|a| self.slope[a] * first[a]).sum::<f64>(),
+            slope: std::array::from_fn(|a| self.slope[a] * zeroth + curved[a]),
+        }
+    }
+}
