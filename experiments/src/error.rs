@@ -112,6 +112,14 @@ pub enum CommandError {
         /// What it holds.
         occupant: String,
     },
+    /// A directory in which nothing was run.
+    #[error(
+        "{directory} holds no results: a study has its config.toml there, a simulated scene its scene.toml, a reduced-order model its model.safetensors"
+    )]
+    NothingToReport {
+        /// The directory.
+        directory: String,
+    },
     /// A study's own file does not hold what a study writes.
     #[error("{file}: {message}")]
     ResultsUnreadable {

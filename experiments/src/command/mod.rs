@@ -15,6 +15,7 @@ mod targets;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use parvi::SampleError;
 
 use crate::{CommandError, console, interrupt};
 #[cfg(not(feature = "rom"))]
@@ -80,9 +81,20 @@ fn parsed() -> Result<CommandLine, clap::Error> {
     CommandLine::from_arg_matches(&command.try_get_matches()?)
 }
 
+/// What a line asks of a method, a target or a build that they do not have is a line that makes no sense to them.
 fn exit_code(error: &CommandError) -> u8 {
     match error {
-        CommandError::Flag(_) | CommandError::OutputExtension { .. } | CommandError::OtherKind { .. } => 2,
+        CommandError::Flag(_)
+        | CommandError::OutputExtension { .. }
+        | CommandError::OtherKind { .. }
+        | CommandError::LeftOut { .. }
+        | CommandError::Sample(
+            SampleError::InvalidOption { .. }
+            | SampleError::NotTaken { .. }
+            | SampleError::Unsupported { .. }
+            | SampleError::ScoreOnly { .. }
+            | SampleError::NotBuilt { .. },
+        ) => 2,
         error if error.is_interruption() => interrupt::EXIT_CODE,
         _ => 1,
     }

@@ -42,7 +42,15 @@ impl StudyDirectory {
     }
 
     /// A directory in which a study was run before.
+    ///
+    /// # Errors
+    /// [`CommandError::NothingToReport`] for a directory without a configuration.
     pub fn existing(path: &Path) -> Result<(Self, Configuration), CommandError> {
+        if path.is_dir() && !path.join(CONFIGURATION).exists() {
+            return Err(CommandError::NothingToReport {
+                directory: path.display().to_string(),
+            });
+        }
         let configuration = Configuration::read(&path.join(CONFIGURATION))?;
         let directory = Self {
             path: path.to_owned(),

@@ -205,6 +205,19 @@ fn methods_that_need_more_than_the_target_has() {
         "#,
         |line| refused(line[0], &line[1..]),
     );
+    let directory = tempfile::tempdir().unwrap();
+    let line = "sample --target wells --dim 3 --particles 64 --method iid --out x.csv";
+    assert_eq!(parvi(directory.path(), line).status.code(), Some(2));
+}
+
+#[test]
+fn a_start_that_is_not_finite_has_its_row() {
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(directory.path().join("start.csv"), "x1,x2\n0,1\n2,NaN\n").unwrap();
+    let line = "sample --target banana --method svgd --start start.csv --out x.csv";
+    let output = parvi(directory.path(), line);
+    assert_refused(&output, &["--start", "start.csv", "row 2, column 2", "NaN"]);
+    assert_eq!(output.status.code(), Some(2));
 }
 
 #[test]

@@ -170,6 +170,8 @@ fn directories_that_cannot_be() {
 fn reports_of_nothing() {
     let root = tempfile::tempdir().unwrap();
     assert_refused(&parvi(root.path(), "report out"), &["out/config.toml"]);
+    std::fs::create_dir(root.path().join("empty")).unwrap();
+    assert_refused(&parvi(root.path(), "report empty"), &["empty", "holds no results"]);
     write(root.path(), STUDY);
     succeeds(root.path(), "run study.toml --out out");
     let path = root.path().join("out/results.csv");

@@ -16,6 +16,9 @@ pub struct Located<'a, const D: usize> {
     pub x: &'a [f64; D],
 }
 
+/// Value and scale of a particle, by its place in the schedule and its position.
+pub type Sent<'a, const D: usize> = dyn Fn(usize, &[f64; D]) -> (Deposit<D>, f64) + Sync + 'a;
+
 /// A [`Basis`] of which only the dimension is known: a test of many bases is compiled once per dimension and not once per basis. Methods
 /// without a page of their own are those of the basis.
 #[allow(missing_docs, reason = "they stand at the basis")]
@@ -58,12 +61,8 @@ pub trait AnyBasis<const D: usize> {
     /// [`Basis::interpolate`] of the vectors of the nodes.
     fn interpolate(&self, member: Located<D>, wanted: Wanted, nodes: &[Deposit<D>]) -> Interpolated<D>;
 
-    /// [`NodeSums::scatter`] of what [`for_each_deposit`](Self::for_each_deposit) gives for value and scale of a particle, by its place in the schedule.
-    fn scatter(
-        &self,
-        sorted: &[[f64; D]],
-        value: &(dyn Fn(usize, &[f64; D]) -> (Deposit<D>, f64) + Sync),
-    ) -> Vec<Deposit<D>>;
+    /// [`NodeSums::scatter`] of what [`for_each_deposit`](Self::for_each_deposit) gives for what each particle sends.
+    fn scatter(&self, sorted: &[[f64; D]], value: &Sent<D>) -> Vec<Deposit<D>>;
 }
 
 impl<const D: usize, B: Basis<D>> AnyBasis<D> for B {
@@ -150,11 +149,7 @@ impl<const D: usize, B: Basis<D>> AnyBasis<D> for B {
         Basis::interpolate(self, within(&cell, member), wanted, &Field(nodes))
     }
 
-    fn scatter(
-        &self,
-        sorted: &[[f64; D]],
-        value: &(dyn Fn(usize, &[f64; D]) -> (Deposit<D>, f64) + Sync),
-    ) -> Vec<Deposit<D>> {
+    fn scatter(&self, sorted: &[[f64; D]], value: &Sent<D>) -> Vec<Deposit<D>> {
         let mut sums = NodeSums::<NodeSum<D>>::default();
         sums.scatter(self, sorted, |particle, x, stencil| {
             let (value, scale) = value(particle, x);

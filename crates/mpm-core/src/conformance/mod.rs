@@ -4,6 +4,6 @@ mod any_basis;
 mod layout;
 mod transfers;
 
-pub use any_basis::{AnyBasis, Located};
+pub use any_basis::{AnyBasis, Located, Sent};
 pub use layout::layout_is_sound;
 pub use transfers::transfers_are_sums;

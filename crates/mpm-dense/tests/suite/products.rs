@@ -21,10 +21,11 @@ fn products_are_sums() {
         assert!(distance(&(&a * &b), &expected) < 1e-12);
         assert!(distance(&transposed(&a).transposed_times(&b), &expected) < 1e-12);
         assert!(distance(&a.times_transposed(&transposed(&b)), &expected) < 1e-12);
-        let mut square = sample(n, n);
+        let before = sample(n, n);
+        let mut square = before.clone();
         square.add_square_of(&a);
         let whole = naive(&transposed(&a), &a);
-        let expected = DenseMatrix::from_fn(n, n, |i, j| sample(n, n)[(i, j)] + whole[(i, j)]);
+        let expected = DenseMatrix::from_fn(n, n, |i, j| before[(i, j)] + whole[(i, j)]);
         assert!(distance(&square, &expected) < 1e-12);
     }
 }

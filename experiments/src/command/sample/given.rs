@@ -55,9 +55,23 @@ fn read(flag: &str, path: &Path, rows: usize, columns: usize) -> Result<Vec<f64>
     let (found, wanted, what) = match () {
         () if table.columns != columns => (table.columns, columns, "columns"),
         () if table.rows() != rows => (table.rows(), rows, "rows"),
-        () => return Ok(table.numbers),
+        () => return finite(flag, path, table),
     };
     let reason = format!("{} has {found} {what}, must have {wanted}", path.display());
+    Err(OptionError::new(flag, reason))
+}
+
+/// The numbers of a table that has no others than finite ones.
+fn finite(flag: &str, path: &Path, table: NumberTable) -> Result<Vec<f64>, OptionError> {
+    let Some(index) = table.numbers.iter().position(|number| !number.is_finite()) else {
+        return Ok(table.numbers);
+    };
+    let (row, column) = (index / table.columns + 1, index % table.columns + 1);
+    let reason = format!(
+        "{}: row {row}, column {column} is not finite: {}",
+        path.display(),
+        table.numbers[index]
+    );
     Err(OptionError::new(flag, reason))
 }
 
