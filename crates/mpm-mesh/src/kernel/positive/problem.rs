@@ -1,15 +1,12 @@
-//! Weights that are positive: the fit of one particle once more, where least squares give a node next to nothing or less.
+//! The least squares problem with ψ(s) in the place of s, by Newton's method.
 
 use mpm_kernels::Lanes;
 use mpm_tensor::Matrix;
 
-use super::definite::inverse_of_definite;
-use super::fit::{Fit, LEAST_SAMPLED, LEAST_SPREAD, place_of};
-use super::ring_lanes::{Group, RingLanes};
-use super::{LARGEST_COUNT, Sums};
-
-/// θ Σ d′: a node of weight w keeps what least squares give it while w is at least this share of the d′ / Σ d′ that it has in a ring without a lean (ours).
-const LEAST_SHARE: f64 = 0.25;
+use crate::kernel::definite::inverse_of_definite;
+use crate::kernel::fit::{LEAST_SAMPLED, LEAST_SPREAD, place_of};
+use crate::kernel::ring_lanes::Group;
+use crate::kernel::{LARGEST_COUNT, Sums};
 
 /// Iterations of Newton's method, and halvings of each, at most.
 const ITERATIONS: usize = 40;
@@ -18,104 +15,24 @@ const HALVINGS: usize = 20;
 /// What may be left of Σ w − 1, and of Σ w r / h.
 const TOLERANCE: f64 = 1e-13;
 
-/// The weights of a particle are w = d ψ(s), s = α + β·r, with
-///
-/// ψ(s) = s for s ≥ θ and θ² / (2θ − s) below,
-///
-/// and α, β such that Σ w = 1 and Σ w r = 0: the minimum of a convex function, Σ d Ψ(s) − α with Ψ′ = ψ. Where all s are at least θ this is the least squares fit itself. Gradients are
-/// d ψ′(s) (β̂ + Γ r), the fit with the sample weights d ψ′(s), so that Σ g = 0 and Σ g rᵀ = I as before; both stay continuous.
-///
-/// Least squares give w = d s, which passes through zero where g does not. A node that only one particle reaches then has a mass that vanishes before the force on it does, m_p w and V τ g, and its velocity has no bound.
-/// Here |g|² / w ≤ d |β̂ + Γ r|² / θ, which falls to zero with d.
-///
-/// d is stored as d ψ′(s), of which w is the multiple max(s, 2θ − s).
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Floor<const D: usize> {
-    /// 2θ; −∞ where weights are those of least squares.
-    pub twice: f64,
-    /// β̂.
+/// α and β.
+#[derive(Clone, Copy)]
+pub(super) struct State<const D: usize> {
+    pub level: f64,
     pub slope: [f64; D],
 }
 
-impl<const D: usize> Floor<D> {
-    /// None: least squares.
-    pub fn none(fit: &Fit<D>) -> Self {
-        Self {
-            twice: f64::NEG_INFINITY,
-            slope: fit.slope,
-        }
-    }
-
-    /// Whether weights are not those of least squares.
-    #[inline(always)]
-    pub fn is_reached(&self) -> bool {
-        self.twice > f64::NEG_INFINITY
-    }
-
-    /// w / (d ψ′) from s.
-    #[inline(always)]
-    pub fn factor(&self, s: f64) -> f64 {
-        s.max(self.twice - s)
-    }
-}
-
-impl<const D: usize> RingLanes<D> {
-    /// Makes the weights of the particle that was solved at place `k` positive; its d′ become d ψ′. As they were where no such weights exist, because the particle is at the boundary of its ring or beyond.
-    #[inline(never)]
-    pub fn make_positive(&self, k: usize, spread: bool, samples: &mut [Lanes], fit: &mut Fit<D>) -> Floor<D> {
-        let particle = &self.pending[k];
-        let own = &samples[particle.samples()];
-        let total = own.iter().fold(Lanes::ZERO, |sum, &sample| sum + sample).reduce_add();
-        let problem = Problem {
-            groups: &self.groups[particle.groups()],
-            samples: own,
-            point: particle.point.map(Lanes::splat),
-            inverse_h: particle.inverse_h,
-            floor: LEAST_SHARE / total,
-        };
-        let start = State {
-            level: fit.level,
-            slope: fit.slope,
-        };
-        if !problem.is_below(&start) {
-            return Floor::none(fit);
-        }
-        let Some((state, sums)) = problem.solution(start) else {
-            return Floor::none(fit);
-        };
-        let Some(system) = System::<D>::of(&sums) else {
-            return Floor::none(fit);
-        };
-        let floor = Floor {
-            twice: 2.0 * problem.floor,
-            slope: system.slope,
-        };
-        let (tilted, inverse_spread) = problem.weighted(&state, spread);
-        samples[particle.samples()].copy_from_slice(&tilted);
-        (fit.level, fit.slope, fit.curvature) = (state.level, state.slope, system.curvature);
-        fit.inverse_spread = inverse_spread;
-        floor
-    }
-}
-
-/// α and β.
-#[derive(Clone, Copy)]
-struct State<const D: usize> {
-    level: f64,
-    slope: [f64; D],
-}
-
 /// The ring of a particle, its d′, and θ.
-struct Problem<'a, const D: usize> {
-    groups: &'a [Group<D>],
-    samples: &'a [Lanes],
-    point: [Lanes; D],
-    inverse_h: f64,
-    floor: f64,
+pub(super) struct Problem<'a, const D: usize> {
+    pub groups: &'a [Group<D>],
+    pub samples: &'a [Lanes],
+    pub point: [Lanes; D],
+    pub inverse_h: f64,
+    pub floor: f64,
 }
 
 /// Σ d ψ, Σ d ψ r, and the moments of d ψ′ from the zeroth to the second.
-struct Totals {
+pub(super) struct Totals {
     values: [f64; 4],
     slopes: [f64; LARGEST_COUNT],
 }
@@ -148,7 +65,7 @@ impl<const D: usize> Problem<'_, D> {
     }
 
     /// Whether a node has s < θ.
-    fn is_below(&self, state: &State<D>) -> bool {
+    pub fn is_below(&self, state: &State<D>) -> bool {
         let mut below = false;
         self.for_each(state, |sample, s, _| {
             let low = s.simd_lt(Lanes::splat(self.floor)) & sample.simd_gt(Lanes::ZERO);
@@ -188,7 +105,7 @@ impl<const D: usize> Problem<'_, D> {
     }
 
     /// Newton's method, with directions halved until the error falls.
-    fn solution(&self, start: State<D>) -> Option<(State<D>, Totals)> {
+    pub fn solution(&self, start: State<D>) -> Option<(State<D>, Totals)> {
         let mut here = (start, self.totals(&start));
         let mut error = self.error(&here.1);
         for _ in 0..ITERATIONS {
@@ -217,7 +134,7 @@ impl<const D: usize> Problem<'_, D> {
     }
 
     /// d ψ′ of all nodes, and D_p⁻¹ of the weights.
-    fn weighted(&self, state: &State<D>, spread: bool) -> (Vec<Lanes>, Option<Matrix<D>>) {
+    pub fn weighted(&self, state: &State<D>, spread: bool) -> (Vec<Lanes>, Option<Matrix<D>>) {
         let mut tilted = Vec::with_capacity(self.samples.len());
         let (mut moments, mut sampled) = ([[Lanes::ZERO; D]; D], [Lanes::ZERO; D]);
         self.for_each(state, |sample, s, r| {
@@ -256,14 +173,14 @@ impl<const D: usize> State<D> {
 }
 
 /// The inverse of the moments of d ψ′, as of [`Fit`]: α̂, β̂ and Γ.
-struct System<const D: usize> {
-    level: f64,
-    slope: [f64; D],
-    curvature: Matrix<D>,
+pub(super) struct System<const D: usize> {
+    pub level: f64,
+    pub slope: [f64; D],
+    pub curvature: Matrix<D>,
 }
 
 impl<const D: usize> System<D> {
-    fn of(totals: &Totals) -> Option<Self> {
+    pub fn of(totals: &Totals) -> Option<Self> {
         let sums = &totals.slopes;
         let centre: [f64; D] = std::array::from_fn(|a| sums[1 + a] / sums[0]);
         let mut scatter = [[Lanes::ZERO; D]; D];
