@@ -50,13 +50,8 @@ pub(crate) fn condense<const D: usize>(measure: &Measure<D>, count: usize, offse
     let chosen = systematic(&rises, count, offset);
     let begin = |(&index, shift): (&usize, &[f64; D])| vector::add(&sample[index], shift);
     let mut moving: Vec<[f64; D]> = chosen.iter().zip(&shifts).map(begin).collect();
-    let mut last = 0;
     for (most, far, near) in PASSES {
         let pieces = count.div_ceil(most).next_power_of_two();
-        if pieces == last {
-            break;
-        }
-        last = pieces;
         let (mut first, mut taken) = (0, 0);
         for end in (1..=pieces).map(|piece| piece * sample.len() / pieces) {
             let own = chosen[taken..].partition_point(|&index| index < end);

@@ -246,7 +246,7 @@ fn files_of_particles_that_make_no_sense_are_named() {
     for_each_line(
         r#"
         s.csv | 0,0,0\n1,1,1\n | --start s.csv | --start | s.csv | 3 columns | 2
-        s.csv | 0,0\nnan,1\n | --start s.csv | --start | particle 1 | NaN
+        s.csv | 0,0\nnan,1\n | --start s.csv | --start | row 2, column 1 | NaN
         s.csv | x,y\n0,0\none,1\n | --start s.csv | --start | line 3 | one
         "#,
         |line| with(line[0], line[1], line[2], &line[3..]),
