@@ -13,7 +13,7 @@ use crate::weights::systematic;
 
 /// Passes over space, which is cut into pieces so that the cost is that of many small measures: particles of one piece at most, iterations with few equally
 /// weighted points (with all, where there are not many more), and iterations with all of them. The last pass mends the seams of the first.
-const PASSES: [(usize, usize, usize); 2] = [(128, 25, 2), (256, 0, 4)];
+const PASSES: [(usize, usize, usize); 2] = [(128, 25, 4), (256, 0, 4)];
 
 /// Those few points, per particle.
 const COARSE: usize = 8;
@@ -50,8 +50,13 @@ pub(crate) fn condense<const D: usize>(measure: &Measure<D>, count: usize, offse
     let chosen = systematic(&rises, count, offset);
     let begin = |(&index, shift): (&usize, &[f64; D])| vector::add(&sample[index], shift);
     let mut moving: Vec<[f64; D]> = chosen.iter().zip(&shifts).map(begin).collect();
+    let mut last = 0;
     for (most, far, near) in PASSES {
         let pieces = count.div_ceil(most).next_power_of_two();
+        if pieces == last {
+            break;
+        }
+        last = pieces;
         let (mut first, mut taken) = (0, 0);
         for end in (1..=pieces).map(|piece| piece * sample.len() / pieces) {
             let own = chosen[taken..].partition_point(|&index| index < end);
