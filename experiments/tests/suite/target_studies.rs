@@ -6,7 +6,7 @@ use crate::support::{assert_holds, assert_report, for_each_line, number, refused
 const CATALOGUE: &str = r#"
 kind = "catalogue"
 seeds = [0, 1]
-particles = 60
+particles = 200
 dims = [1, 2]
 targets = [{ name = "gaussian", parameters = { correlation = 0.9 } }, { name = "mixture-2" }, { name = "banana" }, { name = "wells-small" }]
 starts = [{ mean = 0.0, standard-deviation = 1.0 }, { mean = 3.0, standard-deviation = 0.5 }]
@@ -119,7 +119,7 @@ fn bad_catalogue() {
     for_each_line(
         r#"
         seeds = [0, 1] | seeds = [] | seeds | empty
-        seeds = [0, 1] | seeds = [0, 0] | seeds | gaussian-d1-r0.9-mpm-m60-mean0-sd1-s0
+        seeds = [0, 1] | seeds = [0, 0] | seeds | gaussian-d1-r0.9-mpm-m200-mean0-sd1-s0
         dims = [1, 2] | dims = [] | dims | empty
         dims = [1, 2] | dims = [9] | line 5 | 9 is out of range
         dims = [1, 2] | dims = [1] | targets | `banana` | `dims`
