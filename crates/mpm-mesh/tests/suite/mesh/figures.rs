@@ -133,3 +133,13 @@ fn plates_far_thinner_than_wide_are_meshes() {
     let tiny = cuboid([0.0; 3], [1e-30; 3], 2.5e-31).expect("a box");
     assert!((tiny.total_volume() / 1e-90 - 1.0).abs() < 1e-9);
 }
+
+/// The lengths that docs/results/umls and the expansion's scene state.
+#[test]
+fn the_ball_of_the_expansion_has_the_edges_that_are_published() {
+    let inner = ball([0.0; 3], 0.5, 0.025).unwrap();
+    let whole = with_outer_layer(&inner).unwrap().0;
+    assert_eq!(inner.cells().len(), 160_000);
+    assert!((inner.edge_lengths().mean - 0.0318).abs() < 5e-5);
+    assert!((whole.edge_lengths().shortest - 0.0184).abs() < 5e-5);
+}
