@@ -156,6 +156,19 @@ pub trait Basis<const D: usize>: Sync {
             });
             return;
         }
+        self.deposit_node_by_node((particle, x), value, affine, flux, sink);
+    }
+
+    /// [`deposit`](Self::deposit) to one node after another, by weights and gradients alone.
+    #[inline(always)]
+    fn deposit_node_by_node<A: Columns<D>, S: Columns<D>>(
+        &self,
+        (particle, x): (usize, &[f64; D]),
+        value: &Deposit<D>,
+        affine: &A,
+        flux: &S,
+        sink: &mut impl NodeSink<D>,
+    ) {
         self.for_each_node(particle, x, |index, entry| {
             let direction = self.affine_direction(particle, x, entry);
             let mut sum = value.combine(entry.weight, &Deposit::ZERO, 0.0);
@@ -180,14 +193,26 @@ pub trait Basis<const D: usize>: Sync {
         wanted: Wanted,
         nodes: &impl NodeField<D>,
     ) -> Interpolated<D> {
-        let mut sum = Interpolated::ZERO;
         if wanted == Wanted::default() {
+            let mut sum = Interpolated::ZERO;
             let value = &mut sum.value;
             self.for_each_node(particle, x, |index, entry| {
                 add_scaled(value, entry.weight, &nodes.vector(index));
             });
             return sum;
         }
+        self.interpolate_node_by_node((particle, x), wanted, nodes)
+    }
+
+    /// [`interpolate`](Self::interpolate) from one node after another, by weights and gradients alone.
+    #[inline(always)]
+    fn interpolate_node_by_node(
+        &self,
+        (particle, x): (usize, &[f64; D]),
+        wanted: Wanted,
+        nodes: &impl NodeField<D>,
+    ) -> Interpolated<D> {
+        let mut sum = Interpolated::ZERO;
         self.for_each_node(particle, x, |index, entry| {
             let direction = if wanted.least_squares {
                 self.affine_direction(particle, x, entry)

@@ -2,7 +2,6 @@
 
 use mpm_core::{Basis, Member};
 use mpm_kernels::{Columns, Deposit, Interpolated, NodeField, NodeSink, Wanted};
-use mpm_tensor::vector::accumulate;
 
 use super::MeshBasis;
 use super::cell_ring::CellRing;
@@ -25,19 +24,7 @@ impl<const D: usize> MeshBasis<D> {
         flux: &S,
         sink: &mut impl NodeSink<D>,
     ) {
-        self.for_each_node(particle, x, |index, entry| {
-            let direction = self.affine_direction(particle, x, entry);
-            let mut sum = value.combine(entry.weight, &Deposit::ZERO, 0.0);
-            for a in 0..D {
-                let columns = [(affine.column(a), direction[a]), (flux.column(a), entry.gradient[a])];
-                for (column, scale) in columns {
-                    if let Some(column) = column {
-                        accumulate(&mut sum.vector, scale, &column);
-                    }
-                }
-            }
-            sink.add(index, &sum);
-        });
+        self.deposit_node_by_node((particle, x), value, affine, flux, sink);
     }
 
     /// As [`Basis::interpolate`].
@@ -49,15 +36,6 @@ impl<const D: usize> MeshBasis<D> {
         wanted: Wanted,
         nodes: &impl NodeField<D>,
     ) -> Interpolated<D> {
-        let mut sum = Interpolated::ZERO;
-        self.for_each_node(particle, x, |index, entry| {
-            let direction = if wanted.least_squares {
-                self.affine_direction(particle, x, entry)
-            } else {
-                entry.gradient
-            };
-            sum.add(wanted, entry, &direction, &nodes.vector(index));
-        });
-        sum
+        self.interpolate_node_by_node((particle, x), wanted, nodes)
     }
 }
