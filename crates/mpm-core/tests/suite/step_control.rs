@@ -3,6 +3,7 @@
 use mpm_core::{Apic, Flip, Medium, Mpm, MpmError, Particles, Pic, SplineGrid, StepControl, Transfer};
 use mpm_kernels::{Cubic, Linear, Quadratic, Spline};
 use mpm_materials::{ElasticModuli, IsothermalGas, NeoHookean};
+use mpm_tensor::Matrix;
 use proptest::prelude::*;
 
 use crate::scenes::{Pull, distance, free, gaussian_cloud, solid};
@@ -103,6 +104,33 @@ fn the_step_knows_the_waves_of_its_medium() {
     assert!((time_step(even, stiff, &control) - 0.3 * 0.5 / 2.0).abs() < 1e-15);
     let uneven = particles.with_elastic_state(vec![0.5, 2.0, 0.5]);
     assert!((time_step(uneven, stiff, &control) - 0.3 * 0.5 / 4.0).abs() < 1e-15);
+}
+
+/// A particle alone, whose nodes carry nothing else, is the first to be unstable. With s = Σ_i w′² h² / w along each axis, 4 at a node and up to 6 between two, a volumetric strain is multiplied in a step by
+/// 1 − C² D s with FLIP, which remembers no rate of it; affine velocities remember one. So C² D s < 2, or with these C² D (s − 2) < 2.
+#[test]
+fn a_particle_alone_is_stable_up_to_its_courant_number() {
+    fn strain<T: Transfer<2>>(transfer: T, place: f64, courant: f64) -> f64 {
+        let mut particles = Particles::at_rest(vec![[place; 2]], 1.0).with_elastic_state(vec![1.0]);
+        particles.deformation_gradients[0] = Matrix::IDENTITY * (1.0 + 1e-9);
+        let grid = SplineGrid::<Quadratic, 3, 2>::new([0.0; 2], 1.0).unwrap();
+        let law = NeoHookean::new(ElasticModuli::from_lame(1.0, 1e-6).unwrap());
+        let mut mpm = Mpm::new(particles, grid, transfer, solid(law), Pull::none());
+        for _ in 0..300 {
+            if mpm.step(&free(courant)).is_err() {
+                return f64::INFINITY; // inside out
+            }
+        }
+        (mpm.particles.deformation_gradients[0].determinant() - 1.0).abs()
+    }
+    let flip = |place, courant| strain(Flip::blend(1.0), place, courant);
+    let affine = |place, courant| strain(Apic, place, courant);
+    for place in [0.0f64, 0.3, 0.49] {
+        let s = 4.0 + 4.0 * place * place / (0.75 - place * place);
+        let (of_flip, of_affine) = ((1.0 / s).sqrt(), (1.0 / (s - 2.0)).sqrt());
+        assert!(flip(place, 0.99 * of_flip) < 1e-7 && flip(place, 1.01 * of_flip) > 1e-5);
+        assert!(affine(place, 0.99 * of_affine) < 1e-7 && affine(place, 1.01 * of_affine) > 1e-5);
+    }
 }
 
 /// One particle alone keeps its velocity but for friction: with PIC and FLIP alike it decays as e^{−γt}.
