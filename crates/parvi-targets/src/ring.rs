@@ -3,8 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use mpm_tensor::Matrix;
-use rand::{Rng, RngExt};
-use rand_distr::Open01;
+use rand::Rng;
 use statrs::function::gamma::gamma_ur;
 
 use crate::error::{finite, positive};
@@ -138,7 +137,7 @@ impl Target<2> for Ring {
 
 impl ExactDraws<2> for Ring {
     fn draw(&self, rng: &mut dyn Rng) -> [f64; 2] {
-        self.transport(&[rng.sample(Open01), rng.sample(Open01)])
+        self.drawn(rng)
     }
 }
 
