@@ -52,7 +52,6 @@ impl<L> Numbered<L> {
     }
 }
 
-#[allow(non_snake_case)]
 impl<const D: usize, L: Law<D, State: Remembered>> Law<D> for Numbered<L> {
     type State = Memory;
 
@@ -126,7 +125,6 @@ impl<const D: usize, L: Law<D, State: Remembered>> Law<D> for Numbered<L> {
 #[derive(Clone, Copy)]
 pub struct AnyLaw<'a, const D: usize>(pub &'a dyn Law<D, State = Memory>);
 
-#[allow(non_snake_case)]
 impl<const D: usize> Law<D> for AnyLaw<'_, D> {
     type State = Memory;
 
@@ -186,7 +184,6 @@ impl<const D: usize> Law<D> for AnyLaw<'_, D> {
 }
 
 #[cfg(test)]
-#[allow(non_snake_case)]
 mod tests {
     use super::*;
     use crate::{DeformingGas, DruckerPrager, ElasticModuli, IsothermalGas, KelvinVoigt, NeoHookean, SofteningHencky};

@@ -39,7 +39,6 @@ pub struct DeformingGas {
     pub gas: IsothermalGas,
 }
 
-#[allow(non_snake_case)]
 impl<const D: usize> Law<D> for DeformingGas {
     type State = GasState;
 
@@ -71,7 +70,6 @@ impl<const D: usize> Law<D> for DeformingGas {
 }
 
 #[cfg(test)]
-#[allow(non_snake_case)]
 mod tests {
     use super::*;
     use crate::Material;

@@ -113,7 +113,6 @@ impl DruckerPrager {
     }
 }
 
-#[allow(non_snake_case)]
 impl<const D: usize> Law<D> for DruckerPrager {
     type State = DruckerPragerState;
 
@@ -175,7 +174,6 @@ impl<const D: usize> Law<D> for DruckerPrager {
 }
 
 #[cfg(test)]
-#[allow(non_snake_case)]
 mod tests {
     use super::*;
 

@@ -32,7 +32,6 @@ impl FixedCorotated {
 }
 
 /// F − R and J; NaN unless F is finite and J > 0.
-#[allow(non_snake_case)]
 #[inline]
 fn corotated_strain<const D: usize>(F: &Matrix<D>) -> (Matrix<D>, f64) {
     let J = volume_ratio(F);
@@ -42,7 +41,6 @@ fn corotated_strain<const D: usize>(F: &Matrix<D>) -> (Matrix<D>, f64) {
     }
 }
 
-#[allow(non_snake_case)]
 impl<const D: usize> Material<D> for FixedCorotated {
     #[inline]
     fn energy_density(&self, F: &Matrix<D>) -> f64 {
@@ -121,7 +119,6 @@ impl<const D: usize> Material<D> for FixedCorotated {
 }
 
 #[cfg(test)]
-#[allow(non_snake_case)]
 mod tests {
     use super::*;
 

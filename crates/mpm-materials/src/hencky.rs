@@ -54,7 +54,6 @@ impl Hencky {
     ///
     /// 1 ≤ x coth x ≤ √(1 + w²) =: C bounds the two cosh sums by μ C and μ ((a·n)² + C − 1); −Σ x a_i² n_j² ≤ w; and
     /// −2μ (a·n) (a·ε n) ≤ −2μ ε̄ (a·n)² + μ w. What is left is linear in (a·n)², largest at an end of [0, 1].
-    #[allow(non_snake_case)]
     #[inline]
     pub(crate) fn wave_modulus<const D: usize>(&self, F: &Matrix<D>, trace: f64) -> f64 {
         let (lambda, mu) = (self.moduli.first_lame_parameter(), self.moduli.shear_modulus());
@@ -68,7 +67,6 @@ impl Hencky {
     }
 }
 
-#[allow(non_snake_case)]
 impl<const D: usize> Material<D> for Hencky {
     #[inline]
     fn energy_density(&self, F: &Matrix<D>) -> f64 {
@@ -97,7 +95,6 @@ impl<const D: usize> Material<D> for Hencky {
 }
 
 #[cfg(test)]
-#[allow(non_snake_case)]
 mod tests {
     use super::*;
 

@@ -26,7 +26,6 @@ impl LinearCauchy {
     }
 }
 
-#[allow(non_snake_case)]
 impl<const D: usize> Law<D> for LinearCauchy {
     type State = ();
 
@@ -63,7 +62,6 @@ impl<const D: usize> Law<D> for LinearCauchy {
 }
 
 #[cfg(test)]
-#[allow(non_snake_case)]
 mod tests {
     use super::*;
 

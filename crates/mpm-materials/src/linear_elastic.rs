@@ -28,13 +28,11 @@ impl LinearElastic {
 }
 
 /// ε = ½ (F + Fᵀ) − I.
-#[allow(non_snake_case)]
 #[inline]
 fn small_strain<const D: usize>(F: &Matrix<D>) -> Matrix<D> {
     (*F - Matrix::IDENTITY).symmetric_part()
 }
 
-#[allow(non_snake_case)]
 impl<const D: usize> Material<D> for LinearElastic {
     #[inline]
     fn energy_density(&self, F: &Matrix<D>) -> f64 {
@@ -68,7 +66,6 @@ impl<const D: usize> Material<D> for LinearElastic {
 }
 
 #[cfg(test)]
-#[allow(non_snake_case)]
 mod tests {
     use super::*;
 

@@ -31,7 +31,6 @@ impl NeoHookean {
     }
 }
 
-#[allow(non_snake_case)]
 impl<const D: usize> Material<D> for NeoHookean {
     #[inline]
     fn energy_density(&self, F: &Matrix<D>) -> f64 {
@@ -92,7 +91,6 @@ impl<const D: usize> Material<D> for NeoHookean {
 }
 
 #[cfg(test)]
-#[allow(non_snake_case)]
 mod tests {
     use super::*;
 

@@ -21,7 +21,6 @@ pub(crate) fn groups<const D: usize>(matrices: &[Matrix<D>]) -> impl Iterator<It
         })
 }
 
-#[allow(non_snake_case)]
 impl<const D: usize> Group<D> {
     #[inline(always)]
     fn of([a, b, c, d]: &[Matrix<D>; LANES]) -> Self {
@@ -170,7 +169,6 @@ pub(crate) fn write_wave_speeds(stiffness: f64x4, densities: &[f64], speeds: &mu
 }
 
 #[cfg(test)]
-#[allow(non_snake_case)]
 pub(crate) mod tests {
     use mpm_tensor::Matrix;
 

@@ -92,7 +92,6 @@ impl Snow {
     }
 }
 
-#[allow(non_snake_case)]
 impl<const D: usize> Law<D> for Snow {
     type State = SnowState;
 
@@ -148,7 +147,6 @@ impl<const D: usize> Law<D> for Snow {
 }
 
 #[cfg(test)]
-#[allow(non_snake_case)]
 mod tests {
     use super::*;
 

@@ -155,7 +155,6 @@ fn all_invariants<const D: usize>(strain: &Matrix<D>, state: &SofteningState) ->
     )
 }
 
-#[allow(non_snake_case)]
 impl<const D: usize> Law<D> for SofteningHencky {
     type State = SofteningState;
 
@@ -221,7 +220,6 @@ impl<const D: usize> Law<D> for SofteningHencky {
 }
 
 #[cfg(test)]
-#[allow(non_snake_case)]
 mod tests {
     use super::*;
     use proptest::prelude::*;

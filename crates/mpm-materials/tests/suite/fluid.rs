@@ -1,5 +1,4 @@
 //! What the weakly compressible fluid must satisfy, D = 1…4.
-#![allow(non_snake_case)]
 
 use mpm_materials::{Law, TaitFluid};
 use mpm_tensor::Matrix;
@@ -63,17 +62,11 @@ fn viscosity_dissipates<const D: usize>(sample: &Sample) -> Result<(), TestCaseE
 proptest! {
     #[test]
     fn pressure(sample in sample()) {
-        conforms::<1>(&sample)?;
-        conforms::<2>(&sample)?;
-        conforms::<3>(&sample)?;
-        conforms::<4>(&sample)?;
+        in_every_dimension!(conforms(&sample));
     }
 
     #[test]
     fn viscosity(sample in sample()) {
-        viscosity_dissipates::<1>(&sample)?;
-        viscosity_dissipates::<2>(&sample)?;
-        viscosity_dissipates::<3>(&sample)?;
-        viscosity_dissipates::<4>(&sample)?;
+        in_every_dimension!(viscosity_dissipates(&sample));
     }
 }

@@ -1,4 +1,16 @@
 //! Constitutive laws. One theme per file.
+// F, J, R, P and the like are the symbols of the field.
+#![allow(non_snake_case)]
+
+/// A check for D = 1…4, in a function that hands its failures on.
+macro_rules! in_every_dimension {
+    ($check:ident($($argument:expr),*)) => {{
+        $check::<1>($($argument),*)?;
+        $check::<2>($($argument),*)?;
+        $check::<3>($($argument),*)?;
+        $check::<4>($($argument),*)?;
+    }};
+}
 
 mod common;
 mod conformance;

@@ -1,5 +1,4 @@
 //! Laws that are neither hyperelastic nor plastic: what they promise, D = 1…4.
-#![allow(non_snake_case)]
 
 use mpm_materials::{ElasticModuli, KelvinVoigt, Law, LinearCauchy, LinearElastic, Material, NeoHookean};
 use mpm_tensor::{Matrix, vector};
@@ -57,17 +56,11 @@ fn linear_cauchy<const D: usize>(sample: &Sample) -> Result<(), TestCaseError> {
 proptest! {
     #[test]
     fn a_spring_beside_a_dashpot(sample in sample()) {
-        kelvin_voigt::<1>(&sample)?;
-        kelvin_voigt::<2>(&sample)?;
-        kelvin_voigt::<3>(&sample)?;
-        kelvin_voigt::<4>(&sample)?;
+        in_every_dimension!(kelvin_voigt(&sample));
     }
 
     #[test]
     fn small_strain_and_cauchy_stress(sample in sample()) {
-        linear_cauchy::<1>(&sample)?;
-        linear_cauchy::<2>(&sample)?;
-        linear_cauchy::<3>(&sample)?;
-        linear_cauchy::<4>(&sample)?;
+        in_every_dimension!(linear_cauchy(&sample));
     }
 }
