@@ -73,14 +73,17 @@ pub fn parse(path: &Path, bytes: &[u8], columns: &str) -> Result<Vec<Row>, Comma
     let first = columns.split(' ').next().unwrap_or_default();
     let header = bytes.split(|&byte| byte == b'\n').next().unwrap_or_default();
     if !bytes.is_empty() && !header.split(|&byte| byte == b',').any(|name| name == first.as_bytes()) {
-        return Err(unreadable(path, format!("line 1: the column `{first}` is missing")));
+        return Err(CommandError::unreadable(
+            path,
+            format!("line 1: the column `{first}` is missing"),
+        ));
     }
     parse_columns(path, bytes, |name| columns.split(' ').any(|column| column == name))
 }
 
 fn parse_columns(path: &Path, bytes: &[u8], is_read: impl Fn(&str) -> bool) -> Result<Vec<Row>, CommandError> {
     let mut reader = csv::Reader::from_reader(bytes);
-    let refused = |error: csv::Error| unreadable(path, error.to_string());
+    let refused = |error: csv::Error| CommandError::unreadable(path, error);
     let header = reader.headers().map_err(refused)?.clone();
     let mut rows = Vec::new();
     for record in reader.records() {
@@ -89,17 +92,10 @@ fn parse_columns(path: &Path, bytes: &[u8], is_read: impl Fn(&str) -> bool) -> R
         let mut row = Row::default();
         for (column, text) in header.iter().zip(&record).filter(|(column, _)| is_read(column)) {
             let value = cell(column, text);
-            let value = value.map_err(|message| unreadable(path, format!("line {line}: {message}")))?;
+            let value = value.map_err(|message| CommandError::unreadable(path, format!("line {line}: {message}")))?;
             row.set(column.to_owned(), value);
         }
         rows.push(row);
     }
     Ok(rows)
-}
-
-fn unreadable(path: &Path, message: String) -> CommandError {
-    CommandError::ResultsUnreadable {
-        file: path.display().to_string(),
-        message,
-    }
 }
