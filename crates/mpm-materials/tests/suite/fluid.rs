@@ -4,7 +4,7 @@ use mpm_materials::{Law, TaitFluid};
 use mpm_tensor::Matrix;
 use proptest::prelude::*;
 
-use crate::common::{Sample, derivative_of, rotation, sample, stiffness_of};
+use crate::common::{Sample, derivative_of, rotation, stiffness_of};
 
 fn fluid(sample: &Sample) -> TaitFluid {
     TaitFluid::new(sample.reference_density, sample.young_modulus, 0.0).expect("in range")
@@ -59,14 +59,7 @@ fn viscosity_dissipates<const D: usize>(sample: &Sample) -> Result<(), TestCaseE
     Ok(())
 }
 
-proptest! {
-    #[test]
-    fn pressure(sample in sample()) {
-        in_every_dimension!(conforms(&sample));
-    }
-
-    #[test]
-    fn viscosity(sample in sample()) {
-        in_every_dimension!(viscosity_dissipates(&sample));
-    }
+properties! {
+    pressure: conforms;
+    viscosity: viscosity_dissipates;
 }

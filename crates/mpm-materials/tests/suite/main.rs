@@ -12,9 +12,22 @@ macro_rules! in_every_dimension {
     }};
 }
 
+/// Properties of random states, D = 1…4: a test of each check.
+macro_rules! properties {
+    ($($name:ident: $check:ident;)+) => {
+        proptest! {
+            $(#[test]
+            fn $name(sample in crate::common::sample()) {
+                in_every_dimension!($check(&sample));
+            })+
+        }
+    };
+}
+
 mod common;
 mod conformance;
 mod fluid;
+mod hand_calculations;
 mod hostile_input;
 mod inelastic;
 mod visco_elastic;

@@ -4,7 +4,7 @@ use mpm_materials::{ElasticModuli, KelvinVoigt, Law, LinearCauchy, LinearElastic
 use mpm_tensor::{Matrix, vector};
 use proptest::prelude::*;
 
-use crate::common::{Sample, rotation, sample};
+use crate::common::{Sample, rotation};
 
 /// The Kelvin–Voigt solid is objective, τ(Q F, Q L Qᵀ) = Q τ Qᵀ, and never gains energy from a rate beyond what its spring stores.
 fn kelvin_voigt<const D: usize>(sample: &Sample) -> Result<(), TestCaseError> {
@@ -53,14 +53,7 @@ fn linear_cauchy<const D: usize>(sample: &Sample) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-proptest! {
-    #[test]
-    fn a_spring_beside_a_dashpot(sample in sample()) {
-        in_every_dimension!(kelvin_voigt(&sample));
-    }
-
-    #[test]
-    fn small_strain_and_cauchy_stress(sample in sample()) {
-        in_every_dimension!(linear_cauchy(&sample));
-    }
+properties! {
+    a_spring_beside_a_dashpot: kelvin_voigt;
+    small_strain_and_cauchy_stress: linear_cauchy;
 }
