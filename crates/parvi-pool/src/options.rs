@@ -6,7 +6,7 @@ pub struct PoolOptions {
     /// Evaluations of all kinds (log densities and scores) at most. By default 15, 25, 45, 80, 140 or 200 per particle in d = 1…6 and above and at least 8,000,
     /// and as long as there is an [`Objection`](crate::Objection) twice as many again, up to 200 per particle and at least 20,000.
     pub evaluations: Option<u64>,
-    /// Effective size at which the pool is large enough, per particle.
+    /// Effective size at which the pool is large enough, per particle, but at least 2,000 in all.
     pub effective_size: f64,
 }
 
@@ -18,6 +18,9 @@ impl Default for PoolOptions {
         }
     }
 }
+
+/// Effective size below which tails are met too seldom for their errors to be known.
+const LEAST_SIZE: f64 = 2000.0;
 
 /// Effective share of a proposal that curvature would hardly better.
 const GOOD_SHARE: f64 = 0.6;
@@ -74,6 +77,7 @@ impl PoolOptions {
         let default = (per_particle * particles as u64).max(8_000);
         let most = (200 * particles as u64).max(20_000);
         let round = 250 * D + particles / 2;
+        let goal = (size * particles as f64).max(LEAST_SIZE);
         Ok(Plan {
             evaluations: self.evaluations.unwrap_or(default),
             most: self.evaluations.unwrap_or(most),
@@ -81,8 +85,8 @@ impl PoolOptions {
             round,
             referee: round,
             fewest_scores: FEWEST_KERNELS * (D + 1),
-            adapted: 0.5 * size * particles as f64,
-            goal: size * particles as f64,
+            adapted: 0.5 * goal,
+            goal,
         })
     }
 }

@@ -4,8 +4,11 @@ use crate::TargetError;
 use crate::direction_numbers::{DIRECTION_NUMBERS, SOBOL_MAXIMUM_DIMENSION};
 use crate::error::within;
 
-/// Levels of the binary tree that are scrambled node by node: with fewer than 2³² points no two share a deeper node.
-const NESTED_LEVELS: u32 = 32;
+/// Levels of the binary tree whose 63 nodes have their bits from one hash.
+const LEVELS_PER_HASH: u32 = 6;
+
+/// Levels that are scrambled node by node: with fewer than 2³² points no two share a deeper node.
+const NESTED_LEVELS: u32 = 36;
 
 /// Sobol' points in the unit cube, any of the first 2³² in any order.
 ///
@@ -16,7 +19,7 @@ const NESTED_LEVELS: u32 = 32;
 /// Scrambled (A. B. Owen, *MCQMC in Scientific Computing*, 1995, 299–317): each bit is flipped by a random bit
 /// that belongs to the bits above it, here a hash of seed, coordinate and those bits. Every point is then uniform on
 /// the cube, any 2ᵐ aligned points keep their equidistribution, and independent seeds give independent estimates of the
-/// error. The bits below the 32nd level belong to one point each and come from a single hash.
+/// error. One hash has the bits of a node and of its descendants over six levels; those below the 36th level belong to one point each and come from a single one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SobolSequence {
     /// Per coordinate: the direction numbers, and the key of the scrambling.
@@ -111,16 +114,22 @@ fn directions(axis: usize) -> [u64; 32] {
 
 /// Owen's scrambling of the fraction `bits` / 2⁶⁴.
 fn scrambled_bits(bits: u64, key: u64) -> u64 {
-    let mut flips = 0;
-    for level in 0..NESTED_LEVELS {
-        // The node: which bits stand above this level, and how many.
+    // Of a node: which bits stand above it, and how many.
+    let hash = |level: u32| {
         let above = if level == 0 { 0 } else { bits >> (64 - level) };
-        let node = above | 1 << level;
-        flips |= (mixed(key ^ node.wrapping_mul(0x9E37_79B9_7F4A_7C15)) >> 63) << (63 - level);
+        mixed(key ^ (above | 1 << level).wrapping_mul(0x9E37_79B9_7F4A_7C15))
+    };
+    let mut flips = hash(NESTED_LEVELS) >> NESTED_LEVELS;
+    for top in (0..NESTED_LEVELS).step_by(LEVELS_PER_HASH as usize) {
+        let nodes = hash(top);
+        let path = bits >> (64 - LEVELS_PER_HASH - top);
+        for level in 0..LEVELS_PER_HASH {
+            // The root is the first node, the children of the n-th are the 2n-th and the one after it.
+            let node = 1 << level | (path >> (LEVELS_PER_HASH - level)) & ((1 << level) - 1);
+            flips |= (nodes >> node & 1) << (63 - top - level);
+        }
     }
-    let leaf = (bits >> (64 - NESTED_LEVELS)) | 1 << NESTED_LEVELS;
-    let below = mixed(key ^ leaf.wrapping_mul(0x9E37_79B9_7F4A_7C15)) >> NESTED_LEVELS;
-    bits ^ (flips | below)
+    bits ^ flips
 }
 
 /// The finaliser of SplitMix64 (G. L. Steele, D. Lea, C. H. Flood, OOPSLA 2014), of a value one step further on.
@@ -242,6 +251,21 @@ mod tests {
             SobolSequence::scrambled(3, 1).unwrap().point(9),
             SobolSequence::scrambled(3, 1).unwrap().point(9)
         );
+    }
+
+    #[test]
+    fn scrambled_fractions_share_as_many_bits_as_they_did_and_are_independent_below() {
+        let seeds = 2000;
+        for shared in 0..NESTED_LEVELS {
+            let (one, other) = (0x9D3C_5A17_E248_B06F_u64, 0x9D3C_5A17_E248_B06F ^ (1 << (63 - shared)));
+            let next_differs = |seed: u64| {
+                let [one, other] = [one, other].map(|bits| scrambled_bits(bits, mixed(seed)));
+                assert_eq!((one ^ other).leading_zeros(), shared);
+                (one ^ other) >> (62 - shared) & 1 == 1
+            };
+            let count = (0..seeds).filter(|&seed| next_differs(seed)).count();
+            assert!(count.abs_diff(1000) < 100, "{shared}: {count} of {seeds}");
+        }
     }
 
     #[test]

@@ -65,6 +65,24 @@ pub(crate) fn correct_moments<const D: usize>(
     Ok(())
 }
 
+/// Moves particles by the symmetric affine map about their mean that makes their covariance I, unless it is singular or the move too large.
+///
+/// In the coordinates of a pool that is the covariance of the target, as well as weights know it: points of least energy distance are narrower.
+pub(crate) fn standardise<const D: usize>(positions: &mut [[f64; D]]) {
+    let (mean, covariance) = mean_and_covariance(positions);
+    let Some(eigen) = SymmetricEigen::new(&covariance) else {
+        return;
+    };
+    let step = AffineStep {
+        mean,
+        shift: [0.0; D],
+        stretch: eigen.map(|value| value.sqrt().recip()),
+    };
+    if step.size() <= LIMIT {
+        step.apply(&positions.to_vec(), positions);
+    }
+}
+
 /// x ← x̄ + b + A (x − x̄).
 struct AffineStep<const D: usize> {
     mean: [f64; D],
@@ -101,6 +119,20 @@ impl<const D: usize> AffineStep<D> {
     }
 }
 
+fn mean_and_covariance<const D: usize>(positions: &[[f64; D]]) -> ([f64; D], Matrix<D>) {
+    let share = 1.0 / positions.len() as f64;
+    let mut mean = [0.0; D];
+    for x in positions {
+        vector::accumulate(&mut mean, share, x);
+    }
+    let mut covariance = Matrix::ZERO;
+    for x in positions {
+        let x = vector::subtract(x, &mean);
+        covariance += Matrix::outer(&vector::scale(&x, share), &x);
+    }
+    (mean, covariance)
+}
+
 /// Sample moments of positions and scores.
 struct SteinMoments<const D: usize> {
     correction: MomentCorrection,
@@ -114,20 +146,11 @@ struct SteinMoments<const D: usize> {
 impl<const D: usize> SteinMoments<D> {
     fn of(correction: MomentCorrection, positions: &[[f64; D]], scores: &[[f64; D]]) -> Self {
         let share = 1.0 / positions.len() as f64;
-        let (mut mean, mut mean_score) = ([0.0; D], [0.0; D]);
+        let (mean, covariance) = mean_and_covariance(positions);
+        let (mut mean_score, mut stein) = ([0.0; D], Matrix::<D>::ZERO);
         for (x, s) in positions.iter().zip(scores) {
-            vector::accumulate(&mut mean, share, x);
             vector::accumulate(&mut mean_score, share, s);
-        }
-        let (mut covariance, mut stein) = (Matrix::<D>::ZERO, Matrix::<D>::ZERO);
-        for (x, s) in positions.iter().zip(scores) {
-            let x = vector::subtract(x, &mean);
-            for a in 0..D {
-                for b in 0..D {
-                    covariance.0[a][b] += share * x[a] * x[b];
-                    stein.0[a][b] -= share * s[a] * x[b];
-                }
-            }
+            stein -= Matrix::outer(&vector::scale(s, share), &vector::subtract(x, &mean));
         }
         Self {
             correction,
@@ -219,6 +242,29 @@ mod tests {
         let moments = SteinMoments::of(MomentCorrection::Affine, &moved, &moved);
         assert!((moments.covariance - covariance).frobenius_norm() < 1e-12);
         assert!(vector::distance(&moments.mean, &mean) < 1e-12);
+    }
+
+    #[test]
+    fn standardised_particles_have_covariance_one_and_keep_their_mean() {
+        let mut particles: Vec<[f64; 3]> = Run::new(300, 5).start_positions().unwrap();
+        let narrow: Vec<_> = particles
+            .iter()
+            .map(|x| [0.9 * x[0] + 2.0, x[1] + 0.1 * x[0], x[2]])
+            .collect();
+        particles.clone_from(&narrow);
+        standardise(&mut particles);
+        let (mean, covariance) = mean_and_covariance(&particles);
+        assert!((covariance - Matrix::IDENTITY).frobenius_norm() < 1e-12);
+        assert!(vector::distance(&mean, &mean_and_covariance(&narrow).0) < 1e-12);
+        // Too far from that, or without a spread.
+        for others in [
+            narrow.iter().map(|x| vector::scale(x, 3.0)).collect(),
+            vec![[1.0; 3]; 4],
+        ] {
+            let mut moved = others.clone();
+            standardise(&mut moved);
+            assert_eq!(moved, others);
+        }
     }
 
     #[test]

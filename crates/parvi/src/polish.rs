@@ -9,7 +9,7 @@ use parvi_targets::{Frame, Target};
 
 use crate::checkpoint::Journal;
 use crate::driven::Driven;
-use crate::moment_correction::correct_moments;
+use crate::moment_correction::{correct_moments, standardise};
 use crate::mpm_body::Body;
 use crate::start::positive;
 use crate::stein_discrepancy::squared_stein_discrepancy;
@@ -129,13 +129,15 @@ impl<'a, const D: usize> Polish<'a, D> {
         }
     }
 
-    /// The same with scores, and with the moments put right where that is asked for, the target is nearly normal and the pool does not object.
+    /// The same with scores, and, where that is asked for, the target is nearly normal and the pool does not object, as wide as the pool and with the mean put right.
     fn corrected(&self, condensed: Driven<D>, allowed: f64) -> Result<Driven<D>, SampleError> {
         let corrects = self.entropy_power >= defaults::LEAST_CORRECTED_ENTROPY_POWER && !self.options.weighted;
         if !corrects || self.options.moment_correction == MomentCorrection::Off {
             return self.scored(condensed, MomentCorrection::Off);
         }
-        let corrected = self.scored(condensed.clone(), self.options.moment_correction)?;
+        let mut wide = condensed.clone();
+        standardise(&mut wide.positions);
+        let corrected = self.scored(wide, self.options.moment_correction)?;
         if self.energy(&corrected) <= allowed {
             return Ok(corrected);
         }

@@ -53,7 +53,7 @@ fn moments<const D: usize>(positions: &[[f64; D]]) -> ([f64; D], [f64; D]) {
 #[test]
 fn a_posterior_takes_a_node_for_many_particles() {
     let target = build::<3>("wells", &Default::default()).expect("a target");
-    let (frame, run) = (target.frame(), Run::new(4000, 3));
+    let (frame, run) = (target.frame(), Run::new(1500, 3));
     let counted = Counted::new(&*target);
     let samples = cached().sample(&counted, &frame, &run, &mut Silent).expect("particles");
     assert_eq!(samples.score_evaluations, counted.scores.load(Ordering::Relaxed));

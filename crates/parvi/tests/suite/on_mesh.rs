@@ -48,21 +48,20 @@ fn sampled_with<const D: usize>(
 }
 
 /// Independent draws of a density ∝ `target` within the unit ball, `top` its largest logarithm.
-fn draws<const D: usize>(target: &dyn Target<D>, top: f64, count: usize) -> Vec<[f64; D]> {
+fn reference<const D: usize>(target: &dyn Target<D>, top: f64) -> EnergyReference<D> {
     let mut generator = ChaCha8Rng::seed_from_u64(77);
     let mut all = Vec::new();
-    while all.len() < count {
+    while all.len() < 20_000 {
         let x: [f64; D] = std::array::from_fn(|_| 2.0 * generator.random::<f64>() - 1.0);
         if vector::norm(&x) < 1.0 && generator.random::<f64>() < (target.log_density(&x) - top).exp() {
             all.push(x);
         }
     }
-    all
+    EnergyReference::new(&Cloud::new(&all).expect("finite")).expect("a sample")
 }
 
 /// ED² over that of as many independent draws.
-fn relative_energy<const D: usize>(samples: &Samples<D>, reference: &[[f64; D]]) -> f64 {
-    let reference = EnergyReference::new(&Cloud::new(reference).expect("finite")).expect("a sample");
+fn relative_energy<const D: usize>(samples: &Samples<D>, reference: &EnergyReference<D>) -> f64 {
     let squared = reference.squared(&Cloud::new(&samples.positions).expect("finite"));
     squared.expect("in range") * samples.positions.len() as f64 / reference.mean_distance()
 }
@@ -73,7 +72,7 @@ fn densities_on_a_disk_are_far_better_than_independent_draws() {
     let gaussian = Gaussian::<2>::new([0.3, 0.2], Matrix::IDENTITY * 0.16).expect("a covariance");
     let targets: [(&dyn Target<2>, [f64; 2]); 2] = [(&Uniform, [0.0; 2]), (&gaussian, [0.3, 0.2])];
     for (target, mode) in targets {
-        let reference = draws(target, target.log_density(&mode), 20_000);
+        let reference = reference(target, target.log_density(&mode));
         for seed in 0..3 {
             let energy = relative_energy(&sampled(target, &mesh, 1000, seed), &reference);
             assert!(energy < 0.1, "{energy}");
@@ -84,7 +83,7 @@ fn densities_on_a_disk_are_far_better_than_independent_draws() {
 #[test]
 fn moved_meshes_see_more() {
     let mesh = disk([0.0; 2], 1.0, &edges(0.2)).expect("a mesh");
-    let reference = draws::<2>(&Uniform, 0.0, 20_000);
+    let reference = reference::<2>(&Uniform, 0.0);
     let energy = |shifts: bool| {
         let options = MeshOptions {
             shifts,
@@ -101,7 +100,7 @@ fn moved_meshes_see_more() {
 fn a_density_in_a_ball_is_better_than_independent_draws() {
     let mesh = ball([0.0; 3], 1.0, 0.35).expect("a mesh");
     let gaussian = Gaussian::<3>::new([0.0, 0.3, 0.2], Matrix::IDENTITY * 0.25).expect("a covariance");
-    let reference = draws::<3>(&gaussian, gaussian.log_density(&[0.0, 0.3, 0.2]), 10_000);
+    let reference = reference(&gaussian, gaussian.log_density(&[0.0, 0.3, 0.2]));
     let energy = relative_energy(&sampled(&gaussian, &mesh, 1000, 1), &reference);
     assert!(energy < 0.3, "{energy}");
 }

@@ -15,7 +15,7 @@ fn target() -> Gaussian<2> {
 fn gentle() -> PaperOptions {
     PaperOptions {
         steps: Some(6),
-        time_step: Some(0.02),
+        time_step: Some(0.01),
         annealing: Annealing::Constant { alpha: 1e-3 },
         ..PaperOptions::as_written(false)
     }
@@ -179,7 +179,7 @@ fn volumes_by_density_are_those_of_the_law_or_of_the_grid() {
             annealing: Annealing::Constant { alpha: 0.0 },
             spacing: Some(0.3),
             steps: Some(2),
-            time_step: Some(0.02),
+            time_step: Some(0.01),
             guards: Guards {
                 mass_floor: 0.0,
                 ..Guards::default()

@@ -72,7 +72,7 @@ fn same_seed_same_bits_on_any_number_of_threads() {
         let on = |threads: usize, seed: u64| {
             // Enough for several parts; SVGD takes time by the square.
             let particles = match &method {
-                Method::Svgd(_) => 4_000,
+                Method::Svgd(_) => 2_000,
                 Method::Mpm(options) if options.survey => 2_000,
                 _ => 30_000,
             };
