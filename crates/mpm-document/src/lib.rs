@@ -1,8 +1,12 @@
 #![doc = include_str!("../README.md")]
 
+mod claim;
+
 use std::path::{Path, PathBuf};
 
 use serde::de::DeserializeOwned;
+
+pub use claim::claim;
 
 /// A text that is no TOML, or not the document that was asked for: an unknown or missing key, a value of the wrong type.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

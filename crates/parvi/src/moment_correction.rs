@@ -79,7 +79,8 @@ pub(crate) fn standardise<const D: usize>(positions: &mut [[f64; D]]) {
         stretch: eigen.map(|value| value.sqrt().recip()),
     };
     if step.size() <= LIMIT {
-        step.apply(&positions.to_vec(), positions);
+        let before = positions.to_vec();
+        step.apply(&before, positions);
     }
 }
 

@@ -11,11 +11,13 @@ use crate::output::{AtomicFile, PARTIAL_SUFFIX};
 pub const CONFIGURATION: &str = "config.toml";
 
 /// A directory that holds one study and nothing else.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct StudyDirectory {
     path: PathBuf,
     /// Threads that the study asks for; `None`: as many as the environment gives.
     pub threads: Option<usize>,
+    /// While a study runs; no other process takes the directory meanwhile.
+    claimed: Option<fs::File>,
 }
 
 impl StudyDirectory {
@@ -23,11 +25,12 @@ impl StudyDirectory {
     ///
     /// # Errors
     /// [`CommandError::DirectoryOccupied`] if it holds something else, which is left untouched;
-    /// [`CommandError::File`] if it cannot be made or written.
+    /// [`CommandError::File`] if it cannot be made or written, or another process runs a study in it.
     pub fn claim(path: &Path, configuration: &Configuration) -> Result<Self, CommandError> {
-        let directory = Self {
+        let mut directory = Self {
             path: path.to_owned(),
             threads: configuration.threads(),
+            claimed: None,
         };
         let existing = directory.file(CONFIGURATION);
         if existing.exists() {
@@ -37,6 +40,8 @@ impl StudyDirectory {
             fs::create_dir_all(path).map_err(|source| CommandError::file("create", path, source))?;
             AtomicFile::write(existing, &configuration.text)?;
         }
+        directory.claimed =
+            mpm_document::claim(path).map_err(|source| CommandError::file("write into", path, source))?;
         directory.make_parts()?;
         Ok(directory)
     }
@@ -55,6 +60,7 @@ impl StudyDirectory {
         let directory = Self {
             path: path.to_owned(),
             threads: configuration.threads(),
+            claimed: None,
         };
         directory.make_parts()?;
         Ok((directory, configuration))
@@ -144,7 +150,12 @@ mod tests {
         let root = tempfile::tempdir().unwrap();
         let study = configuration(root.path(), "kind = \"a\"\n");
         let path = root.path().join("deep/new");
-        StudyDirectory::claim(&path, &study).unwrap();
+        let held = StudyDirectory::claim(&path, &study).unwrap();
+        if held.claimed.is_some() {
+            let message = StudyDirectory::claim(&path, &study).unwrap_err().to_string();
+            assert!(message.contains("another process"), "{message}");
+        }
+        drop(held);
         StudyDirectory::claim(&path, &study).unwrap();
         let empty = root.path().join("empty");
         fs::create_dir(&empty).unwrap();

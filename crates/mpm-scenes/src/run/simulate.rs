@@ -14,7 +14,7 @@ use crate::{Scene, SceneFault};
 /// Files: `scene.toml`, `series.csv`, `particles_000000.vtu` …, `particles.pvd`, `checkpoint.cbor`, and `validation.csv` where the scene has a reference.
 ///
 /// # Errors
-/// [`SimulationError`]; what was written up to then stays.
+/// [`SimulationError`], also where another process runs a scene in this directory; what was written up to then stays.
 pub fn simulate(scene: &Scene, out: &Path, observer: &mut dyn Observer) -> Result<Summary, SimulationError> {
     match scene.dimension {
         1 => simulate_in::<1>(scene, out, observer),
@@ -31,6 +31,7 @@ fn simulate_in<const D: usize>(
 ) -> Result<Summary, SimulationError> {
     let body = Body::<D>::begin(scene)?;
     fs::create_dir_all(out).map_err(|error| SimulationError::file(out, error))?;
+    let _claimed = mpm_document::claim(out).map_err(|error| SimulationError::file(out, error))?;
     let driver = Driver::begin(scene, out, body)?;
     write_whole(&out.join(names::SCENE), scene.text.as_bytes())?;
     driver.run(observer)

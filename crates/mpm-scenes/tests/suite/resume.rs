@@ -78,6 +78,23 @@ fn a_run_anew_leaves_nothing_of_a_longer_one() {
 }
 
 #[test]
+#[cfg(unix)]
+fn two_processes_do_not_write_into_one_directory() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let other = mpm_document::claim(directory.path()).expect("free").expect("a lock");
+    let error = simulate(&scene(BAR), directory.path(), &mut ()).expect_err("taken");
+    assert!(
+        error
+            .to_string()
+            .ends_with("another process writes into this directory"),
+        "{error}"
+    );
+    assert!(files(directory.path()).is_empty());
+    drop(other);
+    simulate(&scene(BAR), directory.path(), &mut ()).expect("runs");
+}
+
+#[test]
 fn a_run_that_was_killed_goes_on_from_its_last_checkpoint() {
     let scene = scene(BLOCK);
     let (whole, killed) = (
