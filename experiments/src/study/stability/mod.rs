@@ -11,7 +11,6 @@ mod trial;
 use draw::{Configuration, draw};
 
 use super::prelude::*;
-use super::value;
 use crate::dispatch::on_target;
 
 /// Random configurations.
@@ -50,7 +49,7 @@ impl Study for Stability {
     fn cases(&self) -> Result<Vec<Case<Configuration>>, CommandError> {
         let places = self.places()?;
         let case = |index: usize| case(index, draw(self.seed, index, &places));
-        (0..self.cases.get()).map(case).collect()
+        Ok((0..self.cases.get()).map(case).collect())
     }
 
     fn run(&self, case: &Case<Configuration>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
@@ -59,30 +58,41 @@ impl Study for Stability {
     }
 }
 
-/// A configuration as a case; all of its options are in its row.
-fn case(index: usize, drawn: Configuration) -> Result<Case<Configuration>, CommandError> {
-    let steps = drawn.options.steps.map_or(0, StepCount::get);
+/// A configuration as a case.
+fn case(index: usize, drawn: Configuration) -> Case<Configuration> {
+    let options = drawn.options.clone();
+    let steps = options.steps.map_or(0, StepCount::get);
     let cost = 1e4 + (drawn.particles * drawn.basis.stencil(drawn.dim) * steps) as f64;
-    let mut case = Case::new(format!("case-{index:05}"), drawn.clone())
+    Case::new(format!("case-{index:05}"), drawn.clone())
         .costing(cost)
         .with("ending", Status::Finite)
         .with("escaped", "false")
         .with("target", drawn.target.name)
         .with("dim", drawn.dim)
         .with("method", drawn.method.as_str())
+        .with("basis", drawn.basis)
         .with("particles", drawn.particles)
+        .with("steps", options.steps)
         .with("scale", drawn.scale)
         .with("turned", drawn.turn.is_some().to_string())
+        .with("start_mean", options.start_mean)
+        .with("start_sd", options.start_sd)
+        .with("start_draws", options.start_draws)
         .with("spacing_factor", drawn.spacing_factor)
         .with("time_step_factor", drawn.time_step_factor)
+        .with("score", options.score)
+        .with("transfer", options.transfer)
+        .with("flip_share", options.flip_share)
+        .with("friction", options.friction)
+        .with("shifts", options.shifts)
+        .with("rotation", options.rotation)
+        .with("settling", options.settling)
+        .with("settling_shifts", options.settling_shifts)
+        .with("moment_correction", options.moment_correction)
+        .with("guards", options.guards)
+        .with("material", options.material)
         .with("seed", drawn.seed)
-        .with("wall_seconds", 0.0);
-    for (name, value) in drawn.options.given() {
-        let column = name.replace('-', "_");
-        let value = value::read(&column, &value).map_err(|message| refusal(&name, message))?;
-        case.row.set(column, value);
-    }
-    Ok(case)
+        .with("wall_seconds", 0.0)
 }
 
 /// Whether the run gave nothing that could be of use: an error, a panic, numbers that are none, or particles far off.
