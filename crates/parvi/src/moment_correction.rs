@@ -65,18 +65,29 @@ pub(crate) fn correct_moments<const D: usize>(
     Ok(())
 }
 
-/// Moves particles by the symmetric affine map about their mean that makes their covariance I, unless it is singular or the move too large.
+/// Moves particles by the symmetric affine map about their mean that makes their covariance I, as far as that is known, unless it is singular or the move too large.
 ///
-/// In the coordinates of a pool that is the covariance of the target, as well as weights know it: points of least energy distance are narrower.
-pub(crate) fn standardise<const D: usize>(positions: &mut [[f64; D]]) {
+/// In the coordinates of a pool I is the covariance of the target, of which weights know the variance along a unit vector up to an error; points of least energy distance
+/// are narrower. Along each principal axis the excess e of their variance is taken away by the share e²/(e² + its squared error).
+pub(crate) fn standardise<const D: usize>(positions: &mut [[f64; D]], squared_error: impl Fn(&[f64; D]) -> f64) {
     let (mean, covariance) = mean_and_covariance(positions);
-    let Some(eigen) = SymmetricEigen::new(&covariance) else {
+    let Some(SymmetricEigen { values, vectors }) = SymmetricEigen::new(&covariance) else {
         return;
+    };
+    let stretch_along = |k: usize| {
+        let excess = values[k] - 1.0;
+        let error = squared_error(&std::array::from_fn(|axis| vectors.0[axis][k]));
+        let share = excess * excess / (excess * excess + error).max(f64::MIN_POSITIVE);
+        (1.0 - share * excess / values[k]).sqrt()
+    };
+    let stretches = SymmetricEigen {
+        values: std::array::from_fn(stretch_along),
+        vectors,
     };
     let step = AffineStep {
         mean,
         shift: [0.0; D],
-        stretch: eigen.map(|value| value.sqrt().recip()),
+        stretch: stretches.map(|stretch| stretch),
     };
     if step.size() <= LIMIT {
         let before = positions.to_vec();
@@ -246,24 +257,28 @@ mod tests {
     }
 
     #[test]
-    fn standardised_particles_have_covariance_one_and_keep_their_mean() {
-        let mut particles: Vec<[f64; 3]> = Run::new(300, 5).start_positions().unwrap();
-        let narrow: Vec<_> = particles
+    fn standardised_particles_keep_their_mean_and_have_the_covariance_that_is_known() {
+        let start: Vec<[f64; 3]> = Run::new(300, 5).start_positions().unwrap();
+        let narrow: Vec<_> = start
             .iter()
             .map(|x| [0.9 * x[0] + 2.0, x[1] + 0.1 * x[0], x[2]])
             .collect();
-        particles.clone_from(&narrow);
-        standardise(&mut particles);
-        let (mean, covariance) = mean_and_covariance(&particles);
-        assert!((covariance - Matrix::IDENTITY).frobenius_norm() < 1e-12);
-        assert!(vector::distance(&mean, &mean_and_covariance(&narrow).0) < 1e-12);
+        let (mean, covariance) = mean_and_covariance(&narrow);
+        for (error, share) in [(0.0, 1.0), (f64::INFINITY, 0.0)] {
+            let mut moved = narrow.clone();
+            standardise(&mut moved, |_| error);
+            let wanted = covariance + (Matrix::IDENTITY - covariance) * share;
+            let (mean_after, found) = mean_and_covariance(&moved);
+            assert!((found - wanted).frobenius_norm() < 1e-12, "{found:?}");
+            assert!(vector::distance(&mean_after, &mean) < 1e-12);
+        }
         // Too far from that, or without a spread.
         for others in [
             narrow.iter().map(|x| vector::scale(x, 3.0)).collect(),
             vec![[1.0; 3]; 4],
         ] {
             let mut moved = others.clone();
-            standardise(&mut moved);
+            standardise(&mut moved, |_| 0.0);
             assert_eq!(moved, others);
         }
     }

@@ -136,7 +136,7 @@ impl<'a, const D: usize> Polish<'a, D> {
             return self.scored(condensed, MomentCorrection::Off);
         }
         let mut wide = condensed.clone();
-        standardise(&mut wide.positions);
+        standardise(&mut wide.positions, |axis| self.squared_error_of_variance(axis));
         let corrected = self.scored(wide, self.options.moment_correction)?;
         if self.energy(&corrected) <= allowed {
             return Ok(corrected);
@@ -144,6 +144,16 @@ impl<'a, const D: usize> Polish<'a, D> {
         let mut scored = self.scored(condensed, MomentCorrection::Off)?;
         scored.samples.score_evaluations += corrected.samples.score_evaluations;
         Ok(scored)
+    }
+
+    /// Σ c² ((u·z)² − 1)²: how well the pool knows the variance along a unit vector, which is 1 in the coordinates of the frame.
+    fn squared_error_of_variance(&self, axis: &[f64; D]) -> f64 {
+        let points = self.pool.measure.points.iter().zip(&self.pool.measure.weights);
+        let of = |(x, c): (&[f64; D], &f64)| {
+            let z = vector::dot(axis, &self.frame.to_reference(x));
+            (c * (z * z - 1.0)).powi(2)
+        };
+        points.map(of).sum()
     }
 
     /// Scores and residual of particles that no material has moved, with their moments put right.

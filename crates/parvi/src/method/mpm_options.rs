@@ -5,7 +5,7 @@ use crate::Checkpoint;
 
 /// What the affine Stein correction puts right at the end of a run (docs/theory.md, Eq. 12).
 ///
-/// After a survey of a target that is nearly normal particles first get the covariance of what was weighed, but for [`Off`](Self::Off).
+/// After a survey of a target that is nearly normal particles first get the covariance of what was weighed, as far as weights know it, but for [`Off`](Self::Off).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum MomentCorrection {
     /// Nothing.
