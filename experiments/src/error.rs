@@ -154,6 +154,14 @@ impl CommandError {
         }
     }
 
+    /// A study's own file does not hold what a study writes.
+    pub fn unreadable(path: &Path, message: impl ToString) -> Self {
+        Self::ResultsUnreadable {
+            file: path.display().to_string(),
+            message: message.to_string(),
+        }
+    }
+
     /// Whether the command was interrupted rather than failed.
     pub fn is_interruption(&self) -> bool {
         matches!(

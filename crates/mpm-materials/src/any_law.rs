@@ -27,6 +27,27 @@ impl Remembered for () {
     }
 }
 
+/// [`Remembered`] for a struct of numbers: the fields in their order.
+macro_rules! remembered {
+    ($state:ident: $($field:ident),+) => {
+        impl $crate::Remembered for $state {
+            #[inline]
+            fn recall(memory: &$crate::Memory) -> Self {
+                let [$($field,)+ ..] = memory.0;
+                Self { $($field),+ }
+            }
+
+            #[inline]
+            fn store(self) -> $crate::Memory {
+                let mut memory = $crate::Memory::default();
+                [$(self.$field),+].into_iter().zip(&mut memory.0).for_each(|(value, number)| *number = value);
+                memory
+            }
+        }
+    };
+}
+pub(crate) use remembered;
+
 /// A law whose internal variables are kept as a [`Memory`], so that all laws have one type as trait objects: `&Numbered(law) as &dyn Law<D, State = Memory>`.
 ///
 /// Its results have the bits of the law's own.
@@ -52,7 +73,6 @@ impl<L> Numbered<L> {
     }
 }
 
-#[allow(non_snake_case)]
 impl<const D: usize, L: Law<D, State: Remembered>> Law<D> for Numbered<L> {
     type State = Memory;
 
@@ -126,7 +146,6 @@ impl<const D: usize, L: Law<D, State: Remembered>> Law<D> for Numbered<L> {
 #[derive(Clone, Copy)]
 pub struct AnyLaw<'a, const D: usize>(pub &'a dyn Law<D, State = Memory>);
 
-#[allow(non_snake_case)]
 impl<const D: usize> Law<D> for AnyLaw<'_, D> {
     type State = Memory;
 
@@ -186,7 +205,6 @@ impl<const D: usize> Law<D> for AnyLaw<'_, D> {
 }
 
 #[cfg(test)]
-#[allow(non_snake_case)]
 mod tests {
     use super::*;
     use crate::{DeformingGas, DruckerPrager, ElasticModuli, IsothermalGas, KelvinVoigt, NeoHookean, SofteningHencky};

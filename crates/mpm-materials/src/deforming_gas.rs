@@ -2,8 +2,9 @@
 
 use mpm_tensor::Matrix;
 
+use crate::any_law::remembered;
 use crate::material::{log_volume_ratio, volume_alone};
-use crate::{IsothermalGas, Law, Memory, Remembered};
+use crate::{IsothermalGas, Law};
 
 /// What [`DeformingGas`] remembers of a particle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -12,19 +13,7 @@ pub struct GasState {
     pub reference_density: f64,
 }
 
-impl Remembered for GasState {
-    #[inline]
-    fn recall(memory: &Memory) -> Self {
-        Self {
-            reference_density: memory.0[0],
-        }
-    }
-
-    #[inline]
-    fn store(self) -> Memory {
-        Memory([self.reference_density, 0.0])
-    }
-}
+remembered!(GasState: reference_density);
 
 /// The isothermal gas as a constitutive law of the deformation gradient, Ψ(F) = −κ (m/V⁰) ln det F per reference volume: τ = −κ (m/V⁰) I, V⁰ τ = −κ m I.
 ///
@@ -39,7 +28,6 @@ pub struct DeformingGas {
     pub gas: IsothermalGas,
 }
 
-#[allow(non_snake_case)]
 impl<const D: usize> Law<D> for DeformingGas {
     type State = GasState;
 
@@ -71,7 +59,6 @@ impl<const D: usize> Law<D> for DeformingGas {
 }
 
 #[cfg(test)]
-#[allow(non_snake_case)]
 mod tests {
     use super::*;
     use crate::Material;

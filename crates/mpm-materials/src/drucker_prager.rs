@@ -2,11 +2,12 @@
 
 use mpm_tensor::Matrix;
 
+use crate::any_law::remembered;
 use crate::error::{not_negative, within};
 use crate::exponential::exponential;
 use crate::log_strain::log_strain;
 use crate::material::{log_volume_ratio, shifted};
-use crate::{ElasticModuli, Hencky, Law, Material, Memory, ParameterError, Remembered};
+use crate::{ElasticModuli, Hencky, Law, Material, ParameterError};
 
 /// Internal variables of [`DruckerPrager`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -15,19 +16,7 @@ pub struct DruckerPragerState {
     pub volume_correction: f64,
 }
 
-impl Remembered for DruckerPragerState {
-    #[inline]
-    fn recall(memory: &Memory) -> Self {
-        Self {
-            volume_correction: memory.0[0],
-        }
-    }
-
-    #[inline]
-    fn store(self) -> Memory {
-        Memory([self.volume_correction, 0.0])
-    }
-}
+remembered!(DruckerPragerState: volume_correction);
 
 /// Drucker–Prager plasticity without dilation on the [`Hencky`] solid, for sand and gravel.
 ///
@@ -113,7 +102,6 @@ impl DruckerPrager {
     }
 }
 
-#[allow(non_snake_case)]
 impl<const D: usize> Law<D> for DruckerPrager {
     type State = DruckerPragerState;
 
@@ -175,7 +163,6 @@ impl<const D: usize> Law<D> for DruckerPrager {
 }
 
 #[cfg(test)]
-#[allow(non_snake_case)]
 mod tests {
     use super::*;
 

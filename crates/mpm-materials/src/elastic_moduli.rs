@@ -28,7 +28,6 @@ impl ElasticModuli {
     /// # Errors
     ///
     /// [`ParameterError`] unless 0 < E < ∞ and −1 < ν < 1/2, and unless λ and μ are finite and μ is positive to rounding.
-    #[allow(non_snake_case)]
     pub fn new(young_modulus: f64, poisson_ratio: f64) -> Result<Self, ParameterError> {
         let E = positive("young_modulus", young_modulus)?;
         let between = poisson_ratio > -1.0 && poisson_ratio < 0.5;

@@ -9,7 +9,6 @@ const SERIES_RANGE: f64 = 0.25;
 ///
 /// In the plane, with the mean m of the diagonal and the eigenvalues m ± r, e^m (cosh r I + sinh r / r (X − m I)); for
 /// ‖X‖ ≤ ¼ by the power series; by the principal axes otherwise. NaN if an entry is not finite.
-#[allow(non_snake_case)]
 #[inline]
 pub(crate) fn exponential<const D: usize>(X: &Matrix<D>) -> Matrix<D> {
     match D {
@@ -20,7 +19,6 @@ pub(crate) fn exponential<const D: usize>(X: &Matrix<D>) -> Matrix<D> {
 }
 
 /// Σ_k X^k / k!.
-#[allow(non_snake_case)]
 #[inline]
 fn series<const D: usize>(X: &Matrix<D>) -> Matrix<D> {
     let size = X.frobenius_norm();
@@ -36,7 +34,6 @@ fn series<const D: usize>(X: &Matrix<D>) -> Matrix<D> {
 }
 
 /// D = 2.
-#[allow(non_snake_case)]
 #[inline]
 fn plane<const D: usize>(X: &Matrix<D>) -> Matrix<D> {
     let mean = 0.5 * X.trace();
@@ -51,7 +48,6 @@ fn plane<const D: usize>(X: &Matrix<D>) -> Matrix<D> {
 }
 
 #[cfg(test)]
-#[allow(non_snake_case)]
 mod tests {
     use super::*;
     use crate::log_strain::log_strain;

@@ -32,7 +32,6 @@ impl FixedCorotated {
 }
 
 /// F − R and J; NaN unless F is finite and J > 0.
-#[allow(non_snake_case)]
 #[inline]
 fn corotated_strain<const D: usize>(F: &Matrix<D>) -> (Matrix<D>, f64) {
     let J = volume_ratio(F);
@@ -42,7 +41,6 @@ fn corotated_strain<const D: usize>(F: &Matrix<D>) -> (Matrix<D>, f64) {
     }
 }
 
-#[allow(non_snake_case)]
 impl<const D: usize> Material<D> for FixedCorotated {
     #[inline]
     fn energy_density(&self, F: &Matrix<D>) -> f64 {
@@ -117,30 +115,5 @@ impl<const D: usize> Material<D> for FixedCorotated {
             let stiffness = F.left_cauchy_green().largest_row_sum() * (2.0 * mu) + J * J * lambda;
             write_wave_speeds(stiffness, densities, speeds);
         }
-    }
-}
-
-#[cfg(test)]
-#[allow(non_snake_case)]
-mod tests {
-    use super::*;
-
-    fn material() -> FixedCorotated {
-        FixedCorotated::new(ElasticModuli::from_lame(3.0, 2.0).expect("in range"))
-    }
-
-    #[test]
-    fn a_turned_uniaxial_stretch_gives_the_hand_calculation() {
-        let quarter_turn = Matrix([[0.0, -1.0], [1.0, 0.0]]);
-        let F = quarter_turn * Matrix::diagonal(&[2.0, 1.0]);
-        assert!((material().energy_density(&F) - (2.0 + 1.5)).abs() < 1e-15);
-        // Principal stresses 2μ·1·2 + λ·1·2 = 14 and 6; the first axis has become the second.
-        let stress = material().kirchhoff_stress(&F);
-        assert!((stress - Matrix::diagonal(&[6.0, 14.0])).frobenius_norm() < 1e-14);
-    }
-
-    #[test]
-    fn many_at_once_are_each_of_them_in_any_company() {
-        crate::side_by_side::tests::company_does_not_matter(&material());
     }
 }

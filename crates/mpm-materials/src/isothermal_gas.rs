@@ -55,7 +55,6 @@ impl IsothermalGas {
 
     /// J P = κ ρ₀, the Kirchhoff pressure, the same for every admissible F; NaN unless det F is positive and finite.
     #[inline]
-    #[allow(non_snake_case)]
     pub(crate) fn kirchhoff_pressure<const D: usize>(&self, F: &Matrix<D>, reference_density: f64) -> f64 {
         match volume_ratio(F).is_nan() {
             true => f64::NAN,

@@ -43,7 +43,6 @@ impl KelvinVoigt {
     }
 }
 
-#[allow(non_snake_case)]
 impl<const D: usize> Law<D> for KelvinVoigt {
     type State = ();
 
@@ -77,7 +76,6 @@ impl<const D: usize> Law<D> for KelvinVoigt {
 }
 
 #[cfg(test)]
-#[allow(non_snake_case)]
 mod tests {
     use super::*;
 

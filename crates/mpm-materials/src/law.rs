@@ -14,7 +14,6 @@ use crate::{DeformationError, Material};
 ///
 /// Every [`Material`] is a law without memory: `State` is `()`, `advance` the identity. The methods of both traits have
 /// the same names, so import the one that is meant.
-#[allow(non_snake_case)]
 pub trait Law<const D: usize>: Sync {
     /// Internal variables of one particle beside F; the default is the virgin material. `()` for hyperelastic laws.
     type State: Copy + Send + Sync + Default + PartialEq + std::fmt::Debug;
@@ -105,7 +104,6 @@ pub trait Law<const D: usize>: Sync {
     }
 }
 
-#[allow(non_snake_case)]
 impl<const D: usize, M: Material<D> + ?Sized> Law<D> for M {
     type State = ();
 
@@ -141,7 +139,6 @@ impl<const D: usize, M: Material<D> + ?Sized> Law<D> for M {
 }
 
 #[cfg(test)]
-#[allow(non_snake_case)]
 mod tests {
     use super::*;
     use crate::{ElasticModuli, NeoHookean};

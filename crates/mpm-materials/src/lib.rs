@@ -1,4 +1,6 @@
 #![doc = include_str!("../README.md")]
+// F, J, R, P and the like are the symbols of the field.
+#![allow(non_snake_case)]
 
 mod any_law;
 mod deforming_gas;

@@ -26,7 +26,6 @@ impl LinearCauchy {
     }
 }
 
-#[allow(non_snake_case)]
 impl<const D: usize> Law<D> for LinearCauchy {
     type State = ();
 
@@ -59,36 +58,5 @@ impl<const D: usize> Law<D> for LinearCauchy {
 
     fn check(&self, F: &Matrix<D>) -> Result<(), DeformationError> {
         check_finite(F)
-    }
-}
-
-#[cfg(test)]
-#[allow(non_snake_case)]
-mod tests {
-    use super::*;
-
-    fn law() -> LinearCauchy {
-        LinearCauchy::new(ElasticModuli::from_lame(3.0, 2.0).expect("in range"))
-    }
-
-    #[test]
-    fn a_stretch_gives_the_hand_calculation() {
-        // ε = diag(0.5, 0), σ = diag(3.5, 1.5), J = 1.5.
-        let stress = law().kirchhoff_stress(&Matrix::diagonal(&[1.5, 1.0]), &(), &Matrix::ZERO);
-        assert!((stress - Matrix::diagonal(&[5.25, 2.25])).frobenius_norm() < 1e-15);
-        assert_eq!(law().energy_density(&Matrix::diagonal(&[1.5, 1.0]), &()), 0.5 + 0.375);
-    }
-
-    #[test]
-    fn a_body_turned_inside_out_has_a_stress_of_the_other_sign() {
-        let stress = law().kirchhoff_stress(&Matrix([[-0.5]]), &(), &Matrix::ZERO);
-        assert_eq!(stress, Matrix([[7.0 * -1.5 * -0.5]]));
-        assert!(Law::<1>::check(&law(), &Matrix([[-0.5]])).is_ok());
-        assert!(Law::<1>::check(&law(), &Matrix([[f64::NAN]])).is_err());
-    }
-
-    #[test]
-    fn waves_at_rest_are_those_of_hooke() {
-        assert!((law().wave_speed(&Matrix::<3>::IDENTITY, &(), 7.0) - 1.0).abs() < 1e-15);
     }
 }

@@ -23,7 +23,6 @@ const SERIES_RANGE: f64 = 0.2;
 ///
 /// three times faster than the principal axes, which serve otherwise: by Jacobi's method on b − I, or on F where a
 /// stretch is so small that b has lost it. `None` unless F is finite with 0 < J < ∞, or if b overflows.
-#[allow(non_snake_case)]
 #[inline]
 pub(crate) fn log_strain<const D: usize>(F: &Matrix<D>) -> Option<Matrix<D>> {
     let J = F.determinant();
@@ -45,7 +44,6 @@ pub(crate) fn log_strain<const D: usize>(F: &Matrix<D>) -> Option<Matrix<D>> {
 }
 
 /// F − I and b − I.
-#[allow(non_snake_case)]
 #[inline]
 fn strains_from_rest<const D: usize>(F: &Matrix<D>) -> (Matrix<D>, Matrix<D>) {
     let H = *F - Matrix::IDENTITY;
@@ -54,7 +52,6 @@ fn strains_from_rest<const D: usize>(F: &Matrix<D>) -> (Matrix<D>, Matrix<D>) {
 }
 
 /// artanh Z from b − I.
-#[allow(non_snake_case)]
 #[inline]
 fn series<const D: usize>(squared_strain: &Matrix<D>) -> Option<Matrix<D>> {
     let Z = *squared_strain * inverse_near_rest(&(*squared_strain + Matrix::IDENTITY * 2.0))?;
@@ -87,7 +84,6 @@ fn inverse_near_rest<const D: usize>(matrix: &Matrix<D>) -> Option<Matrix<D>> {
 }
 
 /// Any strain.
-#[allow(non_snake_case)]
 fn by_jacobi<const D: usize>(F: &Matrix<D>, squared_strain: &Matrix<D>) -> Option<Matrix<D>> {
     let eigen = SymmetricEigen::new(squared_strain)?;
     if eigen.values.iter().all(|&value| 1.0 + value > FAR_FROM_REST) {
@@ -98,7 +94,6 @@ fn by_jacobi<const D: usize>(F: &Matrix<D>, squared_strain: &Matrix<D>) -> Optio
 }
 
 /// D = 2, J = det F.
-#[allow(non_snake_case)]
 #[inline]
 fn plane<const D: usize>(F: &Matrix<D>, J: f64) -> Matrix<D> {
     let (H, squared_strain) = strains_from_rest(F);
@@ -128,7 +123,6 @@ fn plane<const D: usize>(F: &Matrix<D>, J: f64) -> Matrix<D> {
 }
 
 #[cfg(test)]
-#[allow(non_snake_case)]
 mod tests {
     use super::*;
     use proptest::prelude::*;

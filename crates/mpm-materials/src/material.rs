@@ -14,7 +14,6 @@ use crate::DeformationError;
 /// step that is generic over `Material` is the only one that has to store F. The trait is object safe.
 ///
 /// Source: Bonet & Wood, *Nonlinear Continuum Mechanics for Finite Element Analysis*, 2nd ed., ch. 5–6.
-#[allow(non_snake_case)]
 pub trait Material<const D: usize>: Sync {
     /// ψ(F), the energy per reference volume. Not finite where [`check`](Self::check) fails.
     fn energy_density(&self, F: &Matrix<D>) -> f64;
@@ -65,7 +64,6 @@ pub trait Material<const D: usize>: Sync {
 }
 
 /// The stress of every F, one after the other.
-#[allow(non_snake_case)]
 #[inline]
 pub(crate) fn stresses_one_by_one<const D: usize, M: Material<D> + ?Sized>(
     material: &M,
@@ -78,7 +76,6 @@ pub(crate) fn stresses_one_by_one<const D: usize, M: Material<D> + ?Sized>(
 }
 
 /// The wave speed of every F, one after the other.
-#[allow(non_snake_case)]
 #[inline]
 pub(crate) fn wave_speeds_one_by_one<const D: usize, M: Material<D> + ?Sized>(
     material: &M,
@@ -92,7 +89,6 @@ pub(crate) fn wave_speeds_one_by_one<const D: usize, M: Material<D> + ?Sized>(
 }
 
 /// A reference to a material is a material, `&dyn Material<D>` among them.
-#[allow(non_snake_case)]
 impl<const D: usize, M: Material<D> + ?Sized> Material<D> for &M {
     fn energy_density(&self, F: &Matrix<D>) -> f64 {
         (**self).energy_density(F)
@@ -124,7 +120,6 @@ impl<const D: usize, M: Material<D> + ?Sized> Material<D> for &M {
 }
 
 /// The error for the first entry of F that is not finite.
-#[allow(non_snake_case)]
 pub(crate) fn check_finite<const D: usize>(F: &Matrix<D>) -> Result<(), DeformationError> {
     for (row, entries) in F.0.iter().enumerate() {
         for (column, &value) in entries.iter().enumerate() {
@@ -137,7 +132,6 @@ pub(crate) fn check_finite<const D: usize>(F: &Matrix<D>) -> Result<(), Deformat
 }
 
 /// The error of an F that is not finite, or whose volume ratio J = det F is not positive and finite.
-#[allow(non_snake_case)]
 pub(crate) fn check_volume_ratio<const D: usize>(F: &Matrix<D>) -> Result<(), DeformationError> {
     check_finite(F)?;
     let volume_ratio = F.determinant();
@@ -149,7 +143,6 @@ pub(crate) fn check_volume_ratio<const D: usize>(F: &Matrix<D>) -> Result<(), De
 }
 
 /// J = det F; NaN unless it is positive and finite.
-#[allow(non_snake_case)]
 #[inline]
 pub(crate) fn volume_ratio<const D: usize>(F: &Matrix<D>) -> f64 {
     let J = F.determinant();
@@ -157,7 +150,6 @@ pub(crate) fn volume_ratio<const D: usize>(F: &Matrix<D>) -> f64 {
 }
 
 /// ln J, J = det F; NaN unless J is positive and finite.
-#[allow(non_snake_case)]
 #[inline]
 pub(crate) fn log_volume_ratio<const D: usize>(F: &Matrix<D>) -> f64 {
     volume_ratio(F).ln()
@@ -173,7 +165,6 @@ pub(crate) fn shifted<const D: usize>(mut matrix: Matrix<D>, shift: f64) -> Matr
 }
 
 /// J^(1/D) I, which has the volume of F and no shear; F itself unless J is positive and finite.
-#[allow(non_snake_case)]
 #[inline]
 pub(crate) fn volume_alone<const D: usize>(F: &Matrix<D>) -> Matrix<D> {
     let J = F.determinant();
@@ -190,7 +181,6 @@ pub(crate) fn volume_alone<const D: usize>(F: &Matrix<D>) -> Matrix<D> {
 }
 
 /// F⁻ᵀ; all NaN if F has no inverse.
-#[allow(non_snake_case)]
 pub(crate) fn inverse_transpose<const D: usize>(F: &Matrix<D>) -> Matrix<D> {
     F.inverse()
         .map_or(Matrix([[f64::NAN; D]; D]), |inverse| inverse.transpose())

@@ -31,7 +31,6 @@ impl NeoHookean {
     }
 }
 
-#[allow(non_snake_case)]
 impl<const D: usize> Material<D> for NeoHookean {
     #[inline]
     fn energy_density(&self, F: &Matrix<D>) -> f64 {
@@ -88,29 +87,5 @@ impl<const D: usize> Material<D> for NeoHookean {
             let stiffness = F.left_cauchy_green().largest_row_sum() * mu + pressure_part;
             write_wave_speeds(stiffness, densities, speeds);
         }
-    }
-}
-
-#[cfg(test)]
-#[allow(non_snake_case)]
-mod tests {
-    use super::*;
-
-    fn material() -> NeoHookean {
-        NeoHookean::new(ElasticModuli::from_lame(3.0, 2.0).expect("in range"))
-    }
-
-    #[test]
-    fn a_uniaxial_stretch_gives_the_hand_calculation() {
-        let F = Matrix::diagonal(&[2.0, 1.0]);
-        let log_2 = 2f64.ln();
-        assert!((material().energy_density(&F) - (3.0 - 2.0 * log_2 + 1.5 * log_2 * log_2)).abs() < 1e-15);
-        let expected = Matrix::diagonal(&[6.0 + 3.0 * log_2, 3.0 * log_2]);
-        assert!((material().kirchhoff_stress(&F) - expected).frobenius_norm() < 1e-14);
-    }
-
-    #[test]
-    fn many_at_once_are_each_of_them_in_any_company() {
-        crate::side_by_side::tests::company_does_not_matter(&material());
     }
 }

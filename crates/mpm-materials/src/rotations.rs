@@ -109,7 +109,6 @@ mod tests {
                     Matrix::<D>::from_fn(|i, j| spread(offset + 3 * i + 5 * j) + if i == j { 13.0 } else { 0.0 });
                 Polar::new(&random).expect("finite").rotation
             };
-            #[allow(non_snake_case)]
             let F = turned(1) * Matrix::diagonal(&stretches) * turned(7).transpose();
             let exact = Polar::new(&F).expect("finite").rotation;
             let mut found = [Matrix::ZERO];

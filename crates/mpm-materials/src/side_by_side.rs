@@ -21,7 +21,6 @@ pub(crate) fn groups<const D: usize>(matrices: &[Matrix<D>]) -> impl Iterator<It
         })
 }
 
-#[allow(non_snake_case)]
 impl<const D: usize> Group<D> {
     #[inline(always)]
     fn of([a, b, c, d]: &[Matrix<D>; LANES]) -> Self {
@@ -170,24 +169,30 @@ pub(crate) fn write_wave_speeds(stiffness: f64x4, densities: &[f64], speeds: &mu
 }
 
 #[cfg(test)]
-#[allow(non_snake_case)]
-pub(crate) mod tests {
+mod tests {
     use mpm_tensor::Matrix;
 
-    use crate::Material;
+    use crate::{ElasticModuli, FixedCorotated, Material, NeoHookean};
 
-    /// What is worked out for several deformation gradients at once has the same bits for each of them whatever the others are, and is what is worked out for one.
-    pub(crate) fn company_does_not_matter<M>(material: &M)
+    #[test]
+    fn many_at_once_are_each_of_them_in_any_company() {
+        let moduli = ElasticModuli::from_lame(3.0, 2.0).expect("in range");
+        in_every_dimension(&FixedCorotated::new(moduli));
+        in_every_dimension(&NeoHookean::new(moduli));
+    }
+
+    fn in_every_dimension<M>(material: &M)
     where
         M: Material<1> + Material<2> + Material<3> + Material<4>,
     {
-        check::<M, 1>(material);
-        check::<M, 2>(material);
-        check::<M, 3>(material);
-        check::<M, 4>(material);
+        company_does_not_matter::<M, 1>(material);
+        company_does_not_matter::<M, 2>(material);
+        company_does_not_matter::<M, 3>(material);
+        company_does_not_matter::<M, 4>(material);
     }
 
-    fn check<M: Material<D>, const D: usize>(material: &M) {
+    /// What is worked out for several deformation gradients at once has the same bits for each of them whatever the others are, and is what is worked out for one.
+    fn company_does_not_matter<M: Material<D>, const D: usize>(material: &M) {
         let deform = |k: usize| {
             let entry = |i: usize, j: usize| 0.05 * ((7 * k + 5 * i + 3 * j) % 11) as f64 - 0.2;
             let mut F = Matrix::<D>::from_fn(entry) + Matrix::IDENTITY;

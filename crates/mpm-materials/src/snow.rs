@@ -2,9 +2,10 @@
 
 use mpm_tensor::{Matrix, SymmetricEigen};
 
+use crate::any_law::remembered;
 use crate::error::{not_negative, positive, within};
 use crate::stretch::left_cauchy_green;
-use crate::{DeformationError, ElasticModuli, FixedCorotated, Law, Material, Memory, ParameterError, Remembered};
+use crate::{DeformationError, ElasticModuli, FixedCorotated, Law, Material, ParameterError};
 
 /// Internal variables of [`Snow`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -13,19 +14,7 @@ pub struct SnowState {
     pub log_plastic_volume: f64,
 }
 
-impl Remembered for SnowState {
-    #[inline]
-    fn recall(memory: &Memory) -> Self {
-        Self {
-            log_plastic_volume: memory.0[0],
-        }
-    }
-
-    #[inline]
-    fn store(self) -> Memory {
-        Memory([self.log_plastic_volume, 0.0])
-    }
-}
+remembered!(SnowState: log_plastic_volume);
 
 /// Elasto-plastic snow: ψ = h ψ_E(F_E) with the [`FixedCorotated`] ψ_E and the hardening h = e^(ξ (1 − J_P)), F = F_E F_P, J_P = det F_P; τ = h τ_E(F_E).
 ///
@@ -92,7 +81,6 @@ impl Snow {
     }
 }
 
-#[allow(non_snake_case)]
 impl<const D: usize> Law<D> for Snow {
     type State = SnowState;
 
@@ -148,7 +136,6 @@ impl<const D: usize> Law<D> for Snow {
 }
 
 #[cfg(test)]
-#[allow(non_snake_case)]
 mod tests {
     use super::*;
 

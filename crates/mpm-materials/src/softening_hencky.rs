@@ -2,11 +2,12 @@
 
 use mpm_tensor::Matrix;
 
+use crate::any_law::remembered;
 use crate::error::{not_negative, positive, within};
 use crate::exponential::exponential;
 use crate::log_strain::log_strain;
 use crate::material::{log_volume_ratio, shifted};
-use crate::{ElasticModuli, Hencky, Law, Memory, ParameterError, Remembered};
+use crate::{ElasticModuli, Hencky, Law, ParameterError};
 
 /// Iterations after which Newton's method stops in any case; it needs about five.
 const MAXIMUM_ITERATIONS: usize = 100;
@@ -25,21 +26,7 @@ pub struct SofteningState {
     pub out_of_plane_strain: f64,
 }
 
-impl Remembered for SofteningState {
-    #[inline]
-    fn recall(memory: &Memory) -> Self {
-        let [accumulated_plastic_strain, out_of_plane_strain] = memory.0;
-        Self {
-            accumulated_plastic_strain,
-            out_of_plane_strain,
-        }
-    }
-
-    #[inline]
-    fn store(self) -> Memory {
-        Memory([self.accumulated_plastic_strain, self.out_of_plane_strain])
-    }
-}
+remembered!(SofteningState: accumulated_plastic_strain, out_of_plane_strain);
 
 /// J2 (von Mises) plasticity with exponential softening on the [`Hencky`] solid: f = ‖dev τ‖ − κ ≤ 0.
 ///
@@ -155,7 +142,6 @@ fn all_invariants<const D: usize>(strain: &Matrix<D>, state: &SofteningState) ->
     )
 }
 
-#[allow(non_snake_case)]
 impl<const D: usize> Law<D> for SofteningHencky {
     type State = SofteningState;
 
@@ -221,7 +207,6 @@ impl<const D: usize> Law<D> for SofteningHencky {
 }
 
 #[cfg(test)]
-#[allow(non_snake_case)]
 mod tests {
     use super::*;
     use proptest::prelude::*;

@@ -3,7 +3,6 @@
 use mpm_tensor::{Matrix, vector};
 
 /// b = F Fᵀ, exactly symmetric.
-#[allow(non_snake_case)]
 #[inline]
 pub(crate) fn left_cauchy_green<const D: usize>(F: &Matrix<D>) -> Matrix<D> {
     Matrix::from_fn(|i, j| vector::dot(&F.0[i], &F.0[j]))
@@ -13,7 +12,6 @@ pub(crate) fn left_cauchy_green<const D: usize>(F: &Matrix<D>) -> Matrix<D> {
 /// entries over the rows of b, which bounds its eigenvalues (Gershgorin). Exact for diagonal b, never above √D Λ².
 ///
 /// NaN if an entry of b is NaN.
-#[allow(non_snake_case)]
 #[inline]
 pub(crate) fn largest_squared_stretch<const D: usize>(F: &Matrix<D>) -> f64 {
     let b = left_cauchy_green(F);
@@ -25,7 +23,6 @@ pub(crate) fn largest_squared_stretch<const D: usize>(F: &Matrix<D>) -> f64 {
 /// = α R.
 ///
 /// NaN if an entry of b is NaN.
-#[allow(non_snake_case)]
 #[inline]
 pub(crate) fn squared_stretch_range<const D: usize>(F: &Matrix<D>) -> (f64, f64) {
     let b = left_cauchy_green(F);
@@ -53,7 +50,6 @@ mod tests {
     use mpm_tensor::SingularValues;
 
     #[test]
-    #[allow(non_snake_case)]
     fn the_bound_is_above_the_stretch_and_exact_for_principal_axes() {
         assert_eq!(largest_squared_stretch(&Matrix::diagonal(&[0.5, 2.0, 1.0])), 4.0);
         let F = Matrix([[1.1, 0.4, 0.0], [-0.2, 0.8, 0.3], [0.1, 0.5, 1.3]]);
@@ -64,7 +60,6 @@ mod tests {
     }
 
     #[test]
-    #[allow(non_snake_case)]
     fn the_range_holds_the_stretches() {
         for F in [
             Matrix([[1.1, 0.4, 0.0], [-0.2, 0.8, 0.3], [0.1, 0.5, 1.3]]),

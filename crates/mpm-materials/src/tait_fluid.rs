@@ -88,7 +88,6 @@ impl TaitFluid {
     }
 
     /// The pressure p at the volume ratio J = ρ₀/ρ; NaN unless 0 < J < ∞.
-    #[allow(non_snake_case)]
     #[inline]
     pub fn pressure(&self, volume_ratio: f64) -> f64 {
         let J = volume_ratio;
@@ -108,7 +107,6 @@ impl TaitFluid {
     }
 }
 
-#[allow(non_snake_case)]
 impl<const D: usize> Law<D> for TaitFluid {
     type State = ();
 
@@ -175,7 +173,6 @@ impl<const D: usize> Law<D> for TaitFluid {
 }
 
 #[cfg(test)]
-#[allow(non_snake_case)]
 mod tests {
     use super::*;
     use crate::DeformationError;

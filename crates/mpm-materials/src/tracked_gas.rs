@@ -40,7 +40,6 @@ impl TrackedGas {
     }
 }
 
-#[allow(non_snake_case)]
 impl<const D: usize> Material<D> for TrackedGas {
     #[inline]
     fn energy_density(&self, F: &Matrix<D>) -> f64 {
@@ -64,7 +63,6 @@ impl<const D: usize> Material<D> for TrackedGas {
 }
 
 #[cfg(test)]
-#[allow(non_snake_case)]
 mod tests {
     use super::*;
     use crate::DeformationError;

@@ -1,11 +1,8 @@
 //! The singular value decomposition.
 
-use crate::plane_rotation::PlaneRotation;
+use crate::plane_rotation::{PlaneRotation, sweep};
 use crate::scaling::reciprocal_scale;
 use crate::{Matrix, vector};
-
-/// Sweeps after which the iteration stops in any case; it converges in 2 to 15 sweeps for D ≤ 8.
-const MAXIMUM_SWEEPS: usize = 60;
 
 /// Squared length below which a column of a matrix with largest entry in [1, 2) counts as zero.
 const NULL_COLUMN: f64 = 1e-280;
@@ -33,17 +30,7 @@ impl<const D: usize> SingularValues<D> {
         // Rows of these are the columns of A V and of V.
         let mut images = (*matrix * factor).transpose();
         let mut right = Matrix::<D>::IDENTITY;
-        for _ in 0..MAXIMUM_SWEEPS {
-            let mut rotated = false;
-            for p in 0..D {
-                for q in p + 1..D {
-                    rotated |= orthogonalise(&mut images, &mut right, p, q);
-                }
-            }
-            if !rotated {
-                break;
-            }
-        }
+        sweep::<D>(|p, q| orthogonalise(&mut images, &mut right, p, q));
         let lengths = images.0.map(|image| vector::norm(&image));
         let mut order: [usize; D] = std::array::from_fn(|k| k);
         order.sort_by(|&k, &l| lengths[l].total_cmp(&lengths[k]));

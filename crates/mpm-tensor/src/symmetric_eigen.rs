@@ -1,11 +1,8 @@
 //! The spectral decomposition of a symmetric matrix.
 
 use crate::Matrix;
-use crate::plane_rotation::PlaneRotation;
+use crate::plane_rotation::{PlaneRotation, sweep};
 use crate::scaling::reciprocal_scale;
-
-/// Sweeps after which the iteration stops in any case; it converges in 2 to 15 sweeps for D ≤ 8.
-const MAXIMUM_SWEEPS: usize = 60;
 
 /// The spectral decomposition A = Q diag(λ) Qᵀ of a symmetric matrix, eigenvalues ascending.
 ///
@@ -26,17 +23,7 @@ impl<const D: usize> SymmetricEigen<D> {
         let mut a = (*matrix * factor).symmetric_part();
         // Row k is the eigenvector of a[k][k] once the off-diagonal entries have gone.
         let mut vectors = Matrix::<D>::IDENTITY;
-        for _ in 0..MAXIMUM_SWEEPS {
-            let mut rotated = false;
-            for p in 0..D {
-                for q in p + 1..D {
-                    rotated |= annihilate(&mut a, &mut vectors, p, q);
-                }
-            }
-            if !rotated {
-                break;
-            }
-        }
+        sweep::<D>(|p, q| annihilate(&mut a, &mut vectors, p, q));
         let mut order: [usize; D] = std::array::from_fn(|k| k);
         order.sort_by(|&k, &l| a.0[k][k].total_cmp(&a.0[l][l]));
         Some(Self {

@@ -6,6 +6,7 @@ use rand::{RngExt, SeedableRng};
 use rand_distr::StandardNormal;
 
 use crate::MetricError;
+use crate::error::parameter;
 
 /// Unit vectors θ_1…θ_L of ℝᴰ, spread over the sphere.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,15 +61,8 @@ impl<const D: usize> Directions<D> {
     }
 }
 
-fn check_count(count: usize) -> Result<(), MetricError> {
-    if count > 0 {
-        return Ok(());
-    }
-    Err(MetricError::InvalidParameter {
-        name: "the number of directions",
-        value: 0.0,
-        requirement: "at least 1",
-    })
+fn check_count(count: usize) -> Result<f64, MetricError> {
+    parameter("the number of directions", count as f64, count > 0, "at least 1")
 }
 
 /// `vector` divided by its length; the first axis for the zero vector.

@@ -108,3 +108,38 @@ pub(crate) fn finite(metric: &'static str, value: f64) -> Result<f64, MetricErro
         Err(MetricError::Overflow { metric, value })
     }
 }
+
+/// `value` if it is as it must be, else the error of a parameter.
+pub(crate) fn parameter(
+    name: &'static str,
+    value: f64,
+    is_allowed: bool,
+    requirement: &'static str,
+) -> Result<f64, MetricError> {
+    if is_allowed {
+        return Ok(value);
+    }
+    Err(MetricError::InvalidParameter {
+        name,
+        value,
+        requirement,
+    })
+}
+
+/// Refuses the first entry of a list that is not as it must be.
+pub(crate) fn entries(
+    name: &'static str,
+    values: &[f64],
+    is_allowed: impl Fn(f64) -> bool,
+    requirement: &'static str,
+) -> Result<(), MetricError> {
+    match values.iter().position(|&value| !is_allowed(value)) {
+        None => Ok(()),
+        Some(index) => Err(MetricError::InvalidEntry {
+            name,
+            index,
+            value: values[index],
+            requirement,
+        }),
+    }
+}

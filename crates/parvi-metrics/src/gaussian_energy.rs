@@ -2,7 +2,7 @@
 
 use mpm_tensor::{Matrix, SymmetricEigen};
 
-use crate::error::finite;
+use crate::error::{entries, finite};
 use crate::norm_expectation::NormExpectation;
 use crate::summation::chunked_sum;
 use crate::{Cloud, MetricError, mean_pair_distance};
@@ -137,39 +137,18 @@ pub(crate) fn checked_eigen<const D: usize>(
     mean: &[f64; D],
     covariance: &Matrix<D>,
 ) -> Result<SymmetricEigen<D>, MetricError> {
-    if let Some((index, &value)) = mean.iter().enumerate().find(|(_, value)| !value.is_finite()) {
-        return Err(MetricError::InvalidEntry {
-            name: "mean",
-            index,
-            value,
-            requirement: "finite",
-        });
-    }
-    for value in covariance.0.iter().flatten() {
-        if !value.is_finite() {
-            return Err(MetricError::InvalidCovariance {
-                reason: "it has the entry",
-                value: *value,
-            });
-        }
+    let invalid = |reason: &'static str, value: f64| MetricError::InvalidCovariance { reason, value };
+    entries("mean", mean, f64::is_finite, "finite")?;
+    if let Some(&value) = covariance.0.as_flattened().iter().find(|value| !value.is_finite()) {
+        return Err(invalid("it has the entry", value));
     }
     let asymmetry = (*covariance - covariance.transpose()).maximum_norm();
     if asymmetry > 1e-12 * covariance.maximum_norm() {
-        return Err(MetricError::InvalidCovariance {
-            reason: "C and its transpose differ by",
-            value: asymmetry,
-        });
+        return Err(invalid("C and its transpose differ by", asymmetry));
     }
-    let not_finite = MetricError::InvalidCovariance {
-        reason: "its eigenvalues are",
-        value: f64::NAN,
-    };
-    let eigen = SymmetricEigen::new(covariance).ok_or(not_finite)?;
+    let eigen = SymmetricEigen::new(covariance).ok_or_else(|| invalid("its eigenvalues are", f64::NAN))?;
     match eigen.values.iter().find(|value| value.is_nan() || **value <= 0.0) {
-        Some(&value) => Err(MetricError::InvalidCovariance {
-            reason: "it has the eigenvalue",
-            value,
-        }),
+        Some(&value) => Err(invalid("it has the eigenvalue", value)),
         None => Ok(eigen),
     }
 }

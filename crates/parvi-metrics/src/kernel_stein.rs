@@ -2,7 +2,7 @@
 
 use parvi_targets::Target;
 
-use crate::error::finite;
+use crate::error::{finite, parameter};
 use crate::lanes::{LANES, Lanes};
 use crate::pair_sum::{Packed, PackedWeights, PairFunction, symmetric_sum};
 use crate::summation::sum;
@@ -34,22 +34,10 @@ impl InverseMultiquadric {
     /// [`MetricError::InvalidParameter`] unless c is positive and finite and −1 < β < 0, where the discrepancy detects
     /// non-convergence (Gorham & Mackey 2017, Theorem 8).
     pub fn new(offset: f64, exponent: f64) -> Result<Self, MetricError> {
-        if !(offset.is_finite() && offset > 0.0) {
-            let (name, requirement) = ("the offset of the kernel", "positive and finite");
-            return Err(MetricError::InvalidParameter {
-                name,
-                value: offset,
-                requirement,
-            });
-        }
-        if !(exponent > -1.0 && exponent < 0.0) {
-            let (name, requirement) = ("the exponent of the kernel", "between -1 and 0");
-            return Err(MetricError::InvalidParameter {
-                name,
-                value: exponent,
-                requirement,
-            });
-        }
+        let is_length = offset.is_finite() && offset > 0.0;
+        parameter("the offset of the kernel", offset, is_length, "positive and finite")?;
+        let detects = exponent > -1.0 && exponent < 0.0;
+        parameter("the exponent of the kernel", exponent, detects, "between -1 and 0")?;
         Ok(Self { offset, exponent })
     }
 

@@ -3,7 +3,7 @@
 use mpm_tensor::Matrix;
 use parvi_targets::Moments;
 
-use crate::error::finite;
+use crate::error::{entries, finite};
 use crate::sorted::SortedSample;
 use crate::summation::sum;
 use crate::{Cloud, MetricError};
@@ -81,17 +81,8 @@ impl<const D: usize> CloudMoments<D> {
 /// # Errors
 /// [`MetricError::InvalidEntry`] for a level outside \[0, 1\].
 pub fn quantiles<const D: usize>(cloud: &Cloud<'_, D>, levels: &[f64]) -> Result<Vec<[f64; D]>, MetricError> {
-    for (index, &value) in levels.iter().enumerate() {
-        if !(0.0..=1.0).contains(&value) {
-            let (name, requirement) = ("the level of quantile", "between 0 and 1");
-            return Err(MetricError::InvalidEntry {
-                name,
-                index,
-                value,
-                requirement,
-            });
-        }
-    }
+    let is_level = |level: f64| (0.0..=1.0).contains(&level);
+    entries("the level of quantile", levels, is_level, "between 0 and 1")?;
     let mut result = vec![[0.0; D]; levels.len()];
     for axis in 0..D {
         let sample = SortedSample::along_axis(cloud, axis);
@@ -151,14 +142,7 @@ impl<const D: usize> MomentError<D> {
 
 /// The standard deviations of a reference whose mean and variances are usable.
 pub(crate) fn checked_scale<const D: usize>(reference: &Moments<D>) -> Result<[f64; D], MetricError> {
-    if let Some((index, &value)) = reference.mean.iter().enumerate().find(|(_, value)| !value.is_finite()) {
-        return Err(MetricError::InvalidEntry {
-            name: "reference mean",
-            index,
-            value,
-            requirement: "finite",
-        });
-    }
+    entries("reference mean", &reference.mean, f64::is_finite, "finite")?;
     let variance: [f64; D] = std::array::from_fn(|axis| reference.covariance.0[axis][axis]);
     match variance.iter().find(|value| !(value.is_finite() && **value > 0.0)) {
         Some(&value) => Err(MetricError::InvalidCovariance {

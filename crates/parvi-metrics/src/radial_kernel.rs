@@ -1,5 +1,6 @@
 //! The Gaussian (radial basis function) kernel and its median bandwidth.
 
+use crate::error::parameter;
 use crate::sorted::SortedSample;
 use crate::{Cloud, MetricError};
 
@@ -18,14 +19,14 @@ impl RadialKernel {
     /// # Errors
     /// [`MetricError::InvalidParameter`] unless 1e-150 < b < 1e150.
     pub fn new(bandwidth: f64) -> Result<Self, MetricError> {
-        if bandwidth > 1e-150 && bandwidth < 1e150 {
-            return Ok(Self { bandwidth });
-        }
-        Err(MetricError::InvalidParameter {
-            name: "the bandwidth of the kernel",
-            value: bandwidth,
-            requirement: "between 1e-150 and 1e150",
-        })
+        let is_usable = bandwidth > 1e-150 && bandwidth < 1e150;
+        parameter(
+            "the bandwidth of the kernel",
+            bandwidth,
+            is_usable,
+            "between 1e-150 and 1e150",
+        )?;
+        Ok(Self { bandwidth })
     }
 
     /// The kernel whose bandwidth is the median of the positive distances between the points of a cloud, each pair with

@@ -1,6 +1,6 @@
 //! The Wasserstein distance on the line, exact.
 
-use crate::error::finite;
+use crate::error::{finite, parameter};
 use crate::sorted::SortedSample;
 use crate::summation::CompensatedSum;
 use crate::{Cloud, MetricError};
@@ -18,13 +18,13 @@ use crate::{Cloud, MetricError};
 /// [`MetricError::InvalidParameter`] unless the order p is finite and at least 1, [`MetricError::Overflow`] if a power
 /// of a distance exceeds the range of `f64`.
 pub fn wasserstein_1d(first: &Cloud<'_, 1>, second: &Cloud<'_, 1>, order: f64) -> Result<f64, MetricError> {
-    if !(order.is_finite() && order >= 1.0) {
-        return Err(MetricError::InvalidParameter {
-            name: "the order of the Wasserstein distance",
-            value: order,
-            requirement: "finite and at least 1",
-        });
-    }
+    let is_order = order.is_finite() && order >= 1.0;
+    parameter(
+        "the order of the Wasserstein distance",
+        order,
+        is_order,
+        "finite and at least 1",
+    )?;
     let (first, second) = (SortedSample::along_axis(first, 0), SortedSample::along_axis(second, 0));
     let power = if order == 1.0 {
         transport_cost(&first, &second, f64::abs)

@@ -7,7 +7,7 @@ use super::panel::{AxesParts, Panel, TITLE_ROOM, label_lines, label_room, x_axis
 use super::scale::{Scale, Ticks, plottable};
 use super::series::ChartPanel;
 use super::style::{FIGURE_WIDTH, GUIDE, MARGIN, SeriesStyle, styles};
-use super::svg::{Rectangle, Stroke};
+use super::svg::Stroke;
 
 /// Labels in the order in which they first appear, and the style of each.
 pub(super) struct Legend<'a> {
@@ -129,16 +129,12 @@ impl Chart {
         for (index, (panel, prepared)) in self.panels.iter().zip(&prepared).enumerate() {
             let (row, column) = (index / columns, index % columns);
             let left = MARGIN + left_rooms[..=column].iter().sum::<f64>() + column as f64 * (panel_width + gap);
-            let axes = Panel {
-                area: Rectangle {
-                    x: left,
-                    y: row_tops[row] + title_room,
-                    width: panel_width,
-                    height: self.panel_height,
-                },
-                x: prepared.x,
-                y: prepared.y,
-            };
+            let axes = Panel::at(
+                (left, row_tops[row] + title_room),
+                (panel_width, self.panel_height),
+                prepared.x,
+                prepared.y,
+            );
             let parts = AxesParts {
                 x_ticks: x_ticks[index].clone(),
                 y_ticks: prepared.y_ticks.clone(),
@@ -155,9 +151,7 @@ impl Chart {
     /// Checks sizes, fits the scales and divides the vertical axes.
     fn prepare(&self) -> Result<Vec<Prepared>, PlotError> {
         if self.panels.is_empty() {
-            return Err(PlotError::Empty {
-                what: "panels".to_string(),
-            });
+            return Err(PlotError::empty("panels"));
         }
         let mut drawable = false;
         let mut prepared = Vec::with_capacity(self.panels.len());
@@ -190,9 +184,7 @@ impl Chart {
         if drawable {
             Ok(prepared)
         } else {
-            Err(PlotError::Empty {
-                what: "series".to_string(),
-            })
+            Err(PlotError::empty("series"))
         }
     }
 
@@ -201,10 +193,7 @@ impl Chart {
         let mut entries: Vec<LegendEntry<'_>> = Vec::new();
         let mut add = |swatch: Swatch<'static>, label: &str| {
             if !label.is_empty() && entries.iter().all(|entry| entry.label != label) {
-                entries.push(LegendEntry {
-                    swatch,
-                    label: label.to_string(),
-                });
+                entries.push(LegendEntry::new(swatch, label));
             }
         };
         for series in self.panels.iter().flat_map(|panel| &panel.series) {

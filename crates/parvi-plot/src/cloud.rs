@@ -5,7 +5,6 @@ use super::density_panel::{cloud_notes, contour_entry, draw_cloud, outside, pair
 use super::legend::{draw_legend, noted, titled};
 use super::panel::{AxesParts, Panel, label_lines, label_room, x_axis_room, x_ticks, y_tick_room, y_ticks};
 use super::style::{FIGURE_WIDTH, MARGIN};
-use super::svg::Rectangle;
 
 /// Draws the scatter plot as an SVG document.
 ///
@@ -41,16 +40,7 @@ pub fn cloud(plot: &DensityPlot<'_>) -> Result<String, PlotError> {
         entries.push(contour_entry(plot.reference_label));
     }
     top += draw_legend(&mut drawing, (left, top), width - left - MARGIN, &entries) + 8.0;
-    let panel = Panel {
-        area: Rectangle {
-            x: left,
-            y: top,
-            width: panel_width,
-            height,
-        },
-        x,
-        y,
-    };
+    let panel = Panel::at((left, top), (panel_width, height), x, y);
     let pair = (columns[0].as_slice(), columns[1].as_slice());
     draw_cloud(&mut drawing, &panel, pair, plot.particles.weights, density.as_ref());
     let parts = AxesParts {

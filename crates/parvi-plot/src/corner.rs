@@ -9,7 +9,6 @@ use super::legend::{draw_legend, entry_width, noted, titled};
 use super::panel::{AxesParts, Panel, label_lines, label_room, x_axis_room, x_ticks, y_tick_room, y_ticks};
 use super::scale::{Scale, Ticks};
 use super::style::{FIGURE_WIDTH, MARGIN};
-use super::svg::Rectangle;
 
 /// The space between panels.
 const GAP: f64 = 7.0;
@@ -75,12 +74,8 @@ pub fn corner(plot: &DensityPlot<'_>) -> Result<String, PlotError> {
     let horizontal: Vec<Ticks> = scales.iter().map(|scale| x_ticks(scale, size, GAP / 2.0)).collect();
     for row in 0..dimension {
         for column in 0..=row {
-            let area = Rectangle {
-                x: left + column as f64 * (size + GAP),
-                y: top + row as f64 * (height + GAP),
-                width: size,
-                height,
-            };
+            let corner = (left + column as f64 * (size + GAP), top + row as f64 * (height + GAP));
+            let axes = |y: Scale| Panel::at(corner, (size, height), scales[column], y);
             let mut parts = AxesParts {
                 x_ticks: horizontal[column].clone(),
                 x_label: (row == dimension - 1).then_some(labels[column].as_str()),
@@ -88,11 +83,7 @@ pub fn corner(plot: &DensityPlot<'_>) -> Result<String, PlotError> {
             };
             if row == column {
                 let peak = marginals[row].peak();
-                let panel = Panel {
-                    area,
-                    x: scales[column],
-                    y: Scale::linear(0.0, if peak > 0.0 { 1.1 * peak } else { 1.0 }, 0.0),
-                };
+                let panel = axes(Scale::linear(0.0, if peak > 0.0 { 1.1 * peak } else { 1.0 }, 0.0));
                 marginals[row].draw(&mut drawing, &panel);
                 if dimension == 1 {
                     parts.y_label = "density";
@@ -101,11 +92,7 @@ pub fn corner(plot: &DensityPlot<'_>) -> Result<String, PlotError> {
                 panel.draw_axes(&mut drawing, &parts);
                 continue;
             }
-            let panel = Panel {
-                area,
-                x: scales[column],
-                y: scales[row],
-            };
+            let panel = axes(scales[row]);
             let density = densities[row][column].as_ref();
             let pair = (columns[column].as_slice(), columns[row].as_slice());
             draw_cloud(&mut drawing, &panel, pair, weights, density);

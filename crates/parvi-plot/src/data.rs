@@ -48,6 +48,13 @@ pub enum PlotError {
     Statistics(#[from] StatisticsError),
 }
 
+impl PlotError {
+    /// Nothing of this kind can be drawn.
+    pub(super) fn empty(what: &str) -> Self {
+        Self::Empty { what: what.to_owned() }
+    }
+}
+
 /// Weighted points in d dimensions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PointCloud<'a> {
@@ -72,9 +79,7 @@ impl<'a> PointCloud<'a> {
     /// can be drawn, weights that fit.
     pub(super) fn columns(&self, smallest: usize, largest: usize) -> Result<Vec<Vec<f64>>, PlotError> {
         let Some(first) = self.points.first() else {
-            return Err(PlotError::Empty {
-                what: "points".to_string(),
-            });
+            return Err(PlotError::empty("points"));
         };
         let dimension = first.len();
         if !(smallest..=largest).contains(&dimension) {

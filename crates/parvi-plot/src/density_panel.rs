@@ -83,12 +83,7 @@ impl Marginal {
                 let corners = (panel.point(*low, *height), panel.x_at(*high));
                 if let (Some((x, y)), Some(right)) = corners {
                     // A hair of white between the bars; no bar thinner than it can be seen.
-                    let bar = Rectangle {
-                        x,
-                        y,
-                        width: (right - x - 0.3).max(0.5),
-                        height: panel.area.bottom() - y,
-                    };
+                    let bar = Rectangle::at((x, y), ((right - x - 0.3).max(0.5), panel.area.bottom() - y));
                     drawing.filled_rectangle(bar, PARTICLES, HISTOGRAM_OPACITY);
                 }
             }
@@ -266,39 +261,27 @@ pub(super) fn cloud_notes(total: usize, outside: usize, thinned: bool) -> Vec<St
 
 /// The legend's entries for marginals.
 pub(super) fn marginal_entries<'a>(marginals: &[Marginal], reference_label: &str) -> Vec<LegendEntry<'a>> {
-    let mut entries = vec![LegendEntry {
-        swatch: Swatch::Area(PARTICLES, HISTOGRAM_OPACITY),
-        label: "particles, histogram".to_string(),
-    }];
+    let histogram = Swatch::Area(PARTICLES, HISTOGRAM_OPACITY);
+    let mut entries = vec![LegendEntry::new(histogram, "particles, histogram")];
     if marginals.iter().any(|marginal| marginal.estimate.is_some()) {
-        entries.push(LegendEntry {
-            swatch: Swatch::Line(Stroke::dashed(ESTIMATE, LINE_WIDTH)),
-            label: "particles, kernel density".to_string(),
-        });
+        let estimate = Swatch::Line(Stroke::dashed(ESTIMATE, LINE_WIDTH));
+        entries.push(LegendEntry::new(estimate, "particles, kernel density"));
     }
     if marginals.iter().any(|marginal| marginal.reference.is_some()) {
-        entries.push(LegendEntry {
-            swatch: REFERENCE_SWATCH,
-            label: or_target(reference_label),
-        });
+        entries.push(LegendEntry::new(REFERENCE_SWATCH, or_target(reference_label)));
     }
     entries
 }
 
 /// The legend's entry for contours.
 pub(super) fn contour_entry<'a>(reference_label: &str) -> LegendEntry<'a> {
-    LegendEntry {
-        swatch: REFERENCE_SWATCH,
-        label: format!("{}; contours hold 50, 90, 99 %", or_target(reference_label)),
-    }
+    let label = format!("{}; contours hold 50, 90, 99 %", or_target(reference_label));
+    LegendEntry::new(REFERENCE_SWATCH, label)
 }
 
 /// The legend's entry for scattered particles.
 pub(super) fn particle_entry<'a>(label: &str) -> LegendEntry<'a> {
-    LegendEntry {
-        swatch: Swatch::Disc(PARTICLES),
-        label: label.to_string(),
-    }
+    LegendEntry::new(Swatch::Disc(PARTICLES), label)
 }
 
 fn or_target(label: &str) -> String {

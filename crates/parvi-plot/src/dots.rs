@@ -5,7 +5,7 @@ use super::legend::{LegendEntry, Swatch, draw_legend, noted, titled};
 use super::panel::{AxesParts, Panel, label_lines, x_axis_room, x_ticks};
 use super::scale::{AxisKind, Scale, plottable};
 use super::style::{FIGURE_WIDTH, GRID, GUIDE, MARGIN, SeriesStyle, TEXT_SIZE};
-use super::svg::{Drawing, Rectangle, Stroke};
+use super::svg::{Drawing, Stroke};
 use super::text::{Anchor, TextStyle, width};
 
 /// The height of a row.
@@ -80,9 +80,7 @@ pub fn dots(plot: &DotPlot) -> Result<String, PlotError> {
     let values = || plot.series.iter().flat_map(|series| series.values.iter().copied());
     let drawable = |value: &f64| plottable(*value) && (plot.x_axis != AxisKind::Logarithmic || *value > 0.0);
     if !values().any(|value| drawable(&value)) {
-        return Err(PlotError::Empty {
-            what: "dots".to_owned(),
-        });
+        return Err(PlotError::empty("dots"));
     }
     let bounds = plot.rows.iter().filter_map(|row| row.bound);
     let scale = Scale::around(values().chain(bounds), plot.x_axis, 0.04);
@@ -94,16 +92,12 @@ pub fn dots(plot: &DotPlot) -> Result<String, PlotError> {
     let legend = draw_legend(&mut drawing, (left, top), legend_room, &legend_entries(plot));
     top += legend + 8.0;
 
-    let axes = Panel {
-        area: Rectangle {
-            x: left,
-            y: top,
-            width: FIGURE_WIDTH - left - MARGIN - 8.0,
-            height: ROW * plot.rows.len() as f64,
-        },
-        x: scale,
-        y: Scale::linear(0.0, 1.0, 0.0),
-    };
+    let axes = Panel::at(
+        (left, top),
+        (FIGURE_WIDTH - left - MARGIN - 8.0, ROW * plot.rows.len() as f64),
+        scale,
+        Scale::linear(0.0, 1.0, 0.0),
+    );
     draw_rows(&mut drawing, &axes, plot);
     let parts = AxesParts {
         x_ticks: x_ticks(&scale, axes.area.width, 10.0),
@@ -118,18 +112,15 @@ pub fn dots(plot: &DotPlot) -> Result<String, PlotError> {
 
 /// The series, then the bound.
 fn legend_entries(plot: &DotPlot) -> Vec<LegendEntry<'static>> {
-    let series = plot.series.iter().map(|series| LegendEntry {
-        swatch: Swatch::Series {
+    let series = plot.series.iter().map(|series| {
+        let swatch = Swatch::Series {
             style: series.style,
             line: None,
             markers: true,
-        },
-        label: series.label.clone(),
+        };
+        LegendEntry::new(swatch, &series.label)
     });
-    let bound = LegendEntry {
-        swatch: Swatch::Line(Stroke::dashed(GUIDE, 1.1)),
-        label: plot.bound_label.clone(),
-    };
+    let bound = LegendEntry::new(Swatch::Line(Stroke::dashed(GUIDE, 1.1)), &plot.bound_label);
     let bounded = plot.rows.iter().any(|row| row.bound.is_some());
     series.chain(bounded.then_some(bound)).collect()
 }

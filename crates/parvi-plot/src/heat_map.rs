@@ -100,9 +100,7 @@ pub fn heat_map(plot: &HeatMapPlot) -> Result<String, PlotError> {
         check_size(|| panel.title.clone(), cells, panel.shares.len())?;
     }
     if !plot.panels.iter().any(|panel| panel.shares.iter().any(drawable)) {
-        return Err(PlotError::Empty {
-            what: "cells".to_owned(),
-        });
+        return Err(PlotError::empty("cells"));
     }
     let scale = |edges: &[f64]| Scale::around(edges.iter().copied(), plot.axis, 0.0);
     let (x, y) = (scale(&plot.x_edges), scale(&plot.y_edges));
@@ -143,14 +141,8 @@ fn drawable(share: &Option<f64>) -> bool {
 
 /// The shade of some shares, and of cells without data.
 fn legend_entries() -> Vec<LegendEntry<'static>> {
-    let shade = |share: f64| LegendEntry {
-        swatch: Swatch::Area(FULL, share),
-        label: format!("{:.0} %", 100.0 * share),
-    };
-    let without_data = LegendEntry {
-        swatch: Swatch::Area(GRID, 1.0),
-        label: "no data".to_owned(),
-    };
+    let shade = |share: f64| LegendEntry::new(Swatch::Area(FULL, share), format!("{:.0} %", 100.0 * share));
+    let without_data = LegendEntry::new(Swatch::Area(GRID, 1.0), "no data");
     [0.25, 0.5, 0.75, 1.0]
         .into_iter()
         .map(shade)
@@ -167,12 +159,7 @@ fn draw_cells(drawing: &mut Drawing, axes: &Panel, plot: &HeatMapPlot, panel: &H
         let (Some(low), Some(high)) = (corner(column, row), corner(column + 1, row + 1)) else {
             continue;
         };
-        let area = Rectangle {
-            x: low.0,
-            y: high.1,
-            width: high.0 - low.0,
-            height: low.1 - high.1,
-        };
+        let area = Rectangle::at((low.0, high.1), (high.0 - low.0, low.1 - high.1));
         let Some(share) = share.filter(|share| share.is_finite()) else {
             drawing.filled_rectangle(area, GRID, 1.0);
             continue;

@@ -6,7 +6,6 @@ use super::legend::{draw_legend, noted, titled};
 use super::panel::{AxesParts, Panel, label_lines, label_room, x_axis_room, x_ticks, y_tick_room, y_ticks};
 use super::scale::Scale;
 use super::style::{FIGURE_WIDTH, MARGIN};
-use super::svg::Rectangle;
 
 /// Draws the marginals as an SVG document, one panel per coordinate, d = 1 … 8.
 ///
@@ -74,16 +73,12 @@ pub fn histogram(plot: &DensityPlot<'_>) -> Result<String, PlotError> {
     for (axis, marginal) in marginals.iter().enumerate() {
         let (row, column) = (axis / per_row, axis % per_row);
         let left = MARGIN + (0..=column).map(left_room).sum::<f64>() + column as f64 * (panel_width + gap);
-        let panel = Panel {
-            area: Rectangle {
-                x: left,
-                y: top + row as f64 * row_height,
-                width: panel_width,
-                height,
-            },
-            x: scales[axis],
-            y: heights[axis],
-        };
+        let panel = Panel::at(
+            (left, top + row as f64 * row_height),
+            (panel_width, height),
+            scales[axis],
+            heights[axis],
+        );
         marginal.draw(&mut drawing, &panel);
         let parts = AxesParts {
             x_ticks: horizontal[axis].clone(),

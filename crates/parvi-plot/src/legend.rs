@@ -33,6 +33,14 @@ pub struct LegendEntry<'a> {
     pub label: String,
 }
 
+impl<'a> LegendEntry<'a> {
+    /// A swatch and what it stands for.
+    pub fn new(swatch: Swatch<'a>, label: impl Into<String>) -> Self {
+        let label = label.into();
+        Self { swatch, label }
+    }
+}
+
 const SWATCH: f64 = 20.0;
 const GAP: f64 = 5.0;
 const COLUMN_GAP: f64 = 14.0;
@@ -90,13 +98,7 @@ fn draw_swatch(drawing: &mut Drawing, (x, y): (f64, f64), swatch: Swatch<'_>) {
         }
         Swatch::Line(stroke) => drawing.line(from, to, stroke),
         Swatch::Area(color, opacity) => {
-            let area = Rectangle {
-                x,
-                y: y - 4.0,
-                width: SWATCH,
-                height: 8.0,
-            };
-            drawing.filled_rectangle(area, color, opacity);
+            drawing.filled_rectangle(Rectangle::at((x, y - 4.0), (SWATCH, 8.0)), color, opacity);
         }
         Swatch::Disc(color) => drawing.discs(&[middle], 2.0, color, 1.0),
     }

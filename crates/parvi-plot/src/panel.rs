@@ -39,6 +39,12 @@ pub struct AxesParts<'a> {
 }
 
 impl Panel {
+    /// Scales on an area of this width and height with its top left corner there.
+    pub fn at(corner: (f64, f64), size: (f64, f64), x: Scale, y: Scale) -> Self {
+        let area = Rectangle::at(corner, size);
+        Self { area, x, y }
+    }
+
     /// The page position of a point, `None` if one of its coordinates cannot be drawn.
     pub fn point(&self, x: f64, y: f64) -> Option<(f64, f64)> {
         Some((self.x_at(x)?, self.y_at(y)?))

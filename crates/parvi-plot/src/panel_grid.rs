@@ -2,7 +2,7 @@
 
 use super::panel::{AxesParts, Panel, TITLE_ROOM, label_lines, x_axis_room, y_tick_room};
 use super::scale::{Scale, Ticks};
-use super::svg::{Drawing, Rectangle};
+use super::svg::Drawing;
 
 /// Where the panels are, and their axes.
 pub struct PanelGrid<'a> {
@@ -36,13 +36,8 @@ impl PanelGrid<'_> {
         for (row, members) in (1..).zip(rows) {
             let x_label = if row == last { *x_label } else { "" };
             for (column, (title, panel)) in members.iter().enumerate() {
-                let area = Rectangle {
-                    x: self.left + column as f64 * (width + self.gap),
-                    y: top + TITLE_ROOM,
-                    width,
-                    height,
-                };
-                let axes = Panel { area, x: *x, y: *y };
+                let left = self.left + column as f64 * (width + self.gap);
+                let axes = Panel::at((left, top + TITLE_ROOM), self.size, *x, *y);
                 content(drawing, &axes, panel);
                 let parts = AxesParts {
                     x_ticks: x_ticks.clone(),

@@ -87,9 +87,7 @@ pub fn scaling(plot: &ScalingPlot) -> Result<String, PlotError> {
         });
     }
     if points.iter().all(|series| series.x.is_empty()) {
-        return Err(PlotError::Empty {
-            what: "series".to_string(),
-        });
+        return Err(PlotError::empty("series"));
     }
     for guide in &plot.guides {
         lines.push(ChartSeries::guide(&guide.label, &guide.curve, Connection::Dashed)?);

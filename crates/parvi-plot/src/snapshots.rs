@@ -60,9 +60,7 @@ pub fn snapshots(plot: &SnapshotsPlot) -> Result<String, PlotError> {
     }
     let mut all = plot.panels.iter().flat_map(|panel| &panel.positions);
     if !all.any(|x| plottable(x[0]) && plottable(x[1])) {
-        return Err(PlotError::Empty {
-            what: "particles".to_owned(),
-        });
+        return Err(PlotError::empty("particles"));
     }
     let [low, high] = plot.extent;
     let x = Scale::around([low[0], high[0]], AxisKind::Linear, 0.0);
@@ -117,10 +115,7 @@ fn legend(plot: &SnapshotsPlot) -> Vec<LegendEntry<'static>> {
         (_, Some(bound)) if class < count => format!("{} to {bound}", plot.bounds[class - 1]),
         _ => format!("≥ {}", plot.bounds[class - 1]),
     };
-    let entry = |class: usize| LegendEntry {
-        swatch: Swatch::Area(CLASSES[class], 1.0),
-        label: label(class),
-    };
+    let entry = |class: usize| LegendEntry::new(Swatch::Area(CLASSES[class], 1.0), label(class));
     (0..=count).map(entry).collect()
 }
 

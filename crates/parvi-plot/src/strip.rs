@@ -6,7 +6,6 @@ use super::legend::{draw_legend, noted, titled};
 use super::panel::{AxesParts, Panel, TITLE_ROOM, label_lines, label_room, x_axis_room, x_ticks, y_tick_room, y_ticks};
 use super::scale::{AxisKind, Scale};
 use super::style::{FIGURE_WIDTH, MARGIN};
-use super::svg::Rectangle;
 
 /// One moment.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -97,16 +96,15 @@ pub fn strip(plot: &StripPlot<'_>) -> Result<String, PlotError> {
     let rows = plot.panels.len().div_ceil(COLUMNS);
     for (index, (panel, cloud)) in plot.panels.iter().zip(&clouds).enumerate() {
         let (row, column) = (index / COLUMNS, index % COLUMNS);
-        let axes = Panel {
-            area: Rectangle {
-                x: left + column as f64 * (width + GAP),
-                y: top + TITLE_ROOM + row as f64 * (height + TITLE_ROOM + GAP),
-                width,
-                height,
-            },
+        let axes = Panel::at(
+            (
+                left + column as f64 * (width + GAP),
+                top + TITLE_ROOM + row as f64 * (height + TITLE_ROOM + GAP),
+            ),
+            (width, height),
             x,
             y,
-        };
+        );
         let pair = (cloud[0].as_slice(), cloud[1].as_slice());
         draw_cloud(&mut drawing, &axes, pair, panel.particles.weights, density.as_ref());
         let lowest = index + COLUMNS >= plot.panels.len();
@@ -133,9 +131,7 @@ fn scale(
     reference: &CheckedReference<'_>,
 ) -> Result<Scale, PlotError> {
     if clouds.is_empty() {
-        return Err(PlotError::Empty {
-            what: "panels".to_owned(),
-        });
+        return Err(PlotError::empty("panels"));
     }
     let mut ends = Vec::with_capacity(2 * clouds.len());
     for (panel, cloud) in plot.panels.iter().zip(clouds) {

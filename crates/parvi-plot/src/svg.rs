@@ -19,6 +19,11 @@ pub struct Rectangle {
 }
 
 impl Rectangle {
+    /// A rectangle of this width and height with its top left corner there.
+    pub fn at((x, y): (f64, f64), (width, height): (f64, f64)) -> Self {
+        Self { x, y, width, height }
+    }
+
     /// The right edge.
     pub fn right(&self) -> f64 {
         self.x + self.width

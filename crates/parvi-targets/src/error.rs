@@ -280,15 +280,19 @@ pub(crate) fn finite(field: &str, value: f64) -> Result<f64, TargetError> {
 /// `Ok(value)` for a finite number above zero.
 pub(crate) fn positive(field: &str, value: f64) -> Result<f64, TargetError> {
     finite(field, value)?;
-    if value > 0.0 {
-        Ok(value)
-    } else {
-        Err(TargetError::OutOfRange {
-            field: field.to_owned(),
-            value,
-            allowed: "a number above 0",
-        })
+    within(field, value, value > 0.0, "a number above 0")
+}
+
+/// `Ok(value)` for a value that is allowed, else [`TargetError::OutOfRange`].
+pub(crate) fn within(field: &str, value: f64, is_allowed: bool, allowed: &'static str) -> Result<f64, TargetError> {
+    if is_allowed {
+        return Ok(value);
     }
+    Err(TargetError::OutOfRange {
+        field: field.to_owned(),
+        value,
+        allowed,
+    })
 }
 
 /// The error that a target which needs two coordinates was asked for in fewer.

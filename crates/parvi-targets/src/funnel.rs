@@ -3,7 +3,7 @@
 use mpm_tensor::Matrix;
 use rand::Rng;
 
-use crate::error::{at_least_two, positive};
+use crate::error::{at_least_two, positive, within};
 use crate::gaussian::{normal_quantiles, standard_normal};
 use crate::special::HALF_LOG_TWO_PI;
 use crate::target::its_own_source;
@@ -32,13 +32,7 @@ impl<const D: usize> Funnel<D> {
     pub fn new(width: f64) -> Result<Self, TargetError> {
         at_least_two("funnel", D)?;
         positive("width", width)?;
-        if width > 20.0 {
-            return Err(TargetError::OutOfRange {
-                field: "width".to_owned(),
-                value: width,
-                allowed: "a number above 0 and up to 20",
-            });
-        }
+        within("width", width, width <= 20.0, "a number above 0 and up to 20")?;
         Ok(Self { width })
     }
 

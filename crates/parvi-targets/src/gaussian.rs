@@ -4,7 +4,7 @@ use mpm_tensor::Matrix;
 use rand::Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-use crate::error::finite;
+use crate::error::{finite, within};
 use crate::special::{HALF_LOG_TWO_PI, normal_quantile};
 use crate::target::its_own_source;
 use crate::{CatalogueTarget, ExactDraws, Frame, Moments, Target, TargetError, UnitCubeTransport};
@@ -52,13 +52,8 @@ impl<const D: usize> Gaussian<D> {
     /// The matrix R^|i−j|.
     pub(crate) fn autoregression(correlation: f64) -> Result<Matrix<D>, TargetError> {
         finite("correlation", correlation)?;
-        if correlation.abs() >= 1.0 {
-            return Err(TargetError::OutOfRange {
-                field: "correlation".to_owned(),
-                value: correlation,
-                allowed: "a number between -1 and 1, both excluded",
-            });
-        }
+        let allowed = "a number between -1 and 1, both excluded";
+        within("correlation", correlation, correlation.abs() < 1.0, allowed)?;
         Ok(Matrix::from_fn(|i, j| correlation.powi(i.abs_diff(j) as i32)))
     }
 

@@ -6,7 +6,7 @@ use mpm_tensor::vector;
 use rand::SeedableRng;
 use rand::rngs::ChaCha8Rng;
 
-use crate::error::finite;
+use crate::error::{finite, within};
 use crate::{SumTarget, Target, TargetError};
 
 /// A target whose score is estimated from b of the n terms of a sum, drawn anew, without replacement, at every call:
@@ -62,13 +62,13 @@ impl<T: SumTarget<D>, const D: usize> MinibatchScore<T, D> {
     /// # Errors
     /// [`TargetError::OutOfRange`] unless `batch` is from 1 to the number of terms.
     pub fn new(target: T, batch: usize, seed: u64) -> Result<Self, TargetError> {
-        if batch == 0 || batch > target.terms() {
-            return Err(TargetError::OutOfRange {
-                field: "the size of a minibatch".to_owned(),
-                value: batch as f64,
-                allowed: "from 1 to the number of terms",
-            });
-        }
+        let fits = (1..=target.terms()).contains(&batch);
+        within(
+            "the size of a minibatch",
+            batch as f64,
+            fits,
+            "from 1 to the number of terms",
+        )?;
         Ok(Self {
             target,
             batch,

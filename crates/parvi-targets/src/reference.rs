@@ -3,7 +3,7 @@
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
-use crate::error::positive;
+use crate::error::{positive, within};
 use crate::student_t::student_t_from_cube;
 use crate::weighted_draws::WeightedDraws;
 use crate::{CatalogueTarget, Frame, Moments, SobolSequence, TargetError};
@@ -81,12 +81,16 @@ impl<const D: usize> ImportanceSample<D> {
     fn drawn(target: &dyn CatalogueTarget<D>, options: &ReferenceOptions) -> Result<Self, TargetError> {
         positive("degrees of freedom of the proposal", options.degrees_of_freedom)?;
         positive("inflation of the proposal", options.inflation)?;
-        at_least("scramblings", options.scramblings, 2, "2 or more")?;
+        within(
+            "scramblings",
+            options.scramblings as f64,
+            options.scramblings >= 2,
+            "2 or more",
+        )?;
         let per_scrambling = options.points / options.scramblings;
-        at_least("points per scrambling", per_scrambling, 16, "16 or more")?;
-        if per_scrambling > u32::MAX as usize {
-            return Err(out_of_range("points per scrambling", per_scrambling, "fewer than 2^32"));
-        }
+        let (field, size) = ("points per scrambling", per_scrambling as f64);
+        within(field, size, per_scrambling >= 16, "16 or more")?;
+        within(field, size, u32::try_from(per_scrambling).is_ok(), "fewer than 2^32")?;
 
         let mut seeds = ChaCha8Rng::seed_from_u64(options.seed);
         if let (Some(exact), None) = (target.exact_draws(), target.unit_cube_transport()) {
@@ -252,20 +256,4 @@ fn weighed<const D: usize>(
     let total: f64 = weights.iter().sum();
     weights.iter_mut().for_each(|weight| *weight /= total);
     Ok(WeightedDraws { points, weights })
-}
-
-fn at_least(field: &str, value: usize, minimum: usize, allowed: &'static str) -> Result<(), TargetError> {
-    if value >= minimum {
-        Ok(())
-    } else {
-        Err(out_of_range(field, value, allowed))
-    }
-}
-
-fn out_of_range(field: &str, value: usize, allowed: &'static str) -> TargetError {
-    TargetError::OutOfRange {
-        field: field.to_owned(),
-        value: value as f64,
-        allowed,
-    }
 }

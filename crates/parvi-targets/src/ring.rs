@@ -3,11 +3,10 @@
 use std::f64::consts::{PI, TAU};
 
 use mpm_tensor::Matrix;
-use rand::{Rng, RngExt};
-use rand_distr::Open01;
+use rand::Rng;
 use statrs::function::gamma::gamma_ur;
 
-use crate::error::{finite, positive};
+use crate::error::{finite, positive, within};
 use crate::special::increasing_root;
 use crate::target::its_own_source;
 use crate::{CatalogueTarget, ExactDraws, Frame, Moments, Target, TargetError, UnitCubeTransport};
@@ -37,13 +36,7 @@ impl Ring {
     /// [`TargetError::NotFinite`], or [`TargetError::OutOfRange`] unless r ≥ 0 and σ > 0.
     pub fn new(radius: f64, width: f64) -> Result<Self, TargetError> {
         finite("radius", radius)?;
-        if radius < 0.0 {
-            return Err(TargetError::OutOfRange {
-                field: "radius".to_owned(),
-                value: radius,
-                allowed: "a number from 0 on",
-            });
-        }
+        within("radius", radius, radius >= 0.0, "a number from 0 on")?;
         positive("width", width)?;
         let ring = Self::of_valid(radius, width);
         finite("the variance of the ring", ring.variance)?;
@@ -138,7 +131,7 @@ impl Target<2> for Ring {
 
 impl ExactDraws<2> for Ring {
     fn draw(&self, rng: &mut dyn Rng) -> [f64; 2] {
-        self.transport(&[rng.sample(Open01), rng.sample(Open01)])
+        self.drawn(rng)
     }
 }
 

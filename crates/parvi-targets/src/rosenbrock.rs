@@ -3,7 +3,7 @@
 use mpm_tensor::Matrix;
 use rand::Rng;
 
-use crate::error::{at_least_two, positive};
+use crate::error::{at_least_two, positive, within};
 use crate::gaussian::{normal_quantiles, standard_normal};
 use crate::special::HALF_LOG_TWO_PI;
 use crate::target::its_own_source;
@@ -42,13 +42,7 @@ impl<const D: usize> Rosenbrock<D> {
         at_least_two("rosenbrock", D)?;
         for (field, value) in [("spread", spread), ("width", width)] {
             positive(field, value)?;
-            if value > 1e6 {
-                return Err(TargetError::OutOfRange {
-                    field: field.to_owned(),
-                    value,
-                    allowed: "a number above 0 and up to 1000000",
-                });
-            }
+            within(field, value, value <= 1e6, "a number above 0 and up to 1000000")?;
         }
         let moments = moments_of(spread, width);
         let frame = Frame::new(moments.mean, moments.covariance)?;

@@ -2,6 +2,7 @@
 
 use crate::TargetError;
 use crate::direction_numbers::{DIRECTION_NUMBERS, SOBOL_MAXIMUM_DIMENSION};
+use crate::error::within;
 
 /// Levels of the binary tree whose 63 nodes have their bits from one hash.
 const LEVELS_PER_HASH: u32 = 6;
@@ -31,13 +32,13 @@ impl SobolSequence {
     /// # Errors
     /// [`TargetError::OutOfRange`] unless 1 ≤ `dimension` ≤ [`SOBOL_MAXIMUM_DIMENSION`].
     pub fn plain(dimension: usize) -> Result<Self, TargetError> {
-        if !(1..=SOBOL_MAXIMUM_DIMENSION).contains(&dimension) {
-            return Err(TargetError::OutOfRange {
-                field: "the dimension of the Sobol' sequence".to_owned(),
-                value: dimension as f64,
-                allowed: "1 to 21",
-            });
-        }
+        let is_allowed = (1..=SOBOL_MAXIMUM_DIMENSION).contains(&dimension);
+        within(
+            "the dimension of the Sobol' sequence",
+            dimension as f64,
+            is_allowed,
+            "1 to 21",
+        )?;
         Ok(Self {
             axes: (0..dimension).map(|axis| (directions(axis), None)).collect(),
         })

@@ -1,7 +1,8 @@
 //! What a sampler needs from a density, and what a study may ask beyond that.
 
 use mpm_tensor::Matrix;
-use rand::Rng;
+use rand::{Rng, RngExt};
+use rand_distr::Open01;
 
 use crate::Frame;
 
@@ -79,6 +80,12 @@ pub trait UnitCubeTransport<const D: usize>: Sync {
 
     /// The image of `u`, whose length is [`cube_dimension`](Self::cube_dimension) and whose entries lie in (0, 1).
     fn transport(&self, u: &[f64]) -> [f64; D];
+
+    /// The image of a point that is uniform on the cube: an independent draw.
+    fn drawn(&self, rng: &mut dyn Rng) -> [f64; D] {
+        let u: Vec<f64> = (0..self.cube_dimension()).map(|_| rng.sample(Open01)).collect();
+        self.transport(&u)
+    }
 }
 
 /// Mean and covariance of a density.

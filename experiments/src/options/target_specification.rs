@@ -1,6 +1,6 @@
 //! A target with its dimension and parameters, as flags or as a configuration states it.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use parvi_targets::{BoxedTarget, Parameters, TargetError};
@@ -128,26 +128,23 @@ impl TargetSpecification {
         if let Some(dim) = self.dim {
             label.push_str(&format!("-d{dim}"));
         }
-        let parameters = &self.parameters;
-        let numbers = [
-            ("r", parameters.correlation),
-            ("b", parameters.curvature),
-            ("w", parameters.width),
-            ("s", parameters.spread),
-            ("radius", parameters.radius),
-            ("nu", parameters.degrees_of_freedom),
-            ("sd", parameters.prior_sd),
-        ];
-        for (name, value) in numbers {
-            if let Some(value) = value {
-                label.push_str(&format!("-{name}{value}"));
-            }
-        }
-        if let Some(seed) = parameters.target_seed {
-            label.push_str(&format!("-seed{seed}"));
-        }
-        if let Some(stem) = parameters.data.as_deref().and_then(|path| path.file_stem()) {
-            label.push_str(&format!("-{}", stem.to_string_lossy()));
+        let stem = self.parameters.data.as_deref().and_then(Path::file_stem);
+        for (name, value) in self.parameters.to_catalogue().given() {
+            let symbol = match name {
+                "data" => {
+                    label.push_str(&format!("-{}", stem.unwrap_or_default().to_string_lossy()));
+                    continue;
+                }
+                "correlation" => "r",
+                "curvature" => "b",
+                "width" => "w",
+                "spread" => "s",
+                "degrees-of-freedom" => "nu",
+                "prior-sd" => "sd",
+                "target-seed" => "seed",
+                name => name,
+            };
+            label.push_str(&format!("-{symbol}{value}"));
         }
         label
     }

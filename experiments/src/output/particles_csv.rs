@@ -40,10 +40,7 @@ pub fn write(particles: &Particles, names: &[String], writer: &mut dyn Write) ->
 /// # Errors
 /// [`CommandError::ResultsUnreadable`] with the line of a row that does not fit.
 pub fn read(path: &Path) -> Result<Particles, CommandError> {
-    let unreadable = |message: String| CommandError::ResultsUnreadable {
-        file: path.display().to_string(),
-        message,
-    };
+    let unreadable = |message: String| CommandError::unreadable(path, message);
     let table = NumberTable::of_csv(path).map_err(unreadable)?;
     let weighted = table.header.last().is_some_and(|name| name == WEIGHT);
     let dimension = table.columns - usize::from(weighted);

@@ -24,10 +24,7 @@ pub fn write<T: Serialize>(records: impl IntoIterator<Item = T>, path: &Path) ->
 
 /// Reads what [`write`](fn@write) wrote.
 pub fn read<T: DeserializeOwned>(path: &Path) -> Result<Vec<T>, CommandError> {
-    let unreadable = |error: csv::Error| CommandError::ResultsUnreadable {
-        file: path.display().to_string(),
-        message: error.to_string(),
-    };
+    let unreadable = |error: csv::Error| CommandError::unreadable(path, error);
     let mut reader = csv::Reader::from_path(path).map_err(unreadable)?;
     reader.deserialize().collect::<Result<_, _>>().map_err(unreadable)
 }

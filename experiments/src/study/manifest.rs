@@ -89,10 +89,7 @@ impl Manifest {
     /// Reads a study's manifest.
     pub fn read(path: &Path) -> Result<Self, CommandError> {
         let text = std::fs::read_to_string(path).map_err(|source| CommandError::file("read", path, source))?;
-        serde_json::from_str(&text).map_err(|error| CommandError::ResultsUnreadable {
-            file: path.display().to_string(),
-            message: error.to_string(),
-        })
+        serde_json::from_str(&text).map_err(|error| CommandError::unreadable(path, error))
     }
 
     /// Writes it.

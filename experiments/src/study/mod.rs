@@ -19,7 +19,7 @@ mod quickstart;
 mod random_targets;
 mod results;
 mod row;
-mod row_file;
+pub mod row_file;
 mod runner;
 mod sampled;
 mod scaling;

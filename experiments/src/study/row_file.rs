@@ -41,10 +41,22 @@ pub fn write(path: &Path, columns: &str, rows: &[Row]) -> Result<(), CommandErro
 ///
 /// # Errors
 /// [`CommandError::File`], or [`CommandError::ResultsUnreadable`] with the line that does not fit.
-pub fn read(path: &Path, columns: &'static str) -> Result<Vec<Row>, CommandError> {
+pub fn read(path: &Path, columns: &str) -> Result<Vec<Row>, CommandError> {
+    parse(path, &whole_lines(path)?, columns)
+}
+
+/// The same with all columns that the file has.
+///
+/// # Errors
+/// As for [`read`].
+pub fn read_all(path: &Path) -> Result<Vec<Row>, CommandError> {
+    parse_columns(path, &whole_lines(path)?, |_| true)
+}
+
+fn whole_lines(path: &Path) -> Result<Vec<u8>, CommandError> {
     let mut bytes = std::fs::read(path).map_err(|source| CommandError::file("read", path, source))?;
     bytes.truncate(whole(&bytes));
-    parse(path, &bytes, columns)
+    Ok(bytes)
 }
 
 /// The length of the lines that have an end.
@@ -57,31 +69,31 @@ pub fn whole(bytes: &[u8]) -> usize {
 ///
 /// # Errors
 /// [`CommandError::ResultsUnreadable`].
-pub fn parse(path: &Path, bytes: &[u8], columns: &'static str) -> Result<Vec<Row>, CommandError> {
-    let unreadable = |message: String| CommandError::ResultsUnreadable {
-        file: path.display().to_string(),
-        message,
-    };
-    let mut reader = csv::Reader::from_reader(bytes);
-    let header = reader.headers().map_err(|error| unreadable(error.to_string()))?.clone();
-    let place = |column: &'static str| Some((column, header.iter().position(|name| name == column)?));
-    let places: Vec<(&str, usize)> = columns.split(' ').filter_map(place).collect();
-    let first = columns.split(' ').next();
-    if !bytes.is_empty() && places.first().map(|(column, _)| *column) != first {
-        let first = first.unwrap_or_default();
-        return Err(unreadable(format!("line 1: the column `{first}` is missing")));
+pub fn parse(path: &Path, bytes: &[u8], columns: &str) -> Result<Vec<Row>, CommandError> {
+    let first = columns.split(' ').next().unwrap_or_default();
+    let header = bytes.split(|&byte| byte == b'\n').next().unwrap_or_default();
+    if !bytes.is_empty() && !header.split(|&byte| byte == b',').any(|name| name == first.as_bytes()) {
+        return Err(CommandError::unreadable(
+            path,
+            format!("line 1: the column `{first}` is missing"),
+        ));
     }
+    parse_columns(path, bytes, |name| columns.split(' ').any(|column| column == name))
+}
+
+fn parse_columns(path: &Path, bytes: &[u8], is_read: impl Fn(&str) -> bool) -> Result<Vec<Row>, CommandError> {
+    let mut reader = csv::Reader::from_reader(bytes);
+    let refused = |error: csv::Error| CommandError::unreadable(path, error);
+    let header = reader.headers().map_err(refused)?.clone();
     let mut rows = Vec::new();
     for record in reader.records() {
-        let record = record.map_err(|error| unreadable(error.to_string()))?;
+        let record = record.map_err(refused)?;
         let line = record.position().map_or(0, csv::Position::line);
         let mut row = Row::default();
-        for &(column, place) in &places {
-            let value = cell(column, record.get(place).unwrap_or_default());
-            row.set(
-                column,
-                value.map_err(|message| unreadable(format!("line {line}: {message}")))?,
-            );
+        for (column, text) in header.iter().zip(&record).filter(|(column, _)| is_read(column)) {
+            let value = cell(column, text);
+            let value = value.map_err(|message| CommandError::unreadable(path, format!("line {line}: {message}")))?;
+            row.set(column.to_owned(), value);
         }
         rows.push(row);
     }

@@ -8,7 +8,8 @@ use crate::plots::results::Value;
 
 /// The columns that hold words; all others hold numbers.
 const WORDS: &str = "case status ending reason note message outcome target method series sweep family label quantity scene against variant \
-     material schedule score volumes basis start_draws transfer shifts rotation settling_shifts moment_correction guards escaped turned";
+     material schedule score volumes basis start_draws transfer shifts rotation settling_shifts moment_correction guards escaped turned \
+     name manifold choice quadrature update asked";
 
 /// The columns that hold a [`Status`].
 pub const ENDINGS: [&str; 2] = ["status", "ending"];

@@ -1,5 +1,5 @@
 //! Random states of a material, and stress and stiffness by differences of the energy.
-#![allow(non_snake_case, dead_code)]
+#![allow(dead_code)]
 
 use mpm_tensor::{Matrix, Polar, vector};
 use proptest::prelude::*;

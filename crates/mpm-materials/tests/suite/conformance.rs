@@ -1,5 +1,4 @@
 //! What every material must satisfy, D = 1…4, through `&dyn Material<D>`.
-#![allow(non_snake_case)]
 
 use mpm_materials::{ElasticModuli, FixedCorotated, Hencky, IsothermalGas, LinearElastic, Material, NeoHookean};
 use mpm_tensor::Matrix;
@@ -163,10 +162,7 @@ macro_rules! conformance {
         proptest! {
             $(#[test]
             fn $name(sample in sample()) {
-                for_each_member::<1>(&sample, $check)?;
-                for_each_member::<2>(&sample, $check)?;
-                for_each_member::<3>(&sample, $check)?;
-                for_each_member::<4>(&sample, $check)?;
+                in_every_dimension!(for_each_member(&sample, $check));
             })*
         }
     };

@@ -1,11 +1,10 @@
 //! What the weakly compressible fluid must satisfy, D = 1…4.
-#![allow(non_snake_case)]
 
 use mpm_materials::{Law, TaitFluid};
 use mpm_tensor::Matrix;
 use proptest::prelude::*;
 
-use crate::common::{Sample, derivative_of, rotation, sample, stiffness_of};
+use crate::common::{Sample, derivative_of, rotation, stiffness_of};
 
 fn fluid(sample: &Sample) -> TaitFluid {
     TaitFluid::new(sample.reference_density, sample.young_modulus, 0.0).expect("in range")
@@ -60,20 +59,7 @@ fn viscosity_dissipates<const D: usize>(sample: &Sample) -> Result<(), TestCaseE
     Ok(())
 }
 
-proptest! {
-    #[test]
-    fn pressure(sample in sample()) {
-        conforms::<1>(&sample)?;
-        conforms::<2>(&sample)?;
-        conforms::<3>(&sample)?;
-        conforms::<4>(&sample)?;
-    }
-
-    #[test]
-    fn viscosity(sample in sample()) {
-        viscosity_dissipates::<1>(&sample)?;
-        viscosity_dissipates::<2>(&sample)?;
-        viscosity_dissipates::<3>(&sample)?;
-        viscosity_dissipates::<4>(&sample)?;
-    }
+properties! {
+    pressure: conforms;
+    viscosity: viscosity_dissipates;
 }

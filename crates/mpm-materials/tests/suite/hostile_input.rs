@@ -1,5 +1,4 @@
 //! No deformation gradient and no parameter panics; inadmissible ones are errors and never yield finite stresses.
-#![allow(non_snake_case)]
 
 use mpm_materials::{
     DeformationError, DeformingGas, DruckerPrager, DruckerPragerState, ElasticModuli, FixedCorotated, GasState, Hencky,

@@ -1,5 +1,4 @@
 //! What every law with a return mapping must satisfy along random walks, D = 1…4.
-#![allow(non_snake_case)]
 
 use mpm_materials::{DruckerPrager, DruckerPragerState, ElasticModuli, Law, SofteningHencky, SofteningState};
 use mpm_tensor::Matrix;

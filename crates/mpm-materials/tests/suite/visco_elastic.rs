@@ -1,11 +1,10 @@
 //! Laws that are neither hyperelastic nor plastic: what they promise, D = 1…4.
-#![allow(non_snake_case)]
 
 use mpm_materials::{ElasticModuli, KelvinVoigt, Law, LinearCauchy, LinearElastic, Material, NeoHookean};
 use mpm_tensor::{Matrix, vector};
 use proptest::prelude::*;
 
-use crate::common::{Sample, rotation, sample};
+use crate::common::{Sample, rotation};
 
 /// The Kelvin–Voigt solid is objective, τ(Q F, Q L Qᵀ) = Q τ Qᵀ, and never gains energy from a rate beyond what its spring stores.
 fn kelvin_voigt<const D: usize>(sample: &Sample) -> Result<(), TestCaseError> {
@@ -54,20 +53,7 @@ fn linear_cauchy<const D: usize>(sample: &Sample) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-proptest! {
-    #[test]
-    fn a_spring_beside_a_dashpot(sample in sample()) {
-        kelvin_voigt::<1>(&sample)?;
-        kelvin_voigt::<2>(&sample)?;
-        kelvin_voigt::<3>(&sample)?;
-        kelvin_voigt::<4>(&sample)?;
-    }
-
-    #[test]
-    fn small_strain_and_cauchy_stress(sample in sample()) {
-        linear_cauchy::<1>(&sample)?;
-        linear_cauchy::<2>(&sample)?;
-        linear_cauchy::<3>(&sample)?;
-        linear_cauchy::<4>(&sample)?;
-    }
+properties! {
+    a_spring_beside_a_dashpot: kelvin_voigt;
+    small_strain_and_cauchy_stress: linear_cauchy;
 }

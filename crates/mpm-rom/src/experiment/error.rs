@@ -38,16 +38,6 @@ pub enum ExperimentError {
         /// What is wrong.
         message: String,
     },
-    /// A table of reduced runs cannot be read.
-    #[error("{file}, line {line}: {message}")]
-    Table {
-        /// The file.
-        file: String,
-        /// The line, counted from 1.
-        line: u64,
-        /// What is wrong.
-        message: String,
-    },
     /// Nothing has been trained there.
     #[error("{model} is missing: `parvi rom train` with this experiment and directory makes it")]
     Untrained {

@@ -57,21 +57,6 @@ pub struct ReducedRow {
     pub frames: Vec<FrameRow>,
 }
 
-impl ReducedRow {
-    /// How the run was made: manifold, variant, samples that were asked for and their choice, quadrature, update and step factor.
-    pub fn way(&self) -> (&str, &str, SampleCount, &str, &str, &str, u64) {
-        (
-            self.manifold,
-            &self.variant,
-            self.asked,
-            self.chosen,
-            self.quadrature,
-            self.update,
-            self.step_factor,
-        )
-    }
-}
-
 /// A frame of a reduced run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameRow {
@@ -110,6 +95,10 @@ fn columns<'a>(parameters: &'a [String], row: &ReducedRow) -> Vec<(&'a str, Stri
         ("manifold", row.manifold.to_owned()),
         ("variant", row.variant.clone()),
         ("samples", row.samples.to_string()),
+        (
+            "asked",
+            row.asked.count().map_or("all".to_owned(), |count| count.to_string()),
+        ),
         ("choice", row.chosen.to_owned()),
         ("quadrature", row.quadrature.to_owned()),
         ("update", row.update.to_owned()),

@@ -83,29 +83,10 @@ fn products_are_consistent<const D: usize>(sample: &Sample) -> Result<(), TestCa
     Ok(())
 }
 
-proptest! {
-    #[test]
-    fn determinant(sample in sample()) {
-        for_each_dimension!(determinant_agrees(&sample));
-    }
-
-    #[test]
-    fn inverse(sample in regular_sample()) {
-        for_each_dimension!(inverse_agrees(&sample));
-    }
-
-    #[test]
-    fn cholesky(sample in regular_sample()) {
-        for_each_dimension!(cholesky_factorises(&sample));
-    }
-
-    #[test]
-    fn cholesky_of_indefinite_matrices(sample in regular_sample()) {
-        for_each_dimension!(cholesky_rejects(&sample));
-    }
-
-    #[test]
-    fn products(sample in sample()) {
-        for_each_dimension!(products_are_consistent(&sample));
-    }
+properties! {
+    determinant: determinant_agrees of sample;
+    inverse: inverse_agrees of regular_sample;
+    cholesky: cholesky_factorises of regular_sample;
+    cholesky_of_indefinite_matrices: cholesky_rejects of regular_sample;
+    products: products_are_consistent of sample;
 }

@@ -20,6 +20,19 @@ macro_rules! for_each_dimension {
     }};
 }
 
+/// Properties of random matrices, D = 1…8: a test of each check of what the strategy draws.
+#[macro_export]
+macro_rules! properties {
+    ($($name:ident: $check:ident of $strategy:ident;)+) => {
+        proptest! {
+            $(#[test]
+            fn $name(sample in $strategy()) {
+                for_each_dimension!($check(&sample));
+            })+
+        }
+    };
+}
+
 /// The shape of a matrix's singular values, or that of its entries.
 #[derive(Clone, Copy, Debug)]
 pub enum Spectrum {

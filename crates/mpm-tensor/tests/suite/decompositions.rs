@@ -52,21 +52,10 @@ fn polar_is_a_rotation_and_a_stretch<const D: usize>(sample: &Sample) -> Result<
     Ok(())
 }
 
-proptest! {
-    #[test]
-    fn eigen(sample in sample()) {
-        for_each_dimension!(eigen_is_a_spectral_decomposition(&sample));
-    }
-
-    #[test]
-    fn singular_values(sample in sample()) {
-        for_each_dimension!(singular_values_decompose(&sample));
-    }
-
-    #[test]
-    fn polar(sample in sample()) {
-        for_each_dimension!(polar_is_a_rotation_and_a_stretch(&sample));
-    }
+properties! {
+    eigen: eigen_is_a_spectral_decomposition of sample;
+    singular_values: singular_values_decompose of sample;
+    polar: polar_is_a_rotation_and_a_stretch of sample;
 }
 
 /// Jacobi keeps small singular values of a matrix with graded columns to full relative accuracy.

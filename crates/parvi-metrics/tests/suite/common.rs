@@ -14,6 +14,17 @@ pub fn normal_points<const D: usize>(count: usize, seed: u64) -> Vec<[f64; D]> {
         .collect()
 }
 
+/// The mean of a statistic over sets of so many independent standard Gaussian points, of seeds from the first one on.
+pub fn mean_over_draws<const D: usize>(
+    count: usize,
+    seeds: std::ops::Range<u64>,
+    statistic: impl Fn(&Cloud<'_, D>) -> f64,
+) -> f64 {
+    let sets = (seeds.end - seeds.start) as f64;
+    let of_seed = |seed| statistic(&Cloud::new(&normal_points::<D>(count, seed)).unwrap());
+    seeds.map(of_seed).sum::<f64>() / sets
+}
+
 /// Independent uniform weights.
 pub fn uniform_weights(count: usize, seed: u64) -> Vec<f64> {
     let mut rng = ChaCha12Rng::seed_from_u64(seed);

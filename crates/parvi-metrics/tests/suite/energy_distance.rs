@@ -1,6 +1,6 @@
 //! The energy distance against double sums written out, closed forms and invariances.
 
-use crate::common::{double_sum, normal_points, points_strategy, squared_distance, uniform_weights};
+use crate::common::{double_sum, mean_over_draws, normal_points, points_strategy, squared_distance, uniform_weights};
 use parvi_metrics::{Cloud, EnergyReference, MetricError, energy_distance_squared, mean_pair_distance};
 use proptest::prelude::*;
 
@@ -72,16 +72,8 @@ fn independent_draws_have_the_expected_level() {
     let reference_points = normal_points::<2>(4000, 6);
     let reference = EnergyReference::new(&Cloud::new(&reference_points).unwrap()).unwrap();
     assert!((reference.mean_distance() - std::f64::consts::PI.sqrt()).abs() < 0.03);
-    let (m, repetitions) = (64, 400);
-    let mean = (0..repetitions)
-        .map(|seed| {
-            reference
-                .squared(&Cloud::new(&normal_points::<2>(m, 100 + seed)).unwrap())
-                .unwrap()
-        })
-        .sum::<f64>()
-        / repetitions as f64;
-    let ratio = mean / (reference.mean_distance() / m as f64);
+    let mean = mean_over_draws(64, 100..500, |cloud| reference.squared(cloud).unwrap());
+    let ratio = mean / (reference.mean_distance() / 64.0);
     assert!((ratio - 1.0).abs() < 0.12, "{ratio}");
 }
 

@@ -1,6 +1,6 @@
 //! The energy distance from a Gaussian against known values, sampled references and its i.i.d. level.
 
-use crate::common::normal_points;
+use crate::common::{mean_over_draws, normal_points};
 use mpm_tensor::Matrix;
 use parvi_metrics::{Cloud, EnergyReference, GaussianEnergy, MetricError};
 
@@ -40,14 +40,8 @@ fn one_particle_at_the_mean() {
 
 fn independent_draws<const D: usize>(particles: usize, repetitions: u64) {
     let energy = GaussianEnergy::<D>::standard().unwrap();
-    let mean = (0..repetitions)
-        .map(|seed| {
-            energy
-                .squared(&Cloud::new(&normal_points::<D>(particles, 1000 + seed)).unwrap())
-                .unwrap()
-        })
-        .sum::<f64>()
-        / repetitions as f64;
+    let seeds = 1000..1000 + repetitions;
+    let mean = mean_over_draws(particles, seeds, |cloud| energy.squared(cloud).unwrap());
     let ratio = mean / (energy.mean_distance() / particles as f64);
     assert!((ratio - 1.0).abs() < 0.12, "d = {D}: {ratio}");
 }

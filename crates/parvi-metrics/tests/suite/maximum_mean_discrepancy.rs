@@ -1,6 +1,6 @@
 //! The maximum mean discrepancy against double sums, sampled references and its i.i.d. level.
 
-use crate::common::{double_sum, normal_points, squared_distance, uniform_weights};
+use crate::common::{double_sum, mean_over_draws, normal_points, squared_distance, uniform_weights};
 use mpm_tensor::Matrix;
 use parvi_metrics::{
     Cloud, DiscrepancyReference, GaussianDiscrepancy, MetricError, RadialKernel, maximum_mean_discrepancy_squared,
@@ -70,16 +70,8 @@ fn exact_and_sampled_references_agree() {
 fn independent_draws_have_the_expected_level() {
     let kernel = RadialKernel::new(1.2).unwrap();
     let exact = GaussianDiscrepancy::<2>::new([0.0; 2], &Matrix::diagonal(&[1.0; 2]), kernel).unwrap();
-    let (m, repetitions) = (50, 500);
-    let mean = (0..repetitions)
-        .map(|seed| {
-            exact
-                .squared(&Cloud::new(&normal_points::<2>(m, 10 + seed)).unwrap())
-                .unwrap()
-        })
-        .sum::<f64>()
-        / repetitions as f64;
-    let ratio = mean / ((1.0 - exact.mean_kernel()) / m as f64);
+    let mean = mean_over_draws(50, 10..510, |cloud| exact.squared(cloud).unwrap());
+    let ratio = mean / ((1.0 - exact.mean_kernel()) / 50.0);
     assert!((ratio - 1.0).abs() < 0.1, "{ratio}");
 }
 

@@ -1,5 +1,6 @@
 //! A line of results: cells by the names of their columns.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use super::Value;
@@ -8,7 +9,7 @@ use crate::page::Cell;
 /// What one case gave, by the names of the columns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Row {
-    cells: BTreeMap<&'static str, Value>,
+    cells: BTreeMap<Cow<'static, str>, Value>,
 }
 
 impl Row {
@@ -18,14 +19,14 @@ impl Row {
     }
 
     /// The same with one cell more.
-    pub fn with(mut self, column: &'static str, value: impl Into<Value>) -> Self {
+    pub fn with(mut self, column: impl Into<Cow<'static, str>>, value: impl Into<Value>) -> Self {
         self.set(column, value);
         self
     }
 
     /// Fills a cell.
-    pub fn set(&mut self, column: &'static str, value: impl Into<Value>) {
-        self.cells.insert(column, value.into());
+    pub fn set(&mut self, column: impl Into<Cow<'static, str>>, value: impl Into<Value>) {
+        self.cells.insert(column.into(), value.into());
     }
 
     /// The name of the case.

@@ -108,6 +108,12 @@ impl<'a> Rows<'a> {
         quantiles.ok()?.first().copied()
     }
 
+    /// The mean of a column over the rows that have it; not a number without any.
+    pub fn mean(&self, column: &str) -> f64 {
+        let values = self.values(column);
+        values.iter().sum::<f64>() / values.len() as f64
+    }
+
     /// The least value of a column.
     pub fn least(&self, column: &str) -> Option<f64> {
         self.values(column).into_iter().reduce(f64::min)

@@ -33,9 +33,9 @@ pub struct Parameters {
 }
 
 impl Parameters {
-    /// The names and values of the parameters that are set, in the names of the command line.
-    pub fn given(&self) -> Vec<(&'static str, String)> {
-        let numbers = [
+    /// The parameters that are numbers, by the names of the command line.
+    pub(crate) fn numbers(&self) -> [(&'static str, Option<f64>); 7] {
+        [
             ("correlation", self.correlation),
             ("curvature", self.curvature),
             ("width", self.width),
@@ -43,15 +43,16 @@ impl Parameters {
             ("radius", self.radius),
             ("degrees-of-freedom", self.degrees_of_freedom),
             ("prior-sd", self.prior_standard_deviation),
-        ];
+        ]
+    }
+
+    /// The names and values of the parameters that are set, in the names of the command line.
+    pub fn given(&self) -> Vec<(&'static str, String)> {
+        let numbers = self.numbers().into_iter();
+        let numbers = numbers.filter_map(|(name, value)| Some((name, value?.to_string())));
         let seed = self.target_seed.map(|seed| ("target-seed", seed.to_string()));
         let data = self.data.as_ref().map(|path| ("data", path.display().to_string()));
-        numbers
-            .into_iter()
-            .filter_map(|(name, value)| value.map(|value| (name, value.to_string())))
-            .chain(seed)
-            .chain(data)
-            .collect()
+        numbers.chain(seed).chain(data).collect()
     }
 }
 
@@ -133,21 +134,17 @@ impl TargetInfo {
     /// The error for the first given parameter that this target does not have, or for a missing one that it needs.
     pub(crate) fn check(&self, parameters: &Parameters) -> Result<(), TargetError> {
         let given = parameters.given();
-        for (parameter, value) in &given {
-            if self.parameters.iter().all(|known| known.name != *parameter) {
-                let names: Vec<&str> = self.parameters.iter().map(|known| known.name).collect();
-                let allowed = if names.is_empty() {
-                    "it has none".to_owned()
-                } else {
-                    format!("it has {}", names.join(", "))
-                };
-                return Err(TargetError::ParameterNotAllowed {
-                    target: self.name.to_owned(),
-                    parameter,
-                    value: value.clone(),
-                    allowed,
-                });
-            }
+        let names: Vec<&str> = self.parameters.iter().map(|known| known.name).collect();
+        if let Some((parameter, value)) = given.iter().find(|(parameter, _)| !names.contains(parameter)) {
+            return Err(TargetError::ParameterNotAllowed {
+                target: self.name.to_owned(),
+                parameter,
+                value: value.clone(),
+                allowed: match names[..] {
+                    [] => "it has none".to_owned(),
+                    _ => format!("it has {}", names.join(", ")),
+                },
+            });
         }
         for known in self.parameters.iter().filter(|known| known.default.is_none()) {
             if given.iter().all(|(parameter, _)| *parameter != known.name) {

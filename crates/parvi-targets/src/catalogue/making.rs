@@ -3,31 +3,53 @@
 use std::any::Any;
 use std::path::Path;
 
-use super::info::Parameters;
-use crate::regression::DEFAULT_PRIOR_STANDARD_DEVIATION;
+use super::info::{Parameters, TargetInfo};
 use crate::{BoxedTarget, CatalogueTarget, Link, Regression, RegressionTable, Response, TargetError};
 
-/// The data of the file that is given, or else the target's own.
-pub(crate) fn file_or<Y: Response>(
-    parameters: &Parameters,
-    own: impl FnOnce() -> Result<RegressionTable<Y>, TargetError>,
-) -> Result<RegressionTable<Y>, TargetError> {
-    match &parameters.data {
-        Some(path) => RegressionTable::from_csv_file(path),
-        None => own(),
-    }
+/// The values of a target's parameters: those that are given, and the defaults of its entry.
+pub(crate) struct Values<'a> {
+    /// What is known of the target.
+    pub info: &'static TargetInfo,
+    /// What is given.
+    pub parameters: &'a Parameters,
 }
 
-/// A regression with the prior that is given.
-pub(crate) fn regression<L: Link, const D: usize>(
-    name: &str,
-    data: RegressionTable<L::Response>,
-    parameters: &Parameters,
-) -> Result<BoxedTarget<D>, TargetError> {
-    let prior = parameters
-        .prior_standard_deviation
-        .unwrap_or(DEFAULT_PRIOR_STANDARD_DEVIATION);
-    Ok(Box::new(Regression::<L, D>::with_prior(name, data, prior)?))
+impl Values<'_> {
+    /// A parameter that is a number; not a number for one that the target does not have.
+    pub fn number(&self, name: &str) -> f64 {
+        let given = self.parameters.numbers().into_iter().find(|(known, _)| *known == name);
+        let default = || self.info.parameters.iter().find(|known| known.name == name)?.default;
+        let given = given.and_then(|(_, value)| value);
+        given.unwrap_or_else(|| default().and_then(|value| value.parse().ok()).unwrap_or(f64::NAN))
+    }
+
+    /// The data of the file that is given, or else the target's own.
+    pub fn file_or<Y: Response>(
+        &self,
+        own: impl FnOnce() -> Result<RegressionTable<Y>, TargetError>,
+    ) -> Result<RegressionTable<Y>, TargetError> {
+        match &self.parameters.data {
+            Some(path) => RegressionTable::from_csv_file(path),
+            None => own(),
+        }
+    }
+
+    /// The data file, which the target needs.
+    pub fn data_path(&self) -> Result<&Path, TargetError> {
+        data_path(self.info.name, self.parameters)
+    }
+
+    /// A regression on data, with the prior that is given.
+    pub fn regression<L: Link, const D: usize>(
+        &self,
+        data: RegressionTable<L::Response>,
+    ) -> Result<BoxedTarget<D>, TargetError> {
+        boxed(Regression::<L, D>::with_prior(
+            self.info.name,
+            data,
+            self.number("prior-sd"),
+        ))
+    }
 }
 
 /// A target as one of the catalogue.

@@ -6,6 +6,7 @@ mod csv_data;
 mod info;
 mod making;
 mod nested;
+mod numbers;
 mod posteriordb;
 mod random;
 mod sbibm;

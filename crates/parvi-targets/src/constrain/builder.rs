@@ -11,7 +11,7 @@ use super::numbers::inner;
 use super::ordered::Ordered;
 use super::simplex::Simplex;
 use super::transform::Transform;
-use crate::error::finite;
+use crate::error::{finite, within};
 use crate::{Constraints, TargetError};
 
 /// Names the blocks of constrained coordinates from the first to the last; [`build`](Self::build) checks that they fill N
@@ -129,11 +129,9 @@ impl<const N: usize, const D: usize> ConstraintsBuilder<N, D> {
     /// Adds a block whose size is between `minimum` and what fits: no block of K has fewer than K − 1 coordinates.
     fn sized(mut self, name: &str, size: usize, minimum: usize, transform: impl Transform + 'static) -> Self {
         if size < minimum {
-            self.record(Err(TargetError::OutOfRange {
-                field: format!("the size of a {name} block"),
-                value: size as f64,
-                allowed: if minimum == 1 { "at least 1" } else { "at least 2" },
-            }));
+            let allowed = if minimum == 1 { "at least 1" } else { "at least 2" };
+            let refused = within(&format!("the size of a {name} block"), size as f64, false, allowed);
+            self.record(refused.map(drop));
         } else if size > N.saturating_add(1) {
             self.record(Err(TargetError::Length {
                 field: format!("a {name} block"),
@@ -157,13 +155,8 @@ fn check_interval(lower: f64, upper: f64) -> Result<(), TargetError> {
     finite("the lower bound of a bounded block", lower)?;
     finite("the upper bound of a bounded block", upper)?;
     let [low, high] = inner(lower, upper);
-    if low >= high {
-        return Err(TargetError::OutOfRange {
-            field: "the upper bound of a bounded block".to_owned(),
-            value: upper,
-            allowed: "a number above the lower bound, with others between them",
-        });
-    }
+    let allowed = "a number above the lower bound, with others between them";
+    within("the upper bound of a bounded block", upper, low < high, allowed)?;
     finite("the distance between the bounds of a bounded block", upper - lower)?;
     Ok(())
 }

@@ -31,7 +31,8 @@ fn eggbox_has_the_published_evidence() {
     let stated = eggbox.log_evidence().unwrap();
     // Feroz, Hobson & Bridges 2009 give 235.88 from a grid.
     assert!((stated - 235.88).abs() < 0.03);
-    let found = log_integral(&eggbox, [[-25.0, 25.0]; 2], 4000);
+    // Beyond 20 there is no more than e⁻²⁰ of the prior times the height of a mode at each of the four sides.
+    let found = log_integral(&eggbox, [[-20.0, 20.0]; 2], 3200);
     assert!((found - stated).abs() < 1e-6, "{found}");
 }
 
@@ -101,7 +102,7 @@ fn shells_have_the_published_evidence() {
     assert!((stated::<2>() + 1.75).abs() < 5e-3);
     assert!((stated::<5>() + 5.67).abs() < 5e-3);
     assert!((stated::<10>() + 14.59).abs() < 5e-3);
-    let found = log_integral(&GaussianShells::<2>::new().unwrap(), [[-6.5, 6.5]; 2], 3000);
+    let found = log_integral(&GaussianShells::<2>::new().unwrap(), [[-6.5, 6.5]; 2], 1000);
     assert!((found - stated::<2>()).abs() < 1e-9, "{found}");
 }
 
@@ -138,7 +139,7 @@ fn log_gamma_has_the_published_evidence() {
     let target = LogGamma::<2>::new().unwrap();
     let stated = target.log_evidence().unwrap();
     assert!((stated + 2.27e-5).abs() < 1e-6, "{stated}");
-    let found = log_integral(&target, [[-30.0, 10.0], [-6.0, 6.0]], 4000);
+    let found = log_integral(&target, [[-30.0, 10.0], [-6.0, 6.0]], 1000);
     assert!((found - stated).abs() < 1e-7, "{found} for {stated}");
     assert!(LogGamma::<10>::new().unwrap().log_evidence().unwrap().abs() < 1e-4);
 }
@@ -198,7 +199,12 @@ fn catalogue_states_evidence() {
         let sides = target
             .domain()
             .map(|[low, high]| [low - 0.5 * (high - low), high + 0.5 * (high - low)]);
-        let found = log_integral(&*target, sides, 2000);
+        // The midpoint rule has all digits of what is smooth where two points lie within a standard deviation.
+        let count = match info.name {
+            "eggbox" | "funnel" | "spike-slab" => 2000,
+            _ => 800,
+        };
+        let found = log_integral(&*target, sides, count);
         let tolerance = match info.name {
             // Heavy tails beyond the box.
             "student-t" | "funnel" => 5e-3,

@@ -206,30 +206,26 @@ fn evidence_by_kernels<const D: usize>(target: &RandomTarget<D>) -> (f64, f64, f
     let frame = whitening(&centres);
     let centres: Vec<[f64; D]> = centres.iter().map(|x| frame.to_reference(x)).collect();
     let square = |a: &[f64; D], b: &[f64; D]| (0..D).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>();
-    let widths: Vec<f64> = centres
-        .iter()
-        .map(|centre| {
-            let mut squares: Vec<f64> = centres.iter().map(|other| square(centre, other)).collect();
-            squares.sort_by(f64::total_cmp);
-            squares[neighbour].sqrt()
-        })
-        .collect();
+    let width = |centre: &[f64; D]| {
+        let mut squares: Vec<f64> = centres.iter().map(|other| square(centre, other)).collect();
+        squares.select_nth_unstable_by(neighbour, f64::total_cmp).1.sqrt()
+    };
+    let widths: Vec<f64> = centres.iter().map(width).collect();
     let kernel = StudentT::<D>::new(3.0).unwrap();
+    // Of a kernel of width w: 1/(3w²), and the density at its centre over the number of kernels.
+    let peak = |width: &f64| (kernel.log_density(&[0.0; D]) - D as f64 * width.ln()).exp() / kernels as f64;
+    let shapes: Vec<(f64, f64)> = widths.iter().map(|w| ((3.0 * w * w).recip(), peak(w))).collect();
     let mut rng = ChaCha8Rng::seed_from_u64(22);
     let (weights, zs): (Vec<f64>, Vec<[f64; D]>) = (0..samples)
         .map(|index| {
             let k = index % kernels;
             let offset = kernel.draw(&mut rng);
             let z: [f64; D] = std::array::from_fn(|axis| centres[k][axis] + widths[k] * offset[axis]);
-            let proposal: f64 = centres
-                .iter()
-                .zip(&widths)
-                .map(|(centre, width)| {
-                    let scaled = std::array::from_fn(|axis| (z[axis] - centre[axis]) / width);
-                    (kernel.log_density(&scaled) - D as f64 * width.ln()).exp()
-                })
-                .sum::<f64>()
-                / kernels as f64;
+            let of_kernel = |(centre, (inverse, peak)): (&[f64; D], &(f64, f64))| {
+                let base = 1.0 + square(&z, centre) * inverse;
+                peak / base.powi(3 + D as i32).sqrt()
+            };
+            let proposal: f64 = centres.iter().zip(&shapes).map(of_kernel).sum();
             let log_density = target.log_density(&frame.to_target(&z)) + frame.log_determinant();
             let weight = (log_density - target.log_evidence().unwrap()).exp() / proposal;
             (weight, z)

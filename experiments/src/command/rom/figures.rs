@@ -2,20 +2,26 @@
 
 use std::path::Path;
 
-use mpm_rom::experiment::{Experiment, ReducedRow};
+use mpm_rom::experiment::Experiment;
 use mpm_rom::training::EpochReport;
 
-use super::groups;
+use super::run::groups;
 use crate::CommandError;
 use crate::output::AtomicFile;
+use crate::plots::results::{Row, Rows};
 use crate::plots::{AxisKind, LineSeries, MultiplesPanel, MultiplesPlot, multiples};
 
-/// A number of an epoch or of a run.
-type Value<T> = fn(&T) -> f64;
+/// The column of the position error.
+pub const ERROR: &str = "position_error_percent";
+/// The column of the full-order over the reduced wall time.
+pub const GAIN: &str = "gain";
+
+/// A number of an epoch.
+type Value = fn(&EpochReport) -> f64;
 
 /// The loss and its terms against the epoch.
 pub fn losses(directory: &Path, title: &str, history: &[EpochReport]) -> Result<(), CommandError> {
-    let terms: [(&str, Value<EpochReport>); 4] = [
+    let terms: [(&str, Value); 4] = [
         ("loss", |report| report.terms.total()),
         ("position", |report| report.terms.position),
         ("gradient", |report| report.terms.gradient),
@@ -33,52 +39,68 @@ pub fn losses(directory: &Path, title: &str, history: &[EpochReport]) -> Result<
 /// Test cases whose coordinates are drawn, at most.
 const DRAWN: usize = 6;
 
-/// x̂ against time, a panel for each coordinate: the first test cases, run in the way that comes first.
-pub fn coordinates(directory: &Path, experiment: &Experiment, rows: &[ReducedRow]) -> Result<(), CommandError> {
+/// x̂ against time, a panel for each coordinate: the first test cases, run in the way that comes first. The frames have the places of their runs among the rows.
+pub fn coordinates(
+    directory: &Path,
+    experiment: &Experiment,
+    rows: &Rows<'_>,
+    frames: &Rows<'_>,
+) -> Result<(), CommandError> {
     let groups = groups(rows);
-    let Some(first) = groups.first() else { return Ok(()) };
-    let shown = &first[..first.len().min(DRAWN)];
-    let count = shown[0].frames.first().map_or(0, |frame| frame.latent.len());
-    let panel = |coordinate: usize| {
-        let line = |row: &&ReducedRow| {
-            let named = experiment.parameters.iter().zip(&row.parameters);
-            let values: Vec<String> = named.map(|(name, value)| format!("{name} {value}")).collect();
-            let frames = row.frames.iter();
-            let points = frames.map(|frame| (frame.time, frame.latent[coordinate]));
-            LineSeries::through(values.join(", "), points)
-        };
-        MultiplesPanel::over(format!("x̂{}", coordinate + 1), AxisKind::Linear, shown.iter().map(line))
+    let Some((first, group)) = groups.first().and_then(|group| Some((group.first()?, group))) else {
+        return Ok(());
     };
-    let title = format!("{}: coordinates, {} sample points", experiment.title, shown[0].samples);
-    let plot = MultiplesPlot::traces(title, "time (s)", (0..count).map(panel));
+    let run_of = |row: &Row| rows.iter().position(|other| std::ptr::eq(other, row));
+    let shown: Vec<(&Row, Rows<'_>)> = group
+        .iter()
+        .take(DRAWN)
+        .map(|row| (row, frames.with("run", run_of(row))))
+        .collect();
+    let names = (1..).map(|k| format!("x{k}"));
+    let known = names.take_while(|name| shown[0].1.iter().any(|frame| frame.number(name).is_some()));
+    let panel = |name: String| {
+        let line = |(row, frames): &(&Row, Rows<'_>)| {
+            let parameters = experiment.parameters.iter();
+            let values: Vec<String> = parameters.map(|name| format!("{name} {}", row.value(name))).collect();
+            frames.line(values.join(", "), "time", &name)
+        };
+        let label = name.replace('x', "x̂");
+        MultiplesPanel::over(label, AxisKind::Linear, shown.iter().map(line))
+    };
+    let title = format!(
+        "{}: coordinates, {} sample points",
+        experiment.title,
+        first.value("samples")
+    );
+    let plot = MultiplesPlot::traces(title, "time (s)", known.map(panel));
     AtomicFile::write(directory.join("coordinates.svg"), multiples(&plot)?)
 }
 
 /// What lines may differ in, besides the choice of their points.
-const PARTS: [fn(&ReducedRow) -> String; 4] = [
-    |row| match row.variant.as_str() {
-        "" => row.manifold.to_owned(),
-        variant => variant.to_owned(),
-    },
-    |row| row.quadrature.to_owned(),
-    |row| row.update.to_owned(),
-    |row| format!("Δt × {}", row.step_factor),
-];
+fn parts(row: &Row) -> [String; 4] {
+    let network = [row.text("variant"), row.text("manifold")]
+        .into_iter()
+        .find(|name| !name.is_empty());
+    [
+        network.unwrap_or_default().to_owned(),
+        row.text("quadrature").to_owned(),
+        row.text("update").to_owned(),
+        format!("Δt × {}", row.value("step_factor")),
+    ]
+}
 
 /// Position error and wall time against the number of sample points.
-pub fn errors(directory: &Path, title: &str, rows: &[ReducedRow]) -> Result<(), CommandError> {
-    let figures: [(&str, &str, Value<ReducedRow>); 2] = [
-        ("errors.svg", "position error (%)", |row| row.error),
-        ("speed_up.svg", "full-order over reduced wall time", |row| {
-            row.full_seconds / row.seconds
-        }),
+pub fn errors(directory: &Path, title: &str, rows: &Rows<'_>) -> Result<(), CommandError> {
+    let figures = [
+        ("errors.svg", "position error (%)", ERROR),
+        ("speed_up.svg", "full-order over reduced wall time", GAIN),
     ];
-    for (file, y_label, value) in figures {
+    for (file, y_label, column) in figures {
         let x_label = "sample points (mean and range over the test cases)";
         let plot = MultiplesPlot {
             title: title.to_owned(),
             y_axis: AxisKind::Automatic,
-            panels: vec![MultiplesPanel::new("", series(rows, value))],
+            panels: vec![MultiplesPanel::new("", series(rows, column))],
             ..MultiplesPlot::logarithmic(x_label, y_label)
         };
         AtomicFile::write(directory.join(file), multiples(&plot)?)?;
@@ -87,27 +109,27 @@ pub fn errors(directory: &Path, title: &str, rows: &[ReducedRow]) -> Result<(), 
 }
 
 /// A line for all runs that differ in nothing but the number of their points. All points are a choice of their own, and belong to the line of every choice.
-fn series(rows: &[ReducedRow], value: Value<ReducedRow>) -> Vec<LineSeries> {
+fn series(rows: &Rows<'_>, column: &str) -> Vec<LineSeries> {
     // What all lines share is not in their labels.
-    let told: Vec<_> = PARTS
-        .into_iter()
-        .filter(|part| rows.iter().any(|row| part(row) != part(&rows[0])))
-        .collect();
-    let way = |row: &ReducedRow| told.iter().map(|part| part(row)).collect::<Vec<_>>();
-    let (all, drawn): (Vec<_>, Vec<_>) = groups(rows).into_iter().partition(|group| group[0].chosen == "all");
-    let several_choices = drawn.iter().any(|group| group[0].chosen != drawn[0][0].chosen);
+    let all_parts: Vec<[String; 4]> = rows.iter().map(parts).collect();
+    let is_told = |part: &usize| all_parts.iter().any(|parts| parts[*part] != all_parts[0][*part]);
+    let told: Vec<usize> = (0..4).filter(is_told).collect();
+    let way = |row: &Row| told.iter().map(|&part| parts(row)[part].clone()).collect::<Vec<_>>();
+    let groups = groups(rows).into_iter();
+    let groups = groups.filter_map(|group| Some((way(group.first()?), group.first()?.text("choice"), group)));
+    let (all, drawn): (Vec<_>, Vec<_>) = groups.partition(|(_, choice, _)| *choice == "all");
+    let several_choices = drawn.iter().any(|(_, choice, _)| *choice != drawn[0].1);
     let mut lines: Vec<(Vec<String>, &str, LineSeries)> = Vec::new();
-    for group in drawn.into_iter().chain(all) {
-        let (way, chosen) = (way(group[0]), group[0].chosen);
+    for (way, chosen, group) in drawn.into_iter().chain(all) {
         let is_of = |line: &(Vec<String>, &str, LineSeries)| line.0 == way && [line.1, "all"].contains(&chosen);
         if !lines.iter().any(is_of) {
             let choice = (several_choices && chosen != "all").then_some(chosen);
-            let label = way.iter().map(String::as_str).chain(choice).collect::<Vec<_>>();
+            let label: Vec<&str> = way.iter().map(String::as_str).chain(choice).collect();
             lines.push((way.clone(), chosen, LineSeries::named(label.join(", "))));
         }
-        let values: Vec<f64> = group.iter().map(|row| value(row)).collect();
+        let samples = group.first().and_then(|row| row.number("samples"));
         for (_, _, line) in lines.iter_mut().filter(|line| is_of(line)) {
-            line.push_mean(group[0].samples as f64, &values);
+            line.push_mean(samples.unwrap_or(f64::NAN), &group.values(column));
         }
     }
     lines.into_iter().map(|(_, _, line)| line).collect()
@@ -115,44 +137,16 @@ fn series(rows: &[ReducedRow], value: Value<ReducedRow>) -> Vec<LineSeries> {
 
 #[cfg(test)]
 mod tests {
-    use mpm_rom::experiment::{All, SampleCount};
-
     use super::*;
 
-    fn row(quadrature: &'static str, chosen: &'static str, samples: usize, error: f64) -> ReducedRow {
-        ReducedRow {
-            case: 0,
-            parameters: vec![1.0],
-            manifold: "network",
-            variant: String::new(),
-            samples,
-            asked: match chosen {
-                "all" => SampleCount::All(All::All),
-                _ => SampleCount::Drawn(samples),
-            },
-            chosen,
-            quadrature,
-            update: "position-velocity",
-            step_factor: 1,
-            error,
-            reconstruction_error: None,
-            super_resolved: None,
-            latent_return: 0.0,
-            simulated: 1.0,
-            steps: 10,
-            seconds: 1.0,
-            full_seconds: 1.0,
-            nodes: 8,
-            quadrature_points: 20,
-            refreshes: 0,
-            limited: 0,
-            outcome: "finished".to_owned(),
-            frames: Vec::new(),
-        }
+    fn row(quadrature: &str, choice: &str, samples: usize, error: f64) -> Row {
+        let row = Row::of("0").with("manifold", "network").with("quadrature", quadrature);
+        let row = row.with("choice", choice).with("samples", samples);
+        row.with("update", "position-velocity").with(ERROR, error)
     }
 
-    fn lines(rows: &[ReducedRow]) -> Vec<(String, Vec<f64>, Vec<f64>)> {
-        let lines = series(rows, |row| row.error).into_iter();
+    fn lines(rows: &[Row]) -> Vec<(String, Vec<f64>, Vec<f64>)> {
+        let lines = series(&rows.iter().collect(), ERROR).into_iter();
         lines.map(|line| (line.label, line.x, line.y)).collect()
     }
 

@@ -8,7 +8,7 @@ mod train;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
-use mpm_rom::experiment::{Experiment, ExperimentError, ReducedRow, names, read_results};
+use mpm_rom::experiment::{Experiment, ExperimentError, names};
 
 use super::file_kind::FileKind;
 use crate::{CommandError, interrupt};
@@ -66,20 +66,5 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
 
 /// Figures and means of the reduced runs of a directory again.
 pub fn report(directory: &Path) -> Result<(), CommandError> {
-    let experiment = Experiment::read(&directory.join(names::CONFIG))?;
-    let rows = read_results(&experiment, directory)?;
-    run::report(&experiment, directory, &rows)
-}
-
-/// Rows of runs that were made in the same way, in the order in which these come first.
-fn groups(rows: &[ReducedRow]) -> Vec<Vec<&ReducedRow>> {
-    let mut groups: Vec<Vec<&ReducedRow>> = Vec::new();
-    for row in rows {
-        let same = |group: &&mut Vec<&ReducedRow>| group[0].way() == row.way();
-        match groups.iter_mut().find(same) {
-            Some(group) => group.push(row),
-            None => groups.push(vec![row]),
-        }
-    }
-    groups
+    run::report(&Experiment::read(&directory.join(names::CONFIG))?, directory)
 }

@@ -2,10 +2,12 @@
 
 use std::path::Path;
 
-use mpm_rom::experiment::{Experiment, ReducedRow, SuperResolved, run_experiment};
+use mpm_rom::experiment::{Experiment, names, run_experiment};
 
-use super::{figures, groups};
+use super::figures;
+use crate::plots::results::{Row, Rows, Value};
 use crate::progress::Bar;
+use crate::study::row_file;
 use crate::{CommandError, console, interrupt};
 
 /// Reduced runs of all test cases, their table and figures.
@@ -16,66 +18,69 @@ pub fn execute(experiment: &Experiment, directory: &Path) -> Result<(), CommandE
         !interrupt::requested()
     });
     progress.clear();
-    report(experiment, directory, &result?)
+    result?;
+    report(experiment, directory)
 }
 
-/// Figures and means of reduced runs.
-pub fn report(experiment: &Experiment, directory: &Path, rows: &[ReducedRow]) -> Result<(), CommandError> {
-    figures::errors(directory, &experiment.title, rows)?;
-    figures::coordinates(directory, experiment, rows)?;
-    for row in rows.iter().filter(|row| row.outcome != "finished") {
-        console::notice(&format!(
-            "case {}, {}{}, {} samples ({}), {}, {}, steps of {}: {}",
-            row.case,
-            row.manifold,
-            variant(row),
-            row.samples,
-            row.chosen,
-            row.quadrature,
-            row.update,
-            row.step_factor,
-            row.outcome
-        ));
+/// Figures and means of the reduced runs in the tables of a directory.
+pub fn report(experiment: &Experiment, directory: &Path) -> Result<(), CommandError> {
+    let mut rows = row_file::read_all(&directory.join(names::RESULTS))?;
+    for row in &mut rows {
+        let gain = row.number("full_seconds").zip(row.number("seconds"));
+        row.set(figures::GAIN, gain.map(|(full, reduced)| full / reduced));
     }
-    let mut text = String::new();
-    for group in groups(rows) {
-        let mean = |value: fn(&ReducedRow) -> f64| group.iter().map(|row| value(row)).sum::<f64>() / group.len() as f64;
-        let largest = group.iter().map(|row| row.error).fold(0.0, f64::max);
+    let frames = row_file::read_all(&directory.join(names::FRAMES))?;
+    let rows: Rows<'_> = rows.iter().collect();
+    figures::errors(directory, &experiment.title, &rows)?;
+    figures::coordinates(directory, experiment, &rows, &frames.iter().collect())?;
+    for row in rows.iter().filter(|row| row.text("outcome") != "finished") {
+        console::notice(&format!("case {}: {}: {}", row.case(), made(row), row.text("outcome")));
+    }
+    let groups = groups(&rows);
+    let lines: Vec<String> = groups
+        .iter()
+        .filter_map(|here| Some(line(here.first()?, here)))
+        .collect();
+    console::print(&lines.concat())
+}
+
+/// Rows of runs that were made in the same way, in the order in which these come first.
+pub fn groups<'a>(rows: &Rows<'a>) -> Vec<Rows<'a>> {
+    let way = |row: &Row| {
+        // A cubature may have fewer points than were asked for.
+        let asked = [row.value("asked"), row.value("samples")].map(ToString::to_string);
+        let asked = asked.into_iter().find(|count| !count.is_empty()).unwrap_or_default();
+        let parts = ["manifold", "variant", "choice", "quadrature", "update", "step_factor"];
+        format!("{asked} {}", parts.map(|part| row.value(part).to_string()).join(" "))
+    };
+    rows.by_name(way).into_iter().map(|(_, group)| group).collect()
+}
+
+/// How a run was made, as keys and values.
+fn made(row: &Row) -> String {
+    let columns = "manifold variant samples choice quadrature update step_factor".split(' ');
+    let given = columns.filter(|column| *row.value(column) != Value::Empty);
+    let pairs: Vec<String> = given.map(|column| format!("{column}={}", row.value(column))).collect();
+    pairs.join(" ")
+}
+
+/// The means of the runs that were made as the first one.
+fn line(first: &Row, here: &Rows<'_>) -> String {
+    let mut text = format!(
+        "{} runs={} mean_error_percent={:.4} largest_error_percent={:.4} speed_up={:.2} real_time_factor={:.3}",
+        made(first),
+        here.len(),
+        here.mean(figures::ERROR),
+        here.largest(figures::ERROR).unwrap_or(f64::NAN),
+        here.mean("full_seconds") / here.mean("seconds"),
+        here.mean("simulated_seconds") / here.mean("seconds"),
+    );
+    if first.number("super_resolution_points").is_some() {
         text.push_str(&format!(
-            "manifold={}{} samples={} choice={} quadrature={} update={} step_factor={} runs={} mean_error_percent={:.4} largest_error_percent={largest:.4} speed_up={:.2} real_time_factor={:.3}",
-            group[0].manifold,
-            variant(group[0]),
-            group[0].samples,
-            group[0].chosen,
-            group[0].quadrature,
-            group[0].update,
-            group[0].step_factor,
-            group.len(),
-            mean(|row| row.error),
-            mean(|row| row.full_seconds) / mean(|row| row.seconds),
-            mean(|row| row.simulated) / mean(|row| row.seconds),
+            " super_resolution_mean_error_percent={:.4} tracer_mean_error_percent={:.4}",
+            here.mean("super_resolution_error_percent"),
+            here.mean("tracer_error_percent"),
         ));
-        if group[0].super_resolved.is_some() {
-            let fine = |value: fn(&SuperResolved) -> f64| {
-                let all = group.iter().filter_map(|row| row.super_resolved.as_ref());
-                all.map(value).sum::<f64>() / group.len() as f64
-            };
-            text.push_str(&format!(
-                " super_resolution_mean_error_percent={:.4} tracer_mean_error_percent={:.4}",
-                fine(|fine| fine.error),
-                fine(|fine| fine.tracer_error)
-            ));
-        }
-        text.push('\n');
     }
-    console::print(&text)
-}
-
-/// Which variant of the network it was, with a space before it.
-fn variant(row: &ReducedRow) -> String {
-    if row.variant.is_empty() {
-        String::new()
-    } else {
-        format!(" variant={}", row.variant)
-    }
+    text + "\n"
 }

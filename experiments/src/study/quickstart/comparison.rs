@@ -1,30 +1,16 @@
 //! The posterior's moments beside the reference's.
 
 use super::Bounds;
-use super::reference::ReferenceAxis;
 use crate::output::Particles;
+use crate::plots::results::Row;
 use crate::statistics::SampleMoments;
-
-/// One coordinate.
-#[derive(Clone, Debug, PartialEq)]
-pub struct AxisComparison {
-    /// The reference.
-    pub reference: ReferenceAxis,
-    /// The particles' mean.
-    pub mean: f64,
-    /// The particles' standard deviation.
-    pub standard_deviation: f64,
-    /// (x̄ − E[x]) / sd.
-    pub mean_error: f64,
-    /// sd of the particles / sd of the reference − 1.
-    pub deviation_error: f64,
-}
 
 /// All coordinates, and the largest errors among them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
-    /// One entry per coordinate.
-    pub axes: Vec<AxisComparison>,
+    /// The reference's row of each coordinate, with the particles' `own_mean` and `own_deviation`, `mean_error` = (x̄ − E[x])/sd and
+    /// `deviation_error`, of the standard deviations, relative.
+    pub axes: Vec<Row>,
     /// Of a mean in posterior standard deviations.
     pub mean_error: f64,
     /// Of a standard deviation, relative.
@@ -35,23 +21,25 @@ pub struct Comparison {
 
 impl Comparison {
     /// Compares particles with a reference of the same dimension.
-    pub fn new(particles: &Particles, reference: Vec<ReferenceAxis>) -> Self {
+    pub fn new(particles: &Particles, reference: Vec<Row>) -> Self {
         let points = particles.to_rows();
         let moments = SampleMoments::of(&points, particles.weights());
         let own = moments.mean.iter().copied().zip(moments.standard_deviations());
-        let axis = |(reference, (mean, standard_deviation)): (ReferenceAxis, (f64, f64))| AxisComparison {
-            mean,
-            standard_deviation,
-            mean_error: (mean - reference.mean) / reference.standard_deviation,
-            deviation_error: standard_deviation / reference.standard_deviation - 1.0,
-            reference,
+        let number = |row: &Row, column: &str| row.number(column).unwrap_or(f64::NAN);
+        let axis = |(row, (mean, deviation)): (Row, (f64, f64))| {
+            let [known, spread] = ["mean", "standard_deviation"].map(|column| number(&row, column));
+            row.with("own_mean", mean)
+                .with("own_deviation", deviation)
+                .with("mean_error", (mean - known) / spread)
+                .with("deviation_error", deviation / spread - 1.0)
         };
-        let axes: Vec<AxisComparison> = reference.into_iter().zip(own).map(axis).collect();
-        let largest = |error: fn(&AxisComparison) -> f64| axes.iter().map(error).fold(0.0, f64::max);
+        let axes: Vec<Row> = reference.into_iter().zip(own).map(axis).collect();
+        let largest = |error: &dyn Fn(&Row) -> f64| axes.iter().map(error).fold(0.0, f64::max);
+        let relative = |row: &Row| number(row, "mean_standard_error") / number(row, "standard_deviation");
         Self {
-            mean_error: largest(|axis| axis.mean_error.abs()),
-            deviation_error: largest(|axis| axis.deviation_error.abs()),
-            reference_error: largest(|axis| axis.reference.mean_standard_error / axis.reference.standard_deviation),
+            mean_error: largest(&|row| number(row, "mean_error").abs()),
+            deviation_error: largest(&|row| number(row, "deviation_error").abs()),
+            reference_error: largest(&relative),
             axes,
         }
     }
@@ -72,13 +60,8 @@ mod tests {
 
     #[test]
     fn errors_are_in_units_of_the_reference() {
-        let reference = ReferenceAxis {
-            name: "x1".to_owned(),
-            mean: 1.0,
-            mean_standard_error: 0.002,
-            standard_deviation: 2.0,
-            standard_deviation_standard_error: 0.001,
-        };
+        let reference = Row::default().with("mean", 1.0).with("mean_standard_error", 0.002);
+        let reference = reference.with("standard_deviation", 2.0);
         let particles = Particles::new(&[[-0.9], [3.1]], None);
         let comparison = Comparison::new(&particles, vec![reference]);
         assert!((comparison.mean_error - 0.05).abs() < 1e-12);

@@ -10,6 +10,7 @@ use std::path::PathBuf;
 use reference::Reference;
 
 use super::prelude::*;
+use super::row_file;
 use crate::dispatch::on_target;
 use crate::output::{ParticleFile, table_file};
 
@@ -152,7 +153,11 @@ impl Quickstart {
         let (seconds, reference) =
             timed(|| on_target!(target, target, D => Reference::of::<D>(target.as_ref(), &names, &self.reference)));
         let reference = reference?;
-        table_file::write(&reference.axes, &Piece::Reference.file(directory, "moments"))?;
+        row_file::write(
+            &Piece::Reference.file(directory, "moments"),
+            reference::COLUMNS,
+            &reference.axes,
+        )?;
         ParticleFile::create(Piece::Reference.file(directory, "particles"))?.write(&reference.draws, &[])?;
         row.set("effective_sample_size", reference.effective_sample_size);
         row.set("wall_seconds", seconds);

@@ -1,31 +1,19 @@
 //! The posterior's reference moments and draws.
 
 use parvi_targets::{CatalogueTarget, ImportanceSample, ReferenceOptions};
-use serde::{Deserialize, Serialize};
 
 use super::ReferencePart;
 use crate::CommandError;
 use crate::output::Particles;
+use crate::plots::results::Row;
 
-/// Reference mean and standard deviation of one coordinate with their standard errors.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ReferenceAxis {
-    /// The coordinate's name.
-    pub name: String,
-    /// E[x].
-    pub mean: f64,
-    /// Standard error of the mean.
-    pub mean_standard_error: f64,
-    /// √Var[x].
-    pub standard_deviation: f64,
-    /// Standard error of the standard deviation.
-    pub standard_deviation_standard_error: f64,
-}
+/// What is kept of a coordinate: its name, E[x] and √Var[x] with their standard errors.
+pub const COLUMNS: &str = "name mean mean_standard_error standard_deviation standard_deviation_standard_error";
 
 /// What importance sampling gave.
 pub struct Reference {
-    /// One entry per coordinate.
-    pub axes: Vec<ReferenceAxis>,
+    /// A row per coordinate.
+    pub axes: Vec<Row>,
     /// Resampled draws of equal weight.
     pub draws: Particles,
     /// (Σ w)² / Σ w².
@@ -47,15 +35,19 @@ impl Reference {
         };
         let sample = ImportanceSample::new(target, &options)?;
         let known = sample.moments();
-        let axes = (0..D)
-            .map(|axis| ReferenceAxis {
-                name: names.get(axis).cloned().unwrap_or_else(|| format!("x{}", axis + 1)),
-                mean: known.moments.mean[axis],
-                mean_standard_error: known.mean_error[axis],
-                standard_deviation: known.moments.covariance.0[axis][axis].sqrt(),
-                standard_deviation_standard_error: known.standard_deviation_error[axis],
-            })
-            .collect();
+        let axis = |axis: usize| {
+            let name = names.get(axis).cloned().unwrap_or_else(|| format!("x{}", axis + 1));
+            Row::default()
+                .with("name", name)
+                .with("mean", known.moments.mean[axis])
+                .with("mean_standard_error", known.mean_error[axis])
+                .with("standard_deviation", known.moments.covariance.0[axis][axis].sqrt())
+                .with(
+                    "standard_deviation_standard_error",
+                    known.standard_deviation_error[axis],
+                )
+        };
+        let axes = (0..D).map(axis).collect();
         let draws = sample.draws().resampled(part.draws.get(), part.seed);
         Ok(Self {
             axes,

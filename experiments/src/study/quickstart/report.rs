@@ -1,9 +1,10 @@
 //! The report of the study `quickstart`.
 
-use super::comparison::{AxisComparison, Comparison};
-use super::{Piece, Quickstart, figures};
-use crate::output::{particles_csv, table_file};
+use super::comparison::Comparison;
+use super::{Piece, Quickstart, figures, reference};
+use crate::output::particles_csv;
 use crate::study::prelude::*;
+use crate::study::row_file;
 
 /// Tables, figures and verdict.
 pub fn report(study: &Quickstart, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
@@ -12,7 +13,7 @@ pub fn report(study: &Quickstart, rows: &Rows<'_>, directory: &StudyDirectory) -
     let particles = |piece: Piece| particles_csv::read(&piece.file(directory, "particles"));
     if finished(Piece::Reference) && finished(Piece::Posterior) {
         let particles = particles(Piece::Posterior)?;
-        let reference = table_file::read(&Piece::Reference.file(directory, "moments"))?;
+        let reference = row_file::read(&Piece::Reference.file(directory, "moments"), reference::COLUMNS)?;
         let comparison = Comparison::new(&particles, reference);
         page = verdict(study, &comparison, rows, page);
         moments_table(&comparison, &mut page);
@@ -68,18 +69,18 @@ fn verdict(study: &Quickstart, comparison: &Comparison, rows: &Rows<'_>, mut pag
 fn moments_table(comparison: &Comparison, page: &mut Page) {
     page.heading("Posterior moments");
     let header = "coefficient | mean | reference mean | ± s.e. | error (sd) | sd | reference sd | ± s.e. | error (%)";
-    let line = |axis: &AxisComparison| {
-        let reference = &axis.reference;
+    let line = |row: &Row| {
+        let number = |column: &str| row.number(column).unwrap_or(f64::NAN);
         vec![
-            reference.name.clone(),
-            format!("{:.5}", axis.mean),
-            format!("{:.5}", reference.mean),
-            format!("{:.1e}", reference.mean_standard_error),
-            format!("{:+.4}", axis.mean_error),
-            format!("{:.5}", axis.standard_deviation),
-            format!("{:.5}", reference.standard_deviation),
-            format!("{:.1e}", reference.standard_deviation_standard_error),
-            format!("{:+.2}", 100.0 * axis.deviation_error),
+            row.text("name").to_owned(),
+            format!("{:.5}", number("own_mean")),
+            format!("{:.5}", number("mean")),
+            format!("{:.1e}", number("mean_standard_error")),
+            format!("{:+.4}", number("mean_error")),
+            format!("{:.5}", number("own_deviation")),
+            format!("{:.5}", number("standard_deviation")),
+            format!("{:.1e}", number("standard_deviation_standard_error")),
+            format!("{:+.2}", 100.0 * number("deviation_error")),
         ]
     };
     page.table(header, comparison.axes.iter().map(line));

@@ -110,33 +110,22 @@ fn check(weights: Weights, number: usize) {
     assert!(close(loss.terms.gradient, expected.gradient, 1e-13));
     assert!(close(loss.terms.velocity, expected.velocity, 1e-13));
     let step = 1e-5;
-    for k in 0..loss.network.len() {
-        let kept = network.parameters()[k];
-        let mut at = |value: f64| {
+    let slope_is = |slope: f64, kept: f64, at: &mut dyn FnMut(f64) -> f64| {
+        let difference = (at(kept + step) - at(kept - step)) / (2.0 * step);
+        at(kept);
+        assert!(close(slope, difference, 1e-7), "{slope} and {difference}");
+    };
+    for (k, &slope) in loss.network.iter().enumerate() {
+        slope_is(slope, network.parameters()[k], &mut |value| {
             network.parameters_mut()[k] = value;
             naive(&network, &encoder, &weights, number, &chosen).total()
-        };
-        let difference = (at(kept + step) - at(kept - step)) / (2.0 * step);
-        at(kept);
-        assert!(
-            close(loss.network[k], difference, 1e-7),
-            "network {k}: {} and {difference}",
-            loss.network[k]
-        );
+        });
     }
-    for k in 0..loss.encoder.len() {
-        let kept = encoder.parameters()[k];
-        let mut at = |value: f64| {
+    for (k, &slope) in loss.encoder.iter().enumerate() {
+        slope_is(slope, encoder.parameters()[k], &mut |value| {
             encoder.parameters_mut()[k] = value;
             naive(&network, &encoder, &weights, number, &chosen).total()
-        };
-        let difference = (at(kept + step) - at(kept - step)) / (2.0 * step);
-        at(kept);
-        assert!(
-            close(loss.encoder[k], difference, 1e-7),
-            "encoder {k}: {} and {difference}",
-            loss.encoder[k]
-        );
+        });
     }
 }
 

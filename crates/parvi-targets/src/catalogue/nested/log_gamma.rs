@@ -1,7 +1,6 @@
 //! The log-gamma problem.
 
-use rand::{Rng, RngExt};
-use rand_distr::Open01;
+use rand::Rng;
 
 use super::log_gamma_part::{BOTH, Part, WIDTH, inside, on_axis};
 use super::logit;
@@ -86,8 +85,7 @@ impl<const D: usize> Target<D> for LogGamma<D> {
 
 impl<const D: usize> ExactDraws<D> for LogGamma<D> {
     fn draw(&self, rng: &mut dyn Rng) -> [f64; D] {
-        let u: Vec<f64> = (0..D + 2).map(|_| rng.sample(Open01)).collect();
-        self.transport(&u)
+        self.drawn(rng)
     }
 }
 

@@ -3,8 +3,7 @@
 use std::f64::consts::{LN_2, PI};
 
 use mpm_tensor::{Matrix, vector};
-use rand::{Rng, RngExt};
-use rand_distr::Open01;
+use rand::Rng;
 use statrs::function::gamma::ln_gamma;
 
 use crate::error::at_least_two;
@@ -128,8 +127,7 @@ impl<const D: usize> Target<D> for GaussianShells<D> {
 
 impl<const D: usize> ExactDraws<D> for GaussianShells<D> {
     fn draw(&self, rng: &mut dyn Rng) -> [f64; D] {
-        let u: Vec<f64> = (0..D + 2).map(|_| rng.sample(Open01)).collect();
-        self.transport(&u)
+        self.drawn(rng)
     }
 }
 

@@ -2,9 +2,9 @@
 
 use mpm_tensor::vector;
 
-use super::data::series;
 use super::model_posterior::{Description, LOGARITHM, ModelPosterior};
 use super::prior::{Prior, centred_normal};
+use crate::catalogue::numbers::series;
 use crate::{Constraints, Target, TargetError};
 
 /// How far from 0 the coefficients of the mean are followed.

@@ -1,8 +1,8 @@
 //! A series whose variance depends on the past.
 
-use super::data::series;
 use super::model_posterior::{Description, FREE, LOGARITHM, ModelPosterior};
 use super::prior::Prior;
+use crate::catalogue::numbers::series;
 use crate::{Constraints, Target, TargetError};
 
 /// The standard deviation that the series begins with.

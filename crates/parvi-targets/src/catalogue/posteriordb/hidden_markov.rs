@@ -2,9 +2,9 @@
 
 use mpm_tensor::vector;
 
-use super::data::series;
 use super::model_posterior::{Description, LOG_ODDS, LOGARITHM, ModelPosterior};
 use super::prior::Prior;
+use crate::catalogue::numbers::series;
 use crate::{Constraints, Target, TargetError};
 
 /// The likelihood of x = (θ₁₁, θ₂₁, μ₁, μ₂) for a series y_1, …, y_n: a Markov chain of two states whose transitions have the

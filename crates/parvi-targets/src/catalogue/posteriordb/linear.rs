@@ -2,9 +2,9 @@
 
 use mpm_tensor::vector;
 
-use super::data::rows;
 use super::model_posterior::{Description, FREE, LOGARITHM, ModelPosterior};
 use super::prior::{Prior, centred_normal};
+use crate::catalogue::numbers::rows;
 use crate::{Constraints, Target, TargetError};
 
 /// The likelihood of x = (β_1, …, β_{N−1}, σ): y_i ~ N(Σ_k β_k x_ik, σ²), independently for i = 1, …, n.

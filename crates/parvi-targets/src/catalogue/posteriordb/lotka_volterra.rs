@@ -1,8 +1,8 @@
 //! Hares and lynxes: a predator–prey model in ordinary differential equations.
 
-use super::data::rows;
 use super::model_posterior::{Description, LOGARITHM, ModelPosterior};
 use super::prior::Prior;
+use crate::catalogue::numbers::rows;
 use crate::{Constraints, Target, TargetError};
 
 /// Runge–Kutta steps per year.

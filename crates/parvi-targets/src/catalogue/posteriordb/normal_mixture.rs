@@ -1,8 +1,8 @@
 //! A mixture of two normal distributions, fitted to data.
 
-use super::data::series;
 use super::model_posterior::{Description, FREE, LOG_ODDS, LOGARITHM, ModelPosterior};
 use super::prior::{Prior, centred_normal};
+use crate::catalogue::numbers::series;
 use crate::special::log_one_plus_exp;
 use crate::{Constraints, Target, TargetError};
 

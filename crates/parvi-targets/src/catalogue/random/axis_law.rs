@@ -2,7 +2,7 @@
 
 use std::f64::consts::LN_2;
 
-use crate::error::{finite, positive};
+use crate::error::{finite, positive, within};
 use crate::special::{HALF_LOG_TWO_PI, normal_quantile};
 use crate::{Target, TargetError, UnitCubeTransport};
 
@@ -28,16 +28,10 @@ impl AxisLaw {
     /// # Errors
     /// [`TargetError::NotFinite`], or [`TargetError::OutOfRange`] unless 10⁻³ ≤ ε ≤ 1 (wider ones are logistic).
     pub fn soft_uniform(edge: f64) -> Result<Self, TargetError> {
-        finite("the width of the edges", edge)?;
-        if (1e-3..=1.0).contains(&edge) {
-            Ok(Self::SoftUniform { edge })
-        } else {
-            Err(TargetError::OutOfRange {
-                field: "the width of the edges".to_owned(),
-                value: edge,
-                allowed: "a number from 0.001 to 1",
-            })
-        }
+        const FIELD: &str = "the width of the edges";
+        finite(FIELD, edge)?;
+        within(FIELD, edge, (1e-3..=1.0).contains(&edge), "a number from 0.001 to 1")?;
+        Ok(Self::SoftUniform { edge })
     }
 
     /// log p(x).

@@ -1,7 +1,6 @@
 //! A target that a seed makes.
 
-use rand::{Rng, RngExt};
-use rand_distr::Open01;
+use rand::Rng;
 
 use super::dice::Dice;
 use super::recipes::{law_of, placed};
@@ -102,7 +101,7 @@ fn wrong_dimension(dimension: usize) -> TargetError {
 /// The frame and the domain of a law, from draws: per axis the scale is a third of the range that holds the middle 90 %, which
 /// heavy tails have too.
 fn outline<const D: usize>(law: &BoxedLaw<D>, dice: &mut Dice) -> Result<(Frame<D>, [[f64; 2]; D]), TargetError> {
-    let draws: Vec<[f64; D]> = (0..DRAWS).map(|_| draw_from(law, dice.generator())).collect();
+    let draws: Vec<[f64; D]> = (0..DRAWS).map(|_| law.drawn(dice.generator())).collect();
     let (mut centre, mut scales, mut domain) = ([0.0; D], [1.0; D], [[0.0; 2]; D]);
     for axis in 0..D {
         let mut values: Vec<f64> = draws.iter().map(|x| x[axis]).collect();
@@ -114,11 +113,6 @@ fn outline<const D: usize>(law: &BoxedLaw<D>, dice: &mut Dice) -> Result<(Frame<
         domain[axis] = [at(0.0) - margin, at(1.0) + margin];
     }
     Ok((Frame::from_scales(centre, scales)?, domain))
-}
-
-fn draw_from<const D: usize>(law: &BoxedLaw<D>, rng: &mut dyn Rng) -> [f64; D] {
-    let u: Vec<f64> = (0..law.cube_dimension()).map(|_| rng.sample(Open01)).collect();
-    law.transport(&u)
 }
 
 impl<const D: usize> Target<D> for RandomTarget<D> {
@@ -141,7 +135,7 @@ impl<const D: usize> Target<D> for RandomTarget<D> {
 
 impl<const D: usize> ExactDraws<D> for RandomTarget<D> {
     fn draw(&self, rng: &mut dyn Rng) -> [f64; D] {
-        draw_from(&self.law, rng)
+        self.law.drawn(rng)
     }
 }
 

@@ -31,8 +31,8 @@ impl<S: Simulator<D>, const D: usize> BoxPosterior<S, D> {
     /// # Errors
     /// Those of the constraints: a half-width that is not finite, or not above 0.
     pub fn new(simulator: S) -> Result<Self, TargetError> {
-        let half_width = simulator.half_width();
-        let constraints = Constraints::builder().bounded(D, -half_width, half_width).build()?;
+        let b = S::HALF_WIDTH;
+        let constraints = Constraints::builder().bounded(D, -b, b).build()?;
         let centres: Result<Vec<_>, _> = simulator
             .centres()
             .iter()
@@ -40,7 +40,7 @@ impl<S: Simulator<D>, const D: usize> BoxPosterior<S, D> {
             .collect();
         let mut posterior = Self {
             modes: equal_modes(&centres?),
-            log_volume: D as f64 * (2.0 * half_width).ln(),
+            log_volume: D as f64 * (2.0 * b).ln(),
             target: constraints.target(simulator),
             frame: Frame::identity(),
         };
@@ -74,8 +74,7 @@ impl<S: Simulator<D>, const D: usize> Target<D> for BoxPosterior<S, D> {
 
 impl<S: Simulator<D>, const D: usize> ExactDraws<D> for BoxPosterior<S, D> {
     fn draw(&self, rng: &mut dyn Rng) -> [f64; D] {
-        let b = self.simulator().half_width();
-        let log_odds = |theta: f64| ((b + theta) / (b - theta)).ln();
+        let log_odds = |theta: f64| ((S::HALF_WIDTH + theta) / (S::HALF_WIDTH - theta)).ln();
         let draw = self.simulator().posterior_draw(rng);
         draw.map(|theta| log_odds(theta).clamp(-LARGEST_LOG_ODDS, LARGEST_LOG_ODDS))
     }

@@ -9,9 +9,6 @@ use crate::gaussian::standard_normal;
 use crate::special::HALF_LOG_TWO_PI;
 use crate::{Target, TargetError};
 
-/// b.
-const HALF_WIDTH: f64 = 10.0;
-
 /// σ_k.
 const SPREADS: [f64; 2] = [1.0, 0.1];
 
@@ -72,12 +69,10 @@ impl Target<2> for NestedNormals {
 }
 
 impl Simulator<2> for NestedNormals {
+    const HALF_WIDTH: f64 = 10.0;
+
     fn name(&self) -> &'static str {
         self.name
-    }
-
-    fn half_width(&self) -> f64 {
-        HALF_WIDTH
     }
 
     /// By rejection of what lies outside of the box.
@@ -86,7 +81,7 @@ impl Simulator<2> for NestedNormals {
             let spread = SPREADS[usize::from(rng.random::<bool>())];
             let [first, second] = standard_normal(rng).map(|z| spread * z);
             let theta = [self.observed[0] + first, self.observed[1] + second];
-            if theta.iter().all(|theta| theta.abs() < HALF_WIDTH) {
+            if theta.iter().all(|theta| theta.abs() < Self::HALF_WIDTH) {
                 return theta;
             }
         }
@@ -94,11 +89,11 @@ impl Simulator<2> for NestedNormals {
 
     fn log_evidence(&self) -> f64 {
         let inside = |x: f64, spread: f64| {
-            let [above, below] =
-                [HALF_WIDTH - x, -HALF_WIDTH - x].map(|z| erf(z * std::f64::consts::FRAC_1_SQRT_2 / spread));
+            let [above, below] = [Self::HALF_WIDTH - x, -Self::HALF_WIDTH - x]
+                .map(|z| erf(z * std::f64::consts::FRAC_1_SQRT_2 / spread));
             0.5 * (above - below)
         };
         let of_part = |spread| 0.5 * self.observed.iter().map(|x| inside(*x, spread)).product::<f64>();
-        (SPREADS.map(of_part).iter().sum::<f64>() / (4.0 * HALF_WIDTH * HALF_WIDTH)).ln()
+        (SPREADS.map(of_part).iter().sum::<f64>() / (4.0 * Self::HALF_WIDTH * Self::HALF_WIDTH)).ln()
     }
 }

@@ -6,12 +6,10 @@ use rand::{Rng, RngExt};
 use super::box_posterior::BoxPosterior;
 use super::inverse_wishart::InverseWishart;
 use super::simulator::{Simulator, numbered};
+use crate::catalogue::numbers::rows;
 use crate::gaussian::standard_normal;
 use crate::special::HALF_LOG_TWO_PI;
 use crate::{Target, TargetError};
-
-/// b.
-const HALF_WIDTH: f64 = 3.0;
 
 /// Points of an observation.
 const COUNT: usize = 4;
@@ -21,9 +19,6 @@ const SMALLEST: f64 = 1e-16;
 
 /// Degrees of freedom of the law of S that posteriors are drawn from.
 const DEGREES_OF_FREEDOM: f64 = 2.5;
-
-/// Name, points and log evidence.
-type Observation = (&'static str, ([[f64; 2]; COUNT], f64));
 
 /// x_i ~ N(m, S) for i = 1, …, 4, m = (θ₁, θ₂), S_11 = s_1², S_22 = s_2², S_12 = ρ s_1 s_2, s_1 = θ₃², s_2 = θ₄², ρ = tanh θ₅, θ in (−3, 3)⁵:
 /// SLCP, after G. Papamakarios, D. C. Sterratt, I. Murray, *Sequential neural likelihood*, AISTATS 2019.
@@ -45,69 +40,17 @@ pub struct SimpleLikelihood {
     covariances: InverseWishart,
 }
 
-/// The benchmark's first five observations. Log evidences have a standard error below 2·10⁻⁴.
-const OBSERVATIONS: [Observation; 5] = [
-    (
-        "sbibm-slcp-1",
-        (
-            [
-                [2.371_878_4, 0.499_474_17],
-                [9.931_435, 1.713_691_2],
-                [-10.436_423, -1.906_779_3],
-                [-1.234_377_7, -0.097_35],
-            ],
-            -20.826_1,
-        ),
-    ),
-    (
-        "sbibm-slcp-2",
-        (
-            [
-                [-0.664_521_04, -2.927_930_8],
-                [-16.491_47, 4.061_07],
-                [4.232_153, -4.652_277],
-                [-4.992_435_5, -1.565_521_6],
-            ],
-            -25.018_7,
-        ),
-    ),
-    (
-        "sbibm-slcp-3",
-        (
-            [
-                [3.502_337_2, 5.254_722],
-                [8.685_451, 9.995_327],
-                [0.407_823_32, -5.711_157_3],
-                [10.605_566, 12.695_774],
-            ],
-            -28.302_3,
-        ),
-    ),
-    (
-        "sbibm-slcp-4",
-        (
-            [
-                [-1.637_144_7, -0.037_302_777],
-                [-1.562_259_7, 0.031_204_943],
-                [-3.683_134, 0.099_536_71],
-                [-1.738_906_9, 0.030_966_3],
-            ],
-            -9.671_4,
-        ),
-    ),
-    (
-        "sbibm-slcp-5",
-        (
-            [
-                [-8.801_672, 8.726_709],
-                [-10.484_016, 6.857_725],
-                [-6.769_688, 7.574_161],
-                [3.804_308, 2.759_361_5],
-            ],
-            -28.186_7,
-        ),
-    ),
+/// The posteriors of the benchmark's first five observations.
+const NAMES: [&str; 5] = [
+    "sbibm-slcp-1",
+    "sbibm-slcp-2",
+    "sbibm-slcp-3",
+    "sbibm-slcp-4",
+    "sbibm-slcp-5",
 ];
+
+/// Per observation its points, one after the other, and the log evidence, whose standard error is below 2·10⁻⁴.
+const OBSERVATIONS: &str = include_str!("../../../data/sbibm/slcp_observations.csv");
 
 impl SimpleLikelihood {
     /// The posterior of one of the benchmark's first five observations.
@@ -115,7 +58,9 @@ impl SimpleLikelihood {
     /// # Errors
     /// [`TargetError::OutOfRange`] for another number.
     pub fn posterior(number: usize) -> Result<BoxPosterior<Self, 5>, TargetError> {
-        let (name, (points, log_evidence)) = numbered(&OBSERVATIONS, number)?;
+        let name = numbered(&NAMES, number)?;
+        let [numbers @ .., log_evidence] = numbered(&rows::<9>("slcp_observations.csv", OBSERVATIONS)?, number)?;
+        let points: [[f64; 2]; COUNT] = std::array::from_fn(|i| [numbers[2 * i], numbers[2 * i + 1]]);
         let sum = points.iter().fold([0.0; 2], |sum, x| vector::add(&sum, x));
         let mean = sum.map(|sum| sum / COUNT as f64);
         let scatter = points.iter().fold(Matrix([[0.0; 2]; 2]), |sum, x| {
@@ -170,12 +115,10 @@ impl Target<5> for SimpleLikelihood {
 }
 
 impl Simulator<5> for SimpleLikelihood {
+    const HALF_WIDTH: f64 = 3.0;
+
     fn name(&self) -> &'static str {
         self.name
-    }
-
-    fn half_width(&self) -> f64 {
-        HALF_WIDTH
     }
 
     fn posterior_draw(&self, rng: &mut dyn Rng) -> [f64; 5] {
@@ -184,7 +127,7 @@ impl Simulator<5> for SimpleLikelihood {
             let [[a, _], [b, c]] = root.0;
             let cosine = a / a.hypot(b);
             let of_scales = [a.hypot(b).sqrt(), c.sqrt(), (b / a).asinh()];
-            let is_inside = |theta: &f64| theta.abs() < HALF_WIDTH;
+            let is_inside = |theta: &f64| theta.abs() < Self::HALF_WIDTH;
             if !of_scales.iter().all(is_inside) || rng.random::<f64>() > cosine.sqrt() {
                 continue;
             }

@@ -6,11 +6,11 @@ use crate::{Mode, Target, TargetError};
 
 /// A simulator of one observation x, as its likelihood p(x | θ), normalised in x, of the parameters θ in the box (−b, b)ᴰ.
 pub trait Simulator<const D: usize>: Target<D> {
+    /// b.
+    const HALF_WIDTH: f64;
+
     /// The posterior's name in the catalogue.
     fn name(&self) -> &'static str;
-
-    /// b.
-    fn half_width(&self) -> f64;
 
     /// A draw from the posterior under the uniform prior on the box.
     fn posterior_draw(&self, rng: &mut dyn Rng) -> [f64; D];

@@ -92,12 +92,10 @@ impl Target<2> for TwoMoons {
 }
 
 impl Simulator<2> for TwoMoons {
+    const HALF_WIDTH: f64 = 1.0;
+
     fn name(&self) -> &'static str {
         self.name
-    }
-
-    fn half_width(&self) -> f64 {
-        1.0
     }
 
     /// The simulator turned round: radius, angle and crescent give θ.

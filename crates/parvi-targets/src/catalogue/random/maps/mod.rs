@@ -13,17 +13,14 @@ pub use skew::Skew;
 pub use twist::Twist;
 
 use crate::TargetError;
+use crate::error::within;
 
 /// `Ok` if all axes are below D and differ from each other.
 fn distinct_axes<const D: usize>(axes: &[usize]) -> Result<(), TargetError> {
     for (place, &axis) in axes.iter().enumerate() {
-        if axis >= D || axes[..place].contains(&axis) {
-            return Err(TargetError::OutOfRange {
-                field: "the axis of a map".to_owned(),
-                value: axis as f64,
-                allowed: "an axis below the dimension that the map has no other use for",
-            });
-        }
+        let is_allowed = axis < D && !axes[..place].contains(&axis);
+        let allowed = "an axis below the dimension that the map has no other use for";
+        within("the axis of a map", axis as f64, is_allowed, allowed)?;
     }
     Ok(())
 }

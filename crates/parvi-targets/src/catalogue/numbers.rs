@@ -3,7 +3,7 @@
 use crate::TargetError;
 
 /// The rows of a CSV file with a header and K columns of numbers.
-pub(super) fn rows<const K: usize>(file: &str, text: &str) -> Result<Vec<[f64; K]>, TargetError> {
+pub(crate) fn rows<const K: usize>(file: &str, text: &str) -> Result<Vec<[f64; K]>, TargetError> {
     let row = |line: &str| {
         let cells: Result<Vec<f64>, _> = line.split(',').map(str::parse).collect();
         <[f64; K]>::try_from(cells.ok()?).ok()
@@ -18,7 +18,7 @@ pub(super) fn rows<const K: usize>(file: &str, text: &str) -> Result<Vec<[f64; K
 }
 
 /// The numbers of a CSV file with a header and one column.
-pub(super) fn series(file: &str, text: &str) -> Result<Vec<f64>, TargetError> {
+pub(crate) fn series(file: &str, text: &str) -> Result<Vec<f64>, TargetError> {
     Ok(rows::<1>(file, text)?.into_iter().map(|[y]| y).collect())
 }
 
