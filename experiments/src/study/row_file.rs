@@ -49,6 +49,7 @@ pub fn read(path: &Path, columns: &str) -> Result<Vec<Row>, CommandError> {
 ///
 /// # Errors
 /// As for [`read`].
+#[cfg(feature = "rom")]
 pub fn read_all(path: &Path) -> Result<Vec<Row>, CommandError> {
     parse_columns(path, &whole_lines(path)?, |_| true)
 }
