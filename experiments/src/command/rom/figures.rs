@@ -5,7 +5,6 @@ use std::path::Path;
 use mpm_rom::experiment::Experiment;
 use mpm_rom::training::EpochReport;
 
-use super::run::groups;
 use crate::CommandError;
 use crate::output::AtomicFile;
 use crate::plots::results::{Row, Rows};
@@ -18,6 +17,18 @@ pub const GAIN: &str = "gain";
 
 /// A number of an epoch.
 type Value = fn(&EpochReport) -> f64;
+
+/// Rows of runs that were made in the same way, in the order in which these come first.
+pub fn groups<'a>(rows: &Rows<'a>) -> Vec<Rows<'a>> {
+    let way = |row: &Row| {
+        // A cubature may have fewer points than were asked for.
+        let asked = [row.value("asked"), row.value("samples")].map(ToString::to_string);
+        let asked = asked.into_iter().find(|count| !count.is_empty()).unwrap_or_default();
+        let parts = ["manifold", "variant", "choice", "quadrature", "update", "step_factor"];
+        format!("{asked} {}", parts.map(|part| row.value(part).to_string()).join(" "))
+    };
+    rows.by_name(way).into_iter().map(|(_, group)| group).collect()
+}
 
 /// The loss and its terms against the epoch.
 pub fn losses(directory: &Path, title: &str, history: &[EpochReport]) -> Result<(), CommandError> {

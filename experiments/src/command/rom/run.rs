@@ -36,24 +36,12 @@ pub fn report(experiment: &Experiment, directory: &Path) -> Result<(), CommandEr
     for row in rows.iter().filter(|row| row.text("outcome") != "finished") {
         console::notice(&format!("case {}: {}: {}", row.case(), made(row), row.text("outcome")));
     }
-    let groups = groups(&rows);
+    let groups = figures::groups(&rows);
     let lines: Vec<String> = groups
         .iter()
         .filter_map(|here| Some(line(here.first()?, here)))
         .collect();
     console::print(&lines.concat())
-}
-
-/// Rows of runs that were made in the same way, in the order in which these come first.
-pub fn groups<'a>(rows: &Rows<'a>) -> Vec<Rows<'a>> {
-    let way = |row: &Row| {
-        // A cubature may have fewer points than were asked for.
-        let asked = [row.value("asked"), row.value("samples")].map(ToString::to_string);
-        let asked = asked.into_iter().find(|count| !count.is_empty()).unwrap_or_default();
-        let parts = ["manifold", "variant", "choice", "quadrature", "update", "step_factor"];
-        format!("{asked} {}", parts.map(|part| row.value(part).to_string()).join(" "))
-    };
-    rows.by_name(way).into_iter().map(|(_, group)| group).collect()
 }
 
 /// How a run was made, as keys and values.
