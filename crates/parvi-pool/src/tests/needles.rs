@@ -38,7 +38,7 @@ impl<const D: usize> Target<D> for Needles<D> {
     }
 }
 
-/// Each needle is seen from about one in 600 of the search's 1,500 draws: nine seeds of ten meet both.
+/// Of 200 seeds 179 meet both needles: a search makes some 1,500 draws, and few of them come near enough.
 #[test]
 fn needles_are_found_by_most_seeds() {
     let target = Needles([[-1.0, 0.3], [2.1, 1.4], [1.3, -2.2]]);
@@ -51,7 +51,7 @@ fn needles_are_found_by_most_seeds() {
 fn what_searches_met_of_late_is_followed_by_quiet_or_an_objection() {
     let target = Needles([[-1.0, 0.3, 0.5], [1.6, 1.4, -0.5], [1.3, -2.2, 1.0]]);
     let mut pools = (0..32).map(|seed| pool_of(&target, 500, seed).unwrap());
-    // Searches of most seeds meet none.
+    // There are seeds whose searches meet none.
     let mut pool = pools
         .find(|pool| pool.quiet.is_finite())
         .expect("a search that met a piece");
