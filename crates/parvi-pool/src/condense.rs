@@ -12,7 +12,8 @@ use crate::support_points::SupportPoints;
 use crate::weights::systematic;
 
 /// Passes over space, which is cut into pieces so that the cost is that of many small measures: particles of one piece at most, iterations with few equally
-/// weighted points (with all, where there are not many more), and iterations with all of them. The last pass mends the seams of the first.
+/// weighted points (with all, where there are not many more), and iterations with all of them. The last pass mends the seams of the first, but for
+/// those that are its own: where fewer boxes are cut, the same faces are.
 const PASSES: [(usize, usize, usize); 2] = [(128, 25, 4), (256, 0, 4)];
 
 /// Those few points, per particle.
