@@ -7,14 +7,29 @@ use crate::anderson::Anderson;
 use crate::measure::Measure;
 use crate::mixture::Mixture;
 use crate::order::near_together;
+use crate::pieces::{Cuts, Weighted, in_pieces};
 use crate::student::Kernel;
 use crate::support_points::SupportPoints;
 use crate::weights::systematic;
 
-/// Passes over space, which is cut into pieces so that the cost is that of many small measures: particles of one piece at most, iterations with few equally
-/// weighted points (with all, where there are not many more), and iterations with all of them. The last pass mends the seams of the first, but for
-/// those that are its own: where fewer boxes are cut, the same faces are.
-const PASSES: [(usize, usize, usize); 2] = [(128, 25, 4), (256, 0, 4)];
+/// A pass over space, which is cut into pieces so that the cost is that of many small measures.
+struct Pass {
+    /// Planes that it is cut along.
+    cuts: Cuts,
+    /// Particles of one piece at most.
+    most: usize,
+    /// Iterations with few equally weighted points, or with all, where there are not many more.
+    coarse: usize,
+    /// Iterations with all points.
+    fine: usize,
+}
+
+/// Particles stand in layers along the cuts of a pass. Each mends what the one before has left there, since it cuts along other planes.
+const PASSES: [Pass; 3] = [
+    Pass::new(Cuts::Axes, 128, 12, 0),
+    Pass::new(Cuts::Oblique, 128, 12, 4),
+    Pass::new(Cuts::Mirrored, 256, 0, 6),
+];
 
 /// Those few points, per particle.
 const COARSE: usize = 8;
@@ -38,8 +53,8 @@ pub(crate) fn condense<const D: usize>(measure: &Measure<D>, count: usize, offse
         return Vec::new();
     }
     near_together(&mut scaled, &[1.0; D]);
-    let sample: Vec<[f64; D]> = scaled.iter().map(|(x, _)| *x).collect();
     let weights: Vec<f64> = scaled.iter().map(|(_, c)| *c).collect();
+    let rises = rises(&weights);
     // A particle on a point of the sample would stay there, and equal particles do not push each other: every one begins beside its point.
     let beside = Mixture::new(vec![Kernel {
         centre: [0.0; D],
@@ -47,37 +62,47 @@ pub(crate) fn condense<const D: usize>(measure: &Measure<D>, count: usize, offse
         share: 1.0,
     }]);
     let shifts = beside.map_or_else(Vec::new, |law| law.draws(count, 0));
-    let rises = rises(&weights);
+    let begin = |(&index, shift): (&usize, &[f64; D])| vector::add(&scaled[index].0, shift);
     let chosen = systematic(&rises, count, offset);
-    let begin = |(&index, shift): (&usize, &[f64; D])| vector::add(&sample[index], shift);
     let mut moving: Vec<[f64; D]> = chosen.iter().zip(&shifts).map(begin).collect();
-    let mut last = 0;
-    for (most, far, near) in PASSES {
-        let pieces = count.div_ceil(most).next_power_of_two();
-        if pieces == last {
-            break;
-        }
-        last = pieces;
-        let (mut first, mut taken) = (0, 0);
-        for end in (1..=pieces).map(|piece| piece * sample.len() / pieces) {
-            let own = chosen[taken..].partition_point(|&index| index < end);
-            let (points, particles) = (&sample[first..end], &mut moving[taken..taken + own]);
-            let risen = &rises[first..end];
-            // Noise may take the mass of a small piece below nothing.
-            let sound = 2.0 * weights[first..end].iter().sum::<f64>() > risen.iter().sum();
-            let own_weights = if sound { &weights[first..end] } else { risen };
-            let mut iterations = far + near;
-            if far > 0 && 2 * COARSE * own < points.len() {
-                let few = systematic(risen, COARSE * own, offset);
-                let few: Vec<[f64; D]> = few.iter().map(|&index| points[index]).collect();
-                iterate(&SupportPoints::new(&few, &vec![1.0; few.len()]), far, particles);
-                iterations = near;
-            }
-            iterate(&SupportPoints::new(points, own_weights), iterations, particles);
-            (first, taken) = (end, taken + own);
-        }
+    let weighted = |(&(x, c), &rise)| Weighted { x, c, rise };
+    let mut points: Vec<Weighted<D>> = scaled.iter().zip(&rises).map(weighted).collect();
+    for pass in PASSES {
+        let iterate = |points: &[Weighted<D>], particles: &mut [[f64; D]]| pass.iterate(points, particles, offset);
+        in_pieces(&mut points, &mut moving, &pass.cuts.directions(), pass.most, &iterate);
     }
     moving.iter().map(|z| frame.to_target(z)).collect()
+}
+
+impl Pass {
+    const fn new(cuts: Cuts, most: usize, coarse: usize, fine: usize) -> Self {
+        Self {
+            cuts,
+            most,
+            coarse,
+            fine,
+        }
+    }
+
+    /// The iterations in one piece.
+    fn iterate<const D: usize>(&self, points: &[Weighted<D>], particles: &mut [[f64; D]], offset: f64) {
+        let places: Vec<[f64; D]> = points.iter().map(|point| point.x).collect();
+        let (weights, rises): (Vec<f64>, Vec<f64>) = points.iter().map(|point| (point.c, point.rise)).unzip();
+        // Noise may take the mass of a small piece below nothing.
+        let sound = 2.0 * weights.iter().sum::<f64>() > rises.iter().sum();
+        let weights = if sound { weights } else { rises.clone() };
+        let mut iterations = self.coarse + self.fine;
+        let count = COARSE * particles.len();
+        if self.coarse > 0 && 2 * count < points.len() {
+            let few: Vec<[f64; D]> = systematic(&rises, count, offset)
+                .iter()
+                .map(|&index| places[index])
+                .collect();
+            iterate(&SupportPoints::new(&few, &vec![1.0; few.len()]), self.coarse, particles);
+            iterations = self.fine;
+        }
+        iterate(&SupportPoints::new(&places, &weights), iterations, particles);
+    }
 }
 
 /// What every weight adds to the largest sum so far: none negative, and along the order as much in every stretch as the weights have, but for a few of them.
@@ -144,6 +169,8 @@ fn standardised<const D: usize>(measure: &Measure<D>) -> (Vec<([f64; D], f64)>, 
 
 #[cfg(test)]
 mod tests {
+    use parvi_targets::{SobolSequence, normal_quantile};
+
     use super::*;
 
     #[test]
@@ -171,5 +198,34 @@ mod tests {
         let particles = condense(&Measure::new(points.clone(), weights), 40, 0.5);
         assert_eq!(particles.iter().filter(|x| x[0] > 5.0).count(), 30);
         assert!(condense(&Measure::new(points, vec![0.0; 100]), 40, 0.5).is_empty());
+    }
+
+    /// Marginals of N(0, I) in bins of equal mass.
+    #[test]
+    fn cuts_leave_no_layers() {
+        const BINS: usize = 20;
+        let mut counts = [[0_u32; BINS]; 5];
+        let edges: Vec<f64> = (1..BINS)
+            .map(|edge| normal_quantile(edge as f64 / BINS as f64))
+            .collect();
+        for seed in 0..6 {
+            let sequence = SobolSequence::scrambled(5, seed).unwrap();
+            let normal = |index| {
+                let mut u = [0.0; 5];
+                sequence.write(index, &mut u);
+                u.map(normal_quantile)
+            };
+            let points: Vec<[f64; 5]> = (0..20_000).map(normal).collect();
+            let weights = vec![1.0 / points.len() as f64; points.len()];
+            for x in condense(&Measure::new(points, weights), 1000, 0.5) {
+                for (counts, x) in counts.iter_mut().zip(x) {
+                    counts[edges.partition_point(|&edge| edge < x)] += 1;
+                }
+            }
+        }
+        let off = |count: &u32| (f64::from(*count) / 300.0 - 1.0).powi(2);
+        let deviation = (counts.as_flattened().iter().map(off).sum::<f64>() / 100.0).sqrt();
+        // Cuts across the axes alone: 0.088.
+        assert!(deviation < 0.07, "{deviation}");
     }
 }

@@ -1,0 +1,196 @@
+//! Space cut into pieces that hold as many particles as their mass asks for.
+
+use mpm_tensor::{Matrix, vector};
+
+/// Directions that space is cut across.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Cuts {
+    /// The axes.
+    Axes,
+    /// Waves over the axes, √(2/D) cos(π (i + ½)(j + ½)/D): an orthogonal matrix without large entries (the discrete cosine transform IV).
+    Oblique,
+    /// The same, every second axis reversed.
+    Mirrored,
+}
+
+impl Cuts {
+    /// A direction in each row.
+    pub fn directions<const D: usize>(self) -> Matrix<D> {
+        let wave = |row: usize, column: usize| {
+            let angle = std::f64::consts::PI * (row as f64 + 0.5) * (column as f64 + 0.5) / D as f64;
+            (2.0 / D as f64).sqrt() * angle.cos()
+        };
+        match self {
+            Self::Axes => Matrix::IDENTITY,
+            Self::Oblique => Matrix::from_fn(wave),
+            Self::Mirrored => Matrix::from_fn(|row, column| {
+                if column % 2 == 0 {
+                    wave(row, column)
+                } else {
+                    -wave(row, column)
+                }
+            }),
+        }
+    }
+}
+
+/// A weighted point of a measure.
+pub(crate) struct Weighted<const D: usize> {
+    pub x: [f64; D],
+    /// Its weight, of either sign.
+    pub c: f64,
+    /// Its share in weights of which none is negative.
+    pub rise: f64,
+}
+
+/// Particles between which a piece may be cut, as shares of its own: where counts and masses agree best.
+const WINDOW: [f64; 2] = [0.375, 0.625];
+
+/// Does something with the points and particles of every piece, of `most` particles at most.
+///
+/// A piece is cut across the direction that it is longest in, near the middle. Points keep their order within each.
+pub(crate) fn in_pieces<const D: usize>(
+    points: &mut [Weighted<D>],
+    particles: &mut [[f64; D]],
+    directions: &Matrix<D>,
+    most: usize,
+    act: &impl Fn(&[Weighted<D>], &mut [[f64; D]]),
+) {
+    if particles.is_empty() || points.is_empty() {
+        return;
+    }
+    if particles.len() > most {
+        let (direction, cut) = cut(points, particles, directions);
+        let above = |x: &[f64; D]| vector::dot(direction, x) > cut;
+        points.sort_by_cached_key(|point| above(&point.x));
+        particles.sort_by_cached_key(above);
+        let (low, high) = points.split_at_mut(points.partition_point(|point| !above(&point.x)));
+        let (few, many) = particles.split_at_mut(particles.partition_point(|x| !above(x)));
+        if !(few.is_empty() || many.is_empty() || low.is_empty() || high.is_empty()) {
+            in_pieces(low, few, directions, most, act);
+            in_pieces(high, many, directions, most, act);
+            return;
+        }
+    }
+    act(points, particles);
+}
+
+/// The direction that points are farthest apart in, and between two particles near the middle the place where the share of the mass below is nearest to
+/// that of the particles.
+fn cut<'a, const D: usize>(
+    points: &[Weighted<D>],
+    particles: &[[f64; D]],
+    directions: &'a Matrix<D>,
+) -> (&'a [f64; D], f64) {
+    let mut longest = (f64::NEG_INFINITY, &[0.0; D], Vec::new());
+    for direction in &directions.0 {
+        let along: Vec<f64> = points.iter().map(|point| vector::dot(direction, &point.x)).collect();
+        let (low, high) = along.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), s| {
+            (low.min(*s), high.max(*s))
+        });
+        if high - low > longest.0 {
+            longest = (high - low, direction, along);
+        }
+    }
+    let (_, direction, along) = longest;
+    let mut places: Vec<f64> = particles.iter().map(|x| vector::dot(direction, x)).collect();
+    places.sort_unstable_by(f64::total_cmp);
+    let [first, last] = WINDOW.map(|share| ((share * places.len() as f64) as usize).max(1));
+    let cuts: Vec<f64> = (first..=last)
+        .map(|below| 0.5 * (places[below - 1] + places[below]))
+        .collect();
+    let mut masses = vec![0.0; cuts.len() + 1];
+    for (s, point) in along.iter().zip(points) {
+        masses[cuts.partition_point(|cut| cut < s)] += point.rise;
+    }
+    let per_particle = masses.iter().sum::<f64>() / places.len() as f64;
+    let mut mass = 0.0;
+    let mut best = (f64::INFINITY, f64::NAN);
+    for (below, (cut, own)) in (first..).zip(cuts.iter().zip(&masses)) {
+        mass += own;
+        let excess = (mass - below as f64 * per_particle).abs();
+        if excess < best.0 {
+            best = (excess, *cut);
+        }
+    }
+    (direction, best.1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn plane(count: usize) -> Vec<[f64; 2]> {
+        let place = |n: usize| [(n as f64 * 0.618).fract(), (n as f64 * 0.755).fract() * 2.0];
+        (0..count).map(place).collect()
+    }
+
+    #[test]
+    fn directions_are_orthogonal_and_oblique_to_those_of_other_cuts() {
+        fn check<const D: usize>() {
+            let all = [Cuts::Axes, Cuts::Oblique, Cuts::Mirrored].map(Cuts::directions::<D>);
+            for (number, one) in all.iter().enumerate() {
+                assert!((one.transpose() * *one - Matrix::IDENTITY).maximum_norm() < 1e-14);
+                for other in &all[..number] {
+                    assert!((*one * other.transpose()).maximum_norm() < 0.93);
+                }
+            }
+        }
+        check::<2>();
+        check::<3>();
+        check::<5>();
+        check::<8>();
+    }
+
+    #[test]
+    fn pieces_hold_the_particles_that_their_mass_asks_for() {
+        let weight = |x: &[f64; 2]| if x[0] > 0.7 { 4.0 } else { 1.0 };
+        let mut points: Vec<Weighted<2>> = plane(4000)
+            .iter()
+            .map(|x| Weighted {
+                x: *x,
+                c: weight(x),
+                rise: weight(x),
+            })
+            .collect();
+        let total: f64 = points.iter().map(|point| point.c).sum();
+        // Four times as many particles where the weight is.
+        let mut particles: Vec<[f64; 2]> = plane(2000)
+            .into_iter()
+            .enumerate()
+            .filter(|(n, x)| x[0] > 0.7 || n % 4 == 0)
+            .map(|(_, x)| x)
+            .collect();
+        let count = particles.len();
+        let pieces = std::cell::RefCell::new(Vec::new());
+        let note = |points: &[Weighted<2>], particles: &mut [[f64; 2]]| {
+            let mass: f64 = points.iter().map(|point| point.rise).sum();
+            pieces.borrow_mut().push((mass / total * count as f64, particles.len()));
+        };
+        in_pieces(&mut points, &mut particles, &Cuts::Oblique.directions(), 100, &note);
+        let pieces = pieces.into_inner();
+        assert_eq!(pieces.iter().map(|(_, own)| own).sum::<usize>(), count);
+        assert!(pieces.iter().all(|(_, own)| (30..=100).contains(own)));
+        let excess = |(mass, own): &(f64, usize)| (mass - *own as f64).abs();
+        let excesses = pieces.iter().map(excess);
+        assert!(excesses.clone().sum::<f64>() < pieces.len() as f64, "{pieces:?}");
+        assert!(excesses.fold(0.0, f64::max) < 3.0, "{pieces:?}");
+    }
+
+    #[test]
+    fn points_in_one_place_are_one_piece() {
+        let weighted = |_| Weighted {
+            x: [1.0],
+            c: 1.0,
+            rise: 1.0,
+        };
+        let mut points: Vec<Weighted<1>> = (0..9).map(weighted).collect();
+        let calls = std::cell::Cell::new(0);
+        let count = |_: &[Weighted<1>], particles: &mut [[f64; 1]]| {
+            assert_eq!(particles.len(), 7);
+            calls.set(calls.get() + 1);
+        };
+        in_pieces(&mut points, &mut [[1.0]; 7], &Cuts::Axes.directions(), 2, &count);
+        assert_eq!(calls.get(), 1);
+    }
+}
