@@ -7,15 +7,13 @@ use crate::anderson::Anderson;
 use crate::measure::Measure;
 use crate::mixture::Mixture;
 use crate::order::near_together;
-use crate::pieces::{Cuts, Weighted, in_pieces};
+use crate::pieces::{Weighted, in_pieces, oblique_directions};
 use crate::student::Kernel;
 use crate::support_points::SupportPoints;
 use crate::weights::systematic;
 
 /// A pass over space, which is cut into pieces so that the cost is that of many small measures.
 struct Pass {
-    /// Planes that it is cut along.
-    cuts: Cuts,
     /// Particles of one piece at most.
     most: usize,
     /// Iterations with few equally weighted points, or with all, where there are not many more.
@@ -25,11 +23,7 @@ struct Pass {
 }
 
 /// Particles stand in layers along the cuts of a pass. Each mends what the one before has left there, since it cuts along other planes.
-const PASSES: [Pass; 3] = [
-    Pass::new(Cuts::Axes, 128, 12, 0),
-    Pass::new(Cuts::Oblique, 128, 12, 4),
-    Pass::new(Cuts::Mirrored, 256, 0, 6),
-];
+const PASSES: [Pass; 3] = [Pass::new(64, 12, 0), Pass::new(128, 12, 0), Pass::new(256, 0, 9)];
 
 /// Those few points, per particle.
 const COARSE: usize = 8;
@@ -67,21 +61,22 @@ pub(crate) fn condense<const D: usize>(measure: &Measure<D>, count: usize, offse
     let mut moving: Vec<[f64; D]> = chosen.iter().zip(&shifts).map(begin).collect();
     let weighted = |(&(x, c), &rise)| Weighted { x, c, rise };
     let mut points: Vec<Weighted<D>> = scaled.iter().zip(&rises).map(weighted).collect();
-    for pass in PASSES {
+    for (number, pass) in (0..).zip(PASSES) {
         let iterate = |points: &[Weighted<D>], particles: &mut [[f64; D]]| pass.iterate(points, particles, offset);
-        in_pieces(&mut points, &mut moving, &pass.cuts.directions(), pass.most, &iterate);
+        in_pieces(
+            &mut points,
+            &mut moving,
+            &oblique_directions(number),
+            pass.most,
+            &iterate,
+        );
     }
     moving.iter().map(|z| frame.to_target(z)).collect()
 }
 
 impl Pass {
-    const fn new(cuts: Cuts, most: usize, coarse: usize, fine: usize) -> Self {
-        Self {
-            cuts,
-            most,
-            coarse,
-            fine,
-        }
+    const fn new(most: usize, coarse: usize, fine: usize) -> Self {
+        Self { most, coarse, fine }
     }
 
     /// The iterations in one piece.

@@ -2,36 +2,19 @@
 
 use mpm_tensor::{Matrix, vector};
 
-/// Directions that space is cut across.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Cuts {
-    /// The axes.
-    Axes,
-    /// Waves over the axes, √(2/D) cos(π (i + ½)(j + ½)/D): an orthogonal matrix without large entries (the discrete cosine transform IV).
-    Oblique,
-    /// The same, every second axis reversed.
-    Mirrored,
-}
-
-impl Cuts {
-    /// A direction in each row.
-    pub fn directions<const D: usize>(self) -> Matrix<D> {
-        let wave = |row: usize, column: usize| {
-            let angle = std::f64::consts::PI * (row as f64 + 0.5) * (column as f64 + 0.5) / D as f64;
-            (2.0 / D as f64).sqrt() * angle.cos()
+/// Orthogonal directions, one in each row, oblique to the axes and for every `number` to those of the one before:
+/// √(2/D) cos(π (i + ½)(j + ½)/D), the discrete cosine transform IV, in which no entry is large, with signs by columns: +, +−, ++−−, ….
+pub(crate) fn oblique_directions<const D: usize>(number: u32) -> Matrix<D> {
+    let period = 1_usize << number;
+    Matrix::from_fn(|row, column| {
+        let angle = std::f64::consts::PI * (row as f64 + 0.5) * (column as f64 + 0.5) / D as f64;
+        let sign = if column % period < period.div_ceil(2) {
+            1.0
+        } else {
+            -1.0
         };
-        match self {
-            Self::Axes => Matrix::IDENTITY,
-            Self::Oblique => Matrix::from_fn(wave),
-            Self::Mirrored => Matrix::from_fn(|row, column| {
-                if column % 2 == 0 {
-                    wave(row, column)
-                } else {
-                    -wave(row, column)
-                }
-            }),
-        }
-    }
+        sign * (2.0 / D as f64).sqrt() * angle.cos()
+    })
 }
 
 /// A weighted point of a measure.
@@ -126,14 +109,15 @@ mod tests {
     }
 
     #[test]
-    fn directions_are_orthogonal_and_oblique_to_those_of_other_cuts() {
+    fn directions_are_orthogonal_and_oblique_to_the_axes_and_to_those_before() {
         fn check<const D: usize>() {
-            let all = [Cuts::Axes, Cuts::Oblique, Cuts::Mirrored].map(Cuts::directions::<D>);
-            for (number, one) in all.iter().enumerate() {
-                assert!((one.transpose() * *one - Matrix::IDENTITY).maximum_norm() < 1e-14);
-                for other in &all[..number] {
-                    assert!((*one * other.transpose()).maximum_norm() < 0.93);
-                }
+            let mut last = Matrix::IDENTITY;
+            for number in 0..3 {
+                let directions = oblique_directions::<D>(number);
+                assert!((directions.transpose() * directions - Matrix::IDENTITY).maximum_norm() < 1e-14);
+                assert!(directions.maximum_norm() < 0.93);
+                assert!((directions * last.transpose()).maximum_norm() < 0.93);
+                last = directions;
             }
         }
         check::<2>();
@@ -167,7 +151,7 @@ mod tests {
             let mass: f64 = points.iter().map(|point| point.rise).sum();
             pieces.borrow_mut().push((mass / total * count as f64, particles.len()));
         };
-        in_pieces(&mut points, &mut particles, &Cuts::Oblique.directions(), 100, &note);
+        in_pieces(&mut points, &mut particles, &oblique_directions(1), 100, &note);
         let pieces = pieces.into_inner();
         assert_eq!(pieces.iter().map(|(_, own)| own).sum::<usize>(), count);
         assert!(pieces.iter().all(|(_, own)| (30..=100).contains(own)));
@@ -190,7 +174,7 @@ mod tests {
             assert_eq!(particles.len(), 7);
             calls.set(calls.get() + 1);
         };
-        in_pieces(&mut points, &mut [[1.0]; 7], &Cuts::Axes.directions(), 2, &count);
+        in_pieces(&mut points, &mut [[1.0]; 7], &Matrix::IDENTITY, 2, &count);
         assert_eq!(calls.get(), 1);
     }
 }
