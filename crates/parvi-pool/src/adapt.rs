@@ -34,9 +34,9 @@ const ADAPTING: f64 = 0.75;
 
 /// Share of the evaluations that are drawn at a time in search of what the rounds have not met, unless that is more than so large a share of what these took
 /// and of the effective size that is wanted; and how many times that all searches may take.
-const SEARCHING: f64 = 0.1;
-const SEARCHING_OF_SPENT: f64 = 1.0 / 3.0;
-const SEARCHING_OF_GOAL: f64 = 0.2;
+const SEARCHING: f64 = 0.15;
+const SEARCHING_OF_SPENT: f64 = 0.5;
+const SEARCHING_OF_GOAL: f64 = 0.3;
 const SEARCHES: u64 = 5;
 
 /// Evaluations of searches that meet nothing new, over those until the last piece was met, without which there may be more.

@@ -24,6 +24,7 @@ mod neighbours;
 mod options;
 mod order;
 mod pareto;
+mod peaks;
 mod pieces;
 mod pool;
 mod propose;

@@ -9,6 +9,7 @@ use crate::density::Density;
 use crate::fold::Fold;
 use crate::lanes::packed;
 use crate::mixture::Mixture;
+use crate::peaks::peaks;
 use crate::sample::{moments, root};
 use crate::scout::{about, wide};
 use crate::student::Kernel;
@@ -16,13 +17,13 @@ use crate::summit::Summit;
 use crate::weights::tempered;
 
 /// Widths of the wide law over the spread of what is known, and their shares.
-const WIDTHS: [(f64, f64); 2] = [(1.25, 0.3), (3.0, 0.3)];
+const WIDTHS: [(f64, f64); 2] = [(1.25, 0.2), (3.0, 0.2)];
 
 /// The same for a round kernel, over the largest spread along any direction.
-const ROUND: (f64, f64) = (1.1, 0.2);
+const ROUND: (f64, f64) = (1.1, 0.15);
 
 /// Share of the wide law that is as wide as the frame.
-const OF_FRAME: f64 = 0.2;
+const OF_FRAME: f64 = 0.45;
 
 /// What the wide law is taken to cover, over what it would by its share: tails that are heavier than a kernel's surprise nobody.
 const FLOOR: f64 = 1e-3;
@@ -37,8 +38,12 @@ const LIGHTEST: f64 = 5e-3;
 /// Widest standard deviation at a summit, over the largest spread of what is known: a flat top has no curvature to say how wide it is.
 const WIDEST: f64 = 0.5;
 
-/// Scouts end after so many that found nothing new.
+/// Scouts end after so many that found nothing new: from surprises, and from peaks.
 const IDLE: usize = 24;
+const IDLE_FROM_PEAKS: usize = 8;
+
+/// p/(Z q) below which a point is not of what is covered: q has heavier tails than most targets.
+const FOREIGN: f64 = 0.2;
 
 /// Draws `count` points at a time of a wide law into the folds and sends scouts from them, as long as these find something and `evaluations` last.
 /// Kernels about the summits that no proposal covered, if there are any.
@@ -56,7 +61,7 @@ pub(super) fn search<const D: usize>(
     let mut covered = Covered::by(folds)?;
     let mut found: Vec<Summit<D>> = Vec::new();
     while density.evaluations() + count as u64 <= until {
-        let Some((law, spread)) = law(folds, &found) else {
+        let Some(Known { law, factor, spread }) = known(folds, &found) else {
             break;
         };
         if covered.set_floor(&law).is_none() {
@@ -69,7 +74,9 @@ pub(super) fn search<const D: usize>(
             points.extend_from_slice(&fold.positions[first..]);
             logs.extend_from_slice(&fold.log_densities[first..]);
         }
-        let new = covered.explore(density, &points, &logs, WIDEST * spread);
+        let whitener = factor.lower_triangular_inverse().unwrap_or(Matrix::IDENTITY);
+        let mut new = covered.from_surprises(density, &points, &logs, WIDEST * spread);
+        new.extend(covered.from_peaks(density, &points, &logs, &whitener, WIDEST * spread));
         if new.is_empty() {
             break;
         }
@@ -78,8 +85,17 @@ pub(super) fn search<const D: usize>(
     Mixture::new(about(&found))
 }
 
-/// As wide as all that is known, and wider; and the largest spread of what is known along any direction.
-fn law<const D: usize>(folds: &[Fold<D>; 2], found: &[Summit<D>]) -> Option<(Mixture<D>, f64)> {
+/// What the folds and new summits say.
+struct Known<const D: usize> {
+    /// As wide as all of it, and wider.
+    law: Mixture<D>,
+    /// Root of its covariance.
+    factor: Matrix<D>,
+    /// Largest spread along any direction.
+    spread: f64,
+}
+
+fn known<const D: usize>(folds: &[Fold<D>; 2], found: &[Summit<D>]) -> Option<Known<D>> {
     let [one, other] = folds
         .each_ref()
         .map(|fold| moments(&fold.positions, &tempered(&fold.log_weights(), 1.0)));
@@ -96,7 +112,11 @@ fn law<const D: usize>(folds: &[Fold<D>; 2], found: &[Summit<D>]) -> Option<(Mix
     kernels.push(kernel(Matrix::IDENTITY * (ROUND.0 * spread), ROUND.1));
     kernels.extend(scaled(&wide(), OF_FRAME));
     // No kernel of it is fitted.
-    Some((Mixture::new(kernels)?.with_core(0), spread))
+    Some(Known {
+        law: Mixture::new(kernels)?.with_core(0),
+        factor,
+        spread,
+    })
 }
 
 /// Kernels with their shares times a factor.
@@ -151,7 +171,7 @@ impl<const D: usize> Covered<D> {
     }
 
     /// Sends scouts from the most surprising points, and covers what they find.
-    fn explore(
+    fn from_surprises(
         &mut self,
         density: &mut Density<'_, D>,
         points: &[[f64; D]],
@@ -170,19 +190,9 @@ impl<const D: usize> Covered<D> {
             idle += 1;
             let is_known = |place: &[f64; D], log: f64| self.surprises(&[*place], &[log])[0] < SURPRISING.ln();
             let reached = ascend(density, &points[start], is_known);
-            let reached = reached.and_then(|summit| summit.no_wider_than(widest)?.measured(density));
-            let Some(summit) = reached else {
+            let Some(summit) = reached.and_then(|summit| self.cover(density, summit, widest)) else {
                 continue;
             };
-            let log_mass = summit.log_mass() - self.log_evidence;
-            let surprise = self.surprises(&[summit.point], &[summit.log_density])[0];
-            if surprise < UNCOVERED.ln() || log_mass < LIGHTEST.ln() {
-                continue;
-            }
-            self.kernels.extend(scaled(&about(&[summit]), log_mass.exp()));
-            if self.update().is_none() {
-                break;
-            }
             for (old, new) in surprises.iter_mut().zip(self.surprises(points, logs)) {
                 *old = old.min(new);
             }
@@ -190,5 +200,48 @@ impl<const D: usize> Covered<D> {
             idle = 0;
         }
         found
+    }
+
+    /// Sends scouts from foreign points that are higher than all about them, and covers what they find: far out the flank of a narrow piece is lower than the tails of
+    /// what is covered, and higher than what is about it.
+    fn from_peaks(
+        &mut self,
+        density: &mut Density<'_, D>,
+        points: &[[f64; D]],
+        logs: &[f64],
+        whitener: &Matrix<D>,
+        widest: f64,
+    ) -> Vec<Summit<D>> {
+        let surprises = self.surprises(points, logs);
+        let is_foreign = |index: usize| surprises[index] < FOREIGN.ln();
+        let mut found = Vec::new();
+        let mut idle = 0;
+        for start in peaks(points, logs, whitener, is_foreign) {
+            let reached = ascend(density, &points[start], |_, _| false);
+            match reached.and_then(|summit| self.cover(density, summit, widest)) {
+                Some(summit) => {
+                    found.push(summit);
+                    idle = 0;
+                }
+                None => idle += 1,
+            }
+            if idle == IDLE_FROM_PEAKS {
+                break;
+            }
+        }
+        found
+    }
+
+    /// Covers a summit, if it is not covered and heavy enough.
+    fn cover(&mut self, density: &mut Density<'_, D>, summit: Summit<D>, widest: f64) -> Option<Summit<D>> {
+        let summit = summit.no_wider_than(widest)?.measured(density)?;
+        let log_mass = summit.log_mass() - self.log_evidence;
+        let surprise = self.surprises(&[summit.point], &[summit.log_density])[0];
+        if surprise < UNCOVERED.ln() || log_mass < LIGHTEST.ln() {
+            return None;
+        }
+        self.kernels.extend(scaled(&about(&[summit]), log_mass.exp()));
+        self.update()?;
+        Some(summit)
     }
 }
