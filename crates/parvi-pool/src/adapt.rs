@@ -32,10 +32,10 @@ const WALKING: f64 = 0.05;
 const SHARPENING: f64 = 0.02;
 const ADAPTING: f64 = 0.75;
 
-/// Share of the evaluations that are drawn at a time in search of what the rounds have not met, unless that is more than so large a share of what these took
-/// and of the effective size that is wanted; and how many times that all searches may take.
-const SEARCHING: f64 = 0.15;
-const SEARCHING_OF_SPENT: f64 = 0.5;
+/// What is drawn at a time in search of what the rounds have not met: a share of what these took, but no more than a share of all evaluations, unless a share of the
+/// effective size that is wanted is more, and at most twice that share of all. How many times that all searches may take.
+const SEARCHING_OF_SPENT: f64 = 1.0 / 3.0;
+const SEARCHING: f64 = 0.1;
 const SEARCHING_OF_GOAL: f64 = 0.3;
 const SEARCHES: u64 = 5;
 
@@ -111,8 +111,11 @@ impl<const D: usize> Adaptation<D> {
     /// Looks for what the rounds have not met; whether there is something, and the rounds are to go on.
     pub fn search(&mut self, density: &mut Density<'_, D>, plan: &Plan, rng: &mut ChaCha8Rng) -> bool {
         let spent = density.evaluations() - self.searched;
-        let count = (SEARCHING * plan.evaluations as f64)
-            .min((SEARCHING_OF_SPENT * spent as f64).max(SEARCHING_OF_GOAL * plan.goal));
+        let most = SEARCHING * plan.evaluations as f64;
+        let count = (SEARCHING_OF_SPENT * spent as f64)
+            .min(most)
+            .max(SEARCHING_OF_GOAL * plan.goal)
+            .min(2.0 * most);
         let count = count as usize / (2 * LANES) * 2 * LANES;
         let found = loop {
             let most = (SEARCHES * count as u64).max(((1.0 + QUIET) * self.met as f64) as u64 + count as u64);

@@ -22,6 +22,8 @@ pub(super) struct Density<'a, const D: usize> {
     pub score_evaluations: u64,
     /// Values that were not finite, or too large, and were taken for log p = −∞ or for no score.
     pub replaced: u64,
+    /// Log densities of finite points that were NaN, +∞ or too large: what mass is there, nobody knows.
+    pub undefined: u64,
     /// Every value of the target in the order of evaluation: what an earlier process left, then what this one adds.
     pub tape: Vec<f64>,
     /// Values of the tape that have been used.
@@ -39,6 +41,7 @@ impl<'a, const D: usize> Density<'a, D> {
             density_evaluations: 0,
             score_evaluations: 0,
             replaced: 0,
+            undefined: 0,
             tape,
             read: 0,
             precisions: HashMap::new(),
@@ -62,6 +65,7 @@ impl<'a, const D: usize> Density<'a, D> {
             let sound = value.abs() < LARGEST && vector::is_finite(x);
             if !sound {
                 self.replaced += u64::from(*value != f64::NEG_INFINITY);
+                self.undefined += u64::from(vector::is_finite(x) && (value.is_nan() || *value > 0.0));
             }
             *value = if sound {
                 *value + self.log_determinant

@@ -12,6 +12,7 @@ use crate::freeze::freeze;
 use crate::mixture::Mixture;
 use crate::options::{PoolError, PoolOptions, Round};
 use crate::pool::Pool;
+use crate::referee::Objection;
 
 /// Stream of the pool's random numbers.
 const STREAM: u64 = 9;
@@ -54,7 +55,8 @@ pub(crate) fn explore<const D: usize>(
         let frozen = freeze(&mut adaptation, &mut density, &plan, &mut rng);
         if !frozen.surprised || adaptation.is_used_up(&plan, density.evaluations()) {
             let pool = Pool::new(&adaptation, &frozen, frame, &density, particles);
-            if pool.objection(particles).is_none() || !plan.extend() {
+            let is_final = matches!(pool.objection(particles), None | Some(Objection::Undefined(_)));
+            if is_final || !plan.extend() {
                 return Ok(pool);
             }
             is_due = true;

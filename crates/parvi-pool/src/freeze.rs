@@ -27,6 +27,8 @@ const SURPRISE: f64 = 0.4;
 pub(super) struct Frozen<const D: usize> {
     pub fresh: Fold<D>,
     pub covered: Vec<bool>,
+    /// Share of them at which the log density is NaN or +∞.
+    pub undefined: f64,
     /// Effective share of the fresh points, and whether it says that adaptation ended too early.
     pub share: f64,
     pub surprised: bool,
@@ -59,12 +61,14 @@ pub(super) fn freeze<const D: usize>(
         return Frozen {
             fresh,
             covered: Vec::new(),
+            undefined: 0.0,
             share: 0.0,
             surprised: false,
         };
     };
     let (frozen, wholes) = with_earlier(frozen, adapted);
     let count = plan.referee.min(rest(density));
+    let undefined = density.undefined;
     let pilot = fresh.draw(density, frozen.clone(), count, rng.random());
     // As many more as the effective size still lacks.
     let lacking = (plan.goal - size.min(plan.adapted) - pilot * count as f64).max(0.0) / pilot.max(0.01);
@@ -76,6 +80,7 @@ pub(super) fn freeze<const D: usize>(
     let [before, after] = [pilot.min(adapted.share), share];
     Frozen {
         covered: covered(&fresh, wholes),
+        undefined: (density.undefined - undefined) as f64 / fresh.positions.len().max(1) as f64,
         fresh,
         share,
         surprised: after < SURPRISE * before,

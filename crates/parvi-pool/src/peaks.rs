@@ -93,8 +93,13 @@ mod tests {
         let logs: Vec<f64> = points.iter().map(log).collect();
         let found = peaks(&points, &logs, &Matrix::IDENTITY, |_| true);
         assert_eq!(found.len(), 2, "{found:?}");
-        assert!(vector::norm(&points[found[0]]) < 1.0);
-        assert!(vector::distance(&points[found[1]], &[12.0, 9.0]) < 1.0);
+        for place in [[0.0, 0.0], [12.0, 9.0]] {
+            assert!(
+                found
+                    .iter()
+                    .any(|&index| vector::distance(&points[index], &place) < 1.0)
+            );
+        }
         let far = peaks(&points, &logs, &Matrix::IDENTITY, |index| logs[index] < -20.0);
         assert!(far.len() <= 1, "{far:?}");
     }

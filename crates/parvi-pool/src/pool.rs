@@ -73,7 +73,7 @@ impl<const D: usize> Pool<D> {
         let fresh = &frozen.fresh;
         let points = fresh.positions.len() as f64;
         let fresh_logs: Vec<f64> = fresh.log_weights().iter().map(|l| l + points.ln()).collect();
-        let verdict = Verdict::of(&fresh_logs, &frozen.covered);
+        let verdict = Verdict::of(&fresh_logs, &frozen.covered, frozen.undefined);
         let all = [&folds[0], &folds[1], fresh];
         let (log_evidence, log_evidence_error, mut measure) = together(all, verdict.effective_share, particles);
         for y in &mut measure.points {

@@ -6,6 +6,9 @@ use crate::weights::{effective_size, tempered, top};
 /// Above this shape of the weights' tail no estimate is relied on; from 0.7 on none is to be.
 const LARGEST_PARETO_K: f64 = 0.65;
 
+/// Share of fresh points at which the log density may be no number: far out it may overflow.
+const LARGEST_UNDEFINED: f64 = 0.02;
+
 /// The largest standard error of the log evidence, the largest variance of the measure over that of as many independent draws as there are particles,
 /// and the largest mass that fresh points met and no kernel had covered.
 const LARGEST_LOG_EVIDENCE_ERROR: f64 = 0.05;
@@ -23,6 +26,8 @@ pub enum Objection {
     Noise(f64),
     /// Fresh points met more than 0.02 of the mass where no kernel had covered it.
     Uncovered(f64),
+    /// The log density is NaN or +∞ at more than 0.02 of the fresh points: what mass is there, nobody knows.
+    Undefined(f64),
     /// Searches that met a piece were not followed by twice as long ones that met none; the quotient. A. M. Turing's argument, of which I. J. Good tells: where
     /// something was still met of late, there is more.
     Searching(f64),
@@ -42,13 +47,15 @@ pub struct Verdict {
     /// Share of the weight of fresh points at which the wide parts of the proposal outweigh all others: the mass that recent points met and no kernel had covered,
     /// after I. J. Good, *The population frequencies of species*, Biometrika 40, 1953.
     pub mass_uncovered: f64,
+    /// Share of the fresh points at which the log density is NaN or +∞.
+    pub undefined: f64,
     /// Number of fresh points.
     pub points: usize,
 }
 
 impl Verdict {
-    /// The verdict on log weights log p/q and on which points no narrow kernel covers.
-    pub(super) fn of(log_weights: &[f64], covered: &[bool]) -> Self {
+    /// The verdict on log weights log p/q, on which points no narrow kernel covers, and on the share at which log p is no number.
+    pub(super) fn of(log_weights: &[f64], covered: &[bool], undefined: f64) -> Self {
         let n = log_weights.len() as f64;
         let weights = tempered(log_weights, 1.0);
         let mean = weights.iter().sum::<f64>() / n;
@@ -65,6 +72,7 @@ impl Verdict {
             effective_share: effective_size(&weights) / n,
             pareto_k: pareto_k(&weights),
             mass_uncovered: uncovered / (n * mean),
+            undefined,
             points: log_weights.len(),
         }
     }
@@ -82,6 +90,8 @@ impl Verdict {
             Some(Objection::Noise(variance))
         } else if exceeds(self.mass_uncovered, LARGEST_MASS_UNCOVERED) {
             Some(Objection::Uncovered(self.mass_uncovered))
+        } else if exceeds(self.undefined, LARGEST_UNDEFINED) {
+            Some(Objection::Undefined(self.undefined))
         } else {
             None
         }

@@ -197,6 +197,28 @@ fn densities_that_are_no_numbers_are_survived() {
 }
 
 #[test]
+fn mass_where_the_density_is_no_number_is_objected_to() {
+    for nothing in [f64::NAN, f64::INFINITY] {
+        let torn = Given(move |x: &[f64; 2]| {
+            let l = -0.5 * (x[0] * x[0] + x[1] * x[1]);
+            if x[0] > 1.0 { nothing } else { l }
+        });
+        let pool = pool_of(&torn, 500, 1).unwrap();
+        assert!(
+            matches!(pool.objection(500), Some(Objection::Undefined(share)) if share < 0.5),
+            "{pool:?}"
+        );
+        // Far out it may be one.
+        let far = Given(move |x: &[f64; 2]| {
+            let l = -0.5 * (x[0] * x[0] + x[1] * x[1]);
+            if x[0] > 6.0 { nothing } else { l }
+        });
+        let pool = pool_of(&far, 500, 1).unwrap();
+        assert_eq!(pool.objection(500), None, "{pool:?}");
+    }
+}
+
+#[test]
 fn options_out_of_range_are_refused() {
     let target = Gaussian::<2>::standard();
     let refused = pool_of(&target, 1, 0);

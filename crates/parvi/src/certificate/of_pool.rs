@@ -20,6 +20,7 @@ impl Certificate {
             Some(Objection::Evidence(error)) => Some(Doubt::Evidence { error }),
             Some(Objection::Noise(variance)) => Some(Doubt::Noise { variance }),
             Some(Objection::Uncovered(mass)) => Some(Doubt::Uncovered { mass }),
+            Some(Objection::Undefined(share)) => Some(Doubt::Undefined { share }),
             Some(Objection::Searching(quiet)) => Some(Doubt::Searching { quiet }),
             // Two standard errors of the pool.
             None => doubt_of_moments(&moments, 2.0 / (samples.positions.len() as f64).sqrt()),

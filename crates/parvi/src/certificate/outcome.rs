@@ -65,6 +65,11 @@ pub enum Doubt {
         /// Its mass.
         mass: f64,
     },
+    /// The log density is no number at many points.
+    Undefined {
+        /// Share of fresh points at which it is NaN or +∞.
+        share: f64,
+    },
     /// Searches still met pieces of late.
     Searching {
         /// Evaluations since the last piece was met, over those before.
@@ -138,6 +143,11 @@ impl fmt::Display for Doubt {
             Self::Uncovered { mass } => write!(
                 f,
                 "fresh points met a mass of {mass:.3} that nothing had covered before, and more may have been missed"
+            ),
+            Self::Undefined { share } => write!(
+                f,
+                "at {:.0} % of fresh points the log density was NaN or +∞: what mass is there, nobody knows",
+                100.0 * share
             ),
             Self::Searching { quiet } => write!(
                 f,
