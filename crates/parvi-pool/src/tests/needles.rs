@@ -38,13 +38,13 @@ impl<const D: usize> Target<D> for Needles<D> {
     }
 }
 
-/// Of 200 seeds 179 meet both needles: a search makes some 1,500 draws, and few of them come near enough.
+/// Of 200 seeds 198 meet both needles.
 #[test]
 fn needles_are_found_by_most_seeds() {
     let target = Needles([[-1.0, 0.3], [2.1, 1.4], [1.3, -2.2]]);
     let finds = |seed: &u64| pool_of(&target, 1000, *seed).unwrap().log_evidence.abs() < 0.05;
     let found = (0..24).filter(finds).count();
-    assert!(found >= 18, "{found}");
+    assert!(found >= 22, "{found}");
 }
 
 #[test]
