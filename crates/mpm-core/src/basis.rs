@@ -1,6 +1,6 @@
 //! The one seam: where a particle sits → which nodes, with which weight and gradient.
 
-use mpm_kernels::{Columns, Deposit, Entry, Interpolated, NodeField, NodeSink, Wanted};
+use mpm_kernels::{Columns, Deposit, Entry, Interpolated, NodeField, NodeSink, UniformGrid, Wanted};
 use mpm_tensor::Matrix;
 use mpm_tensor::vector::multiply_add;
 
@@ -278,6 +278,12 @@ pub trait UniformBasis<const D: usize>: Basis<D> {
     /// The point of the unit cell of a lattice of spacing h that has the coordinates `fraction` ∈ [0, 1)ᴰ in it: all
     /// lattices there are have their origin at one such point.
     fn cell_point(&self, fraction: &[f64; D], h: f64) -> [f64; D];
+}
+
+/// The nodes of a grid along the axes, as [`UniformBasis::place`] takes them.
+pub(crate) fn placed_grid<const D: usize>(origin: [f64; D], h: f64) -> Result<UniformGrid<D>, MpmError> {
+    check_placement(&origin, h)?;
+    Ok(UniformGrid::new(origin, h))
 }
 
 /// What [`UniformBasis::place`] refuses.

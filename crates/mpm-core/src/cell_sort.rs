@@ -39,6 +39,15 @@ impl CellSort {
         schedule.keeps_order = keeps_order;
     }
 
+    /// [`sort`](Self::sort), after which `cells` are those of the particles in the new order.
+    pub fn sort_with_cells(&mut self, cells: &mut Vec<u32>, cell_count: usize, schedule: &mut Schedule) {
+        self.sort(cells, cell_count, schedule);
+        if !schedule.keeps_order {
+            let order = schedule.order.iter();
+            *cells = order.map(|&particle| cells[particle as usize]).collect();
+        }
+    }
+
     /// Bytes held.
     pub fn storage_bytes(&self) -> usize {
         (self.bin_starts.capacity() + self.cursors.capacity()) * 4

@@ -3,7 +3,7 @@
 
 use mpm_kernels::{Cubic, Entry, Linear, Quadratic, Row, Spline, UniformGrid};
 
-use crate::basis::check_placement;
+use crate::basis::{check_placement, placed_grid};
 use crate::key_map::KeyMap;
 use crate::{Basis, MpmError, Schedule, UniformBasis};
 
@@ -276,8 +276,7 @@ impl<const D: usize> Basis<D> for ProductGrid<D> {
 
 impl<const D: usize> UniformBasis<D> for ProductGrid<D> {
     fn place(&mut self, origin: [f64; D], h: f64) -> Result<(), MpmError> {
-        check_placement(&origin, h)?;
-        self.nodes = UniformGrid::new(origin, h);
+        self.nodes = placed_grid(origin, h)?;
         Ok(())
     }
 

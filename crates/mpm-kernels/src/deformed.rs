@@ -39,9 +39,6 @@ mod tests {
             let expected = (Matrix::IDENTITY + L * 0.3) * F;
             assert!((deformed(&F, &L, 0.3) - expected).maximum_norm() < 1e-14);
         }
-        check::<1>();
-        check::<2>();
-        check::<3>();
-        check::<4>();
+        mpm_tensor::in_dimensions!(check(), 1, 2, 3, 4);
     }
 }

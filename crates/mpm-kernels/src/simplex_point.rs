@@ -110,14 +110,7 @@ mod tests {
 
     #[test]
     fn networks_sort() {
-        sorts_zeros_and_ones::<1>();
-        sorts_zeros_and_ones::<2>();
-        sorts_zeros_and_ones::<3>();
-        sorts_zeros_and_ones::<4>();
-        sorts_zeros_and_ones::<5>();
-        sorts_zeros_and_ones::<6>();
-        sorts_zeros_and_ones::<7>();
-        sorts_zeros_and_ones::<8>();
+        mpm_tensor::in_dimensions!(sorts_zeros_and_ones(), 1, 2, 3, 4, 5, 6, 7, 8);
         assert_eq!(comparators::<8>().1, 19);
     }
 }

@@ -2,6 +2,7 @@
 
 use mpm_tensor::Matrix;
 
+use crate::stretch_limit::limited;
 use crate::{DeformationError, Law};
 
 /// The internal variables of any law, as plain numbers.
@@ -144,41 +145,53 @@ impl<const D: usize, L: Law<D, State: Remembered>> Law<D> for Numbered<L> {
 
 /// A reference to a law that is chosen while a program runs, as a law: what a step is compiled for, once for all laws.
 #[derive(Clone, Copy)]
-pub struct AnyLaw<'a, const D: usize>(pub &'a dyn Law<D, State = Memory>);
+pub struct AnyLaw<'a, const D: usize> {
+    /// The law.
+    pub law: &'a dyn Law<D, State = Memory>,
+    /// k > 1: trial deformation gradients are first brought back to principal stretches in [1/k, k], with det F > 0.
+    ///
+    /// A material that yields to large strain (a fixed corotated solid, a plastic one) is sheared and crushed on and on, until the determinant of F is nothing but rounding and the body comes to an
+    /// end that the motion does not know. F = U diag(σ) Vᵀ becomes U diag(min(max(σ, 1/k), k)) Vᵀ, as in the snow of Stomakhin et al. 2013, §5; where det F < 0 the least stretch is the one that has
+    /// turned over. An F within the limits stays as it is, to the bit.
+    pub stretch_limit: Option<f64>,
+}
 
 impl<const D: usize> Law<D> for AnyLaw<'_, D> {
     type State = Memory;
 
     fn rate_dependent(&self) -> bool {
-        self.0.rate_dependent()
+        self.law.rate_dependent()
     }
 
     fn internal_variables(&self) -> &'static [&'static str] {
-        self.0.internal_variables()
+        self.law.internal_variables()
     }
 
     fn longest_viscous_step(&self, spacing: f64) -> f64 {
-        self.0.longest_viscous_step(spacing)
+        self.law.longest_viscous_step(spacing)
     }
 
     fn virgin(&self, reference_density: f64) -> Memory {
-        self.0.virgin(reference_density)
+        self.law.virgin(reference_density)
     }
 
     fn advance(&self, trial: &Matrix<D>, memory: &mut Memory) -> Matrix<D> {
-        self.0.advance(trial, memory)
+        match self.stretch_limit {
+            None => self.law.advance(trial, memory),
+            Some(limit) => self.law.advance(&limited(trial, limit), memory),
+        }
     }
 
     fn energy_density(&self, F: &Matrix<D>, memory: &Memory) -> f64 {
-        self.0.energy_density(F, memory)
+        self.law.energy_density(F, memory)
     }
 
     fn kirchhoff_stress(&self, F: &Matrix<D>, memory: &Memory, velocity_gradient: &Matrix<D>) -> Matrix<D> {
-        self.0.kirchhoff_stress(F, memory, velocity_gradient)
+        self.law.kirchhoff_stress(F, memory, velocity_gradient)
     }
 
     fn wave_speed(&self, F: &Matrix<D>, memory: &Memory, reference_density: f64) -> f64 {
-        self.0.wave_speed(F, memory, reference_density)
+        self.law.wave_speed(F, memory, reference_density)
     }
 
     fn kirchhoff_stresses(
@@ -188,19 +201,19 @@ impl<const D: usize> Law<D> for AnyLaw<'_, D> {
         velocity_gradients: &[Matrix<D>],
         stresses: &mut [Matrix<D>],
     ) {
-        self.0.kirchhoff_stresses(F, states, velocity_gradients, stresses);
+        self.law.kirchhoff_stresses(F, states, velocity_gradients, stresses);
     }
 
     fn wave_speeds(&self, F: &[Matrix<D>], states: &[Memory], reference_densities: &[f64], wave_speeds: &mut [f64]) {
-        self.0.wave_speeds(F, states, reference_densities, wave_speeds);
+        self.law.wave_speeds(F, states, reference_densities, wave_speeds);
     }
 
     fn check(&self, F: &Matrix<D>) -> Result<(), DeformationError> {
-        self.0.check(F)
+        self.law.check(F)
     }
 
     fn volume_ratio(&self, F: &Matrix<D>, memory: &Memory) -> f64 {
-        self.0.volume_ratio(F, memory)
+        self.law.volume_ratio(F, memory)
     }
 }
 
@@ -212,7 +225,10 @@ mod tests {
     /// A walk of 40 particles with the law itself and with what stands for it: the same bits.
     fn agrees<L: Law<2, State: Remembered>>(law: L) {
         let object = Numbered(law);
-        let any = AnyLaw(&object);
+        let any = AnyLaw {
+            law: &object,
+            stretch_limit: None,
+        };
         let law = &object.0;
         let density = |p: usize| 0.5 + p as f64;
         let mut F = vec![Matrix::<2>::IDENTITY; 40];

@@ -75,10 +75,7 @@ mod tests {
             exponent in 0..16i32,
         ) {
             let size = 10f64.powi(-exponent);
-            agrees::<1>(&numbers, size)?;
-            agrees::<2>(&numbers, size)?;
-            agrees::<3>(&numbers, size)?;
-            agrees::<4>(&numbers, size)?;
+            mpm_tensor::in_dimensions!(agrees(&numbers, size)?, 1, 2, 3, 4);
         }
     }
 

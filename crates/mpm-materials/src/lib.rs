@@ -23,6 +23,7 @@ mod side_by_side;
 mod snow;
 mod softening_hencky;
 mod stretch;
+mod stretch_limit;
 mod tait_fluid;
 mod tracked_gas;
 

@@ -162,18 +162,12 @@ mod tests {
             exponent in 0..16i32,
         ) {
             let size = 10f64.powi(-exponent);
-            agrees::<1>(&numbers, size)?;
-            agrees::<2>(&numbers, size)?;
-            agrees::<3>(&numbers, size)?;
-            agrees::<4>(&numbers, size)?;
+            mpm_tensor::in_dimensions!(agrees(&numbers, size)?, 1, 2, 3, 4);
         }
 
         #[test]
         fn small_strains(numbers in prop::collection::vec(-1.0..1.0, 16)) {
-            small_strains_keep_their_digits::<1>(&numbers)?;
-            small_strains_keep_their_digits::<2>(&numbers)?;
-            small_strains_keep_their_digits::<3>(&numbers)?;
-            small_strains_keep_their_digits::<4>(&numbers)?;
+            mpm_tensor::in_dimensions!(small_strains_keep_their_digits(&numbers)?, 1, 2, 3, 4);
         }
     }
 

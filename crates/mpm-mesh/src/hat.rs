@@ -93,11 +93,7 @@ impl<const D: usize> Basis<D> for HatBasis<D> {
         }
         let cell_count = self.mesh().cell_count();
         self.cell_sort
-            .sort(&self.particle_cells, cell_count, &mut self.schedule);
-        if !self.schedule.keeps_order() {
-            let order = self.schedule.order().iter();
-            self.particle_cells = order.map(|&particle| self.particle_cells[particle as usize]).collect();
-        }
+            .sort_with_cells(&mut self.particle_cells, cell_count, &mut self.schedule);
         Ok(())
     }
 

@@ -6,7 +6,9 @@ pub mod vector;
 
 mod cholesky;
 mod determinant;
+mod in_dimensions;
 mod inverse;
+mod orthogonal;
 mod polar;
 mod singular_values;
 mod symmetric_eigen;

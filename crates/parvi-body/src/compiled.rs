@@ -1,6 +1,6 @@
 //! Bodies of the dimensions whose features `d1`…`d8` are on, which are compiled in this crate, once for all crates that call it.
 
-use mpm_materials::{IsothermalGas, Law, Memory};
+use mpm_materials::{AnyLaw, IsothermalGas, Memory};
 
 #[cfg(feature = "mesh")]
 use crate::on_mesh::{MovingOnMesh, PartsOnMesh};
@@ -21,7 +21,7 @@ impl<'a, const D: usize> Parts<'a, D, Memory> {
     ///
     /// # Errors
     /// A spacing that is not positive and finite.
-    pub fn of_law(self, law: &'a dyn Law<D, State = Memory>) -> Ready<'a, D> {
+    pub fn of_law(self, law: AnyLaw<'a, D>) -> Ready<'a, D> {
         #[cfg(feature = "paper")]
         return (Compiled::of().law)(self, law);
         #[cfg(not(feature = "paper"))]
@@ -38,7 +38,7 @@ impl<'a, const D: usize> PartsOnMesh<'a, D> {
 }
 
 #[cfg(feature = "paper")]
-type OfLaw<const D: usize> = for<'a> fn(Parts<'a, D, Memory>, &'a dyn Law<D, State = Memory>) -> Ready<'a, D>;
+type OfLaw<const D: usize> = for<'a> fn(Parts<'a, D, Memory>, AnyLaw<'a, D>) -> Ready<'a, D>;
 
 #[cfg(feature = "mesh")]
 type OnMesh<const D: usize> =

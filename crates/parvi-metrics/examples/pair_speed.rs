@@ -75,8 +75,6 @@ fn measure<const D: usize>(count: usize) -> Result<(), MetricError> {
 
 fn main() -> Result<(), MetricError> {
     println!("{} threads", rayon::current_num_threads());
-    measure::<1>(2048)?;
-    measure::<2>(2048)?;
-    measure::<4>(2048)?;
+    mpm_tensor::in_dimensions!(measure(2048)?, 1, 2, 4);
     measure::<6>(2048)
 }

@@ -166,12 +166,7 @@ mod tests {
 
     #[test]
     fn isotropic_gaussians_have_the_mean_of_the_chi_distribution() {
-        isotropic::<1>();
-        isotropic::<2>();
-        isotropic::<3>();
-        isotropic::<4>();
-        isotropic::<6>();
-        isotropic::<8>();
+        mpm_tensor::in_dimensions!(isotropic(), 1, 2, 3, 4, 6, 8);
     }
 
     /// In three dimensions E‖N(a, I)‖ = √(2/π) e^{−r²/2} + (r + 1/r) erf(r/√2), r = ‖a‖.

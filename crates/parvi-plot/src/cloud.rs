@@ -1,7 +1,7 @@
 //! One cloud of particles in the plane over the target's contours.
 
 use super::data::{CheckedPlot, DensityPlot, PlotError};
-use super::density_panel::{cloud_notes, contour_entry, draw_cloud, outside, pair_density, particle_entry};
+use super::density_panel::{cloud_entries, cloud_notes, draw_cloud, outside, pair_density};
 use super::legend::{draw_legend, noted, titled};
 use super::panel::{AxesParts, Panel, label_lines, label_room, x_axis_room, x_ticks, y_tick_room, y_ticks};
 use super::style::{FIGURE_WIDTH, MARGIN};
@@ -35,10 +35,7 @@ pub fn cloud(plot: &DensityPlot<'_>) -> Result<String, PlotError> {
     let tick_room = y_tick_room(&vertical);
     let (mut drawing, mut top) = titled(plot.title, width);
     let density = pair_density(&reference, 0, 1, &x, &y);
-    let mut entries = vec![particle_entry("particles")];
-    if density.is_some() {
-        entries.push(contour_entry(plot.reference_label));
-    }
+    let entries = cloud_entries(density.is_some().then_some(plot.reference_label));
     top += draw_legend(&mut drawing, (left, top), width - left - MARGIN, &entries) + 8.0;
     let panel = Panel::at((left, top), (panel_width, height), x, y);
     let pair = (columns[0].as_slice(), columns[1].as_slice());

@@ -2,8 +2,7 @@
 
 use super::data::{CheckedPlot, DensityPlot, PlotError};
 use super::density_panel::{
-    REFERENCE_SWATCH, cloud_notes, contour_entry, draw_cloud, marginal_entries, marginals, outside, pair_density,
-    particle_entry,
+    REFERENCE_SWATCH, cloud_entries, cloud_notes, draw_cloud, marginal_entries, marginals, outside, pair_density,
 };
 use super::legend::{draw_legend, entry_width, noted, titled};
 use super::panel::{AxesParts, Panel, label_lines, label_room, x_axis_room, x_ticks, y_tick_room, y_ticks};
@@ -56,10 +55,7 @@ pub fn corner(plot: &DensityPlot<'_>) -> Result<String, PlotError> {
         entries.retain(|entry| entry.swatch != REFERENCE_SWATCH);
     }
     if dimension > 1 {
-        entries.push(particle_entry("particles"));
-    }
-    if contours {
-        entries.push(contour_entry(plot.reference_label));
+        entries.extend(cloud_entries(contours.then_some(plot.reference_label)));
     }
     // The legend stands in the empty upper triangle where it fits, else above.
     let corner_room = (dimension - 1) as f64 * (size + GAP) - 12.0;

@@ -273,17 +273,16 @@ pub(super) fn marginal_entries<'a>(marginals: &[Marginal], reference_label: &str
     entries
 }
 
-/// The legend's entry for contours.
-pub(super) fn contour_entry<'a>(reference_label: &str) -> LegendEntry<'a> {
-    let label = format!("{}; contours hold 50, 90, 99 %", or_target(reference_label));
-    LegendEntry::new(REFERENCE_SWATCH, label)
-}
-
-/// The legend's entry for scattered particles.
-pub(super) fn particle_entry<'a>(label: &str) -> LegendEntry<'a> {
-    LegendEntry::new(Swatch::Disc(PARTICLES), label)
-}
-
 fn or_target(label: &str) -> String {
     if label.is_empty() { "target" } else { label }.to_string()
+}
+
+/// The legend's entries for scattered particles, and for the contours of a density called so, if there is one.
+pub(super) fn cloud_entries<'a>(density: Option<&str>) -> Vec<LegendEntry<'a>> {
+    let mut entries = vec![LegendEntry::new(Swatch::Disc(PARTICLES), "particles")];
+    if let Some(label) = density {
+        let label = format!("{}; contours hold 50, 90, 99 %", or_target(label));
+        entries.push(LegendEntry::new(REFERENCE_SWATCH, label));
+    }
+    entries
 }

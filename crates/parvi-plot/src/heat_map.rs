@@ -1,7 +1,7 @@
 //! Heat maps: shares over the cells of a plane, one panel per setting, with the number in every cell that has room for it.
 
 use super::data::{PlotError, check_size};
-use super::legend::{LegendEntry, Swatch, draw_legend, noted, titled};
+use super::legend::{LegendEntry, Swatch};
 use super::panel::{Panel, label_lines, label_room, x_ticks, y_tick_room, y_ticks};
 use super::panel_grid::PanelGrid;
 use super::results::{Row, Rows};
@@ -113,13 +113,6 @@ pub fn heat_map(plot: &HeatMapPlot) -> Result<String, PlotError> {
     let panel_width = (FIGURE_WIDTH - left - MARGIN - 8.0 - gap * (columns - 1) as f64) / columns as f64;
     let horizontal = x_ticks(&x, panel_width, 10.0);
 
-    let (mut drawing, mut top) = titled(&plot.title, FIGURE_WIDTH);
-    top += draw_legend(
-        &mut drawing,
-        (left, top),
-        FIGURE_WIDTH - left - MARGIN,
-        &legend_entries(),
-    ) + 6.0;
     let grid = PanelGrid {
         columns,
         left,
@@ -129,10 +122,15 @@ pub fn heat_map(plot: &HeatMapPlot) -> Result<String, PlotError> {
         y: (y, vertical, &plot.y_label),
     };
     let panels: Vec<_> = plot.panels.iter().map(|panel| (panel.title.as_str(), panel)).collect();
-    top = grid.draw(&mut drawing, top, &panels, |drawing, axes, panel| {
-        draw_cells(drawing, axes, plot, panel);
-    });
-    Ok(noted(drawing, FIGURE_WIDTH, top - 4.0, &plot.notes))
+    let (words, legend) = ((plot.title.as_str(), &plot.notes[..]), legend_entries());
+    Ok(grid.figure(
+        words,
+        (&legend, FIGURE_WIDTH - left - MARGIN),
+        &panels,
+        |drawing, axes, panel| {
+            draw_cells(drawing, axes, plot, panel);
+        },
+    ))
 }
 
 fn drawable(share: &Option<f64>) -> bool {

@@ -1,7 +1,9 @@
 //! Panels of one size on common axes, in rows.
 
+use super::legend::{LegendEntry, draw_legend, noted, titled};
 use super::panel::{AxesParts, Panel, TITLE_ROOM, label_lines, x_axis_room, y_tick_room};
 use super::scale::{Scale, Ticks};
+use super::style::FIGURE_WIDTH;
 use super::svg::Drawing;
 
 /// Where the panels are, and their axes.
@@ -21,8 +23,22 @@ pub struct PanelGrid<'a> {
 }
 
 impl PanelGrid<'_> {
+    /// A figure of titled panels with their content: its title and a legend in `room` above them, notes below.
+    pub fn figure<T>(
+        &self,
+        (title, notes): (&str, &[String]),
+        (legend, room): (&[LegendEntry<'_>], f64),
+        panels: &[(&str, T)],
+        content: impl Fn(&mut Drawing, &Panel, &T),
+    ) -> String {
+        let (mut drawing, mut top) = titled(title, FIGURE_WIDTH);
+        top += draw_legend(&mut drawing, (self.left, top), room, legend) + 6.0;
+        top = self.draw(&mut drawing, top, panels, content);
+        noted(drawing, FIGURE_WIDTH, top - 4.0, notes)
+    }
+
     /// Draws titled panels with their content from `top` on, and returns where they end.
-    pub fn draw<T>(
+    fn draw<T>(
         &self,
         drawing: &mut Drawing,
         mut top: f64,

@@ -1,7 +1,7 @@
 //! Snapshots of bodies: particles in a plane, coloured by classes of a value, one panel per instant, both axes on one scale.
 
 use super::data::{PlotError, check_size};
-use super::legend::{LegendEntry, Swatch, draw_legend, noted, titled};
+use super::legend::{LegendEntry, Swatch};
 use super::panel::{Panel, label_room, x_ticks, y_tick_room, y_ticks};
 use super::panel_grid::PanelGrid;
 use super::scale::{AxisKind, Scale, plottable};
@@ -79,13 +79,6 @@ pub fn snapshots(plot: &SnapshotsPlot) -> Result<String, PlotError> {
     let unit = width / (high[0] - low[0]);
     let (horizontal, vertical) = (x_ticks(&x, width, 4.0), y_ticks(&y, height, 5.0));
 
-    let (mut drawing, mut top) = titled(&plot.title, FIGURE_WIDTH);
-    top += draw_legend(
-        &mut drawing,
-        (left, top),
-        FIGURE_WIDTH - 2.0 * MARGIN - left,
-        &legend(plot),
-    ) + 6.0;
     let grid = PanelGrid {
         columns,
         left,
@@ -95,10 +88,15 @@ pub fn snapshots(plot: &SnapshotsPlot) -> Result<String, PlotError> {
         y: (y, vertical, &plot.y_label),
     };
     let panels: Vec<_> = plot.panels.iter().map(|panel| (panel.title.as_str(), panel)).collect();
-    top = grid.draw(&mut drawing, top, &panels, |drawing, axes, panel| {
-        draw_particles(drawing, axes, plot, panel, unit);
-    });
-    Ok(noted(drawing, FIGURE_WIDTH, top - 4.0, &plot.notes))
+    let (words, legend) = ((plot.title.as_str(), &plot.notes[..]), legend(plot));
+    Ok(grid.figure(
+        words,
+        (&legend, FIGURE_WIDTH - 2.0 * MARGIN - left),
+        &panels,
+        |drawing, axes, panel| {
+            draw_particles(drawing, axes, plot, panel, unit);
+        },
+    ))
 }
 
 /// The class of a value: how many bounds it reaches.

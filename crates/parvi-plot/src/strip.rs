@@ -1,7 +1,7 @@
 //! A cloud of particles in the plane at several moments, over the target's contours.
 
 use super::data::{CheckedReference, PlotError, PointCloud, Reference, coordinate_labels};
-use super::density_panel::{cloud_notes, contour_entry, draw_cloud, outside, pair_density, particle_entry};
+use super::density_panel::{cloud_entries, cloud_notes, draw_cloud, outside, pair_density};
 use super::legend::{draw_legend, noted, titled};
 use super::panel::{AxesParts, Panel, TITLE_ROOM, label_lines, label_room, x_axis_room, x_ticks, y_tick_room, y_ticks};
 use super::scale::{AxisKind, Scale};
@@ -87,10 +87,7 @@ pub fn strip(plot: &StripPlot<'_>) -> Result<String, PlotError> {
 
     let (mut drawing, mut top) = titled(plot.title, total);
     let density = pair_density(&reference, 0, 1, &x, &y);
-    let mut entries = vec![particle_entry("particles")];
-    if density.is_some() {
-        entries.push(contour_entry(plot.reference_label));
-    }
+    let entries = cloud_entries(density.is_some().then_some(plot.reference_label));
     top += draw_legend(&mut drawing, (left, top), total - left - MARGIN, &entries) + 4.0;
     let x_lines = label_lines(&labels[0], horizontal.exponent, width).len();
     let rows = plot.panels.len().div_ceil(COLUMNS);

@@ -31,16 +31,6 @@ impl Banana {
         })
     }
 
-    /// b.
-    pub fn curvature(&self) -> f64 {
-        self.curvature
-    }
-
-    /// σ.
-    pub fn width(&self) -> f64 {
-        self.width
-    }
-
     /// (z₁, z₂) standard normal ↦ (z₁, b (z₁² − 1) + σ z₂).
     fn bend(&self, [z1, z2]: [f64; 2]) -> [f64; 2] {
         [z1, self.curvature * (z1 * z1 - 1.0) + self.width * z2]

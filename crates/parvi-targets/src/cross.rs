@@ -36,16 +36,6 @@ impl<const D: usize> Cross<D> {
         Ok(Self { spread, width })
     }
 
-    /// s.
-    pub fn spread(&self) -> f64 {
-        self.spread
-    }
-
-    /// w.
-    pub fn width(&self) -> f64 {
-        self.width
-    }
-
     /// (s² + (D−1) w²) / D.
     fn variance(&self) -> f64 {
         (self.spread * self.spread + (D as f64 - 1.0) * self.width * self.width) / D as f64

@@ -36,11 +36,6 @@ impl<const D: usize> Funnel<D> {
         Ok(Self { width })
     }
 
-    /// w.
-    pub fn width(&self) -> f64 {
-        self.width
-    }
-
     /// (e^−x₁, Σ_{j≥2} x_j²).
     fn precision_and_square(x: &[f64; D]) -> (f64, f64) {
         ((-x[0]).min(LARGEST_EXPONENT).exp(), x[1..].iter().map(|x| x * x).sum())

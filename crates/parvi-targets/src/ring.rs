@@ -58,16 +58,6 @@ impl Ring {
         }
     }
 
-    /// r.
-    pub fn radius(&self) -> f64 {
-        self.radius
-    }
-
-    /// σ.
-    pub fn width(&self) -> f64 {
-        self.width
-    }
-
     /// The radius below which the mass `u` lies.
     ///
     /// With t = ρ/σ and a = r/σ the mass above ρ is [e^(−(t−a)²/2) + a √(2π) Φ(a − t)] / M₁.

@@ -54,16 +54,6 @@ impl<const D: usize> Rosenbrock<D> {
         })
     }
 
-    /// s.
-    pub fn spread(&self) -> f64 {
-        self.spread
-    }
-
-    /// σ.
-    pub fn width(&self) -> f64 {
-        self.width
-    }
-
     /// Standard normal z ↦ (1 + s z₁, x_{π(k)}² + σ z_k).
     fn bend(&self, z: [f64; D]) -> [f64; D] {
         let mut x = z;

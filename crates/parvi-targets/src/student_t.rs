@@ -54,11 +54,6 @@ impl<const D: usize> StudentT<D> {
             half_domain,
         })
     }
-
-    /// ν.
-    pub fn degrees_of_freedom(&self) -> f64 {
-        self.degrees_of_freedom
-    }
 }
 
 impl<const D: usize> Target<D> for StudentT<D> {

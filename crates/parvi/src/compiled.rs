@@ -3,6 +3,7 @@
 
 use parvi_targets::{CatalogueTarget, Frame, Target};
 
+use crate::task::{Task, sampler};
 use crate::{Method, MpmOptions, Observer, PaperBody, PaperOptions, Run, SampleError, Samples, mpm, paper};
 
 /// Sample a catalogue target with any method, in the target's own frame.
@@ -18,39 +19,25 @@ pub fn sample<const D: usize>(
     (Compiled::of().sample)(target, method, run, observer)
 }
 
-impl MpmOptions {
+sampler! {
     /// Sample `target`; `frame` is what is known of its place and scales, and the unit of the run's start law.
     ///
     /// # Errors
     /// [`SampleError`]: an option out of range, a score that is not finite, or the observer's stop.
-    pub fn sample<const D: usize>(
-        &self,
-        target: &dyn Target<D>,
-        frame: &Frame<D>,
-        run: &Run,
-        observer: &mut dyn Observer,
-    ) -> Result<Samples<D>, SampleError> {
-        (Compiled::of().mpm)(self, target, frame, run, observer)
-    }
+    MpmOptions => |options, task| (Compiled::of().mpm)(options, task)
 }
 
-impl PaperOptions {
+sampler! {
     /// Run the paper's algorithm on `target`; `frame` is the unit of everything, unless the options want the target's own coordinates.
     ///
     /// Masses are 1/M, velocities 0 and reference volumes those of the options, unless [`Run::given`] has others.
     ///
     /// # Errors
     /// [`SampleError`]: without the cargo feature `paper` always [`SampleError::NotBuilt`]; an option or a given particle out of range, a score or a deformation that is not finite, or the observer's stop.
-    pub fn sample<const D: usize>(
-        &self,
-        target: &dyn Target<D>,
-        frame: &Frame<D>,
-        run: &Run,
-        observer: &mut dyn Observer,
-    ) -> Result<Samples<D>, SampleError> {
-        self.sample_body(&PaperBody::default(), target, frame, run, observer)
-    }
+    PaperOptions => |options, task| (Compiled::of().paper)(options, &PaperBody::default(), task)
+}
 
+impl PaperOptions {
     /// As [`sample`](Self::sample), with a material and a schedule of α of one's own.
     ///
     /// # Errors
@@ -63,7 +50,7 @@ impl PaperOptions {
         run: &Run,
         observer: &mut dyn Observer,
     ) -> Result<Samples<D>, SampleError> {
-        (Compiled::of().paper)(self, body, target, frame, run, observer)
+        (Compiled::of().paper)(self, body, Task::new(target, frame, run, observer))
     }
 }
 
@@ -89,15 +76,7 @@ type Sample<const D: usize> =
     fn(&dyn CatalogueTarget<D>, &Method, &Run, &mut dyn Observer) -> Result<Samples<D>, SampleError>;
 
 /// [`MpmOptions::sample`].
-type SampleByMpm<const D: usize> =
-    fn(&MpmOptions, &dyn Target<D>, &Frame<D>, &Run, &mut dyn Observer) -> Result<Samples<D>, SampleError>;
+type SampleByMpm<const D: usize> = fn(&MpmOptions, Task<'_, D>) -> Result<Samples<D>, SampleError>;
 
 /// [`PaperOptions::sample_body`].
-type SampleByPaper<const D: usize> = fn(
-    &PaperOptions,
-    &PaperBody<D>,
-    &dyn Target<D>,
-    &Frame<D>,
-    &Run,
-    &mut dyn Observer,
-) -> Result<Samples<D>, SampleError>;
+type SampleByPaper<const D: usize> = fn(&PaperOptions, &PaperBody<D>, Task<'_, D>) -> Result<Samples<D>, SampleError>;

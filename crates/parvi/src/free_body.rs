@@ -1,6 +1,6 @@
 //! The calibrated sampler without a survey: one body that moves in the given frame from the given start.
 
-use parvi_targets::{Frame, Target};
+use parvi_targets::Frame;
 
 use crate::cached_scores::CachedScores;
 use crate::certificate::{Certificate, LARGEST_DRIFT};
@@ -10,7 +10,8 @@ use crate::extent::Extent;
 use crate::mpm_body::Body;
 use crate::start::{check, positive};
 use crate::stein_discrepancy::{is_rough, squared_stein_discrepancy};
-use crate::{MpmOptions, Observer, Run, SampleError, Samples, defaults};
+use crate::task::Task;
+use crate::{MpmOptions, SampleError, Samples, defaults};
 
 /// Spacing of a refining round over that of the one before.
 const FINER: f64 = 0.5;
@@ -26,13 +27,11 @@ struct Departure<const D: usize> {
 /// by them.
 pub(crate) fn sample<const D: usize>(
     options: &MpmOptions,
-    target: &dyn Target<D>,
+    task: Task<'_, D>,
     cached: Option<&CachedScores<'_, D>>,
-    frame: &Frame<D>,
-    run: &Run,
     journal: &mut Journal,
-    observer: &mut dyn Observer,
 ) -> Result<Samples<D>, SampleError> {
+    let (target, frame, run, observer) = task.parts();
     run.given.check_taken("mpm", true)?;
     let default = defaults::spacing::<D>(options.basis, run.particles);
     let mut departure = Departure {

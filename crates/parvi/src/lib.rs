@@ -34,10 +34,10 @@ mod smc;
 mod start;
 mod stein_discrepancy;
 mod stein_thinning;
-mod stretch_limit;
 mod support_points;
 mod surveyed;
 mod svgd;
+mod task;
 mod view;
 mod watching;
 

@@ -1,22 +1,17 @@
 //! The calibrated sampler.
 
 use parvi_pool::PoolError;
-use parvi_targets::{Frame, Target};
 
 use crate::cached_scores::CachedScores;
 use crate::checkpoint::Journal;
 use crate::mpm_body::Motion;
 use crate::start::positive;
-use crate::{MpmOptions, Observer, Run, SampleError, Samples, ScoreLocation, free_body, surveyed};
+use crate::task::Task;
+use crate::{MpmOptions, SampleError, Samples, ScoreLocation, free_body, surveyed};
 
 /// [`MpmOptions::sample`].
-pub(crate) fn sample<const D: usize>(
-    options: &MpmOptions,
-    target: &dyn Target<D>,
-    frame: &Frame<D>,
-    run: &Run,
-    observer: &mut dyn Observer,
-) -> Result<Samples<D>, SampleError> {
+pub(crate) fn sample<const D: usize>(options: &MpmOptions, mut task: Task<'_, D>) -> Result<Samples<D>, SampleError> {
+    let Task { target, frame, run, .. } = task;
     run.checked_particles()?;
     let spacing = positive("spacing", options.spacing, 1.0)?;
     Motion::of(options, run.particles, spacing)?;
@@ -27,7 +22,7 @@ pub(crate) fn sample<const D: usize>(
     run.given.check_taken(name, !surveys)?;
     let mut journal = Journal::open(options, target, frame, run)?;
     let known = if surveys {
-        surveyed::sample(options, target, frame, run, &mut journal, observer)?
+        surveyed::sample(options, &mut task, &mut journal)?
     } else {
         None
     };
@@ -37,9 +32,10 @@ pub(crate) fn sample<const D: usize>(
         None if caches => {
             let cached = CachedScores::new(target, frame, options.non_finite_scores, &journal.tape())?;
             journal.keep_evaluations(cached.tape());
-            free_body::sample(options, &cached, Some(&cached), frame, run, &mut journal, observer)?
+            let task = task.of(&cached);
+            free_body::sample(options, task, Some(&cached), &mut journal)?
         }
-        None => free_body::sample(options, target, None, frame, run, &mut journal, observer)?,
+        None => free_body::sample(options, task, None, &mut journal)?,
     };
     journal.close();
     Ok(samples)

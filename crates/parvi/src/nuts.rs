@@ -9,12 +9,13 @@ use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 use nuts_rs::{Chain, CpuLogpFunc, CpuMath, CpuMathError, DiagNutsSettings, HasDims, LogpError, Settings};
-use parvi_targets::{Frame, Target};
+use parvi_targets::Target;
 use rand::rngs::ChaCha8Rng;
 
 use crate::drive::finite;
 use crate::start::check;
-use crate::{NutsOptions, Observer, Progress, Run, SampleError, Samples};
+use crate::task::Task;
+use crate::{NutsOptions, Observer, Progress, SampleError, Samples};
 
 /// Chain c draws from the stream of random numbers c + this.
 const FIRST_STREAM: u64 = 16;
@@ -23,14 +24,8 @@ const FIRST_STREAM: u64 = 16;
 const WATCH: Duration = Duration::from_millis(20);
 
 /// M draws over all chains of `options`, in the order of the chains; see [`NutsOptions::sample`].
-pub(crate) fn sample<const D: usize>(
-    options: &NutsOptions,
-    target: &dyn Target<D>,
-    frame: &Frame<D>,
-    run: &Run,
-    observer: &mut dyn Observer,
-) -> Result<Samples<D>, SampleError> {
-    let draws = run.particles_of("nuts")?;
+pub(crate) fn sample<const D: usize>(options: &NutsOptions, task: Task<'_, D>) -> Result<Samples<D>, SampleError> {
+    let draws = task.run.particles_of("nuts")?;
     let acceptance = options.target_acceptance;
     check(
         "target acceptance",
@@ -52,11 +47,8 @@ pub(crate) fn sample<const D: usize>(
             value: draws as f64 * options.thinning as f64 + options.warm_up as f64 * chains as f64,
             expected: "at most 2^32 - 1",
         })?;
-    if !target.has_log_density() {
-        return Err(SampleError::ScoreOnly {
-            method: "method `nuts`",
-        });
-    }
+    task.needs_log_density("method `nuts`")?;
+    let (target, frame, run, observer) = task.parts();
     let starts = run.start_positions::<D>()?;
     let mut plans = Vec::with_capacity(chains);
     for (chain, z) in starts.iter().take(chains).enumerate() {

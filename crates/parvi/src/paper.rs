@@ -1,7 +1,7 @@
 //! Algorithms 1 (PIC) and 2 (APIC) of the MPM-ParVI paper: a body of some material under the score.
 
 use mpm_core::{Masses, MpmError, Particles, StepControl};
-use mpm_materials::{Law, Memory, Numbered};
+use mpm_materials::{AnyLaw, Law, Memory, Numbered};
 use parvi_body::{Cloud, FramedScore, Moving, NodeScores, Parts, PlannedStep, ScoreForce};
 use parvi_targets::{Frame, Target};
 
@@ -10,7 +10,7 @@ use crate::checkpoint::Journal;
 use crate::drive::{Plan, drive};
 use crate::kronecker::Kronecker;
 use crate::start::{Stream, check, checked_transfer, not_negative, positive, steps};
-use crate::stretch_limit::StretchLimited;
+use crate::task::Task;
 use crate::watching::Watching;
 use crate::{
     Coordinates, MomentCorrection, Monitor, Observer, PaperBody, PaperOptions, ReferenceVolumes, Run, SampleError,
@@ -21,10 +21,7 @@ use crate::{
 pub(crate) fn sample<const D: usize>(
     options: &PaperOptions,
     body: &PaperBody<D>,
-    target: &dyn Target<D>,
-    frame: &Frame<D>,
-    run: &Run,
-    observer: &mut dyn Observer,
+    task: Task<'_, D>,
 ) -> Result<Samples<D>, SampleError> {
     if const { cfg!(not(feature = "paper")) } {
         return Err(SampleError::NotBuilt {
@@ -39,11 +36,10 @@ pub(crate) fn sample<const D: usize>(
         });
     }
     let follows_log_density = options.watch.is_some_and(|watch| watch.monitor == Monitor::LogDensity);
-    if follows_log_density && !target.has_log_density() {
-        return Err(SampleError::ScoreOnly {
-            method: "the monitor of log densities",
-        });
+    if follows_log_density {
+        task.needs_log_density("the monitor of log densities")?;
     }
+    let (target, frame, run, observer) = task.parts();
     let identity = Frame::identity();
     let limit = options.guards.stretch_limit;
     let expected = "above 1 and finite";
@@ -54,11 +50,6 @@ pub(crate) fn sample<const D: usize>(
         expected,
     )?;
     let mut run_with = |law: &dyn Law<D, State = Memory>| {
-        let limited = limit.map(|limit| StretchLimited { law, limit });
-        let law = match &limited {
-            Some(limited) => limited,
-            None => law,
-        };
         let job = Job {
             options,
             target,
@@ -67,7 +58,10 @@ pub(crate) fn sample<const D: usize>(
                 Coordinates::Own => &identity,
             },
             run,
-            law,
+            law: AnyLaw {
+                law,
+                stretch_limit: limit,
+            },
         };
         job.run(body.alpha, &mut *observer)
     };
@@ -85,7 +79,7 @@ struct Job<'a, const D: usize> {
     /// The coordinates of the body.
     frame: &'a Frame<D>,
     run: &'a Run,
-    law: &'a dyn Law<D, State = Memory>,
+    law: AnyLaw<'a, D>,
 }
 
 impl<const D: usize> Job<'_, D> {

@@ -7,12 +7,12 @@ mod curve;
 mod population;
 
 use parvi_pool::PoolError;
-use parvi_targets::{Frame, Target};
 use rand::RngExt;
 
 use crate::drive::finite;
 use crate::start::{Stream, check};
-use crate::{Observer, Progress, Run, SampleError, Samples};
+use crate::task::{Task, sampler};
+use crate::{Progress, SampleError, Samples};
 use population::{Population, State};
 
 /// Temperatures, at most.
@@ -39,7 +39,7 @@ impl Default for SmcOptions {
     }
 }
 
-impl SmcOptions {
+sampler! {
     /// M particles of equal weight from R populations on the path q₀^{1−β} p^β, β from 0 to 1, in coordinates z of the frame; q₀ = N(m, (3 s)² I) for the start law N(m, s² I).
     ///
     /// A population of N states at one temperature:
@@ -55,18 +55,15 @@ impl SmcOptions {
     ///
     /// # Errors
     /// [`SampleError`]: an option out of range, a target that is nowhere finite or that no 2,000 temperatures reach, or the observer's stop.
-    pub fn sample<const D: usize>(
-        &self,
-        target: &dyn Target<D>,
-        frame: &Frame<D>,
-        run: &Run,
-        observer: &mut dyn Observer,
-    ) -> Result<Samples<D>, SampleError> {
-        let count = run.particles_of("smc")?;
+    SmcOptions => Self::run
+}
+
+impl SmcOptions {
+    fn run<const D: usize>(&self, task: Task<'_, D>) -> Result<Samples<D>, SampleError> {
+        let count = task.run.particles_of("smc")?;
         let ancestors = self.ancestors(count)?;
-        if !target.has_log_density() {
-            return Err(SampleError::ScoreOnly { method: "method `smc`" });
-        }
+        task.needs_log_density("method `smc`")?;
+        let (target, frame, run, observer) = task.parts();
         let start = run.checked_start()?;
         let begin = |number| {
             let standard = run.standard_positions(ancestors * self.chain_length, number)?;

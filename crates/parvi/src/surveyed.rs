@@ -5,14 +5,14 @@ use std::ops::ControlFlow;
 
 use mpm_tensor::Matrix;
 use parvi_pool::{Kernel, Mixture, Pool, PoolError, PoolOptions, Round, explore};
-use parvi_targets::{Frame, Target};
 use rand::RngExt;
 
 use crate::certificate::Certificate;
 use crate::checkpoint::Journal;
 use crate::polish::{Polish, Polished};
 use crate::start::Stream;
-use crate::{MpmOptions, Observer, Progress, Run, SampleError, Samples, Start, defaults};
+use crate::task::Task;
+use crate::{MpmOptions, Progress, SampleError, Samples, Start, defaults};
 
 /// A pool whose energy distance is known no better than that of so many times fewer independent draws than particles is none.
 const WORTHLESS: f64 = 30.0;
@@ -20,17 +20,14 @@ const WORTHLESS: f64 = 30.0;
 /// `None` where nothing could be weighed.
 pub(crate) fn sample<const D: usize>(
     options: &MpmOptions,
-    target: &dyn Target<D>,
-    frame: &Frame<D>,
-    run: &Run,
+    task: &mut Task<'_, D>,
     journal: &mut Journal,
-    observer: &mut dyn Observer,
 ) -> Result<Option<Samples<D>>, SampleError> {
-    let Some(pool) = surveyed(options, target, frame, run, journal, observer)? else {
+    let Some(pool) = surveyed(options, task, journal)? else {
         return Ok(None);
     };
-    let polish = Polish::new(options, target, &pool, run)?;
-    let Polished { best, spent, steps } = polish.run(journal, observer)?;
+    let polish = Polish::new(options, task.target, &pool, task.run)?;
+    let Polished { best, spent, steps } = polish.run(journal, task.observer)?;
     let mut samples = best.samples;
     samples.steps = steps;
     samples.score_evaluations = spent + pool.score_evaluations;
@@ -50,12 +47,10 @@ pub(crate) fn sample<const D: usize>(
 /// What was evaluated, weighed.
 fn surveyed<const D: usize>(
     options: &MpmOptions,
-    target: &dyn Target<D>,
-    frame: &Frame<D>,
-    run: &Run,
+    task: &mut Task<'_, D>,
     journal: &mut Journal,
-    observer: &mut dyn Observer,
 ) -> Result<Option<Pool<D>>, SampleError> {
+    let Task { target, frame, run, .. } = *task;
     let pool_options = PoolOptions {
         evaluations: options.evaluations,
         ..PoolOptions::default()
@@ -69,7 +64,7 @@ fn surveyed<const D: usize>(
             refused = Some(error);
             return ControlFlow::Break(());
         }
-        observer.after_step(Progress {
+        task.observer.after_step(Progress {
             step: round.number,
             steps: round.number + 1,
         })

@@ -2,30 +2,29 @@
 
 use mpm_tensor::vector;
 use parvi_body::FramedScore;
-use parvi_targets::{Frame, Target};
 use rand::seq::index;
 
 use crate::drive::finite;
 use crate::start::{positive, steps};
+use crate::task::{Task, sampler};
 use crate::view::Moment;
-use crate::{Observer, Progress, Run, SampleError, Samples, SvgdOptions, TracePoint, defaults};
+use crate::{Progress, SampleError, Samples, SvgdOptions, TracePoint, defaults};
 
 /// The median of pairwise distances is taken over at most this many particles.
 const MEDIAN_SAMPLE: usize = 512;
 
-impl SvgdOptions {
+sampler! {
     /// Move particles by φ(x) = M⁻¹ Σ_j [k(x_j, x) s(x_j) + ∇_{x_j} k(x_j, x)], k(x, y) = exp(−|x − y|² / b), with Adam steps
     /// (Kingma & Ba 2015), in the coordinates of `frame`.
     ///
     /// # Errors
     /// [`SampleError`]: an option out of range, a score that is not finite, or the observer's stop.
-    pub fn sample<const D: usize>(
-        &self,
-        target: &dyn Target<D>,
-        frame: &Frame<D>,
-        run: &Run,
-        observer: &mut dyn Observer,
-    ) -> Result<Samples<D>, SampleError> {
+    SvgdOptions => Self::run
+}
+
+impl SvgdOptions {
+    fn run<const D: usize>(&self, task: Task<'_, D>) -> Result<Samples<D>, SampleError> {
+        let (target, frame, run, observer) = task.parts();
         let steps = steps(self.steps, defaults::SVGD_STEPS)?;
         let rate = positive("step size", Some(self.step_size), 0.0)?;
         if let Some(bandwidth) = self.bandwidth {

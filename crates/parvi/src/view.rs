@@ -82,9 +82,18 @@ trait State {
     fn dimension(&self) -> usize;
     fn particles(&self) -> usize;
     fn positions(&self) -> Vec<f64>;
-    fn velocities(&self) -> Option<Vec<f64>>;
-    fn deformation_gradients(&self) -> Option<Vec<f64>>;
-    fn masses(&self) -> Option<Vec<f64>>;
+
+    fn velocities(&self) -> Option<Vec<f64>> {
+        None
+    }
+
+    fn deformation_gradients(&self) -> Option<Vec<f64>> {
+        None
+    }
+
+    fn masses(&self) -> Option<Vec<f64>> {
+        None
+    }
 }
 
 /// A body in coordinates of its frame, in whatever order.
@@ -161,18 +170,6 @@ impl<const D: usize> State for Points<'_, D> {
 
     fn positions(&self) -> Vec<f64> {
         self.positions.iter().flat_map(self.to_target).collect()
-    }
-
-    fn velocities(&self) -> Option<Vec<f64>> {
-        None
-    }
-
-    fn deformation_gradients(&self) -> Option<Vec<f64>> {
-        None
-    }
-
-    fn masses(&self) -> Option<Vec<f64>> {
-        None
     }
 }
 

@@ -1,6 +1,6 @@
 //! The study of evidence: a small version runs to a report, and bad configurations are refused with the field's name.
 
-use crate::support::{assert_holds, assert_report, for_each_line, number, refused, rows, run_study, value};
+use crate::support::{assert_holds, assert_report, number, refused_lines, rows, run_study, value};
 
 const STUDY: &str = r#"
 kind = "evidence"
@@ -43,14 +43,13 @@ fn evidence() {
 
 #[test]
 fn bad_studies_of_evidence() {
-    let refused = |from: &str, to: &str, parts: &[&str]| refused(STUDY, from, to, parts);
-    for_each_line(
+    refused_lines(
+        STUDY,
         r#"
         "gaussian", dim = 2 | "wells-small" | targets | wells-small | not known
         { name = "iid" } | { name = "ais" } | two cases | gaussian-d2-ais-s3
         count = 4 | count = 0 | line 3 | 0 is out of range
         particles = 80 | particles = 80\nmore = 1 | line 5 | more
         "#,
-        |line| refused(line[0], line[1], &line[2..]),
     );
 }

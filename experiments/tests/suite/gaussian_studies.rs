@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::support::{assert_holds, assert_report, for_each_line, parvi, refused, rows, run_study, value};
+use crate::support::{assert_holds, assert_report, parvi, refused, refused_lines, rows, run_study, value};
 
 const ACCURACY: &str = r#"
 kind = "accuracy"
@@ -169,8 +169,8 @@ fn a_resumed_rival_finds_the_time_of_the_method() {
 
 #[test]
 fn bad_time_to_level() {
-    let refused = |from: &str, to: &str, parts: &[&str]| refused(TIME_TO_LEVEL, from, to, parts);
-    for_each_line(
+    refused_lines(
+        TIME_TO_LEVEL,
         r#"
         [1, 2] | [] | dims | empty
         [1, 2] | [2, 2] | dims | d2-m100-mpm
@@ -184,7 +184,6 @@ fn bad_time_to_level() {
         { name = "svgd" } | { name = "svgd", options = { steps = 3 } } | rivals.options.steps | `steps`
         method = { name = "mpm", options = { survey = "off" } } | method = { name = "mpm", options = { start-mean = 1.0 } } | method.options.start-mean | `start`
         "#,
-        |line| refused(line[0], line[1], &line[2..]),
     );
 }
 
@@ -223,8 +222,8 @@ fn basis_comparison() {
 
 #[test]
 fn bad_basis_comparison() {
-    let refused = |from: &str, to: &str, parts: &[&str]| refused(BASIS_COMPARISON, from, to, parts);
-    for_each_line(
+    refused_lines(
+        BASIS_COMPARISON,
         r#"
         seeds = [1, 2] | seeds = [] | seeds | empty
         dims = [1, 2] | dims = [] | dims | empty
@@ -240,7 +239,6 @@ fn bad_basis_comparison() {
         { survey = "off", moment-correction = "off" } | { steps = 3 } | method.options.steps | `steps`
         { name = "mpm", options = { survey = "off", moment-correction = "off" } } | { name = "svgd" } | basis | svgd
         "#,
-        |line| refused(line[0], line[1], &line[2..]),
     );
 }
 
@@ -267,8 +265,8 @@ fn spacing_particles() {
 
 #[test]
 fn bad_spacing_particles() {
-    let refused = |from: &str, to: &str, parts: &[&str]| refused(SPACING_PARTICLES, from, to, parts);
-    for_each_line(
+    refused_lines(
+        SPACING_PARTICLES,
         r#"
         seeds = [1, 2] | seeds = [] | seeds | empty
         [64, 32, 16] | [] | particles | empty
@@ -280,6 +278,5 @@ fn bad_spacing_particles() {
         steps = 20 | spacing = 0.5 | method.options.spacing | `series`
         { name = "mpm", options = { survey = "off", basis = "linear", steps = 20 } } | { name = "iid" } | spacing | iid
         "#,
-        |line| refused(line[0], line[1], &line[2..]),
     );
 }

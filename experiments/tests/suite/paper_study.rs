@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::support::{assert_holds, assert_report, for_each_line, refused, rows, run_study, succeeds, value};
+use crate::support::{assert_holds, assert_report, refused_lines, rows, run_study, succeeds, value};
 
 const STUDY: &str = r#"
 kind = "paper"
@@ -136,8 +136,8 @@ fn the_papers_algorithms() {
 
 #[test]
 fn bad_studies_of_the_paper() {
-    let refused = |from: &str, to: &str, parts: &[&str]| refused(STUDY, from, to, parts);
-    for_each_line(
+    refused_lines(
+        STUDY,
         r#"
         start-sd = 0.5 | start-sd = 0.0 | start-sd | 0 must be
         start-mean = 1.0 | start-mean = inf | start-mean | finite
@@ -161,6 +161,5 @@ fn bad_studies_of_the_paper() {
         [base] | [base]\nname = "b" | base.name
         steps = [5] | step = [5] | `step` | steps
         "#,
-        |line| refused(line[0], line[1], &line[2..]),
     );
 }

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::support::{assert_holds, assert_report, for_each_line, number, refused, rows, run_study, value};
+use crate::support::{assert_holds, assert_report, number, refused_lines, rows, run_study, value};
 
 const STUDY: &str = r#"
 kind = "random-targets"
@@ -57,8 +57,8 @@ fn random_targets() {
 
 #[test]
 fn bad_random_targets() {
-    let refused = |from: &str, to: &str, parts: &[&str]| refused(STUDY, from, to, parts);
-    for_each_line(
+    refused_lines(
+        STUDY,
         r#"
         dims = [1, 2] | dims = [] | dims | empty
         dims = [1, 2] | dims = [2, 2] | dims or methods | random-d2-seed5-ais
@@ -70,6 +70,5 @@ fn bad_random_targets() {
         evaluations = 3000 | pool = "p.csv" | pool | p.csv | study
         survey = "off" | survey = "off", evaluations = 10 | evaluations | needs a survey
         "#,
-        |line| refused(line[0], line[1], &line[2..]),
     );
 }

@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::time::Duration;
 
-use crate::support::{assert_refused, files, parvi, started, stderr, succeeds, value};
+use crate::support::{assert_refused, files, parvi, started, stderr, succeeds, value, write_responses};
 
 /// A `.vtp` file taken apart as a reader of VTK's XML does it.
 struct Vtp {
@@ -201,10 +201,7 @@ fn four_dimensions_have_all_coordinates_at_their_points() {
 #[test]
 fn coordinates_of_data_keep_their_names() {
     let root = tempfile::tempdir().unwrap();
-    let rows: String = (0..40)
-        .map(|k| format!("{},{},{}\n", u8::from(k % 3 == 0), (k * 7) % 11, (k * 5) % 13))
-        .collect();
-    std::fs::write(root.path().join("d.csv"), format!("y,a & b,velocity\n{rows}")).unwrap();
+    write_responses(&root.path().join("d.csv"), "y,a & b,velocity");
     let line = "sample --target logistic --data d.csv --particles 20 --survey off --steps 2 --out x.csv --frames f";
     succeeds(root.path(), line);
     let vtp = Vtp::read(&root.path().join("f/frame_000000.vtp"));

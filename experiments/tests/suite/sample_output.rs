@@ -1,6 +1,6 @@
 //! What `parvi sample` writes and says.
 
-use crate::support::{files, parvi, stderr, stdout, succeeds, value};
+use crate::support::{files, parvi, stderr, stdout, succeeds, value, write_responses};
 
 fn keys(text: &str) -> Vec<&str> {
     text.lines().map(|line| line.split_once('=').unwrap().0).collect()
@@ -154,10 +154,7 @@ fn targets_are_listed() {
 #[test]
 fn columns_of_a_regression_have_the_names_of_its_data() {
     let directory = tempfile::tempdir().unwrap();
-    let rows: String = (0..40)
-        .map(|k| format!("{},{},{}\n", (k % 3 == 0) as u8, (k * 7) % 11, (k * 5) % 13))
-        .collect();
-    std::fs::write(directory.path().join("d.csv"), format!("y,age,dose\n{rows}")).unwrap();
+    write_responses(&directory.path().join("d.csv"), "y,age,dose");
     let line = "sample --target logistic --data d.csv --particles 20 --steps 2 --out x.csv";
     succeeds(directory.path(), line);
     let text = std::fs::read_to_string(directory.path().join("x.csv")).unwrap();

@@ -242,66 +242,25 @@ fn files_of_particles_that_make_no_sense_are_named() {
         let flags = format!("--target gaussian --dim 2 --method paper-pic {flags}");
         refused_beside(&[("start.csv", two), (name, text)], &flags, parts);
     };
-    let given = "--start start.csv";
     for_each_line(
         r#"
         s.csv | 0,0,0\n1,1,1\n | --start s.csv | --start | s.csv | 3 columns | 2
         s.csv | 0,0\nnan,1\n | --start s.csv | --start | row 2, column 1 | NaN
         s.csv | x,y\n0,0\none,1\n | --start s.csv | --start | line 3 | one
+        s.txt | 0,0\n1,1\n | --start s.txt | --start | s.txt | .csv or .npy
+        s.csv | 0,0\n | --start s.csv | particles | 1
+        s.csv | 0,0\n1,1\n | --start none.csv | --start | none.csv
+        s.csv | 0,0\n1,1\n | --start s.csv --particles 5 | --start | 2 rows | 5
+        m.csv | 1\n-1\n | --start start.csv --masses m.csv | --masses | particle 1 | -1
+        m.csv | 1\n0\n | --start start.csv --volumes m.csv | --volumes | particle 1 | 0
+        m.csv | 1\n1\n1\n | --start start.csv --masses m.csv | --masses | 3 rows | 2
+        v.csv | 1\n1\n | --start start.csv --velocities v.csv | --velocities | 1 columns | 2
+        v.csv | 0,0\ninf,0\n | --start start.csv --velocities v.csv | --velocities | inf
+        s.csv | 0,0\n1,1\n | --start start.csv --volumes start-density | --volumes | start-density
+        s.csv | 0,0\n1,1\n | --start start.csv --start-law gaussian | --start-law | --start
+        s.csv | 0,0\n1,1\n | --start start.csv --start-mean 1 | --start-mean | 1 | --start
         "#,
         |line| with(line[0], line[1], line[2], &line[3..]),
-    );
-    with("s.txt", two, "--start s.txt", &["--start", "s.txt", ".csv or .npy"]);
-    with("s.csv", "0,0\n", "--start s.csv", &["particles", "1"]);
-    with("s.csv", two, "--start none.csv", &["--start", "none.csv"]);
-    with("s.csv", two, "--start s.csv --particles 5", &["--start", "2 rows", "5"]);
-    with(
-        "m.csv",
-        "1\n-1\n",
-        &format!("{given} --masses m.csv"),
-        &["--masses", "particle 1", "-1"],
-    );
-    with(
-        "m.csv",
-        "1\n0\n",
-        &format!("{given} --volumes m.csv"),
-        &["--volumes", "particle 1", "0"],
-    );
-    with(
-        "m.csv",
-        "1\n1\n1\n",
-        &format!("{given} --masses m.csv"),
-        &["--masses", "3 rows", "2"],
-    );
-    with(
-        "v.csv",
-        "1\n1\n",
-        &format!("{given} --velocities v.csv"),
-        &["--velocities", "1 columns", "2"],
-    );
-    with(
-        "v.csv",
-        "0,0\ninf,0\n",
-        &format!("{given} --velocities v.csv"),
-        &["--velocities", "inf"],
-    );
-    with(
-        "s.csv",
-        two,
-        &format!("{given} --volumes start-density"),
-        &["--volumes", "start-density"],
-    );
-    with(
-        "s.csv",
-        two,
-        &format!("{given} --start-law gaussian"),
-        &["--start-law", "--start"],
-    );
-    with(
-        "s.csv",
-        two,
-        &format!("{given} --start-mean 1"),
-        &["--start-mean", "1", "--start"],
     );
     let law = |flags: &str, parts: &[&str]| {
         refused(

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::support::{files, parvi, stderr, value};
+use crate::support::{files, parvi, stderr, value, write_responses};
 
 fn drawn(root: &Path, flags: &str) -> (Vec<String>, String) {
     let output = parvi(root, &format!("sample {flags} --out x.csv --plots p"));
@@ -72,14 +72,8 @@ fn pictures_change_no_particle() {
 #[test]
 fn the_exact_marginal_is_there_where_it_can_be_had() {
     let root = tempfile::tempdir().unwrap();
-    let rows: String = (0..40)
-        .map(|k| format!("{},{},{}\n", u8::from(k % 3 == 0), (k * 7) % 11, (k * 5) % 13))
-        .collect();
-    std::fs::write(root.path().join("two.csv"), format!("y,age,dose\n{rows}")).unwrap();
-    let rows: String = (0..40)
-        .map(|k| format!("{},{}\n", u8::from(k % 3 == 0), (k * 7) % 11))
-        .collect();
-    std::fs::write(root.path().join("one.csv"), format!("y,age\n{rows}")).unwrap();
+    write_responses(&root.path().join("two.csv"), "y,age,dose");
+    write_responses(&root.path().join("one.csv"), "y,age");
     let curve = |name: &str| text(root.path(), name).contains(">target");
 
     drawn(root.path(), "--target gaussian --dim 1 --particles 80");

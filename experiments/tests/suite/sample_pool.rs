@@ -1,6 +1,6 @@
 //! The weighted pool as a file.
 
-use crate::support::{assert_refused, files, for_each_line, parvi, succeeds, value};
+use crate::support::{assert_refused, files, for_each_line, parvi, succeeds, value, write_responses};
 
 #[test]
 fn the_pool_has_rows_with_weights() {
@@ -33,10 +33,7 @@ fn the_pool_has_rows_with_weights() {
 #[test]
 fn columns_of_a_pool_have_the_names_of_its_data() {
     let directory = tempfile::tempdir().unwrap();
-    let rows: String = (0..40)
-        .map(|k| format!("{},{},{}\n", (k % 3 == 0) as u8, (k * 7) % 11, (k * 5) % 13))
-        .collect();
-    std::fs::write(directory.path().join("d.csv"), format!("y,age,dose\n{rows}")).unwrap();
+    write_responses(&directory.path().join("d.csv"), "y,age,dose");
     let line = "sample --target logistic --data d.csv --particles 20 --rounds 0 --out x.csv --pool p.csv";
     let output = succeeds(directory.path(), line);
     assert_eq!(value(&output, "steps").unwrap(), "0");

@@ -153,6 +153,22 @@ pub fn for_each_line(table: &str, check: impl Fn(&[&str])) {
     }
 }
 
+/// [`refused`] for every line of a table: what is replaced, by what, and the parts of the message.
+pub fn refused_lines(study: &str, table: &str) {
+    for_each_line(table, |line| refused(study, line[0], line[1], &line[2..]));
+}
+
+/// Writes 40 rows of a response of 0 or 1 and of the covariates that the header names behind it, two at the most.
+pub fn write_responses(file: &Path, header: &str) {
+    let covariates = header.split(',').count() - 1;
+    let row = |k: usize| {
+        let numbers = [(k * 7) % 11, (k * 5) % 13].map(|number| format!(",{number}"));
+        format!("{}{}\n", u8::from(k.is_multiple_of(3)), numbers[..covariates].concat())
+    };
+    let rows: String = (0..40).map(row).collect();
+    std::fs::write(file, format!("{header}\n{rows}")).unwrap();
+}
+
 /// The records of results.csv, by the names of the columns.
 pub fn rows(root: &Path) -> Vec<HashMap<String, String>> {
     let mut reader = csv::Reader::from_path(root.join("out/results.csv")).unwrap();

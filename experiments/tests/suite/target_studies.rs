@@ -1,7 +1,7 @@
 //! The studies on the catalogue of targets: small versions run to a report, and bad configurations are refused with the field's
 //! name.
 
-use crate::support::{assert_holds, assert_report, for_each_line, number, refused, rows, run_study, value};
+use crate::support::{assert_holds, assert_report, number, refused, refused_lines, rows, run_study, value};
 
 const CATALOGUE: &str = r#"
 kind = "catalogue"
@@ -115,8 +115,8 @@ fn the_reference_hardly_matters() {
 
 #[test]
 fn bad_catalogue() {
-    let refused = |from: &str, to: &str, parts: &[&str]| refused(CATALOGUE, from, to, parts);
-    for_each_line(
+    refused_lines(
+        CATALOGUE,
         r#"
         seeds = [0, 1] | seeds = [] | seeds | empty
         seeds = [0, 1] | seeds = [0, 0] | seeds | gaussian-d1-r0.9-mpm-m200-mean0-sd1-s0
@@ -128,25 +128,24 @@ fn bad_catalogue() {
         standard-deviation = 0.5 | standard-deviation = 0.0 | starts.standard-deviation | 0
         mean = 3.0 | mean = inf | starts.mean | inf
         "#,
-        |line| refused(line[0], line[1], &line[2..]),
     );
     let moving = r#"{ name = "mpm" }, { name = "paper-pic", options = { steps = 5 } }, "#;
-    refused(moving, "", &["methods", "`iid`"]);
-    for_each_line(
+    refused(CATALOGUE, moving, "", &["methods", "`iid`"]);
+    refused_lines(
+        CATALOGUE,
         r#"
         options = { steps = 5 } | options = { start-sd = 5.0 } | start-sd | `starts`
         reference-points = 2048 | reference-points = 20 | line 9 | 20 is out of range
         draws = 5 | draw = 5 | line 12 | `draw`
         { name = "mixture-2" }, { name = "banana" } | { name = "logistic" } | targets | logistic | data
         "#,
-        |line| refused(line[0], line[1], &line[2..]),
     );
     let planar = CATALOGUE.replace(
         "{ name = \"mixture-2\" }, { name = \"banana\" }, { name = \"wells-small\" }",
         "",
     );
     let planar = planar.replace("\"gaussian\", parameters = { correlation = 0.9 }", "\"ring\"");
-    crate::support::refused(&planar, "dims = [1, 2]", "dims = [1]", &["targets", "`dims`"]);
+    refused(&planar, "dims = [1, 2]", "dims = [1]", &["targets", "`dims`"]);
 }
 
 #[test]
@@ -185,8 +184,8 @@ fn stability() {
 
 #[test]
 fn bad_stability() {
-    let refused = |from: &str, to: &str, parts: &[&str]| refused(STABILITY, from, to, parts);
-    for_each_line(
+    refused_lines(
+        STABILITY,
         r#"
         cases = 60 | cases = 0 | line 4 | 0 is out of range
         dims = [1, 2, 3] | dims = [] | dims | empty
@@ -195,6 +194,5 @@ fn bad_stability() {
         dims = [1, 2, 3] | dims = [1]\ntargets = ["logistic"] | targets | logistic | data
         seed = 3 | seeds = [3] | line 3 | `seeds`
         "#,
-        |line| refused(line[0], line[1], &line[2..]),
     );
 }

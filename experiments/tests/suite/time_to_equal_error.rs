@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use crate::support::{
-    assert_holds, assert_refused, assert_report, files, for_each_line, number, parvi, rows, run_study, succeeds, value,
+    assert_holds, assert_refused, assert_report, files, number, parvi, refused_lines, rows, run_study, succeeds, value,
 };
 
 const STUDY: &str = r#"
@@ -104,8 +104,8 @@ fn chains_need_the_feature() {
 
 #[test]
 fn bad_input() {
-    let refused = |from: &str, to: &str, parts: &[&str]| crate::support::refused(STUDY, from, to, parts);
-    for_each_line(
+    refused_lines(
+        STUDY,
         r#"
         seeds = [0, 1, 2] | seeds = [] | seeds | empty
         particles = [40, 80] | particles = [] | particles | empty
@@ -121,6 +121,5 @@ fn bad_input() {
         { name = "svgd" } | { name = "svgd", options = { steps = 7 } } | rivals.options.steps | `steps`
         reference-seed = 1\n |  | study.toml | reference-seed
         "#,
-        |line| refused(line[0], line[1], &line[2..]),
     );
 }

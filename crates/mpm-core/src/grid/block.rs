@@ -90,14 +90,7 @@ mod tests {
 
     #[test]
     fn locate_and_node_at_are_inverse() {
-        round_trips::<1>();
-        round_trips::<2>();
-        round_trips::<3>();
-        round_trips::<4>();
-        round_trips::<5>();
-        round_trips::<6>();
-        round_trips::<7>();
-        round_trips::<8>();
+        mpm_tensor::in_dimensions!(round_trips(), 1, 2, 3, 4, 5, 6, 7, 8);
     }
 
     #[test]

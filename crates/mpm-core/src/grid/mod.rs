@@ -19,7 +19,7 @@ use self::locate::ChunkRuns;
 use self::lookup::NodeBlock;
 use self::template::Template;
 use self::tile::has_tiles;
-use crate::basis::check_placement;
+use crate::basis::placed_grid;
 use crate::key_map::KeyMap;
 use crate::{Basis, Member, MpmError, Schedule, UniformBasis};
 
@@ -146,8 +146,7 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
 
 impl<S: Spline<W>, const W: usize, const D: usize> UniformBasis<D> for SplineGrid<S, W, D> {
     fn place(&mut self, origin: [f64; D], h: f64) -> Result<(), MpmError> {
-        check_placement(&origin, h)?;
-        self.nodes = UniformGrid::new(origin, h);
+        self.nodes = placed_grid(origin, h)?;
         Ok(())
     }
 

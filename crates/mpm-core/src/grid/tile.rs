@@ -177,9 +177,7 @@ mod tests {
     #[test]
     fn stencils_stay_in_their_tile() {
         for width in [2, 3, 4] {
-            dilation_is_that_of_stencils::<1>(width);
-            dilation_is_that_of_stencils::<2>(width);
-            dilation_is_that_of_stencils::<3>(width);
+            mpm_tensor::in_dimensions!(dilation_is_that_of_stencils(width), 1, 2, 3);
         }
     }
 

@@ -9,10 +9,4 @@ pub struct Apic;
 impl<const D: usize> Transfer<D> for Apic {
     type Node = VelocityNode<D>;
     const AFFINE: bool = true;
-    const INCREMENTAL: bool = false;
-
-    #[inline(always)]
-    fn particle_velocity(&self, interpolated: &[f64; D], _: &[f64; D], _: &[f64; D], _: f64) -> [f64; D] {
-        *interpolated
-    }
 }

@@ -11,10 +11,4 @@ impl<const D: usize> Transfer<D> for Mls {
     type Node = VelocityNode<D>;
     const AFFINE: bool = true;
     const MOVING_LEAST_SQUARES: bool = true;
-    const INCREMENTAL: bool = false;
-
-    #[inline(always)]
-    fn particle_velocity(&self, interpolated: &[f64; D], _: &[f64; D], _: &[f64; D], _: f64) -> [f64; D] {
-        *interpolated
-    }
 }

@@ -104,7 +104,7 @@ pub trait Transfer<const D: usize>: Copy + Send + Sync {
     const MOVING_LEAST_SQUARES: bool = false;
 
     /// Whether nodes keep v_iⁿ beside v_iⁿ⁺¹ ([`GridNode::change`]); otherwise impulse and momentum may be added as one.
-    const INCREMENTAL: bool;
+    const INCREMENTAL: bool = false;
 
     /// Whether particles take B_p in this run, of a transfer that is `AFFINE`; otherwise theirs stays as it is. Zero from the start, APIC is PIC.
     #[inline(always)]
@@ -118,8 +118,11 @@ pub trait Transfer<const D: usize>: Copy + Send + Sync {
         *self
     }
 
-    /// New particle velocity from the interpolated nodal velocity, the interpolated nodal change and its own velocity.
-    fn particle_velocity(&self, interpolated: &[f64; D], change: &[f64; D], own: &[f64; D], damping: f64) -> [f64; D];
+    /// New particle velocity from the interpolated nodal velocity, the interpolated nodal change and its own velocity: the first unless a transfer is incremental.
+    #[inline(always)]
+    fn particle_velocity(&self, interpolated: &[f64; D], _: &[f64; D], _: &[f64; D], _damping: f64) -> [f64; D] {
+        *interpolated
+    }
 }
 
 /// Shorten `vector` to the length `limit` if it is longer. Returns its squared length before: infinite where the square

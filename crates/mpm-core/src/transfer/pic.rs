@@ -9,12 +9,6 @@ pub struct Pic;
 impl<const D: usize> Transfer<D> for Pic {
     type Node = VelocityNode<D>;
     const AFFINE: bool = false;
-    const INCREMENTAL: bool = false;
-
-    #[inline(always)]
-    fn particle_velocity(&self, interpolated: &[f64; D], _: &[f64; D], _: &[f64; D], _: f64) -> [f64; D] {
-        *interpolated
-    }
 }
 
 /// Mass and velocity of a node; body-force and stress impulses are added to the momentum as they arrive.

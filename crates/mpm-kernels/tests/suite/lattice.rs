@@ -73,14 +73,7 @@ proptest! {
 
     #[test]
     fn lattices(z in prop::array::uniform8(-20.0..20.0f64), h in 0.05..3.0f64) {
-        in_dimension::<1>(&z, h);
-        in_dimension::<2>(&z, h);
-        in_dimension::<3>(&z, h);
-        in_dimension::<4>(&z, h);
-        in_dimension::<5>(&z, h);
-        in_dimension::<6>(&z, h);
-        in_dimension::<7>(&z, h);
-        in_dimension::<8>(&z, h);
+        mpm_tensor::in_dimensions!(in_dimension(&z, h), 1, 2, 3, 4, 5, 6, 7, 8);
     }
 }
 

@@ -85,3 +85,15 @@ pub fn stiffness_of<const D: usize>(
     let along = |step: f64| energy(&((Matrix::IDENTITY + Matrix::outer(a, n) * step) * *F));
     (along(STEP) - 2.0 * along(0.0) + along(-STEP)) / (STEP * STEP)
 }
+
+/// ρ₀ c² is the stiffness at rest, to `tolerance`.
+pub fn is_exact_at_rest<const D: usize>(
+    name: &str,
+    modulus_of_speed: f64,
+    stiffness: f64,
+    tolerance: f64,
+) -> Result<(), TestCaseError> {
+    let error = modulus_of_speed - stiffness;
+    prop_assert!(error.abs() < tolerance, "{name}, D = {D}: off by {error:e} at rest");
+    Ok(())
+}

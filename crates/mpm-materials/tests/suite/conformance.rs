@@ -4,7 +4,7 @@ use mpm_materials::{ElasticModuli, FixedCorotated, Hencky, IsothermalGas, Linear
 use mpm_tensor::Matrix;
 use proptest::prelude::*;
 
-use crate::common::{Sample, derivative_of, rotation, sample, stiffness_of};
+use crate::common::{Sample, derivative_of, is_exact_at_rest, rotation, sample, stiffness_of};
 
 /// A material and what its documentation promises.
 struct Member<'a, const D: usize> {
@@ -148,13 +148,8 @@ fn wave_speed_bounds_the_acoustic_tensor<const D: usize>(
     }
     let rest = Matrix::IDENTITY;
     let speed = member.material.wave_speed(&rest, density);
-    let error = density * speed * speed - stiffness(&rest, &n, &n);
-    prop_assert!(
-        error.abs() < 1e-4 * scale,
-        "{}, D = {D}: off by {error:e} at rest",
-        member.name
-    );
-    Ok(())
+    let stiffness = stiffness(&rest, &n, &n);
+    is_exact_at_rest::<D>(member.name, density * speed * speed, stiffness, 1e-4 * scale)
 }
 
 macro_rules! conformance {
@@ -162,7 +157,7 @@ macro_rules! conformance {
         proptest! {
             $(#[test]
             fn $name(sample in sample()) {
-                in_every_dimension!(for_each_member(&sample, $check));
+                mpm_tensor::in_dimensions!(for_each_member(&sample, $check)?, 1, 2, 3, 4);
             })*
         }
     };

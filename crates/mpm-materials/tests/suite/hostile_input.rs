@@ -109,11 +109,7 @@ fn all_survive<const D: usize>(numbers: &[f64]) -> Result<(), TestCaseError> {
 proptest! {
     #[test]
     fn any_deformation(numbers in prop::collection::vec(entry(), 36)) {
-        all_survive::<1>(&numbers)?;
-        all_survive::<2>(&numbers)?;
-        all_survive::<3>(&numbers)?;
-        all_survive::<4>(&numbers)?;
-        all_survive::<6>(&numbers)?;
+        mpm_tensor::in_dimensions!(all_survive(&numbers)?, 1, 2, 3, 4, 6);
     }
 
     #[test]

@@ -41,11 +41,7 @@ impl<const D: usize> MeshBasis<D> {
     pub(super) fn sort_particles(&mut self) {
         let cell_count = self.mesh().cell_count();
         self.cell_sort
-            .sort(&self.particle_cells, cell_count, &mut self.schedule);
-        if !self.schedule.keeps_order() {
-            let order = self.schedule.order().iter();
-            self.particle_cells = order.map(|&particle| self.particle_cells[particle as usize]).collect();
-        }
+            .sort_with_cells(&mut self.particle_cells, cell_count, &mut self.schedule);
     }
 }
 

@@ -5,21 +5,6 @@ use mpm_dense::DenseMatrix;
 use mpm_tensor::{Matrix, SingularValues, vector};
 use proptest::prelude::*;
 
-/// Runs `$check::<D>(arguments)` for D = 1…8.
-#[macro_export]
-macro_rules! for_each_dimension {
-    ($check:ident($($argument:expr),*)) => {{
-        $check::<1>($($argument),*)?;
-        $check::<2>($($argument),*)?;
-        $check::<3>($($argument),*)?;
-        $check::<4>($($argument),*)?;
-        $check::<5>($($argument),*)?;
-        $check::<6>($($argument),*)?;
-        $check::<7>($($argument),*)?;
-        $check::<8>($($argument),*)?;
-    }};
-}
-
 /// Properties of random matrices, D = 1…8: a test of each check of what the strategy draws.
 #[macro_export]
 macro_rules! properties {
@@ -27,7 +12,7 @@ macro_rules! properties {
         proptest! {
             $(#[test]
             fn $name(sample in $strategy()) {
-                for_each_dimension!($check(&sample));
+                mpm_tensor::in_dimensions!($check(&sample)?, 1, 2, 3, 4, 5, 6, 7, 8);
             })+
         }
     };

@@ -40,10 +40,7 @@ fn agrees_with_the_definition<const D: usize>() {
 
 #[test]
 fn agrees_with_the_definition_in_every_dimension() {
-    agrees_with_the_definition::<1>();
-    agrees_with_the_definition::<2>();
-    agrees_with_the_definition::<3>();
-    agrees_with_the_definition::<6>();
+    mpm_tensor::in_dimensions!(agrees_with_the_definition(), 1, 2, 3, 6);
 }
 
 /// Two shifted copies of a long sample: the small difference of large sums keeps its digits.

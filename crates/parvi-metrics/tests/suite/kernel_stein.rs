@@ -74,9 +74,7 @@ fn agrees_with_the_definition<const D: usize>() {
 
 #[test]
 fn agrees_with_the_definition_in_every_dimension() {
-    agrees_with_the_definition::<1>();
-    agrees_with_the_definition::<2>();
-    agrees_with_the_definition::<5>();
+    mpm_tensor::in_dimensions!(agrees_with_the_definition(), 1, 2, 5);
 }
 
 /// Exact draws from N(0, I), c = 1: E KSD² = E u(x, x)/M = (E|s|² + d)/M = 2d/M, and the U-statistic has mean zero.

@@ -237,9 +237,7 @@ mod tests {
 
     #[test]
     fn draws_and_density_belong_together() {
-        joint_density_is_the_product_of_its_conditionals::<3>();
-        joint_density_is_the_product_of_its_conditionals::<5>();
-        joint_density_is_the_product_of_its_conditionals::<8>();
+        mpm_tensor::in_dimensions!(joint_density_is_the_product_of_its_conditionals(), 3, 5, 8);
     }
 
     #[test]

@@ -38,7 +38,7 @@ fn check_in<const D: usize>() {
 
 #[test]
 fn entries_describe_their_targets() {
-    in_dimensions!(check_in(), 1, 2, 3, 4, 5, 6, 7, 8, 9);
+    crate::in_dimensions!(check_in(), 1, 2, 3, 4, 5, 6, 7, 8, 9);
 }
 
 #[test]
@@ -49,34 +49,28 @@ fn dimensions_are_resolved() {
     assert_eq!(dimension_of("wells-small", Some(3), &none), Ok(3));
     assert_eq!(dimension_of("probit", None, &none), Ok(5));
     let message = |name, requested| dimension_of(name, requested, &none).unwrap_err().to_string();
-    assert_eq!(message("gaussian", None), "target 'gaussian' needs a dimension: 1 to 8");
-    assert_eq!(message("wells", None), "target 'wells' needs a dimension: 1 to 6");
-    assert_eq!(
-        message("gaussian", Some(0)),
-        "dimension 0 does not fit target 'gaussian': 1 to 8"
-    );
-    assert_eq!(
-        message("gaussian", Some(9)),
-        "dimension 9 does not fit target 'gaussian': 1 to 8"
-    );
-    assert_eq!(
-        message("wells", Some(7)),
-        "dimension 7 does not fit target 'wells': 1 to 6"
-    );
-    assert_eq!(
-        message("funnel", Some(1)),
-        "dimension 1 does not fit target 'funnel': 2 to 8"
-    );
-    assert_eq!(
-        message("schools", Some(2)),
-        "dimension 2 does not fit target 'schools': 3 to 8"
-    );
-    assert_eq!(message("poisson", None), "target 'poisson' needs a dimension: 1 to 8");
-    assert_eq!(message("ring", Some(3)), "dimension 3 does not fit target 'ring': 2");
-    assert_eq!(
-        message("logistic", Some(3)),
-        "target 'logistic' needs the parameter 'data'"
-    );
+    for (name, requested, expected) in [
+        ("gaussian", None, "target 'gaussian' needs a dimension: 1 to 8"),
+        ("wells", None, "target 'wells' needs a dimension: 1 to 6"),
+        ("poisson", None, "target 'poisson' needs a dimension: 1 to 8"),
+        (
+            "gaussian",
+            Some(0),
+            "dimension 0 does not fit target 'gaussian': 1 to 8",
+        ),
+        (
+            "gaussian",
+            Some(9),
+            "dimension 9 does not fit target 'gaussian': 1 to 8",
+        ),
+        ("wells", Some(7), "dimension 7 does not fit target 'wells': 1 to 6"),
+        ("funnel", Some(1), "dimension 1 does not fit target 'funnel': 2 to 8"),
+        ("schools", Some(2), "dimension 2 does not fit target 'schools': 3 to 8"),
+        ("ring", Some(3), "dimension 3 does not fit target 'ring': 2"),
+        ("logistic", Some(3), "target 'logistic' needs the parameter 'data'"),
+    ] {
+        assert_eq!(message(name, requested), expected);
+    }
 }
 
 #[test]

@@ -7,7 +7,7 @@ use parvi_targets::{
 use statrs::function::erf::erfc;
 use statrs::function::gamma::ln_gamma;
 
-use crate::support::log_prior;
+use crate::support::{assert_hessian, log_prior};
 
 /// Coefficients of moderate size, different for every particle and axis.
 fn particles<const D: usize>(count: usize, size: f64) -> Vec<[f64; D]> {
@@ -129,17 +129,7 @@ fn hessian_is_the_derivative_of_the_score<L: Link, const D: usize>(data: Regress
     for x in particles::<D>(20, 2.0) {
         let hessian = target.negative_hessian(&x);
         let size = hessian.0.iter().flatten().fold(1.0_f64, |size, h| size.max(h.abs()));
-        for j in 0..D {
-            let step = 1e-5;
-            let (mut ahead, mut behind) = (x, x);
-            ahead[j] += step;
-            behind[j] -= step;
-            let (ahead, behind) = (target.score(&ahead), target.score(&behind));
-            for i in 0..D {
-                let slope = -(ahead[i] - behind[i]) / (2.0 * step);
-                assert!((hessian.0[i][j] - slope).abs() < 1e-7 * size);
-            }
-        }
+        assert_hessian(&target, &x, 1e-7 * size);
     }
 }
 

@@ -1,8 +1,8 @@
 //! Logistic regression: the batched form against the definition, its reproducibility, and the Laplace approximation.
 
-use parvi_targets::{CatalogueTarget, Curvature, LogisticRegression, RegressionData, Target, TargetError, wells};
+use parvi_targets::{CatalogueTarget, LogisticRegression, RegressionData, Target, TargetError, wells};
 
-use crate::support::log_prior;
+use crate::support::{assert_hessian, log_prior};
 
 /// Coefficients of moderate size, different for every particle and axis.
 fn particles<const D: usize>(count: usize) -> Vec<[f64; D]> {
@@ -62,7 +62,7 @@ fn does_not_depend_on_the_batch<const D: usize>() {
 
 #[test]
 fn a_particle_has_the_same_bits_in_every_batch() {
-    in_dimensions!(does_not_depend_on_the_batch(), 1, 2, 3, 4, 5, 6, 7, 8);
+    crate::in_dimensions!(does_not_depend_on_the_batch(), 1, 2, 3, 4, 5, 6, 7, 8);
 }
 
 #[test]
@@ -139,19 +139,7 @@ fn the_integral_of_the_density_is_the_evidence() {
 #[test]
 fn the_hessian_is_the_derivative_of_the_score() {
     let target = regression::<3>(50);
-    let x = [0.3, -0.4, 1.1];
-    let hessian = target.negative_hessian(&x);
-    for j in 0..3 {
-        let step = 1e-5;
-        let (mut ahead, mut behind) = (x, x);
-        ahead[j] += step;
-        behind[j] -= step;
-        let (ahead, behind) = (target.score(&ahead), target.score(&behind));
-        for i in 0..3 {
-            let slope = -(ahead[i] - behind[i]) / (2.0 * step);
-            assert!((hessian.0[i][j] - slope).abs() < 1e-8);
-        }
-    }
+    assert_hessian(&target, &[0.3, -0.4, 1.1], 1e-8);
 }
 
 /// Modes and standard deviations of the wells posteriors (prior sd 10), computed independently in double precision with

@@ -1,11 +1,6 @@
 //! Densities. One theme per file.
 
-/// A check that is generic over the dimension, in each of some: `in_dimensions!(check("ring"), 1, 2)` is `check::<1>("ring"); check::<2>("ring")`.
-macro_rules! in_dimensions {
-    ($check:ident $arguments:tt, $($dimension:literal),+) => {
-        $($check::<$dimension> $arguments;)+
-    };
-}
+use mpm_tensor::in_dimensions;
 
 mod catalogue;
 mod conformance;

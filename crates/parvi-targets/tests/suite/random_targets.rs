@@ -148,8 +148,8 @@ fn score_is_the_gradient<const D: usize>(seeds: std::ops::Range<u64>) {
 fn scores_are_gradients() {
     score_is_the_gradient::<1>(0..6);
     score_is_the_gradient::<2>(0..12);
-    in_dimensions!(score_is_the_gradient(0..6), 3, 4);
-    in_dimensions!(score_is_the_gradient(0..4), 5, 6, 7, 8);
+    crate::in_dimensions!(score_is_the_gradient(0..6), 3, 4);
+    crate::in_dimensions!(score_is_the_gradient(0..4), 5, 6, 7, 8);
 }
 
 /// Where the cube has D dimensions, log p(T(u)) − log ∫ p = −log |det ∂T/∂u| by differences.
@@ -270,7 +270,7 @@ fn evidence_is_stated<const D: usize>(seeds: std::ops::Range<u64>) {
 
 #[test]
 fn evidence_is_known() {
-    in_dimensions!(evidence_is_stated(0..6), 1, 2);
+    crate::in_dimensions!(evidence_is_stated(0..6), 1, 2);
     evidence_is_stated::<3>(0..3);
 }
 
@@ -306,9 +306,9 @@ fn draws_fit_the_score<const D: usize>(seeds: std::ops::Range<u64>) {
 
 #[test]
 fn draws_fit_scores() {
-    in_dimensions!(draws_fit_the_score(0..4), 1, 2);
+    crate::in_dimensions!(draws_fit_the_score(0..4), 1, 2);
     draws_fit_the_score::<4>(0..3);
-    in_dimensions!(draws_fit_the_score(0..2), 6, 8);
+    crate::in_dimensions!(draws_fit_the_score(0..2), 6, 8);
 }
 
 /// The same seed gives the same bits; the family that a seed chooses is the one that can be asked for; the cube is one that Sobol'
@@ -359,7 +359,7 @@ fn targets_keep_their_word<const D: usize>() {
 
 #[test]
 fn every_dimension_has_its_targets() {
-    in_dimensions!(targets_keep_their_word(), 1, 2, 3, 4, 5, 6, 7, 8);
+    crate::in_dimensions!(targets_keep_their_word(), 1, 2, 3, 4, 5, 6, 7, 8);
 }
 
 #[test]

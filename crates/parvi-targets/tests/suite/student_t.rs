@@ -49,7 +49,7 @@ fn draws_and_transport<const D: usize>(nu: f64) {
 
 #[test]
 fn three_degrees_of_freedom() {
-    in_dimensions!(draws_and_transport(3.0), 1, 2, 4, 8);
+    crate::in_dimensions!(draws_and_transport(3.0), 1, 2, 4, 8);
     let target = StudentT::<2>::new(3.0).unwrap();
     let moments = target.moments().unwrap();
     assert_eq!(moments.mean, [0.0; 2]);

@@ -1,6 +1,5 @@
-use parvi_targets::{Frame, Target};
-
-use crate::{Observer, Run, SampleError, Samples, defaults};
+use crate::task::{Task, sampler};
+use crate::{SampleError, Samples, defaults};
 
 /// Options of the No-U-Turn sampler (Hoffman & Gelman 2014), of the crate `nuts-rs`.
 ///
@@ -28,7 +27,7 @@ impl Default for NutsOptions {
     }
 }
 
-impl NutsOptions {
+sampler! {
     /// Draw from Markov chains that begin at the first points of the run's start law, in the target's own coordinates, with the diagonal mass
     /// matrix and the adaptation that are the defaults of `nuts-rs`.
     ///
@@ -40,18 +39,16 @@ impl NutsOptions {
     /// # Errors
     /// [`SampleError`]: without the cargo feature `nuts` always [`SampleError::NotBuilt`]; an option out of range; a score or a log density that is
     /// not finite where a chain begins; a chain that cannot begin; the observer's stop.
-    pub fn sample<const D: usize>(
-        &self,
-        target: &dyn Target<D>,
-        frame: &Frame<D>,
-        run: &Run,
-        observer: &mut dyn Observer,
-    ) -> Result<Samples<D>, SampleError> {
+    NutsOptions => Self::run
+}
+
+impl NutsOptions {
+    fn run<const D: usize>(&self, task: Task<'_, D>) -> Result<Samples<D>, SampleError> {
         #[cfg(feature = "nuts")]
-        return crate::nuts::sample(self, target, frame, run, observer);
+        return crate::nuts::sample(self, task);
         #[cfg(not(feature = "nuts"))]
         {
-            let _ = (target, frame, run, observer);
+            let _ = task;
             Err(SampleError::NotBuilt {
                 method: "nuts",
                 feature: "nuts",

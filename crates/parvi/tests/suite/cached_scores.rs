@@ -43,6 +43,12 @@ fn cached() -> MpmOptions {
     }
 }
 
+fn ring(particles: usize) -> (Ring, Frame<2>, Run) {
+    let target = Ring::new(2.0, 0.25).expect("a ring");
+    let frame = CatalogueTarget::frame(&target);
+    (target, frame, Run::new(particles, 3))
+}
+
 fn moments<const D: usize>(positions: &[[f64; D]]) -> ([f64; D], [f64; D]) {
     let count = positions.len() as f64;
     let mean: [f64; D] = std::array::from_fn(|a| positions.iter().map(|x| x[a]).sum::<f64>() / count);
@@ -71,8 +77,7 @@ fn a_posterior_takes_a_node_for_many_particles() {
 
 #[test]
 fn cells_are_halved_where_fresh_scores_disagree() {
-    let target = Ring::new(2.0, 0.25).expect("a ring");
-    let (frame, run) = (CatalogueTarget::frame(&target), Run::new(2000, 3));
+    let (target, frame, run) = ring(2000);
     let coarse = MpmOptions {
         evaluations: Some(0),
         ..cached()
@@ -138,8 +143,7 @@ fn what_has_no_cache_says_so() {
 
 #[test]
 fn a_stopped_run_goes_on_with_the_nodes_it_knows_to_the_same_bits_on_any_number_of_threads() {
-    let target = Ring::new(2.0, 0.25).expect("a ring");
-    let (frame, run) = (CatalogueTarget::frame(&target), Run::new(300, 3));
+    let (target, frame, run) = ring(300);
     let whole = MpmOptions {
         steps: Some(40),
         ..cached()

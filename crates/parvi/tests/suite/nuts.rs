@@ -15,6 +15,14 @@ fn nuts<const D: usize>(target: &dyn CatalogueTarget<D>, options: NutsOptions, r
     sample(target, &Method::Nuts(options), run, &mut Silent).expect("samples")
 }
 
+fn options(warm_up: usize, chains: usize) -> NutsOptions {
+    NutsOptions {
+        warm_up,
+        chains,
+        ..NutsOptions::default()
+    }
+}
+
 #[test]
 fn the_moments_of_a_gaussian() {
     let target = Gaussian::<2>::autoregressive(0.8).expect("a correlation below one");
@@ -40,11 +48,7 @@ fn the_moments_of_a_gaussian() {
 
 #[test]
 fn same_seed_same_bits_on_any_number_of_threads() {
-    let options = NutsOptions {
-        warm_up: 100,
-        chains: 5,
-        ..NutsOptions::default()
-    };
+    let options = options(100, 5);
     let draw = |threads: usize, seed: u64| {
         on_threads(threads, || {
             nuts(&Banana::default(), options.clone(), &Run::new(203, seed))
@@ -81,10 +85,8 @@ fn every_gradient_is_counted() {
     for (warm_up, chains, thinning) in [(50, 2, 1), (0, 1, 2), (10, 3, 4)] {
         target.0.store(0, Ordering::Relaxed);
         let options = NutsOptions {
-            warm_up,
-            chains,
             thinning,
-            ..NutsOptions::default()
+            ..options(warm_up, chains)
         };
         let samples = options
             .sample(&target, &Frame::identity(), &Run::new(31, 8), &mut Silent)
@@ -98,12 +100,7 @@ fn every_gradient_is_counted() {
 
 #[test]
 fn no_more_chains_than_draws() {
-    let options = NutsOptions {
-        warm_up: 20,
-        chains: 100,
-        ..NutsOptions::default()
-    };
-    let samples = nuts(&Gaussian::<2>::standard(), options, &Run::new(3, 1));
+    let samples = nuts(&Gaussian::<2>::standard(), options(20, 100), &Run::new(3, 1));
     assert_eq!(samples.positions.len(), 3);
     assert_eq!(samples.steps, 3 * 20 + 3);
 }

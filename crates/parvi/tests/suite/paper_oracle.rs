@@ -287,7 +287,5 @@ fn agrees<const D: usize>() {
 
 #[test]
 fn the_algorithms_as_written_are_those_of_a_second_program() {
-    agrees::<1>();
-    agrees::<2>();
-    agrees::<3>();
+    mpm_tensor::in_dimensions!(agrees(), 1, 2, 3);
 }

@@ -1,6 +1,6 @@
 //! The choices that a seed makes.
 
-use mpm_tensor::{Matrix, vector};
+use mpm_tensor::Matrix;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 use rand_distr::{Distribution, StandardNormal};
@@ -66,24 +66,6 @@ impl Dice {
 
     /// A uniformly distributed orthogonal matrix (rotations and reflections): Gram–Schmidt of standard normal vectors.
     pub fn orthogonal<const D: usize>(&mut self) -> Matrix<D> {
-        let mut rows = [[0.0; D]; D];
-        for row in 0..D {
-            loop {
-                let mut vector = self.normal::<D>();
-                // Twice, so that rounding leaves no component along the others.
-                for _ in 0..2 {
-                    for other in rows.iter().take(row) {
-                        let along = vector::dot(&vector, other);
-                        vector::accumulate(&mut vector, -along, other);
-                    }
-                }
-                let length = vector::norm(&vector);
-                if length > 1e-3 {
-                    rows[row] = vector::scale(&vector, 1.0 / length);
-                    break;
-                }
-            }
-        }
-        Matrix(rows)
+        Matrix::orthogonal(1e-3, || self.normal())
     }
 }

@@ -7,7 +7,7 @@ use crate::support::with;
 
 #[test]
 fn gaussian() {
-    in_dimensions!(conforms("gaussian"), 1, 2, 6);
+    crate::in_dimensions!(conforms("gaussian"), 1, 2, 6);
     let correlated = with(|p| p.correlation = Some(-0.95));
     conforming(&*build::<4>("gaussian", &correlated).unwrap());
 }
@@ -34,12 +34,12 @@ fn ring() {
 
 #[test]
 fn funnel() {
-    in_dimensions!(conforms("funnel"), 2, 3, 4, 6);
+    crate::in_dimensions!(conforms("funnel"), 2, 3, 4, 6);
 }
 
 #[test]
 fn student_t() {
-    in_dimensions!(conforms("student-t"), 1, 2, 6);
+    crate::in_dimensions!(conforms("student-t"), 1, 2, 6);
     let cauchy = with(|p| p.degrees_of_freedom = Some(1.0));
     let cauchy = build::<3>("student-t", &cauchy).unwrap();
     assert!(cauchy.moments().is_none());
@@ -48,7 +48,7 @@ fn student_t() {
 
 #[test]
 fn rosenbrock() {
-    in_dimensions!(conforms("rosenbrock"), 2, 3, 4, 7, 8);
+    crate::in_dimensions!(conforms("rosenbrock"), 2, 3, 4, 7, 8);
     // The plane's density with the constants of the literature.
     let classic = with(|p| {
         p.spread = Some(10_f64.sqrt());
@@ -59,7 +59,7 @@ fn rosenbrock() {
 
 #[test]
 fn scales() {
-    in_dimensions!(conforms("scales"), 2, 4, 8);
+    crate::in_dimensions!(conforms("scales"), 2, 4, 8);
     let uncorrelated = with(|p| p.correlation = Some(0.0));
     let target = build::<3>("scales", &uncorrelated).unwrap();
     conforming(&*target);
@@ -71,7 +71,7 @@ fn scales() {
 
 #[test]
 fn cross() {
-    in_dimensions!(conforms("cross"), 2, 3, 8);
+    crate::in_dimensions!(conforms("cross"), 2, 3, 8);
     let round = with(|p| {
         p.spread = Some(0.5);
         p.width = Some(0.5);

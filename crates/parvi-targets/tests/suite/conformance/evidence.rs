@@ -18,15 +18,15 @@ fn eggbox() {
 
 #[test]
 fn shells() {
-    in_dimensions!(conforms("shells"), 2, 5, 8);
+    crate::in_dimensions!(conforms("shells"), 2, 5, 8);
 }
 
 #[test]
 fn spike_slab() {
-    in_dimensions!(conforms("spike-slab"), 1, 3, 8);
+    crate::in_dimensions!(conforms("spike-slab"), 1, 3, 8);
 }
 
 #[test]
 fn log_gamma() {
-    in_dimensions!(conforms("log-gamma"), 2, 5, 8);
+    crate::in_dimensions!(conforms("log-gamma"), 2, 5, 8);
 }

@@ -7,8 +7,8 @@ use super::promises::{conforming, conforms};
 #[test]
 fn mixtures() {
     conforms::<2>("mixture-4");
-    in_dimensions!(conforms("mixture-2"), 1, 3);
-    in_dimensions!(conforms("mixture-3"), 2, 4, 8);
+    crate::in_dimensions!(conforms("mixture-2"), 1, 3);
+    crate::in_dimensions!(conforms("mixture-3"), 2, 4, 8);
     let modes = [
         Mode {
             centre: [0.0, 1.0, 2.0],

@@ -127,9 +127,9 @@ fn references_of_the_regressions_state_their_error() {
         let share = one.effective_sample_size / f64::from(1 << 15);
         assert!(share > 0.5, "{name}: effective share {share}");
     }
-    in_dimensions!(check("wells"), 1, 6);
+    crate::in_dimensions!(check("wells"), 1, 6);
     check::<5>("wells-small");
-    in_dimensions!(check("probit"), 1, 5);
-    in_dimensions!(check("poisson"), 2, 4, 8);
+    crate::in_dimensions!(check("probit"), 1, 5);
+    crate::in_dimensions!(check("poisson"), 2, 4, 8);
     assert_eq!(wells(5, None).unwrap().rows(), 3020);
 }

@@ -1,22 +1,9 @@
 //! A guard: principal stretches that rounding can still tell from zero.
 
-use mpm_materials::{DeformationError, Law, Memory};
 use mpm_tensor::{Matrix, SingularValues};
 
-/// A law whose trial deformation gradients are first brought back to principal stretches in [1/k, k], with det F > 0.
-///
-/// A material that yields to large strain (a fixed corotated solid, a plastic one) is sheared and crushed on and on, until the determinant of F is nothing but rounding and the body comes to an end that
-/// the motion does not know. F = U diag(σ) Vᵀ becomes U diag(min(max(σ, 1/k), k)) Vᵀ, as in the snow of Stomakhin et al. 2013, §5; where det F < 0 the least stretch is the one that has turned over. An F within the
-/// limits stays as it is, to the bit.
-pub(crate) struct StretchLimited<'a, const D: usize> {
-    pub law: &'a dyn Law<D, State = Memory>,
-    /// k > 1.
-    pub limit: f64,
-}
-
 /// F with its stretches within [1/k, k]; F itself where they are, or where it is not finite.
-#[allow(non_snake_case)]
-fn limited<const D: usize>(F: &Matrix<D>, limit: f64) -> Matrix<D> {
+pub(crate) fn limited<const D: usize>(F: &Matrix<D>, limit: f64) -> Matrix<D> {
     // No stretch is above |F|, and the product of all but the least is at most |F|^(D−1).
     let (norm, J) = (F.frobenius_norm(), F.determinant());
     if norm <= limit && J > 0.0 && J * limit >= norm.powi(D as i32 - 1) {
@@ -43,59 +30,7 @@ fn limited<const D: usize>(F: &Matrix<D>, limit: f64) -> Matrix<D> {
     left * Matrix::diagonal(&stretches) * right.transpose()
 }
 
-#[allow(non_snake_case)]
-impl<const D: usize> Law<D> for StretchLimited<'_, D> {
-    type State = Memory;
-
-    fn rate_dependent(&self) -> bool {
-        self.law.rate_dependent()
-    }
-
-    fn virgin(&self, reference_density: f64) -> Memory {
-        self.law.virgin(reference_density)
-    }
-
-    fn advance(&self, trial: &Matrix<D>, memory: &mut Memory) -> Matrix<D> {
-        self.law.advance(&limited(trial, self.limit), memory)
-    }
-
-    fn energy_density(&self, F: &Matrix<D>, memory: &Memory) -> f64 {
-        self.law.energy_density(F, memory)
-    }
-
-    fn kirchhoff_stress(&self, F: &Matrix<D>, memory: &Memory, velocity_gradient: &Matrix<D>) -> Matrix<D> {
-        self.law.kirchhoff_stress(F, memory, velocity_gradient)
-    }
-
-    fn wave_speed(&self, F: &Matrix<D>, memory: &Memory, reference_density: f64) -> f64 {
-        self.law.wave_speed(F, memory, reference_density)
-    }
-
-    fn kirchhoff_stresses(
-        &self,
-        F: &[Matrix<D>],
-        states: &[Memory],
-        velocity_gradients: &[Matrix<D>],
-        stresses: &mut [Matrix<D>],
-    ) {
-        self.law.kirchhoff_stresses(F, states, velocity_gradients, stresses);
-    }
-
-    fn wave_speeds(&self, F: &[Matrix<D>], states: &[Memory], reference_densities: &[f64], wave_speeds: &mut [f64]) {
-        self.law.wave_speeds(F, states, reference_densities, wave_speeds);
-    }
-
-    fn check(&self, F: &Matrix<D>) -> Result<(), DeformationError> {
-        self.law.check(F)
-    }
-
-    fn volume_ratio(&self, F: &Matrix<D>, memory: &Memory) -> f64 {
-        self.law.volume_ratio(F, memory)
-    }
-}
-
 #[cfg(test)]
-#[allow(non_snake_case)]
 mod tests {
     use super::*;
 
