@@ -75,8 +75,8 @@ pub(super) fn search<const D: usize>(
             logs.extend_from_slice(&fold.log_densities[first..]);
         }
         let whitener = factor.lower_triangular_inverse().unwrap_or(Matrix::IDENTITY);
-        let mut new = covered.from_surprises(density, &points, &logs, WIDEST * spread);
-        new.extend(covered.from_peaks(density, &points, &logs, &whitener, WIDEST * spread));
+        let mut new = covered.climb_from_surprises(density, &points, &logs, WIDEST * spread);
+        new.extend(covered.climb_from_peaks(density, &points, &logs, &whitener, WIDEST * spread));
         if new.is_empty() {
             break;
         }
@@ -171,7 +171,7 @@ impl<const D: usize> Covered<D> {
     }
 
     /// Sends scouts from the most surprising points, and covers what they find.
-    fn from_surprises(
+    fn climb_from_surprises(
         &mut self,
         density: &mut Density<'_, D>,
         points: &[[f64; D]],
@@ -204,7 +204,7 @@ impl<const D: usize> Covered<D> {
 
     /// Sends scouts from foreign points that are higher than all about them, and covers what they find: far out the flank of a narrow piece is lower than the tails of
     /// what is covered, and higher than what is about it.
-    fn from_peaks(
+    fn climb_from_peaks(
         &mut self,
         density: &mut Density<'_, D>,
         points: &[[f64; D]],
