@@ -25,3 +25,17 @@ impl<const D: usize> Matrix<D> {
         Self(rows)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_are_orthonormal_and_one_without_a_part_of_its_own_is_drawn_again() {
+        let mut draws = [[3.0, 4.0, 0.0], [6.0, 8.0, 0.0], [1.0, 0.0, 2.0], [0.3, -0.7, 0.2]].into_iter();
+        let matrix = Matrix::<3>::orthogonal(1e-3, || draws.next().expect("another draw"));
+        assert!(draws.next().is_none());
+        assert!((matrix * matrix.transpose() - Matrix::IDENTITY).maximum_norm() < 1e-15);
+        assert!(vector::distance(&matrix.0[0], &[0.6, 0.8, 0.0]) < 1e-15);
+    }
+}
