@@ -75,6 +75,34 @@ pub enum SceneFault {
         /// `domain.upper`.
         upper: Vec<f64>,
     },
+    /// A particle is on the far side of a wall at the start.
+    #[error(
+        "bodies.{body}: particle {particle} at {position:?} is behind walls[{wall}], the plane through {point:?} that bounds the side which {normal:?} points to"
+    )]
+    BehindWall {
+        /// Its body.
+        body: String,
+        /// Its number in the order of creation.
+        particle: usize,
+        /// Its position.
+        position: Vec<f64>,
+        /// Number of the wall, counted from 0.
+        wall: usize,
+        /// A point of the wall.
+        point: Vec<f64>,
+        /// Its normal into the domain.
+        normal: Vec<f64>,
+    },
+    /// The Courant condition asks for so short a step that the end is out of reach.
+    #[error(
+        "time.end = {end}: the Courant condition allows steps of {step} at the start, 1e9 of which do not reach it"
+    )]
+    TooManySteps {
+        /// The longest step allowed.
+        step: f64,
+        /// `time.end`.
+        end: f64,
+    },
     /// The time step asked for is longer than the Courant condition allows at the start.
     #[error("time.step = {step}: must be at most {limit}, the Courant number {courant} times h / (c + max |v|)")]
     TimeStep {

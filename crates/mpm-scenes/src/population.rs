@@ -5,7 +5,7 @@ use crate::fill::{Filling, centroids, poisson_disk, random, regular, rings, vert
 use crate::scene::{BodyTable, FillKind, Scene};
 use crate::shape::{Bounds, Rotated, Shape};
 use crate::values::within;
-use crate::{SceneFault, rotation, shape, velocity};
+use crate::{SceneFault, plane, rotation, shape, velocity};
 
 /// All particles in the order of creation, which is that of the bodies; one entry per particle in every list.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -30,8 +30,8 @@ impl<const D: usize> Population<D> {
     /// Fills the bodies of a scene.
     ///
     /// # Errors
-    /// [`SceneFault::EmptyBody`], [`SceneFault::Overlap`] for a particle inside the shape of another body, [`SceneFault::OutsideDomain`], and
-    /// [`SceneFault::Value`] for more particles than can be numbered.
+    /// [`SceneFault::EmptyBody`], [`SceneFault::Overlap`] for a particle inside the shape of another body, [`SceneFault::OutsideDomain`],
+    /// [`SceneFault::BehindWall`], and [`SceneFault::Value`] for more particles than can be numbered.
     pub fn fill(scene: &Scene) -> Result<Self, SceneFault> {
         Self::fill_on(scene, &Background::build(scene)?)
     }
@@ -57,6 +57,7 @@ impl<const D: usize> Population<D> {
             shapes.push(shape);
         }
         all.check_places(scene, &shapes, background.room())?;
+        plane::check_sides(scene, background.room(), background.spacing(), &all)?;
         Ok(all)
     }
 

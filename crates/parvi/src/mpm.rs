@@ -26,17 +26,15 @@ pub(crate) fn sample<const D: usize>(options: &MpmOptions, mut task: Task<'_, D>
     } else {
         None
     };
-    let samples = match known {
-        Some(samples) => samples,
-        None if surveys && options.rounds == Some(0) => return Err(PoolError::NowhereFinite.into()),
+    match known {
+        Some(samples) => Ok(samples),
+        None if surveys && options.rounds == Some(0) => Err(PoolError::NowhereFinite.into()),
         None if caches => {
             let cached = CachedScores::new(target, frame, options.non_finite_scores, &journal.tape())?;
             journal.keep_evaluations(cached.tape());
             let task = task.of(&cached);
-            free_body::sample(options, task, Some(&cached), &mut journal)?
+            free_body::sample(options, task, Some(&cached), &mut journal)
         }
-        None => free_body::sample(options, task, None, &mut journal)?,
-    };
-    journal.close();
-    Ok(samples)
+        None => free_body::sample(options, task, None, &mut journal),
+    }
 }

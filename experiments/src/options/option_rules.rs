@@ -1,6 +1,6 @@
 //! Ranges of options, and which of them need or exclude each other.
 
-use super::{AlphaSchedule, Basis, Limit, MethodName, MethodOptions, OptionError, PoolChoice, Transfer};
+use super::{AlphaSchedule, Basis, Limit, MethodName, MethodOptions, OptionError, PoolChoice, Score, Switch, Transfer};
 
 /// What has to hold where an option is given.
 struct Rules {
@@ -81,6 +81,14 @@ impl MethodOptions {
         let flips = matches!(self.transfer, Some(Transfer::Flip | Transfer::AffineFlip));
         rules.ask("flip-share", flips, "needs the transfer `flip` or `affine-flip`");
         let surveys = self.surveys();
+        let asks = self.survey == Some(Switch::On);
+        let caches = self.score == Some(Score::Cached);
+        rules.ask(
+            "survey",
+            !(asks && caches),
+            "contradicts --score cached, which has none",
+        );
+        rules.ask("survey", !asks || surveys, "needs a last alpha of 1");
         for option in ["start", "start-law", "start-centre"] {
             let otherwise = "needs --survey off: a survey says where the particles begin";
             rules.ask(option, !surveys, otherwise);

@@ -90,6 +90,8 @@ fn flags_that_do_not_fit_the_method() {
         --target banana --particles 64 --youngs-modulus 2 | --youngs-modulus | 2 | mpm
         --target banana --particles 64 --method paper-pic --friction -1 | --friction | -1 | at least 0
         --target banana --particles 64 --flip-share 0.9 | --flip-share | 0.9 | flip
+        --target banana --particles 64 --survey on --score cached | --survey | on contradicts --score cached
+        --target banana --particles 64 --survey on --alpha 0.5 | --survey | on needs a last alpha of 1
         --target banana --particles 64 --method paper-pic --alpha-from 2 | --alpha-from | 2 | alpha-to
         "#,
         |line| refused(line[0], &line[1..]),

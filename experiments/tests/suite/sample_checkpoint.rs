@@ -5,7 +5,7 @@
 use std::path::Path;
 use std::time::Duration;
 
-use crate::support::{assert_refused, files, parvi, started, stdout, succeeds, value};
+use crate::support::{assert_refused, files, parvi, started, stderr, stdout, succeeds, value};
 
 const RUN: &str =
     "sample --target mixture-2 --dim 2 --particles 400 --evaluations 3000 --rounds 1 --steps 8000 --seed 3";
@@ -45,6 +45,34 @@ fn a_killed_run_ends_with_the_same_file() {
     assert!(!directory.path().join("state").exists());
 }
 
+/// What stands in the way of the last file: a directory under its name.
+#[test]
+fn a_finished_run_whose_files_cannot_be_written_keeps_its_checkpoint() {
+    const RUN: &str = "sample --target banana --particles 100 --seed 3 --steps 20";
+    let root = tempfile::tempdir().unwrap();
+    let line = |name: &str| format!("{RUN} --out {name}.npy --plots p --checkpoint state");
+    let whole = succeeds(root.path(), &format!("{RUN} --out whole.npy"));
+    std::fs::create_dir_all(root.path().join("p/histogram.svg/x")).unwrap();
+    let failed = parvi(root.path(), &line("x"));
+    assert!(!failed.status.success());
+    assert!(root.path().join("state").exists(), "{}", stderr(&failed));
+    std::fs::remove_dir_all(root.path().join("p/histogram.svg")).unwrap();
+    std::fs::remove_file(root.path().join("x.npy")).unwrap();
+    let again = succeeds(root.path(), &line("x"));
+    let read = |name: &str| std::fs::read(root.path().join(name)).unwrap();
+    assert!(read("x.npy") == read("whole.npy"));
+    for key in [
+        "score_evaluations",
+        "density_evaluations",
+        "residual",
+        "outcome",
+        "log_evidence",
+    ] {
+        assert_eq!(value(&again, key), value(&whole, key), "{key}");
+    }
+    assert_eq!(files(root.path()), ["p", "whole.npy", "x.npy"]);
+}
+
 #[test]
 fn what_does_not_fit_a_checkpoint_is_refused() {
     let directory = tempfile::tempdir().unwrap();
@@ -69,7 +97,7 @@ fn one_file_in_two_roles_is_refused_and_kept() {
     let line = "sample --target logistic --data data.csv --particles 20";
     for (files, parts) in [
         ("--out ./data.csv", ["data", "--out"]),
-        ("--out x.csv --diagnostics x.csv", ["diagnostics", "--out"]),
+        ("--out x.csv --checkpoint x.csv", ["checkpoint", "--out"]),
         ("--out x.csv --checkpoint data.csv", ["data", "--checkpoint"]),
     ] {
         assert_refused(&parvi(directory.path(), &format!("{line} {files}")), &parts);

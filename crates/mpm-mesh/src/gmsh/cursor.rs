@@ -10,6 +10,9 @@ pub enum Encoding {
     BigEndian,
 }
 
+/// U+FEFF in UTF-8.
+const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
+
 /// A place in a file, from where it is read on.
 pub struct Cursor<'a> {
     bytes: &'a [u8],
@@ -18,10 +21,15 @@ pub struct Cursor<'a> {
 }
 
 impl<'a> Cursor<'a> {
+    /// At the first byte, or behind the byte order mark that some editors put there.
     pub fn new(bytes: &'a [u8]) -> Self {
         Self {
             bytes,
-            at: 0,
+            at: if bytes.starts_with(BYTE_ORDER_MARK) {
+                BYTE_ORDER_MARK.len()
+            } else {
+                0
+            },
             encoding: Encoding::Text,
         }
     }

@@ -1,5 +1,7 @@
 //! What the values of the parameters make of the scene.
 
+use std::path::Path;
+
 use mpm_scenes::Scene;
 
 use super::{Experiment, ExperimentError, Key};
@@ -31,6 +33,25 @@ impl Experiment {
     pub fn scene_of(&self, document: &SceneDocument, values: &[f64]) -> Result<Scene, ExperimentError> {
         let case = self.case(values)?;
         document.scene(&case.changes).map_err(|error| self.blamed(error))
+    }
+
+    /// The scene that is trained on.
+    pub(super) fn read_scene(&self) -> Result<SceneDocument, ExperimentError> {
+        self.read_named("scene", &self.scene_file())
+    }
+
+    /// The scene that reduced runs are runs of.
+    pub(super) fn read_run_scene(&self) -> Result<SceneDocument, ExperimentError> {
+        let key = if self.run.scene.is_some() { "run.scene" } else { "scene" };
+        self.read_named(key, &self.run_scene_file())
+    }
+
+    /// A file that a key names; the key is at fault where there is none.
+    pub(super) fn read_named(&self, key: &str, file: &Path) -> Result<SceneDocument, ExperimentError> {
+        SceneDocument::read(file).map_err(|error| match error {
+            FullOrderError::Unreadable { .. } => self.field(key.to_owned(), error.to_string()),
+            other => other.into(),
+        })
     }
 
     /// A change that does not fit the scene is a fault of the key that asks for it, not of the scene.

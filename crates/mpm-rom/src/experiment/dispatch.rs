@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use super::{Experiment, ExperimentError, ReducedRow, Trained, Watch, run, train};
-use crate::full_order::SceneDocument;
 
 /// [`train`] in the dimension of the experiment's scene.
 ///
@@ -38,6 +37,6 @@ pub fn run_experiment(
 }
 
 fn dimension(experiment: &Experiment) -> Result<usize, ExperimentError> {
-    let document = SceneDocument::read(&experiment.scene_file())?;
+    let document = experiment.read_scene()?;
     Ok(experiment.scene_of(&document, &experiment.cases.train[0])?.dimension)
 }

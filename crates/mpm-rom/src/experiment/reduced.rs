@@ -14,7 +14,7 @@ use super::sampling::Sampling;
 use super::super_resolution::Finer;
 use super::trained::models_for;
 use super::{Experiment, ExperimentError, ManifoldName, SampleCount};
-use crate::full_order::{FullOrderError, Recording, SceneDocument};
+use crate::full_order::{FullOrderError, Recording};
 use crate::manifold::{Manifold, Pod};
 use crate::online::ReducedBody;
 use crate::snapshots::{Run, Snapshots};
@@ -39,10 +39,13 @@ pub fn run<const D: usize>(
             model: model.display().to_string(),
         });
     }
+    // Not after minutes of choices on training runs.
+    experiment.check_sample_counts::<D>()?;
     experiment.occupy(directory)?;
-    let document = SceneDocument::read(&experiment.run_scene_file())?;
+    let document = experiment.read_run_scene()?;
     let finer = experiment.super_resolution_file();
-    let finer = finer.map(|file| SceneDocument::read(&file)).transpose()?;
+    let finer = finer.map(|file| experiment.read_named("run.super_resolution", &file));
+    let finer = finer.transpose()?;
     let (models, trained_on) = models_for::<D>(experiment, directory)?;
     let at_rest = models
         .iter()
@@ -64,7 +67,7 @@ pub fn run<const D: usize>(
     let after_run = RefCell::new(after_run);
     let mut chosen = Chosen::default();
     if let Some(snapshots) = training.as_ref().filter(|_| chooses_on_training(experiment)) {
-        let document = SceneDocument::read(&experiment.scene_file())?;
+        let document = experiment.read_scene()?;
         for (name, network) in maps(experiment, models.len()) {
             let sampling = Sampling {
                 experiment,

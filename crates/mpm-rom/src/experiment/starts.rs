@@ -12,7 +12,6 @@ use super::files::{self, START, names};
 use super::sampling::Sampling;
 use super::trained::{Start, Trained, Watch, train_network};
 use super::{Experiment, ExperimentError, ManifoldName};
-use crate::full_order::SceneDocument;
 use crate::model::Model;
 use crate::snapshots::Snapshots;
 use crate::training::Training;
@@ -28,7 +27,7 @@ pub(super) fn best_start<const D: usize>(
     directory: &Path,
     watch: &mut dyn Watch,
 ) -> Result<Trained, ExperimentError> {
-    let document = SceneDocument::read(&experiment.scene_file())?;
+    let document = experiment.read_scene()?;
     let (mut starts, mut training_time) = (Vec::new(), Duration::ZERO);
     let watch = RefCell::new(watch);
     let mut best: Option<(Start, PathBuf, Trained)> = None;

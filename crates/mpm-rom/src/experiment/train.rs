@@ -8,7 +8,7 @@ use super::starts::best_start;
 use super::trained::{Trained, Watch, train_network};
 use super::variants::directory_of;
 use super::{Experiment, ExperimentError};
-use crate::full_order::{self, FullOrderError, Kept, SceneDocument};
+use crate::full_order::{self, FullOrderError, Kept};
 use crate::snapshots::Snapshots;
 
 /// Runs the scene for all training cases, trains the network and its variants, and writes the models. What the directory holds of it already is not done again.
@@ -20,6 +20,7 @@ pub fn train<const D: usize>(
     directory: &Path,
     watch: &mut dyn Watch,
 ) -> Result<Vec<Trained>, ExperimentError> {
+    experiment.check_sample_counts::<D>()?;
     experiment.occupy(directory)?;
     let start = Instant::now();
     let snapshots = training_data::<D>(experiment, directory, watch)?;
@@ -53,7 +54,7 @@ fn training_data<const D: usize>(
     if file.exists() {
         return Ok(Snapshots::read(&file)?);
     }
-    let document = SceneDocument::read(&experiment.scene_file())?;
+    let document = experiment.read_scene()?;
     let values = &experiment.cases.train;
     let cases: Vec<_> = values
         .iter()

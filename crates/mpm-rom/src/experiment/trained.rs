@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use super::files::{self, names};
 use super::variants::directory_of;
 use super::{Experiment, ExperimentError};
-use crate::full_order::{Recording, SceneDocument};
+use crate::full_order::Recording;
 use crate::model::Model;
 use crate::snapshots::{Body, Snapshots};
 use crate::training::{EpochReport, Trainer, Training};
@@ -136,7 +136,7 @@ pub(super) fn models_for<const D: usize>(
     experiment: &Experiment,
     directory: &Path,
 ) -> Result<(Vec<(String, Model<D>)>, Body<D>), ExperimentError> {
-    let document = SceneDocument::read(&experiment.scene_file())?;
+    let document = experiment.read_scene()?;
     let scene = experiment.scene_of(&document, &experiment.cases.test[0])?;
     let body = Recording::<D>::of(&scene, &experiment.parameters, experiment.recorded_points)?.body;
     let networks = experiment.trainings()?.into_iter();

@@ -36,4 +36,5 @@ pub use options::{Inverted, Options, Quadrature, SampleWeights, Update};
 pub use ranked_exchanges::rank_exchanges;
 pub use reading::Reading;
 pub use samples::SampleChoice;
+pub(crate) use samples::check_count;
 pub use step::{ReducedModel, StepReport};

@@ -143,6 +143,19 @@ pub(super) fn groups<const D: usize>(
     Ok(groups)
 }
 
+/// Whether so many sample points can be chosen of a body with so many points.
+///
+/// # Errors
+/// As [`groups`].
+pub(crate) fn check_count<const D: usize>(
+    kinematics: &Kinematics<D>,
+    points: usize,
+    coordinates: usize,
+    count: usize,
+) -> Result<(), OnlineError> {
+    groups(kinematics, points, coordinates, count).map(drop)
+}
+
 fn given<const D: usize>(numbers: &[u32], points: usize, kinematics: &Kinematics<D>) -> Result<Vec<u32>, OnlineError> {
     let mut next = 0;
     for &number in numbers {

@@ -2,6 +2,9 @@ use serde::{Deserialize, Serialize};
 
 use super::{Optimizer, TrainingError};
 
+/// Coordinates, units of a layer and layers, at most: the optimizer keeps square matrices as wide as a layer.
+const MOST_UNITS: usize = 4096;
+
 /// How a network and an encoder are trained together.
 ///
 /// A step takes `batch` pairs (run, frame) and of each frame `points` material points, drawn anew every time; the encoder always sees all
@@ -13,13 +16,13 @@ use super::{Optimizer, TrainingError};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Training {
-    /// r, the number of generalised coordinates, ≥ 1.
+    /// r, the number of generalised coordinates, 1 to 4096.
     pub coordinates: usize,
-    /// Units of a hidden layer of the network, ≥ 1.
+    /// Units of a hidden layer of the network, 1 to 4096.
     pub width: usize,
-    /// Hidden layers of the network, ≥ 1.
+    /// Hidden layers of the network, 1 to 4096.
     pub depth: usize,
-    /// Units of the encoder's dense hidden layer, ≥ 1.
+    /// Units of the encoder's dense hidden layer, 1 to 4096.
     pub encoder_width: usize,
     /// λ_F, weight of ‖∇_X g̃ − F‖², ≥ 0.
     pub gradient_weight: f64,
@@ -71,14 +74,18 @@ impl Training {
     /// [`TrainingError::Value`].
     pub fn check(&self) -> Result<(), TrainingError> {
         let count = |field, value: u64| (field, value as f64, value > 0, "at least 1");
+        let size = |field, value: usize| {
+            let fits = (1..=MOST_UNITS).contains(&value);
+            (field, value as f64, fits, "from 1 to 4096")
+        };
         let weight = |field, value: f64| (field, value, value.is_finite() && value >= 0.0, "at least 0 and finite");
         let (first, last) = (self.initial_rate, self.final_rate);
         let falling = last > 0.0 && last <= first;
         let rules = [
-            count("coordinates", self.coordinates as u64),
-            count("width", self.width as u64),
-            count("depth", self.depth as u64),
-            count("encoder_width", self.encoder_width as u64),
+            size("coordinates", self.coordinates),
+            size("width", self.width),
+            size("depth", self.depth),
+            size("encoder_width", self.encoder_width),
             count("batch", self.batch as u64),
             count("points", self.points as u64),
             count("epochs", self.epochs),
@@ -131,6 +138,13 @@ mod tests {
         };
         assert!(Training::default().check().is_ok());
         assert_eq!(field(|c| c.coordinates = 0), "coordinates");
+        assert_eq!(field(|c| c.coordinates = 100_000), "coordinates");
+        assert_eq!(field(|c| c.encoder_width = usize::MAX), "encoder_width");
+        let many = Training {
+            coordinates: 500,
+            ..Training::default()
+        };
+        assert!(many.check().is_ok());
         assert_eq!(field(|c| c.points = 0), "points");
         assert_eq!(field(|c| c.epochs = 0), "epochs");
         assert_eq!(field(|c| c.gradient_weight = -1.0), "gradient_weight");

@@ -7,9 +7,11 @@ use super::boundary::{self, MovingObstacles};
 use super::budget::Budget;
 use super::dispatch;
 use super::motion::Motion;
+use super::probe::Probe;
 use super::schedule::{SAME, Schedule};
 use crate::background::Background;
 use crate::population::Population;
+use crate::scene::MOST_STEPS;
 use crate::{Kinematics, Scene, SceneFault};
 
 /// The bodies of a scene and the clock of their run.
@@ -34,11 +36,12 @@ impl<'a, const D: usize> Body<'a, D> {
     /// At t = 0.
     ///
     /// # Errors
-    /// What [`Population::fill`] says, and [`SceneFault::TimeStep`] for a step above the Courant condition.
+    /// What [`Population::fill`] says, [`SceneFault::TimeStep`] for a step above the Courant condition, and [`SceneFault::TooManySteps`].
     pub fn begin(scene: &'a Scene) -> Result<Self, SimulationError> {
         let refused = |fault| scene.error(fault);
         let background = Background::build(scene).map_err(refused)?;
         let start = Population::<D>::fill_on(scene, &background).map_err(refused)?;
+        Probe::check_points(scene, background.room()).map_err(refused)?;
         let (boundaries, moving) = boundary::build::<D>(scene, &background).map_err(refused)?;
         let kinematics = Kinematics::of(scene, &start).map_err(refused)?;
         let mut motion = dispatch::build(scene, &start, background, boundaries).map_err(refused)?;
@@ -116,18 +119,21 @@ impl<'a, const D: usize> Body<'a, D> {
     }
 }
 
-/// Whether the time step that a scene asks for is one that the Courant condition allows at the start.
+/// Whether the time step that a scene asks for is one that the Courant condition allows at the start, and the end one that allowed steps reach.
 fn check_step<const D: usize>(scene: &Scene, motion: &dyn Motion<D>) -> Result<(), SimulationError> {
     let courant = scene.time.courant;
     let failed = |source: MpmError| SimulationError::step(1, 0.0, source);
     let wave_speed = motion.wave_speed().map_err(failed)?;
     let speed = motion.particles().largest_speed();
     let limit = courant * motion.spacing() / (wave_speed + speed);
+    let end = scene.time.end;
+    let free = limit.min(courant * motion.laws().viscous_step(motion.spacing()));
     match scene.time.step {
         Some(step) if step > limit => {
             let fault = SceneFault::TimeStep { step, limit, courant };
             Err(scene.error(fault).into())
         }
+        _ if end > MOST_STEPS * free => Err(scene.error(SceneFault::TooManySteps { step: free, end }).into()),
         _ => Ok(()),
     }
 }

@@ -8,7 +8,8 @@ use crate::SceneFault;
 use crate::loads::within;
 use crate::population::Population;
 use crate::scene::{ProbeTable, Scene};
-use crate::values::vector;
+use crate::shape::Bounds;
+use crate::values::{self, vector};
 
 /// Names of the axes.
 pub(super) const AXES: [&str; 3] = ["x", "y", "z"];
@@ -47,6 +48,22 @@ impl<const D: usize> Probe<D> {
             particles,
             share: table.share,
         })
+    }
+
+    /// Whether the points that probes of a scene look about are in the room of its bodies.
+    ///
+    /// # Errors
+    /// [`SceneFault::Value`] for one outside.
+    pub fn check_points(scene: &Scene, room: &Bounds<D>) -> Result<(), SceneFault> {
+        for (index, table) in scene.probes.iter().enumerate() {
+            let Some(at) = &table.at else { continue };
+            let field = format!("probes[{index}].at");
+            let inside = room.contains(&vector::<D>(&field, at)?);
+            let (name, lower, upper) = (&table.name, &room.lower, &room.upper);
+            let expected = format!("in the domain {lower:?} to {upper:?}, of the probe `{name}`");
+            values::within(&field, at, inside, &expected)?;
+        }
+        Ok(())
     }
 
     /// The names of its columns.

@@ -25,6 +25,7 @@ pub use body::{BodyTable, FillKind};
 pub use boundary::{
     AxisName, Contact, HeldTable, KinematicTable, ObstacleTable, Side, TurningTable, WallCondition, WallTable,
 };
+pub(crate) use check::MOST_STEPS;
 pub use discretisation::{BasisName, Discretisation, DomainTable, GridTable, TransferKind, TransferTable};
 pub use facets::{FacetCondition, FacetTable};
 pub use load::LoadTable;

@@ -1,6 +1,8 @@
 //! Every bad scene gets an error with file, field and value.
 
-use mpm_scenes::Scene;
+use std::path::Path;
+
+use mpm_scenes::{Population, Scene, SceneFault};
 
 use super::refusal::assert_refused;
 use super::scenes::BLOCK;
@@ -8,6 +10,30 @@ use super::scenes::BLOCK;
 #[test]
 fn errors_name_the_file_the_field_and_the_value() {
     assert_refused(BLOCK, "block.toml", include_str!("../data/block_refused.toml"));
+}
+
+#[test]
+fn a_particle_on_a_wall_is_not_behind_it() {
+    let fill = |position: f64| {
+        let text = BLOCK.replace(
+            "side = \"lower\"",
+            &format!("side = \"lower\"\nposition = {position:?}"),
+        );
+        let scene = Scene::parse(&text, Path::new("block.toml")).expect("sound");
+        Population::<2>::fill(&scene)
+    };
+    let heights = fill(0.0).expect("above the wall").positions.into_iter().map(|x| x[1]);
+    let lowest = heights.fold(f64::INFINITY, f64::min);
+    assert!(fill(lowest).is_ok());
+    let above = fill(lowest + 1e-6);
+    assert!(matches!(
+        above,
+        Err(SceneFault::BehindWall {
+            particle: 0,
+            wall: 0,
+            ..
+        })
+    ));
 }
 
 #[test]

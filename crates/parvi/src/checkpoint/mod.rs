@@ -19,14 +19,28 @@ use crate::{MpmOptions, Run, SampleError};
 /// Where a run of the calibrated sampler leaves its state.
 ///
 /// If the file exists when a run of the same target, options and seed begins, the run goes on from it, and its particles are the same to the bit as those
-/// of a run that was never stopped. The file is replaced as a whole, so that a process killed at any moment leaves a good one, and
-/// removed when the run has succeeded. A score that depends on earlier calls (minibatches) is beyond it.
+/// of a run that was never stopped. The file is replaced as a whole, so that a process killed at any moment leaves a good one. That of a run which has
+/// succeeded stays, so that particles which are lost before they are written can be had again: [`remove`](Self::remove) it when they are safe.
+/// A score that depends on earlier calls (minibatches) is beyond it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Checkpoint {
     /// The file.
     pub path: PathBuf,
     /// It is written every so many steps, rounded up to a multiple of 8; ≥ 1.
     pub every: usize,
+}
+
+impl Checkpoint {
+    /// Removes the file, if it is there.
+    ///
+    /// # Errors
+    /// [`SampleError::Checkpoint`] for a file that cannot be removed.
+    pub fn remove(&self) -> Result<(), SampleError> {
+        match fs::remove_file(&self.path) {
+            Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(refused(&self.path, &error)),
+            _ => Ok(()),
+        }
+    }
 }
 
 /// What the file holds. What leads to the bodies is computed again, from the values on the tape where there is a survey.
@@ -180,14 +194,6 @@ impl Journal {
             self.write()?;
         }
         Ok(())
-    }
-
-    /// The run has succeeded.
-    pub fn close(self) {
-        if let Some(checkpoint) = self.checkpoint {
-            // A file that stays is the finished run's own: the next run of the same kind replays it.
-            let _ = fs::remove_file(checkpoint.path);
-        }
     }
 
     /// Replace the file as a whole.

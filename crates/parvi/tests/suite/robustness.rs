@@ -4,8 +4,8 @@ use std::ops::ControlFlow;
 
 use parvi::certificate::Doubt;
 use parvi::{
-    Annealing, Checkpoint, MpmOptions, NonFiniteScores, Observer, Outcome, Progress, Run, SampleError, Samples, Silent,
-    Start, TransferChoice, expectation,
+    Annealing, Checkpoint, MpmOptions, NonFiniteScores, Observer, Outcome, ParticleView, Progress, Run, SampleError,
+    Samples, ScoreLocation, Silent, Start, TransferChoice, expectation,
 };
 use parvi_targets::{CatalogueTarget, Frame, Gaussian, GaussianMixture, Target};
 
@@ -215,9 +215,62 @@ fn a_run_that_was_stopped_anywhere_ends_with_the_same_bits() {
             assert_eq!(resumed.positions, expected.positions, "{stops:?}");
             assert_eq!(resumed.score_evaluations, expected.score_evaluations, "{stops:?}");
             assert_eq!(resumed.certificate, expected.certificate, "{stops:?}");
-            let path = &options.checkpoint.as_ref().expect("a checkpoint").path;
-            assert!(!path.exists(), "a run that succeeded leaves no checkpoint");
+            let checkpoint = options.checkpoint.as_ref().expect("a checkpoint");
+            assert!(checkpoint.path.exists(), "it stays until what the run gave is safe");
+            checkpoint.remove().expect("removed");
+            assert!(!checkpoint.path.exists());
+            checkpoint.remove().expect("nothing is there to remove");
         }
+    }
+}
+
+#[test]
+fn the_checkpoint_of_a_finished_run_gives_the_same_bits_without_a_step() {
+    let target = GaussianMixture::<2>::two_unequal(0.5).expect("a mixture");
+    let run = from(0.0, 1.0);
+    let short = MpmOptions {
+        steps: Some(40),
+        ..MpmOptions::default()
+    };
+    let alone = MpmOptions {
+        survey: false,
+        rounds: Some(2),
+        ..short.clone()
+    };
+    let cached = MpmOptions {
+        score_location: ScoreLocation::Cached,
+        ..short.clone()
+    };
+    let pool_alone = MpmOptions {
+        rounds: Some(0),
+        ..short.clone()
+    };
+    for whole in [short, alone, cached, pool_alone] {
+        let (_directory, options) = in_a_directory(8);
+        let options = MpmOptions {
+            checkpoint: options.checkpoint,
+            ..whole
+        };
+        let first = sample(&options, &target, &run).expect("particles");
+        let mut seen = Steps::default();
+        let again = options
+            .sample(&target, &Frame::identity(), &run, &mut seen)
+            .expect("particles");
+        assert_eq!(seen.moved, 0, "nothing moves");
+        assert_eq!(format!("{again:?}"), format!("{first:?}"));
+    }
+}
+
+/// Counts what was moved.
+#[derive(Default)]
+struct Steps {
+    moved: usize,
+}
+
+impl Observer for Steps {
+    fn see(&mut self, _: &ParticleView<'_>) -> ControlFlow<()> {
+        self.moved += 1;
+        ControlFlow::Continue(())
     }
 }
 

@@ -129,11 +129,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let peak_memory = memory.peak_bytes();
     watch.progress.clear();
     let outcome = sampled.map_err(|error| watch.reason(of_flags(error)))?;
-    if let Some(mut diagnostics) = diagnostics {
-        let content = diagnose(&target, &outcome, &column_names(&names, dimension))?;
-        diagnostics.fill(|writer| Ok(serde_json::to_writer_pretty(writer, &content)?))?;
-        diagnostics.commit()?;
-    }
     file.write(&outcome.particles, &names)?;
     said::warn(arguments, &outcome);
     if let Some(file) = pool {
@@ -141,6 +136,11 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     }
     if let (Some(file), Some(watched)) = (best, &outcome.watched) {
         file.write(&watched.best, &names)?;
+    }
+    if let Some(mut diagnostics) = diagnostics {
+        let content = diagnose(&target, &outcome, &column_names(&names, dimension))?;
+        diagnostics.fill(|writer| Ok(serde_json::to_writer_pretty(writer, &content)?))?;
+        diagnostics.commit()?;
     }
     let mut pairs = said::pairs(arguments, &outcome, peak_memory);
     if let Some(frames) = watch.frames {
@@ -163,6 +163,12 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
                 .map(|_| "a run with a checkpoint has none"),
         };
         pairs.push(("plots", subject.draw(directory)?.join(",")));
+    }
+    if let Method::Mpm(options) = &method
+        && let Some(checkpoint) = &options.checkpoint
+    {
+        // Not before: whoever ends the process earlier, or a full disk, leaves the means to have every file.
+        checkpoint.remove()?;
     }
     console::print_pairs(&pairs)
 }

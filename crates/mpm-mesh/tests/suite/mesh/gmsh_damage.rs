@@ -83,6 +83,30 @@ fn sections() {
 }
 
 #[test]
+fn numbers_of_entries_that_are_not_those_of_the_blocks() {
+    let text = |nodes: &str, elements: &str| {
+        format!(
+            "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 {nodes} 1 3\n2 1 0 3\n1\n2\n3\n0 0 0\n1 0 0\n0 1 0\n$EndNodes\n\
+             $Elements\n1 {elements} 1 1\n2 1 2 1\n1 1 2 3\n$EndElements\n"
+        )
+    };
+    assert!(read_msh::<2>(text("3", "1").as_bytes()).is_ok());
+    let nodes = text("7", "1");
+    malformed(&nodes, "7 1 3", "the number of nodes in all blocks", "7");
+    let elements = text("3", "9");
+    malformed(&elements, "9 1 1", "the number of elements in all blocks", "9");
+}
+
+#[test]
+fn a_byte_order_mark_is_passed_over() {
+    let text = format!("{HEADER}{NODES}{CELLS}");
+    let marked = format!("\u{feff}{text}");
+    assert_eq!(read_msh::<2>(marked.as_bytes()), read_msh::<2>(text.as_bytes()));
+    let nodes = NODES.replace("3 1 1 0", "3 1 one 0");
+    malformed(&format!("\u{feff}{HEADER}{nodes}{CELLS}"), "one", "a coordinate", "one");
+}
+
+#[test]
 fn nodes_and_elements() {
     let nodes = NODES.replace("3 1 1 0", "2 1 1 0");
     let place = line(HEADER.len() + 25, 8);

@@ -60,3 +60,28 @@ fn a_key_that_does_not_fit_the_scene_is_named_with_the_file_that_asks_for_it() {
         "{error}"
     );
 }
+
+#[test]
+fn numbers_of_sample_points_and_scenes_that_are_not_there_are_refused_before_any_run() {
+    let (directory, file) = files();
+    let cases = [
+        (("[20,", "[0,"), "run.samples: 0 sample points, at least 5 are needed"),
+        (
+            ("[20,", "[20, 65,"),
+            "run.samples: 65 sample points of 64 material points",
+        ),
+        (("strip.toml", "none.toml"), "scene: "),
+        (
+            ("manifold = [\"network\", \"linear\"]", "scene = \"none.toml\""),
+            "run.scene: ",
+        ),
+    ];
+    for (number, ((old, new), expected)) in cases.into_iter().enumerate() {
+        let experiment = Experiment::parse(&EXPERIMENT.replace(old, new), &file).expect("sound");
+        let out = directory.path().join(number.to_string());
+        let error = train_experiment(&experiment, &out, &mut ()).expect_err(new).to_string();
+        let expected = format!("{}, {expected}", file.display());
+        assert!(error.starts_with(&expected), "{error}");
+        assert!(!out.exists(), "nothing was begun");
+    }
+}

@@ -32,7 +32,16 @@ impl Scene {
             (Discretisation::Mesh(_), None) => {}
         }
         match self.discretisation()? {
-            Discretisation::Grid(grid) => positive("grid.spacing", grid.spacing).map(|_| ()),
+            Discretisation::Grid(grid) => {
+                positive("grid.spacing", grid.spacing)?;
+                let sides = self
+                    .domain
+                    .iter()
+                    .flat_map(|domain| domain.lower.iter().zip(&domain.upper));
+                let longest = sides.map(|(lower, upper)| upper - lower).fold(0.0, f64::max);
+                let expected = format!("at most {longest}, the longest side of the domain");
+                within("grid.spacing", grid.spacing, grid.spacing <= longest, &expected).map(drop)
+            }
             Discretisation::Mesh(mesh) => check_mesh::<D>(mesh),
         }
     }

@@ -11,6 +11,9 @@ use super::{BasisName, Scene, TransferKind};
 use crate::SceneFault;
 use crate::values::{check, not_negative, positive, vector, within};
 
+/// Steps of a run, at most: months of computing time for the smallest bodies.
+pub(crate) const MOST_STEPS: f64 = 1e9;
+
 impl Scene {
     /// Whether every value is in its range and fits the others.
     ///
@@ -74,6 +77,9 @@ impl Scene {
         let time = &self.time;
         positive("time.end", time.end)?;
         check(time.step, "time.step", positive)?;
+        let reaches = time.step.is_none_or(|step| time.end <= MOST_STEPS * step);
+        let expected = format!("so long that 1e9 steps reach time.end = {}", time.end);
+        within("time.step", time.step, reaches, &expected)?;
         let courant = time.courant > 0.0 && time.courant <= 1.0;
         within("time.courant", time.courant, courant, "above 0 and at most 1")?;
         not_negative("time.damping", time.damping).map(|_| ())
