@@ -95,7 +95,7 @@ pub enum SceneFault {
     },
     /// The Courant condition asks for so short a step that the end is out of reach.
     #[error(
-        "time.end = {end}: the Courant condition allows steps of {step} at the start, 1e9 of which do not reach it"
+        "time.end = {end}: the Courant condition allows steps of {step:e} at the start, 1e9 of which do not reach it"
     )]
     TooManySteps {
         /// The longest step allowed.

@@ -157,11 +157,7 @@ impl Subject<'_> {
     fn strip(&self, known: &Known) -> Option<Result<String, PlotError>> {
         let moments = self.history.selected(MOMENTS - 1);
         if moments.is_empty() {
-            let reason = match self.outcome.steps {
-                0 => "no particles have moved",
-                _ => "an earlier process has moved the particles",
-            };
-            console::notice(&format!("--plots: no {STRIP}: {reason}"));
+            console::notice(&format!("--plots: no {STRIP}: no particles have moved in this process"));
             return None;
         }
         let titles: Vec<String> = moments.iter().map(|moment| format!("step {}", moment.step)).collect();

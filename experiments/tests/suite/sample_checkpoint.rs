@@ -97,7 +97,7 @@ fn one_file_in_two_roles_is_refused_and_kept() {
     let line = "sample --target logistic --data data.csv --particles 20";
     for (files, parts) in [
         ("--out ./data.csv", ["data", "--out"]),
-        ("--out x.csv --checkpoint x.csv", ["checkpoint", "--out"]),
+        ("--out x.csv --diagnostics x.csv", ["diagnostics", "--out"]),
         ("--out x.csv --checkpoint data.csv", ["data", "--checkpoint"]),
     ] {
         assert_refused(&parvi(directory.path(), &format!("{line} {files}")), &parts);
