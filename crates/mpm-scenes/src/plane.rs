@@ -3,7 +3,6 @@
 use mpm_tensor::vector as algebra;
 
 use crate::SceneFault;
-use crate::population::Population;
 use crate::scene::{Scene, Side, WallTable};
 use crate::shape::{Bounds, unit};
 use crate::values::{finite, vector, within};
@@ -50,7 +49,7 @@ pub(crate) fn build<const D: usize>(
 /// A particle this far behind a wall, in units of h, is on it: rounding of turned planes and bodies.
 const ON_WALL: f64 = 1e-9;
 
-/// Whether no particle is behind a wall at t = 0: a wall that looks the wrong way would hold all of a body, and say nothing.
+/// Whether no particle is behind a wall at t = 0: a wall that looks the wrong way would hold all of a body, and say nothing. `bodies` are the particles' numbers of their bodies.
 ///
 /// # Errors
 /// [`SceneFault::BehindWall`] with the first one, and what [`build`] says.
@@ -58,21 +57,18 @@ pub(crate) fn check_sides<const D: usize>(
     scene: &Scene,
     room: &Bounds<D>,
     spacing: f64,
-    particles: &Population<D>,
+    positions: &[[f64; D]],
+    bodies: &[u32],
 ) -> Result<(), SceneFault> {
     for (index, wall) in scene.walls.iter().enumerate() {
         let (point, normal) = build(room, index, wall)?;
         let height = |x: &[f64; D]| algebra::dot(&algebra::subtract(x, &point), &normal);
-        let mut positions = particles.positions.iter();
-        if let Some(particle) = positions.position(|x| height(x) < -ON_WALL * spacing) {
-            let body = particles
-                .bodies
-                .get(particle)
-                .and_then(|&body| scene.bodies.get(body as usize));
+        if let Some(particle) = positions.iter().position(|x| height(x) < -ON_WALL * spacing) {
+            let body = bodies.get(particle).and_then(|&body| scene.bodies.get(body as usize));
             return Err(SceneFault::BehindWall {
                 body: body.map_or(String::new(), |body| body.name.clone()),
                 particle,
-                position: particles.positions[particle].to_vec(),
+                position: positions[particle].to_vec(),
                 wall: index,
                 point: point.to_vec(),
                 normal: normal.to_vec(),

@@ -57,7 +57,13 @@ impl<const D: usize> Population<D> {
             shapes.push(shape);
         }
         all.check_places(scene, &shapes, background.room())?;
-        plane::check_sides(scene, background.room(), background.spacing(), &all)?;
+        plane::check_sides(
+            scene,
+            background.room(),
+            background.spacing(),
+            &all.positions,
+            &all.bodies,
+        )?;
         Ok(all)
     }
 
