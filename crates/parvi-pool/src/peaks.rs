@@ -70,8 +70,8 @@ fn lower_neighbours<const D: usize>(groups: &[Group<D>], logs: &[Lanes], point: 
             nearer[lane] += if counts { 1.0 } else { 0.0 };
         }
     }
-    // The point itself is one of them.
-    nearer.iter().sum::<f64>() as usize - 1
+    // The point itself is one of them, unless its place is no number or a higher point's.
+    (nearer.iter().sum::<f64>() as usize).saturating_sub(1)
 }
 
 #[cfg(test)]
@@ -102,5 +102,13 @@ mod tests {
         }
         let far = peaks(&points, &logs, &Matrix::IDENTITY, |index| logs[index] < -20.0);
         assert!(far.len() <= 1, "{far:?}");
+    }
+
+    #[test]
+    fn places_that_are_no_numbers_or_fall_together_are_no_peaks() {
+        let points: Vec<[f64; 1]> = (0..40).map(|n| [f64::from(n / 2)]).collect();
+        let logs: Vec<f64> = (0..40).map(f64::from).collect();
+        assert_eq!(peaks(&points, &logs, &Matrix::IDENTITY, |index| index < 39), []);
+        assert_eq!(peaks(&points, &logs, &(Matrix::IDENTITY * f64::INFINITY), |_| true), []);
     }
 }
