@@ -49,7 +49,9 @@ pub(crate) fn in_pieces<const D: usize>(
         particles.sort_by_cached_key(above);
         let (low, high) = points.split_at_mut(points.partition_point(|point| !above(&point.x)));
         let (few, many) = particles.split_at_mut(particles.partition_point(|x| !above(x)));
-        if !(few.is_empty() || many.is_empty() || low.is_empty() || high.is_empty()) {
+        // A side without mass, beside one heavy point, would draw its particles nowhere.
+        let has_mass = |side: &[Weighted<D>]| side.iter().map(|point| point.rise).sum::<f64>() > 0.0;
+        if !(few.is_empty() || many.is_empty()) && has_mass(low) && has_mass(high) {
             in_pieces(low, few, directions, most, act);
             in_pieces(high, many, directions, most, act);
             return;
@@ -176,5 +178,22 @@ mod tests {
         };
         in_pieces(&mut points, &mut [[1.0]; 7], &Matrix::IDENTITY, 2, &count);
         assert_eq!(calls.get(), 1);
+    }
+
+    #[test]
+    fn no_piece_is_without_mass() {
+        // All mass in one point, in the middle of the particles.
+        let mut points: Vec<Weighted<1>> = (0..9_i8)
+            .map(|n| Weighted {
+                x: [f64::from(n)],
+                c: 0.0,
+                rise: if n == 4 { 1.0 } else { 0.0 },
+            })
+            .collect();
+        let mut particles: Vec<[f64; 1]> = (0..64_i8).map(|n| [f64::from(n) / 8.0]).collect();
+        let has_mass = |points: &[Weighted<1>], _: &mut [[f64; 1]]| {
+            assert!(points.iter().any(|point| point.rise > 0.0));
+        };
+        in_pieces(&mut points, &mut particles, &Matrix::IDENTITY, 4, &has_mass);
     }
 }
