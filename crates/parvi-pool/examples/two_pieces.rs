@@ -3,7 +3,7 @@
 //! A normal law of standard deviation 1 and mass 0.7 about (−5, …) and one of standard deviation s and mass 0.3 about (5, …), from a frame of standard deviation 4
 //! about the middle, for 1,000 particles: of 40 seeds, those without an objection whose log Z, of which the truth is 0, is off by more than four standard errors.
 //!
-//! `cargo run --release --example two_pieces -p parvi-pool`
+//! `cargo run --release --example two_pieces -p parvi-pool -- [SEARCH_EFFORT]`
 
 #![allow(clippy::print_stdout)]
 
@@ -18,15 +18,16 @@ const PARTICLES: usize = 1000;
 const SEEDS: u64 = 40;
 
 fn main() -> Result<(), Box<dyn Error>> {
+    let search_effort = std::env::args().nth(1).map_or(Ok(1.0), |effort| effort.parse())?;
     println!("d, then for s = {WIDTHS:?}: false claims, evaluations per particle");
-    row::<1>()?;
-    row::<2>()?;
-    row::<3>()?;
-    row::<4>()?;
-    row::<5>()
+    row::<1>(search_effort)?;
+    row::<2>(search_effort)?;
+    row::<3>(search_effort)?;
+    row::<4>(search_effort)?;
+    row::<5>(search_effort)
 }
 
-fn row<const D: usize>() -> Result<(), Box<dyn Error>> {
+fn row<const D: usize>(search_effort: f64) -> Result<(), Box<dyn Error>> {
     let frame = Frame::from_scales([0.0; D], [4.0; D])?;
     print!("{D}");
     for width in WIDTHS {
@@ -38,7 +39,10 @@ fn row<const D: usize>() -> Result<(), Box<dyn Error>> {
         let target = GaussianMixture::new("two pieces", &pieces)?;
         let (mut wrong, mut evaluations) = (0, 0);
         for seed in 0..SEEDS {
-            let options = PoolOptions::default();
+            let options = PoolOptions {
+                search_effort,
+                ..PoolOptions::default()
+            };
             let go_on = &mut |_: &_, _: &_| ControlFlow::Continue(());
             let pool = explore(&target, &frame, &[], Vec::new(), PARTICLES, seed, &options, go_on)?;
             let is_off = pool.log_evidence.abs() > 4.0 * pool.log_evidence_error;

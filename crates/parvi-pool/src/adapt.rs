@@ -33,7 +33,7 @@ const SHARPENING: f64 = 0.02;
 const ADAPTING: f64 = 0.75;
 
 /// What is drawn at a time in search of what the rounds have not met: a share of what these took, but no more than a share of all evaluations, unless a share of the
-/// effective size that is wanted is more, and at most twice that share of all. How many times that all searches may take.
+/// effective size that is wanted is more, and at most twice that share of all; times the effort that is asked for. How many times that all searches may take.
 const SEARCHING_OF_SPENT: f64 = 1.0 / 3.0;
 const SEARCHING: f64 = 0.1;
 const SEARCHING_OF_GOAL: f64 = 0.3;
@@ -116,6 +116,8 @@ impl<const D: usize> Adaptation<D> {
             .min(most)
             .max(SEARCHING_OF_GOAL * plan.goal)
             .min(2.0 * most);
+        let left = ADAPTING * plan.evaluations as f64 - density.evaluations() as f64;
+        let count = (plan.search_effort * count).min(left).max(count);
         let count = count as usize / (2 * LANES) * 2 * LANES;
         let found = loop {
             let most = (SEARCHES * count as u64).max(((1.0 + QUIET) * self.met as f64) as u64 + count as u64);

@@ -8,6 +8,8 @@ pub struct PoolOptions {
     pub evaluations: Option<u64>,
     /// Effective size at which the pool is large enough, per particle, but at least 2,000 in all.
     pub effective_size: f64,
+    /// How many times as much is drawn in search of pieces that no proposal has met, as far as the evaluations last: ≥ 1.
+    pub search_effort: f64,
 }
 
 impl Default for PoolOptions {
@@ -15,6 +17,7 @@ impl Default for PoolOptions {
         Self {
             evaluations: None,
             effective_size: 7.5,
+            search_effort: 1.0,
         }
     }
 }
@@ -47,6 +50,7 @@ pub(super) struct Plan {
     /// Effective size at which adaptation ends, and the whole ends.
     pub adapted: f64,
     pub goal: f64,
+    pub search_effort: f64,
 }
 
 impl PoolOptions {
@@ -72,6 +76,13 @@ impl PoolOptions {
             size > 0.0 && size.is_finite(),
             "positive and finite",
         )?;
+        let effort = self.search_effort;
+        check(
+            "search effort",
+            effort,
+            effort >= 1.0 && effort.is_finite(),
+            "at least 1 and finite",
+        )?;
         check("dimensions", D as f64, (1..=19).contains(&D), "from 1 to 19")?;
         let per_particle = [10, 15, 25, 45, 80, 140, 200][D.min(6)];
         let default = (per_particle * particles as u64).max(8_000);
@@ -87,6 +98,7 @@ impl PoolOptions {
             fewest_scores: FEWEST_KERNELS * (D + 1),
             adapted: 0.5 * goal,
             goal,
+            search_effort: effort,
         })
     }
 }

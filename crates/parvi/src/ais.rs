@@ -18,6 +18,7 @@ impl AisOptions {
         task.needs_log_density("method `ais`")?;
         let options = MpmOptions {
             evaluations: self.evaluations,
+            search_effort: self.search_effort,
             rounds: Some(0),
             ..MpmOptions::default()
         };

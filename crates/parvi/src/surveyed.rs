@@ -53,6 +53,7 @@ fn surveyed<const D: usize>(
     let Task { target, frame, run, .. } = *task;
     let pool_options = PoolOptions {
         evaluations: options.evaluations,
+        search_effort: options.search_effort,
         ..PoolOptions::default()
     };
     let seed = run.generator(Stream::Survey.of_body(0)).random();

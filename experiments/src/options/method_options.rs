@@ -89,6 +89,8 @@ options! {
     survey: Switch,
     /// Evaluations of the survey, of all kinds, at most
     evaluations: EvaluationCount = "N",
+    /// How many times as much is drawn in search of pieces that no proposal has met, at least 1
+    search_effort: f64 = "FACTOR" in RATIO,
     /// Move the basis' origin and draw its spacing every step
     shifts: Switch,
     /// Turn the lattice at random every step

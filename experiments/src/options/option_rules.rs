@@ -95,6 +95,7 @@ impl MethodOptions {
         }
         let has_rounds = self.rounds.is_none_or(|rounds| rounds.get() > 0);
         rules.ask("evaluations", surveys, "needs a survey");
+        rules.ask("search-effort", surveys, "needs a survey");
         rules.ask("rounds", surveys || has_rounds, "needs a survey");
         rules.ask("pool", surveys, "needs a survey");
         // Another score drives the gas away.

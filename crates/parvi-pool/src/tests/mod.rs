@@ -18,7 +18,16 @@ use crate::fold::Fold;
 use crate::*;
 
 fn pool_of<const D: usize>(target: &dyn Target<D>, particles: usize, seed: u64) -> Result<Pool<D>, PoolError> {
-    let options = PoolOptions::default();
+    pool_with(target, particles, seed, &PoolOptions::default())
+}
+
+fn pool_with<const D: usize>(
+    target: &dyn Target<D>,
+    particles: usize,
+    seed: u64,
+    options: &PoolOptions,
+) -> Result<Pool<D>, PoolError> {
+    let go_on = &mut |_: &_, _: &_| ControlFlow::Continue(());
     explore(
         target,
         &Frame::identity(),
@@ -26,8 +35,8 @@ fn pool_of<const D: usize>(target: &dyn Target<D>, particles: usize, seed: u64) 
         Vec::new(),
         particles,
         seed,
-        &options,
-        &mut |_, _| ControlFlow::Continue(()),
+        options,
+        go_on,
     )
 }
 

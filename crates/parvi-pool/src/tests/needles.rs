@@ -3,8 +3,8 @@
 use mpm_tensor::vector;
 use parvi_targets::Target;
 
-use super::pool_of;
-use crate::Objection;
+use super::{pool_of, pool_with};
+use crate::{Objection, PoolOptions};
 
 /// A normal law of width 0.5 about (−1, …) and equally heavy ones of widths 0.06 and 0.05.
 struct Needles<const D: usize>([[f64; D]; 3]);
@@ -61,4 +61,32 @@ fn what_searches_met_of_late_is_followed_by_quiet_or_an_objection() {
     assert_eq!(pool.objection(500), None, "{pool:?}");
     pool.quiet = 1.9;
     assert_eq!(pool.objection(500), Some(Objection::Searching(1.9)));
+}
+
+#[test]
+fn more_effort_meets_more_needles() {
+    let target = Needles([[-1.0, 0.3, 0.5], [1.6, 1.4, -0.5], [1.3, -2.2, 1.0]]);
+    let met = |search_effort: f64| {
+        let options = PoolOptions {
+            search_effort,
+            ..PoolOptions::default()
+        };
+        let pools = (0..16).map(|seed| pool_with(&target, 500, seed, &options).unwrap());
+        pools.filter(|pool| pool.log_evidence.abs() < 0.05).count()
+    };
+    let (as_is, more) = (met(1.0), met(8.0));
+    assert!(more > as_is, "{as_is} {more}");
+}
+
+#[test]
+fn an_effort_below_one_is_refused() {
+    let target = Needles([[-1.0, 0.3], [2.1, 1.4], [1.3, -2.2]]);
+    for search_effort in [0.99, f64::NAN, f64::INFINITY] {
+        let options = PoolOptions {
+            search_effort,
+            ..PoolOptions::default()
+        };
+        let refused = pool_with(&target, 500, 0, &options).unwrap_err();
+        assert!(refused.to_string().contains("search effort"), "{refused}");
+    }
 }

@@ -35,6 +35,8 @@ pub struct MpmOptions {
     /// Evaluations of the survey, of all kinds, at most; `None`: [`PoolOptions`](parvi_pool::PoolOptions) has the default. With cached scores: evaluations from which on
     /// the grid is not refined any more.
     pub evaluations: Option<u64>,
+    /// How many times as much a survey draws in search of pieces that no proposal has met, as far as the evaluations last; ≥ 1.
+    pub search_effort: f64,
     /// Steps of a round, settling included; ≥ 1.
     pub steps: Option<usize>,
     /// Rounds, at most. After a survey a round evens out what is condensed, and another one follows while that helps (0: none; default 4). Without one (≥ 1) another one follows while
@@ -80,6 +82,7 @@ impl Default for MpmOptions {
             transfer: TransferChoice::default(),
             survey: true,
             evaluations: None,
+            search_effort: 1.0,
             spacing: None,
             spacing_schedule: SpacingSchedule::default(),
             steps: None,

@@ -7,11 +7,12 @@ use super::MethodKind;
 /// Adaptive importance sampling.
 pub const AIS: MethodKind = MethodKind {
     name: "ais",
-    options: "evaluations pool start-mean start-sd start-draws",
+    options: "evaluations search-effort pool start-mean start-sd start-draws",
     iterates: false,
     build: |options, _| {
         Ok(Method::Ais(AisOptions {
             evaluations: options.evaluations(),
+            search_effort: options.search_effort.unwrap_or(AisOptions::default().search_effort),
         }))
     },
 };

@@ -8,7 +8,7 @@ use crate::options::{Basis, EvaluationCount, Limit, MethodOptions, OptionError, 
 /// The method.
 pub const KIND: MethodKind = MethodKind {
     name: "mpm",
-    options: "steps basis mesh spacing time-step score displacement-limit survey evaluations shifts rotation spacing-range coarse-start \
+    options: "steps basis mesh spacing time-step score displacement-limit survey evaluations search-effort shifts rotation spacing-range coarse-start \
         settling settling-shifts moment-correction transfer flip-share friction rounds weighted non-finite certificate alpha \
         alpha-from alpha-to alpha-schedule alpha-cycles pool start start-law start-centre start-covariance start-mean start-sd \
         start-draws",
@@ -45,6 +45,7 @@ impl MethodOptions {
             friction: self.friction.or(default.friction),
             survey: self.survey.map_or(default.survey, Switch::is_on),
             evaluations: self.evaluations(),
+            search_effort: self.search_effort.unwrap_or(default.search_effort),
             shifts: self.shifts.map_or(default.shifts, Switch::is_on),
             rotation: self.rotation.map_or(default.rotation, Switch::is_on),
             spacing_schedule: SpacingSchedule {
