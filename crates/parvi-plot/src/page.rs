@@ -14,6 +14,8 @@ pub struct Page {
     pub figures: Vec<(String, String)>,
     /// The most important of the page, by name; it is no part of the text.
     pub summary: Vec<(&'static str, String)>,
+    /// What [`part`](Self::part) and [`drawing`](Self::drawing) choose from.
+    prose: String,
 }
 
 impl Page {
@@ -23,6 +25,51 @@ impl Page {
             text: format!("# {title}\n"),
             ..Self::default()
         }
+    }
+
+    /// A page whose prose is a Markdown text with `{name}` where values go. The title and what stands below it are written; of the rest a section is written when
+    /// [`part`](Self::part) asks for it, and a line `![caption](name.svg)` is the caption of a figure.
+    pub fn of(prose: &str, values: &[(&str, &dyn Display)]) -> Self {
+        let prose = filled(prose, values);
+        let title = prose.lines().find_map(|line| line.strip_prefix("# "));
+        let title = title.unwrap_or_default().to_owned();
+        let mut page = Self {
+            prose,
+            ..Self::new(&title)
+        };
+        page.paragraphs("# ", &title, &[]);
+        page
+    }
+
+    /// A section of the prose: `## name` with its heading, `### name` without.
+    pub fn part(&mut self, name: &str, values: &[(&str, &dyn Display)]) {
+        if self.prose.lines().any(|line| line.strip_prefix("## ") == Some(name)) {
+            self.heading(&filled(name, values));
+            self.paragraphs("## ", name, values);
+        } else {
+            self.paragraphs("### ", name, values);
+        }
+    }
+
+    fn paragraphs(&mut self, mark: &str, name: &str, values: &[(&str, &dyn Display)]) {
+        let lines = self
+            .prose
+            .lines()
+            .skip_while(|line| line.strip_prefix(mark) != Some(name));
+        let lines: Vec<&str> = lines.skip(1).take_while(|line| !line.starts_with('#')).collect();
+        for paragraph in lines.join("\n").split("\n\n").map(str::trim) {
+            if !paragraph.is_empty() && !paragraph.starts_with("![") {
+                self.paragraph(filled(&paragraph.replace('\n', " "), values));
+            }
+        }
+    }
+
+    /// A figure whose caption is in the prose.
+    pub fn drawing(&mut self, name: &str, drawing: Result<String, PlotError>) {
+        let end = format!("]({name})");
+        let caption = |line: &str| Some(line.strip_prefix("![")?.strip_suffix(&end)?.to_owned());
+        let caption = self.prose.lines().find_map(caption).unwrap_or_default();
+        self.figure(name, &caption, drawing);
     }
 
     /// A heading below the title.
@@ -90,6 +137,13 @@ impl Page {
         self.summary.push((key, value.to_string()));
         self
     }
+}
+
+/// A text with values in the places that are called by their names.
+fn filled(text: &str, values: &[(&str, &dyn Display)]) -> String {
+    let fill =
+        |text: String, (name, value): &(&str, &dyn Display)| text.replace(&format!("{{{name}}}"), &value.to_string());
+    values.iter().fold(text.to_owned(), fill)
 }
 
 /// The names of a table's columns: a list, or a text with ` | ` between them.
@@ -220,6 +274,20 @@ mod tests {
         other.heading("Part");
         other.table(&["name", "value"], [line(&[&"a|b", &1.0]), line(&[&"c", &f64::NAN])]);
         assert_eq!(other.text, page.text.replace("| 1 |", "| 1.00 |"));
+    }
+
+    #[test]
+    fn prose_is_a_text_with_places() {
+        let prose = "# Of {dim}\n\nM = {particles},\nexact.\n\n## To {end}\n\nFirst.\n\nSecond, {end}.\n\n![Error, d = {dim}.](a.svg)\n\n### aside\n\nThird.\n";
+        let mut page = Page::of(prose, &[("dim", &2), ("particles", &64)]);
+        page.part("aside", &[]);
+        page.part("To {end}", &[("end", &"Z")]);
+        page.drawing("a.svg", Ok(String::new()));
+        let figure = "![Error, d = 2.](figures/a.svg)\n\n*Error, d = 2.*";
+        assert_eq!(
+            page.text,
+            format!("# Of 2\n\nM = 64, exact.\n\nThird.\n\n## To Z\n\nFirst.\n\nSecond, Z.\n\n{figure}\n")
+        );
     }
 
     #[test]

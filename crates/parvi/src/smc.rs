@@ -10,6 +10,7 @@ use parvi_pool::PoolError;
 use rand::RngExt;
 
 use crate::drive::finite;
+use crate::method::with_defaults;
 use crate::start::{Stream, check};
 use crate::task::{Task, sampler};
 use crate::{Progress, SampleError, Samples};
@@ -18,24 +19,16 @@ use population::{Population, State};
 /// Temperatures, at most.
 const TEMPERATURES: usize = 2000;
 
-/// Options of tempered sequential Monte Carlo.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct SmcOptions {
-    /// States of all populations together, at least the number of particles; `None`: four times that, and at least 1,024.
-    pub pool_size: Option<usize>,
-    /// Independent populations R ≥ 2, from which the error of the evidence comes.
-    pub populations: usize,
-    /// States of a chain P ≥ 2: a population resamples one of P states, and keeps all that the chains from there visit.
-    pub chain_length: usize,
-}
-
-impl Default for SmcOptions {
-    fn default() -> Self {
-        Self {
-            pool_size: None,
-            populations: 8,
-            chain_length: 16,
-        }
+with_defaults! {
+    /// Options of tempered sequential Monte Carlo.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct SmcOptions {
+        /// States of all populations together, at least the number of particles; `None`: four times that, and at least 1,024.
+        pub pool_size: Option<usize> = None,
+        /// Independent populations R ≥ 2, from which the error of the evidence comes.
+        pub populations: usize = 8,
+        /// States of a chain P ≥ 2: a population resamples one of P states, and keeps all that the chains from there visit.
+        pub chain_length: usize = 16,
     }
 }
 

@@ -7,7 +7,7 @@ use std::path::Path;
 use mpm_document::DocumentError;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
-use toml::Spanned;
+use toml::{Spanned, Table, Value};
 
 use crate::CommandError;
 use crate::options::Bounded;
@@ -45,7 +45,7 @@ impl Configuration {
 
     fn from_text(file: String, text: String) -> Result<Self, CommandError> {
         let head: Head = mpm_document::parse(&text, Path::new(&file))?;
-        let table: toml::Table = mpm_document::parse(&text, Path::new(&file))?;
+        let table: Table = mpm_document::parse(&text, Path::new(&file))?;
         Ok(Self {
             // A TOML table has string keys and plain values only, all of which JSON can hold.
             hash: fingerprint(&serde_json::to_string(&table).unwrap_or_default()),
@@ -64,6 +64,13 @@ impl Configuration {
     /// The number in `threads`, if it has one.
     pub fn threads(&self) -> Option<usize> {
         self.head.threads.as_ref().map(|threads| threads.get_ref().get())
+    }
+
+    /// What the prose of reports may name: plain values by their dotted keys, of a list its length, of a method its label.
+    pub fn values(&self) -> Vec<(String, String)> {
+        let mut values = Vec::new();
+        collect(&self.text.parse().unwrap_or_default(), "", &mut values);
+        values
     }
 
     /// The configuration as its kind understands it, without the keys of the head. Unknown keys are errors.
@@ -96,14 +103,32 @@ fn without_key(text: &str, value: &Range<usize>) -> String {
     format!("{}{covered}{}", &text[..start], &text[value.end..])
 }
 
+fn collect(table: &Table, place: &str, values: &mut Vec<(String, String)>) {
+    for (key, value) in table {
+        let key = format!("{place}{key}");
+        let value = match value {
+            Value::Table(table) => {
+                collect(table, &format!("{key}."), values);
+                let name = table.get("label").or(table.get("name"));
+                name.and_then(Value::as_str).unwrap_or_default().to_owned()
+            }
+            Value::Array(list) => list.len().to_string(),
+            Value::Float(number) => number.to_string(),
+            Value::String(text) => text.clone(),
+            other => other.to_string(),
+        };
+        values.push((key, value));
+    }
+}
+
 /// A number or a list of them; what is neither is for the kind to refuse.
-fn whole_numbers(value: Option<&toml::Value>) -> Vec<u64> {
+fn whole_numbers(value: Option<&Value>) -> Vec<u64> {
     let list = match value {
-        Some(toml::Value::Array(list)) => list.as_slice(),
+        Some(Value::Array(list)) => list.as_slice(),
         Some(value) => std::slice::from_ref(value),
         None => &[],
     };
-    let numbers = list.iter().filter_map(toml::Value::as_integer);
+    let numbers = list.iter().filter_map(Value::as_integer);
     numbers.filter_map(|number| u64::try_from(number).ok()).collect()
 }
 

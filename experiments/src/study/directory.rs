@@ -1,11 +1,13 @@
 //! A study's directory: config.toml, manifest.json, results.csv, raw/, figures/ and report.md.
 
+use std::fmt::Display;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::configuration::Configuration;
 use crate::CommandError;
 use crate::output::{AtomicFile, PARTIAL_SUFFIX};
+use crate::plots::page::Page;
 
 /// The name of the configuration in it.
 pub const CONFIGURATION: &str = "config.toml";
@@ -14,6 +16,8 @@ pub const CONFIGURATION: &str = "config.toml";
 #[derive(Debug)]
 pub struct StudyDirectory {
     path: PathBuf,
+    /// What the prose of its report may name.
+    values: Vec<(String, String)>,
     /// Threads that the study asks for; `None`: as many as the environment gives.
     pub threads: Option<usize>,
     /// While a study runs; no other process takes the directory meanwhile.
@@ -29,6 +33,7 @@ impl StudyDirectory {
     pub fn claim(path: &Path, configuration: &Configuration) -> Result<Self, CommandError> {
         let mut directory = Self {
             path: path.to_owned(),
+            values: configuration.values(),
             threads: configuration.threads(),
             claimed: None,
         };
@@ -59,6 +64,7 @@ impl StudyDirectory {
         let configuration = Configuration::read(&path.join(CONFIGURATION))?;
         let directory = Self {
             path: path.to_owned(),
+            values: configuration.values(),
             threads: configuration.threads(),
             claimed: None,
         };
@@ -111,6 +117,15 @@ impl StudyDirectory {
             directory: self.path.display().to_string(),
             occupant,
         }
+    }
+
+    /// A page whose prose names values of the configuration by their keys, and these.
+    pub fn page(&self, prose: &str, values: &[(&str, &dyn Display)]) -> Page {
+        let configured = self
+            .values
+            .iter()
+            .map(|(key, value)| (key.as_str(), value as &dyn Display));
+        Page::of(prose, &configured.chain(values.iter().copied()).collect::<Vec<_>>())
     }
 
     /// ` (at most 2)`, where the study asks for a number of threads.

@@ -1,17 +1,12 @@
-/// Options of adaptive importance sampling.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AisOptions {
-    /// Evaluations of all kinds, at most; `None`: the default of [`PoolOptions`](parvi_pool::PoolOptions).
-    pub evaluations: Option<u64>,
-    /// How many times as much is drawn in search of pieces that no proposal has met; ≥ 1.
-    pub search_effort: f64,
-}
+use super::with_defaults::with_defaults;
 
-impl Default for AisOptions {
-    fn default() -> Self {
-        Self {
-            evaluations: None,
-            search_effort: 1.0,
-        }
+with_defaults! {
+    /// Options of adaptive importance sampling.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct AisOptions {
+        /// Evaluations of all kinds, at most; `None`: the default of [`PoolOptions`](parvi_pool::PoolOptions).
+        pub evaluations: Option<u64> = None,
+        /// How many times as much is drawn in search of pieces that no proposal has met; ≥ 1.
+        pub search_effort: f64 = 1.0,
     }
 }

@@ -1,3 +1,4 @@
+use super::with_defaults::with_defaults;
 use std::path::PathBuf;
 
 use parvi_body::NonFiniteScores;
@@ -40,39 +41,26 @@ impl OnMesh {
     }
 }
 
-/// Options of the calibrated sampler on the hat functions of a mesh; `None` means: chosen by the rule beside.
-#[derive(Clone, Debug, PartialEq)]
-pub struct MeshOptions {
-    /// Steps in all, settling included; ≥ 1. Default: such that the gas could cross the mesh four times before settling begins, and those of
-    /// [`crate::defaults::steps`] at least.
-    pub steps: Option<usize>,
-    /// Time step Δt in units of the frame; > 0. Default: [`crate::defaults::time_step`] for the mean edge; shortened where the target is stiff.
-    pub time_step: Option<f64>,
-    /// Friction γ ≥ 0 (v ← v e^{−γΔt}). Default [`crate::defaults::FRICTION`].
-    pub friction: Option<f64>,
-    /// Move the inner vertices at random from step to step; the boundary stays.
-    pub shifts: bool,
-    /// How the run ends.
-    pub settling: Settling,
-    /// What is done about a particle whose score is not finite.
-    pub non_finite_scores: NonFiniteScores,
-    /// Largest displacement per step in units of the mean edge; > 0.
-    pub displacement_limit: f64,
-    /// Measure residual and energy every so many steps (0: only at the end).
-    pub trace_every: usize,
-}
-
-impl Default for MeshOptions {
-    fn default() -> Self {
-        Self {
-            steps: None,
-            time_step: None,
-            friction: None,
-            shifts: true,
-            settling: Settling::default(),
-            non_finite_scores: NonFiniteScores::default(),
-            displacement_limit: 1.0,
-            trace_every: 0,
-        }
+with_defaults! {
+    /// Options of the calibrated sampler on the hat functions of a mesh; `None` means: chosen by the rule beside.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct MeshOptions {
+        /// Steps in all, settling included; ≥ 1. Default: such that the gas could cross the mesh four times before settling begins, and those of
+        /// [`crate::defaults::steps`] at least.
+        pub steps: Option<usize> = None,
+        /// Time step Δt in units of the frame; > 0. Default: [`crate::defaults::time_step`] for the mean edge; shortened where the target is stiff.
+        pub time_step: Option<f64> = None,
+        /// Friction γ ≥ 0 (v ← v e^{−γΔt}). Default [`crate::defaults::FRICTION`].
+        pub friction: Option<f64> = None,
+        /// Move the inner vertices at random from step to step; the boundary stays.
+        pub shifts: bool = true,
+        /// How the run ends.
+        pub settling: Settling = Settling::default(),
+        /// What is done about a particle whose score is not finite.
+        pub non_finite_scores: NonFiniteScores = NonFiniteScores::default(),
+        /// Largest displacement per step in units of the mean edge; > 0.
+        pub displacement_limit: f64 = 1.0,
+        /// Measure residual and energy every so many steps (0: only at the end).
+        pub trace_every: usize = 0,
     }
 }

@@ -13,6 +13,7 @@ mod stein_thinning_options;
 mod support_points_options;
 mod svgd_options;
 mod watch;
+mod with_defaults;
 
 pub use ais_options::AisOptions;
 pub use annealing::Annealing;
@@ -27,6 +28,7 @@ pub use stein_thinning_options::{Pool, SteinThinningOptions};
 pub use support_points_options::SupportPointsOptions;
 pub use svgd_options::SvgdOptions;
 pub use watch::{Monitor, Watch};
+pub(crate) use with_defaults::with_defaults;
 
 use parvi_targets::{CatalogueTarget, Frame};
 

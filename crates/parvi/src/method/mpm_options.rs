@@ -1,3 +1,4 @@
+use super::with_defaults::with_defaults;
 use parvi_body::{BasisChoice, NonFiniteScores, ScoreLocation, TransferChoice};
 
 use super::{Annealing, Settling, SpacingSchedule};
@@ -18,89 +19,61 @@ pub enum MomentCorrection {
     Affine,
 }
 
-/// Options of the calibrated sampler; `None` means: chosen by the rule in [`crate::defaults`].
-#[derive(Clone, Debug, PartialEq)]
-pub struct MpmOptions {
-    /// Background basis.
-    pub basis: BasisChoice,
-    /// Velocity transfer.
-    pub transfer: TransferChoice,
-    /// Spacing h in frame units; > 0.
-    pub spacing: Option<f64>,
-    /// How the spacing varies around h from step to step.
-    pub spacing_schedule: SpacingSchedule,
-    /// Weigh evaluations of the log density until they represent the target, condense M particles from them, and let the material even these out as
-    /// far as that brings them nearer. Without, a body moves in the given frame from the given start, and nothing knows whether it has found everything.
-    pub survey: bool,
-    /// Evaluations of the survey, of all kinds, at most; `None`: [`PoolOptions`](parvi_pool::PoolOptions) has the default. With cached scores: evaluations from which on
-    /// the grid is not refined any more.
-    pub evaluations: Option<u64>,
-    /// How many times as much a survey draws in search of pieces that no proposal has met, as far as the evaluations last; ≥ 1.
-    pub search_effort: f64,
-    /// Steps of a round, settling included; ≥ 1.
-    pub steps: Option<usize>,
-    /// Rounds, at most. After a survey a round evens out what is condensed, and another one follows while that helps (0: none; default 4). Without one (≥ 1) another one follows while
-    /// the particles are still on their way, in a frame of their own if they have outgrown the old one, and at half of the spacing where the target is rough (docs/theory.md, §14); default 3,
-    /// but one where `steps` are given.
-    pub rounds: Option<usize>,
-    /// Time step Δt at the central spacing; > 0. It follows the spacing drawn, and is shortened where the target is stiff.
-    pub time_step: Option<f64>,
-    /// Friction γ ≥ 0 (v ← v e^{−γΔt}).
-    pub friction: Option<f64>,
-    /// Let the basis vary from step to step: its origin, its spacing within the range of `spacing_schedule`, and with `rotation`
-    /// its orientation. Without, one basis at the central spacing serves the whole run.
-    pub shifts: bool,
-    /// Turn the lattice by another random orthogonal matrix in every step that varies it; splines keep their axes.
-    pub rotation: bool,
-    /// How the run ends.
-    pub settling: Settling,
-    /// The last move, made by all particles together.
-    pub moment_correction: MomentCorrection,
-    /// Where the score is evaluated.
-    pub score_location: ScoreLocation,
-    /// What is done about a particle whose score is not finite.
-    pub non_finite_scores: NonFiniteScores,
-    /// Largest displacement per step in units of h; > 0.
-    pub displacement_limit: f64,
-    /// Factor α of the score before settling begins (the paper's annealing); the stationary density is p^α for its last value.
-    pub annealing: Annealing,
-    /// Judge the particles at the end ([`Certificate`](crate::Certificate)).
-    pub certificate: bool,
-    /// Where the run leaves its state, and goes on from if it was stopped.
-    pub checkpoint: Option<Checkpoint>,
-    /// Give light parts of the target more particles than their share, with weights, instead of equal weights: they are better resolved then, and the effective
-    /// sample size is smaller. Of use after a survey only.
-    pub weighted: bool,
-    /// Measure residual and energy every so many steps (0: only at the end).
-    pub trace_every: usize,
-}
-
-impl Default for MpmOptions {
-    fn default() -> Self {
-        Self {
-            basis: BasisChoice::default(),
-            transfer: TransferChoice::default(),
-            survey: true,
-            evaluations: None,
-            search_effort: 1.0,
-            spacing: None,
-            spacing_schedule: SpacingSchedule::default(),
-            steps: None,
-            rounds: None,
-            time_step: None,
-            friction: None,
-            shifts: true,
-            rotation: true,
-            settling: Settling::default(),
-            moment_correction: MomentCorrection::default(),
-            score_location: ScoreLocation::default(),
-            non_finite_scores: NonFiniteScores::default(),
-            displacement_limit: 0.5,
-            annealing: Annealing::Constant { alpha: 1.0 },
-            certificate: true,
-            checkpoint: None,
-            weighted: false,
-            trace_every: 0,
-        }
+with_defaults! {
+    /// Options of the calibrated sampler; `None` means: chosen by the rule in [`crate::defaults`].
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct MpmOptions {
+        /// Background basis.
+        pub basis: BasisChoice = BasisChoice::default(),
+        /// Velocity transfer.
+        pub transfer: TransferChoice = TransferChoice::default(),
+        /// Spacing h in frame units; > 0.
+        pub spacing: Option<f64> = None,
+        /// How the spacing varies around h from step to step.
+        pub spacing_schedule: SpacingSchedule = SpacingSchedule::default(),
+        /// Weigh evaluations of the log density until they represent the target, condense M particles from them, and let the material even these out as
+        /// far as that brings them nearer. Without, a body moves in the given frame from the given start, and nothing knows whether it has found everything.
+        pub survey: bool = true,
+        /// Evaluations of the survey, of all kinds, at most; `None`: [`PoolOptions`](parvi_pool::PoolOptions) has the default. With cached scores: evaluations from which on
+        /// the grid is not refined any more.
+        pub evaluations: Option<u64> = None,
+        /// How many times as much a survey draws in search of pieces that no proposal has met, as far as the evaluations last; ≥ 1.
+        pub search_effort: f64 = 1.0,
+        /// Steps of a round, settling included; ≥ 1.
+        pub steps: Option<usize> = None,
+        /// Rounds, at most. After a survey a round evens out what is condensed, and another one follows while that helps (0: none; default 4). Without one (≥ 1) another one follows while
+        /// the particles are still on their way, in a frame of their own if they have outgrown the old one, and at half of the spacing where the target is rough (docs/theory.md, §14); default 3,
+        /// but one where `steps` are given.
+        pub rounds: Option<usize> = None,
+        /// Time step Δt at the central spacing; > 0. It follows the spacing drawn, and is shortened where the target is stiff.
+        pub time_step: Option<f64> = None,
+        /// Friction γ ≥ 0 (v ← v e^{−γΔt}).
+        pub friction: Option<f64> = None,
+        /// Let the basis vary from step to step: its origin, its spacing within the range of `spacing_schedule`, and with `rotation`
+        /// its orientation. Without, one basis at the central spacing serves the whole run.
+        pub shifts: bool = true,
+        /// Turn the lattice by another random orthogonal matrix in every step that varies it; splines keep their axes.
+        pub rotation: bool = true,
+        /// How the run ends.
+        pub settling: Settling = Settling::default(),
+        /// The last move, made by all particles together.
+        pub moment_correction: MomentCorrection = MomentCorrection::default(),
+        /// Where the score is evaluated.
+        pub score_location: ScoreLocation = ScoreLocation::default(),
+        /// What is done about a particle whose score is not finite.
+        pub non_finite_scores: NonFiniteScores = NonFiniteScores::default(),
+        /// Largest displacement per step in units of h; > 0.
+        pub displacement_limit: f64 = 0.5,
+        /// Factor α of the score before settling begins (the paper's annealing); the stationary density is p^α for its last value.
+        pub annealing: Annealing = Annealing::Constant { alpha: 1.0 },
+        /// Judge the particles at the end ([`Certificate`](crate::Certificate)).
+        pub certificate: bool = true,
+        /// Where the run leaves its state, and goes on from if it was stopped.
+        pub checkpoint: Option<Checkpoint> = None,
+        /// Give light parts of the target more particles than their share, with weights, instead of equal weights: they are better resolved then, and the effective
+        /// sample size is smaller. Of use after a survey only.
+        pub weighted: bool = false,
+        /// Measure residual and energy every so many steps (0: only at the end).
+        pub trace_every: usize = 0,
     }
 }

@@ -1,29 +1,21 @@
+use super::with_defaults::with_defaults;
 use crate::task::{Task, sampler};
 use crate::{SampleError, Samples, defaults};
 
-/// Options of the No-U-Turn sampler (Hoffman & Gelman 2014), of the crate `nuts-rs`.
-///
-/// The M draws of a run are shared out evenly over the chains and returned chain after chain. Needs the cargo feature `nuts`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct NutsOptions {
-    /// Draws of every chain that adapt step size and mass matrix and are thrown away.
-    pub warm_up: usize,
-    /// Chains, ≥ 1; no more than there are draws.
-    pub chains: usize,
-    /// Of so many draws after the warm-up the last one is kept, ≥ 1.
-    pub thinning: usize,
-    /// Mean acceptance that the step size is adapted to, between 0 and 1.
-    pub target_acceptance: f64,
-}
-
-impl Default for NutsOptions {
-    fn default() -> Self {
-        Self {
-            warm_up: defaults::NUTS_WARM_UP,
-            chains: defaults::NUTS_CHAINS,
-            thinning: 1,
-            target_acceptance: defaults::NUTS_TARGET_ACCEPTANCE,
-        }
+with_defaults! {
+    /// Options of the No-U-Turn sampler (Hoffman & Gelman 2014), of the crate `nuts-rs`.
+    ///
+    /// The M draws of a run are shared out evenly over the chains and returned chain after chain. Needs the cargo feature `nuts`.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct NutsOptions {
+        /// Draws of every chain that adapt step size and mass matrix and are thrown away.
+        pub warm_up: usize = defaults::NUTS_WARM_UP,
+        /// Chains, ≥ 1; no more than there are draws.
+        pub chains: usize = defaults::NUTS_CHAINS,
+        /// Of so many draws after the warm-up the last one is kept, ≥ 1.
+        pub thinning: usize = 1,
+        /// Mean acceptance that the step size is adapted to, between 0 and 1.
+        pub target_acceptance: f64 = defaults::NUTS_TARGET_ACCEPTANCE,
     }
 }
 

@@ -1,27 +1,20 @@
 //! How spacing and time step vary over a run.
 
+use super::with_defaults::with_defaults;
 use crate::start::check;
 use crate::{SampleError, defaults};
 
-/// The spacing of step n of N around the central spacing h: h c^{(1 − (n−1)/(N s))₊} r^{u_n − ½}, u_n ∈ [0, 1) the last coordinate
-/// of the Kronecker sequence whose others are the origin.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SpacingSchedule {
-    /// r ≥ 1: largest over smallest spacing of the draws; 1 draws nothing.
-    pub range: f64,
-    /// c ≥ 1: factor of the spacing in the first step; 1 begins as fine as it ends.
-    pub coarse_start: f64,
-    /// s ∈ (0, 1]: share of the steps over which c falls to 1.
-    pub coarse_share: f64,
-}
-
-impl Default for SpacingSchedule {
-    fn default() -> Self {
-        Self {
-            range: defaults::SPACING_RANGE,
-            coarse_start: defaults::COARSE_START,
-            coarse_share: defaults::COARSE_SHARE,
-        }
+with_defaults! {
+    /// The spacing of step n of N around the central spacing h: h c^{(1 − (n−1)/(N s))₊} r^{u_n − ½}, u_n ∈ [0, 1) the last coordinate
+    /// of the Kronecker sequence whose others are the origin.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct SpacingSchedule {
+        /// r ≥ 1: largest over smallest spacing of the draws; 1 draws nothing.
+        pub range: f64 = defaults::SPACING_RANGE,
+        /// c ≥ 1: factor of the spacing in the first step; 1 begins as fine as it ends.
+        pub coarse_start: f64 = defaults::COARSE_START,
+        /// s ∈ (0, 1]: share of the steps over which c falls to 1.
+        pub coarse_share: f64 = defaults::COARSE_SHARE,
     }
 }
 
@@ -46,26 +39,18 @@ impl SpacingSchedule {
     }
 }
 
-/// The end of a run: over the last share of the steps Δt falls linearly from the full one to a fraction of it.
-///
-/// Gradients of hat functions jump, so particles at rest keep trembling by an amount that grows with Δt.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settling {
-    /// Share of the steps, in [0, 1).
-    pub share: f64,
-    /// Δt of the last step over the full one, in (0, 1].
-    pub time_step: f64,
-    /// Whether the basis goes on varying meanwhile; else it comes to rest at origin 0 and the central spacing.
-    pub shifts: bool,
-}
-
-impl Default for Settling {
-    fn default() -> Self {
-        Self {
-            share: defaults::SETTLING_SHARE,
-            time_step: defaults::SETTLING_TIME_STEP,
-            shifts: true,
-        }
+with_defaults! {
+    /// The end of a run: over the last share of the steps Δt falls linearly from the full one to a fraction of it.
+    ///
+    /// Gradients of hat functions jump, so particles at rest keep trembling by an amount that grows with Δt.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Settling {
+        /// Share of the steps, in [0, 1).
+        pub share: f64 = defaults::SETTLING_SHARE,
+        /// Δt of the last step over the full one, in (0, 1].
+        pub time_step: f64 = defaults::SETTLING_TIME_STEP,
+        /// Whether the basis goes on varying meanwhile; else it comes to rest at origin 0 and the central spacing.
+        pub shifts: bool = true,
     }
 }
 

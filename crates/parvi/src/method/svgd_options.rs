@@ -1,23 +1,16 @@
-/// Options of Stein variational gradient descent (Liu & Wang 2016).
-#[derive(Clone, Debug, PartialEq)]
-pub struct SvgdOptions {
-    /// Steps (default: 500).
-    pub steps: Option<usize>,
-    /// Adam step size in frame units.
-    pub step_size: f64,
-    /// Kernel bandwidth; `None`: median heuristic in every step.
-    pub bandwidth: Option<f64>,
-    /// Measure energy every so many steps (0: never).
-    pub trace_every: usize,
-}
+use super::with_defaults::with_defaults;
 
-impl Default for SvgdOptions {
-    fn default() -> Self {
-        Self {
-            steps: None,
-            step_size: 0.1,
-            bandwidth: None,
-            trace_every: 0,
-        }
+with_defaults! {
+    /// Options of Stein variational gradient descent (Liu & Wang 2016).
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct SvgdOptions {
+        /// Steps (default: 500).
+        pub steps: Option<usize> = None,
+        /// Adam step size in frame units.
+        pub step_size: f64 = 0.1,
+        /// Kernel bandwidth; `None`: median heuristic in every step.
+        pub bandwidth: Option<f64> = None,
+        /// Measure energy every so many steps (0: never).
+        pub trace_every: usize = 0,
     }
 }

@@ -1,5 +1,7 @@
 //! What is watched of a body on its way, to find its best configuration.
 
+use super::with_defaults::with_defaults;
+
 /// A number that says how good a configuration is; the least is the best. All are taken in the coordinates of the body.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Monitor {
@@ -12,23 +14,15 @@ pub enum Monitor {
     ParticleDensity,
 }
 
-/// Finds the best configuration of a run ("a transient or steady state which best approximates the target shape", MPM-ParVI paper, §3), and may end it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Watch {
-    /// What is watched.
-    pub monitor: Monitor,
-    /// Steps from one look to the next, at least 1; the start and the end are looked at in any case.
-    pub every: usize,
-    /// The run ends after so many looks in a row that were not better than the best one by a hundredth (`None`: it takes all its steps).
-    pub patience: Option<usize>,
-}
-
-impl Default for Watch {
-    fn default() -> Self {
-        Self {
-            monitor: Monitor::default(),
-            every: 10,
-            patience: None,
-        }
+with_defaults! {
+    /// Finds the best configuration of a run ("a transient or steady state which best approximates the target shape", MPM-ParVI paper, §3), and may end it.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Watch {
+        /// What is watched.
+        pub monitor: Monitor = Monitor::default(),
+        /// Steps from one look to the next, at least 1; the start and the end are looked at in any case.
+        pub every: usize = 10,
+        /// The run ends after so many looks in a row that were not better than the best one by a hundredth (`None`: it takes all its steps).
+        pub patience: Option<usize> = None,
     }
 }

@@ -8,24 +8,13 @@ use crate::study::prelude::*;
 const MOST_LINES: usize = 8;
 
 /// Tables and figure.
-pub fn report(study: &Accuracy, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
-    let mut page = Page::new("Accuracy against the number of particles");
-    page.paragraph(format!(
-        "Target N(0, I), {} seeds. ED² is the squared energy distance, exact in the expectation over the Gaussian; \
-         independent draws have the expectation E‖Y − Y'‖/M. Methods that move particles start from scrambled Sobol points of \
-         N(0, I), on other scramblings than the yardstick's, unless their options say otherwise.",
-        study.seeds.len(),
-    ));
+pub fn report(study: &Accuracy, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
+    let mut page = directory.page(include_str!("report.md"), &[]);
     if study.methods.len() <= MOST_LINES {
         page.heading("Figure");
-        let caption = "Energy distance against the number of particles, by dimension.";
-        page.figure("accuracy.svg", caption, multiples(&plot(study, rows)));
+        page.drawing("accuracy.svg", multiples(&plot(study, rows)));
     }
-    page.heading("Squared energy distance");
-    page.paragraph(
-        "ED² × 10³: the median over the seeds and, in brackets, the largest. Ratios compare medians with those of the \
-         Sobol points.",
-    );
+    page.part("Squared energy distance", &[]);
     for &dim in &study.dims {
         page.paragraph(format!("**d = {dim}**"));
         energy_table(study, &rows.with("dim", dim), &mut page);
@@ -74,11 +63,7 @@ fn energy_table(study: &Accuracy, here: &Rows<'_>, page: &mut Page) {
 
 /// A line per method, a column per dimension.
 fn slopes(study: &Accuracy, rows: &Rows<'_>, page: &mut Page) {
-    page.heading("Slopes");
-    page.paragraph(
-        "Exponents b of ED ∝ M^b: least squares in logarithms over the medians, with 95 % confidence intervals. No M points \
-         can do better than the order M^(−(1 + 1/d)/2) of optimally spread ones; independent draws have −1/2.",
-    );
+    page.part("Slopes", &[]);
     let slope = |label: &str, dim: Dimension| {
         let here = rows.with("dim", dim).with("series", label);
         exponent(here.curve(label, "particles", "energy_root").points())

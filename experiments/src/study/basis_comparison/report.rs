@@ -5,29 +5,14 @@ use super::choice::Choice;
 use crate::study::prelude::*;
 
 /// Tables and figure.
-pub fn report(study: &BasisComparison, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
-    let mut page = Page::new("Bases at equal time");
+pub fn report(study: &BasisComparison, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
     let most = study.step_counts().last().copied().unwrap_or(0);
-    page.paragraph(format!(
-        "Target N(0, I), M = {} particles, method `{}`, {} seeds; medians over the seeds. ED² is the squared energy distance, \
-         exact in the expectation over the Gaussian. Spacings h, in standard deviations, are multiples of each basis's own \
-         default; the best is the one with the lowest ED² at {most} steps.",
-        study.particles,
-        study.method.label(),
-        study.seeds.len(),
-    ));
+    let mut page = directory.page(include_str!("report.md"), &[("most", &most)]);
     page.heading("Figure");
-    let caption =
-        "Squared energy distance ED² against wall time at each basis's best spacing, a point per number of steps.";
     let drawing = multiples(&plot(study, rows));
-    page.figure("basis-comparison.svg", caption, drawing);
-    page.heading("At the best spacing");
-    if let Some(first) = study.bases.first() {
-        page.paragraph(format!(
-            "ED² × 10³ and wall time per number of steps T; in the last column ED² × 10³ at the largest T of that basis that \
-             takes no longer than the largest T of `{first}`. An asterisk marks a best spacing at the edge of the scan.",
-        ));
-    }
+    page.drawing("basis-comparison.svg", drawing);
+    let first = study.bases.first().map(Basis::to_string).unwrap_or_default();
+    page.part("At the best spacing", &[("first", &first)]);
     for dim in &study.dims {
         page.paragraph(format!("**d = {dim}**"));
         best_table(study, &rows.with("dim", *dim), &mut page);

@@ -9,22 +9,10 @@ use crate::study::prelude::*;
 use crate::study::start_law::StartLaw;
 
 /// Tables and figure.
-pub fn report(study: &Catalogue, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
-    let mut page = Page::new("Defaults on every target");
-    page.paragraph(format!(
-        "M = {} particles, {} seeds, nothing set per target. ED² is the squared energy distance and SW₂ the sliced Wasserstein \
-         distance over {} directions, both in coordinates in which the target has mean zero and unit covariance, exact or \
-         against {} quasi-random points; relative to independent draws means ED² over its expectation E‖Y − Y'‖/M, and SW₂ \
-         over the median of {} sets of M draws. Starts N(m, s²) are in target scales, the mean m in every coordinate.",
-        study.particles,
-        study.seeds.len(),
-        study.directions,
-        study.reference_points,
-        study.draws,
-    ));
+pub fn report(study: &Catalogue, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
+    let mut page = directory.page(include_str!("report.md"), &[]);
     page.heading("Figure");
-    let caption = "ED² relative to independent draws, by target and start, with the requirement.";
-    page.figure("catalogue.svg", caption, dots(&plot(study, rows)?));
+    page.drawing("catalogue.svg", dots(&plot(study, rows)?));
 
     let targets = study.all_targets()?;
     let judged = study.judged().map_or("", MethodSpecification::label);

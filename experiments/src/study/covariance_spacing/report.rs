@@ -7,16 +7,8 @@ use crate::study::prelude::*;
 const ERROR: &str = "covariance_error";
 
 /// Tables and figure.
-pub fn report(study: &CovarianceSpacing, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
-    let mut page = Page::new("Covariance error of resting particles against the grid spacing");
-    page.paragraph(format!(
-        "Target N(0, I), M = {} particles, {} seed(s), method `{}` without shifts of the grid and without a moment \
-         correction. The error is the largest entry of |Ĉ − I| once the particles rest; h is in standard deviations. \
-         Vanishing nodal forces mean exact moments; resting particles leave forces in the null space of the transfer.",
-        study.particles,
-        study.seeds.len(),
-        study.method.label(),
-    ));
+pub fn report(study: &CovarianceSpacing, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
+    let mut page = directory.page(include_str!("report.md"), &[]);
 
     page.heading("Bounds");
     let mut kept = Vec::new();
@@ -40,8 +32,7 @@ pub fn report(study: &CovarianceSpacing, rows: &Rows<'_>, _: &StudyDirectory) ->
     page.table("d | h | largest error | bound | verdict", &table);
 
     page.heading("Error against spacing");
-    let caption = "Covariance error of resting particles; medians over the seeds, bars from least to most.";
-    page.figure("covariance-spacing.svg", caption, multiples(&plot(study, rows)));
+    page.drawing("covariance-spacing.svg", multiples(&plot(study, rows)));
 
     let mut table = Vec::new();
     for Series { dim, spacings, .. } in &study.series {

@@ -4,19 +4,12 @@ use super::Evidence;
 use crate::study::prelude::*;
 
 /// Tables and figure.
-pub fn report(study: &Evidence, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
-    let mut page = Page::new("Evidence");
-    page.paragraph(format!(
-        "log Z = log ∫ p with M = {} particles, {} seeds from {} on, beside its known value; s.e. is the standard error that the method states. \
-         An error that is normal and known exactly is within one, two, three of it in 68, 95, 99.7 % of the runs; one that rests on eight \
-         populations in 65, 91, 98 %. Runs that state nothing are in no column but the first.",
-        study.particles, study.run_seeds.count, study.run_seeds.first,
-    ));
+pub fn report(study: &Evidence, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
+    let mut page = directory.page(include_str!("report.md"), &[]);
     page.heading("All targets");
     table(study, rows, &mut page);
     page.heading("Errors in standard errors");
-    let caption = "Errors of log Z in standard errors that the method states, in order of size.";
-    page.figure("evidence.svg", caption, multiples(&plot(study, rows)));
+    page.drawing("evidence.svg", multiples(&plot(study, rows)));
     for target in &study.targets {
         page.heading(&target.label());
         table(study, &rows.with("target", target.label()), &mut page);

@@ -8,18 +8,12 @@ use crate::plots::dots;
 use crate::study::prelude::*;
 
 /// Tables and figures.
-pub fn report(study: &Paper, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
+pub fn report(study: &Paper, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
     let findings = Findings::new(study, rows);
     let all = findings.of(study.all_cases()?);
     let bodies = all.having(|row| !is_rival(row));
-    let mut page = Page::new("What Algorithms 1 and 2 of the MPM-ParVI paper reach");
-    page.paragraph(format!(
-        "Huang, arXiv 2407.20287, has no experiments; these are some. `as written`: the target's own coordinates, the force of Eq. 3, no guard. `guards on, frame`: this project's defaults. \
-         The start is N({}, {}²) in every coordinate of the body. ED² is the squared energy distance from the target over its expectation E‖Y − Y'‖/M for M independent draws, so these have 1; \
-         `on the way` is the least ED² among every {}th step after the start. A run ends, and has diverged, where something is not finite or a mean or standard deviation is off by more than {} \
-         standard deviations. Medians take a run without particles for infinitely far, ∞. Mean and sd are the largest errors in standard deviations. Evaluations are of the score: each node once.",
-        study.start_mean, study.start_sd, study.look_every, study.reach,
-    ));
+
+    let mut page = directory.page(include_str!("report.md"), &[]);
     page.heading("Failures");
     failures(&bodies, &mut page);
     page.heading("Ties and losses");
@@ -27,20 +21,16 @@ pub fn report(study: &Paper, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page
     answers(&findings, &bodies, &mut page)?;
     page.heading("Figures");
     let (alpha, stiffness) = (findings.sweep("alpha")?, findings.sweep("youngs-modulus")?);
-    let caption = "ED² at the end over the factor α of the force and over Young's modulus E.";
     let drawing = multiples(&figure::strength(&alpha, &stiffness));
-    page.figure("strength.svg", caption, drawing);
-    let caption = "The base: start, best configuration on the way, and end.";
+    page.drawing("strength.svg", drawing);
     let base = findings.base()?;
-    page.figure("transient.svg", caption, dots(&figure::transient(&base)));
+    page.drawing("transient.svg", dots(&figure::transient(&base)));
     let at_rest = findings.sweep("material-at-rest")?;
     if !at_rest.is_empty() {
-        let caption = "What bodies of every law rest as, with friction and a force per mass: the isothermal gas has the target for its rest state, and `mpm` moves it freed from F.";
-        page.figure("laws.svg", caption, dots(&figure::materials(&at_rest)));
+        page.drawing("laws.svg", dots(&figure::materials(&at_rest)));
     }
-    let caption = "Time per step over the number of particles.";
     let drawing = multiples(&figure::cost(&findings.sweep("cost")?));
-    page.figure("cost.svg", caption, drawing);
+    page.drawing("cost.svg", drawing);
     page.heading("Base and rivals");
     settings(&base, &mut page);
     settings(&findings.rivals()?, &mut page);

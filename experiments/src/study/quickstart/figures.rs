@@ -27,11 +27,8 @@ pub fn posterior(
         reference: Reference::Draws(PointCloud::equal(&draws)),
         reference_label: "reference",
     };
-    let caption = "The posterior's particles over the reference: lines enclose 50, 90 and 99 % of its mass.";
-    page.figure("posterior-corner.svg", caption, corner(&plot));
-    let caption =
-        "Marginals of the posterior: histogram and kernel density estimate of the particles, and the reference.";
-    page.figure("posterior-marginals.svg", caption, histogram(&plot));
+    page.drawing("posterior-corner.svg", corner(&plot));
+    page.drawing("posterior-marginals.svg", histogram(&plot));
     Ok(())
 }
 
@@ -83,7 +80,6 @@ pub fn traces(study: &Quickstart, directory: &StudyDirectory, page: &mut Page) -
     }
     let quantities = [RESIDUAL, KINETIC_ENERGY, POTENTIAL_ENERGY];
     let plot = MultiplesPlot::traces("", "step", panels(quantities, &labelled));
-    let caption = "Galerkin–Stein residual and energies (frame coordinates, total mass 1) against the steps.";
-    page.figure("traces.svg", caption, multiples(&plot));
+    page.drawing("traces.svg", multiples(&plot));
     Ok(())
 }

@@ -1,5 +1,7 @@
 //! The report of the study `quickstart`.
 
+use std::fmt::Display;
+
 use super::comparison::Comparison;
 use super::{Piece, Quickstart, figures, reference};
 use crate::output::particles_csv;
@@ -8,7 +10,7 @@ use crate::study::row_file;
 
 /// Tables, figures and verdict.
 pub fn report(study: &Quickstart, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
-    let mut page = Page::new("Quickstart: a posterior from real data");
+    let mut page = directory.page(include_str!("report.md"), &[]);
     let finished = |piece: Piece| rows.with("case", piece.name()).count(Row::finished) > 0;
     let particles = |piece: Piece| particles_csv::read(&piece.file(directory, "particles"));
     if finished(Piece::Reference) && finished(Piece::Posterior) {
@@ -40,27 +42,19 @@ fn verdict(study: &Quickstart, comparison: &Comparison, rows: &Rows<'_>, mut pag
     let verdict = if kept == [true, true] { "pass" } else { "fail" };
     let reference = rows.with("case", Piece::Reference.name());
     let size = reference.first().and_then(|row| row.number("effective_sample_size"));
-    page.paragraph(format!(
-        "**Verdict: {verdict}.** The largest error of a posterior mean is {} posterior standard deviations, {means} the bound of {}; the \
-         largest error of a posterior standard deviation is {} %, {deviations} the bound of {} %.",
-        number(comparison.mean_error),
-        bounds.mean,
-        number(100.0 * comparison.deviation_error),
-        100.0 * bounds.standard_deviation,
-    ));
-    page.paragraph(format!(
-        "Posterior `{}`, {} particles by `{}`, seed {}. The reference is quasi-Monte-Carlo importance sampling with a Student t \
-         proposal, {} points in {} independent scramblings (effective sample size {}); its standard errors come from the spread \
-         between the scramblings and are at most {} posterior standard deviations for the means.",
-        study.posterior.target.label(),
-        study.posterior.particles,
-        study.posterior.method.label(),
-        study.seed,
-        study.reference.points,
-        study.reference.scramblings,
-        size.map(|size| format!("{size:.0}")).cell(),
-        number(comparison.reference_error),
-    ));
+    let size = size.map(|size| format!("{size:.0}")).cell();
+    let values: [(&str, &dyn Display); 9] = [
+        ("verdict", &verdict),
+        ("mean error", &number(comparison.mean_error)),
+        ("means", &means),
+        ("deviation error", &number(100.0 * comparison.deviation_error)),
+        ("deviations", &deviations),
+        ("deviation bound", &(100.0 * bounds.standard_deviation)),
+        ("target", &study.posterior.target.label()),
+        ("size", &size),
+        ("reference error", &number(comparison.reference_error)),
+    ];
+    page.part("verdict", &values);
     page.with("largest_mean_error", format!("{:.6}", comparison.mean_error))
         .with("largest_sd_error", format!("{:.6}", comparison.deviation_error))
         .with("verdict", verdict)

@@ -4,26 +4,14 @@ use super::{KnownFrame, RandomTargets};
 use crate::study::prelude::*;
 
 /// Tables and figure.
-pub fn report(study: &RandomTargets, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
-    let mut page = Page::new("Random targets");
-    page.paragraph(format!(
-        "M = {} particles on {} random targets per dimension, of seeds from {} on; the methods {}. ED² is the squared energy distance \
-         from {} quasi-random draws, in standard deviations per axis, over its expectation E‖Y − Y'‖/M for M independent draws. \
-         Evaluations are those of the score and of the log density at a point together. A claim is the outcome `converged`, and \
-         false where ED² is above 1. `better than` counts the targets on which \
-         ED² is smaller; equal ones count for neither.",
-        study.particles,
-        study.target_seeds.count,
-        study.target_seeds.first,
-        match study.frame {
-            KnownFrame::Identity => "know nothing of place and scale (frame: identity)",
-            KnownFrame::Own => "get the target's rough frame",
-        },
-        study.reference_points,
-    ));
+pub fn report(study: &RandomTargets, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
+    let known = match study.frame {
+        KnownFrame::Identity => "know nothing of place and scale (frame: identity)",
+        KnownFrame::Own => "get the target's rough frame",
+    };
+    let mut page = directory.page(include_str!("report.md"), &[("known", &known)]);
     page.heading("Figure");
-    let caption = "ED² relative to independent draws, in order of size.";
-    page.figure("random-targets.svg", caption, multiples(&plot(study, rows)));
+    page.drawing("random-targets.svg", multiples(&plot(study, rows)));
     for &dim in &study.dims {
         page.heading(&format!("d = {dim}"));
         table(study, &rows.with("dim", dim), &mut page);

@@ -1,5 +1,7 @@
 //! The report of the study `scaling`.
 
+use std::fmt::Display;
+
 use super::Scaling;
 use super::quantity::{Measured, NODES, PARTICLES, QUANTITIES, Sweep, TIME};
 use crate::plots::{ScalingPlot, scaling};
@@ -7,18 +9,7 @@ use crate::study::prelude::*;
 
 /// Tables and figures.
 pub fn report(study: &Scaling, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
-    let mut page = Page::new("Scaling with d, M and N = kᵈ");
-    page.paragraph(format!(
-        "Target `{}`, method `{}`, {} steps per run, {} threads. Times are medians of {} runs after one to warm up: the \
-         sampler's own wall time divided by its steps. Storage is what particles and grid hold; peak memory is the rise of the resident \
-         set of a process that does one such run. Exponents \
-         are least-squares slopes in logarithms with 95 % confidence intervals.",
-        study.target,
-        study.method.label(),
-        study.steps,
-        directory.threads.map_or("all".to_owned(), |threads| threads.to_string()),
-        study.repeats,
-    ));
+    let mut page = directory.page(include_str!("report.md"), &[("threads", &"all")]);
     particles_part(study, rows, &mut page);
     nodes_part(study, rows, &mut page);
     all_rows(rows, &mut page);
@@ -29,13 +20,7 @@ pub fn report(study: &Scaling, rows: &Rows<'_>, directory: &StudyDirectory) -> R
 fn particles_part(study: &Scaling, rows: &Rows<'_>, page: &mut Page) {
     let sweep = &study.particles_sweep;
     let fit_from = sweep.fit_from.get() as f64;
-    page.heading("Growth with M and d");
-    page.paragraph(format!(
-        "The sampler chooses its spacing. Exponents b of M^b, fitted from M = {} on; pairs with M · 3ᵈ above {} are left \
-         out. The paper's estimate for a dense grid, O(M N d²), has exponent 1 in M at fixed N.",
-        sweep.fit_from,
-        number(sweep.largest_work),
-    ));
+    page.part("Growth with M and d", &[("work", &number(sweep.largest_work))]);
     exponent_table(page, rows, &PARTICLES, &sweep.dims, fit_from);
     for (quantity, file) in drawn() {
         let plot = plot(quantity, rows, &PARTICLES, &sweep.dims, fit_from);
@@ -79,19 +64,11 @@ fn growth_with_dimension(study: &Scaling, rows: &Rows<'_>, page: &mut Page) {
 fn nodes_part(study: &Scaling, rows: &Rows<'_>, page: &mut Page) {
     let sweep = &study.nodes_sweep;
     let [low, high] = sweep.interval;
-    page.heading("Growth with the nodes per axis k");
-    page.paragraph(format!(
-        "M = {} particles; h = {}/k, so that k nodes divide the interval [{low}, {high}] per axis (frame units) and a dense \
-         grid would hold N = kᵈ nodes, up to {} here. Exponents b of k^b; the paper's O(M N d²) has exponent d.",
-        sweep.particles,
-        high - low,
-        largest_dense_grid(study),
-    ));
+    let (width, dense) = (high - low, largest_dense_grid(study));
+    let values: [(&str, &dyn Display); 4] = [("low", &low), ("high", &high), ("width", &width), ("dense", &dense)];
+    page.part("Growth with the nodes per axis k", &values);
     exponent_table(page, rows, &NODES, &sweep.dims, 0.0);
-    page.paragraph(format!(
-        "The same from k = {} on, where most particles are alone among their nodes:",
-        sweep.fit_from,
-    ));
+    page.part("sparse", &[]);
     exponent_table(page, rows, &NODES, &sweep.dims, sweep.fit_from.get() as f64);
     for (quantity, file) in drawn() {
         let mut plot = plot(quantity, rows, &NODES, &sweep.dims, 0.0);

@@ -6,24 +6,15 @@ use crate::statistics::fit_power_law;
 use crate::study::prelude::*;
 
 /// Tables and figure.
-pub fn report(study: &SpacingParticles, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
-    let mut page = Page::new("Spacing and number of particles together");
-    page.paragraph(format!(
-        "Target N(0, I), method `{}`, {} seeds; medians over the seeds. ED² is the squared energy distance, exact in the \
-         expectation over the Gaussian; spacings h are in standard deviations.",
-        study.method.label(),
-        study.seeds.len(),
-    ));
+pub fn report(study: &SpacingParticles, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
+    let mut page = directory.page(include_str!("report.md"), &[]);
     page.heading("Figure");
-    let caption = "Energy distance against the spacing, by dimension and number of particles.";
     let drawing = multiples(&plot(study, rows));
-    page.figure("spacing-particles.svg", caption, drawing);
+    page.drawing("spacing-particles.svg", drawing);
     best_spacings(study, rows, &mut page);
-    page.heading("Where the error stops being the particles' and becomes the spacing's");
-    page.paragraph(
-        "For each spacing the number of particles beyond which more do not help: to the next one, ED² falls by less than a \
-         tenth. The exponent b of ED² ∝ M^b between the two largest numbers of particles tells how far from that end they \
-         are: b = −1 is the gain of independent draws, b = −(1 + 1/d) the best possible one, b = 0 none.",
+    page.part(
+        "Where the error stops being the particles' and becomes the spacing's",
+        &[],
     );
     for series in &study.series {
         page.paragraph(format!("**d = {}**: ED² × 10³ by number of particles.", series.dim));
@@ -33,8 +24,7 @@ pub fn report(study: &SpacingParticles, rows: &Rows<'_>, _: &StudyDirectory) -> 
 }
 
 fn best_spacings(study: &SpacingParticles, rows: &Rows<'_>, page: &mut Page) {
-    page.heading("Best spacings");
-    page.paragraph("An asterisk marks a best spacing at the edge of the scan, which the fits below leave out.");
+    page.part("Best spacings", &[]);
     let mut table = Vec::new();
     let mut fits = Vec::new();
     for series in &study.series {

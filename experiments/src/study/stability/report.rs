@@ -9,23 +9,14 @@ use crate::study::prelude::*;
 const MOST_NAMED: usize = 100;
 
 /// Tables and figure.
-pub fn report(study: &Stability, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
-    let mut page = Page::new("Random configurations");
-    page.paragraph(format!(
-        "{} random configurations of seed {}: target, dimension, basis, spacing (0.1 to 10 times the default), time step (0.1 to 30 \
-         times), start (mean 0 to 10, standard deviation 0.1 to 10), 2 to 2,000 particles, 5 to 100 steps, and the options of the \
-         method (`mpm` without a survey), in a frame that is 10⁻³ to 10³ times as large as the target's and in half of the cases turned. A run diverged \
-         if it ended with an error, or if a particle escaped: is ten times farther out than start and target together could explain.",
-        study.cases, study.seed,
-    ));
+pub fn report(_: &Stability, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
+    let mut page = directory.page(include_str!("report.md"), &[]);
     let groups = groups(rows);
     endings(&groups, &mut page);
     reasons(rows, &groups, &mut page);
     page.heading("Where the paper's algorithms diverge");
-    let caption = "Share of diverged runs of Algorithms 1 and 2 over time step and spacing, guards off and on.";
-    page.figure("divergence.svg", caption, heat_map(&plot(rows)));
-    page.heading("What decides");
-    page.paragraph("Diverged runs in percent of all, by one drawn quantity at a time.");
+    page.drawing("divergence.svg", heat_map(&plot(rows)));
+    page.part("What decides", &[]);
     breakdowns(rows, &groups, &mut page);
     let faults = rows.having(|row| matches!(row.status(), Status::Panicked | Status::NotFinite));
     let faults: Vec<String> = faults.iter().map(named).collect();

@@ -5,18 +5,8 @@ use crate::plots::{TimeErrorCurve, TimeErrorPanel, time_error};
 use crate::study::prelude::*;
 
 /// Tables and figures.
-pub fn report(study: &TimeError, rows: &Rows<'_>, _: &StudyDirectory) -> Result<Page, CommandError> {
-    let mut page = Page::new("Error against wall time and evaluations");
-    page.paragraph(format!(
-        "M = {} particles, {} seeds; medians over the seeds. ED² is the squared energy distance, exact against Gaussians and \
-         against {} quasi-random reference points else; SW₂ is the sliced Wasserstein distance over {} directions. Regressions are measured in posterior standard deviations \
-         per axis. The yardstick is the error of M independent draws: for ED² its expectation E‖Y − Y'‖/M, else the median \
-         over the seeds (draws from the importance sample where a target has no exact ones). Evaluations are those of the score and of the log density at a point together.",
-        study.particles,
-        study.seeds.len(),
-        study.reference_points,
-        study.directions,
-    ));
+pub fn report(study: &TimeError, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
+    let mut page = directory.page(include_str!("report.md"), &[]);
     figures(study, rows, &mut page);
     page.heading(match study.steps {
         Some(_) => "Errors at the largest number of steps",
@@ -130,11 +120,7 @@ fn target_table(study: &TimeError, rows: &Rows<'_>, target: &str, page: &mut Pag
 
 /// What the paper's two algorithms reach in the plane.
 fn paper_part(study: &TimeError, rows: &Rows<'_>, page: &mut Page) {
-    page.heading("The paper's algorithms on the two-dimensional targets");
-    page.paragraph(
-        "Finished runs had finite particles, with the guards of the method's options. The best setting is the number of steps \
-         with the smallest median ED²; the last is the largest number of steps.",
-    );
+    page.part("The paper's algorithms on the two-dimensional targets", &[]);
     let header = "target | method | finished | best steps | best ED² / i.i.d. | best SW₂ | last ED² / i.i.d. | last SW₂ | last mean (sd) | last sd (relative)";
     let mut table = Vec::new();
     let mut failures: Vec<String> = Vec::new();

@@ -7,36 +7,17 @@ use crate::study::prelude::*;
 /// Tables and figure.
 pub fn report(study: &TimeToEqualError, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
     let label = study.method.label();
-    let mut page = Page::new("Wall time to equal error");
-    page.paragraph(format!(
-        "The median over {} seeds of the squared energy distance of M particles of `{label}` is what its rivals have to reach, in \
-         coordinates in which the target has mean zero and unit covariance, exact or against {} quasi-random points. All run on the \
-         same threads{}; every time is that of the sampler alone, a warm-up included. A chain gets {} draws, then twice as many, up to \
-         {}, all of which count; other particles as many as `{label}`, with {} steps, then twice as many, up to {}. A rival is stopped \
-         once a run takes {} times as long as `{label}`.",
-        study.seeds.len(),
-        study.reference_points,
-        directory.at_most_threads(),
-        study.draws.from,
-        study.draws.to,
-        study.steps.from,
-        study.steps.to,
-        number(study.largest_ratio),
-    ));
-    page.heading("What a particle is worth");
-    page.paragraph(format!(
-        "ED² of independent draws is E‖Y − Y'‖/n in expectation; a particle of `{label}` is worth as many draws as that takes to \
-         equal its ED², divided by M."
-    ));
+    let (threads, ratio) = (directory.at_most_threads(), number(study.largest_ratio));
+    let mut page = directory.page(include_str!("report.md"), &[("at-most", &threads), ("ratio", &ratio)]);
+    page.part("What a particle is worth", &[]);
     worth(study, rows, &mut page);
     for rival in &study.rivals {
         page.heading(&format!("Against {}", rival.label()));
         against(study, rows, rival, &mut page);
     }
     page.heading("Figure");
-    let caption = "ED² against wall time: a point per M, per number of draws or per number of steps.";
     let plot = plot(study, rows, directory)?;
-    page.figure("time-to-equal-error.svg", caption, multiples(&plot));
+    page.drawing("time-to-equal-error.svg", multiples(&plot));
 
     let rivals = rows.having(|row| row.text("method") != label);
     Ok(page

@@ -6,27 +6,18 @@ use crate::study::prelude::*;
 
 /// Tables and figure.
 pub fn report(study: &TimeToLevel, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
-    let mut page = Page::new("Wall time to the error of independent draws");
-    page.paragraph(format!(
-        "Target N(0, I), M = {} particles, which begin as N({} · 1, {}² I); seed {}, all methods on the same threads{}. The \
-         level is E‖Y − Y'‖/M, the expected ED² of M independent draws. A method is run with more and more steps until a run \
-         ends at or below the level; its time is that of this one run (median of up to {} where it takes less than a second). \
-         A rival is stopped once a run takes {} times as long as `{}` needed.",
-        study.particles,
-        study.start.mean,
-        study.start.standard_deviation,
-        study.seed,
-        directory.at_most_threads(),
-        study.repeats,
-        number(study.largest_ratio),
-        study.method.label(),
-    ));
+    let mut page = directory.page(
+        include_str!("report.md"),
+        &[
+            ("at-most", &directory.at_most_threads()),
+            ("ratio", &number(study.largest_ratio)),
+        ],
+    );
     page.heading("Times");
     times(study, rows, &mut page);
     page.heading("Figure");
-    let caption = "ED² in units of the level against the wall time of a run, a point per number of steps.";
     let plot = plot(study, rows, directory)?;
-    page.figure("time-to-level.svg", caption, multiples(&plot));
+    page.drawing("time-to-level.svg", multiples(&plot));
     page.heading("All searches");
     searches(rows, &mut page);
 
