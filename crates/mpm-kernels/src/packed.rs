@@ -101,6 +101,15 @@ pub trait NodeSink<const D: usize> {
     /// Let `add` add to what it is given, and add what that has become more by.
     fn update<const G: usize>(&mut self, index: usize, add: impl FnOnce(&Packed<G>) -> Packed<G>);
 
+    /// Add to the nodes at the [`LANES`] places from `first` on what is in the rows, a scalar and a vector; for D ≤ 3.
+    #[inline(always)]
+    fn add_rows(&mut self, first: usize, rows: &[Lanes; LANES]) {
+        let mut window = self.window(first, LANES);
+        for (place, row) in rows.iter().enumerate() {
+            window.update(place, |sum: &Packed<1>| sum.plus(Lanes::splat(1.0), &Packed([*row])));
+        }
+    }
+
     /// The `length` places from `first` on, counted from 0: a sink in memory checks them here, once for all nodes of a stencil.
     #[inline(always)]
     fn window(&mut self, first: usize, _length: usize) -> impl NodeSink<D> {

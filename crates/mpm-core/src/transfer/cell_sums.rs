@@ -1,8 +1,9 @@
-//! The nodes of one cell in lanes, shared by all its particles: no look-up and no check per particle and node.
+//! The nodes of one cell in lanes, shared by all its particles: no look-up and no check per particle and node. A particle that has a cell for itself adds to the nodes
+//! at once where four are added to side by side: from zero, its sums are what it adds.
 
 use std::marker::PhantomData;
 
-use mpm_kernels::{Deposit, Lanes, NodeSink, Packed, groups_of};
+use mpm_kernels::{Deposit, LANES, Lanes, NodeSink, Packed, groups_of};
 
 use super::{GridNode, StencilNodes};
 use crate::Basis;
@@ -14,15 +15,23 @@ pub(crate) struct CellSums<'a, 'b, B, N, const D: usize> {
     sums: &'a mut [Lanes],
     /// Impulses, where they are kept apart.
     impulses: &'a mut [Lanes],
+    /// Whether there are no sums here, and nodes are added to at once.
+    at_once: bool,
     basis: PhantomData<B>,
 }
 
 impl<'a, 'b, B: Basis<D>, N: GridNode<D>, const D: usize> CellSums<'a, 'b, B, N, D> {
-    /// Nothing yet. `lanes` is memory to work in.
+    /// Nothing yet. `lanes` is memory to work in; `alone`: one particle will add, and once to all sums.
     #[inline(always)]
-    pub fn new(stencil: &'a mut StencilNodes<'b, N>, lanes: &'a mut Vec<Lanes>, with_impulses: bool) -> Self {
+    pub fn new(
+        stencil: &'a mut StencilNodes<'b, N>,
+        lanes: &'a mut Vec<Lanes>,
+        with_impulses: bool,
+        alone: bool,
+    ) -> Self {
         let (mut sums, mut impulses) = (&mut [][..], &mut [][..]);
-        if !B::LONE_PARTICLES {
+        let at_once = B::LONE_PARTICLES || (B::NODES_SIDE_BY_SIDE && alone);
+        if !at_once {
             let size = stencil.numbers.len() * groups_of(D);
             let both = if with_impulses { 2 * size } else { size };
             lanes.clear();
@@ -33,6 +42,7 @@ impl<'a, 'b, B: Basis<D>, N: GridNode<D>, const D: usize> CellSums<'a, 'b, B, N,
             stencil,
             sums,
             impulses,
+            at_once,
             basis: PhantomData,
         }
     }
@@ -44,6 +54,7 @@ impl<'a, 'b, B: Basis<D>, N: GridNode<D>, const D: usize> CellSums<'a, 'b, B, N,
             stencil: self.stencil,
             lanes: self.sums,
             first: 0,
+            at_once: self.at_once,
             basis: PhantomData,
         }
     }
@@ -55,6 +66,7 @@ impl<'a, 'b, B: Basis<D>, N: GridNode<D>, const D: usize> CellSums<'a, 'b, B, N,
             stencil: self.stencil,
             lanes: self.impulses,
             first: 0,
+            at_once: self.at_once,
             basis: PhantomData,
         }
     }
@@ -97,7 +109,16 @@ struct Sums<'a, 'b, B, N, const D: usize, const IMPULSES: bool> {
     lanes: &'a mut [Lanes],
     /// Place that counts as 0.
     first: usize,
+    at_once: bool,
     basis: PhantomData<B>,
+}
+
+impl<B: Basis<D>, N, const D: usize, const IMPULSES: bool> Sums<'_, '_, B, N, D, IMPULSES> {
+    /// Whether nodes are added to at once: known when this is compiled unless nodes are added to side by side.
+    #[inline(always)]
+    fn at_once(&self) -> bool {
+        B::LONE_PARTICLES || (B::NODES_SIDE_BY_SIDE && self.at_once)
+    }
 }
 
 impl<B: Basis<D>, N: GridNode<D>, const D: usize, const IMPULSES: bool> NodeSink<D>
@@ -105,7 +126,7 @@ impl<B: Basis<D>, N: GridNode<D>, const D: usize, const IMPULSES: bool> NodeSink
 {
     #[inline(always)]
     fn add(&mut self, index: usize, deposit: &Deposit<D>) {
-        if !B::LONE_PARTICLES {
+        if !self.at_once() {
             match const { groups_of(D) } {
                 1 => self.update(index, |sum: &Packed<1>| sum.plus_deposit(deposit)),
                 2 => self.update(index, |sum: &Packed<2>| sum.plus_deposit(deposit)),
@@ -121,7 +142,7 @@ impl<B: Basis<D>, N: GridNode<D>, const D: usize, const IMPULSES: bool> NodeSink
 
     #[inline(always)]
     fn update<const G: usize>(&mut self, index: usize, add: impl FnOnce(&Packed<G>) -> Packed<G>) {
-        if B::LONE_PARTICLES {
+        if self.at_once() {
             self.add(index, &add(&Packed::ZERO).deposit());
         } else {
             let sum = &mut self.lanes[index * G..][..G];
@@ -130,9 +151,30 @@ impl<B: Basis<D>, N: GridNode<D>, const D: usize, const IMPULSES: bool> NodeSink
     }
 
     #[inline(always)]
+    fn add_rows(&mut self, first: usize, rows: &[Lanes; LANES]) {
+        if self.at_once() {
+            let (numbers, first) = (self.stencil.numbers, self.first + first);
+            let mut nodes = self.stencil.of(&numbers[first..first + LANES]);
+            nodes.for_each_with(rows.iter(), |node, row| {
+                let deposit = Packed::<1>::read(std::slice::from_ref(row)).deposit();
+                if IMPULSES {
+                    node.add_impulse(&deposit.vector);
+                } else {
+                    node.add(&deposit);
+                }
+            });
+        } else {
+            for (sum, row) in self.lanes[first..first + LANES].iter_mut().zip(rows) {
+                *sum += *row;
+            }
+        }
+    }
+
+    #[inline(always)]
     fn window(&mut self, first: usize, length: usize) -> impl NodeSink<D> {
         Sums::<B, N, D, IMPULSES> {
-            lanes: if B::LONE_PARTICLES {
+            at_once: self.at_once,
+            lanes: if self.at_once() {
                 &mut []
             } else {
                 &mut self.lanes[first * groups_of(D)..][..length * groups_of(D)]

@@ -107,7 +107,8 @@ impl<N: Sum> NodeSums<N> {
                 if P::WANTED {
                     memory.ahead.reach(&particles, positions.len(), &source);
                 }
-                let mut sums = CellSums::<B, N, D>::new(stencil, &mut memory.lanes, with_impulses);
+                let alone = particles.len() == 1;
+                let mut sums = CellSums::<B, N, D>::new(stencil, &mut memory.lanes, with_impulses, alone);
                 for particle in particles {
                     let prepared = if P::WANTED { memory.ahead.get(particle) } else { None };
                     let member = Member {
@@ -207,6 +208,16 @@ impl<N> StencilNodes<'_, N> {
         &mut self.nodes[self.numbers[index] as usize - self.first]
     }
 
+    /// Those of these nodes alone.
+    #[inline(always)]
+    pub(super) fn of<'c>(&'c mut self, numbers: &'c [u32]) -> StencilNodes<'c, N> {
+        StencilNodes {
+            numbers,
+            first: self.first,
+            nodes: &mut *self.nodes,
+        }
+    }
+
     /// Places of the stencil.
     #[inline(always)]
     pub(crate) fn len(&self) -> usize {
@@ -216,9 +227,11 @@ impl<N> StencilNodes<'_, N> {
     /// Every node that a particle of the cell touches, with what `others` has for its place.
     #[inline(always)]
     pub(crate) fn for_each_with<T>(&mut self, others: impl Iterator<Item = T>, mut visit: impl FnMut(&mut N, T)) {
-        for (&number, other) in self.numbers.iter().zip(others) {
+        // By value, so that what is written to the nodes cannot change where they are.
+        let (numbers, first, nodes) = (self.numbers, self.first, &mut *self.nodes);
+        for (&number, other) in numbers.iter().zip(others) {
             // NO_NODE is behind them all.
-            if let Some(node) = self.nodes.get_mut((number as usize).wrapping_sub(self.first)) {
+            if let Some(node) = nodes.get_mut((number as usize).wrapping_sub(first)) {
                 visit(node, other);
             }
         }

@@ -76,11 +76,7 @@ impl<const D: usize> MeshBasis<D> {
                     sent[c + 1] = sample.mul_add(pushed, sent[c + 1]);
                 }
             }
-            let mut window = sink.window(first, LANES);
-            for (lane, node) in Lanes::transpose(sent).iter().enumerate() {
-                let node = Pack::read(std::slice::from_ref(node));
-                window.update(lane, |sum: &Pack| sum.plus(Lanes::splat(1.0), &node));
-            }
+            sink.add_rows(first, &Lanes::transpose(sent));
         });
     }
 
