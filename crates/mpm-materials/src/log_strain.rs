@@ -10,6 +10,9 @@ const FAR_FROM_REST: f64 = 0.5;
 /// Largest ‖b − I‖ for the power series, whose terms then fall by 1/80 or faster.
 const SERIES_RANGE: f64 = 0.2;
 
+/// What rounding may take from a deviator's norm, of that of the whole: the square is a difference.
+const ROUNDING: f64 = 1e-7;
+
 /// ε = ½ ln b, b = F Fᵀ: the spatial logarithmic (Hencky) strain, exactly symmetric.
 ///
 /// Near rest, from F = I + H the matrix b − I = H + Hᵀ + H Hᵀ is formed without the cancellation of F Fᵀ − I, so that
@@ -40,6 +43,22 @@ pub(crate) fn log_strain<const D: usize>(F: &Matrix<D>) -> Option<Matrix<D>> {
                 by_jacobi(F, &squared_strain)
             }
         }
+    }
+}
+
+/// A number that ‖dev ε‖ is not above, without the logarithm: ½ ‖dev b‖ / (1 − ‖b − I‖); infinite for ‖b − I‖ ≥ 1.
+///
+/// ‖dev ln b‖ = min_c ‖ln b − c I‖ ≤ ‖ln b − ln m I‖ with m the mean of b's eigenvalues, and the logarithm's slope is at most that at the smallest of them, which is above 1 − ‖b − I‖.
+#[inline]
+pub(crate) fn deviator_bound<const D: usize>(F: &Matrix<D>) -> f64 {
+    let squared_strain = strains_from_rest(F).1;
+    let (size, trace) = (squared_strain.contract(&squared_strain), squared_strain.trace());
+    let deviator = (size - trace * trace / D as f64).max(0.0).sqrt() + ROUNDING * size.sqrt();
+    let least = 1.0 - size.sqrt();
+    if least > 0.0 {
+        0.5 * deviator / least
+    } else {
+        f64::INFINITY
     }
 }
 
@@ -144,6 +163,23 @@ mod tests {
         Ok(())
     }
 
+    /// Above the strain's deviator, and hardly above a small one.
+    fn bounds<const D: usize>(numbers: &[f64], size: f64) -> Result<(), TestCaseError> {
+        let F = Matrix::<D>::from_fn(|i, j| f64::from(u8::from(i == j)) + size * numbers[D * i + j]);
+        prop_assume!(F.determinant() > 1e-3);
+        let strain = log_strain(&F).expect("in range");
+        let deviator = (strain - Matrix::IDENTITY * (strain.trace() / D as f64)).frobenius_norm();
+        let bound = deviator_bound(&F);
+        prop_assert!(bound >= deviator, "D = {D}: {bound:e} {deviator:e}");
+        if size < 1e-3 {
+            prop_assert!(
+                bound < deviator + 20.0 * D as f64 * size * size + 1e-6 * size,
+                "D = {D}: {bound:e} {deviator:e}"
+            );
+        }
+        Ok(())
+    }
+
     /// ε = ½ (H + Hᵀ) + O(‖H‖²), kept to all digits of H, equal stretches or not.
     fn small_strains_keep_their_digits<const D: usize>(numbers: &[f64]) -> Result<(), TestCaseError> {
         // Multiples of the spacing of the numbers near one, so that F − I is exactly H.
@@ -163,6 +199,7 @@ mod tests {
         ) {
             let size = 10f64.powi(-exponent);
             mpm_tensor::in_dimensions!(agrees(&numbers, size)?, 1, 2, 3, 4);
+            mpm_tensor::in_dimensions!(bounds(&numbers, size)?, 1, 2, 3, 4);
         }
 
         #[test]

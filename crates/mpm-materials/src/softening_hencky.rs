@@ -5,7 +5,7 @@ use mpm_tensor::Matrix;
 use crate::any_law::remembered;
 use crate::error::{not_negative, positive, within};
 use crate::exponential::exponential;
-use crate::log_strain::log_strain;
+use crate::log_strain::{deviator_bound, log_strain};
 use crate::material::{log_volume_ratio, shifted};
 use crate::{ElasticModuli, Hencky, Law, ParameterError};
 
@@ -150,6 +150,13 @@ impl<const D: usize> Law<D> for SofteningHencky {
     }
 
     fn advance(&self, trial: &Matrix<D>, state: &mut SofteningState) -> Matrix<D> {
+        let twice_shear = 2.0 * self.elastic.moduli.shear_modulus();
+        let plastic_strain = state.accumulated_plastic_strain;
+        let yields_at = self.yield_stress(plastic_strain);
+        // Far from yield, and in all axes, no logarithm is needed to see it.
+        if axes_left_out(D) == 0 && trial.determinant() > 0.0 && twice_shear * deviator_bound(trial) < yields_at {
+            return *trial;
+        }
         let Some(strain) = log_strain(trial) else {
             return *trial;
         };
@@ -158,10 +165,8 @@ impl<const D: usize> Law<D> for SofteningHencky {
         let out_of_plane = state.out_of_plane_strain - mean;
         let in_plane = shifted(strain, -mean);
         let deviator = (in_plane.contract(&in_plane) + left_out as f64 * out_of_plane * out_of_plane).sqrt();
-        let twice_shear = 2.0 * self.elastic.moduli.shear_modulus();
         let trial_stress = twice_shear * deviator;
-        let plastic_strain = state.accumulated_plastic_strain;
-        if !(trial_stress > self.yield_stress(plastic_strain) && trial_stress < f64::INFINITY) {
+        if !(trial_stress > yields_at && trial_stress < f64::INFINITY) {
             return *trial;
         }
         let flow = self.multiplier(trial_stress, plastic_strain);

@@ -1,7 +1,6 @@
 //! Which node is at a position.
 
-use std::collections::HashMap;
-
+use hashbrown::HashMap;
 use mpm_tensor::vector::distance;
 
 use super::MeshBasis;
@@ -14,7 +13,7 @@ const SAME_PLACE: f64 = 1e-6;
 /// Edge of the boxes, in units of the shortest edge: their diagonals are shorter than it for D ≤ 3, so there is one vertex in a box at most.
 const BOX: f64 = 0.5;
 
-/// Vertices by the box of a uniform grid that they lie in.
+/// Vertices by the box of a uniform grid that they lie in. Walls that mirror ask for every node in every step: a hash that is quick on short keys.
 #[derive(Clone, Debug)]
 pub(super) struct VertexBoxes<const D: usize> {
     vertices: HashMap<[i64; D], u32>,
