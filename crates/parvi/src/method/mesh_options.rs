@@ -1,10 +1,10 @@
-use super::with_defaults::with_defaults;
 use std::path::PathBuf;
 
 use parvi_body::NonFiniteScores;
 use parvi_targets::Target;
 
 use super::Settling;
+use super::with_defaults::with_defaults;
 use crate::{Observer, Run, SampleError, Samples};
 
 /// The calibrated sampler on the mesh of a file.

@@ -1,6 +1,6 @@
-use super::with_defaults::with_defaults;
 use parvi_body::{BasisChoice, NonFiniteScores, ScoreLocation, TransferChoice};
 
+use super::with_defaults::with_defaults;
 use super::{Annealing, Settling, SpacingSchedule};
 use crate::Checkpoint;
 

@@ -1,8 +1,8 @@
-use super::with_defaults::with_defaults;
 use serde::Deserialize;
 
 use parvi_body::{BasisChoice, ScoreLocation};
 
+use super::with_defaults::with_defaults;
 use super::{Annealing, PaperMaterial, Watch};
 
 /// In which coordinates the body moves: those of grid, masses per volume, F and Δt.
