@@ -116,6 +116,11 @@ pub fn run_study(text: &str) -> (tempfile::TempDir, Output) {
 /// Asserts that the report exists, that it links to all figures, and that no figure was left out.
 pub fn assert_report(root: &Path, figures: usize) -> String {
     let report = std::fs::read_to_string(root.join("out/report.md")).unwrap();
+    let is_name = |text: &str| !text.is_empty() && text.chars().all(|c| c.is_ascii_lowercase() || "-.".contains(c));
+    let mut braced = report.split('{').skip(1).filter_map(|rest| rest.split_once('}'));
+    let unfilled = braced.find(|(text, _)| is_name(text));
+    assert_eq!(unfilled, None, "a place of the prose without a value");
+    assert!(!report.contains("![]("), "a figure without a caption");
     let names = files(&root.join("out/figures"));
     assert!(
         names.iter().all(|name| report.contains(&format!("(figures/{name})"))),
