@@ -37,6 +37,42 @@ impl EnergyBudget {
     pub fn sum(&self) -> f64 {
         self.forces + self.damping + self.contact + self.friction + self.boundary
     }
+
+    /// Once per step, for all bodies with such nodes.
+    #[inline(never)]
+    fn add_works<N: GridNode<D>, const D: usize>(
+        &mut self,
+        nodes: &[N],
+        stages: &[Vec<[f64; D]>],
+        damping: f64,
+        deforms_last: bool,
+    ) {
+        let [brought, advanced, pressed, slowed, last] = stages else {
+            return;
+        };
+        let sum_of = |impulse: &dyn Fn(usize) -> [f64; D], way: &dyn Fn(usize) -> [f64; D]| -> f64 {
+            let each = (0..nodes.len()).map(|i| 0.5 * nodes[i].mass() * dot(&impulse(i), &way(i)));
+            each.sum()
+        };
+        let work = |from: &[[f64; D]], to: &[[f64; D]]| {
+            sum_of(&|i| subtract(&to[i], &from[i]), &|i| add(&brought[i], &last[i]))
+        };
+        // v* = e^(−γΔt) (vⁿ + J/m).
+        let undamped: Vec<[f64; D]> = advanced
+            .iter()
+            .map(|v| scale(v, 1.0 / damping.max(f64::MIN_POSITIVE)))
+            .collect();
+        self.forces += work(brought, &undamped);
+        self.damping += work(&undamped, advanced);
+        self.contact += work(advanced, pressed);
+        self.friction += work(pressed, slowed);
+        self.boundary += work(slowed, last);
+        if deforms_last {
+            self.time_integration += sum_of(&|i| subtract(&undamped[i], &brought[i]), &|i| {
+                subtract(&last[i], &brought[i])
+            });
+        }
+    }
 }
 
 impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>, C: Boundary<D>> Mpm<D, B, T, M, F, C> {
@@ -62,31 +98,10 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
 
     /// Add the works of a step, now that the velocities are v_iⁿ⁺¹ and forces with damping, contact, friction and boundary have been recorded.
     pub(crate) fn account(&mut self, stages: &Stages<D>, damping: f64) {
-        if let (Some(budget), [brought, advanced, pressed, slowed, last]) = (&mut self.energy_budget, &stages.0[..]) {
-            let nodes = self.nodes.as_slice();
-            let work = |from: &[[f64; D]], to: &[[f64; D]]| -> f64 {
-                let each = (0..nodes.len()).map(|i| {
-                    let (impulse, way) = (subtract(&to[i], &from[i]), add(&brought[i], &last[i]));
-                    0.5 * nodes[i].mass() * dot(&impulse, &way)
-                });
-                each.sum()
-            };
-            // v* = e^(−γΔt) (vⁿ + J/m).
-            let undamped: Vec<[f64; D]> = advanced
-                .iter()
-                .map(|v| scale(v, 1.0 / damping.max(f64::MIN_POSITIVE)))
-                .collect();
-            budget.forces += work(brought, &undamped);
-            budget.damping += work(&undamped, advanced);
-            budget.contact += work(advanced, pressed);
-            budget.friction += work(pressed, slowed);
-            budget.boundary += work(slowed, last);
-            if M::DEFORMS && self.stress_update == StressUpdate::Last {
-                let lead = |i: usize| {
-                    let (impulse, change) = (subtract(&undamped[i], &brought[i]), subtract(&last[i], &brought[i]));
-                    0.5 * nodes[i].mass() * dot(&impulse, &change)
-                };
-                budget.time_integration += (0..nodes.len()).map(lead).sum::<f64>();
+        if let (Some(budget), Stages(stages)) = (&mut self.energy_budget, stages) {
+            let deforms_last = M::DEFORMS && self.stress_update == StressUpdate::Last;
+            budget.add_works(self.nodes.as_slice(), stages, damping, deforms_last);
+            if deforms_last {
                 self.excesses.resize(self.particles.len(), 0.0);
             }
         }

@@ -20,8 +20,6 @@ mod sampling;
 mod spread;
 mod starts;
 mod super_resolution;
-#[cfg(test)]
-mod tests;
 mod train;
 mod trained;
 mod training_states;

@@ -122,7 +122,7 @@ fn unseen_runs_are_reproduced() {
     let part = |runs: &[Run<3>]| Snapshots::new(all.body().clone(), runs.to_vec()).unwrap();
     let (seen, unseen) = (part(&all.runs()[..12]), part(&all.runs()[12..]));
     let config = Training {
-        epochs: 600,
+        epochs: 150,
         ..Training::default()
     };
     let mut trainer = Trainer::new(&seen, config).unwrap();

@@ -33,3 +33,29 @@ fn a_fold_that_forgets_weighs_as_if_the_rest_were_all() {
     both.forget(1);
     assert_eq!(both.log_weights(), second.log_weights());
 }
+
+#[test]
+fn weights_over_two_proposals_are_unbiased() {
+    let target = Gaussian::<2>::standard();
+    let frame = Frame::identity();
+    let law = |centre, width| {
+        Mixture::new(vec![Kernel {
+            centre,
+            factor: Matrix::IDENTITY * width,
+            share: 1.0,
+        }])
+        .unwrap()
+    };
+    let runs = 200;
+    let mean = (0..runs)
+        .map(|seed| {
+            let mut density = Density::new(&target, &frame, Vec::new());
+            let mut fold = Fold::new();
+            fold.draw(&mut density, law([1.0, 0.0], 0.8), 64, seed);
+            fold.draw(&mut density, law([-1.0, 0.5], 1.2), 128, 1000 + seed);
+            fold.log_weights().iter().map(|l| l.exp()).sum::<f64>()
+        })
+        .sum::<f64>()
+        / runs as f64;
+    assert!((mean - 1.0).abs() < 0.005, "{mean}");
+}

@@ -4,9 +4,7 @@ use super::*;
 
 #[test]
 fn what_is_wrong_is_named_with_its_file_and_field() {
-    let table: toml::Table = include_str!("../../../tests/data/strip_rom_refused.toml")
-        .parse()
-        .expect("TOML");
+    let table: toml::Table = include_str!("../../data/strip_rom_refused.toml").parse().expect("TOML");
     let rows: Vec<[String; 3]> = table["refused"].clone().try_into().expect("rows of texts");
     for [old, new, expected] in &rows {
         let message = message((old, new));

@@ -3,9 +3,8 @@
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use parvi_pool::{Observer, PoolError, PoolOptions, explore};
 use parvi_targets::{Banana, Frame, Target};
-
-use crate::{Observer, PoolError, PoolOptions, explore};
 
 #[test]
 fn a_run_goes_on_from_its_tape_to_the_same_bits() {

@@ -1,9 +1,11 @@
+//! Experiments from their files.
+
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-use super::*;
-use crate::full_order::SceneDocument;
-use crate::training::EpochReport;
+use mpm_rom::experiment::*;
+use mpm_rom::full_order::SceneDocument;
+use mpm_rom::training::EpochReport;
 
 mod exchanges;
 mod more_runs;
@@ -11,9 +13,9 @@ mod networks;
 mod refused;
 
 /// A strip whose left end is held, and which falls.
-const SCENE: &str = include_str!("../../tests/data/bending_strip.toml");
+const SCENE: &str = include_str!("../../data/bending_strip.toml");
 
-const EXPERIMENT: &str = include_str!("../../tests/data/strip_rom.toml");
+const EXPERIMENT: &str = include_str!("../../data/strip_rom.toml");
 
 fn files() -> (tempfile::TempDir, PathBuf) {
     let directory = tempfile::tempdir().expect("a directory");

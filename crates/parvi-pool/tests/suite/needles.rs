@@ -1,10 +1,10 @@
 //! Narrow pieces far from a wide one, which no way uphill leads to.
 
 use mpm_tensor::vector;
+use parvi_pool::{Objection, PoolOptions};
 use parvi_targets::Target;
 
-use super::{pool_of, pool_with};
-use crate::{Objection, PoolOptions};
+use crate::common::{pool_of, pool_with};
 
 /// A normal law of width 0.5 about (−1, …) and equally heavy ones of widths 0.06 and 0.05.
 struct Needles<const D: usize>([[f64; D]; 3]);

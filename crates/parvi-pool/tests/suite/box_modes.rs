@@ -2,11 +2,7 @@
 
 use parvi_targets::Target;
 
-use super::pool_of;
-use crate::density::Density;
-use crate::fold::Fold;
-use crate::levels::level_sample;
-use crate::{Kernel, Mixture};
+use crate::common::pool_of;
 
 /// Four observations N((θ₁, θ₂), S), S of standard deviations θ₃², θ₄² and correlation tanh θ₅, under a uniform law on (−3, 3)⁵; x = logit((θ + 3)/6).
 ///
@@ -57,28 +53,4 @@ fn symmetric_modes_in_a_box_are_weighed_alike_by_every_seed() {
     let apart = pools[0].log_evidence - pools[1].log_evidence;
     let error = pools[0].log_evidence_error.hypot(pools[1].log_evidence_error);
     assert!(apart.abs() < 4.0 * error, "{apart} {error}");
-}
-
-#[test]
-fn a_level_set_ends_where_it_is_told_to() {
-    let target = BoxModes::some();
-    let frame = parvi_targets::Frame::identity();
-    let wide = Kernel {
-        centre: [0.0; 5],
-        factor: mpm_tensor::Matrix::IDENTITY * 3.0,
-        share: 1.0,
-    };
-    let mut fold = Fold::new();
-    fold.draw(
-        &mut Density::new(&target, &frame, Vec::new()),
-        Mixture::new(vec![wide]).unwrap(),
-        4000,
-        1,
-    );
-    let mut values = fold.log_densities.clone();
-    values.sort_by(|a, b| b.total_cmp(a));
-    for rank in [0, 40, 400] {
-        let level = level_sample(&fold, values[rank], 50, 0.5);
-        assert!(!level.points.is_empty() && level.logs.iter().all(|&log| log >= values[rank]));
-    }
 }

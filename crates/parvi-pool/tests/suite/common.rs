@@ -1,0 +1,29 @@
+//! Runs from the identity frame.
+
+use std::ops::ControlFlow;
+
+use parvi_pool::{Pool, PoolError, PoolOptions, explore};
+use parvi_targets::{Frame, Target};
+
+pub fn pool_of<const D: usize>(target: &dyn Target<D>, particles: usize, seed: u64) -> Result<Pool<D>, PoolError> {
+    pool_with(target, particles, seed, &PoolOptions::default())
+}
+
+pub fn pool_with<const D: usize>(
+    target: &dyn Target<D>,
+    particles: usize,
+    seed: u64,
+    options: &PoolOptions,
+) -> Result<Pool<D>, PoolError> {
+    let go_on = &mut |_: &_, _: &_| ControlFlow::Continue(());
+    explore(
+        target,
+        &Frame::identity(),
+        &[],
+        Vec::new(),
+        particles,
+        seed,
+        options,
+        go_on,
+    )
+}

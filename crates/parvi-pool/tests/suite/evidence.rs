@@ -1,0 +1,52 @@
+//! What weights guarantee.
+
+use mpm_tensor::Matrix;
+use parvi_targets::Gaussian;
+
+use crate::common::pool_of;
+
+#[test]
+fn the_evidence_of_a_normal_law_is_one() {
+    for seed in 0..3 {
+        let pool = pool_of(&Gaussian::<2>::standard(), 300, seed).unwrap();
+        let verdict = pool.verdict;
+        assert!(
+            verdict.log_evidence.abs() < 4.0 * verdict.log_evidence_error,
+            "{verdict:?}"
+        );
+        assert!(pool.log_evidence.abs() < 0.02, "{}", pool.log_evidence);
+        let square = pool.expectation(|x| x[0] * x[0]);
+        assert!((square.value - 1.0).abs() < 5.0 * square.standard_error, "{square:?}");
+        assert!(pool.quantile(1, 0.5).abs() < 0.1);
+    }
+}
+
+#[test]
+fn scales_that_the_frame_does_not_know_are_found() {
+    let scales = [1e-2, 0.3, 1e2];
+    let covariance = Matrix::from_fn(|i, j| scales[i] * scales[j] * 0.7_f64.powi(i.abs_diff(j) as i32));
+    let target = Gaussian::<3>::new([20.0, -3.0, 50.0], covariance).unwrap();
+    let pool = pool_of(&target, 300, 1).unwrap();
+    assert!(pool.log_evidence.abs() < 0.02, "{}", pool.log_evidence);
+    // A tenth of the 8,000 that it may take goes to the search for other pieces.
+    let evaluations = pool.density_evaluations + pool.score_evaluations;
+    assert!(evaluations < 16 * 300 + 800, "{evaluations}");
+    let (_, found) = pool.moments();
+    for axis in 0..3 {
+        assert!((found.0[axis][axis].sqrt() / scales[axis] - 1.0).abs() < 0.05);
+    }
+}
+
+#[test]
+fn the_same_bits_on_any_number_of_threads() {
+    let target = Gaussian::<4>::autoregressive(0.8).unwrap();
+    let run = |threads| {
+        let workers = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        workers.install(|| {
+            let pool = pool_of(&target, 100, 5).unwrap();
+            let particles = pool.condense(100);
+            (pool.weights, pool.verdict, particles)
+        })
+    };
+    assert!(run(1) == run(2));
+}

@@ -1,0 +1,89 @@
+//! Densities that are no numbers, or that nothing can be known of.
+
+use parvi_pool::{Objection, PoolError, PoolOptions};
+use parvi_targets::{Gaussian, Target};
+
+use crate::common::{pool_of, pool_with};
+
+/// A log density given by a function; its score is zero.
+struct Given<F>(F);
+
+impl<F: Fn(&[f64; 2]) -> f64 + Sync> Target<2> for Given<F> {
+    fn log_density(&self, x: &[f64; 2]) -> f64 {
+        self.0(x)
+    }
+    fn score(&self, _x: &[f64; 2]) -> [f64; 2] {
+        [f64::NAN, f64::INFINITY]
+    }
+}
+
+#[test]
+fn densities_that_are_no_numbers_are_survived() {
+    let hostile = Given(|x: &[f64; 2]| {
+        let l = -0.5 * (x[0] * x[0] + x[1] * x[1]);
+        match (x[0] * 1e3) as i64 % 7 {
+            0 => f64::NAN,
+            1 => f64::INFINITY,
+            2 => 1e300,
+            3 => f64::NEG_INFINITY,
+            4 => -1e300,
+            _ => l,
+        }
+    });
+    let pool = pool_of(&hostile, 100, 1).unwrap();
+    assert!(pool.values_replaced > 0);
+    assert!(pool.weights.iter().all(|w| w.is_finite()));
+    assert!(pool.condense(100).as_flattened().iter().all(|c| c.is_finite()));
+    let nowhere = pool_of(&Given(|_: &[f64; 2]| f64::NAN), 100, 1);
+    assert_eq!(nowhere.err(), Some(PoolError::NowhereFinite));
+}
+
+#[test]
+fn mass_where_the_density_is_no_number_is_objected_to() {
+    for nothing in [f64::NAN, f64::INFINITY] {
+        let torn = Given(move |x: &[f64; 2]| {
+            let l = -0.5 * (x[0] * x[0] + x[1] * x[1]);
+            if x[0] > 1.0 { nothing } else { l }
+        });
+        let pool = pool_of(&torn, 500, 1).unwrap();
+        assert!(
+            matches!(pool.objection(500), Some(Objection::Undefined(share)) if share < 0.5),
+            "{pool:?}"
+        );
+        // Far out it may be one.
+        let far = Given(move |x: &[f64; 2]| {
+            let l = -0.5 * (x[0] * x[0] + x[1] * x[1]);
+            if x[0] > 6.0 { nothing } else { l }
+        });
+        let pool = pool_of(&far, 500, 1).unwrap();
+        assert_eq!(pool.objection(500), None, "{pool:?}");
+    }
+}
+
+#[test]
+fn options_out_of_range_are_refused() {
+    let target = Gaussian::<2>::standard();
+    let refused = pool_of(&target, 1, 0);
+    assert!(matches!(
+        refused.err(),
+        Some(PoolError::InvalidOption { field: "particles", .. })
+    ));
+}
+
+#[test]
+fn a_pool_that_is_not_to_be_relied_on_evaluates_more() {
+    // Ripples that no kernel follows: the weights' variance stays what it is.
+    let ripples = |x: f64| 15.0 * (1e4 * x).sin() - 0.5 * x * x;
+    let target = Given(|x: &[f64; 2]| ripples(x[0]) + ripples(x[1]));
+    let evaluations = |limit| {
+        let options = PoolOptions {
+            evaluations: limit,
+            ..PoolOptions::default()
+        };
+        let pool = pool_with(&target, 100, 1, &options).unwrap();
+        pool.density_evaluations + pool.score_evaluations
+    };
+    assert!(evaluations(Some(4_000)) <= 4_000);
+    let spent = evaluations(None);
+    assert!((15_000..=20_000).contains(&spent), "{spent}");
+}

@@ -1,0 +1,9 @@
+//! Pools, from the outside. One theme per file.
+
+mod box_modes;
+mod common;
+mod evidence;
+mod hostile;
+mod needles;
+mod pieces;
+mod tape;
