@@ -1,10 +1,13 @@
 //! Data of a regression: a response and a design matrix whose first column is the intercept.
 
-use crate::error::finite;
+use crate::error::{finite, within};
 use crate::{Response, TargetError};
 
 /// The name of the intercept's column.
 const INTERCEPT: &str = "intercept";
+
+/// The largest covariate: sums of squares of as many as there may be are finite.
+pub(crate) const LARGEST_VALUE: f64 = 1e150;
 
 /// n rows of a response y_i and d covariates x_i, the first of them the constant 1 of the intercept.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,7 +32,8 @@ impl<Y: Response> RegressionTable<Y> {
     /// and as many covariates as there are names per row.
     ///
     /// # Errors
-    /// [`TargetError::DataNoRows`]; [`TargetError::Length`] for a row of another length; [`TargetError::NotFinite`].
+    /// [`TargetError::DataNoRows`]; [`TargetError::Length`] for a row of another length; [`TargetError::NotFinite`], and [`TargetError::OutOfRange`] beyond 1e150,
+    /// where sums of squares are not finite.
     pub fn new(source: &str, names: &[&str], rows: &[(Y, Vec<f64>)]) -> Result<Self, TargetError> {
         let mut data = Self::empty(source, names.iter().map(|&name| name.to_owned()));
         for (index, (response, covariates)) in rows.iter().enumerate() {
@@ -41,7 +45,9 @@ impl<Y: Response> RegressionTable<Y> {
                 });
             }
             for (name, &value) in names.iter().zip(covariates) {
-                finite(&format!("'{name}' in row {index} of {source}"), value)?;
+                let field = format!("'{name}' in row {index} of {source}");
+                finite(&field, value)?;
+                within(&field, value, value.abs() <= LARGEST_VALUE, "-1e150 to 1e150")?;
             }
             data.push(*response, covariates);
         }

@@ -192,6 +192,22 @@ pub enum TargetError {
         /// The cell's text.
         value: String,
     },
+    /// A cell is so large that sums of squares are infinite.
+    #[error(
+        "{file}, line {line}: column '{column}' holds '{value}', beyond ±{largest:e}, where sums of squares are not finite"
+    )]
+    DataTooLarge {
+        /// The file.
+        file: String,
+        /// The line, counted from 1.
+        line: u64,
+        /// The column's name.
+        column: String,
+        /// The cell's text.
+        value: String,
+        /// The largest size that a cell may have.
+        largest: f64,
+    },
     /// The response of a regression is not one that its model can have: 0 or 1, or a count.
     #[error("{file}, line {line}: the response '{column}' is '{value}', it must be {allowed}")]
     DataResponse {

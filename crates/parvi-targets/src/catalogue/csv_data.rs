@@ -6,6 +6,7 @@ use std::path::Path;
 
 use csv::StringRecord;
 
+use crate::data::LARGEST_VALUE;
 use crate::{MAXIMUM_DIMENSION, RegressionTable, Response, TargetError};
 
 impl<Y: Response> RegressionTable<Y> {
@@ -48,7 +49,7 @@ impl<Y: Response> RegressionTable<Y> {
             let response = row.response()?;
             covariates.clear();
             for column in 1..names.len() {
-                covariates.push(row.number(column)?);
+                covariates.push(row.number(column, LARGEST_VALUE)?);
             }
             data.push(response, &covariates);
         }
@@ -121,15 +122,22 @@ impl Row<'_> {
         })
     }
 
-    /// The finite number in a column.
-    fn number(&self, column: usize) -> Result<f64, TargetError> {
+    /// The number in a column, no larger than `largest` in size.
+    fn number(&self, column: usize, largest: f64) -> Result<f64, TargetError> {
         let text = self.record.get(column).unwrap_or_default();
         let (file, line, column) = (self.source.to_owned(), line_of(self.record), self.names[column].clone());
         if text.is_empty() {
             return Err(TargetError::DataMissingCell { file, line, column });
         }
         match text.parse::<f64>() {
-            Ok(value) if value.is_finite() => Ok(value),
+            Ok(value) if value.abs() <= largest => Ok(value),
+            Ok(finite) if finite.is_finite() => Err(TargetError::DataTooLarge {
+                file,
+                line,
+                column,
+                value: text.to_owned(),
+                largest,
+            }),
             Ok(_) => Err(TargetError::DataNotFinite {
                 file,
                 line,
@@ -147,7 +155,7 @@ impl Row<'_> {
 
     /// The first column's 0 or 1, or count.
     fn response<Y: Response>(&self) -> Result<Y, TargetError> {
-        Y::from_number(self.number(0)?).ok_or_else(|| TargetError::DataResponse {
+        Y::from_number(self.number(0, f64::MAX)?).ok_or_else(|| TargetError::DataResponse {
             file: self.source.to_owned(),
             line: line_of(self.record),
             column: self.names[0].clone(),

@@ -139,7 +139,7 @@ fn collinear_columns_need_a_proper_prior() {
         Err(TargetError::DataCollinear { .. })
     ));
     // A constant column repeats the intercept, a column of zeros says nothing; the scale does not matter.
-    for constant in ["7", "0", "1e-200", "1e200"] {
+    for constant in ["7", "0", "1e-200", "1e150"] {
         let text = format!("y,a,b\n1,1,{constant}\n0,2,{constant}\n1,3,{constant}\n0,4,{constant}\n");
         assert!(
             matches!(posterior(&text, [FLAT; 3]), Err(TargetError::DataCollinear { .. })),
@@ -208,6 +208,21 @@ fn counts_are_read_and_checked() {
         counts("events\nnan\n"),
         Err(TargetError::DataNotFinite { line: 2, .. })
     ));
+}
+
+#[test]
+fn covariates_whose_squares_are_infinite_are_refused() {
+    let read = |text: &str| RegressionData::from_csv_reader(text.as_bytes(), "some.csv");
+    assert!(read("y,a\n0,1e150\n1,-1e150\n").is_ok());
+    for bad in ["1e151", "-1e300"] {
+        let error = read(&format!("y,a\n0,1\n1,{bad}\n")).unwrap_err().to_string();
+        assert!(
+            error.starts_with(&format!("some.csv, line 3: column 'a' holds '{bad}'")),
+            "{error}"
+        );
+    }
+    let error = RegressionData::new("rows", &["a"], &[(true, vec![1e151])]).unwrap_err();
+    assert!(matches!(error, TargetError::OutOfRange { .. }), "{error}");
 }
 
 #[test]
