@@ -9,6 +9,7 @@ mod failures;
 mod forces;
 mod kinematic;
 mod on_meshes;
+mod readings;
 mod refusal;
 mod resume;
 mod runs;
