@@ -19,15 +19,21 @@ pub struct Mixture<const D: usize> {
     core: usize,
 }
 
+/// The farthest that a kernel may be away, and the widest that it may be.
+const LARGEST_LENGTH: f64 = 1e150;
+
 /// Groups of points that one task evaluates.
 const TILE: usize = 32;
 
 impl<const D: usize> Mixture<D> {
-    /// The mixture with shares scaled to one. Kernels that are not finite, singular or without share are left out; `None` if none is left.
+    /// The mixture with shares scaled to one. Kernels that are singular, without share, or farther away or wider than 1e150, where squares of distances are not finite, are left
+    /// out; `None` if none is left.
     pub fn new(kernels: Vec<Kernel<D>>) -> Option<Self> {
         let (mut kept, mut students) = (Vec::new(), Vec::new());
         for kernel in kernels {
-            let sound = kernel.share > 0.0 && kernel.share.is_finite() && vector::is_finite(&kernel.centre);
+            let mut lengths = kernel.centre.iter().chain(kernel.factor.0.as_flattened());
+            let within = lengths.all(|c| c.abs() <= LARGEST_LENGTH);
+            let sound = kernel.share > 0.0 && kernel.share.is_finite() && within;
             if let Some(student) = Student::of(&kernel).filter(|_| sound) {
                 kept.push(kernel);
                 students.push(student);

@@ -357,3 +357,13 @@ fn a_tempered_target_is_not_called_converged() {
         "{outcome:?}"
     );
 }
+
+#[test]
+fn a_start_whose_distances_have_no_squares_is_no_obstacle() {
+    for (mean, standard_deviation) in [(1e200, 1.0), (1e308, 1e50), (0.0, 1e154), (0.0, 1e300)] {
+        let run = from(mean, standard_deviation);
+        let samples = sample(&MpmOptions::default(), &Gaussian::standard(), &run).unwrap();
+        assert_eq!(samples.positions.len(), 300, "{mean:e} {standard_deviation:e}");
+        assert!(samples.log_evidence.is_some_and(|log| log.abs() < 0.02), "{samples:?}");
+    }
+}
