@@ -1,9 +1,14 @@
 //! The rebuild, phases 3 and 4: active nodes and parts.
 
+use rayon::prelude::*;
+
 use super::MeshBasis;
 
 /// Vertices that are looked at together when numbers are given.
 const STRETCH: usize = 32;
+
+/// Cells whose nodes are written down together.
+const PIECE: usize = 1 << 10;
 
 /// Of vertices: that of an occupied cell; that of its ring, which is what the former are joined to, and they themselves.
 const OF_CELL: u8 = 1;
@@ -16,7 +21,9 @@ impl<const D: usize> MeshBasis<D> {
         self.marks.clear();
         self.marks.resize(vertex_count.next_multiple_of(STRETCH), 0);
         self.numbers.resize(vertex_count, 0);
-        let occupied = (0..self.schedule.cell_count()).map(|cell| self.particle_cells[self.schedule.cell(cell).start]);
+        let (schedule, particle_cells) = (&self.schedule, &self.particle_cells);
+        let cell_of = |cell: usize| particle_cells[schedule.cell(cell).start];
+        let occupied = (0..schedule.cell_count()).map(cell_of);
         let (mesh, stencils) = (self.search.mesh(), &self.stencils);
         let (mut places, marks) = (0, self.marks.as_mut_slice());
         for cell in occupied.clone() {
@@ -50,19 +57,30 @@ impl<const D: usize> MeshBasis<D> {
             .extend(active.map(|&vertex| self.stencils.position(vertex)));
         self.cell_node_starts.clear();
         self.cell_node_starts.push(0);
-        self.cell_nodes.resize(places, 0);
-        let (mut nodes, numbers) = (self.cell_nodes.as_mut_slice(), self.numbers.as_slice());
-        let mut start = 0;
+        let mut end = 0;
         for cell in occupied {
-            let ring = stencils.groups(cell);
-            let (own, others) = nodes.split_at_mut(ring.len());
-            for (node, &vertex) in own.iter_mut().zip(ring) {
-                *node = numbers[vertex as usize];
-            }
-            nodes = others;
-            start += ring.len();
-            self.cell_node_starts.push(start);
+            end += stencils.groups(cell).len();
+            self.cell_node_starts.push(end);
         }
+        self.cell_nodes.resize(places, 0);
+        let (mut rest, numbers) = (self.cell_nodes.as_mut_slice(), self.numbers.as_slice());
+        let mut pieces = Vec::with_capacity(schedule.cell_count().div_ceil(PIECE));
+        for (piece, ends) in self.cell_node_starts[1..].chunks(PIECE).enumerate() {
+            let filled = places - rest.len();
+            let (own, others) = rest.split_at_mut(ends[ends.len() - 1] - filled);
+            pieces.push((piece * PIECE, ends.len(), own));
+            rest = others;
+        }
+        pieces.into_par_iter().for_each(|(first, count, mut nodes)| {
+            for cell in first..first + count {
+                let ring = stencils.groups(cell_of(cell));
+                let (own, others) = nodes.split_at_mut(ring.len());
+                for (node, &vertex) in own.iter_mut().zip(ring) {
+                    *node = numbers[vertex as usize];
+                }
+                nodes = others;
+            }
+        });
     }
 
     /// Phase 4 (activate): cut the cells into parts. The nodes of a cell are in ascending order.
