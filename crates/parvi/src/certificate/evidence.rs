@@ -114,9 +114,9 @@ pub struct EstimatedMoment {
 }
 
 impl MomentEstimate {
-    /// |m̂ − m| in standard deviations.
+    /// |m̂ − m| in standard deviations, infinite where that is no number.
     pub fn mean_error(&self) -> f64 {
-        (self.mean.estimate - self.mean.value).abs() / self.standard_deviation.value
+        known((self.mean.estimate - self.mean.value).abs() / self.standard_deviation.value)
     }
 
     /// The larger of what is unexplained of the coordinate and of its square.
@@ -124,8 +124,13 @@ impl MomentEstimate {
         self.mean.unexplained.max(self.standard_deviation.unexplained)
     }
 
-    /// |σ / σ̂ − 1|, infinite where the estimated variance is not positive.
+    /// |σ / σ̂ − 1|, infinite where the estimated variance is not positive or that is no number.
     pub fn standard_deviation_error(&self) -> f64 {
-        (self.standard_deviation.value / self.standard_deviation.estimate - 1.0).abs()
+        known((self.standard_deviation.value / self.standard_deviation.estimate - 1.0).abs())
     }
+}
+
+/// An error, infinite where it is no number: nothing is known then.
+fn known(error: f64) -> f64 {
+    if error.is_nan() { f64::INFINITY } else { error }
 }

@@ -367,3 +367,11 @@ fn a_start_whose_distances_have_no_squares_is_no_obstacle() {
         assert!(samples.log_evidence.is_some_and(|log| log.abs() < 0.02), "{samples:?}");
     }
 }
+
+#[test]
+fn errors_of_particles_in_one_place_are_infinite() {
+    let samples = sample(&body_alone(), &Gaussian::standard(), &from(0.0, 1e-308));
+    let certificate = samples.unwrap().certificate.unwrap();
+    let errors = [certificate.mean_error(), certificate.standard_deviation_error()];
+    assert!(errors.iter().flatten().all(|error| !error.is_nan()), "{errors:?}");
+}
