@@ -8,7 +8,7 @@ use std::path::Path;
 
 use parvi_experiments::AtomicFile;
 use parvi_experiments::plots::{
-    AxisKind, HeatMapPlot, HeatPanel, LineSeries, MultiplesPanel, MultiplesPlot, heat_map, multiples,
+    Axis, AxisKind, CellAxis, HeatMapPlot, HeatPanel, LineSeries, MultiplesPanel, MultiplesPlot, heat_map, multiples,
 };
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
@@ -112,13 +112,14 @@ fn ampersand(table: &Table) -> Result<String> {
             });
         }
     }
+    let axis = |label: &str, edges: Vec<f64>| CellAxis {
+        axis: Axis::new(label, AxisKind::Linear),
+        edges,
+    };
     let plot = HeatMapPlot {
         title: "A node at a re-entrant corner of an \"&\"".to_owned(),
-        x_label: "x (m)".to_owned(),
-        y_label: "y (m)".to_owned(),
-        x_edges,
-        y_edges,
-        axis: AxisKind::Linear,
+        x: axis("x (m)", x_edges),
+        y: axis("y (m)", y_edges),
         panels,
         notes: vec!["Grey: outside of the shape, or of the cells whose rings have the node.".to_owned()],
     };

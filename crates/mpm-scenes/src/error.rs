@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use mpm_document::DocumentError;
+use mpm_document::{DocumentError, Place};
 use serde::Serialize;
 
 use crate::toml_value;
@@ -15,6 +15,20 @@ pub struct SceneError {
     pub file: PathBuf,
     /// What is wrong with it.
     pub fault: Box<SceneFault>,
+}
+
+impl SceneError {
+    /// What is wrong, without the line: for a text that no file holds.
+    pub fn without_line(&self) -> String {
+        let file = self.file.display();
+        match &*self.fault {
+            SceneFault::Syntax(DocumentError { place, message, .. }) => match place.as_ref().map(Place::field) {
+                Some(field) => format!("{file}: {field}: {message}"),
+                None => format!("{file}: {message}"),
+            },
+            fault => format!("{file}: {fault}"),
+        }
+    }
 }
 
 /// What is wrong with a scene.

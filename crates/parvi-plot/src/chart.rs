@@ -67,8 +67,8 @@ impl Chart {
             FIGURE_WIDTH
         };
         let rows = self.panels.len().div_ceil(columns);
-        let one_y_label = self.panels.windows(2).all(|p| p[0].y_label == p[1].y_label);
-        let one_x_label = self.panels.windows(2).all(|p| p[0].x_label == p[1].x_label);
+        let one_y_label = self.panels.windows(2).all(|p| p[0].y.label == p[1].y.label);
+        let one_x_label = self.panels.windows(2).all(|p| p[0].x.label == p[1].x.label);
         let has_titles = self.panels.iter().any(|panel| !panel.title.is_empty());
 
         // Panels of one column start at one abscissa: the widest tick labels of the column decide.
@@ -88,7 +88,7 @@ impl Chart {
                 let members = self.panels.iter().zip(&prepared).skip(column);
                 let lines = members.step_by(columns).map(|(panel, prepared)| {
                     let exponent = prepared.y_ticks.exponent;
-                    label_lines(&panel.y_label, exponent, self.panel_height).len()
+                    label_lines(&panel.y.label, exponent, self.panel_height).len()
                 });
                 let lines = lines.filter(|_| labelled(column)).max().unwrap_or(0);
                 column_ticks[column] + label_room(lines)
@@ -114,7 +114,7 @@ impl Chart {
         let x_label = |index: usize| {
             let lowest = index + columns >= self.panels.len();
             if lowest || !one_x_label || x_ticks[index].exponent != 0 {
-                self.panels[index].x_label.as_str()
+                self.panels[index].x.label.as_str()
             } else {
                 ""
             }
@@ -139,7 +139,7 @@ impl Chart {
                 x_ticks: x_ticks[index].clone(),
                 y_ticks: prepared.y_ticks.clone(),
                 x_label: Some(x_label(index)),
-                y_label: if labelled(column) { &panel.y_label } else { "" },
+                y_label: if labelled(column) { &panel.y.label } else { "" },
                 y_tick_room: Some(column_ticks[column]),
             };
             draw_panel(&mut drawing, &axes, panel, &parts);
@@ -174,9 +174,9 @@ impl Chart {
             }
             drawable |= !abscissas.is_empty();
             ordinates.extend(panel.levels.iter().map(|level| level.value));
-            let y = Scale::around(ordinates, panel.y_kind, 0.06);
+            let y = Scale::around(ordinates, panel.y.kind, 0.06);
             prepared.push(Prepared {
-                x: Scale::around(abscissas, panel.x_kind, 0.04),
+                x: Scale::around(abscissas, panel.x.kind, 0.04),
                 y_ticks: y_ticks(&y, self.panel_height, 5.0),
                 y,
             });

@@ -4,7 +4,7 @@ use super::data::{PlotError, check_size};
 use super::legend::{LegendEntry, Swatch, draw_legend, noted, titled};
 use super::panel::{AxesParts, Panel, label_lines, x_axis_room, x_ticks};
 use super::scale::{AxisKind, Scale, plottable};
-use super::style::{FIGURE_WIDTH, GRID, GUIDE, MARGIN, SeriesStyle, TEXT_SIZE};
+use super::style::{FIGURE_WIDTH, GRID, GUIDE, MARGIN, SeriesStyle, TEXT_SIZE, styles};
 use super::svg::{Drawing, Stroke};
 use super::text::{Anchor, TextStyle, width};
 
@@ -66,6 +66,16 @@ impl DotPlot {
             bound_label: bound_label.to_owned(),
             ..Self::default()
         }
+    }
+
+    /// The same with series by their names, each with a value per row.
+    pub fn with_series(self, named: Vec<(String, Vec<f64>)>) -> Self {
+        let names: Vec<&str> = named.iter().map(|(name, _)| name.as_str()).collect();
+        let styles = styles(&names);
+        let series = named.into_iter().zip(styles);
+        let series = series.map(|((label, values), style)| DotSeries { label, style, values });
+        let series = series.collect();
+        Self { series, ..self }
     }
 }
 

@@ -5,7 +5,7 @@ use super::legend::{LegendEntry, Swatch};
 use super::panel::{Panel, label_lines, label_room, x_ticks, y_tick_room, y_ticks};
 use super::panel_grid::PanelGrid;
 use super::results::{Row, Rows};
-use super::scale::{AxisKind, Scale};
+use super::scale::{Axis, Scale};
 use super::style::{ESTIMATE, FIGURE_WIDTH, GRID, MARGIN};
 use super::svg::{Drawing, Rectangle};
 use super::text::{Anchor, TextStyle};
@@ -29,21 +29,42 @@ pub struct HeatPanel {
     pub shares: Vec<Option<f64>>,
 }
 
+/// An axis that is divided into cells.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct CellAxis {
+    /// Label and division.
+    pub axis: Axis,
+    /// The edges of the cells, growing.
+    pub edges: Vec<f64>,
+}
+
+impl CellAxis {
+    /// So many cells of equal factors between two positive ends.
+    pub fn logarithmic(label: impl Into<String>, ends: [f64; 2], cells: usize) -> Self {
+        Self {
+            axis: Axis::logarithmic(label),
+            edges: logarithmic_edges(ends, cells),
+        }
+    }
+
+    fn cells(&self) -> usize {
+        self.edges.len().saturating_sub(1)
+    }
+
+    fn scale(&self) -> Scale {
+        Scale::around(self.edges.iter().copied(), self.axis.kind, 0.0)
+    }
+}
+
 /// A figure of heat maps over one plane.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct HeatMapPlot {
     /// The title; empty for none.
     pub title: String,
-    /// The label of the horizontal axis, with its unit.
-    pub x_label: String,
-    /// The label of the vertical axis, with its unit.
-    pub y_label: String,
-    /// The edges of the columns, growing.
-    pub x_edges: Vec<f64>,
-    /// The edges of the rows, growing.
-    pub y_edges: Vec<f64>,
-    /// The division of both axes.
-    pub axis: AxisKind,
+    /// The horizontal axis.
+    pub x: CellAxis,
+    /// The vertical axis.
+    pub y: CellAxis,
     /// The panels, two in a row.
     pub panels: Vec<HeatPanel>,
     /// Notes below the figure.
@@ -60,12 +81,12 @@ impl HeatMapPlot {
         property: impl Fn(&Row) -> bool,
     ) -> Self {
         let place = |row: &Row, column: &str, edges: &[f64]| cell_of(edges, row.number(column)?);
-        let [across, up] = [&self.x_edges, &self.y_edges].map(|edges| edges.len().saturating_sub(1));
+        let [across, up] = [&self.x, &self.y].map(CellAxis::cells);
         let mut shares = Vec::with_capacity(across * up);
         for y in 0..up {
-            let here = rows.having(|row| place(row, columns[1], &self.y_edges) == Some(y));
+            let here = rows.having(|row| place(row, columns[1], &self.y.edges) == Some(y));
             for x in 0..across {
-                let inside = here.having(|row| place(row, columns[0], &self.x_edges) == Some(x));
+                let inside = here.having(|row| place(row, columns[0], &self.x.edges) == Some(x));
                 let share = || inside.count(&property) as f64 / inside.len() as f64;
                 shares.push((!inside.is_empty()).then(share));
             }
@@ -95,19 +116,18 @@ pub fn cell_of(edges: &[f64], value: f64) -> Option<usize> {
 /// # Errors
 /// [`PlotError::Empty`] without panels, cells or data; [`PlotError::Size`] if a panel has not one share per cell.
 pub fn heat_map(plot: &HeatMapPlot) -> Result<String, PlotError> {
-    let cells = plot.x_edges.len().saturating_sub(1) * plot.y_edges.len().saturating_sub(1);
+    let cells = plot.x.cells() * plot.y.cells();
     for panel in &plot.panels {
         check_size(|| panel.title.clone(), cells, panel.shares.len())?;
     }
     if !plot.panels.iter().any(|panel| panel.shares.iter().any(drawable)) {
         return Err(PlotError::empty("cells"));
     }
-    let scale = |edges: &[f64]| Scale::around(edges.iter().copied(), plot.axis, 0.0);
-    let (x, y) = (scale(&plot.x_edges), scale(&plot.y_edges));
+    let (x, y) = (plot.x.scale(), plot.y.scale());
     let vertical = y_ticks(&y, PANEL_HEIGHT, 5.0);
     let columns = plot.panels.len().min(2);
     let tick_room = y_tick_room(&vertical);
-    let label_lines_left = label_lines(&plot.y_label, vertical.exponent, PANEL_HEIGHT).len();
+    let label_lines_left = label_lines(&plot.y.axis.label, vertical.exponent, PANEL_HEIGHT).len();
     let left = MARGIN + tick_room + label_room(label_lines_left);
     let gap = tick_room + 12.0;
     let panel_width = (FIGURE_WIDTH - left - MARGIN - 8.0 - gap * (columns - 1) as f64) / columns as f64;
@@ -118,8 +138,8 @@ pub fn heat_map(plot: &HeatMapPlot) -> Result<String, PlotError> {
         left,
         gap,
         size: (panel_width, PANEL_HEIGHT),
-        x: (x, horizontal, &plot.x_label),
-        y: (y, vertical, &plot.y_label),
+        x: (x, horizontal, &plot.x.axis.label),
+        y: (y, vertical, &plot.y.axis.label),
     };
     let panels: Vec<_> = plot.panels.iter().map(|panel| (panel.title.as_str(), panel)).collect();
     let (words, legend) = ((plot.title.as_str(), &plot.notes[..]), legend_entries());
@@ -150,10 +170,10 @@ fn legend_entries() -> Vec<LegendEntry<'static>> {
 
 /// The cells of a panel with their percentages.
 fn draw_cells(drawing: &mut Drawing, axes: &Panel, plot: &HeatMapPlot, panel: &HeatPanel) {
-    let columns = plot.x_edges.len().saturating_sub(1);
+    let columns = plot.x.cells();
     for (index, share) in panel.shares.iter().enumerate() {
         let (column, row) = (index % columns, index / columns);
-        let corner = |x: usize, y: usize| axes.point(plot.x_edges[x], plot.y_edges[y]);
+        let corner = |x: usize, y: usize| axes.point(plot.x.edges[x], plot.y.edges[y]);
         let (Some(low), Some(high)) = (corner(column, row), corner(column + 1, row + 1)) else {
             continue;
         };

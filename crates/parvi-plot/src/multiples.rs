@@ -3,7 +3,7 @@
 use super::chart::{Chart, Legend};
 use super::data::PlotError;
 use super::line_series::{GuideCurve, LineSeries};
-use super::scale::AxisKind;
+use super::scale::{Axis, AxisKind};
 use super::series::{ChartPanel, ChartSeries, Connection, ReferenceLevel};
 
 /// One setting, e.g. one dimension.
@@ -11,8 +11,8 @@ use super::series::{ChartPanel, ChartSeries, Connection, ReferenceLevel};
 pub struct MultiplesPanel {
     /// The setting.
     pub title: String,
-    /// A vertical axis of its own, its label with the unit and its division; else that of the figure.
-    pub y: Option<(String, AxisKind)>,
+    /// A vertical axis of its own; else that of the figure.
+    pub y: Option<Axis>,
     /// The lines; those with the same label look the same in every panel.
     pub series: Vec<LineSeries>,
     /// Curves for comparison.
@@ -34,14 +34,15 @@ impl MultiplesPanel {
     /// Lines over a vertical axis of their own.
     pub fn over(y_label: impl Into<String>, y_axis: AxisKind, series: impl IntoIterator<Item = LineSeries>) -> Self {
         Self {
-            y: Some((y_label.into(), y_axis)),
+            y: Some(Axis::new(y_label, y_axis)),
             ..Self::new("", series)
         }
     }
 
-    /// The same with a horizontal line more.
-    pub fn with_level(mut self, value: f64, label: &str) -> Self {
-        self.levels.push(ReferenceLevel::new(value, label));
+    /// The same with a horizontal line more, where there is one.
+    pub fn with_level(mut self, value: impl Into<Option<f64>>, label: &str) -> Self {
+        let level = value.into().map(|value| ReferenceLevel::new(value, label));
+        self.levels.extend(level);
         self
     }
 }
@@ -63,14 +64,10 @@ pub enum Look {
 pub struct MultiplesPlot {
     /// The title; empty for none.
     pub title: String,
-    /// The label of the horizontal axes, with the unit.
-    pub x_label: String,
-    /// The label of the vertical axes, with the unit.
-    pub y_label: String,
-    /// The division of the horizontal axes.
-    pub x_axis: AxisKind,
-    /// The division of the vertical axes.
-    pub y_axis: AxisKind,
+    /// The horizontal axes.
+    pub x: Axis,
+    /// The vertical axes.
+    pub y: Axis,
     /// Markers and layout.
     pub look: Look,
     /// The panels.
@@ -83,10 +80,8 @@ impl MultiplesPlot {
     /// Axes with these labels, both logarithmic, and no panel yet.
     pub fn logarithmic(x_label: &str, y_label: &str) -> Self {
         Self {
-            x_label: x_label.to_owned(),
-            y_label: y_label.to_owned(),
-            x_axis: AxisKind::Logarithmic,
-            y_axis: AxisKind::Logarithmic,
+            x: Axis::logarithmic(x_label),
+            y: Axis::logarithmic(y_label),
             ..Self::default()
         }
     }
@@ -101,9 +96,9 @@ impl MultiplesPlot {
     }
 
     /// The same with linear horizontal axes.
-    pub fn over_linear(self) -> Self {
-        let x_axis = AxisKind::Linear;
-        Self { x_axis, ..self }
+    pub fn over_linear(mut self) -> Self {
+        self.x.kind = AxisKind::Linear;
+        self
     }
 
     /// The same with these panels.
@@ -147,13 +142,10 @@ pub fn multiples(plot: &MultiplesPlot) -> Result<String, PlotError> {
             };
             series.push(ChartSeries::guide(&guide.label, &guide.curve, dashes)?);
         }
-        let (y_label, y_kind) = panel.y.clone().unwrap_or((plot.y_label.clone(), plot.y_axis));
         panels.push(ChartPanel {
             title: panel.title.clone(),
-            x_label: plot.x_label.clone(),
-            y_label,
-            x_kind: plot.x_axis,
-            y_kind,
+            x: plot.x.clone(),
+            y: panel.y.as_ref().unwrap_or(&plot.y).clone(),
             series,
             levels: panel.levels.clone(),
         });

@@ -22,6 +22,28 @@ pub enum AxisKind {
     Logarithmic,
 }
 
+/// An axis of a figure.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Axis {
+    /// Its label, with the unit.
+    pub label: String,
+    /// Its division.
+    pub kind: AxisKind,
+}
+
+impl Axis {
+    /// An axis with a label.
+    pub fn new(label: impl Into<String>, kind: AxisKind) -> Self {
+        let label = label.into();
+        Self { label, kind }
+    }
+
+    /// One of equal factors.
+    pub fn logarithmic(label: impl Into<String>) -> Self {
+        Self::new(label, AxisKind::Logarithmic)
+    }
+}
+
 /// The map from an interval of data to 0…1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scale {

@@ -4,8 +4,9 @@ use crate::statistics::{PowerLaw, fit_power_law};
 
 use super::chart::Chart;
 use super::data::{PlotError, check_size};
-use super::line_series::{GuideCurve, LineSeries};
-use super::scale::AxisKind;
+use super::line_series::LineSeries;
+use super::multiples::MultiplesPanel;
+use super::scale::Axis;
 use super::series::{ChartPanel, ChartSeries, Connection};
 use super::style::styles;
 use super::text::decimal;
@@ -17,20 +18,25 @@ pub struct ScalingPlot {
     pub x_label: String,
     /// The label of the vertical axis, with its unit.
     pub y_label: String,
-    /// The symbol of the size in the legend, e.g. "M".
-    pub x_symbol: String,
-    /// Fits use measurements with x at least this large, so that a fixed cost at small sizes can be left out; 0 for all.
-    pub fit_from: f64,
-    /// The settings; to the label of each the fitted exponent is added.
-    pub series: Vec<LineSeries>,
-    /// Theoretical curves for comparison.
-    pub guides: Vec<GuideCurve>,
+    /// What is fitted.
+    pub fit: Fit,
+    /// The settings, to the label of each of which the fitted exponent is added, and theoretical curves.
+    pub panel: MultiplesPanel,
 }
 
-/// The power law of one series as the figure fits it: over its positive, finite points with x ≥ `fit_from`; `None` where
+/// The size whose powers are fitted.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Fit {
+    /// Its symbol in the legend, e.g. "M".
+    pub symbol: String,
+    /// Measurements with x at least this large are used, so that a fixed cost at small sizes can be left out; 0 for all.
+    pub from: f64,
+}
+
+/// The power law of one series as the figure fits it: over its positive, finite points with x ≥ `from`; `None` where
 /// fewer than two different sizes are left.
-pub fn scaling_fit(series: &LineSeries, fit_from: f64) -> Option<PowerLaw> {
-    let (x, y) = usable(series, fit_from);
+fn scaling_fit(series: &LineSeries, from: f64) -> Option<PowerLaw> {
+    let (x, y) = usable(series, from);
     fit_power_law(&x, &y).ok()
 }
 
@@ -49,12 +55,10 @@ pub fn exponent_text(law: &PowerLaw, index: usize) -> String {
     }
 }
 
-fn usable(series: &LineSeries, fit_from: f64) -> (Vec<f64>, Vec<f64>) {
+fn usable(series: &LineSeries, from: f64) -> (Vec<f64>, Vec<f64>) {
     let positive = |value: f64| value.is_finite() && value > 0.0;
     let points = series.points();
-    points
-        .filter(|&(x, y)| positive(x) && positive(y) && x >= fit_from)
-        .unzip()
+    points.filter(|&(x, y)| positive(x) && positive(y) && x >= from).unzip()
 }
 
 /// Draws measurements and fits on logarithmic axes as an SVG document. Points that are not positive are left out.
@@ -62,18 +66,18 @@ fn usable(series: &LineSeries, fit_from: f64) -> (Vec<f64>, Vec<f64>) {
 /// # Errors
 /// [`PlotError::Empty`] if no point can be drawn, [`PlotError::Size`] if lengths differ.
 pub fn scaling(plot: &ScalingPlot) -> Result<String, PlotError> {
-    let names: Vec<&str> = plot.series.iter().map(|s| s.label.as_str()).collect();
+    let names: Vec<&str> = plot.panel.series.iter().map(|s| s.label.as_str()).collect();
     let mut lines = Vec::new();
     let mut points = Vec::new();
     let mut fits = 0;
-    for (series, style) in plot.series.iter().zip(styles(&names)) {
+    for (series, style) in plot.panel.series.iter().zip(styles(&names)) {
         check_size(|| series.label.clone(), series.x.len(), series.y.len())?;
         let (x, y) = usable(series, 0.0);
         let mut label = series.label.clone();
-        if let Some(law) = scaling_fit(series, plot.fit_from) {
+        if let Some(law) = scaling_fit(series, plot.fit.from) {
             label = format!("{label}: b = {}", exponent_text(&law, 0));
             fits += 1;
-            let fitted = x.iter().copied().filter(|x| *x >= plot.fit_from);
+            let fitted = x.iter().copied().filter(|x| *x >= plot.fit.from);
             let low = fitted.clone().fold(f64::INFINITY, f64::min);
             let high = fitted.fold(0.0, f64::max);
             lines.push(ChartSeries {
@@ -89,15 +93,15 @@ pub fn scaling(plot: &ScalingPlot) -> Result<String, PlotError> {
     if points.iter().all(|series| series.x.is_empty()) {
         return Err(PlotError::empty("series"));
     }
-    for guide in &plot.guides {
+    for guide in &plot.panel.guides {
         lines.push(ChartSeries::guide(&guide.label, &guide.curve, Connection::Dashed)?);
     }
     points.extend(lines);
     let mut notes = Vec::new();
     if fits > 0 {
-        let symbol = &plot.x_symbol;
-        let range = if plot.fit_from > 0.0 {
-            format!(", {symbol} ≥ {}", plot.fit_from)
+        let symbol = &plot.fit.symbol;
+        let range = if plot.fit.from > 0.0 {
+            format!(", {symbol} ≥ {}", plot.fit.from)
         } else {
             String::new()
         };
@@ -107,10 +111,8 @@ pub fn scaling(plot: &ScalingPlot) -> Result<String, PlotError> {
     }
     let panel = ChartPanel {
         title: String::new(),
-        x_label: plot.x_label.clone(),
-        y_label: plot.y_label.clone(),
-        x_kind: AxisKind::Logarithmic,
-        y_kind: AxisKind::Logarithmic,
+        x: Axis::logarithmic(&plot.x_label),
+        y: Axis::logarithmic(&plot.y_label),
         series: points,
         levels: Vec::new(),
     };

@@ -1,7 +1,7 @@
 //! What a chart draws: series, levels and the panels that hold them.
 
 use super::data::{Curve, PlotError, check_size};
-use super::scale::AxisKind;
+use super::scale::Axis;
 use super::style::{GUIDE, Marker, SeriesStyle};
 
 /// A horizontal line for comparison.
@@ -92,10 +92,8 @@ impl ChartSeries {
 #[derive(Debug, Clone)]
 pub(super) struct ChartPanel {
     pub title: String,
-    pub x_label: String,
-    pub y_label: String,
-    pub x_kind: AxisKind,
-    pub y_kind: AxisKind,
+    pub x: Axis,
+    pub y: Axis,
     pub series: Vec<ChartSeries>,
     pub levels: Vec<ReferenceLevel>,
 }

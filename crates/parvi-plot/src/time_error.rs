@@ -66,11 +66,7 @@ pub fn time_error(x_label: &str, y_label: &str, panels: impl IntoIterator<Item =
             line
         };
         let lines: Vec<LineSeries> = curves.iter().map(line).collect();
-        let panel = MultiplesPanel::new(target, lines);
-        drawn.push(match iid_level {
-            Some(level) => panel.with_level(level, "independent draws"),
-            None => panel,
-        });
+        drawn.push(MultiplesPanel::new(target, lines).with_level(iid_level, "independent draws"));
     }
     let mut plot = MultiplesPlot::logarithmic(x_label, y_label)
         .with_panels(drawn)

@@ -13,7 +13,7 @@ pub const WALL: [&str; 3] = ["wall_seconds_least", SECONDS, "wall_seconds_most"]
 /// A name and the number, where the row has what it takes, earlier ones included.
 type Derived = (&'static str, fn(&Row) -> Option<f64>);
 
-const DERIVED: [Derived; 21] = [
+const DERIVED: [Derived; 23] = [
     // The energy distance.
     ("energy_root", |row| Some(row.number(ENERGY)?.max(0.0).sqrt())),
     ("energy_thousandths", |row| Some(1e3 * row.number(ENERGY)?)),
@@ -37,6 +37,11 @@ const DERIVED: [Derived; 21] = [
     }),
     ("seconds_per_step", |row| ratio(row, SECONDS, "steps")),
     ("step_microseconds", |row| Some(1e6 * row.number("seconds_per_step")?)),
+    ("nanoseconds_per_particle", |row| {
+        Some(row.number("wall_seconds_per_step")? / row.number("particles")? * 1e9)
+    }),
+    // Nodes that a particle has of quadratic B-splines.
+    ("stencil", |row| Some(3f64.powi(row.count("dim")? as i32))),
     // A constant α, which is stated as a number, and E of a law that has it.
     ("alpha", |row| row.text("schedule").parse().ok()),
     ("youngs_modulus", |row| {

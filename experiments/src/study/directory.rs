@@ -31,12 +31,7 @@ impl StudyDirectory {
     /// [`CommandError::DirectoryOccupied`] if it holds something else, which is left untouched;
     /// [`CommandError::File`] if it cannot be made or written, or another process runs a study in it.
     pub fn claim(path: &Path, configuration: &Configuration) -> Result<Self, CommandError> {
-        let mut directory = Self {
-            path: path.to_owned(),
-            values: configuration.values(),
-            threads: configuration.threads(),
-            claimed: None,
-        };
+        let mut directory = Self::of(path, configuration);
         let existing = directory.file(CONFIGURATION);
         if existing.exists() {
             directory.check_same_study(configuration)?;
@@ -62,14 +57,18 @@ impl StudyDirectory {
             });
         }
         let configuration = Configuration::read(&path.join(CONFIGURATION))?;
-        let directory = Self {
+        let directory = Self::of(path, &configuration);
+        directory.make_parts()?;
+        Ok((directory, configuration))
+    }
+
+    fn of(path: &Path, configuration: &Configuration) -> Self {
+        Self {
             path: path.to_owned(),
             values: configuration.values(),
             threads: configuration.threads(),
             claimed: None,
-        };
-        directory.make_parts()?;
-        Ok((directory, configuration))
+        }
     }
 
     fn make_parts(&self) -> Result<(), CommandError> {

@@ -1,14 +1,56 @@
 //! Runs on the standard Gaussian N(0, I), measured in the exact squared energy distance: what several studies share.
 
 use parvi_metrics::{Cloud, GaussianEnergy};
+use serde::de::DeserializeOwned;
 
 use super::prelude::*;
 use crate::dispatch::in_dimension;
 use crate::output::Particles;
 use crate::sampling::Outcome;
 
+/// A study of such runs.
+pub trait GaussianStudy: DeserializeOwned + Sync {
+    /// The `kind` in the configuration.
+    const KIND: &'static str;
+
+    /// Its report.
+    const REPORT: Report<Self>;
+
+    /// All cases, in the order in which they run.
+    ///
+    /// # Errors
+    /// Parts of the configuration that do not fit together.
+    fn cases(&self) -> Result<Vec<Case<Sampled>>, CommandError>;
+}
+
+impl<S: GaussianStudy> Study for S {
+    type Work = Sampled;
+
+    const KIND: &'static str = S::KIND;
+    const COLUMNS: &'static str = COLUMNS;
+    const REPORT: Report<Self> = S::REPORT;
+
+    fn cases(&self) -> Result<Vec<Case<Sampled>>, CommandError> {
+        GaussianStudy::cases(self)
+    }
+
+    /// Samples N(0, I) and measures the particles. A run that diverges is a row with its reason.
+    fn run(&self, case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
+        let Sampled { target, run, .. } = &case.work;
+        row.set("energy_level", energy_level(target.dimension()?, run.particles)?);
+        match attempt(sampled(&case.work, tools.observer))? {
+            Err(failure) => row.fail(failure),
+            Ok((outcome, energy)) => {
+                row.take(&outcome);
+                row.set(ENERGY, energy);
+            }
+        }
+        Ok(())
+    }
+}
+
 /// The columns of such runs.
-pub const COLUMNS: &str = "case status reason dim particles series spacing_factor requested_spacing requested_steps seed \
+const COLUMNS: &str = "case status reason dim particles series spacing_factor requested_spacing requested_steps seed \
      energy_distance_squared energy_level steps score_evaluations density_evaluations spacing active_nodes wall_seconds";
 
 /// What is run with several seeds.
@@ -88,23 +130,6 @@ impl<'a> Setting<'a> {
         };
         1e3 + 1e-3 * count * count + sampling
     }
-}
-
-/// Samples N(0, I) and measures the particles. A run that diverges is a row with its reason.
-///
-/// # Errors
-/// What ends a study.
-pub fn run(case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
-    let Sampled { target, run, .. } = &case.work;
-    row.set("energy_level", energy_level(target.dimension()?, run.particles)?);
-    match attempt(sampled(&case.work, tools.observer))? {
-        Err(failure) => row.fail(failure),
-        Ok((outcome, energy)) => {
-            row.take(&outcome);
-            row.set(ENERGY, energy);
-        }
-    }
-    Ok(())
 }
 
 /// Samples N(0, I) and measures the particles' squared energy distance from it.

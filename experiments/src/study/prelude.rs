@@ -17,10 +17,8 @@ pub use crate::options::{
     Basis, Bounded, Dimension, MethodName, MethodOptions, MethodSpecification, ParticleCount, Score, StepCount,
     TargetParameters, TargetSpecification,
 };
-pub use crate::plots::page::{Cell, Header, MISSING, Page, exponent, line, number, percent};
+pub use crate::plots::page::{Cell, Line, MISSING, Page, each, number, percent};
 pub use crate::plots::results::{Row, Rows};
-pub use crate::plots::{
-    AxisKind, Curve, GuideCurve, LineSeries, MultiplesPanel, MultiplesPlot, exponent_text, multiples,
-};
+pub use crate::plots::{Curve, GuideCurve, LineSeries, MultiplesPanel, MultiplesPlot, exponent_text, multiples};
 pub use crate::progress::Bar;
 pub use serde::Deserialize;

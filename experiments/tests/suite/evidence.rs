@@ -1,6 +1,6 @@
 //! The study of evidence: a small version runs to a report, and bad configurations are refused with the field's name.
 
-use crate::support::{assert_holds, assert_report, number, refused_lines, rows, run_study, value};
+use crate::support::{assert_cases, assert_holds, number, refused_lines, reported, rows};
 
 const STUDY: &str = r#"
 kind = "evidence"
@@ -12,10 +12,8 @@ methods = [{ name = "ais" }, { name = "smc" }, { name = "iid" }]
 
 #[test]
 fn evidence() {
-    let (root, output) = run_study(STUDY);
-    let report = assert_report(root.path(), 1);
-    assert_eq!(value(&output, "cases").unwrap(), "24");
-    assert_eq!(value(&output, "failed").unwrap(), "0");
+    let (root, output, report) = reported(STUDY, 1);
+    assert_cases(&output, 24, 0);
     assert_holds(
         &report,
         &[

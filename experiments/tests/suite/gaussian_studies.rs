@@ -2,7 +2,9 @@
 
 use std::collections::HashMap;
 
-use crate::support::{assert_holds, assert_report, parvi, refused, refused_lines, rows, run_study, value};
+use crate::support::{
+    assert_cases, assert_holds, assert_report, parvi, refused, refused_lines, reported, rows, run_study, value,
+};
 
 const ACCURACY: &str = r#"
 kind = "accuracy"
@@ -53,11 +55,9 @@ series = [{ dim = 1, spacings = [0.8, 0.2, 0.4] }, { dim = 2, spacings = [0.5, 1
 
 #[test]
 fn accuracy() {
-    let (root, output) = run_study(ACCURACY);
-    let report = assert_report(root.path(), 1);
+    let (root, output, report) = reported(ACCURACY, 1);
     // Per dimension: five methods with 16 particles, three with 64.
-    assert_eq!(value(&output, "cases").unwrap(), (2 * 3 * (5 + 3)).to_string());
-    assert_eq!(value(&output, "failed").unwrap(), "0");
+    assert_cases(&output, 2 * 3 * (5 + 3), 0);
     assert_holds(
         &report,
         &[
@@ -130,8 +130,7 @@ fn bad_accuracy() {
 
 #[test]
 fn time_to_level() {
-    let (root, output) = run_study(TIME_TO_LEVEL);
-    let report = assert_report(root.path(), 1);
+    let (root, output, report) = reported(TIME_TO_LEVEL, 1);
     assert!(
         report.contains("svgd / mpm") && report.contains("again / mpm"),
         "{report}"
@@ -189,10 +188,8 @@ fn bad_time_to_level() {
 
 #[test]
 fn basis_comparison() {
-    let (root, output) = run_study(BASIS_COMPARISON);
-    let report = assert_report(root.path(), 1);
-    assert_eq!(value(&output, "cases").unwrap(), (2 * 2 * 3 * 2 * 2).to_string());
-    assert_eq!(value(&output, "failed").unwrap(), "0");
+    let (root, output, report) = reported(BASIS_COMPARISON, 1);
+    assert_cases(&output, 2 * 2 * 3 * 2 * 2, 0);
     assert_holds(
         &report,
         &["ED² in the time of quadratic", "time (s), T = 20", "h / default"],
@@ -244,10 +241,8 @@ fn bad_basis_comparison() {
 
 #[test]
 fn spacing_particles() {
-    let (root, output) = run_study(SPACING_PARTICLES);
-    let report = assert_report(root.path(), 1);
-    assert_eq!(value(&output, "cases").unwrap(), (2 * 3 * (3 + 2)).to_string());
-    assert_eq!(value(&output, "failed").unwrap(), "0");
+    let (_root, output, report) = reported(SPACING_PARTICLES, 1);
+    assert_cases(&output, 2 * 3 * (3 + 2), 0);
     assert_holds(
         &report,
         &[

@@ -6,6 +6,7 @@ mod gaussian_studies;
 mod left_out;
 mod paper_study;
 mod random_targets;
+mod report_tables;
 #[cfg(feature = "rom")]
 mod rom;
 mod sample_bad_input;

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::support::{assert_holds, assert_report, refused_lines, rows, run_study, succeeds, value};
+use crate::support::{assert_holds, refused_lines, reported, rows, succeeds, value};
 
 const STUDY: &str = r#"
 kind = "paper"
@@ -76,8 +76,7 @@ fn number(row: &HashMap<String, String>, name: &str) -> Option<f64> {
 
 #[test]
 fn the_papers_algorithms() {
-    let (root, output) = run_study(STUDY);
-    let report = assert_report(root.path(), 3);
+    let (root, output, report) = reported(STUDY, 3);
     let first = rows(root.path());
     assert_eq!(first.len(), CASES);
     assert_eq!(value(&output, "cases").unwrap(), CASES.to_string());

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::support::{assert_holds, assert_report, number, refused_lines, rows, run_study, value};
+use crate::support::{assert_holds, number, refused_lines, reported, rows, run_study, value};
 
 const STUDY: &str = r#"
 kind = "random-targets"
@@ -17,8 +17,7 @@ methods = [{ name = "ais", options = { evaluations = 3000 } }, { name = "mpm", l
 
 #[test]
 fn random_targets() {
-    let (root, output) = run_study(STUDY);
-    let report = assert_report(root.path(), 1);
+    let (root, output, report) = reported(STUDY, 1);
     let first = rows(root.path());
     assert_eq!(value(&output, "cases").unwrap(), "18");
     assert_holds(

@@ -75,10 +75,7 @@ fn a_run_that_was_too_short_says_so() {
 #[test]
 fn a_diagnostics_file_that_cannot_be_written_is_refused_early() {
     let directory = tempfile::tempdir().unwrap();
-    let output = parvi(
-        directory.path(),
-        "sample --target banana --particles 50 --out x.csv --diagnostics missing/d.json",
-    );
-    assert_refused(&output, &["missing/d.json"]);
+    let line = "sample --target banana --particles 50 --out x.csv --diagnostics missing/d.json";
+    assert_refused(&parvi(directory.path(), line), &["missing/d.json"]);
     assert_eq!(files(directory.path()), [""; 0]);
 }

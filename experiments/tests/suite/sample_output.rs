@@ -1,6 +1,6 @@
 //! What `parvi sample` writes and says.
 
-use crate::support::{files, parvi, stderr, stdout, succeeds, value, write_responses};
+use crate::support::{files, numbers, parvi, stderr, stdout, succeeds, value, write_responses};
 
 fn keys(text: &str) -> Vec<&str> {
     text.lines().map(|line| line.split_once('=').unwrap().0).collect()
@@ -14,12 +14,8 @@ fn particles_have_a_header_and_one_row_each() {
         "sample --target gaussian --dim 3 --particles 100 --method iid --out x.csv",
     );
     assert_eq!(files(directory.path()), ["x.csv"]);
-    let text = std::fs::read_to_string(directory.path().join("x.csv")).unwrap();
-    let mut lines = text.lines();
-    assert_eq!(lines.next(), Some("x1,x2,x3"));
-    let rows: Vec<Vec<f64>> = lines
-        .map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect())
-        .collect();
+    let (header, rows) = numbers(&directory.path().join("x.csv"));
+    assert_eq!(header, "x1,x2,x3");
     assert_eq!(rows.len(), 100);
     assert!(
         rows.iter()
@@ -81,22 +77,13 @@ fn standard_output_has_the_keys_of_the_contract() {
     assert_eq!(value(&output, "steps").unwrap(), "5");
     assert!(value(&output, "spacing").unwrap().parse::<f64>().unwrap() > 0.0);
 
-    let output = parvi(
-        directory.path(),
-        "sample --target gaussian --dim 2 --particles 200 --method ais --out x.csv",
-    );
-    insta::assert_snapshot!(keys(&stdout(&output)).join(" "), @"method steps score_evaluations density_evaluations log_evidence log_evidence_error pareto_k unseen wall_seconds peak_memory_bytes outcome mean_error sd_error unexplained drift target dim particles seed");
-
-    let output = parvi(
-        directory.path(),
-        "sample --target gaussian --dim 2 --particles 200 --method smc --out x.csv",
-    );
-    insta::assert_snapshot!(keys(&stdout(&output)).join(" "), @"method steps score_evaluations density_evaluations log_evidence log_evidence_error wall_seconds peak_memory_bytes target dim particles seed");
-
-    let output = parvi(
-        directory.path(),
-        "sample --target gaussian --dim 2 --particles 200 --method iid --out x.csv",
-    );
+    let of = |method: &str| {
+        let line = format!("sample --target gaussian --dim 2 --particles 200 --method {method} --out x.csv");
+        parvi(directory.path(), &line)
+    };
+    insta::assert_snapshot!(keys(&stdout(&of("ais"))).join(" "), @"method steps score_evaluations density_evaluations log_evidence log_evidence_error pareto_k unseen wall_seconds peak_memory_bytes outcome mean_error sd_error unexplained drift target dim particles seed");
+    insta::assert_snapshot!(keys(&stdout(&of("smc"))).join(" "), @"method steps score_evaluations density_evaluations log_evidence log_evidence_error wall_seconds peak_memory_bytes target dim particles seed");
+    let output = of("iid");
     insta::assert_snapshot!(keys(&stdout(&output)).join(" "), @"method steps score_evaluations density_evaluations wall_seconds peak_memory_bytes target dim particles seed");
     assert_eq!(value(&output, "steps").unwrap(), "0");
     assert_eq!(value(&output, "score_evaluations").unwrap(), "0");

@@ -1,6 +1,6 @@
 //! The weighted pool as a file.
 
-use crate::support::{assert_refused, files, for_each_line, parvi, succeeds, value, write_responses};
+use crate::support::{assert_refused, files, for_each_line, numbers, parvi, succeeds, value, write_responses};
 
 #[test]
 fn the_pool_has_rows_with_weights() {
@@ -8,12 +8,8 @@ fn the_pool_has_rows_with_weights() {
     let line = "sample --target banana --particles 60 --method ais --evaluations 4000 --out x.csv --pool p.csv";
     let output = succeeds(directory.path(), line);
     assert_eq!(files(directory.path()), ["p.csv", "x.csv"]);
-    let text = std::fs::read_to_string(directory.path().join("p.csv")).unwrap();
-    let mut lines = text.lines();
-    assert_eq!(lines.next(), Some("x1,x2,weight,log_density"));
-    let rows: Vec<Vec<f64>> = lines
-        .map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect())
-        .collect();
+    let (header, rows) = numbers(&directory.path().join("p.csv"));
+    assert_eq!(header, "x1,x2,weight,log_density");
     let evaluations: usize = value(&output, "density_evaluations").unwrap().parse().unwrap();
     assert!(rows.len() <= evaluations, "{}", rows.len());
     assert!(rows.len() <= 4000, "{}", rows.len());

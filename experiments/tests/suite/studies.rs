@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::support::{assert_report, files, parvi, run_study, stderr, value};
+use crate::support::{assert_cases, assert_report, files, parvi, run_study, stderr, value};
 
 #[test]
 fn quickstart() {
@@ -64,8 +64,7 @@ fn scaling() {
         "#,
     );
     let report = assert_report(root.path(), 8);
-    assert_eq!(value(&output, "cases").unwrap(), "9");
-    assert_eq!(value(&output, "failed").unwrap(), "0");
+    assert_cases(&output, 9, 0);
     assert!(report.contains("paper, dense grid"));
 }
 

@@ -120,7 +120,7 @@ pub fn assert_report(root: &Path, figures: usize) -> String {
     let mut braced = report.split('{').skip(1).filter_map(|rest| rest.split_once('}'));
     let unfilled = braced.find(|(text, _)| is_name(text));
     assert_eq!(unfilled, None, "a place of the prose without a value");
-    assert!(!report.contains("![]("), "a figure without a caption");
+    assert!(!report.contains("The prose has no `"), "{report}");
     let names = files(&root.join("out/figures"));
     assert!(
         names.iter().all(|name| report.contains(&format!("(figures/{name})"))),
@@ -185,4 +185,31 @@ pub fn number(row: &HashMap<String, String>, name: &str) -> f64 {
     row[name]
         .parse()
         .unwrap_or_else(|_| panic!("{name} is missing in {row:?}"))
+}
+
+/// Runs a configuration and asserts that its report is whole; the directory, the output and the report.
+pub fn reported(text: &str, figures: usize) -> (tempfile::TempDir, Output, String) {
+    let (root, output) = run_study(text);
+    let report = assert_report(root.path(), figures);
+    (root, output, report)
+}
+
+/// Asserts that `parvi report` writes the same report.
+pub fn assert_reports_again(root: &Path, report: &str) {
+    succeeds(root, "report out");
+    assert_eq!(std::fs::read_to_string(root.join("out/report.md")).unwrap(), report);
+}
+
+/// The header of a CSV file of numbers, and its rows.
+pub fn numbers(path: &Path) -> (String, Vec<Vec<f64>>) {
+    let text = std::fs::read_to_string(path).unwrap();
+    let (header, lines) = text.split_once('\n').unwrap();
+    let numbers = |line: &str| line.split(',').map(|cell| cell.parse().unwrap()).collect();
+    (header.to_owned(), lines.lines().map(numbers).collect())
+}
+
+/// Asserts how many cases a study has, and how many of them failed.
+pub fn assert_cases(output: &Output, cases: usize, failed: usize) {
+    let stated = ["cases", "failed"].map(|key| value(output, key).unwrap());
+    assert_eq!(stated, [cases, failed].map(|count| count.to_string()));
 }

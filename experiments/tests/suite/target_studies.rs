@@ -1,7 +1,7 @@
 //! The studies on the catalogue of targets: small versions run to a report, and bad configurations are refused with the field's
 //! name.
 
-use crate::support::{assert_holds, assert_report, number, refused, refused_lines, rows, run_study, value};
+use crate::support::{assert_holds, number, refused, refused_lines, reported, rows, run_study, value};
 
 const CATALOGUE: &str = r#"
 kind = "catalogue"
@@ -26,8 +26,7 @@ dims = [1, 2, 3]
 
 #[test]
 fn catalogue() {
-    let (root, output) = run_study(CATALOGUE);
-    let report = assert_report(root.path(), 1);
+    let (root, output, report) = reported(CATALOGUE, 1);
     let rows = rows(root.path());
     // Seven targets, two methods from two starts and two without a start, two seeds.
     assert_eq!(rows.len(), 7 * (2 * 2 + 2) * 2);
@@ -150,8 +149,7 @@ fn bad_catalogue() {
 
 #[test]
 fn stability() {
-    let (root, output) = run_study(STABILITY);
-    let report = assert_report(root.path(), 1);
+    let (root, output, report) = reported(STABILITY, 1);
     let all = rows(root.path());
     assert_eq!(all.len(), 60);
     assert_eq!(value(&output, "panicked").unwrap(), "0", "{report}");

@@ -3,7 +3,8 @@
 use std::collections::HashMap;
 
 use crate::support::{
-    assert_holds, assert_refused, assert_report, files, number, parvi, refused_lines, rows, run_study, succeeds, value,
+    assert_holds, assert_refused, assert_reports_again, files, number, parvi, refused_lines, reported, rows, run_study,
+    value,
 };
 
 const STUDY: &str = r#"
@@ -28,8 +29,7 @@ fn find<'a>(rows: &'a [HashMap<String, String>], case: &str) -> &'a HashMap<Stri
 
 #[test]
 fn rivals_are_held_against_the_method() {
-    let (root, output) = run_study(STUDY);
-    let report = assert_report(root.path(), 1);
+    let (root, output, report) = reported(STUDY, 1);
     let rows = rows(root.path());
     assert_eq!(rows.len(), 2 * 2 * 3);
     assert_eq!(
@@ -72,11 +72,7 @@ fn rivals_are_held_against_the_method() {
         }
     }
     let before = std::fs::read_to_string(root.path().join("out/report.md")).unwrap();
-    succeeds(root.path(), "report out");
-    assert_eq!(
-        std::fs::read_to_string(root.path().join("out/report.md")).unwrap(),
-        before
-    );
+    assert_reports_again(root.path(), &before);
 }
 
 /// A chain's runs for the larger M are those for the smaller one, and more.

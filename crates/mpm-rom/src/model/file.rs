@@ -5,10 +5,9 @@ use serde::{Deserialize, Serialize};
 use super::{Model, Summary};
 use crate::encoder::{Encoder, EncoderShape};
 use crate::manifold::{Network, NetworkShape, Scaling};
-use crate::tensor_file::{TensorFileError, TensorReader, TensorWriter};
+use crate::tensor_file::{FileLayout, TensorFileError, TensorReader, TensorWriter};
 
-const KIND: &str = "model";
-const VERSION: u32 = 2;
+const LAYOUT: FileLayout = ("model", 2);
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -42,7 +41,7 @@ impl<const D: usize> Model<D> {
         for (name, values) in lists {
             file.add(name, &[values.len()], values.iter().copied());
         }
-        file.write(path, KIND, VERSION, &header)
+        file.write(path, LAYOUT, &header)
     }
 
     /// Reads a file of [`Self::write`].
@@ -51,7 +50,7 @@ impl<const D: usize> Model<D> {
     /// [`TensorFileError`]: another dimension or layout, cut off, a tensor that is missing, of another shape or not finite, sizes that
     /// contradict each other.
     pub fn read(path: &Path) -> Result<Self, TensorFileError> {
-        let file = TensorReader::open(path, KIND, VERSION)?;
+        let file = TensorReader::open(path, LAYOUT)?;
         let header: Header = file.header()?;
         file.expect_dimension(header.dimension, D)?;
         if header.network.coordinates != header.encoder.coordinates {

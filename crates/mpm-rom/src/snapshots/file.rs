@@ -4,11 +4,10 @@ use mpm_tensor::Matrix;
 use serde::{Deserialize, Serialize};
 
 use super::{Body, Frame, Run, Snapshots};
-use crate::tensor_file::{TensorFileError, TensorReader, TensorWriter};
+use crate::tensor_file::{FileLayout, TensorFileError, TensorReader, TensorWriter};
 
-const KIND: &str = "snapshots";
 /// 1 had no times: frames were one interval apart.
-const VERSION: u32 = 2;
+const LAYOUT: FileLayout = ("snapshots", 2);
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -56,7 +55,7 @@ impl<const D: usize> Snapshots<D> {
         file.add("deformation_gradients", &[total, points, D, D], gradients);
         let velocities = frames().flat_map(|frame| frame.velocities.iter().flatten().copied());
         file.add("velocities", &[total, points, D], velocities);
-        file.write(path, KIND, VERSION, &header)
+        file.write(path, LAYOUT, &header)
     }
 
     /// Reads a file of [`Self::write`] and checks it as [`Self::new`] does.
@@ -64,7 +63,7 @@ impl<const D: usize> Snapshots<D> {
     /// # Errors
     /// [`TensorFileError`]; [`TensorFault::Inconsistent`](crate::tensor_file::TensorFault::Inconsistent) holds what [`Self::new`] says.
     pub fn read(path: &Path) -> Result<Self, TensorFileError> {
-        let file = TensorReader::open(path, KIND, VERSION)?;
+        let file = TensorReader::open(path, LAYOUT)?;
         let header: Header = file.header()?;
         file.expect_dimension(header.dimension, D)?;
         let points = header.points;

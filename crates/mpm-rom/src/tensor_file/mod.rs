@@ -17,6 +17,9 @@ use serde::{Deserialize, Serialize};
 /// The key of the metadata.
 const METADATA: &str = "mpm-rom";
 
+/// What a file holds, and the version of its layout.
+pub type FileLayout = (&'static str, u32);
+
 /// What the metadata holds.
 #[derive(Serialize, Deserialize)]
 struct Envelope {

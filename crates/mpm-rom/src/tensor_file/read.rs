@@ -4,7 +4,7 @@ use safetensors::SafeTensors;
 use safetensors::tensor::Dtype;
 use serde::de::DeserializeOwned;
 
-use super::{Envelope, METADATA, TensorFault, TensorFileError};
+use super::{Envelope, FileLayout, METADATA, TensorFault, TensorFileError};
 
 /// A file of tensors in memory.
 #[derive(Debug)]
@@ -15,11 +15,11 @@ pub struct TensorReader {
 }
 
 impl TensorReader {
-    /// Reads the file and checks that it holds `kind` in the layout `version`.
+    /// Reads the file and checks that it holds `kind` in the layout that is asked for.
     ///
     /// # Errors
     /// [`TensorFault::Unreadable`], [`TensorFault::Damaged`], [`TensorFault::Header`], [`TensorFault::Kind`], [`TensorFault::Version`].
-    pub fn open(path: &Path, kind: &'static str, version: u32) -> Result<Self, TensorFileError> {
+    pub fn open(path: &Path, (kind, version): FileLayout) -> Result<Self, TensorFileError> {
         let damaged = |error| TensorFault::Damaged(error).of(path);
         let header = |reason: String| TensorFault::Header(reason).of(path);
         let bytes = std::fs::read(path).map_err(|error| TensorFault::Unreadable(error).of(path))?;

@@ -4,7 +4,7 @@ fn small(path: &std::path::Path) {
     let mut writer = TensorWriter::default();
     writer.add("a", &[2, 3], (0..6).map(f64::from));
     writer.add("b", &[1], [f64::NAN]);
-    writer.write(path, "test", 3, &vec![1, 2]).unwrap();
+    writer.write(path, ("test", 3), &vec![1, 2]).unwrap();
 }
 
 #[test]
@@ -12,7 +12,7 @@ fn what_is_written_is_read() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("t.safetensors");
     small(&path);
-    let file = TensorReader::open(&path, "test", 3).unwrap();
+    let file = TensorReader::open(&path, ("test", 3)).unwrap();
     assert_eq!(file.header::<Vec<i32>>().unwrap(), [1, 2]);
     assert_eq!(file.tensor("a", &[2, 3]).unwrap(), [0.0, 1.0, 2.0, 3.0, 4.0, 5.0]);
     assert_eq!(
@@ -28,7 +28,7 @@ fn every_fault_has_its_error() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("t.safetensors");
     small(&path);
-    let open = |kind, version| TensorReader::open(&path, kind, version).map_err(|error| *error.fault);
+    let open = |kind, version| TensorReader::open(&path, (kind, version)).map_err(|error| *error.fault);
     assert!(matches!(open("other", 3), Err(E::Kind { expected: "other", .. })));
     assert!(matches!(
         open("test", 4),
@@ -53,18 +53,18 @@ fn every_fault_has_its_error() {
         assert!(matches!(open("test", 3), Err(E::Damaged(_))), "{length} bytes");
     }
     assert!(matches!(
-        TensorReader::open(&directory.path().join("none"), "test", 3).map_err(fault),
+        TensorReader::open(&directory.path().join("none"), ("test", 3)).map_err(fault),
         Err(E::Unreadable(_))
     ));
     let mut writer = TensorWriter::default();
     writer.add("a", &[2], [1.0]);
     assert!(matches!(
-        writer.write(&path, "test", 3, &()).map_err(fault),
+        writer.write(&path, ("test", 3), &()).map_err(fault),
         Err(E::Damaged(_))
     ));
     assert!(matches!(
         TensorWriter::default()
-            .write(&directory.path().join("no/x"), "t", 1, &())
+            .write(&directory.path().join("no/x"), ("t", 1), &())
             .map_err(fault),
         Err(E::Unwritable(_))
     ));

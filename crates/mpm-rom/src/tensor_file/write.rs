@@ -5,7 +5,7 @@ use mpm_scenes::output::write_whole;
 use safetensors::tensor::{Dtype, TensorView};
 use serde::Serialize;
 
-use super::{Envelope, METADATA, TensorFault, TensorFileError};
+use super::{Envelope, FileLayout, METADATA, TensorFault, TensorFileError};
 
 /// Collects tensors and writes them as one file.
 #[derive(Debug, Default)]
@@ -26,7 +26,12 @@ impl TensorWriter {
     /// # Errors
     /// [`TensorFault::Unwritable`], [`TensorFault::Header`] for a header that is no JSON, [`TensorFault::Damaged`] for a tensor whose
     /// shape and number of values differ.
-    pub fn write(self, path: &Path, kind: &str, version: u32, header: &impl Serialize) -> Result<(), TensorFileError> {
+    pub fn write(
+        self,
+        path: &Path,
+        (kind, version): FileLayout,
+        header: &impl Serialize,
+    ) -> Result<(), TensorFileError> {
         let refused = |error: serde_json::Error| TensorFault::Header(error.to_string()).of(path);
         let envelope = Envelope {
             kind: kind.to_owned(),

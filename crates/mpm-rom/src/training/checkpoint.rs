@@ -6,10 +6,9 @@ use super::trainer::{Best, Trainer};
 use super::{EpochReport, Training, TrainingError};
 use crate::manifold::Scaling;
 use crate::snapshots::Snapshots;
-use crate::tensor_file::{TensorReader, TensorWriter};
+use crate::tensor_file::{FileLayout, TensorReader, TensorWriter};
 
-const KIND: &str = "training-checkpoint";
-const VERSION: u32 = 4;
+const LAYOUT: FileLayout = ("training-checkpoint", 4);
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -49,7 +48,7 @@ impl<'a, const D: usize> Trainer<'a, D> {
             add("best_network", &best.network);
             add("best_encoder", &best.encoder);
         }
-        Ok(file.write(path, KIND, VERSION, &header)?)
+        Ok(file.write(path, LAYOUT, &header)?)
     }
 
     /// The training as [`Self::write_checkpoint`] left it. `epochs` sets the schedule of rates, so it has to be the same as before.
@@ -58,7 +57,7 @@ impl<'a, const D: usize> Trainer<'a, D> {
     /// [`TrainingError::File`]; [`TrainingError::OtherCheckpoint`] for another configuration or other snapshots; those of [`Self::new`].
     pub fn resume(snapshots: &'a Snapshots<D>, config: Training, path: &Path) -> Result<Self, TrainingError> {
         let mut trainer = Self::new(snapshots, config)?;
-        let file = TensorReader::open(path, KIND, VERSION)?;
+        let file = TensorReader::open(path, LAYOUT)?;
         let header: Header = file.header()?;
         file.expect_dimension(header.dimension, D)?;
         let refuse = |what| Err(TrainingError::OtherCheckpoint { what });

@@ -60,6 +60,23 @@ impl SceneDocument {
         keys::remove(&mut self.table, key);
     }
 
+    /// Puts values in the places of their keys and removes keys.
+    ///
+    /// # Errors
+    /// As [`put`](Self::put), with the key.
+    pub fn change<'a>(
+        &mut self,
+        set: impl IntoIterator<Item = (&'a String, &'a Value)>,
+        drop: &[String],
+    ) -> Result<(), String> {
+        for (key, value) in set {
+            let put = self.put(key, value.clone());
+            put.map_err(|message| format!("`{key}`: {message}"))?;
+        }
+        drop.iter().for_each(|key| self.remove(key));
+        Ok(())
+    }
+
     /// The number at a key.
     pub fn number(&self, key: &str) -> Option<f64> {
         keys::number(&self.table, key)
@@ -93,5 +110,28 @@ fn refused(file: &Path, fault: impl Into<SceneFault>) -> SceneError {
     SceneError {
         file: file.to_owned(),
         fault: Box::new(fault.into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn changes_put_and_remove_and_name_what_has_no_place() {
+        let mut document = SceneDocument::parse("a = 1\n", Path::new("s.toml")).unwrap();
+        let set = |text: &str| text.parse::<Table>().unwrap();
+        let refused = document.change(&set("\"a.b\" = 2"), &[]).unwrap_err();
+        assert!(refused.starts_with("`a.b`: "), "{refused}");
+        document.change(&set("\"b.c\" = 2.5"), &["a".to_owned()]).unwrap();
+        assert_eq!((document.number("b.c"), document.number("a")), (Some(2.5), None));
+    }
+
+    #[test]
+    fn an_error_of_changed_text_names_no_line() {
+        let error = SceneDocument::parse("a =\n", Path::new("s.toml")).unwrap_err();
+        assert!(error.to_string().contains("line 1"), "{error}");
+        let text = error.without_line();
+        assert!(text.starts_with("s.toml: ") && !text.contains("line"), "{text}");
     }
 }

@@ -1,8 +1,6 @@
 //! Rows of results, of which parts are looked at.
 
 use super::{Row, Value};
-use crate::LineSeries;
-use crate::page::{Cell, MISSING};
 use crate::statistics::{summarize, weighted_quantile};
 
 /// Some rows.
@@ -139,73 +137,26 @@ impl<'a> Rows<'a> {
             .map(|(_, row)| row)
     }
 
-    /// Statistics as they stand in a table, with ` | ` between them: `rows`, their number, and of a column `first`, `median`, `median of all` (the rows without it
-    /// infinitely large, ∞), `quantile 0.95`, `least`, `largest` and
-    /// `worst`, the case with the largest.
-    pub fn cells(&self, statistics: &str) -> Vec<String> {
-        statistics.split(" | ").map(|statistic| self.cell(statistic)).collect()
-    }
-
-    fn cell(&self, statistic: &str) -> String {
-        let (name, column) = statistic.rsplit_once(' ').unwrap_or((statistic, ""));
-        match name {
-            "rows" => self.len().to_string(),
-            "first" => self.first().map(|row| row.value(column)).cell(),
-            "median" => self.median(column).cell(),
-            "median of all" => match self.median_of_all(column) {
-                Some(f64::INFINITY) => "∞".to_owned(),
-                median => median.cell(),
-            },
-            "least" => self.least(column).cell(),
-            "largest" => self.largest(column).cell(),
-            "worst" => self.worst(column).map(|row| format!("`{}`", row.case())).cell(),
-            name => match name.strip_prefix("quantile ").map(str::parse) {
-                Some(Ok(level)) => self.quantile(column, level).cell(),
-                _ => MISSING.to_owned(),
-            },
-        }
-    }
-
-    /// Two columns of all rows; what a row does not have is not finite.
-    pub fn pairs(&self, x: &str, y: &str) -> Vec<(f64, f64)> {
-        let number = |row: &Row, column: &str| row.number(column).unwrap_or(f64::NAN);
-        self.iter().map(|row| (number(row, x), number(row, y))).collect()
-    }
-
-    /// A line through the rows that have both columns, in their order.
-    pub fn line(&self, label: impl Into<String>, x: &str, y: &str) -> LineSeries {
-        let points = self.iter().filter_map(|row| Some((row.number(x)?, row.number(y)?)));
-        LineSeries::through(label, points)
-    }
-
-    /// A line through the medians of `y` at each value of `x`, with bars from the least to the largest.
-    pub fn curve(&self, label: impl Into<String>, x: &str, y: &str) -> LineSeries {
-        let mut line = LineSeries::named(label);
-        for place in self.places(x) {
-            let here = self.having(|row| row.number(x) == Some(place));
-            line.push_median(place, &here.values(y));
-        }
-        line
+    /// The value of a column whose rows have the least measure, and these rows; values without a measure are left out.
+    pub fn best<V: Into<Value> + Clone>(
+        &self,
+        column: &str,
+        values: impl IntoIterator<Item = V>,
+        measure: impl Fn(&Self) -> Option<f64>,
+    ) -> Option<(V, Self)> {
+        let measured = values.into_iter().filter_map(|value| {
+            let here = self.with(column, value.clone());
+            Some((measure(&here)?, value, here))
+        });
+        let (_, value, here) = measured.min_by(|left, right| left.0.total_cmp(&right.0))?;
+        Some((value, here))
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::example::rows;
     use super::*;
-
-    fn rows() -> Vec<Row> {
-        let row = |case: &str, method: &str, size: usize, error: Option<f64>| {
-            let row = Row::of(case).with("method", method).with("size", size);
-            row.with("error", error)
-        };
-        vec![
-            row("a", "mpm", 64, Some(0.5)),
-            row("b", "iid", 16, Some(2.0)),
-            row("c", "mpm", 16, Some(1.0)),
-            row("d", "mpm", 16, None),
-            row("e", "mpm", 16, Some(4.0)),
-        ]
-    }
 
     #[test]
     fn rows_are_told_apart_in_the_order_in_which_they_come() {
@@ -219,29 +170,10 @@ mod tests {
     }
 
     #[test]
-    fn statistics_have_names() {
+    fn the_best_has_the_least_measure() {
         let rows = rows();
-        let here = rows.iter().collect::<Rows<'_>>().with("method", "mpm");
-        assert_eq!(here.cells("rows | median error | least error"), ["4", "1.00", "0.500"]);
-        assert_eq!(
-            here.cells("largest error | worst error | first size"),
-            ["4.00", "`e`", "64"]
-        );
-        assert_eq!(here.cells("median of all error | quantile 1 error"), ["2.50", "4.00"]);
-        assert_eq!(here.with("case", "d").cells("median of all error"), ["∞"]);
-        assert_eq!(
-            Rows::default().cells("median error | median of all error | mode error"),
-            [MISSING; 3]
-        );
-    }
-
-    #[test]
-    fn lines_go_through_medians_or_through_every_row() {
-        let rows = rows();
-        let here = rows.iter().collect::<Rows<'_>>().with("method", "mpm");
-        let curve = here.curve("mpm", "size", "error");
-        assert_eq!((curve.x, curve.y), (vec![16.0, 64.0], vec![2.5, 0.5]));
-        assert_eq!(curve.bars, [(1.0, 4.0), (0.5, 0.5)]);
-        assert_eq!(here.line("mpm", "size", "error").x, [64.0, 16.0, 16.0]);
+        let rows: Rows<'_> = rows.iter().collect();
+        let best = rows.best("size", [16_usize, 64, 99], |rows| rows.median("error"));
+        assert_eq!(best.map(|(size, rows)| (size, rows.len())), Some((64, 1)));
     }
 }

@@ -2,6 +2,11 @@
 
 use super::*;
 
+/// Asserts that there is nothing to draw.
+fn assert_empty(drawing: Result<String, PlotError>) {
+    assert!(matches!(drawing, Err(PlotError::Empty { .. })), "{drawing:?}");
+}
+
 #[test]
 fn traces_break_where_values_end() {
     let step: Vec<f64> = (0..5000).map(f64::from).collect();
@@ -30,24 +35,19 @@ fn scalings_state_their_exponents() {
     let mut plot = ScalingPlot {
         x_label: "particles M".to_string(),
         y_label: "time per step (s)".to_string(),
-        x_symbol: "M".to_string(),
-        series: vec![
-            LineSeries {
-                label: "d = 2".to_string(),
-                x: x.clone(),
-                y,
-                bars: Vec::new(),
-            },
-            LineSeries {
-                label: "single".to_string(),
-                x: vec![100.0],
-                y: vec![1.0],
-                bars: Vec::new(),
-            },
-        ],
-        ..ScalingPlot::default()
+        fit: Fit {
+            symbol: "M".to_string(),
+            from: 0.0,
+        },
+        panel: MultiplesPanel::new(
+            "",
+            [
+                LineSeries::through("d = 2", x.iter().copied().zip(y)),
+                LineSeries::through("single", [(100.0, 1.0)]),
+            ],
+        ),
     };
-    plot.guides.push(GuideCurve {
+    plot.panel.guides.push(GuideCurve {
         label: "dense grid".to_string(),
         curve: Curve {
             y: x.iter().map(|x| 1e-6 * x).collect(),
@@ -59,11 +59,11 @@ fn scalings_state_their_exponents() {
     assert_well_formed(&svg);
     assert!(svg.contains("d = 2: b = 1.500 ± 0.000") && svg.contains("dense grid"));
     assert!(svg.contains(">single<"));
-    plot.series[0].y[0] = -1.0;
+    plot.panel.series[0].y[0] = -1.0;
     assert_well_formed(&scaling(&plot).unwrap());
-    plot.series[0].y.pop();
+    plot.panel.series[0].y.pop();
     assert!(matches!(scaling(&plot), Err(PlotError::Size { .. })));
-    assert!(matches!(scaling(&ScalingPlot::default()), Err(PlotError::Empty { .. })));
+    assert_empty(scaling(&ScalingPlot::default()));
 }
 
 #[test]
@@ -100,9 +100,8 @@ fn failed_runs_are_counted_below_the_figure() {
 #[test]
 fn lines_with_bars_on_any_axis() {
     let plot = |y_axis: AxisKind, series: LineSeries| MultiplesPlot {
-        x_label: "spacing h".to_string(),
-        y_label: "covariance error".to_string(),
-        y_axis,
+        x: Axis::new("spacing h", AxisKind::Automatic),
+        y: Axis::new("covariance error", y_axis),
         panels: vec![MultiplesPanel {
             series: vec![series],
             ..MultiplesPanel::default()
@@ -126,7 +125,7 @@ fn lines_with_bars_on_any_axis() {
         ..LineSeries::default()
     };
     let drawn = |series: &LineSeries| multiples(&plot(AxisKind::Automatic, series.clone()));
-    assert!(matches!(drawn(&single), Err(PlotError::Empty { .. })));
+    assert_empty(drawn(&single));
     single.y = vec![3.0];
     assert_well_formed(&drawn(&single).unwrap());
     single.bars = vec![(0.0, 1.0); 2];
@@ -157,13 +156,9 @@ fn small_multiples_share_styles_and_legend() {
         ..MultiplesPanel::default()
     };
     let mut plot = MultiplesPlot {
-        x_label: "number of particles M".to_string(),
-        y_label: "energy distance ED".to_string(),
-        x_axis: AxisKind::Logarithmic,
-        y_axis: AxisKind::Logarithmic,
         panels: vec![panel("d = 1", &["mpm", "first"]), panel("d = 2", &["second", "first"])],
         notes: vec!["Medians over the seeds.".to_string()],
-        ..MultiplesPlot::default()
+        ..MultiplesPlot::logarithmic("number of particles M", "energy distance ED")
     };
     let svg = multiples(&plot).unwrap();
     assert_well_formed(&svg);
@@ -182,10 +177,7 @@ fn small_multiples_share_styles_and_legend() {
     assert_eq!(svg.matches(">first<").count(), 1, "one entry in the legend");
     plot.panels[0].guides[0].curve.x.pop();
     assert!(matches!(multiples(&plot), Err(PlotError::Size { .. })));
-    assert!(matches!(
-        multiples(&MultiplesPlot::default()),
-        Err(PlotError::Empty { .. })
-    ));
+    assert_empty(multiples(&MultiplesPlot::default()));
 }
 
 #[test]
@@ -221,7 +213,19 @@ fn dots_have_a_row_per_setting() {
     plot.series[0].values.pop();
     assert!(matches!(dots(&plot), Err(PlotError::Size { .. })));
     plot.series.remove(0);
-    assert!(matches!(dots(&plot), Err(PlotError::Empty { .. })));
+    assert_empty(dots(&plot));
+}
+
+#[test]
+fn dots_have_series_by_name() {
+    let plot = DotPlot::bounded("error", [("ring".to_owned(), 1.0)], "bound");
+    let named = ["start", "end"].map(|name| (name.to_owned(), vec![0.5]));
+    let svg = dots(&plot.with_series(named.into())).unwrap();
+    assert!(
+        ["ring", "bound", ">start<", ">end<"]
+            .iter()
+            .all(|text| svg.contains(text))
+    );
 }
 
 #[test]
@@ -231,11 +235,8 @@ fn heat_maps_state_the_share_of_every_cell() {
         shares: shares.to_vec(),
     };
     let mut plot = HeatMapPlot {
-        x_label: "time step".to_string(),
-        y_label: "spacing".to_string(),
-        x_edges: vec![0.1, 1.0, 10.0],
-        y_edges: vec![0.01, 0.1, 1.0],
-        axis: AxisKind::Logarithmic,
+        x: CellAxis::logarithmic("time step", [0.1, 10.0], 2),
+        y: CellAxis::logarithmic("spacing", [0.01, 1.0], 2),
         panels: vec![panel([Some(0.0), Some(0.37), None, Some(f64::NAN)]); 3],
         ..HeatMapPlot::default()
     };
@@ -248,11 +249,8 @@ fn heat_maps_state_the_share_of_every_cell() {
     plot.panels[0].shares.pop();
     assert!(matches!(heat_map(&plot), Err(PlotError::Size { .. })));
     plot.panels = vec![panel([None; 4])];
-    assert!(matches!(heat_map(&plot), Err(PlotError::Empty { .. })));
-    assert!(matches!(
-        heat_map(&HeatMapPlot::default()),
-        Err(PlotError::Empty { .. })
-    ));
+    assert_empty(heat_map(&plot));
+    assert_empty(heat_map(&HeatMapPlot::default()));
 }
 
 #[test]
@@ -280,7 +278,7 @@ fn snapshots_colour_particles_by_class() {
     plot.panels[0].values.pop();
     assert!(matches!(snapshots(&plot), Err(PlotError::Size { .. })));
     plot.panels.clear();
-    assert!(matches!(snapshots(&plot), Err(PlotError::Empty { .. })));
+    assert_empty(snapshots(&plot));
 }
 
 #[test]

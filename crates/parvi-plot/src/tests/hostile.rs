@@ -30,7 +30,7 @@ proptest! {
         let dot_rows = y.iter().map(|y| DotRow { label: "r".into(), bound: Some(*y) }).collect();
         let shares = y.iter().skip(1).map(|y| Some(*y)).collect();
         let heat_panel = HeatPanel { title: "t".into(), shares };
-        let heat = HeatMapPlot { x_edges: x.clone(), y_edges: vec![1.0, 2.0], panels: vec![heat_panel], ..Default::default() };
+        let heat = HeatMapPlot { x: CellAxis { edges: x.clone(), ..Default::default() }, y: CellAxis { edges: vec![1.0, 2.0], ..Default::default() }, panels: vec![heat_panel], ..Default::default() };
         let scaling_series = LineSeries { label: "s".into(), x, y, bars: Vec::new() };
         let panel = MultiplesPanel { series: vec![series], ..MultiplesPanel::default() };
         let figures = [
@@ -40,7 +40,7 @@ proptest! {
             multiples(&MultiplesPlot { panels: vec![panel], ..MultiplesPlot::default() }),
             dots(&DotPlot { rows: dot_rows, series: vec![dot_series], ..DotPlot::default() }),
             heat_map(&heat),
-            scaling(&ScalingPlot { series: vec![scaling_series], ..ScalingPlot::default() }),
+            scaling(&ScalingPlot { panel: MultiplesPanel::new("", [scaling_series]), ..ScalingPlot::default() }),
         ];
         for svg in figures.into_iter().flatten() {
             assert_well_formed(&svg);

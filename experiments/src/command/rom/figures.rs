@@ -8,7 +8,7 @@ use mpm_rom::training::EpochReport;
 use crate::CommandError;
 use crate::output::AtomicFile;
 use crate::plots::results::{Row, Rows};
-use crate::plots::{AxisKind, LineSeries, MultiplesPanel, MultiplesPlot, multiples};
+use crate::plots::{Axis, AxisKind, LineSeries, MultiplesPanel, MultiplesPlot, multiples};
 
 /// The column of the position error.
 pub const ERROR: &str = "position_error_percent";
@@ -110,9 +110,9 @@ pub fn errors(directory: &Path, title: &str, rows: &Rows<'_>) -> Result<(), Comm
         let x_label = "sample points (mean and range over the test cases)";
         let plot = MultiplesPlot {
             title: title.to_owned(),
-            y_axis: AxisKind::Automatic,
+            y: Axis::new(y_label, AxisKind::Automatic),
             panels: vec![MultiplesPanel::new("", series(rows, column))],
-            ..MultiplesPlot::logarithmic(x_label, y_label)
+            ..MultiplesPlot::logarithmic(x_label, "")
         };
         AtomicFile::write(directory.join(file), multiples(&plot)?)?;
     }

@@ -6,11 +6,10 @@ use super::MethodKind;
 use crate::options::{ParticleCount, PoolChoice};
 
 /// The draws of a bigger sample with the least kernel Stein discrepancy.
-pub const STEIN_THINNING: MethodKind = MethodKind {
-    name: "stein-thinning",
-    options: "warm-up chains thinning target-acceptance pool pool-size start-mean start-sd start-draws",
-    iterates: false,
-    build: |options, _| {
+pub const STEIN_THINNING: MethodKind = MethodKind::of_draws(
+    "stein-thinning",
+    "warm-up chains thinning target-acceptance pool pool-size start-mean start-sd start-draws",
+    |options, _| {
         Ok(Method::SteinThinning(SteinThinningOptions {
             pool: match options.pool_choice()? {
                 None => Pool::default(),
@@ -20,19 +19,15 @@ pub const STEIN_THINNING: MethodKind = MethodKind {
             pool_size: options.pool_size.map(ParticleCount::get),
         }))
     },
-};
+);
 
 /// The points with the least energy distance to a bigger sample.
-pub const SUPPORT_POINTS: MethodKind = MethodKind {
-    name: "support-points",
-    options: "steps pool-size tolerance",
-    iterates: false,
-    build: |options, steps| {
+pub const SUPPORT_POINTS: MethodKind =
+    MethodKind::of_draws("support-points", "steps pool-size tolerance", |options, steps| {
         let default = SupportPointsOptions::default();
         Ok(Method::SupportPoints(SupportPointsOptions {
             pool_size: options.pool_size.map(ParticleCount::get),
             steps,
             tolerance: options.tolerance.unwrap_or(default.tolerance),
         }))
-    },
-};
+    });

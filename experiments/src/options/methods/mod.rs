@@ -28,10 +28,23 @@ pub struct MethodKind {
     /// other.
     pub iterates: bool,
     /// The method for the sampler, with a number of steps where one is given; the options have been found to fit.
-    pub build: fn(&MethodOptions, Option<usize>) -> Result<Method, OptionError>,
+    pub build: Build,
 }
 
+/// The method of some options, with a number of steps where one is given.
+type Build = fn(&MethodOptions, Option<usize>) -> Result<Method, OptionError>;
+
 impl MethodKind {
+    /// A method without steps.
+    const fn of_draws(name: &'static str, options: &'static str, build: Build) -> Self {
+        Self {
+            name,
+            options,
+            iterates: false,
+            build,
+        }
+    }
+
     /// Whether it has an option.
     pub fn has(&self, option: &str) -> bool {
         self.options.split(' ').any(|name| name == option)

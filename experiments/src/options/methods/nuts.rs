@@ -6,12 +6,11 @@ use super::MethodKind;
 use crate::options::{MethodOptions, StepCount, WarmUp};
 
 /// The method.
-pub const KIND: MethodKind = MethodKind {
-    name: "nuts",
-    options: "warm-up chains thinning target-acceptance start-mean start-sd start-draws",
-    iterates: false,
-    build: |options, _| Ok(Method::Nuts(options.nuts())),
-};
+pub const KIND: MethodKind = MethodKind::of_draws(
+    "nuts",
+    "warm-up chains thinning target-acceptance start-mean start-sd start-draws",
+    |options, _| Ok(Method::Nuts(options.nuts())),
+);
 
 impl MethodOptions {
     /// The chains.

@@ -6,14 +6,9 @@ use super::MethodKind;
 use crate::options::ParticleCount;
 
 /// The method.
-pub const KIND: MethodKind = MethodKind {
-    name: "smc",
-    options: "pool-size start-mean start-sd start-draws",
-    iterates: false,
-    build: |options, _| {
-        Ok(Method::Smc(SmcOptions {
-            pool_size: options.pool_size.map(ParticleCount::get),
-            ..SmcOptions::default()
-        }))
-    },
-};
+pub const KIND: MethodKind = MethodKind::of_draws("smc", "pool-size start-mean start-sd start-draws", |options, _| {
+    Ok(Method::Smc(SmcOptions {
+        pool_size: options.pool_size.map(ParticleCount::get),
+        ..SmcOptions::default()
+    }))
+});

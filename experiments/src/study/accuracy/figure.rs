@@ -17,8 +17,8 @@ pub fn best_exponent(dim: Dimension) -> f64 {
 }
 
 fn panel(study: &Accuracy, here: &Rows<'_>, dim: Dimension) -> MultiplesPanel {
-    let line = |label: &str| here.with("series", label).curve(label, "particles", "energy_root");
-    let series: Vec<LineSeries> = study.labels().map(line).filter(|line| !line.x.is_empty()).collect();
+    let mut series = here.curves(("", "series"), study.labels(), "particles", "energy_root");
+    series.retain(|line| !line.x.is_empty());
     MultiplesPanel {
         guides: guides(here, dim, &series),
         ..MultiplesPanel::new(format!("d = {dim}"), series)

@@ -6,7 +6,7 @@
 mod figure;
 mod report;
 
-use super::gaussian_runs::{self, Setting};
+use super::gaussian_runs::{GaussianStudy, Setting};
 use super::prelude::*;
 use crate::options::OptionError;
 
@@ -61,11 +61,8 @@ impl TryFrom<Stated> for Entry {
     }
 }
 
-impl Study for Accuracy {
-    type Work = Sampled;
-
+impl GaussianStudy for Accuracy {
     const KIND: &'static str = "accuracy";
-    const COLUMNS: &'static str = gaussian_runs::COLUMNS;
     const REPORT: Report<Self> = report::report;
 
     /// The cases, dimension by dimension, few particles first.
@@ -88,10 +85,6 @@ impl Study for Accuracy {
         }
         distinct("dims, particles or seeds", &cases)?;
         Ok(cases)
-    }
-
-    fn run(&self, case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
-        gaussian_runs::run(case, row, tools)
     }
 }
 

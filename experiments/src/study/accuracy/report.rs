@@ -28,94 +28,70 @@ pub fn report(study: &Accuracy, rows: &Rows<'_>, directory: &StudyDirectory) -> 
 fn energy_table(study: &Accuracy, here: &Rows<'_>, page: &mut Page) {
     let sobol = |entry: &&super::Entry| entry.method.name == MethodName::Sobol;
     let yardstick = study.methods.iter().find(sobol).map(|entry| entry.method.label());
-    let runs = |label: &str, size: usize| here.with("series", label).with("particles", size);
-    // Over the median ED² of the yardstick's runs, where there is one.
-    let relative = |value: Option<f64>, size: usize| {
-        let level = |label: &str| runs(label, size).median(ENERGY);
-        yardstick.map(|label| value.zip(level(label)).map(|(value, level)| value / level).cell())
-    };
-    let mut header = vec!["method".to_owned()];
-    let mut independent = vec!["i.i.d., expected".to_owned()];
     let sizes = ascending(&study.particles);
-    for &size in &sizes {
-        header.push(format!("M = {size}"));
-        header.extend(yardstick.map(|label| format!("/ {label}")));
-        let expected = expected(here, size as f64);
-        independent.push(expected.map(|value| 1e3 * value).cell());
-        independent.extend(relative(expected, size));
+    // ED² of each size over the median of the yardstick's runs, where there is one.
+    let ratios = |energy: &dyn Fn(usize) -> Option<f64>| {
+        let ratio = |&size: &usize| {
+            let level = here.with("series", yardstick).with("particles", size).median(ENERGY);
+            let ratio = energy(size).zip(level).map(|(value, level)| value / level);
+            (format!("ratio {size}"), ratio)
+        };
+        sizes.iter().map(ratio).collect::<Vec<_>>()
+    };
+    let expected = |size: usize| expected(here, size as f64);
+    let energies = sizes.iter().map(|&size| {
+        let place = format!("median energy_thousandths where particles = {size}");
+        (place, expected(size).map(|value| 1e3 * value))
+    });
+    let independent = Line::default().with("series", "i.i.d., expected").with_all(energies);
+    let mut lines = vec![independent.with_all(ratios(&expected))];
+    for line in here.lines("series", study.labels()) {
+        let energy = |size: usize| line.rows.with("particles", size).median(ENERGY);
+        lines.push(line.clone().with_all(ratios(&energy)));
     }
-    let mut table = vec![independent];
-    for label in study.labels() {
-        let mut line = vec![label.to_owned()];
-        for &size in &sizes {
-            let runs = runs(label, size);
-            let cells = runs.cells("median energy_thousandths | largest energy_thousandths");
-            line.push(match runs.median(ENERGY) {
-                Some(_) => format!("{} ({})", cells[0], cells[1]),
-                None => MISSING.to_owned(),
-            });
-            line.extend(relative(runs.median(ENERGY), size));
-        }
-        table.push(line);
-    }
-    page.table(&header, &table);
+    let repeated = [each("yardstick", yardstick), each("M", &sizes)];
+    page.lines_over("Squared energy distance", &repeated, lines);
 }
 
 /// A line per method, a column per dimension.
 fn slopes(study: &Accuracy, rows: &Rows<'_>, page: &mut Page) {
     page.part("Slopes", &[]);
-    let slope = |label: &str, dim: Dimension| {
-        let here = rows.with("dim", dim).with("series", label);
-        exponent(here.curve(label, "particles", "energy_root").points())
+    let exact = |name: &str, slope: &dyn Fn(Dimension) -> f64| {
+        let place = |dim: &Dimension| format!("exponent of particles in energy_root where dim = {dim}");
+        let slopes = study
+            .dims
+            .iter()
+            .map(|dim| (place(dim), number(slope(*dim)).replace('-', "−")));
+        Line::default().with("series", name).with_all(slopes)
     };
-    let line = |name: &str, cell: &dyn Fn(Dimension) -> String| {
-        let cells = study.dims.iter().map(|&dim| cell(dim));
-        std::iter::once(name.to_owned()).chain(cells).collect::<Vec<_>>()
-    };
-    let exact = |slope: f64| number(slope).replace('-', "−");
-    let mut table = vec![
-        line("best possible", &|dim| exact(best_exponent(dim))),
-        line("independent draws", &|_| exact(-0.5)),
+    let mut lines = vec![
+        exact("best possible", &best_exponent),
+        exact("independent draws", &|_| -0.5),
     ];
-    table.extend(study.labels().map(|label| line(label, &|dim| slope(label, dim))));
-    page.table(&by_dimension("method", &study.dims), &table);
+    lines.extend(rows.lines("series", study.labels()));
+    page.lines_over("Slopes", &[each("d", &study.dims)], lines);
 }
 
-/// What the runs took.
-const COSTS: [(&str, &str); 3] = [
-    ("Wall time of the sampler in seconds, medians over the seeds.", SECONDS),
-    (
-        "Evaluations per particle, of the score and of the log density.",
-        "evaluations_per_particle",
-    ),
-    ("Active nodes in the last step.", "active_nodes"),
-];
-
-/// A line per method and size, a column per dimension.
+/// A line per method and size that has taken something, a column per dimension.
 fn costs(study: &Accuracy, rows: &Rows<'_>, page: &mut Page) {
-    page.heading("Costs");
-    for (name, column) in COSTS {
-        let mut table = Vec::new();
-        for label in study.labels() {
-            for size in ascending(&study.particles) {
-                let here = rows.with("series", label).with("particles", size);
-                let values = study.dims.iter().map(|&dim| here.with("dim", dim).median(column));
-                let values: Vec<Option<f64>> = values.collect();
-                if values.iter().flatten().any(|&value| value > 0.0) {
-                    let names = [label.to_owned(), size.to_string()].into_iter();
-                    table.push(names.chain(values.iter().map(Cell::cell)).collect::<Vec<_>>());
-                }
-            }
-        }
-        if !table.is_empty() {
-            page.paragraph(name);
-            page.table(&by_dimension("method | M", &study.dims), &table);
+    page.part("Costs", &[]);
+    for (part, column) in [
+        ("time", SECONDS),
+        ("evaluations", "evaluations"),
+        ("nodes", "active_nodes"),
+    ] {
+        let lines = rows.lines("series", study.labels());
+        let lines = lines
+            .iter()
+            .flat_map(|line| line.by("particles", ascending(&study.particles)));
+        let in_some_dimension = |line: &Line<'_>| {
+            let of_dim = |dim: &Dimension| line.rows.with("dim", *dim).median(column);
+            study.dims.iter().filter_map(of_dim).any(|cost| cost > 0.0)
+        };
+        let lines: Vec<Line<'_>> = lines.filter(in_some_dimension).collect();
+        if !lines.is_empty() {
+            page.part(part, &[]);
+            page.lines_over(part, &[each("d", &study.dims)], lines);
         }
     }
-}
-
-/// The header of a table whose last columns are the dimensions.
-fn by_dimension(first: &str, dims: &[Dimension]) -> Vec<String> {
-    let dims = dims.iter().map(|dim| format!("d = {dim}"));
-    first.names().into_iter().chain(dims).collect()
 }

@@ -15,11 +15,9 @@ impl<'a> Choice<'a> {
     /// The spacing with the lowest median error at the largest number of steps, of runs in one dimension; `None` before any of those.
     pub fn of(study: &BasisComparison, here: &Rows<'a>, basis: Basis) -> Option<Self> {
         let &most = study.step_counts().last()?;
-        let at = |factor: f64| here.with("series", basis.to_string()).with("spacing_factor", factor);
-        let error = |&factor: &f64| Some((factor, at(factor).with("requested_steps", most).median(ENERGY)?));
-        let errors = study.spacings.iter().filter_map(error);
-        let (factor, _) = errors.min_by(|left, right| left.1.total_cmp(&right.1))?;
-        let runs = at(factor);
+        let here = here.with("series", basis.to_string());
+        let error = |runs: &Rows<'_>| runs.with("requested_steps", most).median(ENERGY);
+        let (factor, runs) = here.best("spacing_factor", study.spacings.iter().copied(), error)?;
         Some(Self { factor, runs })
     }
 

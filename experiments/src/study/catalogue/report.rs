@@ -67,29 +67,26 @@ fn misses((requirement, runs): &Asked<'_>) -> Vec<String> {
 
 /// How many cases meet what is asked, by class and by start.
 fn requirements(study: &Catalogue, judged: &str, asked: &[Asked<'_>], page: &mut Page) {
-    page.heading("Requirements");
-    page.paragraph(format!(
-        "What is asked of {judged}: ED² relative to independent draws at most the bound, in every case. A cell counts the cases \
-         that meet it.",
-    ));
-    let mut header = "targets | bound".names();
-    header.extend(study.starts.iter().map(StartLaw::to_string));
-    header.extend("all | worst | worst case".names());
+    page.part("Requirements", &[("judged", &judged)]);
     let line = |class: Requirement| {
         let of_class = asked.iter().filter(|(requirement, _)| *requirement == class);
         let here: Rows<'_> = of_class.flat_map(|(_, runs)| runs.iter()).collect();
         let count = |chosen: Rows<'_>| {
             let met = chosen.count(|row| met(row, class));
-            (!chosen.is_empty()).then(|| format!("{met}/{}", chosen.len())).cell()
+            (!chosen.is_empty()).then(|| format!("{met}/{}", chosen.len()))
         };
-        let from = |start: &StartLaw| here.having(|row| is_from(row, start));
-        let mut cells = line(&[&class.class, &class.bound]);
-        cells.extend(study.starts.iter().map(|start| count(from(start))));
-        cells.push(count(here.clone()));
-        cells.extend(here.cells("largest energy_ratio | worst energy_ratio"));
-        cells
+        let from = |start: &StartLaw| (format!("from {start}"), count(here.having(|row| is_from(row, start))));
+        let line = Line::from(here.clone())
+            .with("class", class.class)
+            .with("bound", class.bound);
+        line.with("all", count(here.clone()))
+            .with_all(study.starts.iter().map(from))
     };
-    page.table(&header, Requirement::ALL.map(line));
+    page.lines_over(
+        "Requirements",
+        &[each("start", &study.starts)],
+        Requirement::ALL.map(line),
+    );
 }
 
 /// A line per target: both distances of every method, and the errors and costs of the judged one.
@@ -99,27 +96,18 @@ fn start_table(
     rows: &Rows<'_>,
     page: &mut Page,
 ) -> Result<(), CommandError> {
-    let mut header = "target | bound".names();
-    for method in &study.methods {
-        header.extend(["ED²", "SW₂"].map(|error| format!("{error} {}", method.label())));
-    }
-    header.extend("finished | mean (sd) | sd (relative) | mode mass | residual | evaluations | time (s)".names());
-    let errors = "median mean_error | median deviation_error | median mass_error | median residual";
-    let mut table = Vec::new();
+    let mut lines = Vec::new();
     for target in targets {
-        let here = rows.with("target", target.label());
-        let of = |method: &MethodSpecification| here.with("method", method.label());
-        let mut cells = line(&[&target.label(), &Requirement::of(target)?.bound]);
-        for method in &study.methods {
-            cells.extend(of(method).cells("median energy_ratio | median sliced_ratio"));
-        }
-        let judged = study.judged().map(of).unwrap_or_default();
-        cells.push(judged.finished());
-        cells.extend(judged.cells(errors));
-        cells.extend(judged.cells("median evaluations | median wall_seconds"));
-        table.push(cells);
+        let here = Line::from(rows.with("target", target.label())).with("target", target.label());
+        lines.push(here.with("bound", Requirement::of(target)?.bound));
     }
-    page.paragraph("Medians over the seeds; ED² and SW₂ relative to independent draws.");
-    page.table(&header, &table);
+    page.part("from a start", &[]);
+    let methods = study.methods.iter().map(MethodSpecification::label);
+    let judged = study.judged().map(MethodSpecification::label);
+    page.lines_over(
+        "from a start",
+        &[each("method", methods), each("judged", judged)],
+        lines,
+    );
     Ok(())
 }

@@ -10,43 +10,24 @@ const ERROR: &str = "covariance_error";
 pub fn report(study: &CovarianceSpacing, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
     let mut page = directory.page(include_str!("report.md"), &[]);
 
-    page.heading("Bounds");
-    let mut kept = Vec::new();
-    let mut table = Vec::new();
-    for Series {
-        dim,
-        judged_spacing,
-        bound,
-        ..
-    } in &study.series
-    {
-        let Some((spacing, bound)) = judged_spacing.zip(*bound) else {
-            continue;
-        };
-        if let Some(worst) = rows.with("dim", *dim).with("spacing", spacing).largest(ERROR) {
-            kept.push(worst <= bound);
-            let verdict = if worst <= bound { "kept" } else { "exceeded" };
-            table.push(line(&[&dim.get(), &spacing.to_string(), &worst, &bound, &verdict]));
-        }
-    }
-    page.table("d | h | largest error | bound | verdict", &table);
-
-    page.heading("Error against spacing");
+    let judged = |series: &Series| {
+        let (spacing, bound) = series.judged_spacing.zip(series.bound)?;
+        let here = rows.with("dim", series.dim).with("spacing", spacing);
+        let is_kept = here.largest(ERROR)? <= bound;
+        let line = Line::from(here).with("bound", bound);
+        Some((is_kept, line.with("verdict", if is_kept { "kept" } else { "exceeded" })))
+    };
+    let (kept, lines): (Vec<bool>, Vec<Line<'_>>) = study.series.iter().filter_map(judged).unzip();
+    page.part("Bounds", &[]);
+    page.lines("Bounds", lines);
+    page.part("Error against spacing", &[]);
     page.drawing("covariance-spacing.svg", multiples(&plot(study, rows)));
 
-    let mut table = Vec::new();
-    for Series { dim, spacings, .. } in &study.series {
-        for &spacing in spacings {
-            let here = rows.with("dim", *dim).with("spacing", spacing);
-            let failed = here.having(|row| row.number(ERROR).is_none());
-            let failed: Vec<&str> = failed.iter().map(|row| row.status().as_str()).collect();
-            let failed = (!failed.is_empty()).then(|| failed.join(", ")).cell();
-            let names = vec![dim.to_string(), spacing.to_string()];
-            let cells = here.cells("median covariance_error | first active_nodes");
-            table.push([names, cells, vec![failed]].concat());
-        }
-    }
-    page.table("d | h | median error | active nodes | failed", &table);
+    let lines = |Series { dim, spacings, .. }: &Series| {
+        let line = Line::from(rows.with("dim", *dim)).with("dim", dim.get());
+        line.by("spacing", spacings.clone())
+    };
+    page.lines("Error against spacing", study.series.iter().flat_map(lines));
 
     let all_kept = !kept.is_empty() && !kept.contains(&false);
     Ok(page.with("verdict", if all_kept { "pass" } else { "fail" }))
@@ -54,14 +35,11 @@ pub fn report(study: &CovarianceSpacing, rows: &Rows<'_>, directory: &StudyDirec
 
 /// The errors against the spacing, a line per dimension.
 fn plot(study: &CovarianceSpacing, rows: &Rows<'_>) -> MultiplesPlot {
-    let line = |Series { dim, .. }: &Series| {
-        let here = rows.with("dim", *dim);
-        here.curve(format!("d = {dim}"), "spacing", ERROR)
-    };
     let mut bounds: Vec<f64> = study.series.iter().filter_map(|series| series.bound).collect();
     bounds.sort_by(f64::total_cmp);
     bounds.dedup();
-    let panel = MultiplesPanel::new("", study.series.iter().map(line));
+    let dims = study.series.iter().map(|series| series.dim);
+    let panel = MultiplesPanel::new("", rows.curves(("d = ", "dim"), dims, "spacing", ERROR));
     let panel = bounds
         .into_iter()
         .fold(panel, |panel, bound| panel.with_level(bound, "bound"));

@@ -6,13 +6,15 @@ use crate::study::prelude::*;
 /// Tables and figure.
 pub fn report(study: &Evidence, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
     let mut page = directory.page(include_str!("report.md"), &[]);
-    page.heading("All targets");
-    table(study, rows, &mut page);
+    let methods = || study.methods.iter().map(MethodSpecification::label);
+    page.part("All targets", &[]);
+    page.lines("All targets", rows.lines("method", methods()));
     page.heading("Errors in standard errors");
     page.drawing("evidence.svg", multiples(&plot(study, rows)));
     for target in &study.targets {
         page.heading(&target.label());
-        table(study, &rows.with("target", target.label()), &mut page);
+        let here = rows.with("target", target.label());
+        page.lines("All targets", here.lines("method", methods()));
     }
     let far = rows.having(|row| row.number("evidence_ratio").is_some_and(|ratio| ratio > 3.0));
     let stated = |row: &Row| {
@@ -22,22 +24,6 @@ pub fn report(study: &Evidence, rows: &Rows<'_>, directory: &StudyDirectory) -> 
     let far: Vec<String> = far.iter().map(stated).collect();
     page.list("Errors beyond three standard errors", &far, Some("None."));
     Ok(rows.close(page).with("beyond_three_errors", far.len()))
-}
-
-/// A line per method.
-fn table(study: &Evidence, rows: &Rows<'_>, page: &mut Page) {
-    let cells = |method: &MethodSpecification| {
-        let here = rows.with("method", method.label());
-        let stated = here.having(|row| row.number("evidence_ratio").is_some());
-        let within = |most: f64| percent(stated.count(|row| row.is_within("evidence_ratio", most)), stated.len());
-        let names = vec![method.label().to_owned(), format!("{}/{}", stated.len(), here.len())];
-        let errors = "median evidence_deviation | largest evidence_deviation | median log_evidence_error";
-        let shares = [1.0, 2.0, 3.0].map(|most| within(most).cell());
-        let costs = here.cells("median evaluations | median wall_seconds");
-        [names, here.cells(errors), shares.into(), costs].concat()
-    };
-    let header = "method | stated | median error | largest | median s.e. | within 1 | within 2 | within 3 | evaluations | time (s)";
-    page.table(header, study.methods.iter().map(cells));
 }
 
 /// Errors over standard errors in order of size, a panel per target and a line per method.

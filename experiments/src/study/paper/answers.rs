@@ -1,22 +1,25 @@
 //! Answers to the paper's open questions, from the rows.
 
-use super::table::{Findings, RATIO, against, groups, is_good, settings};
+use std::fmt::Display;
+
+use super::table::{Findings, RATIO, TIE, groups, settings};
+use crate::plots::results::Contest;
 use crate::statistics::fit_power_law_of;
 use crate::study::prelude::*;
 
 /// All answers, in the order of the paper's claims.
 pub fn answers(findings: &Findings, bodies: &Rows<'_>, page: &mut Page) -> Result<(), CommandError> {
-    page.heading("When does it work?");
+    page.part("When does it work?", &[]);
     when(findings, bodies, page)?;
     page.heading("Which law suits?");
     laws(&findings.sweep("material")?, page);
-    page.heading("Transient or steady?");
+    page.part("Transient or steady?", &[]);
     transient(bodies, page);
     page.heading("Does annealing help?");
     annealing(&findings.sweep("schedule")?, page);
     page.heading("Do modes separate?");
     modes(&findings.base()?, &findings.rivals()?, page);
-    page.heading("What does it cost?");
+    page.part("What does it cost?", &[]);
     cost(&findings.sweep("cost")?, page);
     Ok(())
 }
@@ -29,50 +32,36 @@ fn best<'a>(rows: &Rows<'a>) -> Option<(String, Rows<'a>)> {
 
 /// Per target: the base, the best of all settings, and the rivals.
 fn when(findings: &Findings, bodies: &Rows<'_>, page: &mut Page) -> Result<(), CommandError> {
-    let counts = |(variant, here): (String, Rows<'_>)| {
-        let near = here.count(|row| row.is_within(RATIO, 10.0));
-        line(&[
-            &variant,
-            &here.len(),
-            &here.count(Row::finished),
-            &near,
-            &here.count(is_good),
-        ])
-    };
-    page.paragraph("All runs: how many reach the end, and how many there have an ED² of at most 10 times, and at most once, that of independent draws.");
-    let lines = bodies.by("variant").into_iter().map(counts);
-    page.table("variant | runs | ended | ED² ≤ 10 | ED² ≤ 1", lines);
+    let variants = bodies.lines("variant", bodies.words("variant"));
+    page.lines("When does it work?", variants);
     let base = findings.base()?;
     let all_groups: Vec<_> = groups(&base).into_iter().chain(groups(&findings.rivals()?)).collect();
-    let mut header = vec!["target", "start"];
-    header.extend(all_groups.iter().map(|(label, _)| label.as_str()));
-    header.extend(["best setting", "which"]);
     let targets = base.words("target");
     let mut at_least_as_good = 0;
     let mut lines = Vec::new();
     for target in &targets {
-        let on = |rows: &Rows<'_>| rows.with("target", target.as_str()).cells("median of all final_ratio");
-        let first = all_groups.first().map(|(_, rows)| rows.with("target", target.as_str()));
-        let first = first.unwrap_or_default();
-        let mut cells = vec![target.clone()];
-        cells.extend(first.cells("median of all start_ratio"));
-        cells.extend(all_groups.iter().flat_map(|(_, rows)| on(rows)));
+        let medians = all_groups.iter().map(|(label, rows)| {
+            let here = rows.with("target", target.as_str());
+            (format!("median {label}"), here.cell("median of all final_ratio"))
+        });
+        let first = all_groups
+            .first()
+            .map(|(_, rows)| rows.with("target", target.as_str()))
+            .unwrap_or_default();
         let size = first.first().and_then(|row| row.count("particles")).unwrap_or(0);
-        let here = bodies.with("target", target.as_str()).with("particles", size);
-        let (label, best) = best(&here).unzip();
+        let (label, best) = best(&bodies.with("target", target.as_str()).with("particles", size)).unzip();
         let best = best.unwrap_or_default();
-        let is_as_good = best.median_of_all(RATIO).is_some_and(|ratio| ratio <= 1.0);
-        at_least_as_good += usize::from(is_as_good);
-        cells.extend(best.cells("median of all final_ratio"));
-        cells.push(label.cell());
-        lines.push(cells);
+        at_least_as_good += usize::from(best.median_of_all(RATIO).is_some_and(|ratio| ratio <= 1.0));
+        let line = Line::from(first).with("target", target.as_str()).with_all(medians);
+        lines.push(
+            line.with("best", best.cell("median of all final_ratio"))
+                .with("which", label),
+        );
     }
-    page.paragraph(format!(
-        "Medians of ED² over the seeds, relative to independent draws: the base, the rivals, and the best setting of all, chosen in hindsight. That one is at least as good as \
-         independent draws on {at_least_as_good} of {} targets.",
-        targets.len(),
-    ));
-    page.table(&header, &lines);
+    let values: [(&str, &dyn Display); 2] = [("good", &at_least_as_good), ("all", &targets.len())];
+    page.part("targets", &values);
+    let labels = all_groups.iter().map(|(label, _)| label);
+    page.lines_over("targets", &[each("setting", labels)], lines);
     Ok(())
 }
 
@@ -83,30 +72,20 @@ fn laws(rows: &Rows<'_>, page: &mut Page) {
     };
     page.paragraph(format!(
         "The least median over all targets is {} times independent draws: {label}.",
-        best.cells("median of all final_ratio").concat()
+        best.cell("median of all final_ratio")
     ));
     settings(rows, page);
 }
 
 fn transient(bodies: &Rows<'_>, page: &mut Page) {
-    let cells = |(variant, here): (String, Rows<'_>)| {
+    let lines = bodies.by("variant").into_iter().map(|(variant, here)| {
         let seen = here.having(|row| row.count("best_step").is_some());
-        let ended = seen.having(|row| row.number(RATIO).is_some());
-        let counts = line(&[
-            &variant,
-            &seen.len(),
-            &seen.count(|row| row.count("best_step") < row.count("steps")),
-            &seen.count(|row| row.number("start_ratio") <= row.number("best_ratio")),
-            &seen.count(|row| row.is_within("best_ratio", 1.0)),
-        ]);
-        [counts, ended.cells("median of all end_over_best")].concat()
-    };
-    page.paragraph(
-        "Of the runs that were seen after their start: those that are best before their last step, those that are never better than their start, and those that have an ED² of at most 1 on the way; \
-         and the final ED² over the least, the median of those that reach the end.",
-    );
-    let header = "variant | seen | best before the end | never better than the start | ≤ 1 on the way | end / least";
-    page.table(header, bodies.by("variant").into_iter().map(cells));
+        let early = seen.count(|row| row.count("best_step") < row.count("steps"));
+        let never = seen.count(|row| row.number("start_ratio") <= row.number("best_ratio"));
+        let line = Line::from(seen).with("variant", variant);
+        line.with("early", early).with("never", never)
+    });
+    page.lines("Transient or steady?", lines);
 }
 
 fn annealing(rows: &Rows<'_>, page: &mut Page) {
@@ -118,7 +97,13 @@ fn annealing(rows: &Rows<'_>, page: &mut Page) {
     };
     let (_, constant) = schedules.remove(place);
     for (schedule, here) in schedules {
-        let [better, ties, worse, neither] = against(&here, &constant, &["target", "seed", "method", "variant"]);
+        let alike = ["target", "seed", "method", "variant"];
+        let Contest {
+            better,
+            ties,
+            worse,
+            neither,
+        } = here.against(&constant, (RATIO, &alike), TIE);
         page.paragraph(format!(
             "- α {schedule}: better than the constant one in {better} runs, as good in {ties}, worse in {worse}; in {neither} both diverged."
         ));
@@ -130,22 +115,17 @@ fn modes(base: &Rows<'_>, rivals: &Rows<'_>, page: &mut Page) {
     let all: Rows<'_> = base.iter().chain(rivals.iter()).collect();
     let targets = all.having(|row| row.number("final_mass").is_some()).words("target");
     let is_multimodal = |row: &Row| targets.iter().any(|target| target == row.text("target"));
-    let cells = |(label, here): (String, Rows<'_>)| {
-        let within = here.count(|row| row.is_within("final_mass", 0.05));
-        [
-            line(&[&label, &here.len(), &within]),
-            here.cells("median of all final_mass"),
-        ]
-        .concat()
-    };
     let (bodies, rivals) = (base.having(is_multimodal), rivals.having(is_multimodal));
     if bodies.is_empty() {
         page.paragraph("No run on a target with several modes reached its end.");
         return;
     }
-    page.paragraph("Largest error of a mode's mass at the end, on the targets of the base with several modes; a run without particles is infinitely far.");
-    let lines = groups(&bodies).into_iter().chain(groups(&rivals)).map(cells);
-    page.table("setting | runs | within 0.05 | median", lines);
+    page.part("modes", &[]);
+    let all = groups(&bodies).into_iter().chain(groups(&rivals));
+    page.lines(
+        "modes",
+        all.map(|(label, here)| Line::from(here).with("setting", label)),
+    );
 }
 
 /// Powers of M, N and d in time and memory, beside the paper's.
@@ -155,19 +135,20 @@ fn cost(rows: &Rows<'_>, page: &mut Page) {
         let [particles, nodes, dims] = ["particles", "active_nodes", "dim"].map(|column| known.values(column));
         let law = fit_power_law_of(&[&particles, &nodes, &dims], &known.values(column)).ok();
         let exponent = |index: usize| law.as_ref().map(|law| exponent_text(law, index));
-        let quality = law.as_ref().map(|law| law.r_squared);
-        line(&[&name, &exponent(0), &exponent(1), &exponent(2), &quality])
+        let line = Line::default().with("quantity", name).with("M", exponent(0));
+        let line = line.with("N", exponent(1)).with("d", exponent(2));
+        line.with("quality", law.as_ref().map(|law| law.r_squared))
     };
-    page.paragraph(
-        "Exponents of M, N and d in time per step and in what particles and grid hold, of the case `cost`: one fit of all three by least squares in logarithms, with 95 % intervals. N are \
-         the nodes with mass: others do not exist here, where the paper counts kᵈ of a dense grid. A particle touches 3ᵈ nodes, which no power of d is.",
-    );
+    let paper = |name: &str, [particles, nodes, dims]: [&str; 3]| {
+        let line = Line::default().with("quantity", name).with("M", particles);
+        line.with("N", nodes).with("d", dims)
+    };
     let lines = [
         fit("time per step", "seconds_per_step"),
-        line(&[&"paper: O(M N d²)", &"1", &"1", &"2", &MISSING]),
+        paper("paper: O(M N d²)", ["1", "1", "2"]),
         fit("memory", "storage_bytes"),
-        line(&[&"paper: O((N + M) d + M d²)", &"≤ 1", &"≤ 1", &"1 to 2", &MISSING]),
+        paper("paper: O((N + M) d + M d²)", ["≤ 1", "≤ 1", "1 to 2"]),
     ];
-    page.table("quantity | M | N | d | R²", &lines);
+    page.lines("What does it cost?", lines);
     settings(rows, page);
 }

@@ -1,8 +1,7 @@
 //! The figures of the study `paper`.
 
 use super::table::{RATIO, groups};
-use crate::plots::style::styles;
-use crate::plots::{DotPlot, DotSeries};
+use crate::plots::DotPlot;
 use crate::study::prelude::*;
 
 /// Where all runs diverged there is nothing to draw.
@@ -15,21 +14,10 @@ fn median(rows: &Rows<'_>, column: &str) -> f64 {
     rows.median_of_all(column).unwrap_or(f64::NAN)
 }
 
-/// Medians of `y` over `x`.
-fn line_of(label: String, rows: &Rows<'_>, x: &str, y: &str) -> LineSeries {
-    let places = rows.places(x);
-    let at = |place: &f64| median(&rows.having(|row| row.number(x) == Some(*place)), y);
-    LineSeries {
-        y: places.iter().map(at).collect(),
-        x: places,
-        ..LineSeries::named(label)
-    }
-}
-
 /// Lines of `y` over `x`, by what stands in a column.
 fn panel(title: String, rows: &Rows<'_>, by: (&str, &str), x: &str, y: &str) -> MultiplesPanel {
     let (column, symbol) = by;
-    let line = |(name, here): (String, Rows<'_>)| line_of(format!("{symbol}{name}"), &here, x, y);
+    let line = |(name, here): (String, Rows<'_>)| here.medians(format!("{symbol}{name}"), x, y);
     MultiplesPanel::new(title, rows.by(column).into_iter().map(line))
 }
 
@@ -92,14 +80,9 @@ pub fn materials(rows: &Rows<'_>) -> DotPlot {
 
 /// ED² over that of independent draws: a row per label, series by name.
 fn ratios(labels: Vec<String>, series: Vec<(String, Vec<f64>)>, note: &str) -> DotPlot {
-    let names: Vec<&str> = series.iter().map(|(name, _)| name.as_str()).collect();
-    let styles = styles(&names);
     let rows = labels.into_iter().map(|label| (label, 1.0));
-    let mut plot = DotPlot::bounded("ED^{2} relative to independent draws", rows, "independent draws");
-    let series = series.into_iter().zip(styles);
-    plot.series = series
-        .map(|((label, values), style)| DotSeries { label, style, values })
-        .collect();
+    let plot = DotPlot::bounded("ED^{2} relative to independent draws", rows, "independent draws");
+    let mut plot = plot.with_series(series);
     plot.notes.push(note.to_owned());
     plot
 }

@@ -2,7 +2,7 @@
 
 use super::answers::answers;
 use super::body::is_rival;
-use super::table::{Findings, TIE, against, is_good, settings};
+use super::table::{Findings, RATIO, TIE, is_good, settings};
 use super::{Paper, figure};
 use crate::plots::dots;
 use crate::study::prelude::*;
@@ -14,9 +14,9 @@ pub fn report(study: &Paper, rows: &Rows<'_>, directory: &StudyDirectory) -> Res
     let bodies = all.having(|row| !is_rival(row));
 
     let mut page = directory.page(include_str!("report.md"), &[]);
-    page.heading("Failures");
+    page.part("Failures", &[]);
     failures(&bodies, &mut page);
-    page.heading("Ties and losses");
+    page.part("Ties and losses", &[("tie", &TIE)]);
     against_rivals(&findings, &mut page)?;
     answers(&findings, &bodies, &mut page)?;
     page.heading("Figures");
@@ -62,42 +62,35 @@ fn by_method<'a>(bodies: &Rows<'a>) -> Vec<(String, &'static str, Rows<'a>)> {
 
 /// How many runs diverge, why and when.
 fn failures(bodies: &Rows<'_>, page: &mut Page) {
-    let reasons = ["not finite", "outside range", "turned inside out", "other"];
-    let cells = |(variant, method, here): (String, &str, Rows<'_>)| {
+    let lines = by_method(bodies).into_iter().map(|(variant, method, here)| {
         let failed = here.having(|row| !row.finished());
         let mut steps: Vec<usize> = failed.iter().filter_map(|row| row.count("failed_step")).collect();
         steps.sort_unstable();
         let share = format!("{:.1}", 100.0 * failed.len() as f64 / here.len() as f64);
-        let mut cells = line(&[&variant, &method, &here.len(), &failed.len(), &share]);
-        cells.extend(reasons.map(|reason| failed.with("reason", reason).len().to_string()));
-        cells.extend(line(&[&steps.get(steps.len() / 2), &steps.last()]));
-        cells
-    };
-    let names = reasons.join(" | ");
-    let header = format!("variant | method | runs | diverged | % | {names} | median step | last step");
-    page.table(header.as_str(), by_method(bodies).into_iter().map(cells));
+        let line = Line::from(failed).with("variant", variant).with("method", method);
+        let line = line.with("runs", here.len()).with("share", share);
+        line.with("median", steps.get(steps.len() / 2))
+            .with("last", steps.last())
+    });
+    page.lines("Failures", lines);
 }
 
 /// The base beside its rivals, run by run.
 fn against_rivals(findings: &Findings, page: &mut Page) -> Result<(), CommandError> {
     let (base, rivals) = (findings.base()?, findings.rivals()?);
-    page.paragraph(format!(
-        "Runs of the base beside those of a rival on the same target with the same seed: better, tie (ED² within a factor of {TIE}), worse. A run that diverged is worse than one that did not.",
-    ));
     let mut lines = Vec::new();
     for (variant, method, here) in by_method(&base) {
         for rival in findings.study.rivals.iter().map(MethodSpecification::label) {
             let others = rivals.with("method", rival);
-            let counts = against(&here, &others, &["target", "seed", "particles"]);
-            if counts.iter().sum::<usize>() > 0 {
-                let counts = counts.map(|count| count.to_string());
-                lines.push([line(&[&variant, &method, &rival]), counts.into()].concat());
+            let contest = here.against(&others, (RATIO, &["target", "seed", "particles"]), TIE);
+            if contest.pairs() > 0 {
+                let line = Line::default().with("variant", variant.as_str()).with("method", method);
+                let line = line.with("rival", rival).with("better", contest.better);
+                let line = line.with("ties", contest.ties).with("worse", contest.worse);
+                lines.push(line.with("neither", contest.neither));
             }
         }
     }
-    page.table(
-        "variant | method | rival | better | ties | worse | both diverged",
-        &lines,
-    );
+    page.lines("Ties and losses", lines);
     Ok(())
 }

@@ -75,41 +75,11 @@ pub fn groups<'a>(rows: &Rows<'a>) -> Vec<(String, Rows<'a>)> {
 
 /// A line per setting, over targets and seeds.
 pub fn settings(rows: &Rows<'_>, page: &mut Page) {
-    let ends = "median of all final_sliced | median of all final_mean | median of all final_deviation | quantile 0.5 evaluations | quantile 0.5 wall_seconds";
-    let line = |(label, here): (String, Rows<'_>)| {
-        let mut cells = vec![label, here.finished()];
-        cells.extend(here.cells("median of all final_ratio | least final_ratio"));
+    let lines = groups(rows).into_iter().map(|(label, here)| {
         // Rivals are not looked at on their way.
-        cells.extend(match here.iter().all(is_rival) {
-            true => vec![MISSING.to_owned()],
-            false => here.cells("median of all best_ratio"),
-        });
-        cells.push(here.count(is_good).to_string());
-        cells.extend(here.cells(ends));
-        cells
-    };
-    let header = "setting | ended | ED² | least | on the way | ≤ 1 | sliced W2 | mean | sd | evaluations | time (s)";
-    page.table(header, groups(rows).into_iter().map(line));
-}
-
-/// How many runs are better than, as good as and worse than those of others that are alike in some columns, and of how many pairs both gave nothing; a run without
-/// particles is worse than any other.
-pub fn against(rows: &Rows<'_>, others: &Rows<'_>, columns: &[&str]) -> [usize; 4] {
-    let mut counts = [0; 4];
-    for row in rows.iter() {
-        let alike = |other: &Row| columns.iter().all(|column| row.value(column) == other.value(column));
-        let Some(other) = others.iter().find(|other| alike(other)) else {
-            continue;
-        };
-        let place = match (row.number(RATIO), other.number(RATIO)) {
-            (None, None) => 3,
-            (None, Some(_)) => 2,
-            (Some(_), None) => 0,
-            (Some(own), Some(theirs)) if own * TIE < theirs => 0,
-            (Some(own), Some(theirs)) if own <= theirs * TIE => 1,
-            (Some(_), Some(_)) => 2,
-        };
-        counts[place] += 1;
-    }
-    counts
+        let is_body = !here.iter().all(is_rival);
+        let best = is_body.then(|| here.cell("median of all best_ratio"));
+        Line::from(here).with("setting", label).with("best", best)
+    });
+    page.lines("settings", lines);
 }

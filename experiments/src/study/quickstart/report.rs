@@ -18,7 +18,8 @@ pub fn report(study: &Quickstart, rows: &Rows<'_>, directory: &StudyDirectory) -
         let reference = row_file::read(&Piece::Reference.file(directory, "moments"), reference::COLUMNS)?;
         let comparison = Comparison::new(&particles, reference);
         page = verdict(study, &comparison, rows, page);
-        moments_table(&comparison, &mut page);
+        page.part("Posterior moments", &[]);
+        page.lines("Posterior moments", comparison.axes.iter().map(moments));
         page.heading("The posterior");
         figures::posterior(study, &particles, directory, &mut page)?;
     } else {
@@ -31,7 +32,12 @@ pub fn report(study: &Quickstart, rows: &Rows<'_>, directory: &StudyDirectory) -
     }
     page.heading("The way there");
     figures::traces(study, directory, &mut page)?;
-    runs_table(rows, &mut page);
+    let lines = rows.iter().map(|row| {
+        let both = row.count("score_evaluations").zip(row.count("density_evaluations"));
+        let line = Line::from(row).with("ending", row.ending());
+        line.with("both", both.map(|(scores, densities)| scores + densities))
+    });
+    page.lines("runs", lines);
     Ok(page)
 }
 
@@ -60,36 +66,16 @@ fn verdict(study: &Quickstart, comparison: &Comparison, rows: &Rows<'_>, mut pag
         .with("verdict", verdict)
 }
 
-fn moments_table(comparison: &Comparison, page: &mut Page) {
-    page.heading("Posterior moments");
-    let header = "coefficient | mean | reference mean | ± s.e. | error (sd) | sd | reference sd | ± s.e. | error (%)";
-    let line = |row: &Row| {
-        let number = |column: &str| row.number(column).unwrap_or(f64::NAN);
-        vec![
-            row.text("name").to_owned(),
-            format!("{:.5}", number("own_mean")),
-            format!("{:.5}", number("mean")),
-            format!("{:.1e}", number("mean_standard_error")),
-            format!("{:+.4}", number("mean_error")),
-            format!("{:.5}", number("own_deviation")),
-            format!("{:.5}", number("standard_deviation")),
-            format!("{:.1e}", number("standard_deviation_standard_error")),
-            format!("{:+.2}", 100.0 * number("deviation_error")),
-        ]
-    };
-    page.table(header, comparison.axes.iter().map(line));
-}
-
-fn runs_table(rows: &Rows<'_>, page: &mut Page) {
-    let header = "case | status | target | method | M | steps | scores | densities | evaluations | residual | h | active nodes | time (s)";
-    let line = |row: &Row| {
-        let both = row.count("score_evaluations").zip(row.count("density_evaluations"));
-        let evaluations = both.map(|(scores, densities)| scores + densities);
-        let mut cells = line(&[&row.case(), &row.ending()]);
-        cells.extend(row.cells("target | method | particles | steps | score_evaluations | density_evaluations"));
-        cells.push(evaluations.cell());
-        cells.extend(row.cells("residual | spacing | active_nodes | wall_seconds"));
-        cells
-    };
-    page.table(header, rows.iter().map(line));
+/// The moments of a coordinate, with as many digits as it takes to compare them.
+fn moments(row: &Row) -> Line<'_> {
+    let number = |column: &str| row.number(column).unwrap_or(f64::NAN);
+    let error = |column: &str| format!("{:.1e}", number(column));
+    let values = ["own_mean", "mean", "own_deviation", "standard_deviation"];
+    let digits = values.map(|column| (column.to_owned(), format!("{:.5}", number(column))));
+    Line::from(row)
+        .with_all(digits)
+        .with("mean s.e.", error("mean_standard_error"))
+        .with("mean off", format!("{:+.4}", number("mean_error")))
+        .with("deviation s.e.", error("standard_deviation_standard_error"))
+        .with("percent off", format!("{:+.2}", 100.0 * number("deviation_error")))
 }

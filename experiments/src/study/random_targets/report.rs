@@ -32,37 +32,20 @@ fn claims_falsely(row: &Row) -> bool {
 
 /// A line per method, of the runs in one dimension.
 fn table(study: &RandomTargets, rows: &Rows<'_>, page: &mut Page) {
-    let first = "method | finished | ED² median | 95 % | worst | evaluations | time (s) | error of log Z | within 3 s.e. | claims | false";
     let labels = || study.methods.iter().map(MethodSpecification::label);
-    let mut header = first.names();
-    header.extend(labels().map(|label| format!("better than {label}")));
-    let cells = |label: &str| {
-        let here = rows.with("method", label);
-        // log Z in its standard errors, where the method states both.
-        let stated = here.having(|row| row.number("evidence_ratio").is_some());
-        let within = percent(stated.count(|row| row.is_within("evidence_ratio", 3.0)), stated.len());
-        let others = labels().map(|other| (other != label).then(|| better(&here, &rows.with("method", other))));
-        let mut cells = line(&[&label, &here.finished()]);
-        cells.extend(here.cells("quantile 0.5 energy_ratio | quantile 0.95 energy_ratio | quantile 1 energy_ratio"));
-        cells.extend(
-            here.cells("quantile 0.5 evaluations | quantile 0.5 wall_seconds | quantile 0.5 evidence_deviation"),
-        );
-        cells.extend(line(&[&within, &here.count(Row::claims), &here.count(claims_falsely)]));
-        cells.extend(others.map(|other| other.cell()));
-        cells
-    };
-    page.table(&header, labels().map(cells));
+    let lines = rows.lines("method", labels()).into_iter().map(|line| {
+        let here = line.rows.clone();
+        let is_other = |label: &&str| here.first().is_some_and(|row| row.text("method") != *label);
+        let than = |other| (format!("better {other}"), better(&here, &rows.with("method", other)));
+        line.with_all(labels().filter(is_other).map(than))
+    });
+    page.lines_over("methods", &[each("other", labels())], lines);
 }
 
 /// The share of the targets on which the ED² of `rows` is smaller; a run without particles is infinitely far.
-fn better(rows: &Rows<'_>, others: &Rows<'_>) -> String {
-    let far = |row: &Row| row.number("energy_ratio").unwrap_or(f64::INFINITY);
-    let pair = |row: &Row| {
-        let same = |other: &&Row| other.value("target_seed") == row.value("target_seed");
-        Some((far(row), far(others.iter().find(same)?)))
-    };
-    let pairs: Vec<(f64, f64)> = rows.iter().filter_map(pair).collect();
-    percent(pairs.iter().filter(|(own, other)| own < other).count(), pairs.len()).cell()
+fn better(rows: &Rows<'_>, others: &Rows<'_>) -> Option<String> {
+    let contest = rows.against(others, ("energy_ratio", &["target_seed"]), 1.0);
+    percent(contest.better, contest.pairs())
 }
 
 /// ED² of every method in order of size, one panel per dimension.

@@ -2,6 +2,7 @@
 
 use super::family::Family;
 use crate::plots::judgement::{Judgement, MeasuredSeries, guides, levels};
+use crate::plots::{Axis, AxisKind};
 use crate::study::prelude::*;
 
 /// The figure.
@@ -15,23 +16,29 @@ pub fn plot(family: &Family, series: &[MeasuredSeries]) -> MultiplesPlot {
     let positive = points.all(|point| point.x > 0.0);
     let x_label = family.x_label.as_deref().unwrap_or_default();
     MultiplesPlot {
-        x_axis: if positive {
-            AxisKind::Logarithmic
-        } else {
-            AxisKind::Linear
-        },
-        y_axis: if power {
-            AxisKind::Logarithmic
-        } else {
-            AxisKind::Automatic
-        },
+        x: Axis::new(
+            x_label,
+            if positive {
+                AxisKind::Logarithmic
+            } else {
+                AxisKind::Linear
+            },
+        ),
+        y: Axis::new(
+            &family.y_label,
+            if power {
+                AxisKind::Logarithmic
+            } else {
+                AxisKind::Automatic
+            },
+        ),
         panels: vec![MultiplesPanel {
             series: shown.iter().map(|series| line(family, series)).collect(),
             guides: guides(&family.judgements, &judged),
             levels: levels(&family.judgements, &judged),
             ..MultiplesPanel::default()
         }],
-        ..MultiplesPlot::logarithmic(x_label, &family.y_label)
+        ..MultiplesPlot::default()
     }
 }
 

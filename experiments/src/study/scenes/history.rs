@@ -4,6 +4,7 @@ use mpm_scenes::output::read_series;
 use mpm_scenes::reading::curve;
 
 use super::family::{Family, HistoryPanel};
+use crate::plots::AxisKind;
 use crate::study::prelude::*;
 
 /// Points of a line, at most.

@@ -19,7 +19,7 @@ use mpm_scenes::{Outcome, SimulationError};
 
 pub use configuration::Scenes;
 use family::Family;
-use scene_files::{PreparedScene, SceneFiles, refusal_text};
+use scene_files::{PreparedScene, SceneFiles};
 
 use super::prelude::*;
 
@@ -126,7 +126,7 @@ fn finished<'a>(
     let path = directory.raw(&prepared.fingerprint);
     let summary = match mpm_scenes::simulate(&prepared.scene, &path, observer) {
         Ok(summary) => summary,
-        Err(SimulationError::Scene(error)) => return Err(variant.refuse(refusal_text(error))),
+        Err(SimulationError::Scene(error)) => return Err(variant.refuse(error.without_line())),
         Err(error @ (SimulationError::File { .. } | SimulationError::Checkpoint { .. })) => return Err(error.into()),
         Err(error) => return Ok(Err(Failure::new(Status::Diverged, error).reason)),
     };

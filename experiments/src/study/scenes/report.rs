@@ -1,5 +1,7 @@
 //! The report of the study `scenes`.
 
+use std::fmt::Display;
+
 use super::configuration::Scenes;
 use super::family::Family;
 use super::figure;
@@ -11,29 +13,29 @@ use crate::study::prelude::*;
 pub fn report(study: &Scenes, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
     let families = study.resolved()?;
     let all: Vec<Vec<MeasuredSeries>> = families.iter().map(|family| of_family(rows, family)).collect();
-    let mut page = Page::new(&study.title);
-    page.heading("Judgements");
-    let mut table = Vec::new();
+    let mut page = directory.page(include_str!("report.md"), &[("title", &study.title)]);
+    let mut lines = Vec::new();
     let (mut judged, mut passed) = (0, 0);
     for (family, series) in families.iter().zip(&all) {
-        for verdict in verdicts(family, series) {
+        for Verdict {
+            of,
+            asked,
+            reached,
+            pass,
+        } in verdicts(family, series)
+        {
             judged += 1;
-            passed += usize::from(verdict.pass);
-            let pass = if verdict.pass { "yes" } else { "**no**" };
-            table.push(line(&[
-                &family.title,
-                &verdict.of,
-                &verdict.asked,
-                &verdict.reached,
-                &pass,
-            ]));
+            passed += usize::from(pass);
+            let line = Line::default().with("family", family.title.as_str()).with("of", of);
+            let line = line.with("asked", asked).with("reached", reached);
+            lines.push(line.with("pass", if pass { "yes" } else { "**no**" }));
         }
     }
-    page.table(&["family", "series", "asked", "reached", "pass"], &table);
-    let seconds: f64 = rows.values(SECONDS).iter().sum();
-    page.paragraph(format!(
-        "{passed} of {judged} judgements are kept. All runs together took {seconds:.0} s."
-    ));
+    page.part("Judgements", &[]);
+    page.lines("Judgements", lines);
+    let seconds = format!("{:.0}", rows.values(SECONDS).iter().sum::<f64>());
+    let values: [(&str, &dyn Display); 3] = [("passed", &passed), ("judged", &judged), ("seconds", &seconds)];
+    page.part("kept", &values);
     for (family, series) in families.iter().zip(&all) {
         section(&mut page, family, series, rows, directory)?;
     }
@@ -86,33 +88,29 @@ fn section(
     }
     let order = |judgement: &Judgement| matches!(judgement, Judgement::Order { .. });
     if family.judgements.iter().any(order) {
-        let header = "series | orders, coarse to fine | least squares";
-        page.table(header, series.iter().map(order_cells));
+        page.lines("orders", series.iter().map(order_line));
     }
-    let header = "series | x | value | reference | tolerance | steps | particles | wall s | ended";
-    page.table(header, rows.with("family", family.name.as_str()).iter().map(cells));
+    page.lines("runs", rows.with("family", family.name.as_str()).iter().map(line));
     Ok(())
 }
 
-fn order_cells(series: &MeasuredSeries) -> Vec<String> {
+fn order_line(series: &MeasuredSeries) -> Line<'static> {
     let (between, overall) = orders(series);
     let between: Vec<String> = between.iter().map(|order| format!("{order:.2}")).collect();
-    let overall = overall.map(|order| format!("{order:.2}"));
-    line(&[&series.label, &between.join(", "), &overall])
+    let line = Line::default().with("series", series.label.as_str());
+    let line = line.with("between", between.join(", "));
+    line.with("overall", overall.map(|order| format!("{order:.2}")))
 }
 
-fn cells(row: &Row) -> Vec<String> {
-    let x = row.number("x").unwrap_or(f64::NAN).to_string();
+fn line(row: &Row) -> Line<'_> {
     let value = row.number("value").map(|value| digits(value, row.number("reference")));
     let ended = if value.is_some() {
         "at the end"
     } else {
         row.text("reason")
     };
-    let mut cells = line(&[&row.value("label"), &x, &value]);
-    cells.extend(row.cells("reference | tolerance | steps | particles | wall_seconds"));
-    cells.push(ended.to_owned());
-    cells
+    let x = row.number("x").unwrap_or(f64::NAN).to_string();
+    Line::from(row).with("x", x).with("digits", value).with("ended", ended)
 }
 
 /// As many digits as it takes to compare with a reference: one more than usual where there is one that is not 0.

@@ -3,10 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use mpm_document::DocumentError;
 use mpm_scenes::variation::SceneDocument;
-use mpm_scenes::{Scene, SceneError, SceneFault};
-use toml::Value;
+use mpm_scenes::{Scene, SceneError};
 
 use super::Variant;
 use super::family::Family;
@@ -77,7 +75,7 @@ impl SceneFiles {
         let family = case.family.set.iter();
         let own = case.combination.set.iter().map(|(key, value)| (key, value));
         let mut document = of_name(&case.family.scene).unwrap_or_default();
-        let changed = change(&mut document, family.chain(own), &case.combination.drop);
+        let changed = document.change(family.chain(own), &case.combination.drop);
         changed.map_err(|message| case.refuse(message))?;
         let own = prepared(document, case)?;
         let keys = &case.family.x;
@@ -96,7 +94,7 @@ impl SceneFiles {
             None => None,
             Some(other) => {
                 let mut document = of_name(&other.scene).unwrap_or_else(|| own.document.clone());
-                let changed = change(&mut document, other.set.iter(), &other.drop);
+                let changed = document.change(&other.set, &other.drop);
                 changed.map_err(|message| case.family.refuse("read.against", message))?;
                 Some(prepared(document, case)?)
             }
@@ -105,37 +103,11 @@ impl SceneFiles {
     }
 }
 
-/// Puts values and removes keys; an error is in words.
-fn change<'a>(
-    document: &mut SceneDocument,
-    set: impl Iterator<Item = (&'a String, &'a Value)>,
-    drop: &[String],
-) -> Result<(), String> {
-    for (key, value) in set {
-        let put = document.put(key, value.clone());
-        put.map_err(|message| format!("`{key}`: {message}"))?;
-    }
-    drop.iter().for_each(|key| document.remove(key));
-    Ok(())
-}
-
 fn prepared(document: SceneDocument, case: &Variant) -> Result<PreparedScene, CommandError> {
-    let refused = |error| case.refuse(refusal_text(error));
+    let refused = |error: SceneError| case.refuse(error.without_line());
     Ok(PreparedScene {
         scene: document.scene().map_err(refused)?,
         fingerprint: fingerprint(&document.text().map_err(refused)?),
         document,
     })
-}
-
-/// What the reader of scenes says, without the line, which is one of the changed text.
-pub fn refusal_text(error: SceneError) -> String {
-    let file = error.file.display();
-    match *error.fault {
-        SceneFault::Syntax(DocumentError { place, message, .. }) => match place.map(|place| place.field()) {
-            Some(field) => format!("{file}: {field}: {message}"),
-            None => format!("{file}: {message}"),
-        },
-        fault => format!("{file}: {fault}"),
-    }
 }

@@ -5,7 +5,7 @@
 mod curves;
 mod report;
 
-use super::gaussian_runs::{self, Setting};
+use super::gaussian_runs::{GaussianStudy, Setting};
 use super::prelude::*;
 
 /// All pairs of a spacing and a number of particles, one series of spacings per dimension.
@@ -48,11 +48,8 @@ impl SpacingParticles {
     }
 }
 
-impl Study for SpacingParticles {
-    type Work = Sampled;
-
+impl GaussianStudy for SpacingParticles {
     const KIND: &'static str = "spacing-particles";
-    const COLUMNS: &'static str = gaussian_runs::COLUMNS;
     const REPORT: Report<Self> = report::report;
 
     /// The cases, dimension by dimension.
@@ -74,9 +71,5 @@ impl Study for SpacingParticles {
         }
         distinct("seeds, particles or series", &cases)?;
         Ok(cases)
-    }
-
-    fn run(&self, case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
-        gaussian_runs::run(case, row, tools)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::diverged;
 use super::draw::{SPACINGS, TIME_STEPS};
-use crate::plots::{HeatMapPlot, logarithmic_edges};
+use crate::plots::{CellAxis, HeatMapPlot};
 use crate::study::prelude::*;
 
 /// Cells along each axis.
@@ -17,12 +17,9 @@ pub fn plot(rows: &Rows<'_>) -> HeatMapPlot {
         ("Algorithm 2 (APIC), guards on", MethodName::PaperApic, "on"),
     ];
     let plot = HeatMapPlot {
-        x_label: "time step / default".to_owned(),
-        y_label: "spacing / default".to_owned(),
-        axis: AxisKind::Logarithmic,
+        x: CellAxis::logarithmic("time step / default", TIME_STEPS, CELLS),
+        y: CellAxis::logarithmic("spacing / default", SPACINGS, CELLS),
         notes: vec!["Percent of the runs that diverged, over all targets, frames, starts and elastic laws.".to_owned()],
-        x_edges: logarithmic_edges(TIME_STEPS, CELLS),
-        y_edges: logarithmic_edges(SPACINGS, CELLS),
         ..HeatMapPlot::default()
     };
     panels.into_iter().fold(plot, |plot, (title, method, guards)| {

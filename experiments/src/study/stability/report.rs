@@ -11,9 +11,20 @@ const MOST_NAMED: usize = 100;
 /// Tables and figure.
 pub fn report(_: &Stability, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
     let mut page = directory.page(include_str!("report.md"), &[]);
-    let groups = groups(rows);
-    endings(&groups, &mut page);
-    reasons(rows, &groups, &mut page);
+    let told = |row: &Row| {
+        let diverged = u64::from(diverged(row));
+        row.clone().with("group", group(row)).with("diverged", diverged)
+    };
+    let rows: Vec<Row> = rows.iter().map(told).collect();
+    let rows: &Rows<'_> = &rows.iter().collect();
+    let groups = sorted(rows, "group");
+    page.part("Endings", &[]);
+    page.lines("Endings", rows.lines("group", groups.clone()));
+    let reasons = sorted(rows, "reason");
+    match reasons.is_empty() {
+        true => page.paragraph("No run ended with an error."),
+        false => page.lines_over("errors", &[each("group", &groups)], rows.lines("reason", reasons)),
+    }
     page.heading("Where the paper's algorithms diverge");
     page.drawing("divergence.svg", heat_map(&plot(rows)));
     page.part("What decides", &[]);
@@ -38,50 +49,6 @@ fn group(row: &Row) -> String {
     }
 }
 
-/// The methods, the paper's ones with their guards, in alphabetical order, and their runs.
-fn groups<'a>(rows: &Rows<'a>) -> Vec<(String, Rows<'a>)> {
-    let mut groups = rows.by_name(group);
-    groups.sort_by(|left, right| left.0.cmp(&right.0));
-    groups
-}
-
-/// How the runs of each method ended.
-fn endings(groups: &[(String, Rows<'_>)], page: &mut Page) {
-    page.heading("Endings");
-    let line = |(name, here): &(String, Rows<'_>)| {
-        let escaped = here.with("escaped", "true").len();
-        let mut cells = line(&[name, &here.len(), &here.ended(Status::Finite), &escaped]);
-        cells.extend(
-            [Status::Refused, Status::Panicked, Status::NotFinite].map(|ending| here.ended(ending).to_string()),
-        );
-        cells.push(percent(here.count(diverged), here.len()));
-        cells
-    };
-    let header =
-        "method | runs | finite | of these escaped | typed error | panic | not finite, no error | diverged (%)";
-    page.table(header, groups.iter().map(line));
-}
-
-fn percent(part: usize, all: usize) -> String {
-    format!("{:.1}", 100.0 * part as f64 / all.max(1) as f64)
-}
-
-/// How often each kind of error ended a run.
-fn reasons(rows: &Rows<'_>, groups: &[(String, Rows<'_>)], page: &mut Page) {
-    let reasons = sorted(rows, "reason");
-    if reasons.is_empty() {
-        page.paragraph("No run ended with an error.");
-        return;
-    }
-    let line = |reason: &String| {
-        let count = |(_, here): &(String, Rows<'_>)| here.with("reason", reason.as_str()).len().to_string();
-        std::iter::once(reason.clone())
-            .chain(groups.iter().map(count))
-            .collect()
-    };
-    table("error", groups, reasons.iter().map(line).collect(), page);
-}
-
 /// What stands in a column, in alphabetical order.
 fn sorted(rows: &Rows<'_>, column: &str) -> Vec<String> {
     let mut words = rows.words(column);
@@ -91,7 +58,7 @@ fn sorted(rows: &Rows<'_>, column: &str) -> Vec<String> {
 }
 
 /// Shares of diverged runs, by one quantity at a time.
-fn breakdowns(rows: &Rows<'_>, groups: &[(String, Rows<'_>)], page: &mut Page) {
+fn breakdowns(rows: &Rows<'_>, groups: &[String], page: &mut Page) {
     let numbers = [
         ("frame / target's frame", [1e-3, 1e3], "scale"),
         ("time step / default", super::draw::TIME_STEPS, "time_step_factor"),
@@ -103,11 +70,11 @@ fn breakdowns(rows: &Rows<'_>, groups: &[(String, Rows<'_>)], page: &mut Page) {
     for (name, range, column) in numbers {
         let edges = logarithmic_edges(range, CELLS);
         let lines = edges.windows(2).enumerate().map(|(bin, ends)| {
+            let inside = |row: &Row| row.number(column).and_then(|value| cell_of(&edges, value)) == Some(bin);
             let label = format!("{} to {}", number(ends[0]), number(ends[1]));
-            let chosen = |row: &Row| row.number(column).and_then(|value| cell_of(&edges, value)) == Some(bin);
-            shares(label, groups, &chosen)
+            Line::from(rows.having(inside)).with("label", label)
         });
-        table(name, groups, lines.collect(), page);
+        page.lines_over("shares", &[each("quantity", [name]), each("group", groups)], lines);
     }
     let words = [
         ("target", "target"),
@@ -119,29 +86,12 @@ fn breakdowns(rows: &Rows<'_>, groups: &[(String, Rows<'_>)], page: &mut Page) {
         ("elastic law", "material"),
     ];
     for (name, column) in words {
-        let line = |word: String| {
-            let chosen = |row: &Row| row.value(column).to_string() == word;
-            shares(word.clone(), groups, &chosen)
-        };
-        table(name, groups, sorted(rows, column).into_iter().map(line).collect(), page);
+        let lines = sorted(rows, column).into_iter().map(|word| {
+            let here = rows.having(|row| row.value(column).to_string() == word);
+            Line::from(here).with("label", word)
+        });
+        page.lines_over("shares", &[each("quantity", [name]), each("group", groups)], lines);
     }
-}
-
-/// A line: the share of diverged runs of each method among those chosen.
-fn shares(label: String, groups: &[(String, Rows<'_>)], chosen: &dyn Fn(&Row) -> bool) -> Vec<String> {
-    let share = |(_, runs): &(String, Rows<'_>)| {
-        let here = runs.having(chosen);
-        (!here.is_empty())
-            .then(|| percent(here.count(diverged), here.len()))
-            .cell()
-    };
-    std::iter::once(label).chain(groups.iter().map(share)).collect()
-}
-
-fn table(name: &str, groups: &[(String, Rows<'_>)], lines: Vec<Vec<String>>, page: &mut Page) {
-    let names = groups.iter().map(|(name, _)| name.as_str());
-    let header: Vec<&str> = std::iter::once(name).chain(names).collect();
-    page.table(&header, lines);
 }
 
 /// Names the runs of the calibrated sampler that diverged.

@@ -98,56 +98,46 @@ fn target_table(study: &TimeError, rows: &Rows<'_>, target: &str, page: &mut Pag
     let independent = independent_level(&here);
     page.paragraph(format!(
         "**{target}**: independent draws have ED² {} and SW₂ {}.",
-        here.cells("first energy_level").concat(),
+        here.cell("energy_level"),
         independent.cell(),
     ));
-    let header = "method | steps | finished | ED² | ED² / i.i.d. | SW₂ | SW₂ / i.i.d. | mean (sd) | sd (relative) | mode mass | evaluations | time (s)";
-    let errors = "median mean_error | median deviation_error | median mass_error";
-    let cells = |method: &MethodSpecification| {
+    let line = |method: &MethodSpecification| {
         let runs = by_steps(&here, method.label()).pop()?;
-        let sliced = runs.median(SLICED).zip(independent);
-        let mut cells = vec![method.label().to_owned()];
-        cells.extend(runs.cells("first steps"));
-        cells.push(runs.finished());
-        cells.extend(runs.cells("median energy_distance_squared | median energy_ratio | median sliced_wasserstein"));
-        cells.push(sliced.map(|(value, level)| value / level).cell());
-        cells.extend(runs.cells(errors));
-        cells.extend(runs.cells("median evaluations | median wall_seconds"));
-        Some(cells)
+        let sliced = runs.median(SLICED).zip(independent).map(|(value, level)| value / level);
+        Some(Line::from(runs).with("sliced", sliced))
     };
-    page.table(header, study.methods.iter().filter_map(cells));
+    page.lines("targets", study.methods.iter().filter_map(line));
 }
 
 /// What the paper's two algorithms reach in the plane.
 fn paper_part(study: &TimeError, rows: &Rows<'_>, page: &mut Page) {
     page.part("The paper's algorithms on the two-dimensional targets", &[]);
-    let header = "target | method | finished | best steps | best ED² / i.i.d. | best SW₂ | last ED² / i.i.d. | last SW₂ | last mean (sd) | last sd (relative)";
-    let mut table = Vec::new();
+    let mut lines = Vec::new();
     let mut failures: Vec<String> = Vec::new();
     for target in study.targets.iter().map(TargetSpecification::label) {
         let here = rows.with("target", target.as_str()).with("dim", 2_usize);
         for method in study.methods.iter().filter(|method| is_paper(method.name)) {
             let settings = by_steps(&here, method.label());
             failures.extend(settings.iter().flat_map(RunRows::failures));
-            table.extend(paper_row(&target, method.label(), &settings));
+            lines.extend(best_and_last(&settings));
         }
     }
-    page.table(header, &table);
+    page.lines("The paper's algorithms on the two-dimensional targets", lines);
     page.paragraph(match failures.is_empty() {
         true => "Every run finished with finite particles.".to_owned(),
         false => format!("Runs that did not finish:\n\n{}", failures.join("\n")),
     });
 }
 
-/// The best and the last of the settings of a method, by their steps.
-fn paper_row(target: &str, method: &str, settings: &[Rows<'_>]) -> Option<Vec<String>> {
+/// The last of the settings of a method, by their steps, beside the best one.
+fn best_and_last<'a>(settings: &[Rows<'a>]) -> Option<Line<'a>> {
     let last = settings.last()?;
     let all: Rows<'_> = settings.iter().flat_map(Rows::iter).collect();
     let errors = settings.iter().filter_map(|runs| Some((runs.median(ENERGY)?, runs)));
     let best = errors.min_by(|left, right| left.0.total_cmp(&right.0));
     let best = best.map(|(_, runs)| runs.clone()).unwrap_or_default();
-    let names = line(&[&target, &method, &all.finished()]);
-    let best = best.cells("first steps | median energy_ratio | median sliced_wasserstein");
-    let errors = "median energy_ratio | median sliced_wasserstein | median mean_error | median deviation_error";
-    Some([names, best, last.cells(errors)].concat())
+    let line = Line::from(last.clone()).with("finished", all.finished());
+    let line = line.with("best steps", best.cell("steps"));
+    let line = line.with("best energy", best.cell("median energy_ratio"));
+    Some(line.with("best sliced", best.cell("median sliced_wasserstein")))
 }

@@ -47,18 +47,10 @@ fn worth(study: &TimeToEqualError, rows: &Rows<'_>, page: &mut Page) {
     let line = |(target, particles): (String, usize)| {
         let here = find(rows, &target, particles, study.method.label());
         let draws = here.first().and_then(|row| row.number("draws_ratio")).map(f64::recip);
-        let names = line(&[&target, &particles]);
-        let errors = here.cells("first energy_distance_squared | first draws_ratio");
-        [
-            names,
-            errors,
-            line(&[&draws]),
-            here.cells("first evaluations | first wall_seconds"),
-        ]
-        .concat()
+        let line = Line::from(here).with("target", target).with("M", particles);
+        line.with("draws", draws)
     };
-    let header = "target | M | ED² | ED² / i.i.d. | draws per particle | evaluations | time (s)";
-    page.table(header, comparisons(study).map(line));
+    page.lines("What a particle is worth", comparisons(study).map(line));
 }
 
 /// One line per target and M: what the rival needs, and how many times longer that takes.
@@ -66,9 +58,7 @@ fn against(study: &TimeToEqualError, rows: &Rows<'_>, rival: &MethodSpecificatio
     let label = study.method.label();
     let size = if rival.name.iterates() { "steps" } else { "draws" };
     let its = rival.label();
-    let header =
-        format!("target | M | {size} | ED² / goal | evaluations | {label} (s) | {its} (s) | {its} / {label} | ending");
-    let mut table = Vec::new();
+    let mut lines = Vec::new();
     let mut reasons = Vec::new();
     for (target, particles) in comparisons(study) {
         let own = find(rows, &target, particles, label).first();
@@ -78,21 +68,20 @@ fn against(study: &TimeToEqualError, rows: &Rows<'_>, rival: &MethodSpecificatio
         if let Some(row) = row.filter(|row| row.status() == Status::Unsupported) {
             reasons.push(format!("- {target}, M = {particles}: {}.", row.text("reason")));
         }
-        let names = line(&[&target, &particles, &row.and_then(sizes)]);
-        let errors = here.cells("first energy_over_goal | first evaluations");
-        let seconds = line(&[&own, &row.and_then(|row| row.number(SECONDS))]);
+        let line = Line::from(here.clone()).with("target", target).with("M", particles);
+        let line = line.with("size", row.and_then(sizes)).with("own time", own);
         let ratios = row.zip(own).and_then(|(row, own)| ratios(row, own));
-        let ends = line(&[&ratios, &row.map(|row| in_words(row.status()))]);
-        table.push([names, errors, seconds, ends].concat());
+        let line = line.with("ratios", ratios);
+        lines.push(line.with("ended", row.map(|row| in_words(row.status()))));
     }
-    page.paragraph(match rival.name {
-        MethodName::Iid => "Draws are what the expectation asks for; their ED² is not measured.".to_owned(),
-        _ => format!(
-            "The {size} lie between the last number that missed and the first that reached the error; the ratio of times is stated \
-             for both."
-        ),
-    });
-    page.table(header.as_str(), &table);
+    let section = if rival.name == MethodName::Iid {
+        "expected"
+    } else {
+        "searched"
+    };
+    page.part(section, &[("sizes", &size)]);
+    let names = [("sizes", size), ("its", its), ("own", label)].map(|(name, word)| each(name, [word]));
+    page.lines_over("searched", &names, lines);
     if !reasons.is_empty() {
         page.paragraph(reasons.join("\n"));
     }

@@ -13,13 +13,16 @@ pub fn report(study: &TimeToLevel, rows: &Rows<'_>, directory: &StudyDirectory) 
             ("ratio", &number(study.largest_ratio)),
         ],
     );
-    page.heading("Times");
+    page.part("Times", &[]);
     times(study, rows, &mut page);
     page.heading("Figure");
     let plot = plot(study, rows, directory)?;
     page.drawing("time-to-level.svg", multiples(&plot));
-    page.heading("All searches");
-    searches(rows, &mut page);
+    page.part("All searches", &[]);
+    let lines = rows
+        .iter()
+        .map(|row| Line::from(row).with("ending", row.text("ending").replace('-', " ")));
+    page.lines("All searches", lines);
 
     Ok(page
         .with("reached", rows.ended(Status::Reached))
@@ -35,49 +38,42 @@ fn reached(row: &Row) -> bool {
 /// One line per dimension: steps and time of the method and of each rival, and the ratio of times.
 fn times(study: &TimeToLevel, rows: &Rows<'_>, page: &mut Page) {
     let label = study.method.label();
-    let mut header = "d | level".names();
-    header.extend([format!("{label}: steps"), format!("{label}: time (s)")]);
-    for rival in study.rivals.iter().map(|rival| rival.label()) {
-        header.extend([
-            format!("{rival}: steps"),
-            format!("{rival}: time (s)"),
-            format!("{rival} / {label}"),
-        ]);
-    }
-    let mut table = Vec::new();
+    let mut lines = Vec::new();
     let mut bounds = Vec::new();
     for &dim in &study.dims {
         let here = rows.with("dim", dim);
         let find = |label: &str| here.with("method", label).first();
-        let clock = find(label);
-        let mut line = line(&[&dim.to_string(), &clock.and_then(|row| row.number("energy_level"))]);
-        line.extend(steps_and_time(clock));
-        let clock = clock.filter(|row| reached(row)).and_then(|row| row.number(SECONDS));
-        for rival in &study.rivals {
-            let row = find(rival.label());
-            line.extend(steps_and_time(row));
+        let own = find(label);
+        let clock = own.filter(|row| reached(row)).and_then(|row| row.number(SECONDS));
+        let level = own.and_then(|row| row.number("energy_level"));
+        let mut line = steps_and_time(Line::default().with("dim", dim.get()).with("level", level), label, own);
+        for rival in study.rivals.iter().map(MethodSpecification::label) {
+            let row = find(rival);
             let ratio = row.and_then(|row| Some(row.number(SECONDS)? / clock?));
-            line.push(match (ratio, row.filter(|row| !reached(row))) {
+            let text = match (ratio, row.filter(|row| !reached(row))) {
                 (Some(ratio), Some(row)) => {
                     bounds.push(bound(row, label, ratio));
                     format!("> {}", number(ratio))
                 }
                 (ratio, _) => ratio.cell(),
-            });
+            };
+            line = steps_and_time(line, rival, row).with(format!("ratio {rival}"), text);
         }
-        table.push(line);
+        lines.push(line);
     }
-    page.table(&header, &table);
+    let rivals = study.rivals.iter().map(MethodSpecification::label);
+    page.lines_over("Times", &[each("own", [label]), each("rival", rivals)], lines);
     if !bounds.is_empty() {
         page.paragraph(bounds.join("\n"));
     }
 }
 
 /// Steps and time of the run that reached the level, or of the longest one with a mark that it did not.
-fn steps_and_time(row: Option<&Row>) -> Vec<String> {
+fn steps_and_time<'a>(line: Line<'a>, label: &str, row: Option<&Row>) -> Line<'a> {
     let mark = if row.is_none_or(reached) { "" } else { "> " };
-    let cells = row.map_or(vec![MISSING.to_owned(); 2], |row| row.cells("steps | wall_seconds"));
-    cells.iter().map(|cell| format!("{mark}{cell}")).collect()
+    let cell = |column: &str| format!("{mark}{}", row.map(|row| row.value(column)).cell());
+    let line = line.with(format!("steps {label}"), cell("steps"));
+    line.with(format!("time {label}"), cell(SECONDS))
 }
 
 fn bound(row: &Row, clock: &str, ratio: f64) -> String {
@@ -91,17 +87,6 @@ fn bound(row: &Row, clock: &str, ratio: f64) -> String {
         number(ratio),
         row.text("method"),
     )
-}
-
-fn searches(rows: &Rows<'_>, page: &mut Page) {
-    let line = |row: &Row| {
-        let columns = "dim | method | ending | runs | steps | energy_ratio | wall_seconds | wall_seconds_least | wall_seconds_most | wall_budget_seconds";
-        let mut cells = row.cells(columns);
-        cells[2] = cells[2].replace('-', " ");
-        cells
-    };
-    let header = "d | method | ending | runs | steps | ED² / level | time (s) | least (s) | most (s) | budget (s)";
-    page.table(header, rows.iter().map(line));
 }
 
 /// One panel per dimension, one line per method.

@@ -1,0 +1,90 @@
+//! A line of a table: what stands in the places of its cells.
+
+use std::borrow::Cow;
+
+use super::cell::{Cell, MISSING};
+use crate::results::{Row, Rows, Value};
+
+/// What a line of a table is of.
+#[derive(Clone, Debug, Default)]
+pub struct Line<'a> {
+    /// Rows of results, whose statistics stand in it.
+    pub rows: Rows<'a>,
+    named: Vec<(Cow<'static, str>, String)>,
+}
+
+impl<'a> Line<'a> {
+    /// The same with a value of its own, which stands before a statistic of this name.
+    pub fn with(mut self, name: impl Into<Cow<'static, str>>, value: impl Cell) -> Self {
+        self.named.push((name.into(), value.cell()));
+        self
+    }
+
+    /// The same with several of them.
+    pub fn with_all(self, named: impl IntoIterator<Item = (String, impl Cell)>) -> Self {
+        named
+            .into_iter()
+            .fold(self, |line, (name, value)| line.with(name, value))
+    }
+
+    /// A line for each value that a column may hold, which names it, of the rows that hold it.
+    pub fn by<V: Into<Value>>(&self, column: &'static str, values: impl IntoIterator<Item = V>) -> Vec<Self> {
+        let of = |value: Value| {
+            let rows = self.rows.with(column, value.clone());
+            let line = Self { rows, ..self.clone() };
+            line.with(column, value.to_string())
+        };
+        values.into_iter().map(|value| of(value.into())).collect()
+    }
+
+    /// The cells: texts with statistics in braces.
+    pub(super) fn cells(&self, texts: &[String]) -> Vec<String> {
+        texts.iter().map(|text| self.cell(text)).collect()
+    }
+
+    fn cell(&self, text: &str) -> String {
+        let mut parts = text.split('{');
+        let mut cell = parts.next().unwrap_or_default().to_owned();
+        let (mut places, mut missing) = (0, 0);
+        for part in parts {
+            let (name, rest) = part.split_once('}').unwrap_or((part, ""));
+            let own = self.named.iter().find(|(known, _)| *known == name);
+            let value = own.map_or_else(|| self.rows.cell(name), |(_, value)| value.clone());
+            places += 1;
+            missing += usize::from(value == MISSING);
+            cell.push_str(&value);
+            cell.push_str(rest);
+        }
+        if places > 0 && missing == places {
+            return MISSING.to_owned();
+        }
+        cell.replace(&format!(" ({MISSING})"), "")
+    }
+}
+
+impl<'a> From<Rows<'a>> for Line<'a> {
+    fn from(rows: Rows<'a>) -> Self {
+        Self {
+            rows,
+            ..Self::default()
+        }
+    }
+}
+
+impl<'a> From<&'a Row> for Line<'a> {
+    fn from(row: &'a Row) -> Self {
+        Rows::from_iter([row]).into()
+    }
+}
+
+impl<'a> Rows<'a> {
+    /// A line for each value that a column may hold, which names it, of the rows that hold it.
+    pub fn lines<V: Into<Value>>(&self, column: &'static str, values: impl IntoIterator<Item = V>) -> Vec<Line<'a>> {
+        Line::from(self.clone()).by(column, values)
+    }
+}
+
+/// The values that the columns of a name are repeated for.
+pub fn each<T: ToString>(name: &str, values: impl IntoIterator<Item = T>) -> (&str, Vec<String>) {
+    (name, values.into_iter().map(|value| value.to_string()).collect())
+}

@@ -1,0 +1,160 @@
+//! A page of Markdown with figures beside it.
+
+mod cell;
+mod line;
+mod prose;
+#[cfg(test)]
+mod tests;
+
+use std::fmt::Display;
+
+use crate::PlotError;
+use prose::{Prose, filled};
+
+pub(crate) use cell::exponent;
+pub use cell::{Cell, MISSING, number, percent};
+pub use line::{Line, each};
+
+/// A page that grows by paragraphs, tables and figures.
+#[derive(Clone, Debug, Default)]
+pub struct Page {
+    /// The page as text.
+    pub text: String,
+    /// The figures on the page with the names of their files, which it expects beside it in `figures/`.
+    pub figures: Vec<(String, String)>,
+    /// The most important of the page, by name; it is no part of the text.
+    pub summary: Vec<(&'static str, String)>,
+    /// What [`part`](Self::part) and [`drawing`](Self::drawing) choose from.
+    prose: Prose,
+}
+
+impl Page {
+    /// A page with a title.
+    pub fn new(title: &str) -> Self {
+        Self {
+            text: format!("# {title}\n"),
+            ..Self::default()
+        }
+    }
+
+    /// A page whose prose is a Markdown text with `{name}` where values go. The title and what stands below it are written; of the rest a section is written when
+    /// [`part`](Self::part) asks for it, a line `![caption](name.svg)` is the caption of a figure, and a table is that of [`lines`](Self::lines).
+    pub fn of(prose: &str, values: &[(&str, &dyn Display)]) -> Self {
+        let prose = Prose::new(prose, values);
+        let mut page = Self {
+            text: format!("# {}\n", prose.title()),
+            prose,
+            ..Self::default()
+        };
+        page.paragraphs("", &[]);
+        page
+    }
+
+    /// A section of the prose: `## name` with its heading, `### name` without.
+    pub fn part(&mut self, name: &str, values: &[(&str, &dyn Display)]) {
+        if self.prose.has_heading(name) {
+            self.heading(&filled(name, values));
+        }
+        self.paragraphs(name, values);
+    }
+
+    fn paragraphs(&mut self, name: &str, values: &[(&str, &dyn Display)]) {
+        match self.prose.paragraphs(name) {
+            Some(paragraphs) => paragraphs.iter().for_each(|text| self.paragraph(filled(text, values))),
+            None => self.paragraph(absent(name)),
+        }
+    }
+
+    /// The table of a section of the prose, whose one line says what stands in every line: text, and in braces what a [`Line`] names or a
+    /// statistic of its rows. Without lines it is a header. A cell of which no place has a value is [`MISSING`]; a place in brackets that has none
+    /// falls away with them.
+    pub fn lines<'a>(&mut self, part: &str, lines: impl IntoIterator<Item = impl Into<Line<'a>>>) {
+        self.lines_over(part, &[], lines);
+    }
+
+    /// The same for a table with columns that are repeated: those in which a name stands in braces, once for each value of that name, which is put into its places.
+    pub fn lines_over<'a>(
+        &mut self,
+        part: &str,
+        repeated: &[(&str, Vec<String>)],
+        lines: impl IntoIterator<Item = impl Into<Line<'a>>>,
+    ) {
+        let Some((header, cells)) = self.prose.table(part, repeated) else {
+            return self.paragraph(absent(part));
+        };
+        let rows: Vec<Vec<String>> = lines.into_iter().map(|line| line.into().cells(&cells)).collect();
+        self.table(&header, &rows);
+    }
+
+    /// A figure whose caption is in the prose.
+    pub fn drawing(&mut self, name: &str, drawing: Result<String, PlotError>) {
+        let caption = self.prose.caption(name);
+        self.figure(name, &caption.unwrap_or_else(|| absent(name)), drawing);
+    }
+
+    /// A heading below the title.
+    pub fn heading(&mut self, text: &str) {
+        self.text.push_str(&format!("\n## {text}\n"));
+    }
+
+    /// A paragraph.
+    pub fn paragraph(&mut self, text: impl Display) {
+        self.text.push_str(&format!("\n{text}\n"));
+    }
+
+    /// Columns whose cells are numbers are aligned to the right.
+    fn table(&mut self, header: &[String], rows: &[Vec<String>]) {
+        let numeric = |column: usize| {
+            let mut cells = rows
+                .iter()
+                .filter_map(|row| row.get(column))
+                .filter(|cell| cell.as_str() != MISSING);
+            cells.all(|cell| cell.starts_with(|c: char| c.is_ascii_digit() || "-−+±<>".contains(c)))
+        };
+        let rule: Vec<&str> = (0..header.len())
+            .map(|column| if numeric(column) { "---:" } else { "---" })
+            .collect();
+        self.text
+            .push_str(&format!("\n| {} |\n| {} |\n", header.join(" | "), rule.join(" | ")));
+        for row in rows {
+            let cells: Vec<String> = row.iter().map(|cell| cell.replace('|', "\\|")).collect();
+            self.text.push_str(&format!("| {} |\n", cells.join(" | ")));
+        }
+    }
+
+    /// Lines below a heading; without any, what is to be said instead, or not even the heading.
+    pub fn list(&mut self, heading: &str, lines: &[String], otherwise: Option<&str>) {
+        if lines.is_empty() && otherwise.is_none() {
+            return;
+        }
+        self.heading(heading);
+        match otherwise.filter(|_| lines.is_empty()) {
+            Some(text) => self.paragraph(text),
+            None => self.paragraph(lines.join("\n")),
+        }
+    }
+
+    /// A figure with its caption; where nothing can be drawn, e.g. because there are no data yet, the page says so.
+    pub fn figure(&mut self, name: &str, caption: &str, drawing: Result<String, PlotError>) {
+        match drawing {
+            Ok(svg) => {
+                let alternative = caption.replace(['[', ']'], "");
+                self.text
+                    .push_str(&format!("\n![{alternative}](figures/{name})\n\n*{caption}*\n"));
+                self.figures.push((name.to_owned(), svg));
+            }
+            Err(error) => self.paragraph(format!("*{caption}* The figure was not drawn: {error}.")),
+        }
+    }
+
+    /// The same with a line more in its summary.
+    pub fn with(mut self, key: &'static str, value: impl ToString) -> Self {
+        self.summary.push((key, value.to_string()));
+        self
+    }
+}
+
+/// What a page says where its prose lacks what was asked for.
+fn absent(name: &str) -> String {
+    format!("The prose has no `{name}`.")
+}

@@ -1,0 +1,96 @@
+//! The Markdown text that a page is made from.
+
+use std::fmt::Display;
+
+/// A text whose sections, captions and tables are written where they are asked for.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Prose(String);
+
+impl Prose {
+    /// The text with values in its places but for those of tables, which are filled line by line.
+    pub fn new(text: &str, values: &[(&str, &dyn Display)]) -> Self {
+        let line = |line: &str| {
+            if is_table(line) {
+                line.to_owned()
+            } else {
+                filled(line, values)
+            }
+        };
+        Self(text.lines().map(line).collect::<Vec<_>>().join("\n"))
+    }
+
+    pub fn title(&self) -> &str {
+        let title = self.0.lines().find_map(|line| line.strip_prefix("# "));
+        title.unwrap_or_default()
+    }
+
+    /// Whether a section is one with a heading.
+    pub fn has_heading(&self, name: &str) -> bool {
+        self.0.lines().any(|line| line.strip_prefix("## ") == Some(name))
+    }
+
+    /// The lines of a section, without a name of what stands below the title.
+    fn section(&self, name: &str) -> Option<impl Iterator<Item = &str>> {
+        let is_head = |line: &str| match name {
+            "" => line.starts_with("# "),
+            name => line.strip_prefix("## ").or(line.strip_prefix("### ")) == Some(name),
+        };
+        let mut lines = self.0.lines();
+        lines.find(|line| is_head(line))?;
+        Some(lines.take_while(|line| !line.starts_with('#')))
+    }
+
+    /// The paragraphs of a section.
+    pub fn paragraphs(&self, name: &str) -> Option<Vec<String>> {
+        let text = self.section(name)?.collect::<Vec<_>>().join("\n");
+        let paragraphs = text.split("\n\n").map(str::trim);
+        let written = paragraphs.filter(|text| !text.is_empty() && !text.starts_with("![") && !is_table(text));
+        Some(written.map(|text| text.replace('\n', " ")).collect())
+    }
+
+    /// The caption of a figure.
+    pub fn caption(&self, name: &str) -> Option<String> {
+        let end = format!("]({name})");
+        let caption = |line: &str| Some(line.strip_prefix("![")?.strip_suffix(&end)?.to_owned());
+        self.0.lines().find_map(caption)
+    }
+
+    /// Header and line of the table of a section, repeated columns once for each of their values.
+    pub fn table(&self, name: &str, repeated: &[(&str, Vec<String>)]) -> Option<(Vec<String>, Vec<String>)> {
+        let mut lines = self.section(name)?.filter(|line| is_table(line)).map(cells_of);
+        let (header, line) = (lines.next()?, lines.nth(1)?);
+        let mut columns: Vec<(String, String)> = header.into_iter().zip(line).collect();
+        for (name, values) in repeated {
+            let place = format!("{{{name}}}");
+            let is_of = |(head, cell): &(String, String)| head.contains(&place) || cell.contains(&place);
+            let first = columns.iter().position(is_of)?;
+            let end = columns.iter().rposition(is_of)? + 1;
+            let group: Vec<(String, String)> = columns.drain(first..end).collect();
+            let of = |value: &String| {
+                let put = |text: &String| text.replace(&place, value);
+                group
+                    .iter()
+                    .map(|(head, cell)| (put(head), put(cell)))
+                    .collect::<Vec<_>>()
+            };
+            columns.splice(first..first, values.iter().flat_map(of));
+        }
+        Some(columns.into_iter().unzip())
+    }
+}
+
+fn is_table(line: &str) -> bool {
+    line.starts_with("| ")
+}
+
+fn cells_of(line: &str) -> Vec<String> {
+    let inner = line.trim().trim_start_matches("| ").trim_end_matches(" |");
+    inner.split(" | ").map(str::to_owned).collect()
+}
+
+/// A text with values in the places that are called by their names.
+pub(super) fn filled(text: &str, values: &[(&str, &dyn Display)]) -> String {
+    let fill =
+        |text: String, (name, value): &(&str, &dyn Display)| text.replace(&format!("{{{name}}}"), &value.to_string());
+    values.iter().fold(text.to_owned(), fill)
+}

@@ -1,0 +1,78 @@
+//! Pages from paragraphs and from a Markdown text.
+
+use super::*;
+use crate::results::{Row, Rows};
+
+#[test]
+fn a_page_is_markdown() {
+    let mut page = Page::new("Title");
+    page.heading("Part");
+    page.paragraph("Text.");
+    assert_eq!(page.text, "# Title\n\n## Part\n\nText.\n");
+}
+
+#[test]
+fn prose_is_a_text_with_places() {
+    let prose = "# Of {dim}\n\nM = {particles},\nexact.\n\n## To {end}\n\nFirst.\n\nSecond, {end}.\n\n![Error, d = {dim}.](a.svg)\n\n### aside\n\nThird.\n";
+    let mut page = Page::of(prose, &[("dim", &2), ("particles", &64)]);
+    page.part("aside", &[]);
+    page.part("To {end}", &[("end", &"Z")]);
+    page.drawing("a.svg", Ok(String::new()));
+    let figure = "![Error, d = 2.](figures/a.svg)\n\n*Error, d = 2.*";
+    assert_eq!(
+        page.text,
+        format!("# Of 2\n\nM = 64, exact.\n\nThird.\n\n## To Z\n\nFirst.\n\nSecond, Z.\n\n{figure}\n")
+    );
+}
+
+#[test]
+fn what_the_prose_lacks_is_said() {
+    let mut page = Page::of("# A\n\n### b\n", &[]);
+    page.part("b", &[]);
+    assert_eq!(page.text, "# A\n");
+    page.part("c", &[]);
+    page.lines("b", [Line::default()]);
+    page.drawing("d.svg", Ok(String::new()));
+    assert_eq!(page.text.matches("The prose has no `").count(), 4, "{}", page.text);
+}
+
+#[test]
+fn a_table_of_the_prose_says_what_stands_in_every_line() {
+    let prose = "# A\n\n## Errors\n\nOf all.\n\n\
+         | method | runs | n = {n} | worst, n = {n} | seen |\n\
+         | --- | --- | --- | --- | --- |\n\
+         | {method} | {rows where error}/{rows} | {median error where n = {n}} ({largest error where n = {n}}) | {worst error where n = {n}} | {seen} of {error where n = 3} |\n";
+    let row = |method: &str, n: usize, error: Option<f64>| {
+        Row::of("a").with("method", method).with("n", n).with("error", error)
+    };
+    let rows = [row("b", 1, Some(0.5)), row("b", 2, None), row("c", 1, Some(2.0))];
+    let rows: Rows<'_> = rows.iter().collect();
+    let mut page = Page::of(prose, &[("method", &"x"), ("n", &"y")]);
+    page.part("Errors", &[]);
+    let lines = rows.lines("method", ["b", "d"]);
+    let lines = lines.into_iter().map(|line| {
+        if line.rows.is_empty() {
+            line
+        } else {
+            line.with("seen", 1_usize)
+        }
+    });
+    page.lines_over("Errors", &[("n", vec!["1".to_owned(), "2".to_owned()])], lines);
+    assert_eq!(
+        page.text,
+        "# A\n\n## Errors\n\nOf all.\n\n\
+         | method | runs | n = 1 | worst, n = 1 | n = 2 | worst, n = 2 | seen |\n\
+         | --- | ---: | ---: | --- | ---: | ---: | ---: |\n\
+         | b | 1/2 | 0.500 (0.500) | `a` | – | – | 1 of – |\n\
+         | d | 0/0 | – | – | – | – | – |\n"
+    );
+}
+
+#[test]
+fn a_list_without_lines_says_so_or_nothing() {
+    let mut page = Page::default();
+    page.list("Misses", &[], None);
+    page.list("Misses", &[], Some("None."));
+    page.list("Misses", &["- a".to_owned(), "- b".to_owned()], None);
+    assert_eq!(page.text, "\n## Misses\n\nNone.\n\n## Misses\n\n- a\n- b\n");
+}

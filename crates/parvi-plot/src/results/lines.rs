@@ -1,0 +1,69 @@
+//! Lines through rows.
+
+use super::{Row, Rows, Value};
+use crate::LineSeries;
+
+impl Rows<'_> {
+    /// Two columns of all rows; what a row does not have is not finite.
+    pub fn pairs(&self, x: &str, y: &str) -> Vec<(f64, f64)> {
+        let number = |row: &Row, column: &str| row.number(column).unwrap_or(f64::NAN);
+        self.iter().map(|row| (number(row, x), number(row, y))).collect()
+    }
+
+    /// A line through the rows that have both columns, in their order.
+    pub fn line(&self, label: impl Into<String>, x: &str, y: &str) -> LineSeries {
+        let points = self.iter().filter_map(|row| Some((row.number(x)?, row.number(y)?)));
+        LineSeries::through(label, points)
+    }
+
+    /// A line through the medians of `y` at each value of `x`, with bars from the least to the largest.
+    pub fn curve(&self, label: impl Into<String>, x: &str, y: &str) -> LineSeries {
+        let mut line = LineSeries::named(label);
+        for place in self.places(x) {
+            let here = self.having(|row| row.number(x) == Some(place));
+            line.push_median(place, &here.values(y));
+        }
+        line
+    }
+
+    /// A line through the medians of `y` over all rows at each value of `x`, a row without `y` infinitely large.
+    pub fn medians(&self, label: impl Into<String>, x: &str, y: &str) -> LineSeries {
+        let at = |place: f64| {
+            let here = self.having(|row| row.number(x) == Some(place));
+            (place, here.median_of_all(y).unwrap_or(f64::NAN))
+        };
+        LineSeries::through(label, self.places(x).into_iter().map(at))
+    }
+
+    /// A curve for each value that a column may hold, which is its label behind a word.
+    pub fn curves<V: Into<Value>>(
+        &self,
+        (word, column): (&str, &str),
+        values: impl IntoIterator<Item = V>,
+        x: &str,
+        y: &str,
+    ) -> Vec<LineSeries> {
+        let curve = |value: Value| self.with(column, value.clone()).curve(format!("{word}{value}"), x, y);
+        values.into_iter().map(|value| curve(value.into())).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::example::rows;
+    use super::*;
+
+    #[test]
+    fn lines_go_through_medians_or_through_every_row() {
+        let rows = rows();
+        let here = rows.iter().collect::<Rows<'_>>().with("method", "mpm");
+        let curve = here.curve("mpm", "size", "error");
+        assert_eq!((curve.x, curve.y), (vec![16.0, 64.0], vec![2.5, 0.5]));
+        assert_eq!(curve.bars, [(1.0, 4.0), (0.5, 0.5)]);
+        assert_eq!(here.line("mpm", "size", "error").x, [64.0, 16.0, 16.0]);
+        assert_eq!(here.medians("mpm", "size", "error").y, [4.0, 0.5]);
+        let curves = here.curves(("n = ", "size"), [16_usize, 99], "size", "error");
+        let ends = curves.iter().map(|line| (line.label.as_str(), line.y.clone()));
+        assert!(ends.eq([("n = 16", vec![2.5]), ("n = 99", Vec::new())]));
+    }
+}

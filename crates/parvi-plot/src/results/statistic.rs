@@ -1,0 +1,125 @@
+//! What is said of rows, by name.
+
+use super::{Row, Rows, Value};
+use crate::page::{Cell, MISSING, exponent, percent};
+
+impl Rows<'_> {
+    /// Statistics as they stand in a table, with ` | ` between them; see [`cell`](Self::cell).
+    pub fn cells(&self, statistics: &str) -> Vec<String> {
+        statistics.split(" | ").map(|statistic| self.cell(statistic)).collect()
+    }
+
+    /// A statistic as it stands in a table: `rows`, their number; a column by its name, that of the first row; of a column `first`, `text` (the first with all its digits),
+    /// `each` (those of all rows), `median`, `median of all` (the rows without it infinitely large, ∞), `quantile 0.95`, `percent` (of a share, the mean), `least`, `largest` and `worst`, the case with the
+    /// largest; and `exponent of size in column`, of the power law through its medians.
+    ///
+    /// With ` where ` and a condition behind it, it is that of the rows that fulfil it: `outcome = converged`, `outcome ≠ converged`, `error ≤ 3`, `error > 3` (also where there is none), `size ≥ 64`, a
+    /// column that has to hold something, or `no` and one that must not. `share where a where b` is the share of the rows that fulfil the last condition among those that fulfil the others.
+    pub fn cell(&self, statistic: &str) -> String {
+        let Some((earlier, condition)) = statistic.rsplit_once(" where ") else {
+            return self.plain(statistic);
+        };
+        let fulfil = |rows: &Self| rows.having(|row| fulfils(row, condition));
+        let mut parts = earlier.split(" where ");
+        let name = parts.next().unwrap_or_default();
+        let here = parts.fold(self.clone(), |rows, part| rows.having(|row| fulfils(row, part)));
+        match name {
+            "share" => percent(fulfil(&here).len(), here.len()).cell(),
+            name => fulfil(&here).plain(name),
+        }
+    }
+
+    fn plain(&self, statistic: &str) -> String {
+        let (name, column) = statistic.rsplit_once(' ').unwrap_or(("first", statistic));
+        match name {
+            "first" if column == "rows" => self.len().to_string(),
+            "first" => self.first().map(|row| row.value(column)).cell(),
+            "text" => self.first().map(|row| row.value(column).to_string()).cell(),
+            "each" => {
+                let texts: Vec<String> = self.iter().map(|row| row.value(column).cell()).collect();
+                (!texts.is_empty()).then(|| texts.join(", ")).cell()
+            }
+            "median" => self.median(column).cell(),
+            "median of all" => match self.median_of_all(column) {
+                Some(f64::INFINITY) => "∞".to_owned(),
+                median => median.cell(),
+            },
+            "percent" => (!self.is_empty())
+                .then(|| format!("{:.1}", 100.0 * self.mean(column)))
+                .cell(),
+            "least" => self.least(column).cell(),
+            "largest" => self.largest(column).cell(),
+            "worst" => self.worst(column).map(|row| format!("`{}`", row.case())).cell(),
+            name => match name.split(' ').collect::<Vec<_>>()[..] {
+                ["quantile", level] => level.parse().ok().and_then(|level| self.quantile(column, level)).cell(),
+                ["exponent", "of", size, "in"] => exponent(self.curve("", size, column).points()),
+                _ => MISSING.to_owned(),
+            },
+        }
+    }
+}
+
+/// Whether a row fulfils a condition.
+fn fulfils(row: &Row, condition: &str) -> bool {
+    let bound = |text: &str| text.parse().unwrap_or(f64::NAN);
+    match condition.splitn(3, ' ').collect::<Vec<_>>()[..] {
+        [column] => *row.value(column) != Value::Empty,
+        ["no", column] => *row.value(column) == Value::Empty,
+        [column, "=", value] => row.value(column).to_string() == value,
+        [column, "≠", value] => row.value(column).to_string() != value,
+        [column, "≤", most] => row.is_within(column, bound(most)),
+        [column, ">", most] => !row.is_within(column, bound(most)),
+        [column, "≥", least] => row.number(column).is_some_and(|number| number >= bound(least)),
+        _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::example::rows;
+    use super::*;
+
+    #[test]
+    fn statistics_have_names() {
+        let rows = rows();
+        let here = rows.iter().collect::<Rows<'_>>().with("method", "mpm");
+        assert_eq!(here.cells("rows | median error | least error"), ["4", "1.00", "0.500"]);
+        assert_eq!(
+            here.cells("largest error | worst error | first size | error | text error"),
+            ["4.00", "`e`", "64", "0.500", "0.5"]
+        );
+        assert_eq!(here.cells("median of all error | quantile 1 error"), ["2.50", "4.00"]);
+        assert_eq!(here.with("case", "c").cell("percent error"), "100.0");
+        assert_eq!(here.with("case", "d").cells("median of all error"), ["∞"]);
+        assert_eq!(
+            Rows::default().cells("median error | median of all error | mode error"),
+            [MISSING; 3]
+        );
+        let grows = [16_usize, 64].map(|size| Row::default().with("size", size).with("error", (size * size) as f64));
+        assert_eq!(
+            grows.iter().collect::<Rows<'_>>().cell("exponent of size in error"),
+            "2.00"
+        );
+    }
+
+    #[test]
+    fn statistics_of_rows_that_fulfil_conditions() {
+        let rows = rows();
+        let rows: Rows<'_> = rows.iter().collect();
+        for (statistic, expected) in [
+            ("rows where method = mpm", "4"),
+            ("rows where error", "4"),
+            ("rows where method ≠ mpm", "1"),
+            ("rows where error ≤ 1", "2"),
+            ("each case where no error", "d"),
+            ("rows where error > 1", "3"),
+            ("rows where size ≥ 64", "1"),
+            ("median error where method = mpm where size = 16", "2.50"),
+            ("share where method = mpm where error where error ≤ 1", "67 %"),
+            ("share where method = svgd where error", MISSING),
+            ("rows where error about 1", "0"),
+        ] {
+            assert_eq!(rows.cell(statistic), expected, "{statistic}");
+        }
+    }
+}

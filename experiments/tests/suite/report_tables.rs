@@ -1,0 +1,73 @@
+//! The tables of report.md ask for nothing that no study has: a column that is misspelt would be a dash in every line.
+
+use std::path::Path;
+
+/// What stands in the places of a text, those within others as `_`, after these.
+fn places(text: &str) -> Vec<String> {
+    let mut open: Vec<String> = Vec::new();
+    let mut closed = Vec::new();
+    for c in text.chars() {
+        match (c, open.last_mut()) {
+            ('{', outer) => {
+                outer.into_iter().for_each(|outer| outer.push('_'));
+                open.push(String::new());
+            }
+            ('}', _) => closed.extend(open.pop()),
+            (c, Some(place)) => place.push(c),
+            (_, None) => {}
+        }
+    }
+    closed
+}
+
+/// The columns that a statistic is of and under which conditions.
+fn columns(statistic: &str) -> Vec<&str> {
+    let mut parts = statistic.split(" where ");
+    let first = parts.next().unwrap_or_default();
+    let own = first
+        .rsplit(' ')
+        .next()
+        .filter(|name| !["rows", "share"].contains(name));
+    let conditions = parts.filter_map(|part| part.strip_prefix("no ").unwrap_or(part).split(' ').next());
+    own.into_iter().chain(conditions).filter(|name| *name != "_").collect()
+}
+
+fn sources(directory: &Path) -> String {
+    let files = std::fs::read_dir(directory).unwrap().map(|entry| entry.unwrap().path());
+    let sources = files.filter(|path| path.extension().is_some_and(|extension| extension == "rs"));
+    sources.map(|path| std::fs::read_to_string(path).unwrap()).collect()
+}
+
+#[test]
+fn tables_ask_for_what_there_is() {
+    let studies = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/study");
+    let of_all = sources(&studies);
+    let mut tables = 0;
+    for directory in std::fs::read_dir(&studies).unwrap().map(|entry| entry.unwrap().path()) {
+        let Ok(prose) = std::fs::read_to_string(directory.join("report.md")) else {
+            continue;
+        };
+        let source = sources(&directory) + &of_all;
+        let is_known = |name: &str| {
+            source
+                .split(|c: char| !c.is_alphanumeric() && c != '_')
+                .any(|word| word == name)
+        };
+        for line in prose.lines().filter(|line| line.starts_with("| ")) {
+            tables += 1;
+            for place in places(line) {
+                let is_named = source.contains(&format!("\"{}", place.replace('_', "{")))
+                    || source.contains(&format!("\"{place}\""));
+                let unknown = columns(&place).into_iter().find(|column| !is_known(column));
+                assert!(
+                    is_named || unknown.is_none(),
+                    "{}: {place}: {unknown:?}",
+                    directory.display()
+                );
+            }
+        }
+    }
+    assert!(tables > 50, "{tables}");
+    assert_eq!(places("{a} of {b where c = {d}}"), ["a", "d", "b where c = _"]);
+    assert_eq!(columns("median b where no c where d ≤ _"), ["b", "c", "d"]);
+}
