@@ -13,36 +13,42 @@ pub struct Arguments {
     _all: Vec<OsString>,
 }
 
-/// A command that says which feature has it, and the report of its results.
-macro_rules! left_out {
-    ($command:ident, $feature:literal, $asked:literal, $report:literal) => {
-        #[doc = concat!("For `", stringify!($command), "`.")]
-        #[cfg(any(test, not(feature = $feature)))]
-        pub mod $command {
-            pub use super::*;
-
-            /// Says which feature has the command.
-            pub fn execute(_: &Arguments) -> Result<(), CommandError> {
-                let (asked, feature) = ($asked, $feature);
-                Err(CommandError::LeftOut { asked, feature })
-            }
-
-            /// As [`execute`].
-            pub fn report(_: &std::path::Path) -> Result<(), CommandError> {
-                let (asked, feature) = ($report, $feature);
-                Err(CommandError::LeftOut { asked, feature })
-            }
-        }
-    };
+/// The error for what was asked, with the feature that has it.
+const fn left_out(asked: &'static str, feature: &'static str) -> CommandError {
+    CommandError::LeftOut { asked, feature }
 }
 
-left_out!(
-    simulate,
-    "mechanics",
-    "parvi simulate",
-    "parvi report of a simulated scene"
-);
-left_out!(rom, "rom", "parvi rom", "parvi report of a reduced-order model");
+/// For `simulate`.
+#[cfg(any(test, not(feature = "mechanics")))]
+pub mod simulate {
+    pub use super::*;
+
+    /// Says which feature has the command.
+    pub fn execute(_: &Arguments) -> Result<(), CommandError> {
+        Err(left_out("parvi simulate", "mechanics"))
+    }
+
+    /// As [`execute`].
+    pub fn report(_: &std::path::Path) -> Result<(), CommandError> {
+        Err(left_out("parvi report of a simulated scene", "mechanics"))
+    }
+}
+
+/// For `rom`.
+#[cfg(any(test, not(feature = "rom")))]
+pub mod rom {
+    pub use super::*;
+
+    /// Says which feature has the command.
+    pub fn execute(_: &Arguments) -> Result<(), CommandError> {
+        Err(left_out("parvi rom", "rom"))
+    }
+
+    /// As [`execute`].
+    pub fn report(_: &std::path::Path) -> Result<(), CommandError> {
+        Err(left_out("parvi report of a reduced-order model", "rom"))
+    }
+}
 
 #[cfg(test)]
 mod tests {
