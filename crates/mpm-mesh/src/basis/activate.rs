@@ -26,8 +26,11 @@ impl<const D: usize> MeshBasis<D> {
         let occupied = (0..schedule.cell_count()).map(cell_of);
         let (mesh, stencils) = (self.search.mesh(), &self.stencils);
         let (mut places, marks) = (0, self.marks.as_mut_slice());
-        for cell in occupied.clone() {
+        self.cell_node_starts.clear();
+        self.cell_node_starts.push(0);
+        for cell in occupied {
             places += stencils.groups(cell).len();
+            self.cell_node_starts.push(places);
             for &vertex in mesh.cell(cell as usize) {
                 marks[vertex as usize] = OF_CELL;
             }
@@ -55,13 +58,6 @@ impl<const D: usize> MeshBasis<D> {
         self.active_positions.clear();
         self.active_positions
             .extend(active.map(|&vertex| self.stencils.position(vertex)));
-        self.cell_node_starts.clear();
-        self.cell_node_starts.push(0);
-        let mut end = 0;
-        for cell in occupied {
-            end += stencils.groups(cell).len();
-            self.cell_node_starts.push(end);
-        }
         self.cell_nodes.resize(places, 0);
         let (mut rest, numbers) = (self.cell_nodes.as_mut_slice(), self.numbers.as_slice());
         let mut pieces = Vec::with_capacity(schedule.cell_count().div_ceil(PIECE));
