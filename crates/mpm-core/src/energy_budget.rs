@@ -38,7 +38,7 @@ impl EnergyBudget {
         self.forces + self.damping + self.contact + self.friction + self.boundary
     }
 
-    /// Once per step, for all bodies with such nodes.
+    /// Add the works of a step from the velocities at its stages; called once per step, it is compiled once for all bodies with such nodes.
     #[inline(never)]
     fn add_works<N: GridNode<D>, const D: usize>(
         &mut self,
@@ -98,9 +98,9 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
 
     /// Add the works of a step, now that the velocities are v_iⁿ⁺¹ and forces with damping, contact, friction and boundary have been recorded.
     pub(crate) fn account(&mut self, stages: &Stages<D>, damping: f64) {
-        if let (Some(budget), Stages(stages)) = (&mut self.energy_budget, stages) {
+        if let Some(budget) = &mut self.energy_budget {
             let deforms_last = M::DEFORMS && self.stress_update == StressUpdate::Last;
-            budget.add_works(self.nodes.as_slice(), stages, damping, deforms_last);
+            budget.add_works(self.nodes.as_slice(), &stages.0, damping, deforms_last);
             if deforms_last {
                 self.excesses.resize(self.particles.len(), 0.0);
             }
