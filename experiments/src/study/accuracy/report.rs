@@ -77,7 +77,7 @@ fn costs(study: &Accuracy, rows: &Rows<'_>, page: &mut Page) {
     page.part("Costs", &[]);
     for (part, column) in [
         ("time", SECONDS),
-        ("evaluations", "evaluations"),
+        ("evaluations", "evaluations_per_particle"),
         ("nodes", "active_nodes"),
     ] {
         let lines = rows.lines("series", study.labels());
