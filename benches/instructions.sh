@@ -4,7 +4,7 @@
 # become slower; below, the file is out of date. --write puts the counts into the file. Without valgrind nothing is counted.
 #
 # Cases are transfers of an elastic block (src/bin/time_mechanics.rs), bases of a gas (src/bin/step_gas.rs) or meshes of triangles and tetrahedra with 1.3 particles per
-# cell that has any (src/bin/time_mesh.rs, APIC). Callgrind knows no AVX-512: the programs are
+# cell that has any (src/bin/time_mesh.rs, APIC; exact2 and exact3 with exact gradients). Callgrind knows no AVX-512: the programs are
 # built for x86-64-v3 as .cargo/config.toml says, and counts of other targets or compilers do not compare.
 set -eu
 cd "$(dirname "$0")/.."
@@ -30,6 +30,8 @@ count() {
     case $1 in
         mesh2) set -- "$programs/time_mesh" 2 0.02 1 "$2" ;;
         mesh3) set -- "$programs/time_mesh" 3 0.12 1 "$2" ;;
+        exact2) set -- "$programs/time_mesh" 2 0.02 1 "$2" exact ;;
+        exact3) set -- "$programs/time_mesh" 3 0.12 1 "$2" exact ;;
         grid* | lattice*) set -- "$programs/step_gas" "$1" "$particles" "$2" ;;
         *) set -- "$programs/time_mechanics" "$1" sorted "$cells" 0 "$2" ;;
     esac
@@ -39,8 +41,8 @@ count() {
 # Particles of a run.
 size() {
     case $1 in
-        mesh2) echo 2330 ;;
-        mesh3) echo 1800 ;;
+        mesh2 | exact2) echo 2330 ;;
+        mesh3 | exact3) echo 1800 ;;
         *) echo "$particles" ;;
     esac
 }

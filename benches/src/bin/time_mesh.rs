@@ -5,7 +5,7 @@
 use std::time::Instant;
 
 use mpm_core::{Basis, StepControl};
-use mpm_mesh::SimplexMesh;
+use mpm_mesh::{Gradient, SampleWeight, SimplexMesh};
 use parvi_benches::arguments::Arguments;
 use parvi_benches::mesh_block::{MeshBlock, block, cube, square};
 use parvi_benches::processor_time::processor_time;
@@ -67,8 +67,12 @@ fn rebuild<const D: usize>(body: &mut MeshBlock<D>, control: &StepControl) {
     );
 }
 
-fn time<const D: usize>(mesh: &SimplexMesh<D>, per_cell: usize, steps: usize) {
+fn time<const D: usize>(mesh: &SimplexMesh<D>, per_cell: usize, steps: usize, exact: bool) {
     let mut body = block(mesh, per_cell);
+    if exact {
+        let basis = body.basis.with_gradient(Gradient::Exact);
+        body.basis = basis.with_sample_weight(SampleWeight::Smooth);
+    }
     let count = body.particles.len() as f64;
     let control = StepControl {
         time_step: 1.0,
@@ -105,15 +109,20 @@ fn time<const D: usize>(mesh: &SimplexMesh<D>, per_cell: usize, steps: usize) {
 const USAGE: &str = "\
 Time per particle of a step on a mesh of triangles (2) or tetrahedra (3), of the search for cells and of the rebuild; with
 RAYON_NUM_THREADS=1 that of one thread.
-usage: time_mesh [2|3] [edge of the cells] [particles per cell] [steps]
-       unless given: 2, edges of 0.0069 (2) or 0.0616 (3) of the block's, 5 particles, 40 steps";
+usage: time_mesh [2|3] [edge of the cells] [particles per cell] [steps] [diffuse|exact]
+       unless given: 2, edges of 0.0069 (2) or 0.0616 (3) of the block's, 5 particles, 40 steps, diffuse gradients";
 
 fn main() {
     let arguments = Arguments::of_process(USAGE);
     let (per_cell, steps) = (arguments.number(2, 5), arguments.number(3, 40).max(1));
+    let exact = match arguments.word(4, "diffuse") {
+        "diffuse" => false,
+        "exact" => true,
+        other => arguments.refuse(other),
+    };
     match arguments.word(0, "2") {
-        "2" => time(&square(arguments.number(1, 0.0069)), per_cell, steps),
-        "3" => time(&cube(arguments.number(1, 0.0616)), per_cell, steps),
+        "2" => time(&square(arguments.number(1, 0.0069)), per_cell, steps, exact),
+        "3" => time(&cube(arguments.number(1, 0.0616)), per_cell, steps, exact),
         other => arguments.refuse(other),
     }
 }

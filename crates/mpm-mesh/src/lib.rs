@@ -20,7 +20,7 @@ mod vtu;
 
 pub use adjacency::Lists;
 pub use appended::{Appended, collection};
-pub use basis::{KernelWidth, MeshBasis, Outside, WeightAt};
+pub use basis::{Gradient, KernelWidth, MeshBasis, Outside, WeightAt};
 pub use boundary::BoundaryFacet;
 pub use edge_lengths::EdgeLengths;
 pub use error::MeshError;

@@ -3,6 +3,7 @@
 mod activate;
 mod cell_ring;
 mod curve;
+mod exact;
 mod locate;
 mod node_at;
 mod one_by_one;
@@ -18,11 +19,12 @@ use mpm_tensor::vector::{distance, subtract};
 
 use self::cell_ring::CellRing;
 use self::curve::AlongCurve;
+use self::exact::gradient_at;
 pub(crate) use self::locate::all_found;
 use self::node_at::VertexBoxes;
 use self::stencils::Stencils;
 pub use self::weights::WeightAt;
-use crate::kernel::{Fit, Floor};
+use crate::kernel::{Fit, Floor, Gradients};
 use crate::{CellSearch, MeshError, SampleWeight, SimplexMesh};
 
 /// What becomes of a particle that is in no cell.
@@ -50,6 +52,18 @@ pub enum KernelWidth {
     /// than the distance to a vertex of the cell, so that a fit exists. Where edges are equal it is their length. (The sizing field that §4 of the paper
     /// leaves to later work; the choice is ours.)
     Local,
+}
+
+/// What stands for the gradient of the weights, in the forces as in ∇v.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Gradient {
+    /// d′_pi (β + Γ r_i): that of the fit (Cao et al. 2024, Eq. 29), not ∇ of w. Continuous; but ∫ g_i dV over the support of a node is zero only where nodes lie symmetrically, so that on an irregular mesh a constant stress
+    /// pulls at nodes inside of a body, at any size of the mesh, and the body is too soft.
+    #[default]
+    Diffuse,
+    /// ∇w_ip: ∫ ∇w_i dV = 0, and Σ ∇w = 0 and Σ ∇w rᵀ = I as of the other. It jumps at faces, by what η bends there. With
+    /// [`SampleWeight::Smooth`], since with [`SampleWeight::Continuous`] a node that comes or goes has no mass and a gradient all the same.
+    Exact,
 }
 
 /// UMLS-MPM (Cao et al. 2024, doi 10.1007/s00466-024-02524-x): a particle's nodes are the first ring of its cell, its
@@ -80,6 +94,9 @@ pub struct MeshBasis<const D: usize> {
     /// Whether weights are kept positive, and by what, by particle; empty unless they are.
     positive: bool,
     floors: Vec<Floor<D>>,
+    /// ∇w of all particles, as `samples`; empty where gradients are diffuse.
+    gradients: Vec<Gradients<D>>,
+    gradient: Gradient,
     /// Whether D_p⁻¹ is computed.
     spreads: bool,
     /// Number by vertex; of no meaning where a vertex is not active.
@@ -132,6 +149,8 @@ impl<const D: usize> MeshBasis<D> {
             samples: Vec::new(),
             positive: false,
             floors: Vec::new(),
+            gradients: Vec::new(),
+            gradient: Gradient::default(),
             spreads: true,
             numbers: Vec::new(),
             active: Vec::new(),
@@ -157,6 +176,12 @@ impl<const D: usize> MeshBasis<D> {
     /// below θ d′ have those of the paper, to the bit.
     pub fn with_positive_weights(mut self, positive: bool) -> Self {
         self.positive = positive;
+        self
+    }
+
+    /// The same basis with other gradients.
+    pub fn with_gradient(mut self, gradient: Gradient) -> Self {
+        self.gradient = gradient;
         self
     }
 
@@ -310,8 +335,13 @@ impl<const D: usize> Basis<D> for MeshBasis<D> {
     #[inline(always)]
     fn for_each_node(&self, particle: usize, x: &[f64; D], mut visit: impl FnMut(usize, &Entry<D>)) {
         let (fit, floor) = (&self.particles[particle].fit, self.floor(particle));
+        let gradients = self.gradients_of(particle);
         self.for_each_sample(particle, |index, sample, node| {
-            visit(index, &fit.entry(&floor, sample, subtract(node, x)));
+            let mut entry = fit.entry(&floor, sample, subtract(node, x));
+            if let Some(gradients) = gradients {
+                entry.gradient = gradient_at(gradients, index);
+            }
+            visit(index, &entry);
         });
     }
 
@@ -375,6 +405,7 @@ impl<const D: usize> Basis<D> for MeshBasis<D> {
             + words.iter().map(|v| v.capacity() * 4).sum::<usize>()
             + self.particles.capacity() * size_of::<ParticleFit<D>>()
             + self.floors.capacity() * size_of::<Floor<D>>()
+            + self.gradients.capacity() * size_of::<Gradients<D>>()
             + (self.samples.capacity() + self.active_positions.capacity()) * size_of::<Lanes>()
             + (self.cell_node_starts.capacity() + self.widths.capacity()) * 8
             + self.marks.capacity()

@@ -14,7 +14,8 @@ use crate::kernel::sums;
 type Pack = Packed<1>;
 
 impl<const D: usize> MeshBasis<D> {
-    /// d′ [(α + β·r) (value + C r) + S β + S Γ r] at every node, with C = A D_p⁻¹; where there is no D_p⁻¹, C = 0 and S + A in the place of S.
+    /// w (value + C r) + S g at every node, with C = A D_p⁻¹; where there is no D_p⁻¹, C = 0 and S + A in the place of S. With diffuse gradients that is
+    /// d′ [(α + β·r) (value + C r) + S β + S Γ r].
     #[inline(always)]
     pub(super) fn deposit_in_lanes<A: Columns<D>, S: Columns<D>>(
         &self,
@@ -29,6 +30,7 @@ impl<const D: usize> MeshBasis<D> {
         let (tilted, mut pushes) = (affine.column(0).is_some(), flux.column(0).is_some());
         let mut tilt = [Pack::ZERO; D]; // columns of C
         let (mut push, mut bend) = (Pack::ZERO, [Pack::ZERO; D]); // S β, and columns of S Γ
+        let mut fluxes = [Pack::ZERO; D]; // columns of S
         for b in 0..D {
             let mut flux = pack(flux.column(b));
             match (pack(affine.column(b)), &fit.inverse_spread) {
@@ -44,6 +46,7 @@ impl<const D: usize> MeshBasis<D> {
                 }
             }
             if let Some(column) = flux {
+                fluxes[b] = column;
                 push = push.plus(Lanes::splat(fit.slope[b]), &column);
                 for a in 0..D {
                     bend[a] = bend[a].plus(Lanes::splat(fit.curvature.0[b][a]), &column);
@@ -56,6 +59,8 @@ impl<const D: usize> MeshBasis<D> {
         for a in 0..D {
             (tilts[a], bends[a]) = (splats::<D>(&tilt[a]), splats::<D>(&bend[a]));
         }
+        let exact = self.gradients_of(member.particle);
+        let fluxes = fluxes.map(|column| splats::<D>(&column));
         self.for_each_group(member, |first, sample, r| {
             let weight = weight_of(sample, level, &slope, r);
             let mut sent = [Lanes::ZERO; LANES];
@@ -68,7 +73,11 @@ impl<const D: usize> MeshBasis<D> {
                     }
                 }
                 sent[c + 1] = weight * carried;
-                if pushes {
+                if let Some(gradients) = exact {
+                    for a in 0..D {
+                        sent[c + 1] = fluxes[a][c].mul_add(gradients[first / LANES][a], sent[c + 1]);
+                    }
+                } else if pushes {
                     let mut pushed = push[c];
                     for a in 0..D {
                         pushed = bends[a][c].mul_add(r[a], pushed);
@@ -90,7 +99,10 @@ impl<const D: usize> MeshBasis<D> {
     ) -> Interpolated<D> {
         let fit = &self.particles[member.particle].fit;
         let by_moment = wanted.gradient && wanted.least_squares && fit.inverse_spread.is_some();
-        let by_gradient = wanted.gradient && !by_moment;
+        let exact = self
+            .gradients_of(member.particle)
+            .filter(|_| wanted.gradient && !by_moment);
+        let by_gradient = wanted.gradient && !by_moment && exact.is_none();
         let with_moment = wanted.moment || by_moment;
         let (level, slope) = (Lanes::splat(fit.level), fit.slope.map(Lanes::splat));
         let (mut zeroth, mut first, mut moment) = (Pack::ZERO, [Pack::ZERO; D], [Pack::ZERO; D]);
@@ -121,7 +133,10 @@ impl<const D: usize> MeshBasis<D> {
             value: value.deposit::<D>().vector,
             gradient: match &fit.inverse_spread {
                 Some(inverse) if by_moment => moment * *inverse,
-                _ => from_columns(&gradient),
+                _ => match exact {
+                    Some(gradients) => self.gradient_in_lanes(member, gradients, nodes),
+                    None => from_columns(&gradient),
+                },
             },
             moment: if wanted.moment { moment } else { Matrix::ZERO },
         }

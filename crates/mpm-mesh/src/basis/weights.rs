@@ -6,6 +6,7 @@ use mpm_tensor::vector::subtract;
 use rayon::prelude::*;
 
 use super::cell_ring::CellRing;
+use super::exact::gradient_at;
 use super::{MeshBasis, ParticleFit};
 use crate::kernel::{Fit, Floor, RingLanes};
 use crate::{Located, NO_CELL};
@@ -15,7 +16,7 @@ use crate::{Located, NO_CELL};
 pub struct WeightAt<const D: usize> {
     /// The node: a vertex in the numbering of the basis.
     pub vertex: u32,
-    /// Its weight, diffuse gradient and offset.
+    /// Its weight, gradient and offset.
     pub entry: Entry<D>,
 }
 
@@ -25,6 +26,7 @@ impl<const D: usize> MeshBasis<D> {
         let mut particles = std::mem::take(&mut self.particles);
         let mut samples = std::mem::take(&mut self.samples);
         let mut floors = std::mem::take(&mut self.floors);
+        let mut gradients = std::mem::take(&mut self.gradients);
         let nothing = ParticleFit {
             fit: Fit::NOTHING,
             cell: NO_CELL,
@@ -52,15 +54,19 @@ impl<const D: usize> MeshBasis<D> {
             return Err(MpmError::TooManyNodes { nodes });
         }
         samples.resize(groups, Lanes::ZERO);
-        let mut rest = samples.as_mut_slice();
+        gradients.resize(if self.is_exact() { groups } else { 0 }, [Lanes::ZERO; D]);
+        let (mut rest, mut rest_of_gradients) = (samples.as_mut_slice(), gradients.as_mut_slice());
         let mut work = Vec::with_capacity(shares.len());
         for (part, particles, floors, groups) in shares {
             let (own, others) = rest.split_at_mut(groups.len());
-            rest = others;
-            work.push((part, particles, floors, own, groups.start));
+            let (own_gradients, other_gradients) =
+                rest_of_gradients.split_at_mut(groups.len().min(rest_of_gradients.len()));
+            (rest, rest_of_gradients) = (others, other_gradients);
+            work.push((part, (particles, floors), (own, own_gradients), groups.start));
         }
         work.into_par_iter()
-            .for_each(|(part, particles, floors, samples, first)| {
+            .for_each(|(part, (particles, floors), (samples, gradients), first)| {
+                let points = &sorted[schedule.particles(&part.cells)];
                 let mut lanes = RingLanes::new(self.weight);
                 let (mut solved, mut next, mut sample) = (0, 0, 0);
                 for cell in part.cells.clone() {
@@ -82,12 +88,24 @@ impl<const D: usize> MeshBasis<D> {
                                     *floor = lanes.make_positive(k, self.spreads, samples, &mut particle.fit);
                                 }
                             }
+                            if !gradients.is_empty() {
+                                let floors = floors.get(solved..next).unwrap_or_default();
+                                let solved = (&particles[solved..next], floors);
+                                self.differentiate(
+                                    &lanes,
+                                    &points[next - solved.0.len()..next],
+                                    solved,
+                                    samples,
+                                    gradients,
+                                );
+                            }
                             solved = next;
                         }
                     }
                 }
             });
-        (self.particles, self.samples, self.floors) = (particles, samples, floors);
+        (self.particles, self.samples) = (particles, samples);
+        (self.floors, self.gradients) = (floors, gradients);
         Ok(())
     }
 
@@ -168,13 +186,21 @@ impl<const D: usize> MeshBasis<D> {
         if self.positive {
             floor = lanes.make_positive(0, false, &mut samples, &mut fit);
         }
-        let entry = |(&vertex, sample)| {
+        let mut gradients = vec![[Lanes::ZERO; D]; if self.is_exact() { samples.len() } else { 0 }];
+        if self.is_exact() {
+            let particle = ParticleFit { fit, cell, samples: 0 };
+            self.differentiate(&lanes, &[*x], (&[particle], &[floor]), &samples, &mut gradients);
+        }
+        let entry = |(index, (&vertex, sample))| {
             let node = &self.mesh().vertices()[vertex as usize];
-            let entry = fit.entry(&floor, sample, subtract(node, x));
+            let mut entry = fit.entry(&floor, sample, subtract(node, x));
+            if self.is_exact() {
+                entry.gradient = gradient_at(&gradients, index);
+            }
             WeightAt { vertex, entry }
         };
         let samples = samples.into_iter().flat_map(Lanes::to_array);
-        ring.iter().zip(samples).map(entry).collect()
+        ring.iter().zip(samples).enumerate().map(entry).collect()
     }
 
     /// Smallest weight in a cell, in the numbering of the basis, over the points with barycentric coordinates k / `divisions`, k whole; negative weights are

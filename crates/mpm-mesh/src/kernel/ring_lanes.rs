@@ -25,7 +25,7 @@ impl<const D: usize> Group<D> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pending<const D: usize> {
     pub point: [f64; D],
-    /// max(η, 0) by set of vertices.
+    /// max(η, 0), or η̃, by set of vertices.
     pub shares: [f64; SETS],
     pub inverse_h: f64,
     /// Where the groups of its ring and its d′ begin, and how many there are.
@@ -50,7 +50,7 @@ pub(crate) struct RingLanes<const D: usize> {
 }
 
 /// Sets of up to four vertices.
-pub(super) const SETS: usize = 16;
+pub(crate) const SETS: usize = 16;
 
 /// Groups that are kept before those of no use are dropped.
 const MANY: usize = 256;
@@ -115,7 +115,7 @@ impl<const D: usize> RingLanes<D> {
             group.positions.copy_from_slice(&positions(ring)[..D]);
             group.joined = *joined;
         }
-        if self.weight != SampleWeight::Continuous {
+        if !self.weight.diminishes() {
             let groups = self.groups[self.start..self.used].iter_mut();
             for (group, ring) in groups.zip(ring.as_chunks::<LANES>().0) {
                 for (set, vertex) in group.joined.iter_mut().zip(ring) {
@@ -154,10 +154,10 @@ impl<const D: usize> RingLanes<D> {
         self.count
     }
 
-    /// max(η, 0) by set of vertices, η = Σ_{n in the set} b_n with b_0 = 1 − Σ_{n ≥ 1} b_n; `barycentric` has b_1 to b_D.
+    /// max(η, 0), or η̃, by set of vertices, η = Σ_{n in the set} b_n with b_0 = 1 − Σ_{n ≥ 1} b_n; `barycentric` has b_1 to b_D.
     #[inline(always)]
     fn shares(&self, barycentric: &[f64; D]) -> [f64; SETS] {
-        if self.weight != SampleWeight::Continuous {
+        if !self.weight.diminishes() {
             let mut all = [0.0; SETS];
             all[ALL as usize] = 1.0;
             return all;
@@ -169,6 +169,9 @@ impl<const D: usize> RingLanes<D> {
         for (quarter, higher) in [0.0, b(2), b(3), b(2) + b(3)].into_iter().enumerate() {
             let shares = (low + Lanes::splat(higher)).fast_max(Lanes::ZERO).to_array();
             sets[quarter * LANES..][..LANES].copy_from_slice(&shares);
+        }
+        if self.weight == SampleWeight::Smooth {
+            sets = sets.map(|eta| self.weight.share(eta).0);
         }
         sets
     }

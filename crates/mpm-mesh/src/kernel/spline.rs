@@ -13,6 +13,15 @@ pub(super) fn quadratic(square: Lanes) -> Lanes {
     (outer * outer).mul_add(Lanes::splat(0.5), inner * inner * Lanes::splat(-1.5))
 }
 
+/// N₂(r) and N₂′(r) / r, r² = `square`; the latter is −2 for r < ½, also at r = 0.
+#[inline(always)]
+pub(super) fn quadratic_and_slope(square: Lanes) -> (Lanes, Lanes) {
+    let r = square.sqrt();
+    let outer = (r - Lanes::splat(1.5)).fast_min(Lanes::ZERO) / r;
+    let inside = r.simd_lt(Lanes::splat(0.5));
+    (quadratic(square), inside.select(Lanes::splat(-2.0), outer))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -28,6 +37,15 @@ mod tests {
             };
             let found = quadratic(Lanes::splat(r * r)).to_array()[2];
             assert!((found - expected).abs() < 4e-16, "N({r}) = {found}, not {expected}");
+            let slope = match r {
+                r if r < 0.5 => -2.0,
+                r if r < 1.5 => (r - 1.5) / r,
+                _ => 0.0,
+            };
+            let (value, found_slope) = quadratic_and_slope(Lanes::splat(r * r));
+            assert_eq!(value.to_array()[1], found);
+            let found = found_slope.to_array()[1];
+            assert!((found - slope).abs() < 1e-14, "N'({r}) / {r} = {found}, not {slope}");
         }
     }
 }

@@ -4,14 +4,17 @@ use crate::basis_scenes::{cloud, cube, line, naive_weights};
 use mpm_core::conformance::{layout_is_sound, transfers_are_sums};
 use mpm_core::{Basis, MpmError, NodeSums};
 use mpm_kernels::LANES;
-use mpm_mesh::{MeshBasis, Outside, SampleWeight, SimplexMesh};
+use mpm_mesh::{Gradient, MeshBasis, Outside, SampleWeight, SimplexMesh};
 use mpm_tensor::Matrix;
 
-/// Random clouds, each on a basis that was in use before, by least squares and with positive weights in turn.
+/// Random clouds, each on a basis that was in use before, by least squares and with positive weights in turn, with diffuse gradients and exact ones.
 fn conforms<const D: usize>(mesh: &SimplexMesh<D>, low: f64, high: f64) {
     let mut basis = MeshBasis::new(mesh).unwrap();
-    for round in 0..4 {
-        basis = basis.with_positive_weights(round % 2 == 1);
+    for (round, gradient) in [Gradient::Diffuse, Gradient::Diffuse, Gradient::Exact, Gradient::Exact]
+        .into_iter()
+        .enumerate()
+    {
+        basis = basis.with_positive_weights(round % 2 == 1).with_gradient(gradient);
         let mut positions = cloud::<D>(300 + 100 * round, low, high, round as u64);
         positions.extend(
             mesh.vertices()

@@ -110,6 +110,10 @@ pub fn naive_weights<const D: usize>(
         let shares = members.iter().zip(&barycentric).filter(|&(&n, _)| joined(n, i));
         match weight {
             SampleWeight::Continuous => spline * shares.map(|(_, b)| b).sum::<f64>(),
+            SampleWeight::Smooth => {
+                let share = shares.map(|(_, b)| b).sum::<f64>();
+                spline * share.powi(2) * (3.0 - 2.0 * share)
+            }
             SampleWeight::CellAlone => unreachable!("hat functions have an oracle of their own"),
             SampleWeight::DistanceAlone => spline * f64::from(u8::from(shares.count() > 0)),
         }

@@ -163,7 +163,11 @@ fn around_holes_and_re_entrant_corners_weights_and_gradients_are_continuous_with
 #[test]
 fn weights_and_gradients_are_those_of_the_definitions() {
     fn check<const D: usize>(mesh: SimplexMesh<D>, reach: f64) {
-        for weight in [SampleWeight::Continuous, SampleWeight::DistanceAlone] {
+        for weight in [
+            SampleWeight::Continuous,
+            SampleWeight::Smooth,
+            SampleWeight::DistanceAlone,
+        ] {
             let basis = MeshBasis::new(&mesh).unwrap().with_sample_weight(weight);
             for x in cloud::<D>(20, 0.0, reach, 8) {
                 let cell = basis.search().locate(&x, None).unwrap().cell;

@@ -2,6 +2,7 @@
 
 mod basis;
 mod basis_scenes;
+mod exact;
 mod graded;
 mod hat;
 mod kernel;

@@ -16,7 +16,7 @@ use crate::kernel::largest_jump;
 use crate::step::{control, solid};
 
 /// Random points of random cells of those that `wanted` tells.
-fn points<const D: usize>(
+pub fn points<const D: usize>(
     basis: &MeshBasis<D>,
     count: usize,
     seed: u64,

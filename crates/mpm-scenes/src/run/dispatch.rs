@@ -5,7 +5,7 @@ use mpm_core::{
     Transfer, VelocityFilter,
 };
 use mpm_kernels::{Cubic, Gimp, Linear, Quadratic, Spline};
-use mpm_mesh::{KernelWidth, MeshBasis, Outside, SampleWeight, SimplexMesh};
+use mpm_mesh::{Gradient, KernelWidth, MeshBasis, Outside, SampleWeight, SimplexMesh};
 use mpm_tensor::Matrix;
 
 use super::basis::SecondMoments;
@@ -16,7 +16,7 @@ use crate::law::{self, LawState, Laws};
 use crate::loads::Loads;
 use crate::population::Population;
 use crate::scene::{
-    BasisName, Discretisation, GridTable, KernelName, Scene, StressUpdateName, TransferKind, WidthName,
+    BasisName, Discretisation, GradientName, GridTable, KernelName, Scene, StressUpdateName, TransferKind, WidthName,
 };
 use crate::shape::Bounds;
 
@@ -177,15 +177,23 @@ pub(super) fn mesh_basis<const D: usize>(scene: &Scene, mesh: &SimplexMesh<D>) -
     };
     let weight = match table.kernel {
         KernelName::Umls => SampleWeight::Continuous,
+        KernelName::Smooth => SampleWeight::Smooth,
         KernelName::WithoutDiminishing => SampleWeight::DistanceAlone,
         KernelName::Hat => SampleWeight::CellAlone,
+    };
+    let gradient = match table.gradient {
+        GradientName::Diffuse => Gradient::Diffuse,
+        GradientName::Exact => Gradient::Exact,
     };
     let width = match table.width {
         WidthName::LongestEdge => KernelWidth::LongestEdge,
         WidthName::Local => KernelWidth::Local,
     };
     let basis = MeshBasis::new(mesh).map_err(invalid)?.with_kernel_width(width);
-    let basis = basis.with_outside(outside).with_sample_weight(weight);
+    let basis = basis
+        .with_gradient(gradient)
+        .with_outside(outside)
+        .with_sample_weight(weight);
     Ok(basis.with_positive_weights(table.positive_weights))
 }
 

@@ -20,7 +20,10 @@ pub struct MeshTable {
     /// The shape functions.
     #[serde(default)]
     pub kernel: KernelName,
-    /// How far the shape functions reach; with `kernel = "umls"` and `"without-diminishing"`.
+    /// What stands for their gradients; not with `kernel = "hat"`.
+    #[serde(default)]
+    pub gradient: GradientName,
+    /// How far the shape functions reach; not with `kernel = "hat"`.
     #[serde(default)]
     pub width: WidthName,
     /// Whether weights that least squares make small or negative are kept positive; not with `kernel = "hat"`. Default false, as in the paper.
@@ -47,10 +50,23 @@ pub enum KernelName {
     /// UMLS-MPM: least squares over the first ring with the diminishing function η (Cao et al. 2024, Eq. 32).
     #[default]
     Umls,
+    /// The same with η² (3 − 2η) in the place of η, which comes and goes with the slope zero; for `gradient = "exact"`.
+    Smooth,
     /// The same without η: weights jump at faces. A control.
     WithoutDiminishing,
     /// Piecewise linear functions, whose gradients jump at faces. A control.
     Hat,
+}
+
+/// `mesh.gradient`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum GradientName {
+    /// That of the least squares fit, which is not ∇ of the weight (Cao et al. 2024, Eq. 29).
+    #[default]
+    Diffuse,
+    /// ∇ of the weight: on irregular meshes a constant stress pulls at no node inside of a body.
+    Exact,
 }
 
 /// `mesh.width`.

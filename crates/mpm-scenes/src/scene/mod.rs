@@ -30,7 +30,9 @@ pub use discretisation::{BasisName, Discretisation, DomainTable, GridTable, Tran
 pub use facets::{FacetCondition, FacetTable};
 pub use load::LoadTable;
 pub use material::{FluidTable, GasTable, MaterialTable, MetalTable, SandTable, SnowTable, SolidTable};
-pub use mesh::{DelaunayTable, KernelName, MeshShapeTable, MeshTable, RefinementTable, RotationTable, WidthName};
+pub use mesh::{
+    DelaunayTable, GradientName, KernelName, MeshShapeTable, MeshTable, RefinementTable, RotationTable, WidthName,
+};
 pub use output::{OutputTable, ProbeTable, ValidationTable};
 pub use region::ShapeTable;
 pub use time::{StressUpdateName, TimeTable};

@@ -26,6 +26,8 @@ const LEAST_SHARE: f64 = 0.25;
 pub(crate) struct Floor<const D: usize> {
     /// 2θ; −∞ where weights are those of least squares.
     pub twice: f64,
+    /// α̂, of the fit with the sample weights d ψ′.
+    pub level: f64,
     /// β̂.
     pub slope: [f64; D],
 }
@@ -35,6 +37,7 @@ impl<const D: usize> Floor<D> {
     pub fn none(fit: &Fit<D>) -> Self {
         Self {
             twice: f64::NEG_INFINITY,
+            level: fit.level,
             slope: fit.slope,
         }
     }
@@ -49,6 +52,26 @@ impl<const D: usize> Floor<D> {
     #[inline(always)]
     pub fn factor(&self, s: f64) -> f64 {
         s.max(self.twice - s)
+    }
+
+    /// ψ(s).
+    #[inline(always)]
+    pub fn value(&self, s: Lanes) -> Lanes {
+        if !self.is_reached() {
+            return s;
+        }
+        let floor = Lanes::splat(0.5 * self.twice);
+        s.simd_lt(floor).select(floor * floor / (floor + floor - s), s)
+    }
+
+    /// −(∂ψ/∂θ) (∂θ/∂ Σ d) / ψ′(s) = 2 (θ − s) / Σ d below θ: θ falls as Σ d grows.
+    #[inline(always)]
+    pub fn lowering(&self, s: Lanes) -> Lanes {
+        if !self.is_reached() {
+            return Lanes::ZERO;
+        }
+        let per_total = self.twice / (2.0 * LEAST_SHARE);
+        (Lanes::splat(self.twice) - s - s).fast_max(Lanes::ZERO) * Lanes::splat(per_total)
     }
 }
 
@@ -81,6 +104,7 @@ impl<const D: usize> RingLanes<D> {
         };
         let floor = Floor {
             twice: 2.0 * problem.floor,
+            level: system.level,
             slope: system.slope,
         };
         let (tilted, inverse_spread) = problem.weighted(&state, spread);

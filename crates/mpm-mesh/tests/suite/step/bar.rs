@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
-use mpm_core::{Boundaries, Contact, Flip, Mpm, NoBodyForce, Particles, Side, Wall};
+use mpm_core::{Basis, Boundaries, Contact, Flip, Mpm, NoBodyForce, Particles, Side, Wall};
 use mpm_materials::{ElasticModuli, LinearElastic};
-use mpm_mesh::MeshBasis;
+use mpm_mesh::{Gradient, MeshBasis, SampleWeight};
 
 use super::{control, solid};
 use crate::basis_scenes::line;
@@ -18,6 +18,12 @@ const SPEED: f64 = 0.75;
 fn error(h: f64, outer: usize, per_cell: usize) -> f64 {
     let last = ((LENGTH + 1.3) / h).ceil() as usize + 1; // the free end swings by 1.19
     let nodes: Vec<f64> = (0..=last + outer).map(|k| h * (k as f64 - outer as f64)).collect();
+    error_on(MeshBasis::new(&line(&nodes)).unwrap(), h, per_cell)
+}
+
+/// The same on a mesh whose mean edge is `h`.
+fn error_on(basis: MeshBasis<1>, h: f64, per_cell: usize) -> f64 {
+    let shortest = basis.spacing();
     let count = (per_cell as f64 * LENGTH / h).round() as usize;
     let size = LENGTH / count as f64;
     let positions: Vec<[f64; 1]> = (0..count).map(|p| [size * (p as f64 + 0.5)]).collect();
@@ -34,12 +40,11 @@ fn error(h: f64, outer: usize, per_cell: usize) -> f64 {
         velocity: [0.0],
     };
     let law = LinearElastic::new(ElasticModuli::new(YOUNG, 0.0).unwrap());
-    let basis = MeshBasis::new(&line(&nodes)).unwrap();
     let body = Mpm::new(particles, basis, Flip::blend(1.0), solid(law), NoBodyForce);
     let mut body = body.with_boundary(Boundaries::new(vec![wall], Vec::new()));
     let frequency = wave_number * YOUNG.sqrt();
     let amplitude = SPEED / (wave_number * LENGTH * frequency);
-    let steps = (10.0 / (0.1 * h / YOUNG.sqrt())).ceil() as usize;
+    let steps = (10.0 / (0.1 * shortest / YOUNG.sqrt())).ceil() as usize;
     let dt = 10.0 / steps as f64;
     let mut squares = 0.0;
     for _ in 0..steps {
@@ -62,4 +67,25 @@ fn the_centre_of_mass_swings_as_it_should() {
         assert!(errors[1..].iter().all(|&error| error <= 0.00554), "{errors:?}");
         assert!((order - 2.0).abs() < 0.2, "order {order}");
     }
+}
+
+/// On segments of lengths 1 : 2 : 1.5 diffuse gradients leave the bar too soft at any size; exact ones converge.
+#[test]
+fn exact_gradients_converge_on_unequal_segments() {
+    let error = |h: f64, weight, gradient| {
+        let lengths = [1.0, 2.0, 1.5].map(|share| share * h / 1.5);
+        let mut nodes = vec![0.0];
+        while nodes[nodes.len() - 1] < LENGTH + 1.3 + 2.0 * h {
+            nodes.push(nodes[nodes.len() - 1] + lengths[(nodes.len() - 1) % 3]);
+        }
+        let basis = MeshBasis::new(&line(&nodes)).unwrap().with_sample_weight(weight);
+        error_on(basis.with_gradient(gradient), h, 8)
+    };
+    let sizes = [1.0, 0.5, 0.25];
+    let diffuse = sizes.map(|h| error(h, SampleWeight::Continuous, Gradient::Diffuse));
+    let exact = sizes.map(|h| error(h, SampleWeight::Smooth, Gradient::Exact));
+    println!("diffuse {diffuse:?}, exact {exact:?} for {sizes:?}");
+    assert!(diffuse[2] > 0.8 * diffuse[1], "{diffuse:?}");
+    let order = (exact[0] / exact[2]).log2() / 2.0;
+    assert!(order > 1.8, "{exact:?}: order {order}");
 }
