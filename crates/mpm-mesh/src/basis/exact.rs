@@ -1,7 +1,7 @@
 //! ∇w in the place of diffuse gradients.
 
 use mpm_core::Member;
-use mpm_kernels::{LANES, Lanes, NodeField};
+use mpm_kernels::{Columns, Deposit, Interpolated, LANES, Lanes, NodeField, NodeSink, Wanted};
 use mpm_tensor::Matrix;
 
 use super::cell_ring::CellRing;
@@ -66,16 +66,36 @@ impl<const D: usize> MeshBasis<D> {
         slopes
     }
 
-    /// Σ v ∇wᵀ.
-    #[inline(always)]
-    pub(super) fn gradient_in_lanes(
+    /// As [`Basis::deposit`](mpm_core::Basis::deposit).
+    #[inline(never)]
+    pub(super) fn deposit_exact<A: Columns<D>, S: Columns<D>>(
         &self,
         member: Member<CellRing<D>, D>,
-        gradients: &[Gradients<D>],
+        value: &Deposit<D>,
+        affine: &A,
+        flux: &S,
+        sink: &mut impl NodeSink<D>,
+    ) {
+        self.deposit_in_lanes::<true, _, _>(member, value, affine, flux, sink);
+    }
+
+    /// As [`Basis::interpolate`](mpm_core::Basis::interpolate).
+    #[inline(never)]
+    pub(super) fn interpolate_exact(
+        &self,
+        member: Member<CellRing<D>, D>,
+        wanted: Wanted,
         nodes: &impl NodeField<D>,
-    ) -> Matrix<D> {
+    ) -> Interpolated<D> {
+        self.interpolate_in_lanes::<true>(member, wanted, nodes)
+    }
+
+    /// Σ v ∇wᵀ.
+    #[inline(always)]
+    pub(super) fn gradient_in_lanes(&self, member: Member<CellRing<D>, D>, nodes: &impl NodeField<D>) -> Matrix<D> {
+        let gradients = self.gradients_of(member.particle).unwrap_or_default();
         let mut columns = [[Lanes::ZERO; LANES]; D];
-        for (group, gradient) in gradients[..member.cell.groups().len()].iter().enumerate() {
+        for (group, gradient) in gradients.iter().take(member.cell.groups().len()).enumerate() {
             let [_, v @ ..] = nodes.side_by_side(group);
             for a in 0..D {
                 for c in 0..D {

@@ -357,7 +357,10 @@ impl<const D: usize> Basis<D> for MeshBasis<D> {
         if self.is_kept_positive(member.particle) {
             return self.deposit_one_by_one(member, value, affine, flux, sink);
         }
-        self.deposit_in_lanes(member, value, affine, flux, sink);
+        if self.is_exact() {
+            return self.deposit_exact(member, value, affine, flux, sink);
+        }
+        self.deposit_in_lanes::<false, _, _>(member, value, affine, flux, sink);
     }
 
     #[inline(always)]
@@ -370,7 +373,10 @@ impl<const D: usize> Basis<D> for MeshBasis<D> {
         if self.is_kept_positive(member.particle) {
             return self.interpolate_one_by_one(member, wanted, nodes);
         }
-        self.interpolate_in_lanes(member, wanted, nodes)
+        if self.is_exact() {
+            return self.interpolate_exact(member, wanted, nodes);
+        }
+        self.interpolate_in_lanes::<false>(member, wanted, nodes)
     }
 
     #[inline(always)]

@@ -17,7 +17,7 @@ impl<const D: usize> MeshBasis<D> {
     /// w (value + C r) + S g at every node, with C = A D_p⁻¹; where there is no D_p⁻¹, C = 0 and S + A in the place of S. With diffuse gradients that is
     /// d′ [(α + β·r) (value + C r) + S β + S Γ r].
     #[inline(always)]
-    pub(super) fn deposit_in_lanes<A: Columns<D>, S: Columns<D>>(
+    pub(super) fn deposit_in_lanes<const EXACT: bool, A: Columns<D>, S: Columns<D>>(
         &self,
         member: Member<CellRing<D>, D>,
         value: &Deposit<D>,
@@ -46,7 +46,10 @@ impl<const D: usize> MeshBasis<D> {
                 }
             }
             if let Some(column) = flux {
-                fluxes[b] = column;
+                if EXACT {
+                    fluxes[b] = column;
+                    continue;
+                }
                 push = push.plus(Lanes::splat(fit.slope[b]), &column);
                 for a in 0..D {
                     bend[a] = bend[a].plus(Lanes::splat(fit.curvature.0[b][a]), &column);
@@ -59,8 +62,12 @@ impl<const D: usize> MeshBasis<D> {
         for a in 0..D {
             (tilts[a], bends[a]) = (splats::<D>(&tilt[a]), splats::<D>(&bend[a]));
         }
-        let exact = self.gradients_of(member.particle);
-        let fluxes = fluxes.map(|column| splats::<D>(&column));
+        let gradients = self.gradients_of(member.particle).filter(|_| EXACT).unwrap_or_default();
+        let fluxes = if EXACT {
+            fluxes.map(|column| splats::<D>(&column))
+        } else {
+            [[Lanes::ZERO; D]; D]
+        };
         self.for_each_group(member, |first, sample, r| {
             let weight = weight_of(sample, level, &slope, r);
             let mut sent = [Lanes::ZERO; LANES];
@@ -73,7 +80,7 @@ impl<const D: usize> MeshBasis<D> {
                     }
                 }
                 sent[c + 1] = weight * carried;
-                if let Some(gradients) = exact {
+                if EXACT {
                     for a in 0..D {
                         sent[c + 1] = fluxes[a][c].mul_add(gradients[first / LANES][a], sent[c + 1]);
                     }
@@ -91,7 +98,7 @@ impl<const D: usize> MeshBasis<D> {
 
     /// From m = Σ d′ v and m_a = Σ d′ v r_a: Σ w v = α m + Σ_a β_a m_a, and columns b of Σ v gᵀ = β_b m + Σ_a Γ_ab m_a.
     #[inline(always)]
-    pub(super) fn interpolate_in_lanes(
+    pub(super) fn interpolate_in_lanes<const EXACT: bool>(
         &self,
         member: Member<CellRing<D>, D>,
         wanted: Wanted,
@@ -99,10 +106,7 @@ impl<const D: usize> MeshBasis<D> {
     ) -> Interpolated<D> {
         let fit = &self.particles[member.particle].fit;
         let by_moment = wanted.gradient && wanted.least_squares && fit.inverse_spread.is_some();
-        let exact = self
-            .gradients_of(member.particle)
-            .filter(|_| wanted.gradient && !by_moment);
-        let by_gradient = wanted.gradient && !by_moment && exact.is_none();
+        let by_gradient = wanted.gradient && !by_moment && !EXACT;
         let with_moment = wanted.moment || by_moment;
         let (level, slope) = (Lanes::splat(fit.level), fit.slope.map(Lanes::splat));
         let (mut zeroth, mut first, mut moment) = (Pack::ZERO, [Pack::ZERO; D], [Pack::ZERO; D]);
@@ -133,10 +137,8 @@ impl<const D: usize> MeshBasis<D> {
             value: value.deposit::<D>().vector,
             gradient: match &fit.inverse_spread {
                 Some(inverse) if by_moment => moment * *inverse,
-                _ => match exact {
-                    Some(gradients) => self.gradient_in_lanes(member, gradients, nodes),
-                    None => from_columns(&gradient),
-                },
+                _ if EXACT && wanted.gradient => self.gradient_in_lanes(member, nodes),
+                _ => from_columns(&gradient),
             },
             moment: if wanted.moment { moment } else { Matrix::ZERO },
         }
