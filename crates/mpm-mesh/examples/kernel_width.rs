@@ -1,6 +1,6 @@
 //! How wide the kernels of the mesh generators are: `cargo run --release -p mpm-mesh --example kernel_width`.
 //!
-//! Prints, for kernels as wide as the longest edge of the mesh and as those around the particle, the second moments Σ w_i (x_i − x)_a² of the weights in size² per axis, and which quadratic
+//! Prints, for kernels as wide as the longest edge of the mesh and as those around the particle, and for the latter with exact gradients, the second moments Σ w_i (x_i − x)_a² of the weights in size² per axis, and which quadratic
 //! splines are on average as wide (Σ w r² = D h²/4) and as steep (Σ |∇w|² = D (11/20)^(D−1) / h²): their h, in sizes. Means over D + 2 points of every cell, its middle and one near each corner.
 
 use std::error::Error;
@@ -9,7 +9,7 @@ use std::io::Write;
 use mpm_mesh::generate::{
     EdgeTarget, Scatter, SizeField, cuboid, rectangle, rectangle_outline, scattered, triangle_lattice,
 };
-use mpm_mesh::{KernelWidth, MeshBasis, SimplexMesh};
+use mpm_mesh::{Gradient, KernelWidth, MeshBasis, SampleWeight, SimplexMesh};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
@@ -42,11 +42,20 @@ fn print<const D: usize>(name: &str, size: f64, mesh: &SimplexMesh<D>) -> Result
     let longest = mesh.edge_lengths().longest / size;
     let mut output = std::io::stdout().lock();
     writeln!(output, "{name} of size {size}, longest edge {longest:.2}")?;
-    for (width, called) in [
-        (KernelWidth::LongestEdge, "longest edge"),
-        (KernelWidth::Local, "local"),
+    let paper = (SampleWeight::Continuous, Gradient::Diffuse);
+    for (width, (weight, gradient), called) in [
+        (KernelWidth::LongestEdge, paper, "longest edge"),
+        (KernelWidth::Local, paper, "local"),
+        (
+            KernelWidth::Local,
+            (SampleWeight::Smooth, Gradient::Exact),
+            "local, exact",
+        ),
     ] {
-        let Means { moments, steepness } = means(&MeshBasis::new(mesh)?.with_kernel_width(width));
+        let basis = MeshBasis::new(mesh)?
+            .with_kernel_width(width)
+            .with_sample_weight(weight);
+        let Means { moments, steepness } = means(&basis.with_gradient(gradient));
         let moments = moments.map(|moment| moment / (size * size));
         let wide = (4.0 * moments.iter().sum::<f64>() / D as f64).sqrt();
         let steep = (D as f64 * 0.55f64.powi(D as i32 - 1) / steepness).sqrt() / size;
