@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 
 use crate::CommandError;
+use crate::plots::results::Value;
 
 /// Writes text to standard output; a closed pipe is an error like any other.
 pub fn print(text: &str) -> Result<(), CommandError> {
@@ -13,13 +14,13 @@ pub fn print(text: &str) -> Result<(), CommandError> {
         .map_err(|source| CommandError::file("write to", "standard output", source))
 }
 
-/// Writes `key=value` lines to standard output, in the order given.
-pub fn print_pairs(pairs: &[(&str, String)]) -> Result<(), CommandError> {
-    let mut text = String::new();
-    for (key, value) in pairs {
-        text.push_str(&format!("{key}={value}\n"));
-    }
-    print(&text)
+/// What standard output says, and by which key.
+pub type Pair = (&'static str, Value);
+
+/// Writes `key=value` lines to standard output, in the order given; a key without a value is left out.
+pub fn print_pairs(pairs: &[(&str, Value)]) -> Result<(), CommandError> {
+    let told = pairs.iter().filter(|(_, value)| *value != Value::Empty);
+    print(&told.map(|(key, value)| format!("{key}={value}\n")).collect::<String>())
 }
 
 /// Writes a line to standard error. Where even that fails there is nobody left to tell.

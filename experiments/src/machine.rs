@@ -15,10 +15,8 @@ pub fn processor() -> Option<String> {
 
 /// The time now as an ISO 8601 string in UTC, e.g. `2026-01-31T23:59:59Z`.
 pub fn utc_now() -> String {
-    let seconds = SystemTime::now()
-        .duration_since(UNIX_EPOCH)
-        .map_or(0, |elapsed| elapsed.as_secs());
-    utc(seconds)
+    let elapsed = SystemTime::now().duration_since(UNIX_EPOCH);
+    utc(elapsed.map_or(0, |elapsed| elapsed.as_secs()))
 }
 
 /// Seconds since 1970 as an ISO 8601 string.
@@ -31,11 +29,7 @@ fn utc(seconds: u64) -> String {
     let day_of_year = day_of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
     let month_from_march = (5 * day_of_year + 2) / 153;
     let day = day_of_year - (153 * month_from_march + 2) / 5 + 1;
-    let month = if month_from_march < 10 {
-        month_from_march + 3
-    } else {
-        month_from_march - 9
-    };
+    let month = (month_from_march + 2) % 12 + 1;
     let year = era * 400 + year_of_era + u64::from(month <= 2);
     let (hour, minute, second) = (rest / 3_600, rest / 60 % 60, rest % 60);
     format!("{year:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}Z")

@@ -24,12 +24,15 @@ impl FileKind {
     /// [`CommandError::OtherKind`].
     pub fn check(self, file: &Path) -> Result<(), CommandError> {
         match std::fs::read_to_string(file).ok().and_then(|text| Self::of(&text)) {
-            Some(found) if found != self => Err(CommandError::OtherKind {
-                file: file.display().to_string(),
-                found: found.in_words(),
-                command: found.command(),
-                expected: self.in_words(),
-            }),
+            Some(found) if found != self => {
+                let ((found, command), (expected, _)) = (found.told(), self.told());
+                Err(CommandError::OtherKind {
+                    file: file.display().to_string(),
+                    found,
+                    command,
+                    expected,
+                })
+            }
             _ => Ok(()),
         }
     }
@@ -47,19 +50,12 @@ impl FileKind {
         }
     }
 
-    fn in_words(self) -> &'static str {
+    /// In words, and the command that takes it.
+    fn told(self) -> (&'static str, &'static str) {
         match self {
-            Self::Study => "the configuration of a study",
-            Self::Scene => "a scene",
-            Self::Experiment => "the configuration of a reduced-order model",
-        }
-    }
-
-    fn command(self) -> &'static str {
-        match self {
-            Self::Study => "parvi run",
-            Self::Scene => "parvi simulate",
-            Self::Experiment => "parvi rom train|run",
+            Self::Study => ("the configuration of a study", "parvi run"),
+            Self::Scene => ("a scene", "parvi simulate"),
+            Self::Experiment => ("the configuration of a reduced-order model", "parvi rom train|run"),
         }
     }
 }

@@ -21,13 +21,9 @@ fn entry(info: &TargetInfo, width: usize) -> String {
     let mut text = format!("{:width$}  {}\n", info.name, info.summary);
     text.push_str(&format!("{indent}dimension: {}\n", info.dimensions.in_words()));
     for parameter in info.parameters {
-        let default = parameter
-            .default
-            .map_or("required".to_owned(), |value| format!("[{value}]"));
-        text.push_str(&format!(
-            "{indent}--{} {default}: {}\n",
-            parameter.name, parameter.meaning
-        ));
+        let (name, meaning, default) = (parameter.name, parameter.meaning, parameter.default);
+        let default = default.map_or("required".to_owned(), |value| format!("[{value}]"));
+        text.push_str(&format!("{indent}--{name} {default}: {meaning}\n"));
     }
     let modes = format!("{} modes with their masses", info.modes);
     let facts = [
@@ -38,11 +34,8 @@ fn entry(info: &TargetInfo, width: usize) -> String {
         (info.modes > 1, &modes),
         (info.log_evidence, "log evidence"),
     ];
-    let known: Vec<&str> = facts
-        .iter()
-        .filter(|(known, _)| *known)
-        .map(|(_, fact)| *fact)
-        .collect();
+    let known = facts.iter().filter_map(|(known, fact)| known.then_some(*fact));
+    let known: Vec<&str> = known.collect();
     text.push_str(&format!("{indent}known: {}\n", known.join(", ")));
     text
 }

@@ -2,7 +2,9 @@
 
 mod moments;
 
-use parvi_metrics::{Cloud, InverseMultiquadric, effective_sample_size, kernel_stein_discrepancy, quantiles};
+use parvi_metrics::{
+    Cloud, InverseMultiquadric, MetricError, effective_sample_size, kernel_stein_discrepancy, quantiles,
+};
 use parvi_targets::{CatalogueTarget, Frame};
 use serde::Serialize;
 
@@ -60,15 +62,19 @@ struct PoolSize {
 }
 
 impl PoolSize {
-    fn of(pool: &Particles) -> Result<Self, CommandError> {
+    fn of(pool: &Particles) -> Result<Self, MetricError> {
         Ok(Self {
             points: pool.len(),
-            effective_size: match pool.weights() {
-                Some(weights) => effective_sample_size(weights)?,
-                None => pool.len() as f64,
-            },
+            effective_size: effective_size(pool)?,
         })
     }
+}
+
+/// (Σ w)² / Σ w².
+fn effective_size(particles: &Particles) -> Result<f64, MetricError> {
+    particles
+        .weights()
+        .map_or(Ok(particles.len() as f64), effective_sample_size)
 }
 
 #[derive(Debug, Serialize)]
@@ -108,10 +114,7 @@ fn of_target<const D: usize>(
     let points = particles.points::<D>().unwrap_or_default();
     let weights = particles.weights();
     let cloud = Cloud::with_optional_weights(&points, weights)?;
-    let size = match weights {
-        Some(weights) => effective_sample_size(weights)?,
-        None => points.len() as f64,
-    };
+    let size = effective_size(particles)?;
     let certificate = outcome.certificate.as_ref();
     let moments = match certificate {
         Some(certificate) if certificate.moments.len() == D => of_certificate(certificate),

@@ -50,10 +50,8 @@ impl<const LEAST: i64, const MOST: i64> FromStr for Bounded<LEAST, MOST> {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let value: i64 = text
-            .parse()
-            .map_err(|_| format!("must be an integer from {LEAST} to {MOST}"))?;
-        Self::try_from(value)
+        let value = text.parse::<i64>();
+        Self::try_from(value.map_err(|_| format!("must be an integer from {LEAST} to {MOST}"))?)
     }
 }
 

@@ -1,27 +1,20 @@
 //! A number that can be switched off.
 
-use std::fmt::{self, Display, Formatter};
 use std::str::FromStr;
 
 use serde::Deserialize;
 
+use crate::plots::results::Value;
+
 /// A number, or `off`.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(try_from = "toml::Value")]
-pub enum Limit {
-    /// No limit.
-    Off,
-    /// The limit.
-    At(f64),
-}
+pub struct Limit(Option<f64>);
 
 impl Limit {
     /// The number, `None` when off.
     pub fn value(self) -> Option<f64> {
-        match self {
-            Self::Off => None,
-            Self::At(value) => Some(value),
-        }
+        self.0
     }
 }
 
@@ -29,21 +22,14 @@ impl FromStr for Limit {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        if text == "off" {
-            return Ok(Self::Off);
-        }
-        text.parse()
-            .map(Self::At)
-            .map_err(|_| "must be a number or `off`".to_owned())
+        let number = Some(text).filter(|text| *text != "off").map(str::parse).transpose();
+        number.map(Self).map_err(|_| "must be a number or `off`".to_owned())
     }
 }
 
-impl Display for Limit {
-    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Off => write!(formatter, "off"),
-            Self::At(value) => write!(formatter, "{value}"),
-        }
+impl From<Limit> for Value {
+    fn from(limit: Limit) -> Self {
+        limit.value().map_or("off".into(), Self::Number)
     }
 }
 
@@ -52,8 +38,8 @@ impl TryFrom<toml::Value> for Limit {
 
     fn try_from(value: toml::Value) -> Result<Self, String> {
         match value {
-            toml::Value::Float(value) => Ok(Self::At(value)),
-            toml::Value::Integer(value) => Ok(Self::At(value as f64)),
+            toml::Value::Float(value) => Ok(Self(Some(value))),
+            toml::Value::Integer(value) => Ok(Self(Some(value as f64))),
             value => value.as_str().unwrap_or_default().parse(),
         }
     }

@@ -8,6 +8,7 @@ use super::{
     AlphaSchedule, Basis, Correction, Draws, EvaluationCount, FrameName, Limit, Material, MethodName, MonitorName,
     NonFinite, OptionError, ParticleCount, RoundCount, Score, StepCount, Switch, Transfer, WarmUp,
 };
+use crate::plots::results::Value;
 
 /// A range for numbers, and its name.
 pub type Range = (fn(f64) -> bool, &'static str);
@@ -47,17 +48,22 @@ macro_rules! options {
                 [$(stringify!($name)),*].map(flag).into()
             }
 
+            /// The options that are set, by the names of columns.
+            pub fn values(&self) -> impl Iterator<Item = (&'static str, Value)> {
+                let all = [$((stringify!($name), self.$name.clone().map(Value::from))),*];
+                all.into_iter().filter_map(|(name, value)| Some((name, value?)))
+            }
+
             /// The options that are set: name, value as typed.
             pub fn given(&self) -> impl Iterator<Item = (String, String)> {
-                let all = [$((stringify!($name), self.$name.as_ref().map(ToString::to_string))),*];
-                all.into_iter().filter_map(|(name, value)| Some((flag(name), value?)))
+                self.values().map(|(name, value)| (flag(name), value.to_string()))
             }
 
             /// The options that have a range: name, value, range.
             pub(super) fn ranged(&self) -> Vec<(String, Option<f64>, Range)> {
                 vec![$($($((
                     flag(stringify!($name)),
-                    self.$name.as_ref().and_then(|value| value.to_string().parse().ok()),
+                    self.$name.clone().and_then(|value| Value::from(value).to_string().parse().ok()),
                     $range,
                 ),)?)?)*]
             }
@@ -240,10 +246,9 @@ impl MethodOptions {
 
     /// Refuses options that the method does not have.
     fn check_fit(&self, method: MethodName) -> Result<(), OptionError> {
-        match self.given().find(|(name, _)| !method.kind().has(name)) {
-            Some((name, value)) => Err(OptionError::misfit(&name, &value, method.as_str())),
-            None => Ok(()),
-        }
+        let foreign = self.given().find(|(name, _)| !method.kind().has(name));
+        let misfit = |(name, value): (String, String)| OptionError::misfit(&name, &value, method.as_str());
+        foreign.map(misfit).map_or(Ok(()), Err)
     }
 
     /// Where the particles begin.
@@ -258,9 +263,8 @@ impl MethodOptions {
 
     /// The flags that say the same on the command line.
     pub fn flags(&self) -> Vec<String> {
-        self.given()
-            .flat_map(|(name, value)| [format!("--{name}"), value])
-            .collect()
+        let flags = self.given().map(|(name, value)| [format!("--{name}"), value]);
+        flags.flatten().collect()
     }
 }
 

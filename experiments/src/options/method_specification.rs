@@ -1,10 +1,9 @@
 //! A method with its options, as a configuration states it.
 
-use parvi::{Method, Run, SampleError};
-use serde::de::Error;
-use serde::{Deserialize, Deserializer};
+use parvi::{Method, Run};
+use serde::Deserialize;
 
-use super::{Basis, MethodName, MethodOptions, OptionError};
+use super::{Basis, MethodName, MethodOptions, OptionError, StepCount, checked_when_read};
 
 /// `{ name = "mpm", options = { spacing = 0.5 } }`; options that do not fit the method are refused while reading.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -19,22 +18,13 @@ pub struct MethodSpecification {
     pub options: MethodOptions,
 }
 
-impl<'de> Deserialize<'de> for MethodSpecification {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let stated = Self::deserialize(deserializer)?;
-        stated.checked().map_err(D::Error::custom)
-    }
-}
+checked_when_read!(MethodSpecification);
 
 impl MethodSpecification {
-    /// The same, if its options fit.
-    ///
-    /// # Errors
-    /// An option that does not fit, or that no study has.
-    pub fn checked(self) -> Result<Self, OptionError> {
+    /// Refuses options that do not fit, or that no study has.
+    pub fn check(&self) -> Result<(), OptionError> {
         self.options.method(self.name)?;
-        self.options.check_study(self.name)?;
-        Ok(self)
+        self.options.check_study(self.name)
     }
 
     /// The name in tables and figures.
@@ -42,27 +32,15 @@ impl MethodSpecification {
         self.label.as_deref().unwrap_or(self.name.as_str())
     }
 
-    /// Refuses a method that this build lacks, before anything is run.
-    ///
-    /// # Errors
-    /// [`SampleError::NotBuilt`].
-    pub fn check_built(&self) -> Result<(), SampleError> {
+    /// The feature that has the method, where this build lacks it.
+    pub fn lacks(&self) -> Option<&'static str> {
         let needs = [
             ("mesh", cfg!(feature = "mesh"), self.options.basis == Some(Basis::Mesh)),
             ("nuts", cfg!(feature = "nuts"), self.options.uses_chains(self.name)),
-            (
-                "paper",
-                cfg!(feature = "paper"),
-                matches!(self.name, MethodName::PaperPic | MethodName::PaperApic),
-            ),
+            ("paper", cfg!(feature = "paper"), self.name.is_paper()),
         ];
-        match needs.into_iter().find(|&(_, built, needed)| needed && !built) {
-            Some((name, ..)) => Err(SampleError::NotBuilt {
-                method: name,
-                feature: name,
-            }),
-            None => Ok(()),
-        }
+        let mut lacking = needs.into_iter().filter(|&(_, built, needed)| needed && !built);
+        lacking.next().map(|(feature, ..)| feature)
     }
 
     /// A run that begins where the options say.
@@ -75,10 +53,8 @@ impl MethodSpecification {
     /// The method for the sampler, with another number of steps where one is given and the method takes steps.
     pub fn method(&self, steps: Option<usize>) -> Result<Method, OptionError> {
         let mut options = self.options.clone();
-        if self.name.iterates()
-            && let Some(steps) = steps
-        {
-            options.steps = i64::try_from(steps).ok().and_then(super::StepCount::new);
+        if let Some(steps) = steps.filter(|_| self.name.iterates()) {
+            options.steps = i64::try_from(steps).ok().and_then(StepCount::new);
         }
         options.method(self.name)
     }

@@ -1,6 +1,7 @@
 //! Options of targets and methods, with the same names on the command line and in configurations.
 
 mod bounded;
+mod checked_when_read;
 mod law;
 mod limit;
 mod material_options;
@@ -14,11 +15,12 @@ mod target_specification;
 mod words_or_files;
 
 pub use bounded::{Bounded, Dimension, EvaluationCount, ParticleCount, RoundCount, StepCount, WarmUp};
+pub(crate) use checked_when_read::checked_when_read;
 pub use law::{Given, Material, Parameter};
 pub use limit::Limit;
 pub use method_options::MethodOptions;
 pub use method_specification::MethodSpecification;
-pub use methods::{MethodName, owners};
+pub use methods::{MethodName, is_among, owners};
 pub use option_error::OptionError;
 pub(crate) use option_values::words;
 pub use option_values::{

@@ -1,21 +1,11 @@
 //! Ranges of options, and which of them need or exclude each other.
 
-use super::{AlphaSchedule, Basis, Limit, MethodName, MethodOptions, OptionError, PoolChoice, Score, Switch, Transfer};
+use super::{
+    AlphaSchedule, Basis, MethodName, MethodOptions, OptionError, PoolChoice, Score, Switch, Transfer, is_among,
+};
 
-/// What has to hold where an option is given.
-struct Rules {
-    /// Options for which it does not, and what is to be said behind their values.
-    broken: Vec<(&'static str, &'static str)>,
-}
-
-impl Rules {
-    /// For this option, if it is given, that has to hold.
-    fn ask(&mut self, option: &'static str, holds: bool, otherwise: &'static str) {
-        if !holds {
-            self.broken.push((option, otherwise));
-        }
-    }
-}
+/// Options with spaces between, what has to hold where one of them is given, and what is to be said behind its value otherwise.
+type Rule = (&'static str, bool, &'static str);
 
 impl MethodOptions {
     /// Refuses numbers outside of their range.
@@ -30,93 +20,78 @@ impl MethodOptions {
 
     /// Refuses options that need or exclude each other.
     pub(super) fn check_rules(&self, method: MethodName) -> Result<(), OptionError> {
-        let mut rules = Rules { broken: Vec::new() };
-        self.rules_of_all(&mut rules);
-        match method {
-            MethodName::Mpm => self.rules_of_gas(&mut rules),
-            MethodName::SteinThinning => self.rules_of_thinning(&mut rules),
-            _ => {}
-        }
+        let mut rules = self.rules_of_all();
+        rules.extend(match method {
+            MethodName::Mpm => self.rules_of_gas(),
+            MethodName::SteinThinning => self.rules_of_thinning(),
+            _ => Vec::new(),
+        });
         let given: Vec<(String, String)> = self.given().collect();
-        for (option, reason) in rules.broken {
-            if let Some((_, value)) = given.iter().find(|(name, _)| name == option) {
-                return Err(OptionError::new(option, format!("{value} {reason}")));
-            }
-        }
-        Ok(())
+        let broken = rules.into_iter().filter(|(_, holds, _)| !holds);
+        let refused = |(options, _, reason): Rule| {
+            let (name, value) = given.iter().find(|(name, _)| is_among(options, name))?;
+            Some(OptionError::new(name, format!("{value} {reason}")))
+        };
+        broken.filter_map(refused).next().map_or(Ok(()), Err)
     }
 
-    fn rules_of_all(&self, rules: &mut Rules) {
+    fn rules_of_all(&self) -> Vec<Rule> {
         let is_geometric = matches!(self.alpha_schedule, None | Some(AlphaSchedule::Geometric));
         let alike = |(from, to): (f64, f64)| from != 0.0 && to != 0.0 && from.signum() == to.signum();
         let reaches = !is_geometric || self.alpha_from.zip(self.alpha_to).is_none_or(alike);
-        let otherwise = "must have the sign of alpha-from in a geometric schedule, and neither may be 0";
-        rules.ask("alpha-to", reaches, otherwise);
-        let has_from = self.alpha_from.is_some();
-        rules.ask("alpha-schedule", has_from, "needs alpha-from and alpha-to beside it");
         let is_cyclic = self.alpha_schedule == Some(AlphaSchedule::Cyclic);
-        rules.ask("alpha-cycles", is_cyclic, "needs the alpha-schedule `cyclic`");
-        rules.ask("alpha-from", self.alpha.is_none(), "contradicts a constant alpha");
-        rules.ask("alpha-to", self.alpha.is_none(), "contradicts a constant alpha");
-        rules.ask("alpha-from", self.alpha_to.is_some(), "needs alpha-to beside it");
-        rules.ask("alpha-to", has_from, "needs alpha-from beside it");
-        rules.ask("mesh", self.basis == Some(Basis::Mesh), "needs the basis `mesh`");
-        for option in ["start-law", "start-centre", "start-mean", "start-sd"] {
-            rules.ask(option, self.start.is_none(), "contradicts --start");
-        }
-        for option in ["start-centre", "start-mean", "start-sd"] {
-            rules.ask(option, self.start_law.is_none(), "contradicts --start-law");
-        }
+        let (is_constant, has_from) = (self.alpha.is_some(), self.alpha_from.is_some());
+        let (has_file, has_law) = (self.start.is_some(), self.start_law.is_some());
         let has_centre = self.start_centre.is_some();
-        for option in ["start-mean", "start-sd"] {
-            rules.ask(option, !has_centre, "contradicts --start-centre");
-        }
-        rules.ask("start-covariance", has_centre, "needs --start-centre beside it");
-        let has_law = self.start.is_none() || !self.volumes_of_start();
-        let otherwise = "needs a start law, which a file of positions does not have";
-        rules.ask("volumes", has_law, otherwise);
+        let has_density = !has_file || !self.volumes_of_start();
+        let laws = "start-law start-centre start-mean start-sd";
+        let otherwise = "must have the sign of alpha-from in a geometric schedule, and neither may be 0";
+        let of_start = "needs a start law, which a file of positions does not have";
+        vec![
+            ("alpha-to", reaches, otherwise),
+            ("alpha-schedule", has_from, "needs alpha-from and alpha-to beside it"),
+            ("alpha-cycles", is_cyclic, "needs the alpha-schedule `cyclic`"),
+            ("alpha-from", !is_constant, "contradicts a constant alpha"),
+            ("alpha-to", !is_constant, "contradicts a constant alpha"),
+            ("alpha-from", self.alpha_to.is_some(), "needs alpha-to beside it"),
+            ("alpha-to", has_from, "needs alpha-from beside it"),
+            ("mesh", self.basis == Some(Basis::Mesh), "needs the basis `mesh`"),
+            (laws, !has_file, "contradicts --start"),
+            ("start-centre start-mean start-sd", !has_law, "contradicts --start-law"),
+            ("start-mean start-sd", !has_centre, "contradicts --start-centre"),
+            ("start-covariance", has_centre, "needs --start-centre beside it"),
+            ("volumes", has_density, of_start),
+        ]
     }
 
-    fn rules_of_gas(&self, rules: &mut Rules) {
-        let flips = matches!(self.transfer, Some(Transfer::Flip | Transfer::AffineFlip));
-        rules.ask("flip-share", flips, "needs the transfer `flip` or `affine-flip`");
-        let surveys = self.surveys();
-        let asks = self.survey == Some(Switch::On);
-        let caches = self.score == Some(Score::Cached);
-        rules.ask(
-            "survey",
-            !(asks && caches),
-            "contradicts --score cached, which has none",
-        );
-        rules.ask("survey", !asks || surveys, "needs a last alpha of 1");
-        for option in ["start", "start-law", "start-centre"] {
-            let otherwise = "needs --survey off: a survey says where the particles begin";
-            rules.ask(option, !surveys, otherwise);
-        }
-        let has_rounds = self.rounds.is_none_or(|rounds| rounds.get() > 0);
-        rules.ask("evaluations", surveys, "needs a survey");
-        rules.ask("search-effort", surveys, "needs a survey");
-        rules.ask("rounds", surveys || has_rounds, "needs a survey");
-        rules.ask("pool", surveys, "needs a survey");
+    fn rules_of_gas(&self) -> Vec<Rule> {
+        let begins = "needs --survey off: a survey says where the particles begin";
         // Another score drives the gas away.
-        let factors = [
-            ("alpha", self.alpha),
-            ("alpha-from", self.alpha_from),
-            ("alpha-to", self.alpha_to),
-        ];
-        for (option, alpha) in factors {
-            rules.ask(option, alpha > Some(0.0), "must be a number above 0");
-        }
+        let attracts = "must be a number above 0";
+        let flips = matches!(self.transfer, Some(Transfer::Flip | Transfer::AffineFlip));
+        let (surveys, asks) = (self.surveys(), self.survey == Some(Switch::On));
+        let caches = self.score == Some(Score::Cached);
+        let has_rounds = self.rounds.is_none_or(|rounds| rounds.get() > 0);
         let has_mesh = self.basis != Some(Basis::Mesh) || self.mesh.is_some();
-        rules.ask("basis", has_mesh, "needs --mesh FILE.msh beside it");
-        let is_limited = self.displacement_limit != Some(Limit::Off);
-        rules.ask("displacement-limit", is_limited, "does not fit method `mpm`");
+        let is_limited = self.displacement_limit.is_none_or(|limit| limit.value().is_some());
+        vec![
+            ("flip-share", flips, "needs the transfer `flip` or `affine-flip`"),
+            ("survey", !asks || !caches, "contradicts --score cached, which has none"),
+            ("survey", !asks || surveys, "needs a last alpha of 1"),
+            ("start start-law start-centre", !surveys, begins),
+            ("evaluations search-effort", surveys, "needs a survey"),
+            ("rounds", surveys || has_rounds, "needs a survey"),
+            ("pool", surveys, "needs a survey"),
+            ("alpha", self.alpha > Some(0.0), attracts),
+            ("alpha-from", self.alpha_from > Some(0.0), attracts),
+            ("alpha-to", self.alpha_to > Some(0.0), attracts),
+            ("basis", has_mesh, "needs --mesh FILE.msh beside it"),
+            ("displacement-limit", is_limited, "does not fit method `mpm`"),
+        ]
     }
 
-    fn rules_of_thinning(&self, rules: &mut Rules) {
+    fn rules_of_thinning(&self) -> Vec<Rule> {
         let has_chains = matches!(self.pool_choice(), Ok(Some(PoolChoice::Nuts)));
-        for option in MethodName::Nuts.kind().options.split(' ') {
-            rules.ask(option, has_chains, "needs the pool `nuts`");
-        }
+        vec![(MethodName::Nuts.kind().options, has_chains, "needs the pool `nuts`")]
     }
 }

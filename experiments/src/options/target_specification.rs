@@ -4,10 +4,9 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use parvi_targets::{BoxedTarget, Parameters, TargetError};
-use serde::de::Error;
-use serde::{Deserialize, Deserializer};
+use serde::Deserialize;
 
-use super::Dimension;
+use super::{Dimension, checked_when_read};
 
 /// Parameters of the targets; `None`: the target's own default.
 #[derive(Args, Clone, Debug, Default, PartialEq, Deserialize)]
@@ -74,15 +73,13 @@ pub struct TargetSpecification {
     pub parameters: TargetParameters,
 }
 
-impl<'de> Deserialize<'de> for TargetSpecification {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let stated = Self::deserialize(deserializer)?;
-        stated.dimension().map_err(D::Error::custom)?;
-        Ok(stated)
-    }
-}
+checked_when_read!(TargetSpecification);
 
 impl TargetSpecification {
+    fn check(&self) -> Result<(), TargetError> {
+        self.dimension().map(|_| ())
+    }
+
     /// A target with its default parameters.
     pub fn plain(name: &str, dim: Option<Dimension>) -> Self {
         Self {
@@ -94,11 +91,8 @@ impl TargetSpecification {
 
     /// d, from the request, the target or its data.
     pub fn dimension(&self) -> Result<usize, TargetError> {
-        parvi_targets::dimension_of(
-            &self.name,
-            self.dim.map(Dimension::get),
-            &self.parameters.to_catalogue(),
-        )
+        let dim = self.dim.map(Dimension::get);
+        parvi_targets::dimension_of(&self.name, dim, &self.parameters.to_catalogue())
     }
 
     /// The target, in its own dimension.
@@ -113,13 +107,9 @@ impl TargetSpecification {
     /// the figures.
     pub fn coordinate_names(&self) -> Vec<String> {
         let dim = self.dim.map(Dimension::get);
-        match parvi_targets::coordinate_names(&self.name, dim, &self.parameters.to_catalogue()) {
-            Ok(Some(names)) => names,
-            _ => {
-                let dimension = self.dimension().unwrap_or(0);
-                (1..=dimension).map(|axis| format!("x_{{{axis}}}")).collect()
-            }
-        }
+        let known = parvi_targets::coordinate_names(&self.name, dim, &self.parameters.to_catalogue());
+        let numbered = || (1..=self.dimension().unwrap_or(0)).map(|axis| format!("x_{{{axis}}}"));
+        known.ok().flatten().unwrap_or_else(|| numbered().collect())
     }
 
     /// Name, dimension and parameters in a form that fits into a file name, different for different targets.
@@ -128,13 +118,9 @@ impl TargetSpecification {
         if let Some(dim) = self.dim {
             label.push_str(&format!("-d{dim}"));
         }
-        let stem = self.parameters.data.as_deref().and_then(Path::file_stem);
         for (name, value) in self.parameters.to_catalogue().given() {
             let symbol = match name {
-                "data" => {
-                    label.push_str(&format!("-{}", stem.unwrap_or_default().to_string_lossy()));
-                    continue;
-                }
+                "data" => "",
                 "correlation" => "r",
                 "curvature" => "b",
                 "width" => "w",
@@ -144,6 +130,8 @@ impl TargetSpecification {
                 "target-seed" => "seed",
                 name => name,
             };
+            let stem = Path::new(&value).file_stem().filter(|_| name == "data");
+            let value = stem.map_or(value.clone(), |stem| stem.to_string_lossy().into_owned());
             label.push_str(&format!("-{symbol}{value}"));
         }
         label

@@ -1,7 +1,7 @@
 //! Files that appear under their final name whole or not at all.
 
-use std::fs::{self, File, OpenOptions};
-use std::io::{BufWriter, Write};
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use crate::CommandError;
@@ -27,53 +27,52 @@ impl AtomicFile {
         let destination = destination.into();
         let refuse = |source| CommandError::file("write", &destination, source);
         let Some(name) = destination.file_name() else {
-            return Err(refuse(std::io::Error::other("it names no file")));
+            return Err(refuse(io::Error::other("it names no file")));
         };
         if destination.is_dir() {
-            return Err(refuse(std::io::Error::from(std::io::ErrorKind::IsADirectory)));
+            return Err(refuse(io::Error::from(io::ErrorKind::IsADirectory)));
         }
         let temporary_name = format!(".{}.{}{PARTIAL_SUFFIX}", name.to_string_lossy(), std::process::id());
         let temporary = destination.with_file_name(temporary_name);
-        let file = OpenOptions::new()
-            .write(true)
-            .create(true)
-            .truncate(true)
-            .open(&temporary)
-            .map_err(refuse)?;
+        let writer = Some(BufWriter::new(File::create(&temporary).map_err(refuse)?));
         Ok(Self {
             destination,
             temporary,
-            writer: Some(BufWriter::new(file)),
+            writer,
         })
     }
 
     /// Writes all bytes of a whole file.
     pub fn write(destination: impl Into<PathBuf>, content: impl AsRef<[u8]>) -> Result<(), CommandError> {
+        Self::filled(destination, |writer| writer.write_all(content.as_ref()))
+    }
+
+    /// Lets a function write the content of a whole file.
+    pub fn filled(
+        destination: impl Into<PathBuf>,
+        content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), CommandError> {
         let mut file = Self::create(destination)?;
-        file.fill(|writer| writer.write_all(content.as_ref()))?;
+        file.fill(content)?;
         file.commit()
     }
 
     /// Lets a function write the content.
-    pub fn fill(&mut self, content: impl FnOnce(&mut dyn Write) -> std::io::Result<()>) -> Result<(), CommandError> {
-        let Some(writer) = self.writer.as_mut() else {
-            return Ok(());
-        };
-        content(writer).map_err(|source| CommandError::file("write", &self.destination, source))
+    pub fn fill(&mut self, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), CommandError> {
+        let result = self.writer.as_mut().map_or(Ok(()), |writer| content(writer));
+        result.map_err(|source| CommandError::file("write", &self.destination, source))
     }
 
     /// Flushes to the disk and moves the file to its final name.
     pub fn commit(mut self) -> Result<(), CommandError> {
-        let result = match self.writer.take() {
-            Some(writer) => finish(writer, &self.temporary, &self.destination),
-            None => Ok(()),
-        };
+        let writer = self.writer.take();
+        let result = writer.map_or(Ok(()), |writer| finish(writer, &self.temporary, &self.destination));
         result.map_err(|source| CommandError::file("write", &self.destination, source))
     }
 }
 
-fn finish(writer: BufWriter<File>, temporary: &Path, destination: &Path) -> std::io::Result<()> {
-    let file = writer.into_inner().map_err(std::io::IntoInnerError::into_error)?;
+fn finish(writer: BufWriter<File>, temporary: &Path, destination: &Path) -> io::Result<()> {
+    let file = writer.into_inner().map_err(io::IntoInnerError::into_error)?;
     file.sync_all()?;
     fs::rename(temporary, destination)
 }

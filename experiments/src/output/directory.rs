@@ -21,9 +21,8 @@ impl OutputDirectory {
     /// [`CommandError::Flag`] for a path that is no directory, [`CommandError::File`] for one that cannot be made.
     pub fn create(flag: &'static str, path: &Path) -> Result<Self, CommandError> {
         if path.exists() && !path.is_dir() {
-            return Err(
-                OptionError::new(flag, format!("{} is a file, and a directory is needed", path.display())).into(),
-            );
+            let reason = format!("{} is a file, and a directory is needed", path.display());
+            return Err(OptionError::new(flag, reason).into());
         }
         let made = !path.exists();
         fs::create_dir_all(path).map_err(|error| CommandError::file("make the directory", path, error))?;

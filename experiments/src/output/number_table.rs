@@ -1,5 +1,6 @@
 //! Tables of numbers that a user hands over: .csv with a header or without, .npy.
 
+use std::fmt::Display;
 use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
@@ -37,14 +38,11 @@ impl NumberTable {
     /// # Errors
     /// What is wrong with it, in words.
     pub fn of_csv(path: &Path) -> Result<Self, String> {
-        let mut reader = csv::ReaderBuilder::new()
-            .has_headers(false)
-            .trim(csv::Trim::All)
-            .from_path(path)
-            .map_err(|error| error.to_string())?;
+        let mut options = csv::ReaderBuilder::new();
+        let reader = options.has_headers(false).trim(csv::Trim::All).from_path(path);
         let mut table = Self::default();
-        for (row, record) in reader.records().enumerate() {
-            let record = record.map_err(|error| error.to_string())?;
+        for (row, record) in reader.map_err(in_words)?.records().enumerate() {
+            let record = record.map_err(in_words)?;
             let line = record.position().map_or(row as u64 + 1, csv::Position::line);
             table.columns = record.len();
             let is_header = row == 0 && record.iter().any(|cell| cell.parse::<f64>().is_err());
@@ -54,9 +52,8 @@ impl NumberTable {
             }
             for cell in &record {
                 let number = cell.parse();
-                table
-                    .numbers
-                    .push(number.map_err(|_| format!("line {line}: '{cell}' is not a number"))?);
+                let number = number.map_err(|_| format!("line {line}: '{cell}' is not a number"))?;
+                table.numbers.push(number);
             }
         }
         if table.numbers.is_empty() {
@@ -71,9 +68,13 @@ impl NumberTable {
     }
 }
 
+fn in_words(error: impl Display) -> String {
+    error.to_string()
+}
+
 fn of_npy(path: &Path) -> Result<NumberTable, String> {
-    let file = File::open(path).map_err(|error| error.to_string())?;
-    let array = npyz::NpyFile::new(BufReader::new(file)).map_err(|error| error.to_string())?;
+    let file = File::open(path).map_err(in_words)?;
+    let array = npyz::NpyFile::new(BufReader::new(file)).map_err(in_words)?;
     let columns = match *array.shape() {
         [_] => 1,
         [_, columns] => columns as usize,
@@ -82,7 +83,7 @@ fn of_npy(path: &Path) -> Result<NumberTable, String> {
     if array.order() != npyz::Order::C {
         return Err("the array is stored column by column; save it in C order".to_owned());
     }
-    let numbers = array.into_vec::<f64>().map_err(|error| error.to_string())?;
+    let numbers = array.into_vec::<f64>().map_err(in_words)?;
     if numbers.is_empty() {
         return Err("it holds no numbers".to_owned());
     }

@@ -97,11 +97,8 @@ impl Particles {
     /// The first value that is not finite.
     pub fn first_not_finite(&self) -> Option<f64> {
         let weights = self.weights.iter().flatten();
-        self.coordinates
-            .iter()
-            .chain(weights)
-            .copied()
-            .find(|value| !value.is_finite())
+        let mut all = self.coordinates.iter().chain(weights).copied();
+        all.find(|value| !value.is_finite())
     }
 }
 

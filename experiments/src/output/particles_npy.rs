@@ -13,11 +13,8 @@ pub fn write(particles: &Particles, writer: &mut dyn Write) -> io::Result<()> {
     let mut values = Vec::with_capacity(particles.len() * columns);
     for (index, row) in particles.rows().enumerate() {
         values.extend(row);
-        values.extend(
-            further
-                .iter()
-                .map(|(_, values)| values.get(index).copied().unwrap_or(0.0)),
-        );
+        let further = further.iter().map(|(_, values)| values.get(index).copied());
+        values.extend(further.map(Option::unwrap_or_default));
     }
     writer.write_all(&array(&[particles.len() as u64, columns as u64], &values)?)
 }
@@ -28,11 +25,8 @@ pub fn write(particles: &Particles, writer: &mut dyn Write) -> io::Result<()> {
 /// Where there are not as many values as the shape says.
 pub fn array(shape: &[u64], values: &[f64]) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    let mut array = npyz::WriteOptions::new()
-        .default_dtype()
-        .shape(shape)
-        .writer(&mut bytes)
-        .begin_nd()?;
+    let options = npyz::WriteOptions::new().default_dtype().shape(shape);
+    let mut array = options.writer(&mut bytes).begin_nd()?;
     array.extend(values.iter().copied())?;
     array.finish()?;
     Ok(bytes)

@@ -10,16 +10,11 @@ use crate::CommandError;
 
 /// Writes all records; a file that is there is replaced at once.
 pub fn write<T: Serialize>(records: impl IntoIterator<Item = T>, path: &Path) -> Result<(), CommandError> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for record in records {
-        writer
-            .serialize(record)
-            .map_err(|error| CommandError::file("write", path, std::io::Error::other(error)))?;
-    }
-    let text = writer
-        .into_inner()
-        .map_err(|error| CommandError::file("write", path, error.into_error()))?;
-    AtomicFile::write(path, text)
+    AtomicFile::filled(path, |writer| {
+        let mut writer = csv::Writer::from_writer(writer);
+        records.into_iter().try_for_each(|record| writer.serialize(record))?;
+        writer.flush()
+    })
 }
 
 /// Reads what [`write`](fn@write) wrote.

@@ -59,25 +59,17 @@ impl Known {
 
 /// Looks for it: by quadrature for d = 1, 2, else from exact draws, which also serve where the quadrature does not settle, and within the mesh of a file that the density is kept to.
 pub fn look<const D: usize>(target: &dyn CatalogueTarget<D>, mesh: Option<&Path>) -> Known {
-    if let Some(path) = mesh {
+    let too_much = format!("and d = {D} is too much for a quadrature");
+    let unsettled = "and a quadrature does not settle";
+    let (known, fault) = if let Some(path) = mesh {
         let inside = within::<D>(path);
         let drawn = inside.and_then(|search| draws(target, |x| search.locate(x, None).is_some()));
-        return drawn.map_or_else(
-            || Known::Nothing("the target has no exact draws, or too few of them are within the mesh".to_owned()),
-            Known::Draws,
-        );
-    }
-    quadrature(target)
-        .or_else(|| draws(target, |_| true).map(Known::Draws))
-        .unwrap_or_else(|| Known::Nothing(reason::<D>()))
-}
-
-fn reason<const D: usize>() -> String {
-    if D <= 2 {
-        "the target has no exact draws, and a quadrature does not settle".to_owned()
+        (drawn.map(Known::Draws), "or too few of them are within the mesh")
     } else {
-        format!("the target has no exact draws, and d = {D} is too much for a quadrature")
-    }
+        let known = quadrature(target).or_else(|| draws(target, |_| true).map(Known::Draws));
+        (known, if D > 2 { &too_much } else { unsettled })
+    };
+    known.unwrap_or_else(|| Known::Nothing(format!("the target has no exact draws, {fault}")))
 }
 
 /// The mesh of a file, for d = 2 and 3.

@@ -102,9 +102,8 @@ impl Subject<'_> {
         let dimension = self.outcome.particles.dimension();
         let shown = dimension.min(CORNER_COORDINATES);
         if shown < dimension {
-            console::notice(&format!(
-                "--plots: {CORNER} shows the first {shown} of {dimension} coordinates"
-            ));
+            let text = format!("--plots: {CORNER} shows the first {shown} of {dimension} coordinates");
+            console::notice(&text);
         }
         let cut = |mut rows: Vec<Vec<f64>>| {
             rows.iter_mut().for_each(|row| row.truncate(shown));
@@ -162,18 +161,11 @@ impl Subject<'_> {
         }
         let titles: Vec<String> = moments.iter().map(|moment| format!("step {}", moment.step)).collect();
         let returned = self.outcome.particles.to_rows();
-        let mut panels: Vec<StripPanel<'_>> = moments
-            .iter()
-            .zip(&titles)
-            .map(|(moment, title)| StripPanel {
-                title,
-                particles: PointCloud::equal(&moment.points),
-            })
-            .collect();
-        panels.push(StripPanel {
-            title: "returned",
-            particles: self.weighted(&returned),
-        });
+        let (title, particles) = ("returned", self.weighted(&returned));
+        let clouds = moments.iter().map(|moment| PointCloud::equal(&moment.points));
+        let panels = titles.iter().zip(clouds);
+        let panels = panels.map(|(title, particles)| StripPanel { title, particles });
+        let panels: Vec<StripPanel<'_>> = panels.chain([StripPanel { title, particles }]).collect();
         Some(strip(&StripPlot {
             title: &self.title(),
             panels: &panels,

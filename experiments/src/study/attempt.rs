@@ -28,20 +28,17 @@ pub type Attempt<T> = Result<T, Failure>;
 
 /// Turns failures of the sampler into results, and particles so far out that a distance overflows; interruptions, mistakes in options and methods that this build lacks stay errors.
 pub fn attempt<T>(result: Result<T, CommandError>) -> Result<Attempt<T>, CommandError> {
-    let error = match result {
-        Ok(value) => return Ok(Ok(value)),
-        Err(error) => error,
-    };
-    let status = match &error {
-        CommandError::NotFinite { .. } | CommandError::Metric(_) => Status::Diverged,
-        CommandError::Sample(SampleError::Unsupported { .. }) => Status::Unsupported,
-        CommandError::Sample(
-            SampleError::InvalidOption { .. } | SampleError::NotBuilt { .. } | SampleError::Interrupted { .. },
-        ) => return Err(error),
-        CommandError::Sample(_) => Status::Diverged,
-        _ => return Err(error),
-    };
-    Ok(Err(Failure::new(status, error)))
+    result.map(Ok).or_else(|error| {
+        let status = match &error {
+            CommandError::Sample(SampleError::Unsupported { .. }) => Status::Unsupported,
+            CommandError::Sample(
+                SampleError::InvalidOption { .. } | SampleError::NotBuilt { .. } | SampleError::Interrupted { .. },
+            ) => return Err(error),
+            CommandError::NotFinite { .. } | CommandError::Metric(_) | CommandError::Sample(_) => Status::Diverged,
+            _ => return Err(error),
+        };
+        Ok(Err(Failure::new(status, error)))
+    })
 }
 
 #[cfg(test)]

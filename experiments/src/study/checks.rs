@@ -20,10 +20,12 @@ pub fn refusal(field: &str, message: impl Into<String>) -> CommandError {
 
 /// Refuses an empty list.
 pub fn not_empty<T>(field: &str, values: &[T]) -> Result<(), CommandError> {
-    if values.is_empty() {
-        return Err(refusal(field, "is empty"));
-    }
-    Ok(())
+    holds(!values.is_empty(), field, || "is empty".to_owned())
+}
+
+/// Refuses a field unless something holds.
+pub fn holds(holds: bool, field: &str, otherwise: impl FnOnce() -> String) -> Result<(), CommandError> {
+    holds.then_some(()).ok_or_else(|| refusal(field, otherwise()))
 }
 
 /// Refuses lists of a configuration that are empty: `all_given!(self: seeds, dims)`.
@@ -36,26 +38,21 @@ pub(crate) use all_given;
 
 /// Refuses numbers that are not positive and finite.
 pub fn positive(field: &str, values: &[f64]) -> Result<(), CommandError> {
-    match values.iter().find(|value| !(**value > 0.0 && value.is_finite())) {
-        Some(value) => Err(refusal(field, format!("{value} must be a number above 0"))),
-        None => Ok(()),
-    }
+    let mut values = values.iter();
+    values.try_for_each(|value| {
+        let is_positive = *value > 0.0 && value.is_finite();
+        holds(is_positive, field, || format!("{value} must be a number above 0"))
+    })
 }
 
 /// Refuses a number that is not finite.
 pub fn finite(field: &str, value: f64) -> Result<(), CommandError> {
-    if value.is_finite() {
-        return Ok(());
-    }
-    Err(refusal(field, format!("{value} must be finite")))
+    holds(value.is_finite(), field, || format!("{value} must be finite"))
 }
 
 /// Refuses an option that the study sets itself.
 pub fn unset<T>(field: &str, value: &Option<T>, place: &str) -> Result<(), CommandError> {
-    match value {
-        Some(_) => Err(refusal(field, format!("belongs into `{place}`"))),
-        None => Ok(()),
-    }
+    holds(value.is_none(), field, || format!("belongs into `{place}`"))
 }
 
 /// The method; refuses one that lacks an option that the study sets.
@@ -71,11 +68,8 @@ pub fn distinct<W>(field: &str, cases: &[Case<W>]) -> Result<(), CommandError> {
 
 /// Refuses lists that give two cases of the same name.
 pub fn distinct_names(field: &str, names: impl IntoIterator<Item = String>) -> Result<(), CommandError> {
-    let mut known = HashSet::new();
-    match names.into_iter().find(|name| !known.insert(name.clone())) {
-        Some(name) => Err(refusal(field, format!("two cases are `{name}`"))),
-        None => Ok(()),
-    }
+    let (mut known, mut names) = (HashSet::new(), names.into_iter());
+    names.try_for_each(|name| holds(known.insert(name.clone()), field, || format!("two cases are `{name}`")))
 }
 
 /// The sizes of a list, small ones first.
@@ -106,9 +100,7 @@ pub fn places(
     let place = |target: &TargetSpecification| {
         let place = in_dimensions(target, dims)?;
         let missed = || format!("`{}` has none of the dimensions in `dims`", target.name);
-        (!place.is_empty())
-            .then_some(place)
-            .ok_or_else(|| refusal("targets", missed()))
+        holds(!place.is_empty(), "targets", missed).map(|()| place)
     };
     listed.iter().map(place).collect()
 }
@@ -120,13 +112,13 @@ fn in_dimensions(target: &TargetSpecification, dims: &[Dimension]) -> Result<Vec
     let mut found = Vec::new();
     for &dim in dims {
         let mut here = target.clone();
-        here.dim = matches!(dimensions, Dimensions::Range { .. }).then_some(dim);
-        let is_there = match dimensions {
-            Dimensions::Range { minimum, maximum, .. } => (minimum..=maximum).contains(&dim.get()),
-            _ => here.dimension().map_err(refused)? == dim.get(),
-        };
-        if is_there {
-            here.dimension().map_err(refused)?;
+        if let Dimensions::Range { minimum, maximum, .. } = dimensions {
+            if !(minimum..=maximum).contains(&dim.get()) {
+                continue;
+            }
+            here.dim = Some(dim);
+        }
+        if here.dimension().map_err(refused)? == dim.get() {
             found.push(here);
         }
     }

@@ -123,11 +123,9 @@ fn collect(table: &Table, place: &str, values: &mut Vec<(String, String)>) {
 
 /// A number or a list of them; what is neither is for the kind to refuse.
 fn whole_numbers(value: Option<&Value>) -> Vec<u64> {
-    let list = match value {
-        Some(Value::Array(list)) => list.as_slice(),
-        Some(value) => std::slice::from_ref(value),
-        None => &[],
-    };
+    let list = value.map_or(&[][..], |value| {
+        value.as_array().map_or(std::slice::from_ref(value), Vec::as_slice)
+    });
     let numbers = list.iter().filter_map(Value::as_integer);
     numbers.filter_map(|number| u64::try_from(number).ok()).collect()
 }

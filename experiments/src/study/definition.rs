@@ -20,6 +20,8 @@ pub struct Case<W> {
     pub row: Row,
     /// What it is expected to cost relative to others; for the progress bar.
     pub cost: f64,
+    /// The feature that the build lacks for it.
+    pub lacks: Option<&'static str>,
     /// What is run.
     pub work: W,
 }
@@ -27,8 +29,18 @@ pub struct Case<W> {
 impl<W> Case<W> {
     /// A case of this name, which costs as much as any other and ends with finite particles unless something else is noted.
     pub fn new(id: String, work: W) -> Self {
-        let (row, cost) = (Row::of(id).with("status", Status::Finished), 1.0);
-        Self { row, cost, work }
+        Self {
+            row: Row::of(id).with("status", Status::Finished),
+            cost: 1.0,
+            lacks: None,
+            work,
+        }
+    }
+
+    /// The same by a method.
+    pub fn by(self, method: &MethodSpecification) -> Self {
+        let lacks = method.lacks();
+        Self { lacks, ..self }.with("method", method.label())
     }
 
     /// Its name; it stands in results.csv and in file names.
@@ -90,11 +102,6 @@ pub trait Study: DeserializeOwned + Sync {
     /// A case whose files have changed.
     fn check_earlier(&self, _rows: &[Row]) -> Result<(), CommandError> {
         Ok(())
-    }
-
-    /// Methods that this build may lack.
-    fn methods(&self) -> Vec<&MethodSpecification> {
-        Vec::new()
     }
 
     /// All cases, in the order in which they run.

@@ -86,14 +86,9 @@ impl StudyDirectory {
         if here.hash == configuration.hash {
             return Ok(());
         }
-        Err(self.occupied(format!(
-            "holds another study (kind `{}`, config hash {}; {} has kind `{}`, config hash {})",
-            here.kind(),
-            here.hash,
-            configuration.file,
-            configuration.kind(),
-            configuration.hash,
-        )))
+        let told = |study: &Configuration| format!("kind `{}`, config hash {}", study.kind(), study.hash);
+        let (other, own, file) = (told(&here), told(configuration), &configuration.file);
+        Err(self.occupied(format!("holds another study ({other}; {file} has {own})")))
     }
 
     fn check_empty(&self) -> Result<(), CommandError> {
@@ -120,17 +115,15 @@ impl StudyDirectory {
 
     /// A page whose prose names values of the configuration by their keys, and these.
     pub fn page(&self, prose: &str, values: &[(&str, &dyn Display)]) -> Page {
-        let configured = self
-            .values
-            .iter()
-            .map(|(key, value)| (key.as_str(), value as &dyn Display));
+        let configured = self.values.iter();
+        let configured = configured.map(|(key, value)| (key.as_str(), value as &dyn Display));
         Page::of(prose, &configured.chain(values.iter().copied()).collect::<Vec<_>>())
     }
 
     /// ` (at most 2)`, where the study asks for a number of threads.
     pub fn at_most_threads(&self) -> String {
-        self.threads
-            .map_or(String::new(), |threads| format!(" (at most {threads})"))
+        let threads = self.threads.map(|threads| format!(" (at most {threads})"));
+        threads.unwrap_or_default()
     }
 
     /// A file by its name: report.md, manifest.json, results.csv.

@@ -86,18 +86,14 @@ impl<'a> Setting<'a> {
     pub fn cases(&self, seeds: &[u64]) -> Result<Vec<Case<Sampled>>, CommandError> {
         let target = TargetSpecification::plain("gaussian", Some(self.dim));
         let options = &self.method.options;
-        let mut name = format!("d{}-m{}-{}", self.dim, self.particles, self.series);
-        match (self.spacing_factor, options.spacing) {
-            (Some(factor), _) => name.push_str(&format!("-f{factor}")),
-            (None, Some(spacing)) => name.push_str(&format!("-h{spacing}")),
-            (None, None) => {}
-        }
-        if let Some(steps) = options.steps {
-            name.push_str(&format!("-t{steps}"));
-        }
+        let spacing = options.spacing.map(|spacing| format!("-h{spacing}"));
+        let spacing = self.spacing_factor.map(|factor| format!("-f{factor}")).or(spacing);
+        let steps = options.steps.map(|steps| format!("-t{steps}"));
+        let told: String = spacing.into_iter().chain(steps).collect();
+        let name = format!("d{}-m{}-{}{told}", self.dim, self.particles, self.series);
         let case = |&seed: &u64| {
             let work = Sampled::new(&target, self.method, None, (self.particles, seed))?;
-            let case = work.case(format!("{name}-s{seed}"), self.method.label())?;
+            let case = work.case(format!("{name}-s{seed}"), self.method)?;
             Ok(case
                 .with("series", self.series.as_str())
                 .with("spacing_factor", self.spacing_factor)

@@ -31,11 +31,10 @@ pub struct Provenance {
 impl Provenance {
     /// Of this process.
     pub fn now(threads: usize) -> Self {
+        let commit = Some(env!("PARVI_COMMIT")).filter(|text| !text.is_empty());
         Self {
             started: machine::utc_now(),
-            commit: Some(env!("PARVI_COMMIT"))
-                .filter(|text| !text.is_empty())
-                .map(str::to_owned),
+            commit: commit.map(str::to_owned),
             dirty: env!("PARVI_DIRTY").parse().ok(),
             rustc: env!("PARVI_RUSTC").to_owned(),
             cpu: machine::processor(),
@@ -45,12 +44,9 @@ impl Provenance {
 
     /// The same but for the time of the start.
     fn same_origin(&self, other: &Self) -> bool {
-        let started = self.started.clone();
-        *self
-            == Self {
-                started,
-                ..other.clone()
-            }
+        let mut other = other.clone();
+        other.started.clone_from(&self.started);
+        *self == other
     }
 }
 
@@ -94,9 +90,10 @@ impl Manifest {
 
     /// Writes it.
     pub fn write(&self, path: &Path) -> Result<(), CommandError> {
-        let text = serde_json::to_string_pretty(self)
-            .map_err(|error| CommandError::file("write", path, std::io::Error::other(error)))?;
-        AtomicFile::write(path, text + "\n")
+        AtomicFile::filled(path, |writer| {
+            serde_json::to_writer_pretty(&mut *writer, self)?;
+            writeln!(writer)
+        })
     }
 
     /// Whether all starts used the same code, compiler, processor and number of threads.

@@ -1,9 +1,9 @@
 //! What every study is written with.
 
-pub use super::attempt::{Failure, attempt};
+pub use super::attempt::{Attempt, Failure, attempt};
 pub(crate) use super::checks::all_given;
 pub use super::checks::{
-    ascending, distinct, distinct_names, finite, fitting, not_empty, places, positive, refusal, unset,
+    ascending, distinct, distinct_names, finite, fitting, holds, not_empty, places, positive, refusal, unset,
 };
 pub use super::definition::{Case, Report, Study, Tools};
 pub use super::derived::{ENERGY, SECONDS, WALL};

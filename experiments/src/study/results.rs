@@ -11,41 +11,32 @@ use crate::plots::results::Row;
 /// The file's name.
 pub const FILE_NAME: &str = "results.csv";
 
-/// The open file and the rows in it; locked against a second process.
+/// The open file, locked against a second process.
 pub struct ResultsFile {
     path: PathBuf,
     file: File,
-    rows: Vec<Row>,
     has_header: bool,
     columns: &'static str,
 }
 
 impl ResultsFile {
     /// Opens the file, creates it if there is none, and cuts off a last line that was not written to its end. Of every row it holds these
-    /// columns, with spaces between.
+    /// columns, with spaces between; the rows so far come with it.
     ///
     /// # Errors
     /// [`CommandError::File`], [`CommandError::DirectoryOccupied`] if another process works on it, or
     /// [`CommandError::ResultsUnreadable`] with the line that does not fit.
-    pub fn open(path: &Path, columns: &'static str) -> Result<Self, CommandError> {
+    pub fn open(path: &Path, columns: &'static str) -> Result<(Self, Vec<Row>), CommandError> {
         let failed = |operation| move |source| CommandError::file(operation, path, source);
-        let mut file = OpenOptions::new()
-            .read(true)
-            .write(true)
-            .create(true)
-            .truncate(false)
-            .open(path)
-            .map_err(failed("write"))?;
-        match file.try_lock() {
-            Ok(()) => {}
-            Err(TryLockError::WouldBlock) => {
-                return Err(CommandError::DirectoryOccupied {
-                    directory: path.display().to_string(),
-                    occupant: "is being written by another process".to_owned(),
-                });
-            }
-            // A file system without locks does not keep a single process from working.
-            Err(TryLockError::Error(_)) => {}
+        let mut options = OpenOptions::new();
+        options.read(true).write(true).create(true).truncate(false);
+        let mut file = options.open(path).map_err(failed("write"))?;
+        // A file system without locks does not keep a single process from working.
+        if let Err(TryLockError::WouldBlock) = file.try_lock() {
+            return Err(CommandError::DirectoryOccupied {
+                directory: path.display().to_string(),
+                occupant: "is being written by another process".to_owned(),
+            });
         }
         let mut bytes = Vec::new();
         file.read_to_end(&mut bytes).map_err(failed("read"))?;
@@ -55,36 +46,23 @@ impl ResultsFile {
             bytes.truncate(whole);
         }
         file.seek(SeekFrom::Start(whole as u64)).map_err(failed("read"))?;
-        Ok(Self {
-            rows: row_file::parse(path, &bytes, columns)?,
+        let results = Self {
             has_header: whole > 0,
             path: path.to_owned(),
             file,
             columns,
-        })
-    }
-
-    /// The rows so far, in the order of the file.
-    pub fn rows(&self) -> &[Row] {
-        &self.rows
+        };
+        Ok((results, row_file::parse(path, &bytes, columns)?))
     }
 
     /// Adds a row with one write and waits until it is on the disk.
     pub fn append(&mut self, row: &Row) -> Result<(), CommandError> {
         let failed = |source| CommandError::file("write", &self.path, source);
-        let lines = row_file::lines(self.columns, !self.has_header, [row]);
-        let lines = lines.map_err(|error| failed(std::io::Error::other(error)))?;
-        self.file
-            .write_all(&lines)
-            .and_then(|()| self.file.sync_data())
-            .map_err(failed)?;
+        let mut lines = Vec::new();
+        row_file::fill(&mut lines, self.columns, !self.has_header, [row]).map_err(failed)?;
+        self.file.write_all(&lines).map_err(failed)?;
+        self.file.sync_data().map_err(failed)?;
         self.has_header = true;
-        let kept = self
-            .columns
-            .split(' ')
-            .map(|column| (column, row.value(column).clone()));
-        self.rows
-            .push(kept.fold(Row::default(), |row, (column, value)| row.with(column, value)));
         Ok(())
     }
 }
@@ -103,10 +81,10 @@ mod tests {
     fn rows_survive_closing_the_file() {
         let directory = tempfile::tempdir().unwrap();
         let path = directory.path().join(FILE_NAME);
-        let mut results = ResultsFile::open(&path, COLUMNS).unwrap();
+        let (mut results, _) = ResultsFile::open(&path, COLUMNS).unwrap();
         results.append(&row("a, with comma", Some(0.1 + 0.2))).unwrap();
         drop(results);
-        let mut results = ResultsFile::open(&path, COLUMNS).unwrap();
+        let (mut results, _) = ResultsFile::open(&path, COLUMNS).unwrap();
         results.append(&row("b", None)).unwrap();
         drop(results);
         let expected = [row("a, with comma", Some(0.1 + 0.2)), row("b", None)];
@@ -120,9 +98,9 @@ mod tests {
             let directory = tempfile::tempdir().unwrap();
             let path = directory.path().join(FILE_NAME);
             std::fs::write(&path, &whole[..length]).unwrap();
-            let mut results = ResultsFile::open(&path, COLUMNS).unwrap();
+            let (mut results, rows) = ResultsFile::open(&path, COLUMNS).unwrap();
             for (case, value) in [("a", 1.0), ("b", 2.0)] {
-                if !results.rows().iter().any(|row| row.case() == case) {
+                if !rows.iter().any(|row| row.case() == case) {
                     results.append(&row(case, Some(value))).unwrap();
                 }
             }
@@ -134,7 +112,7 @@ mod tests {
     fn only_the_columns_asked_for_are_written_in_their_order() {
         let directory = tempfile::tempdir().unwrap();
         let path = directory.path().join(FILE_NAME);
-        let mut results = ResultsFile::open(&path, "case steps note seed").unwrap();
+        let (mut results, _) = ResultsFile::open(&path, "case steps note seed").unwrap();
         let row = row("a \"b\", c", Some(0.1))
             .with("seed", u64::MAX)
             .with("steps", 3_usize);
@@ -143,7 +121,6 @@ mod tests {
             std::fs::read_to_string(&path).unwrap(),
             "case,steps,note,seed\n\"a \"\"b\"\", c\",3,,18446744073709551615\n"
         );
-        assert_eq!(results.rows(), row_file::read(&path, "case steps note seed").unwrap());
     }
 
     #[test]

@@ -59,18 +59,16 @@ impl RunRow for Row {
 
     fn ending(&self) -> String {
         match self.text("reason") {
-            "" => self.status().as_str().to_owned(),
-            reason => format!("{}: {reason}", self.status().as_str()),
+            "" => self.status().to_string(),
+            reason => format!("{}: {reason}", self.status()),
         }
     }
 
     fn failure(&self) -> String {
         // A study writes one of both.
-        let reason = match self.text("reason") {
-            "" => self.text("note"),
-            reason => reason,
-        };
-        format!("- `{}`: {}: {reason}", self.case(), self.status().as_str())
+        let reasons = ["reason", "note"].map(|column| self.text(column));
+        let reason = reasons.iter().find(|reason| !reason.is_empty()).unwrap_or(&"");
+        format!("- `{}`: {}: {reason}", self.case(), self.status())
     }
 
     fn fail(&mut self, failure: Failure) {
@@ -80,16 +78,11 @@ impl RunRow for Row {
     }
 
     fn note(&mut self, sampled: Result<Outcome, CommandError>) -> Result<Option<Outcome>, CommandError> {
-        match attempt(sampled)? {
-            Ok(outcome) => {
-                self.take(&outcome);
-                Ok(Some(outcome))
-            }
-            Err(failure) => {
-                self.fail(failure);
-                Ok(None)
-            }
+        let outcome = attempt(sampled)?.map_err(|failure| self.fail(failure)).ok();
+        if let Some(outcome) = &outcome {
+            self.take(outcome);
         }
+        Ok(outcome)
     }
 
     fn take(&mut self, outcome: &Outcome) {
@@ -127,8 +120,8 @@ pub trait RunRows {
     /// How many gave particles, of how many.
     fn finished(&self) -> String;
 
-    /// How many ended so.
-    fn ended(&self, ending: Status) -> usize;
+    /// A page whose summary says how many ended so.
+    fn tell<const N: usize>(&self, endings: [Status; N], page: Page) -> Page;
 
     /// The runs that gave nothing, each as an item of a list.
     fn failures(&self) -> Vec<String>;
@@ -142,8 +135,12 @@ impl RunRows for Rows<'_> {
         format!("{}/{}", self.count(Row::finished), self.len())
     }
 
-    fn ended(&self, ending: Status) -> usize {
-        self.count(|row| row.status() == ending)
+    fn tell<const N: usize>(&self, endings: [Status; N], page: Page) -> Page {
+        let told = |page: Page, ending: Status| {
+            let count = self.count(|row| row.status() == ending);
+            page.with(ending.to_string().replace('-', "_"), count)
+        };
+        endings.into_iter().fold(page, told)
     }
 
     fn failures(&self) -> Vec<String> {

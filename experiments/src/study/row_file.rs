@@ -1,22 +1,25 @@
 //! Rows as a CSV file: of each the cells of some columns, whose names are given with spaces between.
 
+use std::io::{self, Write};
 use std::path::Path;
 
 use super::value::{Written, read as cell};
 use crate::CommandError;
+use crate::options::is_among;
 use crate::output::AtomicFile;
 use crate::plots::results::Row;
 
-/// The rows as lines, after a header where one is asked for.
+/// Writes the rows as lines, after a header where one is asked for.
 ///
 /// # Errors
-/// None that a text of memory has.
-pub fn lines<'a>(
+/// Those of the writer.
+pub fn fill<'a>(
+    writer: &mut dyn Write,
     columns: &str,
     with_header: bool,
     rows: impl IntoIterator<Item = &'a Row>,
-) -> Result<Vec<u8>, csv::Error> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
+) -> io::Result<()> {
+    let mut writer = csv::Writer::from_writer(writer);
     if with_header {
         writer.write_record(columns.split(' '))?;
     }
@@ -24,7 +27,7 @@ pub fn lines<'a>(
         let cells: Vec<Written<'_>> = columns.split(' ').map(|column| Written(row.value(column))).collect();
         writer.serialize(cells)?;
     }
-    writer.into_inner().map_err(|error| error.into_error().into())
+    writer.flush()
 }
 
 /// Writes all rows; a file that is there is replaced at once. Without rows it is empty.
@@ -32,9 +35,7 @@ pub fn lines<'a>(
 /// # Errors
 /// [`CommandError::File`].
 pub fn write(path: &Path, columns: &str, rows: &[Row]) -> Result<(), CommandError> {
-    let text = lines(columns, !rows.is_empty(), rows);
-    let text = text.map_err(|error| CommandError::file("write", path, std::io::Error::other(error)))?;
-    AtomicFile::write(path, text)
+    AtomicFile::filled(path, |writer| fill(writer, columns, !rows.is_empty(), rows))
 }
 
 /// Reads the rows; a last line without its end is skipped.
@@ -74,12 +75,10 @@ pub fn parse(path: &Path, bytes: &[u8], columns: &str) -> Result<Vec<Row>, Comma
     let first = columns.split(' ').next().unwrap_or_default();
     let header = bytes.split(|&byte| byte == b'\n').next().unwrap_or_default();
     if !bytes.is_empty() && !header.split(|&byte| byte == b',').any(|name| name == first.as_bytes()) {
-        return Err(CommandError::unreadable(
-            path,
-            format!("line 1: the column `{first}` is missing"),
-        ));
+        let message = format!("line 1: the column `{first}` is missing");
+        return Err(CommandError::unreadable(path, message));
     }
-    parse_columns(path, bytes, |name| columns.split(' ').any(|column| column == name))
+    parse_columns(path, bytes, |name| is_among(columns, name))
 }
 
 fn parse_columns(path: &Path, bytes: &[u8], is_read: impl Fn(&str) -> bool) -> Result<Vec<Row>, CommandError> {

@@ -3,6 +3,9 @@
 use std::collections::HashSet;
 use std::path::Path;
 
+use parvi::SampleError;
+use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
+
 use super::configuration::Configuration;
 use super::definition::{Case, Study, Tools};
 use super::derived;
@@ -25,36 +28,35 @@ pub fn run<S: Study>(configuration: &Configuration, out: &Path) -> Result<(), Co
     let located = |error| in_file(error, configuration);
     study.open(Path::new(&configuration.file)).map_err(located)?;
     let cases = study.cases().map_err(located)?;
-    for method in study.methods() {
-        method.check_built()?;
+    if let Some(feature) = cases.iter().find_map(|case| case.lacks) {
+        return Err(SampleError::NotBuilt {
+            method: feature,
+            feature,
+        }
+        .into());
     }
     let directory = StudyDirectory::claim(out, configuration)?;
     in_threads(configuration.threads(), || {
-        let mut results = ResultsFile::open(&directory.file(results::FILE_NAME), S::COLUMNS)?;
-        study.check_earlier(results.rows()).map_err(located)?;
+        let (results, rows) = ResultsFile::open(&directory.file(results::FILE_NAME), S::COLUMNS)?;
+        study.check_earlier(&rows).map_err(located)?;
         note_start::<S>(&cases, configuration, &directory)?;
-        run_missing(&study, &cases, &directory, &mut results).map_err(located)?;
-        write_report(&study, results.rows(), &directory)
+        run_missing(&study, &cases, &directory, results, &rows).map_err(located)?;
+        write_report(&study, &directory)
     })
 }
 
 /// Writes the report of what a directory holds.
 pub fn report<S: Study>(configuration: &Configuration, directory: &StudyDirectory) -> Result<(), CommandError> {
     let study: S = configuration.parse()?;
-    let rows = row_file::read(&directory.file(results::FILE_NAME), S::COLUMNS)?;
-    in_threads(configuration.threads(), || write_report(&study, &rows, directory))
+    in_threads(configuration.threads(), || write_report(&study, directory))
 }
 
 /// Names the file in errors about fields.
-fn in_file(error: CommandError, configuration: &Configuration) -> CommandError {
-    match error {
-        CommandError::ConfigField { field, message, .. } => CommandError::ConfigField {
-            file: configuration.file.clone(),
-            field,
-            message,
-        },
-        error => error,
+fn in_file(mut error: CommandError, configuration: &Configuration) -> CommandError {
+    if let CommandError::ConfigField { file, .. } = &mut error {
+        file.clone_from(&configuration.file);
     }
+    error
 }
 
 fn in_threads<T: Send>(
@@ -62,14 +64,12 @@ fn in_threads<T: Send>(
     work: impl FnOnce() -> Result<T, CommandError> + Send,
 ) -> Result<T, CommandError> {
     let Some(threads) = threads else { return work() };
-    rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .map_err(|error| CommandError::Threads {
-            threads,
-            reason: error.to_string(),
-        })?
-        .install(work)
+    let refused = |error: ThreadPoolBuildError| CommandError::Threads {
+        threads,
+        reason: error.to_string(),
+    };
+    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+    pool.map_err(refused)?.install(work)
 }
 
 /// Writes the manifest, or adds this start to it. Seeds that the configuration does not say are those of the cases.
@@ -101,44 +101,42 @@ fn run_missing<S: Study>(
     study: &S,
     cases: &[Case<S::Work>],
     directory: &StudyDirectory,
-    results: &mut ResultsFile,
+    mut results: ResultsFile,
+    earlier: &[Row],
 ) -> Result<(), CommandError> {
-    let finished: HashSet<String> = results.rows().iter().map(|row| row.case().to_owned()).collect();
+    let finished: HashSet<&str> = earlier.iter().map(Row::case).collect();
     let (done, missing): (Vec<_>, Vec<_>) = cases.iter().partition(|case| finished.contains(case.id()));
     let cost = |cases: &[&Case<S::Work>]| cases.iter().map(|case| case.cost).sum::<f64>();
     let mut progress = Bar::of_study(cost(&done) + cost(&missing), cost(&done));
     let mut yardstick = CurrentYardstick::default();
-    for case in missing {
+    let mut kept = earlier.len();
+    let mut run = |case: &Case<S::Work>| {
         let mut row = case.row.clone();
         progress.begin(case.id(), case.cost);
+        if interrupt::requested() {
+            return Err(CommandError::Interrupted { hint: String::new() });
+        }
         let tools = Tools {
             yardstick: &mut yardstick,
             directory,
             observer: &mut progress,
         };
-        let stopped = interrupt::requested();
-        let result = if stopped {
-            Ok(())
-        } else {
-            study.run(case, &mut row, tools)
-        };
-        let interrupted = stopped || result.as_ref().is_err_and(CommandError::is_interruption);
-        if interrupted || result.is_err() {
-            progress.clear();
-        }
-        if interrupted {
-            let (done, all) = (results.rows().len(), cases.len());
-            let hint = format!(": {done} of {all} cases are kept; the same command resumes with the next one");
-            return Err(CommandError::Interrupted { hint });
-        }
-        result?;
-        results.append(&row)?;
-    }
+        study.run(case, &mut row, tools)?;
+        kept += 1;
+        results.append(&row)
+    };
+    let result = missing.into_iter().try_for_each(&mut run);
     progress.clear();
-    Ok(())
+    let all = cases.len();
+    let hint = format!(": {kept} of {all} cases are kept; the same command resumes with the next one");
+    result.map_err(|error| match error.is_interruption() {
+        true => CommandError::Interrupted { hint },
+        false => error,
+    })
 }
 
-fn write_report<S: Study>(study: &S, rows: &[Row], directory: &StudyDirectory) -> Result<(), CommandError> {
+fn write_report<S: Study>(study: &S, directory: &StudyDirectory) -> Result<(), CommandError> {
+    let rows = row_file::read(&directory.file(results::FILE_NAME), S::COLUMNS)?;
     let completed: Vec<Row> = rows.iter().map(derived::completed).collect();
     let mut page = (S::REPORT)(study, &completed.iter().collect(), directory)?;
     let manifest = Manifest::read(&directory.file(manifest::FILE_NAME))?;
@@ -148,28 +146,22 @@ fn write_report<S: Study>(study: &S, rows: &[Row], directory: &StudyDirectory) -
         AtomicFile::write(directory.figure(name), svg)?;
     }
     AtomicFile::write(directory.file(REPORT), &page.text)?;
-    let mut pairs = vec![("study", S::KIND.to_owned())];
-    pairs.extend(page.summary);
-    pairs.push(("report", directory.file(REPORT).display().to_string()));
+    let mut pairs = vec![("study", S::KIND.into())];
+    let summary = page.summary.iter();
+    pairs.extend(summary.map(|(key, value)| (key.as_str(), value.as_str().into())));
+    pairs.push(("report", directory.file(REPORT).display().to_string().into()));
     console::print_pairs(&pairs)
 }
 
 /// How the figures came about, in words.
 fn provenance(manifest: &Manifest, rows: usize, cases: usize) -> String {
     let first = &manifest.first;
-    let unknown = "unknown".to_owned();
-    let dirty = match first.dirty {
-        Some(true) => " with uncommitted changes",
-        _ => "",
-    };
+    let [commit, cpu] = [&first.commit, &first.cpu].map(|known| known.as_deref().unwrap_or("unknown"));
+    let dirty = first.dirty.filter(|dirty| *dirty);
+    let dirty = dirty.map_or("", |_| " with uncommitted changes");
+    let (rustc, threads, started, hash) = (&first.rustc, first.threads, &first.started, &manifest.config_hash);
     let mut text = format!(
-        "{rows} of {cases} cases. Commit {}{dirty}, {}, {} threads on {}, started {}, configuration {}.",
-        first.commit.as_ref().unwrap_or(&unknown),
-        first.rustc,
-        first.threads,
-        first.cpu.as_ref().unwrap_or(&unknown),
-        first.started,
-        manifest.config_hash,
+        "{rows} of {cases} cases. Commit {commit}{dirty}, {rustc}, {threads} threads on {cpu}, started {started}, configuration {hash}."
     );
     if !manifest.is_uniform() {
         text.push_str(

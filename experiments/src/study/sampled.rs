@@ -46,11 +46,11 @@ impl Sampled {
     ///
     /// # Errors
     /// A target that there is not.
-    pub fn case(self, id: String, method: &str) -> Result<Case<Self>, CommandError> {
+    pub fn case(self, id: String, method: &MethodSpecification) -> Result<Case<Self>, CommandError> {
         let (target, dim) = (self.target.label(), self.target.dimension()?);
         let (particles, seed) = (self.run.particles, self.run.seed);
-        let case = Case::new(id, self).with("target", target).with("dim", dim);
-        let case = case.with("method", method).with("particles", particles);
+        let case = Case::new(id, self).by(method).with("target", target);
+        let case = case.with("dim", dim).with("particles", particles);
         Ok(case.with("seed", seed))
     }
 

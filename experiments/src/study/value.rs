@@ -3,7 +3,7 @@
 use serde::{Serialize, Serializer};
 
 use super::status::Status;
-use crate::options::Bounded;
+use crate::options::{Bounded, is_among};
 use crate::plots::results::Value;
 
 /// The columns that hold words; all others hold numbers.
@@ -23,7 +23,7 @@ pub fn read(column: &str, text: &str) -> Result<Value, String> {
     if is_ending && Status::of(text).is_none() {
         return Err(format!("`{text}` is no `{column}`"));
     }
-    if text.is_empty() || WORDS.split(' ').any(|name| name == column) {
+    if text.is_empty() || is_among(WORDS, column) {
         return Ok(text.into());
     }
     let number = || text.parse().map(Value::Number);
@@ -42,12 +42,6 @@ impl Serialize for Written<'_> {
             Value::Count(count) => serializer.serialize_u64(*count),
             Value::Number(number) => serializer.serialize_f64(*number),
         }
-    }
-}
-
-impl From<Status> for Value {
-    fn from(status: Status) -> Self {
-        status.as_str().into()
     }
 }
 

@@ -4,7 +4,6 @@ use std::time::Instant;
 
 pub use parvi_metrics::yardstick::{Errors, YardstickOptions};
 use parvi_metrics::yardstick::{TargetYardstick, YardstickError};
-use parvi_targets::BoxedTarget;
 
 use crate::CommandError;
 use crate::dispatch::on_target;
@@ -66,20 +65,15 @@ impl CurrentYardstick {
         let (_, yardstick, level) = match self.current.take() {
             Some(current) if current.0 == *target => self.current.insert(current),
             _ => {
-                let made = on_target!(target, built, D => boxed::<D>(built, options))?;
+                let made = on_target!(target, built, D => {
+                    Ok(Box::new(TargetYardstick::<D>::new(built, options)?) as Box<dyn Yardstick>)
+                })?;
                 let level = sets.map(|sets| made.sliced_level(sets, options.seed)).transpose()?;
                 self.current.insert((target.clone(), made, level))
             }
         };
         Ok((&**yardstick, *level))
     }
-}
-
-fn boxed<const D: usize>(
-    target: BoxedTarget<D>,
-    options: &YardstickOptions,
-) -> Result<Box<dyn Yardstick>, CommandError> {
-    Ok(Box::new(TargetYardstick::new(target, options)?))
 }
 
 impl From<YardstickError> for CommandError {

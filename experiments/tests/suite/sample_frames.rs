@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::time::Duration;
 
-use crate::support::{assert_refused, files, parvi, started, stderr, succeeds, value, write_responses};
+use crate::support::{assert_refused, files, parvi, sampled_regression, started, stderr, succeeds, value};
 
 /// A `.vtp` file taken apart as a reader of VTK's XML does it.
 struct Vtp {
@@ -200,10 +200,7 @@ fn four_dimensions_have_all_coordinates_at_their_points() {
 
 #[test]
 fn coordinates_of_data_keep_their_names() {
-    let root = tempfile::tempdir().unwrap();
-    write_responses(&root.path().join("d.csv"), "y,a & b,velocity");
-    let line = "sample --target logistic --data d.csv --particles 20 --survey off --steps 2 --out x.csv --frames f";
-    succeeds(root.path(), line);
+    let root = sampled_regression("y,a & b,velocity", "--survey off --frames f");
     let vtp = Vtp::read(&root.path().join("f/frame_000000.vtp"));
     for name in ["intercept", "a &amp; b", "x3", "velocity"] {
         assert!(vtp.arrays.contains_key(name), "{name}");

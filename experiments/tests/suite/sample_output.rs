@@ -1,6 +1,6 @@
 //! What `parvi sample` writes and says.
 
-use crate::support::{files, numbers, parvi, stderr, stdout, succeeds, value, write_responses};
+use crate::support::{files, numbers, parvi, sampled_regression, stderr, stdout, succeeds, value};
 
 fn keys(text: &str) -> Vec<&str> {
     text.lines().map(|line| line.split_once('=').unwrap().0).collect()
@@ -140,10 +140,7 @@ fn targets_are_listed() {
 
 #[test]
 fn columns_of_a_regression_have_the_names_of_its_data() {
-    let directory = tempfile::tempdir().unwrap();
-    write_responses(&directory.path().join("d.csv"), "y,age,dose");
-    let line = "sample --target logistic --data d.csv --particles 20 --steps 2 --out x.csv";
-    succeeds(directory.path(), line);
+    let directory = sampled_regression("y,age,dose", "");
     let text = std::fs::read_to_string(directory.path().join("x.csv")).unwrap();
     assert_eq!(text.lines().next(), Some("intercept,age,dose"));
 }

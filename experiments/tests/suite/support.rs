@@ -174,6 +174,15 @@ pub fn write_responses(file: &Path, header: &str) {
     std::fs::write(file, format!("{header}\n{rows}")).unwrap();
 }
 
+/// A directory with the particles `x.csv` of a regression on such data, sampled with some more flags.
+pub fn sampled_regression(header: &str, flags: &str) -> tempfile::TempDir {
+    let root = tempfile::tempdir().unwrap();
+    write_responses(&root.path().join("d.csv"), header);
+    let line = format!("sample --target logistic --data d.csv --particles 20 --steps 2 --out x.csv {flags}");
+    succeeds(root.path(), line.trim());
+    root
+}
+
 /// The records of results.csv, by the names of the columns.
 pub fn rows(root: &Path) -> Vec<HashMap<String, String>> {
     let mut reader = csv::Reader::from_path(root.join("out/results.csv")).unwrap();

@@ -23,7 +23,7 @@ pub struct Page {
     /// The figures on the page with the names of their files, which it expects beside it in `figures/`.
     pub figures: Vec<(String, String)>,
     /// The most important of the page, by name; it is no part of the text.
-    pub summary: Vec<(&'static str, String)>,
+    pub summary: Vec<(String, String)>,
     /// What [`part`](Self::part) and [`drawing`](Self::drawing) choose from.
     prose: Prose,
 }
@@ -148,8 +148,8 @@ impl Page {
     }
 
     /// The same with a line more in its summary.
-    pub fn with(mut self, key: &'static str, value: impl ToString) -> Self {
-        self.summary.push((key, value.to_string()));
+    pub fn with(mut self, key: impl Into<String>, value: impl ToString) -> Self {
+        self.summary.push((key.into(), value.to_string()));
         self
     }
 }

@@ -62,11 +62,8 @@ pub fn coordinates(
         return Ok(());
     };
     let run_of = |row: &Row| rows.iter().position(|other| std::ptr::eq(other, row));
-    let shown: Vec<(&Row, Rows<'_>)> = group
-        .iter()
-        .take(DRAWN)
-        .map(|row| (row, frames.with("run", run_of(row))))
-        .collect();
+    let shown = group.iter().take(DRAWN);
+    let shown: Vec<(&Row, Rows<'_>)> = shown.map(|row| (row, frames.with("run", run_of(row)))).collect();
     let names = (1..).map(|k| format!("x{k}"));
     let known = names.take_while(|name| shown[0].1.iter().any(|frame| frame.number(name).is_some()));
     let panel = |name: String| {
@@ -78,20 +75,16 @@ pub fn coordinates(
         let label = name.replace('x', "x̂");
         MultiplesPanel::over(label, AxisKind::Linear, shown.iter().map(line))
     };
-    let title = format!(
-        "{}: coordinates, {} sample points",
-        experiment.title,
-        first.value("samples")
-    );
+    let (title, samples) = (&experiment.title, first.value("samples"));
+    let title = format!("{title}: coordinates, {samples} sample points");
     let plot = MultiplesPlot::traces(title, "time (s)", known.map(panel));
     AtomicFile::write(directory.join("coordinates.svg"), multiples(&plot)?)
 }
 
 /// What lines may differ in, besides the choice of their points.
 fn parts(row: &Row) -> [String; 4] {
-    let network = [row.text("variant"), row.text("manifold")]
-        .into_iter()
-        .find(|name| !name.is_empty());
+    let names = ["variant", "manifold"].map(|column| row.text(column));
+    let network = names.into_iter().find(|name| !name.is_empty());
     [
         network.unwrap_or_default().to_owned(),
         row.text("quadrature").to_owned(),

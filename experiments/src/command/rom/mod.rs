@@ -50,19 +50,18 @@ struct Task {
 
 /// Trains or runs.
 pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
-    let (task, training) = match &arguments.command {
-        Command::Train(task) => (task, true),
-        Command::Run(task) => (task, false),
+    let (task, work): (_, Work) = match &arguments.command {
+        Command::Train(task) => (task, train::execute),
+        Command::Run(task) => (task, run::execute),
     };
     FileKind::Experiment.check(&task.configuration)?;
     let experiment = Experiment::read(&task.configuration)?;
     interrupt::listen();
-    if training {
-        train::execute(&experiment, &task.out)
-    } else {
-        run::execute(&experiment, &task.out)
-    }
+    work(&experiment, &task.out)
 }
+
+/// What is done with an experiment in its directory.
+type Work = fn(&Experiment, &Path) -> Result<(), CommandError>;
 
 /// Figures and means of the reduced runs of a directory again.
 pub fn report(directory: &Path) -> Result<(), CommandError> {

@@ -30,12 +30,13 @@ impl TrainingProgress {
     }
 
     /// So many of so many are done in a phase, which may be another one.
-    fn set(&mut self, phase: &'static str, done: usize, count: usize) {
+    fn set(&mut self, phase: &'static str, done: usize, count: usize) -> ControlFlow<()> {
         if self.phase != phase {
             self.phase = phase;
             self.bar.restyle(phase);
         }
         self.bar.set(done, count);
+        unless_interrupted()
     }
 
     /// Takes the bar off the screen.
@@ -46,20 +47,17 @@ impl TrainingProgress {
 
 impl Watch for TrainingProgress {
     fn after_run(&mut self, done: usize, runs: usize) -> ControlFlow<()> {
-        self.set(self.phase, done, runs);
-        unless_interrupted()
+        self.set(self.phase, done, runs)
     }
 
     fn after_epoch(&mut self, report: &EpochReport) -> ControlFlow<()> {
         self.trials = 0;
-        self.set(EPOCHS, report.epoch as usize + 1, report.epochs as usize);
         self.bar.say(|| format!("{:.3e}", report.terms.total()));
-        unless_interrupted()
+        self.set(EPOCHS, report.epoch as usize + 1, report.epochs as usize)
     }
 
     fn after_trial(&mut self) -> ControlFlow<()> {
         self.trials += 1;
-        self.set(TRIALS, self.trials, self.trials);
-        unless_interrupted()
+        self.set(TRIALS, self.trials, self.trials)
     }
 }

@@ -37,11 +37,8 @@ pub fn report(experiment: &Experiment, directory: &Path) -> Result<(), CommandEr
         console::notice(&format!("case {}: {}: {}", row.case(), made(row), row.text("outcome")));
     }
     let groups = figures::groups(&rows);
-    let lines: Vec<String> = groups
-        .iter()
-        .filter_map(|here| Some(line(here.first()?, here)))
-        .collect();
-    console::print(&lines.concat())
+    let lines = groups.iter().filter_map(|here| Some(line(here.first()?, here)));
+    console::print(&lines.collect::<String>())
 }
 
 /// How a run was made, as keys and values.

@@ -7,8 +7,10 @@ use mpm_rom::experiment::{Experiment, Trained, train_experiment};
 
 use super::figures;
 use super::progress::TrainingProgress;
-use crate::machine::MemoryGauge;
-use crate::{CommandError, console};
+use crate::CommandError;
+use crate::console::{self, Pair};
+use crate::machine::{MemoryGauge, PEAK_MEMORY_KEY};
+use crate::plots::results::Value;
 
 /// Full-order runs, training of all networks, the curves of their losses.
 pub fn execute(experiment: &Experiment, directory: &Path) -> Result<(), CommandError> {
@@ -28,35 +30,25 @@ pub fn execute(experiment: &Experiment, directory: &Path) -> Result<(), CommandE
 }
 
 /// What standard output says of a network.
-fn pairs(trained: &Trained, memory: &MemoryGauge) -> Vec<(&'static str, String)> {
-    let seconds = |time: Duration| format!("{:.3}", time.as_secs_f64());
-    let mut pairs = vec![
-        ("points", trained.points.to_string()),
-        ("runs", trained.runs.to_string()),
-        ("frames", trained.frames.to_string()),
-        ("epochs", trained.epochs.to_string()),
-        ("resumed_at", trained.resumed_at.to_string()),
-        (
-            "reconstruction_error_percent",
-            format!("{:.6}", trained.reconstruction_error),
-        ),
-        ("gradient_error", format!("{:.6}", trained.gradient_error)),
+fn pairs(trained: &Trained, memory: &MemoryGauge) -> Vec<Pair> {
+    let seconds = |time: Duration| format!("{:.3}", time.as_secs_f64()).into();
+    let error = |value: f64| Value::from(format!("{value:.6}"));
+    let starts = Some(trained.starts.len()).filter(|&count| count > 0);
+    let best = trained.starts.iter().map(|start| start.position_error);
+    let best = best.min_by(f64::total_cmp).map(error);
+    vec![
+        ("variant", trained.name.as_str().into()),
+        ("points", trained.points.into()),
+        ("runs", trained.runs.into()),
+        ("frames", trained.frames.into()),
+        ("epochs", trained.epochs.into()),
+        ("resumed_at", trained.resumed_at.into()),
+        ("reconstruction_error_percent", error(trained.reconstruction_error)),
+        ("gradient_error", error(trained.gradient_error)),
         ("data_seconds", seconds(trained.data_time)),
         ("training_seconds", seconds(trained.training_time)),
-    ];
-    if !trained.name.is_empty() {
-        pairs.insert(0, ("variant", trained.name.clone()));
-    }
-    if let Some(best) = trained
-        .starts
-        .iter()
-        .min_by(|a, b| a.position_error.total_cmp(&b.position_error))
-    {
-        pairs.push(("starts", trained.starts.len().to_string()));
-        pairs.push(("training_runs_error_percent", format!("{:.6}", best.position_error)));
-    }
-    if let Some(bytes) = memory.peak_bytes() {
-        pairs.push(("peak_memory_bytes", bytes.to_string()));
-    }
-    pairs
+        ("starts", starts.into()),
+        ("training_runs_error_percent", best.into()),
+        (PEAK_MEMORY_KEY, memory.peak_bytes().into()),
+    ]
 }

@@ -24,15 +24,12 @@ pub fn check(arguments: &Arguments) -> Result<(), CommandError> {
         ("velocities", options.velocities.as_deref().map(Path::new)),
     ];
     let is_read = |name: &str| ["data", "start", "masses", "volumes", "velocities"].contains(&name);
-    let given: Vec<_> = files
-        .into_iter()
-        .filter_map(|(name, path)| Some((name, path?, place(path?))))
-        .collect();
+    let placed = |(name, path): (_, Option<_>)| Some((name, path?, place(path?)));
+    let given: Vec<_> = files.into_iter().filter_map(placed).collect();
     for (k, (name, path, own)) in given.iter().enumerate() {
-        let others = given[..k]
-            .iter()
-            .filter(|(other, ..)| (*other, *name) != ("frames", "plots") && !(is_read(other) && is_read(name)));
-        if let Some((other, ..)) = others.into_iter().find(|(.., place)| place == own) {
+        let may_share = |other: &str| (other, *name) == ("frames", "plots") || (is_read(other) && is_read(name));
+        let mut alike = given[..k].iter().filter(|(.., place)| place == own);
+        if let Some((other, ..)) = alike.find(|(other, ..)| !may_share(other)) {
             return Err(OptionError::new(name, format!("{} is the file of --{other}", path.display())).into());
         }
     }

@@ -38,9 +38,9 @@ pub fn given(arguments: &Arguments, dimension: usize, run: &Run) -> Result<Given
     } else {
         None
     };
-    if let Some(drawn) = drawn {
-        given.positions = Some(drawn.positions);
-        if let Some(densities) = drawn.densities {
+    if let Some((positions, densities)) = drawn {
+        given.positions = Some(positions);
+        if let Some(densities) = densities {
             let mass = |p: usize| given.masses.as_ref().map_or(1.0 / particles as f64, |masses| masses[p]);
             let volumes = densities.iter().enumerate().map(|(p, density)| mass(p) / density);
             given.reference_volumes = Some(volumes.collect());
@@ -49,30 +49,20 @@ pub fn given(arguments: &Arguments, dimension: usize, run: &Run) -> Result<Given
     Ok(given)
 }
 
-/// The numbers of a file: so many rows and columns.
+/// The numbers of a file: so many rows and columns, all finite.
 fn read(flag: &str, path: &Path, rows: usize, columns: usize) -> Result<Vec<f64>, OptionError> {
     let table = NumberTable::read(flag, path)?;
-    let (found, wanted, what) = match () {
-        () if table.columns != columns => (table.columns, columns, "columns"),
-        () if table.rows() != rows => (table.rows(), rows, "rows"),
-        () => return finite(flag, path, table),
-    };
-    let reason = format!("{} has {found} {what}, must have {wanted}", path.display());
-    Err(OptionError::new(flag, reason))
-}
-
-/// The numbers of a table that has no others than finite ones.
-fn finite(flag: &str, path: &Path, table: NumberTable) -> Result<Vec<f64>, OptionError> {
+    let refused = |reason: String| OptionError::new(flag, format!("{}{reason}", path.display()));
+    for (found, wanted, what) in [(table.columns, columns, "columns"), (table.rows(), rows, "rows")] {
+        if found != wanted {
+            return Err(refused(format!(" has {found} {what}, must have {wanted}")));
+        }
+    }
     let Some(index) = table.numbers.iter().position(|number| !number.is_finite()) else {
         return Ok(table.numbers);
     };
-    let (row, column) = (index / table.columns + 1, index % table.columns + 1);
-    let reason = format!(
-        "{}: row {row}, column {column} is not finite: {}",
-        path.display(),
-        table.numbers[index]
-    );
-    Err(OptionError::new(flag, reason))
+    let (row, column, number) = (index / columns + 1, index % columns + 1, table.numbers[index]);
+    Err(refused(format!(": row {row}, column {column} is not finite: {number}")))
 }
 
 fn of_law(reason: String) -> CommandError {
@@ -113,41 +103,25 @@ fn numbers(flag: &str, text: &str, dimension: usize) -> Result<Vec<f64>, OptionE
     Err(OptionError::new(flag, reason))
 }
 
-/// What was drawn.
-struct Drawn {
-    /// M × D, row by row.
-    positions: Vec<f64>,
-    /// Normalised densities there, where they are asked for.
-    densities: Option<Vec<f64>>,
-}
+/// What was drawn: positions, M × D, row by row, and normalised densities there, where they are asked for.
+type Drawn = (Vec<f64>, Option<Vec<f64>>);
 
 /// Quasi-random points of the law where it has them and nothing else is asked for, else independent draws.
 fn drawn<const D: usize>(law: &dyn CatalogueTarget<D>, run: &Run, volumes: bool) -> Result<Drawn, CommandError> {
-    let quiet = run.start.draws == parvi::StartDraws::QuasiRandom && law.unit_cube_transport().is_some();
-    let samples = if quiet {
-        sobol_points(law, run)
-    } else {
-        independent_draws(law, run)
+    let samples = match run.start.draws == parvi::StartDraws::QuasiRandom && law.unit_cube_transport().is_some() {
+        true => sobol_points(law, run),
+        false => independent_draws(law, run),
     };
     let positions = samples.map_err(|error| of_law(error.to_string()))?.positions;
-    let unknown = || {
-        let name = law.name();
-        of_law(format!(
-            "the density of {name} is not known, which --volumes start-density needs"
-        ))
-    };
-    let densities = match volumes {
-        false => None,
-        true => {
-            let evidence = law.log_evidence().ok_or_else(unknown)?;
-            let density = |x: &[f64; D]| (law.log_density(x) - evidence).exp();
-            Some(positions.iter().map(density).collect())
-        }
-    };
-    Ok(Drawn {
-        positions: positions.as_flattened().to_vec(),
-        densities,
-    })
+    let name = law.name();
+    let unknown = || format!("the density of {name} is not known, which --volumes start-density needs");
+    let mut densities = None;
+    if volumes {
+        let evidence = law.log_evidence().ok_or_else(|| of_law(unknown()))?;
+        let density = |x: &[f64; D]| (law.log_density(x) - evidence).exp();
+        densities = Some(positions.iter().map(density).collect());
+    }
+    Ok((positions.as_flattened().to_vec(), densities))
 }
 
 /// The flag behind what a sampler refuses of given particles.

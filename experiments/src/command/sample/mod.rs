@@ -19,6 +19,7 @@ use crate::options::{
 use crate::output::particles_csv::column_names;
 use crate::output::{AtomicFile, FrameWriter, NumberTable, OutputDirectory, ParticleFile, ParticleFormat};
 use crate::pictures::{History, Subject};
+use crate::plots::results::Value;
 use crate::progress::Bar;
 use crate::sampling;
 use crate::{CommandError, console, interrupt};
@@ -101,10 +102,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let mut run = Run::new(particles(arguments)?, arguments.seed);
     run.start = arguments.options.start();
     run.given = given::given(arguments, dimension, &run)?;
-    let names = match arguments.parameters.data {
-        Some(_) => target.coordinate_names(),
-        None => Vec::new(),
-    };
+    let data = arguments.parameters.data.as_ref();
+    let names = data.map_or(Vec::new(), |_| target.coordinate_names());
     let directory = |flag, path: &Option<PathBuf>| {
         let path = path.as_deref();
         path.map(|path| OutputDirectory::create(flag, path)).transpose()
@@ -148,21 +147,19 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
         if count == 1 {
             console::notice("--frames: no particles have moved; the only frame is that of what the run returned");
         }
-        pairs.push(("frames", count.to_string()));
+        pairs.push(("frames", count.into()));
     }
     if let (Some(directory), Some(history)) = (&plots, &watch.history) {
+        let checkpoint = arguments.checkpoint.as_ref();
         let subject = Subject {
             target: &target,
             mesh: arguments.options.mesh.as_deref().map(Path::new),
             method: arguments.method.as_str(),
             outcome: &outcome,
             history,
-            untraced: arguments
-                .checkpoint
-                .as_ref()
-                .map(|_| "a run with a checkpoint has none"),
+            untraced: checkpoint.map(|_| "a run with a checkpoint has none"),
         };
-        pairs.push(("plots", subject.draw(directory)?.join(",")));
+        pairs.push(("plots", Value::Text(subject.draw(directory)?.join(","))));
     }
     if let Method::Mpm(options) = &method
         && let Some(checkpoint) = &options.checkpoint

@@ -1,44 +1,27 @@
 //! What a run says on standard output and standard error.
 
+use parvi::Certificate;
+
 use super::Arguments;
-use crate::console;
+use crate::console::{self, Pair};
 use crate::machine::PEAK_MEMORY_KEY;
-use crate::options::MethodName;
+use crate::options::{MethodName, is_among};
 use crate::sampling::{Outcome, Watched};
 
 /// What only moves of `mpm`'s particles depend on.
-const OF_MOVES: [&str; 14] = [
-    "basis",
-    "coarse-start",
-    "displacement-limit",
-    "flip-share",
-    "friction",
-    "rotation",
-    "score",
-    "settling",
-    "settling-shifts",
-    "shifts",
-    "spacing",
-    "spacing-range",
-    "time-step",
-    "transfer",
-];
+const OF_MOVES: &str = "basis coarse-start displacement-limit flip-share friction rotation score settling settling-shifts \
+     shifts spacing spacing-range time-step transfer";
 
 /// Says which of the options that were given did nothing, since the material has moved no particle.
 fn warn_of_rest(arguments: &Arguments, outcome: &Outcome) {
     if arguments.method != MethodName::Mpm || outcome.steps > 0 {
         return;
     }
-    let idle = arguments.options.given().map(|(name, _)| name);
-    let idle: Vec<String> = idle
-        .filter(|name| OF_MOVES.contains(&name.as_str()))
-        .map(|name| format!("--{name}"))
-        .collect();
+    let idle = arguments.options.given().filter(|(name, _)| is_among(OF_MOVES, name));
+    let idle: Vec<String> = idle.map(|(name, _)| format!("--{name}")).collect();
     if !idle.is_empty() {
-        console::notice(&format!(
-            "{}: without effect, for the material has moved no particle; --rounds and --steps let it try, but not with weights",
-            idle.join(", ")
-        ));
+        let why = "for the material has moved no particle; --rounds and --steps let it try, but not with weights";
+        console::notice(&format!("{}: without effect, {why}", idle.join(", ")));
     }
 }
 
@@ -46,81 +29,56 @@ fn warn_of_rest(arguments: &Arguments, outcome: &Outcome) {
 pub fn warn(arguments: &Arguments, outcome: &Outcome) {
     warn_of_rest(arguments, outcome);
     if outcome.scores_replaced > 0 {
-        console::notice(&format!(
-            "{} scores on the way were not finite; the particles were pulled back to where they are",
-            outcome.scores_replaced
-        ));
+        let (count, remedy) = (
+            outcome.scores_replaced,
+            "the particles were pulled back to where they are",
+        );
+        console::notice(&format!("{count} scores on the way were not finite; {remedy}"));
     }
-    let Some(certificate) = &outcome.certificate else {
-        return;
-    };
-    if let Some(reason) = certificate.outcome.reason() {
-        console::notice(&format!("{}: {reason}", certificate.outcome.name()));
+    let found = outcome.certificate.as_ref().map(|certificate| &certificate.outcome);
+    if let Some((found, reason)) = found.and_then(|found| Some((found, found.reason()?))) {
+        console::notice(&format!("{}: {reason}", found.name()));
     }
 }
 
-/// What the certificate says.
-fn certificate_pairs(outcome: &Outcome) -> Vec<(&'static str, String)> {
-    let Some(certificate) = &outcome.certificate else {
-        return Vec::new();
-    };
-    let numbers = [
-        ("mean_error", certificate.mean_error()),
-        ("sd_error", certificate.standard_deviation_error()),
-        ("unexplained", certificate.unexplained()),
-        ("drift", Some(certificate.drift)),
-    ];
-    let mut pairs = vec![("outcome", certificate.outcome.name().to_owned())];
-    pairs.extend(certificate.outcome.reason().map(|reason| ("reason", reason)));
-    pairs.extend(
-        numbers
-            .into_iter()
-            .filter_map(|(key, value)| Some((key, value?.to_string()))),
-    );
-    pairs
-}
-
-/// What standard output says; a key without a value is left out.
-pub fn pairs(arguments: &Arguments, outcome: &Outcome, peak_memory: Option<u64>) -> Vec<(&'static str, String)> {
-    let mut pairs = vec![
-        ("method", arguments.method.to_string()),
-        ("steps", outcome.steps.to_string()),
-        ("score_evaluations", outcome.score_evaluations.to_string()),
-        ("density_evaluations", outcome.density_evaluations.to_string()),
-    ];
+/// What standard output says.
+pub fn pairs(arguments: &Arguments, outcome: &Outcome, peak_memory: Option<u64>) -> Vec<Pair> {
+    let (certificate, seen) = (outcome.certificate.as_ref(), outcome.watched.as_ref());
+    let found = certificate.map(|certificate| &certificate.outcome);
+    let deviation = certificate.and_then(Certificate::standard_deviation_error);
     let judging = Some(outcome.judging_evaluations).filter(|&count| count > 0);
-    let watched = |key: fn(&Watched) -> String| outcome.watched.as_ref().map(key);
-    let optional = [
-        ("judging_evaluations", text(judging)),
-        ("log_evidence", text(outcome.log_evidence)),
-        ("log_evidence_error", text(outcome.log_evidence_error)),
-        ("score_disagreement", text(outcome.score_disagreement)),
-        ("pareto_k", text(outcome.pareto_k)),
-        ("unseen", text(outcome.unseen)),
-        ("wall_seconds", Some(format!("{:.6}", outcome.wall_seconds))),
-        ("best_step", watched(|seen| seen.best_step.to_string())),
-        ("best_monitor", watched(|seen| seen.best_value.to_string())),
-        ("last_monitor", watched(|seen| seen.last_value().to_string())),
-        ("ended_early", watched(|seen| seen.ended.to_string())),
-        ("residual", text(outcome.residual)),
-        ("spacing", text(outcome.spacing)),
-        ("active_nodes", text(outcome.active_nodes)),
-        ("bodies", text(outcome.bodies)),
-        ("storage_bytes", text(outcome.storage_bytes)),
-        ("divergences", text(outcome.divergences)),
-        (PEAK_MEMORY_KEY, text(peak_memory)),
-    ];
-    pairs.extend(optional.into_iter().filter_map(|(key, value)| Some((key, value?))));
-    pairs.extend(certificate_pairs(outcome));
-    pairs.extend([
-        ("target", arguments.target.clone()),
-        ("dim", outcome.particles.dimension().to_string()),
-        ("particles", outcome.particles.len().to_string()),
-        ("seed", arguments.seed.to_string()),
-    ]);
-    pairs
-}
-
-fn text<T: ToString>(value: Option<T>) -> Option<String> {
-    value.map(|value| value.to_string())
+    vec![
+        ("method", arguments.method.as_str().into()),
+        ("steps", outcome.steps.into()),
+        ("score_evaluations", outcome.score_evaluations.into()),
+        ("density_evaluations", outcome.density_evaluations.into()),
+        ("judging_evaluations", judging.into()),
+        ("log_evidence", outcome.log_evidence.into()),
+        ("log_evidence_error", outcome.log_evidence_error.into()),
+        ("score_disagreement", outcome.score_disagreement.into()),
+        ("pareto_k", outcome.pareto_k.into()),
+        ("unseen", outcome.unseen.into()),
+        ("wall_seconds", format!("{:.6}", outcome.wall_seconds).into()),
+        ("best_step", seen.map(|seen| seen.best_step).into()),
+        ("best_monitor", seen.map(|seen| seen.best_value).into()),
+        ("last_monitor", seen.map(Watched::last_value).into()),
+        ("ended_early", seen.map(|seen| seen.ended.to_string()).into()),
+        ("residual", outcome.residual.into()),
+        ("spacing", outcome.spacing.into()),
+        ("active_nodes", outcome.active_nodes.into()),
+        ("bodies", outcome.bodies.into()),
+        ("storage_bytes", outcome.storage_bytes.into()),
+        ("divergences", outcome.divergences.into()),
+        (PEAK_MEMORY_KEY, peak_memory.into()),
+        ("outcome", found.map(|found| found.name()).into()),
+        ("reason", found.and_then(|found| found.reason()).into()),
+        ("mean_error", certificate.and_then(Certificate::mean_error).into()),
+        ("sd_error", deviation.into()),
+        ("unexplained", certificate.and_then(Certificate::unexplained).into()),
+        ("drift", certificate.map(|certificate| certificate.drift).into()),
+        ("target", arguments.target.as_str().into()),
+        ("dim", outcome.particles.dimension().into()),
+        ("particles", outcome.particles.len().into()),
+        ("seed", arguments.seed.into()),
+    ]
 }

@@ -36,9 +36,7 @@ impl Observer for Watch {
         if let Some(history) = &mut self.history {
             history.see(view)?;
         }
-        match &mut self.frames {
-            Some(frames) => frames.see(view),
-            None => ControlFlow::Continue(()),
-        }
+        let frames = self.frames.as_mut();
+        frames.map_or(ControlFlow::Continue(()), |frames| frames.see(view))
     }
 }

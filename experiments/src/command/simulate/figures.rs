@@ -9,12 +9,9 @@ use crate::CommandError;
 use crate::output::AtomicFile;
 use crate::plots::{AxisKind, LineSeries, MultiplesPanel, MultiplesPlot, multiples};
 
-/// Columns that share a panel, by what their names begin and end with, the rest of a name being the line's label; and the label of the axis.
-struct Panel {
-    begin: String,
-    end: &'static str,
-    y_label: &'static str,
-}
+/// Columns that share a panel: the group whose file it is in, what their names begin and end with, the rest of a name being the line's label,
+/// and the label of the axis.
+type Panel<Text> = (Text, Text, &'static str, &'static str);
 
 /// Draws the series of a directory; nothing where there is none.
 pub fn draw(directory: &Path, title: &str) -> Result<(), CommandError> {
@@ -22,15 +19,18 @@ pub fn draw(directory: &Path, title: &str) -> Result<(), CommandError> {
         return Ok(());
     }
     let series = read_series(directory)?;
-    let groups = groups(&series);
+    let panels = panels(&series);
+    let mut groups: Vec<&str> = panels.iter().map(|panel| panel.0.as_str()).collect();
+    groups.dedup();
     remove_others(directory, &groups)?;
-    for (name, panels) in groups {
-        let panels: Vec<_> = panels.iter().filter_map(|panel| drawn(&series, panel)).collect();
+    for name in groups {
+        let panels = panels.iter().filter(|panel| panel.0 == name);
+        let panels: Vec<_> = panels.filter_map(|panel| drawn(&series, panel)).collect();
         if panels.is_empty() {
             continue;
         }
         let plot = MultiplesPlot::traces(format!("{title}: {}", name.replace('_', " ")), "time", panels);
-        AtomicFile::write(directory.join(file_name(&name)), multiples(&plot)?)?;
+        AtomicFile::write(directory.join(file_name(name)), multiples(&plot)?)?;
     }
     Ok(())
 }
@@ -40,13 +40,13 @@ fn file_name(group: &str) -> String {
 }
 
 /// Removes figures of probes that an earlier run had and this one has not.
-fn remove_others(directory: &Path, groups: &[(String, Vec<Panel>)]) -> Result<(), CommandError> {
+fn remove_others(directory: &Path, groups: &[&str]) -> Result<(), CommandError> {
     let refused = |source| CommandError::file("read", directory, source);
     for entry in std::fs::read_dir(directory).map_err(refused)? {
         let entry = entry.map_err(refused)?;
         let name = entry.file_name().to_string_lossy().into_owned();
         let of_probe = name.starts_with("series_probe_") && name.ends_with(".svg");
-        if of_probe && !groups.iter().any(|(group, _)| file_name(group) == name) {
+        if of_probe && !groups.iter().any(|group| file_name(group) == name) {
             std::fs::remove_file(entry.path()).map_err(|source| CommandError::file("remove", entry.path(), source))?;
         }
     }
@@ -59,54 +59,27 @@ const ENERGY: &str = "_energy";
 /// The ends of the names of what has become of energy; columns of 0 alone are left out.
 const SHARES: [&str; 2] = ["_dissipation", "_work"];
 
-/// What the columns of a panel begin and end with, and the label of its axis.
-type PanelOfRun = (&'static str, &'static str, &'static str);
-
-/// Files of every run and their panels.
-const GROUPS: [(&str, &[PanelOfRun]); 5] = [
-    ("centre_of_mass", &[("centre_", "", "centre of mass")]),
-    ("energies", &[("", ENERGY, "energy")]),
-    (
-        "energy_budget",
-        &[
-            ("", SHARES[0], "energy taken"),
-            ("", SHARES[1], "work"),
-            ("energy_balance", "", "energy balance"),
-        ],
-    ),
-    (
-        "momenta",
-        &[
-            ("momentum_", "", "momentum"),
-            ("angular_momentum", "", "angular momentum"),
-        ],
-    ),
-    (
-        "extent",
-        &[("lower_", "", "lowest position"), ("upper_", "", "highest position")],
-    ),
+/// The panels of every run, group by group.
+const OF_RUN: [Panel<&str>; 9] = [
+    ("centre_of_mass", "centre_", "", "centre of mass"),
+    ("energies", "", ENERGY, "energy"),
+    ("energy_budget", "", SHARES[0], "energy taken"),
+    ("energy_budget", "", SHARES[1], "work"),
+    ("energy_budget", "energy_balance", "", "energy balance"),
+    ("momenta", "momentum_", "", "momentum"),
+    ("momenta", "angular_momentum", "", "angular momentum"),
+    ("extent", "lower_", "", "lowest position"),
+    ("extent", "upper_", "", "highest position"),
 ];
 
-/// Files and their panels.
-fn groups(series: &Series) -> Vec<(String, Vec<Panel>)> {
-    let of_run = GROUPS.iter().map(|(name, panels)| {
-        let panels = panels.iter().map(|&(begin, end, y_label)| Panel {
-            begin: begin.to_owned(),
-            end,
-            y_label,
-        });
-        ((*name).to_owned(), panels.collect())
+/// All panels, those of a probe in a group of its own.
+fn panels(series: &Series) -> Vec<Panel<String>> {
+    let of_run = OF_RUN.map(|(group, begin, end, y_label)| (group.to_owned(), begin.to_owned(), end, y_label));
+    let of_probe = probes(series).flat_map(|probe| {
+        let panel = |y_label| (format!("probe_{probe}"), format!("{probe}_{y_label}_"), "", y_label);
+        ["displacement", "velocity", "stress"].map(panel)
     });
-    let of_probe = probes(series).map(|probe| {
-        let panel = |y_label| Panel {
-            begin: format!("{probe}_{y_label}_"),
-            end: "",
-            y_label,
-        };
-        let panels = ["displacement", "velocity", "stress"].map(panel);
-        (format!("probe_{probe}"), panels.into())
-    });
-    of_run.chain(of_probe).collect()
+    of_run.into_iter().chain(of_probe).collect()
 }
 
 /// Names of the probes: columns that end with the first component of a displacement.
@@ -116,15 +89,15 @@ fn probes(series: &Series) -> impl Iterator<Item = &str> {
 }
 
 /// The lines of a panel; `None` without any.
-fn drawn(series: &Series, Panel { begin, end, y_label }: &Panel) -> Option<MultiplesPanel> {
+fn drawn(series: &Series, (_, begin, end, y_label): &Panel<String>) -> Option<MultiplesPanel> {
     let times = series.column("time")?;
     let through = |label: &str, values: Vec<f64>| LineSeries::through(label, times.iter().copied().zip(values));
     let mut lines: Vec<LineSeries> = Vec::new();
     for column in series.columns() {
-        let rest = column
-            .strip_prefix(begin.as_str())
-            .and_then(|rest| rest.strip_suffix(end));
-        let Some(label) = rest else { continue };
+        let rest = column.strip_prefix(begin.as_str());
+        let Some(label) = rest.and_then(|rest| rest.strip_suffix(end)) else {
+            continue;
+        };
         let values = series.column(column)?;
         if SHARES.contains(end) && values.iter().all(|&share| share == 0.0) {
             continue;

@@ -9,8 +9,9 @@ use clap::Args;
 use mpm_scenes::{Outcome, Scene, Summary, ValidationRow};
 
 use super::file_kind::FileKind;
+use crate::console::{self, Pair};
 use crate::progress::Bar;
-use crate::{CommandError, console, interrupt};
+use crate::{CommandError, interrupt};
 
 /// What to simulate and where.
 #[derive(Args)]
@@ -65,26 +66,21 @@ fn warn(validation: &[ValidationRow]) {
     }
 }
 
-/// What standard output says; a key without a value is left out.
-fn pairs(arguments: &Arguments, summary: &Summary, seconds: f64) -> Vec<(&'static str, String)> {
+/// What standard output says.
+fn pairs(arguments: &Arguments, summary: &Summary, seconds: f64) -> Vec<Pair> {
     let work = summary.particles as f64 * summary.steps_here as f64;
-    let mut pairs = vec![
-        ("scene", arguments.scene.display().to_string()),
-        ("steps", summary.steps.to_string()),
-        ("time", summary.time.to_string()),
-        ("particles", summary.particles.to_string()),
-        ("wall_seconds", format!("{seconds:.6}")),
-    ];
-    if work > 0.0 {
-        pairs.push(("nanoseconds_per_particle_step", format!("{:.1}", 1e9 * seconds / work)));
-    }
-    if let Some(time) = summary.resumed_at {
-        pairs.push(("resumed_at", time.to_string()));
-    }
-    pairs.push(("outcome", summary.outcome.name().to_owned()));
+    let nanoseconds = (work > 0.0).then(|| format!("{:.1}", 1e9 * seconds / work));
     let passed = summary.validation.iter().all(ValidationRow::passes);
-    if !summary.validation.is_empty() {
-        pairs.push(("validation", if passed { "passed" } else { "failed" }.to_owned()));
-    }
-    pairs
+    let word = if passed { "passed" } else { "failed" };
+    vec![
+        ("scene", arguments.scene.display().to_string().into()),
+        ("steps", summary.steps.into()),
+        ("time", summary.time.into()),
+        ("particles", summary.particles.into()),
+        ("wall_seconds", format!("{seconds:.6}").into()),
+        ("nanoseconds_per_particle_step", nanoseconds.into()),
+        ("resumed_at", summary.resumed_at.into()),
+        ("outcome", summary.outcome.name().into()),
+        ("validation", (!summary.validation.is_empty()).then_some(word).into()),
+    ]
 }

@@ -47,25 +47,21 @@ impl MethodKind {
 
     /// Whether it has an option.
     pub fn has(&self, option: &str) -> bool {
-        self.options.split(' ').any(|name| name == option)
+        is_among(self.options, option)
     }
+}
+
+/// Whether a name is one of a list with spaces between.
+pub fn is_among(list: &str, name: &str) -> bool {
+    list.split(' ').any(|known| known == name)
 }
 
 /// The methods that have an option, as help says it: `mpm, paper-*, svgd`.
 pub fn owners(option: &str) -> String {
-    let having = MethodName::value_variants()
-        .iter()
-        .map(|name| name.kind())
-        .filter(|kind| kind.has(option));
-    let mut names: Vec<&str> = having
-        .map(|kind| {
-            if kind.name.starts_with("paper-") {
-                "paper-*"
-            } else {
-                kind.name
-            }
-        })
-        .collect();
+    let all = MethodName::value_variants().iter();
+    let having = all.filter(|method| method.kind().has(option));
+    let named = |method: &MethodName| if method.is_paper() { "paper-*" } else { method.as_str() };
+    let mut names: Vec<&str> = having.map(named).collect();
     names.dedup();
     names.join(", ")
 }
@@ -126,6 +122,11 @@ impl MethodName {
     /// Whether the method moves all particles by steps from a start, so that studies can vary their number.
     pub fn iterates(self) -> bool {
         self.kind().iterates
+    }
+
+    /// Whether it is one of the paper's two algorithms.
+    pub fn is_paper(self) -> bool {
+        matches!(self, Self::PaperPic | Self::PaperApic)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use parvi::{MeshOptions, Method, MpmOptions, OnMesh, Settling, SpacingSchedule, TransferChoice};
 
-use super::MethodKind;
+use super::{MethodKind, is_among};
 use crate::options::{Basis, EvaluationCount, Limit, MethodOptions, OptionError, RoundCount, Switch, Transfer};
 
 /// The method.
@@ -70,8 +70,7 @@ impl MethodOptions {
     /// The calibrated gas within a mesh.
     fn on_mesh(&self, steps: Option<usize>) -> Result<OnMesh, OptionError> {
         let default = MeshOptions::default();
-        let is_known = |name: &str| ON_MESH.split(' ').any(|known| known == name);
-        if let Some((name, value)) = self.given().find(|(name, _)| !is_known(name)) {
+        if let Some((name, value)) = self.given().find(|(name, _)| !is_among(ON_MESH, name)) {
             return Err(OptionError::misfit(&name, &value, "mpm on a mesh"));
         }
         let options = MeshOptions {

@@ -63,22 +63,17 @@ impl Frame {
     /// The arrays that there are, as a name and the bytes of a `.npy` file: `positions` and `velocities`, M × D, `deformation_gradients`, M × D × D, `weights`, M.
     pub fn arrays(&self) -> std::io::Result<Vec<(&'static str, Vec<u8>)>> {
         let (m, d) = (self.particles() as u64, self.dimension as u64);
+        let gradients = self.deformation_gradients.as_ref();
         let all = [
             ("positions", Some(&self.positions), vec![m, d]),
             ("velocities", self.velocities.as_ref(), vec![m, d]),
-            (
-                "deformation_gradients",
-                self.deformation_gradients.as_ref(),
-                vec![m, d, d],
-            ),
+            ("deformation_gradients", gradients, vec![m, d, d]),
             ("weights", self.weights.as_ref(), vec![m]),
         ];
-        let given = all
-            .into_iter()
-            .filter_map(|(name, values, shape)| Some((name, values?, shape)));
-        given
-            .map(|(name, values, shape)| Ok((name, array(&shape, values)?)))
-            .collect()
+        let bytes = |(name, values, shape): (_, Option<&Vec<f64>>, Vec<u64>)| {
+            Some(array(&shape, values?).map(|bytes| (name, bytes)))
+        };
+        all.into_iter().filter_map(bytes).collect()
     }
 
     /// A `.vtp` file: a vertex per particle, at its first three coordinates, padded with zeros where there are fewer.

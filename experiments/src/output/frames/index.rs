@@ -31,9 +31,8 @@ pub fn write(directory: &Path, entries: &[Entry]) -> Result<(), CommandError> {
         Some(_) => entries[k].step as f64,
         None => time_of_returned(&entries[..k]),
     };
-    let files: Vec<_> = (0..entries.len())
-        .map(|k| (time(k), names::vtp(&entries[k].frame)))
-        .collect();
+    let file = |k: usize| (time(k), names::vtp(&entries[k].frame));
+    let files: Vec<_> = (0..entries.len()).map(file).collect();
     let files = files.iter().map(|(time, file)| (*time, file.as_str()));
     AtomicFile::write(directory.join(names::COLLECTION), collection(files))?;
     table_file::write(entries, &directory.join(names::TABLE))

@@ -41,10 +41,9 @@ pub mod names {
     /// Whether a file is one of a frame.
     pub fn is_of_frame(name: &str) -> bool {
         let stem = |prefix: &str, suffix: &str| name.strip_prefix(prefix)?.strip_prefix('_')?.strip_suffix(suffix);
-        let arrays = ARRAYS.iter().find_map(|array| stem(array, ".npy"));
-        arrays
-            .or_else(|| stem("frame", ".vtp"))
-            .is_some_and(|stem| stem == RETURNED || stem.parse().is_ok_and(|step| frame(step) == stem))
+        let array = ARRAYS.iter().find_map(|array| stem(array, ".npy"));
+        let is_frame = |stem: &str| stem == RETURNED || stem.parse().is_ok_and(|step| frame(step) == stem);
+        array.or_else(|| stem("frame", ".vtp")).is_some_and(is_frame)
     }
 }
 
@@ -167,10 +166,8 @@ impl FrameWriter {
 
     /// The files of a frame, then the tables that name it.
     fn write(&mut self, name: &str, frame: &Frame, stamp: Stamp) -> Result<(), CommandError> {
-        let arrays = frame
-            .arrays()
-            .map_err(|error| CommandError::file("write", self.directory.file(name), error))?;
-        for (array, content) in arrays {
+        let refused = |error| CommandError::file("write", self.directory.file(name), error);
+        for (array, content) in frame.arrays().map_err(refused)? {
             AtomicFile::write(self.directory.file(&names::npy(array, name)), content)?;
         }
         let vtp = frame.vtp(&stamp, &self.coordinates);

@@ -30,10 +30,8 @@ fn guides(here: &Rows<'_>, dim: Dimension, series: &[LineSeries]) -> Vec<GuideCu
     let points = || series.iter().flat_map(LineSeries::points);
     let first = points().map(|(x, _)| x).fold(f64::INFINITY, f64::min);
     let last = points().map(|(x, _)| x).fold(0.0, f64::max);
-    let lowest = points()
-        .filter(|(x, _)| *x == first)
-        .map(|(_, y)| y)
-        .fold(f64::INFINITY, f64::min);
+    let at_first = points().filter(|(x, _)| *x == first);
+    let lowest = at_first.fold(f64::INFINITY, |least, (_, y)| least.min(y));
     let independent = expected(here, first).map_or(f64::NAN, f64::sqrt);
     let guide = |label: &str, start: f64, exponent: f64, dotted: bool| {
         GuideCurve::through(label, (first, last), dotted, |x| start * (x / first).powf(exponent))

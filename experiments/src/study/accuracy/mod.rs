@@ -54,9 +54,11 @@ impl TryFrom<Stated> for Entry {
             label: stated.label,
             options: stated.options,
         };
+        method.check()?;
+        let largest_particles = stated.largest_particles;
         Ok(Self {
-            method: method.checked()?,
-            largest_particles: stated.largest_particles,
+            method,
+            largest_particles,
         })
     }
 }

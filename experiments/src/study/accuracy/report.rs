@@ -58,11 +58,10 @@ fn slopes(study: &Accuracy, rows: &Rows<'_>, page: &mut Page) {
     page.part("Slopes", &[]);
     let exact = |name: &str, slope: &dyn Fn(Dimension) -> f64| {
         let place = |dim: &Dimension| format!("exponent of particles in energy_root where dim = {dim}");
-        let slopes = study
-            .dims
-            .iter()
-            .map(|dim| (place(dim), number(slope(*dim)).replace('-', "−")));
-        Line::default().with("series", name).with_all(slopes)
+        let slope = |dim: &Dimension| (place(dim), number(slope(*dim)).replace('-', "−"));
+        Line::default()
+            .with("series", name)
+            .with_all(study.dims.iter().map(slope))
     };
     let mut lines = vec![
         exact("best possible", &best_exponent),
@@ -80,10 +79,8 @@ fn costs(study: &Accuracy, rows: &Rows<'_>, page: &mut Page) {
         ("evaluations", "evaluations_per_particle"),
         ("nodes", "active_nodes"),
     ] {
-        let lines = rows.lines("series", study.labels());
-        let lines = lines
-            .iter()
-            .flat_map(|line| line.by("particles", ascending(&study.particles)));
+        let lines = rows.lines("series", study.labels()).into_iter();
+        let lines = lines.flat_map(|line| line.by("particles", ascending(&study.particles)));
         let in_some_dimension = |line: &Line<'_>| {
             let of_dim = |dim: &Dimension| line.rows.with("dim", *dim).median(column);
             study.dims.iter().filter_map(of_dim).any(|cost| cost > 0.0)

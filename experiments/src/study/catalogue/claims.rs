@@ -5,65 +5,41 @@ use crate::study::prelude::*;
 /// The claim holds where no mean is farther off than this, in standard deviations of the target, and no standard deviation by more than this part of it.
 const LARGEST_ERROR: f64 = 0.1;
 
-/// The runs of a method, by what they claim and what is measured.
-pub struct Claims<'a> {
-    /// All of them.
-    pub runs: Rows<'a>,
+/// Claims beyond the bounds; particles that could not be measured are beyond any bound.
+pub fn false_claims<'a>(runs: &Rows<'a>) -> Rows<'a> {
+    runs.having(|row| row.claims() && !row.is_within("larger_error", LARGEST_ERROR))
 }
 
-impl<'a> Claims<'a> {
-    /// Of the runs of one method.
-    pub fn new(runs: Rows<'a>) -> Self {
-        Self { runs }
+/// How often the runs of a method claim to have converged, what that is worth, and every claim that is false.
+pub fn write<'a>(runs: &Rows<'_>, targets: impl Iterator<Item = &'a str>, page: &mut Page) {
+    if runs.words("outcome") == [""] || runs.is_empty() {
+        page.heading("Claims");
+        page.part("none", &[]);
+        return;
     }
-
-    /// Runs that claim to have converged.
-    pub fn claimed(&self) -> Rows<'a> {
-        self.runs.having(Row::claims)
+    let percent = 100.0 * LARGEST_ERROR;
+    page.part("Claims", &[("mean", &LARGEST_ERROR), ("percent", &percent)]);
+    let all = Line::from(runs.clone()).with("target", "all");
+    let most = [each("most", [LARGEST_ERROR])];
+    page.lines_over("Claims", &most, runs.lines("target", targets).into_iter().chain([all]));
+    let false_claims: Vec<String> = false_claims(runs).iter().map(false_claim).collect();
+    match false_claims.is_empty() {
+        true => page.part("all true", &[]),
+        false => page.paragraph(format!("Claims that are false:\n\n{}", false_claims.join("\n"))),
     }
-
-    /// Claims beyond the bounds; particles that could not be measured are beyond any bound.
-    pub fn false_claims(&self) -> Rows<'a> {
-        self.runs
-            .having(|row| row.claims() && !row.is_within("larger_error", LARGEST_ERROR))
-    }
-
-    /// How often the claim is made, what it is worth, and every claim that is false.
-    pub fn write(&self, targets: &[String], page: &mut Page) {
-        if self.runs.words("outcome") == [""] || self.runs.is_empty() {
-            page.heading("Claims");
-            page.part("none", &[]);
-            return;
-        }
-        let percent = 100.0 * LARGEST_ERROR;
-        page.part("Claims", &[("mean", &LARGEST_ERROR), ("percent", &percent)]);
-        let lines = self.runs.lines("target", targets.iter().map(String::as_str));
-        let all = Line::from(self.runs.clone()).with("target", "all");
-        let most = [each("most", [LARGEST_ERROR])];
-        page.lines_over("Claims", &most, lines.into_iter().chain([all]));
-        let false_claims: Vec<String> = self.false_claims().iter().map(false_claim).collect();
-        match false_claims.is_empty() {
-            true => page.part("all true", &[]),
-            false => page.paragraph(format!("Claims that are false:\n\n{}", false_claims.join("\n"))),
-        }
-        // A line per outcome, with the largest errors among the runs that state it.
-        page.part("outcomes", &[("none", &MISSING)]);
-        let mut outcomes = self.runs.by("outcome");
-        outcomes.sort_by(|left, right| left.0.cmp(&right.0));
-        page.lines("outcomes", outcomes.into_iter().map(|(_, here)| here));
-    }
+    // A line per outcome, with the largest errors among the runs that state it.
+    page.part("outcomes", &[("none", &MISSING)]);
+    let mut outcomes = runs.by("outcome");
+    outcomes.sort_by(|left, right| left.0.cmp(&right.0));
+    page.lines("outcomes", outcomes.into_iter().map(|(_, here)| here));
 }
 
 fn false_claim(row: &Row) -> String {
-    match row.number("mean_error").zip(row.number("deviation_error")) {
-        Some((mean, deviation)) => format!(
-            "- `{}`: a mean is off by {} standard deviations, a standard deviation by {} %",
-            row.case(),
-            number(mean),
-            number(100.0 * deviation),
-        ),
-        None => row.failure(),
-    }
+    let Some((mean, deviation)) = row.number("mean_error").zip(row.number("deviation_error")) else {
+        return row.failure();
+    };
+    let (case, mean, percent) = (row.case(), number(mean), number(100.0 * deviation));
+    format!("- `{case}`: a mean is off by {mean} standard deviations, a standard deviation by {percent} %")
 }
 
 #[cfg(test)]
@@ -94,8 +70,8 @@ mod tests {
         rows.iter().map(completed).collect()
     }
 
-    fn claims(rows: &[Row]) -> Claims<'_> {
-        Claims::new(rows.iter().collect::<Rows<'_>>().with("method", "mpm"))
+    fn judged(rows: &[Row]) -> Rows<'_> {
+        rows.iter().collect::<Rows<'_>>().with("method", "mpm")
     }
 
     fn cases(rows: Rows<'_>) -> Vec<String> {
@@ -105,16 +81,16 @@ mod tests {
     #[test]
     fn claims_are_held_against_the_bounds() {
         let rows = rows();
-        let claims = claims(&rows);
-        assert_eq!(cases(claims.claimed()), ["a", "b", "e"]);
-        assert_eq!(cases(claims.false_claims()), ["b", "e"]);
+        let runs = judged(&rows);
+        assert_eq!(cases(runs.having(Row::claims)), ["a", "b", "e"]);
+        assert_eq!(cases(false_claims(&runs)), ["b", "e"]);
     }
 
     #[test]
     fn the_page_names_every_false_claim() {
         let rows = rows();
         let mut page = Page::of(include_str!("report.md"), &[]);
-        claims(&rows).write(&["ring".to_owned(), "funnel".to_owned()], &mut page);
+        write(&judged(&rows), ["ring", "funnel"].into_iter(), &mut page);
         for line in [
             "| ring | 3 | 2 | 67 % | 0.100 | 0.100 | 1 | 1 |",
             "| funnel | 3 | 1 | 33 % | – | – | 1 | 1 |",
@@ -133,11 +109,11 @@ mod tests {
     fn silence_is_no_claim() {
         let rows = [run("a", "ring", None, Some((0.0, 0.0)))];
         let mut page = Page::of(include_str!("report.md"), &[]);
-        claims(&rows).write(&["ring".to_owned()], &mut page);
+        write(&judged(&rows), ["ring"].into_iter(), &mut page);
         assert!(page.text.contains("No run says anything"));
         let rows = [completed(&run("a", "ring", Some("converged"), Some((0.0, 0.0))))];
         let mut page = Page::of(include_str!("report.md"), &[]);
-        claims(&rows).write(&["ring".to_owned()], &mut page);
+        write(&judged(&rows), ["ring"].into_iter(), &mut page);
         assert!(page.text.contains("No claim is false."));
     }
 }

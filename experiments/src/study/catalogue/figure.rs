@@ -7,17 +7,10 @@ use crate::plots::{DotPlot, DotRow, DotSeries};
 use crate::study::prelude::*;
 
 /// ED² relative to independent draws, a row per target, a marker per start.
-pub fn plot(study: &Catalogue, rows: &Rows<'_>) -> Result<DotPlot, CommandError> {
-    let asked = |target: &TargetSpecification| Ok((target.label(), Requirement::of(target)?.bound));
-    let asked: Vec<(String, f64)> = study
-        .all_targets()?
-        .iter()
-        .map(asked)
-        .collect::<Result<_, CommandError>>()?;
-    let mut plot = DotPlot::bounded("ED^{2} relative to independent draws", asked, "requirement");
-    let Some(judged) = study.judged() else {
-        return Ok(plot);
-    };
+pub fn plot(study: &Catalogue, asked: &[(String, Requirement)], rows: &Rows<'_>) -> DotPlot {
+    let bounds = asked.iter().map(|(target, asked)| (target.clone(), asked.bound));
+    let mut plot = DotPlot::bounded("ED^{2} relative to independent draws", bounds, "requirement");
+    let judged = study.judged();
     // Colours tell the means of the start apart, markers its standard deviations.
     let place = |values: &mut Vec<f64>, value: f64| {
         values.iter().position(|known| *known == value).unwrap_or_else(|| {
@@ -27,7 +20,7 @@ pub fn plot(study: &Catalogue, rows: &Rows<'_>) -> Result<DotPlot, CommandError>
     };
     let (mut means, mut deviations) = (Vec::new(), Vec::new());
     let mut missing = 0;
-    let judged_runs = rows.with("method", judged.label());
+    let judged_runs = rows.with("method", judged);
     for start in &study.starts {
         let style = SeriesStyle {
             color: PALETTE[place(&mut means, start.mean) % PALETTE.len()],
@@ -40,19 +33,14 @@ pub fn plot(study: &Catalogue, rows: &Rows<'_>) -> Result<DotPlot, CommandError>
         };
         let values: Vec<f64> = plot.rows.iter().map(value).collect();
         missing += values.iter().filter(|value| value.is_nan()).count();
-        plot.series.push(DotSeries {
-            label: start.to_string(),
-            style,
-            values,
-        });
+        let label = start.to_string();
+        plot.series.push(DotSeries { label, style, values });
     }
-    plot.notes.push(format!(
-        "Method {}: medians over the seeds, a marker per start.",
-        judged.label()
-    ));
+    plot.notes
+        .push(format!("Method {judged}: medians over the seeds, a marker per start."));
     if missing > 0 {
         let note = format!("Pairs of target and start without a finished run, hence without a marker: {missing}.");
         plot.notes.push(note);
     }
-    Ok(plot)
+    plot
 }

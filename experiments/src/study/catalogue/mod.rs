@@ -11,6 +11,8 @@ mod requirement;
 
 use parvi_metrics::yardstick::Coordinates;
 
+use requirement::Requirement;
+
 use super::prelude::*;
 use super::start_law::StartLaw;
 
@@ -64,6 +66,12 @@ impl Catalogue {
         Ok(places.concat())
     }
 
+    /// What is asked on every target, by its label.
+    fn asked(&self) -> Result<Vec<(String, Requirement)>, CommandError> {
+        let asked = |target: &TargetSpecification| Ok((target.label(), Requirement::of(target)?));
+        self.all_targets()?.iter().map(asked).collect()
+    }
+
     fn yardstick(&self) -> YardstickOptions {
         YardstickOptions {
             points: self.reference_points.get(),
@@ -73,9 +81,9 @@ impl Catalogue {
         }
     }
 
-    /// The method that the requirements are for.
-    fn judged(&self) -> Option<&MethodSpecification> {
-        self.methods.first()
+    /// The label of the method that the requirements are for.
+    fn judged(&self) -> &str {
+        self.methods.first().map_or("", MethodSpecification::label)
     }
 }
 
@@ -88,10 +96,6 @@ impl Study for Catalogue {
          density_evaluations wall_seconds";
     const REPORT: Report<Self> = report::report;
 
-    fn methods(&self) -> Vec<&MethodSpecification> {
-        self.methods.iter().collect()
-    }
-
     /// The cases, target by target, so that a target's reference is made once.
     fn cases(&self) -> Result<Vec<Case<Sampled>>, CommandError> {
         all_given!(self: seeds, dims, starts, methods);
@@ -103,10 +107,9 @@ impl Study for Catalogue {
             unset("methods.options.start-mean", &options.start_mean, "starts")?;
             unset("methods.options.start-sd", &options.start_sd, "starts")?;
         }
-        if let Some(judged) = self.judged().filter(|judged| !judged.name.iterates()) {
-            let message = format!("the first, `{}`, takes no steps, so it has no starts", judged.name);
-            return Err(refusal("methods", message));
-        }
+        let judged = self.methods[0].name;
+        let otherwise = || format!("the first, `{judged}`, takes no steps, so it has no starts");
+        holds(judged.iterates(), "methods", otherwise)?;
         let targets = self.all_targets()?;
         let mut cases = Vec::new();
         for target in &targets {
@@ -117,8 +120,17 @@ impl Study for Catalogue {
                     false => vec![None],
                 };
                 for start in starts {
+                    let of_start = start.map(|start| format!("-mean{}-sd{}", start.mean, start.standard_deviation));
+                    let of_start = of_start.unwrap_or_default();
+                    let name = format!("{}-{}-m{}{of_start}", target.label(), method.label(), self.particles);
                     for &seed in &self.seeds {
-                        cases.push(self.case(target, method, start, seed)?);
+                        let mut work = Sampled::new(target, method, None, (self.particles.get(), seed))?;
+                        work.run.start = start.map_or(work.run.start, |law| law.start(work.run.start));
+                        let case = work
+                            .case(format!("{name}-s{seed}"), method)?
+                            .costing(cost(target, start));
+                        let case = case.with("start_mean", start.map(|start| start.mean));
+                        cases.push(case.with("start_sd", start.map(|start| start.standard_deviation)));
                     }
                 }
             }
@@ -140,30 +152,10 @@ impl Study for Catalogue {
     }
 }
 
-impl Catalogue {
-    fn case(
-        &self,
-        target: &TargetSpecification,
-        method: &MethodSpecification,
-        start: Option<StartLaw>,
-        seed: u64,
-    ) -> Result<Case<Sampled>, CommandError> {
-        let named = |start: StartLaw| format!("-mean{}-sd{}", start.mean, start.standard_deviation);
-        let of_start = start.map_or(String::new(), named);
-        let (name, label) = (target.label(), method.label());
-        let id = format!("{name}-{label}-m{}{of_start}-s{seed}", self.particles);
-        let mut work = Sampled::new(target, method, None, (self.particles.get(), seed))?;
-        if let Some(law) = start {
-            work.run.start = law.start(work.run.start);
-        }
-        // Milliseconds, roughly: the distance to the reference and the run; the many rows of `wells` are dear.
-        let run = if target.name == "wells" { 2000.0 } else { 100.0 };
-        let case = work.case(id, label)?;
-        Ok(case
-            .with("start_mean", start.map(|start| start.mean))
-            .with("start_sd", start.map(|start| start.standard_deviation))
-            .costing(200.0 + if start.is_some() { run } else { 0.0 }))
-    }
+/// Milliseconds, roughly: the distance to the reference and the run; the many rows of `wells` are dear.
+fn cost(target: &TargetSpecification, start: Option<StartLaw>) -> f64 {
+    let run = if target.name == "wells" { 2000.0 } else { 100.0 };
+    200.0 + start.map_or(0.0, |_| run)
 }
 
 /// The runs from a start; those without a start belong to every one.

@@ -1,6 +1,6 @@
 //! The report of the study `catalogue`.
 
-use super::claims::Claims;
+use super::claims::{self, false_claims};
 use super::figure::plot;
 use super::requirement::Requirement;
 use super::{Catalogue, from_start, is_from};
@@ -12,35 +12,30 @@ use crate::study::start_law::StartLaw;
 pub fn report(study: &Catalogue, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
     let mut page = directory.page(include_str!("report.md"), &[]);
     page.heading("Figure");
-    page.drawing("catalogue.svg", dots(&plot(study, rows)?));
+    let targets = study.asked()?;
+    page.drawing("catalogue.svg", dots(&plot(study, &targets, rows)));
 
-    let targets = study.all_targets()?;
-    let judged = study.judged().map_or("", MethodSpecification::label);
-    let claims = Claims::new(rows.with("method", judged));
-    let asked = |target: &TargetSpecification| {
-        let runs = claims.runs.with("target", target.label());
-        Ok((Requirement::of(target)?, runs))
-    };
-    let asked: Vec<Asked<'_>> = targets.iter().map(asked).collect::<Result<_, CommandError>>()?;
+    let judged = study.judged();
+    let judged_runs = rows.with("method", judged);
+    let of = |(target, asked): &(String, Requirement)| (*asked, judged_runs.with("target", target.as_str()));
+    let asked: Vec<Asked<'_>> = targets.iter().map(of).collect();
     requirements(study, judged, &asked, &mut page);
     for start in &study.starts {
         page.heading(&format!("From {start}"));
-        start_table(study, &targets, &from_start(rows, start), &mut page)?;
+        start_table(study, &targets, &from_start(rows, start), &mut page);
     }
-    let labels: Vec<String> = targets.iter().map(TargetSpecification::label).collect();
-    claims.write(&labels, &mut page);
+    let labels = targets.iter().map(|(target, _)| target.as_str());
+    claims::write(&judged_runs, labels, &mut page);
     let misses: Vec<String> = asked.iter().flat_map(misses).collect();
     page.list("Cases that miss their bound", &misses, Some("None."));
     let others = rows.having(|row| row.text("method") != judged).failures();
     page.list("Runs of other methods that did not finish", &others, None);
 
     let runs = asked.iter().map(|(_, runs)| runs.len());
-    Ok(page
-        .with("cases", rows.len())
-        .with("judged", runs.sum::<usize>())
-        .with("missed", misses.len())
-        .with("claimed", claims.claimed().len())
-        .with("false_claims", claims.false_claims().len()))
+    let page = page.with("cases", rows.len()).with("judged", runs.sum::<usize>());
+    let page = page.with("missed", misses.len());
+    let page = page.with("claimed", judged_runs.count(Row::claims));
+    Ok(page.with("false_claims", false_claims(&judged_runs).len()))
 }
 
 /// What is asked on a target, and the runs of the judged method.
@@ -53,13 +48,11 @@ fn met(row: &Row, requirement: Requirement) -> bool {
 
 /// What is missed, as items of a list.
 fn misses((requirement, runs): &Asked<'_>) -> Vec<String> {
-    let miss = |row: &Row| match row.number("energy_ratio") {
-        Some(ratio) => format!(
-            "- `{}`: ED² {} of independent draws, at most {}",
-            row.case(),
-            number(ratio),
-            requirement.bound
-        ),
+    let miss = |row: &Row| match row.number("energy_ratio").map(number) {
+        Some(ratio) => {
+            let (case, bound) = (row.case(), requirement.bound);
+            format!("- `{case}`: ED² {ratio} of independent draws, at most {bound}")
+        }
         None => row.failure(),
     };
     runs.having(|row| !met(row, *requirement)).iter().map(miss).collect()
@@ -76,38 +69,22 @@ fn requirements(study: &Catalogue, judged: &str, asked: &[Asked<'_>], page: &mut
             (!chosen.is_empty()).then(|| format!("{met}/{}", chosen.len()))
         };
         let from = |start: &StartLaw| (format!("from {start}"), count(here.having(|row| is_from(row, start))));
-        let line = Line::from(here.clone())
-            .with("class", class.class)
-            .with("bound", class.bound);
-        line.with("all", count(here.clone()))
-            .with_all(study.starts.iter().map(from))
+        let line = Line::from(here.clone()).with("class", class.class);
+        let line = line.with("bound", class.bound).with("all", count(here.clone()));
+        line.with_all(study.starts.iter().map(from))
     };
-    page.lines_over(
-        "Requirements",
-        &[each("start", &study.starts)],
-        Requirement::ALL.map(line),
-    );
+    let starts = [each("start", &study.starts)];
+    page.lines_over("Requirements", &starts, Requirement::ALL.map(line));
 }
 
 /// A line per target: both distances of every method, and the errors and costs of the judged one.
-fn start_table(
-    study: &Catalogue,
-    targets: &[TargetSpecification],
-    rows: &Rows<'_>,
-    page: &mut Page,
-) -> Result<(), CommandError> {
-    let mut lines = Vec::new();
-    for target in targets {
-        let here = Line::from(rows.with("target", target.label())).with("target", target.label());
-        lines.push(here.with("bound", Requirement::of(target)?.bound));
-    }
+fn start_table(study: &Catalogue, targets: &[(String, Requirement)], rows: &Rows<'_>, page: &mut Page) {
+    let line = |(target, asked): &(String, Requirement)| {
+        let here = Line::from(rows.with("target", target.as_str())).with("target", target);
+        here.with("bound", asked.bound)
+    };
     page.part("from a start", &[]);
     let methods = study.methods.iter().map(MethodSpecification::label);
-    let judged = study.judged().map(MethodSpecification::label);
-    page.lines_over(
-        "from a start",
-        &[each("method", methods), each("judged", judged)],
-        lines,
-    );
-    Ok(())
+    let repeated = [each("method", methods), each("judged", [study.judged()])];
+    page.lines_over("from a start", &repeated, targets.iter().map(line));
 }

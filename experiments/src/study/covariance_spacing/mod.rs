@@ -37,25 +37,6 @@ struct Series {
     bound: Option<f64>,
 }
 
-impl CovarianceSpacing {
-    /// Checks what belongs together.
-    fn check(&self) -> Result<(), CommandError> {
-        not_empty("seeds", &self.seeds)?;
-        let spacing = &self.method.options.spacing;
-        unset("method.options.spacing", spacing, "series.spacings")?;
-        for series in &self.series {
-            positive("spacings", &series.spacings)?;
-            if let Some(judged) = series.judged_spacing
-                && !series.spacings.contains(&judged)
-            {
-                let message = format!("{judged} is not among the spacings of d = {}", series.dim);
-                return Err(refusal("judged-spacing", message));
-            }
-        }
-        Ok(())
-    }
-}
-
 impl Study for CovarianceSpacing {
     type Work = Sampled;
 
@@ -65,16 +46,24 @@ impl Study for CovarianceSpacing {
     const REPORT: Report<Self> = report::report;
 
     fn cases(&self) -> Result<Vec<Case<Sampled>>, CommandError> {
-        self.check()?;
+        not_empty("seeds", &self.seeds)?;
+        let spacing = &self.method.options.spacing;
+        unset("method.options.spacing", spacing, "series.spacings")?;
         let mut cases = Vec::new();
-        for Series { dim, spacings, .. } in &self.series {
+        for series in &self.series {
+            let (dim, spacings) = (&series.dim, &series.spacings);
+            positive("spacings", spacings)?;
+            if let Some(judged) = series.judged_spacing {
+                let otherwise = || format!("{judged} is not among the spacings of d = {dim}");
+                holds(spacings.contains(&judged), "judged-spacing", otherwise)?;
+            }
             let target = TargetSpecification::plain("gaussian", Some(*dim));
             for &spacing in spacings {
                 let mut method = self.method.clone();
                 method.options.spacing = Some(spacing);
                 for &seed in &self.seeds {
                     let work = Sampled::new(&target, &method, None, (self.particles.get(), seed))?;
-                    let case = work.case(format!("d{dim}-h{spacing}-s{seed}"), method.label())?;
+                    let case = work.case(format!("d{dim}-h{spacing}-s{seed}"), &method)?;
                     let case = case.costing(3f64.powi(dim.get() as i32));
                     cases.push(case.with("spacing", spacing));
                 }

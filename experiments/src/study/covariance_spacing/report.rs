@@ -40,9 +40,8 @@ fn plot(study: &CovarianceSpacing, rows: &Rows<'_>) -> MultiplesPlot {
     bounds.dedup();
     let dims = study.series.iter().map(|series| series.dim);
     let panel = MultiplesPanel::new("", rows.curves(("d = ", "dim"), dims, "spacing", ERROR));
-    let panel = bounds
-        .into_iter()
-        .fold(panel, |panel, bound| panel.with_level(bound, "bound"));
+    let bounded = |panel: MultiplesPanel, bound: f64| panel.with_level(bound, "bound");
+    let panel = bounds.into_iter().fold(panel, bounded);
     MultiplesPlot::logarithmic("grid spacing h (standard deviations)", "covariance error max |Ĉ − I|")
         .over_linear()
         .with_panels([panel])

@@ -27,10 +27,6 @@ impl Study for Evidence {
          score_evaluations density_evaluations wall_seconds";
     const REPORT: Report<Self> = report::report;
 
-    fn methods(&self) -> Vec<&MethodSpecification> {
-        self.methods.iter().collect()
-    }
-
     fn cases(&self) -> Result<Vec<Case<Sampled>>, CommandError> {
         all_given!(self: targets, methods);
         let mut cases = Vec::new();
@@ -42,7 +38,7 @@ impl Study for Evidence {
                 for seed in self.run_seeds.all() {
                     let work = Sampled::new(target, method, None, (self.particles.get(), seed))?;
                     let name = format!("{}-{}-s{seed}", target.label(), method.label());
-                    cases.push(work.case(name, method.label())?);
+                    cases.push(work.case(name, method)?);
                 }
             }
         }

@@ -3,25 +3,23 @@
 use std::fmt::Display;
 
 use super::table::{Findings, RATIO, TIE, groups, settings};
-use crate::plots::results::Contest;
 use crate::statistics::fit_power_law_of;
 use crate::study::prelude::*;
 
 /// All answers, in the order of the paper's claims.
-pub fn answers(findings: &Findings, bodies: &Rows<'_>, page: &mut Page) -> Result<(), CommandError> {
+pub fn answers(findings: &Findings<'_>, page: &mut Page) {
     page.part("When does it work?", &[]);
-    when(findings, bodies, page)?;
+    when(findings, page);
     page.heading("Which law suits?");
-    laws(&findings.sweep("material")?, page);
+    laws(&findings.sweep("material"), page);
     page.part("Transient or steady?", &[]);
-    transient(bodies, page);
+    transient(&findings.bodies, page);
     page.heading("Does annealing help?");
-    annealing(&findings.sweep("schedule")?, page);
+    annealing(&findings.sweep("schedule"), page);
     page.heading("Do modes separate?");
-    modes(&findings.base()?, &findings.rivals()?, page);
+    modes(&findings.base, &findings.rivals, page);
     page.part("What does it cost?", &[]);
-    cost(&findings.sweep("cost")?, page);
-    Ok(())
+    cost(&findings.sweep("cost"), page);
 }
 
 /// The setting with the least median ED².
@@ -31,11 +29,12 @@ fn best<'a>(rows: &Rows<'a>) -> Option<(String, Rows<'a>)> {
 }
 
 /// Per target: the base, the best of all settings, and the rivals.
-fn when(findings: &Findings, bodies: &Rows<'_>, page: &mut Page) -> Result<(), CommandError> {
+fn when(findings: &Findings<'_>, page: &mut Page) {
+    let (base, bodies) = (&findings.base, &findings.bodies);
     let variants = bodies.lines("variant", bodies.words("variant"));
     page.lines("When does it work?", variants);
-    let base = findings.base()?;
-    let all_groups: Vec<_> = groups(&base).into_iter().chain(groups(&findings.rivals()?)).collect();
+    let all_groups = groups(base).into_iter().chain(groups(&findings.rivals));
+    let all_groups: Vec<_> = all_groups.collect();
     let targets = base.words("target");
     let mut at_least_as_good = 0;
     let mut lines = Vec::new();
@@ -44,25 +43,20 @@ fn when(findings: &Findings, bodies: &Rows<'_>, page: &mut Page) -> Result<(), C
             let here = rows.with("target", target.as_str());
             (format!("median {label}"), here.cell("median of all final_ratio"))
         });
-        let first = all_groups
-            .first()
-            .map(|(_, rows)| rows.with("target", target.as_str()))
-            .unwrap_or_default();
+        let first = all_groups.first().map(|(_, rows)| rows.with("target", target.as_str()));
+        let first = first.unwrap_or_default();
         let size = first.first().and_then(|row| row.count("particles")).unwrap_or(0);
         let (label, best) = best(&bodies.with("target", target.as_str()).with("particles", size)).unzip();
         let best = best.unwrap_or_default();
         at_least_as_good += usize::from(best.median_of_all(RATIO).is_some_and(|ratio| ratio <= 1.0));
         let line = Line::from(first).with("target", target.as_str()).with_all(medians);
-        lines.push(
-            line.with("best", best.cell("median of all final_ratio"))
-                .with("which", label),
-        );
+        let line = line.with("best", best.cell("median of all final_ratio"));
+        lines.push(line.with("which", label));
     }
     let values: [(&str, &dyn Display); 2] = [("good", &at_least_as_good), ("all", &targets.len())];
     page.part("targets", &values);
     let labels = all_groups.iter().map(|(label, _)| label);
     page.lines_over("targets", &[each("setting", labels)], lines);
-    Ok(())
 }
 
 fn laws(rows: &Rows<'_>, page: &mut Page) {
@@ -70,10 +64,9 @@ fn laws(rows: &Rows<'_>, page: &mut Page) {
         page.paragraph("No run of the case `material`.");
         return;
     };
-    page.paragraph(format!(
-        "The least median over all targets is {} times independent draws: {label}.",
-        best.cell("median of all final_ratio")
-    ));
+    let least = best.cell("median of all final_ratio");
+    let least = format!("The least median over all targets is {least} times independent draws");
+    page.paragraph(format!("{least}: {label}."));
     settings(rows, page);
 }
 
@@ -98,12 +91,8 @@ fn annealing(rows: &Rows<'_>, page: &mut Page) {
     let (_, constant) = schedules.remove(place);
     for (schedule, here) in schedules {
         let alike = ["target", "seed", "method", "variant"];
-        let Contest {
-            better,
-            ties,
-            worse,
-            neither,
-        } = here.against(&constant, (RATIO, &alike), TIE);
+        let contest = here.against(&constant, (RATIO, &alike), TIE);
+        let [better, ties, worse, neither] = [contest.better, contest.ties, contest.worse, contest.neither];
         page.paragraph(format!(
             "- α {schedule}: better than the constant one in {better} runs, as good in {ties}, worse in {worse}; in {neither} both diverged."
         ));
@@ -122,10 +111,8 @@ fn modes(base: &Rows<'_>, rivals: &Rows<'_>, page: &mut Page) {
     }
     page.part("modes", &[]);
     let all = groups(&bodies).into_iter().chain(groups(&rivals));
-    page.lines(
-        "modes",
-        all.map(|(label, here)| Line::from(here).with("setting", label)),
-    );
+    let lines = all.map(|(label, here)| Line::from(here).with("setting", label));
+    page.lines("modes", lines);
 }
 
 /// Powers of M, N and d in time and memory, beside the paper's.

@@ -91,10 +91,8 @@ impl Setting {
             };
             word + &part(&row, column)
         };
-        let told = PARTS
-            .into_iter()
-            .filter(|(column, _)| !is_rival(&row) || ["method", "particles"].contains(column));
-        let parts: Vec<String> = told.map(named).collect();
+        let is_told = |(column, _): &(&str, &str)| !is_rival(&row) || ["method", "particles"].contains(column);
+        let parts: Vec<String> = PARTS.into_iter().filter(is_told).map(named).collect();
         format!("{}, {}, seed {}", self.target.label(), parts.join(", "), self.seed)
     }
 
@@ -107,8 +105,9 @@ impl Setting {
         let dim = self.target.dimension()?;
         let work = (self.particles.get() * self.steps.get()) as f64;
         let case = Case::new(self.id(), self.clone()).costing(work * (3f64.powi(dim as i32) + looks));
+        let lacks = self.rival.as_ref().and_then(MethodSpecification::lacks);
         let mut case = case.with("dim", dim);
         self.note(&mut case.row);
-        Ok(case)
+        Ok(Case { lacks, ..case })
     }
 }

@@ -61,12 +61,10 @@ macro_rules! axes {
             /// All combinations; `table` is the place of the lists in errors.
             fn combinations(&self, base: &Self, table: &str) -> Result<Vec<Setting>, CommandError> {
                 $(let $key = values(table, stringify!($key), [&self.$key, &base.$key], &[$($absent)?])?;)*
-                let first = Setting {
-                    $($field: $key[0].clone(),)*
-                    rival: None,
-                };
+                let first = Setting { $($field: $key[0].clone(),)* rival: None };
                 let mut all = vec![first];
-                $(all = varied(&all, $key, |setting, value| setting.$field = value.clone());)*
+                $(let with = |(setting, value): (&Setting, &$type)| Setting { $field: value.clone(), ..setting.clone() };
+                all = pairs(&all, $key).map(with).collect();)*
                 Ok(all)
             }
         }
@@ -111,24 +109,17 @@ fn values<'a, T>(
 ) -> Result<&'a [T], CommandError> {
     let field = format!("{table}.{}", key.replace('_', "-"));
     let given = lists.into_iter().find_map(Option::as_ref);
-    if given.is_none() && absent.is_empty() {
-        return Err(refusal(&field, "is missing, also in the base"));
-    }
+    let is_known = given.is_some() || !absent.is_empty();
+    holds(is_known, &field, || "is missing, also in the base".to_owned())?;
     let values = given.map_or(absent, Vec::as_slice);
     not_empty(&field, values)?;
     Ok(values)
 }
 
-/// Every setting once for each of the values.
-fn varied<T>(settings: &[Setting], values: &[T], set: impl Fn(&mut Setting, &T)) -> Vec<Setting> {
-    let with = |setting: &Setting, value: &T| {
-        let mut setting = setting.clone();
-        set(&mut setting, value);
-        setting
-    };
-    let of = |setting| values.iter().map(move |value| (setting, value));
-    let pairs = settings.iter().flat_map(of);
-    pairs.map(|(setting, value)| with(setting, value)).collect()
+/// Every setting with each of the values.
+fn pairs<'a, T>(settings: &'a [Setting], values: &'a [T]) -> impl Iterator<Item = (&'a Setting, &'a T)> {
+    let of = move |setting| values.iter().map(move |value| (setting, value));
+    settings.iter().flat_map(of)
 }
 
 impl Paper {
@@ -155,10 +146,8 @@ impl Paper {
     pub fn rival_cases(&self) -> Result<Vec<Setting>, CommandError> {
         let mut cases: Vec<Setting> = Vec::new();
         for case in self.base_cases()? {
-            cases.extend(self.rivals.iter().map(|rival| Setting {
-                rival: Some(rival.clone()),
-                ..case.clone()
-            }));
+            let rivals = self.rivals.iter().cloned().map(Some);
+            cases.extend(rivals.map(|rival| Setting { rival, ..case.clone() }));
         }
         Ok(each_once(cases))
     }
@@ -179,17 +168,14 @@ impl Paper {
         positive("start-sd", &[self.start_sd])?;
         positive("reach", &[self.reach])?;
         finite("start-mean", self.start_mean)?;
-        if self.base.name.is_some() {
-            return Err(refusal("base.name", "belongs into a case"));
-        }
+        holds(self.base.name.is_none(), "base.name", || {
+            "belongs into a case".to_owned()
+        })?;
         let mut names = HashSet::new();
         for (index, sweep) in self.sweeps.iter().enumerate() {
-            let message = match &sweep.name {
-                None => "is missing".to_owned(),
-                Some(name) if !names.insert(name) => format!("two cases are `{name}`"),
-                Some(_) => continue,
-            };
-            return Err(refusal(&format!("case[{index}].name"), message));
+            let field = format!("case[{index}].name");
+            let name = sweep.name.as_ref().ok_or_else(|| refusal(&field, "is missing"))?;
+            holds(names.insert(name), &field, || format!("two cases are `{name}`"))?;
         }
         Ok(())
     }
@@ -207,16 +193,12 @@ impl Setting {
     /// Refuses a value out of its range; `table` is the place of its list.
     fn check(&self, table: &str) -> Result<(), CommandError> {
         let field = |key: &str| format!("{table}.{key}");
-        if let Err(error) = self.material.material() {
-            return Err(refusal(&field("materials"), error.to_string()));
-        }
-        if let Err(error) = self.schedule.of_either_sign() {
-            return Err(refusal(&field("schedules"), error.to_string()));
-        }
-        if !(self.friction >= 0.0 && self.friction.is_finite()) {
-            let fault = format!("{} must be a number of at least 0", self.friction);
-            return Err(refusal(&field("frictions"), fault));
-        }
+        let (material, schedule) = (self.material.material(), self.schedule.of_either_sign());
+        material.map_err(|error| refusal(&field("materials"), error.to_string()))?;
+        schedule.map_err(|error| refusal(&field("schedules"), error.to_string()))?;
+        let is_friction = self.friction >= 0.0 && self.friction.is_finite();
+        let otherwise = || format!("{} must be a number of at least 0", self.friction);
+        holds(is_friction, &field("frictions"), otherwise)?;
         positive(&field("spacings"), self.spacing.as_slice())?;
         positive(&field("time-steps"), self.time_step.as_slice())
     }

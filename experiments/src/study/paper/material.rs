@@ -6,39 +6,18 @@ use mpm_materials::ParameterError;
 use parvi::PaperMaterial;
 use serde::Deserialize;
 
-use crate::options::{Given, Material};
+use crate::options::{Given, Material, checked_when_read};
 
 /// `{ law = "neo-hookean", youngs-modulus = 1.0, poissons-ratio = 0.3 }`: a law with all of its stated parameters.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(try_from = "Stated")]
-pub struct MaterialTable(Stated);
-
-/// What the configuration says, before it is checked.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-struct Stated {
+#[serde(remote = "Self")]
+pub struct MaterialTable {
     law: Material,
     #[serde(flatten)]
     values: BTreeMap<String, f64>,
 }
 
-impl TryFrom<Stated> for MaterialTable {
-    type Error = String;
-
-    fn try_from(stated: Stated) -> Result<Self, String> {
-        let law = stated.law;
-        let keys: Vec<&str> = keys(law).map(|(key, _)| key).collect();
-        if let Some(key) = stated.values.keys().find(|key| !keys.contains(&key.as_str())) {
-            let expected = keys.join("`, `");
-            return Err(format!(
-                "unknown field `{key}` of the law `{law}`, expected `{expected}`"
-            ));
-        }
-        match keys.into_iter().find(|key| !stated.values.contains_key(*key)) {
-            Some(key) => Err(format!("missing field `{key}` of the law `{law}`")),
-            None => Ok(Self(stated)),
-        }
-    }
-}
+checked_when_read!(MaterialTable);
 
 /// The keys of the stated parameters of a law, with their symbols.
 fn keys(law: Material) -> impl Iterator<Item = (&'static str, &'static str)> {
@@ -46,28 +25,38 @@ fn keys(law: Material) -> impl Iterator<Item = (&'static str, &'static str)> {
 }
 
 impl MaterialTable {
+    /// Refuses keys that the law does not have, and asks for those that it has.
+    fn check(&self) -> Result<(), String> {
+        let (law, keys) = (self.law, keys(self.law).map(|(key, _)| key).collect::<Vec<_>>());
+        if let Some(key) = self.values.keys().find(|key| !keys.contains(&key.as_str())) {
+            let expected = keys.join("`, `");
+            return Err(format!(
+                "unknown field `{key}` of the law `{law}`, expected `{expected}`"
+            ));
+        }
+        let missing = keys.into_iter().find(|key| !self.values.contains_key(*key));
+        missing.map_or(Ok(()), |key| Err(format!("missing field `{key}` of the law `{law}`")))
+    }
+
     /// The material for the sampler.
     ///
     /// # Errors
     /// A parameter that is out of range.
     pub fn material(&self) -> Result<PaperMaterial, ParameterError> {
-        let Self(Stated { law, values }) = self;
-        law.law(&Given {
-            parameter: &|parameter| values.get(parameter.stated?.0).copied(),
+        self.law.law(&Given {
+            parameter: &|parameter| self.values.get(parameter.stated?.0).copied(),
             forgets_expansion: false,
         })
     }
 
     /// The law with its parameters, in words.
     pub fn text(&self) -> String {
-        let Self(Stated { law, values }) = self;
-        let mut text = law.to_string();
-        for (key, symbol) in keys(*law) {
+        let told = |(key, symbol): (&str, &str)| {
             let unit = if key == "friction-angle" { "°" } else { "" };
-            let value = values.get(key).copied().unwrap_or_default();
-            text.push_str(&format!(" {symbol}={value}{unit}"));
-        }
-        text
+            let value = self.values.get(key).copied().unwrap_or_default();
+            format!(" {symbol}={value}{unit}")
+        };
+        self.law.to_string() + &keys(self.law).map(told).collect::<String>()
     }
 }
 

@@ -16,10 +16,10 @@ mod watch;
 use parvi::{Method, Run, SampleError};
 
 pub use configuration::{Paper, Setting};
-use watch::Watch;
+use watch::{Seen, Watch};
 
 use super::prelude::*;
-use crate::sampling::{self, Outcome};
+use crate::sampling;
 
 impl Study for Paper {
     type Work = Setting;
@@ -30,10 +30,6 @@ impl Study for Paper {
          best_step best_energy best_sliced evaluations active_nodes storage_bytes wall_seconds";
     const REPORT: Report<Self> = report::report;
 
-    fn methods(&self) -> Vec<&MethodSpecification> {
-        self.rivals.iter().collect()
-    }
-
     fn cases(&self) -> Result<Vec<Case<Setting>>, CommandError> {
         self.all_cases()?.into_iter().map(Setting::case).collect()
     }
@@ -41,21 +37,19 @@ impl Study for Paper {
     fn run(&self, case: &Case<Setting>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
         let setting = &case.work;
         let yardstick = tools.yardstick.of(&setting.target, &self.yardstick())?;
-        row.set(
-            "energy_level",
-            yardstick.mean_distance() / setting.particles.get() as f64,
-        );
         let mut run = Run::new(setting.particles.get(), setting.seed);
+        row.set("energy_level", yardstick.mean_distance() / run.particles as f64);
         (run.start.mean, run.start.standard_deviation) = (self.start_mean, self.start_sd);
         let Some(rival) = &setting.rival else {
-            return self.run_body(setting, &run, yardstick, tools.observer, row);
+            return self.run_body(setting, &run, row, tools);
         };
         let (target, method) = (setting.target.clone(), rival.method(None)?);
         match attempt(Sampled { target, method, run }.sample_or_draw(yardstick, tools.observer))? {
-            Err(failure) => fail(row, "other", None, failure),
+            Err(failure) => fail(row, ("other", None), failure),
             Ok(outcome) => {
                 row.set("wall_seconds", outcome.wall_seconds);
-                end(row, &outcome, yardstick, None)?;
+                row.set("evaluations", outcome.evaluations());
+                end(row, attempt(yardstick.measure(&outcome.particles))?, None);
             }
         }
         Ok(())
@@ -63,41 +57,41 @@ impl Study for Paper {
 }
 
 impl Paper {
-    fn run_body(
-        &self,
-        setting: &Setting,
-        run: &Run,
-        yardstick: &dyn Yardstick,
-        observer: &mut Bar,
-        row: &mut Row,
-    ) -> Result<(), CommandError> {
+    fn run_body(&self, setting: &Setting, run: &Run, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
+        let yardstick = tools.yardstick.of(&setting.target, &self.yardstick())?;
         let material = setting.material.material();
         let material = material.map_err(|error| refusal("materials", error.to_string()))?;
         let method = Method::Paper(setting.options(material));
-        let mut watch = Watch::new(observer, yardstick, self.look_every.get(), self.reach);
+        let mut watch = Watch {
+            inner: tools.observer,
+            yardstick,
+            every: self.look_every.get(),
+            reach: self.reach,
+            seen: Seen::default(),
+        };
         let (seconds, result) = timed(|| sampling::sample(&setting.target, &method, run, &mut watch));
-        if let Some((step, message)) = watch.ended.take() {
+        let mut seen = watch.seen;
+        if let Some((step, message)) = seen.ended.take() {
             let failure = Failure::new(Status::Diverged, message);
-            fail(row, "outside range", Some(step), failure);
+            fail(row, ("outside range", Some(step)), failure);
         } else {
-            let why = result.as_ref().err().map(reason);
+            let why = result.as_ref().err().map_or(("other", None), reason);
             match attempt(result)? {
-                Err(failure) => {
-                    let (word, step) = why.unwrap_or(("other", None));
-                    fail(row, word, step, failure);
-                }
+                Err(failure) => fail(row, why, failure),
                 Ok(outcome) => {
                     row.set("active_nodes", outcome.active_nodes);
                     row.set("storage_bytes", outcome.storage_bytes);
-                    row.set("wall_seconds", seconds - watch.looking.as_secs_f64());
-                    if let Some(errors) = end(row, &outcome, yardstick, Some(outcome.steps))? {
-                        watch.note(outcome.steps, errors);
+                    row.set("wall_seconds", seconds - seen.looking.as_secs_f64());
+                    row.set("evaluations", outcome.evaluations());
+                    let errors = attempt(yardstick.measure(&outcome.particles))?;
+                    if let Some(errors) = end(row, errors, Some(outcome.steps)) {
+                        seen.note(outcome.steps, errors);
                     }
                 }
             }
         }
-        row.set("start_energy", watch.start.map(|errors| errors.energy_distance_squared));
-        if let Some((step, errors)) = watch.best {
+        row.set("start_energy", seen.start.map(|errors| errors.energy_distance_squared));
+        if let Some((step, errors)) = seen.best {
             row.set("best_step", step);
             row.set("best_energy", errors.energy_distance_squared);
             row.set("best_sliced", errors.sliced_wasserstein);
@@ -106,39 +100,30 @@ impl Paper {
     }
 }
 
-/// Notes a run without particles: why, in a word or two, and the step in which that was seen.
-fn fail(row: &mut Row, reason: &str, step: Option<usize>, failure: Failure) {
+/// Why the sampler gave nothing, in a word or two, and in which step.
+type Reason = (&'static str, Option<usize>);
+
+/// Notes a run without particles.
+fn fail(row: &mut Row, (reason, step): Reason, failure: Failure) {
     row.set("status", failure.status);
     row.set("message", failure.reason);
     row.set("reason", reason);
     row.set("failed_step", step);
 }
 
-/// Notes particles and their errors at the end, which is after so many steps of a body.
-fn end(
-    row: &mut Row,
-    outcome: &Outcome,
-    yardstick: &dyn Yardstick,
-    step: Option<usize>,
-) -> Result<Option<Errors>, CommandError> {
-    row.set("evaluations", outcome.evaluations());
-    let errors = match attempt(yardstick.measure(&outcome.particles))? {
-        Ok(errors) => errors,
-        Err(failure) => {
-            fail(row, "outside range", step, failure);
-            return Ok(None);
-        }
-    };
+/// Notes the errors of the particles at the end, which is after so many steps of a body.
+fn end(row: &mut Row, errors: Attempt<Errors>, step: Option<usize>) -> Option<Errors> {
+    let failed = |failure: Failure| fail(row, ("outside range", step), failure);
+    let errors = errors.map_err(failed).ok()?;
     row.set("final_energy", errors.energy_distance_squared);
     row.set("final_sliced", errors.sliced_wasserstein);
     row.set("final_mean", errors.mean);
     row.set("final_deviation", errors.deviation);
     row.set("final_mass", errors.mass);
-    Ok(Some(errors))
+    Some(errors)
 }
 
-/// Why the sampler gave nothing, and in which step.
-fn reason(error: &CommandError) -> (&'static str, Option<usize>) {
+fn reason(error: &CommandError) -> Reason {
     match error {
         CommandError::NotFinite { .. } => ("not finite", None),
         CommandError::Sample(SampleError::ScoreNotFinite { step, .. } | SampleError::Diverged { step, .. }) => {

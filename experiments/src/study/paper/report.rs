@@ -9,43 +9,36 @@ use crate::study::prelude::*;
 
 /// Tables and figures.
 pub fn report(study: &Paper, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
-    let findings = Findings::new(study, rows);
-    let all = findings.of(study.all_cases()?);
-    let bodies = all.having(|row| !is_rival(row));
-
+    let findings = Findings::new(study, rows)?;
     let mut page = directory.page(include_str!("report.md"), &[]);
     page.part("Failures", &[]);
-    failures(&bodies, &mut page);
+    failures(&findings.bodies, &mut page);
     page.part("Ties and losses", &[("tie", &TIE)]);
-    against_rivals(&findings, &mut page)?;
-    answers(&findings, &bodies, &mut page)?;
+    against_rivals(study, &findings, &mut page);
+    answers(&findings, &mut page);
     page.heading("Figures");
-    let (alpha, stiffness) = (findings.sweep("alpha")?, findings.sweep("youngs-modulus")?);
+    let (alpha, stiffness) = (findings.sweep("alpha"), findings.sweep("youngs-modulus"));
     let drawing = multiples(&figure::strength(&alpha, &stiffness));
     page.drawing("strength.svg", drawing);
-    let base = findings.base()?;
-    page.drawing("transient.svg", dots(&figure::transient(&base)));
-    let at_rest = findings.sweep("material-at-rest")?;
+    page.drawing("transient.svg", dots(&figure::transient(&findings.base)));
+    let at_rest = findings.sweep("material-at-rest");
     if !at_rest.is_empty() {
         page.drawing("laws.svg", dots(&figure::materials(&at_rest)));
     }
-    let drawing = multiples(&figure::cost(&findings.sweep("cost")?));
+    let drawing = multiples(&figure::cost(&findings.sweep("cost")));
     page.drawing("cost.svg", drawing);
     page.heading("Base and rivals");
-    settings(&base, &mut page);
-    settings(&findings.rivals()?, &mut page);
-    for sweep in &study.sweeps {
-        let name = sweep.name.as_deref().unwrap_or_default();
-        if !["material", "schedule", "cost"].contains(&name) {
+    settings(&findings.base, &mut page);
+    settings(&findings.rivals, &mut page);
+    for (name, rows) in &findings.sweeps {
+        if !["material", "schedule", "cost"].contains(name) {
             page.heading(&format!("Case `{name}`"));
-            settings(&findings.sweep(name)?, &mut page);
+            settings(rows, &mut page);
         }
     }
     let good = rows.count(|row| !is_rival(row) && is_good(row));
-    Ok(page
-        .with("cases", rows.len())
-        .with("diverged", rows.ended(Status::Diverged))
-        .with("as_good_as_independent", good))
+    let page = rows.tell([Status::Diverged], page.with("cases", rows.len()));
+    Ok(page.with("as_good_as_independent", good))
 }
 
 /// Bodies by variant and algorithm.
@@ -76,12 +69,11 @@ fn failures(bodies: &Rows<'_>, page: &mut Page) {
 }
 
 /// The base beside its rivals, run by run.
-fn against_rivals(findings: &Findings, page: &mut Page) -> Result<(), CommandError> {
-    let (base, rivals) = (findings.base()?, findings.rivals()?);
+fn against_rivals(study: &Paper, findings: &Findings<'_>, page: &mut Page) {
     let mut lines = Vec::new();
-    for (variant, method, here) in by_method(&base) {
-        for rival in findings.study.rivals.iter().map(MethodSpecification::label) {
-            let others = rivals.with("method", rival);
+    for (variant, method, here) in by_method(&findings.base) {
+        for rival in study.rivals.iter().map(MethodSpecification::label) {
+            let others = findings.rivals.with("method", rival);
             let contest = here.against(&others, (RATIO, &["target", "seed", "particles"]), TIE);
             if contest.pairs() > 0 {
                 let line = Line::default().with("variant", variant.as_str()).with("method", method);
@@ -92,5 +84,4 @@ fn against_rivals(findings: &Findings, page: &mut Page) -> Result<(), CommandErr
         }
     }
     page.lines("Ties and losses", lines);
-    Ok(())
 }

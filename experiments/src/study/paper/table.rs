@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use super::body::{PARTS, is_rival, part};
+use super::configuration::Settings;
 use super::{Paper, Setting};
 use crate::study::prelude::*;
 
@@ -17,41 +18,40 @@ pub fn is_good(row: &Row) -> bool {
     row.is_within(RATIO, 1.0)
 }
 
-/// All rows by the names of their cases.
+/// The rows by what they are of.
 pub struct Findings<'a> {
-    /// The study.
-    pub study: &'a Paper,
-    rows: HashMap<&'a str, &'a Row>,
+    /// The bodies of all cases.
+    pub bodies: Rows<'a>,
+    /// The base.
+    pub base: Rows<'a>,
+    /// The rivals.
+    pub rivals: Rows<'a>,
+    /// The cases of the configuration by their names.
+    pub sweeps: Vec<(&'a str, Rows<'a>)>,
 }
 
 impl<'a> Findings<'a> {
-    /// Looks rows up.
-    pub fn new(study: &'a Paper, rows: &Rows<'a>) -> Self {
-        let rows = rows.iter().map(|row| (row.case(), row)).collect();
-        Self { study, rows }
-    }
-
-    /// Those of the cases that have rows.
-    pub fn of(&self, cases: Vec<Setting>) -> Rows<'a> {
-        let found = |case: &Setting| self.rows.get(case.id().as_str()).copied();
-        cases.iter().filter_map(found).collect()
-    }
-
-    /// The base.
-    pub fn base(&self) -> Result<Rows<'a>, CommandError> {
-        Ok(self.of(self.study.base_cases()?))
-    }
-
-    /// The rivals.
-    pub fn rivals(&self) -> Result<Rows<'a>, CommandError> {
-        Ok(self.of(self.study.rival_cases()?))
+    /// Looks for the rows of all cases; some may be missing.
+    pub fn new(study: &'a Paper, rows: &Rows<'a>) -> Result<Self, CommandError> {
+        let known: HashMap<&str, &Row> = rows.iter().map(|row| (row.case(), row)).collect();
+        let of = |cases: Vec<Setting>| -> Rows<'a> {
+            let found = |case: &Setting| known.get(case.id().as_str()).copied();
+            cases.iter().filter_map(found).collect()
+        };
+        let name = |sweep: &'a Settings| sweep.name.as_deref().unwrap_or_default();
+        let sweep = |sweep: &'a Settings| Ok((name(sweep), of(study.cases_of(sweep)?)));
+        Ok(Self {
+            bodies: of(study.all_cases()?).having(|row| !is_rival(row)),
+            base: of(study.base_cases()?),
+            rivals: of(study.rival_cases()?),
+            sweeps: study.sweeps.iter().map(sweep).collect::<Result<_, CommandError>>()?,
+        })
     }
 
     /// The rows of a case of the configuration; none if it has no such case.
-    pub fn sweep(&self, name: &str) -> Result<Rows<'a>, CommandError> {
-        let mut sweeps = self.study.sweeps.iter();
-        let sweep = sweeps.find(|sweep| sweep.name.as_deref() == Some(name));
-        Ok(self.of(sweep.map_or(Ok(Vec::new()), |sweep| self.study.cases_of(sweep))?))
+    pub fn sweep(&self, name: &str) -> Rows<'a> {
+        let found = self.sweeps.iter().find(|(known, _)| *known == name);
+        found.map(|(_, rows)| rows.clone()).unwrap_or_default()
     }
 }
 

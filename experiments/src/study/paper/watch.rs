@@ -11,10 +11,21 @@ use crate::study::yardstick::{Errors, Yardstick};
 
 /// Measures the start and every so many steps, and ends a run that is far out.
 pub struct Watch<'a> {
-    inner: &'a mut dyn Observer,
-    yardstick: &'a dyn Yardstick,
-    every: usize,
-    reach: f64,
+    /// Another observer beside it.
+    pub inner: &'a mut dyn Observer,
+    /// Of the target.
+    pub yardstick: &'a dyn Yardstick,
+    /// Steps between two looks.
+    pub every: usize,
+    /// How far out is far.
+    pub reach: f64,
+    /// What it has seen.
+    pub seen: Seen,
+}
+
+/// What a watch has seen.
+#[derive(Default)]
+pub struct Seen {
     /// Errors of the start.
     pub start: Option<Errors>,
     /// Step and errors of the least ED² after it.
@@ -25,21 +36,7 @@ pub struct Watch<'a> {
     pub looking: Duration,
 }
 
-impl<'a> Watch<'a> {
-    /// Watches beside another observer.
-    pub fn new(inner: &'a mut dyn Observer, yardstick: &'a dyn Yardstick, every: usize, reach: f64) -> Self {
-        Self {
-            inner,
-            yardstick,
-            every,
-            reach,
-            start: None,
-            best: None,
-            ended: None,
-            looking: Duration::ZERO,
-        }
-    }
-
+impl Seen {
     /// Notes the particles after a step if they are better than any before.
     pub fn note(&mut self, step: usize, errors: Errors) {
         let least = |(_, best): &(usize, Errors)| best.energy_distance_squared <= errors.energy_distance_squared;
@@ -47,17 +44,14 @@ impl<'a> Watch<'a> {
             self.best = Some((step, errors));
         }
     }
+}
 
-    /// What is wrong with particles that are far out.
-    fn far(&self, errors: &Result<Errors, CommandError>) -> Option<String> {
-        match errors {
-            Err(error) => Some(error.to_string()),
-            Ok(errors) if errors.mean > self.reach => Some(format!("a mean is off by {:.3e} sd", errors.mean)),
-            Ok(errors) if errors.deviation > self.reach => {
-                Some(format!("a standard deviation is off by {:.3e} of it", errors.deviation))
-            }
-            Ok(_) => None,
-        }
+/// The errors of particles, or what is wrong with such as are far out.
+fn within(reach: f64, errors: Result<Errors, CommandError>) -> Result<Errors, String> {
+    match errors.map_err(|error| error.to_string())? {
+        far if far.mean > reach => Err(format!("a mean is off by {:.3e} sd", far.mean)),
+        far if far.deviation > reach => Err(format!("a standard deviation is off by {:.3e} of it", far.deviation)),
+        errors => Ok(errors),
     }
 }
 
@@ -72,16 +66,15 @@ impl Observer for Watch<'_> {
         }
         let begin = Instant::now();
         let particles = Particles::from_coordinates(view.dimension(), view.positions(), None);
-        let errors = self.yardstick.measure(&particles);
-        self.looking += begin.elapsed();
-        if let Some(message) = self.far(&errors) {
-            self.ended = Some((view.step, message));
-            return ControlFlow::Break(());
-        }
+        let errors = within(self.reach, self.yardstick.measure(&particles));
+        self.seen.looking += begin.elapsed();
         match errors {
-            Ok(errors) if view.step == 0 => self.start = Some(errors),
-            Ok(errors) => self.note(view.step, errors),
-            Err(_) => {}
+            Ok(errors) if view.step == 0 => self.seen.start = Some(errors),
+            Ok(errors) => self.seen.note(view.step, errors),
+            Err(message) => {
+                self.seen.ended = Some((view.step, message));
+                return ControlFlow::Break(());
+            }
         }
         ControlFlow::Continue(())
     }

@@ -46,11 +46,11 @@ impl Comparison {
 
     /// Whether means and standard deviations keep their bounds.
     pub fn kept(&self, bounds: &Bounds) -> [bool; 2] {
-        let kept = |error: f64, bound: f64| !self.axes.is_empty() && error <= bound;
-        [
-            kept(self.mean_error, bounds.mean),
-            kept(self.deviation_error, bounds.standard_deviation),
-        ]
+        let pairs = [
+            (self.mean_error, bounds.mean),
+            (self.deviation_error, bounds.standard_deviation),
+        ];
+        pairs.map(|(error, bound)| !self.axes.is_empty() && error <= bound)
     }
 }
 

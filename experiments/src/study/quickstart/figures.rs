@@ -55,12 +55,9 @@ pub fn picture(study: &Quickstart, particles: &Particles, page: &mut Page) -> Re
         },
         reference_label: "",
     };
-    let caption = format!(
-        "{} particles of `{}` on the target `{}`; lines enclose 50, 90 and 99 % of its mass.",
-        particles.len(),
-        study.picture.method.label(),
-        study.picture.target.label(),
-    );
+    let (method, target) = (study.picture.method.label(), study.picture.target.label());
+    let what = format!("{} particles of `{method}` on the target `{target}`", particles.len());
+    let caption = format!("{what}; lines enclose 50, 90 and 99 % of its mass.");
     page.figure("picture.svg", &caption, cloud(&plot));
     Ok(())
 }

@@ -12,6 +12,7 @@ use reference::Reference;
 use super::prelude::*;
 use super::row_file;
 use crate::dispatch::on_target;
+use crate::options::words;
 use crate::output::{ParticleFile, table_file};
 
 /// A posterior against its reference, and a two-dimensional target for the eye.
@@ -68,42 +69,21 @@ struct Bounds {
     standard_deviation: f64,
 }
 
-impl Quickstart {
-    /// Checks what belongs together.
-    fn check(&self) -> Result<(), CommandError> {
-        let dimension = self.picture.target.dimension()?;
-        if dimension != 2 {
-            let message = format!("`{}` has d = {dimension}, must be 2", self.picture.target.label());
-            return Err(refusal("picture.target", message));
-        }
-        positive("bounds.mean", &[self.bounds.mean])?;
-        positive("bounds.standard-deviation", &[self.bounds.standard_deviation])
+words! {
+    /// The three pieces of work, by their names in results.csv and in the names of raw files.
+    Piece {
+        /// The posterior's reference moments.
+        Reference,
+        /// The posterior's particles.
+        Posterior,
+        /// The particles for the eye.
+        Picture,
     }
-}
-
-/// The three pieces of work.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Piece {
-    /// The posterior's reference moments.
-    Reference,
-    /// The posterior's particles.
-    Posterior,
-    /// The particles for the eye.
-    Picture,
 }
 
 impl Piece {
-    /// Its name in results.csv and in the names of raw files.
-    const fn name(self) -> &'static str {
-        match self {
-            Self::Reference => "reference",
-            Self::Posterior => "posterior",
-            Self::Picture => "picture",
-        }
-    }
-
     fn case(self, part: &Part, method: &str, particles: usize) -> Result<Case<Self>, CommandError> {
-        Ok(Case::new(self.name().to_owned(), self)
+        Ok(Case::new(self.to_string(), self)
             .with("target", part.target.label())
             .with("dim", part.target.dimension()?)
             .with("method", method)
@@ -112,7 +92,7 @@ impl Piece {
 
     /// A file of its own: `particles`, `trace` or `moments`.
     fn file(self, directory: &StudyDirectory, what: &str) -> PathBuf {
-        directory.raw(&format!("{}-{what}.csv", self.name()))
+        directory.raw(&format!("{self}-{what}.csv"))
     }
 }
 
@@ -125,24 +105,34 @@ impl Study for Quickstart {
     const REPORT: Report<Self> = report::report;
 
     fn cases(&self) -> Result<Vec<Case<Piece>>, CommandError> {
-        self.check()?;
+        let (dimension, target) = (self.picture.target.dimension()?, self.picture.target.label());
+        let otherwise = || format!("`{target}` has d = {dimension}, must be 2");
+        holds(dimension == 2, "picture.target", otherwise)?;
+        positive("bounds.mean", &[self.bounds.mean])?;
+        positive("bounds.standard-deviation", &[self.bounds.standard_deviation])?;
         let sampled = |piece: Piece, part: &Part| piece.case(part, part.method.label(), part.particles.get());
         let points = self.reference.points.get();
-        Ok(vec![
-            Piece::Reference
-                .case(&self.posterior, "importance-sampling", points)?
-                .costing(2.0),
-            sampled(Piece::Posterior, &self.posterior)?.costing(10.0),
-            sampled(Piece::Picture, &self.picture)?,
-        ])
+        let reference = Piece::Reference.case(&self.posterior, "importance-sampling", points)?;
+        let posterior = sampled(Piece::Posterior, &self.posterior)?;
+        let picture = sampled(Piece::Picture, &self.picture)?;
+        Ok(vec![reference.costing(2.0), posterior.costing(10.0), picture])
     }
 
     fn run(&self, case: &Case<Piece>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
-        match case.work {
-            Piece::Reference => self.run_reference(row, tools.directory),
-            Piece::Posterior => self.run_sampler(case.work, &self.posterior, row, tools),
-            Piece::Picture => self.run_sampler(case.work, &self.picture, row, tools),
+        let part = match case.work {
+            Piece::Reference => return self.run_reference(row, tools.directory),
+            Piece::Posterior => &self.posterior,
+            Piece::Picture => &self.picture,
+        };
+        let mut method = part.method.clone();
+        method.options.trace_every = self.trace_every.get();
+        let work = Sampled::new(&part.target, &method, None, (part.particles.get(), self.seed))?;
+        if let Some(outcome) = row.note(work.sample(tools.observer))? {
+            let file = |what: &str| case.work.file(tools.directory, what);
+            ParticleFile::create(file("particles"))?.write(&outcome.particles, &[])?;
+            table_file::write(outcome.trace.iter(), &file("trace"))?;
         }
+        Ok(())
     }
 }
 
@@ -153,26 +143,11 @@ impl Quickstart {
         let (seconds, reference) =
             timed(|| on_target!(target, target, D => Reference::of::<D>(target.as_ref(), &names, &self.reference)));
         let reference = reference?;
-        row_file::write(
-            &Piece::Reference.file(directory, "moments"),
-            reference::COLUMNS,
-            &reference.axes,
-        )?;
-        ParticleFile::create(Piece::Reference.file(directory, "particles"))?.write(&reference.draws, &[])?;
+        let file = |what: &str| Piece::Reference.file(directory, what);
+        row_file::write(&file("moments"), reference::COLUMNS, &reference.axes)?;
+        ParticleFile::create(file("particles"))?.write(&reference.draws, &[])?;
         row.set("effective_sample_size", reference.effective_sample_size);
         row.set("wall_seconds", seconds);
-        Ok(())
-    }
-
-    fn run_sampler(&self, piece: Piece, part: &Part, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
-        let mut method = part.method.clone();
-        method.options.trace_every = self.trace_every.get();
-        let work = Sampled::new(&part.target, &method, None, (part.particles.get(), self.seed))?;
-        if let Some(outcome) = row.note(work.sample(tools.observer))? {
-            let file = |what: &str| piece.file(tools.directory, what);
-            ParticleFile::create(file("particles"))?.write(&outcome.particles, &[])?;
-            table_file::write(outcome.trace.iter(), &file("trace"))?;
-        }
         Ok(())
     }
 }

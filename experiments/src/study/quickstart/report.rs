@@ -11,7 +11,7 @@ use crate::study::row_file;
 /// Tables, figures and verdict.
 pub fn report(study: &Quickstart, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
     let mut page = directory.page(include_str!("report.md"), &[]);
-    let finished = |piece: Piece| rows.with("case", piece.name()).count(Row::finished) > 0;
+    let finished = |piece: Piece| rows.with("case", piece).count(Row::finished) > 0;
     let particles = |piece: Piece| particles_csv::read(&piece.file(directory, "particles"));
     if finished(Piece::Reference) && finished(Piece::Posterior) {
         let particles = particles(Piece::Posterior)?;
@@ -46,7 +46,7 @@ fn verdict(study: &Quickstart, comparison: &Comparison, rows: &Rows<'_>, mut pag
     let kept = comparison.kept(bounds);
     let [means, deviations] = kept.map(|kept| if kept { "within" } else { "beyond" });
     let verdict = if kept == [true, true] { "pass" } else { "fail" };
-    let reference = rows.with("case", Piece::Reference.name());
+    let reference = rows.with("case", Piece::Reference);
     let size = reference.first().and_then(|row| row.number("effective_sample_size"));
     let size = size.map(|size| format!("{size:.0}")).cell();
     let values: [(&str, &dyn Display); 9] = [

@@ -69,10 +69,6 @@ impl Study for RandomTargets {
          log_evidence_deviation log_evidence_error score_evaluations density_evaluations wall_seconds";
     const REPORT: Report<Self> = report::report;
 
-    fn methods(&self) -> Vec<&MethodSpecification> {
-        self.methods.iter().collect()
-    }
-
     /// The cases, target by target, so that a target's reference is made once.
     fn cases(&self) -> Result<Vec<Case<Sampled>>, CommandError> {
         all_given!(self: dims, methods);
@@ -83,7 +79,7 @@ impl Study for RandomTargets {
                 target.parameters.target_seed = Some(target_seed);
                 for method in &self.methods {
                     let work = Sampled::new(&target, method, None, (self.particles.get(), self.seed))?;
-                    let case = work.case(format!("{}-{}", target.label(), method.label()), method.label())?;
+                    let case = work.case(format!("{}-{}", target.label(), method.label()), method)?;
                     cases.push(case.with("target_seed", target_seed));
                 }
             }

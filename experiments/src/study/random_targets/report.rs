@@ -19,10 +19,8 @@ pub fn report(study: &RandomTargets, rows: &Rows<'_>, directory: &StudyDirectory
     let false_claim = |row: &Row| format!("- `{}`: ED² {}", row.case(), row.value("energy_ratio").cell());
     let false_claims: Vec<String> = rows.having(claims_falsely).iter().map(false_claim).collect();
     page.list("Claims that are false", &false_claims, None);
-    Ok(rows
-        .close(page)
-        .with("claimed", rows.count(Row::claims))
-        .with("false_claims", false_claims.len()))
+    let page = rows.close(page).with("claimed", rows.count(Row::claims));
+    Ok(page.with("false_claims", false_claims.len()))
 }
 
 /// Whether a run claims to stand for the target and is no better than independent draws.

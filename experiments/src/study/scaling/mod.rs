@@ -62,37 +62,21 @@ struct NodesSweep {
     interval: [f64; 2],
 }
 
-/// One size.
-#[derive(Clone, Debug)]
-pub struct Size {
-    dim: Dimension,
-    particles: usize,
-    /// h in frame units; `None`: the sampler chooses it.
-    spacing: Option<f64>,
+/// d, M and h in frame units; `None`: the sampler chooses it.
+type Size = (Dimension, usize, Option<f64>);
+
+/// M · 3ᵈ.
+fn work((dim, particles, _): &Size) -> f64 {
+    *particles as f64 * 3f64.powi(dim.get() as i32)
 }
 
-impl Size {
-    /// M · 3ᵈ.
-    fn work(&self) -> f64 {
-        self.particles as f64 * 3f64.powi(self.dim.get() as i32)
-    }
-
-    /// The case of a sweep.
-    fn case(self, sweep: &str, nodes_per_axis: Option<usize>) -> Case<Self> {
-        let nodes = nodes_per_axis.map_or(String::new(), |nodes| format!("-k{nodes}"));
-        let Self {
-            dim,
-            particles,
-            spacing,
-        } = self;
-        Case::new(format!("{sweep}-d{dim}-m{particles}{nodes}"), self.clone())
-            .costing(self.work() + 1e3)
-            .with("sweep", sweep)
-            .with("dim", dim)
-            .with("particles", particles)
-            .with("nodes_per_axis", nodes_per_axis)
-            .with("spacing", spacing)
-    }
+/// The case of a size in a sweep.
+fn case(size: Size, sweep: &str, nodes_per_axis: Option<usize>) -> Case<Size> {
+    let (dim, particles, spacing) = size;
+    let nodes = nodes_per_axis.map_or(String::new(), |nodes| format!("-k{nodes}"));
+    let case = Case::new(format!("{sweep}-d{dim}-m{particles}{nodes}"), size).costing(work(&size) + 1e3);
+    let case = case.with("sweep", sweep).with("dim", dim).with("particles", particles);
+    case.with("nodes_per_axis", nodes_per_axis).with("spacing", spacing)
 }
 
 impl Study for Scaling {
@@ -108,69 +92,55 @@ impl Study for Scaling {
     fn cases(&self) -> Result<Vec<Case<Size>>, CommandError> {
         let nodes = &self.nodes_sweep;
         let [low, high] = nodes.interval;
-        if !(low < high && (high - low).is_finite()) {
-            return Err(refusal("nodes-sweep.box", format!("[{low}, {high}] is no interval")));
-        }
+        let is_interval = low < high && (high - low).is_finite();
+        holds(is_interval, "nodes-sweep.box", || {
+            format!("[{low}, {high}] is no interval")
+        })?;
         let sweep = &self.particles_sweep;
-        if sweep.largest_work.is_nan() || sweep.largest_work <= 0.0 {
-            let message = format!("{} must be above 0", sweep.largest_work);
-            return Err(refusal("particles-sweep.largest-work", message));
-        }
+        let most = sweep.largest_work;
+        let otherwise = || format!("{most} must be above 0");
+        holds(most > 0.0, "particles-sweep.largest-work", otherwise)?;
         for &dim in sweep.dims.iter().chain(&nodes.dims) {
             TargetSpecification::plain(&self.target, Some(dim)).dimension()?;
         }
         let mut cases = Vec::new();
         for &dim in &sweep.dims {
-            for particles in sweep.particles.iter().map(|count| count.get()) {
-                let spacing = None;
-                let size = Size {
-                    dim,
-                    particles,
-                    spacing,
-                };
-                if size.work() <= sweep.largest_work {
-                    cases.push(size.case(quantity::PARTICLES.name, None));
-                }
-            }
+            let sizes = sweep.particles.iter().map(|particles| (dim, particles.get(), None));
+            let sizes = sizes.filter(|size| work(size) <= most);
+            cases.extend(sizes.map(|size| case(size, quantity::PARTICLES.name, None)));
         }
         for &dim in &nodes.dims {
             for count in nodes.nodes_per_axis.iter().map(|count| count.get()) {
-                let size = Size {
-                    dim,
-                    particles: nodes.particles.get(),
-                    spacing: Some((high - low) / count as f64),
-                };
-                cases.push(size.case(quantity::NODES.name, Some(count)));
+                let size = (dim, nodes.particles.get(), Some((high - low) / count as f64));
+                cases.push(case(size, quantity::NODES.name, Some(count)));
             }
         }
         Ok(cases)
     }
 
     fn run(&self, case: &Case<Size>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
-        let size = &case.work;
+        let (dim, particles, spacing) = case.work;
         let mut specification = self.method.clone();
-        specification.options.spacing = size.spacing.or(specification.options.spacing);
-        let target = TargetSpecification::plain(&self.target, Some(size.dim));
-        let size = (size.particles, self.seed);
+        specification.options.spacing = spacing.or(specification.options.spacing);
+        let target = TargetSpecification::plain(&self.target, Some(dim));
+        let size = (particles, self.seed);
         let work = Sampled::new(&target, &specification, Some(self.steps.get()), size)?;
+        let Some(first) = row.note(work.sample(tools.observer))? else {
+            return Ok(());
+        };
+        row.set("spacing", first.spacing.or(spacing));
         let mut times = Vec::new();
-        for repeat in 0..=self.repeats.get() {
-            let outcome = match attempt(work.sample(tools.observer))? {
-                Ok(outcome) => outcome,
+        for _ in 0..self.repeats.get() {
+            match attempt(work.sample(tools.observer))? {
+                Ok(outcome) => times.push(outcome.wall_seconds / outcome.steps.max(1) as f64),
                 Err(failure) => {
                     row.fail(failure);
                     return Ok(());
                 }
-            };
-            if repeat == 0 {
-                row.take(&outcome);
-                row.set("spacing", outcome.spacing.or(case.work.spacing));
-            } else {
-                times.push(outcome.wall_seconds / outcome.steps.max(1) as f64);
             }
         }
         specification.options.steps = Some(self.steps);
-        let peak = memory::peak_of_own_process(&target, &specification, &work.run, tools.directory.threads);
+        let peak = memory::peak_of_own_process(&work, &specification, tools.directory.threads);
         row.set("memory_peak_bytes", peak);
         let quantiles = statistics::weighted_quantile(&times, None, &[0.0, 0.5, 1.0])?;
         row.set("wall_seconds_per_step_least", quantiles[0]);

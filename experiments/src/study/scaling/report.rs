@@ -28,16 +28,17 @@ fn particles_part(study: &Scaling, rows: &Rows<'_>, page: &mut Page) {
         page.drawing(&format!("particles-{}.svg", quantity.1), scaling(&plot));
     }
     page.part("dimension", &[]);
-    let lines = rows
-        .with("sweep", PARTICLES.name)
-        .lines("particles", sweep.particles.clone());
+    let here = rows.with("sweep", PARTICLES.name);
+    let lines = here.lines("particles", sweep.particles.clone());
     page.lines_over("dimension", &[each("d", &sweep.dims)], lines);
 }
 
 fn nodes_part(study: &Scaling, rows: &Rows<'_>, page: &mut Page) {
     let sweep = &study.nodes_sweep;
     let [low, high] = sweep.interval;
-    let (width, dense) = (high - low, largest_dense_grid(study));
+    let most = ascending(&sweep.nodes_per_axis).pop().unwrap_or(0) as f64;
+    let dense = number(most.powi(ascending(&sweep.dims).pop().unwrap_or(0) as i32));
+    let width = high - low;
     let values: [(&str, &dyn Display); 4] = [("low", &low), ("high", &high), ("width", &width), ("dense", &dense)];
     page.part("Growth with the nodes per axis k", &values);
     exponents(page, rows, (&NODES, &sweep.dims), 0.0);
@@ -53,26 +54,14 @@ fn nodes_part(study: &Scaling, rows: &Rows<'_>, page: &mut Page) {
     }
 }
 
-fn largest_dense_grid(study: &Scaling) -> String {
-    let sweep = &study.nodes_sweep;
-    let nodes = sweep.nodes_per_axis.iter().map(|nodes| nodes.get()).max().unwrap_or(0) as f64;
-    let dim = sweep.dims.iter().map(|dim| dim.get()).max().unwrap_or(0);
-    number(nodes.powi(dim as i32))
-}
-
 /// kᵈ through the first point of that dimension, as far as it stays within a thousand times the measurements.
 fn dense_guide(plot: &ScalingPlot, dim: usize) -> Option<GuideCurve> {
-    let series = plot
-        .panel
-        .series
-        .iter()
-        .find(|series| series.label == format!("d = {dim}"))?;
+    let lines = plot.panel.series.iter();
+    let series = lines.clone().find(|series| series.label == format!("d = {dim}"))?;
     let (&first_size, &first_time) = (series.x.first()?, series.y.first()?);
-    let &last_size = series.x.last()?;
-    let times = plot.panel.series.iter().flat_map(|series| &series.y);
-    let most = 1e3 * times.fold(0.0, |most: f64, &y| most.max(y));
+    let most = lines.fold(0.0, |most, series| series.y.iter().copied().fold(most, f64::max)) * 1e3;
     let power = |size: f64| first_time * (size / first_size).powi(dim as i32);
-    let reach = (first_size * (most / first_time).powf(1.0 / dim as f64)).min(last_size);
+    let reach = (first_size * (most / first_time).powf(1.0 / dim as f64)).min(*series.x.last()?);
     let place = |i: i32| first_size * (reach / first_size).powf(f64::from(i) / 20.0);
     let x: Vec<f64> = (0..=20).map(place).collect();
     let y = x.iter().map(|&size| power(size)).collect();

@@ -1,8 +1,5 @@
 //! The configuration of the study `scenes`.
 
-use mpm_scenes::variation::combinations;
-
-use super::Variant;
 use super::family::Family;
 use super::scene_files::SceneFiles;
 use crate::study::prelude::*;
@@ -41,26 +38,5 @@ impl Scenes {
             known.push(family);
         }
         Ok(known)
-    }
-
-    /// The cases, family by family.
-    ///
-    /// # Errors
-    /// The field that is wrong, with the family.
-    pub fn all_cases(&self) -> Result<Vec<Case<Variant>>, CommandError> {
-        let mut cases = Vec::new();
-        for family in self.resolved()? {
-            let combinations = combinations(&family.axes, &family.x);
-            for combination in combinations.map_err(|message| family.refuse("axes", message))? {
-                let (name, label) = (combination.name.clone(), combination.label.clone());
-                let family = family.clone();
-                let case = Case::new(format!("{}: {name}", family.name), Variant { family, combination });
-                let (family, quantity) = (case.work.family.name.clone(), case.work.family.read.name().to_owned());
-                let case = case.with("family", family);
-                cases.push(case.with("label", label).with("quantity", quantity));
-            }
-        }
-        distinct("families.axes", &cases)?;
-        Ok(cases)
     }
 }

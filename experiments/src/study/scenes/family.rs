@@ -98,18 +98,16 @@ impl Family {
     /// The first field that is missing or out of range.
     pub fn check(&self) -> Result<(), CommandError> {
         let simple = |c: char| c.is_ascii_alphanumeric() || c == '-';
-        if self.name.is_empty() || !self.name.chars().all(simple) {
-            return Err(self.refuse("name", "must be made of letters, digits and dashes"));
+        let is_simple = !self.name.is_empty() && self.name.chars().all(simple);
+        for (field, is_fit, otherwise) in [
+            ("name", is_simple, "must be made of letters, digits and dashes"),
+            ("scene", self.scene.is_some(), "is missing"),
+            ("x", !self.x.is_empty(), "is missing"),
+            ("x-label", self.x_label.is_some(), "is missing"),
+            ("axes", !self.axes.is_empty(), "is empty"),
+        ] {
+            is_fit.then_some(()).ok_or_else(|| self.refuse(field, otherwise))?;
         }
-        let given = [
-            ("scene", self.scene.is_some()),
-            ("x", !self.x.is_empty()),
-            ("x-label", self.x_label.is_some()),
-        ];
-        if let Some((field, _)) = given.iter().find(|(_, given)| !given) {
-            return Err(self.refuse(field, "is missing"));
-        }
-        not_empty(&format!("families.{}.axes", self.name), &self.axes)?;
         self.read.check().map_err(|error| self.misread(error))
     }
 

@@ -15,23 +15,13 @@ pub fn plot(family: &Family, series: &[MeasuredSeries]) -> MultiplesPlot {
     let mut points = shown.iter().flat_map(|series| &series.points);
     let positive = points.all(|point| point.x > 0.0);
     let x_label = family.x_label.as_deref().unwrap_or_default();
+    let scale = |is_logarithmic: bool, otherwise: AxisKind| match is_logarithmic {
+        true => AxisKind::Logarithmic,
+        false => otherwise,
+    };
     MultiplesPlot {
-        x: Axis::new(
-            x_label,
-            if positive {
-                AxisKind::Logarithmic
-            } else {
-                AxisKind::Linear
-            },
-        ),
-        y: Axis::new(
-            &family.y_label,
-            if power {
-                AxisKind::Logarithmic
-            } else {
-                AxisKind::Automatic
-            },
-        ),
+        x: Axis::new(x_label, scale(positive, AxisKind::Linear)),
+        y: Axis::new(&family.y_label, scale(power, AxisKind::Automatic)),
         panels: vec![MultiplesPanel {
             series: shown.iter().map(|series| line(family, series)).collect(),
             guides: guides(&family.judgements, &judged),
@@ -44,15 +34,6 @@ pub fn plot(family: &Family, series: &[MeasuredSeries]) -> MultiplesPlot {
 
 /// A line that is named even if it is the only one.
 fn line(family: &Family, series: &MeasuredSeries) -> LineSeries {
-    let (x, y) = series.pairs().into_iter().unzip();
-    let label = if series.label.is_empty() {
-        &family.title
-    } else {
-        &series.label
-    };
-    LineSeries {
-        x,
-        y,
-        ..LineSeries::named(label)
-    }
+    let named = Some(&series.label).filter(|label| !label.is_empty());
+    LineSeries::through(named.unwrap_or(&family.title), series.pairs())
 }

@@ -20,15 +20,13 @@ pub fn plot(
     directory: &StudyDirectory,
 ) -> Result<Option<MultiplesPlot>, CommandError> {
     let x = |row: &Row| row.number("x").unwrap_or(f64::NAN);
-    let is_drawn =
-        |row: &Row| row.number("value").is_some() && (family.drawn.is_empty() || family.drawn.contains(&x(row)));
-    let drawn = rows.with("family", family.name.as_str()).having(is_drawn);
+    let is_drawn = |row: &Row| family.drawn.is_empty() || family.drawn.contains(&x(row));
+    let finished = rows.having(|row| row.number("value").is_some());
+    let drawn = finished.with("family", family.name.as_str()).having(is_drawn);
     if family.history.is_empty() || drawn.is_empty() {
         return Ok(None);
     }
-    let several = drawn
-        .iter()
-        .any(|row| drawn.first().is_some_and(|first| x(row) != x(first)));
+    let several = drawn.places("x").len() > 1;
     let mut runs: Vec<(String, &str)> = Vec::new();
     for row in drawn.iter() {
         let label = match (row.text("label"), several) {

@@ -14,7 +14,7 @@ use std::path::Path;
 
 use mpm_scenes::output::read_series;
 use mpm_scenes::reading::FinishedRun;
-use mpm_scenes::variation::Combination;
+use mpm_scenes::variation::{Combination, combinations};
 use mpm_scenes::{Outcome, SimulationError};
 
 pub use configuration::Scenes;
@@ -58,18 +58,30 @@ impl Study for Scenes {
 
     /// The cases, family by family.
     fn cases(&self) -> Result<Vec<Case<Variant>>, CommandError> {
-        self.all_cases()
+        let mut cases = Vec::new();
+        for family in self.resolved()? {
+            let combinations = combinations(&family.axes, &family.x);
+            for combination in combinations.map_err(|message| family.refuse("axes", message))? {
+                let name = format!("{}: {}", family.name, combination.name);
+                let label = combination.label.clone();
+                let work = Variant {
+                    family: family.clone(),
+                    combination,
+                };
+                let case = Case::new(name, work).with("family", family.name.as_str());
+                cases.push(case.with("label", label).with("quantity", family.read.name()));
+            }
+        }
+        distinct("families.axes", &cases)?;
+        Ok(cases)
     }
 
     fn check_earlier(&self, rows: &[Row]) -> Result<(), CommandError> {
         for Case { row, work, .. } in self.cases()? {
             let prepared = self.files.scene(&work)?;
-            let other =
-                |row: &Row| row.text("scene") != prepared.own.fingerprint || row.text("against") != prepared.against();
-            if rows
-                .iter()
-                .any(|earlier| earlier.case() == row.case() && other(earlier))
-            {
+            let scenes = [prepared.own.fingerprint.as_str(), prepared.against()];
+            let mut earlier = rows.iter().filter(|earlier| earlier.case() == row.case());
+            if earlier.any(|row| ["scene", "against"].map(|column| row.text(column)) != scenes) {
                 return Err(work.refuse("was run with another scene file; choose another --out"));
             }
         }

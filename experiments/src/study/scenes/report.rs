@@ -12,23 +12,19 @@ use crate::study::prelude::*;
 /// Judgements, then each family with its figure and its numbers.
 pub fn report(study: &Scenes, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
     let families = study.resolved()?;
-    let all: Vec<Vec<MeasuredSeries>> = families.iter().map(|family| of_family(rows, family)).collect();
+    let of = |family: &Family| MeasuredSeries::of(&rows.with("family", family.name.as_str()));
+    let all: Vec<Vec<MeasuredSeries>> = families.iter().map(of).collect();
     let mut page = directory.page(include_str!("report.md"), &[("title", &study.title)]);
     let mut lines = Vec::new();
     let (mut judged, mut passed) = (0, 0);
     for (family, series) in families.iter().zip(&all) {
-        for Verdict {
-            of,
-            asked,
-            reached,
-            pass,
-        } in verdicts(family, series)
-        {
+        for verdict in verdicts(family, series) {
             judged += 1;
-            passed += usize::from(pass);
-            let line = Line::default().with("family", family.title.as_str()).with("of", of);
-            let line = line.with("asked", asked).with("reached", reached);
-            lines.push(line.with("pass", if pass { "yes" } else { "**no**" }));
+            passed += usize::from(verdict.pass);
+            let line = Line::default().with("family", family.title.as_str());
+            let line = line.with("of", verdict.of).with("asked", verdict.asked);
+            let line = line.with("reached", verdict.reached);
+            lines.push(line.with("pass", if verdict.pass { "yes" } else { "**no**" }));
         }
     }
     page.part("Judgements", &[]);
@@ -41,16 +37,9 @@ pub fn report(study: &Scenes, rows: &Rows<'_>, directory: &StudyDirectory) -> Re
     }
     let failed = rows.count(|row| row.number("value").is_none());
     let verdict = if judged > 0 && passed == judged { "pass" } else { "fail" };
-    Ok(page
-        .with("cases", rows.len())
-        .with("failed", failed)
-        .with("judged", judged)
-        .with("passed", passed)
-        .with("verdict", verdict))
-}
-
-fn of_family(rows: &Rows<'_>, family: &Family) -> Vec<MeasuredSeries> {
-    MeasuredSeries::of(&rows.with("family", family.name.as_str()))
+    let page = page.with("cases", rows.len()).with("failed", failed);
+    let page = page.with("judged", judged).with("passed", passed);
+    Ok(page.with("verdict", verdict))
 }
 
 /// What the family's judgements say; one that finds nothing to judge is not kept.
@@ -104,11 +93,7 @@ fn order_line(series: &MeasuredSeries) -> Line<'static> {
 
 fn line(row: &Row) -> Line<'_> {
     let value = row.number("value").map(|value| digits(value, row.number("reference")));
-    let ended = if value.is_some() {
-        "at the end"
-    } else {
-        row.text("reason")
-    };
+    let ended = value.as_ref().map_or(row.text("reason"), |_| "at the end");
     let x = row.number("x").unwrap_or(f64::NAN).to_string();
     Line::from(row).with("x", x).with("digits", value).with("ended", ended)
 }

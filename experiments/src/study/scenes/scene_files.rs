@@ -80,25 +80,23 @@ impl SceneFiles {
         let own = prepared(document, case)?;
         let keys = &case.family.x;
         let x = keys.iter().find_map(|key| own.document.number(key));
-        let x = x.filter(|x| x.is_finite()).ok_or_else(|| {
-            case.family
-                .refuse("x", format!("`{}` is no number of the scene", keys.join("`, `")))
-        })?;
+        let otherwise = || format!("`{}` is no number of the scene", keys.join("`, `"));
+        let x = x
+            .filter(|x| x.is_finite())
+            .ok_or_else(|| case.family.refuse("x", otherwise()))?;
         if case.family.read.quantity.is_some() && own.scene.validation.is_none() {
             let message = "the scene has no `validation.reference`";
             return Err(case.family.refuse("read.quantity", message));
         }
         let shift = case.family.read.shift(&own.document);
         shift.map_err(|error| case.family.misread(error))?;
-        let against = match &case.family.read.against {
-            None => None,
-            Some(other) => {
-                let mut document = of_name(&other.scene).unwrap_or_else(|| own.document.clone());
-                let changed = document.change(&other.set, &other.drop);
-                changed.map_err(|message| case.family.refuse("read.against", message))?;
-                Some(prepared(document, case)?)
-            }
-        };
+        let mut against = None;
+        if let Some(other) = &case.family.read.against {
+            let mut document = of_name(&other.scene).unwrap_or_else(|| own.document.clone());
+            let changed = document.change(&other.set, &other.drop);
+            changed.map_err(|message| case.family.refuse("read.against", message))?;
+            against = Some(prepared(document, case)?);
+        }
         Ok(CaseScene { own, against, x })
     }
 }

@@ -12,10 +12,8 @@ pub fn report(study: &SpacingParticles, rows: &Rows<'_>, directory: &StudyDirect
     let drawing = multiples(&plot(study, rows));
     page.drawing("spacing-particles.svg", drawing);
     best_spacings(study, rows, &mut page);
-    page.part(
-        "Where the error stops being the particles' and becomes the spacing's",
-        &[],
-    );
+    let part = "Where the error stops being the particles' and becomes the spacing's";
+    page.part(part, &[]);
     for series in &study.series {
         page.paragraph(format!("**d = {}**: ED² × 10³ by number of particles.", series.dim));
         saturations(study, &rows.with("dim", series.dim), series, &mut page);
@@ -74,12 +72,8 @@ fn saturations(study: &SpacingParticles, here: &Rows<'_>, series: &Series, page:
 fn plot(study: &SpacingParticles, rows: &Rows<'_>) -> MultiplesPlot {
     let panel = |Series { dim, .. }: &Series| {
         let here = rows.with("dim", *dim);
-        let lines = here.curves(
-            ("M = ", "particles"),
-            study.counts(),
-            "requested_spacing",
-            "energy_root",
-        );
+        let (sizes, x) = (("M = ", "particles"), "requested_spacing");
+        let lines = here.curves(sizes, study.counts(), x, "energy_root");
         MultiplesPanel::new(format!("d = {dim}"), lines)
     };
     let y_label = "energy distance ED (standard deviations^{½})";

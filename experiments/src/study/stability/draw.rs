@@ -5,6 +5,7 @@ use std::ops::RangeInclusive;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
+use crate::options::MethodName::{Mpm, PaperApic, PaperPic};
 use crate::options::{Correction, Draws, Material, Switch, Transfer};
 use crate::study::prelude::*;
 
@@ -76,13 +77,7 @@ pub fn draw(seed: u64, index: usize, places: &[Vec<TargetSpecification>]) -> Con
     let place = one_of(draws, places);
     let target = one_of(draws, &place);
     let dim = target.dimension().unwrap_or(1);
-    let methods = [
-        MethodName::Mpm,
-        MethodName::Mpm,
-        MethodName::PaperPic,
-        MethodName::PaperApic,
-    ];
-    let method = one_of(draws, &methods);
+    let method = one_of(draws, &[Mpm, Mpm, PaperPic, PaperApic]);
     let bases = [Basis::Lattice, Basis::Linear, Basis::Quadratic, Basis::Cubic];
     let allowed = if dim > LARGEST_TENSOR_DIMENSION { 1 } else { bases.len() };
     let basis = one_of(draws, &bases[..allowed]);
@@ -96,23 +91,17 @@ pub fn draw(seed: u64, index: usize, places: &[Vec<TargetSpecification>]) -> Con
         start_draws: Some(one_of(draws, &[Draws::QuasiRandom, Draws::Independent])),
         ..MethodOptions::default()
     };
-    if method == MethodName::Mpm {
+    if method == Mpm {
         options.survey = Some(Switch::Off);
         let transfer = one_of(draws, &[Transfer::Pic, Transfer::Apic, Transfer::Flip]);
         options.transfer = Some(transfer);
         options.flip_share = (transfer == Transfer::Flip).then_some(draws.random());
-        options.friction = Some(if draws.random_bool(0.125) {
-            0.0
-        } else {
-            spread(draws, FRICTIONS)
-        });
+        let glides = draws.random_bool(0.125);
+        options.friction = Some(if glides { 0.0 } else { spread(draws, FRICTIONS) });
         options.shifts = Some(one_of(draws, &switches));
         options.rotation = Some(one_of(draws, &switches));
-        options.settling = Some(if draws.random_bool(0.25) {
-            0.0
-        } else {
-            0.9 * draws.random::<f64>()
-        });
+        let settles = !draws.random_bool(0.25);
+        options.settling = Some(if settles { 0.9 * draws.random::<f64>() } else { 0.0 });
         options.settling_shifts = Some(one_of(draws, &switches));
         let corrections = [Correction::Off, Correction::Mean, Correction::Affine];
         options.moment_correction = Some(one_of(draws, &corrections));

@@ -58,41 +58,28 @@ impl Study for Stability {
     }
 }
 
-/// A configuration as a case.
+/// A configuration as a case, whose row has the options by their names.
 fn case(index: usize, drawn: Configuration) -> Case<Configuration> {
-    let options = drawn.options.clone();
-    let steps = options.steps.map_or(0, StepCount::get);
+    let steps = drawn.options.steps.map_or(0, StepCount::get);
     let cost = 1e4 + (drawn.particles * drawn.basis.stencil(drawn.dim) * steps) as f64;
-    Case::new(format!("case-{index:05}"), drawn.clone())
+    let mut case = Case::new(format!("case-{index:05}"), drawn.clone())
         .costing(cost)
         .with("ending", Status::Finite)
         .with("escaped", "false")
         .with("target", drawn.target.name)
         .with("dim", drawn.dim)
         .with("method", drawn.method.as_str())
-        .with("basis", drawn.basis)
         .with("particles", drawn.particles)
-        .with("steps", options.steps)
         .with("scale", drawn.scale)
         .with("turned", drawn.turn.is_some().to_string())
-        .with("start_mean", options.start_mean)
-        .with("start_sd", options.start_sd)
-        .with("start_draws", options.start_draws)
         .with("spacing_factor", drawn.spacing_factor)
         .with("time_step_factor", drawn.time_step_factor)
-        .with("score", options.score)
-        .with("transfer", options.transfer)
-        .with("flip_share", options.flip_share)
-        .with("friction", options.friction)
-        .with("shifts", options.shifts)
-        .with("rotation", options.rotation)
-        .with("settling", options.settling)
-        .with("settling_shifts", options.settling_shifts)
-        .with("moment_correction", options.moment_correction)
-        .with("guards", options.guards)
-        .with("material", options.material)
         .with("seed", drawn.seed)
-        .with("wall_seconds", 0.0)
+        .with("wall_seconds", 0.0);
+    for (option, value) in drawn.options.values() {
+        case.row.set(option, value);
+    }
+    case
 }
 
 /// Whether the run gave nothing that could be of use: an error, a panic, numbers that are none, or particles far off.

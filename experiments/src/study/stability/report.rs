@@ -34,11 +34,8 @@ pub fn report(_: &Stability, rows: &Rows<'_>, directory: &StudyDirectory) -> Res
     page.list("Panics and numbers that are not finite", &faults, Some("None."));
     refusals(rows, &mut page);
 
-    Ok(page
-        .with("finite", rows.ended(Status::Finite))
-        .with("refused", rows.ended(Status::Refused))
-        .with("panicked", rows.ended(Status::Panicked))
-        .with("not_finite", rows.ended(Status::NotFinite)))
+    let page = rows.tell([Status::Finite, Status::Refused], page);
+    Ok(rows.tell([Status::Panicked, Status::NotFinite], page))
 }
 
 /// The method, for the paper's algorithms with their guards.
@@ -102,11 +99,9 @@ fn refusals(rows: &Rows<'_>, page: &mut Page) {
         page.paragraph("None.");
         return;
     }
-    if diverged.len() > MOST_NAMED {
-        page.paragraph(format!(
-            "The first {MOST_NAMED} of {}; results.csv has them all.",
-            diverged.len()
-        ));
+    let count = diverged.len();
+    if count > MOST_NAMED {
+        page.paragraph(format!("The first {MOST_NAMED} of {count}; results.csv has them all."));
     }
     let lines: Vec<String> = diverged.iter().take(MOST_NAMED).map(named).collect();
     page.paragraph(lines.join("\n"));

@@ -34,8 +34,8 @@ pub fn run<const D: usize>(
             return Ok(());
         }
     };
-    let spacing =
-        case.spacing_factor * defaults::spacing::<D>(case.basis.uniform().unwrap_or_default(), case.particles);
+    let basis = case.basis.uniform().unwrap_or_default();
+    let spacing = case.spacing_factor * defaults::spacing::<D>(basis, case.particles);
     let time_step = case.time_step_factor * defaults::time_step(spacing);
     row.set("spacing", spacing);
     row.set("time_step", time_step);
@@ -129,16 +129,15 @@ fn refuse(row: &mut Row, kind: &impl Debug, step: Option<usize>, error: &impl To
 /// The name of an error's variant.
 fn variant(error: &impl Debug) -> String {
     let text = format!("{error:?}");
-    text.chars()
-        .take_while(|character| character.is_alphanumeric())
-        .collect()
+    let end = text.find(|character: char| !character.is_alphanumeric());
+    text[..end.unwrap_or(text.len())].to_owned()
 }
 
 /// What a panic said.
 fn panic_message(payload: &(dyn Any + Send)) -> String {
-    let text = payload.downcast_ref::<&str>().map(|text| (*text).to_owned());
-    text.or_else(|| payload.downcast_ref::<String>().cloned())
-        .unwrap_or_else(|| "a panic without a message".to_owned())
+    let owned = payload.downcast_ref::<String>().map(String::as_str);
+    let text = owned.or_else(|| payload.downcast_ref::<&str>().copied());
+    text.unwrap_or("a panic without a message").to_owned()
 }
 
 #[cfg(test)]

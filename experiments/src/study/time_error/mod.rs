@@ -53,26 +53,6 @@ impl TimeError {
             (None, None) => vec![None],
         }
     }
-
-    fn case(
-        &self,
-        target: &TargetSpecification,
-        method: &MethodSpecification,
-        steps: Option<usize>,
-        seed: u64,
-    ) -> Result<Case<Sampled>, CommandError> {
-        let of_steps = steps.map_or(String::new(), |steps| format!("-t{steps}"));
-        let (name, label) = (target.label(), method.label());
-        let id = format!("{name}-{label}-m{}{of_steps}-s{seed}", self.particles);
-        // Milliseconds, roughly: a distance to the reference, and M² pairs or M · 3ᵈ nodes per step.
-        let per_step = match method.name {
-            MethodName::Svgd => 10.0,
-            _ => 0.03 * 3f64.powi(target.dimension()? as i32),
-        };
-        let work = Sampled::new(target, method, steps, (self.particles.get(), seed))?;
-        let case = work.case(id, label)?.with("steps", steps);
-        Ok(case.costing(100.0 + per_step * steps.unwrap_or(0) as f64))
-    }
 }
 
 impl Study for TimeError {
@@ -83,10 +63,6 @@ impl Study for TimeError {
          wall_seconds energy_distance_squared energy_level sliced_wasserstein mean_error deviation_error mass_error residual";
     const REPORT: Report<Self> = report::report;
 
-    fn methods(&self) -> Vec<&MethodSpecification> {
-        self.methods.iter().collect()
-    }
-
     /// The cases, target by target, so that a target's reference is made once.
     fn cases(&self) -> Result<Vec<Case<Sampled>>, CommandError> {
         not_empty("seeds", &self.seeds)?;
@@ -96,10 +72,21 @@ impl Study for TimeError {
         let mut cases = Vec::new();
         for target in &self.targets {
             for method in &self.methods {
+                // Milliseconds, roughly: a distance to the reference, and M² pairs or M · 3ᵈ nodes per step.
+                let per_step = match method.name {
+                    MethodName::Svgd => 10.0,
+                    _ => 0.03 * 3f64.powi(target.dimension()? as i32),
+                };
                 for steps in self.sweep(method) {
-                    for &seed in &self.seeds {
-                        cases.push(self.case(target, method, steps, seed)?);
-                    }
+                    let of_steps = steps.map_or(String::new(), |steps| format!("-t{steps}"));
+                    let name = format!("{}-{}-m{}{of_steps}", target.label(), method.label(), self.particles);
+                    let cost = 100.0 + per_step * steps.unwrap_or(0) as f64;
+                    let case = |&seed: &u64| {
+                        let work = Sampled::new(target, method, steps, (self.particles.get(), seed))?;
+                        let case = work.case(format!("{name}-s{seed}"), method)?;
+                        Ok::<_, CommandError>(case.with("steps", steps).costing(cost))
+                    };
+                    cases.extend(self.seeds.iter().map(case).collect::<Result<Vec<_>, _>>()?);
                 }
             }
         }

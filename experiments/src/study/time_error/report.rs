@@ -15,18 +15,11 @@ pub fn report(study: &TimeError, rows: &Rows<'_>, directory: &StudyDirectory) ->
     for target in &study.targets {
         target_table(study, rows, &target.label(), &mut page);
     }
-    if study.methods.iter().any(|method| is_paper(method.name)) {
+    if study.methods.iter().any(|method| method.name.is_paper()) {
         paper_part(study, rows, &mut page);
     }
 
-    Ok(page
-        .with("finished", rows.ended(Status::Finished))
-        .with("diverged", rows.ended(Status::Diverged))
-        .with("unsupported", rows.ended(Status::Unsupported)))
-}
-
-fn is_paper(name: MethodName) -> bool {
-    matches!(name, MethodName::PaperPic | MethodName::PaperApic)
+    Ok(rows.tell([Status::Finished, Status::Diverged, Status::Unsupported], page))
 }
 
 /// The runs of a method by their steps, from few to many; the method's own number, or draws, come first.
@@ -96,11 +89,9 @@ fn curves(study: &TimeError, here: &Rows<'_>, cost: &str, error: &str) -> Vec<Ti
 fn target_table(study: &TimeError, rows: &Rows<'_>, target: &str, page: &mut Page) {
     let here = rows.with("target", target);
     let independent = independent_level(&here);
-    page.paragraph(format!(
-        "**{target}**: independent draws have ED² {} and SW₂ {}.",
-        here.cell("energy_level"),
-        independent.cell(),
-    ));
+    let (level, sliced) = (here.cell("energy_level"), independent.cell());
+    let known = format!("ED² {level} and SW₂ {sliced}");
+    page.paragraph(format!("**{target}**: independent draws have {known}."));
     let line = |method: &MethodSpecification| {
         let runs = by_steps(&here, method.label()).pop()?;
         let sliced = runs.median(SLICED).zip(independent).map(|(value, level)| value / level);
@@ -116,17 +107,18 @@ fn paper_part(study: &TimeError, rows: &Rows<'_>, page: &mut Page) {
     let mut failures: Vec<String> = Vec::new();
     for target in study.targets.iter().map(TargetSpecification::label) {
         let here = rows.with("target", target.as_str()).with("dim", 2_usize);
-        for method in study.methods.iter().filter(|method| is_paper(method.name)) {
+        for method in study.methods.iter().filter(|method| method.name.is_paper()) {
             let settings = by_steps(&here, method.label());
             failures.extend(settings.iter().flat_map(RunRows::failures));
             lines.extend(best_and_last(&settings));
         }
     }
     page.lines("The paper's algorithms on the two-dimensional targets", lines);
-    page.paragraph(match failures.is_empty() {
-        true => "Every run finished with finite particles.".to_owned(),
-        false => format!("Runs that did not finish:\n\n{}", failures.join("\n")),
-    });
+    let all_finished = "Every run finished with finite particles.";
+    match failures.is_empty() {
+        true => page.paragraph(all_finished),
+        false => page.paragraph(format!("Runs that did not finish:\n\n{}", failures.join("\n"))),
+    }
 }
 
 /// The last of the settings of a method, by their steps, beside the best one.

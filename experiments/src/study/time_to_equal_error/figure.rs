@@ -11,29 +11,10 @@ pub fn plot(
     rows: &Rows<'_>,
     directory: &StudyDirectory,
 ) -> Result<MultiplesPlot, CommandError> {
-    let mut panels = Vec::new();
-    for target in &study.targets {
-        let curves = curves(study, rows, target, directory)?;
-        if !curves.is_empty() {
-            panels.push(TimeErrorPanel {
-                target: target.label(),
-                curves,
-                iid_level: None,
-            });
-        }
-    }
-    Ok(time_error("wall time (s)", "ED²", panels))
-}
-
-fn curves(
-    study: &TimeToEqualError,
-    rows: &Rows<'_>,
-    target: &TargetSpecification,
-    directory: &StudyDirectory,
-) -> Result<Vec<TimeErrorCurve>, CommandError> {
-    let mut curves: Vec<TimeErrorCurve> = Vec::new();
+    // The cases are in the order of the targets.
+    let mut panels: Vec<TimeErrorPanel> = Vec::new();
     for Case { row, work: case, .. } in study.cases()? {
-        if case.target != *target || rows.with("case", row.case()).is_empty() {
+        if rows.with("case", row.case()).is_empty() {
             continue;
         }
         let trials = case.trials(directory)?;
@@ -41,6 +22,17 @@ fn curves(
         if settings.is_empty() {
             continue;
         }
+        let target = case.target.label();
+        if panels.last().is_none_or(|panel| panel.target != target) {
+            let (curves, iid_level) = (Vec::new(), None);
+            panels.push(TimeErrorPanel {
+                target,
+                curves,
+                iid_level,
+            });
+        }
+        let curves = panels.last_mut().map(|panel| &mut panel.curves);
+        let Some(curves) = curves else { continue };
         let one_curve = case.index == 0 || !case.method.name.iterates();
         let method = match one_curve || study.particles.len() == 1 {
             true => case.method.label().to_owned(),
@@ -54,7 +46,7 @@ fn curves(
             None => curves.push(TimeErrorCurve { method, settings }),
         }
     }
-    Ok(curves)
+    Ok(time_error("wall time (s)", "ED²", panels))
 }
 
 /// Times and errors of every size, in the order of the sizes.

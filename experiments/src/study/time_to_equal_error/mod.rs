@@ -78,27 +78,22 @@ impl Study for TimeToEqualError {
          density_evaluations energy_distance_squared wall_seconds wall_seconds_least wall_seconds_most missed_size wall_seconds_missed";
     const REPORT: Report<Self> = report::report;
 
-    fn methods(&self) -> Vec<&MethodSpecification> {
-        std::iter::once(&self.method).chain(&self.rivals).collect()
-    }
-
     /// The cases: on every target and for every M the method first, then its rivals.
     fn cases(&self) -> Result<Vec<Case<Entry>>, CommandError> {
         all_given!(self: seeds, particles, targets);
         positive("largest-ratio", &[self.largest_ratio])?;
         self.draws.check("draws")?;
         self.steps.check("steps")?;
-        for rival in &self.rivals {
-            if !rival.name.iterates() && !matches!(rival.name, MethodName::Nuts | MethodName::Iid) {
-                let message = format!("`{}` has neither steps nor draws that could be doubled", rival.name);
-                return Err(refusal("rivals.name", message));
-            }
-            unset("rivals.options.steps", &rival.options.steps, "steps")?;
+        for MethodSpecification { name, options, .. } in &self.rivals {
+            let doubles = name.iterates() || matches!(name, MethodName::Nuts | MethodName::Iid);
+            let otherwise = || format!("`{name}` has neither steps nor draws that could be doubled");
+            holds(doubles, "rivals.name", otherwise)?;
+            unset("rivals.options.steps", &options.steps, "steps")?;
         }
         let mut cases = Vec::new();
         for target in &self.targets {
             for particles in &self.particles {
-                for (index, method) in self.methods().into_iter().enumerate() {
+                for (index, method) in std::iter::once(&self.method).chain(&self.rivals).enumerate() {
                     let entry = Entry {
                         target: target.clone(),
                         particles: particles.get(),
@@ -107,10 +102,10 @@ impl Study for TimeToEqualError {
                     };
                     let (name, label) = (target.label(), method.label());
                     // Rivals get many runs, each with a distance to the reference.
-                    let case = Case::new(format!("{name}-m{particles}-{label}"), entry);
+                    let case = Case::new(format!("{name}-m{particles}-{label}"), entry).by(method);
                     let case = case.costing(if index == 0 { 1.0 } else { 10.0 });
                     let case = case.with("target", name).with("dim", target.dimension()?);
-                    cases.push(case.with("particles", *particles).with("method", label));
+                    cases.push(case.with("particles", *particles));
                 }
             }
         }
@@ -135,17 +130,14 @@ impl Study for TimeToEqualError {
         let found = if entry.index == 0 {
             attempt(runs.own())?
         } else if let Some(goal) = self.goal(entry, directory)? {
-            row.set("goal", goal.energy_distance_squared);
+            row.set("goal", goal.0);
             runs.trials = self.earlier_trials(entry, directory)?;
-            match entry.method.name {
-                MethodName::Iid => attempt(runs.independent(goal))?,
-                _ => attempt(runs.search(goal))?,
-            }
+            attempt(runs.reach(goal))?
         } else {
             let reason = "the method that sets the error has none above 0";
             Err(Failure::new(Status::Unsupported, reason))
         };
-        runs.write(directory)?;
+        row_file::write(&entry.trials_file(directory), COLUMNS, &runs.trials)?;
         match found {
             Ok(found) => runs.note(found, row),
             Err(failure) => {
@@ -164,30 +156,24 @@ impl TimeToEqualError {
         (own.index, own.method) = (0, self.method.clone());
         let trials = own.trials(directory)?;
         let runs = of_size(&trials, OWN);
-        let energy_distance_squared = median_energy(&runs);
-        let is_positive = energy_distance_squared.is_finite() && energy_distance_squared > 0.0;
-        let seconds = runs.median(SECONDS).filter(|_| is_positive);
-        Ok(seconds.map(|seconds| Goal {
-            energy_distance_squared,
-            seconds,
-        }))
+        let energy = median_energy(&runs);
+        let seconds = runs.median(SECONDS).filter(|_| energy > 0.0 && energy.is_finite());
+        Ok(seconds.map(|seconds| (energy, seconds)))
     }
 
     /// The runs of the same rival for smaller M: draws do not depend on it, so they are not made twice.
     fn earlier_trials(&self, entry: &Entry, directory: &StudyDirectory) -> Result<Vec<Row>, CommandError> {
-        let mut trials: Vec<Row> = Vec::new();
-        let mut earlier = entry.clone();
-        let sizes = self.particles.iter().map(|particles| particles.get());
-        for particles in sizes.take_while(|particles| *particles != entry.particles) {
-            if entry.method.name.iterates() {
-                break;
-            }
-            earlier.particles = particles;
-            let known = earlier.trials(directory)?;
-            if known.len() > trials.len() {
-                trials = known;
-            }
+        if entry.method.name.iterates() {
+            return Ok(Vec::new());
         }
-        Ok(trials)
+        let sizes = self.particles.iter().map(|particles| particles.get());
+        let smaller = sizes.take_while(|particles| *particles != entry.particles);
+        let mut earlier = entry.clone();
+        let known = smaller.map(|particles| {
+            earlier.particles = particles;
+            earlier.trials(directory)
+        });
+        let known = known.collect::<Result<Vec<_>, _>>()?.into_iter();
+        Ok(known.max_by_key(Vec::len).unwrap_or_default())
     }
 }

@@ -20,11 +20,8 @@ pub fn report(study: &TimeToEqualError, rows: &Rows<'_>, directory: &StudyDirect
     page.drawing("time-to-equal-error.svg", multiples(&plot));
 
     let rivals = rows.having(|row| row.text("method") != label);
-    Ok(page
-        .with("reached", rivals.ended(Status::Reached))
-        .with("out_of_time", rivals.ended(Status::OutOfTime))
-        .with("out_of_sizes", rivals.ended(Status::OutOfSizes))
-        .with("unsupported", rivals.ended(Status::Unsupported)))
+    let page = rivals.tell([Status::Reached, Status::OutOfTime], page);
+    Ok(rivals.tell([Status::OutOfSizes, Status::Unsupported], page))
 }
 
 /// The row of a method for a target and M, if there is one.
@@ -74,11 +71,8 @@ fn against(study: &TimeToEqualError, rows: &Rows<'_>, rival: &MethodSpecificatio
         let line = line.with("ratios", ratios);
         lines.push(line.with("ended", row.map(|row| in_words(row.status()))));
     }
-    let section = if rival.name == MethodName::Iid {
-        "expected"
-    } else {
-        "searched"
-    };
+    let is_expected = rival.name == MethodName::Iid;
+    let section = if is_expected { "expected" } else { "searched" };
     page.part(section, &[("sizes", &size)]);
     let names = [("sizes", size), ("its", its), ("own", label)].map(|(name, word)| each(name, [word]));
     page.lines_over("searched", &names, lines);

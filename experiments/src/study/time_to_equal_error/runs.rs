@@ -2,24 +2,17 @@
 
 use parvi::SampleError;
 
-use super::search::{COLUMNS, median_energy, next, of_size};
+use super::search::{median_energy, next, of_size};
 use super::{Entry, TimeToEqualError};
 use crate::study::prelude::*;
-use crate::study::row_file;
 
 /// The size of the method's own runs: its own number of steps.
 pub const OWN: usize = 0;
 /// No more independent draws than this are made.
 const MOST_INDEPENDENT: usize = 10_000_000;
 
-/// The error to reach and the time of the method that set it.
-#[derive(Clone, Copy)]
-pub struct Goal {
-    /// Squared energy distance.
-    pub energy_distance_squared: f64,
-    /// Time.
-    pub seconds: f64,
-}
+/// The squared energy distance to reach, and the time of the method that set it in seconds.
+pub type Goal = (f64, f64);
 
 /// What a search came to: how it ended, the size of the last runs, and the largest one that missed the error before it was reached.
 pub type Found = (Status, usize, Option<usize>);
@@ -46,17 +39,17 @@ impl Runs<'_> {
     }
 
     /// Doubles the size until the error is reached.
-    pub fn search(&mut self, goal: Goal) -> Result<Found, CommandError> {
-        let sizes = match self.entry.method.name.iterates() {
-            true => self.study.steps,
-            false => self.study.draws,
+    pub fn reach(&mut self, (goal, seconds): Goal) -> Result<Found, CommandError> {
+        let sizes = match self.entry.method.name {
+            MethodName::Iid => return self.independent(goal),
+            name if name.iterates() => self.study.steps,
+            _ => self.study.draws,
         };
-        let budget = self.study.largest_ratio * goal.seconds;
+        let budget = self.study.largest_ratio * seconds;
         let (mut size, mut missed) = (sizes.from.get(), None);
         loop {
             self.make(size)?;
-            let latest = of_size(&self.trials, size);
-            match next(sizes, size, &latest, goal.energy_distance_squared, budget) {
+            match next(sizes, size, &of_size(&self.trials, size), goal, budget) {
                 Ok(larger) => (size, missed) = (larger, Some(size)),
                 Err(ending) => return Ok((ending, size, missed)),
             }
@@ -64,15 +57,16 @@ impl Runs<'_> {
     }
 
     /// As many independent draws as have the error in expectation; M of them beside that, for the figure.
-    pub fn independent(&mut self, goal: Goal) -> Result<Found, CommandError> {
-        let needed = (self.yardstick.mean_distance() / goal.energy_distance_squared).ceil() as usize;
-        let ending = match needed <= MOST_INDEPENDENT {
-            true => Status::Reached,
-            false => Status::OutOfSizes,
-        };
-        self.make(self.entry.particles)?;
+    fn independent(&mut self, goal: f64) -> Result<Found, CommandError> {
+        let needed = (self.yardstick.mean_distance() / goal).ceil() as usize;
         let size = needed.clamp(2, MOST_INDEPENDENT);
+        self.make(self.entry.particles)?;
         self.make(size)?;
+        let ending = if needed > size {
+            Status::OutOfSizes
+        } else {
+            Status::Reached
+        };
         Ok((ending, size, None))
     }
 
@@ -91,11 +85,6 @@ impl Runs<'_> {
         row.set("wall_seconds_missed", seconds.flatten());
     }
 
-    /// Writes the runs into the file of the case.
-    pub fn write(&self, directory: &StudyDirectory) -> Result<(), CommandError> {
-        row_file::write(&self.entry.trials_file(directory), COLUMNS, &self.trials)
-    }
-
     /// Makes the runs of a size that are missing.
     fn make(&mut self, size: usize) -> Result<(), CommandError> {
         for &seed in &self.study.seeds {
@@ -110,39 +99,29 @@ impl Runs<'_> {
     /// One run; one that diverges is a trial without an error, and one that the target does not allow is an error.
     fn one(&mut self, size: usize, seed: u64) -> Result<Row, CommandError> {
         let Entry { target, method, .. } = self.entry;
-        let is_own = size == OWN;
-        let has_steps = method.name.iterates() && !is_own;
-        let draws = if has_steps || is_own {
-            self.entry.particles
-        } else {
-            size
-        };
-        let work = Sampled::new(target, method, has_steps.then_some(size), (draws, seed))?;
+        let (is_own, iterates) = (size == OWN, method.name.iterates());
+        let draws = if is_own || iterates { self.entry.particles } else { size };
+        let steps = Some(size).filter(|_| iterates && !is_own);
+        let work = Sampled::new(target, method, steps, (draws, seed))?;
         let is_expected = method.name == MethodName::Iid && !is_own;
         let (seconds, sampled) = timed(|| match is_expected {
             true => work.sample(self.observer),
             false => work.sample_or_draw(self.yardstick, self.observer),
         });
-        let outcome = match sampled {
-            Err(error @ CommandError::Sample(SampleError::Unsupported { .. })) => return Err(error),
-            sampled => attempt(sampled)?.ok(),
-        };
-        let trial = Row::default()
+        if let Err(error @ CommandError::Sample(SampleError::Unsupported { .. })) = sampled {
+            return Err(error);
+        }
+        let mut trial = Row::default()
             .with("size", size)
             .with("seed", seed)
             .with(SECONDS, seconds);
-        let Some(outcome) = outcome else { return Ok(trial) };
-        let energy = match is_expected {
-            true => Some(self.yardstick.mean_distance() / size as f64),
-            false => {
-                let errors = attempt(self.yardstick.measure(&outcome.particles))?.ok();
-                errors.map(|errors| errors.energy_distance_squared)
+        if let Ok(outcome) = attempt(sampled)? {
+            trial.take(&outcome);
+            match is_expected {
+                true => trial.set(ENERGY, self.yardstick.mean_distance() / size as f64),
+                false => trial.measured(self.yardstick.measure(&outcome.particles))?,
             }
-        };
-        Ok(trial
-            .with("score_evaluations", outcome.score_evaluations)
-            .with("density_evaluations", outcome.density_evaluations)
-            .with(SECONDS, outcome.wall_seconds)
-            .with(ENERGY, energy))
+        }
+        Ok(trial)
     }
 }

@@ -32,11 +32,10 @@ pub struct Range {
 impl Range {
     /// Refuses a range without sizes; `field` is its place in the configuration.
     pub fn check(self, field: &str) -> Result<(), CommandError> {
-        if self.to < self.from {
-            let message = format!("{} is below `from` = {}", self.to, self.from);
-            return Err(refusal(&format!("{field}.to"), message));
-        }
-        Ok(())
+        let Self { from, to } = self;
+        holds(from <= to, &format!("{field}.to"), || {
+            format!("{to} is below `from` = {from}")
+        })
     }
 }
 

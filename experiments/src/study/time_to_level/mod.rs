@@ -41,13 +41,10 @@ pub struct TimeToLevel {
 impl TimeToLevel {
     /// Refuses a method without steps and options that the study sets for all.
     fn check_method(&self, field: &str, method: &MethodSpecification) -> Result<(), CommandError> {
-        if !method.name.iterates() {
-            return Err(refusal(
-                &format!("{field}.name"),
-                format!("`{}` takes no steps", method.name),
-            ));
-        }
-        let options = &method.options;
+        let MethodSpecification { name, options, .. } = method;
+        holds(name.iterates(), &format!("{field}.name"), || {
+            format!("`{name}` takes no steps")
+        })?;
         unset(&format!("{field}.options.steps"), &options.steps, "steps")?;
         unset(&format!("{field}.options.start-mean"), &options.start_mean, "start")?;
         unset(&format!("{field}.options.start-sd"), &options.start_sd, "start")
@@ -82,8 +79,9 @@ impl Study for TimeToLevel {
     /// The cases: in every dimension the method first, then its rivals.
     fn cases(&self) -> Result<Vec<Case<Entry>>, CommandError> {
         all_given!(self: dims, steps);
-        if let Some(pair) = self.steps.windows(2).find(|pair| pair[0] >= pair[1]) {
-            return Err(refusal("steps", format!("{} before {} do not grow", pair[0], pair[1])));
+        for pair in self.steps.windows(2) {
+            let otherwise = || format!("{} before {} do not grow", pair[0], pair[1]);
+            holds(pair[0] < pair[1], "steps", otherwise)?;
         }
         positive("largest-ratio", &[self.largest_ratio])?;
         self.start.check("start")?;
@@ -91,15 +89,14 @@ impl Study for TimeToLevel {
         for rival in &self.rivals {
             self.check_method("rivals", rival)?;
         }
-        let methods = || std::iter::once(&self.method).chain(&self.rivals);
         let mut cases = Vec::new();
         for &dim in &self.dims {
-            for (index, method) in methods().cloned().enumerate() {
-                let (label, particles) = (method.label().to_owned(), self.particles);
-                let case = Case::new(format!("d{dim}-m{particles}-{label}"), Entry { dim, index, method });
+            for (index, own) in std::iter::once(&self.method).chain(&self.rivals).enumerate() {
+                let (id, method) = (format!("d{dim}-m{}-{}", self.particles, own.label()), own.clone());
+                let case = Case::new(id, Entry { dim, index, method }).by(own);
                 // The budget of a rival is a multiple of the method's time.
                 let case = case.costing(dim.get() as f64 + 1.0).with("dim", dim);
-                cases.push(case.with("particles", particles).with("method", label));
+                cases.push(case.with("particles", self.particles));
             }
         }
         distinct("dims or rivals", &cases)?;

@@ -6,28 +6,18 @@ use crate::study::prelude::*;
 
 /// Tables and figure.
 pub fn report(study: &TimeToLevel, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
-    let mut page = directory.page(
-        include_str!("report.md"),
-        &[
-            ("at-most", &directory.at_most_threads()),
-            ("ratio", &number(study.largest_ratio)),
-        ],
-    );
+    let (threads, ratio) = (directory.at_most_threads(), number(study.largest_ratio));
+    let mut page = directory.page(include_str!("report.md"), &[("at-most", &threads), ("ratio", &ratio)]);
     page.part("Times", &[]);
     times(study, rows, &mut page);
     page.heading("Figure");
     let plot = plot(study, rows, directory)?;
     page.drawing("time-to-level.svg", multiples(&plot));
     page.part("All searches", &[]);
-    let lines = rows
-        .iter()
-        .map(|row| Line::from(row).with("ending", row.text("ending").replace('-', " ")));
-    page.lines("All searches", lines);
+    let line = |row| Line::from(row).with("ending", Row::text(row, "ending").replace('-', " "));
+    page.lines("All searches", rows.iter().map(line));
 
-    Ok(page
-        .with("reached", rows.ended(Status::Reached))
-        .with("out_of_time", rows.ended(Status::OutOfTime))
-        .with("out_of_steps", rows.ended(Status::OutOfSteps)))
+    Ok(rows.tell([Status::Reached, Status::OutOfTime, Status::OutOfSteps], page))
 }
 
 /// Whether a search ended at the level or below.
@@ -80,13 +70,12 @@ fn bound(row: &Row, clock: &str, ratio: f64) -> String {
     let state = row.number("energy_ratio").map_or("diverged".to_owned(), |levels| {
         format!("ED² is still {} times the level", number(levels))
     });
-    format!(
-        "- d = {}: after {} steps and {} times the time of `{clock}`, {state} with `{}`.",
-        row.value("dim").cell(),
-        row.value("steps").cell(),
-        number(ratio),
+    let ([dim, steps], method) = (
+        ["dim", "steps"].map(|column| row.value(column).cell()),
         row.text("method"),
-    )
+    );
+    let times = format!("{} times the time of `{clock}`", number(ratio));
+    format!("- d = {dim}: after {steps} steps and {times}, {state} with `{method}`.")
 }
 
 /// One panel per dimension, one line per method.

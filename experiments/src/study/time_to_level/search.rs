@@ -49,11 +49,7 @@ fn next(steps: &[usize], trials: &[Row], level: f64, budget: Option<f64>) -> Res
     }
     // Rounded up, so that the run takes the budget rather than a little less.
     let fitting = ((budget / per_step).ceil() as usize).min(following);
-    if fitting > done {
-        Ok(fitting)
-    } else {
-        Err(Status::OutOfTime)
-    }
+    Some(fitting).filter(|&steps| steps > done).ok_or(Status::OutOfTime)
 }
 
 /// Runs a method with more and more steps until it reaches the level or its budget of seconds is used up, and then the last
@@ -83,12 +79,9 @@ pub fn search(
             Err(ending) => break ending,
         }
     };
-    let quick = trials
-        .last()
-        .filter(|last| last.number(SECONDS).is_some_and(|seconds| seconds < LONG));
-    if let Some(steps) = quick.and_then(|last| last.count("steps"))
-        && ending == Status::Reached
-    {
+    let last = trials.last().filter(|_| ending == Status::Reached);
+    let quick = last.filter(|last| last.number(SECONDS).is_some_and(|seconds| seconds < LONG));
+    if let Some(steps) = quick.and_then(|last| last.count("steps")) {
         for _ in 1..study.repeats.get() {
             trials.push(one(steps)?);
         }
