@@ -72,7 +72,7 @@ impl<const D: usize> Adaptation<D> {
         rng: &mut ChaCha8Rng,
     ) -> Result<Self, PoolError> {
         let Scouted { proposal, agree } = scout(density, (SCOUTING * plan.evaluations as f64) as u64, rng.random())
-            .ok_or(PoolError::NowhereFinite)?;
+            .ok_or_else(|| density.nowhere_finite())?;
         let mut folds = [Fold::new(), Fold::new()];
         let count = if agree { plan.round / 2 } else { plan.first };
         for fold in &mut folds {
@@ -83,7 +83,7 @@ impl<const D: usize> Adaptation<D> {
         }
         let finite = |fold: &Fold<D>| fold.log_densities.iter().any(|l| l.is_finite());
         if !folds.iter().all(finite) {
-            return Err(PoolError::NowhereFinite);
+            return Err(density.nowhere_finite());
         }
         let size = folds.iter().map(Fold::effective_size).sum();
         Ok(Self {
@@ -253,6 +253,6 @@ impl<const D: usize> Adaptation<D> {
         let form = best_form(&learned.sample, self.form, spending.sharpening > 0, rng);
         learned.sample.join(learned.level);
         self.form = Some(form);
-        proposal(&learned.sample, form, rng).ok_or(PoolError::NowhereFinite)
+        proposal(&learned.sample, form, rng).ok_or_else(|| density.nowhere_finite())
     }
 }

@@ -5,6 +5,8 @@ use std::collections::HashMap;
 use mpm_tensor::{Matrix, vector};
 use parvi_targets::{Frame, Target};
 
+use crate::options::PoolError;
+
 /// Log densities beyond this size are taken for no numbers.
 const LARGEST: f64 = 1e15;
 
@@ -22,6 +24,8 @@ pub(super) struct Density<'a, const D: usize> {
     pub score_evaluations: u64,
     /// Values that were not finite, or too large, and were taken for log p = −∞ or for no score.
     pub replaced: u64,
+    /// Points at which log p was finite and not too large.
+    pub finite: u64,
     /// Log densities of finite points that were NaN, +∞ or too large: what mass is there, nobody knows.
     pub undefined: u64,
     /// Every value of the target in the order of evaluation: what an earlier process left, then what this one adds.
@@ -41,6 +45,7 @@ impl<'a, const D: usize> Density<'a, D> {
             density_evaluations: 0,
             score_evaluations: 0,
             replaced: 0,
+            finite: 0,
             undefined: 0,
             tape,
             read: 0,
@@ -63,6 +68,7 @@ impl<'a, const D: usize> Density<'a, D> {
         self.density_evaluations += zs.len() as u64;
         for (value, x) in values.iter_mut().zip(&xs) {
             let sound = value.abs() < LARGEST && vector::is_finite(x);
+            self.finite += u64::from(sound);
             if !sound {
                 self.replaced += u64::from(*value != f64::NEG_INFINITY);
                 self.undefined += u64::from(vector::is_finite(x) && (value.is_nan() || *value > 0.0));
@@ -138,6 +144,15 @@ impl<'a, const D: usize> Density<'a, D> {
             .get(&point.map(f64::to_bits))
             .copied()
             .unwrap_or(Matrix::ZERO)
+    }
+
+    /// The error that too few points have a finite log density.
+    pub fn nowhere_finite(&self) -> PoolError {
+        PoolError::NowhereFinite {
+            points: self.density_evaluations,
+            finite: self.finite,
+            undefined: self.undefined,
+        }
     }
 
     /// Evaluations of all kinds.

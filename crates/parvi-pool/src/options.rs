@@ -158,13 +158,32 @@ pub enum PoolError {
         /// What is allowed.
         expected: &'static str,
     },
-    /// No point was found at which the log density is finite.
-    #[error("the log density is finite at none of the first points")]
-    NowhereFinite,
+    /// Of the first points too few have a finite log density: none, as a rule.
+    #[error("{}", nowhere_finite(*.points, *.finite, *.undefined))]
+    NowhereFinite {
+        /// Points at which it was evaluated.
+        points: u64,
+        /// Those of them at which it was finite.
+        finite: u64,
+        /// Those at which it was NaN or +∞; at the others it was −∞.
+        undefined: u64,
+    },
     /// The observer stopped the exploration.
     #[error("interrupted after round {round}")]
     Interrupted {
         /// Rounds done.
         round: usize,
     },
+}
+
+/// What the log density was at the points.
+fn nowhere_finite(points: u64, finite: u64, undefined: u64) -> String {
+    if finite == 0 && undefined == 0 {
+        format!("log p was -inf at all {points} points")
+    } else {
+        let zero = points.saturating_sub(finite).saturating_sub(undefined);
+        format!(
+            "log p was -inf at {zero}, NaN or +inf at {undefined} and finite at {finite} of {points} points: too few to begin with"
+        )
+    }
 }

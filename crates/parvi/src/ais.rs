@@ -22,7 +22,6 @@ impl AisOptions {
             rounds: Some(0),
             ..MpmOptions::default()
         };
-        let samples = surveyed::sample(&options, &mut { task }, &mut Journal::none())?;
-        samples.ok_or(SampleError::Pool(parvi_pool::PoolError::NowhereFinite))
+        surveyed::sample_as_it_is(&options, &mut { task }, &mut Journal::none())
     }
 }

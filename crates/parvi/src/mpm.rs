@@ -21,20 +21,31 @@ pub(crate) fn sample<const D: usize>(options: &MpmOptions, mut task: Task<'_, D>
     let name = if surveys { "mpm with a survey" } else { "mpm" };
     run.given.check_taken(name, !surveys)?;
     let mut journal = Journal::open(options, target, frame, run)?;
+    let mut nowhere = None;
     let known = if surveys {
-        surveyed::sample(options, &mut task, &mut journal)?
+        match surveyed::sample(options, &mut task, &mut journal) {
+            // A body may find what is too far for a survey.
+            Err(SampleError::Pool(error @ PoolError::NowhereFinite { .. })) if options.rounds != Some(0) => {
+                nowhere = Some(error);
+                None
+            }
+            known => known?,
+        }
     } else {
         None
     };
     match known {
         Some(samples) => Ok(samples),
-        None if surveys && options.rounds == Some(0) => Err(PoolError::NowhereFinite.into()),
         None if caches => {
             let cached = CachedScores::new(target, frame, options.non_finite_scores, &journal.tape())?;
             journal.keep_evaluations(cached.tape());
             let task = task.of(&cached);
             free_body::sample(options, task, Some(&cached), &mut journal)
         }
-        None => free_body::sample(options, task, None, &mut journal),
+        None => free_body::sample(options, task, None, &mut journal).map_err(|error| match (error, nowhere) {
+            // Where no density is finite, a score that is none is no news.
+            (SampleError::ScoreNotFinite { .. }, Some(nowhere)) => nowhere.into(),
+            (error, _) => error,
+        }),
     }
 }

@@ -29,9 +29,28 @@ pub(crate) struct Body<'a, const D: usize> {
     pub observer: &'a mut dyn Observer,
 }
 
+/// Why a body did not come to its end.
+pub(crate) struct Unfinished {
+    pub error: SampleError,
+    /// Evaluations of the score until then.
+    pub evaluations: u64,
+}
+
+impl From<SampleError> for Unfinished {
+    fn from(error: SampleError) -> Self {
+        Self { error, evaluations: 0 }
+    }
+}
+
+impl From<Unfinished> for SampleError {
+    fn from(unfinished: Unfinished) -> Self {
+        unfinished.error
+    }
+}
+
 impl<const D: usize> Body<'_, D> {
     /// Move it, at spacing h; or take it from the journal, if it came to its end before.
-    pub fn run(self, spacing: f64) -> Result<Driven<D>, SampleError> {
+    pub fn run(self, spacing: f64) -> Result<Driven<D>, Unfinished> {
         if let Some(body) = self.journal.finished() {
             return Ok(body);
         }
@@ -41,7 +60,7 @@ impl<const D: usize> Body<'_, D> {
         let moving = options.settling.last_full_step(steps);
 
         let particles = Particles::at_rest(self.positions, 1.0);
-        let gas = IsothermalGas::new(1.0)?;
+        let gas = IsothermalGas::new(1.0).map_err(SampleError::from)?;
         let mut generator = run.generator(Stream::Places.of_body(self.number));
         let mut places = Kronecker::<D>::new(&mut generator);
         let mut rotations = run.generator(Stream::Rotations.of_body(self.number));
@@ -87,9 +106,16 @@ impl<const D: usize> Body<'_, D> {
             spacing,
         };
         let mut body = parts.of_gas(gas).map_err(|error| SampleError::in_step(0, error))?;
-        let driven = drive(body.as_mut(), self.frame, plan, self.journal, self.observer)?;
-        self.journal.finish(&driven)?;
-        Ok(driven)
+        match drive(body.as_mut(), self.frame, plan, self.journal, self.observer) {
+            Ok(driven) => {
+                self.journal.finish(&driven)?;
+                Ok(driven)
+            }
+            Err(error) => Err(Unfinished {
+                error,
+                evaluations: body.force().score.evaluations,
+            }),
+        }
     }
 }
 

@@ -10,10 +10,10 @@ use parvi_targets::{Frame, Target};
 use crate::checkpoint::Journal;
 use crate::driven::Driven;
 use crate::moment_correction::{correct_moments, standardise};
-use crate::mpm_body::Body;
+use crate::mpm_body::{Body, Unfinished};
 use crate::start::positive;
 use crate::stein_discrepancy::squared_stein_discrepancy;
-use crate::{MomentCorrection, MpmOptions, Observer, Run, SampleError, Samples, defaults};
+use crate::{MomentCorrection, MpmOptions, NonFiniteScores, Observer, Run, SampleError, Samples, defaults};
 
 /// Evens out particles that were condensed from a pool.
 pub(crate) struct Polish<'a, const D: usize> {
@@ -63,7 +63,7 @@ impl<'a, const D: usize> Polish<'a, D> {
     ///
     /// Condensed particles follow the pool's noise, which is ν = Σ c² of an energy distance of E|Y − Y′|: they are nearer to it than to the target by ν, and others,
     /// which do not follow it, are farther from it than from the target by ν. So a candidate is taken if its energy distance to the pool exceeds theirs by less
-    /// than 2ν, and if its kernel Stein discrepancy is no larger.
+    /// than 2ν, and if its kernel Stein discrepancy is no larger; one that ends where a score is not finite is not.
     pub fn run(&self, journal: &mut Journal, observer: &mut dyn Observer) -> Result<Polished<D>, SampleError> {
         let condensed = self.condensed();
         if self.options.rounds == Some(0) {
@@ -86,13 +86,19 @@ impl<'a, const D: usize> Polish<'a, D> {
         let mut best = self.corrected(condensed, allowed)?;
         let (mut spent, mut steps, mut planned) = (best.samples.score_evaluations, 0, defaults::POLISH_STEPS);
         for round in 0..rounds {
-            let candidate = self.moved(
-                &best,
-                self.options.steps.unwrap_or(planned),
-                (round, steps),
-                journal,
-                observer,
-            )?;
+            let length = self.options.steps.unwrap_or(planned);
+            let candidate = match self.moved(&best, length, (round, steps), journal, observer) {
+                // It has left the support of the target, and is no reason to end the run.
+                Err(Unfinished {
+                    error: SampleError::ScoreNotFinite { step, .. },
+                    evaluations,
+                }) if self.options.non_finite_scores != NonFiniteScores::Report => {
+                    spent += evaluations;
+                    steps += step;
+                    break;
+                }
+                moved => moved?,
+            };
             spent += candidate.samples.score_evaluations;
             steps += candidate.samples.steps;
             let nearer = self.energy(&candidate) < allowed
@@ -192,7 +198,7 @@ impl<'a, const D: usize> Polish<'a, D> {
         (number, earlier_steps): (usize, usize),
         journal: &mut Journal,
         observer: &mut dyn Observer,
-    ) -> Result<Driven<D>, SampleError> {
+    ) -> Result<Driven<D>, Unfinished> {
         let options = MpmOptions {
             steps: Some(steps),
             moment_correction: MomentCorrection::Off,

@@ -7,6 +7,7 @@ mod curve;
 mod population;
 
 use parvi_pool::PoolError;
+use parvi_targets::{Frame, Target};
 use rand::RngExt;
 
 use crate::drive::finite;
@@ -77,7 +78,8 @@ impl SmcOptions {
                 return Err(SampleError::Interrupted { step });
             }
         }
-        let (log_mean, relative_error, shares) = evidence(&populations)?;
+        let (log_mean, relative_error, shares) =
+            evidence(&populations).ok_or_else(|| nowhere_finite(&populations, target, frame))?;
         let states = populations.iter().flat_map(Population::states);
         let points: Vec<[f64; D]> = states.map(|state: &State<D>| state.z).collect();
         let weight_of = |population: usize| shares[population] / populations[population].states().len() as f64;
@@ -122,16 +124,37 @@ impl SmcOptions {
 }
 
 /// ln Z̄ of the mean Z̄ of the populations' evidences in frame coordinates, the standard error of Z̄ over Z̄, and the shares Z_r / (R Z̄).
-fn evidence<const D: usize>(populations: &[Population<D>]) -> Result<(f64, f64, Vec<f64>), SampleError> {
+/// `None` where no population has any.
+fn evidence<const D: usize>(populations: &[Population<D>]) -> Option<(f64, f64, Vec<f64>)> {
     let logs = populations.iter().map(|population| population.log_evidence);
     let largest = logs.clone().fold(f64::NEG_INFINITY, f64::max);
     if largest == f64::NEG_INFINITY {
-        return Err(SampleError::Pool(PoolError::NowhereFinite));
+        return None;
     }
     let count = populations.len() as f64;
     let values: Vec<f64> = logs.map(|log| (log - largest).exp()).collect();
     let mean = values.iter().sum::<f64>() / count;
     let variance = values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / (count - 1.0);
     let shares = values.iter().map(|value| value / (count * mean)).collect();
-    Ok((largest + mean.ln(), (variance / count).sqrt() / mean, shares))
+    Some((largest + mean.ln(), (variance / count).sqrt() / mean, shares))
+}
+
+/// What the target is at the first states, which are the last ones where no density is finite.
+fn nowhere_finite<const D: usize>(
+    populations: &[Population<D>],
+    target: &dyn Target<D>,
+    frame: &Frame<D>,
+) -> SampleError {
+    let states = populations.iter().flat_map(Population::states);
+    let values = states.map(|state| target.log_density(&frame.to_target(&state.z)));
+    let (mut points, mut undefined) = (0, 0);
+    for value in values {
+        points += 1;
+        undefined += u64::from(value != f64::NEG_INFINITY);
+    }
+    SampleError::Pool(PoolError::NowhereFinite {
+        points,
+        finite: 0,
+        undefined,
+    })
 }

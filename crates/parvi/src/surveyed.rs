@@ -17,15 +17,39 @@ use crate::{MpmOptions, Progress, SampleError, Samples, Start, defaults};
 /// A pool whose energy distance is known no better than that of so many times fewer independent draws than particles is none.
 const WORTHLESS: f64 = 30.0;
 
-/// `None` where nothing could be weighed.
+/// `None` where what was weighed is worth nothing.
 pub(crate) fn sample<const D: usize>(
     options: &MpmOptions,
     task: &mut Task<'_, D>,
     journal: &mut Journal,
 ) -> Result<Option<Samples<D>>, SampleError> {
-    let Some(pool) = surveyed(options, task, journal)? else {
-        return Ok(None);
-    };
+    let pool = surveyed(options, task, journal)?;
+    let is_known = pool.measure.variance * (weighed_for(task) as f64) < WORTHLESS;
+    // Who asks for the pool alone has it as it is.
+    if is_known || options.rounds == Some(0) {
+        condensed(options, task, journal, pool).map(Some)
+    } else {
+        Ok(None)
+    }
+}
+
+/// The same of any pool.
+pub(crate) fn sample_as_it_is<const D: usize>(
+    options: &MpmOptions,
+    task: &mut Task<'_, D>,
+    journal: &mut Journal,
+) -> Result<Samples<D>, SampleError> {
+    let pool = surveyed(options, task, journal)?;
+    condensed(options, task, journal, pool)
+}
+
+/// Particles from a pool, and what it says of them.
+fn condensed<const D: usize>(
+    options: &MpmOptions,
+    task: &mut Task<'_, D>,
+    journal: &mut Journal,
+    pool: Pool<D>,
+) -> Result<Samples<D>, SampleError> {
     let polish = Polish::new(options, task.target, &pool, task.run)?;
     let Polished { best, spent, steps } = polish.run(journal, task.observer)?;
     let mut samples = best.samples;
@@ -41,7 +65,12 @@ pub(crate) fn sample<const D: usize>(
     samples.pareto_k = pool.verdict.pareto_k;
     samples.unseen = Some(pool.unseen());
     samples.pool = Some(Box::new(pool));
-    Ok(Some(samples))
+    Ok(samples)
+}
+
+/// Particles that a pool is made for.
+fn weighed_for<const D: usize>(task: &Task<'_, D>) -> usize {
+    task.run.particles.min(defaults::LARGEST_POOL)
 }
 
 /// What was evaluated, weighed.
@@ -49,7 +78,8 @@ fn surveyed<const D: usize>(
     options: &MpmOptions,
     task: &mut Task<'_, D>,
     journal: &mut Journal,
-) -> Result<Option<Pool<D>>, SampleError> {
+) -> Result<Pool<D>, SampleError> {
+    let count = weighed_for(task);
     let Task { target, frame, run, .. } = *task;
     let pool_options = PoolOptions {
         evaluations: options.evaluations,
@@ -70,18 +100,12 @@ fn surveyed<const D: usize>(
             steps: round.number + 1,
         })
     };
-    let count = run.particles.min(defaults::LARGEST_POOL);
     let explored = explore(target, frame, &given, tape, count, seed, &pool_options, &mut watch);
     if let Some(error) = refused {
         return Err(error);
     }
     match explored {
-        Ok(pool) => {
-            // Who asks for the pool alone has it as it is.
-            let known = pool.measure.variance * (count as f64) < WORTHLESS || options.rounds == Some(0);
-            Ok(known.then_some(pool))
-        }
-        Err(PoolError::NowhereFinite) => Ok(None),
+        Ok(pool) => Ok(pool),
         Err(PoolError::Interrupted { round }) => Err(SampleError::Interrupted { step: round }),
         Err(error) => Err(error.into()),
     }

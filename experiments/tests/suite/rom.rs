@@ -52,6 +52,7 @@ fn a_model_is_trained_and_run() {
             "losses.svg",
             "model.safetensors",
             "results.csv",
+            "scene.toml",
             "speed_up.svg",
             "training_data.safetensors",
         ]

@@ -60,6 +60,14 @@ pub enum ExperimentError {
         /// The experiment's.
         expected: String,
     },
+    /// The scene's file says something else than when its runs were made.
+    #[error("{scene}: changed since it was trained on, as {copy} has it: undo the change or choose another directory")]
+    ChangedScene {
+        /// The scene's file.
+        scene: String,
+        /// What it was.
+        copy: String,
+    },
     /// A dimension that nothing is built for.
     #[error("a scene of dimension {dimension}: reduced models have 2 or 3")]
     Dimension {

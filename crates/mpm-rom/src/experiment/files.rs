@@ -10,6 +10,8 @@ use super::{Cases, Experiment, ExperimentError};
 pub mod names {
     /// The experiment's file as it was trained.
     pub const CONFIG: &str = "config.toml";
+    /// The scene's file as the training runs were made of it.
+    pub const SCENE: &str = "scene.toml";
     /// Snapshots of the training runs.
     pub const TRAINING_DATA: &str = "training_data.safetensors";
     /// The state of the training.

@@ -22,6 +22,7 @@ mod starts;
 mod super_resolution;
 mod train;
 mod trained;
+mod trained_scene;
 mod training_states;
 mod trial_runs;
 mod trials;

@@ -42,6 +42,7 @@ pub fn run<const D: usize>(
     // Not after minutes of choices on training runs.
     experiment.check_sample_counts::<D>()?;
     experiment.occupy(directory)?;
+    experiment.check_scene_of(directory)?;
     let document = experiment.read_run_scene()?;
     let finer = experiment.super_resolution_file();
     let finer = finer.map(|file| experiment.read_named("run.super_resolution", &file));
@@ -207,7 +208,7 @@ fn choices(experiment: &Experiment, networks: usize) -> Vec<Choice> {
 }
 
 /// Whether sample points are chosen on training runs.
-fn chooses_on_training(experiment: &Experiment) -> bool {
+pub(super) fn chooses_on_training(experiment: &Experiment) -> bool {
     let run = &experiment.run;
     let drawn = run
         .samples

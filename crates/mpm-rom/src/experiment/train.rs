@@ -21,7 +21,9 @@ pub fn train<const D: usize>(
     watch: &mut dyn Watch,
 ) -> Result<Vec<Trained>, ExperimentError> {
     experiment.check_sample_counts::<D>()?;
+    experiment.check_time_steps()?;
     experiment.occupy(directory)?;
+    experiment.check_scene_of(directory)?;
     let start = Instant::now();
     let snapshots = training_data::<D>(experiment, directory, watch)?;
     let data_time = start.elapsed();
@@ -69,6 +71,7 @@ fn training_data<const D: usize>(
         Err(FullOrderError::Stopped { .. }) => return Err(ExperimentError::Stopped),
         collected => collected.map_err(|error| experiment.blamed(error))?,
     };
+    experiment.keep_scene(&document, directory)?;
     snapshots.write(&file)?;
     Ok(snapshots)
 }

@@ -41,6 +41,11 @@ impl SceneDocument {
         })
     }
 
+    /// The text that was read.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
     /// The scene with these values at these dotted keys. A key names something that there is: `bodies.0.shape.upper.1` is the second entry of `upper` of the
     /// first body's shape.
     ///

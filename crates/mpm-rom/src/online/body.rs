@@ -156,11 +156,17 @@ fn supported(scene: &Scene) -> Result<(f64, &[f64]), OnlineError> {
             return unsupported(field, expected);
         }
     }
+    check_time_step(scene)?;
+    Ok((grid.spacing, &domain.lower))
+}
+
+/// Refuses a Δt that is not given or does not divide the frame.
+pub(crate) fn check_time_step(scene: &Scene) -> Result<(), OnlineError> {
     let steps = scene.output.interval / scene.time.step.unwrap_or(f64::NAN);
     if !(steps >= 0.5 && (steps - steps.round()).abs() <= 1e-6 * steps) {
         return unsupported("time.step", "given, and a whole part of output.interval");
     }
-    Ok((grid.spacing, &domain.lower))
+    Ok(())
 }
 
 fn material<const D: usize>(table: &MaterialTable) -> Result<Box<dyn Material<D>>, OnlineError> {

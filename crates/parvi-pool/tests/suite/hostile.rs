@@ -34,8 +34,26 @@ fn densities_that_are_no_numbers_are_survived() {
     assert!(pool.values_replaced > 0);
     assert!(pool.weights.iter().all(|w| w.is_finite()));
     assert!(pool.condense(100).as_flattened().iter().all(|c| c.is_finite()));
-    let nowhere = pool_of(&Given(|_: &[f64; 2]| f64::NAN), 100, 1);
-    assert_eq!(nowhere.err(), Some(PoolError::NowhereFinite));
+    for (value, is_undefined) in [(f64::NAN, true), (f64::INFINITY, true), (f64::NEG_INFINITY, false)] {
+        let error = pool_of(&Given(move |_: &[f64; 2]| value), 100, 1).expect_err("nothing to weigh");
+        let PoolError::NowhereFinite {
+            points,
+            finite: 0,
+            undefined,
+        } = error
+        else {
+            panic!("{error}");
+        };
+        assert_eq!((points > 100, undefined), (true, if is_undefined { points } else { 0 }));
+        let expected = if is_undefined {
+            format!(
+                "log p was -inf at 0, NaN or +inf at {points} and finite at 0 of {points} points: too few to begin with"
+            )
+        } else {
+            format!("log p was -inf at all {points} points")
+        };
+        assert_eq!(error.to_string(), expected);
+    }
 }
 
 #[test]

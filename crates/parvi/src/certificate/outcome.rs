@@ -115,6 +115,13 @@ impl Outcome {
     }
 }
 
+/// As the key `outcome` of `parvi sample` has it: the [`name`](Outcome::name), without the [`reason`](Outcome::reason).
+impl fmt::Display for Outcome {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
 impl fmt::Display for Doubt {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -159,5 +166,21 @@ impl fmt::Display for Doubt {
                 "the particles stand for the density to the power of {alpha}, and the scores judge the density itself"
             ),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_outcome_is_written_as_its_name() {
+        let stalled = Outcome::Stalled(Doubt::Evidence { error: 0.5 });
+        let exhausted = Outcome::BudgetExhausted { drift: 0.1 };
+        let written = [Outcome::Converged, stalled.clone(), exhausted].map(|outcome| outcome.to_string());
+        assert_eq!(written, ["converged", "stalled", "budget exhausted"]);
+        assert_eq!(format!("{stalled:>9}"), "  stalled");
+        let reason = stalled.reason();
+        assert_eq!(reason.as_deref(), Some("the log evidence has a standard error of 0.50"));
     }
 }

@@ -60,7 +60,7 @@ with_defaults! {
         pub moment_correction: MomentCorrection = MomentCorrection::default(),
         /// Where the score is evaluated.
         pub score_location: ScoreLocation = ScoreLocation::default(),
-        /// What is done about a particle whose score is not finite.
+        /// What is done about a particle whose score is not finite. With a survey one that cannot be helped costs the polish, not the run, unless it is to be reported.
         pub non_finite_scores: NonFiniteScores = NonFiniteScores::default(),
         /// Largest displacement per step in units of h; > 0.
         pub displacement_limit: f64 = 0.5,

@@ -3,6 +3,7 @@
 mod bent_targets;
 mod cached_scores;
 mod calibrated;
+mod half_lines;
 #[cfg(feature = "nuts")]
 mod nuts;
 mod observed;

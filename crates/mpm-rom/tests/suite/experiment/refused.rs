@@ -1,5 +1,7 @@
 //! What is wrong with an experiment, by file and field.
 
+use mpm_rom::online::ReducedBody;
+
 use super::*;
 
 #[test]
@@ -82,4 +84,52 @@ fn numbers_of_sample_points_and_scenes_that_are_not_there_are_refused_before_any
         assert!(error.starts_with(&expected), "{error}");
         assert!(!out.exists(), "nothing was begun");
     }
+}
+
+#[test]
+fn a_time_step_that_no_reduced_run_can_have_is_refused_before_the_training() {
+    let (directory, file) = files();
+    let uneven = SCENE.replace("0.0050000001", "0.003");
+    std::fs::write(directory.path().join("uneven.toml"), uneven).expect("written");
+    let run = "scene = \"uneven.toml\", choice = [\"drawn\"]";
+    for (old, new) in [
+        ("\"strip.toml\"", "\"uneven.toml\""),
+        ("manifold = [\"network\", \"linear\"]", run),
+    ] {
+        let experiment = Experiment::parse(&EXPERIMENT.replace(old, new), &file).expect("sound");
+        let document = SceneDocument::read(&experiment.run_scene_file()).expect("a scene");
+        let scene = experiment.scene_of(&document, &[2.0, 0.1]).expect("a scene");
+        let of_run = ReducedBody::<2>::of(&scene).map(|_| ()).expect_err("refused by a run");
+        let out = directory.path().join("out");
+        let error = train_experiment(&experiment, &out, &mut ()).expect_err(new);
+        assert_eq!(error.to_string(), of_run.to_string());
+        assert!(error.to_string().contains("time.step"), "{error}");
+        assert!(!out.exists(), "nothing was begun");
+    }
+}
+
+#[test]
+fn a_scene_that_has_changed_since_its_runs_were_made_is_refused_with_its_file() {
+    let (directory, file) = files();
+    let text = EXPERIMENT.replace("samples = [20, \"all\"]", "samples = [\"all\"]");
+    let experiment = Experiment::parse(&text, &file).expect("sound");
+    let (out, scene) = (directory.path().join("out"), directory.path().join("strip.toml"));
+    train_one(&experiment, &out);
+    std::fs::write(&scene, format!("# A comment.\n{SCENE}")).expect("written");
+    train_one(&experiment, &out);
+    let softer = SCENE.replace("young_modulus = 500.0", "young_modulus = 400.0");
+    assert_ne!(softer, SCENE);
+    std::fs::write(&scene, softer).expect("written");
+    for error in [
+        train::<2>(&experiment, &out, &mut ()).expect_err("other data"),
+        run::<2>(&experiment, &out, &mut |_, _| true).expect_err("another model"),
+    ] {
+        assert!(matches!(error, ExperimentError::ChangedScene { .. }), "{error}");
+        let expected = format!("{}: changed since it was trained on", scene.display());
+        assert!(error.to_string().starts_with(&expected), "{error}");
+    }
+    // What an earlier version left.
+    std::fs::remove_file(out.join(names::SCENE)).expect("removed");
+    let rows = run::<2>(&experiment, &out, &mut |_, _| true).expect("run");
+    assert_eq!(rows.len(), 4);
 }

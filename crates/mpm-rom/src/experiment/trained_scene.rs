@@ -1,0 +1,48 @@
+//! The scene that a directory's data are runs of, whose file may change afterwards.
+
+use std::path::Path;
+
+use super::files::{self, names};
+use super::reduced::chooses_on_training;
+use super::{Experiment, ExperimentError};
+use crate::full_order::SceneDocument;
+use crate::online::check_time_step;
+
+impl Experiment {
+    /// Refuses a time step that no reduced run can have, before anything is trained for it: in the scene that is run, and, where runs of it choose sample points or networks, in that of the training.
+    pub(super) fn check_time_steps(&self) -> Result<(), ExperimentError> {
+        let mut scenes = vec![(self.read_run_scene()?, &self.cases.test)];
+        if self.starts > 1 || chooses_on_training(self) {
+            scenes.push((self.read_scene()?, &self.cases.train));
+        }
+        for (document, cases) in scenes {
+            for values in cases {
+                check_time_step(&self.scene_of(&document, values)?)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes down what the training runs were made of.
+    pub(super) fn keep_scene(&self, document: &SceneDocument, directory: &Path) -> Result<(), ExperimentError> {
+        files::write(&directory.join(names::SCENE), document.text())
+    }
+
+    /// Refuses a scene with other values than those that were written down; comments may differ. Directories of earlier versions have nothing written down, and pass.
+    pub(super) fn check_scene_of(&self, directory: &Path) -> Result<(), ExperimentError> {
+        let copy = directory.join(names::SCENE);
+        if !copy.exists() {
+            return Ok(());
+        }
+        let before = std::fs::read_to_string(&copy).map_err(|source| ExperimentError::file("read", &copy, source))?;
+        let before: toml::Table = mpm_document::parse(&before, &copy)?;
+        let now: toml::Table = mpm_document::parse(self.read_scene()?.text(), &self.scene_file())?;
+        if before == now {
+            return Ok(());
+        }
+        Err(ExperimentError::ChangedScene {
+            scene: self.scene_file().display().to_string(),
+            copy: copy.display().to_string(),
+        })
+    }
+}
