@@ -308,9 +308,13 @@ impl<const D: usize> Basis<D> for MeshBasis<D> {
         self.node_at(position)
     }
 
-    /// The shortest edge: a wave must not cross a cell in one step.
+    /// The shortest edge: a wave must not cross a cell in one step. With exact gradients the least height of a cell, as ∇η goes with its inverse.
     fn spacing(&self) -> f64 {
-        self.shortest_edge
+        if self.is_exact() {
+            self.search.least_height()
+        } else {
+            self.shortest_edge
+        }
     }
 
     fn stencil_size(&self) -> usize {

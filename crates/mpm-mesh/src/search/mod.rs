@@ -19,6 +19,7 @@ const LONGEST_WALK: usize = 16;
 /// and vertices the lowest of the cells there.
 #[derive(Clone, Debug)]
 pub struct CellSearch<const D: usize> {
+    least_height: f64,
     mesh: SimplexMesh<D>,
     frames: Vec<Frame<D>>,
     buckets: Buckets<D>,
@@ -59,6 +60,7 @@ impl<const D: usize> CellSearch<D> {
         let steepest = gradients.map(|gradient| norm(&gradient)).fold(0.0, f64::max);
         let farthest = mesh.vertices().iter().map(maximum_norm).fold(0.0, f64::max);
         Self {
+            least_height: 1.0 / steepest,
             buckets: Buckets::new(&mesh),
             // What the rounding of coordinates does to a barycentric coordinate, with a margin.
             tolerance: 16.0 * D as f64 * f64::EPSILON * (1.0 + farthest * steepest),
@@ -70,6 +72,11 @@ impl<const D: usize> CellSearch<D> {
     /// The mesh.
     pub fn mesh(&self) -> &SimplexMesh<D> {
         &self.mesh
+    }
+
+    /// The least height of a cell above one of its facets.
+    pub fn least_height(&self) -> f64 {
+        self.least_height
     }
 
     /// The barycentric coordinates of a cell as functions of x.
