@@ -89,15 +89,9 @@ impl<const D: usize> MeshBasis<D> {
                                 }
                             }
                             if !gradients.is_empty() {
-                                let floors = floors.get(solved..next).unwrap_or_default();
-                                let solved = (&particles[solved..next], floors);
-                                self.differentiate(
-                                    &lanes,
-                                    &points[next - solved.0.len()..next],
-                                    solved,
-                                    samples,
-                                    gradients,
-                                );
+                                let own = solved..next;
+                                let fits = (&particles[own.clone()], floors.get(own.clone()).unwrap_or_default());
+                                self.differentiate(&lanes, &points[own], fits, samples, gradients);
                             }
                             solved = next;
                         }
