@@ -1,7 +1,7 @@
 //! ∇w in the place of diffuse gradients.
 
 use mpm_core::Member;
-use mpm_kernels::{Columns, Deposit, Interpolated, LANES, Lanes, NodeField, NodeSink, Wanted};
+use mpm_kernels::{LANES, Lanes, NodeField};
 use mpm_tensor::Matrix;
 
 use super::cell_ring::CellRing;
@@ -66,30 +66,6 @@ impl<const D: usize> MeshBasis<D> {
         slopes
     }
 
-    /// As [`Basis::deposit`](mpm_core::Basis::deposit).
-    #[inline(never)]
-    pub(super) fn deposit_exact<A: Columns<D>, S: Columns<D>>(
-        &self,
-        member: Member<CellRing<D>, D>,
-        value: &Deposit<D>,
-        affine: &A,
-        flux: &S,
-        sink: &mut impl NodeSink<D>,
-    ) {
-        self.deposit_in_lanes::<true, _, _>(member, value, affine, flux, sink);
-    }
-
-    /// As [`Basis::interpolate`](mpm_core::Basis::interpolate).
-    #[inline(never)]
-    pub(super) fn interpolate_exact(
-        &self,
-        member: Member<CellRing<D>, D>,
-        wanted: Wanted,
-        nodes: &impl NodeField<D>,
-    ) -> Interpolated<D> {
-        self.interpolate_in_lanes::<true>(member, wanted, nodes)
-    }
-
     /// Σ v ∇wᵀ.
     #[inline(always)]
     pub(super) fn gradient_in_lanes(&self, member: Member<CellRing<D>, D>, nodes: &impl NodeField<D>) -> Matrix<D> {
@@ -106,6 +82,12 @@ impl<const D: usize> MeshBasis<D> {
         let columns = columns.map(|column| sums(&column).to_array());
         Matrix::from_fn(|c, a| columns[a][c])
     }
+}
+
+/// What is done, in a function of its own: steps with diffuse gradients are no longer for it.
+#[inline(never)]
+pub(super) fn outlined<R>(work: impl FnOnce() -> R) -> R {
+    work()
 }
 
 /// ∇w of the node at a place of the ring.

@@ -19,7 +19,7 @@ use mpm_tensor::vector::{distance, subtract};
 
 use self::cell_ring::CellRing;
 use self::curve::AlongCurve;
-use self::exact::gradient_at;
+use self::exact::{gradient_at, outlined};
 pub(crate) use self::locate::all_found;
 use self::node_at::VertexBoxes;
 use self::stencils::Stencils;
@@ -362,7 +362,7 @@ impl<const D: usize> Basis<D> for MeshBasis<D> {
             return self.deposit_one_by_one(member, value, affine, flux, sink);
         }
         if self.is_exact() {
-            return self.deposit_exact(member, value, affine, flux, sink);
+            return outlined(|| self.deposit_in_lanes::<true, _, _>(member, value, affine, flux, sink));
         }
         self.deposit_in_lanes::<false, _, _>(member, value, affine, flux, sink);
     }
@@ -378,7 +378,7 @@ impl<const D: usize> Basis<D> for MeshBasis<D> {
             return self.interpolate_one_by_one(member, wanted, nodes);
         }
         if self.is_exact() {
-            return self.interpolate_exact(member, wanted, nodes);
+            return outlined(|| self.interpolate_in_lanes::<true>(member, wanted, nodes));
         }
         self.interpolate_in_lanes::<false>(member, wanted, nodes)
     }
