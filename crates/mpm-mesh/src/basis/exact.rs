@@ -9,16 +9,22 @@ use super::{Gradient, MeshBasis, ParticleFit};
 use crate::kernel::{Floor, Gradients, RingLanes, SETS, Slopes, sums};
 
 impl<const D: usize> MeshBasis<D> {
-    /// Whether gradients are ∇w.
+    /// Whether gradients are to be ∇w.
     pub(super) fn is_exact(&self) -> bool {
         self.gradient == Gradient::Exact
+    }
+
+    /// Whether they were at the last activation, which is what particles have.
+    #[inline(always)]
+    pub(super) fn has_gradients(&self) -> bool {
+        !self.gradients.is_empty()
     }
 
     /// ∇w of a particle, in the groups of its ring; `None` where gradients are diffuse.
     #[inline(always)]
     pub(super) fn gradients_of(&self, particle: usize) -> Option<&[Gradients<D>]> {
         let samples = self.particles[particle].samples as usize;
-        self.gradients.get(samples..).filter(|_| self.is_exact())
+        self.gradients.get(samples..).filter(|_| self.has_gradients())
     }
 
     /// ∇w of the particles at `points`, the last that were solved.

@@ -361,7 +361,7 @@ impl<const D: usize> Basis<D> for MeshBasis<D> {
         if self.is_kept_positive(member.particle) {
             return self.deposit_one_by_one(member, value, affine, flux, sink);
         }
-        if self.is_exact() {
+        if self.has_gradients() {
             return outlined(|| self.deposit_in_lanes::<true, _, _>(member, value, affine, flux, sink));
         }
         self.deposit_in_lanes::<false, _, _>(member, value, affine, flux, sink);
@@ -377,7 +377,7 @@ impl<const D: usize> Basis<D> for MeshBasis<D> {
         if self.is_kept_positive(member.particle) {
             return self.interpolate_one_by_one(member, wanted, nodes);
         }
-        if self.is_exact() {
+        if self.has_gradients() {
             return outlined(|| self.interpolate_in_lanes::<true>(member, wanted, nodes));
         }
         self.interpolate_in_lanes::<false>(member, wanted, nodes)

@@ -180,16 +180,17 @@ impl<const D: usize> MeshBasis<D> {
         if self.positive {
             floor = lanes.make_positive(0, false, &mut samples, &mut fit);
         }
-        let mut gradients = vec![[Lanes::ZERO; D]; if self.is_exact() { samples.len() } else { 0 }];
-        if self.is_exact() {
+        let gradients = self.is_exact().then(|| {
+            let mut gradients = vec![[Lanes::ZERO; D]; samples.len()];
             let particle = ParticleFit { fit, cell, samples: 0 };
             self.differentiate(&lanes, &[*x], (&[particle], &[floor]), &samples, &mut gradients);
-        }
+            gradients
+        });
         let entry = |(index, (&vertex, sample))| {
             let node = &self.mesh().vertices()[vertex as usize];
             let mut entry = fit.entry(&floor, sample, subtract(node, x));
-            if self.is_exact() {
-                entry.gradient = gradient_at(&gradients, index);
+            if let Some(gradients) = &gradients {
+                entry.gradient = gradient_at(gradients, index);
             }
             WeightAt { vertex, entry }
         };

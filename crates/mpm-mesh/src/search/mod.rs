@@ -19,10 +19,10 @@ const LONGEST_WALK: usize = 16;
 /// and vertices the lowest of the cells there.
 #[derive(Clone, Debug)]
 pub struct CellSearch<const D: usize> {
-    least_height: f64,
     mesh: SimplexMesh<D>,
     frames: Vec<Frame<D>>,
     buckets: Buckets<D>,
+    least_height: f64,
     /// Barycentric coordinates this close to zero are zero.
     tolerance: f64,
 }
