@@ -21,11 +21,14 @@ pub(crate) fn sample<const D: usize>(options: &MpmOptions, mut task: Task<'_, D>
     let name = if surveys { "mpm with a survey" } else { "mpm" };
     run.given.check_taken(name, !surveys)?;
     let mut journal = Journal::open(options, target, frame, run)?;
+    if surveys && options.rounds == Some(0) {
+        return surveyed::sample_as_it_is(options, &mut task, &mut journal);
+    }
     let mut nowhere = None;
     let known = if surveys {
         match surveyed::sample(options, &mut task, &mut journal) {
             // A body may find what is too far for a survey.
-            Err(SampleError::Pool(error @ PoolError::NowhereFinite { .. })) if options.rounds != Some(0) => {
+            Err(SampleError::Pool(error @ PoolError::NowhereFinite { .. })) => {
                 nowhere = Some(error);
                 None
             }

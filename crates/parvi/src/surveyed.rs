@@ -25,15 +25,14 @@ pub(crate) fn sample<const D: usize>(
 ) -> Result<Option<Samples<D>>, SampleError> {
     let pool = surveyed(options, task, journal)?;
     let is_known = pool.measure.variance * (weighed_for(task) as f64) < WORTHLESS;
-    // Who asks for the pool alone has it as it is.
-    if is_known || options.rounds == Some(0) {
+    if is_known {
         condensed(options, task, journal, pool).map(Some)
     } else {
         Ok(None)
     }
 }
 
-/// The same of any pool.
+/// The same of any pool: who asks for the pool alone has it as it is.
 pub(crate) fn sample_as_it_is<const D: usize>(
     options: &MpmOptions,
     task: &mut Task<'_, D>,
