@@ -43,7 +43,17 @@ impl<const D: usize> EnergyDistance<D> {
     /// Of these particles.
     pub fn of(&self, particles: &[[f64; D]]) -> f64 {
         let particles: Vec<[f64; D]> = particles.iter().map(|x| self.frame.to_reference(x)).collect();
-        let each = mpm_parallel::map(self.projections.iter(), &|projection| projection.energy(&particles));
+        self.mean(&|projection| projection.energy(&particles))
+    }
+
+    /// E|Y − Y′| of the measure: what the energy distance of particles is more than 2 E|x − Y| − E|x − x′|, negated.
+    pub fn own(&self) -> f64 {
+        self.mean(&Projection::own)
+    }
+
+    /// c_D times the mean over the directions.
+    fn mean(&self, of: &(dyn Fn(&Projection<D>) -> f64 + Sync)) -> f64 {
+        let each = mpm_parallel::map(self.projections.iter(), of);
         let log_scale = log_gamma_of_half(D as u32 + 1) - log_gamma_of_half(D as u32);
         std::f64::consts::PI.sqrt() * log_scale.exp() * each.iter().sum::<f64>() / each.len().max(1) as f64
     }
@@ -86,6 +96,14 @@ impl<const D: usize> Projection<D> {
         let ranked = places.iter().enumerate();
         let to_others: f64 = ranked.map(|(rank, t)| (2.0 * rank as f64 + 1.0 - count) * t).sum();
         2.0 * (to_measure - to_others / count) / count
+    }
+
+    /// E|S − S′|, but for pairs in one bin.
+    fn own(&self) -> f64 {
+        let bins = self.below.array_windows();
+        2.0 * bins
+            .map(|[[mass, sum], [next_mass, next_sum]]| mass * (next_sum - sum) - sum * (next_mass - mass))
+            .sum::<f64>()
     }
 
     /// E|t − S|: the bins below and above exactly, the mass of its own as if it were all on the other side of t than the bin's middle, or on that.
@@ -197,6 +215,11 @@ mod tests {
         let measure = Measure::new(points.clone(), weights.clone());
         let found = EnergyDistance::new(&measure, frame).of(&particles);
         assert!((found / wanted - 1.0).abs() < 0.02, "{found} {wanted}");
+        let weighted = points.iter().zip(&weights);
+        let from = |(x, c): (&[f64; 3], &f64)| c * weighted.clone().map(|(y, c)| c * distance(x, y)).sum::<f64>();
+        let wanted: f64 = weighted.clone().map(from).sum();
+        let found = EnergyDistance::new(&measure, frame).own();
+        assert!((found / wanted - 1.0).abs() < 0.03, "{found} {wanted}");
     }
 
     #[test]

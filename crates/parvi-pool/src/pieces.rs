@@ -18,6 +18,7 @@ pub(crate) fn oblique_directions<const D: usize>(number: u32) -> Matrix<D> {
 }
 
 /// A weighted point of a measure.
+#[derive(Clone, Copy)]
 pub(crate) struct Weighted<const D: usize> {
     pub x: [f64; D],
     /// Its weight, of either sign.
@@ -45,10 +46,8 @@ pub(crate) fn in_pieces<const D: usize>(
     if particles.len() > most {
         let (direction, cut) = cut(points, particles, directions);
         let above = |x: &[f64; D]| vector::dot(direction, x) > cut;
-        points.sort_by_cached_key(|point| above(&point.x));
-        particles.sort_by_cached_key(above);
-        let (low, high) = points.split_at_mut(points.partition_point(|point| !above(&point.x)));
-        let (few, many) = particles.split_at_mut(particles.partition_point(|x| !above(x)));
+        let (low, high) = parted(points, |point| above(&point.x));
+        let (few, many) = parted(particles, above);
         // A side without mass, beside one heavy point, would draw its particles nowhere.
         let has_mass = |side: &[Weighted<D>]| side.iter().map(|point| point.rise).sum::<f64>() > 0.0;
         if !(few.is_empty() || many.is_empty()) && has_mass(low) && has_mass(high) {
@@ -58,6 +57,15 @@ pub(crate) fn in_pieces<const D: usize>(
         }
     }
     act(points, particles);
+}
+
+/// Those that are not above before those that are, both in the order in which they stood.
+fn parted<T: Copy>(all: &mut [T], above: impl Fn(&T) -> bool) -> (&mut [T], &mut [T]) {
+    let (low, high): (Vec<T>, Vec<T>) = all.iter().partition(|one| !above(one));
+    let (below, rest) = all.split_at_mut(low.len());
+    below.copy_from_slice(&low);
+    rest.copy_from_slice(&high);
+    (below, rest)
 }
 
 /// The direction that points are farthest apart in, and between two particles near the middle the place where the share of the mass below is nearest to

@@ -41,6 +41,9 @@ pub const LARGEST_POOL: usize = 4096;
 /// pieces, gains nothing by a shift of all particles.
 pub const LEAST_CORRECTED_ENTROPY_POWER: f64 = 0.5;
 
+/// Part of the energy distance of condensed particles from the target that standard deviations as large as the pool's may cost.
+pub const MOMENT_PRICE: f64 = 0.1;
+
 /// Steps of the first round of a polish.
 pub const POLISH_STEPS: usize = 4;
 

@@ -150,7 +150,14 @@ where
     let mut positions = std::mem::take(&mut body.particles().positions);
     let score = &mut body.force().score;
     score.non_finite = NonFiniteScores::Report;
-    correct_moments(plan.moment_correction, &mut positions, score, &mut scores).map_err(failed)?;
+    correct_moments(
+        plan.moment_correction,
+        f64::INFINITY,
+        &mut positions,
+        score,
+        &mut scores,
+    )
+    .map_err(failed)?;
     let (evaluations, replaced) = (score.evaluations, score.replaced);
     body.particles().positions = positions;
     let residual = body.residual(&origin, spacing, &scores).map_err(failed)?;

@@ -34,6 +34,7 @@ mod smc;
 mod start;
 mod stein_discrepancy;
 mod stein_thinning;
+mod strays;
 mod support_points;
 mod surveyed;
 mod svgd;

@@ -50,11 +50,16 @@ fn condensed<const D: usize>(
     pool: Pool<D>,
 ) -> Result<Samples<D>, SampleError> {
     let polish = Polish::new(options, task.target, &pool, task.run)?;
-    let Polished { best, spent, steps } = polish.run(journal, task.observer)?;
+    let Polished {
+        best,
+        spent,
+        densities,
+        steps,
+    } = polish.run(journal, task.observer)?;
     let mut samples = best.samples;
     samples.steps = steps;
     samples.score_evaluations = spent + pool.score_evaluations;
-    samples.density_evaluations = pool.density_evaluations;
+    samples.density_evaluations = densities + pool.density_evaluations;
     samples.weights = options.weighted.then(|| pool.measure.shares(&samples.positions));
     samples.certificate = options
         .certificate
