@@ -5,7 +5,7 @@ use super::series::{ChartPanel, ChartSeries};
 use super::style::{GUIDE, LINE_WIDTH};
 use super::svg::{Drawing, Stroke};
 
-/// Draws one panel: grid, levels, lines, bars, markers, axes and title.
+/// Draws one panel: grid, levels, lines, bars, markers, axes and title; the first series lies on top of the others.
 pub(super) fn draw_panel(drawing: &mut Drawing, axes: &Panel, panel: &ChartPanel, parts: &AxesParts<'_>) {
     let area = axes.area;
     axes.draw_grid(drawing, &parts.x_ticks, &parts.y_ticks);
@@ -16,7 +16,7 @@ pub(super) fn draw_panel(drawing: &mut Drawing, axes: &Panel, panel: &ChartPanel
                 drawing.line((area.x, y), (area.right(), y), stroke);
             }
         }
-        for series in &panel.series {
+        for series in panel.series.iter().rev() {
             if let Some(dash) = series.connection.dash() {
                 let stroke = Stroke {
                     color: series.style.color,
@@ -27,10 +27,10 @@ pub(super) fn draw_panel(drawing: &mut Drawing, axes: &Panel, panel: &ChartPanel
             }
         }
     });
-    for series in &panel.series {
+    for series in panel.series.iter().rev() {
         draw_bars(drawing, axes, series);
     }
-    for series in panel.series.iter().filter(|series| series.markers) {
+    for series in panel.series.iter().rev().filter(|series| series.markers) {
         for (x, y) in series.x.iter().zip(&series.y) {
             if let Some(at) = axes.point(*x, *y) {
                 drawing.marker(at, series.style);
