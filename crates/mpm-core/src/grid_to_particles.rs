@@ -8,6 +8,9 @@ use crate::transfer::{CellField, Changes, Moving, MovingParticle, Numbered, Tran
 use crate::volume_averaging::average_volume_ratios;
 use crate::{Basis, BodyForce, Boundary, Medium, Member, Mpm};
 
+/// Of the nodal velocities, around a particle: interpolated, and its moment where that is asked for.
+type Change<const D: usize> = ([f64; D], Matrix<D>);
+
 impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>, C: Boundary<D>> Mpm<D, B, T, M, F, C> {
     /// v_p = Σ_i w_ip v_i, B_p = Σ_i w_ip v_i (x_i − x_p)ᵀ, x_p ← x_p + Δt Σ_i w_ip v_i; in the same pass, where the medium deforms,
     /// F_p ← (I + Δt Σ_i v_i ∇w_ipᵀ) F_p, then whatever the medium admits of it.
@@ -45,16 +48,17 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
             moving.excesses = &mut self.excesses;
         }
         let (rate_dependent, takes_moments) = (medium.rate_dependent(), transfer.takes_moments());
+        let adds_moments = transfer.adds_moments();
         let velocity = Velocities::<_, D>(nodes);
         let change = Changes::<_, D> { nodes, damping };
-        let update = move |particle: MovingParticle<D, M::State>, seen: &Interpolated<D>, change: &[f64; D]| {
+        let update = move |particle: MovingParticle<D, M::State>, seen: &Interpolated<D>, change: &Change<D>| {
             if MOVE {
-                *particle.velocity = transfer.particle_velocity(&seen.value, change, particle.velocity, damping);
+                *particle.velocity = transfer.particle_velocity(&seen.value, &change.0, particle.velocity, damping);
                 for a in 0..D {
                     particle.position[a] = multiply_add(dt, seen.value[a], particle.position[a]);
                 }
                 if let (true, Some(affine)) = (takes_moments, particle.affine) {
-                    *affine = seen.moment;
+                    *affine = transfer.particle_moment(&seen.moment, &change.1, affine, damping);
                 }
             }
             #[allow(non_snake_case)]
@@ -99,11 +103,18 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
                         particle: p,
                         x: &x,
                     };
-                    let mut changed = [0.0; D];
+                    let mut changed = ([0.0; D], Matrix::ZERO);
+                    let moments = Wanted {
+                        moment: affine,
+                        ..value
+                    };
                     let seen = if B::LONE_PARTICLES {
                         if incremental {
                             let changes = Numbered { field: change, numbers };
-                            changed = basis.interpolate(member, value, &changes).value;
+                            changed.0 = basis.interpolate(member, value, &changes).value;
+                            if affine && adds_moments {
+                                changed.1 = basis.interpolate(member, moments, &changes).moment;
+                            }
                         }
                         basis.interpolate(
                             member,
@@ -115,7 +126,11 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
                         )
                     } else {
                         if incremental {
-                            changed = basis.interpolate(member, value, &changes.nodes(basis, size)).value;
+                            let changes = changes.nodes(basis, size);
+                            changed.0 = basis.interpolate(member, value, &changes).value;
+                            if affine && adds_moments {
+                                changed.1 = basis.interpolate(member, moments, &changes).moment;
+                            }
                         }
                         basis.interpolate(member, wanted, &velocities.nodes(basis, size))
                     };

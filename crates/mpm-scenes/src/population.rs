@@ -1,7 +1,7 @@
 //! The particles of all bodies at t = 0.
 
 use crate::background::{Background, of_shape};
-use crate::fill::{Filling, centroids, poisson_disk, random, regular, rings, vertices};
+use crate::fill::{Filling, centroids, in_cells, poisson_disk, random, regular, rings, vertices};
 use crate::scene::{BodyTable, FillKind, Scene};
 use crate::shape::{Bounds, Rotated, Shape};
 use crate::values::within;
@@ -155,5 +155,13 @@ fn fill<const D: usize>(
         FillKind::Random => random(&field, shape, body.particles.unwrap_or(0), room, body.seed),
         FillKind::Vertices => Ok(vertices(&mesh()?)),
         FillKind::Centroids => Ok(centroids(&mesh()?)),
+        FillKind::Cells => match background {
+            Background::Mesh { inner, .. } => Ok(in_cells(inner, shape, body.per_axis())),
+            Background::Grid { .. } => Err(SceneFault::value(
+                format!("{field}.fill"),
+                "cells",
+                "with a [mesh] only",
+            )),
+        },
     }
 }

@@ -1,6 +1,7 @@
 //! How mass and momentum travel between particles and nodes: PIC, APIC, FLIP blend, FLIP with affine particles.
 
 mod affine_flip;
+mod affine_flip_with;
 mod ahead;
 mod apic;
 mod cell_field;
@@ -13,10 +14,12 @@ mod pic;
 mod scatter;
 
 use mpm_kernels::{Deposit, Packed};
+use mpm_tensor::Matrix;
 
 use crate::largest::larger_or_nan;
 
 pub use affine_flip::AffineFlip;
+pub use affine_flip_with::{AffineFlipWith, Moments};
 pub(crate) use ahead::Prepare;
 pub use apic::Apic;
 pub(crate) use cell_field::{CellField, Changes, Numbered, Velocities};
@@ -121,6 +124,18 @@ pub trait Transfer<const D: usize>: Copy + Send + Sync {
     /// New particle velocity from the interpolated nodal velocity, the interpolated nodal change and its own velocity: the first unless a transfer is incremental.
     #[inline(always)]
     fn particle_velocity(&self, interpolated: &[f64; D], _: &[f64; D], _: &[f64; D], _damping: f64) -> [f64; D] {
+        *interpolated
+    }
+
+    /// Whether the moment of the nodal change is asked for in this run, of a transfer that is `AFFINE` and `INCREMENTAL`.
+    #[inline(always)]
+    fn adds_moments(&self) -> bool {
+        false
+    }
+
+    /// New B_p from the moment of the nodal velocity, that of the nodal change (zero unless asked for), and its own: the first unless a transfer adds moments.
+    #[inline(always)]
+    fn particle_moment(&self, interpolated: &Matrix<D>, _: &Matrix<D>, _: &Matrix<D>, _damping: f64) -> Matrix<D> {
         *interpolated
     }
 }

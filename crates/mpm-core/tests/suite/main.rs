@@ -16,6 +16,7 @@ mod errors;
 mod force_identities;
 mod golden_counters;
 mod grid_oracle;
+mod moments;
 mod naive_step;
 mod optional_fields;
 mod product_grid;

@@ -6,7 +6,7 @@ mod random;
 mod regular;
 mod rings;
 
-pub(crate) use mesh_points::{centroids, vertices};
+pub(crate) use mesh_points::{centroids, in_cells, vertices};
 pub use poisson_disk::poisson_disk;
 pub use random::random;
 pub use regular::regular;

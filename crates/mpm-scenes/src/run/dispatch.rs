@@ -1,8 +1,8 @@
 //! Basis and transfer, chosen once per run.
 
 use mpm_core::{
-    AffineFlip, Apic, Boundaries, Continuum, Flip, Masses, Mls, Mpm, MpmError, Particles, SplineGrid, StressUpdate,
-    Transfer, VelocityFilter,
+    AffineFlipWith, Apic, Boundaries, Continuum, Flip, Masses, Mls, Moments, Mpm, MpmError, Particles, SplineGrid,
+    StressUpdate, Transfer, VelocityFilter,
 };
 use mpm_kernels::{Cubic, Gimp, Linear, Quadratic, Spline};
 use mpm_mesh::{Gradient, KernelWidth, MeshBasis, Outside, SampleWeight, SimplexMesh};
@@ -16,7 +16,8 @@ use crate::law::{self, LawState, Laws};
 use crate::loads::Loads;
 use crate::population::Population;
 use crate::scene::{
-    BasisName, Discretisation, GradientName, GridTable, KernelName, Scene, StressUpdateName, TransferKind, WidthName,
+    BasisName, Discretisation, GradientName, GridTable, KernelName, MomentsName, Scene, StressUpdateName, TransferKind,
+    WidthName,
 };
 use crate::shape::Bounds;
 
@@ -118,8 +119,12 @@ fn on_basis<const D: usize, B: SecondMoments<D> + 'static>(
     match parts.scene.transfer.kind {
         TransferKind::Pic | TransferKind::Flip => with_share(parts, basis),
         TransferKind::AffineFlip => {
-            let transfer = AffineFlip(share(parts.scene));
-            with_transfer(parts, basis, transfer)
+            let moments = match parts.scene.transfer.moments.unwrap_or_default() {
+                MomentsName::Nodes => Moments::OfNodes,
+                MomentsName::Increments => Moments::Increments,
+            };
+            let flip = share(parts.scene);
+            with_transfer(parts, basis, AffineFlipWith { flip, moments })
         }
         TransferKind::Apic => with_transfer(parts, basis, Apic),
         TransferKind::Mls => with_transfer(parts, basis, Mls),

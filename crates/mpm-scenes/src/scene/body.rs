@@ -63,4 +63,6 @@ pub enum FillKind {
     Vertices,
     /// The centres of the cells of a mesh of the body.
     Centroids,
+    /// In every cell of the scene's own mesh with its centre in the shape, 3 points in each of `particles_per_axis`² triangles, 2 in each of as many segments, 4 in a tetrahedron: rules of degree two.
+    Cells,
 }

@@ -64,6 +64,19 @@ pub struct TransferTable {
     pub pic_rate: Option<f64>,
     /// Order m of the PIC that velocities turn into at the rate `pic_rate`, XPIC(m): with a larger one smooth motion loses less. Default 1.
     pub pic_order: Option<usize>,
+    /// How B_p changes; with `kind = "affine-flip"` only. Default `"nodes"`.
+    pub moments: Option<MomentsName>,
+}
+
+/// `transfer.moments`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum MomentsName {
+    /// That of the nodal velocities.
+    #[default]
+    Nodes,
+    /// By that of the change of the nodal velocities, as v_p: no kinetic energy is made.
+    Increments,
 }
 
 /// `transfer.kind`.

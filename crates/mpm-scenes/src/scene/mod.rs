@@ -26,7 +26,7 @@ pub use boundary::{
     AxisName, Contact, HeldTable, KinematicTable, ObstacleTable, Side, TurningTable, WallCondition, WallTable,
 };
 pub(crate) use check::MOST_STEPS;
-pub use discretisation::{BasisName, Discretisation, DomainTable, GridTable, TransferKind, TransferTable};
+pub use discretisation::{BasisName, Discretisation, DomainTable, GridTable, MomentsName, TransferKind, TransferTable};
 pub use facets::{FacetCondition, FacetTable};
 pub use load::LoadTable;
 pub use material::{FluidTable, GasTable, MaterialTable, MetalTable, SandTable, SnowTable, SolidTable};

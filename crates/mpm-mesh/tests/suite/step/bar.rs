@@ -44,7 +44,7 @@ fn error_on(basis: MeshBasis<1>, h: f64, per_cell: usize) -> f64 {
     let mut body = body.with_boundary(Boundaries::new(vec![wall], Vec::new()));
     let frequency = wave_number * YOUNG.sqrt();
     let amplitude = SPEED / (wave_number * LENGTH * frequency);
-    let steps = (10.0 / (0.1 * shortest / YOUNG.sqrt())).ceil() as usize;
+    let steps = (10.0 / (0.3 * shortest / YOUNG.sqrt())).ceil() as usize;
     let dt = 10.0 / steps as f64;
     let mut squares = 0.0;
     for _ in 0..steps {

@@ -51,7 +51,7 @@ fn lost<T: Transfer<2>>(radius: f64, spin: f64, transfer: T) -> f64 {
     let mut disk = disk(radius, spin, transfer);
     let (before, (linear, angular)) = (energy(&disk), momenta(&disk.particles));
     while disk.time < 1.0 {
-        disk.step(&control(2e-4)).unwrap();
+        disk.step(&control(6.25e-4)).unwrap();
     }
     let (linear_after, angular_after) = momenta(&disk.particles);
     let drift = (0..2).fold(0.0, |most: f64, a| most.max((linear_after[a] - linear[a]).abs())) / linear[0];

@@ -60,6 +60,9 @@ impl Scene {
         within(field, order, order != Some(0), "at least 1")?;
         let of_rate = order.is_none() || table.pic_rate.is_some();
         within(field, order, of_rate, "left out unless transfer.pic_rate is given")?;
+        let (field, moments) = ("transfer.moments", table.moments);
+        let fits = moments.is_none() || table.kind == TransferKind::AffineFlip;
+        within(field, moments, fits, "left out unless transfer.kind = \"affine-flip\"")?;
         let affine = matches!(
             table.kind,
             TransferKind::Apic | TransferKind::Mls | TransferKind::AffineFlip
