@@ -3,11 +3,11 @@
 use parvi::{Method, Run};
 use serde::Deserialize;
 
-use super::{Basis, MethodName, MethodOptions, OptionError, StepCount, checked_when_read};
+use super::{Basis, MethodName, MethodOptions, OptionError, ParticleCount, StepCount, checked_when_read};
 
-/// `{ name = "mpm", options = { spacing = 0.5 } }`; options that do not fit the method are refused while reading.
+/// `{ name = "svgd", label = "Stein", options = { steps = 50 }, largest-particles = 2048 }`; options that do not fit the method are refused while reading.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(remote = "Self", deny_unknown_fields)]
+#[serde(remote = "Self", deny_unknown_fields, rename_all = "kebab-case")]
 pub struct MethodSpecification {
     /// The method.
     pub name: MethodName,
@@ -16,6 +16,8 @@ pub struct MethodSpecification {
     /// Its options.
     #[serde(default)]
     pub options: MethodOptions,
+    /// Cases of a study with more particles are left out; `None`: there are none.
+    pub largest_particles: Option<ParticleCount>,
 }
 
 checked_when_read!(MethodSpecification);
@@ -30,6 +32,11 @@ impl MethodSpecification {
     /// The name in tables and figures.
     pub fn label(&self) -> &str {
         self.label.as_deref().unwrap_or(self.name.as_str())
+    }
+
+    /// The names of several.
+    pub fn labels(methods: &[Self]) -> impl Iterator<Item = &str> + Clone {
+        methods.iter().map(Self::label)
     }
 
     /// The feature that has the method, where this build lacks it.

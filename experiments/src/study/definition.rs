@@ -8,7 +8,7 @@ use super::directory::StudyDirectory;
 use super::status::Status;
 use super::yardstick::CurrentYardstick;
 use crate::CommandError;
-use crate::options::MethodSpecification;
+use crate::options::{MethodSpecification, ParticleCount};
 use crate::plots::page::Page;
 use crate::plots::results::{Row, Rows, Value};
 use crate::progress::Bar;
@@ -22,6 +22,8 @@ pub struct Case<W> {
     pub cost: f64,
     /// The feature that the build lacks for it.
     pub lacks: Option<&'static str>,
+    /// The most particles that its method is run with.
+    most: Option<ParticleCount>,
     /// What is run.
     pub work: W,
 }
@@ -33,14 +35,21 @@ impl<W> Case<W> {
             row: Row::of(id).with("status", Status::Finished),
             cost: 1.0,
             lacks: None,
+            most: None,
             work,
         }
     }
 
     /// The same by a method.
     pub fn by(self, method: &MethodSpecification) -> Self {
-        let lacks = method.lacks();
-        Self { lacks, ..self }.with("method", method.label())
+        let (lacks, most) = (method.lacks(), method.largest_particles);
+        Self { lacks, most, ..self }.with("method", method.label())
+    }
+
+    /// Whether its method is run with so many particles.
+    pub fn is_due(&self) -> bool {
+        let particles = self.row.count("particles").unwrap_or(0);
+        self.most.is_none_or(|most| particles <= most.get())
     }
 
     /// Its name; it stands in results.csv and in file names.

@@ -27,7 +27,7 @@ pub fn run<S: Study>(configuration: &Configuration, out: &Path) -> Result<(), Co
     let mut study: S = configuration.parse()?;
     let located = |error| in_file(error, configuration);
     study.open(Path::new(&configuration.file)).map_err(located)?;
-    let cases = study.cases().map_err(located)?;
+    let cases = due(&study).map_err(located)?;
     if let Some(feature) = cases.iter().find_map(|case| case.lacks) {
         return Err(SampleError::NotBuilt {
             method: feature,
@@ -49,6 +49,11 @@ pub fn run<S: Study>(configuration: &Configuration, out: &Path) -> Result<(), Co
 pub fn report<S: Study>(configuration: &Configuration, directory: &StudyDirectory) -> Result<(), CommandError> {
     let study: S = configuration.parse()?;
     in_threads(configuration.threads(), || write_report(&study, directory))
+}
+
+/// The cases that run.
+fn due<S: Study>(study: &S) -> Result<Vec<Case<S::Work>>, CommandError> {
+    Ok(study.cases()?.into_iter().filter(Case::is_due).collect())
 }
 
 /// Names the file in errors about fields.
@@ -141,7 +146,7 @@ fn write_report<S: Study>(study: &S, directory: &StudyDirectory) -> Result<(), C
     let mut page = (S::REPORT)(study, &completed.iter().collect(), directory)?;
     let manifest = Manifest::read(&directory.file(manifest::FILE_NAME))?;
     page.heading("Provenance");
-    page.paragraph(provenance(&manifest, rows.len(), study.cases()?.len()));
+    page.paragraph(provenance(&manifest, rows.len(), due(study)?.len()));
     for (name, svg) in &page.figures {
         AtomicFile::write(directory.figure(name), svg)?;
     }

@@ -6,7 +6,8 @@ use mpm_materials::IsothermalGas;
 
 use crate::scenes::{Pull, bits, free, gaussian_cloud, matrix_bits, neo_hookean};
 
-const STEPS: usize = 20;
+/// Every one sorts anew and goes through all tables: what depends on threads shows in a few.
+const STEPS: usize = 6;
 
 /// All state after the steps, as bits.
 fn run<B: UniformBasis<D>, T: Transfer<D>, M: Medium<D, State = ()>, const D: usize>(

@@ -17,7 +17,8 @@ pub fn best_exponent(dim: Dimension) -> f64 {
 }
 
 fn panel(study: &Accuracy, here: &Rows<'_>, dim: Dimension) -> MultiplesPanel {
-    let mut series = here.curves(("", "series"), study.labels(), "particles", "energy_root");
+    let labels = MethodSpecification::labels(&study.methods);
+    let mut series = here.curves(("", "series"), labels, "particles", "energy_root");
     series.retain(|line| !line.x.is_empty());
     MultiplesPanel {
         guides: guides(here, dim, &series),

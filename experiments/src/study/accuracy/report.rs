@@ -24,50 +24,55 @@ pub fn report(study: &Accuracy, rows: &Rows<'_>, directory: &StudyDirectory) -> 
     Ok(rows.close(page))
 }
 
-/// A line per method, a column or two per size; of runs in one dimension.
+/// A line per method.
+fn lines<'a>(study: &Accuracy, rows: &Rows<'a>) -> Vec<Line<'a>> {
+    rows.lines("series", MethodSpecification::labels(&study.methods))
+}
+
+/// A column or two per size; of runs in one dimension.
 fn energy_table(study: &Accuracy, here: &Rows<'_>, page: &mut Page) {
-    let sobol = |entry: &&super::Entry| entry.method.name == MethodName::Sobol;
-    let yardstick = study.methods.iter().find(sobol).map(|entry| entry.method.label());
+    let sobol = study.methods.iter().find(|method| method.name == MethodName::Sobol);
+    let yardstick = sobol.map(MethodSpecification::label);
     let sizes = ascending(&study.particles);
-    // ED² of each size over the median of the yardstick's runs, where there is one.
-    let ratios = |energy: &dyn Fn(usize) -> Option<f64>| {
-        let ratio = |&size: &usize| {
-            let level = here.with("series", yardstick).with("particles", size).median(ENERGY);
-            let ratio = energy(size).zip(level).map(|(value, level)| value / level);
-            (format!("ratio {size}"), ratio)
-        };
-        sizes.iter().map(ratio).collect::<Vec<_>>()
+    let of_runs = |runs: &Rows<'_>, size: usize| runs.with("particles", size).median(ENERGY);
+    // ED² of a size over the median of the yardstick's runs, where there is one.
+    let ratio = |size: usize, energy: Option<f64>| {
+        let level = of_runs(&here.with("series", yardstick), size);
+        let ratio = energy.zip(level).map(|(value, level)| value / level);
+        (format!("ratio {size}"), ratio)
     };
-    let expected = |size: usize| expected(here, size as f64);
-    let energies = sizes.iter().map(|&size| {
+    let mut independent = Line::default().with("series", "i.i.d., expected");
+    for &size in &sizes {
+        let energy = expected(here, size as f64);
         let place = format!("median energy_thousandths where particles = {size}");
-        (place, expected(size).map(|value| 1e3 * value))
-    });
-    let independent = Line::default().with("series", "i.i.d., expected").with_all(energies);
-    let mut lines = vec![independent.with_all(ratios(&expected))];
-    for line in here.lines("series", study.labels()) {
-        let energy = |size: usize| line.rows.with("particles", size).median(ENERGY);
-        lines.push(line.clone().with_all(ratios(&energy)));
+        independent = independent.with(place, energy.map(|value| 1e3 * value));
+        independent = independent.with_all([ratio(size, energy)]);
     }
+    let of_methods = lines(study, here).into_iter().map(|line| {
+        let ratios = sizes.iter().map(|&size| ratio(size, of_runs(&line.rows, size)));
+        line.clone().with_all(ratios)
+    });
+    let lines = [independent].into_iter().chain(of_methods);
     let repeated = [each("yardstick", yardstick), each("M", &sizes)];
     page.lines_over("Squared energy distance", &repeated, lines);
 }
 
-/// A line per method, a column per dimension.
+/// The exponent in a dimension.
+type Exponent = fn(Dimension) -> f64;
+
+/// A column per dimension, with what is known exactly above.
 fn slopes(study: &Accuracy, rows: &Rows<'_>, page: &mut Page) {
     page.part("Slopes", &[]);
-    let exact = |name: &str, slope: &dyn Fn(Dimension) -> f64| {
-        let place = |dim: &Dimension| format!("exponent of particles in energy_root where dim = {dim}");
-        let slope = |dim: &Dimension| (place(dim), number(slope(*dim)).replace('-', "−"));
-        Line::default()
-            .with("series", name)
-            .with_all(study.dims.iter().map(slope))
-    };
-    let mut lines = vec![
-        exact("best possible", &best_exponent),
-        exact("independent draws", &|_| -0.5),
-    ];
-    lines.extend(rows.lines("series", study.labels()));
+    let exact: [(&str, Exponent); 2] = [("best possible", best_exponent), ("independent draws", |_| -0.5)];
+    let exact = exact.map(|(name, slope)| {
+        let cell = |&dim: &Dimension| {
+            let place = format!("exponent of particles in energy_root where dim = {dim}");
+            (place, number(slope(dim)).replace('-', "−"))
+        };
+        let line = Line::default().with("series", name);
+        line.with_all(study.dims.iter().map(cell))
+    });
+    let lines = exact.into_iter().chain(lines(study, rows));
     page.lines_over("Slopes", &[each("d", &study.dims)], lines);
 }
 
@@ -79,13 +84,10 @@ fn costs(study: &Accuracy, rows: &Rows<'_>, page: &mut Page) {
         ("evaluations", "evaluations_per_particle"),
         ("nodes", "active_nodes"),
     ] {
-        let lines = rows.lines("series", study.labels()).into_iter();
+        let has_taken = |line: &Line<'_>| line.rows.largest(column).is_some_and(|most| most > 0.0);
+        let lines = lines(study, rows).into_iter();
         let lines = lines.flat_map(|line| line.by("particles", ascending(&study.particles)));
-        let in_some_dimension = |line: &Line<'_>| {
-            let of_dim = |dim: &Dimension| line.rows.with("dim", *dim).median(column);
-            study.dims.iter().filter_map(of_dim).any(|cost| cost > 0.0)
-        };
-        let lines: Vec<Line<'_>> = lines.filter(in_some_dimension).collect();
+        let lines: Vec<Line<'_>> = lines.filter(has_taken).collect();
         if !lines.is_empty() {
             page.part(part, &[]);
             page.lines_over(part, &[each("d", &study.dims)], lines);

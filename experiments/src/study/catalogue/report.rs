@@ -84,7 +84,7 @@ fn start_table(study: &Catalogue, targets: &[(String, Requirement)], rows: &Rows
         here.with("bound", asked.bound)
     };
     page.part("from a start", &[]);
-    let methods = study.methods.iter().map(MethodSpecification::label);
+    let methods = MethodSpecification::labels(&study.methods);
     let repeated = [each("method", methods), each("judged", [study.judged()])];
     page.lines_over("from a start", &repeated, targets.iter().map(line));
 }

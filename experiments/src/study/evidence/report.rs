@@ -6,7 +6,7 @@ use crate::study::prelude::*;
 /// Tables and figure.
 pub fn report(study: &Evidence, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
     let mut page = directory.page(include_str!("report.md"), &[]);
-    let methods = || study.methods.iter().map(MethodSpecification::label);
+    let methods = || MethodSpecification::labels(&study.methods);
     page.part("All targets", &[]);
     page.lines("All targets", rows.lines("method", methods()));
     page.heading("Errors in standard errors");

@@ -105,9 +105,8 @@ impl Setting {
         let dim = self.target.dimension()?;
         let work = (self.particles.get() * self.steps.get()) as f64;
         let case = Case::new(self.id(), self.clone()).costing(work * (3f64.powi(dim as i32) + looks));
-        let lacks = self.rival.as_ref().and_then(MethodSpecification::lacks);
         let mut case = case.with("dim", dim);
         self.note(&mut case.row);
-        Ok(Case { lacks, ..case })
+        Ok(self.rival.iter().fold(case, Case::by))
     }
 }

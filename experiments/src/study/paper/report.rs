@@ -72,7 +72,7 @@ fn failures(bodies: &Rows<'_>, page: &mut Page) {
 fn against_rivals(study: &Paper, findings: &Findings<'_>, page: &mut Page) {
     let mut lines = Vec::new();
     for (variant, method, here) in by_method(&findings.base) {
-        for rival in study.rivals.iter().map(MethodSpecification::label) {
+        for rival in MethodSpecification::labels(&study.rivals) {
             let others = findings.rivals.with("method", rival);
             let contest = here.against(&others, (RATIO, &["target", "seed", "particles"]), TIE);
             if contest.pairs() > 0 {

@@ -82,11 +82,11 @@ words! {
 }
 
 impl Piece {
-    fn case(self, part: &Part, method: &str, particles: usize) -> Result<Case<Self>, CommandError> {
+    fn case(self, part: &Part, particles: usize) -> Result<Case<Self>, CommandError> {
         Ok(Case::new(self.to_string(), self)
+            .by(&part.method)
             .with("target", part.target.label())
             .with("dim", part.target.dimension()?)
-            .with("method", method)
             .with("particles", particles))
     }
 
@@ -110,12 +110,11 @@ impl Study for Quickstart {
         holds(dimension == 2, "picture.target", otherwise)?;
         positive("bounds.mean", &[self.bounds.mean])?;
         positive("bounds.standard-deviation", &[self.bounds.standard_deviation])?;
-        let sampled = |piece: Piece, part: &Part| piece.case(part, part.method.label(), part.particles.get());
-        let points = self.reference.points.get();
-        let reference = Piece::Reference.case(&self.posterior, "importance-sampling", points)?;
-        let posterior = sampled(Piece::Posterior, &self.posterior)?;
-        let picture = sampled(Piece::Picture, &self.picture)?;
-        Ok(vec![reference.costing(2.0), posterior.costing(10.0), picture])
+        let reference = Piece::Reference.case(&self.posterior, self.reference.points.get())?;
+        let reference = reference.with("method", "importance-sampling").costing(2.0);
+        let posterior = Piece::Posterior.case(&self.posterior, self.posterior.particles.get())?;
+        let picture = Piece::Picture.case(&self.picture, self.picture.particles.get())?;
+        Ok(vec![reference, posterior.costing(10.0), picture])
     }
 
     fn run(&self, case: &Case<Piece>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {

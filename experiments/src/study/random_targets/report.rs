@@ -30,7 +30,7 @@ fn claims_falsely(row: &Row) -> bool {
 
 /// A line per method, of the runs in one dimension.
 fn table(study: &RandomTargets, rows: &Rows<'_>, page: &mut Page) {
-    let labels = || study.methods.iter().map(MethodSpecification::label);
+    let labels = || MethodSpecification::labels(&study.methods);
     let lines = rows.lines("method", labels()).into_iter().map(|line| {
         let here = line.rows.clone();
         let is_other = |label: &&str| here.first().is_some_and(|row| row.text("method") != *label);

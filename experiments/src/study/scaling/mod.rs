@@ -107,12 +107,12 @@ impl Study for Scaling {
         for &dim in &sweep.dims {
             let sizes = sweep.particles.iter().map(|particles| (dim, particles.get(), None));
             let sizes = sizes.filter(|size| work(size) <= most);
-            cases.extend(sizes.map(|size| case(size, quantity::PARTICLES.name, None)));
+            cases.extend(sizes.map(|size| case(size, quantity::PARTICLES.name, None).by(&self.method)));
         }
         for &dim in &nodes.dims {
             for count in nodes.nodes_per_axis.iter().map(|count| count.get()) {
                 let size = (dim, nodes.particles.get(), Some((high - low) / count as f64));
-                cases.push(case(size, quantity::NODES.name, Some(count)));
+                cases.push(case(size, quantity::NODES.name, Some(count)).by(&self.method));
             }
         }
         Ok(cases)
@@ -125,20 +125,16 @@ impl Study for Scaling {
         let target = TargetSpecification::plain(&self.target, Some(dim));
         let size = (particles, self.seed);
         let work = Sampled::new(&target, &specification, Some(self.steps.get()), size)?;
-        let Some(first) = row.note(work.sample(tools.observer))? else {
-            return Ok(());
-        };
-        row.set("spacing", first.spacing.or(spacing));
         let mut times = Vec::new();
-        for _ in 0..self.repeats.get() {
-            match attempt(work.sample(tools.observer))? {
-                Ok(outcome) => times.push(outcome.wall_seconds / outcome.steps.max(1) as f64),
-                Err(failure) => {
-                    row.fail(failure);
-                    return Ok(());
-                }
-            }
+        for _ in 0..=self.repeats.get() {
+            let Some(outcome) = row.note(work.sample(tools.observer))? else {
+                return Ok(());
+            };
+            row.set("spacing", outcome.spacing.or(spacing));
+            times.push(outcome.wall_seconds / outcome.steps.max(1) as f64);
         }
+        // The first is to warm up.
+        times.remove(0);
         specification.options.steps = Some(self.steps);
         let peak = memory::peak_of_own_process(&work, &specification, tools.directory.threads);
         row.set("memory_peak_bytes", peak);

@@ -44,14 +44,10 @@ impl TimeError {
 
     /// The numbers of steps of one method; `None`: its own, or draws.
     fn sweep(&self, method: &MethodSpecification) -> Vec<Option<usize>> {
-        if !method.name.iterates() {
-            return vec![None];
-        }
-        match (method.options.steps, &self.steps) {
-            (Some(steps), _) => vec![Some(steps.get())],
-            (None, Some(steps)) => steps.iter().map(|steps| Some(steps.get())).collect(),
-            (None, None) => vec![None],
-        }
+        let own = method.options.steps.map(|steps| vec![steps]);
+        let steps = own.or(self.steps.clone()).filter(|_| method.name.iterates());
+        let told = |steps: Vec<StepCount>| steps.iter().map(|steps| Some(steps.get())).collect();
+        steps.map_or(vec![None], told)
     }
 }
 
@@ -81,12 +77,11 @@ impl Study for TimeError {
                     let of_steps = steps.map_or(String::new(), |steps| format!("-t{steps}"));
                     let name = format!("{}-{}-m{}{of_steps}", target.label(), method.label(), self.particles);
                     let cost = 100.0 + per_step * steps.unwrap_or(0) as f64;
-                    let case = |&seed: &u64| {
+                    for &seed in &self.seeds {
                         let work = Sampled::new(target, method, steps, (self.particles.get(), seed))?;
                         let case = work.case(format!("{name}-s{seed}"), method)?;
-                        Ok::<_, CommandError>(case.with("steps", steps).costing(cost))
-                    };
-                    cases.extend(self.seeds.iter().map(case).collect::<Result<Vec<_>, _>>()?);
+                        cases.push(case.with("steps", steps).costing(cost));
+                    }
                 }
             }
         }

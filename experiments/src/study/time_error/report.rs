@@ -41,15 +41,15 @@ const SLICED: &str = "sliced_wasserstein";
 fn figures(study: &TimeError, rows: &Rows<'_>, page: &mut Page) {
     page.heading("Figures");
     let errors = [
-        ("energy", "ED²", "ED²", ENERGY),
-        ("sliced", "SW₂", "sliced Wasserstein SW_{2}", SLICED),
+        ("energy", "ED²", ENERGY),
+        ("sliced", "sliced Wasserstein SW_{2}", SLICED),
     ];
     let costs = [
-        ("time", "wall time", "wall time (s)", SECONDS),
-        ("evaluations", "evaluations", "evaluations", "evaluations"),
+        ("time", "wall time (s)", SECONDS),
+        ("evaluations", "evaluations", "evaluations"),
     ];
-    for (error_file, error_name, y_label, error) in errors {
-        for (cost_file, cost_name, x_label, cost) in costs {
+    for (error_file, y_label, error) in errors {
+        for (cost_file, x_label, cost) in costs {
             let panel = |target: &TargetSpecification| {
                 let here = rows.with("target", target.label());
                 TimeErrorPanel {
@@ -63,11 +63,7 @@ fn figures(study: &TimeError, rows: &Rows<'_>, page: &mut Page) {
             };
             let panels = study.targets.iter().map(panel).filter(|panel| !panel.curves.is_empty());
             let plot = time_error(x_label, y_label, panels);
-            let caption = format!(
-                "{error_name} against {cost_name}, a point per number of steps; medians over the seeds, bars from least to most."
-            );
-            let name = format!("{error_file}-{cost_file}.svg");
-            page.figure(&name, &caption, multiples(&plot));
+            page.drawing(&format!("{error_file}-{cost_file}.svg"), multiples(&plot));
         }
     }
 }
@@ -114,11 +110,10 @@ fn paper_part(study: &TimeError, rows: &Rows<'_>, page: &mut Page) {
         }
     }
     page.lines("The paper's algorithms on the two-dimensional targets", lines);
-    let all_finished = "Every run finished with finite particles.";
-    match failures.is_empty() {
-        true => page.paragraph(all_finished),
-        false => page.paragraph(format!("Runs that did not finish:\n\n{}", failures.join("\n"))),
-    }
+    page.paragraph(match &failures[..] {
+        [] => "Every run finished with finite particles.".to_owned(),
+        failures => format!("Runs that did not finish:\n\n{}", failures.join("\n")),
+    });
 }
 
 /// The last of the settings of a method, by their steps, beside the best one.

@@ -37,7 +37,7 @@ fn times(study: &TimeToLevel, rows: &Rows<'_>, page: &mut Page) {
         let clock = own.filter(|row| reached(row)).and_then(|row| row.number(SECONDS));
         let level = own.and_then(|row| row.number("energy_level"));
         let mut line = steps_and_time(Line::default().with("dim", dim.get()).with("level", level), label, own);
-        for rival in study.rivals.iter().map(MethodSpecification::label) {
+        for rival in MethodSpecification::labels(&study.rivals) {
             let row = find(rival);
             let ratio = row.and_then(|row| Some(row.number(SECONDS)? / clock?));
             let text = match (ratio, row.filter(|row| !reached(row))) {
@@ -51,7 +51,7 @@ fn times(study: &TimeToLevel, rows: &Rows<'_>, page: &mut Page) {
         }
         lines.push(line);
     }
-    let rivals = study.rivals.iter().map(MethodSpecification::label);
+    let rivals = MethodSpecification::labels(&study.rivals);
     page.lines_over("Times", &[each("own", [label]), each("rival", rivals)], lines);
     if !bounds.is_empty() {
         page.paragraph(bounds.join("\n"));

@@ -23,7 +23,10 @@ fn a_column_of_sand_spreads_as_before() {
 /// Until the toe has failed.
 #[test]
 fn a_slope_of_clay_fails_as_before() {
-    let clay = run("clay_slope", &[("end = 3.0", "end = 2.0")]);
+    let clay = run(
+        "clay_slope",
+        &[("end = 3.0", "end = 2.0"), ("spacing = 0.4", "spacing = 0.8")],
+    );
     for (column, quantity) in [("centre_x", "centre at 2 s"), ("upper_x", "front at 2 s")] {
         pinned(
             "clay_slope",

@@ -6,6 +6,8 @@ use mpm_scenes::{Scene, Series, ValidationRow, simulate};
 
 /// What a run gave.
 pub struct Finished {
+    /// What was run.
+    pub scene: Scene,
     /// Its rows of `validation.csv`.
     pub rows: Vec<ValidationRow>,
     /// Its time series.
@@ -20,6 +22,12 @@ const SAME: f64 = 1e-3;
 
 /// Runs the committed scene `name` with texts of it replaced.
 pub fn run(name: &str, changes: &[(&str, &str)]) -> Finished {
+    let directory = tempfile::tempdir().expect("a directory");
+    run_into(directory.path(), name, changes)
+}
+
+/// The same with its files in this directory.
+pub fn run_into(directory: &Path, name: &str, changes: &[(&str, &str)]) -> Finished {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("scenes/{name}.toml"));
     let mut text = std::fs::read_to_string(&path).expect("a committed scene");
     for (old, new) in changes {
@@ -27,15 +35,15 @@ pub fn run(name: &str, changes: &[(&str, &str)]) -> Finished {
         text = text.replace(old, new);
     }
     let scene = Scene::parse(&text, &path).expect("a valid scene");
-    let directory = tempfile::tempdir().expect("a directory");
-    let summary = simulate(&scene, directory.path(), &mut ()).expect("a run to the end");
-    let text = std::fs::read_to_string(directory.path().join("series.csv")).expect("written");
+    let summary = simulate(&scene, directory, &mut ()).expect("a run to the end");
+    let text = std::fs::read_to_string(directory.join("series.csv")).expect("written");
     let mut lines = text.lines();
     let mut series = Series::new(lines.next().expect("a header").split(',').map(str::to_owned).collect());
     for line in lines {
         assert!(series.push(line.split(',').map(|value| value.parse().expect("a number")).collect()));
     }
     Finished {
+        scene,
         rows: summary.validation,
         series,
     }

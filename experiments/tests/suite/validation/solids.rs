@@ -32,13 +32,15 @@ fn the_bar_converges_with_second_order() {
 
 #[test]
 fn the_disks_rebound_and_flip_loses_little() {
-    let flip = run("two_disks", &[]);
+    let spacing = |spacing: &'static str| ("spacing = 0.025", spacing);
+    let flip = run("two_disks", &[spacing("spacing = 0.03125")]);
     flip.passes_as_pinned("two_disks");
-    let coarse = run("two_disks", &[("spacing = 0.025", "spacing = 0.05")]);
     let loss = "energy lost";
+    let coarse = run("two_disks", &[spacing("spacing = 0.0625")]);
     assert!(coarse.row(loss).measured > 1.5 * flip.row(loss).measured);
-    let apic = run("two_disks", &[("\"flip\"", "\"apic\""), ("flip_share = 1.0\n", "")]);
-    assert!(apic.row(loss).measured > 2.0 * flip.row(loss).measured);
+    let apic = [("\"flip\"", "\"apic\""), ("flip_share = 1.0\n", "")];
+    let apic = run("two_disks", &[&apic[..], &[spacing("spacing = 0.0625")]].concat());
+    assert!(apic.row(loss).measured > 2.0 * coarse.row(loss).measured);
     pinned("two_disks, apic", loss, apic.row(loss).measured);
 }
 
