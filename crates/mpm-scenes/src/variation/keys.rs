@@ -43,15 +43,29 @@ fn put_within(place: &mut Value, name: &str, key: &str, value: Value) -> Result<
     }
 }
 
-/// Removes what is at a dotted key; nothing where there is nothing.
+/// Removes what is at a dotted key, of tables in arrays, too; nothing where there is nothing, and no element of an array, whose others would have other numbers.
 pub fn remove(scene: &mut Table, key: &str) {
     match split(key) {
         (name, None) => drop(scene.remove(name)),
         (first, Some(rest)) => {
-            if let Some(Value::Table(inner)) = scene.get_mut(first) {
-                remove(inner, rest);
+            if let Some(inner) = scene.get_mut(first) {
+                remove_within(inner, rest);
             }
         }
+    }
+}
+
+fn remove_within(place: &mut Value, key: &str) {
+    match place {
+        Value::Table(table) => remove(table, key),
+        Value::Array(elements) => {
+            let (first, rest) = split(key);
+            let element = first.parse::<usize>().ok().and_then(|index| elements.get_mut(index));
+            if let (Some(element), Some(rest)) = (element, rest) {
+                remove_within(element, rest);
+            }
+        }
+        _ => {}
     }
 }
 
@@ -142,6 +156,8 @@ mod tests {
         assert_eq!(number(&scene, "bodies.0.shape.upper.0"), Some(1.0));
         remove(&mut scene, "grid.spacing");
         assert_eq!(number(&scene, "grid.spacing"), None);
+        remove(&mut scene, "bodies.0.shape.upper");
+        assert_eq!(number(&scene, "bodies.0.shape.upper.0"), None);
         remove(&mut scene, "bodies");
         assert!(!scene.contains_key("bodies"));
     }
