@@ -13,7 +13,7 @@ use crate::driven::Driven;
 use crate::mpm_body::{Body, Unfinished};
 use crate::start::positive;
 use crate::stein_discrepancy::squared_stein_discrepancy;
-use crate::strays::bring_back;
+use crate::strays::{BEYOND, bring_back, has_edges};
 use crate::{MomentCorrection, MpmOptions, NonFiniteScores, Observer, Run, SampleError, Samples, defaults};
 
 /// Evens out particles that were condensed from a pool.
@@ -67,7 +67,7 @@ impl<'a, const D: usize> Polish<'a, D> {
     /// which do not follow it, are farther from it than from the target by ν. So a candidate is taken if its energy distance to the pool exceeds theirs by less
     /// than 2ν, and if its kernel Stein discrepancy is no larger; one that ends where a score is not finite is not.
     pub fn run(&self, journal: &mut Journal, observer: &mut dyn Observer) -> Result<Polished<D>, SampleError> {
-        let (condensed, densities) = self.condensed();
+        let (condensed, mut densities) = self.condensed();
         if self.options.rounds == Some(0) {
             return Ok(Polished {
                 best: condensed,
@@ -115,6 +115,10 @@ impl<'a, const D: usize> Polish<'a, D> {
             }
             planned *= 2;
         }
+        // Corrections and the material know of no edges.
+        if has_edges(self.pool) {
+            densities += bring_back(self.target, self.pool, 0.0, &mut best.samples.positions);
+        }
         Ok(Polished {
             best,
             spent,
@@ -126,13 +130,13 @@ impl<'a, const D: usize> Polish<'a, D> {
     /// The particles that the pool is condensed to, without scores, and how often log p was evaluated for them.
     fn condensed(&self) -> (Driven<D>, u64) {
         let count = self.run.particles;
-        let (seen, densities) = if self.options.weighted {
-            (self.pool.flattened().condense(count), 0)
+        // Weighted particles stand for light parts, too.
+        let (mut seen, beyond) = if self.options.weighted {
+            (self.pool.flattened().condense(count), 0.0)
         } else {
-            let mut seen = self.pool.condense(count);
-            let densities = bring_back(self.target, self.pool, &mut seen);
-            (seen, densities)
+            (self.pool.condense(count), BEYOND)
         };
+        let densities = bring_back(self.target, self.pool, beyond, &mut seen);
         let driven = Driven {
             positions: seen.iter().map(|x| self.frame.to_reference(x)).collect(),
             samples: Samples {

@@ -5,16 +5,22 @@ use parvi_pool::Pool;
 use parvi_targets::Target;
 
 /// Part of a particle's mass that lies at lower densities than a particle may have.
-const BEYOND: f64 = 0.01;
+pub(crate) const BEYOND: f64 = 0.01;
 
 /// Puts every particle where p is lower than nearly everywhere under the target onto the nearest of the pool's points where it is not; how often log p was evaluated.
 ///
 /// Support points of a signed measure may be pushed out by negative weights, and far from all mass nothing but a share 1/M of it pulls them back; beyond an edge of the
-/// target, too. The level is that of all but 1/(100 M) of the pool's mass, so that no tail is cut that M particles could stand for. No point is given to two particles.
-pub(crate) fn bring_back<const D: usize>(target: &dyn Target<D>, pool: &Pool<D>, particles: &mut [[f64; D]]) -> u64 {
+/// target, too. The level is that of all but the share `beyond`/M of the pool's mass, 1/100 M so that no tail is cut that M particles could stand for, or that of its lowest point. No point
+/// is given to two particles.
+pub(crate) fn bring_back<const D: usize>(
+    target: &dyn Target<D>,
+    pool: &Pool<D>,
+    beyond: f64,
+    particles: &mut [[f64; D]],
+) -> u64 {
     let mut log_densities = vec![f64::NAN; particles.len()];
     target.log_densities(particles, &mut log_densities);
-    let level = level(pool, BEYOND / particles.len() as f64);
+    let level = level(pool, beyond / particles.len() as f64);
     let frame = pool.measure.frame();
     let inside = pool
         .positions
@@ -35,6 +41,11 @@ pub(crate) fn bring_back<const D: usize>(target: &dyn Target<D>, pool: &Pool<D>,
         }
     }
     log_densities.len() as u64
+}
+
+/// Whether the target was zero, or no number, anywhere.
+pub(crate) fn has_edges<const D: usize>(pool: &Pool<D>) -> bool {
+    pool.log_densities.contains(&f64::NEG_INFINITY)
 }
 
 /// The log density that all but this share of the pool's mass exceeds or has.
@@ -68,7 +79,7 @@ mod tests {
         let [first, second] = [[9.0, 0.0], [9.1, 0.0]];
         (particles[3], particles[7]) = (first, second);
         let before = particles.clone();
-        assert_eq!(bring_back(&target, &pool, &mut particles), 100);
+        assert_eq!(bring_back(&target, &pool, BEYOND, &mut particles), 100);
         let moved: Vec<usize> = (0..100).filter(|&p| particles[p] != before[p]).collect();
         assert_eq!(moved, [3, 7]);
         assert_ne!(particles[3], particles[7]);

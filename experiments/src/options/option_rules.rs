@@ -82,6 +82,11 @@ impl MethodOptions {
             ("evaluations search-effort", surveys, "needs a survey"),
             ("rounds", surveys || has_rounds, "needs a survey"),
             ("pool", surveys, "needs a survey"),
+            (
+                "weighted",
+                surveys || self.weighted != Some(Switch::On),
+                "needs a survey",
+            ),
             ("alpha", self.alpha > Some(0.0), attracts),
             ("alpha-from", self.alpha_from > Some(0.0), attracts),
             ("alpha-to", self.alpha_to > Some(0.0), attracts),

@@ -135,8 +135,15 @@ impl Target<4> for UnitCube {
 
 #[test]
 fn no_particle_is_outside_of_a_box() {
-    for seed in 0..3 {
-        let (frame, run) = (Frame::identity(), Run::new(500, seed));
+    let weighted = MpmOptions {
+        weighted: true,
+        ..MpmOptions::default()
+    };
+    for seed in 0..4 {
+        let (frame, run) = (
+            Frame::from_scales([0.65; 4], [0.43; 4]).expect("a frame"),
+            Run::new(1000, seed),
+        );
         for (method, samples) in [
             (
                 "ais",
