@@ -139,28 +139,22 @@ fn no_particle_is_outside_of_a_box() {
         weighted: true,
         ..MpmOptions::default()
     };
+    let frame = Frame::from_scales([0.65; 4], [0.43; 4]).expect("a frame");
     for seed in 0..4 {
-        let (frame, run) = (
-            Frame::from_scales([0.65; 4], [0.43; 4]).expect("a frame"),
-            Run::new(1000, seed),
-        );
-        for (method, samples) in [
-            (
-                "ais",
-                AisOptions::default().sample(&UnitCube, &frame, &run, &mut Silent),
-            ),
-            (
-                "mpm",
-                MpmOptions::default().sample(&UnitCube, &frame, &run, &mut Silent),
-            ),
-        ] {
+        let run = Run::new(1000, seed);
+        let check = |method: &str, samples: Result<Samples<4>, SampleError>| {
             let samples = samples.expect(method);
-            let outside = samples
-                .positions
-                .iter()
-                .filter(|x| UnitCube.log_density(x) < 0.0)
-                .count();
-            assert_eq!(outside, 0, "{method}, seed {seed}, {} steps", samples.steps);
-        }
+            let outside = samples.positions.iter().filter(|x| UnitCube.log_density(x) < 0.0);
+            assert_eq!(outside.count(), 0, "{method}, seed {seed}, {} steps", samples.steps);
+        };
+        check(
+            "ais",
+            AisOptions::default().sample(&UnitCube, &frame, &run, &mut Silent),
+        );
+        check(
+            "mpm",
+            MpmOptions::default().sample(&UnitCube, &frame, &run, &mut Silent),
+        );
+        check("weighted", weighted.sample(&UnitCube, &frame, &run, &mut Silent));
     }
 }
