@@ -115,7 +115,7 @@ impl<'a, const D: usize> Polish<'a, D> {
             }
             planned *= 2;
         }
-        // Corrections and the material know of no edges.
+        // Corrections, the material and the rounding of coordinates know of no edges.
         if has_edges(self.pool) {
             densities += bring_back(self.target, self.pool, 0.0, &mut best.samples.positions);
         }

@@ -10,7 +10,7 @@ pub(crate) const BEYOND: f64 = 0.01;
 /// Puts every particle where p is lower than nearly everywhere under the target onto the nearest of the pool's points where it is not; how often log p was evaluated.
 ///
 /// Support points of a signed measure may be pushed out by negative weights, and far from all mass nothing but a share 1/M of it pulls them back; beyond an edge of the
-/// target, too. The level is that of all but the share `beyond`/M of the pool's mass, 1/100 M so that no tail is cut that M particles could stand for, or that of its lowest point. No point
+/// target, too. The level is that of all but the share `beyond`/M of the pool's mass: 1/(100 M), so that no tail is cut that M particles could stand for, or 0, the level of its lowest point. No point
 /// is given to two particles.
 pub(crate) fn bring_back<const D: usize>(
     target: &dyn Target<D>,
