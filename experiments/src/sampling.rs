@@ -63,6 +63,7 @@ outcome! {
     log_evidence_error: Option<f64>,
     pareto_k: Option<f64>,
     unseen: Option<f64>,
+    relative_energy_distance: Option<f64>,
     certificate: Option<Certificate>,
     trace: Vec<TracePoint>,
 }
@@ -158,6 +159,7 @@ pub fn sample_target<const D: usize>(
         &mut outcome.log_evidence_deviation,
         &mut outcome.pareto_k,
         &mut outcome.unseen,
+        &mut outcome.relative_energy_distance,
         &mut outcome.score_disagreement,
         &mut outcome.residual,
         &mut outcome.spacing,

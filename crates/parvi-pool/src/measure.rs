@@ -1,5 +1,7 @@
 //! What stands for the target when all weights are put together: a signed measure.
 
+use std::ops::Range;
+
 use mpm_tensor::vector;
 use parvi_targets::Frame;
 
@@ -30,6 +32,8 @@ pub struct Measure<const D: usize> {
     pub evaluated: Vec<bool>,
     /// Σ c² r over the points that were evaluated, r = (1 + |z|²/D)/2 at z of [`frame`](Self::frame): what 1/n is for n independent draws.
     pub variance: f64,
+    /// Where the points of every independent part end.
+    ends: Vec<usize>,
 }
 
 impl<const D: usize> Measure<D> {
@@ -37,6 +41,7 @@ impl<const D: usize> Measure<D> {
     pub fn new(points: Vec<[f64; D]>, weights: Vec<f64>) -> Self {
         let mut measure = Self {
             evaluated: vec![true; points.len()],
+            ends: vec![points.len()],
             points,
             weights,
             variance: 0.0,
@@ -91,6 +96,7 @@ impl<const D: usize> Measure<D> {
         measure.weights.extend(vec![beta / draws.len() as f64; draws.len()]);
         measure.evaluated.extend(vec![false; draws.len()]);
         measure.points.extend(draws);
+        measure.ends = vec![measure.points.len()];
         Some((evidence - correction.ln(), measure))
     }
 
@@ -117,9 +123,16 @@ impl<const D: usize> Measure<D> {
         self.variance = (1.0 - share).powi(2) * self.variance + share * share * other.variance;
         self.weights.iter_mut().for_each(|c| *c *= 1.0 - share);
         self.weights.extend(other.weights.iter().map(|c| share * c));
+        self.ends.extend(other.ends.iter().map(|end| self.points.len() + end));
         self.points.extend(other.points);
         self.evaluated.extend(other.evaluated);
         self
+    }
+
+    /// The points of every part that was drawn and weighed by itself: how far these are apart says how far all are from the target.
+    pub(crate) fn parts(&self) -> impl Iterator<Item = Range<usize>> {
+        let begins = std::iter::once(0).chain(self.ends.iter().copied());
+        begins.zip(&self.ends).map(|(begin, end)| begin..*end)
     }
 
     /// The mass that is nearer to a particle than to any other one in coordinates of the [`frame`](Self::frame), for every particle; none negative, and their

@@ -94,7 +94,13 @@ fn cut<'a, const D: usize>(
         .collect();
     let mut masses = vec![0.0; cuts.len() + 1];
     for (s, point) in along.iter().zip(points) {
-        masses[cuts.partition_point(|cut| cut < s)] += point.rise;
+        // Most points of a large piece are beside the window.
+        let below = match &cuts[..] {
+            [first, ..] if s <= first => 0,
+            [.., last] if s > last => cuts.len(),
+            _ => cuts.partition_point(|cut| cut < s),
+        };
+        masses[below] += point.rise;
     }
     let per_particle = masses.iter().sum::<f64>() / places.len() as f64;
     let mut mass = 0.0;

@@ -34,15 +34,16 @@ pub fn polish_spacing<const D: usize>(basis: BasisChoice, particles: usize, entr
     1.4 * entropy_power.clamp(1e-3, 1.0) * spacing::<D>(basis, particles)
 }
 
-/// Particles that a survey is made for, at most: more of them are condensed from the same pool, and the material evens out what that cannot.
-pub const LARGEST_POOL: usize = 4096;
+/// Particles that a survey is made for, at most: more of them are condensed from the same pool, and the material evens out what that cannot. Up to here evaluations are spent on
+/// a larger pool, which takes away more than the material does for as many.
+pub const LARGEST_POOL: usize = 16_384;
 
 /// Entropy power of the target, over that of the normal law of its covariance, below which the moments of condensed particles are left as they are: a target that is so bent, or in so many
 /// pieces, gains nothing by a shift of all particles.
 pub const LEAST_CORRECTED_ENTROPY_POWER: f64 = 0.5;
 
-/// Part of the energy distance of condensed particles from the target that standard deviations as large as the pool's may cost.
-pub const MOMENT_PRICE: f64 = 0.1;
+/// Part of the energy distance of condensed particles from the target that standard deviations as large as the pool's may cost, as far as the pool can tell: single ones cost two to four times that.
+pub const MOMENT_PRICE: f64 = 0.05;
 
 /// Steps of the first round of a polish.
 pub const POLISH_STEPS: usize = 4;
@@ -50,13 +51,8 @@ pub const POLISH_STEPS: usize = 4;
 /// Rounds of a polish, at most, each of twice as many steps as the one before.
 pub const POLISH_ROUNDS: usize = 4;
 
-/// Variance of a pool, over that of as many independent draws as there are particles, from which on particles that were condensed from it are polished: a polish takes away no more
-/// than this, and M^{−1/D} is what even the best M particles have, but for a factor of the order of one.
-pub fn least_polished_noise<const D: usize>(particles: usize) -> f64 {
-    (particles as f64).powf(-1.0 / D as f64)
-}
-
-/// The same variance from which on a polish goes on after its first round.
+/// Variance of a pool, over that of as many independent draws as there are particles, from which on particles that were condensed from it are polished, however few they are, and a
+/// polish goes on after its first round.
 pub const LARGEST_POOL_NOISE: f64 = 0.3;
 
 /// Δt for spacing h: 0.6 h, but no more than 0.6 until 0.23 h is, from h = 2.6 on.

@@ -4,7 +4,6 @@ mod moments;
 
 use std::cell::OnceCell;
 
-use mpm_tensor::vector;
 use parvi_pool::{EnergyDistance, Pool};
 use parvi_targets::{Frame, Target};
 
@@ -63,9 +62,9 @@ impl<'a, const D: usize> Polish<'a, D> {
 
     /// Moves the particles, twice as far every time, as long as that brings them nearer by what the pool and the scores can tell.
     ///
-    /// Condensed particles follow the pool's noise, which is ν = Σ c² of an energy distance of E|Y − Y′|: they are nearer to it than to the target by ν, and others,
-    /// which do not follow it, are farther from it than from the target by ν. So a candidate is taken if its energy distance to the pool exceeds theirs by less
-    /// than 2ν, and if its kernel Stein discrepancy is no larger; one that ends where a score is not finite is not.
+    /// Condensed particles follow the pool's noise, an energy distance n from the target: they are nearer to it than to the target by n, and others, which do not follow it, are farther
+    /// from it than from the target by n. So a candidate is taken if its energy distance to the pool exceeds theirs by less than 2 n, and if its kernel Stein discrepancy is no larger;
+    /// one that ends where a score is not finite is not.
     pub fn run(&self, journal: &mut Journal, observer: &mut dyn Observer) -> Result<Polished<D>, SampleError> {
         let (condensed, mut densities) = self.condensed();
         if self.options.rounds == Some(0) {
@@ -76,18 +75,18 @@ impl<'a, const D: usize> Polish<'a, D> {
                 steps: 0,
             });
         }
-        let noise = self.pool.measure.variance * self.run.particles as f64;
-        let can_gain = self.options.steps.is_some() || noise >= defaults::least_polished_noise::<D>(self.run.particles);
+        let variance = self.pool.measure.variance * self.run.particles as f64;
+        let is_noisy = variance >= defaults::LARGEST_POOL_NOISE;
+        let can_gain = self.options.steps.is_some() || is_noisy || self.run.particles > defaults::LARGEST_POOL;
         let rounds = match self.options.rounds {
             // The material knows of equal masses only.
             _ if self.options.weighted => 0,
             None if !can_gain => 0,
             rounds => rounds.unwrap_or(defaults::POLISH_ROUNDS),
         };
-        let (energy, spread) = (self.energy(&condensed), mean_distance(&condensed.positions));
-        let allowed = energy + 2.0 * self.pool.measure.variance * spread;
-        let mut best = self.corrected(condensed, energy, spread)?;
+        let mut best = self.corrected(condensed)?;
         let (mut spent, mut steps, mut planned) = (best.samples.score_evaluations, 0, defaults::POLISH_STEPS);
+        let mut allowed = None;
         for round in 0..rounds {
             let length = self.options.steps.unwrap_or(planned);
             let candidate = match self.moved(&best, length, (round, steps), journal, observer) {
@@ -104,13 +103,14 @@ impl<'a, const D: usize> Polish<'a, D> {
             };
             spent += candidate.samples.score_evaluations;
             steps += candidate.samples.steps;
+            let allowed = *allowed.get_or_insert_with(|| self.energy(&best) + 2.0 * self.distance().noise());
             let nearer = self.energy(&candidate) < allowed
                 && squared_stein_discrepancy(&candidate) <= squared_stein_discrepancy(&best);
             if !nearer {
                 break;
             }
             best = candidate;
-            if noise < defaults::LARGEST_POOL_NOISE {
+            if !is_noisy {
                 break;
             }
             planned *= 2;
@@ -178,7 +178,7 @@ impl<'a, const D: usize> Polish<'a, D> {
         .run(self.spacing)
     }
 
-    /// Who asks for the pool alone asks for no distance.
+    /// Made when it is first asked for.
     fn distance(&self) -> &EnergyDistance<D> {
         let new = || EnergyDistance::new(&self.pool.measure, self.frame);
         self.distance.get_or_init(new)
@@ -187,11 +187,10 @@ impl<'a, const D: usize> Polish<'a, D> {
     fn energy(&self, body: &Driven<D>) -> f64 {
         self.distance().of(&body.samples.positions)
     }
-}
 
-/// E|z − z′| over the particles.
-fn mean_distance<const D: usize>(particles: &[[f64; D]]) -> f64 {
-    let (half, rest) = particles.split_at(particles.len() / 2);
-    let pairs = half.iter().zip(rest.iter().rev());
-    pairs.map(|(x, y)| vector::distance(x, y)).sum::<f64>() / half.len().max(1) as f64
+    /// The energy distance of particles from the target, which is that from the pool and that of the pool for those that follow it and no more for others, over that of as many independent draws.
+    pub fn relative_distance(&self, particles: &[[f64; D]]) -> f64 {
+        let (distance, own) = (self.distance(), self.distance().own());
+        ((distance.of(particles) - own).max(0.0) + distance.noise()) * particles.len() as f64 / own
+    }
 }

@@ -106,6 +106,9 @@ pub struct Samples<const D: usize> {
     /// The share of a wide law from which a piece of the target would have to be seen to be known of with 95 % confidence ([`Pool::unseen`]), where the method searches
     /// for pieces.
     pub unseen: Option<f64>,
+    /// The squared energy distance from the target over what M independent draws have in expectation, as far as the pool knows the target, where there is one and masses are equal: that from the pool,
+    /// and that of the pool by how far its independent parts are apart ([`EnergyDistance::noise`](parvi_pool::EnergyDistance::noise)).
+    pub relative_energy_distance: Option<f64>,
     /// The weighted pool, where the method has one.
     pub pool: Option<Box<Pool<D>>>,
     /// How good the particles are, as far as the method can tell.

@@ -57,6 +57,7 @@ fn condensed<const D: usize>(
         steps,
     } = polish.run(journal, task.observer)?;
     let mut samples = best.samples;
+    samples.relative_energy_distance = (!options.weighted).then(|| polish.relative_distance(&samples.positions));
     samples.steps = steps;
     samples.score_evaluations = spent + pool.score_evaluations;
     samples.density_evaluations = densities + pool.density_evaluations;

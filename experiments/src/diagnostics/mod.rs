@@ -43,6 +43,8 @@ pub struct Diagnostics {
     log_evidence_error: Option<f64>,
     /// Shape of the tail of the importance weights; above 0.7 nothing that rests on them is to be relied on.
     pareto_k: Option<f64>,
+    /// The squared energy distance from the target over that of as many independent draws, as far as the pool knows.
+    relative_energy_distance: Option<f64>,
     /// Everything that was evaluated, weighed; where the method keeps it.
     pool: Option<PoolSize>,
     /// Galerkin–Stein residual relative to independent draws.
@@ -132,6 +134,7 @@ fn of_target<const D: usize>(
         log_evidence: outcome.log_evidence,
         log_evidence_error: outcome.log_evidence_error,
         pareto_k: outcome.pareto_k,
+        relative_energy_distance: outcome.relative_energy_distance,
         pool: outcome.pool.as_ref().map(PoolSize::of).transpose()?,
         residual: outcome.residual,
         kernel_stein_discrepancy: discrepancy(target, &points, weights)?,

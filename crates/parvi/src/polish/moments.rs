@@ -13,16 +13,16 @@ use crate::{MomentCorrection, SampleError, defaults};
 impl<const D: usize> Polish<'_, D> {
     /// The same with scores, and, where that is asked for, the target is nearly normal and the pool does not object, as wide as the pool and with the mean put right.
     ///
-    /// Their distance from the target is that from the pool less ν, or more, as far as they follow its noise. Points of least energy distance are narrow, the more so the heavier a tail
-    /// is, and wide ones are farther: they are widened as far as a tenth of that distance pays for. The mean is put right where scores know it better than the pool does: better than for
+    /// They follow the pool's noise: their distance from the target is that from the pool and that of the pool. Points of least energy distance are narrow, the more so the heavier a tail
+    /// is, and wide ones are farther: they are widened as far as a twentieth of that distance pays for. The mean is put right where scores know it better than the pool does: better than for
     /// independent draws, by the root of what these are farther away, since means of smooth functions gain by all of that and those of scores with jumps by less.
-    pub(super) fn corrected(&self, condensed: Driven<D>, energy: f64, spread: f64) -> Result<Driven<D>, SampleError> {
+    pub(super) fn corrected(&self, condensed: Driven<D>) -> Result<Driven<D>, SampleError> {
         let corrects = self.entropy_power >= defaults::LEAST_CORRECTED_ENTROPY_POWER && !self.options.weighted;
         if !corrects || self.options.moment_correction == MomentCorrection::Off {
             return self.scored(condensed, MomentCorrection::Off, 0.0);
         }
-        let noise = self.pool.measure.variance * spread;
-        let distance = (energy - self.distance().own() - noise).abs();
+        let (energy, noise) = (self.energy(&condensed), self.distance().noise());
+        let distance = (energy - self.distance().own()).max(0.0) + noise;
         let mut wide = condensed.clone();
         standardise(&mut wide.positions, |axis| self.squared_error_of_variance(axis));
         let mut widened = self.energy_in_frame(&wide.positions);
@@ -34,6 +34,7 @@ impl<const D: usize> Polish<'_, D> {
             }
             widened = self.energy_in_frame(&wide.positions);
         }
+        let spread = mean_distance(&condensed.positions);
         let nearer = (spread / (distance * self.run.particles as f64)).sqrt();
         let corrected = self.scored(
             wide,
@@ -105,4 +106,11 @@ impl<const D: usize> Polish<'_, D> {
         let seen: Vec<[f64; D]> = positions.iter().map(|z| self.frame.to_target(z)).collect();
         self.distance().of(&seen)
     }
+}
+
+/// E|z − z′| over the particles.
+fn mean_distance<const D: usize>(particles: &[[f64; D]]) -> f64 {
+    let (half, rest) = particles.split_at(particles.len() / 2);
+    let pairs = half.iter().zip(rest.iter().rev());
+    pairs.map(|(x, y)| vector::distance(x, y)).sum::<f64>() / half.len().max(1) as f64
 }

@@ -45,6 +45,8 @@ fn frame() -> Frame<1> {
 fn sample(target: &HalfLine, seed: u64, non_finite_scores: NonFiniteScores) -> Result<Samples<1>, SampleError> {
     let options = MpmOptions {
         non_finite_scores,
+        // A pool as good as this one is not polished unless that is asked for.
+        rounds: Some(1),
         ..MpmOptions::default()
     };
     options.sample(target, &frame(), &Run::new(1000, seed), &mut Silent)

@@ -2,7 +2,7 @@
 
 use mpm_tensor::Matrix;
 use parvi::{AisOptions, Method, MpmOptions, Run, Samples, Silent, Start, sample};
-use parvi_metrics::{Cloud, ModeMasses};
+use parvi_metrics::{Cloud, GaussianEnergy, ModeMasses};
 use parvi_targets::{Banana, CatalogueTarget, Frame, Gaussian, GaussianMixture, StudentT, Target};
 
 use crate::support::{body_alone, moments};
@@ -223,4 +223,29 @@ fn no_more_is_evaluated_than_allowed() {
         .expect("particles");
     let survey = samples.pool.expect("a pool");
     assert!(survey.density_evaluations + survey.score_evaluations <= 4000);
+}
+
+/// Energy distances that are stated, beside those from the exact law.
+#[test]
+fn particles_know_how_far_they_are_from_the_target() {
+    fn check<const D: usize>(particles: usize) {
+        let target = Gaussian::<D>::autoregressive(0.7).expect("a correlation");
+        let energy = GaussianEnergy::<D>::standard().expect("a dimension");
+        let frame = target
+            .moments()
+            .and_then(|moments| Frame::new(moments.mean, moments.covariance).ok());
+        let frame = frame.expect("moments");
+        for seed in 0..2 {
+            let samples = MpmOptions::default()
+                .sample(&target, &Frame::identity(), &Run::new(particles, seed), &mut Silent)
+                .expect("particles");
+            let points: Vec<[f64; D]> = samples.positions.iter().map(|x| frame.to_reference(x)).collect();
+            let distance = energy.squared(&Cloud::new(&points).expect("points")).expect("finite");
+            let exact = distance * particles as f64 / energy.mean_distance();
+            let stated = samples.relative_energy_distance.expect("a pool");
+            assert!((0.5..2.0).contains(&(stated / exact)), "{D}: {stated} {exact}");
+        }
+    }
+    check::<2>(500);
+    check::<4>(1000);
 }

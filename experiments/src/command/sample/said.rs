@@ -58,6 +58,7 @@ pub fn pairs(arguments: &Arguments, outcome: &Outcome, peak_memory: Option<u64>)
         ("score_disagreement", outcome.score_disagreement.into()),
         ("pareto_k", outcome.pareto_k.into()),
         ("unseen", outcome.unseen.into()),
+        ("relative_energy_distance", outcome.relative_energy_distance.into()),
         ("wall_seconds", format!("{:.6}", outcome.wall_seconds).into()),
         ("best_step", seen.map(|seen| seen.best_step).into()),
         ("best_monitor", seen.map(|seen| seen.best_value).into()),
