@@ -114,23 +114,32 @@ impl<const D: usize> Projection<D> {
         2.0 * (to_measure - to_others / count) / count
     }
 
-    /// E|S − S′|, but for pairs in one bin.
+    /// E|S − S′|; what is in one bin, evenly spread over it.
     fn own(&self) -> f64 {
-        let bins = self.below.array_windows();
-        2.0 * bins
-            .map(|[[mass, sum], [next_mass, next_sum]]| mass * (next_sum - sum) - sum * (next_mass - mass))
-            .sum::<f64>()
+        let bins = self.below.array_windows().enumerate();
+        let of = |(bin, [[mass, sum], [next_mass, next_sum]]): (usize, &[[f64; 2]; 2])| {
+            let (own, width) = (next_mass - mass, width::<D>(bin));
+            let within = if width.is_finite() {
+                own * own * width / 3.0
+            } else {
+                0.0
+            };
+            2.0 * (mass * (next_sum - sum) - sum * own) + within
+        };
+        bins.map(of).sum()
     }
 
-    /// E|t − S|: the bins below and above exactly, the mass of its own as if it were all on the other side of t than the bin's middle, or on that.
+    /// E|t − S|; what is in the bin of t, evenly spread over it: at u from its middle, of width w, w/4 + u²/w.
     fn distance(&self, t: f64) -> f64 {
         let bin = bin::<D>(t);
         let excess = |end: usize| self.below[end][0] * t - self.below[end][1];
         let (below, up_to, all) = (excess(bin), excess(bin + 1), excess(bin_count(D)));
-        let own = if t > place::<D>(bin as f64 + 0.5) {
-            up_to - below
+        let (width, middle) = (width::<D>(bin), place::<D>(bin as f64 + 0.5));
+        let own = if width.is_finite() {
+            (self.below[bin + 1][0] - self.below[bin][0]) * (0.25 * width + (t - middle).powi(2) / width)
         } else {
-            below - up_to
+            // As if all were on the other side of t than the middle, or on that.
+            (t - middle).signum() * (up_to - below)
         };
         below - (all - up_to) + own
     }
@@ -223,6 +232,10 @@ fn bin<const D: usize>(s: f64) -> usize {
 #[inline(always)]
 fn numbered<const D: usize>(bin: f64) -> usize {
     bin.to_bits() as usize % bin_count(D)
+}
+
+fn width<const D: usize>(bin: usize) -> f64 {
+    place::<D>(bin as f64 + 1.0) - place::<D>(bin as f64)
 }
 
 /// Where along the direction so many bins end.

@@ -1,5 +1,5 @@
-//! The calibrated sampler on a target that is surveyed: evaluations are weighed, M particles are condensed from it, and the material
-//! evens them out as far as that brings them nearer.
+//! The calibrated sampler on a target that is surveyed: evaluations are weighed, M particles are condensed from them, and the material
+//! evens out what that leaves as far as it brings them nearer.
 
 use std::ops::ControlFlow;
 

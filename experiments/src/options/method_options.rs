@@ -91,7 +91,7 @@ options! {
     score: Score,
     /// Largest displacement per step in units of the spacing, or `off`; mpm: a number
     displacement_limit: Limit = "C|off" in POSITIVE,
-    /// Weigh evaluations of the log density and condense the particles from them, which the material evens out; off: a body moves from its start in the target's frame [default: on]
+    /// Weigh evaluations of the log density and condense the particles from them; the material evens out what that leaves; off: a body moves from its start in the target's frame [default: on]
     survey: Switch,
     /// Evaluations of the survey, of all kinds, at most
     evaluations: EvaluationCount = "N",

@@ -41,7 +41,8 @@ with_defaults! {
         pub search_effort: f64 = 1.0,
         /// Steps of a round, settling included; ≥ 1.
         pub steps: Option<usize> = None,
-        /// Rounds, at most. After a survey a round evens out what is condensed, and another one follows while that helps (0: none; default 4). Without one (≥ 1) another one follows while
+        /// Rounds, at most. After a survey a round evens out what is condensed, and another one follows while that helps (0: none, and moments as they are; default 4 where there are more than
+        /// [`LARGEST_POOL`](crate::defaults::LARGEST_POOL) particles or the pool is noisy, else none). Without one (≥ 1) another one follows while
         /// the particles are still on their way, in a frame of their own if they have outgrown the old one, and at half of the spacing where the target is rough (docs/theory.md, §14); default 3,
         /// but one where `steps` are given.
         pub rounds: Option<usize> = None,
