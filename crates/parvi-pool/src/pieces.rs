@@ -2,6 +2,8 @@
 
 use mpm_tensor::{Matrix, vector};
 
+use crate::order::extent;
+
 /// Orthogonal directions, one in each row, oblique to the axes and for every `number` to those of the one before:
 /// √(2/D) cos(π (i + ½)(j + ½)/D), the discrete cosine transform IV, in which no entry is large, with signs by columns: +, +−, ++−−, ….
 pub(crate) fn oblique_directions<const D: usize>(number: u32) -> Matrix<D> {
@@ -61,10 +63,18 @@ pub(crate) fn in_pieces<const D: usize>(
 
 /// Those that are not above before those that are, both in the order in which they stood.
 fn parted<T: Copy>(all: &mut [T], above: impl Fn(&T) -> bool) -> (&mut [T], &mut [T]) {
-    let (low, high): (Vec<T>, Vec<T>) = all.iter().partition(|one| !above(one));
-    let (below, rest) = all.split_at_mut(low.len());
-    below.copy_from_slice(&low);
-    rest.copy_from_slice(&high);
+    let mut beyond = all.to_vec();
+    let (mut low, mut high) = (0, 0);
+    // Each is written down on both sides, and counted on one: which one it is cannot be foreseen.
+    for index in 0..all.len() {
+        let one = all[index];
+        (all[low], beyond[high]) = (one, one);
+        let is_above = above(&one);
+        low += usize::from(!is_above);
+        high += usize::from(is_above);
+    }
+    let (below, rest) = all.split_at_mut(low);
+    rest.copy_from_slice(&beyond[..high]);
     (below, rest)
 }
 
@@ -75,17 +85,18 @@ fn cut<'a, const D: usize>(
     particles: &[[f64; D]],
     directions: &'a Matrix<D>,
 ) -> (&'a [f64; D], f64) {
-    let mut longest = (f64::NEG_INFINITY, &[0.0; D], Vec::new());
+    let length = |direction: &[f64; D]| {
+        let (low, high) = extent(points.iter().map(|point| vector::dot(direction, &point.x)));
+        high - low
+    };
+    let mut longest = (f64::NEG_INFINITY, &directions.0[0]);
     for direction in &directions.0 {
-        let along: Vec<f64> = points.iter().map(|point| vector::dot(direction, &point.x)).collect();
-        let (low, high) = along.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), s| {
-            (low.min(*s), high.max(*s))
-        });
-        if high - low > longest.0 {
-            longest = (high - low, direction, along);
+        let length = length(direction);
+        if length > longest.0 {
+            longest = (length, direction);
         }
     }
-    let (_, direction, along) = longest;
+    let direction = longest.1;
     let mut places: Vec<f64> = particles.iter().map(|x| vector::dot(direction, x)).collect();
     places.sort_unstable_by(f64::total_cmp);
     let [first, last] = WINDOW.map(|share| ((share * places.len() as f64) as usize).max(1));
@@ -93,7 +104,8 @@ fn cut<'a, const D: usize>(
         .map(|below| 0.5 * (places[below - 1] + places[below]))
         .collect();
     let mut masses = vec![0.0; cuts.len() + 1];
-    for (s, point) in along.iter().zip(points) {
+    for point in points {
+        let s = &vector::dot(direction, &point.x);
         // Most points of a large piece are beside the window.
         let below = match &cuts[..] {
             [first, ..] if s <= first => 0,
