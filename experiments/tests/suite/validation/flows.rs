@@ -13,7 +13,11 @@ fn the_surge_front_is_that_of_martin_and_moyce() {
 fn a_column_of_sand_spreads_as_before() {
     let sand = run(
         "column_collapse",
-        &[("end = 2.0", "end = 1.0"), ("spacing = 0.05", "spacing = 0.1")],
+        &[
+            ("end = 2.0", "end = 1.0"),
+            ("spacing = 0.05", "spacing = 0.1"),
+            ("courant = 0.4", "courant = 0.8"),
+        ],
     );
     let front = sand.column("upper_x");
     assert!(front.windows(2).all(|pair| pair[1] >= pair[0] - 1e-3));
@@ -25,7 +29,7 @@ fn a_column_of_sand_spreads_as_before() {
 fn a_slope_of_clay_fails_as_before() {
     let clay = run(
         "clay_slope",
-        &[("end = 3.0", "end = 2.0"), ("spacing = 0.4", "spacing = 0.8")],
+        &[("end = 3.0", "end = 2.0"), ("spacing = 0.4", "spacing = 1.0")],
     );
     for (column, quantity) in [("centre_x", "centre at 2 s"), ("upper_x", "front at 2 s")] {
         pinned(
