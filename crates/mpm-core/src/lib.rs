@@ -50,7 +50,7 @@ pub use product_grid::{ProductGrid, SplineDegree};
 pub use schedule::{Part, Schedule};
 pub use stress_update::StressUpdate;
 pub use transfer::{
-    AffineFlip, AffineFlipWith, Apic, Divide, Flip, FlipNode, GridNode, Mls, Moments, NodeSums, Pic, StencilNodes, Sum,
-    Transfer, VelocityNode, gather,
+    AffineFlip, Apic, Divide, Flip, FlipNode, GridNode, Mls, Moments, NodeSums, Pic, StencilNodes, Sum, Transfer,
+    VelocityNode, gather,
 };
 pub use velocity_filter::VelocityFilter;

@@ -1,13 +1,13 @@
 //! The transfers beside PIC as one, told apart at run time: their step is compiled once.
 
-use mpm_core::{AffineFlip, Flip, FlipNode, Transfer};
+use mpm_core::{Flip, FlipNode, Transfer};
 
 use crate::choices::TransferChoice;
 
 /// Affine FLIP, of which FLIP is B_p = 0, APIC a share of 0, and PIC both.
 #[derive(Clone, Copy)]
 pub(crate) struct InCell {
-    transfer: AffineFlip,
+    flip: Flip,
     affine: bool,
 }
 
@@ -21,7 +21,7 @@ impl InCell {
             TransferChoice::AffineFlip(share) => (true, share),
         };
         Self {
-            transfer: AffineFlip(Flip::blend(share)),
+            flip: Flip::blend(share),
             affine,
         }
     }
@@ -39,6 +39,6 @@ impl<const D: usize> Transfer<D> for InCell {
 
     #[inline(always)]
     fn particle_velocity(&self, interpolated: &[f64; D], change: &[f64; D], own: &[f64; D], damping: f64) -> [f64; D] {
-        Transfer::<D>::particle_velocity(&self.transfer, interpolated, change, own, damping)
+        self.flip.particle_velocity(interpolated, change, own, damping)
     }
 }

@@ -1,7 +1,6 @@
 //! How mass and momentum travel between particles and nodes: PIC, APIC, FLIP blend, FLIP with affine particles.
 
 mod affine_flip;
-mod affine_flip_with;
 mod ahead;
 mod apic;
 mod cell_field;
@@ -18,8 +17,7 @@ use mpm_tensor::Matrix;
 
 use crate::largest::larger_or_nan;
 
-pub use affine_flip::AffineFlip;
-pub use affine_flip_with::{AffineFlipWith, Moments};
+pub use affine_flip::{AffineFlip, Moments};
 pub(crate) use ahead::Prepare;
 pub use apic::Apic;
 pub(crate) use cell_field::{CellField, Changes, Numbered, Velocities};

@@ -84,8 +84,8 @@ fn every_transfer<B: Basis<D>, const D: usize>(seed: u64, name: &str, make: impl
     conserves(seed, name, make(), Pic, solid);
     conserves(seed, name, make(), Flip::blend(0.95), gas);
     conserves(seed, name, make(), Flip::blend(0.95), solid);
-    conserves(seed, name, make(), AffineFlip(Flip::blend(0.95)), gas);
-    conserves(seed, name, make(), AffineFlip(Flip::blend(0.95)), solid);
+    conserves(seed, name, make(), AffineFlip::new(Flip::blend(0.95)), gas);
+    conserves(seed, name, make(), AffineFlip::new(Flip::blend(0.95)), solid);
     conserves(seed, name, make(), Apic, gas);
     conserves(seed, name, make(), Mls, gas);
     conserves(seed, name, make(), Mls, solid);
@@ -98,7 +98,7 @@ fn each_transfer<B: Basis<D>, const D: usize>(seed: u64, name: &str, make: impl 
         seed,
         name,
         make(),
-        AffineFlip(Flip::blend(0.95)),
+        AffineFlip::new(Flip::blend(0.95)),
         IsothermalGas::CALIBRATED,
     );
     conserves(seed, name, make(), Mls, neo_hookean(2.0));

@@ -54,7 +54,7 @@ fn a_rate_dissipates_alike_in_few_steps_and_in_many() {
 #[test]
 fn affine_particles_lose_nothing_with_a_full_share_of_flip() {
     for steps in [25, 400] {
-        let kept = left(AffineFlip(Flip::blend(1.0)), steps);
+        let kept = left(AffineFlip::new(Flip::blend(1.0)), steps);
         assert!((kept - 1.0).abs() < 1e-3, "{kept} after {steps} steps");
     }
     let (few, many) = (left(Apic, 25), left(Apic, 400));

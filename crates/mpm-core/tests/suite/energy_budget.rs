@@ -47,5 +47,5 @@ fn strain_is_accounted_for_with_every_transfer() {
     let basis = || SplineGrid::<Quadratic, 3, 2>::new([0.0; 2], 0.3).unwrap();
     strain_is_accounted_for("MLS", basis(), Mls);
     strain_is_accounted_for("FLIP", basis(), Flip::blend(0.9));
-    strain_is_accounted_for("affine FLIP", basis(), AffineFlip(Flip::blend(1.0)));
+    strain_is_accounted_for("affine FLIP", basis(), AffineFlip::new(Flip::blend(1.0)));
 }

@@ -1,6 +1,6 @@
 //! What affine FLIP makes of kinetic energy without a force, and with a wall alone.
 
-use mpm_core::{AffineFlipWith, Boundaries, Contact, Flip, Moments, Mpm, Particles, Side, SplineGrid, Wall};
+use mpm_core::{AffineFlip, Boundaries, Contact, Flip, Moments, Mpm, Particles, Side, SplineGrid, Wall};
 use mpm_kernels::Quadratic;
 use mpm_materials::IsothermalGas;
 use mpm_tensor::Matrix;
@@ -25,7 +25,7 @@ fn energies(moments: Moments, wall: Option<f64>) -> Vec<f64> {
     });
     let grid = SplineGrid::<Quadratic, 3, 2>::new([0.0; 2], SPACING).unwrap();
     let flip = Flip::blend(1.0);
-    let (transfer, still) = (AffineFlipWith { flip, moments }, IsothermalGas::new(1e-12).unwrap());
+    let (transfer, still) = (AffineFlip { flip, moments }, IsothermalGas::new(1e-12).unwrap());
     let body = Mpm::new(particles, grid, transfer, still, Pull::none());
     let mut body = body.with_boundary(Boundaries::new(walls.into_iter().collect(), Vec::new()));
     let mut energies = Vec::new();

@@ -141,36 +141,34 @@ fn solids<S: Spline<W>, T: Transfer<D>, const W: usize, const D: usize>(
     );
 }
 
-/// With a rate at which the share decays, and the share that is left after a step of it.
-const DECAYING: Flip = Flip {
-    share: 0.95,
-    pic_rate: 6.0,
-};
-
-fn decayed() -> f64 {
-    DECAYING.share * (-DECAYING.pic_rate * TIME_STEP).exp()
+/// FLIP of a constant share and with a rate at which the share decays, and the share that is left after a step.
+fn flips() -> [(f64, Flip); 2] {
+    let decaying = Flip {
+        share: 0.95,
+        pic_rate: 6.0,
+    };
+    let left = decaying.share * (-decaying.pic_rate * TIME_STEP).exp();
+    [(0.9, Flip::blend(0.9)), (left, decaying)]
 }
 
 /// Every transfer, with a gas under those that have no gradient of velocities and with solids under the others.
 fn affine_solids<S: Spline<W>, const W: usize, const D: usize>(kernel: Kernel) {
     gas::<S, _, W, D>(kernel, Velocity::Pic, Pic);
-    gas::<S, _, W, D>(kernel, Velocity::Flip(0.9), Flip::blend(0.9));
-    gas::<S, _, W, D>(kernel, Velocity::Flip(decayed()), DECAYING);
     solids::<S, _, W, D>(kernel, Velocity::Apic, Apic);
-    let (blend, decaying) = (AffineFlip(Flip::blend(0.9)), AffineFlip(DECAYING));
-    solids::<S, _, W, D>(kernel, Velocity::AffineFlip(0.9), blend);
-    solids::<S, _, W, D>(kernel, Velocity::AffineFlip(decayed()), decaying);
+    for (share, flip) in flips() {
+        gas::<S, _, W, D>(kernel, Velocity::Flip(share), flip);
+        solids::<S, _, W, D>(kernel, Velocity::AffineFlip(share), AffineFlip::new(flip));
+    }
 }
 
 /// Every transfer, the other way round.
 fn affine_gas<S: Spline<W>, const W: usize, const D: usize>(kernel: Kernel) {
     solids::<S, _, W, D>(kernel, Velocity::Pic, Pic);
-    solids::<S, _, W, D>(kernel, Velocity::Flip(0.9), Flip::blend(0.9));
-    solids::<S, _, W, D>(kernel, Velocity::Flip(decayed()), DECAYING);
     gas::<S, _, W, D>(kernel, Velocity::Apic, Apic);
-    let (blend, decaying) = (AffineFlip(Flip::blend(0.9)), AffineFlip(DECAYING));
-    gas::<S, _, W, D>(kernel, Velocity::AffineFlip(0.9), blend);
-    gas::<S, _, W, D>(kernel, Velocity::AffineFlip(decayed()), decaying);
+    for (share, flip) in flips() {
+        solids::<S, _, W, D>(kernel, Velocity::Flip(share), flip);
+        gas::<S, _, W, D>(kernel, Velocity::AffineFlip(share), AffineFlip::new(flip));
+    }
 }
 
 // Every pair of transfer, medium, kernel and dimension occurs; every triple would take twice as long to compile.

@@ -1,7 +1,7 @@
 //! Basis and transfer, chosen once per run.
 
 use mpm_core::{
-    AffineFlipWith, Apic, Boundaries, Continuum, Flip, Masses, Mls, Moments, Mpm, MpmError, Particles, SplineGrid,
+    AffineFlip, Apic, Boundaries, Continuum, Flip, Masses, Mls, Moments, Mpm, MpmError, Particles, SplineGrid,
     StressUpdate, Transfer, VelocityFilter,
 };
 use mpm_kernels::{Cubic, Gimp, Linear, Quadratic, Spline};
@@ -124,7 +124,7 @@ fn on_basis<const D: usize, B: SecondMoments<D> + 'static>(
                 MomentsName::Increments => Moments::Increments,
             };
             let flip = share(parts.scene);
-            with_transfer(parts, basis, AffineFlipWith { flip, moments })
+            with_transfer(parts, basis, AffineFlip { flip, moments })
         }
         TransferKind::Apic => with_transfer(parts, basis, Apic),
         TransferKind::Mls => with_transfer(parts, basis, Mls),

@@ -172,7 +172,7 @@ fn the_step_is_the_textbook_s() {
     agree::<1, _>(12, Velocity::Flip(0.9), Flip::blend(0.9));
     agree::<2, _>(6, Velocity::Pic, Pic);
     agree::<2, _>(6, Velocity::Flip(0.9), Flip::blend(0.9));
-    agree::<2, _>(6, Velocity::AffineFlip(0.9), AffineFlip(Flip::blend(0.9)));
+    agree::<2, _>(6, Velocity::AffineFlip(0.9), AffineFlip::new(Flip::blend(0.9)));
     agree::<2, _>(6, Velocity::Apic, Apic);
     agree::<2, _>(6, Velocity::LeastSquares, Mls);
     agree::<3, _>(4, Velocity::Apic, Apic);
