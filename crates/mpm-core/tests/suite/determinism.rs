@@ -7,7 +7,7 @@ use mpm_materials::IsothermalGas;
 use crate::scenes::{Pull, bits, free, gaussian_cloud, matrix_bits, neo_hookean};
 
 /// Every one sorts anew and goes through all tables: what depends on threads shows in a few.
-const STEPS: usize = 6;
+const STEPS: usize = 3;
 
 /// All state after the steps, as bits.
 fn run<B: UniformBasis<D>, T: Transfer<D>, M: Medium<D, State = ()>, const D: usize>(
@@ -120,8 +120,8 @@ fn flip() {
     });
     same_on_any_pool("solid", || {
         run(
-            8_000,
-            grid::<Quadratic, 3, 3>(0.25),
+            16_000,
+            grid::<Quadratic, 3, 2>(0.06),
             flip,
             neo_hookean(0.5),
             nodal_well(),
@@ -133,7 +133,9 @@ fn flip() {
 fn lattice_in_all_its_tables() {
     same_on_any_pool("D = 1", || run(60_000, lattice::<1>(0.01), Pic, gas(), Pull::well()));
     same_on_any_pool("D = 2", || run(40_000, lattice::<2>(0.1), Pic, gas(), Pull::well()));
-    same_on_any_pool("D = 3", || run(20_000, lattice::<3>(0.3), Apic, gas(), Pull::well()));
+    same_on_any_pool("D = 3", || {
+        run(20_000, lattice::<3>(0.3), Apic, neo_hookean(0.5), Pull::well())
+    });
     same_on_any_pool("D = 6, hashed", || {
         run(12_000, lattice::<6>(0.5), Pic, gas(), Pull::well())
     });
@@ -141,5 +143,7 @@ fn lattice_in_all_its_tables() {
         run(9_000, lattice::<8>(0.05), Pic, gas(), Pull::well())
     });
     let flip = Flip::blend(0.95);
-    same_on_any_pool("FLIP", || run(30_000, lattice::<4>(0.6), flip, gas(), nodal_well()));
+    same_on_any_pool("FLIP", || {
+        run(20_000, lattice::<3>(0.3), flip, neo_hookean(0.5), nodal_well())
+    });
 }

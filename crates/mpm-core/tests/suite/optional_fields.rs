@@ -10,16 +10,16 @@ use mpm_materials::IsothermalGas;
 use crate::scenes::{Pull, free, gaussian_cloud, neo_hookean};
 
 /// Capacities of the fields B, F, V⁰ after a few steps, and the bytes per particle beside the basis.
-fn after_steps<T: Transfer<3>, M: Medium<3, State = ()>>(
+fn after_steps<T: Transfer<2>, M: Medium<2, State = ()>>(
     transfer: T,
     medium: M,
-    force: Pull<3>,
+    force: Pull<2>,
 ) -> ([usize; 3], usize) {
     let mut particles = Particles::at_rest(gaussian_cloud(1000, 1), 1.0);
     if M::DEFORMS {
         particles = particles.with_elastic_state(vec![0.1; 1000]);
     }
-    let grid = SplineGrid::<Quadratic, 3, 3>::new([0.0; 3], 0.5).unwrap();
+    let grid = SplineGrid::<Quadratic, 3, 2>::new([0.0; 2], 0.5).unwrap();
     let mut mpm = Mpm::new(particles, grid, transfer, medium, force);
     for _ in 0..3 {
         mpm.step(&free(1e-3)).unwrap();
@@ -37,18 +37,18 @@ fn after_steps<T: Transfer<3>, M: Medium<3, State = ()>>(
 fn fields_without_use_have_no_capacity() {
     let gas = IsothermalGas::CALIBRATED;
     let solid = neo_hookean(1.0);
-    // Positions, velocities, a buffer (24 bytes each), identities and their buffer (4 each).
-    assert_eq!(after_steps(Pic, gas, Pull::none()), ([0; 3], 80));
+    // Positions, velocities, a buffer (16 bytes each), identities and their buffer (4 each).
+    assert_eq!(after_steps(Pic, gas, Pull::none()), ([0; 3], 56));
     assert_eq!(
-        after_steps(Flip::blend(0.9), gas, Pull::at_particles(|_| [0.0; 3])),
-        ([0; 3], 80)
+        after_steps(Flip::blend(0.9), gas, Pull::at_particles(|_| [0.0; 2])),
+        ([0; 3], 56)
     );
-    assert_eq!(after_steps(Pic, gas, Pull::at_nodes(|_, _| [0.0; 3])), ([0; 3], 80));
-    // B and a buffer: 72 bytes each.
-    assert_eq!(after_steps(Apic, gas, Pull::none()), ([1000, 0, 0], 224));
+    assert_eq!(after_steps(Pic, gas, Pull::at_nodes(|_, _| [0.0; 2])), ([0; 3], 56));
+    // B and a buffer: 32 bytes each.
+    assert_eq!(after_steps(Apic, gas, Pull::none()), ([1000, 0, 0], 120));
     // F, V⁰ and their buffers.
-    assert_eq!(after_steps(Pic, solid, Pull::none()), ([0, 1000, 1000], 240));
-    assert_eq!(after_steps(Apic, solid, Pull::none()), ([1000; 3], 312));
+    assert_eq!(after_steps(Pic, solid, Pull::none()), ([0, 1000, 1000], 136));
+    assert_eq!(after_steps(Apic, solid, Pull::none()), ([1000; 3], 168));
 }
 
 #[test]
