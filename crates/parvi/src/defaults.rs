@@ -28,6 +28,12 @@ pub fn spacing<const D: usize>(basis: BasisChoice, particles: usize) -> f64 {
     at_512 * (particles as f64 / 512.0).powf(-1.0 / (d + 5.0))
 }
 
+/// Steps of the first round of a polish.
+pub const POLISH_STEPS: usize = 4;
+
+/// Rounds of a polish, at most, each of twice as many steps as the one before.
+pub const POLISH_ROUNDS: usize = 4;
+
 /// Spacing of a polish: 1.4 of the central one for a normal law, whose particles lie well already and are to keep their tails, and finer as the target is bent or in
 /// pieces, by its entropy power N = e^{2 h(p)/D}/(2πe) over that of the normal law of the same covariance.
 pub fn polish_spacing<const D: usize>(basis: BasisChoice, particles: usize, entropy_power: f64) -> f64 {
@@ -44,12 +50,6 @@ pub const LEAST_CORRECTED_ENTROPY_POWER: f64 = 0.5;
 
 /// Part of the energy distance of condensed particles from the target that standard deviations as large as the pool's may cost, as far as the pool can tell: single ones cost two to four times that.
 pub const MOMENT_PRICE: f64 = 0.05;
-
-/// Steps of the first round of a polish.
-pub const POLISH_STEPS: usize = 4;
-
-/// Rounds of a polish, at most, each of twice as many steps as the one before.
-pub const POLISH_ROUNDS: usize = 4;
 
 /// Variance of a pool, over that of as many independent draws as there are particles, from which on particles that were condensed from it are polished, however few they are, and a
 /// polish goes on after its first round.
