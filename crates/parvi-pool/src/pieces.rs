@@ -89,14 +89,9 @@ fn cut<'a, const D: usize>(
         let (low, high) = extent(points.iter().map(|point| vector::dot(direction, &point.x)));
         high - low
     };
-    let mut longest = (f64::NEG_INFINITY, &directions.0[0]);
-    for direction in &directions.0 {
-        let length = length(direction);
-        if length > longest.0 {
-            longest = (length, direction);
-        }
-    }
-    let direction = longest.1;
+    let lengths = directions.0.iter().map(|direction| (length(direction), direction));
+    let longest = lengths.reduce(|longest, next| if next.0 > longest.0 { next } else { longest });
+    let direction = longest.map_or(&[0.0; D], |(_, direction)| direction);
     let mut places: Vec<f64> = particles.iter().map(|x| vector::dot(direction, x)).collect();
     places.sort_unstable_by(f64::total_cmp);
     let [first, last] = WINDOW.map(|share| ((share * places.len() as f64) as usize).max(1));
