@@ -131,8 +131,14 @@ impl<const D: usize> Measure<D> {
 
     /// The points of every part that was drawn and weighed by itself: how far these are apart says how far all are from the target.
     pub(crate) fn parts(&self) -> impl Iterator<Item = Range<usize>> {
-        let begins = std::iter::once(0).chain(self.ends.iter().copied());
-        begins.zip(&self.ends).map(|(begin, end)| begin..*end)
+        // The points are anyone's to change: what was added belongs to the last part.
+        let count = self.points.len();
+        let (_, inner) = self.ends.split_last().unwrap_or((&0, &[]));
+        let begins = std::iter::once(0).chain(inner.iter().copied());
+        let ends = inner.iter().copied().chain([count]);
+        begins
+            .zip(ends)
+            .map(move |(begin, end)| begin.min(count)..end.min(count))
     }
 
     /// The mass that is nearer to a particle than to any other one in coordinates of the [`frame`](Self::frame), for every particle; none negative, and their
