@@ -5,6 +5,9 @@ use crate::lanes::{Group, LANES, Lanes, packed};
 use crate::mixture::Mixture;
 use crate::weights::{effective_size, tempered, top};
 
+/// Share of a sum of densities up to which what is forgotten is taken away from it; more of it would leave rounding, and the sum is taken anew.
+const MOST_GONE: f64 = 0.99;
+
 /// Points that one series of proposals drew, weighed by the mixture of all of these (deterministic mixture weights).
 ///
 /// With n_t points of proposal q_t and N = Σ n_t, a point weighs p(x) / Σ_t (n_t/N) q_t(x): A. B. Owen, Y. Zhou, *Safe and effective importance
@@ -50,9 +53,7 @@ impl<const D: usize> Fold<D> {
 
     /// Adds `factor` · Σ_t n_t q_t(x) to `sums` for every point.
     pub fn add_density(&self, groups: &[Group<D>], factor: f64, sums: &mut [Lanes]) {
-        for (count, proposal) in &self.rounds {
-            proposal.add_density(groups, factor * *count as f64, sums);
-        }
+        add_densities(&self.rounds, groups, factor, sums);
     }
 
     /// log p(x) − log Σ_t n_t q_t(x): their exponentials sum to the estimate of the evidence.
@@ -85,13 +86,32 @@ impl<const D: usize> Fold<D> {
 
     /// Forgets the first rounds, their points and their proposals.
     pub fn forget(&mut self, rounds: usize) {
-        let points: usize = self.rounds.drain(..rounds).map(|(count, _)| count).sum();
+        let forgotten: Vec<(usize, Mixture<D>)> = self.rounds.drain(..rounds).collect();
+        let points: usize = forgotten.iter().map(|(count, _)| count).sum();
         self.positions.drain(..points);
         self.log_densities.drain(..points);
         self.groups.drain(..points / LANES);
-        let mut sums = vec![[0.0; LANES]; self.groups.len()];
-        self.add_density(&self.groups, 1.0, &mut sums);
-        self.sums = sums;
+        self.sums.drain(..points / LANES);
+        let kernels = |rounds: &[(usize, Mixture<D>)]| rounds.iter().map(|(_, q)| q.kernels().len()).sum::<usize>();
+        let anew: Vec<usize> = if kernels(&forgotten) < kernels(&self.rounds) {
+            let mut gone = vec![[0.0; LANES]; self.groups.len()];
+            add_densities(&forgotten, &self.groups, 1.0, &mut gone);
+            let is_rounding =
+                |sums: &Lanes, gone: &Lanes| sums.iter().zip(gone).any(|(sum, gone)| *gone > MOST_GONE * sum);
+            let anew = (0..gone.len()).filter(|&index| is_rounding(&self.sums[index], &gone[index]));
+            let anew = anew.collect();
+            let pairs = self.sums.as_flattened_mut().iter_mut().zip(gone.as_flattened());
+            pairs.for_each(|(sum, gone)| *sum -= gone);
+            anew
+        } else {
+            (0..self.groups.len()).collect()
+        };
+        let groups: Vec<Group<D>> = anew.iter().map(|&index| self.groups[index]).collect();
+        let mut sums = vec![[0.0; LANES]; groups.len()];
+        self.add_density(&groups, 1.0, &mut sums);
+        for (index, sums) in anew.into_iter().zip(sums) {
+            self.sums[index] = sums;
+        }
     }
 
     /// log Z by the weights of this fold, and its standard error.
@@ -107,6 +127,13 @@ impl<const D: usize> Fold<D> {
     /// The effective size of all weights.
     pub fn effective_size(&self) -> f64 {
         effective_size(&tempered(&self.log_weights(), 1.0))
+    }
+}
+
+/// Adds `factor` · Σ_t n_t q_t(x) of some rounds to `sums` for every point.
+fn add_densities<const D: usize>(rounds: &[(usize, Mixture<D>)], groups: &[Group<D>], factor: f64, sums: &mut [Lanes]) {
+    for (count, proposal) in rounds {
+        proposal.add_density(groups, factor * *count as f64, sums);
     }
 }
 

@@ -32,6 +32,7 @@ mod referee;
 mod sample;
 mod scout;
 mod search;
+mod stretch;
 mod student;
 mod summit;
 mod support_points;

@@ -6,7 +6,7 @@ use crate::lanes::{Group, LANES, packed};
 use crate::mixture::Mixture;
 use crate::order::near_together;
 use crate::sample::{Sample, root};
-use crate::student::{HALF_FREEDOM, Kernel, Responsible};
+use crate::student::{Kernel, Responsible, freedom};
 use crate::weights::effective_size;
 
 /// Points a kernel's first covariance counts for.
@@ -75,7 +75,7 @@ fn summed<const D: usize>(
     least: f64,
     near: &mut [Vec<u32>],
 ) -> Vec<Sums<D>> {
-    let nu = 2.0 * f64::from(HALF_FREEDOM);
+    let nu = f64::from(freedom(D));
     let count = mixture.kernels().len();
     let part = |((groups, weights), near): Task<'_, D>| {
         let mut sums = vec![Sums::<D>::default(); count];

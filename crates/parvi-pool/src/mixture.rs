@@ -3,11 +3,11 @@
 use mpm_tensor::vector;
 use parvi_targets::{SobolSequence, normal_quantile};
 
-use crate::gamma::GammaQuantile;
 use crate::lanes::{Group, LANES, Lanes};
-use crate::student::{HALF_FREEDOM, Kernel, Responsible, Student, add_densities};
+use crate::stretch::Stretch;
+use crate::student::{Kernel, Responsible, Student, add_densities, freedom};
 
-/// A normalised mixture of Student kernels with ν = 16 degrees of freedom.
+/// A normalised mixture of Student kernels with ν = 16 degrees of freedom, 17 where D is odd.
 ///
 /// t_ν(x; c, L Lᵀ) = Γ((ν+D)/2) / (Γ(ν/2) (πν)^{D/2} det L) · (1 + |L⁻¹(x − c)|²/ν)^{−(ν+D)/2}: polynomial in |z|², so that no exponential has to
 /// be taken, and with tails that a target lighter than t_ν never outgrows.
@@ -15,6 +15,8 @@ use crate::student::{HALF_FREEDOM, Kernel, Responsible, Student, add_densities};
 pub struct Mixture<const D: usize> {
     kernels: Vec<Kernel<D>>,
     students: Vec<Student<D>>,
+    /// The largest height of the kernels times their shares.
+    height: f64,
     /// So many kernels, the first ones, are fitted; the others are there to be on the safe side.
     core: usize,
 }
@@ -47,8 +49,13 @@ impl<const D: usize> Mixture<D> {
             kernel.share /= total;
             student.height *= kernel.share;
         }
+        let height = students.iter().map(|student| student.height).fold(0.0, f64::max);
+        for student in &mut students {
+            student.height /= height;
+        }
         Some(Self {
             core: kept.len(),
+            height,
             kernels: kept,
             students,
         })
@@ -87,14 +94,13 @@ impl<const D: usize> Mixture<D> {
             sum += kernel.share;
             cumulated.push(sum);
         }
-        let (last, radius) = (self.kernels.len() - 1, GammaQuantile::new(HALF_FREEDOM));
+        let (last, stretch) = (self.kernels.len() - 1, Stretch::of(freedom(D)));
         let draw = |index: u32| {
             // Twenty-one coordinates are the most that the sequence has.
             let mut u = [0.0; 21];
             sequence.write(index, &mut u);
             let kernel = &self.kernels[cumulated.partition_point(|&c| c < u[0] * sum).min(last)];
-            let m = f64::from(HALF_FREEDOM);
-            let stretch = (m / radius.at(u[1])).sqrt();
+            let stretch = stretch.at(u[1]);
             let z = std::array::from_fn(|axis| stretch * normal_quantile(u[axis + 2]));
             vector::add(&kernel.centre, &kernel.factor.apply(&z))
         };
@@ -105,7 +111,7 @@ impl<const D: usize> Mixture<D> {
     pub(super) fn add_density(&self, groups: &[Group<D>], factor: f64, sums: &mut [Lanes]) {
         let tiles = groups.chunks(TILE).zip(sums.chunks_mut(TILE));
         mpm_parallel::each(tiles, &|(groups, sums): (&[Group<D>], &mut [Lanes])| {
-            add_densities(&self.students, groups, factor, sums);
+            add_densities(&self.students, groups, factor * self.height, sums);
         });
     }
 

@@ -11,7 +11,7 @@ use crate::maximise::maximised;
 use crate::mixture::Mixture;
 use crate::neighbours::local_covariances;
 use crate::sample::{Sample, root};
-use crate::student::{HALF_FREEDOM, Kernel};
+use crate::student::{Kernel, freedom};
 
 /// Share of a local covariance's root that displaces the centre; the rest is left to the kernel.
 const JITTER: f64 = 0.7;
@@ -49,7 +49,7 @@ fn fitted<const D: usize>(sample: &Sample<D>, count: usize, rng: &mut ChaCha8Rng
         .collect();
     let sharpens = sample.precisions.iter().any(Option::is_none);
     // The covariance of t_ν is ν/(ν − 2) of its scale matrix.
-    let normal = (1.0 - 1.0 / f64::from(HALF_FREEDOM)).sqrt();
+    let normal = (1.0 - 2.0 / f64::from(freedom(D))).sqrt();
     let jitter = if sharpens { 0.0 } else { JITTER };
     let kernel = |(centre, covariance)| {
         let factor = root(covariance);

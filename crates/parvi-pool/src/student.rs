@@ -6,8 +6,16 @@ use pulp::{Simd, WithSimd};
 use crate::gamma::log_gamma_of_half;
 use crate::lanes::{Group, LANES, Lanes};
 
-/// ν/2 of all kernels.
-pub(crate) const HALF_FREEDOM: u32 = 8;
+/// Degrees of freedom ν of all kernels in so many dimensions: 16 or 17, so that (ν + D)/2 is an integer and no root has to be taken.
+pub(crate) const fn freedom(dimension: usize) -> u32 {
+    16 + dimension as u32 % 2
+}
+
+/// Most that (1 + |z|²/ν)^((ν+D)/2) counts for: so far away a kernel's density is of no account, and products of two of them do what is needed here.
+const FARTHEST: f64 = 1e200;
+
+/// Kernels that are kept at hand while points go by.
+const BLOCK: usize = 32;
 
 /// A kernel t_ν(centre, factor factorᵀ) with its share of the mixture.
 #[derive(Clone, Copy, Debug)]
@@ -25,17 +33,17 @@ pub struct Kernel<const D: usize> {
 pub(crate) struct Student<const D: usize> {
     whitener: Matrix<D>,
     offset: [f64; D],
-    /// Times the kernel's share.
+    /// Times the kernel's share, over the largest of a mixture.
     pub height: f64,
 }
 
 impl<const D: usize> Student<D> {
     /// Of a kernel, without its share; `None` where that is singular or not finite.
     pub fn of(kernel: &Kernel<D>) -> Option<Self> {
-        let nu = 2.0 * f64::from(HALF_FREEDOM);
-        let norm = log_gamma_of_half(2 * HALF_FREEDOM + D as u32)
-            - log_gamma_of_half(2 * HALF_FREEDOM)
-            - 0.5 * D as f64 * (nu * std::f64::consts::PI).ln();
+        let nu = freedom(D);
+        let norm = log_gamma_of_half(nu + D as u32)
+            - log_gamma_of_half(nu)
+            - 0.5 * D as f64 * (f64::from(nu) * std::f64::consts::PI).ln();
         let whitener = kernel.factor.lower_triangular_inverse()?;
         let log_det: f64 = (0..D).map(|i| kernel.factor.0[i][i].ln()).sum();
         let (offset, height) = (whitener.apply(&kernel.centre), (norm - log_det).exp());
@@ -47,7 +55,7 @@ impl<const D: usize> Student<D> {
         })
     }
 
-    /// |A x − b|² and the density.
+    /// |z|² and (1 + |z|²/ν)^((ν+D)/2), z = A x − b.
     #[inline(always)]
     fn at<S: Simd>(&self, simd: S, x: &[S::f64s; D]) -> (S::f64s, S::f64s) {
         let mut square = simd.splat_f64s(0.0);
@@ -58,10 +66,10 @@ impl<const D: usize> Student<D> {
             }
             square = simd.mul_add_e_f64s(z, z, square);
         }
-        let (one, scale) = (simd.splat_f64s(1.0), simd.splat_f64s(0.5 / f64::from(HALF_FREEDOM)));
+        let (one, scale) = (simd.splat_f64s(1.0), simd.splat_f64s(1.0 / f64::from(freedom(D))));
         let mut factor = simd.mul_add_e_f64s(square, scale, one);
-        let mut power = if D % 2 == 1 { simd.sqrt_f64s(factor) } else { one };
-        let mut exponent = HALF_FREEDOM + D as u32 / 2;
+        let mut power = one;
+        let mut exponent = (freedom(D) + D as u32) / 2;
         while exponent > 0 {
             if exponent & 1 == 1 {
                 power = simd.mul_f64s(power, factor);
@@ -69,7 +77,7 @@ impl<const D: usize> Student<D> {
             factor = simd.mul_f64s(factor, factor);
             exponent >>= 1;
         }
-        (square, simd.div_f64s(simd.splat_f64s(self.height), power))
+        (square, simd.min_f64s(power, simd.splat_f64s(FARTHEST)))
     }
 }
 
@@ -133,18 +141,34 @@ impl<const D: usize> WithSimd for Summed<'_, D> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let factor = simd.splat_f64s(self.factor);
-        for (group, sums) in self.groups.iter().zip(self.sums) {
-            let sums = S::as_mut_simd_f64s(sums).0;
-            for (part, sum) in sums.iter_mut().enumerate() {
-                let x = part_of::<S, D>(group, part);
-                let mut density = simd.splat_f64s(0.0);
-                for kernel in self.kernels {
-                    density = simd.add_f64s(density, kernel.at(simd, &x).1);
+        for kernels in self.kernels.chunks(BLOCK) {
+            for (group, sums) in self.groups.iter().zip(&mut *self.sums) {
+                let sums = S::as_mut_simd_f64s(sums).0;
+                for (part, sum) in sums.iter_mut().enumerate() {
+                    let density = density_of(simd, kernels, &part_of::<S, D>(group, part));
+                    *sum = simd.mul_add_e_f64s(factor, density, *sum);
                 }
-                *sum = simd.mul_add_e_f64s(factor, density, *sum);
             }
         }
     }
+}
+
+/// Σ h/p of some kernels at some points. Two kernels share a division: h₁/p₁ + h₂/p₂ = (h₁p₂ + h₂p₁)/(p₁p₂).
+#[inline(always)]
+fn density_of<S: Simd, const D: usize>(simd: S, kernels: &[Student<D>], x: &[S::f64s; D]) -> S::f64s {
+    let mut density = simd.splat_f64s(0.0);
+    let (pairs, last) = kernels.as_chunks::<2>();
+    for pair in pairs {
+        let [first, second] = pair.map(|kernel| simd.splat_f64s(kernel.height));
+        let [p, q] = [pair[0].at(simd, x).1, pair[1].at(simd, x).1];
+        let sum = simd.mul_add_e_f64s(first, q, simd.mul_f64s(second, p));
+        density = simd.add_f64s(density, simd.div_f64s(sum, simd.mul_f64s(p, q)));
+    }
+    for kernel in last {
+        let quotient = simd.div_f64s(simd.splat_f64s(kernel.height), kernel.at(simd, x).1);
+        density = simd.add_f64s(density, quotient);
+    }
+    density
 }
 
 struct Find<'a, const D: usize> {
@@ -169,19 +193,21 @@ impl<const D: usize> WithSimd for Find<'_, D> {
             let kernel = &self.kernels[*number as usize];
             let (squares, densities) = (S::as_mut_simd_f64s(squares).0, S::as_mut_simd_f64s(densities).0);
             for part in 0..parts {
-                (squares[part], densities[part]) = kernel.at(simd, &part_of::<S, D>(self.group, part));
+                let power;
+                (squares[part], power) = kernel.at(simd, &part_of::<S, D>(self.group, part));
+                densities[part] = simd.div_f64s(simd.splat_f64s(kernel.height), power);
                 totals[part] = simd.add_f64s(totals[part], densities[part]);
             }
         }
         found.clear();
-        let least = simd.splat_f64s(-self.least);
+        let least = simd.splat_f64s(self.least);
         for (place, (_, densities)) in each.iter().enumerate() {
             let densities = S::as_simd_f64s(densities).0;
-            let mut most = simd.splat_f64s(f64::NEG_INFINITY);
-            for part in 0..parts {
-                most = simd.max_f64s(most, simd.mul_add_e_f64s(least, totals[part], densities[part]));
-            }
-            if simd.reduce_max_f64s(most) > 0.0 {
+            let is_found = |part: usize| {
+                let more = simd.greater_than_f64s(densities[part], simd.mul_f64s(least, totals[part]));
+                simd.first_true_m64s(more) < S::F64_LANES
+            };
+            if (0..parts).any(is_found) {
                 found.push(place);
             }
         }
@@ -206,14 +232,14 @@ mod tests {
             factor: Matrix([[1.0 + k, 0.0, 0.0], [0.4, 0.7, 0.0], [-0.2, k, 2.0]]),
             share: 1.0,
         };
-        let kernels = [kernel(0.0), kernel(1.5)];
+        let kernels = [kernel(0.0), kernel(1.5), kernel(0.7)];
         let students = kernels.map(|kernel| Student::of(&kernel).unwrap());
         let points: Vec<[f64; 3]> = (0..8)
             .map(|n| [0.1, 0.5, 0.9].map(|rate| (rate * f64::from(n)).sin()))
             .collect();
         let group = &packed(&points)[0];
-        let mut responsible = Responsible::new(2);
-        responsible.find(&students, &[0, 1], group, 1e-4);
+        let mut responsible = Responsible::new(3);
+        responsible.find(&students, &[0, 1, 2], group, 1e-4);
         let mut sums = [[1.0; LANES]];
         add_densities(&students, &packed(&points), 2.0, &mut sums);
         for (lane, x) in points.iter().enumerate() {
@@ -225,11 +251,11 @@ mod tests {
                     .unwrap()
                     .apply(&vector::subtract(x, &kernel.centre));
                 let square = vector::norm_squared(&z);
-                // Γ(19/2)/Γ(8) (16 π)^(−3/2) (1 + r²/16)^(−19/2)/det L.
+                // Γ(10)/Γ(17/2) (17 π)^(−3/2) (1 + r²/17)^(−10)/det L.
                 let constant =
-                    (log_gamma_of_half(19) - log_gamma_of_half(16) - 1.5 * (16.0 * std::f64::consts::PI).ln()).exp();
+                    (log_gamma_of_half(20) - log_gamma_of_half(17) - 1.5 * (17.0 * std::f64::consts::PI).ln()).exp();
                 let determinant: f64 = (0..3).map(|i| kernel.factor.0[i][i]).product();
-                let wanted = constant / determinant * (1.0 + square / 16.0).powf(-9.5);
+                let wanted = constant / determinant * (1.0 + square / 17.0).powi(-10);
                 assert!((squares[lane] - square).abs() < 1e-12 * (1.0 + square));
                 assert!(
                     (densities[lane] / wanted - 1.0).abs() < 1e-12,
@@ -241,9 +267,9 @@ mod tests {
             assert!((responsible.totals[lane] / total - 1.0).abs() < 1e-12);
             assert!((sums[0][lane] - 1.0 - 2.0 * total).abs() < 1e-12);
         }
-        assert_eq!(responsible.found, [0, 1]);
+        assert_eq!(responsible.found, [0, 1, 2]);
         // No kernel has all of the density, where there are two.
-        responsible.find(&students, &[0, 1], group, 1.0);
+        responsible.find(&students, &[0, 1, 2], group, 1.0);
         assert!(responsible.found.is_empty());
     }
 }

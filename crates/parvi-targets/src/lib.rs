@@ -72,7 +72,7 @@ pub use ring::Ring;
 pub use rosenbrock::Rosenbrock;
 pub use score_only::ScoreOnly;
 pub use sobol::SobolSequence;
-pub use special::normal_quantile;
+pub use special::{gamma_quantile, normal_quantile};
 pub use student_t::StudentT;
 pub use sum_target::SumTarget;
 pub use target::{BoxedTarget, CatalogueTarget, ExactDraws, Mode, Moments, Target, UnitCubeTransport};

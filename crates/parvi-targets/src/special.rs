@@ -66,7 +66,7 @@ pub(crate) fn increasing_root(
 ///
 /// The root in y = ln x of the incomplete gamma function (the smaller tail), started from the Wilson–Hilferty
 /// approximation or, in the far lower tail, from the leading term xᵃ / Γ(a + 1), which is a lower bound.
-pub(crate) fn gamma_quantile(shape: f64, u: f64) -> f64 {
+pub fn gamma_quantile(shape: f64, u: f64) -> f64 {
     let excess = |y: f64| {
         let x = y.exp();
         if u > 0.5 {

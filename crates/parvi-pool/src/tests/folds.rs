@@ -34,6 +34,34 @@ fn a_fold_that_forgets_weighs_as_if_the_rest_were_all() {
     assert_eq!(both.log_weights(), second.log_weights());
 }
 
+/// Of few kernels that are forgotten, what they were is taken away; where they were nearly all, the rest is summed anew.
+#[test]
+fn what_is_left_of_the_sums_is_no_rounding() {
+    let target = Gaussian::<3>::standard();
+    let frame = Frame::identity();
+    let kernels = |width: f64, count: u32| {
+        let kernel = |n: u32| Kernel {
+            centre: [0.1 * f64::from(n), 0.0, -0.1],
+            factor: Matrix::IDENTITY * width,
+            share: 1.0,
+        };
+        Mixture::new((0..count).map(kernel).collect()).unwrap()
+    };
+    let mut density = Density::new(&target, &frame, Vec::new());
+    let [mut both, mut rest] = [Fold::new(), Fold::new()];
+    both.draw(&mut density, kernels(3.0, 2), 4000, 1);
+    for fold in [&mut both, &mut rest] {
+        // Some of the points are far out, where what is narrow is next to nothing.
+        fold.draw(&mut density, kernels(0.05, 40), 64, 2);
+        fold.draw(&mut density, kernels(1.0, 9), 64, 3);
+    }
+    both.forget(1);
+    assert_eq!(both.positions, rest.positions);
+    for (one, other) in both.log_weights().iter().zip(rest.log_weights()) {
+        assert!((one - other).abs() < 1e-12 * (1.0 + other.abs()), "{one} {other}");
+    }
+}
+
 #[test]
 fn weights_over_two_proposals_are_unbiased() {
     let target = Gaussian::<2>::standard();
