@@ -11,7 +11,7 @@ use crate::mixture::Mixture;
 use crate::options::{Plan, PoolError, Round};
 use crate::propose::{Form, best_form, proposal};
 use crate::scout::{Scouted, scout};
-use crate::search::search;
+use crate::search::{LIGHTEST, search};
 
 /// Effective share above which another round could gain nothing.
 const BEST_SHARE: f64 = 0.8;
@@ -119,36 +119,38 @@ impl<const D: usize> Adaptation<D> {
         let left = ADAPTING * plan.evaluations as f64 - density.evaluations() as f64;
         let count = (plan.search_effort * count).min(left).max(count);
         let count = count as usize / (2 * LANES) * 2 * LANES;
-        let found = loop {
+        let met = loop {
             let most = (SEARCHES * count as u64).max(((1.0 + QUIET) * self.met as f64) as u64 + count as u64);
             let allowed = most.saturating_sub(self.searched);
             if allowed < count as u64 || self.is_used_up(plan, density.evaluations()) {
-                break None;
+                break false;
             }
             let before = density.evaluations();
             let found = search(&mut self.folds, density, count, allowed, rng);
             self.searched += density.evaluations() - before;
-            if found.is_some() {
-                self.met = self.searched;
-                break found;
+            if let Some(found) = found {
+                for fold in &mut self.folds {
+                    fold.draw(density, found.clone(), plan.round / 4, rng.random());
+                }
+                // What summits promise, their surroundings need not keep, or were known to.
+                let news = self.folds.each_ref().map(Fold::news_of_last);
+                if news.iter().any(|&mass| mass >= LIGHTEST) {
+                    self.met = self.searched;
+                    break true;
+                }
             }
             if self.quiet() >= QUIET {
-                break None;
+                break false;
             }
         };
-        let found = found.inspect(|found| {
-            for fold in &mut self.folds {
-                fold.draw(density, found.clone(), plan.round / 4, rng.random());
-            }
-        });
         for (fold, shares) in self.folds.iter().zip(&mut self.shares) {
             shares.resize(fold.rounds.len(), 0.0);
         }
-        if found.is_some() {
+        if met {
             (self.best, self.without_advance) = (0.0, 0);
             self.sizes = [0.0, self.folds.iter().map(Fold::effective_size).sum()];
         }
-        found.is_some()
+        met
     }
 
     /// Evaluations of searches since they last met a piece, over those before; infinite where they met none.

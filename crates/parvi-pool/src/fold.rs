@@ -68,6 +68,29 @@ impl<const D: usize> Fold<D> {
         pairs.map(|(q, sum)| q / sum.max(f64::MIN_POSITIVE)).collect()
     }
 
+    /// What the points before knew too little of: the mass m where more than half of the density that points were drawn from is that of the last proposal,
+    /// times its relative standard error before these, m/√(1 + n), n the effective size of the earlier points there.
+    pub fn news_of_last(&self) -> f64 {
+        let Some((count, last)) = self.rounds.last() else {
+            return 0.0;
+        };
+        let weights = tempered(&self.log_weights(), 1.0);
+        let densities = last.densities(&self.groups);
+        let [earlier, count] = [self.positions.len() - count, *count].map(|points| points as f64);
+        let (mut mass, mut before) = (0.0, Vec::new());
+        let pairs = densities.as_flattened().iter().zip(self.sums.as_flattened());
+        for (index, ((q, sum), weight)) in pairs.zip(&weights).enumerate() {
+            let own = count * q / sum;
+            if own > 0.5 {
+                mass += weight;
+                if (index as f64) < earlier {
+                    before.push(weight / (1.0 - own).max(f64::EPSILON));
+                }
+            }
+        }
+        mass / weights.iter().sum::<f64>() / (1.0 + effective_size(&before)).sqrt()
+    }
+
     /// The fitted kernels of the last proposal that has any.
     pub fn core(&self) -> Option<Mixture<D>> {
         self.rounds.iter().rev().find_map(|(_, proposal)| proposal.core())
@@ -96,9 +119,9 @@ impl<const D: usize> Fold<D> {
         let anew: Vec<usize> = if kernels(&forgotten) < kernels(&self.rounds) {
             let mut gone = vec![[0.0; LANES]; self.groups.len()];
             add_densities(&forgotten, &self.groups, 1.0, &mut gone);
-            let is_rounding =
-                |sums: &Lanes, gone: &Lanes| sums.iter().zip(gone).any(|(sum, gone)| *gone > MOST_GONE * sum);
-            let anew = (0..gone.len()).filter(|&index| is_rounding(&self.sums[index], &gone[index]));
+            let are_left =
+                |sums: &Lanes, gone: &Lanes| sums.iter().zip(gone).all(|(sum, gone)| *gone < MOST_GONE * sum);
+            let anew = (0..gone.len()).filter(|&index| !are_left(&self.sums[index], &gone[index]));
             let anew = anew.collect();
             let pairs = self.sums.as_flattened_mut().iter_mut().zip(gone.as_flattened());
             pairs.for_each(|(sum, gone)| *sum -= gone);

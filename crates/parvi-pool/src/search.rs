@@ -32,8 +32,8 @@ const FLOOR: f64 = 1e-3;
 const SURPRISING: f64 = 2.0;
 const UNCOVERED: f64 = 5.0;
 
-/// Least mass of a piece that is worth a proposal, by Laplace's approximation.
-const LIGHTEST: f64 = 5e-3;
+/// Least mass of a piece that is worth a proposal: by Laplace's approximation, and then by the weights about it, as far as it was not known.
+pub(super) const LIGHTEST: f64 = 5e-3;
 
 /// Widest standard deviation at a summit, over the largest spread of what is known: a flat top has no curvature to say how wide it is.
 const WIDEST: f64 = 0.5;

@@ -1,7 +1,7 @@
 //! Rounds that a fold takes in and forgets.
 
 use mpm_tensor::Matrix;
-use parvi_targets::{Frame, Gaussian};
+use parvi_targets::{Frame, Gaussian, GaussianMixture, Mode};
 
 use crate::density::Density;
 use crate::fold::Fold;
@@ -60,6 +60,39 @@ fn what_is_left_of_the_sums_is_no_rounding() {
     for (one, other) in both.log_weights().iter().zip(rest.log_weights()) {
         assert!((one - other).abs() < 1e-12 * (1.0 + other.abs()), "{one} {other}");
     }
+}
+
+/// Two normal laws: what is about the second is news where nothing was drawn there before, and none where both were known or where there is nothing.
+#[test]
+fn news_is_what_was_not_known() {
+    let mode = |x| Mode {
+        centre: [x, 0.0],
+        width: 1.0,
+        mass: 0.5,
+    };
+    let target = GaussianMixture::new("two", &[mode(-4.0), mode(4.0)]).unwrap();
+    let frame = Frame::identity();
+    let law = |centre, width| {
+        Mixture::new(vec![Kernel {
+            centre,
+            factor: Matrix::IDENTITY * width,
+            share: 1.0,
+        }])
+        .unwrap()
+    };
+    let news = |first: &Mixture<2>, last: &Mixture<2>| {
+        let mut density = Density::new(&target, &frame, Vec::new());
+        let mut fold = Fold::new();
+        fold.draw(&mut density, first.clone(), 2000, 1);
+        fold.draw(&mut density, last.clone(), 200, 2);
+        fold.news_of_last()
+    };
+    let (one, all) = (law([-4.0, 0.0], 1.0), law([0.0, 0.0], 3.0));
+    let found = law([4.0, 0.0], 0.8);
+    assert!((news(&one, &found) - 0.5).abs() < 0.1, "{}", news(&one, &found));
+    assert!(news(&all, &found) < 0.05, "{}", news(&all, &found));
+    assert!(news(&all, &law([0.0, 6.0], 0.3)) < 1e-4);
+    assert_eq!(Fold::<2>::new().news_of_last(), 0.0);
 }
 
 #[test]
