@@ -46,7 +46,7 @@ const IDLE_FROM_PEAKS: usize = 8;
 const FOREIGN: f64 = 0.2;
 
 /// Draws `count` points at a time of a wide law into the folds and sends scouts from them, as long as these find something and `evaluations` last.
-/// Kernels about the summits that no proposal covered, if there are any.
+/// Kernels about the summits that no proposal covered, if there are any, none of them fitted.
 ///
 /// What is drawn costs one density each, and is weighed like every other point: in few dimensions that meets a narrow piece more cheaply than ways uphill from
 /// everywhere do.
@@ -82,7 +82,7 @@ pub(super) fn search<const D: usize>(
         }
         found.extend(new);
     }
-    Mixture::new(about(&found))
+    Mixture::new(about(&found)).map(|found| found.with_core(0))
 }
 
 /// What the folds and new summits say.
