@@ -81,6 +81,18 @@ pub struct GuideCurve {
 }
 
 impl GuideCurve {
+    /// A dashed curve through places between two ends, each as many times the one before.
+    pub fn bent(label: impl Into<String>, (low, high): (f64, f64), value: impl Fn(f64) -> f64) -> Self {
+        let place = |i: i32| low * (high / low).powf(f64::from(i) / 20.0);
+        let x: Vec<f64> = (0..=20).map(place).collect();
+        let y = x.iter().copied().map(value).collect();
+        Self {
+            label: label.into(),
+            curve: Curve { x, y },
+            dotted: false,
+        }
+    }
+
     /// The line between the values at two ends.
     pub fn through(
         label: impl Into<String>,
