@@ -113,6 +113,10 @@ mod tests {
             Rows::default().cells("median error | median of all error | mode error"),
             [MISSING; 3]
         );
+        assert_eq!(
+            here.cells("fixed 1 error | signed 2 error | scientific 0 size | fixed 2 method | fixed x error"),
+            ["0.5", "+0.50", "6e1", MISSING, MISSING]
+        );
         let grows = [16_usize, 64].map(|size| Row::default().with("size", size).with("error", (size * size) as f64));
         assert_eq!(
             grows.iter().collect::<Rows<'_>>().cell("exponent of size in error"),
