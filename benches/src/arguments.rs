@@ -1,6 +1,6 @@
 //! Arguments of the plain benchmarks, by place.
 
-#![allow(clippy::print_stdout, clippy::print_stderr)]
+#![allow(clippy::print_stderr)]
 
 use std::process::exit;
 use std::str::FromStr;
@@ -16,7 +16,7 @@ impl Arguments {
     pub fn of_process(usage: &'static str) -> Self {
         let words: Vec<String> = std::env::args().skip(1).collect();
         if words.iter().any(|word| word == "--help" || word == "-h") {
-            println!("{usage}");
+            crate::say(usage);
             exit(0);
         }
         Self { usage, words }

@@ -5,3 +5,6 @@ pub mod arguments;
 pub mod elastic_block;
 pub mod mesh_block;
 pub mod processor_time;
+mod say;
+
+pub use say::say;

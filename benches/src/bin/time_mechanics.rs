@@ -1,13 +1,12 @@
 //! Median time per particle-step of an elastic block.
 
-#![allow(clippy::print_stdout)]
-
 use std::time::Instant;
 
 use mpm_core::{Apic, Basis, Flip, Mls, Pic, Transfer};
 use parvi_benches::arguments::Arguments;
 use parvi_benches::elastic_block::{Order, block, control};
 use parvi_benches::processor_time::processor_time;
+use parvi_benches::say;
 
 fn time<T: Transfer<3>>(transfer: T, order: Order, [cells, warm_up, steps]: [usize; 3]) {
     let mut mpm = block(cells, order, transfer);
@@ -28,13 +27,13 @@ fn time<T: Transfer<3>>(transfer: T, order: Order, [cells, warm_up, steps]: [usi
         times.sort_by(f64::total_cmp);
         times[times.len() / 2]
     };
-    println!(
+    say(format_args!(
         "{order:?}, {cells}^3 cells: median {:.1} mean {mean:.1} least {:.1} ns per particle-step, processor {:.1}; {sorts} sorts in {steps} steps, {:.3} cells per particle",
         middle(&mut wall),
         wall[0],
         middle(&mut processor),
         runs as f64 / particles / steps as f64,
-    );
+    ));
 }
 
 const USAGE: &str = "\

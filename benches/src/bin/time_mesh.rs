@@ -1,7 +1,5 @@
 //! Time per particle of a step on an unstructured mesh, and of the search for cells.
 
-#![allow(clippy::print_stdout)]
-
 use std::time::Instant;
 
 use mpm_core::{Basis, StepControl};
@@ -9,6 +7,7 @@ use mpm_mesh::{Gradient, SampleWeight, SimplexMesh};
 use parvi_benches::arguments::Arguments;
 use parvi_benches::mesh_block::{MeshBlock, block, cube, square};
 use parvi_benches::processor_time::processor_time;
+use parvi_benches::say;
 
 fn least_and_middle(mut times: Vec<f64>) -> (f64, f64) {
     times.sort_by(f64::total_cmp);
@@ -38,10 +37,10 @@ fn search<const D: usize>(body: &MeshBlock<D>) {
         }
     }
     let (rested, went) = (least_and_middle(rested), least_and_middle(went));
-    println!(
+    say(format_args!(
         "search: unmoved median {:.1} least {:.1}, moved by 0.3 h median {:.1} least {:.1} ns per particle ({sum})",
         rested.1, rested.0, went.1, went.0
-    );
+    ));
 }
 
 /// The two halves of the rebuild, particles where a step has left them.
@@ -61,10 +60,10 @@ fn rebuild<const D: usize>(body: &mut MeshBlock<D>, control: &StepControl) {
         sort.push((middle - start) / count);
     }
     let (sort, activate) = (least_and_middle(sort), least_and_middle(activate));
-    println!(
+    say(format_args!(
         "rebuild: cells and order median {:.1} least {:.1}, nodes and weights median {:.1} least {:.1} ns per particle",
         sort.1, sort.0, activate.1, activate.0
-    );
+    ));
 }
 
 fn time<const D: usize>(mesh: &SimplexMesh<D>, per_cell: usize, steps: usize, exact: bool) {
@@ -92,7 +91,7 @@ fn time<const D: usize>(mesh: &SimplexMesh<D>, per_cell: usize, steps: usize, ex
         }
     }
     let (wall, processor) = (least_and_middle(wall), least_and_middle(processor));
-    println!(
+    say(format_args!(
         "D = {D}, {} cells, {count} particles: median {:.1} least {:.1} ns per particle-step, processor median {:.1} least {:.1}; {sorts} sorts in {steps} steps, {:.3} cells per particle, largest ring {}",
         mesh.cell_count(),
         wall.1,
@@ -101,7 +100,7 @@ fn time<const D: usize>(mesh: &SimplexMesh<D>, per_cell: usize, steps: usize, ex
         processor.0,
         runs as f64 / count / steps as f64,
         body.basis.stencil_size(),
-    );
+    ));
     search(&body);
     rebuild(&mut body, &control);
 }

@@ -166,6 +166,17 @@ pub(super) struct CheckedPlot<'a> {
 }
 
 impl<'a> DensityPlot<'a> {
+    /// Labelled coordinates of particles beside a density, without words of its own.
+    pub fn new(particles: PointCloud<'a>, labels: &'a [String], reference: Reference<'a>) -> Self {
+        Self {
+            title: "",
+            particles,
+            labels,
+            reference,
+            reference_label: "",
+        }
+    }
+
     /// Checks everything, the dimension between bounds.
     pub(super) fn check(&self, smallest: usize, largest: usize) -> Result<CheckedPlot<'a>, PlotError> {
         let columns = self.particles.columns(smallest, largest)?;

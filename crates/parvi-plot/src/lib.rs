@@ -49,7 +49,7 @@ pub use histogram::histogram;
 pub use line_series::{GuideCurve, LineSeries};
 pub use multiples::{Look, MultiplesPanel, MultiplesPlot, multiples};
 pub use scale::{Axis, AxisKind};
-pub use scaling::{Fit, ScalingPlot, exponent_text, scaling};
+pub use scaling::{ScalingPlot, exponent_text, scaling};
 pub use series::ReferenceLevel;
 pub use snapshots::{SnapshotPanel, SnapshotsPlot, snapshots};
 pub use strip::{StripPanel, StripPlot, moments, strip};

@@ -81,6 +81,22 @@ pub struct GuideCurve {
 }
 
 impl GuideCurve {
+    /// The values at some places.
+    fn at(label: impl Into<String>, x: Vec<f64>, dotted: bool, value: impl Fn(f64) -> f64) -> Self {
+        let y = x.iter().copied().map(value).collect();
+        Self {
+            label: label.into(),
+            curve: Curve { x, y },
+            dotted,
+        }
+    }
+
+    /// A dashed curve through places between two ends, each as many times the one before.
+    pub fn bent(label: impl Into<String>, (low, high): (f64, f64), value: impl Fn(f64) -> f64) -> Self {
+        let place = |i: i32| low * (high / low).powf(f64::from(i) / 20.0);
+        Self::at(label, (0..=20).map(place).collect(), false, value)
+    }
+
     /// The line between the values at two ends.
     pub fn through(
         label: impl Into<String>,
@@ -88,13 +104,6 @@ impl GuideCurve {
         dotted: bool,
         value: impl Fn(f64) -> f64,
     ) -> Self {
-        Self {
-            label: label.into(),
-            curve: Curve {
-                x: vec![low, high],
-                y: vec![value(low), value(high)],
-            },
-            dotted,
-        }
+        Self::at(label, vec![low, high], dotted, value)
     }
 }

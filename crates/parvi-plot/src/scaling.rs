@@ -18,19 +18,12 @@ pub struct ScalingPlot {
     pub x_label: String,
     /// The label of the vertical axis, with its unit.
     pub y_label: String,
-    /// What is fitted.
-    pub fit: Fit,
-    /// The settings, to the label of each of which the fitted exponent is added, and theoretical curves.
-    pub panel: MultiplesPanel,
-}
-
-/// The size whose powers are fitted.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Fit {
-    /// Its symbol in the legend, e.g. "M".
+    /// The symbol in the legend of the size whose powers are fitted, e.g. "M".
     pub symbol: String,
     /// Measurements with x at least this large are used, so that a fixed cost at small sizes can be left out; 0 for all.
     pub from: f64,
+    /// The settings, to the label of each of which the fitted exponent is added, and theoretical curves.
+    pub panel: MultiplesPanel,
 }
 
 /// The power law of one series as the figure fits it: over its positive, finite points with x ≥ `from`; `None` where
@@ -74,10 +67,10 @@ pub fn scaling(plot: &ScalingPlot) -> Result<String, PlotError> {
         check_size(|| series.label.clone(), series.x.len(), series.y.len())?;
         let (x, y) = usable(series, 0.0);
         let mut label = series.label.clone();
-        if let Some(law) = scaling_fit(series, plot.fit.from) {
+        if let Some(law) = scaling_fit(series, plot.from) {
             label = format!("{label}: b = {}", exponent_text(&law, 0));
             fits += 1;
-            let fitted = x.iter().copied().filter(|x| *x >= plot.fit.from);
+            let fitted = x.iter().copied().filter(|x| *x >= plot.from);
             let low = fitted.clone().fold(f64::INFINITY, f64::min);
             let high = fitted.fold(0.0, f64::max);
             lines.push(ChartSeries {
@@ -99,9 +92,9 @@ pub fn scaling(plot: &ScalingPlot) -> Result<String, PlotError> {
     points.extend(lines);
     let mut notes = Vec::new();
     if fits > 0 {
-        let symbol = &plot.fit.symbol;
-        let range = if plot.fit.from > 0.0 {
-            format!(", {symbol} ≥ {}", plot.fit.from)
+        let symbol = &plot.symbol;
+        let range = if plot.from > 0.0 {
+            format!(", {symbol} ≥ {}", plot.from)
         } else {
             String::new()
         };

@@ -64,9 +64,7 @@ pub use minibatch::MinibatchScore;
 pub use mixture::GaussianMixture;
 pub use probit::Probit;
 pub use reference::{ImportanceSample, ReferenceMoments, ReferenceOptions, reference_draws, reference_moments};
-pub use regression::{
-    DEFAULT_PRIOR_STANDARD_DEVIATION, LogisticRegression, PoissonRegression, ProbitRegression, Regression,
-};
+pub use regression::{LogisticRegression, PoissonRegression, ProbitRegression, Regression};
 pub use response::Response;
 pub use ring::Ring;
 pub use rosenbrock::Rosenbrock;

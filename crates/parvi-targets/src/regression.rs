@@ -10,9 +10,6 @@ use crate::{
     TargetError,
 };
 
-/// The standard deviation of the prior of each coefficient unless another is given.
-pub const DEFAULT_PRIOR_STANDARD_DEVIATION: f64 = 10.0;
-
 /// The posterior of the coefficients β ∈ ℝᴰ of a regression with predictors x_iᵀβ and the prior β_k ~ N(0, s_k²).
 ///
 /// log p(β) = Σ_i log p(y_i | x_iᵀβ) − ½ Σ_k β_k²/s_k², where the [`Link`] L gives the likelihood of a response; score

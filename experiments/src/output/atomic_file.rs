@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use crate::CommandError;
 
 /// What temporary names end with.
-pub const PARTIAL_SUFFIX: &str = ".partial";
+const PARTIAL_SUFFIX: &str = ".partial";
 
 /// A file under a temporary name in the directory of its final one.
 ///
@@ -19,6 +19,12 @@ pub struct AtomicFile {
 }
 
 impl AtomicFile {
+    /// Whether a path has the name of a file that was not written to its end.
+    pub fn is_partial(path: &Path) -> bool {
+        let name = path.file_name().map(|name| name.to_string_lossy());
+        name.is_some_and(|name| name.starts_with('.') && name.ends_with(PARTIAL_SUFFIX))
+    }
+
     /// Opens the temporary file, which shows early that the directory can be written.
     ///
     /// # Errors

@@ -12,7 +12,7 @@ pub mod table_file;
 
 use std::path::{Path, PathBuf};
 
-pub use atomic_file::{AtomicFile, PARTIAL_SUFFIX};
+pub use atomic_file::AtomicFile;
 pub use directory::OutputDirectory;
 pub use distinct_names::distinct_names;
 pub use frames::FrameWriter;

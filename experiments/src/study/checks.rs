@@ -61,9 +61,9 @@ pub fn fitting(field: &str, method: &MethodSpecification) -> Result<Method, Comm
     method.method(None).map_err(refused)
 }
 
-/// Refuses lists of which two entries make the same case.
-pub fn distinct<W>(field: &str, cases: &[Case<W>]) -> Result<(), CommandError> {
-    distinct_names(field, cases.iter().map(|case| case.id().to_owned()))
+/// The cases; refuses lists of which two entries make the same one.
+pub fn distinct<W>(field: &str, cases: Vec<Case<W>>) -> Result<Vec<Case<W>>, CommandError> {
+    distinct_names(field, cases.iter().map(|case| case.id().to_owned())).map(|()| cases)
 }
 
 /// Refuses lists that give two cases of the same name.

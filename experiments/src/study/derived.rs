@@ -1,5 +1,6 @@
 //! Numbers that follow from those in results, and have names like these.
 
+use super::row::RunRow;
 use crate::plots::results::Row;
 
 /// Squared energy distance.
@@ -69,13 +70,13 @@ fn ratio(row: &Row, column: &str, over: &str) -> Option<f64> {
     Some(row.number(column)? / row.number(over)?)
 }
 
-/// The row with the numbers that follow from it; those that a study writes itself stay.
+/// The row with the numbers that follow from it, and how it `ended`; those that a study writes itself stay.
 pub fn completed(row: &Row) -> Row {
     let with = |row: Row, (name, number): Derived| match number(&row) {
         Some(number) if row.number(name).is_none() => row.with(name, number),
         _ => row,
     };
-    DERIVED.into_iter().fold(row.clone(), with)
+    DERIVED.into_iter().fold(row.clone().with("ended", row.ending()), with)
 }
 
 #[cfg(test)]

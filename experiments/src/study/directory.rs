@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::configuration::Configuration;
 use crate::CommandError;
-use crate::output::{AtomicFile, PARTIAL_SUFFIX};
+use crate::output::AtomicFile;
 use crate::plots::page::Page;
 
 /// The name of the configuration in it.
@@ -43,7 +43,22 @@ impl StudyDirectory {
         directory.claimed =
             mpm_document::claim(path).map_err(|source| CommandError::file("write into", path, source))?;
         directory.make_parts()?;
+        if directory.claimed.is_some() {
+            directory.clear_partial()?;
+        }
         Ok(directory)
+    }
+
+    /// Removes what runs that were killed have not written to the end; no other process is in the directory.
+    fn clear_partial(&self) -> Result<(), CommandError> {
+        for part in ["", "raw", "figures"].map(|part| self.path.join(part)) {
+            let entries = fs::read_dir(&part).map_err(|source| CommandError::file("read", &part, source))?;
+            let paths = entries.flatten().map(|entry| entry.path());
+            for path in paths.filter(|path| AtomicFile::is_partial(path)) {
+                fs::remove_file(&path).map_err(|source| CommandError::file("remove", &path, source))?;
+            }
+        }
+        Ok(())
     }
 
     /// A directory in which a study was run before.
@@ -99,7 +114,7 @@ impl StudyDirectory {
         for entry in entries {
             let entry = entry.map_err(|source| CommandError::file("read", &self.path, source))?;
             let name = entry.file_name().to_string_lossy().into_owned();
-            if !name.ends_with(PARTIAL_SUFFIX) {
+            if !AtomicFile::is_partial(&entry.path()) {
                 return Err(self.occupied(format!("is not empty and holds no study (there is `{name}`)")));
             }
         }
@@ -162,8 +177,15 @@ mod tests {
             let message = StudyDirectory::claim(&path, &study).unwrap_err().to_string();
             assert!(message.contains("another process"), "{message}");
         }
+        let is_locked = held.claimed.is_some();
         drop(held);
+        // What a killed run left is cleared.
+        let left = [".report.md.77.partial", "raw/.trace.csv.77.partial"].map(|name| path.join(name));
+        left.iter().for_each(|path| fs::write(path, "half").unwrap());
+        fs::write(path.join("raw/whole.csv"), "whole").unwrap();
         StudyDirectory::claim(&path, &study).unwrap();
+        assert!(left.iter().all(|path| path.exists() != is_locked));
+        assert!(path.join("raw/whole.csv").exists());
         let empty = root.path().join("empty");
         fs::create_dir(&empty).unwrap();
         StudyDirectory::claim(&empty, &study).unwrap();

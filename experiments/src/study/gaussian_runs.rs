@@ -91,17 +91,15 @@ impl<'a> Setting<'a> {
         let steps = options.steps.map(|steps| format!("-t{steps}"));
         let told: String = spacing.into_iter().chain(steps).collect();
         let name = format!("d{}-m{}-{}{told}", self.dim, self.particles, self.series);
-        let case = |&seed: &u64| {
-            let work = Sampled::new(&target, self.method, None, (self.particles, seed))?;
-            let case = work.case(format!("{name}-s{seed}"), self.method)?;
-            Ok(case
-                .with("series", self.series.as_str())
+        let cases = Sampled::of_seeds((&target, self.method), (self.particles, None), (&name, seeds))?;
+        let told = |case: Case<Sampled>| {
+            case.with("series", self.series.as_str())
                 .with("spacing_factor", self.spacing_factor)
                 .with("requested_spacing", options.spacing)
                 .with("requested_steps", options.steps)
-                .costing(self.cost()))
+                .costing(self.cost())
         };
-        seeds.iter().map(case).collect()
+        Ok(cases.into_iter().map(told).collect())
     }
 
     /// Microseconds, roughly: the pairs of the energy distance, and per step M² pairs or M nodes times those of a stencil.

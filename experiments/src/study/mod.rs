@@ -6,6 +6,7 @@ mod basis_comparison;
 mod catalogue;
 mod checks;
 mod configuration;
+mod contestant;
 mod covariance_spacing;
 mod definition;
 mod derived;

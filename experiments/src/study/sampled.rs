@@ -42,6 +42,22 @@ impl Sampled {
         })
     }
 
+    /// A case for each seed, with which its name ends.
+    ///
+    /// # Errors
+    /// Options that do not fit, and a target that there is not.
+    pub fn of_seeds(
+        (target, method): (&TargetSpecification, &MethodSpecification),
+        (particles, steps): (usize, Option<usize>),
+        (name, seeds): (&str, &[u64]),
+    ) -> Result<Vec<Case<Self>>, CommandError> {
+        let case = |&seed: &u64| {
+            let work = Self::new(target, method, steps, (particles, seed))?;
+            work.case(format!("{name}-s{seed}"), method)
+        };
+        seeds.iter().map(case).collect()
+    }
+
     /// A case of it, whose row says what is run.
     ///
     /// # Errors

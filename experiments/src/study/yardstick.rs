@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-pub use parvi_metrics::yardstick::{Errors, YardstickOptions};
+pub use parvi_metrics::yardstick::{Coordinates, Errors, YardstickOptions};
 use parvi_metrics::yardstick::{TargetYardstick, YardstickError};
 
 use crate::CommandError;

@@ -54,6 +54,11 @@ impl YardstickOptions {
             coordinates,
         }
     }
+
+    /// The same with so many directions of the sliced distance.
+    pub fn over(self, directions: usize) -> Self {
+        Self { directions, ..self }
+    }
 }
 
 /// Errors of particles.

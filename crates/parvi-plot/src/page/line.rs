@@ -27,6 +27,11 @@ impl<'a> Line<'a> {
             .fold(self, |line, (name, value)| line.with(name, value))
     }
 
+    /// The same with statistics of other rows, behind a word.
+    pub fn with_cells<const N: usize>(self, word: &str, rows: &Rows<'_>, statistics: [&str; N]) -> Self {
+        self.with_all(statistics.map(|statistic| (format!("{word} {statistic}"), rows.cell(statistic))))
+    }
+
     /// A line for each value that a column may hold, which names it, of the rows that hold it.
     pub fn by<V: Into<Value>>(&self, column: &'static str, values: impl IntoIterator<Item = V>) -> Vec<Self> {
         let of = |value: Value| {

@@ -86,6 +86,17 @@ impl Page {
         self.table(&header, &rows);
     }
 
+    /// A section of the prose with its table, some columns of which are repeated.
+    pub fn section<'a>(
+        &mut self,
+        name: &str,
+        repeated: &[(&str, Vec<String>)],
+        lines: impl IntoIterator<Item = impl Into<Line<'a>>>,
+    ) {
+        self.part(name, &[]);
+        self.lines_over(name, repeated, lines);
+    }
+
     /// A figure whose caption is in the prose.
     pub fn drawing(&mut self, name: &str, drawing: Result<String, PlotError>) {
         let caption = self.prose.caption(name);
@@ -122,6 +133,13 @@ impl Page {
         }
     }
 
+    /// Lines of one paragraph, if there are any.
+    pub fn items(&mut self, lines: &[String]) {
+        if !lines.is_empty() {
+            self.paragraph(lines.join("\n"));
+        }
+    }
+
     /// Lines below a heading; without any, what is to be said instead, or not even the heading.
     pub fn list(&mut self, heading: &str, lines: &[String], otherwise: Option<&str>) {
         if lines.is_empty() && otherwise.is_none() {
@@ -130,7 +148,7 @@ impl Page {
         self.heading(heading);
         match otherwise.filter(|_| lines.is_empty()) {
             Some(text) => self.paragraph(text),
-            None => self.paragraph(lines.join("\n")),
+            None => self.items(lines),
         }
     }
 

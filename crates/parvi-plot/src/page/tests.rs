@@ -74,5 +74,6 @@ fn a_list_without_lines_says_so_or_nothing() {
     page.list("Misses", &[], None);
     page.list("Misses", &[], Some("None."));
     page.list("Misses", &["- a".to_owned(), "- b".to_owned()], None);
+    page.items(&[]);
     assert_eq!(page.text, "\n## Misses\n\nNone.\n\n## Misses\n\n- a\n- b\n");
 }

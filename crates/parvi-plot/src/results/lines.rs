@@ -1,7 +1,7 @@
 //! Lines through rows.
 
 use super::{Row, Rows, Value};
-use crate::LineSeries;
+use crate::{LineSeries, MultiplesPanel};
 
 impl Rows<'_> {
     /// Two columns of all rows; what a row does not have is not finite.
@@ -20,19 +20,21 @@ impl Rows<'_> {
     pub fn curve(&self, label: impl Into<String>, x: &str, y: &str) -> LineSeries {
         let mut line = LineSeries::named(label);
         for place in self.places(x) {
-            let here = self.having(|row| row.number(x) == Some(place));
-            line.push_median(place, &here.values(y));
+            line.push_median(place, &self.with(x, place).values(y));
         }
         line
     }
 
     /// A line through the medians of `y` over all rows at each value of `x`, a row without `y` infinitely large.
     pub fn medians(&self, label: impl Into<String>, x: &str, y: &str) -> LineSeries {
-        let at = |place: f64| {
-            let here = self.having(|row| row.number(x) == Some(place));
-            (place, here.median_of_all(y).unwrap_or(f64::NAN))
-        };
+        let at = |place: f64| (place, self.with(x, place).median_of_all(y).unwrap_or(f64::NAN));
         LineSeries::through(label, self.places(x).into_iter().map(at))
+    }
+
+    /// A line through the medians of two columns, a point for each value of a third.
+    pub fn path(&self, label: impl Into<String>, by: &str, x: &str, y: &str) -> LineSeries {
+        let point = |(_, here): (String, Self)| Some((here.median(x)?, here.median(y).unwrap_or(f64::NAN)));
+        LineSeries::through(label, self.by(by).into_iter().filter_map(point))
     }
 
     /// A curve for each value that a column may hold, which is its label behind a word.
@@ -45,6 +47,37 @@ impl Rows<'_> {
     ) -> Vec<LineSeries> {
         let curve = |value: Value| self.with(column, value.clone()).curve(format!("{word}{value}"), x, y);
         values.into_iter().map(|value| curve(value.into())).collect()
+    }
+
+    /// A line for each value that a column may hold, which is its label: the values of `y` in order of size against the share of all that are no larger; `all` may be
+    /// more than have one.
+    pub fn orders<V: Into<Value>>(
+        &self,
+        column: &str,
+        values: impl IntoIterator<Item = V>,
+        y: &str,
+        all: Option<usize>,
+    ) -> Vec<LineSeries> {
+        let order = |value: Value| {
+            let numbers = self.with(column, value.clone()).values(y);
+            let all = all.unwrap_or(numbers.len());
+            LineSeries::in_order(value.to_string(), numbers, all)
+        };
+        values.into_iter().map(|value| order(value.into())).collect()
+    }
+
+    /// A panel of the rows that hold it for each value that a column may hold, which is its title behind a word.
+    pub fn panels<V: Into<Value>>(
+        &self,
+        (word, column): (&str, &str),
+        values: impl IntoIterator<Item = V>,
+        panel: impl Fn(&Self) -> MultiplesPanel,
+    ) -> Vec<MultiplesPanel> {
+        let of = |value: Value| MultiplesPanel {
+            title: format!("{word}{value}"),
+            ..panel(&self.with(column, value))
+        };
+        values.into_iter().map(|value| of(value.into())).collect()
     }
 }
 
@@ -65,5 +98,20 @@ mod tests {
         let curves = here.curves(("n = ", "size"), [16_usize, 99], "size", "error");
         let ends = curves.iter().map(|line| (line.label.as_str(), line.y.clone()));
         assert!(ends.eq([("n = 16", vec![2.5]), ("n = 99", Vec::new())]));
+        let path = here.path("mpm", "case", "size", "error");
+        assert_eq!(path.x, [64.0, 16.0, 16.0, 16.0]);
+        assert!(path.y[2].is_nan() && path.y[3] == 4.0);
+        let orders = here.orders("size", [16_usize], "error", Some(4));
+        assert_eq!(
+            (orders[0].label.as_str(), &orders[0].x[..], &orders[0].y[..]),
+            ("16", &[12.5, 37.5][..], &[1.0, 4.0][..])
+        );
+        let panels = here.panels(("n = ", "size"), [64.0], |rows| {
+            MultiplesPanel::new("", [rows.line("", "size", "error")])
+        });
+        assert_eq!(
+            (panels[0].title.as_str(), &panels[0].series[0].y[..]),
+            ("n = 64", &[0.5][..])
+        );
     }
 }

@@ -49,11 +49,7 @@ impl Row {
 
     /// A number.
     pub fn number(&self, column: &str) -> Option<f64> {
-        match self.value(column) {
-            Value::Number(number) => Some(*number),
-            Value::Count(count) => Some(*count as f64),
-            _ => None,
-        }
+        self.value(column).number()
     }
 
     /// A whole number.

@@ -9,9 +9,9 @@ impl Rows<'_> {
         statistics.split(" | ").map(|statistic| self.cell(statistic)).collect()
     }
 
-    /// A statistic as it stands in a table: `rows`, their number; a column by its name, that of the first row; of a column `first`, `text` (the first with all its digits),
+    /// A statistic as it stands in a table: `rows`, their number; a column by its name, that of the first row; of a column `first`, `text` (the first that there is, with all its digits),
     /// `each` (those of all rows), `median`, `median of all` (the rows without it infinitely large, ∞), `quantile 0.95`, `percent` (of a share, the mean), `least`, `largest` and `worst`, the case with the
-    /// largest; and `exponent of size in column`, of the power law through its medians.
+    /// largest; `fixed 4`, `signed 2` and `scientific 1`, the first with so many decimals; and `exponent of size in column`, of the power law through its medians.
     ///
     /// With ` where ` and a condition behind it, it is that of the rows that fulfil it: `outcome = converged`, `outcome ≠ converged`, `error ≤ 3`, `error > 3` (also where there is none), `size ≥ 64`, a
     /// column that has to hold something, or `no` and one that must not. `share where a where b` is the share of the rows that fulfil the last condition among those that fulfil the others.
@@ -34,7 +34,11 @@ impl Rows<'_> {
         match name {
             "first" if column == "rows" => self.len().to_string(),
             "first" => self.first().map(|row| row.value(column)).cell(),
-            "text" => self.first().map(|row| row.value(column).to_string()).cell(),
+            "text" => self
+                .having(|row| fulfils(row, column))
+                .first()
+                .map(|row| row.value(column).to_string())
+                .cell(),
             "each" => {
                 let texts: Vec<String> = self.iter().map(|row| row.value(column).cell()).collect();
                 (!texts.is_empty()).then(|| texts.join(", ")).cell()
@@ -51,13 +55,27 @@ impl Rows<'_> {
             "largest" => self.largest(column).cell(),
             "worst" => self.worst(column).map(|row| format!("`{}`", row.case())).cell(),
             name => match name.split(' ').collect::<Vec<_>>()[..] {
+                [format, decimals] if FORMATS.contains(&format) => self.formatted(column, (format, decimals)).cell(),
                 ["quantile", level] => level.parse().ok().and_then(|level| self.quantile(column, level)).cell(),
                 ["exponent", "of", size, "in"] => exponent(self.curve("", size, column).points()),
                 _ => MISSING.to_owned(),
             },
         }
     }
+
+    /// The number of the first row in one of the [`FORMATS`].
+    fn formatted(&self, column: &str, (format, decimals): (&str, &str)) -> Option<String> {
+        let (number, decimals) = (self.first()?.number(column)?, decimals.parse::<usize>().ok()?);
+        Some(match format {
+            "fixed" => format!("{number:.decimals$}"),
+            "signed" => format!("{number:+.decimals$}"),
+            _ => format!("{number:.decimals$e}"),
+        })
+    }
 }
+
+/// How a number can be written with so many decimals.
+const FORMATS: [&str; 3] = ["fixed", "signed", "scientific"];
 
 /// Whether a row fulfils a condition.
 fn fulfils(row: &Row, condition: &str) -> bool {
@@ -94,6 +112,10 @@ mod tests {
         assert_eq!(
             Rows::default().cells("median error | median of all error | mode error"),
             [MISSING; 3]
+        );
+        assert_eq!(
+            here.cells("fixed 1 error | signed 2 error | scientific 0 size | fixed 2 method | fixed x error"),
+            ["0.5", "+0.50", "6e1", MISSING, MISSING]
         );
         let grows = [16_usize, 64].map(|size| Row::default().with("size", size).with("error", (size * size) as f64));
         assert_eq!(

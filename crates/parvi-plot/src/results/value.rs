@@ -4,8 +4,8 @@ use std::fmt::{self, Display, Formatter};
 
 use crate::page::{Cell, number};
 
-/// What stands in a cell.
-#[derive(Clone, Debug, Default, PartialEq)]
+/// What stands in a cell. A whole number equals the same number.
+#[derive(Clone, Debug, Default)]
 pub enum Value {
     /// Nothing.
     #[default]
@@ -16,6 +16,28 @@ pub enum Value {
     Count(u64),
     /// A number.
     Number(f64),
+}
+
+impl Value {
+    /// A number, whole or not.
+    pub fn number(&self) -> Option<f64> {
+        match self {
+            Self::Number(number) => Some(*number),
+            Self::Count(count) => Some(*count as f64),
+            _ => None,
+        }
+    }
+}
+
+impl PartialEq for Value {
+    fn eq(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Empty, Self::Empty) => true,
+            (Self::Text(text), Self::Text(other)) => text == other,
+            (Self::Count(count), Self::Count(other)) => count == other,
+            _ => self.number().is_some_and(|number| other.number() == Some(number)),
+        }
+    }
 }
 
 /// As it is, numbers with all their digits.

@@ -35,10 +35,8 @@ fn scalings_state_their_exponents() {
     let mut plot = ScalingPlot {
         x_label: "particles M".to_string(),
         y_label: "time per step (s)".to_string(),
-        fit: Fit {
-            symbol: "M".to_string(),
-            from: 0.0,
-        },
+        symbol: "M".to_string(),
+        from: 0.0,
         panel: MultiplesPanel::new(
             "",
             [

@@ -45,8 +45,7 @@ impl GaussianStudy for Accuracy {
                 }
             }
         }
-        distinct("dims, particles or seeds", &cases)?;
-        Ok(cases)
+        distinct("dims, particles or seeds", cases)
     }
 }
 

@@ -62,7 +62,6 @@ type Exponent = fn(Dimension) -> f64;
 
 /// A column per dimension, with what is known exactly above.
 fn slopes(study: &Accuracy, rows: &Rows<'_>, page: &mut Page) {
-    page.part("Slopes", &[]);
     let exact: [(&str, Exponent); 2] = [("best possible", best_exponent), ("independent draws", |_| -0.5)];
     let exact = exact.map(|(name, slope)| {
         let cell = |&dim: &Dimension| {
@@ -73,7 +72,7 @@ fn slopes(study: &Accuracy, rows: &Rows<'_>, page: &mut Page) {
         line.with_all(study.dims.iter().map(cell))
     });
     let lines = exact.into_iter().chain(lines(study, rows));
-    page.lines_over("Slopes", &[each("d", &study.dims)], lines);
+    page.section("Slopes", &[each("d", &study.dims)], lines);
 }
 
 /// A line per method and size that has taken something, a column per dimension.
@@ -89,8 +88,7 @@ fn costs(study: &Accuracy, rows: &Rows<'_>, page: &mut Page) {
         let lines = lines.flat_map(|line| line.by("particles", ascending(&study.particles)));
         let lines: Vec<Line<'_>> = lines.filter(has_taken).collect();
         if !lines.is_empty() {
-            page.part(part, &[]);
-            page.lines_over(part, &[each("d", &study.dims)], lines);
+            page.section(part, &[each("d", &study.dims)], lines);
         }
     }
 }

@@ -69,7 +69,6 @@ impl GaussianStudy for BasisComparison {
                 }
             }
         }
-        distinct("seeds, dims, bases, spacings or steps", &cases)?;
-        Ok(cases)
+        distinct("seeds, dims, bases, spacings or steps", cases)
     }
 }

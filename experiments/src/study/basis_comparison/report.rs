@@ -46,14 +46,13 @@ fn best_table(study: &BasisComparison, here: &Rows<'_>, page: &mut Page) {
 
 /// One panel per dimension, one line per basis.
 fn plot(study: &BasisComparison, rows: &Rows<'_>) -> MultiplesPlot {
-    let panel = |&dim: &Dimension| {
-        let here = rows.with("dim", dim);
+    let panel = |here: &Rows<'_>| {
         let expected = here.first().and_then(|row| row.number("energy_level"));
-        let lines = study.bases.iter().filter_map(|&basis| line_of(study, &here, basis));
-        MultiplesPanel::new(format!("d = {dim}"), lines).with_level(expected, "expected of i.i.d. draws")
+        let lines = study.bases.iter().filter_map(|&basis| line_of(study, here, basis));
+        MultiplesPanel::new("", lines).with_level(expected, "expected of i.i.d. draws")
     };
     MultiplesPlot::logarithmic("wall time (s)", "ED² (standard deviations)")
-        .with_panels(study.dims.iter().map(panel))
+        .with_panels(rows.panels(("d = ", "dim"), study.dims.clone(), panel))
         .with_note("Medians over the seeds; bars from the smallest to the largest ED².")
 }
 

@@ -9,8 +9,6 @@ mod figure;
 mod report;
 mod requirement;
 
-use parvi_metrics::yardstick::Coordinates;
-
 use requirement::Requirement;
 
 use super::prelude::*;
@@ -73,12 +71,8 @@ impl Catalogue {
     }
 
     fn yardstick(&self) -> YardstickOptions {
-        YardstickOptions {
-            points: self.reference_points.get(),
-            seed: self.reference_seed,
-            directions: self.directions.get(),
-            coordinates: Coordinates::Standardised,
-        }
+        let (points, seed) = (self.reference_points.get(), self.reference_seed);
+        YardstickOptions::of_energy(points, seed, Coordinates::Standardised).over(self.directions.get())
     }
 
     /// The label of the method that the requirements are for.
@@ -123,20 +117,13 @@ impl Study for Catalogue {
                     let of_start = start.map(|start| format!("-mean{}-sd{}", start.mean, start.standard_deviation));
                     let of_start = of_start.unwrap_or_default();
                     let name = format!("{}-{}-m{}{of_start}", target.label(), method.label(), self.particles);
-                    for &seed in &self.seeds {
-                        let mut work = Sampled::new(target, method, None, (self.particles.get(), seed))?;
-                        work.run.start = start.map_or(work.run.start, |law| law.start(work.run.start));
-                        let case = work
-                            .case(format!("{name}-s{seed}"), method)?
-                            .costing(cost(target, start));
-                        let case = case.with("start_mean", start.map(|start| start.mean));
-                        cases.push(case.with("start_sd", start.map(|start| start.standard_deviation)));
-                    }
+                    let (size, cost) = ((self.particles.get(), None), cost(target, start));
+                    let here = Sampled::of_seeds((target, method), size, (&name, &self.seeds))?.into_iter();
+                    cases.extend(here.map(|case| begin(case, start).costing(cost)));
                 }
             }
         }
-        distinct("targets, dims, methods, starts or seeds", &cases)?;
-        Ok(cases)
+        distinct("targets, dims, methods, starts or seeds", cases)
     }
 
     fn run(&self, case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
@@ -150,6 +137,14 @@ impl Study for Catalogue {
         row.set("sliced_level", level);
         case.work.run(row, yardstick, tools.observer)
     }
+}
+
+/// The case with its start.
+fn begin(mut case: Case<Sampled>, start: Option<StartLaw>) -> Case<Sampled> {
+    let run = &mut case.work.run;
+    run.start = start.map_or(run.start, |law| law.start(run.start));
+    case.with("start_mean", start.map(|start| start.mean))
+        .with("start_sd", start.map(|start| start.standard_deviation))
 }
 
 /// Milliseconds, roughly: the distance to the reference and the run; the many rows of `wells` are dear.

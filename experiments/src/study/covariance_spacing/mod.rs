@@ -61,12 +61,10 @@ impl Study for CovarianceSpacing {
             for &spacing in spacings {
                 let mut method = self.method.clone();
                 method.options.spacing = Some(spacing);
-                for &seed in &self.seeds {
-                    let work = Sampled::new(&target, &method, None, (self.particles.get(), seed))?;
-                    let case = work.case(format!("d{dim}-h{spacing}-s{seed}"), &method)?;
-                    let case = case.costing(3f64.powi(dim.get() as i32));
-                    cases.push(case.with("spacing", spacing));
-                }
+                let (size, name) = ((self.particles.get(), None), format!("d{dim}-h{spacing}"));
+                let here = Sampled::of_seeds((&target, &method), size, (&name, &self.seeds))?.into_iter();
+                let cost = 3f64.powi(dim.get() as i32);
+                cases.extend(here.map(|case| case.costing(cost).with("spacing", spacing)));
             }
         }
         Ok(cases)

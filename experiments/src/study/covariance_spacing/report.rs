@@ -18,8 +18,7 @@ pub fn report(study: &CovarianceSpacing, rows: &Rows<'_>, directory: &StudyDirec
         Some((is_kept, line.with("verdict", if is_kept { "kept" } else { "exceeded" })))
     };
     let (kept, lines): (Vec<bool>, Vec<Line<'_>>) = study.series.iter().filter_map(judged).unzip();
-    page.part("Bounds", &[]);
-    page.lines("Bounds", lines);
+    page.section("Bounds", &[], lines);
     page.part("Error against spacing", &[]);
     page.drawing("covariance-spacing.svg", multiples(&plot(study, rows)));
 

@@ -29,21 +29,22 @@ impl Study for Evidence {
 
     fn cases(&self) -> Result<Vec<Case<Sampled>>, CommandError> {
         all_given!(self: targets, methods);
+        let seeds: Vec<u64> = self.run_seeds.all().collect();
         let mut cases = Vec::new();
         for target in &self.targets {
-            if !parvi_targets::target_info(&target.name)?.log_evidence {
-                return Err(refusal("targets", format!("log Z of `{}` is not known", target.name)));
-            }
+            let is_known = parvi_targets::target_info(&target.name)?.log_evidence;
+            holds(is_known, "targets", || {
+                format!("log Z of `{}` is not known", target.name)
+            })?;
             for method in &self.methods {
-                for seed in self.run_seeds.all() {
-                    let work = Sampled::new(target, method, None, (self.particles.get(), seed))?;
-                    let name = format!("{}-{}-s{seed}", target.label(), method.label());
-                    cases.push(work.case(name, method)?);
-                }
+                let (size, name) = (
+                    (self.particles.get(), None),
+                    format!("{}-{}", target.label(), method.label()),
+                );
+                cases.extend(Sampled::of_seeds((target, method), size, (&name, &seeds))?);
             }
         }
-        distinct("targets or methods", &cases)?;
-        Ok(cases)
+        distinct("targets or methods", cases)
     }
 
     fn run(&self, case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {

@@ -7,8 +7,7 @@ use crate::study::prelude::*;
 pub fn report(study: &Evidence, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
     let mut page = directory.page(include_str!("report.md"), &[]);
     let methods = || MethodSpecification::labels(&study.methods);
-    page.part("All targets", &[]);
-    page.lines("All targets", rows.lines("method", methods()));
+    page.section("All targets", &[], rows.lines("method", methods()));
     page.heading("Errors in standard errors");
     page.drawing("evidence.svg", multiples(&plot(study, rows)));
     for target in &study.targets {
@@ -28,17 +27,13 @@ pub fn report(study: &Evidence, rows: &Rows<'_>, directory: &StudyDirectory) -> 
 
 /// Errors over standard errors in order of size, a panel per target and a line per method.
 fn plot(study: &Evidence, rows: &Rows<'_>) -> MultiplesPlot {
-    let panel = |target: &TargetSpecification| {
-        let here = rows.with("target", target.label());
-        let line = |method: &MethodSpecification| {
-            let ratios = here.with("method", method.label()).values("evidence_ratio");
-            let count = ratios.len();
-            LineSeries::in_order(method.label(), ratios, count)
-        };
-        let lines = study.methods.iter().map(line);
-        MultiplesPanel::new(target.label(), lines).with_level(3.0, "three standard errors")
+    let panel = |here: &Rows<'_>| {
+        let methods = MethodSpecification::labels(&study.methods);
+        let lines = here.orders("method", methods, "evidence_ratio", None);
+        MultiplesPanel::new("", lines).with_level(3.0, "three standard errors")
     };
+    let targets = study.targets.iter().map(TargetSpecification::label);
     MultiplesPlot::logarithmic("share of the runs (%)", "error of log Z / its standard error")
         .over_linear()
-        .with_panels(study.targets.iter().map(panel))
+        .with_panels(rows.panels(("", "target"), targets, panel))
 }

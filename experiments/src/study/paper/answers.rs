@@ -1,24 +1,19 @@
 //! Answers to the paper's open questions, from the rows.
 
-use std::fmt::Display;
-
 use super::table::{Findings, RATIO, TIE, groups, settings};
 use crate::statistics::fit_power_law_of;
 use crate::study::prelude::*;
 
 /// All answers, in the order of the paper's claims.
 pub fn answers(findings: &Findings<'_>, page: &mut Page) {
-    page.part("When does it work?", &[]);
     when(findings, page);
     page.heading("Which law suits?");
     laws(&findings.sweep("material"), page);
-    page.part("Transient or steady?", &[]);
     transient(&findings.bodies, page);
     page.heading("Does annealing help?");
     annealing(&findings.sweep("schedule"), page);
     page.heading("Do modes separate?");
     modes(&findings.base, &findings.rivals, page);
-    page.part("What does it cost?", &[]);
     cost(&findings.sweep("cost"), page);
 }
 
@@ -32,7 +27,7 @@ fn best<'a>(rows: &Rows<'a>) -> Option<(String, Rows<'a>)> {
 fn when(findings: &Findings<'_>, page: &mut Page) {
     let (base, bodies) = (&findings.base, &findings.bodies);
     let variants = bodies.lines("variant", bodies.words("variant"));
-    page.lines("When does it work?", variants);
+    page.section("When does it work?", &[], variants);
     let all_groups = groups(base).into_iter().chain(groups(&findings.rivals));
     let all_groups: Vec<_> = all_groups.collect();
     let targets = base.words("target");
@@ -78,7 +73,7 @@ fn transient(bodies: &Rows<'_>, page: &mut Page) {
         let line = Line::from(seen).with("variant", variant);
         line.with("early", early).with("never", never)
     });
-    page.lines("Transient or steady?", lines);
+    page.section("Transient or steady?", &[], lines);
 }
 
 fn annealing(rows: &Rows<'_>, page: &mut Page) {
@@ -109,10 +104,9 @@ fn modes(base: &Rows<'_>, rivals: &Rows<'_>, page: &mut Page) {
         page.paragraph("No run on a target with several modes reached its end.");
         return;
     }
-    page.part("modes", &[]);
     let all = groups(&bodies).into_iter().chain(groups(&rivals));
     let lines = all.map(|(label, here)| Line::from(here).with("setting", label));
-    page.lines("modes", lines);
+    page.section("modes", &[], lines);
 }
 
 /// Powers of M, N and d in time and memory, beside the paper's.
@@ -136,6 +130,6 @@ fn cost(rows: &Rows<'_>, page: &mut Page) {
         fit("memory", "storage_bytes"),
         paper("paper: O((N + M) d + M d²)", ["≤ 1", "≤ 1", "1 to 2"]),
     ];
-    page.lines("What does it cost?", lines);
+    page.section("What does it cost?", &[], lines);
     settings(rows, page);
 }

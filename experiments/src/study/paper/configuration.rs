@@ -3,7 +3,6 @@
 use std::collections::HashSet;
 
 use parvi::{Annealing, ReferenceVolumes};
-use parvi_metrics::yardstick::Coordinates;
 
 use super::material::MaterialTable;
 use super::variant::Variant;
@@ -182,10 +181,8 @@ impl Paper {
 
     /// In the target's own coordinates, where the energy distance to a Gaussian is exact.
     pub fn yardstick(&self) -> YardstickOptions {
-        YardstickOptions {
-            directions: self.directions.get(),
-            ..YardstickOptions::of_energy(self.reference_points.get(), self.reference_seed, Coordinates::Own)
-        }
+        let (points, seed) = (self.reference_points.get(), self.reference_seed);
+        YardstickOptions::of_energy(points, seed, Coordinates::Own).over(self.directions.get())
     }
 }
 

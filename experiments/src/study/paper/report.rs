@@ -11,7 +11,6 @@ use crate::study::prelude::*;
 pub fn report(study: &Paper, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
     let findings = Findings::new(study, rows)?;
     let mut page = directory.page(include_str!("report.md"), &[]);
-    page.part("Failures", &[]);
     failures(&findings.bodies, &mut page);
     page.part("Ties and losses", &[("tie", &TIE)]);
     against_rivals(study, &findings, &mut page);
@@ -65,7 +64,7 @@ fn failures(bodies: &Rows<'_>, page: &mut Page) {
         line.with("median", steps.get(steps.len() / 2))
             .with("last", steps.last())
     });
-    page.lines("Failures", lines);
+    page.section("Failures", &[], lines);
 }
 
 /// The base beside its rivals, run by run.

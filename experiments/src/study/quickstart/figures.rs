@@ -20,12 +20,11 @@ pub fn posterior(
     let draws = particles_csv::read(&Piece::Reference.file(directory, "particles"))?;
     let (points, draws) = (particles.to_rows(), draws.to_rows());
     let labels = study.posterior.target.coordinate_names();
+    let particles = PointCloud::weighted(&points, particles.weights());
+    let reference = Reference::Draws(PointCloud::equal(&draws));
     let plot = DensityPlot {
-        title: "",
-        particles: PointCloud::weighted(&points, particles.weights()),
-        labels: &labels,
-        reference: Reference::Draws(PointCloud::equal(&draws)),
         reference_label: "reference",
+        ..DensityPlot::new(particles, &labels, reference)
     };
     page.drawing("posterior-corner.svg", corner(&plot));
     page.drawing("posterior-marginals.svg", histogram(&plot));
@@ -45,16 +44,13 @@ pub fn picture(study: &Quickstart, particles: &Particles, page: &mut Page) -> Re
         vertical: 1,
         grid,
     }];
-    let plot = DensityPlot {
-        title: "",
-        particles: PointCloud::weighted(&points, particles.weights()),
-        labels: &study.picture.target.coordinate_names(),
-        reference: Reference::Exact {
-            marginals: &[],
-            pairs: &pairs,
-        },
-        reference_label: "",
-    };
+    let (marginals, pairs) = (&[], &pairs);
+    let (known, labels) = (
+        Reference::Exact { marginals, pairs },
+        study.picture.target.coordinate_names(),
+    );
+    let shown = PointCloud::weighted(&points, particles.weights());
+    let plot = DensityPlot::new(shown, &labels, known);
     let (method, target) = (study.picture.method.label(), study.picture.target.label());
     let what = format!("{} particles of `{method}` on the target `{target}`", particles.len());
     let caption = format!("{what}; lines enclose 50, 90 and 99 % of its mass.");

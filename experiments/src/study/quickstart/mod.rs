@@ -10,7 +10,6 @@ use std::path::PathBuf;
 use reference::Reference;
 
 use super::prelude::*;
-use super::row_file;
 use crate::dispatch::on_target;
 use crate::options::words;
 use crate::output::{ParticleFile, table_file};

@@ -37,12 +37,15 @@ impl Reference {
         let known = sample.moments();
         let axis = |axis: usize| {
             let name = names.get(axis).cloned().unwrap_or_else(|| format!("x{}", axis + 1));
-            let spread = known.moments.covariance.0[axis][axis].sqrt();
-            let error = known.standard_deviation_error[axis];
-            let row = Row::default().with("name", name).with("mean", known.moments.mean[axis]);
-            let row = row.with("mean_standard_error", known.mean_error[axis]);
-            row.with("standard_deviation", spread)
-                .with("standard_deviation_standard_error", error)
+            Row::default()
+                .with("name", name)
+                .with("mean", known.moments.mean[axis])
+                .with("mean_standard_error", known.mean_error[axis])
+                .with("standard_deviation", known.moments.covariance.0[axis][axis].sqrt())
+                .with(
+                    "standard_deviation_standard_error",
+                    known.standard_deviation_error[axis],
+                )
         };
         let axes = (0..D).map(axis).collect();
         let draws = sample.draws().resampled(part.draws.get(), part.seed);

@@ -5,7 +5,6 @@
 
 mod report;
 
-use parvi_metrics::yardstick::Coordinates;
 use parvi_targets::{Frame, InFrame};
 
 use super::prelude::*;
@@ -84,8 +83,7 @@ impl Study for RandomTargets {
                 }
             }
         }
-        distinct("dims or methods", &cases)?;
-        Ok(cases)
+        distinct("dims or methods", cases)
     }
 
     fn run(&self, case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {

@@ -48,17 +48,16 @@ fn better(rows: &Rows<'_>, others: &Rows<'_>) -> Option<String> {
 
 /// ED² of every method in order of size, one panel per dimension.
 fn plot(study: &RandomTargets, rows: &Rows<'_>) -> MultiplesPlot {
-    let panel = |dim: &Dimension| {
-        let here = rows.with("dim", *dim);
-        let line = |method: &MethodSpecification| {
-            let ratios = here.with("method", method.label()).values("energy_ratio");
-            LineSeries::in_order(method.label(), ratios, study.target_seeds.count.get())
-        };
-        let lines = study.methods.iter().map(line);
-        MultiplesPanel::new(format!("d = {dim}"), lines).with_level(1.0, "independent draws")
+    let panel = |here: &Rows<'_>| {
+        let (methods, all) = (
+            MethodSpecification::labels(&study.methods),
+            study.target_seeds.count.get(),
+        );
+        let lines = here.orders("method", methods, "energy_ratio", Some(all));
+        MultiplesPanel::new("", lines).with_level(1.0, "independent draws")
     };
     MultiplesPlot::logarithmic("share of the targets (%)", "ED^{2} relative to independent draws")
         .over_linear()
-        .with_panels(study.dims.iter().map(panel))
+        .with_panels(rows.panels(("d = ", "dim"), study.dims.clone(), panel))
         .with_note("Every method's targets are in the order of its own ED²; runs without particles are left out.")
 }

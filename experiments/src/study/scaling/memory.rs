@@ -12,14 +12,13 @@ pub fn peak_of_own_process(work: &Sampled, method: &MethodSpecification, threads
     let out = std::env::temp_dir().join(format!("parvi-memory-{}.npy", std::process::id()));
     let mut command = Command::new(std::env::current_exe().ok()?);
     command.args(["sample", "--target", &target.name, "--method", method.name.as_str()]);
-    let dim = target.dim.map(|dim| ("--dim", dim.to_string())).into_iter();
-    let numbers = [
-        ("--particles", run.particles.to_string()),
-        ("--seed", run.seed.to_string()),
-    ];
-    for (flag, number) in dim.chain(numbers) {
-        command.arg(flag).arg(number);
-    }
+    command.args(target.dim.iter().flat_map(|dim| ["--dim".to_owned(), dim.to_string()]));
+    command.args([
+        "--particles",
+        &run.particles.to_string(),
+        "--seed",
+        &run.seed.to_string(),
+    ]);
     command.args(method.options.flags()).arg("--out").arg(&out);
     command.envs(threads.map(|threads| ("RAYON_NUM_THREADS", threads.to_string())));
     let output = command.stdin(Stdio::null()).stderr(Stdio::null()).output();

@@ -72,8 +72,7 @@ impl Study for Scenes {
                 cases.push(case.with("label", label).with("quantity", family.read.name()));
             }
         }
-        distinct("families.axes", &cases)?;
-        Ok(cases)
+        distinct("families.axes", cases)
     }
 
     fn check_earlier(&self, rows: &[Row]) -> Result<(), CommandError> {

@@ -1,7 +1,5 @@
 //! The report of the study `scenes`.
 
-use std::fmt::Display;
-
 use super::configuration::Scenes;
 use super::family::Family;
 use super::figure;
@@ -27,8 +25,7 @@ pub fn report(study: &Scenes, rows: &Rows<'_>, directory: &StudyDirectory) -> Re
             lines.push(line.with("pass", if verdict.pass { "yes" } else { "**no**" }));
         }
     }
-    page.part("Judgements", &[]);
-    page.lines("Judgements", lines);
+    page.section("Judgements", &[], lines);
     let seconds = format!("{:.0}", rows.values(SECONDS).iter().sum::<f64>());
     let values: [(&str, &dyn Display); 3] = [("passed", &passed), ("judged", &judged), ("seconds", &seconds)];
     page.part("kept", &values);

@@ -69,7 +69,6 @@ impl GaussianStudy for SpacingParticles {
                 }
             }
         }
-        distinct("seeds, particles or series", &cases)?;
-        Ok(cases)
+        distinct("seeds, particles or series", cases)
     }
 }

@@ -22,7 +22,6 @@ pub fn report(study: &SpacingParticles, rows: &Rows<'_>, directory: &StudyDirect
 }
 
 fn best_spacings(study: &SpacingParticles, rows: &Rows<'_>, page: &mut Page) {
-    page.part("Best spacings", &[]);
     let mut table = Vec::new();
     let mut fits = Vec::new();
     for series in &study.series {
@@ -47,9 +46,8 @@ fn best_spacings(study: &SpacingParticles, rows: &Rows<'_>, page: &mut Page) {
         let fit = Line::default().with("dim", series.dim.get()).with("exponent", exponent);
         fits.push(fit.with("at 512", at_512).with("points", counts.len()));
     }
-    page.lines("Best spacings", table);
-    page.part("fits", &[]);
-    page.lines("fits", fits);
+    page.section("Best spacings", &[], table);
+    page.section("fits", &[], fits);
 }
 
 /// One line per spacing: ED² by number of particles, and where it stops falling; of runs in one dimension.
@@ -70,14 +68,13 @@ fn saturations(study: &SpacingParticles, here: &Rows<'_>, series: &Series, page:
 
 /// One panel per dimension, one line per number of particles.
 fn plot(study: &SpacingParticles, rows: &Rows<'_>) -> MultiplesPlot {
-    let panel = |Series { dim, .. }: &Series| {
-        let here = rows.with("dim", *dim);
+    let panel = |here: &Rows<'_>| {
         let (sizes, x) = (("M = ", "particles"), "requested_spacing");
-        let lines = here.curves(sizes, study.counts(), x, "energy_root");
-        MultiplesPanel::new(format!("d = {dim}"), lines)
+        MultiplesPanel::new("", here.curves(sizes, study.counts(), x, "energy_root"))
     };
+    let dims = study.series.iter().map(|series| series.dim);
     let y_label = "energy distance ED (standard deviations^{½})";
     MultiplesPlot::logarithmic("spacing h (standard deviations)", y_label)
-        .with_panels(study.series.iter().map(panel))
+        .with_panels(rows.panels(("d = ", "dim"), dims, panel))
         .with_note("Medians over the seeds; bars from the smallest to the largest.")
 }

@@ -18,8 +18,7 @@ pub fn report(_: &Stability, rows: &Rows<'_>, directory: &StudyDirectory) -> Res
     let rows: Vec<Row> = rows.iter().map(told).collect();
     let rows: &Rows<'_> = &rows.iter().collect();
     let groups = sorted(rows, "group");
-    page.part("Endings", &[]);
-    page.lines("Endings", rows.lines("group", groups.clone()));
+    page.section("Endings", &[], rows.lines("group", groups.clone()));
     let reasons = sorted(rows, "reason");
     match reasons.is_empty() {
         true => page.paragraph("No run ended with an error."),
@@ -32,7 +31,7 @@ pub fn report(_: &Stability, rows: &Rows<'_>, directory: &StudyDirectory) -> Res
     let faults = rows.having(|row| matches!(row.status(), Status::Panicked | Status::NotFinite));
     let faults: Vec<String> = faults.iter().map(named).collect();
     page.list("Panics and numbers that are not finite", &faults, Some("None."));
-    refusals(rows, &mut page);
+    page.list("Runs of mpm that diverged", &refusals(rows), Some("None."));
 
     let page = rows.tell([Status::Finite, Status::Refused], page);
     Ok(rows.tell([Status::Panicked, Status::NotFinite], page))
@@ -91,20 +90,16 @@ fn breakdowns(rows: &Rows<'_>, groups: &[String], page: &mut Page) {
     }
 }
 
-/// Names the runs of the calibrated sampler that diverged.
-fn refusals(rows: &Rows<'_>, page: &mut Page) {
-    page.heading("Runs of mpm that diverged");
+/// The runs of the calibrated sampler that diverged, by name.
+fn refusals(rows: &Rows<'_>) -> Vec<String> {
     let diverged = rows.with("method", MethodName::Mpm.as_str()).having(diverged);
-    if diverged.is_empty() {
-        page.paragraph("None.");
-        return;
-    }
+    let mut lines: Vec<String> = diverged.iter().take(MOST_NAMED).map(named).collect();
     let count = diverged.len();
     if count > MOST_NAMED {
-        page.paragraph(format!("The first {MOST_NAMED} of {count}; results.csv has them all."));
+        let first = format!("The first {MOST_NAMED} of {count}; results.csv has them all.\n");
+        lines.insert(0, first);
     }
-    let lines: Vec<String> = diverged.iter().take(MOST_NAMED).map(named).collect();
-    page.paragraph(lines.join("\n"));
+    lines
 }
 
 /// A case with what was drawn for it.

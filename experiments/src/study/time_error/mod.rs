@@ -5,8 +5,6 @@
 
 mod report;
 
-use parvi_metrics::yardstick::Coordinates;
-
 use super::prelude::*;
 
 /// All methods on all targets.
@@ -34,12 +32,8 @@ pub struct TimeError {
 impl TimeError {
     /// Levels of independent draws are taken from the runs of `iid`.
     fn yardstick(&self) -> YardstickOptions {
-        YardstickOptions {
-            points: self.reference_points.get(),
-            seed: self.reference_seed,
-            directions: self.directions.get(),
-            coordinates: Coordinates::Own,
-        }
+        let (points, seed) = (self.reference_points.get(), self.reference_seed);
+        YardstickOptions::of_energy(points, seed, Coordinates::Own).over(self.directions.get())
     }
 
     /// The numbers of steps of one method; `None`: its own, or draws.
@@ -62,31 +56,25 @@ impl Study for TimeError {
     /// The cases, target by target, so that a target's reference is made once.
     fn cases(&self) -> Result<Vec<Case<Sampled>>, CommandError> {
         not_empty("seeds", &self.seeds)?;
-        if let Some(steps) = &self.steps {
-            not_empty("steps", steps)?;
-        }
+        self.steps.as_ref().map_or(Ok(()), |steps| not_empty("steps", steps))?;
         let mut cases = Vec::new();
         for target in &self.targets {
             for method in &self.methods {
                 // Milliseconds, roughly: a distance to the reference, and M² pairs or M · 3ᵈ nodes per step.
-                let per_step = match method.name {
-                    MethodName::Svgd => 10.0,
-                    _ => 0.03 * 3f64.powi(target.dimension()? as i32),
-                };
+                let stencil = 3f64.powi(target.dimension()? as i32);
+                let is_pairwise = method.name == MethodName::Svgd;
+                let per_step = if is_pairwise { 10.0 } else { 0.03 * stencil };
                 for steps in self.sweep(method) {
                     let of_steps = steps.map_or(String::new(), |steps| format!("-t{steps}"));
                     let name = format!("{}-{}-m{}{of_steps}", target.label(), method.label(), self.particles);
                     let cost = 100.0 + per_step * steps.unwrap_or(0) as f64;
-                    for &seed in &self.seeds {
-                        let work = Sampled::new(target, method, steps, (self.particles.get(), seed))?;
-                        let case = work.case(format!("{name}-s{seed}"), method)?;
-                        cases.push(case.with("steps", steps).costing(cost));
-                    }
+                    let (size, seeds) = ((self.particles.get(), steps), &self.seeds);
+                    let here = Sampled::of_seeds((target, method), size, (&name, seeds))?.into_iter();
+                    cases.extend(here.map(|case| case.with("steps", steps).costing(cost)));
                 }
             }
         }
-        distinct("targets, methods, steps or seeds", &cases)?;
-        Ok(cases)
+        distinct("targets, methods, steps or seeds", cases)
     }
 
     fn run(&self, case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {

@@ -17,18 +17,16 @@ pub fn plot(
         if rows.with("case", row.case()).is_empty() {
             continue;
         }
-        let trials = case.trials(directory)?;
+        let trials = super::trials(&case, directory)?;
         let settings = settings(&trials.iter().collect());
         if settings.is_empty() {
             continue;
         }
         let target = case.target.label();
         if panels.last().is_none_or(|panel| panel.target != target) {
-            let (curves, iid_level) = (Vec::new(), None);
             panels.push(TimeErrorPanel {
                 target,
-                curves,
-                iid_level,
+                ..TimeErrorPanel::default()
             });
         }
         let curves = panels.last_mut().map(|panel| &mut panel.curves);
@@ -54,8 +52,7 @@ fn settings(trials: &Rows<'_>) -> Vec<Vec<(f64, f64)>> {
     // On a logarithmic axis there is no place for zero and below.
     let placed = |energy: f64| if energy <= 0.0 { f64::NAN } else { energy };
     let setting = |size: f64| {
-        let here = trials.having(|trial| trial.number("size") == Some(size));
-        let pairs = here.pairs(SECONDS, ENERGY).into_iter();
+        let pairs = trials.with("size", size).pairs(SECONDS, ENERGY).into_iter();
         pairs.map(|(seconds, energy)| (seconds, placed(energy))).collect()
     };
     trials.places("size").into_iter().map(setting).collect()

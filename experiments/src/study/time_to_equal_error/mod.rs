@@ -11,15 +11,11 @@ mod report;
 mod runs;
 mod search;
 
-use std::path::PathBuf;
-
-use parvi_metrics::yardstick::Coordinates;
-
 use runs::{Goal, OWN, Runs};
 use search::{COLUMNS, Range, median_energy, of_size};
 
+use super::contestant::Contestant;
 use super::prelude::*;
-use super::row_file;
 
 /// A method and its rivals, to the same error on every target.
 #[derive(Clone, Debug, Deserialize)]
@@ -47,31 +43,13 @@ pub struct TimeToEqualError {
     rivals: Vec<MethodSpecification>,
 }
 
-/// One method on one target for one M, with all seeds.
-#[derive(Clone, Debug)]
-pub struct Entry {
-    target: TargetSpecification,
-    particles: usize,
-    /// 0 for the method whose error is to be reached, then its rivals.
-    index: usize,
-    method: MethodSpecification,
-}
-
-impl Entry {
-    /// The file of its runs.
-    fn trials_file(&self, directory: &StudyDirectory) -> PathBuf {
-        let (target, method) = (self.target.label(), self.method.name);
-        directory.raw(&format!("{target}-m{}-{}-{method}.csv", self.particles, self.index))
-    }
-
-    /// Its runs, as far as they have been made.
-    fn trials(&self, directory: &StudyDirectory) -> Result<Vec<Row>, CommandError> {
-        row_file::read(&self.trials_file(directory), COLUMNS)
-    }
+/// Its runs, as far as they have been made.
+fn trials(contestant: &Contestant, directory: &StudyDirectory) -> Result<Vec<Row>, CommandError> {
+    row_file::read(&contestant.file(directory), COLUMNS)
 }
 
 impl Study for TimeToEqualError {
-    type Work = Entry;
+    type Work = Contestant;
 
     const KIND: &'static str = "time-to-equal-error";
     const COLUMNS: &'static str = "case ending reason target dim particles method mean_distance goal size score_evaluations \
@@ -79,7 +57,7 @@ impl Study for TimeToEqualError {
     const REPORT: Report<Self> = report::report;
 
     /// The cases: on every target and for every M the method first, then its rivals.
-    fn cases(&self) -> Result<Vec<Case<Entry>>, CommandError> {
+    fn cases(&self) -> Result<Vec<Case<Contestant>>, CommandError> {
         all_given!(self: seeds, particles, targets);
         positive("largest-ratio", &[self.largest_ratio])?;
         self.draws.check("draws")?;
@@ -93,27 +71,20 @@ impl Study for TimeToEqualError {
         let mut cases = Vec::new();
         for target in &self.targets {
             for particles in &self.particles {
-                for (index, method) in std::iter::once(&self.method).chain(&self.rivals).enumerate() {
-                    let entry = Entry {
-                        target: target.clone(),
-                        particles: particles.get(),
-                        index,
-                        method: method.clone(),
-                    };
-                    let (name, label) = (target.label(), method.label());
-                    // Rivals get many runs, each with a distance to the reference.
-                    let case = Case::new(format!("{name}-m{particles}-{label}"), entry).by(method);
-                    let case = case.costing(if index == 0 { 1.0 } else { 10.0 });
-                    let case = case.with("target", name).with("dim", target.dimension()?);
-                    cases.push(case.with("particles", *particles));
-                }
+                let (name, particles) = (target.label(), particles.get());
+                let (task, methods) = (format!("{name}-m{particles}"), (&self.method, &self.rivals[..]));
+                let here = Contestant::all((&name, &task), (target, particles), methods)?.into_iter();
+                // Rivals get many runs, each with a distance to the reference.
+                cases.extend(here.map(|case| {
+                    let cost = if case.work.index == 0 { 1.0 } else { 10.0 };
+                    case.costing(cost)
+                }));
             }
         }
-        distinct("targets, particles or rivals", &cases)?;
-        Ok(cases)
+        distinct("targets, particles or rivals", cases)
     }
 
-    fn run(&self, case: &Case<Entry>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
+    fn run(&self, case: &Case<Contestant>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
         let (entry, directory) = (&case.work, tools.directory);
         // The sliced distance is not looked at.
         let (points, seed) = (self.reference_points.get(), self.reference_seed);
@@ -137,7 +108,7 @@ impl Study for TimeToEqualError {
             let reason = "the method that sets the error has none above 0";
             Err(Failure::new(Status::Unsupported, reason))
         };
-        row_file::write(&entry.trials_file(directory), COLUMNS, &runs.trials)?;
+        row_file::write(&entry.file(directory), COLUMNS, &runs.trials)?;
         match found {
             Ok(found) => runs.note(found, row),
             Err(failure) => {
@@ -151,10 +122,8 @@ impl Study for TimeToEqualError {
 
 impl TimeToEqualError {
     /// What the method reached on the target of a rival's case; `None` unless it is a positive number.
-    fn goal(&self, entry: &Entry, directory: &StudyDirectory) -> Result<Option<Goal>, CommandError> {
-        let mut own = entry.clone();
-        (own.index, own.method) = (0, self.method.clone());
-        let trials = own.trials(directory)?;
+    fn goal(&self, entry: &Contestant, directory: &StudyDirectory) -> Result<Option<Goal>, CommandError> {
+        let trials = trials(&entry.first(&self.method), directory)?;
         let runs = of_size(&trials, OWN);
         let energy = median_energy(&runs);
         let seconds = runs.median(SECONDS).filter(|_| energy > 0.0 && energy.is_finite());
@@ -162,7 +131,7 @@ impl TimeToEqualError {
     }
 
     /// The runs of the same rival for smaller M: draws do not depend on it, so they are not made twice.
-    fn earlier_trials(&self, entry: &Entry, directory: &StudyDirectory) -> Result<Vec<Row>, CommandError> {
+    fn earlier_trials(&self, entry: &Contestant, directory: &StudyDirectory) -> Result<Vec<Row>, CommandError> {
         if entry.method.name.iterates() {
             return Ok(Vec::new());
         }
@@ -170,8 +139,8 @@ impl TimeToEqualError {
         let smaller = sizes.take_while(|particles| *particles != entry.particles);
         let mut earlier = entry.clone();
         let known = smaller.map(|particles| {
-            earlier.particles = particles;
-            earlier.trials(directory)
+            earlier.task = format!("{}-m{particles}", entry.target.label());
+            trials(&earlier, directory)
         });
         let known = known.collect::<Result<Vec<_>, _>>()?.into_iter();
         Ok(known.max_by_key(Vec::len).unwrap_or_default())

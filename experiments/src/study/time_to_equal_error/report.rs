@@ -6,79 +6,56 @@ use crate::study::prelude::*;
 
 /// Tables and figure.
 pub fn report(study: &TimeToEqualError, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
-    let label = study.method.label();
+    let own = study.method.label();
     let (threads, ratio) = (directory.at_most_threads(), number(study.largest_ratio));
     let mut page = directory.page(include_str!("report.md"), &[("at-most", &threads), ("ratio", &ratio)]);
-    page.part("What a particle is worth", &[]);
-    worth(study, rows, &mut page);
+    let told: Vec<Row> = rows.iter().map(|row| told(row, &rows.with("method", own))).collect();
+    let told: Rows<'_> = told.iter().collect();
+    let lines = comparisons(study, &told.with("method", own));
+    page.section("What a particle is worth", &[], lines);
     for rival in &study.rivals {
-        page.heading(&format!("Against {}", rival.label()));
-        against(study, rows, rival, &mut page);
+        let its = rival.label();
+        page.heading(&format!("Against {its}"));
+        let size = if rival.name.iterates() { "steps" } else { "draws" };
+        let is_expected = rival.name == MethodName::Iid;
+        let section = if is_expected { "expected" } else { "searched" };
+        page.part(section, &[("sizes", &size)]);
+        let names = [("sizes", size), ("its", its), ("own", own)].map(|(name, word)| each(name, [word]));
+        page.lines_over("searched", &names, comparisons(study, &told));
+        let reasons = told.with("method", its).with("ending", Status::Unsupported);
+        page.items(&reasons.iter().map(reason).collect::<Vec<_>>());
     }
     page.heading("Figure");
     let plot = plot(study, rows, directory)?;
     page.drawing("time-to-equal-error.svg", multiples(&plot));
 
-    let rivals = rows.having(|row| row.text("method") != label);
+    let rivals = rows.having(|row| row.text("method") != own);
     let page = rivals.tell([Status::Reached, Status::OutOfTime], page);
     Ok(rivals.tell([Status::OutOfSizes, Status::Unsupported], page))
 }
 
-/// The row of a method for a target and M, if there is one.
-fn find<'a>(rows: &Rows<'a>, target: &str, particles: usize, method: &str) -> Rows<'a> {
-    let here = rows.with("target", target).with("particles", particles);
-    here.with("method", method)
+/// A line for every target with every M.
+fn comparisons<'a>(study: &TimeToEqualError, rows: &Rows<'a>) -> Vec<Line<'a>> {
+    let targets = rows.lines("target", study.targets.iter().map(TargetSpecification::label));
+    let sizes = |line: &Line<'a>| line.by("particles", study.particles.clone());
+    targets.iter().flat_map(sizes).collect()
 }
 
-/// Every target with every M.
-fn comparisons(study: &TimeToEqualError) -> impl Iterator<Item = (String, usize)> {
-    let sizes = study.particles.iter().map(|particles| particles.get());
-    let of = move |target: &TargetSpecification| {
-        let label = target.label();
-        sizes.clone().map(move |particles| (label.clone(), particles))
-    };
-    study.targets.iter().flat_map(of)
+/// The row of a case with what tables say of it beside the method's own rows.
+fn told(row: &Row, own: &Rows<'_>) -> Row {
+    let own = own.with("target", row.text("target"));
+    let own = own.with("particles", row.value("particles").clone()).first();
+    let own = own.and_then(|own| own.number(SECONDS));
+    row.clone()
+        .with("draws", row.number("draws_ratio").map(f64::recip))
+        .with("sizes", sizes(row))
+        .with("ratios", own.and_then(|own| ratios(row, own)))
+        .with("ended", in_words(row.status()))
 }
 
-fn worth(study: &TimeToEqualError, rows: &Rows<'_>, page: &mut Page) {
-    let line = |(target, particles): (String, usize)| {
-        let here = find(rows, &target, particles, study.method.label());
-        let draws = here.first().and_then(|row| row.number("draws_ratio")).map(f64::recip);
-        let line = Line::from(here).with("target", target).with("M", particles);
-        line.with("draws", draws)
-    };
-    page.lines("What a particle is worth", comparisons(study).map(line));
-}
-
-/// One line per target and M: what the rival needs, and how many times longer that takes.
-fn against(study: &TimeToEqualError, rows: &Rows<'_>, rival: &MethodSpecification, page: &mut Page) {
-    let label = study.method.label();
-    let size = if rival.name.iterates() { "steps" } else { "draws" };
-    let its = rival.label();
-    let mut lines = Vec::new();
-    let mut reasons = Vec::new();
-    for (target, particles) in comparisons(study) {
-        let own = find(rows, &target, particles, label).first();
-        let own = own.and_then(|row| row.number(SECONDS));
-        let here = find(rows, &target, particles, its);
-        let row = here.first();
-        if let Some(row) = row.filter(|row| row.status() == Status::Unsupported) {
-            reasons.push(format!("- {target}, M = {particles}: {}.", row.text("reason")));
-        }
-        let line = Line::from(here.clone()).with("target", target).with("M", particles);
-        let line = line.with("size", row.and_then(sizes)).with("own time", own);
-        let ratios = row.zip(own).and_then(|(row, own)| ratios(row, own));
-        let line = line.with("ratios", ratios);
-        lines.push(line.with("ended", row.map(|row| in_words(row.status()))));
-    }
-    let is_expected = rival.name == MethodName::Iid;
-    let section = if is_expected { "expected" } else { "searched" };
-    page.part(section, &[("sizes", &size)]);
-    let names = [("sizes", size), ("its", its), ("own", label)].map(|(name, word)| each(name, [word]));
-    page.lines_over("searched", &names, lines);
-    if !reasons.is_empty() {
-        page.paragraph(reasons.join("\n"));
-    }
+fn reason(row: &Row) -> String {
+    let [target, particles, reason] = ["target", "particles", "reason"].map(|column| row.value(column).cell());
+    format!("- {target}, M = {particles}: {reason}.")
 }
 
 /// From the last that missed to the first that reached, or a bound.

@@ -2,8 +2,9 @@
 
 use parvi::SampleError;
 
+use super::TimeToEqualError;
 use super::search::{median_energy, next, of_size};
-use super::{Entry, TimeToEqualError};
+use crate::study::contestant::Contestant;
 use crate::study::prelude::*;
 
 /// The size of the method's own runs: its own number of steps.
@@ -22,7 +23,7 @@ pub struct Runs<'a> {
     /// The study.
     pub study: &'a TimeToEqualError,
     /// What is run.
-    pub entry: &'a Entry,
+    pub entry: &'a Contestant,
     /// Of its target.
     pub yardstick: &'a dyn Yardstick,
     /// Watches the runs.
@@ -98,7 +99,7 @@ impl Runs<'_> {
 
     /// One run; one that diverges is a trial without an error, and one that the target does not allow is an error.
     fn one(&mut self, size: usize, seed: u64) -> Result<Row, CommandError> {
-        let Entry { target, method, .. } = self.entry;
+        let Contestant { target, method, .. } = self.entry;
         let (is_own, iterates) = (size == OWN, method.name.iterates());
         let draws = if is_own || iterates { self.entry.particles } else { size };
         let steps = Some(size).filter(|_| iterates && !is_own);

@@ -7,11 +7,9 @@
 mod report;
 mod search;
 
-use std::path::PathBuf;
-
+use super::contestant::Contestant;
 use super::gaussian_runs::energy_level;
 use super::prelude::*;
-use super::row_file;
 use super::start_law::StartLaw;
 
 /// A method and its rivals, from the same start to the same error.
@@ -51,25 +49,8 @@ impl TimeToLevel {
     }
 }
 
-/// One method in one dimension.
-#[derive(Clone, Debug)]
-pub struct Entry {
-    dim: Dimension,
-    /// 0 for the method that sets the clock, then its rivals.
-    index: usize,
-    method: MethodSpecification,
-}
-
-impl Entry {
-    /// The file of its runs.
-    fn trials_file(&self, directory: &StudyDirectory) -> PathBuf {
-        let Self { dim, index, method } = self;
-        directory.raw(&format!("d{dim}-{index}-{}.csv", method.name))
-    }
-}
-
 impl Study for TimeToLevel {
-    type Work = Entry;
+    type Work = Contestant;
 
     const KIND: &'static str = "time-to-level";
     const COLUMNS: &'static str = "case ending dim particles method energy_level runs steps energy_distance_squared wall_seconds \
@@ -77,7 +58,7 @@ impl Study for TimeToLevel {
     const REPORT: Report<Self> = report::report;
 
     /// The cases: in every dimension the method first, then its rivals.
-    fn cases(&self) -> Result<Vec<Case<Entry>>, CommandError> {
+    fn cases(&self) -> Result<Vec<Case<Contestant>>, CommandError> {
         all_given!(self: dims, steps);
         for pair in self.steps.windows(2) {
             let otherwise = || format!("{} before {} do not grow", pair[0], pair[1]);
@@ -91,31 +72,26 @@ impl Study for TimeToLevel {
         }
         let mut cases = Vec::new();
         for &dim in &self.dims {
-            for (index, own) in std::iter::once(&self.method).chain(&self.rivals).enumerate() {
-                let (id, method) = (format!("d{dim}-m{}-{}", self.particles, own.label()), own.clone());
-                let case = Case::new(id, Entry { dim, index, method }).by(own);
-                // The budget of a rival is a multiple of the method's time.
-                let case = case.costing(dim.get() as f64 + 1.0).with("dim", dim);
-                cases.push(case.with("particles", self.particles));
-            }
+            let target = TargetSpecification::plain("gaussian", Some(dim));
+            let (task, methods) = (format!("d{dim}"), (&self.method, &self.rivals[..]));
+            let here = Contestant::all((&task, &task), (&target, self.particles.get()), methods)?;
+            // The budget of a rival is a multiple of the method's time.
+            cases.extend(here.into_iter().map(|case| case.costing(dim.get() as f64 + 1.0)));
         }
-        distinct("dims or rivals", &cases)?;
-        Ok(cases)
+        distinct("dims or rivals", cases)
     }
 
-    fn run(&self, case: &Case<Entry>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
-        let entry = &case.work;
-        let level = energy_level(entry.dim.get(), self.particles.get())?;
+    fn run(&self, case: &Case<Contestant>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
+        let (contestant, directory) = (&case.work, tools.directory);
+        let level = energy_level(contestant.target.dimension()?, contestant.particles)?;
         let mut budget = None;
-        if entry.index > 0 {
-            let mut clock = entry.clone();
-            (clock.index, clock.method) = (0, self.method.clone());
-            let trials = search::read(&clock.trials_file(tools.directory))?;
+        if contestant.index > 0 {
+            let trials = search::read(&contestant.first(&self.method).file(directory))?;
             let seconds = search::last(&trials).median(SECONDS);
             budget = seconds.map(|seconds| self.largest_ratio * seconds);
         }
-        let (ending, trials) = search::search(self, entry.dim, &entry.method, (level, budget), tools.observer)?;
-        row_file::write(&entry.trials_file(tools.directory), search::COLUMNS, &trials)?;
+        let (ending, trials) = search::search(self, contestant, (level, budget), tools.observer)?;
+        row_file::write(&contestant.file(directory), search::COLUMNS, &trials)?;
         let last = search::last(&trials);
         row.set("ending", ending);
         row.set("energy_level", level);

@@ -25,85 +25,61 @@ fn reached(row: &Row) -> bool {
     row.status() == Status::Reached
 }
 
-/// One line per dimension: steps and time of the method and of each rival, and the ratio of times.
+/// One line per dimension: steps and time of the method and of each rival, the longest with a mark where it did not reach the level, and the ratio of times.
 fn times(study: &TimeToLevel, rows: &Rows<'_>, page: &mut Page) {
-    let label = study.method.label();
-    let mut lines = Vec::new();
-    let mut bounds = Vec::new();
-    for &dim in &study.dims {
-        let here = rows.with("dim", dim);
-        let find = |label: &str| here.with("method", label).first();
-        let own = find(label);
-        let clock = own.filter(|row| reached(row)).and_then(|row| row.number(SECONDS));
-        let level = own.and_then(|row| row.number("energy_level"));
-        let mut line = steps_and_time(Line::default().with("dim", dim.get()).with("level", level), label, own);
-        for rival in MethodSpecification::labels(&study.rivals) {
-            let row = find(rival);
-            let ratio = row.and_then(|row| Some(row.number(SECONDS)? / clock?));
-            let text = match (ratio, row.filter(|row| !reached(row))) {
-                (Some(ratio), Some(row)) => {
-                    bounds.push(bound(row, label, ratio));
-                    format!("> {}", number(ratio))
-                }
-                (ratio, _) => ratio.cell(),
-            };
-            line = steps_and_time(line, rival, row).with(format!("ratio {rival}"), text);
-        }
-        lines.push(line);
-    }
+    let own = study.method.label();
+    let clock = |row: &Row| {
+        let here = rows.with("dim", row.value("dim").clone()).with("method", own);
+        here.having(reached).first()?.number(SECONDS)
+    };
+    let told = |row: &Row| {
+        let mark = if reached(row) { "" } else { "> " };
+        let ratio = row
+            .number(SECONDS)
+            .zip(clock(row))
+            .map(|(seconds, clock)| seconds / clock);
+        let [steps, time] = ["steps", SECONDS].map(|column| format!("{mark}{}", row.value(column).cell()));
+        let row = row.clone().with("took", steps).with("time", time).with("times", ratio);
+        row.with("ratio", ratio.map(|ratio| format!("{mark}{}", number(ratio))))
+    };
+    let told: Vec<Row> = rows.iter().map(told).collect();
+    let told: Rows<'_> = told.iter().collect();
     let rivals = MethodSpecification::labels(&study.rivals);
-    page.lines_over("Times", &[each("own", [label]), each("rival", rivals)], lines);
-    if !bounds.is_empty() {
-        page.paragraph(bounds.join("\n"));
-    }
+    let lines = told.lines("dim", study.dims.clone());
+    page.lines_over("Times", &[each("own", [own]), each("rival", rivals)], lines);
+    let is_bound = |row: &Row| !reached(row) && row.text("method") != own && row.number("times").is_some();
+    let bounds: Vec<String> = told.having(is_bound).iter().map(|row| bound(row, own)).collect();
+    page.items(&bounds);
 }
 
-/// Steps and time of the run that reached the level, or of the longest one with a mark that it did not.
-fn steps_and_time<'a>(line: Line<'a>, label: &str, row: Option<&Row>) -> Line<'a> {
-    let mark = if row.is_none_or(reached) { "" } else { "> " };
-    let cell = |column: &str| format!("{mark}{}", row.map(|row| row.value(column)).cell());
-    let line = line.with(format!("steps {label}"), cell("steps"));
-    line.with(format!("time {label}"), cell(SECONDS))
-}
-
-fn bound(row: &Row, clock: &str, ratio: f64) -> String {
+/// What is known of a rival that did not reach the level.
+fn bound(row: &Row, clock: &str) -> String {
     let state = row.number("energy_ratio").map_or("diverged".to_owned(), |levels| {
         format!("ED² is still {} times the level", number(levels))
     });
-    let ([dim, steps], method) = (
-        ["dim", "steps"].map(|column| row.value(column).cell()),
-        row.text("method"),
-    );
-    let times = format!("{} times the time of `{clock}`", number(ratio));
-    format!("- d = {dim}: after {steps} steps and {times}, {state} with `{method}`.")
+    let [dim, steps, times] = ["dim", "steps", "times"].map(|column| row.value(column).cell());
+    let method = row.text("method");
+    format!("- d = {dim}: after {steps} steps and {times} times the time of `{clock}`, {state} with `{method}`.")
 }
 
-/// One panel per dimension, one line per method.
+/// The runs of all searches, ED² in levels against the time: one panel per dimension, one line per method, repeats in one point.
 fn plot(study: &TimeToLevel, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<MultiplesPlot, CommandError> {
-    let mut panels: Vec<MultiplesPanel> = Vec::new();
+    let mut trials = Vec::new();
     for case in study.cases()? {
-        let Some(row) = rows.with("case", case.id()).first() else {
-            continue;
-        };
-        let title = format!("d = {}", case.work.dim);
-        let trials = search::read(&case.work.trials_file(directory))?;
-        let line = curve_of(case.work.method.label(), row, &trials.iter().collect());
-        match panels.last_mut().filter(|panel| panel.title == title) {
-            Some(panel) => panel.series.push(line),
-            None => panels.push(MultiplesPanel::new(title, [line]).with_level(1.0, "level of i.i.d. draws")),
+        if let Some(row) = rows.with("case", case.id()).first() {
+            let told = ["dim", "method", "energy_level"];
+            let of = |trial, column| Row::with(trial, column, row.value(column).clone());
+            let of_case = |trial: Row| completed(&told.into_iter().fold(trial, of));
+            trials.extend(search::read(&case.work.file(directory))?.into_iter().map(of_case));
         }
     }
+    let trials: Rows<'_> = trials.iter().collect();
+    let panel = |here: &Rows<'_>| {
+        let line = |(label, runs): (String, Rows<'_>)| runs.path(label, "steps", SECONDS, "energy_ratio");
+        let lines = here.by("method").into_iter().map(line);
+        MultiplesPanel::new("", lines).with_level(1.0, "level of i.i.d. draws")
+    };
+    let known = study.dims.iter().filter(|dim| !trials.with("dim", **dim).is_empty());
+    let panels = trials.panels(("d = ", "dim"), known.copied(), panel);
     Ok(MultiplesPlot::logarithmic("wall time of a run (s)", "ED² / level").with_panels(panels))
-}
-
-/// The runs of one search: ED² in levels against the time, repeats in one point.
-fn curve_of(label: &str, row: &Row, trials: &Rows<'_>) -> LineSeries {
-    let mut line = LineSeries::named(label);
-    let level = row.number("energy_level").unwrap_or(f64::NAN);
-    for (_, repeats) in trials.by("steps") {
-        let energy = repeats.first().and_then(|trial| trial.number(ENERGY));
-        line.x.extend(repeats.median(SECONDS));
-        line.y.push(energy.map_or(f64::NAN, |energy| energy / level));
-    }
-    line
 }

@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use super::TimeToLevel;
+use crate::study::contestant::Contestant;
+use crate::study::gaussian_runs;
 use crate::study::prelude::*;
-use crate::study::{gaussian_runs, row_file};
 
 /// A run whose predicted time exceeds the budget by no more than this factor is begun.
 const TOLERANCE: f64 = 1.2;
@@ -56,14 +57,18 @@ fn next(steps: &[usize], trials: &[Row], level: f64, budget: Option<f64>) -> Res
 /// number of steps again if it is quick. Returns all runs in order.
 pub fn search(
     study: &TimeToLevel,
-    dim: Dimension,
-    method: &MethodSpecification,
+    contestant: &Contestant,
     (level, budget): (f64, Option<f64>),
     observer: &mut Bar,
 ) -> Result<(Status, Vec<Row>), CommandError> {
-    let target = TargetSpecification::plain("gaussian", Some(dim));
+    let Contestant {
+        target,
+        method,
+        particles,
+        ..
+    } = contestant;
     let mut one = |steps: usize| -> Result<Row, CommandError> {
-        let mut work = Sampled::new(&target, method, Some(steps), (study.particles.get(), study.seed))?;
+        let mut work = Sampled::new(target, method, Some(steps), (*particles, study.seed))?;
         work.run.start = study.start.start(work.run.start);
         let (seconds, run) = timed(|| gaussian_runs::sampled(&work, observer));
         let run = attempt(run)?.ok();
