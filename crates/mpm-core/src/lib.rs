@@ -8,6 +8,7 @@ pub mod conformance;
 mod contact;
 mod control;
 mod counting_sort;
+mod deformation;
 mod diagnosis;
 mod energy_budget;
 mod error;

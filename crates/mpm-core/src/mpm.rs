@@ -94,6 +94,7 @@ where
 
 impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>, C: Boundary<D>> Mpm<D, B, T, M, F, C> {
     /// The same body with a boundary.
+    #[inline]
     pub fn with_boundary<N: Boundary<D>>(self, boundary: N) -> Mpm<D, B, T, M, F, N> {
         Mpm {
             boundary,

@@ -5,7 +5,7 @@ use std::ops::Range;
 use mpm_kernels::Deposit;
 use mpm_tensor::vector::scale;
 
-use crate::transfer::{CellSums, GridNode, Prepare, Transfer};
+use crate::transfer::{CellSums, GridNode, NodeSums, Prepare, Transfer};
 use crate::{Basis, BodyForce, Boundary, ForceLocation, Medium, Member, Mpm, Particles, StressImpulse};
 
 /// −Δt V⁰_p τ_p of a medium that deforms.
@@ -55,64 +55,12 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
     }
 
     /// P2G with all forces, or with none.
+    #[inline]
     fn scatter(&mut self, dt: f64, forces: bool) {
-        let (particles, medium, basis) = (&self.particles, &self.medium, &self.basis);
-        let (velocities, accelerations) = (&particles.velocities[..], &self.accelerations[..]);
         let pulled = forces && self.body_force.location() == ForceLocation::Particles;
-        let stresses = Stresses {
-            particles,
-            medium,
-            time_step: dt,
-            forces,
-        };
-        let deposit =
-            move |member: Member<B::Cell, D>, stress: Option<&M::Impulse>, cell: &mut CellSums<B, T::Node, D>| {
-                let p = member.particle;
-                let mass = particles.masses.get(p);
-                let mut impulse = [0.0; D];
-                if pulled {
-                    impulse = scale(&accelerations[p], dt * mass);
-                }
-                let stress = if M::DEFORMS {
-                    stress.copied().unwrap_or_else(unprepared)
-                } else {
-                    medium.impulse(particles, p, dt)
-                };
-                let mut value = Deposit {
-                    scalar: mass,
-                    vector: scale(&velocities[p], mass),
-                };
-                if T::INCREMENTAL {
-                    let force = Deposit {
-                        scalar: 0.0,
-                        vector: impulse,
-                    };
-                    if T::AFFINE {
-                        let affine = particles.affine[p] * mass;
-                        basis.deposit(member, &value, &affine, &(), &mut cell.sums());
-                    } else {
-                        basis.deposit(member, &value, &(), &(), &mut cell.sums());
-                    }
-                    if forces {
-                        basis.deposit(member, &force, &(), &stress, &mut cell.impulses());
-                    }
-                    return;
-                }
-                for a in 0..D {
-                    value.vector[a] += impulse[a];
-                }
-                if T::MOVING_LEAST_SQUARES {
-                    let affine = particles.affine[p] * mass + stress.matrix();
-                    basis.deposit(member, &value, &affine, &(), &mut cell.sums());
-                } else if T::AFFINE {
-                    let affine = particles.affine[p] * mass;
-                    basis.deposit(member, &value, &affine, &stress, &mut cell.sums());
-                } else {
-                    basis.deposit(member, &value, &(), &stress, &mut cell.sums());
-                }
-            };
-        self.nodes
-            .scatter_packed(basis, &particles.positions, T::INCREMENTAL, stresses, deposit);
+        let accelerations = pulled.then_some(self.accelerations.as_slice());
+        let (particles, medium, nodes) = (&self.particles, &self.medium, &mut self.nodes);
+        scatter::<D, B, T, M>(&self.basis, particles, medium, accelerations, nodes, (dt, forces));
     }
 
     /// The velocities of the nodes without any force: mass and momentum alone, then the boundary.
@@ -128,4 +76,69 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
             node.advance(&[0.0; D], 1.0, f64::INFINITY);
         }
     }
+}
+
+/// P2G over a time step, with all forces or with none; `accelerations` where a body force acts at the particles. Compiled once for all body forces and boundaries.
+fn scatter<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>>(
+    basis: &B,
+    particles: &Particles<D, M::State>,
+    medium: &M,
+    accelerations: Option<&[[f64; D]]>,
+    nodes: &mut NodeSums<T::Node>,
+    (dt, forces): (f64, bool),
+) {
+    let velocities = &particles.velocities[..];
+    let (pulled, accelerations) = (accelerations.is_some(), accelerations.unwrap_or_default());
+    let stresses = Stresses {
+        particles,
+        medium,
+        time_step: dt,
+        forces,
+    };
+    let deposit = move |member: Member<B::Cell, D>, stress: Option<&M::Impulse>, cell: &mut CellSums<B, T::Node, D>| {
+        let p = member.particle;
+        let mass = particles.masses.get(p);
+        let mut impulse = [0.0; D];
+        if pulled {
+            impulse = scale(&accelerations[p], dt * mass);
+        }
+        let stress = if M::DEFORMS {
+            stress.copied().unwrap_or_else(unprepared)
+        } else {
+            medium.impulse(particles, p, dt)
+        };
+        let mut value = Deposit {
+            scalar: mass,
+            vector: scale(&velocities[p], mass),
+        };
+        if T::INCREMENTAL {
+            let force = Deposit {
+                scalar: 0.0,
+                vector: impulse,
+            };
+            if T::AFFINE {
+                let affine = particles.affine[p] * mass;
+                basis.deposit(member, &value, &affine, &(), &mut cell.sums());
+            } else {
+                basis.deposit(member, &value, &(), &(), &mut cell.sums());
+            }
+            if forces {
+                basis.deposit(member, &force, &(), &stress, &mut cell.impulses());
+            }
+            return;
+        }
+        for a in 0..D {
+            value.vector[a] += impulse[a];
+        }
+        if T::MOVING_LEAST_SQUARES {
+            let affine = particles.affine[p] * mass + stress.matrix();
+            basis.deposit(member, &value, &affine, &(), &mut cell.sums());
+        } else if T::AFFINE {
+            let affine = particles.affine[p] * mass;
+            basis.deposit(member, &value, &affine, &stress, &mut cell.sums());
+        } else {
+            basis.deposit(member, &value, &(), &stress, &mut cell.sums());
+        }
+    };
+    nodes.scatter_packed(basis, &particles.positions, T::INCREMENTAL, stresses, deposit);
 }

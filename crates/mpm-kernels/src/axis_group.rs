@@ -27,24 +27,31 @@ impl<const W: usize> AxisGroup<W> {
     pub fn new<S: Spline<W>>(kernel: &S, u: Lanes, h: f64, inverse_h: f64) -> Self {
         let rows = kernel.rows(u);
         let first = rows.base - u;
-        let offsets: [Lanes; W] = std::array::from_fn(|j| (first + j as f64) * h);
-        let first_moments: [Lanes; W] = std::array::from_fn(|j| rows.weights[j] * offsets[j]);
-        let derivatives: [Lanes; W] = std::array::from_fn(|j| rows.derivatives[j] * inverse_h);
+        let zero = [Lanes::ZERO; W];
+        let (mut offsets, mut first_moments, mut derivatives, mut directions) = (zero, zero, zero, zero);
+        for j in 0..W {
+            offsets[j] = (first + j as f64) * h;
+            first_moments[j] = rows.weights[j] * offsets[j];
+            derivatives[j] = rows.derivatives[j] * inverse_h;
+        }
         let second_moments = match S::SECOND_MOMENT {
             SecondMoment::Constant(moment) => Lanes::splat(moment * h * h),
             _ => (0..W).fold(Lanes::ZERO, |sum, j| first_moments[j].mul_add(offsets[j], sum)),
         };
+        for j in 0..W {
+            directions[j] = match S::SECOND_MOMENT {
+                SecondMoment::Gradient => derivatives[j],
+                SecondMoment::Constant(moment) => first_moments[j] * (inverse_h * inverse_h / moment),
+                SecondMoment::Varies => first_moments[j] / second_moments,
+            };
+        }
         Self {
             base: rows.base,
             weights: rows.weights,
             derivatives,
             offsets,
             first_moments,
-            directions: std::array::from_fn(|j| match S::SECOND_MOMENT {
-                SecondMoment::Gradient => derivatives[j],
-                SecondMoment::Constant(moment) => first_moments[j] * (inverse_h * inverse_h / moment),
-                SecondMoment::Varies => first_moments[j] / second_moments,
-            }),
+            directions,
             second_moments,
         }
     }

@@ -29,7 +29,9 @@ impl<const D: usize> Columns<D> for () {
 impl<const D: usize> Columns<D> for f64 {
     #[inline(always)]
     fn column(&self, axis: usize) -> Option<[f64; D]> {
-        Some(std::array::from_fn(|a| if a == axis { *self } else { 0.0 }))
+        let mut column = [0.0; D];
+        column[axis] = *self;
+        Some(column)
     }
 
     #[inline(always)]
@@ -41,7 +43,11 @@ impl<const D: usize> Columns<D> for f64 {
 impl<const D: usize> Columns<D> for Matrix<D> {
     #[inline(always)]
     fn column(&self, axis: usize) -> Option<[f64; D]> {
-        Some(std::array::from_fn(|a| self.0[a][axis]))
+        let mut column = [0.0; D];
+        for a in 0..D {
+            column[a] = self.0[a][axis];
+        }
+        Some(column)
     }
 
     #[inline(always)]

@@ -63,7 +63,9 @@ impl<const G: usize> Packed<G> {
     /// From the first `G` entries.
     #[inline(always)]
     pub fn read(from: &[Lanes]) -> Self {
-        Self(std::array::from_fn(|group| from[group]))
+        let mut packed = Self::ZERO;
+        packed.0.copy_from_slice(&from[..G]);
+        packed
     }
 
     /// To the first `G` entries.

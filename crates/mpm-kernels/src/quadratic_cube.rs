@@ -117,8 +117,9 @@ impl<const D: usize> QuadraticCube<D> {
 /// The vector of a deposit in lanes.
 #[inline(always)]
 fn vector<const D: usize>(lanes: Lanes) -> [f64; D] {
-    let lanes = lanes.to_array();
-    std::array::from_fn(|a| lanes[a + 1])
+    let mut vector = [0.0; D];
+    vector.copy_from_slice(&lanes.to_array()[1..=D]);
+    vector
 }
 
 /// `scale` times the matrix whose columns are the vectors.

@@ -162,15 +162,15 @@ impl<const W: usize, const D: usize> Stencil<W, D> {
             let group = AxisGroup::new(kernel, grid.coordinates(x, first), grid.spacing, grid.inverse_spacing);
             for a in first..D.min(first + LANES) {
                 let of = |lanes: Lanes| lanes.to_array()[a % LANES];
-                axes[a] = Axis {
-                    base: of(group.base),
-                    weights: std::array::from_fn(|j| of(group.weights[j])),
-                    derivatives: std::array::from_fn(|j| of(group.derivatives[j])),
-                    offsets: std::array::from_fn(|j| of(group.offsets[j])),
-                    first_moments: std::array::from_fn(|j| of(group.first_moments[j])),
-                    directions: std::array::from_fn(|j| of(group.directions[j])),
-                    second_moment: of(group.second_moments),
-                };
+                let axis = &mut axes[a];
+                (axis.base, axis.second_moment) = (of(group.base), of(group.second_moments));
+                for j in 0..W {
+                    axis.weights[j] = of(group.weights[j]);
+                    axis.derivatives[j] = of(group.derivatives[j]);
+                    axis.offsets[j] = of(group.offsets[j]);
+                    axis.first_moments[j] = of(group.first_moments[j]);
+                    axis.directions[j] = of(group.directions[j]);
+                }
             }
             first += LANES;
         }
@@ -199,7 +199,11 @@ impl<const W: usize, const D: usize> Stencil<W, D> {
         if self.gradient_directions {
             return None;
         }
-        Some(std::array::from_fn(|a| self.axes[a].second_moment))
+        let mut moments = [0.0; D];
+        for a in 0..D {
+            moments[a] = self.axes[a].second_moment;
+        }
+        Some(moments)
     }
 
     /// Visit all Wᴰ nodes, the last axis fastest, by their places.
@@ -228,9 +232,12 @@ impl<const W: usize, const D: usize> Stencil<W, D> {
     /// component a of the vector is Π_{b≠a} N_b · (N_a `value`_a + `scale` ∂N_a).
     #[inline(always)]
     pub fn for_each_deposit(&self, value: &Deposit<D>, scale: f64, mut visit: impl FnMut(usize, f64, &Deposit<D>)) {
-        let own: [[f64; W]; D] = std::array::from_fn(|a| {
-            std::array::from_fn(|j| self.axes[a].weights[j] * value.vector[a] + self.axes[a].derivatives[j] * scale)
-        });
+        let mut own = [[0.0; W]; D];
+        for a in 0..D {
+            for j in 0..W {
+                own[a][j] = self.axes[a].weights[j] * value.vector[a] + self.axes[a].derivatives[j] * scale;
+            }
+        }
         let extend = |a: usize, j: usize, before: &(f64, [f64; D])| {
             let w = self.axes[a].weights[j];
             let mut flux = before.1;

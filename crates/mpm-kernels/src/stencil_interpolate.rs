@@ -254,6 +254,12 @@ impl<const G: usize, const D: usize> Level<G, D> {
 /// The matrix whose columns are the vectors.
 #[inline(always)]
 fn from_columns<const G: usize, const D: usize>(columns: &[Packed<G>; D]) -> Matrix<D> {
-    let columns = columns.map(|column| column.deposit::<D>().vector);
-    Matrix::from_fn(|i, j| columns[j][i])
+    let mut matrix = Matrix::ZERO;
+    for j in 0..D {
+        let column = columns[j].deposit::<D>().vector;
+        for i in 0..D {
+            matrix.0[i][j] = column[i];
+        }
+    }
+    matrix
 }

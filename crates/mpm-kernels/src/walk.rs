@@ -29,10 +29,10 @@ pub(crate) fn walk<const W: usize, const D: usize, P: Copy>(one: P, layout: &Lay
         }
         3 => {
             const { assert!(W <= 4, "planes are written out") }
-            plane::<W, D, P>(0, &one, layout, walker);
-            plane::<W, D, P>(1, &one, layout, walker);
-            plane::<W, D, P>(2, &one, layout, walker);
-            plane::<W, D, P>(3, &one, layout, walker);
+            plane::<0, W, D, P>(&one, layout, walker);
+            plane::<1, W, D, P>(&one, layout, walker);
+            plane::<2, W, D, P>(&one, layout, walker);
+            plane::<3, W, D, P>(&one, layout, walker);
         }
         _ => {
             let mut digit = [0usize; D];
@@ -62,17 +62,21 @@ pub(crate) fn walk<const W: usize, const D: usize, P: Copy>(one: P, layout: &Lay
     }
 }
 
-/// The rows of plane i of a stencil in three dimensions; none where it has no such plane. Written out by the caller: a loop over planes would not unroll, and check
+/// The rows of plane I of a stencil in three dimensions; none where it has no such plane. Written out by the caller: a loop over planes would not unroll, and check
 /// places while it runs.
 #[inline(always)]
-fn plane<const W: usize, const D: usize, P: Copy>(i: usize, one: &P, layout: &Layout<D>, walker: &mut impl Walker<P>) {
-    if i >= W {
+fn plane<const I: usize, const W: usize, const D: usize, P: Copy>(
+    one: &P,
+    layout: &Layout<D>,
+    walker: &mut impl Walker<P>,
+) {
+    if const { I >= W } {
         return;
     }
-    let plane = walker.extend(0, i, one);
+    let plane = walker.extend(0, I, one);
     for j in 0..W {
         let row = walker.extend(1, j, &plane);
-        walker.row(layout.first() + i * layout.stride(0) + j * layout.stride(1), &row);
+        walker.row(layout.first() + I * layout.stride(0) + j * layout.stride(1), &row);
     }
 }
 

@@ -20,7 +20,7 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
         for (rank, &number) in self.sorted_blocks.iter().enumerate() {
             touched.fill(0);
             for place in members(&self.occupied[rank * words::<D>(W)..][..words::<D>(W)]) {
-                if has_tiles::<D>() {
+                if const { has_tiles::<D>() } {
                     let (slot, local) = self.template.tile[place];
                     touched[usize::from(slot)] |= 1 << local;
                     continue;

@@ -56,7 +56,7 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
             });
         }
         let work = chunks.iter_mut().zip(positions.chunks(CHUNK)).enumerate();
-        if has_tiles::<D>() {
+        if const { has_tiles::<D>() } {
             let mut places = std::mem::take(&mut self.places);
             places.resize(positions.len(), 0);
             each(work.zip(places.chunks_mut(CHUNK)), &|((index, (chunk, xs)), places)| {
@@ -176,7 +176,7 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
                     self.cell_keys.push(key);
                     starts.push(start);
                 }
-                if has_tiles::<D>() {
+                if const { has_tiles::<D>() } {
                     let touched = &chunk.touched[run * words..][..words];
                     if goes_on {
                         let last = self.touched.len() - words;

@@ -32,7 +32,7 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
     /// The node numbers of a cell, written to `scratch`.
     #[inline]
     pub(super) fn look_up<'a>(&self, cell: usize, scratch: &'a mut Vec<u32>) -> &'a [u32] {
-        if has_tiles::<D>() {
+        if const { has_tiles::<D>() } {
             return self.look_up_tile(cell, scratch);
         }
         // Four numbers are written at once; the next ones overwrite those that are too many.

@@ -167,7 +167,7 @@ impl<S: Spline<W>, const W: usize, const D: usize> Basis<D> for SplineGrid<S, W,
     }
 
     fn activate(&mut self, sorted: &[[f64; D]]) -> Result<(), MpmError> {
-        if has_tiles::<D>() && !self.schedule.keeps_order {
+        if const { has_tiles::<D>() } && !self.schedule.keeps_order {
             self.locate_particles(sorted, 0)?; // the same tiles, and now the places of their particles
             self.rank_blocks();
         }
@@ -261,7 +261,7 @@ impl<S: Spline<W>, const W: usize, const D: usize> Basis<D> for SplineGrid<S, W,
         nodes: &impl NodeField<D>,
     ) -> Interpolated<D> {
         let with_slopes = wanted != Wanted::default();
-        if S::IS_QUADRATIC
+        if const { S::IS_QUADRATIC && D == 3 }
             && with_slopes
             && let Some(cube) = QuadraticCube::new(x, &self.nodes, self.layout(particle))
         {

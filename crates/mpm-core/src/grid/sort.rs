@@ -14,6 +14,13 @@ const fn particles_per_disorder<const D: usize>() -> usize {
     if has_tiles::<D>() { 128 } else { 8 }
 }
 
+/// Write down the numbers of the blocks in lexicographic order. No method of the grid: a sort is much code, and this one is compiled once for all kernels.
+fn in_order<const D: usize>(blocks: &[[i32; D]], sorted: &mut Vec<u32>) {
+    sorted.clear();
+    sorted.extend(0..blocks.len() as u32);
+    sorted.sort_unstable_by_key(|&number| blocks[number as usize]);
+}
+
 impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
     /// Find the cells, and sort the particles by them unless they nearly are.
     ///
@@ -26,7 +33,7 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
             self.keep_order();
             return Ok(());
         }
-        if has_tiles::<D>() {
+        if const { has_tiles::<D>() } {
             self.locate_particles(positions, 0)?;
             self.rank_blocks();
         }
@@ -38,10 +45,7 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
     pub(super) fn rank_blocks(&mut self) -> usize {
         let (bits, words) = (place_bits::<D>(), words::<D>(W));
         let blocks = self.particle_blocks.keys();
-        self.sorted_blocks.clear();
-        self.sorted_blocks.extend(0..blocks.len() as u32);
-        self.sorted_blocks
-            .sort_unstable_by_key(|&number| blocks[number as usize]);
+        in_order(blocks, &mut self.sorted_blocks);
         let ranks = &mut self.scratch.ranks;
         ranks.clear();
         ranks.resize(blocks.len(), 0);
@@ -54,7 +58,7 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
         for (cell, key) in self.cell_keys.iter_mut().enumerate() {
             let rank = ranks[(*key >> bits) as usize];
             *key = (rank << bits) | (*key & ((1 << bits) - 1));
-            if has_tiles::<D>() {
+            if const { has_tiles::<D>() } {
                 let touched = &self.touched[cell * words..][..words];
                 for (all, more) in self.occupied[rank as usize * words..].iter_mut().zip(touched) {
                     *all |= more;
@@ -65,7 +69,7 @@ impl<S: Spline<W>, const W: usize, const D: usize> SplineGrid<S, W, D> {
             descents += usize::from(*key < last);
             last = *key;
         }
-        if has_tiles::<D>() {
+        if const { has_tiles::<D>() } {
             return self.cell_keys.len() - blocks.len();
         }
         descents

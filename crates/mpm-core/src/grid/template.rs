@@ -31,7 +31,7 @@ pub struct Segment {
 
 impl<const D: usize> Template<D> {
     pub fn new(width: usize) -> Self {
-        if has_tiles::<D>() {
+        if const { has_tiles::<D>() } {
             let (neighbours, tile) = tile::nodes(width);
             return Self {
                 neighbours,

@@ -9,7 +9,7 @@ use super::block::{digits, edge_bits, locate};
 pub const RIM: i32 = 1;
 
 /// Whether the cells of the schedule are tiles. Beyond three dimensions a tile has more nodes than particles, and the cells are those of
-/// the grid.
+/// the grid. Asked in a `const` block, so that the other way is not even compiled.
 pub const fn has_tiles<const D: usize>() -> bool {
     D <= 3
 }

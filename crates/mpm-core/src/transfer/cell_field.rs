@@ -137,10 +137,12 @@ impl<const D: usize, B: Basis<D>> NodeField<D> for Collected<'_, B> {
             true => (index / LANES * LANES + component, index % LANES),
             false => (index * groups_of(D) + component / LANES, component % LANES),
         };
-        std::array::from_fn(|a| {
+        let mut vector = [0.0; D];
+        for a in 0..D {
             let (lanes, lane) = place(a + 1);
-            self.0[lanes].as_array()[lane]
-        })
+            vector[a] = self.0[lanes].as_array()[lane];
+        }
+        vector
     }
 
     #[inline(always)]

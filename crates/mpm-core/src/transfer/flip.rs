@@ -1,6 +1,8 @@
+use std::borrow::Cow;
+
 use mpm_kernels::Deposit;
 
-use super::{GridNode, Sum, Transfer, shorten};
+use super::{GridNode, Sum, Transfer, VelocityNode, shorten};
 
 /// FLIP blend (Brackbill & Ruppel 1986; Zhu & Bridson 2005) with share a of FLIP:
 /// v_p ← (1−a) Σ w_ip v_iⁿ⁺¹ + a (v_p + Σ w_ip (v_iⁿ⁺¹ − v_iⁿ)); positions always move with Σ w_ip v_iⁿ⁺¹.
@@ -34,7 +36,11 @@ impl<const D: usize> Transfer<D> for Flip {
 
     #[inline(always)]
     fn particle_velocity(&self, interpolated: &[f64; D], change: &[f64; D], own: &[f64; D], damping: f64) -> [f64; D] {
-        std::array::from_fn(|a| (1.0 - self.share) * interpolated[a] + self.share * (damping * own[a] + change[a]))
+        let mut velocity = [0.0; D];
+        for a in 0..D {
+            velocity[a] = (1.0 - self.share) * interpolated[a] + self.share * (damping * own[a] + change[a]);
+        }
+        velocity
     }
 }
 
@@ -120,6 +126,18 @@ impl<const D: usize> GridNode<D> for FlipNode<D> {
 
     #[inline(always)]
     fn change(&self, damping: f64) -> [f64; D] {
-        std::array::from_fn(|a| self.velocity[a] - damping * self.previous[a])
+        let mut change = self.velocity;
+        for a in 0..D {
+            change[a] -= damping * self.previous[a];
+        }
+        change
+    }
+
+    fn velocities_alone(nodes: &[Self]) -> Cow<'_, [VelocityNode<D>]> {
+        let each = nodes.iter().map(|node| Deposit {
+            scalar: node.mass,
+            vector: node.velocity,
+        });
+        each.map(VelocityNode).collect()
     }
 }

@@ -12,6 +12,8 @@ mod moving;
 mod pic;
 mod scatter;
 
+use std::borrow::Cow;
+
 use mpm_kernels::{Deposit, Packed};
 use mpm_tensor::Matrix;
 
@@ -68,6 +70,9 @@ pub trait GridNode<const D: usize>: Sum {
 
     /// v_iⁿ⁺¹ − damping v_iⁿ, where the transfer keeps v_iⁿ.
     fn change(&self, damping: f64) -> [f64; D];
+
+    /// Mass and v_i after [`advance`](Self::advance) alone: the nodes themselves where they have no more.
+    fn velocities_alone(nodes: &[Self]) -> Cow<'_, [VelocityNode<D>]>;
 }
 
 /// Nodes of one piece of work.

@@ -1,3 +1,5 @@
+use std::borrow::Cow;
+
 use mpm_kernels::{Deposit, Packed};
 
 use super::{GridNode, Sum, Transfer, shorten};
@@ -15,7 +17,7 @@ impl<const D: usize> Transfer<D> for Pic {
 ///
 /// Momentum stands where the velocity will be until `advance`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct VelocityNode<const D: usize>(Deposit<D>);
+pub struct VelocityNode<const D: usize>(pub(super) Deposit<D>);
 
 impl<const D: usize> Sum for VelocityNode<D> {
     #[inline(always)]
@@ -74,5 +76,9 @@ impl<const D: usize> GridNode<D> for VelocityNode<D> {
     #[inline(always)]
     fn change(&self, _damping: f64) -> [f64; D] {
         [0.0; D]
+    }
+
+    fn velocities_alone(nodes: &[Self]) -> Cow<'_, [Self]> {
+        Cow::Borrowed(nodes)
     }
 }

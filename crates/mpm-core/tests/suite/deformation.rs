@@ -1,29 +1,40 @@
 //! When and how particles deform: the orders of a step, averaged volume ratios, moving least squares, materials with memory.
 
-use mpm_core::{
-    Apic, Basis, Continuum, DeformsLast, Flip, Mls, Mpm, Particles, Pic, SplineGrid, StressUpdate, Transfer,
-};
+use mpm_core::{Apic, Basis, Continuum, Flip, Medium, Mls, Mpm, Particles, Pic, SplineGrid, StressUpdate, Transfer};
 use mpm_kernels::{Cubic, Linear, Quadratic, SecondMoment, Spline};
 use mpm_materials::{DeformationError, ElasticModuli, Law, NeoHookean};
 use mpm_tensor::Matrix;
 
-use crate::scenes::{Pull, Solid, bits, free, neo_hookean, uniform_cloud};
+use crate::scenes::{AnyOrder, Pull, Solid, bits, free, neo_hookean, uniform_cloud};
 
 const COUNT: usize = 300;
 
-fn body<S: Spline<W>, T: Transfer<2>, const W: usize>(
+fn body<S: Spline<W>, T: Transfer<2>, M: Medium<2, State = ()>, const W: usize>(
     transfer: T,
-) -> Mpm<2, SplineGrid<S, W, 2>, T, Solid<2>, Pull<'static, 2>> {
+    medium: M,
+) -> Mpm<2, SplineGrid<S, W, 2>, T, M, Pull<'static, 2>> {
     let mut particles = Particles::at_rest(uniform_cloud::<2>(COUNT, 1.0, 11), 1.0);
     particles.velocities = particles.positions.iter().map(|x| [0.3 * x[1], x[0] * x[0]]).collect();
     let particles = particles.with_elastic_state(vec![1.0 / COUNT as f64; COUNT]);
     let grid = SplineGrid::new([0.0; 2], 0.2).unwrap();
-    Mpm::new(particles, grid, transfer, neo_hookean(20.0), Pull::none())
+    Mpm::new(particles, grid, transfer, medium, Pull::none())
+}
+
+/// The same of a solid, in the order that is the default.
+fn solid<S: Spline<W>, T: Transfer<2>, const W: usize>(
+    transfer: T,
+) -> Mpm<2, SplineGrid<S, W, 2>, T, Solid<2>, Pull<'static, 2>> {
+    body(transfer, neo_hookean(20.0))
+}
+
+/// A solid that deforms in whatever order.
+fn any_order(young: f64) -> AnyOrder<2> {
+    neo_hookean(young).0
 }
 
 /// Where the particles are at time 0.04.
 fn after<T: Transfer<2>>(transfer: T, order: StressUpdate, averaging: bool, steps: usize) -> Vec<[f64; 2]> {
-    let mut body = body::<Quadratic, T, 3>(transfer);
+    let mut body = body::<Quadratic, _, _, 3>(transfer, any_order(20.0));
     body.stress_update = order;
     body.volume_averaging = averaging;
     for _ in 0..steps {
@@ -55,8 +66,8 @@ fn the_orders_of_a_step_differ_by_the_time_step() {
 /// J̄ by sums over all pairs of particles and nodes.
 #[test]
 fn averaged_volume_ratios_are_those_of_the_formula() {
-    let mut averaged = body::<Quadratic, Pic, 3>(Pic);
-    let mut plain = body::<Quadratic, Pic, 3>(Pic);
+    let mut averaged = body::<Quadratic, _, _, 3>(Pic, any_order(20.0));
+    let mut plain = body::<Quadratic, _, _, 3>(Pic, any_order(20.0));
     averaged.volume_averaging = true;
     averaged.step(&free(0.01)).unwrap();
     plain.step(&free(0.01)).unwrap();
@@ -94,8 +105,8 @@ fn averaged_volume_ratios_are_those_of_the_formula() {
 /// On hat functions C_p is the gradient of the velocity, so that both transfers are one.
 #[test]
 fn moving_least_squares_on_hats_are_apic() {
-    let mut apic = body::<Linear, Apic, 2>(Apic);
-    let mut mls = body::<Linear, Mls, 2>(Mls);
+    let mut apic = solid::<Linear, _, 2>(Apic);
+    let mut mls = solid::<Linear, _, 2>(Mls);
     for _ in 0..10 {
         apic.step(&free(0.002)).unwrap();
         mls.step(&free(0.002)).unwrap();
@@ -106,7 +117,7 @@ fn moving_least_squares_on_hats_are_apic() {
 /// F_p of a linear field of velocities is exact with either gradient.
 fn linear_field<S: Spline<W>, T: Transfer<2>, const W: usize>(transfer: T, tolerance: f64) {
     let gradient = Matrix([[0.1, 0.4], [-0.2, 0.3]]);
-    let mut body = body::<S, T, W>(transfer);
+    let mut body = solid::<S, T, W>(transfer);
     body.particles.velocities = body.particles.positions.iter().map(|x| gradient.apply(x)).collect();
     let SecondMoment::Constant(moment) = S::SECOND_MOMENT else {
         panic!("{} has no second moment for all positions", S::NAME);
@@ -210,14 +221,8 @@ fn a_medium_with_a_fixed_order_moves_as_without_and_refuses_other_orders() {
     let cloud = uniform_cloud::<2>(200, 1.0, 4);
     let grid = || SplineGrid::<Quadratic, 3, 2>::new([0.0; 2], 0.2).unwrap();
     let particles = || Particles::at_rest(cloud.clone(), 1.0).with_elastic_state(vec![1.0 / 200.0; 200]);
-    let mut free_order = Mpm::new(particles(), grid(), Apic, neo_hookean::<2>(10.0), Pull::none());
-    let mut fixed = Mpm::new(
-        particles(),
-        grid(),
-        Apic,
-        DeformsLast(neo_hookean::<2>(10.0)),
-        Pull::none(),
-    );
+    let mut free_order = Mpm::new(particles(), grid(), Apic, any_order(10.0), Pull::none());
+    let mut fixed = Mpm::new(particles(), grid(), Apic, neo_hookean(10.0), Pull::none());
     free_order.particles.velocities = cloud.iter().map(|x| [x[1], -x[0]]).collect();
     fixed.particles.velocities.clone_from(&free_order.particles.velocities);
     for _ in 0..5 {

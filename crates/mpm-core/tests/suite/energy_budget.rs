@@ -18,7 +18,7 @@ fn strain_is_accounted_for<const D: usize, B: Basis<D>, T: Transfer<D>>(name: &s
     for _ in 0..6 {
         body.step(&free(0.01)).unwrap();
     }
-    let (law, particles) = (&body.medium.law, &body.particles);
+    let (law, particles) = (&body.medium.0.law, &body.particles);
     let each = particles.deformation_gradients.iter().zip(&particles.reference_volumes);
     let stored: f64 = each
         .map(|(deformation, volume)| volume * law.energy_density(deformation, &()))

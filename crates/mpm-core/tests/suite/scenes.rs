@@ -1,7 +1,9 @@
 //! Clouds, forces and controls that the themes share, and the list of bases.
 
 use mpm_core::conformance::AnyBasis;
-use mpm_core::{BodyForce, ContactPotential, Continuum, ForceLocation, Friction, MpmError, Sites, StepControl};
+use mpm_core::{
+    BodyForce, ContactPotential, Continuum, DeformsLast, ForceLocation, Friction, MpmError, Sites, StepControl,
+};
 use mpm_materials::{ElasticModuli, Material, NeoHookean};
 use mpm_tensor::Matrix;
 use rand::{RngExt, SeedableRng, rngs::ChaCha8Rng};
@@ -86,13 +88,16 @@ pub fn free(time_step: f64) -> StepControl {
 }
 
 /// The elastic law that the themes share; behind a reference, so that the step is compiled once for all laws.
-pub type Solid<const D: usize> = Continuum<&'static dyn Material<D>>;
+pub type AnyOrder<const D: usize> = Continuum<&'static dyn Material<D>>;
+
+/// The same in the one order of a step that themes other than that order need: half of the passes to compile.
+pub type Solid<const D: usize> = DeformsLast<AnyOrder<D>>;
 
 /// A solid of the given law.
 pub fn solid<const D: usize>(law: impl Material<D> + 'static) -> Solid<D> {
-    Continuum {
+    DeformsLast(Continuum {
         law: Box::leak(Box::new(law)),
-    }
+    })
 }
 
 /// A Neo-Hookean solid of Young's modulus `young` and Poisson's ratio 0.3.

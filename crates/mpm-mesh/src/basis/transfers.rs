@@ -57,7 +57,7 @@ impl<const D: usize> MeshBasis<D> {
             }
         }
         let (mass, value) = (Lanes::splat(value.scalar), splats::<D>(&Pack::new(0.0, &value.vector)));
-        let (level, slope) = (Lanes::splat(fit.level), fit.slope.map(Lanes::splat));
+        let (level, slope) = (Lanes::splat(fit.level), in_all_lanes(&fit.slope));
         let (push, mut tilts, mut bends) = (splats::<D>(&push), [[Lanes::ZERO; D]; D], [[Lanes::ZERO; D]; D]);
         for a in 0..D {
             (tilts[a], bends[a]) = (splats::<D>(&tilt[a]), splats::<D>(&bend[a]));
@@ -108,7 +108,7 @@ impl<const D: usize> MeshBasis<D> {
         let by_moment = wanted.gradient && wanted.least_squares && fit.inverse_spread.is_some();
         let by_gradient = wanted.gradient && !by_moment && !EXACT;
         let with_moment = wanted.moment || by_moment;
-        let (level, slope) = (Lanes::splat(fit.level), fit.slope.map(Lanes::splat));
+        let (level, slope) = (Lanes::splat(fit.level), in_all_lanes(&fit.slope));
         let (mut zeroth, mut first, mut moment) = (Pack::ZERO, [Pack::ZERO; D], [Pack::ZERO; D]);
         // One after the other, since all sums together do not fit into registers: the box keeps those of the first loop out of them in the second.
         if by_gradient {
@@ -186,7 +186,7 @@ impl<const D: usize> MeshBasis<D> {
     #[inline(always)]
     fn for_each_weight_group(&self, member: Member<CellRing<D>, D>, mut visit: impl FnMut(Lanes)) {
         let (fit, twice) = (&self.particles[member.particle].fit, self.floor(member.particle).twice);
-        let (level, slope) = (Lanes::splat(fit.level), fit.slope.map(Lanes::splat));
+        let (level, slope) = (Lanes::splat(fit.level), in_all_lanes(&fit.slope));
         let twice = Lanes::splat(twice);
         self.for_each_group(member, |_, sample, r| {
             let s = affine(level, &slope, r);
@@ -248,20 +248,31 @@ fn pack_of_sums<const D: usize>(components: &[Lanes; D]) -> Pack {
     Pack::read(&[sums(&rows)])
 }
 
-/// The components of a vector, each in all lanes.
+/// The components of a packed vector, each in all lanes.
 #[inline(always)]
 fn splats<const D: usize>(pack: &Pack) -> [Lanes; D] {
-    let vector = pack.deposit::<D>().vector;
-    let mut splats = [Lanes::ZERO; D];
+    in_all_lanes(&pack.deposit().vector)
+}
+
+/// The components of a vector, each in all lanes.
+#[inline(always)]
+fn in_all_lanes<const D: usize>(vector: &[f64; D]) -> [Lanes; D] {
+    let mut lanes = [Lanes::ZERO; D];
     for c in 0..D {
-        splats[c] = Lanes::splat(vector[c]);
+        lanes[c] = Lanes::splat(vector[c]);
     }
-    splats
+    lanes
 }
 
 /// The matrix of the vectors of packed columns.
 #[inline(always)]
 fn from_columns<const D: usize>(columns: &[Pack; D]) -> Matrix<D> {
-    let columns: [[f64; D]; D] = std::array::from_fn(|b| columns[b].deposit::<D>().vector);
-    Matrix::from_fn(|a, b| columns[b][a])
+    let mut matrix = Matrix::ZERO;
+    for b in 0..D {
+        let column = columns[b].deposit::<D>().vector;
+        for a in 0..D {
+            matrix.0[a][b] = column[a];
+        }
+    }
+    matrix
 }

@@ -109,10 +109,8 @@ impl<const D: usize> Probe<D> {
         if let Some(share) = self.share {
             values.extend((0..D).map(|axis| {
                 let chosen = self.particles.iter().map(|&(number, _)| places[number]);
-                front(
-                    chosen.map(|p| (particles.positions[p][axis], particles.masses.get(p))),
-                    share,
-                )
+                let masses = chosen.map(|p| (particles.positions[p][axis], particles.masses.get(p)));
+                front(masses.collect(), share)
             }));
         }
         values
@@ -120,8 +118,7 @@ impl<const D: usize> Probe<D> {
 }
 
 /// The least x with Σ m over the (x_k, m_k) with x_k ≤ x at least `share` Σ m.
-fn front(masses: impl Iterator<Item = (f64, f64)>, share: f64) -> f64 {
-    let mut masses: Vec<(f64, f64)> = masses.collect();
+fn front(mut masses: Vec<(f64, f64)>, share: f64) -> f64 {
     masses.sort_by(|(x, _), (y, _)| x.total_cmp(y));
     let total: f64 = masses.iter().map(|(_, mass)| mass).sum();
     let (mut sum, mut last) = (0.0, f64::NAN);
@@ -154,7 +151,7 @@ mod tests {
     #[test]
     fn the_front_is_where_the_share_of_the_mass_ends() {
         let masses = [(3.0, 1.0), (1.0, 2.0), (2.0, 1.0)];
-        let front = |share| front(masses.into_iter(), share);
+        let front = |share| front(masses.to_vec(), share);
         assert_eq!(
             [0.4, 0.5, 0.6, 0.75, 0.76, 1.0].map(front),
             [1.0, 1.0, 2.0, 2.0, 3.0, 3.0]

@@ -42,7 +42,7 @@ fn energy<T: Transfer<2>>(disk: &Disk<T>) -> f64 {
     let each = particles.reference_volumes.iter().zip(&particles.deformation_gradients);
     particles.kinetic_energy()
         + each
-            .map(|(volume, deformation)| volume * disk.medium.law.energy_density(deformation))
+            .map(|(volume, deformation)| volume * disk.medium.0.law.energy_density(deformation))
             .sum::<f64>()
 }
 

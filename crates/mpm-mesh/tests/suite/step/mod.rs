@@ -8,17 +8,17 @@ mod graded;
 mod oracle;
 mod two_halves;
 
-use mpm_core::{Continuum, StepControl};
+use mpm_core::{Continuum, DeformsLast, StepControl};
 use mpm_materials::Material;
 
-/// Any elastic law; behind a reference, so that the step is compiled once for all laws.
-pub type Solid<const D: usize> = Continuum<&'static dyn Material<D>>;
+/// Any elastic law; behind a reference, so that the step is compiled once for all laws, and in one order of a step.
+pub type Solid<const D: usize> = DeformsLast<Continuum<&'static dyn Material<D>>>;
 
 /// A solid of the given law.
 pub fn solid<const D: usize>(law: impl Material<D> + 'static) -> Solid<D> {
-    Continuum {
+    DeformsLast(Continuum {
         law: Box::leak(Box::new(law)),
-    }
+    })
 }
 
 /// A step of the given length with no other limit.

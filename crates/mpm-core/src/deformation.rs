@@ -1,0 +1,108 @@
+//! Particles deform by the velocities around them.
+
+use mpm_kernels::{Wanted, deformed};
+use mpm_tensor::Matrix;
+
+use crate::transfer::{CellField, Moving, MovingParticle, Numbered, Velocities, gather_cells};
+use crate::{Basis, Medium, Member, VelocityNode};
+
+/// What makes of a velocity gradient a deformation.
+pub(crate) struct Deformation<'a, M> {
+    medium: &'a M,
+    pub time_step: f64,
+    rate_dependent: bool,
+    /// Whether the medium is asked what it admits; with volume averaging the trial deformation gradient is left for [`average_volume_ratios`](crate::volume_averaging::average_volume_ratios).
+    admit: bool,
+}
+
+impl<M> Clone for Deformation<'_, M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<M> Copy for Deformation<'_, M> {}
+
+impl<'a, M> Deformation<'a, M> {
+    /// Over a time step.
+    pub fn of<const D: usize>(medium: &'a M, time_step: f64, admit: bool) -> Self
+    where
+        M: Medium<D>,
+    {
+        let rate_dependent = medium.rate_dependent();
+        Self {
+            medium,
+            time_step,
+            rate_dependent,
+            admit,
+        }
+    }
+
+    /// Deform a particle that sees a velocity gradient.
+    #[allow(non_snake_case)]
+    #[inline(always)]
+    pub fn apply<const D: usize>(&self, particle: MovingParticle<D, M::State>, gradient: &Matrix<D>)
+    where
+        M: Medium<D>,
+    {
+        if let Some((F, state)) = particle.deformation {
+            let trial = deformed(F, gradient, self.time_step);
+            if let Some(excess) = particle.excess {
+                let before = particle.velocity_gradient.as_deref().unwrap_or(&Matrix::ZERO);
+                *excess = self
+                    .medium
+                    .stored_beyond_work([F, &trial], &(*gradient * self.time_step), state, before);
+            }
+            *F = if self.admit {
+                self.medium.advance(&trial, state)
+            } else {
+                trial
+            };
+            if let (true, Some(velocity_gradient)) = (self.rate_dependent, particle.velocity_gradient) {
+                *velocity_gradient = *gradient;
+            }
+        }
+    }
+}
+
+/// G2P of particles that deform where they are. Compiled once for all transfers, but for the gradients of moving least squares.
+pub(crate) fn deform<const LEAST_SQUARES: bool, const D: usize, B: Basis<D>, M: Medium<D>>(
+    basis: &B,
+    nodes: &[VelocityNode<D>],
+    moving: Moving<D, M::State>,
+    deformation: Deformation<M>,
+) {
+    let velocity = Velocities::<_, D>(nodes);
+    gather_cells(
+        basis,
+        moving,
+        move |data: &mut Moving<D, M::State>, work, first, (collected, velocities): &mut (B::Cell, CellField)| {
+            let wanted = Wanted {
+                gradient: M::DEFORMS,
+                least_squares: LEAST_SQUARES,
+                moment: false,
+            };
+            let (numbers, size) = (work.nodes, work.nodes.len());
+            basis.enter(work.cell, collected);
+            if !B::LONE_PARTICLES {
+                velocities.collect(basis, numbers, velocity);
+            }
+            for p in work.particles {
+                let particle = data.particle(p - first, false, M::DEFORMS);
+                let x = *particle.position;
+                let member = Member {
+                    cell: collected,
+                    particle: p,
+                    x: &x,
+                };
+                let seen = if B::LONE_PARTICLES {
+                    let field = velocity;
+                    basis.interpolate(member, wanted, &Numbered { field, numbers })
+                } else {
+                    basis.interpolate(member, wanted, &velocities.nodes(basis, size))
+                };
+                deformation.apply(particle, &seen.gradient);
+            }
+        },
+    );
+}
