@@ -24,28 +24,16 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
             self.transfer.over(dt),
             Deformation::of(&self.medium, dt, !self.volume_averaging),
         );
-        advect::<true, D, B, T, M>(
-            &self.basis,
-            self.nodes.as_slice(),
-            moving,
-            transfer,
-            deformation,
-            damping,
-        );
+        let nodes = self.nodes.as_slice();
+        advect::<true, D, B, T, M>(&self.basis, nodes, moving, transfer, deformation, damping);
     }
 
     /// [`move_and_deform_particles`](Self::move_and_deform_particles) without the deformation.
     pub(crate) fn move_particles(&mut self, dt: f64, damping: f64) {
         let moving = Moving::of(&mut self.particles);
         let (transfer, deformation) = (self.transfer.over(dt), Deformation::of(&self.medium, dt, true));
-        advect::<false, D, B, T, M>(
-            &self.basis,
-            self.nodes.as_slice(),
-            moving,
-            transfer,
-            deformation,
-            damping,
-        );
+        let nodes = self.nodes.as_slice();
+        advect::<false, D, B, T, M>(&self.basis, nodes, moving, transfer, deformation, damping);
     }
 
     /// [`move_and_deform_particles`](Self::move_and_deform_particles) without the motion.

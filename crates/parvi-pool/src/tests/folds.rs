@@ -7,18 +7,20 @@ use crate::density::Density;
 use crate::fold::Fold;
 use crate::{Kernel, Mixture};
 
+fn law(centre: [f64; 2], width: f64) -> Mixture<2> {
+    Mixture::new(vec![Kernel {
+        centre,
+        factor: Matrix::IDENTITY * width,
+        share: 1.0,
+    }])
+    .unwrap()
+}
+
 #[test]
 fn a_fold_that_forgets_weighs_as_if_the_rest_were_all() {
     let target = Gaussian::<2>::standard();
     let frame = Frame::identity();
-    let law = |width| {
-        Mixture::new(vec![Kernel {
-            centre: [0.3, 0.0],
-            factor: Matrix::IDENTITY * width,
-            share: 1.0,
-        }])
-        .unwrap()
-    };
+    let law = |width| law([0.3, 0.0], width);
     let mut density = Density::new(&target, &frame, Vec::new());
     let [mut both, mut second] = [Fold::new(), Fold::new()];
     both.draw(&mut density, law(2.0), 40, 1);
@@ -72,14 +74,6 @@ fn news_is_what_was_not_known() {
     };
     let target = GaussianMixture::new("two", &[mode(-4.0), mode(4.0)]).unwrap();
     let frame = Frame::identity();
-    let law = |centre, width| {
-        Mixture::new(vec![Kernel {
-            centre,
-            factor: Matrix::IDENTITY * width,
-            share: 1.0,
-        }])
-        .unwrap()
-    };
     let news = |first: &Mixture<2>, last: &Mixture<2>| {
         let mut density = Density::new(&target, &frame, Vec::new());
         let mut fold = Fold::new();
@@ -99,14 +93,6 @@ fn news_is_what_was_not_known() {
 fn weights_over_two_proposals_are_unbiased() {
     let target = Gaussian::<2>::standard();
     let frame = Frame::identity();
-    let law = |centre, width| {
-        Mixture::new(vec![Kernel {
-            centre,
-            factor: Matrix::IDENTITY * width,
-            share: 1.0,
-        }])
-        .unwrap()
-    };
     let runs = 200;
     let mean = (0..runs)
         .map(|seed| {
