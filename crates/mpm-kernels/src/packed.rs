@@ -1,5 +1,7 @@
 //! Scalar and vector in lanes: by hand, because the compiler turns sums of four components into one instruction only now and then.
 
+use mpm_tensor::Matrix;
+
 use crate::Deposit;
 use crate::lanes::{LANES, Lanes};
 
@@ -58,6 +60,19 @@ impl<const G: usize> Packed<G> {
     #[inline(always)]
     pub fn lanes(&self) -> &[Lanes; G] {
         &self.0
+    }
+
+    /// The matrix whose columns are the vectors.
+    #[inline(always)]
+    pub fn matrix<const D: usize>(columns: &[Self; D]) -> Matrix<D> {
+        let mut matrix = Matrix::ZERO;
+        for j in 0..D {
+            let column = columns[j].deposit::<D>().vector;
+            for i in 0..D {
+                matrix.0[i][j] = column[i];
+            }
+        }
+        matrix
     }
 
     /// From the first `G` entries.

@@ -110,13 +110,13 @@ impl<const W: usize, const D: usize> Stencil<W, D> {
                 }
             }
         }
-        let gradient = from_columns(&total.slopes);
+        let gradient = Packed::matrix(&total.slopes);
         Interpolated {
             value: total.value.deposit::<D>().vector,
             gradient,
             moment: match self.second_moments() {
                 Some(moments) if both => Matrix::from_fn(|i, j| gradient.0[i][j] * moments[j]),
-                _ => from_columns(&total.moments),
+                _ => Packed::matrix(&total.moments),
             },
         }
     }
@@ -249,17 +249,4 @@ impl<const G: usize, const D: usize> Level<G, D> {
             }
         }
     }
-}
-
-/// The matrix whose columns are the vectors.
-#[inline(always)]
-fn from_columns<const G: usize, const D: usize>(columns: &[Packed<G>; D]) -> Matrix<D> {
-    let mut matrix = Matrix::ZERO;
-    for j in 0..D {
-        let column = columns[j].deposit::<D>().vector;
-        for i in 0..D {
-            matrix.0[i][j] = column[i];
-        }
-    }
-    matrix
 }

@@ -132,13 +132,13 @@ impl<const D: usize> MeshBasis<D> {
                 }
             }
         }
-        let moment = from_columns(&moment);
+        let moment = Pack::matrix(&moment);
         Interpolated {
             value: value.deposit::<D>().vector,
             gradient: match &fit.inverse_spread {
                 Some(inverse) if by_moment => moment * *inverse,
                 _ if EXACT && wanted.gradient => self.gradient_in_lanes(member, nodes),
-                _ => from_columns(&gradient),
+                _ => Pack::matrix(&gradient),
             },
             moment: if wanted.moment { moment } else { Matrix::ZERO },
         }
@@ -262,17 +262,4 @@ fn in_all_lanes<const D: usize>(vector: &[f64; D]) -> [Lanes; D] {
         lanes[c] = Lanes::splat(vector[c]);
     }
     lanes
-}
-
-/// The matrix of the vectors of packed columns.
-#[inline(always)]
-fn from_columns<const D: usize>(columns: &[Pack; D]) -> Matrix<D> {
-    let mut matrix = Matrix::ZERO;
-    for b in 0..D {
-        let column = columns[b].deposit::<D>().vector;
-        for a in 0..D {
-            matrix.0[a][b] = column[a];
-        }
-    }
-    matrix
 }
