@@ -62,11 +62,17 @@ pub(crate) fn increasing_root(
     root
 }
 
-/// The quantile of the gamma distribution with the given shape and rate 1, for u in (0, 1).
+/// The quantile of the gamma distribution with the given shape and rate 1, for u in (0, 1); 0 and ∞ at its ends, NaN for what is no shape or no probability.
 ///
 /// The root in y = ln x of the incomplete gamma function (the smaller tail), started from the Wilson–Hilferty
 /// approximation or, in the far lower tail, from the leading term xᵃ / Γ(a + 1), which is a lower bound.
 pub fn gamma_quantile(shape: f64, u: f64) -> f64 {
+    if !(shape > 0.0 && shape.is_finite() && (0.0..=1.0).contains(&u)) {
+        return f64::NAN;
+    }
+    if u == 0.0 || u == 1.0 {
+        return if u == 0.0 { 0.0 } else { f64::INFINITY };
+    }
     let excess = |y: f64| {
         let x = y.exp();
         if u > 0.5 {
@@ -117,6 +123,17 @@ mod tests {
         }
         // Shape 1 is the exponential distribution.
         assert!((gamma_quantile(1.0, 0.3) + (0.7_f64).ln()).abs() < 1e-14);
+        assert_eq!([0.0, 1.0].map(|u| gamma_quantile(2.5, u)), [0.0, f64::INFINITY]);
+        let none = [
+            (0.0, 0.5),
+            (-1.0, 0.5),
+            (f64::NAN, 0.5),
+            (f64::INFINITY, 0.5),
+            (1.0, -0.1),
+            (1.0, 1.1),
+            (1.0, f64::NAN),
+        ];
+        assert!(none.iter().all(|&(shape, u)| gamma_quantile(shape, u).is_nan()));
     }
 
     #[test]
