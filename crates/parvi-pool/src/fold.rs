@@ -76,14 +76,14 @@ impl<const D: usize> Fold<D> {
         };
         let weights = tempered(&self.log_weights(), 1.0);
         let densities = last.densities(&self.groups);
-        let [earlier, count] = [self.positions.len() - count, *count].map(|points| points as f64);
+        let (earlier, count) = (self.positions.len() - count, *count as f64);
         let (mut mass, mut before) = (0.0, Vec::new());
         let pairs = densities.as_flattened().iter().zip(self.sums.as_flattened());
         for (index, ((q, sum), weight)) in pairs.zip(&weights).enumerate() {
             let own = count * q / sum;
             if own > 0.5 {
                 mass += weight;
-                if (index as f64) < earlier {
+                if index < earlier {
                     before.push(weight / (1.0 - own).max(f64::EPSILON));
                 }
             }
