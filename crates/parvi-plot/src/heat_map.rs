@@ -192,20 +192,3 @@ fn draw_cells(drawing: &mut Drawing, axes: &Panel, plot: &HeatMapPlot, panel: &H
         drawing.text(at, &text, TextStyle::sized(CELL_TEXT, Anchor::Middle));
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn cells_cover_the_range() {
-        let edges = logarithmic_edges([0.1, 10.0], 6);
-        assert_eq!(edges.len(), 7);
-        assert_eq!(cell_of(&edges, 0.1), Some(0));
-        assert_eq!(cell_of(&edges, 10.0), Some(5));
-        assert_eq!(cell_of(&edges, 1.01), Some(3));
-        assert_eq!(cell_of(&edges, 11.0), None);
-        assert_eq!(cell_of(&edges, f64::NAN), None);
-        assert_eq!(cell_of(&[], 1.0), None);
-    }
-}

@@ -37,9 +37,6 @@ mod text;
 mod time_error;
 mod trace;
 
-#[cfg(test)]
-mod tests;
-
 pub use cloud::cloud;
 pub use corner::corner;
 pub use data::{Curve, DensityPlot, PairDensity, PlotError, PointCloud, Reference};

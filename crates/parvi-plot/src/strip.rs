@@ -155,17 +155,3 @@ fn notes(plot: &StripPlot<'_>, clouds: &[Vec<Vec<f64>>], scales: &[Scale]) -> Ve
     let largest = clouds.iter().map(|cloud| cloud[0].len()).max().unwrap_or(0);
     hidden.into_iter().chain(cloud_notes(largest, 0, true)).collect()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn chosen_moments_are_different_and_in_order() {
-        let chosen = |first: usize, end: usize| moments(&(first..end).collect::<Vec<_>>(), 5);
-        assert_eq!(chosen(0, 101), [0, 4, 16, 36, 64]);
-        assert_eq!(chosen(0, 6), [0, 1, 2, 3, 4]);
-        assert_eq!(chosen(3, 6), [0, 1, 2]);
-        assert_eq!(chosen(0, 0), [0; 0]);
-    }
-}

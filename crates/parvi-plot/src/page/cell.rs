@@ -69,17 +69,3 @@ pub fn number(value: f64) -> String {
         format!("{value:.2e}")
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_have_three_digits() {
-        let texts: Vec<String> = [0.0, 1.0, -0.012345, 12345.6, 1e-5, 2.5e7, f64::NAN]
-            .into_iter()
-            .map(number)
-            .collect();
-        assert_eq!(texts, ["0", "1.00", "-0.0123", "12346", "1.00e-5", "2.50e7", MISSING]);
-    }
-}

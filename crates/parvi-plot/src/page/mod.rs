@@ -3,8 +3,6 @@
 mod cell;
 mod line;
 mod prose;
-#[cfg(test)]
-mod tests;
 
 use std::fmt::Display;
 

@@ -80,38 +80,3 @@ impl Rows<'_> {
         values.into_iter().map(|value| of(value.into())).collect()
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::super::example::rows;
-    use super::*;
-
-    #[test]
-    fn lines_go_through_medians_or_through_every_row() {
-        let rows = rows();
-        let here = rows.iter().collect::<Rows<'_>>().with("method", "mpm");
-        let curve = here.curve("mpm", "size", "error");
-        assert_eq!((curve.x, curve.y), (vec![16.0, 64.0], vec![2.5, 0.5]));
-        assert_eq!(curve.bars, [(1.0, 4.0), (0.5, 0.5)]);
-        assert_eq!(here.line("mpm", "size", "error").x, [64.0, 16.0, 16.0]);
-        assert_eq!(here.medians("mpm", "size", "error").y, [4.0, 0.5]);
-        let curves = here.curves(("n = ", "size"), [16_usize, 99], "size", "error");
-        let ends = curves.iter().map(|line| (line.label.as_str(), line.y.clone()));
-        assert!(ends.eq([("n = 16", vec![2.5]), ("n = 99", Vec::new())]));
-        let path = here.path("mpm", "case", "size", "error");
-        assert_eq!(path.x, [64.0, 16.0, 16.0, 16.0]);
-        assert!(path.y[2].is_nan() && path.y[3] == 4.0);
-        let orders = here.orders("size", [16_usize], "error", Some(4));
-        assert_eq!(
-            (orders[0].label.as_str(), &orders[0].x[..], &orders[0].y[..]),
-            ("16", &[12.5, 37.5][..], &[1.0, 4.0][..])
-        );
-        let panels = here.panels(("n = ", "size"), [64.0], |rows| {
-            MultiplesPanel::new("", [rows.line("", "size", "error")])
-        });
-        assert_eq!(
-            (panels[0].title.as_str(), &panels[0].series[0].y[..]),
-            ("n = 64", &[0.5][..])
-        );
-    }
-}

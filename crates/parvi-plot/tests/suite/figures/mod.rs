@@ -3,8 +3,8 @@
 mod charts;
 mod hostile;
 
-use super::*;
-use crate::statistics::{DensityGrid, StatisticsError, equidistant};
+use parvi_plot::statistics::{DensityGrid, StatisticsError, equidistant};
+use parvi_plot::*;
 
 /// A deterministic sequence of d roughly normal coordinates: sums of additive recurrences.
 fn points(count: usize, dimension: usize) -> Vec<Vec<f64>> {
@@ -74,12 +74,12 @@ fn corner_of(cloud: PointCloud<'_>, reference: Reference<'_>) -> Result<String, 
 }
 
 fn cloud_of(cloud: PointCloud<'_>, reference: Reference<'_>) -> Result<String, PlotError> {
-    super::cloud(&plot(cloud, reference))
+    parvi_plot::cloud(&plot(cloud, reference))
 }
 
 #[test]
 fn every_dimension_has_its_figures() {
-    let reference = points(3000, 8);
+    let reference = points(1000, 8);
     for dimension in 1..=8 {
         let cut = |rows: &[Vec<f64>]| -> Vec<Vec<f64>> { rows.iter().map(|row| row[..dimension].to_vec()).collect() };
         let (particles, draws) = (points(300, dimension), cut(&reference));

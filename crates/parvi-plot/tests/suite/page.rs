@@ -1,7 +1,7 @@
 //! Pages from paragraphs and from a Markdown text.
 
-use super::*;
-use crate::results::{Row, Rows};
+use parvi_plot::page::{Line, Page};
+use parvi_plot::results::{Row, Rows};
 
 #[test]
 fn a_page_is_markdown() {
