@@ -109,7 +109,7 @@ fn all_survive<const D: usize>(numbers: &[f64]) -> Result<(), TestCaseError> {
 proptest! {
     #[test]
     fn any_deformation(numbers in prop::collection::vec(entry(), 36)) {
-        mpm_tensor::in_dimensions!(all_survive(&numbers)?, 1, 2, 3, 4, 6);
+        mpm_tensor::in_dimensions!(all_survive(&numbers)?, 1, 2, 3, 6);
     }
 
     #[test]
