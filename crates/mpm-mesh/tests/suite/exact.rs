@@ -133,8 +133,8 @@ fn a_constant_stress_pulls_at_no_node_inside() {
 fn smooth_weights_are_continuous() {
     let mesh = cube::<2>(6, 0.3, 0.25, 3);
     let basis = MeshBasis::new(&mesh).unwrap().with_sample_weight(SampleWeight::Smooth);
-    let jump = largest_jump(&basis, 2, |_| true);
+    let jump = largest_jump(&basis, 2, &|_| true);
     assert!(jump < 1e-10, "{jump}");
-    let jump = largest_jump(&basis.with_kernel_width(KernelWidth::Local), 2, |_| true);
+    let jump = largest_jump(&basis.with_kernel_width(KernelWidth::Local), 2, &|_| true);
     assert!(jump < 1e-10, "{jump}");
 }

@@ -79,7 +79,7 @@ proptest! {
 fn they_and_their_gradients_are_continuous() {
     fn check<const D: usize>(mesh: &SimplexMesh<D>) {
         let basis = MeshBasis::new(mesh).unwrap().with_positive_weights(true);
-        let jump = largest_jump(&basis, 2, |_| true);
+        let jump = largest_jump(&basis, 2, &|_| true);
         assert!(jump < 1e-10, "D = {D}: {jump}");
     }
     check(&line(&[0.0, 0.4, 1.3, 1.7, 2.6, 3.0]));

@@ -9,7 +9,7 @@ use super::{control, solid};
 use crate::basis_scenes::cube;
 
 /// Steps here, and those of the paper.
-const STEPS: usize = 1300;
+const STEPS: usize = 600;
 const ALL_STEPS: usize = 1_000_000;
 
 /// A square of side 0.2 in the middle of the unit square, 20 × 20 particles, E = 10⁴, ν = 0.3, ρ = 1, the halves with velocities (0, ±1),
