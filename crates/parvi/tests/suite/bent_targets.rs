@@ -58,7 +58,7 @@ fn moments<const D: usize>(points: &[[f64; D]]) -> Moments<D> {
         .moments()
 }
 
-const SEEDS: std::ops::Range<u64> = 2..10;
+const SEEDS: std::ops::Range<u64> = 2..6;
 
 /// On these axes means within 0.05 standard deviations of the truth and standard deviations within `tolerance`, and an ED² below `ratio` of that of
 /// independent draws, in the mean over the seeds: one run's tail is what its few farthest points make of it. From near and far, each run at a price below 110 evaluations per particle.

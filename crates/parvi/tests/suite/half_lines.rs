@@ -143,7 +143,7 @@ fn no_particle_is_outside_of_a_box() {
     };
     let frame = Frame::from_scales([0.65; 4], [0.43; 4]).expect("a frame");
     for seed in 0..4 {
-        let run = Run::new(1000, seed);
+        let run = Run::new(500, seed);
         let check = |method: &str, samples: Result<Samples<4>, SampleError>| {
             let samples = samples.expect(method);
             let outside = samples.positions.iter().filter(|x| UnitCube.log_density(x) < 0.0);

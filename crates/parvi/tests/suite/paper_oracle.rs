@@ -24,8 +24,8 @@ struct Inputs {
     stress: fn(&[f64], usize) -> Vec<f64>,
 }
 
-/// Nodes h k with |k_a| ≤ 8.
-const REACH: i64 = 8;
+/// Nodes h k with |k_a| ≤ 5, which no particle leaves.
+const REACH: i64 = 5;
 
 /// K and K′ of Eq. 34.
 fn kernel(r: f64) -> [f64; 2] {
