@@ -201,7 +201,7 @@ fn densities_are_those_of_the_transports() {
 /// ∫ p over its stated value, by importance sampling from kernels on draws, each as wide as the distance to a neighbour, with its
 /// error; and the largest z-score by which shares of half spaces differ between weighted points and draws.
 fn evidence_by_kernels<const D: usize>(target: &RandomTarget<D>) -> (f64, f64, f64) {
-    let (kernels, neighbour, samples) = (400, 12, 8000);
+    let (kernels, neighbour, samples) = (400, 12, 4000);
     let centres = draws(target, kernels, 21);
     let frame = whitening(&centres);
     let centres: Vec<[f64; D]> = centres.iter().map(|x| frame.to_reference(x)).collect();
@@ -276,7 +276,7 @@ fn evidence_is_known() {
 
 /// Stein's identity E(w s + ∇w) = 0 over draws, w = exp(−|z − c|²/2b²) about other draws, in whitened coordinates.
 fn draws_fit_the_score<const D: usize>(seeds: std::ops::Range<u64>) {
-    let count = 8000;
+    let count = 4000;
     for family in families::<D>() {
         for seed in seeds.clone() {
             let target = RandomTarget::<D>::of_family(family, seed).unwrap();

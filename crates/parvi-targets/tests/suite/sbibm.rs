@@ -166,7 +166,7 @@ fn evidence_is_that_of_the_draws(posterior: &BoxPosterior<SimpleLikelihood, 5>, 
 fn nested_normals_have_their_evidence() {
     for number in 1..=3 {
         let posterior = NestedNormals::posterior(number).unwrap();
-        let count = 2000;
+        let count = 1000;
         let at = |index: i32| 20.0 * (f64::from(index) + 0.5) / f64::from(count) - 10.0;
         let of_row = |i: i32| {
             let of_point = |j: i32| posterior.simulator().log_density(&[at(i), at(j)]).exp();

@@ -91,6 +91,7 @@ fn importance_sampling_finds_known_moments() {
 
 #[test]
 fn references_of_the_regressions_state_their_error() {
+    const POINTS: usize = 1 << 14;
     fn check<const D: usize>(name: &str) {
         let target = target::<D>(name);
         let run = |seed, points| {
@@ -101,7 +102,7 @@ fn references_of_the_regressions_state_their_error() {
             };
             reference_moments(&*target, &options).unwrap()
         };
-        let (one, two) = (run(1, 1 << 15), run(2, 1 << 15));
+        let (one, two) = (run(1, POINTS), run(2, POINTS));
         let deviations =
             |moments: &Moments<D>| -> [f64; D] { std::array::from_fn(|k| moments.covariance.0[k][k].sqrt()) };
         for axis in 0..D {
@@ -124,7 +125,7 @@ fn references_of_the_regressions_state_their_error() {
                 "{name} {axis}"
             );
         }
-        let share = one.effective_sample_size / f64::from(1 << 15);
+        let share = one.effective_sample_size / POINTS as f64;
         assert!(share > 0.5, "{name}: effective share {share}");
     }
     crate::in_dimensions!(check("wells"), 1, 6);
