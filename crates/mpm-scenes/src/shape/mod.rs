@@ -75,6 +75,3 @@ pub(crate) fn ball_volume(dimension: usize, radius: f64) -> f64 {
         _ => f64::NAN,
     }
 }
-
-#[cfg(test)]
-mod tests;

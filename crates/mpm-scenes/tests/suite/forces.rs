@@ -153,7 +153,7 @@ kind = "apic"
 
 [time]
 end = 1.2
-step = 2e-4
+step = 4e-4
 damping = 20.0
 
 [materials.rubber]

@@ -1,16 +1,21 @@
 //! Scenes as a user writes them: what is refused, what is written, and that a run can be stopped anywhere.
 
+mod axes;
 mod bad_meshes;
 mod bad_scenes;
 mod budget;
 mod document;
 mod facets;
 mod failures;
+mod fill;
 mod forces;
 mod kinematic;
+mod law;
 mod on_meshes;
+mod output;
 mod readings;
 mod refusal;
 mod resume;
 mod runs;
 mod scenes;
+mod shapes;

@@ -1,0 +1,5 @@
+//! Particles that fill shapes.
+
+mod random;
+mod regular;
+mod rings;

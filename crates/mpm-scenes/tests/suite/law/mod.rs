@@ -1,0 +1,4 @@
+//! Laws of scenes.
+
+mod build;
+mod laws;
