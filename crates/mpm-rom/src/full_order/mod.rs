@@ -3,8 +3,6 @@
 mod document;
 mod error;
 mod recording;
-#[cfg(test)]
-mod tests;
 mod tracers;
 
 pub use document::{SceneDocument, Value};

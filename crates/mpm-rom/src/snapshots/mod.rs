@@ -178,6 +178,3 @@ fn all_finite(place: Place, field: &str, numbers: &[f64]) -> Result<(), Snapshot
         None => Ok(()),
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -27,6 +27,3 @@ struct Envelope {
     version: u32,
     header: serde_json::Value,
 }
-
-#[cfg(test)]
-mod tests;

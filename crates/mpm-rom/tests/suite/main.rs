@@ -2,5 +2,9 @@
 
 mod common;
 mod experiment;
+mod full_order;
+mod least_squares;
 mod linear;
+mod snapshots;
+mod tensor_file;
 mod training;

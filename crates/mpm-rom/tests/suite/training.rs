@@ -118,7 +118,7 @@ fn a_loss_that_is_not_finite_has_its_error() {
 /// The example `bending` in small, with as many steps as 48 epochs of it have. Without any motion the error would be tens of per cent.
 #[test]
 fn unseen_runs_are_reproduced() {
-    let all = crate::common::bending_cylinder(200, 16, 12);
+    let all = crate::common::bending_cylinder(110, 16, 12);
     let part = |runs: &[Run<3>]| Snapshots::new(all.body().clone(), runs.to_vec()).unwrap();
     let (seen, unseen) = (part(&all.runs()[..12]), part(&all.runs()[12..]));
     let config = Training {

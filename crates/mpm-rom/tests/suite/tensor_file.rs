@@ -1,4 +1,6 @@
-use super::*;
+//! Files of named tensors.
+
+use mpm_rom::tensor_file::{TensorFault, TensorFileError, TensorReader, TensorWriter};
 
 fn small(path: &std::path::Path) {
     let mut writer = TensorWriter::default();

@@ -1,5 +1,8 @@
-use super::*;
-use crate::tensor_file::TensorFault;
+//! Snapshots, their file, and what is refused.
+
+use mpm_rom::snapshots::{Body, Frame, Place, Run, Snapshots, SnapshotsError};
+use mpm_rom::tensor_file::TensorFault;
+use mpm_tensor::Matrix;
 
 fn frame(scale: f64) -> Frame<2> {
     Frame {

@@ -1,11 +1,15 @@
+//! Runs of a scene with other parameters, in full order.
+
 use std::ops::ControlFlow;
 
-use mpm_tensor::Matrix;
-
-use super::*;
-use crate::snapshots::Frame;
-
-const STRIP: &str = include_str!("../../tests/data/falling_strip.toml");
+use mpm_rom::full_order::{
+    Case, FramesBetween, FullOrderError, Kept, Recording, SceneDocument, TracedRun, Value, collect,
+};
+use mpm_rom::online::ReducedBody;
+use mpm_rom::snapshots::Frame;
+use mpm_scenes::Scene;
+use mpm_tensor::{Matrix, vector};
+const STRIP: &str = include_str!("../data/falling_strip.toml");
 
 fn document() -> SceneDocument {
     SceneDocument::parse(STRIP, "strip.toml".as_ref()).expect("TOML")
@@ -59,7 +63,7 @@ fn what_does_not_fit_is_an_error_with_its_name() {
     };
     assert!(matches!(collect(&[]), Err(FullOrderError::NoRuns)));
     let twice = [of_key("gravity.0", 0.0), of_key("gravity.0", 1.0)];
-    let stopped = super::collect::<2>(&document(), &["p".to_owned()], &twice, &Kept::default(), |_| {
+    let stopped = mpm_rom::full_order::collect::<2>(&document(), &["p".to_owned()], &twice, &Kept::default(), |_| {
         ControlFlow::Break(())
     });
     assert!(matches!(stopped, Err(FullOrderError::Stopped { runs: 1 })));
@@ -70,9 +74,10 @@ fn what_does_not_fit_is_an_error_with_its_name() {
     );
     let wider = [of_key("gravity.0", 0.0), of_key("bodies.0.shape.upper.0", 2.5)];
     assert!(matches!(collect(&wider), Err(FullOrderError::AnotherBody { run: 1 })));
-    let error = super::collect::<3>(&document(), &[], &[of_key("gravity.0", 0.0)], &Kept::default(), |_| {
-        ControlFlow::Continue(())
-    });
+    let error =
+        mpm_rom::full_order::collect::<3>(&document(), &[], &[of_key("gravity.0", 0.0)], &Kept::default(), |_| {
+            ControlFlow::Continue(())
+        });
     assert!(matches!(
         error,
         Err(FullOrderError::Dimension { found: 2, expected: 3 })
@@ -86,7 +91,7 @@ fn tracers_leave_the_run_as_it_is_and_move_with_it() {
         [[held]]\nshape = {{ kind = \"half-space\", point = [0.25, 0.0], normal = [1.0, 0.0] }}\n"
     );
     let scene = Scene::parse(&held, "strip.toml".as_ref()).expect("a scene");
-    let body = crate::online::ReducedBody::<2>::of(&scene).expect("can be reduced");
+    let body = ReducedBody::<2>::of(&scene).expect("can be reduced");
     let recording = Recording::of(&scene, &[], None).expect("a body");
     let (frames, _) = recording.run(&scene).expect("runs");
     // A tracer at a particle, and one in the middle of four.
@@ -128,6 +133,12 @@ fn a_part_of_the_points_moves_as_it_does_among_all() {
     }
 }
 
+/// Σ |x_p − y_p|².
+fn moved(one: &Frame<2>, other: &Frame<2>) -> f64 {
+    let pairs = one.positions.iter().zip(&other.positions);
+    pairs.map(|(x, y)| vector::norm_squared(&vector::subtract(x, y))).sum()
+}
+
 #[test]
 fn frames_between_those_of_the_scene_are_kept_where_the_body_moves() {
     let scene = document().scene(&[]).expect("a scene");
@@ -144,7 +155,7 @@ fn frames_between_those_of_the_scene_are_kept_where_the_body_moves() {
     let is_of_scene = |frame: &&Frame<2>| (number(frame) - number(frame).round()).abs() < 1e-9;
     let squares: f64 = recording.body.reference.iter().map(vector::norm_squared).sum();
     for pair in frames.windows(2) {
-        let moved = pair[1].moved_from(&pair[0]) >= 0.0025 * 0.0025 * squares;
+        let moved = moved(&pair[1], &pair[0]) >= 0.0025 * 0.0025 * squares;
         assert!(moved || is_of_scene(&&pair[1]), "at {}", pair[1].time);
     }
     // Free fall by t² / 2: by 0.00125 in the first frame, by 0.0015 and more between all instants of the last, of a body of size 0.6.
@@ -153,7 +164,7 @@ fn frames_between_those_of_the_scene_are_kept_where_the_body_moves() {
     let found: Vec<_> = frames.iter().filter(is_of_scene).collect();
     assert_eq!(found.len(), of_scene.len());
     for (found, expected) in found.iter().zip(&of_scene) {
-        assert!(found.moved_from(expected).sqrt() < 1e-6, "at {}", found.time);
+        assert!(moved(found, expected).sqrt() < 1e-6, "at {}", found.time);
     }
 
     let seven = FramesBetween {

@@ -1,0 +1,4 @@
+//! Few coordinates, sums over many points.
+
+mod gauss_newton;
+mod linear;
