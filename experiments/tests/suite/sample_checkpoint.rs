@@ -8,7 +8,7 @@ use std::time::Duration;
 use crate::support::{assert_refused, files, parvi, started, stderr, stdout, succeeds, value};
 
 const RUN: &str =
-    "sample --target mixture-2 --dim 2 --particles 400 --evaluations 3000 --rounds 1 --steps 8000 --seed 3";
+    "sample --target mixture-2 --dim 2 --particles 400 --evaluations 3000 --rounds 1 --steps 4000 --seed 3";
 
 /// Runs until the checkpoint exists and `more` has passed, then kills the process without a warning; false if it was faster.
 fn killed(directory: &Path, more: Duration) -> bool {

@@ -138,7 +138,7 @@ fn bad_scenes_are_refused_with_file_field_and_value() {
 #[test]
 fn an_interrupted_run_goes_on_to_the_same_bits() {
     let root = tempfile::tempdir().unwrap();
-    let slow = SCENE.replace("time = { end = 0.5 }", "time = { end = 0.5, step = 2e-5 }");
+    let slow = SCENE.replace("time = { end = 0.5 }", "time = { end = 0.5, step = 4e-5 }");
     let scene = slow.replace("interval = 0.25, series_interval = 0.05", "interval = 0.05");
     std::fs::write(root.path().join("scene.toml"), scene).unwrap();
     let whole = succeeds(root.path(), "simulate scene.toml --out whole");

@@ -6,7 +6,7 @@ use crate::support::{files, interrupted, stderr, succeeds, value};
 
 const STUDY: &str = r#"
 kind = "time-error"
-seeds = [0, 1]
+seeds = [0]
 threads = 1
 particles = 64
 steps = [2, 4]
@@ -17,8 +17,8 @@ targets = [{ name = "gaussian", dim = 2 }, { name = "banana" }, { name = "wells-
 methods = [{ name = "mpm" }, { name = "svgd" }, { name = "iid" }]
 "#;
 
-/// 3 targets × (2 methods × 2 numbers of steps + draws) × 2 seeds.
-const CASES: usize = 30;
+/// 3 targets × (2 methods × 2 numbers of steps + draws).
+const CASES: usize = 15;
 
 /// The rows of results.csv without the columns that depend on the machine.
 fn results(directory: &Path) -> Vec<Vec<String>> {
@@ -103,7 +103,7 @@ fn an_interrupted_study_can_be_resumed() {
     let root = tempfile::tempdir().unwrap();
     std::fs::write(
         root.path().join("study.toml"),
-        STUDY.replace("seeds = [0, 1]", "seeds = [0, 1, 2, 3, 4, 5]"),
+        STUDY.replace("seeds = [0]", "seeds = [0, 1, 2, 3]"),
     )
     .unwrap();
     run(root.path(), "whole");

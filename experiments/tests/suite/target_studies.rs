@@ -85,12 +85,12 @@ fn the_reference_hardly_matters() {
             r#"
             kind = "catalogue"
             seeds = [0]
-            particles = 125
+            particles = 64
             dims = [2, 4]
             targets = [{{ name = "funnel" }}, {{ name = "student-t" }}, {{ name = "mixture-3" }}, {{ name = "wells-small" }}]
             starts = [{{ mean = 0.0, standard-deviation = 1.0 }}]
             methods = [{{ name = "mpm" }}]
-            reference-points = 16384
+            reference-points = 8192
             reference-seed = {seed}
             directions = 2
             draws = 1

@@ -3,6 +3,7 @@
 use super::problem::{pinned, run};
 
 const SLOW: (&str, &str) = ("[0.75]", "[0.1]");
+const LONG_STEPS: (&str, &str) = ("courant = 0.2", "courant = 0.4");
 
 #[test]
 fn the_bar_swings_as_the_exact_solution_at_both_speeds() {
@@ -19,7 +20,7 @@ fn the_bar_converges_with_second_order() {
     ] {
         let error = |spacing: &str| {
             let mut changes = changes.clone();
-            changes.push(("spacing = 1.0", spacing));
+            changes.extend([("spacing = 1.0", spacing), LONG_STEPS]);
             run("vibrating_bar", &changes).row("error").measured
         };
         let errors = ["spacing = 1.0", "spacing = 0.5", "spacing = 0.25"].map(error);
@@ -32,22 +33,22 @@ fn the_bar_converges_with_second_order() {
 
 #[test]
 fn the_disks_rebound_and_flip_loses_little() {
-    let spacing = |spacing: &'static str| ("spacing = 0.025", spacing);
-    let flip = run("two_disks", &[spacing("spacing = 0.03125")]);
+    let flip = run("two_disks", &[("spacing = 0.025", "spacing = 0.03125")]);
     flip.passes_as_pinned("two_disks");
     let loss = "energy lost";
-    let coarse = run("two_disks", &[spacing("spacing = 0.0625")]);
-    assert!(coarse.row(loss).measured > 1.5 * flip.row(loss).measured);
+    let coarse = [("spacing = 0.025", "spacing = 0.0625"), LONG_STEPS];
     let apic = [("\"flip\"", "\"apic\""), ("flip_share = 1.0\n", "")];
-    let apic = run("two_disks", &[&apic[..], &[spacing("spacing = 0.0625")]].concat());
+    let apic = run("two_disks", &[apic, coarse].concat());
+    let coarse = run("two_disks", &coarse);
+    assert!(coarse.row(loss).measured > 1.5 * flip.row(loss).measured);
     assert!(apic.row(loss).measured > 2.0 * coarse.row(loss).measured);
     pinned("two_disks, apic", loss, apic.row(loss).measured);
 }
 
-/// 10⁴ steps; 10⁶ in docs/results/mechanics.
+/// 4000 steps; 10⁶ in docs/results/mechanics.
 #[test]
 fn the_spinning_square_keeps_its_momenta() {
-    let end = run("spinning_square", &[]);
+    let end = run("spinning_square", &[("end = 65.0", "end = 24.0")]);
     assert!(
         end.rows.len() == 2 && end.rows.iter().all(|row| row.measured <= 0.01 * row.tolerance),
         "{:?}",
