@@ -1,6 +1,6 @@
 //! Conformance of a basis, part: gradients.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 use mpm_core::conformance::AnyBasis;
 
@@ -45,7 +45,7 @@ pub fn gradients_are_derivatives<const D: usize>(
         };
         let steps = (0..D).flat_map(|a| [moved(a, -1.0), moved(a, 1.0)]);
         let seen = seen_by(basis, &[*x].into_iter().chain(steps).collect::<Vec<_>>());
-        let nodes: Vec<u32> = seen.iter().flat_map(|map| map.keys().copied()).collect();
+        let nodes: BTreeSet<u32> = seen.iter().flat_map(|map| map.keys().copied()).collect();
         for a in 0..D {
             for node in &nodes {
                 let at = |point: usize| seen[point].get(node).copied().unwrap_or(Seen::NOTHING);

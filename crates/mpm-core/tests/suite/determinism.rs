@@ -6,8 +6,8 @@ use mpm_materials::IsothermalGas;
 
 use crate::scenes::{Pull, bits, free, gaussian_cloud, matrix_bits, neo_hookean};
 
-/// Every one sorts anew and goes through all tables: what depends on threads shows in a few.
-const STEPS: usize = 3;
+/// Every one sorts anew and goes through all tables: what depends on threads shows in two.
+const STEPS: usize = 2;
 
 /// All state after the steps, as bits.
 fn run<B: UniformBasis<D>, T: Transfer<D>, M: Medium<D, State = ()>, const D: usize>(
@@ -92,7 +92,7 @@ fn pic() {
         run(10_000, grid::<Quadratic, 3, 3>(0.2), Pic, gas(), Pull::well())
     });
     same_on_any_pool("D = 6", || {
-        run(2_500, grid::<Quadratic, 3, 6>(1.0), Pic, gas(), Pull::well())
+        run(1_200, grid::<Quadratic, 3, 6>(1.0), Pic, gas(), Pull::well())
     });
 }
 

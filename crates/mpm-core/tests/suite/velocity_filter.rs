@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use mpm_core::{Basis, Flip, Mpm, MpmError, Particles, SplineGrid, UniformBasis, VelocityFilter};
-use mpm_kernels::Quadratic;
+use mpm_core::{Basis, Flip, Mpm, MpmError, Particles, SimplexLattice, SplineGrid, UniformBasis, VelocityFilter};
+use mpm_kernels::{Cubic, Linear, Quadratic};
 use mpm_materials::IsothermalGas;
 use proptest::prelude::*;
 
@@ -82,10 +82,14 @@ fn is_the_formula<const D: usize, B: UniformBasis<D>>(name: &str, make: fn([f64;
     }
 }
 
+/// It sees of a basis what it sends and receives, which the conformance of bases holds to the stencil: not every one is filtered.
 #[test]
 fn a_filter_is_its_formula() {
-    every_basis!(is_the_formula, 2);
     is_the_formula::<1, _>("quadratic", |o, h| SplineGrid::<Quadratic, 3, 1>::new(o, h).unwrap());
+    is_the_formula::<2, _>("linear", |o, h| SplineGrid::<Linear, 2, 2>::new(o, h).unwrap());
+    is_the_formula::<2, _>("quadratic", |o, h| SplineGrid::<Quadratic, 3, 2>::new(o, h).unwrap());
+    is_the_formula::<2, _>("cubic", |o, h| SplineGrid::<Cubic, 4, 2>::new(o, h).unwrap());
+    is_the_formula::<2, _>("lattice", |o, h| SimplexLattice::<2>::permutohedral(o, h).unwrap());
     is_the_formula::<3, _>("quadratic", |o, h| SplineGrid::<Quadratic, 3, 3>::new(o, h).unwrap());
 }
 
@@ -170,7 +174,7 @@ fn a_higher_order_keeps_what_is_smooth_and_forgets_noise_at_the_rate() {
 
 #[test]
 fn what_is_forgotten_does_not_hang_on_the_number_of_steps() {
-    let (few, many) = (left(2, 20), left(2, 400));
+    let (few, many) = (left(2, 20), left(2, 100));
     for a in 0..2 {
         assert!((few[a] / many[a] - 1.0).abs() < 0.05, "{few:?}, {many:?}");
     }
