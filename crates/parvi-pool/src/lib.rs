@@ -11,6 +11,7 @@ mod density;
 mod energy;
 mod estimate;
 mod explore;
+mod flanks;
 mod fold;
 mod freeze;
 mod gamma;

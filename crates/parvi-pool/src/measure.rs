@@ -37,8 +37,10 @@ pub struct Measure<const D: usize> {
 }
 
 impl<const D: usize> Measure<D> {
-    /// Of points with weights that sum to one.
-    pub fn new(points: Vec<[f64; D]>, weights: Vec<f64>) -> Self {
+    /// Of points with weights that sum to one. Points without a weight, and weights without a point, are left out.
+    pub fn new(mut points: Vec<[f64; D]>, mut weights: Vec<f64>) -> Self {
+        points.truncate(weights.len());
+        weights.truncate(points.len());
         let mut measure = Self {
             evaluated: vec![true; points.len()],
             ends: vec![points.len()],
@@ -142,7 +144,7 @@ impl<const D: usize> Measure<D> {
     }
 
     /// The mass that is nearer to a particle than to any other one in coordinates of the [`frame`](Self::frame), for every particle; none negative, and their
-    /// sum is one.
+    /// sum is one; equal ones where there is no mass.
     pub fn shares(&self, particles: &[[f64; D]]) -> Vec<f64> {
         let frame = self.frame();
         let particles: Vec<[f64; D]> = particles.iter().map(|x| frame.to_reference(x)).collect();
@@ -162,7 +164,11 @@ impl<const D: usize> Measure<D> {
             }
         }
         let total: f64 = shares.iter().map(|share: &f64| share.max(0.0)).sum();
-        shares.iter().map(|share| share.max(0.0) / total).collect()
+        if total > 0.0 {
+            shares.iter().map(|share| share.max(0.0) / total).collect()
+        } else {
+            vec![1.0 / shares.len() as f64; shares.len()]
+        }
     }
 
     /// Σ c f(y).

@@ -85,6 +85,19 @@ impl<const D: usize> Mixture<D> {
     /// `count` draws: a scrambled Sobol' sequence whose first coordinate picks the kernel (in the order of the kernels), whose second its radius
     /// and whose others its direction.
     pub fn draws(&self, count: usize, seed: u64) -> Vec<[f64; D]> {
+        let stretch = Stretch::of(freedom(D));
+        self.placed(count, seed, |u, z| vector::scale(z, stretch.at(u)))
+    }
+
+    /// As [`draws`](Self::draws), in all directions at the distances `radius`(u) in standard deviations of the kernels, u even in [0, 1).
+    pub(super) fn about(&self, count: usize, seed: u64, radius: impl Fn(f64) -> f64 + Sync) -> Vec<[f64; D]> {
+        self.placed(count, seed, |u, z| {
+            vector::scale(z, radius(u) / vector::norm(z).max(f64::MIN_POSITIVE))
+        })
+    }
+
+    /// Places c + L y of kernels picked by their shares, y by `place` of a number even in [0, 1) and of a normal law's draw.
+    fn placed(&self, count: usize, seed: u64, place: impl Fn(f64, &[f64; D]) -> [f64; D] + Sync) -> Vec<[f64; D]> {
         let Ok(sequence) = SobolSequence::scrambled(D + 2, seed) else {
             return Vec::new();
         };
@@ -94,15 +107,14 @@ impl<const D: usize> Mixture<D> {
             sum += kernel.share;
             cumulated.push(sum);
         }
-        let (last, stretch) = (self.kernels.len() - 1, Stretch::of(freedom(D)));
+        let last = self.kernels.len() - 1;
         let draw = |index: u32| {
             // Twenty-one coordinates are the most that the sequence has.
             let mut u = [0.0; 21];
             sequence.write(index, &mut u);
             let kernel = &self.kernels[cumulated.partition_point(|&c| c < u[0] * sum).min(last)];
-            let stretch = stretch.at(u[1]);
-            let z = std::array::from_fn(|axis| stretch * normal_quantile(u[axis + 2]));
-            vector::add(&kernel.centre, &kernel.factor.apply(&z))
+            let z = std::array::from_fn(|axis| normal_quantile(u[axis + 2]));
+            vector::add(&kernel.centre, &kernel.factor.apply(&place(u[1], &z)))
         };
         mpm_parallel::collect(count, TILE, &|index| draw(index as u32))
     }

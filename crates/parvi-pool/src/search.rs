@@ -6,6 +6,7 @@ use rand::rngs::ChaCha8Rng;
 
 use crate::ascent::ascend;
 use crate::density::Density;
+use crate::flanks::{flanks, rings};
 use crate::fold::Fold;
 use crate::lanes::packed;
 use crate::mixture::Mixture;
@@ -38,9 +39,13 @@ pub(super) const LIGHTEST: f64 = 5e-3;
 /// Widest standard deviation at a summit, over the largest spread of what is known: a flat top has no curvature to say how wide it is.
 const WIDEST: f64 = 0.5;
 
-/// Scouts end after so many that found nothing new: from surprises, and from peaks.
+/// Scouts end after so many that found nothing new: from surprises, from peaks, and from flanks.
 const IDLE: usize = 24;
 const IDLE_FROM_PEAKS: usize = 8;
+const IDLE_FROM_FLANKS: usize = 16;
+
+/// Places at which scores are asked where they point to, over the points drawn at a time.
+const OF_SCORES: f64 = 0.5;
 
 /// p/(Z q) below which a point is not of what is covered: q has heavier tails than most targets.
 const FOREIGN: f64 = 0.2;
@@ -77,6 +82,8 @@ pub(super) fn search<const D: usize>(
         let whitener = factor.lower_triangular_inverse().unwrap_or(Matrix::IDENTITY);
         let mut new = covered.climb_from_surprises(density, &points, &logs, WIDEST * spread);
         new.extend(covered.climb_from_peaks(density, &points, &logs, &whitener, WIDEST * spread));
+        let scored = (OF_SCORES * count as f64) as usize;
+        new.extend(covered.climb_from_flanks(density, (&points, &logs), (scored, rng.random()), WIDEST * spread));
         if new.is_empty() {
             break;
         }
@@ -214,10 +221,50 @@ impl<const D: usize> Covered<D> {
     ) -> Vec<Summit<D>> {
         let surprises = self.surprises(points, logs);
         let is_foreign = |index: usize| surprises[index] < FOREIGN.ln();
-        let mut found = Vec::new();
-        let mut idle = 0;
-        for start in peaks(points, logs, whitener, is_foreign) {
-            let reached = ascend(density, &points[start], |_, _| false);
+        let starts = peaks(points, logs, whitener, is_foreign);
+        self.climb(
+            density,
+            starts.iter().map(|&start| &points[start]),
+            IDLE_FROM_PEAKS,
+            widest,
+        )
+    }
+
+    /// Sends scouts from where the score points to none of the kernels, and covers what they find: another piece outweighs their tails there, however low its own is. One score tells what a way
+    /// uphill takes several of. Asked are `most` scores, half of them at foreign points that were drawn, the others in rings about the kernels.
+    fn climb_from_flanks(
+        &mut self,
+        density: &mut Density<'_, D>,
+        (points, logs): (&[[f64; D]], &[f64]),
+        (most, seed): (usize, u64),
+        widest: f64,
+    ) -> Vec<Summit<D>> {
+        let surprises = self.surprises(points, logs);
+        let is_foreign = |&index: &usize| logs[index].is_finite() && surprises[index] < FOREIGN.ln();
+        let foreign = (0..points.len()).filter(is_foreign).take(most / 2);
+        let mut places: Vec<[f64; D]> = foreign.map(|index| points[index]).collect();
+        places.extend(rings(&self.mixture, most - places.len(), seed));
+        let scores = density.scores(&places);
+        let starts = flanks(&self.kernels, &places, &scores);
+        self.climb(
+            density,
+            starts.iter().map(|&start| &places[start]),
+            IDLE_FROM_FLANKS,
+            widest,
+        )
+    }
+
+    /// Sends scouts until so many have found nothing new, and covers what they find.
+    fn climb<'a>(
+        &mut self,
+        density: &mut Density<'_, D>,
+        starts: impl Iterator<Item = &'a [f64; D]>,
+        most_idle: usize,
+        widest: f64,
+    ) -> Vec<Summit<D>> {
+        let (mut found, mut idle) = (Vec::new(), 0);
+        for start in starts {
+            let reached = ascend(density, start, |_, _| false);
             match reached.and_then(|summit| self.cover(density, summit, widest)) {
                 Some(summit) => {
                     found.push(summit);
@@ -225,7 +272,7 @@ impl<const D: usize> Covered<D> {
                 }
                 None => idle += 1,
             }
-            if idle == IDLE_FROM_PEAKS {
+            if idle == most_idle {
                 break;
             }
         }
