@@ -212,5 +212,9 @@ mod tests {
         );
         let shares = measure.shares(&[[0.4, 0.0], [0.6, 1e-3]]);
         assert!((shares[0] - 0.4).abs() < 1e-15, "{shares:?}");
+        assert_eq!(
+            Measure::new(vec![[1.0]; 3], vec![0.0; 2]).shares(&[[0.0], [1.0]]),
+            [0.5, 0.5]
+        );
     }
 }

@@ -42,7 +42,7 @@ const WIDEST: f64 = 0.5;
 /// Scouts end after so many that found nothing new: from surprises, from peaks, and from flanks.
 const IDLE: usize = 24;
 const IDLE_FROM_PEAKS: usize = 8;
-const IDLE_FROM_FLANKS: usize = 16;
+const IDLE_FROM_FLANKS: usize = 8;
 
 /// Places at which scores are asked where they point to, over the points drawn at a time.
 const OF_SCORES: f64 = 0.5;
@@ -254,7 +254,7 @@ impl<const D: usize> Covered<D> {
         )
     }
 
-    /// Sends scouts until so many have found nothing new, and covers what they find.
+    /// Sends scouts, as far as the way uphill does not meet what is covered, until so many have found nothing new, and covers what they find.
     fn climb<'a>(
         &mut self,
         density: &mut Density<'_, D>,
@@ -264,7 +264,10 @@ impl<const D: usize> Covered<D> {
     ) -> Vec<Summit<D>> {
         let (mut found, mut idle) = (Vec::new(), 0);
         for start in starts {
-            let reached = ascend(density, start, |_, _| false);
+            let is_known = |place: &[f64; D], log: f64| {
+                (FOREIGN.ln()..SURPRISING.ln()).contains(&self.surprises(&[*place], &[log])[0])
+            };
+            let reached = ascend(density, start, is_known);
             match reached.and_then(|summit| self.cover(density, summit, widest)) {
                 Some(summit) => {
                     found.push(summit);

@@ -47,6 +47,25 @@ fn a_particle_without_a_score_is_pulled_back() {
     assert!(mean.abs() < 0.02, "{mean}");
 }
 
+/// Without mass anywhere, and as good a score as any.
+struct Nowhere;
+
+impl Target<2> for Nowhere {
+    fn log_density(&self, _: &[f64; 2]) -> f64 {
+        f64::NEG_INFINITY
+    }
+
+    fn score(&self, _: &[f64; 2]) -> [f64; 2] {
+        [0.0; 2]
+    }
+}
+
+#[test]
+fn where_neither_survey_nor_body_find_mass_there_are_no_particles() {
+    let error = sample(&MpmOptions::default(), &Nowhere, &Run::new(100, 1)).expect_err("nothing");
+    assert!(error.to_string().contains("log p was -inf"), "{error}");
+}
+
 #[test]
 fn a_particle_without_a_score_is_reported_where_that_is_asked_for() {
     let options = MpmOptions {
