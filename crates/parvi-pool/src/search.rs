@@ -177,6 +177,15 @@ impl<const D: usize> Covered<D> {
         pairs.map(|(log, q)| log - expected(q)).collect()
     }
 
+    /// Which points of finite density are not of what is covered.
+    fn foreign(&self, points: &[[f64; D]], logs: &[f64]) -> Vec<bool> {
+        let surprises = self.surprises(points, logs);
+        let pairs = surprises.iter().zip(logs);
+        pairs
+            .map(|(surprise, log)| log.is_finite() && *surprise < FOREIGN.ln())
+            .collect()
+    }
+
     /// Sends scouts from the most surprising points, and covers what they find.
     fn climb_from_surprises(
         &mut self,
@@ -219,9 +228,8 @@ impl<const D: usize> Covered<D> {
         whitener: &Matrix<D>,
         widest: f64,
     ) -> Vec<Summit<D>> {
-        let surprises = self.surprises(points, logs);
-        let is_foreign = |index: usize| surprises[index] < FOREIGN.ln();
-        let starts = peaks(points, logs, whitener, is_foreign);
+        let foreign = self.foreign(points, logs);
+        let starts = peaks(points, logs, whitener, |index| foreign[index]);
         self.climb(
             density,
             starts.iter().map(|&start| &points[start]),
@@ -239,10 +247,9 @@ impl<const D: usize> Covered<D> {
         (most, seed): (usize, u64),
         widest: f64,
     ) -> Vec<Summit<D>> {
-        let surprises = self.surprises(points, logs);
-        let is_foreign = |&index: &usize| logs[index].is_finite() && surprises[index] < FOREIGN.ln();
-        let foreign = (0..points.len()).filter(is_foreign).take(most / 2);
-        let mut places: Vec<[f64; D]> = foreign.map(|index| points[index]).collect();
+        let foreign = self.foreign(points, logs);
+        let drawn = points.iter().zip(foreign).filter(|(_, is_foreign)| *is_foreign);
+        let mut places: Vec<[f64; D]> = drawn.take(most / 2).map(|(x, _)| *x).collect();
         places.extend(rings(&self.mixture, most - places.len(), seed));
         let scores = density.scores(&places);
         let starts = flanks(&self.kernels, &places, &scores);

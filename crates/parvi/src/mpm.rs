@@ -1,7 +1,6 @@
 //! The calibrated sampler.
 
 use parvi_pool::PoolError;
-use parvi_targets::Target;
 
 use crate::cached_scores::CachedScores;
 use crate::checkpoint::Journal;
@@ -46,18 +45,14 @@ pub(crate) fn sample<const D: usize>(options: &MpmOptions, mut task: Task<'_, D>
             let task = task.of(&cached);
             free_body::sample(options, task, Some(&cached), &mut journal)
         }
-        None => match (free_body::sample(options, task, None, &mut journal), nowhere) {
-            // Where no density is finite, a score that is none is no news, and neither has the body found one.
-            (Err(SampleError::ScoreNotFinite { .. }), Some(nowhere)) => Err(nowhere.into()),
-            (Ok(samples), Some(nowhere)) if !reaches_mass(target, &samples) => Err(nowhere.into()),
-            (sampled, _) => sampled,
-        },
+        None => {
+            let has_mass = |x: &[f64; D]| target.log_density(x).is_finite();
+            match (free_body::sample(options, task, None, &mut journal), nowhere) {
+                // Where no density is finite, a score that is none is no news, and neither has the body found one.
+                (Err(SampleError::ScoreNotFinite { .. }), Some(nowhere)) => Err(nowhere.into()),
+                (Ok(samples), Some(nowhere)) if !samples.positions.iter().any(has_mass) => Err(nowhere.into()),
+                (sampled, _) => sampled,
+            }
+        }
     }
-}
-
-/// Whether the log density is finite at a particle.
-fn reaches_mass<const D: usize>(target: &dyn Target<D>, samples: &Samples<D>) -> bool {
-    let mut values = vec![f64::NAN; samples.positions.len()];
-    target.log_densities(&samples.positions, &mut values);
-    values.iter().any(|value| value.is_finite())
 }
