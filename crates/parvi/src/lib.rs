@@ -29,6 +29,7 @@ mod point_set_error;
 mod polish;
 mod rotation;
 mod run;
+mod score_check;
 mod score_grid;
 mod smc;
 mod start;

@@ -10,6 +10,7 @@ use rand::RngExt;
 use crate::certificate::Certificate;
 use crate::checkpoint::Journal;
 use crate::polish::{Polish, Polished};
+use crate::score_check::ScoreCheck;
 use crate::start::Stream;
 use crate::task::Task;
 use crate::{MpmOptions, Progress, SampleError, Samples, Start, defaults};
@@ -49,6 +50,13 @@ fn condensed<const D: usize>(
     journal: &mut Journal,
     pool: Pool<D>,
 ) -> Result<Samples<D>, SampleError> {
+    let check = ScoreCheck::of(task.target, &pool, &mut task.run.generator(Stream::Survey.of_body(1)));
+    // What is no gradient moves nothing.
+    let still = MpmOptions {
+        rounds: Some(0),
+        ..options.clone()
+    };
+    let options = if check.error.is_some() { &still } else { options };
     let polish = Polish::new(options, task.target, &pool, task.run)?;
     let Polished {
         best,
@@ -59,12 +67,12 @@ fn condensed<const D: usize>(
     let mut samples = best.samples;
     samples.relative_energy_distance = (!options.weighted).then(|| polish.relative_distance(&samples.positions));
     samples.steps = steps;
-    samples.score_evaluations = spent + pool.score_evaluations;
-    samples.density_evaluations = densities + pool.density_evaluations;
+    samples.score_evaluations = spent + pool.score_evaluations + check.scores;
+    samples.density_evaluations = densities + pool.density_evaluations + check.densities;
     samples.weights = options.weighted.then(|| pool.measure.shares(&samples.positions));
     samples.certificate = options
         .certificate
-        .then(|| Certificate::of_pool(&pool, &samples, best.drift, best.kinetic_energy));
+        .then(|| Certificate::of_pool(&pool, check.error, &samples, best.drift, best.kinetic_energy));
     samples.log_evidence = Some(pool.log_evidence);
     samples.log_evidence_error = Some(pool.log_evidence_error);
     samples.pareto_k = pool.verdict.pareto_k;

@@ -114,9 +114,9 @@ pub struct EstimatedMoment {
 }
 
 impl MomentEstimate {
-    /// |m̂ − m| in standard deviations, infinite where that is no number.
+    /// |m̂ − m| in estimated standard deviations σ̂, infinite where that is no number.
     pub fn mean_error(&self) -> f64 {
-        known((self.mean.estimate - self.mean.value).abs() / self.standard_deviation.value)
+        known((self.mean.estimate - self.mean.value).abs() / self.standard_deviation.estimate)
     }
 
     /// The larger of what is unexplained of the coordinate and of its square.

@@ -7,15 +7,16 @@ use crate::Samples;
 use crate::extent::Extent;
 
 impl Certificate {
-    /// The verdict of the pool on particles that were condensed from it.
+    /// The verdict of the pool on particles that were condensed from it; of its scores it is known by how much they are no gradients.
     pub(crate) fn of_pool<const D: usize>(
         pool: &Pool<D>,
+        error_of_scores: Option<f64>,
         samples: &Samples<D>,
         drift: f64,
         kinetic_energy: f64,
     ) -> Self {
         let moments = moments(pool, samples);
-        let doubt = match pool.objection(samples.positions.len()) {
+        let doubt_of_pool = || match pool.objection(samples.positions.len()) {
             Some(Objection::HeavyTail(pareto_k)) => Some(Doubt::HeavyTail { pareto_k }),
             Some(Objection::Evidence(error)) => Some(Doubt::Evidence { error }),
             Some(Objection::Noise(variance)) => Some(Doubt::Noise { variance }),
@@ -25,6 +26,9 @@ impl Certificate {
             // Two standard errors of the pool.
             None => doubt_of_moments(&moments, 2.0 / (samples.positions.len() as f64).sqrt()),
         };
+        let doubt = error_of_scores
+            .map(|error| Doubt::Score { error })
+            .or_else(doubt_of_pool);
         Self {
             outcome: doubt.map_or(Outcome::Converged, Outcome::Stalled),
             moments,
@@ -49,13 +53,13 @@ fn moments<const D: usize>(pool: &Pool<D>, samples: &Samples<D>) -> Vec<MomentEs
                 value: own.mean[a],
                 estimate: mean.value,
                 standard_error: (own.mean[a] - mean.value).hypot(mean.standard_error),
-                unexplained: rate * mean.standard_error / own.deviation[a],
+                unexplained: rate * mean.standard_error / deviation,
             },
             standard_deviation: EstimatedMoment {
                 value: own.deviation[a],
                 estimate: deviation,
                 standard_error: (own.deviation[a] - deviation).hypot(deviation_error),
-                unexplained: rate * deviation_error / own.deviation[a],
+                unexplained: rate * deviation_error / deviation,
             },
         }
     };

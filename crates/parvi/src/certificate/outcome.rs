@@ -40,6 +40,11 @@ pub enum Doubt {
         /// Standard deviation of what is left, in units of what would be seen.
         share: f64,
     },
+    /// The score is not the gradient of the log density, by differences of this; only searches have followed it.
+    Score {
+        /// By how much, over its size.
+        error: f64,
+    },
     /// The residual is above that of independent draws.
     Residual {
         /// Residual over that of independent draws.
@@ -136,6 +141,11 @@ impl fmt::Display for Doubt {
             Self::Unexplained { axis, share } => write!(
                 f,
                 "the scores cannot vouch for the mean and spread of x{axis}: a share of {share:.2} is unexplained"
+            ),
+            Self::Score { error } => write!(
+                f,
+                "the score is not the gradient of log p: differences of log p say that it is {:.0} % off",
+                100.0 * error
             ),
             Self::Residual { ratio } => write!(f, "the residual is {ratio:.2} of that of independent draws"),
             Self::HeavyTail { pareto_k } => write!(

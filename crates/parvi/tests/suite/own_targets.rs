@@ -132,3 +132,54 @@ fn minibatches_of_a_large_regression_give_its_posterior() {
         assert_eq!(positions, samples.positions);
     }
 }
+
+/// A density with a score that need not be its gradient.
+struct Own<L, S>(L, S);
+
+impl<L: Fn(&[f64; 2]) -> f64 + Sync, S: Fn(&[f64; 2]) -> [f64; 2] + Sync> Target<2> for Own<L, S> {
+    fn log_density(&self, x: &[f64; 2]) -> f64 {
+        (self.0)(x)
+    }
+
+    fn score(&self, x: &[f64; 2]) -> [f64; 2] {
+        (self.1)(x)
+    }
+}
+
+/// What is said of particles from this target.
+fn reason<L: Fn(&[f64; 2]) -> f64 + Sync, S: Fn(&[f64; 2]) -> [f64; 2] + Sync>(log_density: L, score: S) -> String {
+    let samples = sample(&Own(log_density, score), &Frame::identity(), 500);
+    // Log p alone is enough.
+    let (mean, sd) = moments(&samples.positions);
+    assert!(mean.iter().all(|m| m.abs() < 0.05), "{mean:?}");
+    assert!(sd.iter().all(|s| (s - sd[0]).abs() < 0.05), "{sd:?}");
+    let outcome = samples.certificate.expect("a certificate").outcome;
+    outcome.reason().unwrap_or_default()
+}
+
+#[test]
+fn a_score_that_is_not_the_gradient_is_told() {
+    let normal = |x: &[f64; 2]| -0.5 * vector::norm_squared(x);
+    let error = "the score is not the gradient of log p";
+    for (wrong, factors) in [("sign", [1.0, 1.0]), ("twice", [-2.0, -2.0]), ("an axis", [-1.0, 0.0])] {
+        let said = reason(normal, |x| [factors[0] * x[0], factors[1] * x[1]]);
+        assert!(said.starts_with(error), "{wrong}: {said}");
+    }
+}
+
+#[test]
+fn a_score_that_is_the_gradient_is_not_doubted() {
+    let signs = |x: &[f64; 2]| x.map(|c| -c.signum());
+    // Kinks; a flat top with edges; a log density in single precision.
+    assert_eq!(reason(|x| -x[0].abs() - x[1].abs(), signs), "");
+    let inside = |x: &[f64; 2]| {
+        if vector::maximum_norm(x) < 1.0 {
+            0.0
+        } else {
+            f64::NEG_INFINITY
+        }
+    };
+    assert_eq!(reason(inside, |_| [0.0; 2]), "");
+    let single = |x: &[f64; 2]| f64::from((-0.5 * vector::norm_squared(x) + 1e3) as f32);
+    assert_eq!(reason(single, |x| x.map(|c| -c)), "");
+}

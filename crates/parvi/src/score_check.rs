@@ -1,0 +1,104 @@
+//! Whether the score is the gradient of log p, at a few points of a pool.
+
+use mpm_tensor::vector;
+use parvi_pool::Pool;
+use parvi_targets::{Target, normal_quantile};
+use rand::RngExt;
+use rand::rngs::ChaCha8Rng;
+
+/// Points that are looked at, in one direction each.
+const POINTS: usize = 8;
+
+/// Steps of central differences, in standard deviations of the pool: where log p bends sharply short ones are right, and where it is rounded long ones.
+const STEPS: [f64; 3] = [1e-2, 1e-4, 1e-6];
+
+/// Largest error of a score that passes, and of differences of two steps that know the slope, over the slope.
+const LARGEST: f64 = 0.05;
+const LARGEST_OF_DIFFERENCES: f64 = 0.02;
+
+/// What a check has found, and what it took.
+pub(crate) struct ScoreCheck {
+    /// By how much the score is not the gradient, over its size, where that is more than a twentieth.
+    pub error: Option<f64>,
+    /// Evaluations of the log density and of the score.
+    pub densities: u64,
+    pub scores: u64,
+}
+
+impl ScoreCheck {
+    /// Compares the score s with central differences of log p at points drawn from the pool, each along a random direction v; the error is the median of |difference − s·v| over that of
+    /// |difference|, for the step at which it is least.
+    ///
+    /// No error is found where no two differences agree, where log p is finite about fewer than half of the points, or where scores are estimates, which another call changes.
+    pub fn of<const D: usize>(target: &dyn Target<D>, pool: &Pool<D>, rng: &mut ChaCha8Rng) -> Self {
+        let factor = *pool.measure.frame().factor();
+        let points = drawn(pool, rng.random());
+        let direction = |_: &[f64; D]| {
+            let z = std::array::from_fn(|_| normal_quantile(rng.random_range(1e-9..1.0)));
+            factor.apply(&vector::scale(&z, 1.0 / vector::norm(&z).max(f64::MIN_POSITIVE)))
+        };
+        let directions: Vec<[f64; D]> = points.iter().map(direction).collect();
+        let [scores, again] = [(), ()].map(|()| {
+            let mut scores = vec![[0.0; D]; points.len()];
+            target.scores(&points, &mut scores);
+            scores
+        });
+        let differences = STEPS.map(|step| differences(target, &points, &directions, step));
+        let is_finite = |&index: &usize| differences.iter().all(|of_step| of_step[index].is_finite());
+        let finite: Vec<usize> = (0..points.len()).filter(is_finite).collect();
+        let slopes: Vec<f64> = scores.iter().zip(&directions).map(|(s, v)| vector::dot(s, v)).collect();
+        let is_known = scores == again && 2 * finite.len() > points.len();
+        Self {
+            error: is_known.then(|| error(&slopes, &differences, &finite)).flatten(),
+            densities: 2 * (STEPS.len() * points.len()) as u64,
+            scores: 2 * points.len() as u64,
+        }
+    }
+}
+
+/// The error of slopes beside differences of several steps, at these points; `None` where they pass, or where the differences know no better.
+fn error(slopes: &[f64], differences: &[Vec<f64>], points: &[usize]) -> Option<f64> {
+    let apart = |a: &[f64], b: &[f64]| median(points.iter().map(|&index| (a[index] - b[index]).abs()));
+    let size = |a: &[f64]| median(points.iter().map(|&index| a[index].abs())).max(f64::MIN_POSITIVE);
+    let errors = differences.iter().map(|of_step| apart(of_step, slopes) / size(of_step));
+    let least = errors.fold(f64::INFINITY, f64::min);
+    let agree = |[one, next]: &[Vec<f64>; 2]| apart(one, next) <= LARGEST_OF_DIFFERENCES * size(one);
+    (least > LARGEST && differences.array_windows().any(agree)).then_some(least)
+}
+
+/// Points of equal shares of the weights.
+fn drawn<const D: usize>(pool: &Pool<D>, offset: f64) -> Vec<[f64; D]> {
+    let mut sum = 0.0;
+    let mut points = Vec::with_capacity(POINTS);
+    for (x, weight) in pool.positions.iter().zip(&pool.weights) {
+        sum += weight;
+        while points.len() < POINTS && sum * POINTS as f64 > points.len() as f64 + offset {
+            points.push(*x);
+        }
+    }
+    points
+}
+
+/// (log p(x + h v) − log p(x − h v)) / 2h.
+fn differences<const D: usize>(
+    target: &dyn Target<D>,
+    points: &[[f64; D]],
+    directions: &[[f64; D]],
+    step: f64,
+) -> Vec<f64> {
+    let [above, below] = [step, -step].map(|step| {
+        let moved = points.iter().zip(directions);
+        let moved: Vec<[f64; D]> = moved.map(|(x, v)| vector::add_scaled(x, step, v)).collect();
+        let mut values = vec![0.0; moved.len()];
+        target.log_densities(&moved, &mut values);
+        values
+    });
+    above.iter().zip(&below).map(|(a, b)| (a - b) / (2.0 * step)).collect()
+}
+
+/// The middle one of some numbers; NaN is the largest.
+fn median(numbers: impl Iterator<Item = f64>) -> f64 {
+    let mut numbers: Vec<f64> = numbers.collect();
+    numbers.sort_unstable_by(f64::total_cmp);
+    numbers.get(numbers.len() / 2).copied().unwrap_or(0.0)
+}
