@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod claim;
+mod offender;
 
 use std::path::{Path, PathBuf};
 
@@ -51,7 +52,10 @@ pub fn parse<T: DeserializeOwned>(text: &str, file: &Path) -> Result<T, Document
         let span = error.span().filter(|span| span.end > 0);
         DocumentError {
             file: file.to_owned(),
-            place: span.map(|span| Place::at(text, span.start)),
+            place: span.map(|span| {
+                let byte = offender::offender::<T>(text, &span).unwrap_or(span.start);
+                Place::at(text, byte)
+            }),
             message: in_words(&message),
         }
     })
@@ -175,8 +179,19 @@ mod tests {
 
     #[derive(Debug, Deserialize)]
     #[serde(tag = "kind", rename_all = "kebab-case")]
+    #[expect(dead_code, reason = "only read")]
     enum Shape {
         Ball,
+        Disk(Disk),
+        Hull { of: Vec<Shape> },
+    }
+
+    #[derive(Debug, Deserialize)]
+    #[serde(deny_unknown_fields)]
+    #[expect(dead_code, reason = "only read")]
+    struct Disk {
+        centre: Vec<f64>,
+        radius: f64,
     }
 
     fn message(text: &str) -> String {
@@ -220,6 +235,44 @@ mod tests {
             "{shape}"
         );
         assert!(parse::<Example>("title = \"a\"\nshapes = [{ kind = \"ball\" }]", Path::new("")).is_ok());
+    }
+
+    /// Tables with a tag are read as a whole, and their errors alone would be at the header.
+    #[test]
+    fn mistakes_in_tables_with_a_tag_are_reported_where_they_are() {
+        let disk = "title = \"a\"\n[[shapes]]\nkind = \"disk\"\ncentre = [1.0,\n 2]\nradius = 1\n";
+        for (from, to, line, column) in [
+            ("radius = 1", "radius = \"1 m\"", 6, 10),
+            ("radius = 1", "radius = 1\nsize = 3", 7, 1),
+            (" 2]", " \"2 m\"]", 5, 2),
+            ("[1.0,\n 2]", "3", 4, 10),
+            ("\"disk\"", "\"disc\"", 3, 8),
+            ("\"disk\"", "3", 3, 8),
+            ("radius = 1", "", 2, 1),
+            (
+                "radius = 1",
+                "radius = \"1 m\"\n[[shapes]]\nkind = \"disk\"\nradius = \"1 m\"",
+                6,
+                10,
+            ),
+            (
+                "radius = 1",
+                "radius = 1\n[[shapes]]\nkind = \"hull\"\nof = [\n{ kind = \"ball\" },\n{ kind = \"disk\", radius = true } ]",
+                11,
+                27,
+            ),
+        ] {
+            assert!(disk.contains(from), "{from}");
+            let text = disk.replacen(from, to, 1);
+            let error = parse::<Example>(&text, Path::new("a.toml")).expect_err("refused");
+            let place = error.place.as_ref().map(|place| (place.line, place.column));
+            assert_eq!(place, Some((line, column)), "{error}");
+        }
+        let error = message(&disk.replace("radius = 1", "radius = \"1 m\""));
+        assert_eq!(
+            error,
+            "a.toml, line 6, column 10: invalid type: string \"1 m\", expected f64 (in `radius = \"1 m\"` of [shapes])"
+        );
     }
 
     #[test]
