@@ -126,6 +126,16 @@ pub enum TargetError {
         /// The file.
         file: String,
     },
+    /// The first line holds nothing but numbers: data, not names.
+    #[error(
+        "{file}, line {line}: only numbers, where a header is expected: the names of the columns, that of the response first"
+    )]
+    DataHeaderMissing {
+        /// The file.
+        file: String,
+        /// The line, counted from 1.
+        line: u64,
+    },
     /// A column of the header has no name.
     #[error("{file}, line {line}: column {column} of the header is empty")]
     DataHeaderEmpty {

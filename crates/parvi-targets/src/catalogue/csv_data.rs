@@ -68,11 +68,14 @@ fn line_of(record: &StringRecord) -> u64 {
     record.position().map_or(1, csv::Position::line)
 }
 
-/// The names of the header: at least one, none empty, none twice, not more than there are dimensions.
+/// The names of the header: at least one, not all numbers, none empty, none twice, not more than there are dimensions.
 fn column_names(header: &StringRecord, source: &str) -> Result<Vec<String>, TargetError> {
     let (file, line) = (source.to_owned(), line_of(header));
     if header.is_empty() {
         return Err(TargetError::DataEmpty { file });
+    }
+    if header.iter().all(|name| name.parse::<f64>().is_ok()) {
+        return Err(TargetError::DataHeaderMissing { file, line });
     }
     let mut names: Vec<String> = Vec::with_capacity(header.len());
     for (index, name) in header.iter().enumerate() {

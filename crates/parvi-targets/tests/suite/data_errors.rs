@@ -56,6 +56,18 @@ fn bad_cells_are_named() {
     );
 }
 
+/// Else the first row of data would be taken for names, and be lost.
+#[test]
+fn a_file_without_a_header_is_refused() {
+    let expected = "some.csv, line 1: only numbers, where a header is expected: the names of the columns, that of the response first";
+    for text in ["1,2.5,-3e1\n0,1,2\n", "1,1\n0,2\n", "1\n0\n"] {
+        assert_eq!(message(text), expected);
+        let counts = CountData::from_csv_reader(text.as_bytes(), "some.csv");
+        assert_eq!(counts.unwrap_err().to_string(), expected);
+    }
+    assert_eq!(read("y,1\n1,2\n").unwrap().names(), ["intercept", "1"]);
+}
+
 #[test]
 fn bad_shapes_are_named() {
     assert_eq!(message("y,age\n"), "some.csv has no rows of data");
