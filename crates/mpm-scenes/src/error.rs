@@ -107,11 +107,18 @@ pub enum SceneFault {
         /// Its normal into the domain.
         normal: Vec<f64>,
     },
+    /// A background too many.
+    #[error("[grid] and [mesh]: must be one of the two, not both")]
+    TwoBackgrounds,
     /// The Courant condition asks for so short a step that the end is out of reach.
     #[error(
-        "time.end = {end}: the Courant condition allows steps of {step:e} at the start, 1e9 of which do not reach it"
+        "bodies.{body} has the {cause}, with which the Courant condition allows steps of {step:e} at the start; 1e9 of them do not reach time.end = {end}"
     )]
     TooManySteps {
+        /// The body that asks for it.
+        body: String,
+        /// What of it does: its speed, or that of its waves.
+        cause: StepLimit,
         /// The longest step allowed.
         step: f64,
         /// `time.end`.
@@ -127,6 +134,27 @@ pub enum SceneFault {
         /// `time.courant`.
         courant: f64,
     },
+}
+
+/// What makes the time step of a body short.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum StepLimit {
+    /// Its velocity, of this size.
+    Speed(f64),
+    /// Its stiffness over its density: the speed of its waves.
+    WaveSpeed(f64),
+    /// Its viscosity over its density.
+    Viscosity,
+}
+
+impl std::fmt::Display for StepLimit {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Speed(speed) => write!(f, "speed {speed:e}"),
+            Self::WaveSpeed(speed) => write!(f, "wave speed {speed:e}, by its stiffness and density"),
+            Self::Viscosity => f.write_str("highest viscosity over density"),
+        }
+    }
 }
 
 impl SceneFault {

@@ -25,7 +25,7 @@ mod values;
 pub mod variation;
 mod velocity;
 
-pub use error::{SceneError, SceneFault};
+pub use error::{SceneError, SceneFault, StepLimit};
 pub use held::HeldRegion;
 pub use kinematics::{KinematicRegion, Kinematics, RigidMotion};
 pub use law::{LawState, Laws};

@@ -67,6 +67,12 @@ impl<const D: usize> Population<D> {
         Ok(all)
     }
 
+    /// The name of the body of a particle.
+    pub(crate) fn body(&self, scene: &Scene, particle: usize) -> Option<String> {
+        let number = *self.bodies.get(particle)? as usize;
+        Some(scene.bodies.get(number)?.name.clone())
+    }
+
     fn add(&mut self, scene: &Scene, number: usize, filling: &Filling<D>) -> Result<(), SceneFault> {
         let Some(body) = scene.bodies.get(number) else {
             return Ok(());

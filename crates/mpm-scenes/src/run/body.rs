@@ -1,6 +1,8 @@
 //! A body on its way through a scene: its steps, and the times that they hit.
 
 use mpm_core::{MpmError, StepControl};
+use mpm_materials::Law;
+use mpm_tensor::vector;
 
 use super::SimulationError;
 use super::boundary::{self, MovingObstacles};
@@ -11,8 +13,8 @@ use super::probe::Probe;
 use super::schedule::{SAME, Schedule};
 use crate::background::Background;
 use crate::population::Population;
-use crate::scene::MOST_STEPS;
-use crate::{Kinematics, Scene, SceneFault};
+use crate::scene::{BodyTable, MOST_STEPS, MaterialTable};
+use crate::{Kinematics, Scene, SceneFault, StepLimit};
 
 /// The bodies of a scene and the clock of their run.
 pub(super) struct Body<'a, const D: usize> {
@@ -45,7 +47,7 @@ impl<'a, const D: usize> Body<'a, D> {
         let (boundaries, moving) = boundary::build::<D>(scene, &background).map_err(refused)?;
         let kinematics = Kinematics::of(scene, &start).map_err(refused)?;
         let mut motion = dispatch::build(scene, &start, background, boundaries).map_err(refused)?;
-        check_step(scene, &*motion)?;
+        check_step(scene, &*motion, &start)?;
         let (end, output) = (scene.time.end, &scene.output);
         let budget = output.energy_budget.then(|| Budget::begin(&mut *motion));
         Ok(Self {
@@ -68,11 +70,15 @@ impl<'a, const D: usize> Body<'a, D> {
         let time = self.motion.time();
         let step = self.step + 1;
         let longest = self.motion.loads().longest_step(self.motion.particles());
-        let longest = longest.map_err(|penetration| SimulationError::Penetration {
-            step,
-            time,
-            particle: self.motion.particles().identity(penetration.index),
-            distance: penetration.distance,
+        let longest = longest.map_err(|penetration| {
+            let particle = self.motion.particles().identity(penetration.index);
+            SimulationError::Penetration {
+                step,
+                time,
+                particle,
+                body: self.start.body(self.scene, particle),
+                distance: penetration.distance,
+            }
         })?;
         let events = [self.frames, self.rows, self.checkpoints].map(|schedule| schedule.time(schedule.next(time)));
         let event = events.into_iter().fold(self.scene.time.end, f64::min);
@@ -102,7 +108,9 @@ impl<'a, const D: usize> Body<'a, D> {
             Some(budget) => budget.over_step(&mut *self.motion, one),
             None => one(&mut *self.motion),
         };
-        done.map_err(|source| SimulationError::step(step, time, source))?;
+        done.map_err(|source| {
+            SimulationError::step(step, time, source, |particle| self.start.body(self.scene, particle))
+        })?;
         if taken < cut {
             self.free_step = taken;
         }
@@ -120,9 +128,13 @@ impl<'a, const D: usize> Body<'a, D> {
 }
 
 /// Whether the time step that a scene asks for is one that the Courant condition allows at the start, and the end one that allowed steps reach.
-fn check_step<const D: usize>(scene: &Scene, motion: &dyn Motion<D>) -> Result<(), SimulationError> {
+fn check_step<const D: usize>(
+    scene: &Scene,
+    motion: &dyn Motion<D>,
+    start: &Population<D>,
+) -> Result<(), SimulationError> {
     let courant = scene.time.courant;
-    let failed = |source: MpmError| SimulationError::step(1, 0.0, source);
+    let failed = |source: MpmError| SimulationError::step(1, 0.0, source, |particle| start.body(scene, particle));
     let wave_speed = motion.wave_speed().map_err(failed)?;
     let speed = motion.particles().largest_speed();
     let limit = courant * motion.spacing() / (wave_speed + speed);
@@ -133,7 +145,57 @@ fn check_step<const D: usize>(scene: &Scene, motion: &dyn Motion<D>) -> Result<(
             let fault = SceneFault::TimeStep { step, limit, courant };
             Err(scene.error(fault).into())
         }
-        _ if end > MOST_STEPS * free => Err(scene.error(SceneFault::TooManySteps { step: free, end }).into()),
+        _ if end > MOST_STEPS * free => {
+            let (cause, body) = step_limit(scene, motion, start, free < limit);
+            let fault = SceneFault::TooManySteps {
+                body: body.unwrap_or_default(),
+                cause,
+                step: free,
+                end,
+            };
+            Err(scene.error(fault).into())
+        }
         _ => Ok(()),
     }
+}
+
+/// What makes the time step at the start short, and the body of which it does.
+#[expect(non_snake_case, reason = "F is what the field writes")]
+fn step_limit<const D: usize>(
+    scene: &Scene,
+    motion: &dyn Motion<D>,
+    start: &Population<D>,
+    viscous: bool,
+) -> (StepLimit, Option<String>) {
+    if viscous {
+        let viscosity = |body: &&BodyTable| match scene.materials.get(&body.material) {
+            Some(MaterialTable::TaitFluid(fluid)) => fluid.viscosity / fluid.density,
+            _ => 0.0,
+        };
+        let body = scene.bodies.iter().max_by(|a, b| viscosity(a).total_cmp(&viscosity(b)));
+        return (StepLimit::Viscosity, body.map(|body| body.name.clone()));
+    }
+    let (particles, laws) = (motion.particles(), motion.laws());
+    let densities = start
+        .masses
+        .iter()
+        .zip(&start.volumes)
+        .map(|(mass, volume)| mass / volume);
+    let densities: Vec<f64> = densities.collect();
+    let wave_speed = |index: usize| {
+        let (F, state) = (&particles.deformation_gradients[index], &particles.states[index]);
+        laws.wave_speed(F, state, densities[particles.identity(index)])
+    };
+    let speed = |index: usize| vector::norm(&particles.velocities[index]);
+    let largest = |of: &dyn Fn(usize) -> f64| {
+        let all = (0..particles.len()).map(|index| (of(index), index));
+        let largest = all.max_by(|a, b| a.0.total_cmp(&b.0));
+        largest.map_or((0.0, 0), |(value, index)| (value, particles.identity(index)))
+    };
+    let (by_speed, by_waves) = (largest(&speed), largest(&wave_speed));
+    let (cause, particle) = match by_speed.0 > by_waves.0 {
+        true => (StepLimit::Speed(by_speed.0), by_speed.1),
+        false => (StepLimit::WaveSpeed(by_waves.0), by_waves.1),
+    };
+    (cause, start.body(scene, particle))
 }

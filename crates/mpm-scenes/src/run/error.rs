@@ -28,7 +28,7 @@ pub enum SimulationError {
         reason: String,
     },
     /// The mechanics refused a step, for example because a particle was turned inside out or left the domain.
-    #[error("step {step} at t = {time}: {source}")]
+    #[error("step {step} at t = {time}: {}{source}", of_body(body.as_ref()))]
     Step {
         /// Number of the step that failed, counted from 1.
         step: u64,
@@ -36,12 +36,15 @@ pub enum SimulationError {
         time: f64,
         /// The particle at fault in the order of creation, where there is one.
         particle: Option<usize>,
+        /// The name of its body.
+        body: Option<String>,
         /// What the mechanics say.
         source: MpmError,
     },
     /// A particle has passed the surface of a rigid shape that a barrier should keep it from.
     #[error(
-        "step {step} at t = {time}: particle {particle} is at distance {distance} from a rigid shape of the barrier"
+        "step {step} at t = {time}: {}particle {particle} is at distance {distance} from a rigid shape of the barrier",
+        of_body(body.as_ref())
     )]
     Penetration {
         /// Number of the step that failed, counted from 1.
@@ -50,6 +53,8 @@ pub enum SimulationError {
         time: f64,
         /// The particle in the order of creation.
         particle: usize,
+        /// The name of its body.
+        body: Option<String>,
         /// Its distance, ≤ 0.
         distance: f64,
     },
@@ -63,12 +68,14 @@ impl SimulationError {
         }
     }
 
-    pub(super) fn step(step: u64, time: f64, source: MpmError) -> Self {
+    /// What the mechanics say of a step; `body_of` names the body of a particle.
+    pub(super) fn step(step: u64, time: f64, source: MpmError, body_of: impl Fn(usize) -> Option<String>) -> Self {
         if let MpmError::Penetration { particle, distance } = source {
             return Self::Penetration {
                 step,
                 time,
                 particle,
+                body: body_of(particle),
                 distance,
             };
         }
@@ -85,7 +92,12 @@ impl SimulationError {
             step,
             time,
             particle,
+            body: particle.and_then(body_of),
             source,
         }
     }
+}
+
+fn of_body(name: Option<&String>) -> String {
+    name.map_or(String::new(), |name| format!("bodies.{name}: "))
 }

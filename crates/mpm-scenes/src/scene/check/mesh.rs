@@ -8,13 +8,13 @@ impl Scene {
     /// What the scene is computed on.
     ///
     /// # Errors
-    /// [`SceneFault::Value`] unless there is either a grid or a mesh.
+    /// [`SceneFault::Missing`] where there is neither a grid nor a mesh, [`SceneFault::TwoBackgrounds`] where there are both.
     pub fn discretisation(&self) -> Result<Discretisation<'_>, SceneFault> {
         match (&self.grid, &self.mesh) {
             (Some(grid), None) => Ok(Discretisation::Grid(grid)),
             (None, Some(mesh)) => Ok(Discretisation::Mesh(mesh)),
             (None, None) => Err(SceneFault::missing("grid", "given unless there is a [mesh]")),
-            (Some(_), Some(mesh)) => Err(SceneFault::value("mesh", mesh, "left out where there is a [grid]")),
+            (Some(_), Some(_)) => Err(SceneFault::TwoBackgrounds),
         }
     }
 
