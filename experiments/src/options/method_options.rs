@@ -247,8 +247,10 @@ impl MethodOptions {
     /// Refuses options that the method does not have.
     fn check_fit(&self, method: MethodName) -> Result<(), OptionError> {
         let foreign = self.given().find(|(name, _)| !method.kind().has(name));
-        let misfit = |(name, value): (String, String)| OptionError::misfit(&name, &value, method.as_str());
-        foreign.map(misfit).map_or(Ok(()), Err)
+        let refused = |(name, value): (String, String)| {
+            OptionError::foreign(&name, &value, method.as_str(), method.kind().options)
+        };
+        foreign.map(refused).map_or(Ok(()), Err)
     }
 
     /// Where the particles begin.

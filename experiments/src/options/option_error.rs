@@ -24,7 +24,17 @@ impl OptionError {
         }
     }
 
-    /// An option that a method does not have.
+    /// An option that a method does not have; `options` are those that it has, with spaces between.
+    pub fn foreign(name: &str, value: &str, method: &str, options: &str) -> Self {
+        let own: Vec<String> = options.split_whitespace().map(|option| format!("--{option}")).collect();
+        let own = match own.is_empty() {
+            true => "no options of its own".to_owned(),
+            false => own.join(", "),
+        };
+        Self::new(name, format!("{value} does not fit method `{method}`, which has {own}"))
+    }
+
+    /// A value that does not fit a method, or an option that is none of methods.
     pub fn misfit(name: &str, value: &str, method: &str) -> Self {
         Self::new(name, format!("{value} does not fit method `{method}`"))
     }

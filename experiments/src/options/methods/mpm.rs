@@ -71,7 +71,7 @@ impl MethodOptions {
     fn on_mesh(&self, steps: Option<usize>) -> Result<OnMesh, OptionError> {
         let default = MeshOptions::default();
         if let Some((name, value)) = self.given().find(|(name, _)| !is_among(ON_MESH, name)) {
-            return Err(OptionError::misfit(&name, &value, "mpm on a mesh"));
+            return Err(OptionError::foreign(&name, &value, "mpm on a mesh", ON_MESH));
         }
         let options = MeshOptions {
             steps: steps.or(default.steps),
