@@ -5,7 +5,7 @@ use parvi::Certificate;
 use super::Arguments;
 use crate::console::{self, Pair};
 use crate::machine::PEAK_MEMORY_KEY;
-use crate::options::{MethodName, is_among};
+use crate::options::{MethodName, Switch, is_among};
 use crate::sampling::{Outcome, Watched};
 
 /// What only moves of `mpm`'s particles depend on.
@@ -20,8 +20,13 @@ fn warn_of_rest(arguments: &Arguments, outcome: &Outcome) {
     let idle = arguments.options.given().filter(|(name, _)| is_among(OF_MOVES, name));
     let idle: Vec<String> = idle.map(|(name, _)| format!("--{name}")).collect();
     if !idle.is_empty() {
-        let why = "for the material has moved no particle; --rounds and --steps let it try, but not with weights";
-        console::notice(&format!("{}: without effect, {why}", idle.join(", ")));
+        let why = match arguments.options.weighted {
+            Some(Switch::On) => "weighted particles are not moved",
+            _ => {
+                "the weighed evaluations served all particles, and none was moved; --steps or --rounds lets the material try"
+            }
+        };
+        console::notice(&format!("{}: without effect: {why}", idle.join(", ")));
     }
 }
 
