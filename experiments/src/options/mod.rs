@@ -11,6 +11,7 @@ mod methods;
 mod option_error;
 mod option_rules;
 mod option_values;
+mod seed;
 mod target_specification;
 mod words_or_files;
 
@@ -26,4 +27,5 @@ pub(crate) use option_values::words;
 pub use option_values::{
     AlphaSchedule, Basis, Correction, Draws, FrameName, MonitorName, NonFinite, PoolChoice, Score, Switch, Transfer,
 };
+pub use seed::seed;
 pub use target_specification::{TargetParameters, TargetSpecification};

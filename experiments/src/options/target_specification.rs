@@ -32,7 +32,7 @@ pub struct TargetParameters {
     #[arg(long, value_name = "NU")]
     pub degrees_of_freedom: Option<f64>,
     /// Seed that makes the target (random)
-    #[arg(long, value_name = "SEED")]
+    #[arg(long, value_name = "SEED", value_parser = super::seed)]
     pub target_seed: Option<u64>,
     /// Standard deviation of the Gaussian prior of each coefficient (wells, wells-small, probit, poisson, logistic)
     #[arg(long, value_name = "SD")]

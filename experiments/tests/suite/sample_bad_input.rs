@@ -37,9 +37,26 @@ fn sizes_out_of_range() {
         --target gaussian --dim 2 --particles 1 | --particles | 1
         --target gaussian --dim 2 --particles 64 --steps 0 | --steps | 0 | from 1
         --target gaussian --dim 2 --particles 64 --steps -1 | --steps | -1
-        --target gaussian --dim 2 --particles 64 --seed -1 | --seed | -1
+        --target gaussian --dim 2 --particles 64 --seed -1 | --seed | -1 | seeds are whole numbers from 0
+        --target random --dim 2 --particles 64 --target-seed -1 | --target-seed | -1 | seeds are whole numbers from 0
         "#,
         |line| refused(line[0], &line[1..]),
+    );
+}
+
+#[test]
+fn a_flag_of_other_methods_is_answered_with_those_of_the_method() {
+    for_each_line(
+        r#"
+        --method svgd --friction 1 | --friction: 1 does not fit method `svgd`, which has --steps, | --bandwidth
+        --method iid --steps 3 | --steps: 3 does not fit method `iid`, which has no options of its own
+        "#,
+        |line| {
+            refused(
+                &format!("--target gaussian --dim 2 --particles 64 {}", line[0]),
+                &line[1..],
+            )
+        },
     );
 }
 

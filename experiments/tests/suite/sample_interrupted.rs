@@ -1,4 +1,4 @@
-//! Ctrl-C during `parvi sample` leaves nothing behind.
+//! Ctrl-C during `parvi sample` leaves nothing behind but the checkpoint.
 
 #![cfg(unix)]
 
@@ -17,4 +17,16 @@ fn an_interrupted_run_leaves_no_file() {
     );
     assert_eq!(stdout(&output), "");
     assert_eq!(files(directory.path()), [""; 0]);
+}
+
+#[test]
+fn an_interrupted_run_with_a_checkpoint_says_how_to_go_on() {
+    let directory = tempfile::tempdir().unwrap();
+    let line = "sample --target banana --particles 400 --evaluations 3000 --rounds 1 --steps 10000000 --out x.csv --checkpoint state --checkpoint-every 8";
+    let output = interrupted(directory.path(), line, || directory.path().join("state").exists());
+    let message = stderr(&output);
+    let expected = ": the same command goes on from state";
+    assert!(message.contains("interrupted after step"), "{message}");
+    assert!(message.trim_end().ends_with(expected), "{message}");
+    assert_eq!(files(directory.path()), ["state"]);
 }

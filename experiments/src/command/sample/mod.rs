@@ -8,13 +8,13 @@ mod watch;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use parvi::{Checkpoint, Method, Run};
+use parvi::{Checkpoint, Method, Run, SampleError};
 
 use crate::diagnostics::diagnose;
 use crate::machine::MemoryGauge;
 use crate::options::{
     Dimension, MethodName, MethodOptions, OptionError, ParticleCount, StepCount, TargetParameters, TargetSpecification,
-    owners,
+    owners, seed,
 };
 use crate::output::particles_csv::column_names;
 use crate::output::{AtomicFile, FrameWriter, NumberTable, OutputDirectory, ParticleFile, ParticleFormat};
@@ -41,7 +41,7 @@ pub struct Arguments {
     #[arg(long, value_enum, default_value_t)]
     method: MethodName,
     /// Seed of every random choice
-    #[arg(long, value_name = "S", default_value_t = 0)]
+    #[arg(long, value_name = "S", default_value_t = 0, value_parser = seed)]
     seed: u64,
     /// File of the particles, .csv or .npy
     #[arg(long, value_name = "FILE.csv|.npy")]
@@ -127,7 +127,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let sampled = sampling::sample(&target, &method, &run, &mut watch);
     let peak_memory = memory.peak_bytes();
     watch.progress.clear();
-    let outcome = sampled.map_err(|error| watch.reason(of_flags(error)))?;
+    let outcome = sampled.map_err(|error| watch.reason(resumable(of_flags(error), arguments)))?;
     file.write(&outcome.particles, &names)?;
     said::warn(arguments, &outcome);
     if let Some(file) = pool {
@@ -187,6 +187,19 @@ fn of_flags(error: CommandError) -> CommandError {
         _ => None,
     };
     of_flag.map_or(error, CommandError::from)
+}
+
+/// An interruption that left a checkpoint says how to go on.
+fn resumable(error: CommandError, arguments: &Arguments) -> CommandError {
+    match (&error, &arguments.checkpoint) {
+        (CommandError::Sample(SampleError::Interrupted { step }), Some(path)) if path.exists() => {
+            let file = path.display();
+            CommandError::Interrupted {
+                hint: format!(" after step {step}: the same command goes on from {file}"),
+            }
+        }
+        _ => error,
+    }
 }
 
 /// Records of the trace that a picture shows.
