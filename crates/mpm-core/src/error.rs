@@ -45,14 +45,18 @@ pub enum MpmError {
         source: DeformationError,
     },
     /// A particle has no finite wave speed although its deformation is admissible: mass or reference volume is at fault.
-    #[error("particle {particle} has wave speed {wave_speed} at reference density {reference_density}")]
+    #[error(
+        "particle {particle} has mass {mass} and reference volume {reference_volume}, at which its wave speed is {wave_speed}"
+    )]
     WaveSpeed {
         /// As in [`Deformation`](Self::Deformation).
         particle: usize,
         /// The wave speed.
         wave_speed: f64,
-        /// m_p / V⁰_p.
-        reference_density: f64,
+        /// m_p.
+        mass: f64,
+        /// V⁰_p.
+        reference_volume: f64,
     },
     /// The body force at a point is not finite.
     #[error("the body force at {position:?} is {value:?}, which is not finite")]

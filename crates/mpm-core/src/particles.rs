@@ -257,11 +257,13 @@ impl<const D: usize, S: Copy + Send + Sync> Particles<D, S> {
             MpmError::WaveSpeed {
                 particle,
                 wave_speed,
-                reference_density,
+                mass,
+                reference_volume,
             } => MpmError::WaveSpeed {
                 particle: created(particle),
                 wave_speed,
-                reference_density,
+                mass,
+                reference_volume,
             },
             MpmError::BodyForceNotFinite { index, position, value } => MpmError::BodyForceNotFinite {
                 index: created(index),

@@ -3,6 +3,7 @@
 #![allow(non_snake_case)]
 
 mod any_law;
+pub mod conformance;
 mod deforming_gas;
 mod drucker_prager;
 mod elastic_moduli;

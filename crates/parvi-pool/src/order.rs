@@ -5,11 +5,11 @@ pub(crate) fn near_together<const D: usize>(points: &mut [([f64; D], f64)], unit
     if points.len() < 3 || D == 0 {
         return;
     }
-    let extent = |axis: usize| {
+    let extents: [f64; D] = std::array::from_fn(|axis| {
         let (low, high) = extent(points.iter().map(|(x, _)| x[axis]));
         (high - low) / units[axis]
-    };
-    let axis = (0..D).max_by(|&a, &b| extent(a).total_cmp(&extent(b))).unwrap_or(0);
+    });
+    let axis = (0..D).max_by(|&a, &b| extents[a].total_cmp(&extents[b])).unwrap_or(0);
     let middle = points.len() / 2;
     points.select_nth_unstable_by(middle, |a, b| a.0[axis].total_cmp(&b.0[axis]));
     let (low, high) = points.split_at_mut(middle);

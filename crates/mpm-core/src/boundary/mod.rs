@@ -39,6 +39,9 @@ pub trait Boundary<const D: usize>: Sync {
 
     /// Change the velocities ([`GridNode::velocity_mut`]) of nodes. What the nodes get goes back to the particles, so the
     /// momentum that is taken is the reaction of the boundary.
+    ///
+    /// Nodes that are held at a plane and behind it make a boundary of first order, since particles beside it share these nodes; [`Wall`] mirrors what is behind, and is of second order
+    /// where nodes lie on it.
     fn constrain<B: Basis<D>, N: GridNode<D>>(&mut self, basis: &B, motion: &GridMotion<D>, nodes: &mut [N]);
 }
 

@@ -39,8 +39,9 @@ impl<L> Continuum<L> {
             let (deformations, states) = (&particles.deformation_gradients, &particles.states);
             self.law
                 .wave_speeds(&deformations[group.clone()], &states[group.clone()], densities, speeds);
-            for &speed in speeds.iter() {
-                largest = larger_or_nan(largest, speed);
+            for (&speed, density) in speeds.iter().zip(densities.iter()) {
+                // Without a volume nothing is stiff, and any step would do.
+                largest = larger_or_nan(largest, if density.is_finite() { speed } else { f64::NAN });
             }
             start = group.end;
         }
@@ -66,7 +67,8 @@ impl<L> Continuum<L> {
             Ok(()) => MpmError::WaveSpeed {
                 particle,
                 wave_speed: self.largest_wave_speed(particles, particle..particle + 1),
-                reference_density: self.density(particles, particle),
+                mass: particles.masses.get(particle),
+                reference_volume: particles.reference_volumes[particle],
             },
         }
     }

@@ -199,10 +199,15 @@ fn linear_elasticity_admits_inversion_but_not_nan() {
 
 #[test]
 fn a_reference_volume_without_sense_is_an_error() {
-    for volume in [-0.1, f64::NAN] {
+    for volume in [-0.1, 0.0, f64::NAN] {
         let particles = cloud().with_elastic_state(vec![volume; COUNT]);
         let mut mpm = Mpm::new(particles, grid(), Pic, neo_hookean(1.0), Pull::none());
-        assert!(matches!(refused(&mut mpm), MpmError::WaveSpeed { particle: 0, .. }));
+        let error = refused(&mut mpm);
+        assert!(matches!(error, MpmError::WaveSpeed { particle: 0, .. }));
+        assert!(
+            error.to_string().contains(&format!("and reference volume {volume}")),
+            "{error}"
+        );
     }
 }
 

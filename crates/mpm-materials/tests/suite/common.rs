@@ -1,11 +1,9 @@
-//! Random states of a material, and stress and stiffness by differences of the energy.
+//! Random states of a material.
 #![allow(dead_code)]
 
+pub use mpm_materials::conformance::{derivative_of, stiffness_of};
 use mpm_tensor::{Matrix, Polar, vector};
 use proptest::prelude::*;
-
-/// The step of the differences.
-const STEP: f64 = 1e-3;
 
 /// Blocks 0 to 2 of 16 numbers make deformation and rotations, the third and fourth directions, those from 5 on steps.
 const NUMBERS: usize = 16 * (FIRST_STEP + STEPS);
@@ -59,31 +57,6 @@ impl Sample {
 
 pub fn rotation<const D: usize>(matrix: &Matrix<D>) -> Matrix<D> {
     Polar::new(matrix).expect("finite entries").rotation
-}
-
-/// ∂ψ/∂F_ij by five-point differences.
-pub fn derivative_of<const D: usize>(energy: impl Fn(&Matrix<D>) -> f64, F: &Matrix<D>) -> Matrix<D> {
-    let moved = |i: usize, j: usize, step: f64| {
-        let mut moved = *F;
-        moved.0[i][j] += step;
-        energy(&moved)
-    };
-    Matrix::from_fn(|i, j| {
-        let near = moved(i, j, STEP) - moved(i, j, -STEP);
-        let far = moved(i, j, 2.0 * STEP) - moved(i, j, -2.0 * STEP);
-        (8.0 * near - far) / (12.0 * STEP)
-    })
-}
-
-/// d²/dε² ψ((I + ε a nᵀ) F) at ε = 0 by three-point differences.
-pub fn stiffness_of<const D: usize>(
-    energy: impl Fn(&Matrix<D>) -> f64,
-    F: &Matrix<D>,
-    a: &[f64; D],
-    n: &[f64; D],
-) -> f64 {
-    let along = |step: f64| energy(&((Matrix::IDENTITY + Matrix::outer(a, n) * step) * *F));
-    (along(STEP) - 2.0 * along(0.0) + along(-STEP)) / (STEP * STEP)
 }
 
 /// ρ₀ c² is the stiffness at rest, to `tolerance`.

@@ -104,6 +104,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     run.given = given::given(arguments, dimension, &run)?;
     let data = arguments.parameters.data.as_ref();
     let names = data.map_or(Vec::new(), |_| target.coordinate_names());
+    // Whoever sees a file sees a run that can be interrupted.
+    interrupt::listen();
     let directory = |flag, path: &Option<PathBuf>| {
         let path = path.as_deref();
         path.map(|path| OutputDirectory::create(flag, path)).transpose()
@@ -114,7 +116,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let pool = pool.map(ParticleFile::create).transpose()?;
     let best = best.map(ParticleFile::create).transpose()?;
     let diagnostics = arguments.diagnostics.as_ref().map(AtomicFile::create).transpose()?;
-    interrupt::listen();
     // Where the checkpoint exists, frames of an earlier process are those of this run.
     let goes_on = arguments.checkpoint.as_ref().is_some_and(|path| path.exists());
     let frames = frames.map(|directory| FrameWriter::new(directory, arguments.every.get(), names.clone(), goes_on));
