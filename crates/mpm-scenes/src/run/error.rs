@@ -39,7 +39,7 @@ pub enum SimulationError {
         /// The name of its body.
         body: Option<String>,
         /// What the mechanics say.
-        source: MpmError,
+        source: Box<MpmError>,
     },
     /// A particle has passed the surface of a rigid shape that a barrier should keep it from.
     #[error(
@@ -93,7 +93,7 @@ impl SimulationError {
             time,
             particle,
             body: particle.and_then(body_of),
-            source,
+            source: Box::new(source),
         }
     }
 }
