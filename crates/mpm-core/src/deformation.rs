@@ -47,9 +47,10 @@ impl<'a, M> Deformation<'a, M> {
     {
         if let Some((F, state)) = particle.deformation {
             let trial = deformed(F, gradient, self.time_step);
-            if let Some(excess) = particle.excess {
+            let mut excess = particle.excess;
+            if let Some(excess) = &mut excess {
                 let before = particle.velocity_gradient.as_deref().unwrap_or(&Matrix::ZERO);
-                *excess = self
+                **excess = self
                     .medium
                     .stored_beyond_work([F, &trial], &(*gradient * self.time_step), state, before);
             }
@@ -58,6 +59,12 @@ impl<'a, M> Deformation<'a, M> {
             } else {
                 trial
             };
+            // What a trial beyond the yield surface would store is taken back within the step: none of it is an error of the time integration.
+            if let Some(excess) = excess
+                && self.medium.yields([&trial, F], state)
+            {
+                *excess = 0.0;
+            }
             if let (true, Some(velocity_gradient)) = (self.rate_dependent, particle.velocity_gradient) {
                 *velocity_gradient = *gradient;
             }

@@ -28,7 +28,7 @@ pub struct EnergyBudget {
     /// What the integration in time takes of the energy of the whole body, negative where it gives some; no part of what the nodes gain. Forces are those where a step begins, the
     /// motion is the one with v_iⁿ⁺¹: particles then store V⁰ψ((I + Δt L_p) F_p), which is not what they had and the work of their stresses (of second order in Δt), and forces do
     /// Σ J_i · (v_iⁿ⁺¹ − v_iⁿ) / 2 more along the motion than above. Both are computed for what they are, by particles and by nodes, so that the energy of an elastic body without averaged volumes
-    /// is what it began with less all that is said here, up to rounding. 0 unless particles deform last ([`StressUpdate::Last`](crate::StressUpdate::Last)).
+    /// is what it began with less all that is said here, up to rounding. Particles that yield in a step are left out: what their stresses have done and they do not store is dissipated. 0 unless particles deform last ([`StressUpdate::Last`](crate::StressUpdate::Last)).
     pub time_integration: f64,
 }
 

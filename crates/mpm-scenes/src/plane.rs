@@ -46,6 +46,26 @@ pub(crate) fn build<const D: usize>(
     }
 }
 
+/// Where particles may be in a run: the domain, and a cell beyond where a wall stands at its border. Walls are felt by nodes, and particles that touch one may be a little behind it.
+///
+/// # Errors
+/// What [`build`] says.
+pub(crate) fn limits<const D: usize>(scene: &Scene, room: &Bounds<D>, spacing: f64) -> Result<Bounds<D>, SceneFault> {
+    let mut limits = *room;
+    for (index, wall) in scene.walls.iter().enumerate() {
+        let (point, normal) = build(room, index, wall)?;
+        for axis in 0..D {
+            if normal[axis] == 1.0 && point[axis] == room.lower[axis] {
+                limits.lower[axis] = room.lower[axis] - spacing;
+            }
+            if normal[axis] == -1.0 && point[axis] == room.upper[axis] {
+                limits.upper[axis] = room.upper[axis] + spacing;
+            }
+        }
+    }
+    Ok(limits)
+}
+
 /// A particle this far behind a wall, in units of h, is on it: rounding of turned planes and bodies.
 const ON_WALL: f64 = 1e-9;
 

@@ -133,6 +133,22 @@ impl<const D: usize> Population<D> {
     }
 }
 
+/// Error of the volume of a filling, over the volume of its shape, that staircases of a lattice along its edges may leave.
+const STAIRCASES: f64 = 0.01;
+
+/// A filling that stands for all of its shape: where a lattice has too many or too few points in it for its own volume, as it has where sides are no multiples of its step, they share that of the shape.
+fn of_volume<const D: usize>(filling: Filling<D>, shape: &dyn Shape<D>, room: &Bounds<D>) -> Filling<D> {
+    let bounds = shape.bounds();
+    let volume = shape.volume().filter(|_| bounds == bounds.finite_within(room));
+    match volume {
+        Some(volume) if (filling.volume() / volume - 1.0).abs() > STAIRCASES => {
+            let each = volume / filling.positions.len().max(1) as f64;
+            Filling::of_equal(filling.positions, each)
+        }
+        _ => filling,
+    }
+}
+
 /// Fills a shape before it is turned.
 fn fill<const D: usize>(
     body: &BodyTable,
@@ -154,7 +170,7 @@ fn fill<const D: usize>(
             } else {
                 room.lower
             };
-            regular(shape, &origin, step, room)
+            regular(shape, &origin, step, room).map(|filling| of_volume(filling, shape, room))
         }
         FillKind::PoissonDisk => poisson_disk(shape, step, room, body.seed),
         FillKind::Rings => rings(&field, shape, step, room),

@@ -18,6 +18,9 @@ pub struct Continuum<L> {
 /// Particles of one piece of work.
 const CHUNK: usize = 1 << 12;
 
+/// Share of an energy that rounding may change.
+const ROUNDING: f64 = 1e-9;
+
 /// Particles that a law is asked for at once.
 const GROUP: usize = 32;
 
@@ -123,6 +126,12 @@ impl<const D: usize, L: Law<D>> Medium<D> for Continuum<L> {
     ) -> f64 {
         let stored = self.law.energy_density(to, state) - self.law.energy_density(from, state);
         stored - self.law.kirchhoff_stress(from, state, velocity_gradient).contract(way)
+    }
+
+    #[inline(never)]
+    fn yields(&self, deformations: [&Matrix<D>; 2], state: &L::State) -> bool {
+        let [trial, kept] = deformations.map(|deformation| self.law.energy_density(deformation, state));
+        trial - kept > ROUNDING * trial.abs()
     }
 
     #[inline]

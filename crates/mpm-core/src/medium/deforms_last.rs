@@ -54,6 +54,10 @@ impl<const D: usize, M: Medium<D>> Medium<D> for DeformsLast<M> {
         self.0.stored_beyond_work(deformations, way, state, velocity_gradient)
     }
 
+    fn yields(&self, deformations: [&Matrix<D>; 2], state: &M::State) -> bool {
+        self.0.yields(deformations, state)
+    }
+
     #[inline(always)]
     fn volume_ratio(&self, deformation_gradient: &Matrix<D>, state: &M::State) -> f64 {
         self.0.volume_ratio(deformation_gradient, state)

@@ -95,6 +95,11 @@ pub trait Medium<const D: usize>: Sync {
         0.0
     }
 
+    /// Whether a particle that was to deform to `trial` has been taken to `kept` at less energy than rounding explains: it yields. `state` is that after.
+    fn yields(&self, [_trial, _kept]: [&Matrix<D>; 2], _state: &Self::State) -> bool {
+        false
+    }
+
     /// J, the present volume of a particle over its reference volume.
     #[inline(always)]
     fn volume_ratio(&self, deformation_gradient: &Matrix<D>, _state: &Self::State) -> f64 {

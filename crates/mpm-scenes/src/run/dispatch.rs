@@ -14,6 +14,7 @@ use crate::SceneFault;
 use crate::background::Background;
 use crate::law::{self, LawState, Laws};
 use crate::loads::Loads;
+use crate::plane;
 use crate::population::Population;
 use crate::scene::{
     BasisName, Discretisation, GradientName, GridTable, KernelName, MomentsName, Scene, StressUpdateName, TransferKind,
@@ -38,6 +39,8 @@ struct Parts<'a, const D: usize> {
 struct Grid<const D: usize> {
     spacing: f64,
     room: Bounds<D>,
+    /// Where particles may be.
+    limits: Bounds<D>,
 }
 
 /// The body of a scene at t = 0.
@@ -59,7 +62,8 @@ pub(super) fn build<const D: usize>(
     };
     match (scene.discretisation()?, background) {
         (Discretisation::Grid(table), Background::Grid { spacing, room }) => {
-            on_grid(table, parts, Grid { spacing, room })
+            let limits = plane::limits(scene, &room, spacing)?;
+            on_grid(table, parts, Grid { spacing, room, limits })
         }
         (Discretisation::Mesh(_), Background::Mesh { whole, .. }) => {
             let basis = mesh_basis(scene, &whole)?;
@@ -164,7 +168,7 @@ fn higher_order(scene: &Scene) -> Option<(usize, f64)> {
 impl<const D: usize> Grid<D> {
     fn of_spline<S: Spline<W>, const W: usize>(self, kernel: S) -> Result<SplineGrid<S, W, D>, SceneFault> {
         let grid = SplineGrid::<S, W, D>::new(self.room.lower, self.spacing);
-        grid.and_then(|grid| grid.with_limits(self.room.lower, self.room.upper))
+        grid.and_then(|grid| grid.with_limits(self.limits.lower, self.limits.upper))
             .map(|grid| grid.with_kernel(kernel))
             .map_err(refused)
     }

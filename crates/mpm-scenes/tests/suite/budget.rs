@@ -150,3 +150,48 @@ fn a_budget_changes_nothing_else() {
         assert_eq!(with.column(name), without.column(name), "{name}");
     }
 }
+
+/// A column of sand that falls apart on a rough floor at the domain's border.
+fn column(courant: f64, interval: f64) -> Series {
+    series(&format!(
+        r#"
+title = "column"
+dimension = 2
+gravity = [0.0, -9.81]
+domain = {{ lower = [0.0, 0.0], upper = [1.0, 0.6] }}
+grid = {{ spacing = 0.04 }}
+transfer = {{ kind = "apic" }}
+time = {{ end = 0.5, courant = {courant} }}
+materials.sand = {{ law = "drucker-prager", density = 1600.0, young_modulus = 1e6, poisson_ratio = 0.3, friction_angle = 30.0 }}
+bodies = [{{ name = "column", material = "sand", shape = {{ kind = "box", lower = [0.0, 0.0], upper = [0.2, 0.4] }} }}]
+output = {{ interval = 0.5, series_interval = {interval}, energy_budget = true }}
+
+[[walls]]
+axis = "x"
+side = "lower"
+condition = "slip"
+
+[[walls]]
+axis = "y"
+side = "lower"
+condition = "friction"
+friction = 0.5
+"#
+    ))
+}
+
+/// What a return mapping takes back of long trials is no energy of the time integration: the balance falls, by as much whatever the step.
+#[test]
+fn plastic_laws_take_from_the_balance_what_they_dissipate() {
+    let [long, short] = [0.3, 0.1].map(|courant| {
+        let run = column(courant, 0.05);
+        let balance = run.column("energy_balance").expect("a budget");
+        let falls = balance.array_windows().all(|[before, after]| after <= before);
+        assert!(falls, "{balance:?}");
+        let integration = largest(&run.column("time_integration_dissipation").expect("a budget"));
+        let dissipated = balance[0] - balance[balance.len() - 1];
+        assert!(integration < 0.1 * dissipated, "{integration} of {dissipated}");
+        dissipated
+    });
+    assert!((short / long - 1.0).abs() < 0.15, "{short}, {long}");
+}

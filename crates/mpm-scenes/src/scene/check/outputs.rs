@@ -39,6 +39,13 @@ impl Scene {
             self.check_body_name(field("body"), probe.body.as_ref())?;
             let part = probe.share.is_none_or(|share| share > 0.0 && share <= 1.0);
             within(&field("share"), probe.share, part, "in (0, 1]")?;
+            let of_many = probe.share.is_none() || probe.region.is_some();
+            within(
+                &field("share"),
+                probe.share,
+                of_many,
+                "left out unless region is given: `at` is one particle",
+            )?;
         }
         match &self.validation {
             Some(validation) => reference::check(&validation.reference, self),
