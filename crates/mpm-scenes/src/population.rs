@@ -134,7 +134,7 @@ impl<const D: usize> Population<D> {
 }
 
 /// Error of the volume of a filling, over the volume of its shape, that staircases of a lattice along its edges may leave.
-const STAIRCASES: f64 = 0.01;
+const STAIRCASES: f64 = 0.02;
 
 /// A filling that stands for all of its shape: where a lattice has too many or too few points in it for its own volume, as it has where sides are no multiples of its step, they share that of the shape.
 fn of_volume<const D: usize>(filling: Filling<D>, shape: &dyn Shape<D>, room: &Bounds<D>) -> Filling<D> {
