@@ -21,8 +21,9 @@ pub(crate) fn offender<T: DeserializeOwned>(text: &str, span: &Range<usize>) -> 
     if !find(document.get_ref(), span, &mut path) {
         return None;
     }
+    // As a text again: `T` is then read in one way, and compiled once.
     let refusal = |value: &Value| {
-        let error = value.clone().try_into::<T>().err()?;
+        let error = toml::from_str::<T>(&toml::to_string(value).ok()?).err()?;
         Some(error.message().to_owned())
     };
     let values = Value::Table(text.parse().ok()?);
