@@ -4,6 +4,11 @@ mod atomic_file;
 mod directory;
 mod distinct_names;
 pub mod frames;
+#[cfg(feature = "npy")]
+mod npy;
+#[cfg(not(feature = "npy"))]
+#[path = "npy_left_out.rs"]
+mod npy;
 mod number_table;
 mod particles;
 pub mod particles_csv;
@@ -43,13 +48,31 @@ impl ParticleFormat {
     /// The same; `flag` asked for the file.
     ///
     /// # Errors
-    /// [`CommandError::OutputExtension`] for any other extension.
+    /// [`CommandError::OutputExtension`] for any other extension, [`CommandError::LeftOut`] where this build lacks the format.
     pub fn of(flag: &'static str, path: &Path) -> Result<Self, CommandError> {
-        Self::told(path).ok_or_else(|| CommandError::OutputExtension {
+        let format = Self::told(path).ok_or_else(|| CommandError::OutputExtension {
             flag,
             path: path.to_owned(),
-        })
+        })?;
+        if format == Self::Npy {
+            npy_is_built()?;
+        }
+        Ok(format)
     }
+}
+
+/// Whether this build has `.npy` files.
+///
+/// # Errors
+/// [`CommandError::LeftOut`].
+pub fn npy_is_built() -> Result<(), CommandError> {
+    if cfg!(feature = "npy") {
+        return Ok(());
+    }
+    Err(CommandError::LeftOut {
+        asked: "files .npy",
+        feature: "npy",
+    })
 }
 
 /// A file that waits for its particles.

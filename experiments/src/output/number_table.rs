@@ -1,11 +1,8 @@
 //! Tables of numbers that a user hands over: .csv with a header or without, .npy.
 
-use std::fmt::Display;
-use std::fs::File;
-use std::io::BufReader;
 use std::path::Path;
 
-use super::ParticleFormat;
+use super::{ParticleFormat, npy};
 use crate::options::OptionError;
 
 /// Rows of as many numbers each.
@@ -27,7 +24,7 @@ impl NumberTable {
     pub fn read(flag: &str, path: &Path) -> Result<Self, OptionError> {
         let table = match ParticleFormat::told(path) {
             Some(ParticleFormat::Csv) => Self::of_csv(path),
-            Some(ParticleFormat::Npy) => of_npy(path),
+            Some(ParticleFormat::Npy) => npy::table(path),
             None => Err("the extension must be .csv or .npy".to_owned()),
         };
         table.map_err(|reason| OptionError::new(flag, format!("{}: {reason}", path.display())))
@@ -68,30 +65,8 @@ impl NumberTable {
     }
 }
 
-fn in_words(error: impl Display) -> String {
+fn in_words(error: csv::Error) -> String {
     error.to_string()
-}
-
-fn of_npy(path: &Path) -> Result<NumberTable, String> {
-    let file = File::open(path).map_err(in_words)?;
-    let array = npyz::NpyFile::new(BufReader::new(file)).map_err(in_words)?;
-    let columns = match *array.shape() {
-        [_] => 1,
-        [_, columns] => columns as usize,
-        ref shape => return Err(format!("an array of the shape {shape:?} is no table")),
-    };
-    if array.order() != npyz::Order::C {
-        return Err("the array is stored column by column; save it in C order".to_owned());
-    }
-    let numbers = array.into_vec::<f64>().map_err(in_words)?;
-    if numbers.is_empty() {
-        return Err("it holds no numbers".to_owned());
-    }
-    Ok(NumberTable {
-        columns,
-        numbers,
-        ..NumberTable::default()
-    })
 }
 
 #[cfg(test)]

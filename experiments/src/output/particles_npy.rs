@@ -2,9 +2,8 @@
 
 use std::io::{self, Write};
 
-use npyz::WriterBuilder;
-
 use super::Particles;
+use super::npy::array;
 
 /// Writes the array in row-major order.
 pub fn write(particles: &Particles, writer: &mut dyn Write) -> io::Result<()> {
@@ -19,20 +18,7 @@ pub fn write(particles: &Particles, writer: &mut dyn Write) -> io::Result<()> {
     writer.write_all(&array(&[particles.len() as u64, columns as u64], &values)?)
 }
 
-/// The bytes of a `.npy` file: f64, row-major.
-///
-/// # Errors
-/// Where there are not as many values as the shape says.
-pub fn array(shape: &[u64], values: &[f64]) -> io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    let options = npyz::WriteOptions::new().default_dtype().shape(shape);
-    let mut array = options.writer(&mut bytes).begin_nd()?;
-    array.extend(values.iter().copied())?;
-    array.finish()?;
-    Ok(bytes)
-}
-
-#[cfg(test)]
+#[cfg(all(test, feature = "npy"))]
 mod tests {
     use super::*;
 

@@ -17,7 +17,9 @@ use crate::options::{
     owners, seed,
 };
 use crate::output::particles_csv::column_names;
-use crate::output::{AtomicFile, FrameWriter, NumberTable, OutputDirectory, ParticleFile, ParticleFormat};
+use crate::output::{
+    AtomicFile, FrameWriter, NumberTable, OutputDirectory, ParticleFile, ParticleFormat, npy_is_built,
+};
 use crate::pictures::{History, Subject};
 use crate::plots::results::Value;
 use crate::progress::Bar;
@@ -91,6 +93,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let best = arguments.options.best.as_deref().map(Path::new);
     for (flag, path) in [("out", Some(arguments.out.as_path())), ("pool", pool), ("best", best)] {
         path.map(|path| ParticleFormat::of(flag, path)).transpose()?;
+    }
+    if arguments.frames.is_some() {
+        npy_is_built()?;
     }
     files::check(arguments)?;
     let target = TargetSpecification {

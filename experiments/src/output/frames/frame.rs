@@ -3,7 +3,7 @@
 use mpm_mesh::Appended;
 use parvi::ParticleView;
 
-use crate::output::particles_npy::array;
+use crate::output::npy::array;
 use crate::output::{Particles, distinct_names};
 
 /// What the files say of particles.
