@@ -7,7 +7,6 @@ mod answers;
 mod body;
 mod configuration;
 mod figure;
-mod material;
 mod report;
 mod table;
 mod variant;
