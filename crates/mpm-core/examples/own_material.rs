@@ -5,9 +5,7 @@
 // F, E, S and P are the symbols of the field.
 #![allow(clippy::print_stdout, non_snake_case)]
 
-use mpm_core::{
-    Apic, Boundaries, Contact, Continuum, Mpm, NoBodyForce, Particles, Side, SplineGrid, StepControl, Wall,
-};
+use mpm_core::{Apic, Boundaries, Contact, Continuum, Mpm, NoBodyForce, Particles, Plane, SplineGrid, StepControl};
 use mpm_kernels::Quadratic;
 use mpm_materials::{Material, conformance};
 use mpm_tensor::Matrix;
@@ -68,10 +66,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for (velocity, x) in particles.velocities.iter_mut().zip(&positions) {
         velocity[0] = 0.01 * (0.5 * std::f64::consts::PI * x[0] / length).sin();
     }
-    let wall = Wall {
-        axis: 0,
-        side: Side::Lower,
-        position: 0.0,
+    let wall = Plane {
+        point: [0.0; 2],
+        normal: [1.0, 0.0],
         contact: Contact::Stick,
         velocity: [0.0; 2],
     };

@@ -34,7 +34,7 @@ pub use basis::{Basis, Member, NO_NODE, UniformBasis};
 pub use body_force::{BodyForce, ForceLocation, NoBodyForce, Sites};
 pub use boundary::{
     Boundaries, Boundary, Contact, GridMotion, HalfSpace, NoBoundary, NodeForces, Obstacle, Plane, PrescribedVelocity,
-    Side, SignedDistance, Sphere, Wall,
+    SignedDistance,
 };
 pub use cell_sort::CellSort;
 pub use contact::{ContactPoint, ContactPotential};

@@ -37,19 +37,6 @@ const MOST_PARTS: usize = 16;
 const FEW_PARTS: usize = 4;
 
 impl Schedule {
-    /// A schedule of one part, from its order as in [`order`](Self::order) and the first particle of every cell, which ends
-    /// with the number of particles. The parts are made by [`cut`](Self::cut), [`parts_mut`](Self::parts_mut) and
-    /// [`join`](Self::join).
-    pub fn new(order: Vec<u32>, cell_starts: Vec<u32>) -> Self {
-        Self {
-            order,
-            cell_starts,
-            parts: Vec::new(),
-            keeps_order: false,
-            lone_particles: false,
-        }
-    }
-
     /// Particle `order[k]` of the caller is the k-th of the schedule; k itself where the schedule keeps the order.
     pub fn order(&self) -> &[u32] {
         &self.order

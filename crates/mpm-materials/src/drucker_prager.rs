@@ -83,11 +83,6 @@ impl DruckerPrager {
         Ok(Self { cohesion, ..self })
     }
 
-    /// λ and μ of the elastic part.
-    pub fn moduli(&self) -> ElasticModuli {
-        self.elastic.moduli
-    }
-
     /// M of ‖s‖ ≤ M (p + c cot φ) in D dimensions.
     #[inline]
     pub fn cone_slope(&self, dimension: usize) -> f64 {
@@ -229,7 +224,7 @@ mod tests {
 
     #[test]
     fn parameters_out_of_range_are_named() {
-        let moduli = sand().moduli();
+        let moduli = sand().elastic.moduli;
         for value in [0.0, -0.1, 1.6, f64::INFINITY] {
             let error = DruckerPrager::new(moduli, value).expect_err("out of range");
             assert_eq!(error.parameter(), ("friction_angle", value));

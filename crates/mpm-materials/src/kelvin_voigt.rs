@@ -31,16 +31,6 @@ impl KelvinVoigt {
             viscosity: not_negative("viscosity", viscosity)?,
         })
     }
-
-    /// λ and μ of the spring.
-    pub fn moduli(&self) -> ElasticModuli {
-        self.spring.moduli
-    }
-
-    /// η, the viscosity of the dashpot.
-    pub fn viscosity(&self) -> f64 {
-        self.viscosity
-    }
 }
 
 impl<const D: usize> Law<D> for KelvinVoigt {
@@ -87,7 +77,7 @@ mod tests {
     fn the_dashpot_is_beside_the_spring() {
         let F = Matrix([[1.2, 0.1], [-0.3, 0.9]]);
         let rate = Matrix([[1.0, 4.0], [-2.0, 0.5]]);
-        let spring = Material::kirchhoff_stress(&NeoHookean::new(law(0.0).moduli()), &F);
+        let spring = Material::kirchhoff_stress(&NeoHookean::new(law(0.0).spring.moduli), &F);
         assert_eq!(law(0.0).kirchhoff_stress(&F, &(), &rate), spring);
         let dashpot = law(0.7).kirchhoff_stress(&F, &(), &rate) - spring;
         let expected = Matrix([[1.0, 1.0], [1.0, 0.5]]) * (2.0 * 0.7 * 1.11);
@@ -119,7 +109,7 @@ mod tests {
     #[test]
     fn a_viscosity_out_of_range_is_named() {
         for value in [-1.0, f64::INFINITY] {
-            let error = KelvinVoigt::new(law(0.0).moduli(), value).expect_err("out of range");
+            let error = KelvinVoigt::new(law(0.0).spring.moduli, value).expect_err("out of range");
             assert_eq!(error.parameter(), ("viscosity", value));
         }
     }

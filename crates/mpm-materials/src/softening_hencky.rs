@@ -87,15 +87,6 @@ impl SofteningHencky {
         })
     }
 
-    /// Perfect plasticity, κ = κ_p always.
-    ///
-    /// # Errors
-    ///
-    /// [`ParameterError`] unless 0 < κ_p < ∞.
-    pub fn perfect(moduli: ElasticModuli, yield_stress: f64) -> Result<Self, ParameterError> {
-        Self::new(moduli, yield_stress, yield_stress, 0.0)
-    }
-
     /// λ and μ of the elastic part.
     pub fn moduli(&self) -> ElasticModuli {
         self.elastic.moduli
@@ -223,7 +214,7 @@ mod tests {
     #[test]
     fn a_shear_beyond_yield_gives_the_hand_calculation() {
         // ε = ±0.1 in the plane, so ‖dev τ‖ = 4 · 0.1 √2 returns to κ = 0.2 √2, that is to ε = ±0.05.
-        let law = SofteningHencky::perfect(moduli(), 0.2 * 2f64.sqrt()).expect("in range");
+        let law = SofteningHencky::new(moduli(), 0.2 * 2f64.sqrt(), 0.2 * 2f64.sqrt(), 0.0).expect("in range");
         let mut state = SofteningState::default();
         let trial = Matrix::diagonal(&[0.1f64.exp(), (-0.1f64).exp()]);
         let F = law.advance(&trial, &mut state);

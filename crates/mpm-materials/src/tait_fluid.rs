@@ -67,26 +67,6 @@ impl TaitFluid {
         }
     }
 
-    /// ρ₀.
-    pub fn reference_density(&self) -> f64 {
-        self.reference_density
-    }
-
-    /// c at rest.
-    pub fn sound_speed(&self) -> f64 {
-        self.sound_speed
-    }
-
-    /// μ_v, the dynamic viscosity.
-    pub fn viscosity(&self) -> f64 {
-        self.viscosity
-    }
-
-    /// Whether J is set to 1 where it is above.
-    pub fn forgets_expansion(&self) -> bool {
-        self.forgets_expansion
-    }
-
     /// The pressure p at the volume ratio J = ρ₀/ρ; NaN unless 0 < J < ∞.
     #[inline]
     pub fn pressure(&self, volume_ratio: f64) -> f64 {
@@ -226,7 +206,6 @@ mod tests {
         assert_eq!(forgetful.advance(&F, &mut ()), Matrix::IDENTITY);
         let pressed = F * 0.5;
         assert_eq!(forgetful.advance(&pressed, &mut ()), water().advance(&pressed, &mut ()));
-        assert!(forgetful.forgets_expansion() && !water().forgets_expansion());
     }
 
     #[test]

@@ -28,6 +28,33 @@ impl Appended {
         self.array("Float64", name, components, &content)
     }
 
+    /// The positions of points, D = `dimension` coordinates each: the first three, with zeros behind fewer.
+    pub fn positions(&mut self, dimension: usize, values: &[f64]) -> String {
+        self.floats("position", 3, &widened(dimension, 3, values))
+    }
+
+    /// Vectors of `dimension` entries each, with zeros behind fewer than three.
+    pub fn vectors(&mut self, name: &str, dimension: usize, values: &[f64]) -> String {
+        let wide = dimension.max(3);
+        self.floats(name, wide, &widened(dimension, wide, values))
+    }
+
+    /// Matrices of `dimension` rows and columns each, row by row; of fewer than three the others are those of `diagonal` times the identity.
+    pub fn matrices(&mut self, name: &str, dimension: usize, values: &[f64], diagonal: f64) -> String {
+        let (d, wide) = (dimension.max(1), dimension.max(3));
+        let entry = |matrix: &[f64], i: usize, j: usize| match i < d && j < d {
+            true => matrix[i * d + j],
+            false => diagonal * f64::from(u8::from(i == j)),
+        };
+        let whole = |matrix: &[f64]| {
+            (0..wide * wide)
+                .map(|k| entry(matrix, k / wide, k % wide))
+                .collect::<Vec<_>>()
+        };
+        let entries: Vec<f64> = values.chunks_exact(d * d).flat_map(whole).collect();
+        self.floats(name, wide * wide, &entries)
+    }
+
     /// As [`array`](Self::array), of type `Int64` with one component.
     pub fn integers(&mut self, name: &str, values: impl Iterator<Item = i64>) -> String {
         let content: Vec<u8> = values.flat_map(i64::to_le_bytes).collect();
@@ -53,6 +80,13 @@ impl Appended {
         );
         [text.as_bytes(), &self.bytes, b"\n</AppendedData>\n</VTKFile>\n"].concat()
     }
+}
+
+/// The first `wide` entries of every row of `dimension`, with zeros behind fewer.
+fn widened(dimension: usize, wide: usize, values: &[f64]) -> Vec<f64> {
+    let rows = values.chunks_exact(dimension.max(1));
+    rows.flat_map(|row| (0..wide).map(|a| row.get(a).copied().unwrap_or(0.0)))
+        .collect()
 }
 
 /// A `.pvd` file, the collection that ParaView opens to see files as one animation: the time of each and its name, which is taken relative to the collection.

@@ -43,11 +43,6 @@ impl<const D: usize> HatBasis<D> {
         self.search.mesh()
     }
 
-    /// The search for cells.
-    pub fn search(&self) -> &CellSearch<D> {
-        &self.search
-    }
-
     /// Move every position that is outside of the mesh to the nearest point of it. The positions are those that the basis was last sorted with, in
     /// schedule order, after a short move; what is not a number stays.
     pub fn pull_inside(&self, positions: &mut [[f64; D]]) {

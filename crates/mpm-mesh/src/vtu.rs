@@ -48,9 +48,7 @@ pub fn mesh_vtu<const D: usize>(
 ) -> Result<Vec<u8>, VtuError> {
     let (point_count, cell_count) = (mesh.vertices().len(), mesh.cell_count());
     let mut appended = Appended::default();
-    let pad = |x: &[f64; D]| -> [f64; 3] { std::array::from_fn(|axis| x.get(axis).copied().unwrap_or(0.0)) };
-    let positions: Vec<f64> = mesh.vertices().iter().flat_map(pad).collect();
-    let points = appended.floats("position", 3, &positions);
+    let points = appended.positions(D, mesh.vertices().as_flattened());
     let connectivity = appended.integers("connectivity", mesh.cells().flatten().map(|&vertex| vertex.into()));
     let offsets = appended.integers("offsets", (1..=cell_count).map(|cell| (cell * (D + 1)) as i64));
     let kind = match D {

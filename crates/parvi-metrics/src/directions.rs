@@ -1,9 +1,6 @@
 //! Directions to project on.
 
 use parvi_targets::normal_quantile;
-use rand::rngs::ChaCha12Rng;
-use rand::{RngExt, SeedableRng};
-use rand_distr::StandardNormal;
 
 use crate::MetricError;
 use crate::error::parameter;
@@ -40,19 +37,6 @@ impl<const D: usize> Directions<D> {
         Ok(Self {
             vectors: (0..count).map(vector).collect(),
         })
-    }
-
-    /// `count` independent uniform directions; the same seed gives the same directions.
-    ///
-    /// # Errors
-    /// [`MetricError::InvalidParameter`] for a count of zero.
-    pub fn random(count: usize, seed: u64) -> Result<Self, MetricError> {
-        check_count(count)?;
-        let mut rng = ChaCha12Rng::seed_from_u64(seed);
-        let vectors = (0..count)
-            .map(|_| normalised(std::array::from_fn(|_| rng.sample(StandardNormal))))
-            .collect();
-        Ok(Self { vectors })
     }
 
     /// The unit vectors.
@@ -108,15 +92,9 @@ mod tests {
         second_moments(&Directions::<2>::evenly_spread(7).unwrap(), 1e-15);
         second_moments(&Directions::<3>::evenly_spread(500).unwrap(), 0.01);
         second_moments(&Directions::<6>::evenly_spread(500).unwrap(), 0.01);
-        second_moments(&Directions::<6>::random(20_000, 1).unwrap(), 0.01);
-        assert_eq!(
-            Directions::<3>::random(4, 9).unwrap(),
-            Directions::random(4, 9).unwrap()
-        );
         assert!(matches!(
             Directions::<2>::evenly_spread(0),
             Err(MetricError::InvalidParameter { .. })
         ));
-        assert!(Directions::<2>::random(0, 1).is_err());
     }
 }

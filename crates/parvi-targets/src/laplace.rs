@@ -21,7 +21,6 @@ pub trait Curvature<const D: usize>: Target<D> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Laplace<const D: usize> {
     frame: Frame<D>,
-    steps: usize,
 }
 
 impl<const D: usize> Laplace<D> {
@@ -46,10 +45,8 @@ impl<const D: usize> Laplace<D> {
                 // Newton's method squares the error, so this last step leaves rounding only.
                 mode = vector::add(&mode, &step);
                 let covariance = Curved::new(name, &target.negative_hessian(&mode))?.inverse();
-                return Ok(Self {
-                    frame: Frame::new(mode, covariance)?,
-                    steps,
-                });
+                let frame = Frame::new(mode, covariance)?;
+                return Ok(Self { frame });
             }
             let rounding = 1e-13 * density.abs();
             let accepted = (0..60).map(|halvings| 0.5_f64.powi(halvings)).find_map(|fraction| {
@@ -88,11 +85,6 @@ impl<const D: usize> Laplace<D> {
     /// The frame x = m + L z with L Lᵀ = H⁻¹.
     pub fn frame(&self) -> &Frame<D> {
         &self.frame
-    }
-
-    /// The Newton steps the search took.
-    pub fn steps(&self) -> usize {
-        self.steps
     }
 }
 

@@ -46,6 +46,14 @@ impl Contestant {
         Ok(methods.enumerate().map(case).collect())
     }
 
+    /// Its runs, as far as they have been made.
+    ///
+    /// # Errors
+    /// A file that cannot be read.
+    pub fn trials(&self, directory: &StudyDirectory, columns: &str) -> Result<Vec<Row>, CommandError> {
+        row_file::read(&self.file(directory), columns)
+    }
+
     /// The method that sets its task.
     pub fn first(&self, method: &MethodSpecification) -> Self {
         Self {

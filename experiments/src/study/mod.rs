@@ -14,6 +14,7 @@ mod directory;
 mod evidence;
 mod gaussian_runs;
 mod manifest;
+mod own_process;
 mod paper;
 mod prelude;
 mod quickstart;

@@ -7,15 +7,13 @@ mod obstacle;
 mod plane;
 mod prescribed;
 mod signed_distance;
-mod wall;
 
 pub use contact::Contact;
 pub use node_forces::NodeForces;
 pub use obstacle::Obstacle;
 pub use plane::Plane;
 pub use prescribed::PrescribedVelocity;
-pub use signed_distance::{HalfSpace, SignedDistance, Sphere};
-pub use wall::{Side, Wall};
+pub use signed_distance::{HalfSpace, SignedDistance};
 
 use crate::{Basis, GridNode};
 
@@ -40,7 +38,7 @@ pub trait Boundary<const D: usize>: Sync {
     /// Change the velocities ([`GridNode::velocity_mut`]) of nodes. What the nodes get goes back to the particles, so the
     /// momentum that is taken is the reaction of the boundary.
     ///
-    /// Nodes that are held at a plane and behind it make a boundary of first order, since particles beside it share these nodes; [`Wall`] mirrors what is behind, and is of second order
+    /// Nodes that are held at a plane and behind it make a boundary of first order, since particles beside it share these nodes; [`Plane`] mirrors what is behind, and is of second order
     /// where nodes lie on it.
     fn constrain<B: Basis<D>, N: GridNode<D>>(&mut self, basis: &B, motion: &GridMotion<D>, nodes: &mut [N]);
 }
@@ -72,12 +70,7 @@ pub struct Boundaries<const D: usize> {
 
 impl<const D: usize> Boundaries<D> {
     /// These walls and obstacles.
-    pub fn new(walls: Vec<Wall<D>>, obstacles: Vec<Obstacle<D>>) -> Self {
-        Self::with_planes(walls.iter().map(Wall::plane).collect(), obstacles)
-    }
-
-    /// As [`new`](Self::new), with walls in any direction.
-    pub fn with_planes(walls: Vec<Plane<D>>, obstacles: Vec<Obstacle<D>>) -> Self {
+    pub fn new(walls: Vec<Plane<D>>, obstacles: Vec<Obstacle<D>>) -> Self {
         Self {
             forces: Vec::new(),
             walls,

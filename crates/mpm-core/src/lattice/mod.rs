@@ -98,11 +98,6 @@ impl<const D: usize> SimplexLattice<D> {
     pub fn kuhn(origin: [f64; D], h: f64) -> Result<Self, MpmError> {
         Self::new(SimplexGeometry::kuhn(origin, h))
     }
-
-    /// The geometry.
-    pub fn geometry(&self) -> &SimplexGeometry<D> {
-        &self.geometry
-    }
 }
 
 impl<const D: usize> Basis<D> for SimplexLattice<D> {

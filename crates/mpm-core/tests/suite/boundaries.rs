@@ -2,7 +2,7 @@
 
 use mpm_core::{
     Apic, Basis, Boundaries, Boundary, Contact, GridMotion, GridNode, HalfSpace, Mpm, MpmError, Obstacle, Particles,
-    Side, Sphere, SplineGrid, VelocityNode, Wall,
+    Plane, SignedDistance, SplineGrid, VelocityNode,
 };
 use mpm_kernels::{Cubic, Deposit, Linear, Quadratic, Spline};
 use rand::RngExt;
@@ -82,19 +82,38 @@ impl<B: Basis<2>> Constrained<B> {
     }
 }
 
-fn wall(axis: usize, side: Side, contact: Contact, velocity: [f64; 2]) -> Wall<2> {
-    Wall {
-        axis,
-        side,
-        position: if side == Side::Lower { 0.0 } else { 1.0 },
+/// The wall across an axis at 0, with the domain above it, or at 1, with the domain below.
+fn wall(axis: usize, position: f64, contact: Contact, velocity: [f64; 2]) -> Plane<2> {
+    let along = |value: f64| std::array::from_fn(|a| if a == axis { value } else { 0.0 });
+    Plane {
+        point: along(position),
+        normal: along(1.0 - 2.0 * position),
         contact,
         velocity,
     }
 }
 
+struct Disk;
+
+impl Disk {
+    const CENTRE: [f64; 2] = [0.5, 0.0];
+    const RADIUS: f64 = 0.4;
+}
+
+impl SignedDistance<2> for Disk {
+    fn distance(&self, x: &[f64; 2]) -> f64 {
+        mpm_tensor::vector::norm(&mpm_tensor::vector::subtract(x, &Self::CENTRE)) - Self::RADIUS
+    }
+
+    fn normal(&self, x: &[f64; 2]) -> [f64; 2] {
+        let offset = mpm_tensor::vector::subtract(x, &Self::CENTRE);
+        offset.map(|c| c / mpm_tensor::vector::norm(&offset))
+    }
+}
+
 fn box_of(contact: Contact) -> Boundaries<2> {
-    let sides = [(0, Side::Lower), (0, Side::Upper), (1, Side::Lower), (1, Side::Upper)];
-    let walls = sides.map(|(axis, side)| wall(axis, side, contact, [0.0; 2]));
+    let sides = [(0, 0.0), (0, 1.0), (1, 0.0), (1, 1.0)];
+    let walls = sides.map(|(axis, position)| wall(axis, position, contact, [0.0; 2]));
     Boundaries::new(walls.to_vec(), Vec::new())
 }
 
@@ -114,7 +133,7 @@ fn nothing_moves_on_a_wall_that_sticks_or_through_one_that_slips() {
 
 #[test]
 fn a_wall_that_moves_takes_the_material_along() {
-    let moving = wall(0, Side::Lower, Contact::Stick, [0.4, -0.3]);
+    let moving = wall(0, 0.0, Contact::Stick, [0.4, -0.3]);
     let mut field = constrained::<Quadratic, 3>(Boundaries::new(vec![moving], Vec::new()));
     let v = field.velocity([0.0, 0.5]);
     assert!((v[0] - 0.4).abs() < 1e-12 && (v[1] + 0.3).abs() < 1e-12);
@@ -122,7 +141,7 @@ fn a_wall_that_moves_takes_the_material_along() {
 
 /// Mirrored pairs exchange momentum along the wall, and lose none of it.
 fn keeps_tangential_momentum<S: Spline<W>, const W: usize>() {
-    let slip = wall(0, Side::Lower, Contact::Slip, [0.0; 2]);
+    let slip = wall(0, 0.0, Contact::Slip, [0.0; 2]);
     let field = constrained::<S, W>(Boundaries::new(vec![slip], Vec::new()));
     let along = |nodes: &[VelocityNode<2>]| Constrained::<SplineGrid<S, W, 2>>::momentum(nodes, 1);
     assert!(
@@ -160,9 +179,9 @@ fn mirroring_is_a_projection() {
 
 #[test]
 fn a_wall_between_nodes_and_a_half_space_act_alike() {
-    let wall = Wall {
-        position: 0.1,
-        ..wall(0, Side::Lower, Contact::Separate { friction: 0.3 }, [0.0; 2])
+    let wall = Plane {
+        point: [0.1, 0.0],
+        ..wall(0, 0.0, Contact::Separate { friction: 0.3 }, [0.0; 2])
     };
     let half_space = Obstacle {
         shape: Box::new(HalfSpace {
@@ -178,12 +197,9 @@ fn a_wall_between_nodes_and_a_half_space_act_alike() {
 }
 
 #[test]
-fn a_body_comes_to_rest_on_a_sphere_and_not_inside() {
+fn a_body_comes_to_rest_on_a_disk_and_not_inside() {
     let ball = Obstacle {
-        shape: Box::new(Sphere {
-            centre: [0.5, 0.0],
-            radius: 0.4,
-        }),
+        shape: Box::new(Disk),
         contact: Contact::Separate { friction: 0.2 },
         velocity: [0.0; 2],
     };

@@ -1,6 +1,6 @@
 //! What affine FLIP makes of kinetic energy without a force, and with a wall alone.
 
-use mpm_core::{AffineFlip, Boundaries, Contact, Flip, Moments, Mpm, Particles, Side, SplineGrid, Wall};
+use mpm_core::{AffineFlip, Boundaries, Contact, Flip, Moments, Mpm, Particles, Plane, SplineGrid};
 use mpm_kernels::Quadratic;
 use mpm_materials::IsothermalGas;
 use mpm_tensor::Matrix;
@@ -16,10 +16,9 @@ fn energies(moments: Moments, wall: Option<f64>) -> Vec<f64> {
     let velocity = |x: &[f64; 2]| [(9.0 * x[1]).sin() - x[0], (9.0 * x[0]).sin() - x[1]];
     particles.velocities = particles.positions.iter().map(velocity).collect();
     particles.affine = vec![Matrix::ZERO; count];
-    let walls = wall.map(|position| Wall {
-        axis: 1,
-        side: Side::Lower,
-        position,
+    let walls = wall.map(|position| Plane {
+        point: [0.0, position],
+        normal: [0.0, 1.0],
         contact: Contact::Stick,
         velocity: [0.0; 2],
     });

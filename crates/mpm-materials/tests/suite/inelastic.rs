@@ -77,7 +77,10 @@ macro_rules! for_each_member {
         let rate = 10.0 * (1.0 + sample.numbers[64]);
         let softening = SofteningHencky::new(moduli, 0.05 * modulus, 0.01 * modulus, rate);
         let sand = DruckerPrager::new(moduli, 0.8 + 0.7 * sample.numbers[65]).expect("in range");
-        for law in [softening, SofteningHencky::perfect(moduli, 0.02 * modulus)] {
+        for law in [
+            softening,
+            SofteningHencky::new(moduli, 0.02 * modulus, 0.02 * modulus, 0.0),
+        ] {
             let law = law.expect("in range");
             let excess = yield_excess;
             $check::<$D, _>(

@@ -74,11 +74,6 @@ impl<const D: usize, M: Manifold<D>> DeformationMap<D, M> {
         &self.rest
     }
 
-    /// The family g̃.
-    pub fn manifold(&self) -> &M {
-        &self.manifold
-    }
-
     /// What does not depend on x̂ at these points: a(X) and I − ∇g̃(X, x̂₀). `out` is overwritten.
     pub fn prepare(&mut self, reference: &[[f64; D]], out: &mut MaterialPoints<D>) {
         out.clear();

@@ -11,7 +11,7 @@ use crate::Snapshot;
 pub fn vtu(snapshot: &Snapshot) -> Vec<u8> {
     let count = snapshot.len();
     let mut appended = Appended::default();
-    let points = appended.floats("position", 3, &padded(snapshot, &snapshot.positions));
+    let points = appended.positions(snapshot.dimension, &snapshot.positions);
     let connectivity = appended.integers("connectivity", (0..count).map(|p| p as i64));
     let offsets = appended.integers("offsets", (1..=count).map(|p| p as i64));
     let types = appended.array("UInt8", "types", 1, &vec![1; count]);
@@ -31,26 +31,22 @@ fn point_data(snapshot: &Snapshot, appended: &mut Appended) -> String {
     let dimension = snapshot.dimension;
     let moved = snapshot.positions.iter().zip(&snapshot.reference_positions);
     let displacements: Vec<f64> = moved.map(|(x, start)| x - start).collect();
-    let stresses = snapshot.stresses.chunks_exact((dimension * dimension).max(1));
     let trace = |stress: &[f64]| {
         (0..dimension)
             .filter_map(|a| stress.get(a * (dimension + 1)))
             .sum::<f64>()
     };
-    let pressures: Vec<f64> = stresses
-        .clone()
-        .map(|stress| -trace(stress) / dimension as f64)
-        .collect();
+    let stresses = snapshot.stresses.chunks_exact((dimension * dimension).max(1));
+    let pressures: Vec<f64> = stresses.map(|stress| -trace(stress) / dimension as f64).collect();
     let volumes: Vec<f64> = snapshot
         .reference_volumes
         .iter()
         .zip(&snapshot.volume_ratios)
         .map(|(v, j)| v * j)
         .collect();
-    let tensors: Vec<f64> = stresses.flat_map(|stress| padded_tensor(stress, dimension)).collect();
-    let mut text = appended.floats("displacement", 3, &padded(snapshot, &displacements));
-    text += &appended.floats("velocity", 3, &padded(snapshot, &snapshot.velocities));
-    text += &appended.floats("stress", 9, &tensors);
+    let mut text = appended.vectors("displacement", dimension, &displacements);
+    text += &appended.vectors("velocity", dimension, &snapshot.velocities);
+    text += &appended.matrices("stress", dimension, &snapshot.stresses, 0.0);
     text += &appended.floats("pressure", 1, &pressures);
     text += &appended.floats("volume_ratio", 1, &snapshot.volume_ratios);
     text += &appended.floats("mass", 1, &snapshot.masses);
@@ -65,25 +61,4 @@ fn point_data(snapshot: &Snapshot, appended: &mut Appended) -> String {
         text += &appended.floats(name, 1, values);
     }
     text
-}
-
-/// Vectors with zeros behind them up to three entries.
-fn padded(snapshot: &Snapshot, list: &[f64]) -> Vec<f64> {
-    let vectors = list.chunks_exact(snapshot.dimension.max(1));
-    vectors
-        .flat_map(|v| (0..3).map(|a| v.get(a).copied().unwrap_or(0.0)))
-        .collect()
-}
-
-/// A tensor of `dimension`² entries as one of nine.
-fn padded_tensor(tensor: &[f64], dimension: usize) -> [f64; 9] {
-    std::array::from_fn(|k| {
-        let (i, j) = (k / 3, k % 3);
-        let inside = i < dimension && j < dimension;
-        if inside {
-            tensor.get(i * dimension + j).copied().unwrap_or(0.0)
-        } else {
-            0.0
-        }
-    })
 }

@@ -4,7 +4,6 @@ pub mod axis_aligned;
 pub mod cantilever;
 mod channel;
 mod conservation;
-pub mod convergence;
 pub mod curve;
 pub mod cylinder;
 mod dam_break;

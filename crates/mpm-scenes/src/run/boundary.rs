@@ -83,7 +83,7 @@ pub(super) fn build<const D: usize>(
     obstacles.extend(tagged);
     let held = HeldRegion::<D>::of(scene)?.into_iter();
     prescribed.extend(held.map(|region| Box::new(region) as Box<dyn PrescribedVelocity<D>>));
-    let boundaries = Boundaries::with_planes(walls.collect::<Result<_, _>>()?, obstacles).with_prescribed(prescribed);
+    let boundaries = Boundaries::new(walls.collect::<Result<_, _>>()?, obstacles).with_prescribed(prescribed);
     let boundaries = boundaries.with_forces(forces);
     Ok((boundaries, MovingObstacles(moving)))
 }

@@ -69,7 +69,7 @@ proptest! {
 fn sliced_is_the_mean_over_directions() {
     let (a, b) = (normal_points::<3>(50, 1), normal_points::<3>(70, 2));
     let (w, u) = (uniform_weights(50, 3), uniform_weights(70, 4));
-    let directions = Directions::random(6, 5).unwrap();
+    let directions = Directions::evenly_spread(6).unwrap();
     let project = |points: &[[f64; 3]], v: &[f64; 3]| -> Vec<[f64; 1]> {
         points
             .iter()

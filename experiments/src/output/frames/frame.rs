@@ -83,7 +83,7 @@ impl Frame {
     pub fn vtp(&self, stamp: &Stamp, names: &[String]) -> Vec<u8> {
         let count = self.particles();
         let mut appended = Appended::default();
-        let points = appended.floats("position", 3, &self.padded(&self.positions, 3));
+        let points = appended.positions(self.dimension, &self.positions);
         let connectivity = appended.integers("connectivity", (0..count).map(|p| p as i64));
         let offsets = appended.integers("offsets", (1..=count).map(|p| p as i64));
         let data = self.point_data(&mut appended, names);
@@ -115,41 +115,18 @@ impl Frame {
             let column: Vec<f64> = self.positions.iter().skip(axis).step_by(d.max(1)).copied().collect();
             text += &appended.floats(name, 1, &column);
         }
-        let wide = d.max(3);
         if let Some(velocities) = &self.velocities {
-            text += &appended.floats("velocity", wide, &self.padded(velocities, wide));
+            text += &appended.vectors("velocity", d, velocities);
         }
         if let Some(gradients) = &self.deformation_gradients {
-            let gradients = gradients.chunks_exact((d * d).max(1));
-            let padded: Vec<f64> = gradients.flat_map(|f| padded_gradient(f, d)).collect();
-            text += &appended.floats("deformation_gradient", wide * wide, &padded);
+            text += &appended.matrices("deformation_gradient", d, gradients, 1.0);
         }
         if let Some(weights) = &self.weights {
             text += &appended.floats("weight", 1, weights);
         }
         text + &appended.integers("particle", (0..count).map(|p| p as i64))
     }
-
-    /// The first `wide` entries of every row, with zeros behind shorter ones.
-    fn padded(&self, list: &[f64], wide: usize) -> Vec<f64> {
-        let rows = list.chunks_exact(self.dimension.max(1));
-        rows.flat_map(|row| (0..wide).map(|a| row.get(a).copied().unwrap_or(0.0)))
-            .collect()
-    }
 }
 
 /// Names of the other arrays.
 const OTHERS: [&str; 5] = ["position", "velocity", "deformation_gradient", "weight", "particle"];
-
-/// A gradient of at least three rows and columns, which beyond its own are those of no deformation.
-fn padded_gradient(gradient: &[f64], dimension: usize) -> impl Iterator<Item = f64> {
-    let wide = dimension.max(3);
-    (0..wide * wide).map(move |k| {
-        let (i, j) = (k / wide, k % wide);
-        if i < dimension && j < dimension {
-            gradient.get(i * dimension + j).copied().unwrap_or(0.0)
-        } else {
-            f64::from(u8::from(i == j))
-        }
-    })
-}

@@ -1,6 +1,6 @@
 //! One setting of the paper's algorithms: what the sampler is told, and how tables name it.
 
-use parvi::{PaperMaterial, PaperOptions, ReferenceVolumes};
+use parvi::{Method, PaperOptions, ReferenceVolumes};
 
 use super::configuration::Setting;
 use crate::study::prelude::*;
@@ -34,11 +34,18 @@ pub fn part(row: &Row, column: &str) -> String {
 }
 
 impl Setting {
-    /// The options of the sampler; the material has been checked.
-    pub fn options(&self, material: PaperMaterial) -> PaperOptions {
-        PaperOptions {
+    /// The rival, or the paper's algorithm.
+    ///
+    /// # Errors
+    /// A parameter of the material that is out of range.
+    pub fn method(&self) -> Result<Method, CommandError> {
+        if let Some(rival) = &self.rival {
+            return Ok(rival.method(None)?);
+        }
+        let material = self.material.material();
+        Ok(Method::Paper(PaperOptions {
             affine: self.algorithm.get() == 2,
-            material,
+            material: material.map_err(|error| refusal("materials", error.to_string()))?,
             annealing: self.schedule,
             score_location: self.score.into(),
             spacing: self.spacing,
@@ -50,7 +57,7 @@ impl Setting {
             reference_volumes: self.volume,
             certificate: false,
             ..PaperOptions::default()
-        }
+        }))
     }
 
     /// Notes in a row what is run.

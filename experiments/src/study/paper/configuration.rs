@@ -4,8 +4,8 @@ use std::collections::HashSet;
 
 use parvi::{Annealing, ReferenceVolumes};
 
-use super::material::MaterialTable;
 use super::variant::Variant;
+use crate::options::MaterialTable;
 use crate::study::prelude::*;
 
 /// The paper's algorithms, a base and its changes.

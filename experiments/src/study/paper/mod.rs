@@ -7,13 +7,12 @@ mod answers;
 mod body;
 mod configuration;
 mod figure;
-mod material;
 mod report;
 mod table;
 mod variant;
 mod watch;
 
-use parvi::{Method, Run, SampleError};
+use parvi::{Run, SampleError};
 
 pub use configuration::{Paper, Setting};
 use watch::{Seen, Watch};
@@ -35,33 +34,13 @@ impl Study for Paper {
     }
 
     fn run(&self, case: &Case<Setting>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
-        let setting = &case.work;
+        let (setting, is_body) = (&case.work, case.work.rival.is_none());
         let yardstick = tools.yardstick.of(&setting.target, &self.yardstick())?;
         let mut run = Run::new(setting.particles.get(), setting.seed);
         row.set("energy_level", yardstick.mean_distance() / run.particles as f64);
         (run.start.mean, run.start.standard_deviation) = (self.start_mean, self.start_sd);
-        let Some(rival) = &setting.rival else {
-            return self.run_body(setting, &run, row, tools);
-        };
-        let (target, method) = (setting.target.clone(), rival.method(None)?);
-        match attempt(Sampled { target, method, run }.sample_or_draw(yardstick, tools.observer))? {
-            Err(failure) => fail(row, ("other", None), failure),
-            Ok(outcome) => {
-                row.set("wall_seconds", outcome.wall_seconds);
-                row.set("evaluations", outcome.evaluations());
-                end(row, attempt(yardstick.measure(&outcome.particles))?, None);
-            }
-        }
-        Ok(())
-    }
-}
-
-impl Paper {
-    fn run_body(&self, setting: &Setting, run: &Run, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
-        let yardstick = tools.yardstick.of(&setting.target, &self.yardstick())?;
-        let material = setting.material.material();
-        let material = material.map_err(|error| refusal("materials", error.to_string()))?;
-        let method = Method::Paper(setting.options(material));
+        let (target, method) = (setting.target.clone(), setting.method()?);
+        let work = Sampled { target, method, run };
         let mut watch = Watch {
             inner: tools.observer,
             yardstick,
@@ -69,23 +48,28 @@ impl Paper {
             reach: self.reach,
             seen: Seen::default(),
         };
-        let (seconds, result) = timed(|| sampling::sample(&setting.target, &method, run, &mut watch));
+        let result = match is_body {
+            true => sampling::sample(&work.target, &work.method, &work.run, &mut watch),
+            false => work.sample_or_draw(yardstick, watch.inner),
+        };
         let mut seen = watch.seen;
         if let Some((step, message)) = seen.ended.take() {
             let failure = Failure::new(Status::Diverged, message);
             fail(row, ("outside range", Some(step)), failure);
         } else {
-            let why = result.as_ref().err().map_or(("other", None), reason);
+            let error = result.as_ref().err().filter(|_| is_body);
+            let why = error.map_or(("other", None), reason);
             match attempt(result)? {
                 Err(failure) => fail(row, why, failure),
                 Ok(outcome) => {
-                    row.set("active_nodes", outcome.active_nodes);
-                    row.set("storage_bytes", outcome.storage_bytes);
-                    row.set("wall_seconds", seconds - seen.looking.as_secs_f64());
+                    let steps = is_body.then_some(outcome.steps);
+                    row.set("active_nodes", outcome.active_nodes.filter(|_| is_body));
+                    row.set("storage_bytes", outcome.storage_bytes.filter(|_| is_body));
+                    row.set("wall_seconds", outcome.wall_seconds - seen.looking.as_secs_f64());
                     row.set("evaluations", outcome.evaluations());
-                    let errors = attempt(yardstick.measure(&outcome.particles))?;
-                    if let Some(errors) = end(row, errors, Some(outcome.steps)) {
-                        seen.note(outcome.steps, errors);
+                    let errors = end(row, attempt(yardstick.measure(&outcome.particles))?, steps);
+                    if let Some((step, errors)) = steps.zip(errors) {
+                        seen.note(step, errors);
                     }
                 }
             }

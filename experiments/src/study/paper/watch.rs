@@ -7,12 +7,13 @@ use parvi::{Observer, ParticleView, Progress};
 
 use crate::CommandError;
 use crate::output::Particles;
+use crate::progress::Bar;
 use crate::study::yardstick::{Errors, Yardstick};
 
 /// Measures the start and every so many steps, and ends a run that is far out.
 pub struct Watch<'a> {
     /// Another observer beside it.
-    pub inner: &'a mut dyn Observer,
+    pub inner: &'a mut Bar,
     /// Of the target.
     pub yardstick: &'a dyn Yardstick,
     /// Steps between two looks.

@@ -2,7 +2,7 @@
 
 use parvi::TracePoint;
 
-use super::{Piece, Quickstart};
+use super::{PICTURE, POSTERIOR, Quickstart, REFERENCE, file};
 use crate::dispatch::on_target;
 use crate::output::{Particles, particles_csv, table_file};
 use crate::pictures::density;
@@ -17,7 +17,7 @@ pub fn posterior(
     directory: &StudyDirectory,
     page: &mut Page,
 ) -> Result<(), CommandError> {
-    let draws = particles_csv::read(&Piece::Reference.file(directory, "particles"))?;
+    let draws = particles_csv::read(&file(directory, REFERENCE, "particles"))?;
     let (points, draws) = (particles.to_rows(), draws.to_rows());
     let labels = study.posterior.target.coordinate_names();
     let particles = PointCloud::weighted(&points, particles.weights());
@@ -61,8 +61,8 @@ pub fn picture(study: &Quickstart, particles: &Particles, page: &mut Page) -> Re
 /// Residual and energies of the runs that took steps, against these.
 pub fn traces(study: &Quickstart, directory: &StudyDirectory, page: &mut Page) -> Result<(), CommandError> {
     let mut labelled: Vec<(String, Vec<TracePoint>)> = Vec::new();
-    for (piece, part) in [(Piece::Posterior, &study.posterior), (Piece::Picture, &study.picture)] {
-        let path = piece.file(directory, "trace");
+    for (piece, part) in [(POSTERIOR, &study.posterior), (PICTURE, &study.picture)] {
+        let path = file(directory, piece, "trace");
         if path.exists() {
             labelled.push((part.target.label(), table_file::read(&path)?));
         }

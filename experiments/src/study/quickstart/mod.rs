@@ -11,7 +11,6 @@ use reference::Reference;
 
 use super::prelude::*;
 use crate::dispatch::on_target;
-use crate::options::words;
 use crate::output::{ParticleFile, table_file};
 
 /// A posterior against its reference, and a two-dimensional target for the eye.
@@ -68,65 +67,49 @@ struct Bounds {
     standard_deviation: f64,
 }
 
-words! {
-    /// The three pieces of work, by their names in results.csv and in the names of raw files.
-    Piece {
-        /// The posterior's reference moments.
-        Reference,
-        /// The posterior's particles.
-        Posterior,
-        /// The particles for the eye.
-        Picture,
-    }
-}
+/// The pieces of work, by their names in results.csv and in the names of raw files: the posterior's reference moments, its particles, and those for the eye.
+const REFERENCE: &str = "reference";
+const POSTERIOR: &str = "posterior";
+const PICTURE: &str = "picture";
 
-impl Piece {
-    fn case(self, part: &Part, particles: usize) -> Result<Case<Self>, CommandError> {
-        Ok(Case::new(self.to_string(), self)
-            .by(&part.method)
-            .with("target", part.target.label())
-            .with("dim", part.target.dimension()?)
-            .with("particles", particles))
-    }
-
-    /// A file of its own: `particles`, `trace` or `moments`.
-    fn file(self, directory: &StudyDirectory, what: &str) -> PathBuf {
-        directory.raw(&format!("{self}-{what}.csv"))
-    }
+/// A file of a piece: `particles`, `trace` or `moments`.
+fn file(directory: &StudyDirectory, piece: &str, what: &str) -> PathBuf {
+    directory.raw(&format!("{piece}-{what}.csv"))
 }
 
 impl Study for Quickstart {
-    type Work = Piece;
+    type Work = Sampled;
 
     const KIND: &'static str = "quickstart";
     const COLUMNS: &'static str = "case status reason target dim method particles steps score_evaluations density_evaluations residual \
          spacing active_nodes storage_bytes effective_sample_size wall_seconds";
     const REPORT: Report<Self> = report::report;
 
-    fn cases(&self) -> Result<Vec<Case<Piece>>, CommandError> {
+    fn cases(&self) -> Result<Vec<Case<Sampled>>, CommandError> {
         let (dimension, target) = (self.picture.target.dimension()?, self.picture.target.label());
         let otherwise = || format!("`{target}` has d = {dimension}, must be 2");
         holds(dimension == 2, "picture.target", otherwise)?;
         positive("bounds.mean", &[self.bounds.mean])?;
         positive("bounds.standard-deviation", &[self.bounds.standard_deviation])?;
-        let reference = Piece::Reference.case(&self.posterior, self.reference.points.get())?;
+        let case = |piece: &str, part: &Part, particles: usize| {
+            let mut method = part.method.clone();
+            method.options.trace_every = self.trace_every.get();
+            let work = Sampled::new(&part.target, &method, None, (particles, self.seed))?;
+            work.case(piece.to_owned(), &part.method)
+        };
+        let reference = case(REFERENCE, &self.posterior, self.reference.points.get())?;
         let reference = reference.with("method", "importance-sampling").costing(2.0);
-        let posterior = Piece::Posterior.case(&self.posterior, self.posterior.particles.get())?;
-        let picture = Piece::Picture.case(&self.picture, self.picture.particles.get())?;
+        let posterior = case(POSTERIOR, &self.posterior, self.posterior.particles.get())?;
+        let picture = case(PICTURE, &self.picture, self.picture.particles.get())?;
         Ok(vec![reference, posterior.costing(10.0), picture])
     }
 
-    fn run(&self, case: &Case<Piece>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
-        let part = match case.work {
-            Piece::Reference => return self.run_reference(row, tools.directory),
-            Piece::Posterior => &self.posterior,
-            Piece::Picture => &self.picture,
-        };
-        let mut method = part.method.clone();
-        method.options.trace_every = self.trace_every.get();
-        let work = Sampled::new(&part.target, &method, None, (part.particles.get(), self.seed))?;
-        if let Some(outcome) = row.note(work.sample(tools.observer))? {
-            let file = |what: &str| case.work.file(tools.directory, what);
+    fn run(&self, case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
+        if case.id() == REFERENCE {
+            return self.run_reference(row, tools.directory);
+        }
+        if let Some(outcome) = row.note(case.work.sample(tools.observer))? {
+            let file = |what: &str| file(tools.directory, case.id(), what);
             ParticleFile::create(file("particles"))?.write(&outcome.particles, &[])?;
             table_file::write(outcome.trace.iter(), &file("trace"))?;
         }
@@ -141,7 +124,7 @@ impl Quickstart {
         let (seconds, reference) =
             timed(|| on_target!(target, target, D => Reference::of::<D>(target.as_ref(), &names, &self.reference)));
         let reference = reference?;
-        let file = |what: &str| Piece::Reference.file(directory, what);
+        let file = |what: &str| file(directory, REFERENCE, what);
         row_file::write(&file("moments"), reference::COLUMNS, &reference.axes)?;
         ParticleFile::create(file("particles"))?.write(&reference.draws, &[])?;
         row.set("effective_sample_size", reference.effective_sample_size);

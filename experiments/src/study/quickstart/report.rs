@@ -1,18 +1,18 @@
 //! The report of the study `quickstart`.
 
 use super::comparison::compared;
-use super::{Piece, Quickstart, figures, reference};
+use super::{PICTURE, POSTERIOR, Quickstart, REFERENCE, figures, file, reference};
 use crate::output::particles_csv;
 use crate::study::prelude::*;
 
 /// Tables, figures and verdict.
 pub fn report(study: &Quickstart, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
     let mut page = directory.page(include_str!("report.md"), &[]);
-    let finished = |piece: Piece| rows.with("case", piece).count(Row::finished) > 0;
-    let particles = |piece: Piece| particles_csv::read(&piece.file(directory, "particles"));
-    if finished(Piece::Reference) && finished(Piece::Posterior) {
-        let particles = particles(Piece::Posterior)?;
-        let reference = row_file::read(&Piece::Reference.file(directory, "moments"), reference::COLUMNS)?;
+    let finished = |piece: &str| rows.with("case", piece).count(Row::finished) > 0;
+    let particles = |piece: &str| particles_csv::read(&file(directory, piece, "particles"));
+    if finished(REFERENCE) && finished(POSTERIOR) {
+        let particles = particles(POSTERIOR)?;
+        let reference = row_file::read(&file(directory, REFERENCE, "moments"), reference::COLUMNS)?;
         let axes = compared(&particles, reference);
         page = verdict(study, &axes.iter().collect(), rows, page);
         page.section("Posterior moments", &[], &axes);
@@ -22,9 +22,9 @@ pub fn report(study: &Quickstart, rows: &Rows<'_>, directory: &StudyDirectory) -
         page.paragraph("The posterior or its reference is missing, so there is nothing to compare yet.");
         page = page.with("verdict", "incomplete");
     }
-    if finished(Piece::Picture) {
+    if finished(PICTURE) {
         page.heading("A target for the eye");
-        figures::picture(study, &particles(Piece::Picture)?, &mut page)?;
+        figures::picture(study, &particles(PICTURE)?, &mut page)?;
     }
     page.heading("The way there");
     figures::traces(study, directory, &mut page)?;
@@ -35,13 +35,13 @@ pub fn report(study: &Quickstart, rows: &Rows<'_>, directory: &StudyDirectory) -
 /// Whether the particles' moments keep their bounds, axis by axis.
 fn verdict(study: &Quickstart, axes: &Rows<'_>, rows: &Rows<'_>, mut page: Page) -> Page {
     let bounds = &study.bounds;
-    let [mean, deviation, reference] = ["mean_off", "deviation_off", "reference_error"]
-        .map(|column| axes.values(column).into_iter().fold(0.0, f64::max));
+    let [mean, deviation, reference] = ["mean_error", "deviation_error", "reference_error"]
+        .map(|column| axes.values(column).into_iter().map(f64::abs).fold(0.0, f64::max));
     let pairs = [(mean, bounds.mean), (deviation, bounds.standard_deviation)];
     let kept = pairs.map(|(error, bound)| !axes.is_empty() && error <= bound);
     let [means, deviations] = kept.map(|kept| if kept { "within" } else { "beyond" });
     let verdict = if kept == [true, true] { "pass" } else { "fail" };
-    let runs = rows.with("case", Piece::Reference);
+    let runs = rows.with("case", REFERENCE);
     let values: [(&str, &dyn Display); 9] = [
         ("verdict", &verdict),
         ("mean error", &number(mean)),

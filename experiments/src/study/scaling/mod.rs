@@ -4,12 +4,11 @@
 //! target at fixed M, where a dense grid would hold N = kᵈ nodes. Each case runs once to warm up and then several times on the clock; the
 //! median counts. The memory is that of one more run in a process of its own.
 
-mod memory;
 mod quantity;
 mod report;
 
+use super::own_process::peak_of_own_process;
 use super::prelude::*;
-use crate::statistics;
 
 /// Sizes to measure.
 #[derive(Clone, Debug, Deserialize)]
@@ -61,6 +60,13 @@ struct NodesSweep {
     #[serde(rename = "box")]
     interval: [f64; 2],
 }
+
+/// Wall time over steps, least, median and most.
+const WALL_PER_STEP: [&str; 3] = [
+    "wall_seconds_per_step_least",
+    "wall_seconds_per_step",
+    "wall_seconds_per_step_most",
+];
 
 /// d, M and h in frame units; `None`: the sampler chooses it.
 type Size = (Dimension, usize, Option<f64>);
@@ -131,17 +137,15 @@ impl Study for Scaling {
                 return Ok(());
             };
             row.set("spacing", outcome.spacing.or(spacing));
-            times.push(outcome.wall_seconds / outcome.steps.max(1) as f64);
+            let per_step = outcome.wall_seconds / outcome.steps.max(1) as f64;
+            times.push(Row::default().with(WALL_PER_STEP[1], per_step));
         }
         // The first is to warm up.
-        times.remove(0);
+        let timed: Rows<'_> = times.iter().skip(1).collect();
+        timed.note_range(WALL_PER_STEP[1], row, WALL_PER_STEP);
         specification.options.steps = Some(self.steps);
-        let peak = memory::peak_of_own_process(&work, &specification, tools.directory.threads);
+        let peak = peak_of_own_process(&work, &specification, tools.directory.threads);
         row.set("memory_peak_bytes", peak);
-        let quantiles = statistics::weighted_quantile(&times, None, &[0.0, 0.5, 1.0])?;
-        row.set("wall_seconds_per_step_least", quantiles[0]);
-        row.set("wall_seconds_per_step", quantiles[1]);
-        row.set("wall_seconds_per_step_most", quantiles[2]);
         Ok(())
     }
 }

@@ -2,7 +2,6 @@
 //!
 //! At a fixed spacing the error falls with M until the grid, not the particles, limits it; at fixed M it has a best spacing.
 
-mod curves;
 mod report;
 
 use super::gaussian_runs::{GaussianStudy, Setting};
@@ -38,13 +37,6 @@ impl Series {
         let mut spacings = self.spacings.clone();
         spacings.sort_by(f64::total_cmp);
         spacings
-    }
-}
-
-impl SpacingParticles {
-    /// The numbers of particles, few first.
-    fn counts(&self) -> Vec<usize> {
-        ascending(&self.particles)
     }
 }
 

@@ -17,7 +17,7 @@ pub fn plot(
         if rows.with("case", row.case()).is_empty() {
             continue;
         }
-        let trials = super::trials(&case, directory)?;
+        let trials = case.trials(directory, super::COLUMNS)?;
         let settings = settings(&trials.iter().collect());
         if settings.is_empty() {
             continue;

@@ -43,11 +43,6 @@ pub struct TimeToEqualError {
     rivals: Vec<MethodSpecification>,
 }
 
-/// Its runs, as far as they have been made.
-fn trials(contestant: &Contestant, directory: &StudyDirectory) -> Result<Vec<Row>, CommandError> {
-    row_file::read(&contestant.file(directory), COLUMNS)
-}
-
 impl Study for TimeToEqualError {
     type Work = Contestant;
 
@@ -123,7 +118,7 @@ impl Study for TimeToEqualError {
 impl TimeToEqualError {
     /// What the method reached on the target of a rival's case; `None` unless it is a positive number.
     fn goal(&self, entry: &Contestant, directory: &StudyDirectory) -> Result<Option<Goal>, CommandError> {
-        let trials = trials(&entry.first(&self.method), directory)?;
+        let trials = entry.first(&self.method).trials(directory, COLUMNS)?;
         let runs = of_size(&trials, OWN);
         let energy = median_energy(&runs);
         let seconds = runs.median(SECONDS).filter(|_| energy > 0.0 && energy.is_finite());
@@ -140,7 +135,7 @@ impl TimeToEqualError {
         let mut earlier = entry.clone();
         let known = smaller.map(|particles| {
             earlier.task = format!("{}-m{particles}", entry.target.label());
-            trials(&earlier, directory)
+            earlier.trials(directory, COLUMNS)
         });
         let known = known.collect::<Result<Vec<_>, _>>()?.into_iter();
         Ok(known.max_by_key(Vec::len).unwrap_or_default())

@@ -86,7 +86,7 @@ impl Study for TimeToLevel {
         let level = energy_level(contestant.target.dimension()?, contestant.particles)?;
         let mut budget = None;
         if contestant.index > 0 {
-            let trials = search::read(&contestant.first(&self.method).file(directory))?;
+            let trials = contestant.first(&self.method).trials(directory, search::COLUMNS)?;
             let seconds = search::last(&trials).median(SECONDS);
             budget = seconds.map(|seconds| self.largest_ratio * seconds);
         }

@@ -70,7 +70,7 @@ fn plot(study: &TimeToLevel, rows: &Rows<'_>, directory: &StudyDirectory) -> Res
             let told = ["dim", "method", "energy_level"];
             let of = |trial, column| Row::with(trial, column, row.value(column).clone());
             let of_case = |trial: Row| completed(&told.into_iter().fold(trial, of));
-            trials.extend(search::read(&case.work.file(directory))?.into_iter().map(of_case));
+            trials.extend(case.work.trials(directory, search::COLUMNS)?.into_iter().map(of_case));
         }
     }
     let trials: Rows<'_> = trials.iter().collect();

@@ -1,7 +1,5 @@
 //! The search for the number of steps that reaches the level, within a budget of time.
 
-use std::path::Path;
-
 use super::TimeToLevel;
 use crate::study::contestant::Contestant;
 use crate::study::gaussian_runs;
@@ -13,14 +11,6 @@ const TOLERANCE: f64 = 1.2;
 const LONG: f64 = 1.0;
 /// What is kept of a run: its steps, the sampler's time, and the squared energy distance at the end, where it did not diverge.
 pub const COLUMNS: &str = "steps wall_seconds energy_distance_squared";
-
-/// The runs of a search in order.
-///
-/// # Errors
-/// A file that cannot be read.
-pub fn read(path: &Path) -> Result<Vec<Row>, CommandError> {
-    row_file::read(path, COLUMNS)
-}
 
 /// The last run and its repeats, which have the same number of steps.
 pub fn last(trials: &[Row]) -> Rows<'_> {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use mpm_core::{Basis, Boundaries, Contact, Flip, Mpm, NoBodyForce, Particles, Side, Wall};
+use mpm_core::{Basis, Boundaries, Contact, Flip, Mpm, NoBodyForce, Particles, Plane};
 use mpm_materials::{ElasticModuli, LinearElastic};
 use mpm_mesh::{Gradient, MeshBasis, SampleWeight};
 
@@ -33,10 +33,9 @@ fn error_on(basis: MeshBasis<1>, h: f64, per_cell: usize) -> f64 {
     for (v, x) in particles.velocities.iter_mut().zip(&particles.positions) {
         v[0] = SPEED * (wave_number * x[0]).sin();
     }
-    let wall = Wall {
-        axis: 0,
-        side: Side::Lower,
-        position: 0.0,
+    let wall = Plane {
+        point: [0.0],
+        normal: [1.0],
         contact: Contact::Stick,
         velocity: [0.0],
     };
@@ -57,7 +56,7 @@ fn error_on(basis: MeshBasis<1>, h: f64, per_cell: usize) -> f64 {
     (squares / steps as f64).sqrt()
 }
 
-/// Nodes at the fixed end alone, and with cells behind it whose nodes are images of those before it (`Wall`).
+/// Nodes at the fixed end alone, and with cells behind it whose nodes are images of those before it (`Plane`).
 #[test]
 fn the_centre_of_mass_swings_as_it_should() {
     for (outer, per_cell) in [(0, 2), (0, 4), (2, 2), (2, 4)] {

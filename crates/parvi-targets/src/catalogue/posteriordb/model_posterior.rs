@@ -96,11 +96,6 @@ impl<T: Target<N>, const N: usize, const D: usize> ModelPosterior<T, N, D> {
         self.target.constraints()
     }
 
-    /// The log likelihood of the model's parameters, as a density of them.
-    pub fn likelihood(&self) -> &T {
-        &self.target.density().likelihood
-    }
-
     /// The nearest point within reach.
     fn within_reach(&self, y: &[f64; D]) -> [f64; D] {
         std::array::from_fn(|k| y[k].clamp(-self.reach[k], self.reach[k]))

@@ -1,4 +1,4 @@
-//! What a body is made of, as the study's configuration states it.
+//! What a body of the paper's algorithms is made of, as a configuration states it.
 
 use std::collections::BTreeMap;
 
@@ -6,7 +6,7 @@ use mpm_materials::ParameterError;
 use parvi::PaperMaterial;
 use serde::Deserialize;
 
-use crate::options::{Given, Material, checked_when_read};
+use super::{Given, Material, checked_when_read};
 
 /// `{ law = "neo-hookean", youngs-modulus = 1.0, poissons-ratio = 0.3 }`: a law with all of its stated parameters.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
