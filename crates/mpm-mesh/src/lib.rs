@@ -1,7 +1,6 @@
 #![doc = include_str!("../README.md")]
 
 mod adjacency;
-mod appended;
 mod basis;
 mod boundary;
 mod edge_lengths;
@@ -19,7 +18,6 @@ mod search;
 mod vtu;
 
 pub use adjacency::Lists;
-pub use appended::{Appended, collection};
 pub use basis::{Gradient, KernelWidth, MeshBasis, Outside, WeightAt};
 pub use boundary::BoundaryFacet;
 pub use edge_lengths::EdgeLengths;

@@ -1,7 +1,8 @@
 //! Meshes as VTK XML unstructured grids.
 
+use mpm_vtk::Appended;
+
 use crate::SimplexMesh;
-use crate::appended::Appended;
 
 /// Numbers to be shown at the vertices or in the cells of a mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -9,7 +9,10 @@ fn commands_that_are_left_out_name_their_feature() {
         ("simulate scene.toml --out out", "mechanics"),
         ("rom train rom.toml --out out", "rom"),
         ("sample --target gaussian --dim 2 --particles 10 --out out.npy", "npy"),
-        ("sample --target gaussian --dim 2 --particles 10 --frames out --out out.csv", "npy"),
+        (
+            "sample --target gaussian --dim 2 --particles 10 --frames out --out out.csv",
+            "npy",
+        ),
     ] {
         let output = parvi(root.path(), line);
         assert_refused(

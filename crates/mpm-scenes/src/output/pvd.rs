@@ -1,6 +1,6 @@
 use std::path::Path;
 
-use mpm_mesh::collection;
+use mpm_vtk::collection;
 
 use super::{names, write_whole};
 use crate::SimulationError;

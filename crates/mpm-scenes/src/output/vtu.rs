@@ -1,6 +1,6 @@
 //! Frames as VTK XML unstructured grids.
 
-use mpm_mesh::Appended;
+use mpm_vtk::Appended;
 
 use crate::Snapshot;
 

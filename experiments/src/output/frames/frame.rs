@@ -1,6 +1,6 @@
 //! The particles of one moment as files.
 
-use mpm_mesh::Appended;
+use mpm_vtk::Appended;
 use parvi::ParticleView;
 
 use crate::output::npy::array;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use mpm_mesh::collection;
+use mpm_vtk::collection;
 use serde::{Deserialize, Serialize};
 
 use super::names;

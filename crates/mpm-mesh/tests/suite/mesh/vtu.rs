@@ -1,6 +1,6 @@
 //! `.vtu` files, read as a reader finds its arrays.
 
-use mpm_mesh::{Appended, Field, VtuError, mesh_vtu};
+use mpm_mesh::{Field, VtuError, mesh_vtu};
 
 use super::samples;
 
@@ -97,34 +97,5 @@ fn the_text_of_a_file() {
     assert_eq!(
         file.len(),
         text.len() + 128 + 8 + 1 + "\n</AppendedData>\n</VTKFile>\n".len()
-    );
-}
-
-#[test]
-fn short_vectors_and_matrices_are_widened() {
-    let mut appended = Appended::default();
-    assert!(
-        appended
-            .vectors("v", 2, &[1.0, 2.0])
-            .contains("NumberOfComponents=\"3\"")
-    );
-    assert!(appended.vectors("w", 4, &[1.0; 4]).contains("NumberOfComponents=\"4\""));
-    appended.matrices("F", 2, &[1.0, 2.0, 3.0, 4.0], 1.0);
-    appended.positions(4, &[5.0, 6.0, 7.0, 8.0]);
-    let numbers = |list: &[f64]| {
-        let mut bytes = (8 * list.len() as u64).to_le_bytes().to_vec();
-        bytes.extend(list.iter().flat_map(|number| number.to_le_bytes()));
-        bytes
-    };
-    let expected = [
-        numbers(&[1.0, 2.0, 0.0]),
-        numbers(&[1.0; 4]),
-        numbers(&[1.0, 2.0, 0.0, 3.0, 4.0, 0.0, 0.0, 0.0, 1.0]),
-        numbers(&[5.0, 6.0, 7.0]),
-    ];
-    let file = appended.file("");
-    assert!(
-        file.windows(expected.concat().len())
-            .any(|bytes| bytes == expected.concat())
     );
 }

@@ -1,4 +1,6 @@
-//! VTK XML files: arrays as raw appended data, the binary form that ParaView reads fastest, and collections of files.
+//! Arrays as raw appended data, the binary form that ParaView reads fastest.
+
+use crate::escaped;
 
 /// The arrays of a grid or of points: the text of a file has an element for each, which says where it begins in a block of data behind the text.
 ///
@@ -89,22 +91,36 @@ fn widened(dimension: usize, wide: usize, values: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// A `.pvd` file, the collection that ParaView opens to see files as one animation: the time of each and its name, which is taken relative to the collection.
-pub fn collection<'a>(files: impl IntoIterator<Item = (f64, &'a str)>) -> String {
-    let mut text = String::from(
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n  <Collection>\n",
-    );
-    for (time, file) in files {
-        text.push_str(&format!(
-            "    <DataSet timestep=\"{time:?}\" part=\"0\" file=\"{}\"/>\n",
-            escaped(file)
-        ));
-    }
-    text.push_str("  </Collection>\n</VTKFile>\n");
-    text
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-/// Text as the value of an attribute.
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
+    #[test]
+    fn short_vectors_and_matrices_are_widened() {
+        let mut appended = Appended::default();
+        assert!(
+            appended
+                .vectors("v", 2, &[1.0, 2.0])
+                .contains("NumberOfComponents=\"3\"")
+        );
+        assert!(appended.vectors("w", 4, &[1.0; 4]).contains("NumberOfComponents=\"4\""));
+        appended.matrices("F", 2, &[1.0, 2.0, 3.0, 4.0], 1.0);
+        appended.positions(4, &[5.0, 6.0, 7.0, 8.0]);
+        let numbers = |list: &[f64]| {
+            let mut bytes = (8 * list.len() as u64).to_le_bytes().to_vec();
+            bytes.extend(list.iter().flat_map(|number| number.to_le_bytes()));
+            bytes
+        };
+        let expected = [
+            numbers(&[1.0, 2.0, 0.0]),
+            numbers(&[1.0; 4]),
+            numbers(&[1.0, 2.0, 0.0, 3.0, 4.0, 0.0, 0.0, 0.0, 1.0]),
+            numbers(&[5.0, 6.0, 7.0]),
+        ];
+        let file = appended.file("");
+        assert!(
+            file.windows(expected.concat().len())
+                .any(|bytes| bytes == expected.concat())
+        );
+    }
 }
