@@ -107,6 +107,20 @@ pub enum SceneFault {
         /// Its normal into the domain.
         normal: Vec<f64>,
     },
+    /// The distance between the particles of a body is so short that they cannot be counted.
+    #[error(
+        "bodies.{body}.{key}: the distance {distance:e} between particles must be so wide that the body has at most {most:e} points"
+    )]
+    TooManyPoints {
+        /// The body.
+        body: String,
+        /// What sets the distance: `spacing`, or `particles_per_axis` of a cell of the background.
+        key: &'static str,
+        /// The distance.
+        distance: f64,
+        /// The most points.
+        most: f64,
+    },
     /// A background too many.
     #[error("[grid] and [mesh]: must be one of the two, not both")]
     TwoBackgrounds,
