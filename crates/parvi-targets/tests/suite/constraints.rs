@@ -222,7 +222,7 @@ fn lists_that_do_not_fit_are_refused() {
     let message = error::<7, 7>(|list| list.free(2).positive(1).simplex(4)).to_string();
     assert_eq!(
         message,
-        "the list of unconstrained coordinates (free 0..2, positive 2..3, simplex 3..6) has length 6, expected 7"
+        "the list of unconstrained coordinates (free 1 to 2, positive 3 to 3, simplex 4 to 6) has length 6, expected 7"
     );
     assert!(matches!(
         error::<2, 2>(|list| list),
