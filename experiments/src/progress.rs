@@ -1,12 +1,12 @@
-//! Progress bars with the time left, on standard error, silent where that is no terminal.
+//! Progress bars with the time left, on standard error; where that is no terminal, a plain line now and then.
 
 use std::ops::ControlFlow;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use parvi::{Observer, Progress};
 
-use crate::interrupt;
+use crate::{console, interrupt};
 
 /// Units of a bar that shows shares of something.
 const UNITS: f64 = 1e6;
@@ -26,6 +26,43 @@ pub struct Bar {
     begun: bool,
     /// The cost of a whole study; what is done of it, and that of the case at hand.
     study: Option<(f64, f64, f64)>,
+    /// The case at hand of a study.
+    case: String,
+    /// What stands in for the bar where there is no terminal.
+    lines: Option<Lines>,
+}
+
+/// When a line is due where nobody sees a bar: after so much more of the whole and so long since the last one, so that short runs say nothing and long ones ten lines at most.
+struct Lines {
+    start: Instant,
+    last: Instant,
+    share: f64,
+}
+
+/// The share of the whole, and the time, from one line to the next, at least.
+const LINE_SHARE: f64 = 0.1;
+const LINE_TIME: Duration = Duration::from_secs(30);
+
+impl Lines {
+    fn begin(now: Instant) -> Self {
+        Self {
+            start: now,
+            last: now,
+            share: 0.0,
+        }
+    }
+
+    /// The line that this share of the whole, now, asks for.
+    fn due(&mut self, share: f64, now: Instant) -> Option<String> {
+        // A phase of its own begins anew.
+        self.share = self.share.min(share);
+        let is_due = share >= self.share + LINE_SHARE && now.duration_since(self.last) >= LINE_TIME;
+        is_due.then(|| {
+            (self.share, self.last) = (share, now);
+            let seconds = now.duration_since(self.start).as_secs();
+            format!("{:.0} % done after {seconds} s", 100.0 * share)
+        })
+    }
 }
 
 impl Bar {
@@ -33,9 +70,11 @@ impl Bar {
     pub fn new(template: &str) -> Self {
         let bar = ProgressBar::new(0).with_style(style(template));
         Self {
+            lines: bar.is_hidden().then(|| Lines::begin(Instant::now())),
             bar,
             begun: false,
             study: None,
+            case: String::new(),
         }
     }
 
@@ -56,6 +95,7 @@ impl Bar {
     /// Begins the next case of a study.
     pub fn begin(&mut self, case: &str, cost: f64) {
         self.bar.set_message(case.to_owned());
+        case.clone_into(&mut self.case);
         self.study = self.study.map(|(total, done, last)| (total, done + last, cost));
         self.set_share(0.0);
     }
@@ -67,6 +107,13 @@ impl Bar {
         if !self.begun {
             self.bar.reset_eta();
             self.begun = true;
+        }
+        let lines = self.lines.as_mut().filter(|_| done < count);
+        if let Some(line) = lines.and_then(|lines| lines.due(done as f64 / count as f64, Instant::now())) {
+            match self.case.as_str() {
+                "" => console::notice(&line),
+                case => console::notice(&format!("{line}, now {case}")),
+            }
         }
     }
 
@@ -110,5 +157,25 @@ impl Observer for Bar {
             Some(_) => self.set_share(progress.step as f64 / progress.steps.max(1) as f64),
         }
         unless_interrupted()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_are_due_after_a_share_and_a_time() {
+        let start = Instant::now();
+        let after = |seconds| start + Duration::from_secs(seconds);
+        let mut lines = Lines::begin(start);
+        assert_eq!(lines.due(0.5, after(29)), None);
+        assert_eq!(lines.due(0.5, after(30)).as_deref(), Some("50 % done after 30 s"));
+        assert_eq!(lines.due(0.59, after(300)), None);
+        assert_eq!(lines.due(0.61, after(301)).as_deref(), Some("61 % done after 301 s"));
+        assert_eq!(lines.due(0.95, after(330)), None);
+        // Another phase.
+        assert_eq!(lines.due(0.05, after(340)), None);
+        assert_eq!(lines.due(0.16, after(341)).as_deref(), Some("16 % done after 341 s"));
     }
 }

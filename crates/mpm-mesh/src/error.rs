@@ -1,21 +1,18 @@
-/// Why a mesh was refused.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+/// Why a mesh was refused. Cells and vertices are numbered from 0; [`in_words`](Self::in_words) gives them other names.
+#[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum MeshError {
     /// Simplices of this dimension are not treated: 1, 2 and 3 are.
-    #[error("meshes have dimension 1, 2 or 3, not {dimension}")]
     UnsupportedDimension {
         /// D.
         dimension: usize,
     },
     /// There are no vertices or no cells.
-    #[error("the mesh has no {what}")]
     Empty {
         /// `vertices` or `cells`.
         what: &'static str,
     },
     /// Vertices or cells are more than 32-bit numbers can name.
-    #[error("{count} {what} are more than a mesh can number")]
     TooLarge {
         /// `vertices` or `cells`.
         what: &'static str,
@@ -23,7 +20,6 @@ pub enum MeshError {
         count: usize,
     },
     /// The list of cells does not divide into cells of D + 1 vertices.
-    #[error("{count} vertex numbers do not divide into cells of {per_cell}")]
     RaggedCells {
         /// Length of the list.
         count: usize,
@@ -31,7 +27,6 @@ pub enum MeshError {
         per_cell: usize,
     },
     /// A cell names a vertex that there is not.
-    #[error("cell {cell} names vertex {vertex}, and there are {vertex_count}")]
     UnknownVertex {
         /// The cell.
         cell: usize,
@@ -41,7 +36,6 @@ pub enum MeshError {
         vertex_count: usize,
     },
     /// A coordinate is not a finite number.
-    #[error("vertex {vertex} is at {position:?}")]
     NonFiniteVertex {
         /// The vertex.
         vertex: usize,
@@ -49,13 +43,11 @@ pub enum MeshError {
         position: Vec<f64>,
     },
     /// A vertex belongs to no cell.
-    #[error("vertex {vertex} belongs to no cell")]
     UnusedVertex {
         /// The vertex.
         vertex: usize,
     },
     /// A cell names a vertex twice.
-    #[error("cell {cell} names vertex {vertex} twice")]
     RepeatedVertex {
         /// The cell.
         cell: usize,
@@ -63,7 +55,6 @@ pub enum MeshError {
         vertex: u32,
     },
     /// A cell is negatively oriented.
-    #[error("cell {cell} is inverted, its volume is {volume:e}")]
     InvertedCell {
         /// The cell.
         cell: usize,
@@ -71,7 +62,6 @@ pub enum MeshError {
         volume: f64,
     },
     /// A cell has no volume to speak of, or one that is not finite.
-    #[error("cell {cell} is flat, its volume is {volume:e} and its longest edge {longest_edge:e}")]
     FlatCell {
         /// The cell.
         cell: usize,
@@ -81,7 +71,6 @@ pub enum MeshError {
         longest_edge: f64,
     },
     /// Two cells have the same vertices.
-    #[error("cells {first} and {second} have the same vertices")]
     DuplicateCells {
         /// One of them.
         first: usize,
@@ -89,7 +78,6 @@ pub enum MeshError {
         second: usize,
     },
     /// A facet belongs to more than two cells.
-    #[error("the facet of vertices {facet:?} belongs to cells {cells:?}")]
     NonManifoldFacet {
         /// Its vertices.
         facet: Vec<u32>,
@@ -97,7 +85,6 @@ pub enum MeshError {
         cells: Vec<u32>,
     },
     /// Two cells lie on the same side of the facet that they share.
-    #[error("cells {first} and {second} lie on the same side of the facet of vertices {facet:?}")]
     OverlappingCells {
         /// One of them.
         first: usize,
@@ -107,7 +94,6 @@ pub enum MeshError {
         facet: Vec<u32>,
     },
     /// Two vertices have the same position.
-    #[error("vertices {first} and {second} have the same position")]
     DuplicateVertices {
         /// The smaller number.
         first: usize,
@@ -115,7 +101,6 @@ pub enum MeshError {
         second: usize,
     },
     /// A vertex lies on the boundary of a cell that it does not belong to: the mesh is not conforming.
-    #[error("vertex {vertex} lies on the boundary of cell {cell}, which it does not belong to")]
     HangingVertex {
         /// The vertex.
         vertex: usize,
@@ -123,7 +108,6 @@ pub enum MeshError {
         cell: usize,
     },
     /// A vertex lies inside a cell: cells overlap.
-    #[error("vertex {vertex} lies inside cell {cell}")]
     VertexInsideCell {
         /// The vertex.
         vertex: usize,
@@ -131,3 +115,90 @@ pub enum MeshError {
         cell: usize,
     },
 }
+
+impl MeshError {
+    /// What is wrong, with names for cells and vertices: those of the file that they come from, where there is one.
+    pub fn in_words(&self, cell: &dyn Fn(usize) -> String, vertex: &dyn Fn(usize) -> String) -> String {
+        let all = |numbers: &[u32], name: &dyn Fn(usize) -> String| {
+            let names: Vec<String> = numbers.iter().map(|&number| name(number as usize)).collect();
+            match names.split_last() {
+                Some((last, rest)) if !rest.is_empty() => format!("{} and {last}", rest.join(", ")),
+                _ => names.concat(),
+            }
+        };
+        match self {
+            Self::UnsupportedDimension { dimension } => format!("meshes have dimension 1, 2 or 3, not {dimension}"),
+            Self::Empty { what } => format!("the mesh has no {what}"),
+            Self::TooLarge { what, count } => format!("{count} {what} are more than a mesh can number"),
+            Self::RaggedCells { count, per_cell } => {
+                format!("{count} vertex numbers do not divide into cells of {per_cell}")
+            }
+            Self::UnknownVertex {
+                cell: number,
+                vertex: named,
+                vertex_count,
+            } => format!(
+                "{} names {}, and there are {vertex_count}",
+                cell(*number),
+                vertex(*named as usize)
+            ),
+            Self::NonFiniteVertex {
+                vertex: number,
+                position,
+            } => format!("{} is at {position:?}", vertex(*number)),
+            Self::UnusedVertex { vertex: number } => format!("{} belongs to no cell", vertex(*number)),
+            Self::RepeatedVertex {
+                cell: number,
+                vertex: named,
+            } => format!("{} names {} twice", cell(*number), vertex(*named as usize)),
+            Self::InvertedCell { cell: number, volume } => {
+                format!("{} is inverted, its volume is {volume:e}", cell(*number))
+            }
+            Self::FlatCell {
+                cell: number,
+                volume,
+                longest_edge,
+            } => format!(
+                "{} is flat, its volume is {volume:e} and its longest edge {longest_edge:e}",
+                cell(*number)
+            ),
+            Self::DuplicateCells { first, second } => {
+                format!("{} and {} have the same vertices", cell(*first), cell(*second))
+            }
+            Self::NonManifoldFacet { facet, cells } => {
+                let (facet, cells) = (all(facet, vertex), all(cells, cell));
+                format!("the facet of {facet} belongs to {cells}, more than two")
+            }
+            Self::OverlappingCells { first, second, facet } => format!(
+                "{} and {} lie on the same side of the facet of {}",
+                cell(*first),
+                cell(*second),
+                all(facet, vertex)
+            ),
+            Self::DuplicateVertices { first, second } => {
+                format!("{} and {} have the same position", vertex(*first), vertex(*second))
+            }
+            Self::HangingVertex {
+                vertex: number,
+                cell: other,
+            } => format!(
+                "{} lies on the boundary of {}, which it does not belong to",
+                vertex(*number),
+                cell(*other)
+            ),
+            Self::VertexInsideCell {
+                vertex: number,
+                cell: other,
+            } => format!("{} lies inside {}", vertex(*number), cell(*other)),
+        }
+    }
+}
+
+impl std::fmt::Display for MeshError {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let words = self.in_words(&|cell| format!("cell {cell}"), &|vertex| format!("vertex {vertex}"));
+        formatter.write_str(&words)
+    }
+}
+
+impl std::error::Error for MeshError {}

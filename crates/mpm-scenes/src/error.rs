@@ -107,6 +107,34 @@ pub enum SceneFault {
         /// Its normal into the domain.
         normal: Vec<f64>,
     },
+    /// A body begins at or inside something rigid.
+    #[error("bodies.{body}: particle {particle} at {position:?} begins inside {table}, {depth} below its surface")]
+    InsideRigid {
+        /// The body.
+        body: String,
+        /// Number of the particle in the order of creation.
+        particle: usize,
+        /// Its position.
+        position: Vec<f64>,
+        /// What it is in, as in `obstacles[0].shape` and `barrier.shapes[1]`; `barrier.against` is the outside of the mesh.
+        table: String,
+        /// How deep, ≥ 0.
+        depth: f64,
+    },
+    /// The distance between the particles of a body is so short that they cannot be counted.
+    #[error(
+        "bodies.{body}.{key}: the distance {distance:e} between particles must be so wide that the body has at most {most:e} points"
+    )]
+    TooManyPoints {
+        /// The body.
+        body: String,
+        /// What sets the distance: `spacing`, or `particles_per_axis` of a cell of the background.
+        key: &'static str,
+        /// The distance.
+        distance: f64,
+        /// The most points.
+        most: f64,
+    },
     /// A background too many.
     #[error("[grid] and [mesh]: must be one of the two, not both")]
     TwoBackgrounds,

@@ -4,7 +4,7 @@ use mpm_tensor::{Matrix, vector as algebra};
 
 use crate::loads::within;
 use crate::scene::{Scene, TurningTable};
-use crate::values::vector;
+use crate::values::{self, vector};
 use crate::velocity::spin;
 use crate::{Population, SceneFault};
 
@@ -99,7 +99,7 @@ impl<const D: usize> Kinematics<D> {
     /// The regions of a scene; a particle in several belongs to the first.
     ///
     /// # Errors
-    /// [`SceneFault::Value`] for a region without particles, and for tables that [`Scene::read`] refuses.
+    /// [`SceneFault::Value`] for a region without particles of its own, and for tables that [`Scene::read`] refuses.
     pub fn of(scene: &Scene, particles: &Population<D>) -> Result<Self, SceneFault> {
         let mut all = Self {
             regions: Vec::new(),
@@ -109,6 +109,8 @@ impl<const D: usize> Kinematics<D> {
             let field = |key: &str| format!("kinematic[{index}].{key}");
             let mut members = within(scene, particles, &field("region"), &table.region, table.body.as_ref())?;
             members.retain(|&p| all.region_of.get(p) == Some(&None));
+            let expected = "a region with particles that no earlier one has";
+            values::within(&field("region"), &table.region, !members.is_empty(), expected)?;
             for &p in &members {
                 if let Some(own) = all.region_of.get_mut(p) {
                     *own = Some(index as u32);

@@ -9,6 +9,7 @@ pub mod law;
 pub mod loads;
 mod manufactured;
 pub mod output;
+mod placement;
 mod plane;
 mod population;
 pub mod reading;

@@ -43,7 +43,7 @@ impl<const D: usize> Population<D> {
         for (number, body) in scene.bodies.iter().enumerate() {
             let field = |key: &str| format!("bodies.{}.{key}", body.name);
             let mut shape = shape::build::<D>(&field("shape"), &body.shape)?;
-            let mut filling = fill(body, &*shape, background)?;
+            let mut filling = fill(body, &*shape, background).map_err(|fault| by_distance(fault, body, background))?;
             if let Some(rotation) = rotation::build(&field("rotation"), body.rotation.as_ref())? {
                 filling.positions.iter_mut().for_each(|x| *x = rotation.apply(x));
                 shape = Box::new(Rotated { shape, rotation });
@@ -149,6 +149,23 @@ fn of_volume<const D: usize>(filling: Filling<D>, shape: &dyn Shape<D>, room: &B
     }
 }
 
+/// The distance between the particles of a body.
+fn step<const D: usize>(body: &BodyTable, background: &Background<D>) -> f64 {
+    let of_cells = || background.spacing() / f64::from(body.per_axis());
+    body.spacing.unwrap_or_else(of_cells)
+}
+
+/// The fault of too many points with the distance that the file asks for, and the key that does: a filling may count on a finer lattice.
+fn by_distance<const D: usize>(mut fault: SceneFault, body: &BodyTable, background: &Background<D>) -> SceneFault {
+    if let SceneFault::TooManyPoints { key, distance, .. } = &mut fault {
+        *distance = step(body, background);
+        if body.spacing.is_none() {
+            *key = "particles_per_axis";
+        }
+    }
+    fault
+}
+
 /// Fills a shape before it is turned.
 fn fill<const D: usize>(
     body: &BodyTable,
@@ -156,9 +173,7 @@ fn fill<const D: usize>(
     background: &Background<D>,
 ) -> Result<Filling<D>, SceneFault> {
     let field = format!("bodies.{}", body.name);
-    let step = body
-        .spacing
-        .unwrap_or(background.spacing() / f64::from(body.per_axis()));
+    let step = step(body, background);
     let room = background.room();
     let mesh = || of_shape::<D>(&format!("{field}.shape"), &body.shape, step);
     match body.fill {
@@ -170,11 +185,11 @@ fn fill<const D: usize>(
             } else {
                 room.lower
             };
-            regular(shape, &origin, step, room).map(|filling| of_volume(filling, shape, room))
+            regular(&body.name, shape, &origin, step, room).map(|filling| of_volume(filling, shape, room))
         }
-        FillKind::PoissonDisk => poisson_disk(shape, step, room, body.seed),
-        FillKind::Rings => rings(&field, shape, step, room),
-        FillKind::Random => random(&field, shape, body.particles.unwrap_or(0), room, body.seed),
+        FillKind::PoissonDisk => poisson_disk(&body.name, shape, step, room, body.seed),
+        FillKind::Rings => rings(&body.name, shape, step, room),
+        FillKind::Random => random(&body.name, shape, body.particles.unwrap_or(0), room, body.seed),
         FillKind::Vertices => Ok(vertices(&mesh()?)),
         FillKind::Centroids => Ok(centroids(&mesh()?)),
         FillKind::Cells => match background {

@@ -8,11 +8,11 @@ pub enum MetricError {
     #[error("the cloud has no points")]
     Empty,
     /// A coordinate that is NaN or infinite.
-    #[error("point {index} has the coordinate {value} on axis {axis}; every coordinate must be finite")]
+    #[error("point {index} has the coordinate x{} = {value}; every coordinate must be finite", .axis + 1)]
     NonFinitePoint {
         /// Index of the point.
         index: usize,
-        /// Axis of the coordinate, from 0.
+        /// Axis of the coordinate, from 0; messages count from 1, as files do.
         axis: usize,
         /// The coordinate.
         value: f64,
@@ -48,11 +48,11 @@ pub enum MetricError {
         statistic: &'static str,
     },
     /// A score that is NaN or infinite.
-    #[error("the score of point {index} is {value} on axis {axis}; every score must be finite")]
+    #[error("the score of point {index} is {value} along x{}; every score must be finite", .axis + 1)]
     NonFiniteScore {
         /// Index of the point.
         index: usize,
-        /// Axis of the score, from 0.
+        /// Axis of the score, from 0; messages count from 1.
         axis: usize,
         /// The value.
         value: f64,

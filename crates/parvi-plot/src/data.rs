@@ -34,11 +34,11 @@ pub enum PlotError {
         largest: usize,
     },
     /// A coordinate is NaN, infinite or beyond 1e300.
-    #[error("point {row}, coordinate {axis}: {value} cannot be drawn")]
+    #[error("point {row}: x{} = {value} cannot be drawn", .axis + 1)]
     NotFinite {
         /// The point, counted from 0.
         row: usize,
-        /// The coordinate, counted from 0.
+        /// The coordinate, counted from 0; in messages from 1, as in files.
         axis: usize,
         /// The offending value.
         value: f64,

@@ -43,23 +43,23 @@ pub enum TargetError {
         found: usize,
     },
     /// A covariance is not symmetric.
-    #[error("{field} is not symmetric: entries ({row}, {column}) and ({column}, {row}) differ by {difference:e}")]
+    #[error("{field} is not symmetric: its entries of x{r} and x{c} and of x{c} and x{r} differ by {difference:e}", r = .row + 1, c = .column + 1)]
     NotSymmetric {
         /// The field.
         field: String,
-        /// Row of the worst entry, counted from 0.
+        /// Row of the worst entry, counted from 0; in messages from 1.
         row: usize,
-        /// Column of the worst entry, counted from 0.
+        /// Column of the worst entry, counted from 0; in messages from 1.
         column: usize,
         /// Their difference.
         difference: f64,
     },
     /// A covariance or a Hessian is not positive definite.
-    #[error("{field} is not positive definite (pivot {value:e} on axis {axis})")]
+    #[error("{field} is not positive definite (pivot {value:e} of x{})", .axis + 1)]
     NotPositiveDefinite {
         /// The field.
         field: String,
-        /// The axis, counted from 0, on which the factorisation stopped.
+        /// The axis, counted from 0 (in messages from 1, as in files), on which the factorisation stopped.
         axis: usize,
         /// The pivot met there.
         value: f64,

@@ -47,8 +47,8 @@ impl<F: Fn(&[f64; D]) -> f64 + Sync, const D: usize> FiniteDifferenceScore<F, D>
     /// # Errors
     /// [`TargetError::OutOfRange`] or [`TargetError::NotFinite`] for a scale that is not a positive number.
     pub fn with_scales(log_density: F, scales: [f64; D]) -> Result<Self, TargetError> {
-        for (axis, &scale) in scales.iter().enumerate() {
-            positive(&format!("the scale on axis {axis}"), scale)?;
+        for (axis, &scale) in (1..).zip(&scales) {
+            positive(&format!("the scale of x{axis}"), scale)?;
         }
         Ok(Self { log_density, scales })
     }

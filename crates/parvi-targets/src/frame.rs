@@ -58,8 +58,8 @@ impl<const D: usize> Frame<D> {
     /// [`TargetError::NotFinite`] or, for a scale that is not above zero, [`TargetError::OutOfRange`].
     pub fn from_scales(centre: [f64; D], standard_deviations: [f64; D]) -> Result<Self, TargetError> {
         check_centre(&centre)?;
-        for (axis, &scale) in standard_deviations.iter().enumerate() {
-            positive(&format!("the standard deviation on axis {axis}"), scale)?;
+        for (axis, &scale) in (1..).zip(&standard_deviations) {
+            positive(&format!("the standard deviation of x{axis}"), scale)?;
         }
         Ok(Self::diagonal(centre, standard_deviations))
     }
@@ -159,8 +159,8 @@ impl<const D: usize> Frame<D> {
 }
 
 fn check_centre<const D: usize>(centre: &[f64; D]) -> Result<(), TargetError> {
-    for (axis, &value) in centre.iter().enumerate() {
-        finite(&format!("the centre on axis {axis}"), value)?;
+    for (axis, &value) in (1..).zip(centre) {
+        finite(&format!("x{axis} of the centre"), value)?;
     }
     Ok(())
 }

@@ -83,13 +83,13 @@ impl<T: SumTarget<D>, const D: usize> MinibatchScore<T, D> {
     /// # Errors
     /// [`TargetError::NotFinite`] for the centre or the score there.
     pub fn with_control_variate(mut self, centre: [f64; D]) -> Result<Self, TargetError> {
-        for (axis, &value) in centre.iter().enumerate() {
-            finite(&format!("the centre on axis {axis}"), value)?;
+        for (axis, &value) in (1..).zip(&centre) {
+            finite(&format!("x{axis} of the centre"), value)?;
         }
         let all: Vec<usize> = (0..self.target.terms()).collect();
         let sum = self.sum_at(&all, &centre);
-        for (axis, &value) in sum.iter().enumerate() {
-            finite(&format!("the score at the centre on axis {axis}"), value)?;
+        for (axis, &value) in (1..).zip(&sum) {
+            finite(&format!("the score at the centre along x{axis}"), value)?;
         }
         self.control = Some(ControlVariate { centre, sum });
         Ok(self)

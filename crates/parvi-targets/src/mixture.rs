@@ -35,8 +35,8 @@ impl<const D: usize> GaussianMixture<D> {
             });
         }
         for (index, mode) in modes.iter().enumerate() {
-            for (axis, &value) in mode.centre.iter().enumerate() {
-                finite(&format!("the centre of mode {index} on axis {axis}"), value)?;
+            for (axis, &value) in (1..).zip(&mode.centre) {
+                finite(&format!("x{axis} of the centre of mode {index}"), value)?;
             }
             positive(&format!("the width of mode {index}"), mode.width)?;
             positive(&format!("the mass of mode {index}"), mode.mass)?;

@@ -57,16 +57,18 @@ impl Known {
     }
 }
 
-/// Looks for it: by quadrature for d = 1, 2, else from exact draws, which also serve where the quadrature does not settle, and within the mesh of a file that the density is kept to.
+/// Looks for it: by quadrature for d = 1, 2, else from exact draws, which also serve where the quadrature does not settle. The mesh of a file that the density is kept to bounds both: outside there is none.
 pub fn look<const D: usize>(target: &dyn CatalogueTarget<D>, mesh: Option<&Path>) -> Known {
     let too_much = format!("and d = {D} is too much for a quadrature");
     let unsettled = "and a quadrature does not settle";
     let (known, fault) = if let Some(path) = mesh {
-        let inside = within::<D>(path);
-        let drawn = inside.and_then(|search| draws(target, |x| search.locate(x, None).is_some()));
-        (drawn.map(Known::Draws), "or too few of them are within the mesh")
+        let known = within::<D>(path).and_then(|search| {
+            let drawn = || draws(target, |x| search.locate(x, None).is_some()).map(Known::Draws);
+            quadrature(target, Some(&search)).or_else(drawn)
+        });
+        (known, "or too few of them are within the mesh")
     } else {
-        let known = quadrature(target).or_else(|| draws(target, |_| true).map(Known::Draws));
+        let known = quadrature(target, None).or_else(|| draws(target, |_| true).map(Known::Draws));
         (known, if D > 2 { &too_much } else { unsettled })
     };
     known.unwrap_or_else(|| Known::Nothing(format!("the target has no exact draws, {fault}")))
@@ -91,19 +93,27 @@ fn draws<const D: usize>(target: &dyn CatalogueTarget<D>, inside: impl Fn(&[f64;
     (draws.len() >= FEWEST_DRAWS).then_some(draws)
 }
 
-/// Marginals, and for d = 2 the joint density, on the first grid that settles.
-fn quadrature<const D: usize>(target: &dyn CatalogueTarget<D>) -> Option<Known> {
+/// Marginals, and for d = 2 the joint density, on the first grid that settles; over the box around a mesh where there is one, outside of which the density is 0.
+fn quadrature<const D: usize>(target: &dyn CatalogueTarget<D>, mesh: Option<&CellSearch<D>>) -> Option<Known> {
     if D > 2 {
         return None;
     }
     let range = |axis: usize| {
+        if let Some(search) = mesh {
+            let along = search.mesh().vertices().iter().map(|x| x[axis]);
+            return along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), c| {
+                (low.min(c), high.max(c))
+            });
+        }
         let [low, high] = target.domain().get(axis).copied().unwrap_or([0.0, 1.0]);
         let (middle, half) = (0.5 * (low + high), 0.5 * WIDER * (high - low));
         (middle - half, middle + half)
     };
     let mut grids = NODES.iter().map(|&nodes| {
         let rows = if D == 1 { 1 } else { nodes };
-        density(target, [range(0), range(1)], (nodes, rows))
+        bounded_density(target, [range(0), range(1)], (nodes, rows), |x| {
+            mesh.is_none_or(|search| search.locate(x, None).is_some())
+        })
     });
     let grid = grids.find(|grid| grid.settles(TOLERANCE))?;
     let marginal = |axis: usize| grid.marginal(axis).map(|(x, y)| Curve { x, y });
@@ -122,15 +132,29 @@ fn quadrature<const D: usize>(target: &dyn CatalogueTarget<D>) -> Option<Known> 
 /// The density on a grid over the first two coordinates, its largest value 1.
 pub fn density<const D: usize>(
     target: &dyn CatalogueTarget<D>,
+    ranges: [(f64, f64); 2],
+    nodes: (usize, usize),
+) -> DensityGrid {
+    bounded_density(target, ranges, nodes, |_| true)
+}
+
+/// The same of a density that is 0 where a point is not inside.
+fn bounded_density<const D: usize>(
+    target: &dyn CatalogueTarget<D>,
     [x, y]: [(f64, f64); 2],
     nodes: (usize, usize),
+    inside: impl Fn(&[f64; D]) -> bool,
 ) -> DensityGrid {
     let mut grid = DensityGrid::evaluate(x, y, nodes, |x, y| {
         let mut point = [0.0; D];
         for (coordinate, value) in point.iter_mut().zip([x, y]) {
             *coordinate = value;
         }
-        target.log_density(&point)
+        if inside(&point) {
+            target.log_density(&point)
+        } else {
+            f64::NEG_INFINITY
+        }
     });
     grid.exponentiate();
     grid
@@ -146,7 +170,7 @@ mod tests {
     #[test]
     fn quadrature_gives_the_marginals_of_a_gaussian() {
         let target = Gaussian::<2>::autoregressive(0.8).unwrap();
-        let Some(Known::Quadrature { marginals, pairs }) = quadrature(&target) else {
+        let Some(Known::Quadrature { marginals, pairs }) = quadrature(&target, None) else {
             panic!("a quadrature that settles");
         };
         let normal = Normal::new(0.0, 1.0).unwrap();
@@ -157,16 +181,41 @@ mod tests {
             }
         }
         assert_eq!(pairs.len(), 1);
-        let line = quadrature(&Gaussian::<1>::standard());
+        let line = quadrature(&Gaussian::<1>::standard(), None);
         assert!(
             matches!(line, Some(Known::Quadrature { marginals, pairs }) if marginals.len() == 1 && pairs.is_empty())
         );
-        assert!(quadrature(&Gaussian::<3>::standard()).is_none());
+        assert!(quadrature(&Gaussian::<3>::standard(), None).is_none());
+    }
+
+    /// Outside of a disk there is nothing, and marginals are those of what is left of the Gaussian.
+    #[test]
+    fn a_mesh_bounds_the_density() {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/disk.msh");
+        let search = within::<2>(&file).unwrap();
+        let target = Gaussian::<2>::standard();
+        let Known::Quadrature { marginals, pairs } = look::<2>(&target, Some(&file)) else {
+            panic!("a quadrature that settles");
+        };
+        let grid = &pairs[0].grid;
+        let mut outside = 0;
+        for (j, &y) in grid.y.iter().enumerate() {
+            for (i, &x) in grid.x.iter().enumerate() {
+                let value = grid.values[j * grid.x.len() + i];
+                let inside = search.locate(&[x, y], None).is_some();
+                assert_eq!(value > 0.0, inside, "{x}, {y}");
+                outside += usize::from(!inside);
+            }
+        }
+        assert!(outside > 1000);
+        let curve = marginals[0].as_ref().unwrap();
+        let edge = curve.x.iter().zip(&curve.y).next().unwrap();
+        assert!(*edge.1 < 0.05, "{edge:?}");
     }
 
     #[test]
     fn a_density_that_no_grid_resolves_is_not_integrated() {
-        assert!(quadrature(&Ring::new(2.0, 1e-4).unwrap()).is_none());
-        assert!(quadrature(&Ring::new(2.0, 0.2).unwrap()).is_some());
+        assert!(quadrature(&Ring::new(2.0, 1e-4).unwrap(), None).is_none());
+        assert!(quadrature(&Ring::new(2.0, 0.2).unwrap(), None).is_some());
     }
 }

@@ -67,12 +67,14 @@ pub enum MshError {
         place: Place,
     },
     /// An element names a node that there is not.
-    #[error("element {element} names node {tag}, which there is not")]
+    #[error("{place}: element {element} names node {tag}, which there is not")]
     UnknownNode {
         /// Tag of the node.
         tag: u64,
         /// Tag of the element.
         element: u64,
+        /// Where the element is.
+        place: Place,
     },
     /// An element of the mesh's dimension is not a simplex with straight edges, or its type is not known.
     #[error("{place}: elements of type {kind} ({name}) in a mesh of dimension {dimension}")]
@@ -95,18 +97,24 @@ pub enum MshError {
         dimension: usize,
     },
     /// An element of a physical group is no facet of a cell.
-    #[error("element {element} of the physical group `{group}` is no facet of a cell")]
+    #[error("{place}: element {element} of the physical group `{group}` is no facet of a cell")]
     StrayFacet {
         /// Tag of the element.
         element: u64,
         /// Name of the group, or its tag.
         group: String,
+        /// Where the element is.
+        place: Place,
     },
     /// Vertices differ in a coordinate beyond the dimension.
-    #[error("node {tag} has {axis} = {value}, others {expected}: the mesh does not have dimension {dimension}")]
+    #[error(
+        "{place}: node {tag} has {axis} = {value}, others {expected}: the mesh does not have dimension {dimension}"
+    )]
     OutOfPlane {
         /// Tag of the node.
         tag: u64,
+        /// Where the node is.
+        place: Place,
         /// `y` or `z`.
         axis: char,
         /// The coordinate.
@@ -116,7 +124,28 @@ pub enum MshError {
         /// D.
         dimension: usize,
     },
-    /// Nodes and elements are not a valid mesh. Vertices are numbered in the order of the file, those of no cell left out; cells likewise.
+    /// Nodes and elements are not a valid mesh.
+    #[error("{}", in_tags(fault, elements, nodes))]
+    InvalidMesh {
+        /// What is wrong; elements that are cells, and nodes that belong to some, are numbered in the order of the file.
+        fault: MeshError,
+        /// Tags and places of the elements at fault, by those numbers.
+        elements: Vec<(usize, u64, Place)>,
+        /// Tags and places of the nodes at fault, by those numbers.
+        nodes: Vec<(usize, u64, Place)>,
+    },
+    /// There are no meshes of the dimension.
     #[error(transparent)]
     Mesh(#[from] MeshError),
+}
+
+/// A fault of a mesh by the tags of the file.
+fn in_tags(fault: &MeshError, elements: &[(usize, u64, Place)], nodes: &[(usize, u64, Place)]) -> String {
+    let name = |what: &str, known: &[(usize, u64, Place)], number: usize| {
+        let known = known.iter().find(|(own, ..)| *own == number);
+        known.map_or_else(String::new, |(_, tag, place)| format!("{what} {tag} ({place})"))
+    };
+    fault.in_words(&|number| name("element", elements, number), &|number| {
+        name("node", nodes, number)
+    })
 }

@@ -62,6 +62,12 @@ impl Groups {
         self.entities.get(&(dimension, tag)).map_or(&[], Vec::as_slice)
     }
 
+    /// The names of the groups of a dimension.
+    pub fn named(&self, dimension: usize) -> impl Iterator<Item = &str> {
+        let own = self.names.iter().filter(move |((own, _), _)| *own == dimension as u64);
+        own.map(|(_, name)| name.as_str())
+    }
+
     /// The name of a group: its tag where it has none. Tags may be negative, for entities of the other orientation.
     pub fn name(&self, dimension: usize, tag: i64) -> String {
         let name = self.names.get(&(dimension as u64, tag.abs()));

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 use super::MshError;
+use super::cursor::Cursor;
 use super::groups::Groups;
 use crate::SimplexMesh;
 
@@ -11,7 +12,8 @@ use crate::SimplexMesh;
 pub struct NamedMesh<const D: usize> {
     /// The mesh.
     pub mesh: SimplexMesh<D>,
-    /// The facets of a group by its name (its tag, where the file names none): vertices of the mesh, D for each facet, in the order of the file.
+    /// The facets of a group by its name (its tag, where the file names none): vertices of the mesh, D for each facet, in the order of the file. Empty for a group that the file names
+    /// and no element is in.
     pub facets: BTreeMap<String, Vec<u32>>,
 }
 
@@ -19,6 +21,8 @@ pub struct NamedMesh<const D: usize> {
 pub struct TaggedFacet {
     /// Its tag.
     pub element: u64,
+    /// Where it is in the file.
+    pub mark: usize,
     /// Tags of its nodes.
     pub nodes: Vec<u64>,
     /// The groups that it is in.
@@ -32,8 +36,10 @@ pub fn name_facets<const D: usize>(
     groups: &Groups,
     numbers: &HashMap<u64, u32>,
     cells: &[u32],
+    cursor: &Cursor,
 ) -> Result<BTreeMap<String, Vec<u32>>, MshError> {
-    let mut named: BTreeMap<String, Vec<u32>> = BTreeMap::new();
+    let names = groups.named(D - 1).map(|name| (name.to_owned(), Vec::new()));
+    let mut named: BTreeMap<String, Vec<u32>> = names.collect();
     if facets.is_empty() {
         return Ok(named);
     }
@@ -48,14 +54,26 @@ pub fn name_facets<const D: usize>(
         }
     }
     for facet in facets {
-        let nodes: Option<Vec<u32>> = facet.nodes.iter().map(|tag| numbers.get(tag).copied()).collect();
-        let nodes = nodes.filter(|nodes| known.contains(&sorted(nodes.iter().copied())));
+        let (element, place) = (facet.element, || cursor.place(facet.mark));
+        let number = |&tag: &u64| {
+            let unknown = || MshError::UnknownNode {
+                tag,
+                element,
+                place: place(),
+            };
+            numbers.get(&tag).copied().ok_or_else(unknown)
+        };
+        let nodes: Vec<u32> = facet.nodes.iter().map(number).collect::<Result<_, _>>()?;
+        let is_known = known.contains(&sorted(nodes.iter().copied()));
         for &group in &facet.groups {
             let name = groups.name(D - 1, group);
-            let Some(nodes) = &nodes else {
-                let element = facet.element;
-                return Err(MshError::StrayFacet { element, group: name });
-            };
+            if !is_known {
+                return Err(MshError::StrayFacet {
+                    element,
+                    group: name,
+                    place: place(),
+                });
+            }
             let vertex = |node: &u32| vertices.partition_point(|vertex| vertex < node) as u32;
             named.entry(name).or_default().extend(nodes.iter().map(vertex));
         }

@@ -1,5 +1,6 @@
 //! Nodes and simplices as a file has them.
 
+use std::cell::RefCell;
 use std::collections::HashMap;
 
 use super::MshError;
@@ -7,7 +8,7 @@ use super::cursor::Cursor;
 use super::element_types::{ElementType, element_type, simplex};
 use super::groups::Groups;
 use super::named::{NamedMesh, TaggedFacet, name_facets};
-use crate::{SimplexMesh, mesh::signed_volume};
+use crate::{MeshError, SimplexMesh, mesh::signed_volume};
 
 /// Coordinates beyond the dimension may differ by this share of the mesh's extent: rounding of what wrote them.
 const ALIGNED: f64 = 1e-12;
@@ -16,12 +17,16 @@ const ALIGNED: f64 = 1e-12;
 #[derive(Default)]
 pub struct Raw {
     tags: Vec<u64>,
+    /// Where the tags of the nodes are in the file.
+    node_marks: Vec<usize>,
     positions: Vec<[f64; 3]>,
     numbers: HashMap<u64, u32>,
     /// Tags of the nodes of all cells.
     cells: Vec<u64>,
     /// Tags of the cells.
     elements: Vec<u64>,
+    /// Where the cells are in the file.
+    element_marks: Vec<usize>,
     /// Elements of one dimension less that are in physical groups.
     facets: Vec<TaggedFacet>,
     /// The groups.
@@ -40,52 +45,61 @@ impl Raw {
             *coordinate = cursor.real("a coordinate")?;
         }
         self.tags.push(tag);
+        self.node_marks.push(mark);
         self.positions.push(position);
         Ok(())
     }
 
-    /// Adds an element by the tags of its nodes.
-    pub fn add_cell(&mut self, tag: u64, nodes: &[u64]) {
+    /// Adds an element at a mark by the tags of its nodes.
+    pub fn add_cell(&mut self, tag: u64, mark: usize, nodes: &[u64]) {
         self.elements.push(tag);
+        self.element_marks.push(mark);
         self.cells.extend(nodes);
     }
 
-    /// Adds a facet by the tags of its nodes; nothing where it is in no group (0: none).
-    pub fn add_facet(&mut self, element: u64, nodes: &[u64], groups: &[i64]) {
+    /// Adds a facet at a mark by the tags of its nodes; nothing where it is in no group (0: none).
+    pub fn add_facet(&mut self, element: u64, mark: usize, nodes: &[u64], groups: &[i64]) {
         let groups: Vec<i64> = groups.iter().copied().filter(|&group| group != 0).collect();
         if !groups.is_empty() {
             let nodes = nodes.to_vec();
-            self.facets.push(TaggedFacet { element, nodes, groups });
+            self.facets.push(TaggedFacet {
+                element,
+                mark,
+                nodes,
+                groups,
+            });
         }
     }
 
-    /// The mesh with the groups of its facets.
-    pub fn named_mesh<const D: usize>(&self) -> Result<NamedMesh<D>, MshError> {
-        let (mesh, cells) = self.mesh_and_nodes::<D>()?;
-        let facets = name_facets::<D>(&self.facets, &self.groups, &self.numbers, &cells)?;
+    /// The mesh with the groups of its facets; the cursor is that of the file.
+    pub fn named_mesh<const D: usize>(&self, cursor: &Cursor) -> Result<NamedMesh<D>, MshError> {
+        let (mesh, cells) = self.mesh_and_nodes::<D>(cursor)?;
+        let facets = name_facets::<D>(&self.facets, &self.groups, &self.numbers, &cells, cursor)?;
         Ok(NamedMesh { mesh, facets })
     }
 
     /// The mesh, clockwise triangles turned if all are.
-    pub fn mesh<const D: usize>(&self) -> Result<SimplexMesh<D>, MshError> {
-        Ok(self.mesh_and_nodes()?.0)
+    pub fn mesh<const D: usize>(&self, cursor: &Cursor) -> Result<SimplexMesh<D>, MshError> {
+        Ok(self.mesh_and_nodes(cursor)?.0)
     }
 
     /// The mesh, and the nodes of its cells.
-    fn mesh_and_nodes<const D: usize>(&self) -> Result<(SimplexMesh<D>, Vec<u32>), MshError> {
+    fn mesh_and_nodes<const D: usize>(&self, cursor: &Cursor) -> Result<(SimplexMesh<D>, Vec<u32>), MshError> {
         if self.cells.is_empty() {
             let (_, name) = simplex(D);
             return Err(MshError::NoCells { name, dimension: D });
         }
         let number = |(place, &tag): (usize, &u64)| {
-            let element = self.elements[place / (D + 1)];
-            self.numbers
-                .get(&tag)
-                .copied()
-                .ok_or(MshError::UnknownNode { tag, element })
+            let cell = place / (D + 1);
+            let unknown = || MshError::UnknownNode {
+                tag,
+                element: self.elements[cell],
+                place: cursor.place(self.element_marks[cell]),
+            };
+            self.numbers.get(&tag).copied().ok_or_else(unknown)
         };
         let mut cells: Vec<u32> = self.cells.iter().enumerate().map(number).collect::<Result<_, _>>()?;
-        self.check_aligned::<D>(&cells)?;
+        self.check_aligned::<D>(&cells, cursor)?;
         let vertices: Vec<[f64; D]> = self
             .positions
             .iter()
@@ -97,11 +111,46 @@ impl Raw {
         {
             cells.chunks_exact_mut(D + 1).for_each(|cell| cell.swap(0, 1));
         }
-        Ok((SimplexMesh::from_used(&vertices, &cells)?, cells))
+        match SimplexMesh::from_used(&vertices, &cells) {
+            Ok(mesh) => Ok((mesh, cells)),
+            Err(fault) => Err(self.at_tags(fault, cells, cursor)),
+        }
+    }
+
+    /// A fault of the mesh with tags and places of the elements and nodes that it names: vertices are the nodes that cells name, in their order.
+    fn at_tags(&self, fault: MeshError, mut used: Vec<u32>, cursor: &Cursor) -> MshError {
+        used.sort_unstable();
+        used.dedup();
+        let (cells, vertices) = (RefCell::default(), RefCell::default());
+        let note = |list: &RefCell<Vec<usize>>, number| {
+            list.borrow_mut().push(number);
+            String::new()
+        };
+        fault.in_words(&|cell| note(&cells, cell), &|vertex| note(&vertices, vertex));
+        let element = |cell: usize| {
+            Some((
+                cell,
+                *self.elements.get(cell)?,
+                cursor.place(*self.element_marks.get(cell)?),
+            ))
+        };
+        let node = |vertex: usize| {
+            let number = *used.get(vertex)? as usize;
+            Some((
+                vertex,
+                *self.tags.get(number)?,
+                cursor.place(*self.node_marks.get(number)?),
+            ))
+        };
+        MshError::InvalidMesh {
+            elements: cells.into_inner().into_iter().filter_map(element).collect(),
+            nodes: vertices.into_inner().into_iter().filter_map(node).collect(),
+            fault,
+        }
     }
 
     /// The vertices agree in the coordinates from D on.
-    fn check_aligned<const D: usize>(&self, cells: &[u32]) -> Result<(), MshError> {
+    fn check_aligned<const D: usize>(&self, cells: &[u32], cursor: &Cursor) -> Result<(), MshError> {
         let used = || cells.iter().map(|&vertex| vertex as usize);
         let range = |axis: usize| {
             let coordinates = || used().map(|vertex| self.positions[vertex][axis]);
@@ -114,6 +163,7 @@ impl Raw {
             if let Some(vertex) = used().find(|vertex| !aligned(vertex)) {
                 return Err(MshError::OutOfPlane {
                     tag: self.tags[vertex],
+                    place: cursor.place(self.node_marks[vertex]),
                     axis: name,
                     value: self.positions[vertex][axis],
                     expected,

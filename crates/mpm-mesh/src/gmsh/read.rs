@@ -16,9 +16,10 @@ use crate::{MeshError, SimplexMesh};
 /// Format: Gmsh reference manual, "MSH file format", and for 2.2 its "Legacy formats".
 ///
 /// # Errors
-/// [`MshError`], with the line or the byte where it was seen.
+/// [`MshError`], with tags as in the file and the line or the byte where it was seen.
 pub fn read_msh<const D: usize>(bytes: &[u8]) -> Result<SimplexMesh<D>, MshError> {
-    read_sections::<D>(bytes)?.mesh()
+    let (raw, cursor) = read_sections::<D>(bytes)?;
+    raw.mesh(&cursor)
 }
 
 /// As [`read_msh`], with the physical groups of facets: elements of one dimension less (points, segments, triangles) that are in a group.
@@ -26,10 +27,11 @@ pub fn read_msh<const D: usize>(bytes: &[u8]) -> Result<SimplexMesh<D>, MshError
 /// # Errors
 /// [`MshError`], also for an element of a group that is no facet of a cell.
 pub fn read_named_msh<const D: usize>(bytes: &[u8]) -> Result<NamedMesh<D>, MshError> {
-    read_sections::<D>(bytes)?.named_mesh()
+    let (raw, cursor) = read_sections::<D>(bytes)?;
+    raw.named_mesh(&cursor)
 }
 
-fn read_sections<const D: usize>(bytes: &[u8]) -> Result<Raw, MshError> {
+fn read_sections<const D: usize>(bytes: &[u8]) -> Result<(Raw, Cursor<'_>), MshError> {
     if !(1..=3).contains(&D) {
         return Err(MeshError::UnsupportedDimension { dimension: D }.into());
     }
@@ -75,7 +77,7 @@ fn read_sections<const D: usize>(bytes: &[u8]) -> Result<Raw, MshError> {
             return Err(MshError::MissingSection { name });
         }
     }
-    Ok(raw)
+    Ok((raw, cursor))
 }
 
 /// What the second number of the header has to be.

@@ -37,6 +37,7 @@ pub fn read_elements<const D: usize>(cursor: &mut Cursor, raw: &mut Raw) -> Resu
             return Err(cursor.malformed(mark, "a number of elements that are left", &block.to_string()));
         }
         for _ in 0..block {
+            let mark = if text { mark } else { cursor.mark() };
             let tag = if text {
                 first_tag
             } else {
@@ -52,8 +53,8 @@ pub fn read_elements<const D: usize>(cursor: &mut Cursor, raw: &mut Raw) -> Resu
                 nodes.push(cursor.integer("the tag of a node")?);
             }
             match role {
-                Role::Cell => raw.add_cell(tag, &nodes),
-                Role::Facet => raw.add_facet(tag, &nodes, &[group]),
+                Role::Cell => raw.add_cell(tag, mark, &nodes),
+                Role::Facet => raw.add_facet(tag, mark, &nodes, &[group]),
                 Role::Other => {}
             }
         }

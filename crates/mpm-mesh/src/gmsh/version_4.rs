@@ -43,14 +43,15 @@ pub fn read_elements<const D: usize>(cursor: &mut Cursor, raw: &mut Raw) -> Resu
         let count = cursor.size("a number of elements")?;
         read += count;
         for _ in 0..count {
+            let mark = cursor.mark();
             let tag = cursor.size("the tag of an element")?;
             nodes.clear();
             for _ in 0..kind.node_count {
                 nodes.push(cursor.size("the tag of a node")?);
             }
             match role {
-                Role::Cell => raw.add_cell(tag, &nodes),
-                Role::Facet => raw.add_facet(tag, &nodes, &groups),
+                Role::Cell => raw.add_cell(tag, mark, &nodes),
+                Role::Facet => raw.add_facet(tag, mark, &nodes, &groups),
                 Role::Other => {}
             }
         }

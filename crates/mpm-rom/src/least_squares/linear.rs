@@ -24,9 +24,9 @@ pub enum LeastSquaresError {
         expected: usize,
     },
     /// The points do not see a coordinate: its column depends on those before it.
-    #[error("coordinate {coordinate} cannot be told from those before it: pivot {pivot:e} of {largest:e}")]
+    #[error("coordinate {} cannot be told from those before it: pivot {pivot:e} of {largest:e}", .coordinate + 1)]
     RankDeficient {
-        /// The coordinate, counted from 0.
+        /// The coordinate, counted from 0; in messages from 1.
         coordinate: usize,
         /// |R_kk|.
         pivot: f64,

@@ -21,8 +21,9 @@ const CANDIDATES: u32 = 30;
 /// 061308 (2006), Table I.
 ///
 /// # Errors
-/// [`SceneFault::Value`] for a step too short to be counted.
+/// [`SceneFault::TooManyPoints`] for a step too short to be counted.
 pub fn poisson_disk<const D: usize>(
+    body: &str,
     shape: &dyn Shape<D>,
     step: f64,
     room: &Bounds<D>,
@@ -30,7 +31,7 @@ pub fn poisson_disk<const D: usize>(
 ) -> Result<Filling<D>, SceneFault> {
     let bounds = shape.bounds().finite_within(room);
     let radius = step * points_per_radius::<D>().powf(1.0 / D as f64);
-    let mut disks = Disks::new(bounds, radius)?;
+    let mut disks = Disks::new(body, bounds, radius)?;
     let mut generator = ChaCha8Rng::seed_from_u64(seed);
     for cell in 0..disks.cells.len() {
         let start = disks.point_in(cell, &mut generator);
@@ -38,7 +39,7 @@ pub fn poisson_disk<const D: usize>(
             disks.spread(shape, &bounds, &mut generator);
         }
     }
-    let volume = volume_within(shape, &bounds, 0.25 * step)?;
+    let volume = volume_within(body, shape, &bounds, 0.25 * step)?;
     let each = volume / disks.points.len().max(1) as f64;
     Ok(Filling::of_equal(disks.points, each))
 }
@@ -56,13 +57,14 @@ fn points_per_radius<const D: usize>() -> f64 {
 /// Volume of the part of a shape that is within its bounds cut by the room; by the middles of a lattice that lie in it, where it is not known in
 /// closed form.
 pub(super) fn volume_within<const D: usize>(
+    body: &str,
     shape: &dyn Shape<D>,
     bounds: &Bounds<D>,
     step: f64,
 ) -> Result<f64, SceneFault> {
     match shape.volume() {
         Some(volume) if shape.bounds() == *bounds => Ok(volume),
-        _ => Ok(super::regular(shape, &bounds.lower, step, bounds)?.volume()),
+        _ => Ok(super::regular(body, shape, &bounds.lower, step, bounds)?.volume()),
     }
 }
 
@@ -79,9 +81,9 @@ struct Disks<const D: usize> {
 }
 
 impl<const D: usize> Disks<D> {
-    fn new(bounds: Bounds<D>, radius: f64) -> Result<Self, SceneFault> {
+    fn new(body: &str, bounds: Bounds<D>, radius: f64) -> Result<Self, SceneFault> {
         let width = radius / (D as f64).sqrt();
-        let counts = counts(&std::array::from_fn(|a| bounds.upper[a] - bounds.lower[a]), width)?;
+        let counts = counts(body, &std::array::from_fn(|a| bounds.upper[a] - bounds.lower[a]), width)?;
         Ok(Self {
             origin: bounds.lower,
             radius,
@@ -168,7 +170,7 @@ mod tests {
     use crate::shape::{Ball, Cuboid, Union};
 
     fn check<const D: usize>(shape: &dyn Shape<D>, step: f64, volume: f64) {
-        let filling = poisson_disk(shape, step, &Bounds::EVERYWHERE, 7).expect("few points");
+        let filling = poisson_disk("block", shape, step, &Bounds::EVERYWHERE, 7).expect("few points");
         let radius = step * points_per_radius::<D>().powf(1.0 / D as f64);
         let points = &filling.positions;
         for (k, x) in points.iter().enumerate() {
@@ -181,7 +183,7 @@ mod tests {
         let total = filling.volume();
         assert!((total / volume - 1.0).abs() < 0.01, "{total} of {volume}");
         assert_eq!(
-            poisson_disk(shape, step, &Bounds::EVERYWHERE, 7).expect("few points"),
+            poisson_disk("block", shape, step, &Bounds::EVERYWHERE, 7).expect("few points"),
             filling
         );
     }
@@ -218,7 +220,7 @@ mod tests {
     fn separate_parts_are_all_filled() {
         let part = |lower: [f64; 2], upper| Box::new(Cuboid { lower, upper }) as Box<dyn Shape<2>>;
         let parts = Union(vec![part([0.0, 0.0], [1.0, 1.0]), part([5.0, 3.0], [6.0, 4.0])]);
-        let filling = poisson_disk(&parts, 0.1, &Bounds::EVERYWHERE, 0).expect("few points");
+        let filling = poisson_disk("block", &parts, 0.1, &Bounds::EVERYWHERE, 0).expect("few points");
         let right = filling.positions.iter().filter(|x| x[0] > 4.0).count();
         assert!((80..140).contains(&right) && (80..140).contains(&(filling.positions.len() - right)));
         check(&parts, 0.1, 2.0);

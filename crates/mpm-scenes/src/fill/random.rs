@@ -14,7 +14,7 @@ const MOST_DRAWS: u32 = 100_000;
 /// # Errors
 /// [`SceneFault::Value`] for a shape so thin that points are hardly ever inside.
 pub fn random<const D: usize>(
-    field: &str,
+    body: &str,
     shape: &dyn Shape<D>,
     count: u32,
     room: &Bounds<D>,
@@ -30,13 +30,13 @@ pub fn random<const D: usize>(
         let found = (0..MOST_DRAWS).map(|_| draw()).find(|x| shape.distance(x) < 0.0);
         positions.push(found.ok_or_else(|| {
             SceneFault::value(
-                format!("{field}.fill"),
+                format!("bodies.{body}.fill"),
                 "random",
                 "another filling for a shape as thin as this",
             )
         })?);
     }
     let box_volume: f64 = (0..D).map(|a| bounds.upper[a] - bounds.lower[a]).product();
-    let volume = volume_within(shape, &bounds, 0.01 * box_volume.powf(1.0 / D as f64))?;
+    let volume = volume_within(body, shape, &bounds, 0.01 * box_volume.powf(1.0 / D as f64))?;
     Ok(Filling::of_equal(positions, volume / f64::from(count)))
 }

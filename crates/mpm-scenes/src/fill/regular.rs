@@ -3,13 +3,14 @@ use crate::SceneFault;
 use crate::shape::{Bounds, Shape};
 
 /// One particle in the middle of each part of a lattice of parts of width `step`, with a corner at `origin`, wherever the middle is inside the
-/// shape (d < 0); V⁰ = stepᴰ. `room` bounds a shape that is infinite.
+/// shape (d < 0); V⁰ = stepᴰ. `room` bounds a shape that is infinite; `body` is whose particles they are.
 ///
 /// With the grid's origin and step = h / n every cell of the grid that lies inside the shape gets nᴰ particles.
 ///
 /// # Errors
-/// [`SceneFault::Value`] for a step too short to be counted.
+/// [`SceneFault::TooManyPoints`] for a step too short to be counted.
 pub fn regular<const D: usize>(
+    body: &str,
     shape: &dyn Shape<D>,
     origin: &[f64; D],
     step: f64,
@@ -18,7 +19,7 @@ pub fn regular<const D: usize>(
     let bounds = shape.bounds().finite_within(room);
     let first: [f64; D] = std::array::from_fn(|a| ((bounds.lower[a] - origin[a]) / step).floor());
     let sides: [f64; D] = std::array::from_fn(|a| bounds.upper[a] - origin[a] - first[a] * step);
-    let counts = counts(&sides, step)?;
+    let counts = counts(body, &sides, step)?;
     let middle = |number: u64| -> [f64; D] {
         let place = place(&counts, number);
         std::array::from_fn(|a| origin[a] + (first[a] + place[a] as f64 + 0.5) * step)

@@ -12,18 +12,24 @@ use crate::shape::{Bounds, Shape};
 /// surfaces lose the second order (docs/results/mechanics).
 ///
 /// # Errors
-/// [`SceneFault::Value`] for other dimensions than 2 and other shapes, and for a step too short to be counted.
+/// [`SceneFault::Value`] for other dimensions than 2 and other shapes, [`SceneFault::TooManyPoints`] for a step too short to be counted.
 pub fn rings<const D: usize>(
-    field: &str,
+    body: &str,
     shape: &dyn Shape<D>,
     step: f64,
     room: &Bounds<D>,
 ) -> Result<Filling<D>, SceneFault> {
-    let other = |what: &str| SceneFault::value(format!("{field}.fill"), "rings", format!("another filling for {what}"));
+    let other = |what: &str| {
+        SceneFault::value(
+            format!("bodies.{body}.fill"),
+            "rings",
+            format!("another filling for {what}"),
+        )
+    };
     let bounds = shape.bounds().finite_within(room);
     let sides: [f64; D] = std::array::from_fn(|a| bounds.upper[a] - bounds.lower[a]);
     let centre: [f64; D] = std::array::from_fn(|a| 0.5 * (bounds.lower[a] + bounds.upper[a]));
-    counts(&sides, step)?;
+    counts(body, &sides, step)?;
     let outer = match sides.get(..2) {
         Some(&[width, height]) if D == 2 && (width - height).abs() <= 1e-9 * width => 0.5 * width,
         _ => return Err(other("what is no disk or annulus")),

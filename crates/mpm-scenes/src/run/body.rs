@@ -12,6 +12,7 @@ use super::motion::Motion;
 use super::probe::Probe;
 use super::schedule::{SAME, Schedule};
 use crate::background::Background;
+use crate::placement;
 use crate::population::Population;
 use crate::scene::{BodyTable, MOST_STEPS, MaterialTable};
 use crate::{Kinematics, Scene, SceneFault, StepLimit};
@@ -38,11 +39,12 @@ impl<'a, const D: usize> Body<'a, D> {
     /// At t = 0.
     ///
     /// # Errors
-    /// What [`Population::fill`] says, [`SceneFault::TimeStep`] for a step above the Courant condition, and [`SceneFault::TooManySteps`].
+    /// What [`Population::fill`] says, [`SceneFault::InsideRigid`], [`SceneFault::Value`] for what acts on nothing, [`SceneFault::TimeStep`] for a step above the Courant condition, and [`SceneFault::TooManySteps`].
     pub fn begin(scene: &'a Scene) -> Result<Self, SimulationError> {
         let refused = |fault| scene.error(fault);
         let background = Background::build(scene).map_err(refused)?;
         let start = Population::<D>::fill_on(scene, &background).map_err(refused)?;
+        placement::check(scene, &background, &start).map_err(refused)?;
         Probe::check_points(scene, background.room()).map_err(refused)?;
         let (boundaries, moving) = boundary::build::<D>(scene, &background).map_err(refused)?;
         let kinematics = Kinematics::of(scene, &start).map_err(refused)?;

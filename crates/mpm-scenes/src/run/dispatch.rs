@@ -14,6 +14,7 @@ use crate::SceneFault;
 use crate::background::Background;
 use crate::law::{self, LawState, Laws};
 use crate::loads::Loads;
+use crate::placement;
 use crate::plane;
 use crate::population::Population;
 use crate::scene::{
@@ -53,10 +54,12 @@ pub(super) fn build<const D: usize>(
     background: Background<D>,
     boundaries: Boundaries<D>,
 ) -> Result<Box<dyn Motion<D>>, SceneFault> {
+    let loads = Loads::of(scene, population, &background)?;
+    placement::check_barrier(scene, &background, population, &loads)?;
     let parts = Parts {
         scene,
         particles: particles(population)?,
-        loads: Loads::of(scene, population, &background)?,
+        loads,
         laws: laws(scene)?,
         boundaries,
     };

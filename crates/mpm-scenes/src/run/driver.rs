@@ -33,10 +33,16 @@ impl<'a, const D: usize> Driver<'a, D> {
         let probes: Vec<Probe<D>> = probes.collect::<Result<_, _>>().map_err(|fault| scene.error(fault))?;
         let columns = measure::columns(&*body.motion, &probes, body.budget.as_ref());
         let path = out.join(names::CHECKPOINT);
-        let saved = checkpoint::read(&path)?;
-        if saved.as_ref().is_some_and(|saved| saved.identity != identity(scene)) {
-            let reason = "it belongs to another scene; remove it or name another directory";
-            return Err(checkpoint::refused(&path, reason.to_owned()));
+        let mut saved = checkpoint::read(&path)?;
+        if let Some(saved) = &mut saved {
+            let end = checkpoint::earlier_end(&saved.identity, scene);
+            let end = end.map_err(|reason| checkpoint::refused(&path, reason))?;
+            if end < scene.time.end {
+                remove_file(&out.join(names::VALIDATION))?;
+                // The end of the earlier run had a row, which this one has only where it has others.
+                let extra = saved.time >= end && body.rows.at(saved.time).is_none();
+                saved.rows -= usize::from(extra).min(saved.rows);
+            }
         }
         let series = match &saved {
             None => {
@@ -132,7 +138,7 @@ impl<'a, const D: usize> Driver<'a, D> {
 
     fn write_checkpoint(&self) -> Result<(), SimulationError> {
         let place = Place {
-            identity: identity(self.scene),
+            identity: checkpoint::identity(self.scene),
             step: self.body.step,
             time: self.body.motion.time(),
             free_step: self.body.free_step,
@@ -148,9 +154,4 @@ impl<'a, const D: usize> Driver<'a, D> {
 fn forget_earlier(out: &Path) -> Result<(), SimulationError> {
     remove_frames(out)?;
     remove_file(&out.join(names::VALIDATION))
-}
-
-/// What the run depends on.
-fn identity(scene: &Scene) -> String {
-    format!("mpm-scenes {}\n{}", env!("CARGO_PKG_VERSION"), scene.text)
 }

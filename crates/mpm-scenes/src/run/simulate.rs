@@ -9,7 +9,8 @@ use crate::{Scene, SceneFault};
 
 /// Runs a scene and writes its files into the directory `out`, which is made if it does not exist.
 ///
-/// If the directory holds a checkpoint of the same scene, the run goes on from it and ends with the same files, to the bit, as one that was never stopped.
+/// If the directory holds a checkpoint of the same scene, the run goes on from it and ends with the same files, to the bit, as one that was never stopped. Titles may differ, and the scene may end later
+/// than that of the checkpoint: bits are then the same if the earlier end is a time, k · interval, that the longer run stops at as well.
 /// Without a checkpoint the run begins anew, and frames, index and comparison of an earlier run are removed first.
 /// Files: `scene.toml`, `series.csv`, `particles_000000.vtu` …, `particles.pvd`, `checkpoint.cbor`, and `validation.csv` where the scene has a reference.
 ///

@@ -9,7 +9,7 @@ use mpm_tensor::vector as algebra;
 use super::dispatch;
 use crate::background::Background;
 use crate::scene::{FacetCondition, FacetTable, Scene};
-use crate::values::vector;
+use crate::values::{vector, within};
 use crate::{SceneFault, velocity};
 
 /// Vertices by the bits of their positions, which nodes have too.
@@ -78,6 +78,12 @@ pub(super) fn build<const D: usize>(scene: &Scene, background: &Background<D>) -
             ));
         };
         let facets = group(field("group"), table, groups)?;
+        let expected = "a group with facets: the file names this one, and no element is in it";
+        within(&field("group"), &table.group, !facets.is_empty(), expected)?;
+        let pressed = table.condition == FacetCondition::Traction;
+        let outer = !pressed || named(inner, facets).next().is_some();
+        let expected = "a group with facets of the boundary, on which a traction acts";
+        within(&field("group"), &table.group, outer, expected)?;
         let normals = || normals(inner, whole, facets);
         let contact = match table.condition {
             FacetCondition::Fixed => Contact::Stick,

@@ -13,6 +13,7 @@ mod kinematic;
 mod law;
 mod on_meshes;
 mod output;
+mod placement;
 mod readings;
 mod refusal;
 mod resume;

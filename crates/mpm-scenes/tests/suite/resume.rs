@@ -118,6 +118,88 @@ fn a_run_that_was_killed_goes_on_from_its_last_checkpoint() {
     assert!(files(whole.path()) == files(killed.path()));
 }
 
+/// Up to one end and on to a later one, which is another title's: the files of a run to the later end at once, but for the scene's.
+#[test]
+fn a_run_goes_on_to_a_later_end() {
+    for (text, first, last) in [(BLOCK, "end = 0.1", "end = 0.2"), (BLOCK_ON_MESH, "", "")] {
+        let (first, last) = match first {
+            "" => (end_of(text, 0.5), end_of(text, 1.0)),
+            first => (text.replace(last, first), text.to_owned()),
+        };
+        let (whole, parts) = (
+            tempfile::tempdir().expect("a directory"),
+            tempfile::tempdir().expect("a directory"),
+        );
+        let summary = simulate(&scene(&last), whole.path(), &mut ()).expect("runs");
+        let renamed = first.replacen("title = \"", "title = \"earlier, ", 1) + "\n# and a word\n";
+        let earlier = simulate(&scene(&renamed), parts.path(), &mut ()).expect("runs");
+        std::fs::write(parts.path().join("validation.csv"), "of the earlier end").expect("writable");
+        let later = simulate(&scene(&last), parts.path(), &mut ()).expect("goes on");
+        assert_eq!((later.steps, later.resumed_at), (summary.steps, Some(earlier.time)));
+        let (whole, parts) = (files(whole.path()), files(parts.path()));
+        assert!(whole.keys().eq(parts.keys()), "{:?}", parts.keys());
+        for (name, content) in &whole {
+            assert!(parts[name] == *content, "{name} differs");
+        }
+    }
+}
+
+/// A scene with a share of its end.
+fn end_of(text: &str, share: f64) -> String {
+    let end = scene(text).time.end;
+    let line = text.lines().find(|line| line.starts_with("end = ")).expect("an end");
+    text.replace(line, &format!("end = {:?}", share * end))
+}
+
+/// An end that no output is at leaves no row and no frame of its own behind.
+#[test]
+fn an_end_between_outputs_is_forgotten() {
+    let directory = tempfile::tempdir().expect("a directory");
+    simulate(
+        &scene(&BLOCK.replace("end = 0.2", "end = 0.103")),
+        directory.path(),
+        &mut (),
+    )
+    .expect("runs");
+    let later = simulate(&scene(BLOCK), directory.path(), &mut ()).expect("goes on");
+    assert_eq!((later.resumed_at, later.time), (Some(0.103), 0.2));
+    let series = mpm_scenes::output::read_series(directory.path()).expect("written");
+    let times = series.column("time").expect("a column");
+    assert_eq!(times.len(), 21);
+    assert!(
+        times
+            .iter()
+            .enumerate()
+            .all(|(k, t)| (t - 0.01 * k as f64).abs() < 1e-12),
+        "{times:?}"
+    );
+    let whole = tempfile::tempdir().expect("a directory");
+    simulate(&scene(BLOCK), whole.path(), &mut ()).expect("runs");
+    assert!(files(directory.path()).keys().eq(files(whole.path()).keys()));
+}
+
+#[test]
+fn what_a_later_end_may_not_come_with_is_named() {
+    let directory = tempfile::tempdir().expect("a directory");
+    simulate(&scene(BLOCK), directory.path(), &mut ()).expect("runs");
+    for (from, to, expected) in [
+        ("end = 0.2", "end = 0.3\ncourant = 0.2", "`time.courant` differs"),
+        (
+            "velocity = [1.0, 0.0]",
+            "velocity = [1.5, 0.0]",
+            "`bodies.0.velocity.0` differs",
+        ),
+        ("interval = 0.05", "interval = 0.1", "`output.interval` differs"),
+        ("end = 0.2", "end = 0.1", "its time.end = 0.2 is later"),
+    ] {
+        assert!(BLOCK.contains(from), "{from}");
+        let other = scene(&BLOCK.replacen(from, to, 1));
+        let message = simulate(&other, directory.path(), &mut ()).expect_err(to).to_string();
+        assert!(message.contains(expected), "{message}");
+        assert!(message.contains("it belongs to another scene"), "{message}");
+    }
+}
+
 #[test]
 fn checkpoints_of_other_scenes_and_damaged_ones_are_refused() {
     let directory = tempfile::tempdir().expect("a directory");

@@ -23,6 +23,13 @@ fn a_small_case_by_hand() {
     assert!(CloudMoments::new(&Cloud::new(&[[1.0]]).unwrap()).unwrap().skewness[0].is_nan());
 }
 
+/// As in the headers of files, x1 is the first axis.
+#[test]
+fn messages_count_axes_from_one() {
+    let error = Cloud::new(&[[0.0, f64::NAN]]).unwrap_err();
+    assert!(error.to_string().contains("x2 = NaN"), "{error}");
+}
+
 /// A large offset must not cost digits of the covariance.
 #[test]
 fn offsets_do_not_cancel() {

@@ -57,7 +57,11 @@ impl<const N: usize, const D: usize> Constraints<N, D> {
             (constrained, unconstrained) = (next_constrained, next_unconstrained);
         }
         let list = |range: fn(&Block) -> &Range<usize>| {
-            let name = |block: &Block| format!("{} {:?}", block.transform.name(), range(block));
+            // Counted from 1, as the columns of files are.
+            let name = |block: &Block| {
+                let places = range(block);
+                format!("{} {} to {}", block.transform.name(), places.start + 1, places.end)
+            };
             blocks.iter().map(name).collect::<Vec<_>>().join(", ")
         };
         let length = |field, expected, found| Err(TargetError::Length { field, expected, found });
@@ -110,10 +114,11 @@ impl<const N: usize, const D: usize> Constraints<N, D> {
                 .unconstrain(&x[block.constrained.clone()], &mut y[block.unconstrained.clone()])
                 .map_err(|outside| TargetError::OutOfRange {
                     field: format!(
-                        "coordinate {} ({} {:?})",
-                        block.constrained.start + outside.coordinate,
+                        "x{} ({} of x{} to x{})",
+                        block.constrained.start + outside.coordinate + 1,
                         transform.name(),
-                        block.constrained,
+                        block.constrained.start + 1,
+                        block.constrained.end,
                     ),
                     value: outside.value,
                     allowed: outside.allowed,

@@ -217,12 +217,12 @@ fn lists_that_do_not_fit_are_refused() {
     let message = error::<6, 5>(|list| list.free(2).positive(1).simplex(4)).to_string();
     assert_eq!(
         message,
-        "the list of constrained coordinates (free 0..2, positive 2..3, simplex 3..7) has length 7, expected 6"
+        "the list of constrained coordinates (free 1 to 2, positive 3 to 3, simplex 4 to 7) has length 7, expected 6"
     );
     let message = error::<7, 7>(|list| list.free(2).positive(1).simplex(4)).to_string();
     assert_eq!(
         message,
-        "the list of unconstrained coordinates (free 0..2, positive 2..3, simplex 3..6) has length 6, expected 7"
+        "the list of unconstrained coordinates (free 1 to 2, positive 3 to 3, simplex 4 to 6) has length 6, expected 7"
     );
     assert!(matches!(
         error::<2, 2>(|list| list),
@@ -269,7 +269,7 @@ fn points_outside_of_the_support_are_refused() {
         let constraints = list(Constraints::builder()).build().unwrap();
         match constraints.unconstrain(&x).unwrap_err() {
             TargetError::OutOfRange { field, value, .. } => {
-                assert!(field.starts_with(&format!("coordinate {coordinate} (")), "{field}");
+                assert!(field.starts_with(&format!("x{} (", coordinate + 1)), "{field}");
                 assert!(value == x[coordinate] || value.is_nan());
             }
             other => panic!("{other}"),

@@ -82,6 +82,18 @@ fn identity_and_scales() {
     assert_eq!(*frame.centre(), [1.0, -1.0]);
 }
 
+/// As in the headers of files, x1 is the first axis.
+#[test]
+fn messages_count_axes_from_one() {
+    let scales = Frame::from_scales([0.0; 2], [1.0, -1.0]).unwrap_err().to_string();
+    assert!(scales.contains("of x2"), "{scales}");
+    let centre = Frame::from_scales([f64::NAN, 0.0], [1.0; 2]).unwrap_err().to_string();
+    assert!(centre.contains("x1 of the centre"), "{centre}");
+    let covariance = |a, b, c, d| Frame::new([0.0; 2], Matrix([[a, b], [c, d]])).unwrap_err().to_string();
+    assert!(covariance(1.0, 2.0, 2.0, 1.0).ends_with("of x2)"));
+    assert!(covariance(1.0, 0.5, 0.0, 1.0).contains("x1 and x2"));
+}
+
 #[test]
 fn bad_frames_are_refused() {
     let covariance = |a, b, c, d| Frame::new([0.0; 2], Matrix([[a, b], [c, d]])).unwrap_err();

@@ -72,12 +72,20 @@ const OF_RUN: [Panel<&str>; 9] = [
     ("extent", "upper_", "", "highest position"),
 ];
 
+/// The panels of every probe: what follows its name in those of columns, and the label of the axis. A share is there where the scene asks for it.
+const OF_PROBE: [(&str, &str); 4] = [
+    ("displacement", "displacement"),
+    ("velocity", "velocity"),
+    ("stress", "stress"),
+    ("share", "front of the share"),
+];
+
 /// All panels, those of a probe in a group of its own.
 fn panels(series: &Series) -> Vec<Panel<String>> {
     let of_run = OF_RUN.map(|(group, begin, end, y_label)| (group.to_owned(), begin.to_owned(), end, y_label));
     let of_probe = probes(series).flat_map(|probe| {
-        let panel = |y_label| (format!("probe_{probe}"), format!("{probe}_{y_label}_"), "", y_label);
-        ["displacement", "velocity", "stress"].map(panel)
+        let panel = |(column, y_label)| (format!("probe_{probe}"), format!("{probe}_{column}_"), "", y_label);
+        OF_PROBE.map(panel)
     });
     of_run.into_iter().chain(of_probe).collect()
 }
@@ -130,9 +138,10 @@ mod tests {
             "tip_displacement_x",
             "tip_velocity_x",
             "tip_stress_xx",
+            "tip_share_x",
         ];
         let directory = tempfile::tempdir().unwrap();
-        let rows = ["0.0,0,1,2,3,4,5,6,7,8,9,10", "1.0,1,2,3,4,5,6,7,8,9,10,11"];
+        let rows = ["0.0,0,1,2,3,4,5,6,7,8,9,10,11", "1.0,1,2,3,4,5,6,7,8,9,10,11,12"];
         let text = format!("{}\n{}\n", columns.join(","), rows.join("\n"));
         std::fs::write(directory.path().join("series.csv"), text).unwrap();
         let earlier = directory.path().join("series_probe_head.svg");
@@ -156,6 +165,8 @@ mod tests {
                 .iter()
                 .all(|label| energies.contains(label))
         );
+        let probe = std::fs::read_to_string(directory.path().join("series_probe_tip.svg")).unwrap();
+        assert!(probe.contains("front of the share"));
         assert!(draw(&directory.path().join("none"), "").is_ok());
     }
 }

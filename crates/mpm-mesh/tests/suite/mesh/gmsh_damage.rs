@@ -1,6 +1,6 @@
 //! `.msh` files that are refused, each with its error and the place.
 
-use mpm_mesh::{MeshError, MshError, Place, read_msh};
+use mpm_mesh::{MeshError, MshError, Place, read_msh, read_named_msh};
 use proptest::prelude::*;
 
 use super::gmsh_files::{BAR, BRICK, PLATE, QUADRANGLES};
@@ -115,11 +115,17 @@ fn nodes_and_elements() {
     let nodes = NODES.replace("3 1 1 0", "3 1 one 0");
     malformed(&format!("{HEADER}{nodes}{CELLS}"), "one", "a coordinate", "one");
     let cells = CELLS.replace("1 3 4", "1 3 5");
-    let error = MshError::UnknownNode { tag: 5, element: 2 };
+    let second = HEADER.len() + NODES.len() + CELLS.find("2 2 2 0").expect("it");
+    let error = MshError::UnknownNode {
+        tag: 5,
+        element: 2,
+        place: line(second, 14),
+    };
     assert_eq!(refused(&format!("{HEADER}{NODES}{cells}")), error);
     let nodes = NODES.replace("3 1 1 0", "3 1 1 0.25");
     let error = MshError::OutOfPlane {
         tag: 3,
+        place: line(HEADER.len() + 25, 8),
         axis: 'z',
         value: 0.25,
         expected: 0.0,
@@ -128,13 +134,73 @@ fn nodes_and_elements() {
     assert_eq!(refused(&format!("{HEADER}{nodes}{CELLS}")), error);
     let nodes = NODES.replace("3 1 1 0", "3 nan 1 0");
     let error = refused(&format!("{HEADER}{nodes}{CELLS}"));
-    assert!(
-        matches!(error, MshError::Mesh(MeshError::NonFiniteVertex { vertex: 2, .. })),
-        "{error}"
-    );
+    assert_eq!(error.to_string(), "node 3 (line 8) is at [NaN, 1.0]");
     let cells = CELLS.replace("1 3 4", "1 4 3");
-    let error = MeshError::InvertedCell { cell: 1, volume: -0.5 };
-    assert_eq!(refused(&format!("{HEADER}{NODES}{cells}")), MshError::Mesh(error));
+    let error = MshError::InvalidMesh {
+        fault: MeshError::InvertedCell { cell: 1, volume: -0.5 },
+        elements: vec![(1, 2, line(second, 14))],
+        nodes: Vec::new(),
+    };
+    assert_eq!(refused(&format!("{HEADER}{NODES}{cells}")), error);
+}
+
+/// Tags with gaps, and a node before all others that no cell names: numbers counted from 0 would be none of the file's.
+#[test]
+fn faults_of_meshes_have_the_tags_and_lines_of_the_file() {
+    let nodes = "$Nodes\n6\n5 9 9 0\n10 0 0 0\n20 1 0 0\n30 1 1 0\n40 0 1 0\n50 0.5 0.5 0\n$EndNodes\n";
+    let message = |elements: &[&str]| {
+        let elements: String = (7..)
+            .zip(elements)
+            .map(|(tag, nodes)| format!("{tag}0 2 2 0 1 {nodes}\n"))
+            .collect();
+        let count = elements.lines().count();
+        refused(&format!("{HEADER}{nodes}$Elements\n{count}\n{elements}$EndElements\n")).to_string()
+    };
+    for (elements, expected) in [
+        (
+            ["10 20 30", "10 40 30"],
+            "element 80 (line 16) is inverted, its volume is -5e-1",
+        ),
+        (
+            ["10 20 30", "20 30 10"],
+            "element 70 (line 15) and element 80 (line 16) have the same vertices",
+        ),
+        (
+            ["10 20 30", "10 40 40"],
+            "element 80 (line 16) names node 40 (line 10) twice",
+        ),
+        (
+            ["10 20 30", "10 20 40"],
+            "element 70 (line 15) and element 80 (line 16) lie on the same side of the facet of node 10 (line 7) and node 20 (line 8)",
+        ),
+        (
+            ["10 20 30", "10 50 40"],
+            "node 50 (line 11) lies on the boundary of element 70 (line 15), which it does not belong to",
+        ),
+    ] {
+        assert_eq!(message(&elements), expected);
+    }
+    let unknown = message(&["10 20 30", "10 30 60"]);
+    assert_eq!(unknown, "line 16: element 80 names node 60, which there is not");
+}
+
+/// A group that the file names and no element is in is known, and empty; an element of a group that is no facet, or names no node, is an error.
+#[test]
+fn groups_of_nothing() {
+    let names = "$PhysicalNames\n2\n1 1 \"rim\"\n1 2 \"hole\"\n$EndPhysicalNames\n";
+    let read = |facet: &str| {
+        let cells = CELLS.replace("$Elements\n2\n", &format!("$Elements\n3\n9 1 2 1 1 {facet}\n"));
+        read_named_msh::<2>(format!("{HEADER}{names}{NODES}{cells}").as_bytes())
+    };
+    let named = read("1 2").expect("a mesh");
+    assert_eq!((named.facets["rim"].len(), named.facets["hole"].len()), (2, 0));
+    let error = read("2 4").expect_err("no facet").to_string();
+    assert_eq!(
+        error,
+        "line 18: element 9 of the physical group `rim` is no facet of a cell"
+    );
+    let error = read("2 7").expect_err("no node").to_string();
+    assert_eq!(error, "line 18: element 9 names node 7, which there is not");
 }
 
 #[test]

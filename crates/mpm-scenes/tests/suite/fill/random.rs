@@ -9,7 +9,7 @@ fn points_are_in_the_shape_and_spread_over_it() {
         centre: [1.0, 22.0],
         radius: 1.0,
     };
-    let filling = random("bodies.ball", &ball, 4735, &Bounds::EVERYWHERE, 1).expect("a ball");
+    let filling = random("ball", &ball, 4735, &Bounds::EVERYWHERE, 1).expect("a ball");
     assert_eq!(filling.positions.len(), 4735);
     assert!((filling.volume() - std::f64::consts::PI).abs() < 1e-12);
     assert!(filling.positions.iter().all(|x| ball.distance(x) < 0.0));
@@ -21,7 +21,7 @@ fn points_are_in_the_shape_and_spread_over_it() {
         .count();
     assert!((2230..2505).contains(&inner), "{inner}");
     assert_eq!(
-        random("bodies.ball", &ball, 4735, &Bounds::EVERYWHERE, 1).expect("a ball"),
+        random("ball", &ball, 4735, &Bounds::EVERYWHERE, 1).expect("a ball"),
         filling
     );
 }

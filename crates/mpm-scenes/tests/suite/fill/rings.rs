@@ -21,7 +21,7 @@ fn volumes_add_up_to_the_area_and_the_centre_is_that_of_the_shape() {
     let disk = ball(0.2);
     let shapes: [(&dyn Shape<2>, f64); 2] = [(&annulus, 1.25f64.powi(2) - 0.75f64.powi(2)), (&disk, 0.04)];
     for (shape, square) in shapes {
-        let filling = rings("bodies.a", shape, 0.03, &Bounds::EVERYWHERE).expect("round");
+        let filling = rings("a", shape, 0.03, &Bounds::EVERYWHERE).expect("round");
         let count = filling.positions.len() as f64;
         assert!((filling.volume() - PI * square).abs() < 1e-12);
         assert!(
@@ -53,10 +53,10 @@ fn only_round_shapes_have_rings() {
         lower: [0.0, 0.0],
         upper: [1.0, 1.0],
     };
-    assert!(rings("bodies.a", &square, 0.1, &Bounds::EVERYWHERE).is_err());
+    assert!(rings("a", &square, 0.1, &Bounds::EVERYWHERE).is_err());
     let space = Ball {
         centre: [0.0; 3],
         radius: 1.0,
     };
-    assert!(rings("bodies.a", &space, 0.1, &Bounds::EVERYWHERE).is_err());
+    assert!(rings("a", &space, 0.1, &Bounds::EVERYWHERE).is_err());
 }

@@ -208,6 +208,8 @@ fn bad_clouds_are_errors() {
         })
     ));
     assert!(matches!(of(&broken), Err(PlotError::NotFinite { row: 1, axis: 1, .. })));
+    let message = of(&broken).expect_err("a gap").to_string();
+    assert!(message.starts_with("point 1: x2 = "), "{message}");
     let weighted = |weights: &[f64]| {
         let cloud = PointCloud {
             points: &good,

@@ -1,0 +1,85 @@
+//! What is around the bodies of a scene may come to them later, but has to come.
+
+use mpm_scenes::{Scene, frames};
+
+use super::scenes::{BLOCK, RUBBER_ON_MESH, scene};
+
+/// What is said of the block's scene with more in it, which is run in memory up to its first frame.
+fn said(scene: &Scene) -> Option<String> {
+    frames(scene, &mut |_| {}).err().map(|error| error.to_string())
+}
+
+fn block(added: &str) -> Option<String> {
+    said(&scene(&(BLOCK.replace("end = 0.2", "end = 0.01") + added)))
+}
+
+#[test]
+fn an_obstacle_that_arrives_is_accepted_and_one_that_stays_away_is_not() {
+    let hammer = |speed: f64, moves: bool| {
+        block(&format!(
+            "\n[[obstacles]]\nshape = {{ kind = \"sphere\", centre = [2.0, 2.8], radius = 0.5 }}\ncontact = \"separate\"\nvelocity = [0.0, {speed:?}]\nmoves = {moves}\n"
+        ))
+    };
+    assert_eq!(hammer(-6.0, true), None);
+    for (speed, moves) in [(-4.0, true), (6.0, true), (-6.0, false)] {
+        let message = hammer(speed, moves).expect("it does not arrive");
+        assert!(message.contains("obstacles[1].shape"), "{message}");
+    }
+}
+
+#[test]
+fn a_held_region_that_arrives_or_turns_is_accepted() {
+    let held = |motion: &str| {
+        block(&format!(
+            "\n[[held]]\nshape = {{ kind = \"sphere\", centre = [2.0, 2.8], radius = 0.5 }}\n{motion}\n"
+        ))
+    };
+    assert_eq!(held("velocity = [0.0, -6.0]"), None);
+    assert_eq!(held("rotation = { centre = [2.0, 1.0], rate = [1.0] }"), None);
+    assert!(held("velocity = [0.0, -6.0]\nuntil = 0.001").is_some());
+}
+
+/// A plate through the nodes of one column is found, wherever it stands; one between two columns holds none.
+#[test]
+fn nodes_in_thin_plates_are_found() {
+    for column in 0..16 {
+        let plate = |x: f64| {
+            block(&format!(
+                "\n[[obstacles]]\nshape = {{ kind = \"box\", lower = [{:?}, 1.6], upper = [{:?}, 1.9] }}\ncontact = \"slip\"\n",
+                x - 1e-3,
+                x + 1e-3
+            ))
+        };
+        let x = 0.25 * f64::from(column);
+        assert_eq!(plate(x), None, "{x}");
+        assert!(plate(x + 0.125).is_some(), "{x}");
+    }
+}
+
+/// A body that touches an obstacle begins beside it.
+#[test]
+fn a_body_may_touch_an_obstacle() {
+    let table = |lower: f64| {
+        block(&format!(
+            "\n[[obstacles]]\nshape = {{ kind = \"box\", lower = [{lower:?}, 0.25], upper = [2.0, 0.8] }}\ncontact = \"slip\"\n"
+        ))
+    };
+    assert_eq!(table(1.5), None);
+    let message = table(1.4).expect("inside");
+    assert!(message.contains("bodies.block: particle") && message.contains("begins inside obstacles[1].shape"));
+}
+
+/// A barrier that a body cannot reach on a mesh.
+#[test]
+fn a_barrier_far_from_a_mesh_is_refused() {
+    let barrier = |x: f64| {
+        let shape = format!("shapes = [{{ kind = \"half-space\", point = [{x:?}, 0.0], normal = [1.0, 0.0] }}]");
+        said(&scene(&RUBBER_ON_MESH.replace("against = \"mesh\"", &shape)))
+    };
+    assert_eq!(barrier(0.1), None);
+    let message = barrier(-3.0).expect("far");
+    assert!(
+        message.contains("barrier.shapes[0]") && message.contains("the mesh and its layer"),
+        "{message}"
+    );
+}
