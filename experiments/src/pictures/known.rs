@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use mpm_mesh::{CellSearch, read_msh};
 use parvi_targets::CatalogueTarget;
 use rand::SeedableRng;
 use rand::rngs::ChaCha8Rng;
 
+use super::within::Within;
 use crate::plots::{Curve, PairDensity, PointCloud, Reference};
 use crate::statistics::DensityGrid;
 
@@ -62,9 +62,9 @@ pub fn look<const D: usize>(target: &dyn CatalogueTarget<D>, mesh: Option<&Path>
     let too_much = format!("and d = {D} is too much for a quadrature");
     let unsettled = "and a quadrature does not settle";
     let (known, fault) = if let Some(path) = mesh {
-        let known = within::<D>(path).and_then(|search| {
-            let drawn = || draws(target, |x| search.locate(x, None).is_some()).map(Known::Draws);
-            quadrature(target, Some(&search)).or_else(drawn)
+        let known = Within::<D>::of_file(path).and_then(|mesh| {
+            let drawn = || draws(target, |x| mesh.holds(x)).map(Known::Draws);
+            quadrature(target, Some(&mesh)).or_else(drawn)
         });
         (known, "or too few of them are within the mesh")
     } else {
@@ -72,15 +72,6 @@ pub fn look<const D: usize>(target: &dyn CatalogueTarget<D>, mesh: Option<&Path>
         (known, if D > 2 { &too_much } else { unsettled })
     };
     known.unwrap_or_else(|| Known::Nothing(format!("the target has no exact draws, {fault}")))
-}
-
-/// The mesh of a file, for d = 2 and 3.
-fn within<const D: usize>(path: &Path) -> Option<CellSearch<D>> {
-    if const { D == 2 || D == 3 } {
-        let mesh = read_msh::<D>(&std::fs::read(path).ok()?).ok()?;
-        return Some(CellSearch::new(mesh));
-    }
-    None
 }
 
 /// Exact draws that are `inside`.
@@ -94,16 +85,13 @@ fn draws<const D: usize>(target: &dyn CatalogueTarget<D>, inside: impl Fn(&[f64;
 }
 
 /// Marginals, and for d = 2 the joint density, on the first grid that settles; over the box around a mesh where there is one, outside of which the density is 0.
-fn quadrature<const D: usize>(target: &dyn CatalogueTarget<D>, mesh: Option<&CellSearch<D>>) -> Option<Known> {
+fn quadrature<const D: usize>(target: &dyn CatalogueTarget<D>, mesh: Option<&Within<D>>) -> Option<Known> {
     if D > 2 {
         return None;
     }
     let range = |axis: usize| {
-        if let Some(search) = mesh {
-            let along = search.mesh().vertices().iter().map(|x| x[axis]);
-            return along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), c| {
-                (low.min(c), high.max(c))
-            });
+        if let Some(mesh) = mesh {
+            return mesh.range(axis);
         }
         let [low, high] = target.domain().get(axis).copied().unwrap_or([0.0, 1.0]);
         let (middle, half) = (0.5 * (low + high), 0.5 * WIDER * (high - low));
@@ -112,7 +100,7 @@ fn quadrature<const D: usize>(target: &dyn CatalogueTarget<D>, mesh: Option<&Cel
     let mut grids = NODES.iter().map(|&nodes| {
         let rows = if D == 1 { 1 } else { nodes };
         bounded_density(target, [range(0), range(1)], (nodes, rows), |x| {
-            mesh.is_none_or(|search| search.locate(x, None).is_some())
+            mesh.is_none_or(|mesh| mesh.holds(x))
         })
     });
     let grid = grids.find(|grid| grid.settles(TOLERANCE))?;
@@ -189,10 +177,11 @@ mod tests {
     }
 
     /// Outside of a disk there is nothing, and marginals are those of what is left of the Gaussian.
+    #[cfg(feature = "mesh")]
     #[test]
     fn a_mesh_bounds_the_density() {
         let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/disk.msh");
-        let search = within::<2>(&file).unwrap();
+        let mesh = Within::<2>::of_file(&file).unwrap();
         let target = Gaussian::<2>::standard();
         let Known::Quadrature { marginals, pairs } = look::<2>(&target, Some(&file)) else {
             panic!("a quadrature that settles");
@@ -202,7 +191,7 @@ mod tests {
         for (j, &y) in grid.y.iter().enumerate() {
             for (i, &x) in grid.x.iter().enumerate() {
                 let value = grid.values[j * grid.x.len() + i];
-                let inside = search.locate(&[x, y], None).is_some();
+                let inside = mesh.holds(&[x, y]);
                 assert_eq!(value > 0.0, inside, "{x}, {y}");
                 outside += usize::from(!inside);
             }

@@ -3,6 +3,11 @@
 mod history;
 mod known;
 pub mod trace_panels;
+#[cfg(feature = "mesh")]
+mod within;
+#[cfg(not(feature = "mesh"))]
+#[path = "within_left_out.rs"]
+mod within;
 
 use std::path::Path;
 
