@@ -34,7 +34,7 @@ remembered!(SofteningState: accumulated_plastic_strain, out_of_plane_strain);
 /// plastic strain ε_q = ∫ √(2/3) ‖dᵖ‖ dt. In terms of the uniaxial yield stress σ_y, κ = √(2/3) σ_y. ‖·‖ is the
 /// Frobenius norm and dev the deviator of **three** dimensions also for D < 3, where the axes left out do not strain
 /// but are stressed: they flow plastically, and the state keeps their elastic strain. For D > 3 it is the deviator of D
-/// dimensions. κ_r = κ_p is perfect plasticity ([`perfect`](Self::perfect)).
+/// dimensions. κ_r = κ_p is perfect plasticity.
 ///
 /// **Return mapping.** The trial Fᵉ has the logarithmic strain ε = ½ ln(Fᵉ Fᵉᵀ). Plastic flow is along the deviator
 /// (associated, volume preserving), so with s = ‖dev τ‖ of the trial the multiplier Δγ solves

@@ -27,8 +27,8 @@ const EXPONENT: f64 = 7.0;
 ///   apart: choose it for spray, not for long rest.
 ///
 /// **Defined for J > 0 only**: otherwise [`Law::check`] fails with J, and the other methods give NaN. The wave speed
-/// does not hold the viscous limit of an explicit step, Δt ≲ h² ρ / (2 D μ_v) for the cell size h: see
-/// [`viscosity`](Self::viscosity).
+/// does not hold the viscous limit of an explicit step, Δt ≲ h² ρ / (2 D μ_v) for the cell size h
+/// and the dynamic viscosity μ_v.
 ///
 /// Source: Monaghan, *Simulating free surface flows with SPH*, J. Comput. Phys. 110, 1994 (equation of state); Landau &
 /// Lifshitz, *Fluid Mechanics*, 2nd ed., Eq. 15.3 (viscous stress, here without a bulk viscosity in D dimensions).
