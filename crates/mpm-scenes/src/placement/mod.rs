@@ -92,18 +92,8 @@ fn check_walls<const D: usize>(scene: &Scene, background: &Background<D>, nodes:
         let reached = behind <= ROUNDING * nodes.spacing();
         let expected = format!("in reach of {}: beyond, the wall acts on nothing", nodes.described());
         match table.axis.and_then(|axis| point.get(axis.index())) {
-            Some(position) => drop(within(
-                &format!("walls[{index}].position"),
-                *position,
-                reached,
-                &expected,
-            )?),
-            None => drop(within(
-                &format!("walls[{index}].point"),
-                point.to_vec(),
-                reached,
-                &expected,
-            )?),
+            Some(position) => within(&format!("walls[{index}].position"), *position, reached, &expected).map(drop)?,
+            None => within(&format!("walls[{index}].point"), point.to_vec(), reached, &expected).map(drop)?,
         }
     }
     Ok(())
