@@ -125,27 +125,14 @@ pub enum MshError {
         dimension: usize,
     },
     /// Nodes and elements are not a valid mesh.
-    #[error("{}", in_tags(fault, elements, nodes))]
+    #[error("{message}")]
     InvalidMesh {
         /// What is wrong; elements that are cells, and nodes that belong to some, are numbered in the order of the file.
         fault: MeshError,
-        /// Tags and places of the elements at fault, by those numbers.
-        elements: Vec<(usize, u64, Place)>,
-        /// Tags and places of the nodes at fault, by those numbers.
-        nodes: Vec<(usize, u64, Place)>,
+        /// The same by the tags of the file, with places.
+        message: String,
     },
     /// There are no meshes of the dimension.
     #[error(transparent)]
     Mesh(#[from] MeshError),
-}
-
-/// A fault of a mesh by the tags of the file.
-fn in_tags(fault: &MeshError, elements: &[(usize, u64, Place)], nodes: &[(usize, u64, Place)]) -> String {
-    let name = |what: &str, known: &[(usize, u64, Place)], number: usize| {
-        let known = known.iter().find(|(own, ..)| *own == number);
-        known.map_or_else(String::new, |(_, tag, place)| format!("{what} {tag} ({place})"))
-    };
-    fault.in_words(&|number| name("element", elements, number), &|number| {
-        name("node", nodes, number)
-    })
 }

@@ -1,6 +1,5 @@
 //! Nodes and simplices as a file has them.
 
-use std::cell::RefCell;
 use std::collections::HashMap;
 
 use super::MshError;
@@ -117,34 +116,22 @@ impl Raw {
         }
     }
 
-    /// A fault of the mesh with tags and places of the elements and nodes that it names: vertices are the nodes that cells name, in their order.
+    /// A fault of the mesh in the tags and places of the file: vertices are the nodes that cells name, in their order.
     fn at_tags(&self, fault: MeshError, mut used: Vec<u32>, cursor: &Cursor) -> MshError {
         used.sort_unstable();
         used.dedup();
-        let (cells, vertices) = (RefCell::default(), RefCell::default());
-        let note = |list: &RefCell<Vec<usize>>, number| {
-            list.borrow_mut().push(number);
-            String::new()
-        };
-        fault.in_words(&|cell| note(&cells, cell), &|vertex| note(&vertices, vertex));
-        let element = |cell: usize| {
-            Some((
-                cell,
-                *self.elements.get(cell)?,
-                cursor.place(*self.element_marks.get(cell)?),
-            ))
-        };
+        let named =
+            |what: &str, tags: &[u64], marks: &[usize], number: usize| match (tags.get(number), marks.get(number)) {
+                (Some(tag), Some(&mark)) => format!("{what} {tag} ({})", cursor.place(mark)),
+                _ => format!("{what} number {number}"),
+            };
+        let element = |cell: usize| named("element", &self.elements, &self.element_marks, cell);
         let node = |vertex: usize| {
-            let number = *used.get(vertex)? as usize;
-            Some((
-                vertex,
-                *self.tags.get(number)?,
-                cursor.place(*self.node_marks.get(number)?),
-            ))
+            let number = used.get(vertex).map_or(vertex, |&number| number as usize);
+            named("node", &self.tags, &self.node_marks, number)
         };
         MshError::InvalidMesh {
-            elements: cells.into_inner().into_iter().filter_map(element).collect(),
-            nodes: vertices.into_inner().into_iter().filter_map(node).collect(),
+            message: fault.in_words(&element, &node),
             fault,
         }
     }
