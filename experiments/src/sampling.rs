@@ -139,7 +139,11 @@ pub fn sample_target<const D: usize>(
     observer: &mut dyn Observer,
 ) -> Result<Outcome, CommandError> {
     let begin = Instant::now();
-    let samples = parvi::sample::<D>(target, method, run, observer)?;
+    let samples = parvi::sample::<D>(target, method, run, observer);
+    if let Some(fault) = target.fault() {
+        return Err(fault.into());
+    }
+    let samples = samples?;
     let wall_seconds = begin.elapsed().as_secs_f64();
     let evidence = samples.log_evidence.zip(target.log_evidence());
     let mut outcome = Outcome {

@@ -269,6 +269,15 @@ pub enum TargetError {
         columns: String,
     },
 
+    /// A program that evaluates a density does not start, has ended or answers something else than numbers.
+    #[error("program `{command}` {reason}")]
+    ProgramFailed {
+        /// The command line.
+        command: String,
+        /// What went wrong, with the question.
+        reason: String,
+    },
+
     /// Newton's method did not find the mode.
     #[error(
         "no mode found for '{target}' after {iterations} Newton steps (last step {step:e} posterior standard deviations)"

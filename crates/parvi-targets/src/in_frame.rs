@@ -1,6 +1,6 @@
 //! A target in another frame than its own.
 
-use crate::{BoxedTarget, CatalogueTarget, ExactDraws, Frame, Mode, Moments, Target, UnitCubeTransport};
+use crate::{BoxedTarget, CatalogueTarget, ExactDraws, Frame, Mode, Moments, Target, TargetError, UnitCubeTransport};
 
 /// A target of the catalogue of whose place and scale a sampler knows what a frame says; [`Frame::identity`]: nothing.
 pub struct InFrame<const D: usize> {
@@ -63,5 +63,9 @@ impl<const D: usize> CatalogueTarget<D> for InFrame<D> {
 
     fn log_evidence(&self) -> Option<f64> {
         self.target.log_evidence()
+    }
+
+    fn fault(&self) -> Option<TargetError> {
+        self.target.fault()
     }
 }

@@ -4,7 +4,7 @@ use mpm_tensor::Matrix;
 use rand::{Rng, RngExt};
 use rand_distr::Open01;
 
-use crate::Frame;
+use crate::{Frame, TargetError};
 
 /// An unnormalised density `p` on ℝᴰ: the two functions a user writes to sample an own target.
 pub trait Target<const D: usize>: Sync {
@@ -116,7 +116,7 @@ pub trait CatalogueTarget<const D: usize>: Target<D> {
     /// The frame x = μ + L z in which the target has unit scale.
     fn frame(&self) -> Frame<D>;
 
-    /// A box that holds nearly all of the mass (for plots and dense grids): `[lower, upper]` per axis.
+    /// A box that holds nearly all of the mass (for plots and dense grids): `[lower, upper]` per axis, infinite where none is known.
     fn domain(&self) -> [[f64; 2]; D];
 
     /// Exact draws, where the target has them.
@@ -141,6 +141,11 @@ pub trait CatalogueTarget<const D: usize>: Target<D> {
 
     /// log ∫ p of the density as [`log_density`](Target::log_density) gives it, where it is known exactly; 0 for a normalised one.
     fn log_evidence(&self) -> Option<f64> {
+        None
+    }
+
+    /// What has gone wrong while the target was evaluated, since when its values are none; of a target that can fail.
+    fn fault(&self) -> Option<TargetError> {
         None
     }
 }

@@ -56,6 +56,7 @@ impl OptionError {
             }
             TargetError::DimensionMissing { .. } | TargetError::DimensionNotAllowed { .. } => "dim",
             TargetError::UnknownTarget { .. } => "target",
+            TargetError::ProgramFailed { .. } => "program",
             _ => return None,
         };
         Some(Self::new(name, error.to_string()))

@@ -40,6 +40,9 @@ pub struct TargetParameters {
     /// Data: a header, the 0/1 response (poisson: a count) first, then the covariates (logistic, probit, poisson)
     #[arg(long, value_name = "FILE.csv")]
     pub data: Option<PathBuf>,
+    /// Program that answers with log densities and scores, a command line for the shell (program)
+    #[arg(long, value_name = "COMMAND")]
+    pub program: Option<String>,
 }
 
 impl TargetParameters {
@@ -55,6 +58,7 @@ impl TargetParameters {
             prior_standard_deviation: self.prior_sd,
             target_seed: self.target_seed,
             data: self.data.clone(),
+            program: self.program.clone(),
         }
     }
 }
@@ -120,7 +124,7 @@ impl TargetSpecification {
         }
         for (name, value) in self.parameters.to_catalogue().given() {
             let symbol = match name {
-                "data" => "",
+                "data" | "program" => "",
                 "correlation" => "r",
                 "curvature" => "b",
                 "width" => "w",
@@ -131,7 +135,10 @@ impl TargetSpecification {
                 name => name,
             };
             let stem = Path::new(&value).file_stem().filter(|_| name == "data");
-            let value = stem.map_or(value.clone(), |stem| stem.to_string_lossy().into_owned());
+            let mut value = stem.map_or(value.clone(), |stem| stem.to_string_lossy().into_owned());
+            if name == "program" {
+                value = value.replace(|letter: char| !letter.is_alphanumeric(), "-");
+            }
             label.push_str(&format!("-{symbol}{value}"));
         }
         label

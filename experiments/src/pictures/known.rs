@@ -61,6 +61,8 @@ impl Known {
 pub fn look<const D: usize>(target: &dyn CatalogueTarget<D>, mesh: Option<&Path>) -> Known {
     let too_much = format!("and d = {D} is too much for a quadrature");
     let unsettled = "and a quadrature does not settle";
+    let elsewhere = "and no box is known that holds it";
+    let has_box = target.domain().as_flattened().iter().all(|bound| bound.is_finite());
     let (known, fault) = if let Some(path) = mesh {
         let known = Within::<D>::of_file(path).and_then(|mesh| {
             let drawn = || draws(target, |x| mesh.holds(x)).map(Known::Draws);
@@ -68,8 +70,14 @@ pub fn look<const D: usize>(target: &dyn CatalogueTarget<D>, mesh: Option<&Path>
         });
         (known, "or too few of them are within the mesh")
     } else {
-        let known = quadrature(target, None).or_else(|| draws(target, |_| true).map(Known::Draws));
-        (known, if D > 2 { &too_much } else { unsettled })
+        let integrated = if has_box { quadrature(target, None) } else { None };
+        let known = integrated.or_else(|| draws(target, |_| true).map(Known::Draws));
+        let fault = match (D, has_box) {
+            (3.., _) => &too_much,
+            (_, true) => unsettled,
+            (_, false) => elsewhere,
+        };
+        (known, fault)
     };
     known.unwrap_or_else(|| Known::Nothing(format!("the target has no exact draws, {fault}")))
 }

@@ -79,7 +79,7 @@ pub fn ascending<const LEAST: i64, const MOST: i64>(sizes: &[Bounded<LEAST, MOST
     sizes
 }
 
-/// Targets, each in those of its dimensions that are among `dims`; without a list all of the catalogue that have one and whose data no user brings.
+/// Targets, each in those of its dimensions that are among `dims`; without a list all of the catalogue that have one and need nothing that a user brings.
 ///
 /// # Errors
 /// A target that there is not, that has none of the dimensions, or parameters that it does not have.
@@ -89,7 +89,7 @@ pub fn places(
 ) -> Result<Vec<Vec<TargetSpecification>>, CommandError> {
     not_empty("dims", dims)?;
     let Some(listed) = listed else {
-        let own = |info: &&TargetInfo| info.dimensions != Dimensions::FromData;
+        let own = |info: &&TargetInfo| info.parameters.iter().all(|parameter| parameter.default.is_some());
         let all = parvi_targets::catalogue().iter().filter(own);
         let all = all.map(|info| in_dimensions(&TargetSpecification::plain(info.name, None), dims));
         let mut places = all.collect::<Result<Vec<_>, _>>()?;

@@ -18,6 +18,8 @@ mod sample_output;
 mod sample_paper;
 mod sample_plots;
 mod sample_pool;
+#[cfg(unix)]
+mod sample_program;
 #[cfg(feature = "mechanics")]
 mod scene_studies;
 #[cfg(feature = "mechanics")]

@@ -21,6 +21,7 @@ fn dimensions_out_of_range() {
         --target gaussian --dim -3 --particles 64 | --dim | -3 | from 1 to 8
         --target gaussian --dim two --particles 64 | --dim | two
         --target gaussian --particles 64 | gaussian | dimension
+        --target program --program cat --particles 64 | program | dimension
         --target banana --dim 3 --particles 64 | banana | 3
         --target wells --dim 7 --particles 64 | wells | 7
         "#,

@@ -30,6 +30,8 @@ pub struct Parameters {
     pub target_seed: Option<u64>,
     /// The CSV file of a regression.
     pub data: Option<PathBuf>,
+    /// The command line of a program that evaluates the density.
+    pub program: Option<String>,
 }
 
 impl Parameters {
@@ -52,7 +54,8 @@ impl Parameters {
         let numbers = numbers.filter_map(|(name, value)| Some((name, value?.to_string())));
         let seed = self.target_seed.map(|seed| ("target-seed", seed.to_string()));
         let data = self.data.as_ref().map(|path| ("data", path.display().to_string()));
-        numbers.chain(seed).chain(data).collect()
+        let program = self.program.iter().map(|command| ("program", command.clone()));
+        numbers.chain(seed).chain(data).chain(program).collect()
     }
 }
 

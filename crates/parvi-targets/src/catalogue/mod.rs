@@ -8,6 +8,7 @@ mod making;
 mod nested;
 mod numbers;
 mod posteriordb;
+mod program;
 mod random;
 mod sbibm;
 mod schools;
@@ -22,6 +23,7 @@ pub use nested::{Eggbox, GaussianShells, LogGamma, SpikeSlab};
 pub use posteriordb::{
     Arma, Garch, GaussianProcess, HiddenMarkov, LinearModel, LotkaVolterra, ModelPosterior, NormalMixture, Prior,
 };
+pub use program::ProgramTarget;
 pub use random::{
     Affine, AxisLaw, Bijection, BoxedBijection, BoxedLaw, Law, MixtureLaw, Neck, ProductLaw, Profile, PushForward,
     RandomFamily, RandomTarget, Shear, Skew, Twist,

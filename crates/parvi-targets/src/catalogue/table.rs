@@ -7,8 +7,8 @@ use super::wells::{WELLS_MAXIMUM_DIMENSION, WELLS_SMALL_ROWS, wells};
 use crate::{
     Arma, Banana, BoxedTarget, Cross, Eggbox, Funnel, Garch, Gaussian, GaussianMixture, GaussianProcess,
     GaussianShells, HiddenMarkov, LinearModel, LogGamma, Logarithm, Logit, LotkaVolterra, NestedNormals, NormalMixture,
-    Probit, RandomTarget, RegressionData, Ring, Rosenbrock, Schools, SimpleLikelihood, SpikeSlab, StudentT,
-    TargetError, TwoMoons,
+    Probit, ProgramTarget, RandomTarget, RegressionData, Ring, Rosenbrock, Schools, SimpleLikelihood, SpikeSlab,
+    StudentT, TargetError, TwoMoons,
 };
 
 /// Every target of the catalogue, in the order of the documentation.
@@ -140,6 +140,11 @@ const DATA: ParameterInfo = ParameterInfo {
     default: None,
     meaning: "the CSV file",
 };
+const PROGRAM: ParameterInfo = ParameterInfo {
+    name: "program",
+    default: None,
+    meaning: "the command line of the program, for the shell",
+};
 const FILE: &str = "a CSV file instead; it fixes the dimension";
 
 /// What is known of the targets, and what makes one in dimension D, by the values of its parameters.
@@ -235,6 +240,9 @@ targets! {
         .with(&[parameter("target-seed", "0", "the seed that makes it")])
         .without_moments()
         => boxed(RandomTarget::<D>::new(values.parameters.target_seed.unwrap_or(0)));
+    posterior("program", any_from(1), "what a program says that answers questions, a line each: docs/guide.md")
+        .with(&[PROGRAM])
+        => boxed(ProgramTarget::<D>::start(values.parameters.program.as_deref().unwrap_or_default()));
     closed(
         "eggbox",
         Dimensions::Fixed(2),

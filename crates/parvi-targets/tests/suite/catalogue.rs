@@ -10,7 +10,7 @@ use crate::support::with;
 fn check_in<const D: usize>() {
     for info in catalogue()
         .iter()
-        .filter(|info| info.dimensions != Dimensions::FromData)
+        .filter(|info| info.parameters.iter().all(|parameter| parameter.default.is_some()))
     {
         let parameters = Parameters::default();
         let exists = match info.dimensions {
@@ -68,6 +68,7 @@ fn dimensions_are_resolved() {
         ("schools", Some(2), "dimension 2 does not fit target 'schools': 3 to 8"),
         ("ring", Some(3), "dimension 3 does not fit target 'ring': 2"),
         ("logistic", Some(3), "target 'logistic' needs the parameter 'data'"),
+        ("program", Some(3), "target 'program' needs the parameter 'program'"),
     ] {
         assert_eq!(message(name, requested), expected);
     }

@@ -15,6 +15,8 @@ mod logistic;
 mod minibatch;
 mod nested_problems;
 mod posteriordb;
+#[cfg(unix)]
+mod program;
 mod random_targets;
 mod sbibm;
 mod student_t;

@@ -1,0 +1,6 @@
+//! Densities that other programs evaluate, in whatever language.
+
+mod conversation;
+mod target;
+
+pub use target::ProgramTarget;

@@ -1,0 +1,68 @@
+//! `parvi sample` of a density that a program evaluates.
+
+use std::path::Path;
+use std::process::Output;
+
+use crate::support::{assert_refused, command, files, stderr, value};
+
+/// Samples what a program says in two dimensions, on so many threads, into x.csv.
+fn sample(directory: &Path, program: &str, threads: &str) -> Output {
+    let line = "sample --target program --dim 2 --particles 200 --out x.csv --program";
+    let arguments = line.split_whitespace().chain([program]);
+    let mut command = command();
+    command.current_dir(directory).env("RAYON_NUM_THREADS", threads);
+    command.args(arguments).output().unwrap()
+}
+
+/// The program that is shown, or nothing where there is no Python.
+fn shown() -> Option<String> {
+    let python = std::process::Command::new("python3").arg("--version").output();
+    python.is_ok().then(|| {
+        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/programs/banana.py");
+        format!("python3 '{file}'")
+    })
+}
+
+#[test]
+fn a_density_in_python_has_its_evidence_and_the_same_bits_on_any_number_of_threads() {
+    let Some(program) = shown() else {
+        return;
+    };
+    let particles = ["1", "3"].map(|threads| {
+        let directory = tempfile::tempdir().unwrap();
+        let output = sample(directory.path(), &program, threads);
+        assert!(output.status.success(), "{}", stderr(&output));
+        assert_eq!(value(&output, "outcome").unwrap(), "converged");
+        let log_evidence: f64 = value(&output, "log_evidence").unwrap().parse().unwrap();
+        assert!(
+            (log_evidence - std::f64::consts::PI.ln()).abs() < 0.02,
+            "{log_evidence}"
+        );
+        assert_eq!(files(directory.path()), ["x.csv"]);
+        std::fs::read(directory.path().join("x.csv")).unwrap()
+    });
+    assert_eq!(particles[0], particles[1]);
+}
+
+#[test]
+fn what_is_wrong_with_a_program_is_said_with_the_question() {
+    let ending = "for n in 1 2 3 4 5 6 7 8 9; do read what x; if [ $what = score ]; then echo 0 0; else echo -$n; fi; done; exit 7";
+    for (program, parts) in [
+        (
+            "exit 3",
+            [
+                "--program: program `exit 3` ended (exit status: 3)",
+                "`density 0e0 0e0`",
+            ],
+        ),
+        (
+            "while read x; do echo one; done",
+            ["--program: ", "'one', which is not a number"],
+        ),
+        (ending, ["ended (exit status: 7)", "without an answer to `density "]),
+    ] {
+        let directory = tempfile::tempdir().unwrap();
+        assert_refused(&sample(directory.path(), program, "2"), &parts);
+        assert_eq!(files(directory.path()), [""; 0], "{program}");
+    }
+}
