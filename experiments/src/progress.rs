@@ -80,7 +80,9 @@ impl Bar {
 
     /// The bar of a number of things of this name, `step` or `run`.
     pub fn counting(name: &str) -> Self {
-        Self::new(&format!("{{bar:30}} {name} {{pos}}/{{len}}, {{eta}} left"))
+        let bar = Self::new("{bar:30} {prefix} {pos}/{len}, {eta} left");
+        bar.bar.set_prefix(name.to_owned());
+        bar
     }
 
     /// The bar of a study: cases, weighted by what they are expected to cost, a part of which is done.
@@ -149,14 +151,29 @@ fn style(template: &str) -> ProgressStyle {
     ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
 }
 
-/// Shows the steps of a run, and stops it on Ctrl-C.
+/// Shows the steps of a run and, while it only evaluates, how many of these are done; stops it on Ctrl-C.
 impl Observer for Bar {
     fn after_step(&mut self, progress: Progress) -> ControlFlow<()> {
-        match self.study {
-            None => self.set(progress.step, progress.steps),
-            Some(_) => self.set_share(progress.step as f64 / progress.steps.max(1) as f64),
-        }
+        self.show("step", progress.step, progress.steps);
         unless_interrupted()
+    }
+
+    fn evaluated(&mut self, evaluations: u64, limit: u64) -> ControlFlow<()> {
+        self.show("evaluation", evaluations as usize, limit as usize);
+        unless_interrupted()
+    }
+}
+
+impl Bar {
+    /// So many things of this name are done, of so many.
+    fn show(&mut self, name: &'static str, done: usize, count: usize) {
+        match self.study {
+            None => {
+                self.bar.set_prefix(name);
+                self.set(done, count);
+            }
+            Some(_) => self.set_share(done as f64 / count.max(1) as f64),
+        }
     }
 }
 

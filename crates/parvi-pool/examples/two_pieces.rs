@@ -10,7 +10,7 @@
 use std::error::Error;
 use std::ops::ControlFlow;
 
-use parvi_pool::{PoolOptions, explore};
+use parvi_pool::{PoolOptions, Report, explore};
 use parvi_targets::{Frame, GaussianMixture, Mode};
 
 const WIDTHS: [f64; 5] = [1.0, 0.5, 0.3, 0.2, 0.1];
@@ -43,7 +43,7 @@ fn row<const D: usize>(search_effort: f64) -> Result<(), Box<dyn Error>> {
                 search_effort,
                 ..PoolOptions::default()
             };
-            let go_on = &mut |_: &_, _: &_| ControlFlow::Continue(());
+            let go_on = &mut |_: &Report<'_>| ControlFlow::Continue(());
             let pool = explore(&target, &frame, &[], Vec::new(), PARTICLES, seed, &options, go_on)?;
             let is_off = pool.log_evidence.abs() > 4.0 * pool.log_evidence_error;
             wrong += u32::from(is_off && pool.objection(PARTICLES).is_none());

@@ -93,7 +93,7 @@ mod tests {
         let covariance = Matrix([[1e4, 30.0, 0.0], [30.0, 1.0, 5e-4], [0.0, 5e-4, 1e-4]]);
         let target = Gaussian::new([10.0, 2.0, 3.0], covariance).unwrap();
         let frame = Frame::identity();
-        let mut density = Density::new(&target, &frame, Vec::new());
+        let mut density = Density::of(&target, &frame);
         let summit = ascend(&mut density, &[-10.0, -10.0, 10.0], |_, _| false).unwrap();
         assert!(
             target.log_density(&[10.0, 2.0, 3.0]) - summit.log_density < REST,
@@ -110,7 +110,7 @@ mod tests {
         let target = Banana::new(1.0, 0.5).unwrap();
         let frame = Frame::identity();
         for start in [[5.0, 5.0], [-3.0, 0.0], [0.0, 20.0]] {
-            let summit = ascend(&mut Density::new(&target, &frame, Vec::new()), &start, |_, _| false).unwrap();
+            let summit = ascend(&mut Density::of(&target, &frame), &start, |_, _| false).unwrap();
             assert!(
                 summit.log_density > target.log_density(&[0.0, -1.0]) - 1.0,
                 "{start:?}: {summit:?}"
@@ -122,19 +122,14 @@ mod tests {
     fn a_start_without_a_density_is_no_start() {
         let target = Gaussian::<1>::standard();
         let frame = Frame::identity();
-        assert!(
-            ascend(&mut Density::new(&target, &frame, Vec::new()), &[f64::NAN], |_, _| {
-                false
-            })
-            .is_none()
-        );
+        assert!(ascend(&mut Density::of(&target, &frame), &[f64::NAN], |_, _| { false }).is_none());
     }
 
     #[test]
     fn a_way_that_meets_what_is_known_ends_there() {
         let target = Gaussian::<2>::standard();
         let frame = Frame::identity();
-        let mut density = Density::new(&target, &frame, Vec::new());
+        let mut density = Density::of(&target, &frame);
         assert!(ascend(&mut density, &[3.0, 4.0], |_, _| true).is_none());
         let summit = ascend(&mut density, &[3.0, 4.0], |_, _| false).unwrap();
         assert!(summit.log_mass().abs() < 1e-6, "{summit:?}");

@@ -2,11 +2,11 @@
 
 use parvi_targets::{Frame, Target};
 
-use crate::explore::Observer;
 use crate::measure::Measure;
 use crate::mixture::Mixture;
 use crate::options::{PoolError, PoolOptions};
 use crate::pool::Pool;
+use crate::report::Observer;
 
 /// [`explore`](crate::explore).
 type Explore<const D: usize> = fn(

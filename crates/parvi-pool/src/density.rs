@@ -3,19 +3,20 @@
 use std::collections::HashMap;
 
 use mpm_tensor::{Matrix, vector};
-use parvi_targets::{Frame, Target};
+use parvi_targets::Frame;
 
 use crate::options::PoolError;
+use crate::source::Source;
 
 /// Log densities beyond this size are taken for no numbers.
 const LARGEST: f64 = 1e15;
 
-/// Points that one task evaluates.
-const BATCH: usize = 256;
+/// What a stopped source is said to have spent: more than anybody may.
+const ALL: u64 = u64::MAX / 4;
 
 /// log q(z) = log p(μ + L z) + log det L, and its score.
 pub(super) struct Density<'a, const D: usize> {
-    target: &'a dyn Target<D>,
+    pub source: Source<'a, D>,
     frame: &'a Frame<D>,
     log_determinant: f64,
     /// Points at which log p was evaluated.
@@ -28,18 +29,14 @@ pub(super) struct Density<'a, const D: usize> {
     pub finite: u64,
     /// Log densities of finite points that were NaN, +∞ or too large: what mass is there, nobody knows.
     pub undefined: u64,
-    /// Every value of the target in the order of evaluation: what an earlier process left, then what this one adds.
-    pub tape: Vec<f64>,
-    /// Values of the tape that have been used.
-    read: usize,
     /// −∇² log p where it is known, by the bits of the point.
     precisions: HashMap<[u64; D], Matrix<D>>,
 }
 
 impl<'a, const D: usize> Density<'a, D> {
-    pub fn new(target: &'a dyn Target<D>, frame: &'a Frame<D>, tape: Vec<f64>) -> Self {
+    pub fn new(source: Source<'a, D>, frame: &'a Frame<D>) -> Self {
         Self {
-            target,
+            source,
             frame,
             log_determinant: frame.log_determinant(),
             density_evaluations: 0,
@@ -47,24 +44,20 @@ impl<'a, const D: usize> Density<'a, D> {
             replaced: 0,
             finite: 0,
             undefined: 0,
-            tape,
-            read: 0,
             precisions: HashMap::new(),
         }
+    }
+
+    /// Of a target, without an observer.
+    #[cfg(test)]
+    pub fn of(target: &'a dyn parvi_targets::Target<D>, frame: &'a Frame<D>) -> Self {
+        Self::new(Source::new(target, Vec::new(), None), frame)
     }
 
     /// log q at all of `zs`; −∞ where it is NaN, +∞ or beyond ±1e15, or where the point itself is not finite.
     pub fn log_densities(&mut self, zs: &[[f64; D]]) -> Vec<f64> {
         let xs: Vec<[f64; D]> = zs.iter().map(|z| self.frame.to_target(z)).collect();
-        let mut values = self.played(xs.len(), 1);
-        let known = values.len();
-        values.resize(xs.len(), 0.0);
-        let batches = values[known..].chunks_mut(BATCH).zip(xs[known..].chunks(BATCH));
-        let target = self.target;
-        mpm_parallel::each(batches, &|(values, xs): (&mut [f64], &[[f64; D]])| {
-            target.log_densities(xs, values);
-        });
-        self.record(&values[known..]);
+        let mut values = self.source.log_densities(&xs);
         self.density_evaluations += zs.len() as u64;
         for (value, x) in values.iter_mut().zip(&xs) {
             let sound = value.abs() < LARGEST && vector::is_finite(x);
@@ -85,19 +78,7 @@ impl<'a, const D: usize> Density<'a, D> {
     /// Scores ∇_z log q at all of `zs`; zero where one is not finite.
     pub fn scores(&mut self, zs: &[[f64; D]]) -> Vec<[f64; D]> {
         let xs: Vec<[f64; D]> = zs.iter().map(|z| self.frame.to_target(z)).collect();
-        let played = self.played(xs.len(), D);
-        let mut scores: Vec<[f64; D]> = played
-            .chunks_exact(D)
-            .map(|s| std::array::from_fn(|axis| s[axis]))
-            .collect();
-        let known = scores.len();
-        scores.resize(xs.len(), [0.0; D]);
-        let batches = scores[known..].chunks_mut(BATCH).zip(xs[known..].chunks(BATCH));
-        let target = self.target;
-        mpm_parallel::each(batches, &|(scores, xs): (&mut [[f64; D]], &[[f64; D]])| {
-            target.scores(xs, scores);
-        });
-        self.record(scores[known..].as_flattened());
+        let mut scores = self.source.scores(&xs);
         self.score_evaluations += zs.len() as u64;
         for score in &mut scores {
             *score = self.frame.pull_back_score(score);
@@ -107,24 +88,6 @@ impl<'a, const D: usize> Density<'a, D> {
             }
         }
         scores
-    }
-
-    /// The next values of the tape, in whole points of `width` values, at most `count` points.
-    fn played(&mut self, count: usize, width: usize) -> Vec<f64> {
-        let left = (self.tape.len() - self.read) / width;
-        let start = self.read;
-        self.read += width * count.min(left);
-        if left < count {
-            // The end of the tape: what is left of it belongs to no whole point.
-            self.tape.truncate(self.read);
-        }
-        self.tape[start..self.read].to_vec()
-    }
-
-    /// Appends values that the tape did not hold.
-    fn record(&mut self, values: &[f64]) {
-        self.tape.extend_from_slice(values);
-        self.read += values.len();
     }
 
     /// The points at which −∇² log p is not known.
@@ -155,8 +118,12 @@ impl<'a, const D: usize> Density<'a, D> {
         }
     }
 
-    /// Evaluations of all kinds.
+    /// Evaluations of all kinds; all that there may be where nothing is evaluated any more.
     pub fn evaluations(&self) -> u64 {
-        self.density_evaluations + self.score_evaluations
+        if self.source.is_stopped() {
+            ALL
+        } else {
+            self.density_evaluations + self.score_evaluations
+        }
     }
 }

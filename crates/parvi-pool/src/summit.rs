@@ -115,7 +115,7 @@ mod tests {
 
     fn summit<const D: usize>(target: &dyn Target<D>, point: [f64; D], curvature: &Matrix<D>) -> Summit<D> {
         let frame = Frame::identity();
-        let mut density = Density::new(target, &frame, Vec::new());
+        let mut density = Density::of(target, &frame);
         let summit = Summit::new(point, target.log_density(&point), curvature, 200.0).unwrap();
         let measured = summit.measured(&mut density).unwrap();
         assert_eq!(density.evaluations(), D as u64);

@@ -181,6 +181,12 @@ pub trait Observer {
         ControlFlow::Continue(())
     }
 
+    /// Called now and then while a survey evaluates a density that takes long: so many evaluations of all kinds so far, of so many at most as far as is known by then. A run that
+    /// is stopped here has kept them all in its checkpoint, if it has one. The default goes on.
+    fn evaluated(&mut self, _evaluations: u64, _limit: u64) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+
     /// Called with the particles where a body begins and after every step that moved them, before [`after_step`](Self::after_step).
     ///
     /// `mpm` shows the bodies that move from the start, or even out what was condensed from a pool; `mpm` on a mesh, the paper's methods, `svgd` and `support-points`

@@ -73,7 +73,7 @@ mod tests {
         let target = Gaussian::<2>::standard();
         let frame = Frame::identity();
         let options = PoolOptions::default();
-        let watch = &mut |_: &_, _: &[f64]| std::ops::ControlFlow::Continue(());
+        let watch = &mut |_: &parvi_pool::Report<'_>| std::ops::ControlFlow::Continue(());
         let pool = explore(&target, &frame, &[], Vec::new(), 100, 1, &options, watch).expect("a pool");
         let mut particles = pool.condense(100);
         let [first, second] = [[9.0, 0.0], [9.1, 0.0]];

@@ -2,9 +2,10 @@
 //! evens out what that leaves as far as it brings them nearer.
 
 use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
 
 use mpm_tensor::Matrix;
-use parvi_pool::{Kernel, Mixture, Pool, PoolError, PoolOptions, Round, explore};
+use parvi_pool::{Kernel, Mixture, Pool, PoolError, PoolOptions, Report, Round, explore};
 use rand::RngExt;
 
 use crate::certificate::Certificate;
@@ -17,6 +18,9 @@ use crate::{MpmOptions, Progress, SampleError, Samples, Start, defaults};
 
 /// A pool whose energy distance is known no better than that of so many times fewer independent draws than particles is none.
 const WORTHLESS: f64 = 30.0;
+
+/// How long evaluations may be without a place in the checkpoint.
+const UNKEPT: Duration = Duration::from_secs(5);
 
 /// `None` where what was weighed is worth nothing.
 pub(crate) fn sample<const D: usize>(
@@ -103,15 +107,25 @@ fn surveyed<const D: usize>(
     let given: Vec<Mixture<D>> = start_law(&run.start).into_iter().collect();
     let mut refused = None;
     let tape = journal.tape();
-    let mut watch = |round: &Round, tape: &[f64]| {
-        if let Err(error) = journal.keep_tape(tape) {
-            refused = Some(error);
-            return ControlFlow::Break(());
+    let mut kept = Instant::now();
+    let mut watch = |report: &Report<'_>| {
+        let flow = match report.round {
+            Some(&Round { number: step, .. }) => {
+                // As many rounds as the evaluations that are left would do for.
+                let whole = step as f64 * report.limit as f64 / report.evaluations.max(1) as f64;
+                let steps = (whole as usize).max(step + 1);
+                task.observer.after_step(Progress { step, steps })
+            }
+            None => task.observer.evaluated(report.evaluations, report.limit),
+        };
+        if report.round.is_some() || flow.is_break() || kept.elapsed() > UNKEPT {
+            kept = Instant::now();
+            if let Err(error) = journal.keep_tape(report.tape) {
+                refused = Some(error);
+                return ControlFlow::Break(());
+            }
         }
-        task.observer.after_step(Progress {
-            step: round.number,
-            steps: round.number + 1,
-        })
+        flow
     };
     let explored = explore(target, frame, &given, tape, count, seed, &pool_options, &mut watch);
     if let Some(error) = refused {

@@ -21,7 +21,7 @@ fn a_fold_that_forgets_weighs_as_if_the_rest_were_all() {
     let target = Gaussian::<2>::standard();
     let frame = Frame::identity();
     let law = |width| law([0.3, 0.0], width);
-    let mut density = Density::new(&target, &frame, Vec::new());
+    let mut density = Density::of(&target, &frame);
     let [mut both, mut second] = [Fold::new(), Fold::new()];
     both.draw(&mut density, law(2.0), 40, 1);
     both.draw(&mut density, law(1.1), 64, 2);
@@ -49,7 +49,7 @@ fn what_is_left_of_the_sums_is_no_rounding() {
         };
         Mixture::new((0..count).map(kernel).collect()).unwrap()
     };
-    let mut density = Density::new(&target, &frame, Vec::new());
+    let mut density = Density::of(&target, &frame);
     let [mut both, mut rest] = [Fold::new(), Fold::new()];
     both.draw(&mut density, kernels(3.0, 2), 4000, 1);
     for fold in [&mut both, &mut rest] {
@@ -75,7 +75,7 @@ fn news_is_what_was_not_known() {
     let target = GaussianMixture::new("two", &[mode(-4.0), mode(4.0)]).unwrap();
     let frame = Frame::identity();
     let news = |first: &Mixture<2>, last: &Mixture<2>| {
-        let mut density = Density::new(&target, &frame, Vec::new());
+        let mut density = Density::of(&target, &frame);
         let mut fold = Fold::new();
         fold.draw(&mut density, first.clone(), 2000, 1);
         fold.draw(&mut density, last.clone(), 200, 2);
@@ -96,7 +96,7 @@ fn weights_over_two_proposals_are_unbiased() {
     let runs = 200;
     let mean = (0..runs)
         .map(|seed| {
-            let mut density = Density::new(&target, &frame, Vec::new());
+            let mut density = Density::of(&target, &frame);
             let mut fold = Fold::new();
             fold.draw(&mut density, law([1.0, 0.0], 0.8), 64, seed);
             fold.draw(&mut density, law([-1.0, 0.5], 1.2), 128, 1000 + seed);

@@ -20,7 +20,7 @@ fn a_level_set_ends_where_it_is_told_to() {
     };
     let mut fold = Fold::new();
     fold.draw(
-        &mut Density::new(&target, &frame, Vec::new()),
+        &mut Density::of(&target, &frame),
         Mixture::new(vec![wide]).unwrap(),
         4000,
         1,

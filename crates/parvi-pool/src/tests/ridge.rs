@@ -30,7 +30,7 @@ impl Target<2> for Ring {
 #[test]
 fn walks_follow_a_ridge_beyond_what_was_covered_and_spend_no_more_than_they_may() {
     let frame = Frame::identity();
-    let mut density = Density::new(&Ring, &frame, Vec::new());
+    let mut density = Density::of(&Ring, &frame);
     let near = Kernel {
         centre: [10.0, 0.0],
         factor: Matrix::diagonal(&[0.1, 2.0]),

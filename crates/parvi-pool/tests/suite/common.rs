@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use parvi_pool::{Pool, PoolError, PoolOptions, explore};
+use parvi_pool::{Pool, PoolError, PoolOptions, Report, explore};
 use parvi_targets::{Frame, Target};
 
 pub fn pool_of<const D: usize>(target: &dyn Target<D>, particles: usize, seed: u64) -> Result<Pool<D>, PoolError> {
@@ -15,7 +15,7 @@ pub fn pool_with<const D: usize>(
     seed: u64,
     options: &PoolOptions,
 ) -> Result<Pool<D>, PoolError> {
-    let go_on = &mut |_: &_, _: &_| ControlFlow::Continue(());
+    let go_on = &mut |_: &Report<'_>| ControlFlow::Continue(());
     explore(
         target,
         &Frame::identity(),

@@ -26,7 +26,7 @@ use crate::{MpmOptions, Run, SampleError};
 pub struct Checkpoint {
     /// The file.
     pub path: PathBuf,
-    /// It is written every so many steps, rounded up to a multiple of 8; ≥ 1.
+    /// It is written every so many steps, rounded up to a multiple of 8; ≥ 1. In a survey after every round, and every five seconds where evaluations take long.
     pub every: usize,
 }
 

@@ -32,6 +32,10 @@ impl Observer for Watch {
         self.progress.after_step(progress)
     }
 
+    fn evaluated(&mut self, evaluations: u64, limit: u64) -> ControlFlow<()> {
+        self.progress.evaluated(evaluations, limit)
+    }
+
     fn see(&mut self, view: &ParticleView<'_>) -> ControlFlow<()> {
         if let Some(history) = &mut self.history {
             history.see(view)?;
