@@ -105,23 +105,24 @@ impl<'a, const D: usize> Source<'a, D> {
         let mut known = values.len() / width;
         self.evaluations += known as u64;
         values.resize(xs.len() * width, f64::NAN);
+        let is_one_call = matches!(kind, Kind::Score) && self.target.scores_depend_on_calls();
         while known < xs.len() && !self.stopped {
-            let stretch = self.paces[kind as usize].within(SILENCE).next_multiple_of(BATCH);
+            let pace = self.paces[kind as usize];
+            let (stretch, batch) = match is_one_call {
+                true => (xs.len(), xs.len()),
+                false => (pace.within(SILENCE), pace.task().min(BATCH)),
+            };
             let next = xs.len().min(known.saturating_add(stretch));
-            self.evaluate(kind, &xs[known..next], &mut values[width * known..width * next]);
+            let stretch = &mut values[width * known..width * next];
+            self.evaluate(kind, &xs[known..next], stretch, batch);
             known = next;
         }
         values
     }
 
-    /// Evaluates a stretch of points, side by side, puts it on the tape, and tells of it if it is time.
-    fn evaluate(&mut self, kind: Kind, xs: &[[f64; D]], values: &mut [f64]) {
+    /// Evaluates a stretch of points, batches side by side, puts it on the tape, and tells of it if it is time.
+    fn evaluate(&mut self, kind: Kind, xs: &[[f64; D]], values: &mut [f64], batch: usize) {
         let (target, width, begin) = (self.target, values.len() / xs.len(), Instant::now());
-        let batch = match kind {
-            Kind::Density => self.paces[0].task().min(BATCH),
-            // What an estimated score is may hang on the calls before it, and these may not hang on time.
-            Kind::Score => BATCH,
-        };
         let tasks = values.chunks_mut(width * batch).zip(xs.chunks(batch));
         mpm_parallel::each(tasks, &|(values, xs): (&mut [f64], &[[f64; D]])| match kind {
             Kind::Density => target.log_densities(xs, values),
@@ -146,5 +147,47 @@ impl<'a, const D: usize> Source<'a, D> {
             self.tape.truncate(self.read);
         }
         self.tape[start..self.read].to_vec()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Mutex;
+
+    use super::*;
+
+    /// Notes how many points every call for scores has.
+    struct Calls(Mutex<Vec<usize>>, bool);
+
+    impl Target<1> for Calls {
+        fn log_density(&self, x: &[f64; 1]) -> f64 {
+            -0.5 * x[0] * x[0]
+        }
+        fn score(&self, x: &[f64; 1]) -> [f64; 1] {
+            [-x[0]]
+        }
+        fn scores_depend_on_calls(&self) -> bool {
+            self.1
+        }
+        fn scores(&self, xs: &[[f64; 1]], out: &mut [[f64; 1]]) {
+            if let Ok(mut calls) = self.0.lock() {
+                calls.push(xs.len());
+            }
+            for (x, score) in xs.iter().zip(out) {
+                *score = self.score(x);
+            }
+        }
+    }
+
+    #[test]
+    fn scores_that_depend_on_calls_are_asked_for_in_one() {
+        let points: Vec<[f64; 1]> = (0..3 * BATCH).map(|n| [n as f64]).collect();
+        let calls = |depends| {
+            let target = Calls(Mutex::default(), depends);
+            let scores = Source::new(&target, Vec::new(), None).scores(&points);
+            assert!(scores.iter().zip(&points).all(|(score, x)| score[0] == -x[0]));
+            target.0.into_inner().unwrap_or_default().len()
+        };
+        assert_eq!((calls(true), calls(false)), (1, 3));
     }
 }

@@ -23,6 +23,10 @@ impl<const D: usize> Target<D> for InFrame<D> {
         self.target.has_log_density()
     }
 
+    fn scores_depend_on_calls(&self) -> bool {
+        self.target.scores_depend_on_calls()
+    }
+
     fn scores(&self, xs: &[[f64; D]], out: &mut [[f64; D]]) {
         self.target.scores(xs, out);
     }

@@ -151,6 +151,10 @@ impl<T: SumTarget<D>, const D: usize> Target<D> for MinibatchScore<T, D> {
         self.target.full_log_density(x)
     }
 
+    fn scores_depend_on_calls(&self) -> bool {
+        true
+    }
+
     /// A call with one point.
     fn score(&self, x: &[f64; D]) -> [f64; D] {
         let mut score = [[0.0; D]];

@@ -20,6 +20,12 @@ pub trait Target<const D: usize>: Sync {
         true
     }
 
+    /// Whether a score depends on how many calls were made before ([`MinibatchScore`](crate::MinibatchScore)). Points that belong together are then asked for in one call, by one thread,
+    /// so that calls follow each other alike on any number of threads.
+    fn scores_depend_on_calls(&self) -> bool {
+        false
+    }
+
     /// Scores of many points at once: `out[p] = score(xs[p])`.
     ///
     /// Override it where a batch is cheaper than its parts (a regression is one matrix product).
@@ -54,6 +60,10 @@ impl<T: Target<D> + ?Sized, const D: usize> Target<D> for &T {
 
     fn has_log_density(&self) -> bool {
         (**self).has_log_density()
+    }
+
+    fn scores_depend_on_calls(&self) -> bool {
+        (**self).scores_depend_on_calls()
     }
 
     fn scores(&self, xs: &[[f64; D]], out: &mut [[f64; D]]) {

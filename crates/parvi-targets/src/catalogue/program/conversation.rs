@@ -52,16 +52,16 @@ impl Question {
 impl Conversation {
     /// Starts a program by a command line of the shell.
     pub fn begin(command: &str) -> Result<Self, TargetError> {
-        let failed = |error: io::Error| failed(command, format!("does not start: {error}"));
+        let unstarted = |error: io::Error| failed(command, format!("does not start: {error}"));
         let mut child = shell(command)
             // What Python prints is to arrive when it is printed.
             .env("PYTHONUNBUFFERED", "1")
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .spawn()
-            .map_err(failed)?;
+            .map_err(unstarted)?;
         let (Some(input), Some(output)) = (child.stdin.take(), child.stdout.take()) else {
-            return Err(failed(io::ErrorKind::BrokenPipe.into()));
+            return Err(unstarted(io::ErrorKind::BrokenPipe.into()));
         };
         Ok(Self {
             command: command.to_owned(),
