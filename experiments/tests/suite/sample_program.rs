@@ -7,7 +7,7 @@ use crate::support::{assert_refused, command, files, stderr, value};
 
 /// Samples what a program says in two dimensions, on so many threads, into x.csv.
 fn sample(directory: &Path, program: &str, threads: &str) -> Output {
-    let line = "sample --target program --dim 2 --particles 200 --out x.csv --program";
+    let line = "sample --target program --dim 2 --particles 500 --out x.csv --program";
     let arguments = line.split_whitespace().chain([program]);
     let mut command = command();
     command.current_dir(directory).env("RAYON_NUM_THREADS", threads);
@@ -33,11 +33,9 @@ fn a_density_in_python_has_its_evidence_and_the_same_bits_on_any_number_of_threa
         let output = sample(directory.path(), &program, threads);
         assert!(output.status.success(), "{}", stderr(&output));
         assert_eq!(value(&output, "outcome").unwrap(), "converged");
-        let log_evidence: f64 = value(&output, "log_evidence").unwrap().parse().unwrap();
-        assert!(
-            (log_evidence - std::f64::consts::PI.ln()).abs() < 0.02,
-            "{log_evidence}"
-        );
+        let number = |key| value(&output, key).unwrap().parse::<f64>().unwrap();
+        let off = number("log_evidence") - std::f64::consts::PI.ln();
+        assert!(off.abs() < 4.0 * number("log_evidence_error"), "{off}");
         assert_eq!(files(directory.path()), ["x.csv"]);
         std::fs::read(directory.path().join("x.csv")).unwrap()
     });
@@ -59,7 +57,7 @@ fn what_is_wrong_with_a_program_is_said_with_the_question() {
             "while read x; do echo one; done",
             ["--program: ", "'one', which is not a number"],
         ),
-        (ending, ["ended (exit status: 7)", "without an answer to `density "]),
+        (ending, ["ended (exit status: 7)", "without an answer to `"]),
     ] {
         let directory = tempfile::tempdir().unwrap();
         assert_refused(&sample(directory.path(), program, "2"), &parts);
