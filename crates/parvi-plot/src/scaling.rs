@@ -4,7 +4,7 @@ use crate::statistics::{PowerLaw, fit_power_law};
 
 use super::chart::Chart;
 use super::data::{PlotError, check_size};
-use super::line_series::LineSeries;
+use super::line_series::{GuideCurve, LineSeries};
 use super::multiples::MultiplesPanel;
 use super::scale::Axis;
 use super::series::{ChartPanel, ChartSeries, Connection};
@@ -24,6 +24,25 @@ pub struct ScalingPlot {
     pub from: f64,
     /// The settings, to the label of each of which the fitted exponent is added, and theoretical curves.
     pub panel: MultiplesPanel,
+}
+
+impl ScalingPlot {
+    /// Settings over a size with a label and a symbol, all of whose measurements are used.
+    pub fn over((x_label, symbol): (&str, &str), y_label: &str, series: Vec<LineSeries>) -> Self {
+        Self {
+            x_label: x_label.to_owned(),
+            y_label: y_label.to_owned(),
+            symbol: symbol.to_owned(),
+            from: 0.0,
+            panel: MultiplesPanel::new("", series),
+        }
+    }
+
+    /// The same with theoretical curves.
+    pub fn with_guides(mut self, guides: Vec<GuideCurve>) -> Self {
+        self.panel.guides = guides;
+        self
+    }
 }
 
 /// The power law of one series as the figure fits it: over its positive, finite points with x ≥ `from`; `None` where

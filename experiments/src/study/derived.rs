@@ -11,10 +11,17 @@ pub const SECONDS: &str = "wall_seconds";
 /// Wall time, least, median and most.
 pub const WALL: [&str; 3] = ["wall_seconds_least", SECONDS, "wall_seconds_most"];
 
+/// The same over the steps.
+pub const PER_STEP: [&str; 3] = [
+    "wall_seconds_per_step_least",
+    "wall_seconds_per_step",
+    "wall_seconds_per_step_most",
+];
+
 /// A name and the number, where the row has what it takes, earlier ones included.
 type Derived = (&'static str, fn(&Row) -> Option<f64>);
 
-const DERIVED: [Derived; 23] = [
+const DERIVED: [Derived; 24] = [
     // The energy distance.
     ("energy_root", |row| Some(row.number(ENERGY)?.max(0.0).sqrt())),
     ("energy_thousandths", |row| Some(1e3 * row.number(ENERGY)?)),
@@ -64,6 +71,7 @@ const DERIVED: [Derived; 23] = [
     ("draws_ratio", |row| {
         Some(row.number(ENERGY)? * row.number("particles")? / row.number("mean_distance")?)
     }),
+    ("draws_per_particle", |row| row.number("draws_ratio").map(f64::recip)),
 ];
 
 fn ratio(row: &Row, column: &str, over: &str) -> Option<f64> {

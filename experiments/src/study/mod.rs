@@ -27,6 +27,7 @@ mod sampled;
 mod scaling;
 #[cfg(feature = "mechanics")]
 mod scenes;
+mod search;
 mod seed_range;
 mod spacing_particles;
 mod stability;

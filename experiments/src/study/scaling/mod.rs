@@ -4,9 +4,9 @@
 //! target at fixed M, where a dense grid would hold N = kᵈ nodes. Each case runs once to warm up and then several times on the clock; the
 //! median counts. The memory is that of one more run in a process of its own.
 
-mod quantity;
 mod report;
 
+use super::derived::PER_STEP;
 use super::own_process::peak_of_own_process;
 use super::prelude::*;
 
@@ -61,12 +61,13 @@ struct NodesSweep {
     interval: [f64; 2],
 }
 
-/// Wall time over steps, least, median and most.
-const WALL_PER_STEP: [&str; 3] = [
-    "wall_seconds_per_step_least",
-    "wall_seconds_per_step",
-    "wall_seconds_per_step_most",
-];
+/// A sweep over sizes: its name in tables and files, the column of the size that it varies, the symbol of that and the label of its axis.
+type Sweep = [&'static str; 4];
+
+/// Over d and M.
+const PARTICLES: Sweep = ["particles", "particles", "M", "number of particles M"];
+/// Over k.
+const NODES: Sweep = ["nodes", "nodes_per_axis", "k", "nodes per axis k"];
 
 /// d, M and h in frame units; `None`: the sampler chooses it.
 type Size = (Dimension, usize, Option<f64>);
@@ -76,13 +77,17 @@ fn work((dim, particles, _): &Size) -> f64 {
     *particles as f64 * 3f64.powi(dim.get() as i32)
 }
 
-/// The case of a size in a sweep.
-fn case(size: Size, sweep: &str, nodes_per_axis: Option<usize>) -> Case<Size> {
-    let (dim, particles, spacing) = size;
-    let nodes = nodes_per_axis.map_or(String::new(), |nodes| format!("-k{nodes}"));
-    let case = Case::new(format!("{sweep}-d{dim}-m{particles}{nodes}"), size).costing(work(&size) + 1e3);
-    let case = case.with("sweep", sweep).with("dim", dim).with("particles", particles);
-    case.with("nodes_per_axis", nodes_per_axis).with("spacing", spacing)
+impl Scaling {
+    /// The case of a size in a sweep.
+    fn case(&self, size: Size, [sweep, ..]: Sweep, nodes_per_axis: Option<usize>) -> Case<Size> {
+        let (dim, particles, spacing) = size;
+        let nodes = nodes_per_axis.map_or(String::new(), |nodes| format!("-k{nodes}"));
+        let case = Case::new(format!("{sweep}-d{dim}-m{particles}{nodes}"), size).costing(work(&size) + 1e3);
+        let case = case.with("sweep", sweep).with("dim", dim).with("particles", particles);
+        case.with("nodes_per_axis", nodes_per_axis)
+            .with("spacing", spacing)
+            .by(&self.method)
+    }
 }
 
 impl Study for Scaling {
@@ -96,16 +101,15 @@ impl Study for Scaling {
 
     /// The cases of both sweeps, cheap ones first within each dimension.
     fn cases(&self) -> Result<Vec<Case<Size>>, CommandError> {
-        let nodes = &self.nodes_sweep;
-        let [low, high] = nodes.interval;
+        let (sweep, nodes) = (&self.particles_sweep, &self.nodes_sweep);
+        let ([low, high], most) = (nodes.interval, sweep.largest_work);
         let is_interval = low < high && (high - low).is_finite();
         holds(is_interval, "nodes-sweep.box", || {
             format!("[{low}, {high}] is no interval")
         })?;
-        let sweep = &self.particles_sweep;
-        let most = sweep.largest_work;
-        let otherwise = || format!("{most} must be above 0");
-        holds(most > 0.0, "particles-sweep.largest-work", otherwise)?;
+        holds(most > 0.0, "particles-sweep.largest-work", || {
+            format!("{most} must be above 0")
+        })?;
         for &dim in sweep.dims.iter().chain(&nodes.dims) {
             TargetSpecification::plain(&self.target, Some(dim)).dimension()?;
         }
@@ -113,12 +117,12 @@ impl Study for Scaling {
         for &dim in &sweep.dims {
             let sizes = sweep.particles.iter().map(|particles| (dim, particles.get(), None));
             let sizes = sizes.filter(|size| work(size) <= most);
-            cases.extend(sizes.map(|size| case(size, quantity::PARTICLES.name, None).by(&self.method)));
+            cases.extend(sizes.map(|size| self.case(size, PARTICLES, None)));
         }
         for &dim in &nodes.dims {
             for count in nodes.nodes_per_axis.iter().map(|count| count.get()) {
                 let size = (dim, nodes.particles.get(), Some((high - low) / count as f64));
-                cases.push(case(size, quantity::NODES.name, Some(count)).by(&self.method));
+                cases.push(self.case(size, NODES, Some(count)));
             }
         }
         Ok(cases)
@@ -129,8 +133,7 @@ impl Study for Scaling {
         let mut specification = self.method.clone();
         specification.options.spacing = spacing.or(specification.options.spacing);
         let target = TargetSpecification::plain(&self.target, Some(dim));
-        let size = (particles, self.seed);
-        let work = Sampled::new(&target, &specification, Some(self.steps.get()), size)?;
+        let work = Sampled::new(&target, &specification, Some(self.steps.get()), (particles, self.seed))?;
         let mut times = Vec::new();
         for _ in 0..=self.repeats.get() {
             let Some(outcome) = row.note(work.sample(tools.observer))? else {
@@ -138,11 +141,11 @@ impl Study for Scaling {
             };
             row.set("spacing", outcome.spacing.or(spacing));
             let per_step = outcome.wall_seconds / outcome.steps.max(1) as f64;
-            times.push(Row::default().with(WALL_PER_STEP[1], per_step));
+            times.push(Row::default().with(PER_STEP[1], per_step));
         }
         // The first is to warm up.
         let timed: Rows<'_> = times.iter().skip(1).collect();
-        timed.note_range(WALL_PER_STEP[1], row, WALL_PER_STEP);
+        timed.note_range(PER_STEP[1], row, PER_STEP);
         specification.options.steps = Some(self.steps);
         let peak = peak_of_own_process(&work, &specification, tools.directory.threads);
         row.set("memory_peak_bytes", peak);

@@ -2,6 +2,7 @@
 
 use super::TimeToEqualError;
 use super::figure::plot;
+use crate::study::contestant::told;
 use crate::study::prelude::*;
 
 /// Tables and figure.
@@ -9,7 +10,7 @@ pub fn report(study: &TimeToEqualError, rows: &Rows<'_>, directory: &StudyDirect
     let own = study.method.label();
     let (threads, ratio) = (directory.at_most_threads(), number(study.largest_ratio));
     let mut page = directory.page(include_str!("report.md"), &[("at-most", &threads), ("ratio", &ratio)]);
-    let told: Vec<Row> = rows.iter().map(|row| told(row, &rows.with("method", own))).collect();
+    let told = told(rows, own, "size");
     let told: Rows<'_> = told.iter().collect();
     let lines = comparisons(study, &told.with("method", own));
     page.section("What a particle is worth", &[], lines);
@@ -41,48 +42,7 @@ fn comparisons<'a>(study: &TimeToEqualError, rows: &Rows<'a>) -> Vec<Line<'a>> {
     targets.iter().flat_map(sizes).collect()
 }
 
-/// The row of a case with what tables say of it beside the method's own rows.
-fn told(row: &Row, own: &Rows<'_>) -> Row {
-    let own = own.with("target", row.text("target"));
-    let own = own.with("particles", row.value("particles").clone()).first();
-    let own = own.and_then(|own| own.number(SECONDS));
-    row.clone()
-        .with("draws", row.number("draws_ratio").map(f64::recip))
-        .with("sizes", sizes(row))
-        .with("ratios", own.and_then(|own| ratios(row, own)))
-        .with("ended", in_words(row.status()))
-}
-
 fn reason(row: &Row) -> String {
     let [target, particles, reason] = ["target", "particles", "reason"].map(|column| row.value(column).cell());
     format!("- {target}, M = {particles}: {reason}.")
-}
-
-/// From the last that missed to the first that reached, or a bound.
-fn between(row: &Row, missed: Option<String>, last: String) -> String {
-    match (row.status(), missed) {
-        (Status::Reached, Some(missed)) => format!("{missed} to {last}"),
-        (Status::Reached, None) => last,
-        _ => format!("> {last}"),
-    }
-}
-
-fn sizes(row: &Row) -> Option<String> {
-    let size = |column: &str| row.count(column).map(|size| size.to_string());
-    Some(between(row, size("missed_size"), size("size")?))
-}
-
-/// The times relative to the method's.
-fn ratios(row: &Row, own: f64) -> Option<String> {
-    let ratio = |column: &str| row.number(column).map(|seconds| number(seconds / own));
-    Some(between(row, ratio("wall_seconds_missed"), ratio(SECONDS)?))
-}
-
-fn in_words(ending: Status) -> &'static str {
-    match ending {
-        Status::Reached => "reached",
-        Status::OutOfTime => "out of time",
-        Status::OutOfSizes => "largest number missed",
-        _ => "unsupported",
-    }
 }
