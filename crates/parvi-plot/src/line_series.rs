@@ -98,7 +98,7 @@ impl GuideCurve {
     }
 
     /// The power of x through the first point of a line, as far as its last one or as it stays below `most`.
-    pub fn growth(label: impl Into<String>, line: &LineSeries, power: i32, most: f64) -> Option<Self> {
+    pub(super) fn power(label: String, line: &LineSeries, power: i32, most: f64) -> Option<Self> {
         let (first, value) = line.points().next()?;
         let reach = first * (most / value).powf(1.0 / f64::from(power));
         let last = reach.min(*line.x.last()?);

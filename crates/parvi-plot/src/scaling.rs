@@ -27,20 +27,29 @@ pub struct ScalingPlot {
 }
 
 impl ScalingPlot {
-    /// Settings over a size with a label and a symbol, all of whose measurements are used.
-    pub fn over((x_label, symbol): (&str, &str), y_label: &str, series: Vec<LineSeries>) -> Self {
+    /// Settings over a size with a label and a symbol; measurements from a size on are fitted.
+    pub fn over((x_label, symbol): (&str, &str), y_label: &str, series: Vec<LineSeries>, from: f64) -> Self {
         Self {
             x_label: x_label.to_owned(),
             y_label: y_label.to_owned(),
             symbol: symbol.to_owned(),
-            from: 0.0,
+            from,
             panel: MultiplesPanel::new("", series),
         }
     }
 
-    /// The same with theoretical curves.
-    pub fn with_guides(mut self, guides: Vec<GuideCurve>) -> Self {
-        self.panel.guides = guides;
+    /// The same with a labelled power of the size through the first point of each setting, as far as it stays within so many times the measurements.
+    pub fn beside_powers(mut self, powers: impl IntoIterator<Item = (String, i32)>, within: f64) -> Self {
+        let settings = &self.panel.series;
+        let most = settings
+            .iter()
+            .flat_map(|series| &series.y)
+            .copied()
+            .fold(0.0, f64::max);
+        let guides = settings.iter().zip(powers);
+        let guides =
+            guides.filter_map(|(series, (label, power))| GuideCurve::power(label, series, power, most * within));
+        self.panel.guides = guides.collect();
         self
     }
 }

@@ -45,6 +45,12 @@ pub fn positive(field: &str, values: &[f64]) -> Result<(), CommandError> {
     })
 }
 
+/// Refuses ends of which the first is not below the second.
+pub fn interval(field: &str, [low, high]: [f64; 2]) -> Result<(), CommandError> {
+    let is_interval = low < high && (high - low).is_finite();
+    holds(is_interval, field, || format!("[{low}, {high}] is no interval"))
+}
+
 /// Refuses a number that is not finite.
 pub fn finite(field: &str, value: f64) -> Result<(), CommandError> {
     holds(value.is_finite(), field, || format!("{value} must be finite"))

@@ -42,9 +42,11 @@ impl Contestant {
                 method: method.clone(),
                 start: None,
             };
+            // A rival gets many runs, the method those that set the task.
+            let cost = if index == 0 { 1.0 } else { 10.0 };
             let case = Case::new(format!("{name}-m{particles}-{}", method.label()), contestant).by(method);
             let case = case.with("target", target.label()).with("dim", dim);
-            case.with("particles", particles)
+            case.with("particles", particles).costing(cost)
         };
         let methods = std::iter::once(methods.0).chain(methods.1);
         Ok(methods.enumerate().map(case).collect())

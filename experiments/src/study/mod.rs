@@ -19,6 +19,7 @@ mod paper;
 mod prelude;
 mod quickstart;
 mod random_targets;
+mod reference;
 mod results;
 mod row;
 pub mod row_file;

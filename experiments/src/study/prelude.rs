@@ -5,10 +5,10 @@ pub use std::fmt::Display;
 pub use super::attempt::{Attempt, Failure, attempt};
 pub(crate) use super::checks::all_given;
 pub use super::checks::{
-    ascending, distinct, distinct_names, finite, fitting, holds, not_empty, places, positive, refusal, unset,
+    ascending, distinct, distinct_names, finite, fitting, holds, interval, not_empty, places, positive, refusal, unset,
 };
 pub use super::definition::{Case, Report, Study, Tools};
-pub use super::derived::{ENERGY, SECONDS, WALL, completed};
+pub use super::derived::{ENERGY, SECONDS, WALL, completed, stencil};
 pub use super::directory::StudyDirectory;
 pub use super::row::{RunRow, RunRows};
 pub use super::row_file;

@@ -14,18 +14,34 @@ const MOST_INDEPENDENT: usize = 10_000_000;
 #[derive(Clone, Debug)]
 pub struct Search {
     /// Sizes to try, growing.
-    pub sizes: Vec<usize>,
+    sizes: Vec<usize>,
     /// How the search ends where none of them does.
-    pub beyond: Status,
+    beyond: Status,
     /// The squared energy distance that the median of the runs of a size has to reach.
-    pub goal: f64,
+    goal: f64,
     /// Seconds; a size whose runs take longer is the last.
-    pub budget: Option<f64>,
+    budget: Option<f64>,
     /// A size whose predicted time exceeds the budget by more than this factor is lowered to one that fits.
-    pub tolerance: f64,
+    tolerance: f64,
 }
 
 impl Search {
+    /// Without a prediction.
+    pub fn of(sizes: Vec<usize>, beyond: Status, goal: f64, budget: Option<f64>) -> Self {
+        Self {
+            sizes,
+            beyond,
+            goal,
+            budget,
+            tolerance: f64::INFINITY,
+        }
+    }
+
+    /// The same with sizes lowered to what fits into the budget, where their predicted time exceeds it by more than a factor.
+    pub fn lowered(self, tolerance: f64) -> Self {
+        Self { tolerance, ..self }
+    }
+
     /// What comes after the latest runs, which have this size: the next one, or as much as fits into the budget where that would not; an ending.
     fn next(&self, size: usize, latest: &Rows<'_>) -> Result<usize, Status> {
         if median_energy(latest) <= self.goal {
@@ -55,21 +71,39 @@ pub type Found = (Status, usize, Option<usize>);
 /// The runs of a contestant.
 pub struct Runs<'a> {
     /// What is run.
-    pub contestant: &'a Contestant,
+    contestant: &'a Contestant,
     /// One run of each size per seed.
-    pub seeds: &'a [u64],
+    seeds: &'a [u64],
     /// Of the target.
-    pub yardstick: &'a dyn Yardstick,
+    yardstick: &'a dyn Yardstick,
     /// Watches the runs.
-    pub observer: &'a mut Bar,
+    observer: &'a mut Bar,
     /// What is kept of a run, with spaces between: its size in the first column; its seed; evaluations and time, those of a warm-up included; the squared energy
     /// distance, for independent draws its expectation, where it did not diverge.
-    pub columns: &'static str,
+    columns: &'static str,
     /// All runs so far.
     pub trials: Vec<Row>,
 }
 
-impl Runs<'_> {
+impl<'a> Runs<'a> {
+    /// None yet.
+    pub fn of(
+        contestant: &'a Contestant,
+        seeds: &'a [u64],
+        yardstick: &'a dyn Yardstick,
+        observer: &'a mut Bar,
+        columns: &'static str,
+    ) -> Self {
+        Self {
+            contestant,
+            seeds,
+            yardstick,
+            observer,
+            columns,
+            trials: Vec::new(),
+        }
+    }
+
     /// The method as it is.
     ///
     /// # Errors
@@ -262,13 +296,7 @@ mod tests {
     }
 
     fn search(sizes: &[usize], budget: Option<f64>, tolerance: f64) -> Search {
-        Search {
-            sizes: sizes.to_vec(),
-            beyond: Status::OutOfSizes,
-            goal: 1.0,
-            budget,
-            tolerance,
-        }
+        Search::of(sizes.to_vec(), Status::OutOfSizes, 1.0, budget).lowered(tolerance)
     }
 
     fn after(search: &Search, size: usize, seconds: f64, energy: Option<f64>) -> Result<usize, Status> {

@@ -44,19 +44,13 @@ fn figures(page: &mut Page, here: &Rows<'_>, (sweep, dims): (Sweep, &[Dimension]
     let [name, size, symbol, x_label] = sweep;
     for (y_label, quantity, column) in QUANTITIES {
         let series = here.curves(("d = ", "dim"), dims.to_vec(), size, column);
-        let most = here.largest(column).unwrap_or(0.0) * 1e3;
-        let is_dense = quantity == "time" && sweep == NODES;
-        let dense = |(dim, own): (&Dimension, &LineSeries)| {
-            GuideCurve::growth(format!("dense grid, k^{{{dim}}}"), own, dim.get() as i32, most)
-        };
-        let guides = dims
-            .iter()
-            .zip(&series)
-            .filter(|_| is_dense)
-            .filter_map(dense)
-            .collect();
-        let plot = ScalingPlot::over((x_label, symbol), y_label, series.clone());
-        let plot = ScalingPlot { from, ..plot }.with_guides(guides);
+        let mut plot = ScalingPlot::over((x_label, symbol), y_label, series, from);
+        if quantity == "time" && sweep == NODES {
+            let powers = dims
+                .iter()
+                .map(|dim| (format!("dense grid, k^{{{dim}}}"), dim.get() as i32));
+            plot = plot.beside_powers(powers, 1e3);
+        }
         page.drawing(&format!("{name}-{quantity}.svg"), scaling(&plot));
     }
 }

@@ -6,7 +6,6 @@
 //! are needed, n/M for each particle; only the time of their exact sampler is measured. Distances are taken in coordinates in which the
 //! target has mean zero and unit covariance.
 
-mod figure;
 mod report;
 
 use super::contestant::Contestant;
@@ -66,13 +65,8 @@ impl Study for TimeToEqualError {
         for target in &self.targets {
             for particles in &self.particles {
                 let (name, particles) = (target.label(), particles.get());
-                let (task, methods) = (task(target, particles), (&self.method, &self.rivals[..]));
-                let here = Contestant::all((&name, &task), (target, particles), methods)?.into_iter();
-                // Rivals get many runs, each with a distance to the reference.
-                cases.extend(here.map(|case| {
-                    let cost = if case.work.index == 0 { 1.0 } else { 10.0 };
-                    case.costing(cost)
-                }));
+                let (task, methods) = (format!("{name}-m{particles}"), (&self.method, &self.rivals[..]));
+                cases.extend(Contestant::all((&name, &task), (target, particles), methods)?);
             }
         }
         distinct("targets, particles or rivals", cases)
@@ -85,14 +79,7 @@ impl Study for TimeToEqualError {
         let options = YardstickOptions::of_energy(points, seed, Coordinates::Standardised);
         let yardstick = tools.yardstick.of(&entry.target, &options)?;
         row.set("mean_distance", yardstick.mean_distance());
-        let mut runs = Runs {
-            contestant: entry,
-            seeds: &self.seeds,
-            yardstick,
-            observer: tools.observer,
-            columns: RUNS,
-            trials: Vec::new(),
-        };
+        let mut runs = Runs::of(entry, &self.seeds, yardstick, tools.observer, RUNS);
         if entry.index == 0 {
             let found = attempt(runs.own())?;
             return runs.close(found, row, directory);
@@ -103,15 +90,13 @@ impl Study for TimeToEqualError {
             return runs.close(Err(Failure::new(Status::Unsupported, reason)), row, directory);
         };
         row.set("goal", goal);
-        runs.trials = self.earlier(entry, directory)?;
-        let iterates = entry.method.name.iterates();
-        let found = attempt(runs.reach(&Search {
-            sizes: if iterates { self.steps } else { self.draws }.sizes(),
-            beyond: Status::OutOfSizes,
-            goal,
-            budget: Some(self.largest_ratio * seconds),
-            tolerance: f64::INFINITY,
-        }))?;
+        let (mut sizes, budget) = (self.steps, Some(self.largest_ratio * seconds));
+        if !entry.method.name.iterates() {
+            sizes = self.draws;
+            runs.trials = self.earlier(entry, directory)?;
+        }
+        let search = Search::of(sizes.sizes(), Status::OutOfSizes, goal, budget);
+        let found = attempt(runs.reach(&search))?;
         runs.close(found, row, directory)
     }
 }
@@ -119,20 +104,10 @@ impl Study for TimeToEqualError {
 impl TimeToEqualError {
     /// The runs of the same rival for smaller M: draws do not depend on it, so they are not made twice.
     fn earlier(&self, entry: &Contestant, directory: &StudyDirectory) -> Result<Vec<Row>, CommandError> {
-        let (mut earlier, mut known) = (entry.clone(), Vec::new());
-        let sizes = self.particles.iter().map(|particles| particles.get());
-        for smaller in sizes.take_while(|particles| *particles != entry.particles && !entry.method.name.iterates()) {
-            earlier.task = task(&entry.target, smaller);
-            let runs = earlier.trials(directory, RUNS)?;
-            if runs.len() >= known.len() {
-                known = runs;
-            }
-        }
-        Ok(known)
+        let is_same = |other: &Contestant| other.target == entry.target && other.index == entry.index;
+        let cases = self.cases()?.into_iter().map(|case| case.work);
+        let earlier = cases.take_while(|other| other.task != entry.task).filter(is_same);
+        let known: Result<Vec<_>, _> = earlier.map(|other| other.trials(directory, RUNS)).collect();
+        Ok(known?.into_iter().max_by_key(Vec::len).unwrap_or_default())
     }
-}
-
-/// What the files of M particles on a target begin with.
-fn task(target: &TargetSpecification, particles: usize) -> String {
-    format!("{}-m{particles}", target.label())
 }

@@ -1,8 +1,8 @@
 //! The report of the study `time-to-equal-error`.
 
-use super::TimeToEqualError;
-use super::figure::plot;
-use crate::study::contestant::told;
+use super::{RUNS, TimeToEqualError};
+use crate::plots::{TimeErrorPanel, time_error};
+use crate::study::contestant::{runs_of, told};
 use crate::study::prelude::*;
 
 /// Tables and figure.
@@ -37,12 +37,38 @@ pub fn report(study: &TimeToEqualError, rows: &Rows<'_>, directory: &StudyDirect
 
 /// A line for every target with every M.
 fn comparisons<'a>(study: &TimeToEqualError, rows: &Rows<'a>) -> Vec<Line<'a>> {
-    let targets = rows.lines("target", study.targets.iter().map(TargetSpecification::label));
-    let sizes = |line: &Line<'a>| line.by("particles", study.particles.clone());
-    targets.iter().flat_map(sizes).collect()
+    let targets = study.targets.iter().map(TargetSpecification::label);
+    rows.lines_by(("target", targets), ("particles", study.particles.clone()))
 }
 
 fn reason(row: &Row) -> String {
     let [target, particles, reason] = ["target", "particles", "reason"].map(|column| row.value(column).cell());
     format!("- {target}, M = {particles}: {reason}.")
+}
+
+/// A panel per target: the method with a point per M; chains and independent draws with a point per number of draws; other rivals with a curve for every
+/// M, a point per number of steps.
+fn plot(study: &TimeToEqualError, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<MultiplesPlot, CommandError> {
+    let mut panels: Vec<TimeErrorPanel> = Vec::new();
+    for (case, runs) in runs_of(study, rows, directory, RUNS)? {
+        let runs: Rows<'_> = runs.iter().collect();
+        // On a logarithmic axis there is no place for zero and below.
+        let settings = runs.pairs_by("size", SECONDS, "energy_above_zero");
+        if settings.is_empty() {
+            continue;
+        }
+        let is_one_curve = case.index == 0 || !case.method.name.iterates() || study.particles.len() == 1;
+        let mut curve = case.method.label().to_owned();
+        if !is_one_curve {
+            curve.push_str(&format!(", M = {}", case.particles));
+        }
+        let known = TimeErrorPanel::settings(&mut panels, &case.target.label(), &curve);
+        if case.index == 0 {
+            known.extend(settings);
+        } else if settings.len() > known.len() {
+            // The runs of a chain for the larger M begin with those for the smaller one.
+            *known = settings;
+        }
+    }
+    Ok(time_error("wall time (s)", "ED²", panels))
 }

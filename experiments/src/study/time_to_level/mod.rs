@@ -100,21 +100,10 @@ impl Study for TimeToLevel {
             _ => set_by(&self.method, contestant, directory, RUNS)?,
         };
         let budget = clock.map(|(_, seconds)| self.largest_ratio * seconds);
-        let search = Search {
-            sizes: self.steps.iter().map(|steps| steps.get()).collect(),
-            beyond: Status::OutOfSteps,
-            goal,
-            budget,
-            tolerance: TOLERANCE,
-        };
-        let mut runs = Runs {
-            contestant,
-            seeds: &[self.seed],
-            yardstick,
-            observer: tools.observer,
-            columns: RUNS,
-            trials: Vec::new(),
-        };
+        let sizes = self.steps.iter().map(|steps| steps.get()).collect();
+        let search = Search::of(sizes, Status::OutOfSteps, goal, budget).lowered(TOLERANCE);
+        let seeds = [self.seed];
+        let mut runs = Runs::of(contestant, &seeds, yardstick, tools.observer, RUNS);
         let found = attempt(runs.reach(&search))?;
         if let Ok((Status::Reached, steps, _)) = found {
             let is_quick = runs.trials.last().is_some_and(|last| last.number(SECONDS) < Some(LONG));
