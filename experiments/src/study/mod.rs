@@ -16,6 +16,7 @@ mod gaussian_runs;
 mod manifest;
 mod own_process;
 mod paper;
+mod places;
 mod prelude;
 mod quickstart;
 mod random_targets;
@@ -37,6 +38,7 @@ mod status;
 mod time_error;
 mod time_to_equal_error;
 mod time_to_level;
+mod trials;
 mod value;
 mod yardstick;
 

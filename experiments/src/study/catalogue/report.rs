@@ -1,9 +1,9 @@
 //! The report of the study `catalogue`.
 
-use super::claims::{self, false_claims};
+use super::Catalogue;
+use super::claims::{self, LARGEST_ERROR};
 use super::figure::plot;
 use super::requirement::Requirement;
-use super::{Catalogue, from_start, is_from};
 use crate::plots::dots;
 use crate::study::prelude::*;
 use crate::study::start_law::StartLaw;
@@ -22,7 +22,7 @@ pub fn report(study: &Catalogue, rows: &Rows<'_>, directory: &StudyDirectory) ->
     requirements(study, judged, &asked, &mut page);
     for start in &study.starts {
         page.heading(&format!("From {start}"));
-        start_table(study, &targets, &from_start(rows, start), &mut page);
+        start_table(study, &targets, &start.runs(rows), &mut page);
     }
     let labels = targets.iter().map(|(target, _)| target.as_str());
     claims::write(&judged_runs, labels, &mut page);
@@ -35,7 +35,10 @@ pub fn report(study: &Catalogue, rows: &Rows<'_>, directory: &StudyDirectory) ->
     let page = page.with("cases", rows.len()).with("judged", runs.sum::<usize>());
     let page = page.with("missed", misses.len());
     let page = page.with("claimed", judged_runs.count(Row::claims));
-    Ok(page.with("false_claims", false_claims(&judged_runs).len()))
+    Ok(page.with(
+        "false_claims",
+        judged_runs.false_claims("larger_error", LARGEST_ERROR).len(),
+    ))
 }
 
 /// What is asked on a target, and the runs of the judged method.
@@ -68,7 +71,7 @@ fn requirements(study: &Catalogue, judged: &str, asked: &[Asked<'_>], page: &mut
             let met = chosen.count(|row| met(row, class));
             (!chosen.is_empty()).then(|| format!("{met}/{}", chosen.len()))
         };
-        let from = |start: &StartLaw| (format!("from {start}"), count(here.having(|row| is_from(row, start))));
+        let from = |start: &StartLaw| (format!("from {start}"), count(here.having(|row| start.is_of(row))));
         let line = Line::from(here.clone()).with("class", class.class);
         let line = line.with("bound", class.bound).with("all", count(here.clone()));
         line.with_all(study.starts.iter().map(from))

@@ -10,7 +10,8 @@ mod report;
 
 use super::contestant::Contestant;
 use super::prelude::*;
-use super::search::{Doubled, Runs, Search, set_by};
+use super::search::{Doubled, Search};
+use super::trials::{Runs, set_by};
 
 /// What is kept of a run: draws, or the steps of a method that takes steps, 0 for its own number, …
 const RUNS: &str = "size seed score_evaluations density_evaluations wall_seconds energy_distance_squared";

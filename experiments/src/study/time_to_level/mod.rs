@@ -9,8 +9,9 @@ mod report;
 use super::contestant::Contestant;
 use super::gaussian_runs::standard_yardstick;
 use super::prelude::*;
-use super::search::{Runs, Search, set_by};
+use super::search::Search;
 use super::start_law::StartLaw;
+use super::trials::{Runs, set_by};
 
 /// A run whose predicted time exceeds the budget by no more than this factor is begun.
 const TOLERANCE: f64 = 1.2;
