@@ -3,7 +3,12 @@
 use crate::study::prelude::*;
 
 /// The claim holds where no mean is farther off than this, in standard deviations of the target, and no standard deviation by more than this part of it.
-pub const LARGEST_ERROR: f64 = 0.1;
+const LARGEST_ERROR: f64 = 0.1;
+
+/// Claims beyond the bounds; particles that could not be measured are beyond any bound.
+pub fn false_claims<'a>(runs: &Rows<'a>) -> Rows<'a> {
+    runs.false_claims("larger_error", LARGEST_ERROR)
+}
 
 /// How often the runs of a method claim to have converged, what that is worth, and every claim that is false.
 pub fn write<'a>(runs: &Rows<'_>, targets: impl Iterator<Item = &'a str>, page: &mut Page) {
@@ -17,11 +22,7 @@ pub fn write<'a>(runs: &Rows<'_>, targets: impl Iterator<Item = &'a str>, page: 
     let all = Line::from(runs.clone()).with("target", "all");
     let most = [each("most", [LARGEST_ERROR])];
     page.lines_over("Claims", &most, runs.lines("target", targets).into_iter().chain([all]));
-    let false_claims: Vec<String> = runs
-        .false_claims("larger_error", LARGEST_ERROR)
-        .iter()
-        .map(false_claim)
-        .collect();
+    let false_claims: Vec<String> = false_claims(runs).iter().map(false_claim).collect();
     match false_claims.is_empty() {
         true => page.part("all true", &[]),
         false => page.paragraph(format!("Claims that are false:\n\n{}", false_claims.join("\n"))),
@@ -82,7 +83,7 @@ mod tests {
         let rows = rows();
         let runs = judged(&rows);
         assert_eq!(cases(runs.having(Row::claims)), ["a", "b", "e"]);
-        assert_eq!(cases(runs.false_claims("larger_error", LARGEST_ERROR)), ["b", "e"]);
+        assert_eq!(cases(false_claims(&runs)), ["b", "e"]);
     }
 
     #[test]
