@@ -4,7 +4,7 @@ use super::data::{PlotError, check_size};
 use super::legend::{LegendEntry, Swatch, draw_legend, noted, titled};
 use super::panel::{AxesParts, Panel, label_lines, x_axis_room, x_ticks};
 use super::scale::{AxisKind, Scale, plottable};
-use super::style::{FIGURE_WIDTH, GRID, GUIDE, MARGIN, SeriesStyle, TEXT_SIZE, styles};
+use super::style::{FIGURE_WIDTH, GRID, GUIDE, MARGIN, SeriesStyle, TEXT_SIZE, crossed_styles, styles};
 use super::svg::{Drawing, Stroke};
 use super::text::{Anchor, TextStyle, width};
 
@@ -76,6 +76,21 @@ impl DotPlot {
         let series = series.map(|((label, values), style)| DotSeries { label, style, values });
         let series = series.collect();
         Self { series, ..self }
+    }
+
+    /// The same with series of two numbers each, which have a value per row: colours tell the first numbers apart, markers the second ones.
+    pub fn with_crossed(self, named: Vec<(String, [f64; 2], Vec<f64>)>) -> Self {
+        let numbers: Vec<[f64; 2]> = named.iter().map(|(_, numbers, _)| *numbers).collect();
+        let series = named.into_iter().zip(crossed_styles(&numbers));
+        let series = series.map(|((label, _, values), style)| DotSeries { label, style, values });
+        let series = series.collect();
+        Self { series, ..self }
+    }
+
+    /// How many values are no numbers.
+    pub fn missing(&self) -> usize {
+        let values = self.series.iter().flat_map(|series| &series.values);
+        values.filter(|value| value.is_nan()).count()
     }
 }
 

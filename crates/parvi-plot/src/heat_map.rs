@@ -2,6 +2,7 @@
 
 use super::data::{PlotError, check_size};
 use super::legend::{LegendEntry, Swatch};
+use super::page::{Line, number};
 use super::panel::{Panel, label_lines, label_room, x_ticks, y_tick_room, y_ticks};
 use super::panel_grid::PanelGrid;
 use super::results::{Row, Rows};
@@ -94,6 +95,19 @@ impl HeatMapPlot {
         let title = title.to_owned();
         self.panels.push(HeatPanel { title, shares });
         self
+    }
+}
+
+impl<'a> Rows<'a> {
+    /// A line for each of so many cells of equal factors between two positive ends, which has its ends as `label`, of the rows that have a column in it.
+    pub fn lines_in_cells(&self, column: &str, ends: [f64; 2], cells: usize) -> Vec<Line<'a>> {
+        let edges = logarithmic_edges(ends, cells);
+        let line = |(cell, ends): (usize, &[f64])| {
+            let is_inside = |row: &Row| row.number(column).and_then(|value| cell_of(&edges, value)) == Some(cell);
+            let label = format!("{} to {}", number(ends[0]), number(ends[1]));
+            Line::from(self.having(is_inside)).with("label", label)
+        };
+        edges.windows(2).enumerate().map(line).collect()
     }
 }
 

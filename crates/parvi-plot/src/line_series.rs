@@ -97,6 +97,14 @@ impl GuideCurve {
         Self::at(label, (0..=20).map(place).collect(), false, value)
     }
 
+    /// The power of x through the first point of a line, as far as its last one or as it stays below `most`.
+    pub(super) fn power(label: String, line: &LineSeries, power: i32, most: f64) -> Option<Self> {
+        let (first, value) = line.points().next()?;
+        let reach = first * (most / value).powf(1.0 / f64::from(power));
+        let last = reach.min(*line.x.last()?);
+        Some(Self::bent(label, (first, last), |x| value * (x / first).powi(power)))
+    }
+
     /// The line between the values at two ends.
     pub fn through(
         label: impl Into<String>,

@@ -4,7 +4,7 @@ use crate::statistics::{PowerLaw, fit_power_law};
 
 use super::chart::Chart;
 use super::data::{PlotError, check_size};
-use super::line_series::LineSeries;
+use super::line_series::{GuideCurve, LineSeries};
 use super::multiples::MultiplesPanel;
 use super::scale::Axis;
 use super::series::{ChartPanel, ChartSeries, Connection};
@@ -24,6 +24,34 @@ pub struct ScalingPlot {
     pub from: f64,
     /// The settings, to the label of each of which the fitted exponent is added, and theoretical curves.
     pub panel: MultiplesPanel,
+}
+
+impl ScalingPlot {
+    /// Settings over a size with a label and a symbol; measurements from a size on are fitted.
+    pub fn over((x_label, symbol): (&str, &str), y_label: &str, series: Vec<LineSeries>, from: f64) -> Self {
+        Self {
+            x_label: x_label.to_owned(),
+            y_label: y_label.to_owned(),
+            symbol: symbol.to_owned(),
+            from,
+            panel: MultiplesPanel::new("", series),
+        }
+    }
+
+    /// The same with a labelled power of the size through the first point of each setting, as far as it stays within so many times the measurements.
+    pub fn beside_powers(mut self, powers: impl IntoIterator<Item = (String, i32)>, within: f64) -> Self {
+        let settings = &self.panel.series;
+        let most = settings
+            .iter()
+            .flat_map(|series| &series.y)
+            .copied()
+            .fold(0.0, f64::max);
+        let guides = settings.iter().zip(powers);
+        let guides =
+            guides.filter_map(|(series, (label, power))| GuideCurve::power(label, series, power, most * within));
+        self.panel.guides = guides.collect();
+        self
+    }
 }
 
 /// The power law of one series as the figure fits it: over its positive, finite points with x ≥ `from`; `None` where

@@ -111,6 +111,23 @@ pub fn method_style(method: &str) -> Option<SeriesStyle> {
     Some(SeriesStyle { color, marker })
 }
 
+/// Styles for settings of two numbers each: colours tell the first numbers apart, markers the second ones.
+pub fn crossed_styles(settings: &[[f64; 2]]) -> Vec<SeriesStyle> {
+    let mut known = [Vec::new(), Vec::new()];
+    let mut place = |axis: usize, value: f64| {
+        let known: &mut Vec<f64> = &mut known[axis];
+        known.iter().position(|known| *known == value).unwrap_or_else(|| {
+            known.push(value);
+            known.len() - 1
+        })
+    };
+    let style = |&[first, second]: &[f64; 2]| SeriesStyle {
+        color: PALETTE[place(0, first) % PALETTE.len()],
+        marker: MARKERS[place(1, second) % MARKERS.len()],
+    };
+    settings.iter().map(style).collect()
+}
+
 /// Styles for the names of one figure's series: methods keep their own, the others take unused combinations in order, so
 /// that no two names share one.
 pub fn styles(names: &[&str]) -> Vec<SeriesStyle> {

@@ -48,6 +48,38 @@ pub struct TimeErrorPanel {
     pub iid_level: Option<f64>,
 }
 
+impl TimeErrorPanel {
+    /// The settings of a target's curve for a method; both begin where they are not yet among the panels.
+    pub fn settings<'a>(panels: &'a mut Vec<Self>, target: &str, method: &str) -> &'a mut Vec<Vec<(f64, f64)>> {
+        let panel = position_or(
+            panels,
+            |panel| panel.target == target,
+            || Self {
+                target: target.to_owned(),
+                ..Self::default()
+            },
+        );
+        let curves = &mut panels[panel].curves;
+        let curve = position_or(
+            curves,
+            |curve| curve.method == method,
+            || TimeErrorCurve {
+                method: method.to_owned(),
+                settings: Vec::new(),
+            },
+        );
+        &mut curves[curve].settings
+    }
+}
+
+/// The place of the entry that is looked for; a new one at the end where there is none.
+fn position_or<T>(entries: &mut Vec<T>, is_it: impl Fn(&T) -> bool, new: impl FnOnce() -> T) -> usize {
+    entries.iter().position(is_it).unwrap_or_else(|| {
+        entries.push(new());
+        entries.len() - 1
+    })
+}
+
 /// Median errors against median costs on logarithmic axes, one panel per target. Failed runs are left out of the medians and counted in a note below the figure.
 pub fn time_error(x_label: &str, y_label: &str, panels: impl IntoIterator<Item = TimeErrorPanel>) -> MultiplesPlot {
     let mut failures = Vec::new();

@@ -107,35 +107,40 @@ fn quadrature<const D: usize>(target: &dyn CatalogueTarget<D>, mesh: Option<&Wit
     };
     let mut grids = NODES.iter().map(|&nodes| {
         let rows = if D == 1 { 1 } else { nodes };
-        bounded_density(target, [range(0), range(1)], (nodes, rows), |x| {
+        density(target, [range(0), range(1)], (nodes, rows), |x| {
             mesh.is_none_or(|mesh| mesh.holds(x))
         })
     });
     let grid = grids.find(|grid| grid.settles(TOLERANCE))?;
     let marginal = |axis: usize| grid.marginal(axis).map(|(x, y)| Curve { x, y });
     let marginals = (0..D).map(marginal).collect();
-    let pair = PairDensity {
-        horizontal: 0,
-        vertical: 1,
-        grid,
-    };
     Some(Known::Quadrature {
         marginals,
-        pairs: if D == 2 { vec![pair] } else { Vec::new() },
+        pairs: if D == 2 { vec![in_the_plane(grid)] } else { Vec::new() },
     })
 }
 
-/// The density on a grid over the first two coordinates, its largest value 1.
-pub fn density<const D: usize>(
-    target: &dyn CatalogueTarget<D>,
-    ranges: [(f64, f64); 2],
-    nodes: (usize, usize),
-) -> DensityGrid {
-    bounded_density(target, ranges, nodes, |_| true)
+/// The joint density of a target in the plane over its domain, on so many nodes along each axis.
+pub fn contours<const D: usize>(target: &dyn CatalogueTarget<D>, nodes: usize) -> Known {
+    let domain = target.domain();
+    let range = |axis: usize| domain.get(axis).map_or((-1.0, 1.0), |[low, high]| (*low, *high));
+    let grid = density(target, [range(0), range(1)], (nodes, nodes), |_| true);
+    Known::Quadrature {
+        marginals: Vec::new(),
+        pairs: vec![in_the_plane(grid)],
+    }
 }
 
-/// The same of a density that is 0 where a point is not inside.
-fn bounded_density<const D: usize>(
+fn in_the_plane(grid: DensityGrid) -> PairDensity {
+    PairDensity {
+        horizontal: 0,
+        vertical: 1,
+        grid,
+    }
+}
+
+/// A density on a grid over the first two coordinates, its largest value 1 and 0 where a point is not inside.
+fn density<const D: usize>(
     target: &dyn CatalogueTarget<D>,
     [x, y]: [(f64, f64); 2],
     nodes: (usize, usize),

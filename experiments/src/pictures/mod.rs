@@ -12,11 +12,11 @@ mod within;
 use std::path::Path;
 
 pub use self::history::History;
-pub use self::known::density;
-use self::known::{Known, look};
+use self::known::look;
+pub use self::known::{Known, contours};
 use crate::dispatch::on_target;
 use crate::options::TargetSpecification;
-use crate::output::{AtomicFile, OutputDirectory};
+use crate::output::{AtomicFile, OutputDirectory, Particles};
 use crate::plots::{
     AxisKind, DensityPlot, LineSeries, MultiplesPanel, MultiplesPlot, PlotError, PointCloud, StripPanel, StripPlot,
     corner, histogram, multiples, strip,
@@ -93,14 +93,7 @@ impl Subject<'_> {
     }
 
     fn histogram(&self, known: &Known) -> Result<String, PlotError> {
-        let points = self.outcome.particles.to_rows();
-        histogram(&DensityPlot {
-            title: &self.title(),
-            particles: self.weighted(&points),
-            labels: &self.target.coordinate_names(),
-            reference: known.reference(known.draws()),
-            reference_label: label(known),
-        })
+        self.beside(known, usize::MAX).draw(histogram)
     }
 
     fn corner(&self, known: &Known) -> Result<String, PlotError> {
@@ -110,21 +103,16 @@ impl Subject<'_> {
             let text = format!("--plots: {CORNER} shows the first {shown} of {dimension} coordinates");
             console::notice(&text);
         }
-        let cut = |mut rows: Vec<Vec<f64>>| {
-            rows.iter_mut().for_each(|row| row.truncate(shown));
-            rows
-        };
-        let points = cut(self.outcome.particles.to_rows());
-        let draws = cut(known.draws().to_vec());
-        let mut labels = self.target.coordinate_names();
-        labels.truncate(shown);
-        corner(&DensityPlot {
-            title: &self.title(),
-            particles: self.weighted(&points),
-            labels: &labels,
-            reference: known.reference(&draws),
-            reference_label: label(known),
-        })
+        self.beside(known, shown).draw(corner)
+    }
+
+    /// The particles beside what is known, of the first coordinates.
+    fn beside<'a>(&'a self, known: &'a Known, shown: usize) -> Beside<'a> {
+        Beside {
+            title: self.title(),
+            shown,
+            ..Beside::new(self.target, &self.outcome.particles, known, label(known))
+        }
     }
 
     /// None without a trace, which is said.
@@ -183,6 +171,58 @@ impl Subject<'_> {
     /// Points with the weights of the particles.
     fn weighted<'a>(&'a self, points: &'a [Vec<f64>]) -> PointCloud<'a> {
         PointCloud::weighted(points, self.outcome.particles.weights())
+    }
+}
+
+/// Particles beside what is known of their target.
+pub struct Beside<'a> {
+    /// The title; empty for none.
+    title: String,
+    /// The target.
+    target: &'a TargetSpecification,
+    /// The particles.
+    particles: &'a Particles,
+    /// What is known.
+    known: &'a Known,
+    /// The text in the legend for it; empty for "target".
+    label: &'a str,
+    /// The first coordinates that are shown, at most.
+    shown: usize,
+}
+
+impl<'a> Beside<'a> {
+    /// All coordinates, without a title.
+    pub fn new(target: &'a TargetSpecification, particles: &'a Particles, known: &'a Known, label: &'a str) -> Self {
+        Self {
+            title: String::new(),
+            target,
+            particles,
+            known,
+            label,
+            shown: usize::MAX,
+        }
+    }
+
+    /// The figure of all that.
+    ///
+    /// # Errors
+    /// What cannot be drawn.
+    pub fn draw(&self, figure: fn(&DensityPlot<'_>) -> Result<String, PlotError>) -> Result<String, PlotError> {
+        let cut = |mut rows: Vec<Vec<f64>>| {
+            rows.iter_mut().for_each(|row| row.truncate(self.shown));
+            rows
+        };
+        let points = cut(self.particles.to_rows());
+        let draws = cut(self.known.draws().to_vec());
+        let mut labels = self.target.coordinate_names();
+        labels.truncate(self.shown);
+        figure(&DensityPlot {
+            title: &self.title,
+            particles: PointCloud::weighted(&points, self.particles.weights()),
+            labels: &labels,
+            reference: self.known.reference(&draws),
+            reference_label: self.label,
+        })
     }
 }
 

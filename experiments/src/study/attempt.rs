@@ -1,5 +1,7 @@
 //! A run that may fail without ending its study: divergence is a result.
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
 use parvi::SampleError;
 
 use super::status::Status;
@@ -41,9 +43,25 @@ pub fn attempt<T>(result: Result<T, CommandError>) -> Result<Attempt<T>, Command
     })
 }
 
+/// What some work gave, or what its panic said, on one line.
+pub fn caught<T>(work: impl FnOnce() -> T) -> Result<T, String> {
+    catch_unwind(AssertUnwindSafe(work)).map_err(|payload| {
+        let owned = payload.downcast_ref::<String>().map(String::as_str);
+        let text = owned.or_else(|| payload.downcast_ref::<&str>().copied());
+        single_line(text.unwrap_or("a panic without a message"))
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_a_panic_said_is_kept() {
+        let panicked = caught(|| std::panic::resume_unwind(Box::new("went\nwrong")));
+        assert_eq!(panicked, Err::<(), _>("went wrong".to_owned()));
+        assert_eq!(caught(|| 3), Ok(3));
+    }
 
     #[test]
     fn divergence_is_a_result_and_interruption_is_not() {

@@ -3,11 +3,10 @@
 use std::collections::HashSet;
 
 use parvi::Method;
-use parvi_targets::{Dimensions, TargetError, TargetInfo, target_info};
 
 use super::definition::Case;
 use crate::CommandError;
-use crate::options::{Bounded, Dimension, MethodSpecification, OptionError, TargetSpecification};
+use crate::options::{Bounded, MethodSpecification, OptionError};
 
 /// The error for a field whose value does not fit; the runner adds the file.
 pub fn refusal(field: &str, message: impl Into<String>) -> CommandError {
@@ -45,6 +44,12 @@ pub fn positive(field: &str, values: &[f64]) -> Result<(), CommandError> {
     })
 }
 
+/// Refuses ends of which the first is not below the second.
+pub fn interval(field: &str, [low, high]: [f64; 2]) -> Result<(), CommandError> {
+    let is_interval = low < high && (high - low).is_finite();
+    holds(is_interval, field, || format!("[{low}, {high}] is no interval"))
+}
+
 /// Refuses a number that is not finite.
 pub fn finite(field: &str, value: f64) -> Result<(), CommandError> {
     holds(value.is_finite(), field, || format!("{value} must be finite"))
@@ -77,50 +82,4 @@ pub fn ascending<const LEAST: i64, const MOST: i64>(sizes: &[Bounded<LEAST, MOST
     let mut sizes: Vec<usize> = sizes.iter().map(|size| size.get()).collect();
     sizes.sort_unstable();
     sizes
-}
-
-/// Targets, each in those of its dimensions that are among `dims`; without a list all of the catalogue that have one and need nothing that a user brings.
-///
-/// # Errors
-/// A target that there is not, that has none of the dimensions, or parameters that it does not have.
-pub fn places(
-    listed: Option<Vec<TargetSpecification>>,
-    dims: &[Dimension],
-) -> Result<Vec<Vec<TargetSpecification>>, CommandError> {
-    not_empty("dims", dims)?;
-    let Some(listed) = listed else {
-        let own = |info: &&TargetInfo| info.parameters.iter().all(|parameter| parameter.default.is_some());
-        let all = parvi_targets::catalogue().iter().filter(own);
-        let all = all.map(|info| in_dimensions(&TargetSpecification::plain(info.name, None), dims));
-        let mut places = all.collect::<Result<Vec<_>, _>>()?;
-        places.retain(|place| !place.is_empty());
-        return Ok(places);
-    };
-    not_empty("targets", &listed)?;
-    let place = |target: &TargetSpecification| {
-        let place = in_dimensions(target, dims)?;
-        let missed = || format!("`{}` has none of the dimensions in `dims`", target.name);
-        holds(!place.is_empty(), "targets", missed).map(|()| place)
-    };
-    listed.iter().map(place).collect()
-}
-
-/// A target in each of its dimensions that is among `dims`.
-fn in_dimensions(target: &TargetSpecification, dims: &[Dimension]) -> Result<Vec<TargetSpecification>, CommandError> {
-    let refused = |error: TargetError| refusal("targets", error.to_string());
-    let dimensions = target_info(&target.name).map_err(refused)?.dimensions;
-    let mut found = Vec::new();
-    for &dim in dims {
-        let mut here = target.clone();
-        if let Dimensions::Range { minimum, maximum, .. } = dimensions {
-            if !(minimum..=maximum).contains(&dim.get()) {
-                continue;
-            }
-            here.dim = Some(dim);
-        }
-        if here.dimension().map_err(refused)? == dim.get() {
-            found.push(here);
-        }
-    }
-    Ok(found)
 }

@@ -11,11 +11,21 @@ pub const SECONDS: &str = "wall_seconds";
 /// Wall time, least, median and most.
 pub const WALL: [&str; 3] = ["wall_seconds_least", SECONDS, "wall_seconds_most"];
 
+/// The same over the steps.
+pub const PER_STEP: [&str; 3] = [
+    "wall_seconds_per_step_least",
+    "wall_seconds_per_step",
+    "wall_seconds_per_step_most",
+];
+
 /// A name and the number, where the row has what it takes, earlier ones included.
 type Derived = (&'static str, fn(&Row) -> Option<f64>);
 
-const DERIVED: [Derived; 23] = [
+const DERIVED: [Derived; 25] = [
     // The energy distance.
+    ("energy_above_zero", |row| {
+        row.number(ENERGY).filter(|energy| *energy > 0.0)
+    }),
     ("energy_root", |row| Some(row.number(ENERGY)?.max(0.0).sqrt())),
     ("energy_thousandths", |row| Some(1e3 * row.number(ENERGY)?)),
     // Relative to independent draws.
@@ -41,8 +51,7 @@ const DERIVED: [Derived; 23] = [
     ("nanoseconds_per_particle", |row| {
         Some(row.number("wall_seconds_per_step")? / row.number("particles")? * 1e9)
     }),
-    // Nodes that a particle has of quadratic B-splines.
-    ("stencil", |row| Some(3f64.powi(row.count("dim")? as i32))),
+    ("stencil", |row| Some(stencil(row.count("dim")?))),
     // A constant α, which is stated as a number, and E of a law that has it.
     ("alpha", |row| row.text("schedule").parse().ok()),
     ("youngs_modulus", |row| {
@@ -64,7 +73,13 @@ const DERIVED: [Derived; 23] = [
     ("draws_ratio", |row| {
         Some(row.number(ENERGY)? * row.number("particles")? / row.number("mean_distance")?)
     }),
+    ("draws_per_particle", |row| row.number("draws_ratio").map(f64::recip)),
 ];
+
+/// 3ᵈ, the nodes that a particle has of quadratic B-splines.
+pub fn stencil(dim: usize) -> f64 {
+    3f64.powi(dim as i32)
+}
 
 fn ratio(row: &Row, column: &str, over: &str) -> Option<f64> {
     Some(row.number(column)? / row.number(over)?)

@@ -1,12 +1,10 @@
 //! Runs on the standard Gaussian N(0, I), measured in the exact squared energy distance: what several studies share.
 
-use parvi_metrics::{Cloud, GaussianEnergy};
 use serde::de::DeserializeOwned;
 
 use super::prelude::*;
+use super::yardstick::CurrentYardstick;
 use crate::dispatch::in_dimension;
-use crate::output::Particles;
-use crate::sampling::Outcome;
 
 /// A study of such runs.
 pub trait GaussianStudy: DeserializeOwned + Sync {
@@ -36,16 +34,8 @@ impl<S: GaussianStudy> Study for S {
 
     /// Samples N(0, I) and measures the particles. A run that diverges is a row with its reason.
     fn run(&self, case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
-        let Sampled { target, run, .. } = &case.work;
-        row.set("energy_level", energy_level(target.dimension()?, run.particles)?);
-        match attempt(sampled(&case.work, tools.observer))? {
-            Err(failure) => row.fail(failure),
-            Ok((outcome, energy)) => {
-                row.take(&outcome);
-                row.set(ENERGY, energy);
-            }
-        }
-        Ok(())
+        let yardstick = standard_yardstick(&case.work.target, tools.yardstick)?;
+        case.work.run(row, yardstick, tools.observer)
     }
 }
 
@@ -126,30 +116,15 @@ impl<'a> Setting<'a> {
     }
 }
 
-/// Samples N(0, I) and measures the particles' squared energy distance from it.
-///
-/// # Errors
-/// What the sampler refuses, and particles too far out to be measured.
-pub fn sampled(work: &Sampled, observer: &mut Bar) -> Result<(Outcome, f64), CommandError> {
-    let outcome = work.sample(observer)?;
-    let particles = &outcome.particles;
-    let energy = in_dimension!("gaussian", particles.dimension(), D => energy::<D>(particles))?;
-    Ok((outcome, energy))
-}
-
-/// The squared energy distance of particles from N(0, I).
-fn energy<const D: usize>(particles: &Particles) -> Result<f64, CommandError> {
-    let points = particles.points::<D>().unwrap_or_default();
-    let cloud = Cloud::with_optional_weights(&points, particles.weights())?;
-    Ok(GaussianEnergy::<D>::standard()?.squared(&cloud)?)
-}
-
-/// E‖Y − Y'‖ / M for Y, Y' ~ N(0, I): the expected squared energy distance of M independent draws.
+/// The yardstick of N(0, I), whose energy distance is exact: the points are for the sliced distance, which is not looked at.
 ///
 /// # Errors
 /// A dimension that this build lacks.
-pub fn energy_level(dim: usize, particles: usize) -> Result<f64, CommandError> {
-    in_dimension!("gaussian", dim, D => Ok(GaussianEnergy::<D>::standard()?.mean_distance() / particles as f64))
+pub fn standard_yardstick<'a>(
+    target: &TargetSpecification,
+    current: &'a mut CurrentYardstick,
+) -> Result<&'a dyn Yardstick, CommandError> {
+    current.of(target, &YardstickOptions::of_energy(2, 0, Coordinates::Standardised))
 }
 
 /// The spacing that the calibrated sampler would choose with a basis.

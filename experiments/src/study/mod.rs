@@ -16,9 +16,11 @@ mod gaussian_runs;
 mod manifest;
 mod own_process;
 mod paper;
+mod places;
 mod prelude;
 mod quickstart;
 mod random_targets;
+mod reference;
 mod results;
 mod row;
 pub mod row_file;
@@ -27,6 +29,7 @@ mod sampled;
 mod scaling;
 #[cfg(feature = "mechanics")]
 mod scenes;
+mod search;
 mod seed_range;
 mod spacing_particles;
 mod stability;
@@ -35,6 +38,7 @@ mod status;
 mod time_error;
 mod time_to_equal_error;
 mod time_to_level;
+mod trials;
 mod value;
 mod yardstick;
 

@@ -116,12 +116,15 @@ impl RunRow for Row {
 }
 
 /// Several runs.
-pub trait RunRows {
+pub trait RunRows: Sized {
     /// How many gave particles, of how many.
     fn finished(&self) -> String;
 
     /// A page whose summary says how many ended so.
     fn tell<const N: usize>(&self, endings: [Status; N], page: Page) -> Page;
+
+    /// The runs that claim to stand for the target with more than so much in a column, or nothing.
+    fn false_claims(&self, column: &str, most: f64) -> Self;
 
     /// The runs that gave nothing, each as an item of a list.
     fn failures(&self) -> Vec<String>;
@@ -141,6 +144,10 @@ impl RunRows for Rows<'_> {
             page.with(ending.to_string().replace('-', "_"), count)
         };
         endings.into_iter().fold(page, told)
+    }
+
+    fn false_claims(&self, column: &str, most: f64) -> Self {
+        self.having(|row| row.claims() && !row.is_within(column, most))
     }
 
     fn failures(&self) -> Vec<String> {

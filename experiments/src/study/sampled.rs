@@ -5,11 +5,12 @@ use std::time::Instant;
 use parvi::{Method, Run};
 
 use super::definition::Case;
+use super::derived::PER_STEP;
 use super::row::RunRow;
 use super::yardstick::Yardstick;
 use crate::CommandError;
 use crate::options::{MethodSpecification, OptionError, TargetSpecification};
-use crate::plots::results::Row;
+use crate::plots::results::{Row, Rows};
 use crate::progress::Bar;
 use crate::sampling::{self, Outcome};
 
@@ -76,6 +77,24 @@ impl Sampled {
     /// What target and sampler refuse.
     pub fn sample(&self, observer: &mut Bar) -> Result<Outcome, CommandError> {
         sampling::sample(&self.target, &self.method, &self.run, observer)
+    }
+
+    /// Samples once to warm up and then so many times on the clock; notes what comes of it, and the range of the time over the steps. Whether all runs gave particles.
+    ///
+    /// # Errors
+    /// What ends a study.
+    pub fn clocked(&self, repeats: usize, row: &mut Row, observer: &mut Bar) -> Result<bool, CommandError> {
+        let mut times = Vec::new();
+        for _ in 0..=repeats {
+            let Some(outcome) = row.note(self.sample(observer))? else {
+                return Ok(false);
+            };
+            let per_step = outcome.wall_seconds / outcome.steps.max(1) as f64;
+            times.push(Row::default().with(PER_STEP[1], per_step));
+        }
+        let timed: Rows<'_> = times.iter().skip(1).collect();
+        timed.note_range(PER_STEP[1], row, PER_STEP);
+        Ok(true)
     }
 
     /// Samples, or draws from the importance sample of a target without exact draws.

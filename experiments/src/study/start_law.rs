@@ -6,7 +6,10 @@ use parvi::Start;
 use serde::Deserialize;
 
 use super::checks::{finite, positive};
+use super::definition::Case;
+use super::sampled::Sampled;
 use crate::CommandError;
+use crate::plots::results::{Row, Rows};
 
 /// N(mean · 1, standard-deviation² I), in the coordinates of the target's frame.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
@@ -39,4 +42,22 @@ impl StartLaw {
             ..otherwise
         }
     }
+
+    /// Whether a run began there.
+    pub fn is_of(&self, row: &Row) -> bool {
+        row.is("start_mean", self.mean) && row.is("start_sd", self.standard_deviation)
+    }
+
+    /// The runs that began there; those without a start belong to every one.
+    pub fn runs<'a>(&self, rows: &Rows<'a>) -> Rows<'a> {
+        rows.having(|row| row.number("start_mean").is_none() || self.is_of(row))
+    }
+}
+
+/// The case with a start, which its row says.
+pub fn begin(mut case: Case<Sampled>, start: Option<StartLaw>) -> Case<Sampled> {
+    let run = &mut case.work.run;
+    run.start = start.map_or(run.start, |law| law.start(run.start));
+    case.with("start_mean", start.map(|start| start.mean))
+        .with("start_sd", start.map(|start| start.standard_deviation))
 }

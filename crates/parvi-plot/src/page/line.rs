@@ -87,6 +87,16 @@ impl<'a> Rows<'a> {
     pub fn lines<V: Into<Value>>(&self, column: &'static str, values: impl IntoIterator<Item = V>) -> Vec<Line<'a>> {
         Line::from(self.clone()).by(column, values)
     }
+
+    /// The same for each value of one column with each of another.
+    pub fn lines_by<V: Into<Value>, W: Into<Value>>(
+        &self,
+        (column, values): (&'static str, impl IntoIterator<Item = V>),
+        (inner, inner_values): (&'static str, impl IntoIterator<Item = W> + Clone),
+    ) -> Vec<Line<'a>> {
+        let lines = self.lines(column, values).into_iter();
+        lines.flat_map(|line| line.by(inner, inner_values.clone())).collect()
+    }
 }
 
 /// The values that the columns of a name are repeated for.

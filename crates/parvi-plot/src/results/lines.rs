@@ -10,6 +10,12 @@ impl Rows<'_> {
         self.iter().map(|row| (number(row, x), number(row, y))).collect()
     }
 
+    /// The same for each value of a third column, from least to most.
+    pub fn pairs_by(&self, column: &str, x: &str, y: &str) -> Vec<Vec<(f64, f64)>> {
+        let of = |place: f64| self.with(column, place).pairs(x, y);
+        self.places(column).into_iter().map(of).collect()
+    }
+
     /// A line through the rows that have both columns, in their order.
     pub fn line(&self, label: impl Into<String>, x: &str, y: &str) -> LineSeries {
         let points = self.iter().filter_map(|row| Some((row.number(x)?, row.number(y)?)));

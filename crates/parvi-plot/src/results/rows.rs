@@ -68,6 +68,13 @@ impl<'a> Rows<'a> {
         self.by_name(|row| row.value(column).to_string())
     }
 
+    /// The same in alphabetical order, without the rows that hold nothing there.
+    pub fn sorted(&self, column: &str) -> Vec<(String, Self)> {
+        let mut groups = self.having(|row| *row.value(column) != Value::Empty).by(column);
+        groups.sort_by(|left, right| left.0.cmp(&right.0));
+        groups
+    }
+
     /// What stands in a column, each once, in the order in which it comes first.
     pub fn words(&self, column: &str) -> Vec<String> {
         self.by(column).into_iter().map(|(word, _)| word).collect()

@@ -14,7 +14,7 @@ impl Rows<'_> {
     /// largest; `fixed 4`, `signed 2` and `scientific 1`, the first with so many decimals; and `exponent of size in column`, of the power law through its medians.
     ///
     /// With ` where ` and a condition behind it, it is that of the rows that fulfil it: `outcome = converged`, `outcome ≠ converged`, `error ≤ 3`, `error > 3` (also where there is none), `size ≥ 64`, a
-    /// column that has to hold something, or `no` and one that must not. `share where a where b` is the share of the rows that fulfil the last condition among those that fulfil the others.
+    /// column that has to hold something, or `no` and one that must not. `share where a where b` is the share of the rows that fulfil the last condition among those that fulfil the others, `part where a where b` is how many of how many: 3/7.
     pub fn cell(&self, statistic: &str) -> String {
         let Some((earlier, condition)) = statistic.rsplit_once(" where ") else {
             return self.plain(statistic);
@@ -25,6 +25,9 @@ impl Rows<'_> {
         let here = parts.fold(self.clone(), |rows, part| rows.having(|row| fulfils(row, part)));
         match name {
             "share" => percent(fulfil(&here).len(), here.len()).cell(),
+            "part" => (!here.is_empty())
+                .then(|| format!("{}/{}", fulfil(&here).len(), here.len()))
+                .cell(),
             name => fulfil(&here).plain(name),
         }
     }

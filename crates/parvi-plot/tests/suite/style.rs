@@ -1,6 +1,6 @@
 //! Colours and markers of methods.
 
-use parvi_plot::style::styles;
+use parvi_plot::style::{crossed_styles, styles};
 
 #[test]
 fn a_method_keeps_its_style_whatever_the_company() {
@@ -18,4 +18,11 @@ fn no_two_series_look_alike() {
     for (index, style) in styles.iter().enumerate() {
         assert!(!styles[..index].contains(style), "{}: {style:?}", all[index]);
     }
+}
+
+#[test]
+fn crossed_settings_share_the_colour_or_the_marker_of_a_number() {
+    let styles = crossed_styles(&[[0.0, 1.0], [0.0, 2.0], [3.0, 1.0]]);
+    assert!(styles[0].color == styles[1].color && styles[0].marker != styles[1].marker);
+    assert!(styles[0].color != styles[2].color && styles[0].marker == styles[2].marker);
 }

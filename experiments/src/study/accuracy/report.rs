@@ -83,10 +83,9 @@ fn costs(study: &Accuracy, rows: &Rows<'_>, page: &mut Page) {
         ("evaluations", "evaluations_per_particle"),
         ("nodes", "active_nodes"),
     ] {
-        let has_taken = |line: &Line<'_>| line.rows.largest(column).is_some_and(|most| most > 0.0);
-        let lines = lines(study, rows).into_iter();
-        let lines = lines.flat_map(|line| line.by("particles", ascending(&study.particles)));
-        let lines: Vec<Line<'_>> = lines.filter(has_taken).collect();
+        let labels = MethodSpecification::labels(&study.methods);
+        let mut lines = rows.lines_by(("series", labels), ("particles", ascending(&study.particles)));
+        lines.retain(|line| line.rows.largest(column) > Some(0.0));
         if !lines.is_empty() {
             page.section(part, &[each("d", &study.dims)], lines);
         }

@@ -7,7 +7,7 @@ const LARGEST_ERROR: f64 = 0.1;
 
 /// Claims beyond the bounds; particles that could not be measured are beyond any bound.
 pub fn false_claims<'a>(runs: &Rows<'a>) -> Rows<'a> {
-    runs.having(|row| row.claims() && !row.is_within("larger_error", LARGEST_ERROR))
+    runs.false_claims("larger_error", LARGEST_ERROR)
 }
 
 /// How often the runs of a method claim to have converged, what that is worth, and every claim that is false.

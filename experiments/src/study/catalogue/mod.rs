@@ -12,7 +12,7 @@ mod requirement;
 use requirement::Requirement;
 
 use super::prelude::*;
-use super::start_law::StartLaw;
+use super::start_law::{StartLaw, begin};
 
 /// All methods on all targets from all starts.
 #[derive(Clone, Debug, Deserialize)]
@@ -25,7 +25,7 @@ pub struct Catalogue {
     /// Dimensions; of each target those that it has.
     dims: Vec<Dimension>,
     /// Targets by name; absent: every target of the catalogue that needs no data file.
-    targets: Option<Vec<Named>>,
+    targets: Option<Vec<Place>>,
     /// Where the particles begin.
     starts: Vec<StartLaw>,
     /// The methods; the first is judged.
@@ -40,28 +40,10 @@ pub struct Catalogue {
     draws: Bounded<1, 1000>,
 }
 
-/// A target in all its dimensions: `{ name = "gaussian", parameters = { correlation = 0.9 } }`.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Named {
-    /// The name in the catalogue.
-    name: String,
-    /// The parameters.
-    #[serde(default)]
-    parameters: TargetParameters,
-}
-
 impl Catalogue {
     /// Every target in each of its dimensions, in the order of the list and then of `dims`.
     fn all_targets(&self) -> Result<Vec<TargetSpecification>, CommandError> {
-        let target = |Named { name, parameters }: &Named| TargetSpecification {
-            name: name.clone(),
-            dim: None,
-            parameters: parameters.clone(),
-        };
-        let listed = self.targets.as_ref();
-        let places = places(listed.map(|named| named.iter().map(target).collect()), &self.dims)?;
-        Ok(places.concat())
+        Ok(places(self.targets.as_deref(), &self.dims)?.concat())
     }
 
     /// What is asked on every target, by its label.
@@ -139,25 +121,8 @@ impl Study for Catalogue {
     }
 }
 
-/// The case with its start.
-fn begin(mut case: Case<Sampled>, start: Option<StartLaw>) -> Case<Sampled> {
-    let run = &mut case.work.run;
-    run.start = start.map_or(run.start, |law| law.start(run.start));
-    case.with("start_mean", start.map(|start| start.mean))
-        .with("start_sd", start.map(|start| start.standard_deviation))
-}
-
 /// Milliseconds, roughly: the distance to the reference and the run; the many rows of `wells` are dear.
 fn cost(target: &TargetSpecification, start: Option<StartLaw>) -> f64 {
     let run = if target.name == "wells" { 2000.0 } else { 100.0 };
     200.0 + start.map_or(0.0, |_| run)
-}
-
-/// The runs from a start; those without a start belong to every one.
-fn from_start<'a>(rows: &Rows<'a>, start: &StartLaw) -> Rows<'a> {
-    rows.having(|row| row.number("start_mean").is_none() || is_from(row, start))
-}
-
-fn is_from(row: &Row, start: &StartLaw) -> bool {
-    row.is("start_mean", start.mean) && row.is("start_sd", start.standard_deviation)
 }

@@ -1,9 +1,8 @@
 //! The report of the study `catalogue`.
 
-use super::claims::{self, false_claims};
 use super::figure::plot;
 use super::requirement::Requirement;
-use super::{Catalogue, from_start, is_from};
+use super::{Catalogue, claims};
 use crate::plots::dots;
 use crate::study::prelude::*;
 use crate::study::start_law::StartLaw;
@@ -15,66 +14,52 @@ pub fn report(study: &Catalogue, rows: &Rows<'_>, directory: &StudyDirectory) ->
     let targets = study.asked()?;
     page.drawing("catalogue.svg", dots(&plot(study, &targets, rows)));
 
-    let judged = study.judged();
-    let judged_runs = rows.with("method", judged);
-    let of = |(target, asked): &(String, Requirement)| (*asked, judged_runs.with("target", target.as_str()));
-    let asked: Vec<Asked<'_>> = targets.iter().map(of).collect();
-    requirements(study, judged, &asked, &mut page);
-    for start in &study.starts {
-        page.heading(&format!("From {start}"));
-        start_table(study, &targets, &from_start(rows, start), &mut page);
-    }
-    let labels = targets.iter().map(|(target, _)| target.as_str());
-    claims::write(&judged_runs, labels, &mut page);
-    let misses: Vec<String> = asked.iter().flat_map(misses).collect();
-    page.list("Cases that miss their bound", &misses, Some("None."));
-    let others = rows.having(|row| row.text("method") != judged).failures();
-    page.list("Runs of other methods that did not finish", &others, None);
-
-    let runs = asked.iter().map(|(_, runs)| runs.len());
-    let page = page.with("cases", rows.len()).with("judged", runs.sum::<usize>());
-    let page = page.with("missed", misses.len());
-    let page = page.with("claimed", judged_runs.count(Row::claims));
-    Ok(page.with("false_claims", false_claims(&judged_runs).len()))
-}
-
-/// What is asked on a target, and the runs of the judged method.
-type Asked<'a> = (Requirement, Rows<'a>);
-
-/// Whether a run keeps what is asked.
-fn met(row: &Row, requirement: Requirement) -> bool {
-    row.is_within("energy_ratio", requirement.bound)
-}
-
-/// What is missed, as items of a list.
-fn misses((requirement, runs): &Asked<'_>) -> Vec<String> {
-    let miss = |row: &Row| match row.number("energy_ratio").map(number) {
-        Some(ratio) => {
-            let (case, bound) = (row.case(), requirement.bound);
-            format!("- `{case}`: ED² {ratio} of independent draws, at most {bound}")
-        }
-        None => row.failure(),
-    };
-    runs.having(|row| !met(row, *requirement)).iter().map(miss).collect()
-}
-
-/// How many cases meet what is asked, by class and by start.
-fn requirements(study: &Catalogue, judged: &str, asked: &[Asked<'_>], page: &mut Page) {
-    page.part("Requirements", &[("judged", &judged)]);
-    let line = |class: Requirement| {
-        let of_class = asked.iter().filter(|(requirement, _)| *requirement == class);
-        let here: Rows<'_> = of_class.flat_map(|(_, runs)| runs.iter()).collect();
-        let count = |chosen: Rows<'_>| {
-            let met = chosen.count(|row| met(row, class));
-            (!chosen.is_empty()).then(|| format!("{met}/{}", chosen.len()))
-        };
-        let from = |start: &StartLaw| (format!("from {start}"), count(here.having(|row| is_from(row, start))));
-        let line = Line::from(here.clone()).with("class", class.class);
-        let line = line.with("bound", class.bound).with("all", count(here.clone()));
-        line.with_all(study.starts.iter().map(from))
+    let told: Vec<Row> = rows.iter().map(|row| told(study, &targets, row)).collect();
+    let rows: &Rows<'_> = &told.iter().collect();
+    let judged = rows.with("method", study.judged());
+    page.part("Requirements", &[("judged", &study.judged())]);
+    let line = |Requirement { class, bound }: Requirement| {
+        let here = Line::from(judged.with("class", class)).with("class", class);
+        here.with("bound", bound)
     };
     let starts = [each("start", &study.starts)];
     page.lines_over("Requirements", &starts, Requirement::ALL.map(line));
+    for start in &study.starts {
+        page.heading(&format!("From {start}"));
+        start_table(study, &targets, &start.runs(rows), &mut page);
+    }
+    claims::write(&judged, targets.iter().map(|(target, _)| target.as_str()), &mut page);
+    let misses: Vec<String> = judged.with("met", "no").iter().map(miss).collect();
+    page.list("Cases that miss their bound", &misses, Some("None."));
+    let others = rows.having(|row| row.text("method") != study.judged()).failures();
+    page.list("Runs of other methods that did not finish", &others, None);
+
+    let page = page.with("cases", rows.len()).with("judged", judged.len());
+    let page = page.with("missed", misses.len());
+    let page = page.with("claimed", judged.count(Row::claims));
+    Ok(page.with("false_claims", claims::false_claims(&judged).len()))
+}
+
+/// A row with what is asked of it, whether it keeps that, and its start.
+fn told(study: &Catalogue, targets: &[(String, Requirement)], row: &Row) -> Row {
+    let asked = targets.iter().find(|(target, _)| target == row.text("target"));
+    let asked = asked.map(|(_, asked)| *asked);
+    let is_met = asked.is_some_and(|asked| row.is_within("energy_ratio", asked.bound));
+    let start = study.starts.iter().find(|start| start.is_of(row));
+    row.clone()
+        .with("class", asked.map(|asked| asked.class))
+        .with("bound", asked.map(|asked| asked.bound))
+        .with("met", if is_met { "yes" } else { "no" })
+        .with("start", start.map(StartLaw::to_string))
+}
+
+/// What is missed, as an item of a list.
+fn miss(row: &Row) -> String {
+    let Some(ratio) = row.number("energy_ratio").map(number) else {
+        return row.failure();
+    };
+    let (case, bound) = (row.case(), row.value("bound"));
+    format!("- `{case}`: ED² {ratio} of independent draws, at most {bound}")
 }
 
 /// A line per target: both distances of every method, and the errors and costs of the judged one.

@@ -63,8 +63,7 @@ impl Study for CovarianceSpacing {
                 method.options.spacing = Some(spacing);
                 let (size, name) = ((self.particles.get(), None), format!("d{dim}-h{spacing}"));
                 let here = Sampled::of_seeds((&target, &method), size, (&name, &self.seeds))?.into_iter();
-                let cost = 3f64.powi(dim.get() as i32);
-                cases.extend(here.map(|case| case.costing(cost).with("spacing", spacing)));
+                cases.extend(here.map(|case| case.costing(stencil(dim.get())).with("spacing", spacing)));
             }
         }
         Ok(cases)

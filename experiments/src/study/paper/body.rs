@@ -111,7 +111,7 @@ impl Setting {
         let looks = 100.0;
         let dim = self.target.dimension()?;
         let work = (self.particles.get() * self.steps.get()) as f64;
-        let case = Case::new(self.id(), self.clone()).costing(work * (3f64.powi(dim as i32) + looks));
+        let case = Case::new(self.id(), self.clone()).costing(work * (stencil(dim) + looks));
         let mut case = case.with("dim", dim);
         self.note(&mut case.row);
         Ok(self.rival.iter().fold(case, Case::by))

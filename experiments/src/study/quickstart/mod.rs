@@ -1,16 +1,11 @@
 //! Study `quickstart`: a posterior from real data against its reference, and a two-dimensional target for the eye.
 
-mod comparison;
-mod figures;
-mod reference;
 mod report;
 
 use std::path::PathBuf;
 
-use reference::Reference;
-
 use super::prelude::*;
-use crate::dispatch::on_target;
+use super::reference::{MOMENTS, Reference};
 use crate::output::{ParticleFile, table_file};
 
 /// A posterior against its reference, and a two-dimensional target for the eye.
@@ -24,7 +19,7 @@ pub struct Quickstart {
     /// The posterior.
     posterior: Part,
     /// Its reference.
-    reference: ReferencePart,
+    reference: Reference,
     /// What the posterior has to keep.
     bounds: Bounds,
     /// The target for the eye; d = 2.
@@ -41,20 +36,6 @@ struct Part {
     method: MethodSpecification,
     /// M.
     particles: ParticleCount,
-}
-
-/// Quasi-Monte-Carlo importance sampling with a Student t proposal.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-struct ReferencePart {
-    /// Points in all.
-    points: Bounded<1024, 100_000_000>,
-    /// Independent scramblings, whose spread gives the standard errors.
-    scramblings: Bounded<2, 1024>,
-    /// Their seed.
-    seed: u64,
-    /// Draws resampled from them that are kept for the figures.
-    draws: Bounded<100, 1_000_000>,
 }
 
 /// The largest errors that count as a pass.
@@ -105,30 +86,18 @@ impl Study for Quickstart {
     }
 
     fn run(&self, case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
+        let file = |what: &str| file(tools.directory, case.id(), what);
         if case.id() == REFERENCE {
-            return self.run_reference(row, tools.directory);
-        }
-        if let Some(outcome) = row.note(case.work.sample(tools.observer))? {
-            let file = |what: &str| file(tools.directory, case.id(), what);
+            let (seconds, known) = timed(|| self.reference.of(&self.posterior.target));
+            let (moments, draws, size) = known?;
+            row_file::write(&file("moments"), MOMENTS, &moments)?;
+            ParticleFile::create(file("particles"))?.write(&draws, &[])?;
+            row.set("effective_sample_size", size);
+            row.set(SECONDS, seconds);
+        } else if let Some(outcome) = row.note(case.work.sample(tools.observer))? {
             ParticleFile::create(file("particles"))?.write(&outcome.particles, &[])?;
             table_file::write(outcome.trace.iter(), &file("trace"))?;
         }
-        Ok(())
-    }
-}
-
-impl Quickstart {
-    fn run_reference(&self, row: &mut Row, directory: &StudyDirectory) -> Result<(), CommandError> {
-        let target = &self.posterior.target;
-        let names = target.coordinate_names();
-        let (seconds, reference) =
-            timed(|| on_target!(target, target, D => Reference::of::<D>(target.as_ref(), &names, &self.reference)));
-        let reference = reference?;
-        let file = |what: &str| file(directory, REFERENCE, what);
-        row_file::write(&file("moments"), reference::COLUMNS, &reference.axes)?;
-        ParticleFile::create(file("particles"))?.write(&reference.draws, &[])?;
-        row.set("effective_sample_size", reference.effective_sample_size);
-        row.set("wall_seconds", seconds);
         Ok(())
     }
 }

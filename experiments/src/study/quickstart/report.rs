@@ -1,33 +1,54 @@
-//! The report of the study `quickstart`.
+//! The report of the study `quickstart`, whose figures are drawn from its raw files.
 
-use super::comparison::compared;
-use super::{PICTURE, POSTERIOR, Quickstart, REFERENCE, figures, file, reference};
-use crate::output::particles_csv;
+use super::{PICTURE, POSTERIOR, Quickstart, REFERENCE, file};
+use crate::dispatch::on_target;
+use crate::output::{particles_csv, table_file};
+use crate::pictures::trace_panels::{KINETIC_ENERGY, POTENTIAL_ENERGY, RESIDUAL, panels};
+use crate::pictures::{Beside, Known, contours};
+use crate::plots::{cloud, corner, histogram};
 use crate::study::prelude::*;
+use crate::study::reference::{MOMENTS, compared};
 
 /// Tables, figures and verdict.
 pub fn report(study: &Quickstart, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
-    let mut page = directory.page(include_str!("report.md"), &[]);
+    let [target, shown] = [&study.posterior, &study.picture].map(|part| part.target.label());
+    let mut page = directory.page(include_str!("report.md"), &[("target", &target), ("shown", &shown)]);
     let finished = |piece: &str| rows.with("case", piece).count(Row::finished) > 0;
     let particles = |piece: &str| particles_csv::read(&file(directory, piece, "particles"));
     if finished(REFERENCE) && finished(POSTERIOR) {
-        let particles = particles(POSTERIOR)?;
-        let reference = row_file::read(&file(directory, REFERENCE, "moments"), reference::COLUMNS)?;
-        let axes = compared(&particles, reference);
+        let own = particles(POSTERIOR)?;
+        let moments = row_file::read(&file(directory, REFERENCE, "moments"), MOMENTS)?;
+        let axes = compared(&own, moments);
         page = verdict(study, &axes.iter().collect(), rows, page);
         page.section("Posterior moments", &[], &axes);
         page.heading("The posterior");
-        figures::posterior(study, &particles, directory, &mut page)?;
+        let known = Known::Draws(particles(REFERENCE)?.to_rows());
+        let beside = Beside::new(&study.posterior.target, &own, &known, "reference");
+        page.drawing("posterior-corner.svg", beside.draw(corner));
+        page.drawing("posterior-marginals.svg", beside.draw(histogram));
     } else {
         page.paragraph("The posterior or its reference is missing, so there is nothing to compare yet.");
         page = page.with("verdict", "incomplete");
     }
     if finished(PICTURE) {
         page.heading("A target for the eye");
-        figures::picture(study, &particles(PICTURE)?, &mut page)?;
+        let (target, particles) = (&study.picture.target, particles(PICTURE)?);
+        let known = on_target!(target, target, D => Ok(contours::<D>(target.as_ref(), 161)))?;
+        page.drawing("picture.svg", Beside::new(target, &particles, &known, "").draw(cloud));
     }
     page.heading("The way there");
-    figures::traces(study, directory, &mut page)?;
+    let mut runs = Vec::new();
+    for (piece, part) in [(POSTERIOR, &study.posterior), (PICTURE, &study.picture)] {
+        let path = file(directory, piece, "trace");
+        if path.exists() {
+            runs.push((part.target.label(), table_file::read(&path)?));
+        }
+    }
+    runs.retain(|(_, steps)| !steps.is_empty());
+    if !runs.is_empty() {
+        let panels = panels([RESIDUAL, KINETIC_ENERGY, POTENTIAL_ENERGY], &runs);
+        page.drawing("traces.svg", multiples(&MultiplesPlot::traces("", "step", panels)));
+    }
     page.lines("runs", rows.iter());
     Ok(page)
 }
@@ -37,19 +58,18 @@ fn verdict(study: &Quickstart, axes: &Rows<'_>, rows: &Rows<'_>, mut page: Page)
     let bounds = &study.bounds;
     let [mean, deviation, reference] = ["mean_error", "deviation_error", "reference_error"]
         .map(|column| axes.values(column).into_iter().map(f64::abs).fold(0.0, f64::max));
-    let pairs = [(mean, bounds.mean), (deviation, bounds.standard_deviation)];
-    let kept = pairs.map(|(error, bound)| !axes.is_empty() && error <= bound);
+    let kept = [mean <= bounds.mean, deviation <= bounds.standard_deviation];
+    let kept = kept.map(|kept| kept && !axes.is_empty());
     let [means, deviations] = kept.map(|kept| if kept { "within" } else { "beyond" });
     let verdict = if kept == [true, true] { "pass" } else { "fail" };
     let runs = rows.with("case", REFERENCE);
-    let values: [(&str, &dyn Display); 9] = [
+    let values: [(&str, &dyn Display); 8] = [
         ("verdict", &verdict),
         ("mean error", &number(mean)),
         ("means", &means),
         ("deviation error", &number(100.0 * deviation)),
         ("deviations", &deviations),
         ("deviation bound", &(100.0 * bounds.standard_deviation)),
-        ("target", &study.posterior.target.label()),
         ("size", &runs.cell("fixed 0 effective_sample_size")),
         ("reference error", &number(reference)),
     ];

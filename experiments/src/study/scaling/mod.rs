@@ -4,7 +4,6 @@
 //! target at fixed M, where a dense grid would hold N = kᵈ nodes. Each case runs once to warm up and then several times on the clock; the
 //! median counts. The memory is that of one more run in a process of its own.
 
-mod quantity;
 mod report;
 
 use super::own_process::peak_of_own_process;
@@ -61,28 +60,36 @@ struct NodesSweep {
     interval: [f64; 2],
 }
 
-/// Wall time over steps, least, median and most.
-const WALL_PER_STEP: [&str; 3] = [
-    "wall_seconds_per_step_least",
-    "wall_seconds_per_step",
-    "wall_seconds_per_step_most",
-];
+/// A sweep over sizes: its name in tables and files, the column of the size that it varies, the symbol of that and the label of its axis.
+type Sweep = [&'static str; 4];
 
-/// d, M and h in frame units; `None`: the sampler chooses it.
-type Size = (Dimension, usize, Option<f64>);
+/// Over d and M.
+const PARTICLES: Sweep = ["particles", "particles", "M", "number of particles M"];
+/// Over k.
+const NODES: Sweep = ["nodes", "nodes_per_axis", "k", "nodes per axis k"];
+
+/// Particles on a target with a spacing in frame units; `None`: the sampler chooses it.
+type Size = (TargetSpecification, usize, Option<f64>);
 
 /// M · 3ᵈ.
-fn work((dim, particles, _): &Size) -> f64 {
-    *particles as f64 * 3f64.powi(dim.get() as i32)
+fn work(dim: Dimension, particles: usize) -> f64 {
+    particles as f64 * stencil(dim.get())
 }
 
-/// The case of a size in a sweep.
-fn case(size: Size, sweep: &str, nodes_per_axis: Option<usize>) -> Case<Size> {
-    let (dim, particles, spacing) = size;
-    let nodes = nodes_per_axis.map_or(String::new(), |nodes| format!("-k{nodes}"));
-    let case = Case::new(format!("{sweep}-d{dim}-m{particles}{nodes}"), size).costing(work(&size) + 1e3);
-    let case = case.with("sweep", sweep).with("dim", dim).with("particles", particles);
-    case.with("nodes_per_axis", nodes_per_axis).with("spacing", spacing)
+impl Scaling {
+    /// The case of d, M and k in a sweep.
+    fn case(&self, sweep: Sweep, size: (Dimension, usize, Option<usize>)) -> Result<Case<Size>, CommandError> {
+        let ([low, high], (dim, particles, nodes)) = (self.nodes_sweep.interval, size);
+        let spacing = nodes.map(|nodes| (high - low) / nodes as f64);
+        let of_nodes = nodes.map_or(String::new(), |nodes| format!("-k{nodes}"));
+        let name = format!("{}-d{dim}-m{particles}{of_nodes}", sweep[0]);
+        let target = TargetSpecification::plain(&self.target, Some(dim));
+        target.dimension()?;
+        let case = Case::new(name, (target, particles, spacing)).costing(work(dim, particles) + 1e3);
+        let case = case.by(&self.method).with("sweep", sweep[0]).with("dim", dim);
+        let case = case.with("particles", particles).with("spacing", spacing);
+        Ok(case.with("nodes_per_axis", nodes))
+    }
 }
 
 impl Study for Scaling {
@@ -96,56 +103,39 @@ impl Study for Scaling {
 
     /// The cases of both sweeps, cheap ones first within each dimension.
     fn cases(&self) -> Result<Vec<Case<Size>>, CommandError> {
-        let nodes = &self.nodes_sweep;
-        let [low, high] = nodes.interval;
-        let is_interval = low < high && (high - low).is_finite();
-        holds(is_interval, "nodes-sweep.box", || {
-            format!("[{low}, {high}] is no interval")
-        })?;
-        let sweep = &self.particles_sweep;
+        let (sweep, nodes) = (&self.particles_sweep, &self.nodes_sweep);
         let most = sweep.largest_work;
+        interval("nodes-sweep.box", nodes.interval)?;
         let otherwise = || format!("{most} must be above 0");
         holds(most > 0.0, "particles-sweep.largest-work", otherwise)?;
-        for &dim in sweep.dims.iter().chain(&nodes.dims) {
-            TargetSpecification::plain(&self.target, Some(dim)).dimension()?;
-        }
         let mut cases = Vec::new();
         for &dim in &sweep.dims {
-            let sizes = sweep.particles.iter().map(|particles| (dim, particles.get(), None));
-            let sizes = sizes.filter(|size| work(size) <= most);
-            cases.extend(sizes.map(|size| case(size, quantity::PARTICLES.name, None).by(&self.method)));
+            let sizes = sweep.particles.iter().map(|particles| particles.get());
+            for particles in sizes.filter(|&particles| work(dim, particles) <= most) {
+                cases.push(self.case(PARTICLES, (dim, particles, None))?);
+            }
         }
         for &dim in &nodes.dims {
             for count in nodes.nodes_per_axis.iter().map(|count| count.get()) {
-                let size = (dim, nodes.particles.get(), Some((high - low) / count as f64));
-                cases.push(case(size, quantity::NODES.name, Some(count)).by(&self.method));
+                cases.push(self.case(NODES, (dim, nodes.particles.get(), Some(count)))?);
             }
         }
         Ok(cases)
     }
 
     fn run(&self, case: &Case<Size>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
-        let (dim, particles, spacing) = case.work;
-        let mut specification = self.method.clone();
-        specification.options.spacing = spacing.or(specification.options.spacing);
-        let target = TargetSpecification::plain(&self.target, Some(dim));
-        let size = (particles, self.seed);
-        let work = Sampled::new(&target, &specification, Some(self.steps.get()), size)?;
-        let mut times = Vec::new();
-        for _ in 0..=self.repeats.get() {
-            let Some(outcome) = row.note(work.sample(tools.observer))? else {
-                return Ok(());
-            };
-            row.set("spacing", outcome.spacing.or(spacing));
-            let per_step = outcome.wall_seconds / outcome.steps.max(1) as f64;
-            times.push(Row::default().with(WALL_PER_STEP[1], per_step));
+        let (target, particles, spacing) = &case.work;
+        let mut method = self.method.clone();
+        method.options.spacing = spacing.or(method.options.spacing);
+        method.options.steps = Some(self.steps);
+        let work = Sampled::new(target, &method, None, (*particles, self.seed))?;
+        let is_finished = work.clocked(self.repeats.get(), row, tools.observer)?;
+        let known = row.number("spacing").or(*spacing);
+        row.set("spacing", known);
+        if is_finished {
+            let peak = peak_of_own_process(&work, &method, tools.directory.threads);
+            row.set("memory_peak_bytes", peak);
         }
-        // The first is to warm up.
-        let timed: Rows<'_> = times.iter().skip(1).collect();
-        timed.note_range(WALL_PER_STEP[1], row, WALL_PER_STEP);
-        specification.options.steps = Some(self.steps);
-        let peak = peak_of_own_process(&work, &specification, tools.directory.threads);
-        row.set("memory_peak_bytes", peak);
         Ok(())
     }
 }

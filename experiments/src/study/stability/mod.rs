@@ -27,15 +27,6 @@ pub struct Stability {
     targets: Option<Vec<String>>,
 }
 
-impl Stability {
-    /// The targets, each in the dimensions that it has among `dims`.
-    fn places(&self) -> Result<Vec<Vec<TargetSpecification>>, CommandError> {
-        let plain = |name: &String| TargetSpecification::plain(name, None);
-        let listed = self.targets.as_ref();
-        places(listed.map(|names| names.iter().map(plain).collect()), &self.dims)
-    }
-}
-
 impl Study for Stability {
     type Work = Configuration;
 
@@ -47,7 +38,9 @@ impl Study for Stability {
 
     /// The cases, in the order of their numbers.
     fn cases(&self) -> Result<Vec<Case<Configuration>>, CommandError> {
-        let places = self.places()?;
+        let plain = |names: &Vec<String>| names.iter().map(|name| Place::plain(name)).collect();
+        let listed: Option<Vec<Place>> = self.targets.as_ref().map(plain);
+        let places = places(listed.as_deref(), &self.dims)?;
         let case = |index: usize| case(index, draw(self.seed, index, &places));
         Ok((0..self.cases.get()).map(case).collect())
     }

@@ -2,7 +2,7 @@
 
 use super::figure::{CELLS, plot};
 use super::{Stability, diverged};
-use crate::plots::{cell_of, heat_map, logarithmic_edges};
+use crate::plots::heat_map;
 use crate::study::prelude::*;
 
 /// The most refusals of the calibrated sampler that the report names; results.csv has them all.
@@ -17,12 +17,16 @@ pub fn report(_: &Stability, rows: &Rows<'_>, directory: &StudyDirectory) -> Res
     };
     let rows: Vec<Row> = rows.iter().map(told).collect();
     let rows: &Rows<'_> = &rows.iter().collect();
-    let groups = sorted(rows, "group");
-    page.section("Endings", &[], rows.lines("group", groups.clone()));
-    let reasons = sorted(rows, "reason");
+    let (groups, here): (Vec<String>, Vec<Rows<'_>>) = rows.sorted("group").into_iter().unzip();
+    page.section("Endings", &[], here);
+    let reasons = rows.sorted("reason");
     match reasons.is_empty() {
         true => page.paragraph("No run ended with an error."),
-        false => page.lines_over("errors", &[each("group", &groups)], rows.lines("reason", reasons)),
+        false => page.lines_over(
+            "errors",
+            &[each("group", &groups)],
+            reasons.into_iter().map(|(_, here)| here),
+        ),
     }
     page.heading("Where the paper's algorithms diverge");
     page.drawing("divergence.svg", heat_map(&plot(rows)));
@@ -45,14 +49,6 @@ fn group(row: &Row) -> String {
     }
 }
 
-/// What stands in a column, in alphabetical order.
-fn sorted(rows: &Rows<'_>, column: &str) -> Vec<String> {
-    let mut words = rows.words(column);
-    words.retain(|word| !word.is_empty());
-    words.sort_unstable();
-    words
-}
-
 /// Shares of diverged runs, by one quantity at a time.
 fn breakdowns(rows: &Rows<'_>, groups: &[String], page: &mut Page) {
     let numbers = [
@@ -64,12 +60,7 @@ fn breakdowns(rows: &Rows<'_>, groups: &[String], page: &mut Page) {
         ("friction, above 0", [0.01, 100.0], "friction"),
     ];
     for (name, range, column) in numbers {
-        let edges = logarithmic_edges(range, CELLS);
-        let lines = edges.windows(2).enumerate().map(|(bin, ends)| {
-            let inside = |row: &Row| row.number(column).and_then(|value| cell_of(&edges, value)) == Some(bin);
-            let label = format!("{} to {}", number(ends[0]), number(ends[1]));
-            Line::from(rows.having(inside)).with("label", label)
-        });
+        let lines = rows.lines_in_cells(column, range, CELLS);
         page.lines_over("shares", &[each("quantity", [name]), each("group", groups)], lines);
     }
     let words = [
@@ -82,10 +73,8 @@ fn breakdowns(rows: &Rows<'_>, groups: &[String], page: &mut Page) {
         ("elastic law", "material"),
     ];
     for (name, column) in words {
-        let lines = sorted(rows, column).into_iter().map(|word| {
-            let here = rows.having(|row| row.value(column).to_string() == word);
-            Line::from(here).with("label", word)
-        });
+        let lines = rows.sorted(column).into_iter();
+        let lines = lines.map(|(word, here)| Line::from(here).with("label", word));
         page.lines_over("shares", &[each("quantity", [name]), each("group", groups)], lines);
     }
 }

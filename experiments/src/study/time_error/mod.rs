@@ -61,9 +61,9 @@ impl Study for TimeError {
         for target in &self.targets {
             for method in &self.methods {
                 // Milliseconds, roughly: a distance to the reference, and M² pairs or M · 3ᵈ nodes per step.
-                let stencil = 3f64.powi(target.dimension()? as i32);
+                let nodes = stencil(target.dimension()?);
                 let is_pairwise = method.name == MethodName::Svgd;
-                let per_step = if is_pairwise { 10.0 } else { 0.03 * stencil };
+                let per_step = if is_pairwise { 10.0 } else { 0.03 * nodes };
                 for steps in self.sweep(method) {
                     let of_steps = steps.map_or(String::new(), |steps| format!("-t{steps}"));
                     let name = format!("{}-{}-m{}{of_steps}", target.label(), method.label(), self.particles);

@@ -84,9 +84,9 @@ fn paper_part(study: &TimeError, rows: &Rows<'_>, page: &mut Page) {
     }
     let in_the_plane = rows.with("dim", 2_usize);
     let runs = in_the_plane.having(|row| labels.contains(&row.text("method")));
-    let targets = runs.lines("target", study.targets.iter().map(TargetSpecification::label));
-    let settings = targets.iter().flat_map(|line| line.by("method", labels.clone()));
-    let lines = settings.filter_map(|line| best_and_last(&line.rows));
+    let targets = study.targets.iter().map(TargetSpecification::label);
+    let settings = runs.lines_by(("target", targets), ("method", labels.iter().copied()));
+    let lines = settings.iter().filter_map(|line| best_and_last(&line.rows));
     page.section("The paper's algorithms on the two-dimensional targets", &[], lines);
     page.paragraph(match &runs.failures()[..] {
         [] => "Every run finished with finite particles.".to_owned(),

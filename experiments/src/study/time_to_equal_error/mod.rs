@@ -6,16 +6,15 @@
 //! are needed, n/M for each particle; only the time of their exact sampler is measured. Distances are taken in coordinates in which the
 //! target has mean zero and unit covariance.
 
-mod figure;
 mod report;
-mod runs;
-mod search;
-
-use runs::{Goal, OWN, Runs};
-use search::{COLUMNS, Range, median_energy, of_size};
 
 use super::contestant::Contestant;
 use super::prelude::*;
+use super::search::{Doubled, Search};
+use super::trials::{Runs, set_by};
+
+/// What is kept of a run: draws, or the steps of a method that takes steps, 0 for its own number; its seed; what it took; and what it reached.
+const RUNS: &str = "size seed score_evaluations density_evaluations wall_seconds energy_distance_squared";
 
 /// A method and its rivals, to the same error on every target.
 #[derive(Clone, Debug, Deserialize)]
@@ -26,9 +25,9 @@ pub struct TimeToEqualError {
     /// M, one comparison each.
     particles: Vec<ParticleCount>,
     /// Draws that a Markov chain begins with and ends at, doubled in between.
-    draws: Range,
+    draws: Doubled,
     /// Steps that a rival of M particles begins with and ends at, doubled in between.
-    steps: Range,
+    steps: Doubled,
     /// A rival stops once its median run has taken this many times the time of the method.
     largest_ratio: f64,
     /// Quasi-random points that stand for a target; a power of two keeps their balance.
@@ -68,12 +67,7 @@ impl Study for TimeToEqualError {
             for particles in &self.particles {
                 let (name, particles) = (target.label(), particles.get());
                 let (task, methods) = (format!("{name}-m{particles}"), (&self.method, &self.rivals[..]));
-                let here = Contestant::all((&name, &task), (target, particles), methods)?.into_iter();
-                // Rivals get many runs, each with a distance to the reference.
-                cases.extend(here.map(|case| {
-                    let cost = if case.work.index == 0 { 1.0 } else { 10.0 };
-                    case.costing(cost)
-                }));
+                cases.extend(Contestant::all((&name, &task), (target, particles), methods)?);
             }
         }
         distinct("targets, particles or rivals", cases)
@@ -86,58 +80,35 @@ impl Study for TimeToEqualError {
         let options = YardstickOptions::of_energy(points, seed, Coordinates::Standardised);
         let yardstick = tools.yardstick.of(&entry.target, &options)?;
         row.set("mean_distance", yardstick.mean_distance());
-        let mut runs = Runs {
-            study: self,
-            entry,
-            yardstick,
-            observer: tools.observer,
-            trials: Vec::new(),
-        };
-        let found = if entry.index == 0 {
-            attempt(runs.own())?
-        } else if let Some(goal) = self.goal(entry, directory)? {
-            row.set("goal", goal.0);
-            runs.trials = self.earlier_trials(entry, directory)?;
-            attempt(runs.reach(goal))?
-        } else {
-            let reason = "the method that sets the error has none above 0";
-            Err(Failure::new(Status::Unsupported, reason))
-        };
-        row_file::write(&entry.file(directory), COLUMNS, &runs.trials)?;
-        match found {
-            Ok(found) => runs.note(found, row),
-            Err(failure) => {
-                row.set("ending", Status::Unsupported);
-                row.set("reason", failure.reason);
-            }
+        let mut runs = Runs::of(entry, &self.seeds, yardstick, tools.observer, RUNS);
+        if entry.index == 0 {
+            let found = attempt(runs.own())?;
+            return runs.close(found, row, directory);
         }
-        Ok(())
+        let set = set_by(&self.method, entry, directory, RUNS)?;
+        let Some((goal, seconds)) = set.filter(|(goal, _)| *goal > 0.0 && goal.is_finite()) else {
+            let reason = "the method that sets the error has none above 0";
+            return runs.close(Err(Failure::new(Status::Unsupported, reason)), row, directory);
+        };
+        row.set("goal", goal);
+        let (mut sizes, budget) = (self.steps, Some(self.largest_ratio * seconds));
+        if !entry.method.name.iterates() {
+            sizes = self.draws;
+            runs.trials = self.earlier(entry, directory)?;
+        }
+        let search = Search::of(sizes.sizes(), Status::OutOfSizes, goal, budget);
+        let found = attempt(runs.reach(&search))?;
+        runs.close(found, row, directory)
     }
 }
 
 impl TimeToEqualError {
-    /// What the method reached on the target of a rival's case; `None` unless it is a positive number.
-    fn goal(&self, entry: &Contestant, directory: &StudyDirectory) -> Result<Option<Goal>, CommandError> {
-        let trials = entry.first(&self.method).trials(directory, COLUMNS)?;
-        let runs = of_size(&trials, OWN);
-        let energy = median_energy(&runs);
-        let seconds = runs.median(SECONDS).filter(|_| energy > 0.0 && energy.is_finite());
-        Ok(seconds.map(|seconds| (energy, seconds)))
-    }
-
     /// The runs of the same rival for smaller M: draws do not depend on it, so they are not made twice.
-    fn earlier_trials(&self, entry: &Contestant, directory: &StudyDirectory) -> Result<Vec<Row>, CommandError> {
-        if entry.method.name.iterates() {
-            return Ok(Vec::new());
-        }
-        let sizes = self.particles.iter().map(|particles| particles.get());
-        let smaller = sizes.take_while(|particles| *particles != entry.particles);
-        let mut earlier = entry.clone();
-        let known = smaller.map(|particles| {
-            earlier.task = format!("{}-m{particles}", entry.target.label());
-            earlier.trials(directory, COLUMNS)
-        });
-        let known = known.collect::<Result<Vec<_>, _>>()?.into_iter();
-        Ok(known.max_by_key(Vec::len).unwrap_or_default())
+    fn earlier(&self, entry: &Contestant, directory: &StudyDirectory) -> Result<Vec<Row>, CommandError> {
+        let is_same = |other: &Contestant| other.target == entry.target && other.index == entry.index;
+        let cases = self.cases()?.into_iter().map(|case| case.work);
+        let earlier = cases.take_while(|other| other.task != entry.task).filter(is_same);
+        let known: Result<Vec<_>, _> = earlier.map(|other| other.trials(directory, RUNS)).collect();
+        Ok(known?.into_iter().max_by_key(Vec::len).unwrap_or_default())
     }
 }

@@ -1,7 +1,8 @@
 //! The report of the study `time-to-equal-error`.
 
-use super::TimeToEqualError;
-use super::figure::plot;
+use super::{RUNS, TimeToEqualError};
+use crate::plots::{TimeErrorPanel, time_error};
+use crate::study::contestant::{runs_of, told};
 use crate::study::prelude::*;
 
 /// Tables and figure.
@@ -9,7 +10,7 @@ pub fn report(study: &TimeToEqualError, rows: &Rows<'_>, directory: &StudyDirect
     let own = study.method.label();
     let (threads, ratio) = (directory.at_most_threads(), number(study.largest_ratio));
     let mut page = directory.page(include_str!("report.md"), &[("at-most", &threads), ("ratio", &ratio)]);
-    let told: Vec<Row> = rows.iter().map(|row| told(row, &rows.with("method", own))).collect();
+    let told = told(rows, own, "size");
     let told: Rows<'_> = told.iter().collect();
     let lines = comparisons(study, &told.with("method", own));
     page.section("What a particle is worth", &[], lines);
@@ -36,21 +37,8 @@ pub fn report(study: &TimeToEqualError, rows: &Rows<'_>, directory: &StudyDirect
 
 /// A line for every target with every M.
 fn comparisons<'a>(study: &TimeToEqualError, rows: &Rows<'a>) -> Vec<Line<'a>> {
-    let targets = rows.lines("target", study.targets.iter().map(TargetSpecification::label));
-    let sizes = |line: &Line<'a>| line.by("particles", study.particles.clone());
-    targets.iter().flat_map(sizes).collect()
-}
-
-/// The row of a case with what tables say of it beside the method's own rows.
-fn told(row: &Row, own: &Rows<'_>) -> Row {
-    let own = own.with("target", row.text("target"));
-    let own = own.with("particles", row.value("particles").clone()).first();
-    let own = own.and_then(|own| own.number(SECONDS));
-    row.clone()
-        .with("draws", row.number("draws_ratio").map(f64::recip))
-        .with("sizes", sizes(row))
-        .with("ratios", own.and_then(|own| ratios(row, own)))
-        .with("ended", in_words(row.status()))
+    let targets = study.targets.iter().map(TargetSpecification::label);
+    rows.lines_by(("target", targets), ("particles", study.particles.clone()))
 }
 
 fn reason(row: &Row) -> String {
@@ -58,31 +46,29 @@ fn reason(row: &Row) -> String {
     format!("- {target}, M = {particles}: {reason}.")
 }
 
-/// From the last that missed to the first that reached, or a bound.
-fn between(row: &Row, missed: Option<String>, last: String) -> String {
-    match (row.status(), missed) {
-        (Status::Reached, Some(missed)) => format!("{missed} to {last}"),
-        (Status::Reached, None) => last,
-        _ => format!("> {last}"),
+/// A panel per target: the method with a point per M; chains and independent draws with a point per number of draws; other rivals with a curve for every
+/// M, a point per number of steps.
+fn plot(study: &TimeToEqualError, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<MultiplesPlot, CommandError> {
+    let mut panels: Vec<TimeErrorPanel> = Vec::new();
+    for (case, runs) in runs_of(study, rows, directory, RUNS)? {
+        let runs: Rows<'_> = runs.iter().collect();
+        // On a logarithmic axis there is no place for zero and below.
+        let settings = runs.pairs_by("size", SECONDS, "energy_above_zero");
+        if settings.is_empty() {
+            continue;
+        }
+        let is_one_curve = case.index == 0 || !case.method.name.iterates() || study.particles.len() == 1;
+        let mut curve = case.method.label().to_owned();
+        if !is_one_curve {
+            curve.push_str(&format!(", M = {}", case.particles));
+        }
+        let known = TimeErrorPanel::settings(&mut panels, &case.target.label(), &curve);
+        if case.index == 0 {
+            known.extend(settings);
+        } else if settings.len() > known.len() {
+            // The runs of a chain for the larger M begin with those for the smaller one.
+            *known = settings;
+        }
     }
-}
-
-fn sizes(row: &Row) -> Option<String> {
-    let size = |column: &str| row.count(column).map(|size| size.to_string());
-    Some(between(row, size("missed_size"), size("size")?))
-}
-
-/// The times relative to the method's.
-fn ratios(row: &Row, own: f64) -> Option<String> {
-    let ratio = |column: &str| row.number(column).map(|seconds| number(seconds / own));
-    Some(between(row, ratio("wall_seconds_missed"), ratio(SECONDS)?))
-}
-
-fn in_words(ending: Status) -> &'static str {
-    match ending {
-        Status::Reached => "reached",
-        Status::OutOfTime => "out of time",
-        Status::OutOfSizes => "largest number missed",
-        _ => "unsupported",
-    }
+    Ok(time_error("wall time (s)", "ED²", panels))
 }

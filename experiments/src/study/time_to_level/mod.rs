@@ -5,12 +5,20 @@
 //! of this one run. A rival gets as its budget a multiple of the method's time: a lower bound is a result.
 
 mod report;
-mod search;
 
 use super::contestant::Contestant;
-use super::gaussian_runs::energy_level;
+use super::gaussian_runs::standard_yardstick;
 use super::prelude::*;
+use super::search::Search;
 use super::start_law::StartLaw;
+use super::trials::{Runs, set_by};
+
+/// A run whose predicted time exceeds the budget by no more than this factor is begun.
+const TOLERANCE: f64 = 1.2;
+/// A run that takes longer than this is not repeated, in seconds.
+const LONG: f64 = 1.0;
+/// What is kept of a run: its steps, the sampler's time, and the squared energy distance at the end, where it did not diverge.
+const RUNS: &str = "steps wall_seconds energy_distance_squared";
 
 /// A method and its rivals, from the same start to the same error.
 #[derive(Clone, Debug, Deserialize)]
@@ -75,31 +83,37 @@ impl Study for TimeToLevel {
             let target = TargetSpecification::plain("gaussian", Some(dim));
             let (task, methods) = (format!("d{dim}"), (&self.method, &self.rivals[..]));
             let here = Contestant::all((&task, &task), (&target, self.particles.get()), methods)?;
-            // The budget of a rival is a multiple of the method's time.
-            cases.extend(here.into_iter().map(|case| case.costing(dim.get() as f64 + 1.0)));
+            cases.extend(here.into_iter().map(|mut case| {
+                case.work.start = Some(self.start);
+                // The budget of a rival is a multiple of the method's time.
+                case.costing(dim.get() as f64 + 1.0)
+            }));
         }
         distinct("dims or rivals", cases)
     }
 
     fn run(&self, case: &Case<Contestant>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
         let (contestant, directory) = (&case.work, tools.directory);
-        let level = energy_level(contestant.target.dimension()?, contestant.particles)?;
-        let mut budget = None;
-        if contestant.index > 0 {
-            let trials = contestant.first(&self.method).trials(directory, search::COLUMNS)?;
-            let seconds = search::last(&trials).median(SECONDS);
-            budget = seconds.map(|seconds| self.largest_ratio * seconds);
+        let yardstick = standard_yardstick(&contestant.target, tools.yardstick)?;
+        let goal = yardstick.mean_distance() / contestant.particles as f64;
+        let clock = match contestant.index {
+            0 => None,
+            _ => set_by(&self.method, contestant, directory, RUNS)?,
+        };
+        let budget = clock.map(|(_, seconds)| self.largest_ratio * seconds);
+        let sizes = self.steps.iter().map(|steps| steps.get()).collect();
+        let search = Search::of(sizes, Status::OutOfSteps, goal, budget).lowered(TOLERANCE);
+        let seeds = [self.seed];
+        let mut runs = Runs::of(contestant, &seeds, yardstick, tools.observer, RUNS);
+        let found = attempt(runs.reach(&search))?;
+        if let Ok((Status::Reached, steps, _)) = found {
+            let is_quick = runs.trials.last().is_some_and(|last| last.number(SECONDS) < Some(LONG));
+            for _ in 1..self.repeats.get() * usize::from(is_quick) {
+                runs.add(steps, self.seed)?;
+            }
         }
-        let (ending, trials) = search::search(self, contestant, (level, budget), tools.observer)?;
-        row_file::write(&contestant.file(directory), search::COLUMNS, &trials)?;
-        let last = search::last(&trials);
-        row.set("ending", ending);
-        row.set("energy_level", level);
-        row.set("runs", trials.len());
-        row.set("steps", trials.last().map_or(Some(0), |trial| trial.count("steps")));
-        row.set(ENERGY, trials.last().and_then(|trial| trial.number(ENERGY)));
-        last.note_range(SECONDS, row, WALL);
+        row.set("energy_level", goal);
         row.set("wall_budget_seconds", budget);
-        Ok(())
+        runs.close(found, row, directory)
     }
 }

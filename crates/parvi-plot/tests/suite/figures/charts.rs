@@ -32,27 +32,19 @@ fn traces_break_where_values_end() {
 fn scalings_state_their_exponents() {
     let x: Vec<f64> = (2..6).map(|e| 10f64.powi(e)).collect();
     let y: Vec<f64> = x.iter().map(|x| 1e-8 * x.powf(1.5)).collect();
-    let mut plot = ScalingPlot {
-        x_label: "particles M".to_string(),
-        y_label: "time per step (s)".to_string(),
-        symbol: "M".to_string(),
-        from: 0.0,
-        panel: MultiplesPanel::new(
-            "",
-            [
-                LineSeries::through("d = 2", x.iter().copied().zip(y)),
-                LineSeries::through("single", [(100.0, 1.0)]),
-            ],
-        ),
-    };
-    plot.panel.guides.push(GuideCurve {
-        label: "dense grid".to_string(),
-        curve: Curve {
-            y: x.iter().map(|x| 1e-6 * x).collect(),
-            x,
-        },
-        dotted: false,
-    });
+    let most = 1e3 * y[3];
+    let settings = vec![
+        LineSeries::through("d = 2", x.into_iter().zip(y)),
+        LineSeries::through("single", [(100.0, 1e-6)]),
+    ];
+    let plot = ScalingPlot::over(("particles M", "M"), "time per step (s)", settings, 0.0);
+    let mut plot = plot.beside_powers([("dense grid".to_owned(), 4)], 1e3);
+    let guide = &plot.panel.guides[0].curve;
+    assert!(guide.x[0] == 100.0 && guide.y.iter().all(|y| *y <= most * (1.0 + 1e-9)));
+    assert!(
+        guide.y[20] > 0.999 * most,
+        "as far as a thousand times the measurements"
+    );
     let svg = scaling(&plot).unwrap();
     assert_well_formed(&svg);
     assert!(svg.contains("d = 2: b = 1.500 ± 0.000") && svg.contains("dense grid"));

@@ -33,3 +33,24 @@ fn lines_go_through_medians_or_through_every_row() {
         ("n = 64", &[0.5][..])
     );
 }
+
+#[test]
+fn pairs_come_by_the_values_of_a_third_column() {
+    let rows = rows();
+    let here = rows.iter().collect::<Rows<'_>>().with("method", "mpm");
+    let pairs = here.pairs_by("size", "size", "error");
+    assert_eq!(pairs[1], [(64.0, 0.5)]);
+    assert_eq!((pairs.len(), pairs[0].len(), pairs[0][0]), (2, 3, (16.0, 1.0)));
+}
+
+#[test]
+fn table_lines_are_of_two_columns_or_of_cells() {
+    let rows = rows();
+    let rows: Rows<'_> = rows.iter().collect();
+    let lines = rows.lines_by(("method", ["mpm", "iid"]), ("size", [16_usize, 64]));
+    let counts: Vec<usize> = lines.iter().map(|line| line.rows.len()).collect();
+    assert_eq!(counts, [3, 1, 1, 0]);
+    let cells = rows.lines_in_cells("error", [0.1, 10.0], 2);
+    let counts: Vec<usize> = cells.iter().map(|line| line.rows.len()).collect();
+    assert_eq!(counts, [1, 3]);
+}

@@ -22,3 +22,13 @@ fn the_best_has_the_least_measure() {
     let best = rows.best("size", [16_usize, 64, 99], |rows| rows.median("error"));
     assert_eq!(best.map(|(size, rows)| (size, rows.len())), Some((64, 1)));
 }
+
+#[test]
+fn sorted_rows_are_those_that_hold_something() {
+    let rows = rows();
+    let rows: Rows<'_> = rows.iter().collect();
+    let sizes = |(word, here): (String, Rows<'_>)| (word, here.len());
+    let methods: Vec<(String, usize)> = rows.sorted("method").into_iter().map(sizes).collect();
+    assert_eq!(methods, [("iid".to_owned(), 1), ("mpm".to_owned(), 4)]);
+    assert_eq!(rows.sorted("error").len(), 4);
+}

@@ -25,6 +25,10 @@ fn statistics_have_names() {
         here.cells("fixed 1 error | signed 2 error | scientific 0 size | fixed 2 method | fixed x error"),
         ["0.5", "+0.50", "6e1", MISSING, MISSING]
     );
+    assert_eq!(
+        here.cells("part where error | part where size = 16 where error > 2 | part where size = 99 where error"),
+        ["3/4", "2/3", MISSING]
+    );
     let grows = [16_usize, 64].map(|size| Row::default().with("size", size).with("error", (size * size) as f64));
     assert_eq!(
         grows.iter().collect::<Rows<'_>>().cell("exponent of size in error"),
