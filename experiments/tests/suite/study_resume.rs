@@ -13,7 +13,7 @@ steps = [2, 4]
 reference-points = 1000
 reference-seed = 7
 directions = 8
-targets = [{ name = "gaussian", dim = 2 }, { name = "banana" }, { name = "wells-small", dim = 2 }]
+targets = [{ name = "gaussian", dim = 2 }, { name = "banana" }, { name = "schools", dim = 3 }]
 methods = [{ name = "mpm" }, { name = "svgd" }, { name = "iid" }]
 "#;
 

@@ -1,7 +1,5 @@
 //! Conformance of a basis, part: gradients.
 
-use std::collections::{BTreeSet, HashMap};
-
 use mpm_core::conformance::AnyBasis;
 
 use crate::scenes::{norm, stencil};
@@ -14,12 +12,15 @@ const DIFFUSE: [&str; 0] = [];
 struct Seen<const D: usize> {
     weight: f64,
     gradient: [f64; D],
+    /// Whether the node is in its stencil at all, with whatever weight.
+    visited: bool,
 }
 
 impl<const D: usize> Seen<D> {
     const NOTHING: Self = Self {
         weight: 0.0,
         gradient: [0.0; D],
+        visited: false,
     };
 }
 
@@ -44,12 +45,15 @@ pub fn gradients_are_derivatives<const D: usize>(
             y
         };
         let steps = (0..D).flat_map(|a| [moved(a, -1.0), moved(a, 1.0)]);
-        let seen = seen_by(basis, &[*x].into_iter().chain(steps).collect::<Vec<_>>());
-        let nodes: BTreeSet<u32> = seen.iter().flat_map(|map| map.keys().copied()).collect();
-        for a in 0..D {
-            for node in &nodes {
-                let at = |point: usize| seen[point].get(node).copied().unwrap_or(Seen::NOTHING);
-                let (before, here, after) = (at(1 + 2 * a), at(0), at(2 + 2 * a));
+        let points: Vec<[f64; D]> = [*x].into_iter().chain(steps).collect();
+        let seen = seen_by(basis, &points);
+        // A basis may number nodes that none of these points touches.
+        let nodes = seen
+            .chunks(points.len())
+            .filter(|of| of.iter().any(|seen| seen.visited));
+        for of_node in nodes {
+            for a in 0..D {
+                let (before, here, after) = (of_node[1 + 2 * a], of_node[0], of_node[2 + 2 * a]);
                 let bend = (after.weight - 2.0 * here.weight + before.weight).abs();
                 // A line may also touch the support in the point alone, and see nothing on either side.
                 let touches = here.weight.max(before.weight).max(after.weight) < 1e-12 && here.gradient[a] != 0.0;
@@ -70,19 +74,23 @@ pub fn gradients_are_derivatives<const D: usize>(
     assert!(5 * kinks < compared, "{what}: {kinks} kinks, {compared} comparisons");
 }
 
-/// What each of the points sees, by node number.
-fn seen_by<const D: usize>(basis: &mut dyn AnyBasis<D>, points: &[[f64; D]]) -> Vec<HashMap<u32, Seen<D>>> {
+/// What each of the points sees of each node, all points of a node side by side.
+fn seen_by<const D: usize>(basis: &mut dyn AnyBasis<D>, points: &[[f64; D]]) -> Vec<Seen<D>> {
     let sorted = basis.rebuild(points).unwrap();
     let schedule = basis.schedule();
-    let mut seen = vec![HashMap::new(); points.len()];
+    let mut seen = vec![Seen::NOTHING; points.len() * basis.node_count()];
     let mut scratch = Vec::new();
     for cell in 0..schedule.cell_count() {
         let nodes = basis.cell_nodes(cell, &mut scratch).to_vec();
         for place in schedule.cell(cell) {
-            let visits = stencil(basis, place, &sorted[place]).into_iter();
-            seen[schedule.order()[place] as usize] = visits
-                .map(|(index, weight, gradient, _)| (nodes[index], Seen { weight, gradient }))
-                .collect();
+            let point = schedule.order()[place] as usize;
+            for (index, weight, gradient, _) in stencil(basis, place, &sorted[place]) {
+                seen[nodes[index] as usize * points.len() + point] = Seen {
+                    weight,
+                    gradient,
+                    visited: true,
+                };
+            }
         }
     }
     seen

@@ -54,7 +54,7 @@ fn distance(a: &[[f64; 2]], b: &[[f64; 2]]) -> f64 {
 #[test]
 fn the_orders_of_a_step_differ_by_the_time_step() {
     for averaging in [false, true] {
-        let reference = after(Flip::blend(1.0), StressUpdate::Last, averaging, 512);
+        let reference = after(Flip::blend(1.0), StressUpdate::Last, averaging, 192);
         for order in [StressUpdate::First, StressUpdate::Last, StressUpdate::ModifiedLast] {
             let coarse = distance(&after(Flip::blend(1.0), order, averaging, 8), &reference);
             let fine = distance(&after(Flip::blend(1.0), order, averaging, 32), &reference);

@@ -86,13 +86,13 @@ fn pic() {
         run(16_000, grid::<Quadratic, 3, 2>(0.06), Pic, gas(), Pull::well())
     });
     same_on_any_pool("D = 2, nodes", || {
-        run(16_000, grid::<Cubic, 4, 2>(0.06), Pic, gas(), nodal_well())
+        run(8_200, grid::<Cubic, 4, 2>(0.06), Pic, gas(), nodal_well())
     });
     same_on_any_pool("D = 3", || {
-        run(10_000, grid::<Quadratic, 3, 3>(0.2), Pic, gas(), Pull::well())
+        run(5_000, grid::<Quadratic, 3, 3>(0.2), Pic, gas(), Pull::well())
     });
     same_on_any_pool("D = 6", || {
-        run(1_200, grid::<Quadratic, 3, 6>(1.0), Pic, gas(), Pull::well())
+        run(200, grid::<Quadratic, 3, 6>(1.0), Pic, gas(), Pull::well())
     });
 }
 
@@ -103,7 +103,7 @@ fn apic() {
     });
     same_on_any_pool("solid", || {
         run(
-            8_000,
+            5_000,
             grid::<Quadratic, 3, 3>(0.25),
             Apic,
             neo_hookean(0.5),

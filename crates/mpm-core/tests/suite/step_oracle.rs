@@ -43,6 +43,56 @@ fn body<const D: usize>(seed: u64) -> Vec<NaiveParticle<D>> {
     (0..count).map(particle).collect()
 }
 
+/// What of a particle a step has, beside position and velocity.
+#[derive(Clone, Copy)]
+struct Fields {
+    affine: bool,
+    deforms: bool,
+}
+
+/// The same particles for the step.
+fn particles_of<const D: usize>(naive: &[NaiveParticle<D>], fields: Fields) -> Particles<D> {
+    let mut particles = Particles::at_rest(naive.iter().map(|p| p.x).collect(), 1.0);
+    particles.masses = Masses::Each(naive.iter().map(|p| p.mass).collect());
+    particles.velocities = naive.iter().map(|p| p.v).collect();
+    if fields.affine {
+        particles.affine = naive.iter().map(|p| p.affine).collect();
+    }
+    if fields.deforms {
+        particles = particles.with_elastic_state(naive.iter().map(|p| p.volume).collect());
+        particles.deformation_gradients = naive.iter().map(|p| p.deformation).collect();
+    }
+    particles
+}
+
+/// Every number of every particle is the textbook's.
+fn are_those_of<const D: usize>(naive: &[NaiveParticle<D>], fields: Fields, particles: &Particles<D>, what: &str) {
+    let close = |ours: f64, theirs: f64, field: &str| {
+        assert!(
+            (ours - theirs).abs() < 1e-12 * (1.0 + theirs.abs()),
+            "{what}: {field} {ours} for {theirs}"
+        );
+    };
+    let positions = particles.in_creation_order(&particles.positions);
+    let velocities = particles.in_creation_order(&particles.velocities);
+    let affine = particles.in_creation_order(&particles.affine);
+    let deformation = particles.in_creation_order(&particles.deformation_gradients);
+    for (k, expected) in naive.iter().enumerate() {
+        for a in 0..D {
+            close(positions[k][a], expected.x[a], "x");
+            close(velocities[k][a], expected.v[a], "v");
+            for b in 0..D {
+                if fields.affine {
+                    close(affine[k].0[a][b], expected.affine.0[a][b], "B");
+                }
+                if fields.deforms {
+                    close(deformation[k].0[a][b], expected.deformation.0[a][b], "F");
+                }
+            }
+        }
+    }
+}
+
 /// Compare `STEPS` steps; the grid moves after every one.
 fn agree<S: Spline<W>, T: Transfer<D>, M: Medium<D, State = ()>, const W: usize, const D: usize>(
     (kernel, velocity, law, force): (Kernel, Velocity, Law, Force<D>),
@@ -56,18 +106,12 @@ fn agree<S: Spline<W>, T: Transfer<D>, M: Medium<D, State = ()>, const W: usize,
     };
     let mut naive = body::<D>(40 + D as u64);
     let (h, dt) = (0.45, TIME_STEP);
-    let mut particles = Particles::at_rest(naive.iter().map(|p| p.x).collect(), 1.0);
-    particles.masses = Masses::Each(naive.iter().map(|p| p.mass).collect());
-    particles.velocities = naive.iter().map(|p| p.v).collect();
-    if T::AFFINE {
-        particles.affine = naive.iter().map(|p| p.affine).collect();
-    }
-    if M::DEFORMS {
-        particles = particles.with_elastic_state(naive.iter().map(|p| p.volume).collect());
-        particles.deformation_gradients = naive.iter().map(|p| p.deformation).collect();
-    }
+    let fields = Fields {
+        affine: T::AFFINE,
+        deforms: M::DEFORMS,
+    };
     let grid = SplineGrid::<S, W, D>::new([0.0; D], h).unwrap();
-    let mut mpm = Mpm::new(particles, grid, transfer, medium, body_force);
+    let mut mpm = Mpm::new(particles_of(&naive, fields), grid, transfer, medium, body_force);
     let mut control = free(dt);
     (control.friction, control.displacement) = (friction, displacement);
     for step in 0..STEPS {
@@ -78,31 +122,7 @@ fn agree<S: Spline<W>, T: Transfer<D>, M: Medium<D, State = ()>, const W: usize,
         naive_step(&mut naive, &grid, law, velocity, force, (dt, friction, displacement));
 
         let what = format!("{}, {velocity:?}, {law:?}, {force:?}, D = {D}, step {step}", S::NAME);
-        let close = |ours: f64, theirs: f64, field: &str| {
-            assert!(
-                (ours - theirs).abs() < 1e-12 * (1.0 + theirs.abs()),
-                "{what}: {field} {ours} for {theirs}"
-            );
-        };
-        let p = &mpm.particles;
-        let positions = p.in_creation_order(&p.positions);
-        let velocities = p.in_creation_order(&p.velocities);
-        let affine = p.in_creation_order(&p.affine);
-        let deformation = p.in_creation_order(&p.deformation_gradients);
-        for (k, expected) in naive.iter().enumerate() {
-            for a in 0..D {
-                close(positions[k][a], expected.x[a], "x");
-                close(velocities[k][a], expected.v[a], "v");
-                for b in 0..D {
-                    if T::AFFINE {
-                        close(affine[k].0[a][b], expected.affine.0[a][b], "B");
-                    }
-                    if M::DEFORMS {
-                        close(deformation[k].0[a][b], expected.deformation.0[a][b], "F");
-                    }
-                }
-            }
-        }
+        are_those_of(&naive, fields, &mpm.particles, &what);
     }
 }
 

@@ -96,9 +96,20 @@ fn integral<T: Target<N>, const N: usize, const D: usize>(
     step: f64,
     f: impl Fn(&[f64; N]) -> f64,
 ) -> f64 {
+    integrals(target, ranges, step, |x| [f(x)])[0]
+}
+
+/// The same of several functions at once.
+fn integrals<T: Target<N>, const N: usize, const D: usize, const K: usize>(
+    target: &ConstrainedTarget<T, N, D>,
+    ranges: [[f64; 2]; D],
+    step: f64,
+    f: impl Fn(&[f64; N]) -> [f64; K],
+) -> [f64; K] {
     let counts = ranges.map(|[low, high]| ((high - low) / step) as usize);
     let points: usize = counts.iter().product();
-    let value = |index: usize| {
+    let mut sums = [0.0; K];
+    for index in 0..points {
         let mut rest = index;
         let y = std::array::from_fn(|axis| {
             let node = rest % counts[axis];
@@ -107,12 +118,13 @@ fn integral<T: Target<N>, const N: usize, const D: usize>(
         });
         let weight = target.log_density(&y).exp();
         if weight > 0.0 {
-            weight * f(&target.constraints().constrain(&y))
-        } else {
-            0.0
+            let values = f(&target.constraints().constrain(&y));
+            for (sum, value) in sums.iter_mut().zip(values) {
+                *sum += weight * value;
+            }
         }
-    };
-    (0..points).map(value).sum::<f64>() * step.powi(D as i32)
+    }
+    sums.map(|sum| sum * step.powi(D as i32))
 }
 
 fn assert_close(value: f64, exact: f64, what: &str) {
@@ -208,11 +220,12 @@ fn correlation_matrices_have_the_volume_and_variance_of_lkj() {
         .build()
         .unwrap()
         .target(LkjFactor(2.0));
-    let constant = integral(&factors, range, 0.25, |_| 1.0);
-    let correlations: [fn(&[f64; 6]) -> f64; 3] = [|x| x[1], |x| x[3], |x| x[1] * x[3] + x[2] * x[4]];
-    for correlation in correlations {
-        let variance = integral(&factors, range, 0.25, |x| correlation(x).powi(2)) / constant;
-        assert_close(variance, 1.0 / 6.0, "variance");
+    let [constant, squares @ ..] = integrals(&factors, range, 0.25, |x| {
+        let last = x[1] * x[3] + x[2] * x[4];
+        [1.0, x[1] * x[1], x[3] * x[3], last * last]
+    });
+    for square in squares {
+        assert_close(square / constant, 1.0 / 6.0, "variance");
     }
 }
 

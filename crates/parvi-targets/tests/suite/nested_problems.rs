@@ -191,8 +191,8 @@ fn catalogue_states_evidence() {
             continue;
         };
         assert_eq!(target.log_evidence().is_some(), info.log_evidence, "{}", info.name);
-        // Random ones have a test of their own, and so have posteriors with ends or exponential tails.
-        let elsewhere = info.name == "random" || info.name.starts_with("sbibm-");
+        // Random ones have a test of their own, and so have posteriors with ends or exponential tails and what is much narrower than its domain.
+        let elsewhere = ["random", "eggbox", "spike-slab"].contains(&info.name) || info.name.starts_with("sbibm-");
         let Some(stated) = target.log_evidence().filter(|_| !elsewhere) else {
             continue;
         };
@@ -201,7 +201,7 @@ fn catalogue_states_evidence() {
             .map(|[low, high]| [low - 0.5 * (high - low), high + 0.5 * (high - low)]);
         // The midpoint rule has all digits of what is smooth where two points lie within a standard deviation.
         let count = match info.name {
-            "eggbox" | "funnel" | "spike-slab" => 2000,
+            "funnel" => 2000,
             _ => 800,
         };
         let found = log_integral(&*target, sides, count);

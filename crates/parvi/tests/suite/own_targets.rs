@@ -93,11 +93,11 @@ fn differences_do_as_well_as_the_score() {
 
 #[test]
 fn minibatches_of_a_large_regression_give_its_posterior() {
-    let data = RegressionData::synthetic(&[0.5, -1.0, 0.8], 10_000, 3).unwrap();
+    let data = RegressionData::synthetic(&[0.5, -1.0, 0.8], 5_000, 3).unwrap();
     let posterior = LogisticRegression::<3>::with_prior("synthetic", data, 10.0).unwrap();
     let frame = *posterior.laplace().frame();
     let minibatch = || {
-        MinibatchScore::new(&posterior, 500, 4)
+        MinibatchScore::new(&posterior, 250, 4)
             .unwrap()
             .with_control_variate(*frame.centre())
             .unwrap()

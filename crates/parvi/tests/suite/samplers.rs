@@ -50,7 +50,7 @@ fn same_seed_same_bits_on_any_number_of_threads() {
     let target = Banana::new(1.0, 0.5).expect("a banana");
     let methods = [
         Method::Mpm(MpmOptions {
-            steps: Some(12),
+            steps: Some(6),
             ..body_alone()
         }),
         Method::Mpm(MpmOptions {
@@ -60,7 +60,7 @@ fn same_seed_same_bits_on_any_number_of_threads() {
         }),
         Method::Paper(PaperOptions {
             affine: true,
-            steps: Some(12),
+            steps: Some(6),
             ..PaperOptions::default()
         }),
         Method::Svgd(SvgdOptions {
@@ -69,22 +69,23 @@ fn same_seed_same_bits_on_any_number_of_threads() {
         }),
     ];
     for method in methods {
-        let on = |threads: usize, seed: u64| {
-            // Enough for several parts; SVGD takes time by the square.
-            let particles = match &method {
-                Method::Svgd(_) => 2_000,
-                Method::Mpm(options) if options.survey => 2_000,
-                _ => 30_000,
-            };
+        // Enough for several parts; SVGD takes time by the square.
+        let many = match &method {
+            Method::Svgd(_) => 2_000,
+            Method::Mpm(options) if options.survey => 2_000,
+            Method::Paper(_) => 15_000,
+            _ => 25_000,
+        };
+        let on = |threads: usize, particles: usize, seed: u64| {
             let run = Run::new(particles, seed);
             on_threads(threads, || {
                 bits(&sample(&target, &method, &run, &mut Silent).expect("samples"))
             })
         };
-        let one = on(1, 9);
-        assert_eq!(one, on(2, 9), "{method:?}");
-        assert_eq!(one, on(3, 9), "{method:?}");
-        assert_ne!(one, on(1, 10), "another seed is another run");
+        let one = on(1, many, 9);
+        assert_eq!(one, on(2, many, 9), "{method:?}");
+        assert_eq!(one, on(3, many, 9), "{method:?}");
+        assert_ne!(on(1, 200, 9), on(1, 200, 10), "another seed is another run");
     }
 }
 

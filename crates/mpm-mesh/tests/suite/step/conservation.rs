@@ -91,7 +91,7 @@ proptest! {
 fn run<const D: usize, T: Transfer<D>>(cells: usize, count: usize, positive: bool, transfer: T) -> Vec<u64> {
     let mut body = body::<D, T>(cells, count, 0.6, 5, transfer);
     body.basis = body.basis.with_positive_weights(positive);
-    for _ in 0..3 {
+    for _ in 0..2 {
         body.step(&control(2e-3)).unwrap();
     }
     assert!(

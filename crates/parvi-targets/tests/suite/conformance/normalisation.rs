@@ -18,7 +18,11 @@ fn densities_of_the_plane_are_normalised() {
         "cross",
     ] {
         let target = target::<2>(name);
-        let count = 2000;
+        // All digits of what is smooth and not much narrower than its domain.
+        let count = match name {
+            "funnel" | "banana" | "rosenbrock" => 2000,
+            _ => 1000,
+        };
         let sides = target
             .domain()
             .map(|[low, high]| [low - 0.5 * (high - low), high + 0.5 * (high - low)]);

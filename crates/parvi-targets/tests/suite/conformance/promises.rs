@@ -8,16 +8,21 @@ use super::target;
 
 const DRAWS: usize = 40_000;
 
-/// Points to test at: draws, and points stretched away from the centre by up to a factor of 4.
-fn probes<const D: usize>(target: &dyn CatalogueTarget<D>) -> Vec<[f64; D]> {
+/// Draws of any target.
+fn some_draws<const D: usize>(target: &dyn CatalogueTarget<D>) -> Vec<[f64; D]> {
     let options = ReferenceOptions {
         points: 1 << 12,
         ..ReferenceOptions::default()
     };
-    let draws = reference_draws(target, 60, &options).unwrap();
+    reference_draws(target, 2000, &options).unwrap()
+}
+
+/// Points to test at: some of the draws, and points stretched away from the centre by up to a factor of 4.
+fn probes<const D: usize>(target: &dyn CatalogueTarget<D>, draws: &[[f64; D]]) -> Vec<[f64; D]> {
     let frame = target.frame();
     draws
         .iter()
+        .step_by(draws.len() / 60)
         .enumerate()
         .map(|(index, x)| {
             let stretch = [1.0, 1.5, 4.0][index % 3];
@@ -28,9 +33,13 @@ fn probes<const D: usize>(target: &dyn CatalogueTarget<D>) -> Vec<[f64; D]> {
 
 /// Central differences of fourth order, in the units of the frame.
 pub fn score_is_the_gradient<const D: usize>(target: &dyn CatalogueTarget<D>) {
+    score_is_the_gradient_at(target, &probes(target, &some_draws(target)));
+}
+
+fn score_is_the_gradient_at<const D: usize>(target: &dyn CatalogueTarget<D>, probes: &[[f64; D]]) {
     let frame = target.frame();
-    for x in probes(target) {
-        let score = target.score(&x);
+    for x in probes {
+        let score = target.score(x);
         let size = score
             .iter()
             .enumerate()
@@ -39,13 +48,13 @@ pub fn score_is_the_gradient<const D: usize>(target: &dyn CatalogueTarget<D>) {
         for axis in 0..D {
             let step = 1e-3 * scale(&frame, axis);
             let at = |multiple: f64| {
-                let mut moved = x;
+                let mut moved = *x;
                 moved[axis] += multiple * step;
                 target.log_density(&moved)
             };
             let slope = (8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / (12.0 * step);
             // Rounding of the density over the step, and the fifth derivative of the stiffest target.
-            let tolerance = 1e-7 * size + 4e-12 * target.log_density(&x).abs();
+            let tolerance = 1e-7 * size + 4e-12 * target.log_density(x).abs();
             let error = (slope - score[axis]).abs() * scale(&frame, axis);
             assert!(
                 error < tolerance,
@@ -61,12 +70,11 @@ fn scale<const D: usize>(frame: &parvi_targets::Frame<D>, axis: usize) -> f64 {
     frame.covariance().0[axis][axis].sqrt()
 }
 
-fn batches_agree_with_single_points<const D: usize>(target: &dyn CatalogueTarget<D>) {
-    let xs = probes(target);
+fn batches_agree_with_single_points<const D: usize>(target: &dyn CatalogueTarget<D>, xs: &[[f64; D]]) {
     let mut scores = vec![[0.0; D]; xs.len()];
     let mut log_densities = vec![0.0; xs.len()];
-    target.scores(&xs, &mut scores);
-    target.log_densities(&xs, &mut log_densities);
+    target.scores(xs, &mut scores);
+    target.log_densities(xs, &mut log_densities);
     let frame = target.frame();
     for ((x, score), log_density) in xs.iter().zip(&scores).zip(&log_densities) {
         let single = frame.pull_back_score(&target.score(x));
@@ -159,15 +167,10 @@ fn transported_points_have_the_moments<const D: usize>(target: &dyn CatalogueTar
     }
 }
 
-fn frame_and_domain_fit<const D: usize>(target: &dyn CatalogueTarget<D>) {
+fn frame_and_domain_fit<const D: usize>(target: &dyn CatalogueTarget<D>, draws: &[[f64; D]]) {
     let (frame, domain) = (target.frame(), target.domain());
-    let options = ReferenceOptions {
-        points: 1 << 13,
-        ..ReferenceOptions::default()
-    };
-    let draws = reference_draws(target, 4000, &options).unwrap();
     let mut inside = 0;
-    for x in &draws {
+    for x in draws {
         let back = frame.to_target(&frame.to_reference(x));
         for axis in 0..D {
             assert!((back[axis] - x[axis]).abs() <= 1e-12 * (1.0 + x[axis].abs()));
@@ -235,16 +238,21 @@ pub fn conforms<const D: usize>(name: &str) {
 
 /// Any target.
 pub fn conforming<const D: usize>(target: &dyn CatalogueTarget<D>) {
-    score_is_the_gradient(target);
-    conforming_but_for_the_gradient(target);
+    let draws = some_draws(target);
+    score_is_the_gradient_at(target, &probes(target, &draws));
+    all_but_the_gradient(target, &draws);
 }
 
 /// Targets with structure much finer than their frame, whose scores have tests of their own.
 pub fn conforming_but_for_the_gradient<const D: usize>(target: &dyn CatalogueTarget<D>) {
-    batches_agree_with_single_points(target);
+    all_but_the_gradient(target, &some_draws(target));
+}
+
+fn all_but_the_gradient<const D: usize>(target: &dyn CatalogueTarget<D>, draws: &[[f64; D]]) {
+    batches_agree_with_single_points(target, &probes(target, draws));
     draws_have_the_moments(target);
     transported_points_have_the_moments(target);
-    frame_and_domain_fit(target);
+    frame_and_domain_fit(target, draws);
     modes_are_a_partition(target);
     far_scores_are_finite(target);
 }
