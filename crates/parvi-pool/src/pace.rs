@@ -2,20 +2,36 @@
 
 use std::time::Duration;
 
+/// Points of one task at most.
+pub(super) const BATCH: usize = 256;
+
 /// How long one task is to take: long beside what it takes to begin one.
 const TASK: Duration = Duration::from_millis(1);
 
-/// The pace of one kind of evaluation, at first of points that take no time.
-#[derive(Clone, Copy, Debug, Default)]
+/// A point may take so many times as long in a smaller task as in a larger one. Where it takes longer, batches are cheaper than their parts (matrix products).
+const DEARER: u32 = 2;
+
+/// The pace of a density, at first of points that take no time.
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Pace {
     /// Time that a point takes one thread.
     point: Duration,
+    /// Points of one task at least.
+    least: usize,
 }
 
 impl Pace {
-    /// Points of one task, at least one.
+    /// Of a density that has not been evaluated.
+    pub fn unknown() -> Self {
+        Self {
+            point: Duration::ZERO,
+            least: 1,
+        }
+    }
+
+    /// Points of one task.
     pub fn task(self) -> usize {
-        times(TASK, self.point)
+        times(TASK, self.point).clamp(self.least, BATCH)
     }
 
     /// Points that all threads together evaluate within a time, at least one each.
@@ -23,11 +39,19 @@ impl Pace {
         times(time, self.point).saturating_mul(mpm_parallel::threads())
     }
 
-    /// So many points, in tasks of so many, took so long.
+    /// So many points, in tasks of so many, took so long. What a part of a task takes says nothing of a point.
     pub fn took(&mut self, points: usize, task: usize, time: Duration) {
+        if points < task {
+            return;
+        }
         let side_by_side = points.div_ceil(task).min(mpm_parallel::threads());
-        let [points, side_by_side] = [points, side_by_side].map(|count| u32::try_from(count).unwrap_or(u32::MAX));
-        self.point = time.saturating_mul(side_by_side) / points.max(1);
+        let [count, side_by_side] = [points, side_by_side].map(|count| u32::try_from(count).unwrap_or(u32::MAX));
+        let point = time.saturating_mul(side_by_side) / count.max(1);
+        if task < BATCH && point > DEARER * self.point {
+            self.least = BATCH;
+        } else {
+            self.point = point;
+        }
     }
 }
 
@@ -41,15 +65,37 @@ fn times(whole: Duration, part: Duration) -> usize {
 mod tests {
     use super::*;
 
+    /// What a task takes on one thread, for a number of points that fills all.
+    fn timed(pace: &mut Pace, task: Duration) {
+        let (points, threads) = (pace.task() * mpm_parallel::threads(), mpm_parallel::threads());
+        assert_eq!(points.div_ceil(pace.task()), threads);
+        pace.took(points, pace.task(), task);
+    }
+
     #[test]
     fn of_what_takes_long_there_is_little_at_a_time() {
-        let threads = mpm_parallel::threads();
-        let mut pace = Pace::default();
-        assert!(pace.task() >= 1_000_000);
-        // 2,000 points of 50 µs.
-        pace.took(2000, 2000, Duration::from_millis(100));
-        assert_eq!((pace.task(), pace.within(TASK)), (20, 20 * threads));
-        pace.took(3, 1, Duration::from_secs(3));
-        assert_eq!((pace.task(), pace.within(TASK)), (1, threads));
+        let mut pace = Pace::unknown();
+        assert_eq!(pace.task(), BATCH);
+        // 50 µs a point.
+        timed(&mut pace, Duration::from_micros(50 * 256));
+        assert_eq!((pace.task(), pace.within(TASK)), (20, 20 * mpm_parallel::threads()));
+        timed(&mut pace, Duration::from_micros(50 * 20));
+        assert_eq!(pace.task(), 20);
+        // Part of a batch.
+        pace.took(3, 20, Duration::from_secs(1));
+        assert_eq!(pace.task(), 20);
+    }
+
+    #[test]
+    fn a_batch_that_is_cheaper_than_its_parts_stays_whole() {
+        let mut pace = Pace::unknown();
+        let batch = Duration::from_millis(20);
+        timed(&mut pace, batch);
+        assert!(pace.task() < BATCH);
+        // As long for fewer points.
+        timed(&mut pace, batch);
+        assert_eq!(pace.task(), BATCH);
+        timed(&mut pace, batch);
+        assert_eq!(pace.task(), BATCH);
     }
 }

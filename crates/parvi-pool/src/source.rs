@@ -8,9 +8,6 @@ use crate::options::{PoolError, Round};
 use crate::pace::Pace;
 use crate::report::{Observer, Report};
 
-/// Points that one task evaluates at most.
-const BATCH: usize = 256;
-
 /// How long an observer waits for news, unless a batch takes longer.
 const SILENCE: Duration = Duration::from_millis(100);
 
@@ -37,8 +34,8 @@ pub(super) struct Source<'a, const D: usize> {
     observer: Option<&'a mut Observer<'a>>,
     told: Instant,
     stopped: bool,
-    /// Of both kinds.
-    paces: [Pace; 2],
+    /// Of densities, which scores keep as well.
+    pace: Pace,
 }
 
 impl<'a, const D: usize> Source<'a, D> {
@@ -53,7 +50,7 @@ impl<'a, const D: usize> Source<'a, D> {
             observer,
             told: Instant::now(),
             stopped: false,
-            paces: [Pace::default(); 2],
+            pace: Pace::unknown(),
         }
     }
 
@@ -107,10 +104,9 @@ impl<'a, const D: usize> Source<'a, D> {
         values.resize(xs.len() * width, f64::NAN);
         let is_one_call = matches!(kind, Kind::Score) && self.target.scores_depend_on_calls();
         while known < xs.len() && !self.stopped {
-            let pace = self.paces[kind as usize];
             let (stretch, batch) = match is_one_call {
                 true => (xs.len(), xs.len()),
-                false => (pace.within(SILENCE), pace.task().min(BATCH)),
+                false => (self.pace.within(SILENCE), self.pace.task()),
             };
             let next = xs.len().min(known.saturating_add(stretch));
             let stretch = &mut values[width * known..width * next];
@@ -128,7 +124,9 @@ impl<'a, const D: usize> Source<'a, D> {
             Kind::Density => target.log_densities(xs, values),
             Kind::Score => target.scores(xs, values.as_chunks_mut().0),
         });
-        self.paces[kind as usize].took(xs.len(), batch, begin.elapsed());
+        if matches!(kind, Kind::Density) {
+            self.pace.took(xs.len(), batch, begin.elapsed());
+        }
         self.tape.extend_from_slice(values);
         self.read += values.len();
         self.evaluations += xs.len() as u64;
@@ -155,6 +153,7 @@ mod tests {
     use std::sync::Mutex;
 
     use super::*;
+    use crate::pace::BATCH;
 
     /// Notes how many points every call for scores has.
     struct Calls(Mutex<Vec<usize>>, bool);
