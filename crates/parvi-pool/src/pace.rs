@@ -8,7 +8,8 @@ pub(super) const BATCH: usize = 256;
 /// How long one task is to take: long beside what it takes to begin one.
 const TASK: Duration = Duration::from_millis(1);
 
-/// A point may take so many times as long in a smaller task as in a larger one. Where it takes longer, batches are cheaper than their parts (matrix products).
+/// A point may take so many times as long in a smaller task as in a larger one. Where it takes longer twice on end, batches are cheaper than their parts (matrix products); once it may be
+/// for other reasons (a program that begins).
 const DEARER: u32 = 2;
 
 /// The pace of a density, at first of points that take no time.
@@ -18,6 +19,8 @@ pub(super) struct Pace {
     point: Duration,
     /// Points of one task at least.
     least: usize,
+    /// Whether the last time was longer than it should have been.
+    is_doubtful: bool,
 }
 
 impl Pace {
@@ -26,6 +29,7 @@ impl Pace {
         Self {
             point: Duration::ZERO,
             least: 1,
+            is_doubtful: false,
         }
     }
 
@@ -34,9 +38,11 @@ impl Pace {
         times(TASK, self.point).clamp(self.least, BATCH)
     }
 
-    /// Points that all threads together evaluate within a time, at least one each.
+    /// Points that all threads together evaluate within a time, at least a task each.
     pub fn within(self, time: Duration) -> usize {
-        times(time, self.point).saturating_mul(mpm_parallel::threads())
+        times(time, self.point)
+            .max(self.task())
+            .saturating_mul(mpm_parallel::threads())
     }
 
     /// So many points, in tasks of so many, took so long. What a part of a task takes says nothing of a point.
@@ -47,11 +53,14 @@ impl Pace {
         let side_by_side = points.div_ceil(task).min(mpm_parallel::threads());
         let [count, side_by_side] = [points, side_by_side].map(|count| u32::try_from(count).unwrap_or(u32::MAX));
         let point = time.saturating_mul(side_by_side) / count.max(1);
-        if task < BATCH && point > DEARER * self.point {
+        let is_dearer = task < BATCH && point > DEARER * self.point;
+        if is_dearer && self.is_doubtful {
             self.least = BATCH;
-        } else {
+        }
+        if !is_dearer {
             self.point = point;
         }
+        self.is_doubtful = is_dearer;
     }
 }
 
@@ -93,6 +102,8 @@ mod tests {
         timed(&mut pace, batch);
         assert!(pace.task() < BATCH);
         // As long for fewer points.
+        timed(&mut pace, batch);
+        assert!(pace.task() < BATCH);
         timed(&mut pace, batch);
         assert_eq!(pace.task(), BATCH);
         timed(&mut pace, batch);
