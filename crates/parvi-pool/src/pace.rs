@@ -33,9 +33,10 @@ impl Pace {
         }
     }
 
-    /// Points of one task.
+    /// Points of one task, a power of two: batches are padded to such.
     pub fn task(self) -> usize {
-        times(TASK, self.point).clamp(self.least, BATCH)
+        let task = times(TASK, self.point).clamp(self.least, BATCH);
+        1 << task.ilog2()
     }
 
     /// Points that all threads together evaluate within a time, at least a task each.
@@ -87,12 +88,12 @@ mod tests {
         assert_eq!(pace.task(), BATCH);
         // 50 µs a point.
         timed(&mut pace, Duration::from_micros(50 * 256));
-        assert_eq!((pace.task(), pace.within(TASK)), (20, 20 * mpm_parallel::threads()));
-        timed(&mut pace, Duration::from_micros(50 * 20));
-        assert_eq!(pace.task(), 20);
+        assert_eq!((pace.task(), pace.within(TASK)), (16, 20 * mpm_parallel::threads()));
+        timed(&mut pace, Duration::from_micros(50 * 16));
+        assert_eq!(pace.task(), 16);
         // Part of a batch.
-        pace.took(3, 20, Duration::from_secs(1));
-        assert_eq!(pace.task(), 20);
+        pace.took(3, 16, Duration::from_secs(1));
+        assert_eq!(pace.task(), 16);
     }
 
     #[test]
