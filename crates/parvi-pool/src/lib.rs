@@ -24,7 +24,6 @@ mod mixture;
 mod neighbours;
 mod options;
 mod order;
-mod pace;
 mod pareto;
 mod peaks;
 mod pieces;

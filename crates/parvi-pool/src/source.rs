@@ -5,7 +5,6 @@ use std::time::{Duration, Instant};
 use parvi_targets::Target;
 
 use crate::options::{PoolError, Round};
-use crate::pace::Pace;
 use crate::report::{Observer, Report};
 
 /// How long an observer waits for news, unless a batch takes longer.
@@ -34,8 +33,8 @@ pub(super) struct Source<'a, const D: usize> {
     observer: Option<&'a mut Observer<'a>>,
     told: Instant,
     stopped: bool,
-    /// Of densities, which scores keep as well.
-    pace: Pace,
+    /// How long a point took last, by all threads.
+    point: Duration,
 }
 
 impl<'a, const D: usize> Source<'a, D> {
@@ -50,7 +49,7 @@ impl<'a, const D: usize> Source<'a, D> {
             observer,
             told: Instant::now(),
             stopped: false,
-            pace: Pace::unknown(),
+            point: Duration::ZERO,
         }
     }
 
@@ -102,18 +101,24 @@ impl<'a, const D: usize> Source<'a, D> {
         let mut known = values.len() / width;
         self.evaluations += known as u64;
         values.resize(xs.len() * width, f64::NAN);
-        let is_one_call = matches!(kind, Kind::Score) && self.target.scores_depend_on_calls();
+        let batch = match kind {
+            Kind::Score if self.target.scores_depend_on_calls() => xs.len(),
+            _ => self.target.points_per_call().max(1),
+        };
         while known < xs.len() && !self.stopped {
-            let (stretch, batch) = match is_one_call {
-                true => (xs.len(), xs.len()),
-                false => (self.pace.within(SILENCE), self.pace.task()),
-            };
-            let next = xs.len().min(known.saturating_add(stretch));
+            let next = xs.len().min(known.saturating_add(self.stretch(batch)));
             let stretch = &mut values[width * known..width * next];
             self.evaluate(kind, &xs[known..next], stretch, batch);
             known = next;
         }
         values
+    }
+
+    /// Points until the observer is due, but for every thread a batch at least.
+    fn stretch(&self, batch: usize) -> usize {
+        let points = SILENCE.as_nanos() / self.point.as_nanos().max(1);
+        let points = usize::try_from(points).unwrap_or(usize::MAX);
+        points.max(batch.saturating_mul(mpm_parallel::threads()))
     }
 
     /// Evaluates a stretch of points, batches side by side, puts it on the tape, and tells of it if it is time.
@@ -124,9 +129,7 @@ impl<'a, const D: usize> Source<'a, D> {
             Kind::Density => target.log_densities(xs, values),
             Kind::Score => target.scores(xs, values.as_chunks_mut().0),
         });
-        if matches!(kind, Kind::Density) {
-            self.pace.took(xs.len(), batch, begin.elapsed());
-        }
+        self.point = begin.elapsed() / u32::try_from(xs.len()).unwrap_or(u32::MAX);
         self.tape.extend_from_slice(values);
         self.read += values.len();
         self.evaluations += xs.len() as u64;
@@ -153,9 +156,8 @@ mod tests {
     use std::sync::Mutex;
 
     use super::*;
-    use crate::pace::BATCH;
 
-    /// Notes how many points every call for scores has.
+    /// Notes how many points every call for scores has: 100 at most, or all where calls count.
     struct Calls(Mutex<Vec<usize>>, bool);
 
     impl Target<1> for Calls {
@@ -164,6 +166,9 @@ mod tests {
         }
         fn score(&self, x: &[f64; 1]) -> [f64; 1] {
             [-x[0]]
+        }
+        fn points_per_call(&self) -> usize {
+            100
         }
         fn scores_depend_on_calls(&self) -> bool {
             self.1
@@ -179,14 +184,14 @@ mod tests {
     }
 
     #[test]
-    fn scores_that_depend_on_calls_are_asked_for_in_one() {
-        let points: Vec<[f64; 1]> = (0..3 * BATCH).map(|n| [n as f64]).collect();
+    fn calls_have_as_many_points_as_the_target_asks_for() {
+        let points: Vec<[f64; 1]> = (0..300).map(|n| [f64::from(n)]).collect();
         let calls = |depends| {
             let target = Calls(Mutex::default(), depends);
             let scores = Source::new(&target, Vec::new(), None).scores(&points);
             assert!(scores.iter().zip(&points).all(|(score, x)| score[0] == -x[0]));
-            target.0.into_inner().unwrap_or_default().len()
+            target.0.into_inner().unwrap_or_default()
         };
-        assert_eq!((calls(true), calls(false)), (1, 3));
+        assert_eq!((calls(true), calls(false)), (vec![300], vec![100; 3]));
     }
 }

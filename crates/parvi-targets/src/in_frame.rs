@@ -23,6 +23,10 @@ impl<const D: usize> Target<D> for InFrame<D> {
         self.target.has_log_density()
     }
 
+    fn points_per_call(&self) -> usize {
+        self.target.points_per_call()
+    }
+
     fn scores_depend_on_calls(&self) -> bool {
         self.target.scores_depend_on_calls()
     }

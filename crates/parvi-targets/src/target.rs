@@ -20,6 +20,14 @@ pub trait Target<const D: usize>: Sync {
         true
     }
 
+    /// Points that [`scores`](Self::scores) and [`log_densities`](Self::log_densities) are given in one call, at most; calls run side by side.
+    ///
+    /// Override it with 1 where a point takes a millisecond or longer (a simulation): every thread then has its share of few points, and an observer is heard between any two. Where batches are cheaper
+    /// than their parts, the default is enough.
+    fn points_per_call(&self) -> usize {
+        256
+    }
+
     /// Whether a score depends on how many calls were made before ([`MinibatchScore`](crate::MinibatchScore)). Points that belong together are then asked for in one call, by one thread,
     /// so that calls follow each other alike on any number of threads.
     fn scores_depend_on_calls(&self) -> bool {
@@ -60,6 +68,10 @@ impl<T: Target<D> + ?Sized, const D: usize> Target<D> for &T {
 
     fn has_log_density(&self) -> bool {
         (**self).has_log_density()
+    }
+
+    fn points_per_call(&self) -> usize {
+        (**self).points_per_call()
     }
 
     fn scores_depend_on_calls(&self) -> bool {

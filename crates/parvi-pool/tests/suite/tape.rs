@@ -63,6 +63,9 @@ impl Target<2> for Dear {
     fn score(&self, x: &[f64; 2]) -> [f64; 2] {
         self.0.score(x)
     }
+    fn points_per_call(&self) -> usize {
+        1
+    }
 }
 
 #[test]

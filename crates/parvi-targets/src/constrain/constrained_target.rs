@@ -41,6 +41,14 @@ impl<T: Target<N>, const N: usize, const D: usize> Target<D> for ConstrainedTarg
         self.constraints.pull_back_score_at(y, &x, &self.density.score(&x))
     }
 
+    fn points_per_call(&self) -> usize {
+        self.density.points_per_call()
+    }
+
+    fn scores_depend_on_calls(&self) -> bool {
+        self.density.scores_depend_on_calls()
+    }
+
     /// One batch of the density's.
     fn scores(&self, ys: &[[f64; D]], out: &mut [[f64; D]]) {
         let xs = self.constraints.constrain_all(ys);

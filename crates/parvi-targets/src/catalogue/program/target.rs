@@ -87,6 +87,11 @@ impl<const D: usize> Target<D> for ProgramTarget<D> {
         score[0]
     }
 
+    /// A program may take long, and asking costs little.
+    fn points_per_call(&self) -> usize {
+        1
+    }
+
     fn scores(&self, xs: &[[f64; D]], out: &mut [[f64; D]]) {
         if self.has_score {
             out.as_flattened_mut()
