@@ -131,6 +131,14 @@ pub fn sample(
     on_target!(target, target, D => sample_target::<D>(target.as_ref(), method, run, observer))
 }
 
+/// What work with a target has given, unless the target has failed meanwhile: then everything rests on values that are none.
+pub fn unless_failed<T, const D: usize>(
+    target: &dyn CatalogueTarget<D>,
+    worked: Result<T, CommandError>,
+) -> Result<T, CommandError> {
+    target.fault().map_or(worked, |fault| Err(fault.into()))
+}
+
 /// Samples a target that is already built.
 pub fn sample_target<const D: usize>(
     target: &(dyn CatalogueTarget<D> + Sync),
@@ -140,10 +148,7 @@ pub fn sample_target<const D: usize>(
 ) -> Result<Outcome, CommandError> {
     let begin = Instant::now();
     let samples = parvi::sample::<D>(target, method, run, observer);
-    if let Some(fault) = target.fault() {
-        return Err(fault.into());
-    }
-    let samples = samples?;
+    let samples = unless_failed(target, samples.map_err(CommandError::from))?;
     let wall_seconds = begin.elapsed().as_secs_f64();
     let evidence = samples.log_evidence.zip(target.log_evidence());
     let mut outcome = Outcome {

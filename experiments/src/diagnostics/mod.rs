@@ -14,7 +14,7 @@ use crate::CommandError;
 use crate::dispatch::on_target;
 use crate::options::TargetSpecification;
 use crate::output::Particles;
-use crate::sampling::Outcome;
+use crate::sampling::{Outcome, unless_failed};
 
 /// Levels of the quantiles.
 const LEVELS: [f64; 7] = [0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99];
@@ -104,7 +104,7 @@ pub fn diagnose(
     outcome: &Outcome,
     names: &[String],
 ) -> Result<Diagnostics, CommandError> {
-    on_target!(target, target, D => of_target::<D>(target.as_ref(), outcome, names))
+    on_target!(target, target, D => unless_failed::<_, D>(target.as_ref(), of_target::<D>(target.as_ref(), outcome, names)))
 }
 
 fn of_target<const D: usize>(

@@ -7,7 +7,12 @@ use crate::support::{assert_refused, command, files, stderr, value};
 
 /// Samples what a program says in two dimensions, on so many threads, into x.csv.
 fn sample(directory: &Path, program: &str, threads: &str) -> Output {
-    let line = "sample --target program --dim 2 --particles 500 --out x.csv --program";
+    sample_with("", directory, program, threads)
+}
+
+/// The same with flags.
+fn sample_with(flags: &str, directory: &Path, program: &str, threads: &str) -> Output {
+    let line = format!("sample --target program --dim 2 --particles 500 --out x.csv {flags} --program");
     let arguments = line.split_whitespace().chain([program]);
     let mut command = command();
     command.current_dir(directory).env("RAYON_NUM_THREADS", threads);
@@ -63,4 +68,18 @@ fn what_is_wrong_with_a_program_is_said_with_the_question() {
         assert_refused(&sample(directory.path(), program, "2"), &parts);
         assert_eq!(files(directory.path()), [""; 0], "{program}");
     }
+}
+
+/// The program that diagnostics start anew is a failing one.
+#[test]
+fn a_program_that_fails_after_the_run_leaves_no_diagnostics() {
+    let Some(program) = shown() else {
+        return;
+    };
+    let failing = "if [ -e begun ]; then read x; echo 0; read x; echo 0 0; exit 5; fi";
+    let program = format!("{failing}; : > begun; exec {program}");
+    let directory = tempfile::tempdir().unwrap();
+    let output = sample_with("--diagnostics x.json", directory.path(), &program, "1");
+    assert_refused(&output, &["ended (exit status: 5) without an answer to `score "]);
+    assert_eq!(files(directory.path()), ["begun", "x.csv"]);
 }
