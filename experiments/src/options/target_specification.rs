@@ -123,22 +123,22 @@ impl TargetSpecification {
             label.push_str(&format!("-d{dim}"));
         }
         for (name, value) in self.parameters.to_catalogue().given() {
-            let symbol = match name {
-                "data" | "program" => "",
-                "correlation" => "r",
-                "curvature" => "b",
-                "width" => "w",
-                "spread" => "s",
-                "degrees-of-freedom" => "nu",
-                "prior-sd" => "sd",
-                "target-seed" => "seed",
-                name => name,
+            let (symbol, value) = match name {
+                "data" => {
+                    let stem = Path::new(&value).file_stem();
+                    let stem = stem.map(|stem| stem.to_string_lossy().into_owned());
+                    ("", stem.unwrap_or(value))
+                }
+                "program" => ("", value.replace(|letter: char| !letter.is_alphanumeric(), "-")),
+                "correlation" => ("r", value),
+                "curvature" => ("b", value),
+                "width" => ("w", value),
+                "spread" => ("s", value),
+                "degrees-of-freedom" => ("nu", value),
+                "prior-sd" => ("sd", value),
+                "target-seed" => ("seed", value),
+                name => (name, value),
             };
-            let stem = Path::new(&value).file_stem().filter(|_| name == "data");
-            let mut value = stem.map_or(value.clone(), |stem| stem.to_string_lossy().into_owned());
-            if name == "program" {
-                value = value.replace(|letter: char| !letter.is_alphanumeric(), "-");
-            }
             label.push_str(&format!("-{symbol}{value}"));
         }
         label
