@@ -115,6 +115,7 @@ impl<'a, const D: usize> Density<'a, D> {
             points: self.density_evaluations,
             finite: self.finite,
             undefined: self.undefined,
+            scores: self.score_evaluations,
         }
     }
 

@@ -167,6 +167,8 @@ pub enum PoolError {
         finite: u64,
         /// Those at which it was NaN or +∞; at the others it was −∞.
         undefined: u64,
+        /// Points at which the score was evaluated.
+        scores: u64,
     },
     /// The observer stopped the exploration.
     #[error("interrupted after round {round}")]

@@ -39,6 +39,7 @@ mod strays;
 mod support_points;
 mod surveyed;
 mod svgd;
+mod tails;
 mod task;
 mod view;
 mod watching;

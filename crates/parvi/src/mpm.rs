@@ -6,6 +6,7 @@ use crate::cached_scores::CachedScores;
 use crate::checkpoint::Journal;
 use crate::mpm_body::Motion;
 use crate::start::positive;
+use crate::surveyed::Spent;
 use crate::task::Task;
 use crate::{MpmOptions, SampleError, Samples, ScoreLocation, free_body, surveyed};
 
@@ -25,34 +26,38 @@ pub(crate) fn sample<const D: usize>(options: &MpmOptions, mut task: Task<'_, D>
         return surveyed::sample_as_it_is(options, &mut task, &mut journal);
     }
     let mut nowhere = None;
-    let known = if surveys {
+    let mut spent = Spent::default();
+    if surveys {
         match surveyed::sample(options, &mut task, &mut journal) {
             // A body may find what is too far for a survey.
-            Err(SampleError::Pool(error @ PoolError::NowhereFinite { .. })) => {
+            Err(SampleError::Pool(error @ PoolError::NowhereFinite { points, scores, .. })) => {
                 nowhere = Some(error);
-                None
+                spent = Spent {
+                    densities: points,
+                    scores,
+                };
             }
-            known => known?,
+            known => match known? {
+                Ok(samples) => return Ok(samples),
+                Err(in_vain) => spent = in_vain,
+            },
         }
-    } else {
-        None
-    };
-    match known {
-        Some(samples) => Ok(samples),
-        None if caches => {
-            let cached = CachedScores::new(target, frame, options.non_finite_scores, &journal.tape())?;
-            journal.keep_evaluations(cached.tape());
-            let task = task.of(&cached);
-            free_body::sample(options, task, Some(&cached), &mut journal)
-        }
-        None => {
-            let has_mass = |x: &[f64; D]| target.log_density(x).is_finite();
-            match (free_body::sample(options, task, None, &mut journal), nowhere) {
-                // Where no density is finite, a score that is none is no news, and neither has the body found one.
-                (Err(SampleError::ScoreNotFinite { .. }), Some(nowhere)) => Err(nowhere.into()),
-                (Ok(samples), Some(nowhere)) if !samples.positions.iter().any(has_mass) => Err(nowhere.into()),
-                (sampled, _) => sampled,
-            }
-        }
+    }
+    if caches {
+        let cached = CachedScores::new(target, frame, options.non_finite_scores, &journal.tape())?;
+        journal.keep_evaluations(cached.tape());
+        return free_body::sample(options, task.of(&cached), Some(&cached), &mut journal);
+    }
+    let has_mass = |x: &[f64; D]| target.log_density(x).is_finite();
+    match (free_body::sample(options, task, None, &mut journal), nowhere) {
+        // Where no density is finite, a score that is none is no news, and neither has the body found one.
+        (Err(SampleError::ScoreNotFinite { .. }), Some(nowhere)) => Err(nowhere.into()),
+        (Ok(samples), Some(nowhere)) if !samples.positions.iter().any(has_mass) => Err(nowhere.into()),
+        (Ok(samples), _) => Ok(Samples {
+            density_evaluations: samples.density_evaluations + spent.densities,
+            score_evaluations: samples.score_evaluations + spent.scores,
+            ..samples
+        }),
+        (refused, _) => refused,
     }
 }

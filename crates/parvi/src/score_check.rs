@@ -32,7 +32,7 @@ impl ScoreCheck {
     /// No error is found where no two differences agree, where log p is finite about fewer than half of the points, or where scores are estimates, which another call changes.
     pub fn of<const D: usize>(target: &dyn Target<D>, pool: &Pool<D>, rng: &mut ChaCha8Rng) -> Self {
         let factor = *pool.measure.frame().factor();
-        let points = drawn(pool, rng.random());
+        let points = drawn(pool, POINTS, rng.random());
         let direction = |_: &[f64; D]| {
             let z = std::array::from_fn(|_| normal_quantile(rng.random_range(1e-9..1.0)));
             factor.apply(&vector::scale(&z, 1.0 / vector::norm(&z).max(f64::MIN_POSITIVE)))
@@ -66,13 +66,13 @@ fn error(slopes: &[f64], differences: &[Vec<f64>], points: &[usize]) -> Option<f
     (least > LARGEST && differences.array_windows().any(agree)).then_some(least)
 }
 
-/// Points of equal shares of the weights.
-fn drawn<const D: usize>(pool: &Pool<D>, offset: f64) -> Vec<[f64; D]> {
+/// So many points, of equal shares of the weights.
+pub(crate) fn drawn<const D: usize>(pool: &Pool<D>, count: usize, offset: f64) -> Vec<[f64; D]> {
     let mut sum = 0.0;
-    let mut points = Vec::with_capacity(POINTS);
+    let mut points = Vec::with_capacity(count);
     for (x, weight) in pool.positions.iter().zip(&pool.weights) {
         sum += weight;
-        while points.len() < POINTS && sum * POINTS as f64 > points.len() as f64 + offset {
+        while points.len() < count && sum * count as f64 > points.len() as f64 + offset {
             points.push(*x);
         }
     }

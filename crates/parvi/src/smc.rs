@@ -156,5 +156,6 @@ fn nowhere_finite<const D: usize>(
         points,
         finite: 0,
         undefined,
+        scores: 0,
     })
 }

@@ -8,11 +8,12 @@ use mpm_tensor::Matrix;
 use parvi_pool::{Kernel, Mixture, Pool, PoolError, PoolOptions, Report, Round, explore};
 use rand::RngExt;
 
-use crate::certificate::Certificate;
+use crate::certificate::{Certificate, Doubt};
 use crate::checkpoint::Journal;
 use crate::polish::{Polish, Polished};
 use crate::score_check::ScoreCheck;
 use crate::start::Stream;
+use crate::tails::Tails;
 use crate::task::Task;
 use crate::{MpmOptions, Progress, SampleError, Samples, Start, defaults};
 
@@ -22,18 +23,29 @@ const WORTHLESS: f64 = 30.0;
 /// How long evaluations may be without a place in the checkpoint.
 const UNKEPT: Duration = Duration::from_secs(5);
 
-/// `None` where what was weighed is worth nothing.
+/// What a survey took that is worth nothing.
+#[derive(Default)]
+pub(crate) struct Spent {
+    pub densities: u64,
+    pub scores: u64,
+}
+
+/// Only what it took where what was weighed is worth nothing, unless log p does not fall off: then a body would find no end either.
 pub(crate) fn sample<const D: usize>(
     options: &MpmOptions,
     task: &mut Task<'_, D>,
     journal: &mut Journal,
-) -> Result<Option<Samples<D>>, SampleError> {
+) -> Result<Result<Samples<D>, Spent>, SampleError> {
     let pool = surveyed(options, task, journal)?;
+    let tails = Tails::of(task.target, task.frame, &pool);
     let is_known = pool.measure.variance * (weighed_for(task) as f64) < WORTHLESS;
-    if is_known {
-        condensed(options, task, journal, pool).map(Some)
+    if is_known || tails.endless.is_some() {
+        condensed(options, task, journal, pool, tails).map(Ok)
     } else {
-        Ok(None)
+        Ok(Err(Spent {
+            densities: pool.density_evaluations + tails.densities,
+            scores: pool.score_evaluations,
+        }))
     }
 }
 
@@ -44,7 +56,8 @@ pub(crate) fn sample_as_it_is<const D: usize>(
     journal: &mut Journal,
 ) -> Result<Samples<D>, SampleError> {
     let pool = surveyed(options, task, journal)?;
-    condensed(options, task, journal, pool)
+    let tails = Tails::of(task.target, task.frame, &pool);
+    condensed(options, task, journal, pool, tails)
 }
 
 /// Particles from a pool, and what it says of them.
@@ -53,14 +66,17 @@ fn condensed<const D: usize>(
     task: &mut Task<'_, D>,
     journal: &mut Journal,
     pool: Pool<D>,
+    tails: Tails,
 ) -> Result<Samples<D>, SampleError> {
     let check = ScoreCheck::of(task.target, &pool, &mut task.run.generator(Stream::Survey.of_body(1)));
-    // What is no gradient moves nothing.
+    let of_tails = tails.endless.map(|[rays, of]| Doubt::Endless { rays, of });
+    let doubt = of_tails.or(check.error.map(|error| Doubt::Score { error }));
+    // What is no gradient, or leads nowhere, moves nothing.
     let still = MpmOptions {
         rounds: Some(0),
         ..options.clone()
     };
-    let options = if check.error.is_some() { &still } else { options };
+    let options = if doubt.is_some() { &still } else { options };
     let polish = Polish::new(options, task.target, &pool, task.run)?;
     let Polished {
         best,
@@ -72,11 +88,11 @@ fn condensed<const D: usize>(
     samples.relative_energy_distance = (!options.weighted).then(|| polish.relative_distance(&samples.positions));
     samples.steps = steps;
     samples.score_evaluations = spent + pool.score_evaluations + check.scores;
-    samples.density_evaluations = densities + pool.density_evaluations + check.densities;
+    samples.density_evaluations = densities + pool.density_evaluations + check.densities + tails.densities;
     samples.weights = options.weighted.then(|| pool.measure.shares(&samples.positions));
     samples.certificate = options
         .certificate
-        .then(|| Certificate::of_pool(&pool, check.error, &samples, best.drift, best.kinetic_energy));
+        .then(|| Certificate::of_pool(&pool, doubt, &samples, best.drift, best.kinetic_energy));
     samples.log_evidence = Some(pool.log_evidence);
     samples.log_evidence_error = Some(pool.log_evidence_error);
     samples.pareto_k = pool.verdict.pareto_k;

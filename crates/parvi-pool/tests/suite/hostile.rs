@@ -40,6 +40,7 @@ fn densities_that_are_no_numbers_are_survived() {
             points,
             finite: 0,
             undefined,
+            scores: 0,
         } = error
         else {
             panic!("{error}");

@@ -7,10 +7,10 @@ use crate::Samples;
 use crate::extent::Extent;
 
 impl Certificate {
-    /// The verdict of the pool on particles that were condensed from it; of its scores it is known by how much they are no gradients.
+    /// The verdict of the pool on particles that were condensed from it, unless there is a doubt without it.
     pub(crate) fn of_pool<const D: usize>(
         pool: &Pool<D>,
-        error_of_scores: Option<f64>,
+        doubt: Option<Doubt>,
         samples: &Samples<D>,
         drift: f64,
         kinetic_energy: f64,
@@ -26,11 +26,10 @@ impl Certificate {
             // Two standard errors of the pool.
             None => doubt_of_moments(&moments, 2.0 / (samples.positions.len() as f64).sqrt()),
         };
-        let doubt = error_of_scores
-            .map(|error| Doubt::Score { error })
-            .or_else(doubt_of_pool);
         Self {
-            outcome: doubt.map_or(Outcome::Converged, Outcome::Stalled),
+            outcome: doubt
+                .or_else(doubt_of_pool)
+                .map_or(Outcome::Converged, Outcome::Stalled),
             moments,
             degree: 0,
             drift,

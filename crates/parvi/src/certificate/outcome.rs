@@ -45,6 +45,13 @@ pub enum Doubt {
         /// By how much, over its size.
         error: f64,
     },
+    /// Along rays through points of the pool r^D p does not fall off, r the distance: the density may be improper.
+    Endless {
+        /// Rays along which it does not.
+        rays: usize,
+        /// Rays that were looked along.
+        of: usize,
+    },
     /// The residual is above that of independent draws.
     Residual {
         /// Residual over that of independent draws.
@@ -146,6 +153,10 @@ impl fmt::Display for Doubt {
                 f,
                 "the score is not the gradient of log p: differences of log p say that it is {:.0} % off",
                 100.0 * error
+            ),
+            Self::Endless { rays, of } => write!(
+                f,
+                "log p does not fall off along {rays} of {of} rays, up to a thousand times the distance of particles: the density may be improper, without a finite integral"
             ),
             Self::Residual { ratio } => write!(f, "the residual is {ratio:.2} of that of independent draws"),
             Self::HeavyTail { pareto_k } => write!(

@@ -4,6 +4,7 @@ mod bent_targets;
 mod cached_scores;
 mod calibrated;
 mod half_lines;
+mod improper;
 #[cfg(feature = "nuts")]
 mod nuts;
 mod observed;

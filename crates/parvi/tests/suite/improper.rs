@@ -1,0 +1,111 @@
+//! Densities without a finite integral, and what a survey in vain has taken.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use parvi::certificate::Doubt;
+use parvi::{AisOptions, MpmOptions, Outcome, Run, Samples, Silent};
+use parvi_targets::{Frame, Target};
+
+/// log p as a function, scores by differences; counts what is evaluated.
+struct Counted<F> {
+    log_density: F,
+    densities: AtomicU64,
+    scores: AtomicU64,
+}
+
+impl<F: Fn(&[f64; 2]) -> f64 + Sync> Counted<F> {
+    fn new(log_density: F) -> Self {
+        Self {
+            log_density,
+            densities: AtomicU64::new(0),
+            scores: AtomicU64::new(0),
+        }
+    }
+
+    fn sampled(&self, options: &MpmOptions) -> Samples<2> {
+        let samples = options.sample(self, &Frame::identity(), &Run::new(100, 1), &mut Silent);
+        let samples = samples.expect("particles");
+        let counts = [&self.densities, &self.scores].map(|count| count.load(Ordering::Relaxed));
+        assert_eq!([samples.density_evaluations, samples.score_evaluations], counts);
+        samples
+    }
+}
+
+impl<F: Fn(&[f64; 2]) -> f64 + Sync> Target<2> for Counted<F> {
+    fn log_density(&self, x: &[f64; 2]) -> f64 {
+        self.densities.fetch_add(1, Ordering::Relaxed);
+        (self.log_density)(x)
+    }
+
+    fn score(&self, x: &[f64; 2]) -> [f64; 2] {
+        self.scores.fetch_add(1, Ordering::Relaxed);
+        std::array::from_fn(|axis| {
+            let [mut above, mut below] = [*x; 2];
+            let step = 1e-5 * x[axis].abs().max(1.0);
+            above[axis] += step;
+            below[axis] -= step;
+            ((self.log_density)(&above) - (self.log_density)(&below)) / (above[axis] - below[axis])
+        })
+    }
+}
+
+fn doubt(samples: &Samples<2>) -> Option<Doubt> {
+    match &samples.certificate.as_ref()?.outcome {
+        Outcome::Stalled(doubt) => Some(doubt.clone()),
+        _ => None,
+    }
+}
+
+/// log(1 + e^t) without overflow.
+fn softplus(t: f64) -> f64 {
+    t.max(0.0) + (-t.abs()).exp().ln_1p()
+}
+
+#[test]
+fn what_does_not_fall_off_is_said_to_be_improper() {
+    // A slope; nothing at all; a logistic regression of separated data without a prior.
+    let separated = |x: &[f64; 2]| -softplus(-(x[0] + 2.0 * x[1])) - softplus(-(2.0 * x[0] + x[1])) - softplus(-x[0]);
+    let improper: [&(dyn Fn(&[f64; 2]) -> f64 + Sync); 3] = [&|x| x[0], &|_| 0.0, &separated];
+    for log_density in improper {
+        let samples = Counted::new(log_density).sampled(&MpmOptions::default());
+        assert!(
+            matches!(doubt(&samples), Some(Doubt::Endless { .. })),
+            "{:?}",
+            doubt(&samples)
+        );
+    }
+    let alone = AisOptions::default().sample(
+        &Counted::new(separated),
+        &Frame::identity(),
+        &Run::new(100, 1),
+        &mut Silent,
+    );
+    assert!(matches!(doubt(&alone.expect("particles")), Some(Doubt::Endless { .. })));
+}
+
+#[test]
+fn proper_densities_fall_off() {
+    // Cauchy's law, a box, a funnel.
+    let cauchy = |x: &[f64; 2]| -1.5 * (x[0] * x[0] + x[1] * x[1]).ln_1p();
+    let boxed = |x: &[f64; 2]| {
+        if x.iter().all(|c| c.abs() < 50.0) {
+            0.0
+        } else {
+            f64::NEG_INFINITY
+        }
+    };
+    let funnel = |x: &[f64; 2]| -x[0] * x[0] / 18.0 - 0.5 * x[0] - 0.5 * x[1] * x[1] * (-x[0]).exp();
+    let proper: [&(dyn Fn(&[f64; 2]) -> f64 + Sync); 3] = [&cauchy, &boxed, &funnel];
+    for log_density in proper {
+        let samples = Counted::new(log_density).sampled(&MpmOptions::default());
+        assert!(!matches!(doubt(&samples), Some(Doubt::Endless { .. })));
+    }
+}
+
+#[test]
+fn a_survey_in_vain_is_counted() {
+    // So narrow, and so far from where a survey looks, that it weighs nothing.
+    let needle = |x: &[f64; 2]| -0.5 * ((x[0] - 3e4).powi(2) + (x[1] + 2e4).powi(2)) * 1e-2 - 1e-3 * x[0].abs().sqrt();
+    let samples = Counted::new(needle).sampled(&MpmOptions::default());
+    assert!(samples.density_evaluations > 0);
+}
