@@ -17,8 +17,8 @@ pub use self::layer::{OuterLayer, with_outer_layer};
 pub use self::mirror_layer::with_mirrored_layer;
 use self::plane::Triangulation;
 pub use self::plane::{
-    EdgeTarget, Refinement, Scatter, SizeField, ampersand, circle_outline, disk, disk_outline, outlines, polygon,
-    rectangle, rectangle_outline, scattered, triangle_lattice, wavy_channel, wavy_channel_outline,
+    EdgeTarget, Refinement, Scatter, SizeField, ampersand, check_outlines, circle_outline, disk, disk_outline,
+    outlines, polygon, rectangle, rectangle_outline, scattered, triangle_lattice, wavy_channel, wavy_channel_outline,
 };
 pub use self::segments::{cyclic_sizes, segments};
 pub use self::space::{ball, cuboid, extruded, slope};

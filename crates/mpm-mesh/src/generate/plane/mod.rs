@@ -4,6 +4,7 @@ mod ampersand;
 mod delaunay;
 mod lattice;
 mod outline;
+mod point_tree;
 mod relax;
 mod scattered;
 mod shapes;
@@ -31,6 +32,15 @@ pub struct EdgeTarget {
     pub length: f64,
     /// Angle in radians from the x-axis to a direction of edges inside the domain.
     pub angle: f64,
+}
+
+/// Whether closed polygons neither cross nor touch themselves or each other, as [`outlines`] and [`scattered`] ask for.
+///
+/// # Errors
+/// [`GenerationError::TooFewCorners`], [`GenerationError::InvalidCorner`], [`GenerationError::CrossingOutlines`].
+pub fn check_outlines(outlines: &[Vec<[f64; 2]>]) -> Result<(), GenerationError> {
+    let outline = Outline::undivided(outlines)?;
+    Triangulation::new(&outline.points, &outline.edges).map(drop)
 }
 
 /// A mesh of the domain between closed polygons: a point is inside if it lies within an odd number of them. Each may go round

@@ -61,8 +61,12 @@ impl Outline {
             }
             divided.push(points);
         }
-        // Every part is its own edge from here on.
-        Self::new(&divided, f64::INFINITY)
+        Self::undivided(&divided)
+    }
+
+    /// Every edge as it is.
+    pub fn undivided(outlines: &[Vec<[f64; 2]>]) -> Result<Self, GenerationError> {
+        Self::new(outlines, f64::INFINITY)
     }
 
     /// Lowest and highest coordinates.

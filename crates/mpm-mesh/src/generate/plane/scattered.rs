@@ -1,13 +1,13 @@
 //! Delaunay meshes of random points: no lattice shows through.
 
-use std::collections::HashMap;
 use std::f64::consts::TAU;
 
-use mpm_tensor::vector::{add_scaled, distance_squared};
+use mpm_tensor::vector::add_scaled;
 
 use super::delaunay::Triangulation;
 use super::lattice::NearSegments;
 use super::outline::{Outline, Rows};
+use super::point_tree::PointTree;
 use super::relax::smooth;
 use super::size_field::SizeField;
 use crate::generate::GenerationError;
@@ -51,8 +51,9 @@ pub fn scattered(
     if outline.points.is_empty() {
         return Err(MeshError::Empty { what: "vertices" }.into());
     }
-    let least = size.least();
-    GenerationError::check_count(least, 2.0 * outline.box_area() / (0.75f64.sqrt() * least.powi(2)))?;
+    // Two triangles per vertex, of which each has √3 / 2 h² for itself.
+    let cells = 2.0 / 0.75f64.sqrt() * size.squares_in(outline.bounds());
+    GenerationError::check_count(size.least(), cells)?;
     let mut points = outline.points.clone();
     strew(&mut points, &outline, size, scatter.angle, random);
     for _ in 0..scatter.sweeps {
@@ -69,11 +70,9 @@ fn strew(points: &mut Vec<[f64; 2]>, outline: &Outline, size: &SizeField, angle:
         NearSegments::new(&segments, size.base()),
         Rows::new(&segments, size.least()),
     );
-    let mut bins = Bins::new(DISTANCE * size.least());
-    for (number, point) in (0u32..).zip(&*points) {
-        bins.insert(point, number);
-    }
+    let mut tree = PointTree::new(outline.bounds());
     let mut open: Vec<u32> = (0..points.len() as u32).collect();
+    open.iter().for_each(|&number| tree.insert(number, points));
     while !open.is_empty() {
         let place = ((random() * open.len() as f64) as usize).min(open.len() - 1);
         let centre = points[open[place] as usize];
@@ -84,7 +83,7 @@ fn strew(points: &mut Vec<[f64; 2]>, outline: &Outline, size: &SizeField, angle:
             let here = size.at(&point);
             let free = rows.encloses(&point)
                 && !near.is_near(&point, FROM_BOUNDARY * here)
-                && !bins.any_within(&point, DISTANCE * here, points);
+                && !tree.any_within(&point, DISTANCE * here, points);
             free.then_some(point)
         });
         match candidate {
@@ -93,44 +92,10 @@ fn strew(points: &mut Vec<[f64; 2]>, outline: &Outline, size: &SizeField, angle:
             }
             Some(point) => {
                 let number = points.len() as u32;
-                bins.insert(&point, number);
-                open.push(number);
                 points.push(point);
+                tree.insert(number, points);
+                open.push(number);
             }
         }
-    }
-}
-
-/// Points by the square that they are in.
-struct Bins {
-    width: f64,
-    bins: HashMap<[i64; 2], Vec<u32>>,
-}
-
-impl Bins {
-    fn new(width: f64) -> Self {
-        Self {
-            width,
-            bins: HashMap::new(),
-        }
-    }
-
-    fn place(&self, x: f64) -> i64 {
-        (x / self.width).floor() as i64
-    }
-
-    fn insert(&mut self, point: &[f64; 2], number: u32) {
-        let bin = point.map(|x| self.place(x));
-        self.bins.entry(bin).or_default().push(number);
-    }
-
-    fn any_within(&self, point: &[f64; 2], limit: f64, points: &[[f64; 2]]) -> bool {
-        let [low, high] = [-limit, limit].map(|shift| point.map(|x| self.place(x + shift)));
-        (low[0]..=high[0]).any(|i| {
-            (low[1]..=high[1]).any(|j| {
-                let mut others = self.bins.get(&[i, j]).into_iter().flatten();
-                others.any(|&other| distance_squared(&points[other as usize], point) < limit * limit)
-            })
-        })
     }
 }

@@ -2,9 +2,10 @@
 
 use mpm_mesh::SimplexMesh;
 use mpm_mesh::generate::{
-    Refinement, Scatter, SizeField, disk_outline, rectangle_outline, scattered, wavy_channel_outline, with_outer_layer,
+    GenerationError, Refinement, Scatter, SizeField, disk_outline, rectangle_outline, scattered, wavy_channel_outline,
+    with_outer_layer,
 };
-use mpm_tensor::vector::distance;
+use mpm_tensor::vector::{distance, norm_squared};
 use rand::RngExt;
 
 use crate::basis_scenes::generator;
@@ -95,6 +96,10 @@ fn edges_follow_the_size_field() {
     let size = SizeField::new(0.2, vec![place]).unwrap();
     let mesh = mesh(&[rectangle_outline([-1.5; 2], [1.5; 2]).unwrap()], &size, 2, 1);
     assert!(mesh.quality_summary().worst.smallest_angle.to_degrees() > 20.0);
+    // The points of this seed, whatever finds their neighbours.
+    assert_eq!((mesh.vertices().len(), mesh.cell_count()), (969, 1876));
+    let squares: f64 = mesh.vertices().iter().map(norm_squared).sum();
+    assert!((squares - 591.777_842_200_381).abs() < 1e-9, "{squares}");
     for cell in mesh.cells() {
         for k in 0..3 {
             let [a, b] = [k, (k + 1) % 3].map(|k| mesh.vertices()[cell[k] as usize]);
@@ -103,6 +108,31 @@ fn edges_follow_the_size_field() {
             assert!((0.4..2.0).contains(&ratio), "{middle:?}: {ratio}");
         }
     }
+}
+
+/// What a mesh costs, and whether it is too fine, hangs on its points, not on its shortest edge.
+#[test]
+fn a_very_fine_place_is_a_few_more_points() {
+    let around = |radius: f64| Refinement {
+        centre: [0.5, 0.5],
+        radius,
+        size: 1e-5,
+        growth: 0.2,
+    };
+    let square = [rectangle_outline([0.0; 2], [1.0; 2]).unwrap()];
+    let field = |radius| SizeField::new(0.1, vec![around(radius)]).unwrap();
+    let mesh = mesh(&square, &field(0.0), 2, 0);
+    assert!(
+        (1000..2500).contains(&mesh.vertices().len()),
+        "{}",
+        mesh.vertices().len()
+    );
+    let scatter = Scatter { sweeps: 0, angle: 0.0 };
+    let error = scattered(&square, &field(0.2), scatter, &mut || 0.5).expect_err("too fine");
+    assert!(
+        matches!(error, GenerationError::TooFine { cells, .. } if cells > 1e9),
+        "{error}"
+    );
 }
 
 #[test]
