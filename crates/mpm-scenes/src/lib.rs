@@ -3,6 +3,7 @@
 mod background;
 mod error;
 pub mod fill;
+mod fingerprint;
 mod held;
 mod kinematics;
 pub mod law;

@@ -12,32 +12,37 @@ use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
 use crate::SceneFault;
+use crate::fingerprint::fingerprint;
 use crate::rotation::Rotation;
 use crate::scene::{DelaunayTable, MeshShapeTable, MeshTable, RefinementTable, Scene, ShapeTable};
 
 /// The group of all facets of the boundary, unless a file has one of this name.
 const BOUNDARY: &str = "boundary";
 
-/// The mesh of a scene without an outer layer, and the groups of its facets.
+/// The mesh of a scene without an outer layer, the groups of its facets, and the fingerprint of its file where it has one.
 pub(super) fn inner<const D: usize>(
     scene: &Scene,
     table: &MeshTable,
     rotation: Option<&Rotation<D>>,
-) -> Result<NamedMesh<D>, SceneFault> {
-    let NamedMesh { mesh, mut facets } = match (&table.file, &table.generate) {
-        (Some(_), _) => read::<D>(scene, table)?,
+) -> Result<(NamedMesh<D>, Option<u64>), SceneFault> {
+    let (named, contents) = match (&table.file, &table.generate) {
+        (Some(_), _) => {
+            let (named, contents) = read::<D>(scene, table)?;
+            (named, Some(contents))
+        }
         (None, Some(shape)) => {
             let refused = |error| SceneFault::value("mesh.generate", shape, format!("a mesh: {error}"));
             let mesh = generate(shape, table.delaunay.as_ref(), table.angle.to_radians()).map_err(refused)?;
             let facets = rims(shape, &mesh);
-            NamedMesh { mesh, facets }
+            (NamedMesh { mesh, facets }, None)
         }
         (None, None) => return Err(SceneFault::missing("mesh.generate", "given unless file is")),
     };
+    let NamedMesh { mesh, mut facets } = named;
     let all = || mesh.boundary().iter().flat_map(|facet| facet.vertices).collect();
     facets.entry(BOUNDARY.to_owned()).or_insert_with(all);
     let Some(rotation) = rotation else {
-        return Ok(NamedMesh { mesh, facets });
+        return Ok((NamedMesh { mesh, facets }, contents));
     };
     let vertices = mesh.vertices().iter().map(|x| rotation.apply(x)).collect();
     let cells = mesh.cells().flatten().copied().collect();
@@ -48,7 +53,7 @@ pub(super) fn inner<const D: usize>(
             format!("one that keeps the mesh valid: {error}"),
         )
     })?;
-    Ok(NamedMesh { mesh, facets })
+    Ok((NamedMesh { mesh, facets }, contents))
 }
 
 /// The groups that the boundaries of a ring are.
@@ -72,8 +77,8 @@ fn rims<const D: usize>(shape: &MeshShapeTable, mesh: &SimplexMesh<D>) -> BTreeM
     rims
 }
 
-/// The mesh of a file of Gmsh, beside the scene.
-fn read<const D: usize>(scene: &Scene, table: &MeshTable) -> Result<NamedMesh<D>, SceneFault> {
+/// The mesh of a file of Gmsh, beside the scene, and its fingerprint.
+fn read<const D: usize>(scene: &Scene, table: &MeshTable) -> Result<(NamedMesh<D>, u64), SceneFault> {
     let Some(file) = &table.file else {
         return Err(SceneFault::missing("mesh.file", "given"));
     };
@@ -83,8 +88,9 @@ fn read<const D: usize>(scene: &Scene, table: &MeshTable) -> Result<NamedMesh<D>
         .map_or_else(|| file.clone(), |directory| directory.join(file));
     let bytes = std::fs::read(&path)
         .map_err(|error| SceneFault::value("mesh.file", file, format!("a file that can be read: {error}")))?;
-    read_named_msh(&bytes)
-        .map_err(|error| SceneFault::value("mesh.file", file, format!("a mesh of the scene: {error}")))
+    let named = read_named_msh(&bytes)
+        .map_err(|error| SceneFault::value("mesh.file", file, format!("a mesh of the scene: {error}")))?;
+    Ok((named, fingerprint(&bytes)))
 }
 
 /// The mesh that a table describes, with random points where there is a table for them, and edges inside along an angle in radians.

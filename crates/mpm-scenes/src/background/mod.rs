@@ -35,6 +35,8 @@ pub(crate) enum Background<const D: usize> {
         room: Bounds<D>,
         /// Facets of the mesh without its layer by the names of their groups, D vertices each; `boundary` has all of the boundary.
         groups: BTreeMap<String, Vec<u32>>,
+        /// Fingerprint of its file, where it has one.
+        file_contents: Option<u64>,
     },
 }
 
@@ -60,10 +62,11 @@ impl<const D: usize> Background<D> {
             (Discretisation::Grid(_), None) => return Err(SceneFault::missing("domain", "given with a [grid]")),
         };
         let rotation = rotation::build::<D>("mesh.rotation", table.rotation.as_ref())?;
+        let (named, file_contents) = generate::inner::<D>(scene, table, rotation.as_ref())?;
         let NamedMesh {
             mesh: inner,
             facets: groups,
-        } = generate::inner::<D>(scene, table, rotation.as_ref())?;
+        } = named;
         let room = domain.unwrap_or_else(|| Bounds::around(inner.vertices()));
         let whole = if table.outer_layer {
             layer::around(scene, &inner, &room)?
@@ -77,6 +80,7 @@ impl<const D: usize> Background<D> {
             spacing,
             room,
             groups,
+            file_contents,
         })
     }
 
@@ -84,6 +88,14 @@ impl<const D: usize> Background<D> {
     pub fn spacing(&self) -> f64 {
         match self {
             Self::Grid { spacing, .. } | Self::Mesh { spacing, .. } => *spacing,
+        }
+    }
+
+    /// Fingerprint of the file of a mesh that was read.
+    pub fn file_contents(&self) -> Option<u64> {
+        match self {
+            Self::Grid { .. } => None,
+            Self::Mesh { file_contents, .. } => *file_contents,
         }
     }
 

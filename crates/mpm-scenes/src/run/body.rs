@@ -24,6 +24,8 @@ pub(super) struct Body<'a, const D: usize> {
     pub motion: Box<dyn Motion<D>>,
     moving: MovingObstacles<D>,
     kinematics: Kinematics<D>,
+    /// Fingerprint of the mesh's file, where there is one.
+    pub mesh_contents: Option<u64>,
     /// Where the energy has gone, if the scene asks.
     pub budget: Option<Budget>,
     pub frames: Schedule,
@@ -48,6 +50,7 @@ impl<'a, const D: usize> Body<'a, D> {
         Probe::check_points(scene, background.room()).map_err(refused)?;
         let (boundaries, moving) = boundary::build::<D>(scene, &background).map_err(refused)?;
         let kinematics = Kinematics::of(scene, &start).map_err(refused)?;
+        let mesh_contents = background.file_contents();
         let mut motion = dispatch::build(scene, &start, background, boundaries).map_err(refused)?;
         check_step(scene, &*motion, &start)?;
         let (end, output) = (scene.time.end, &scene.output);
@@ -58,6 +61,7 @@ impl<'a, const D: usize> Body<'a, D> {
             motion,
             moving,
             kinematics,
+            mesh_contents,
             budget,
             frames: Schedule::new(output.interval, end),
             rows: Schedule::new(output.series_interval.unwrap_or(output.interval), end),

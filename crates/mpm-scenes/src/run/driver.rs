@@ -35,7 +35,7 @@ impl<'a, const D: usize> Driver<'a, D> {
         let path = out.join(names::CHECKPOINT);
         let mut saved = checkpoint::read(&path)?;
         if let Some(saved) = &mut saved {
-            let end = checkpoint::earlier_end(&saved.identity, scene);
+            let end = checkpoint::earlier_end(saved, scene, body.mesh_contents);
             let end = end.map_err(|reason| checkpoint::refused(&path, reason))?;
             if end < scene.time.end {
                 remove_file(&out.join(names::VALIDATION))?;
@@ -155,3 +155,4 @@ fn forget_earlier(out: &Path) -> Result<(), SimulationError> {
     remove_frames(out)?;
     remove_file(&out.join(names::VALIDATION))
 }
+            mesh_contents: self.body.mesh_contents,

@@ -4,9 +4,11 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use mpm_scenes::{Outcome, Progress, simulate};
+use mpm_mesh::generate::{EdgeTarget, rectangle};
+use mpm_mesh::{MshFormat, write_msh};
+use mpm_scenes::{Outcome, Progress, Scene, simulate};
 
-use super::scenes::{BAR, BLOCK, BLOCK_ON_MESH, CUBE, HEAPS, scene};
+use super::scenes::{BAR, BLOCK, BLOCK_ON_MESH, CUBE, HEAPS, RUBBER_ON_MESH, scene};
 
 /// All files of a directory.
 fn files(directory: &Path) -> BTreeMap<String, Vec<u8>> {
@@ -198,6 +200,38 @@ fn what_a_later_end_may_not_come_with_is_named() {
         assert!(message.contains(expected), "{message}");
         assert!(message.contains("it belongs to another scene"), "{message}");
     }
+}
+
+/// The mesh of a scene is in a file of its own.
+#[test]
+fn another_mesh_under_the_same_name_is_refused() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let (file, out) = (directory.path().join("square.msh"), directory.path().join("out"));
+    let made = "generate = { kind = \"rectangle\", lower = [0.0, 0.0], upper = [1.0, 1.0], size = 0.2 }";
+    let text = RUBBER_ON_MESH.replace(made, "file = \"square.msh\"");
+    assert_ne!(text, RUBBER_ON_MESH);
+    let write = |length: f64| {
+        let target = EdgeTarget { length, angle: 0.0 };
+        let mesh = rectangle([0.0; 2], [1.0; 2], &target).expect("a mesh");
+        std::fs::write(&file, write_msh(&mesh, MshFormat::Text22)).expect("writable");
+    };
+    write(0.2);
+    let scene = |end: f64| {
+        let text = text.replace("end = 0.1", &format!("end = {end:?}"));
+        Scene::parse(&text, &directory.path().join("scene.toml")).expect("sound")
+    };
+    simulate(&scene(0.1), &out, &mut ()).expect("runs");
+    simulate(&scene(0.1), &out, &mut ()).expect("is finished");
+    write(0.25);
+    for end in [0.1, 0.15] {
+        let message = simulate(&scene(end), &out, &mut ())
+            .expect_err("another mesh")
+            .to_string();
+        let expected = "it belongs to another scene: `mesh.file`: its contents are others than those of the run";
+        assert!(message.contains(expected), "{message}");
+    }
+    write(0.2);
+    simulate(&scene(0.15), &out, &mut ()).expect("goes on");
 }
 
 #[test]

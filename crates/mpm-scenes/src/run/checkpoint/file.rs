@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::Saved;
 use crate::SimulationError;
+use crate::fingerprint::fingerprint;
 use crate::output::write_whole;
 
 /// What a checkpoint begins with; its checksum and content follow.
@@ -15,7 +16,7 @@ const MAGIC: &[u8] = b"mpm-scenes checkpoint 1\n";
 /// [`SimulationError::File`], [`SimulationError::Checkpoint`].
 pub fn write(path: &Path, saved: &Saved) -> Result<(), SimulationError> {
     let content = cbor4ii::serde::to_vec(Vec::new(), saved).map_err(|error| refused(path, error.to_string()))?;
-    let bytes = [MAGIC, &checksum(&content).to_le_bytes(), &content].concat();
+    let bytes = [MAGIC, &fingerprint(&content).to_le_bytes(), &content].concat();
     write_whole(path, &bytes)
 }
 
@@ -30,7 +31,7 @@ pub fn read(path: &Path) -> Result<Option<Saved>, SimulationError> {
         Err(error) => return Err(SimulationError::file(path, error)),
     };
     let content = bytes.strip_prefix(MAGIC).and_then(|rest| rest.split_first_chunk());
-    let whole = content.filter(|(sum, content)| u64::from_le_bytes(**sum) == checksum(content));
+    let whole = content.filter(|(sum, content)| u64::from_le_bytes(**sum) == fingerprint(content));
     let saved = whole.and_then(|(_, content)| cbor4ii::serde::from_slice(content).ok());
     let damaged = || {
         refused(
@@ -39,14 +40,6 @@ pub fn read(path: &Path) -> Result<Option<Saved>, SimulationError> {
         )
     };
     saved.map(Some).ok_or_else(damaged)
-}
-
-/// FNV-1a (G. Fowler, L. C. Noll, K.-P. Vo), 64 bits.
-fn checksum(content: &[u8]) -> u64 {
-    let start = 0xcbf2_9ce4_8422_2325;
-    content.iter().fold(start, |hash, &byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
-    })
 }
 
 pub fn refused(path: &Path, reason: String) -> SimulationError {

@@ -2,9 +2,10 @@
 
 use toml::{Table, Value};
 
+use super::Saved;
 use crate::Scene;
 
-/// What a run depends on.
+/// What a run depends on, beside the contents of the mesh's file.
 pub fn identity(scene: &Scene) -> String {
     format!("{}\n{}", version(), scene.text)
 }
@@ -13,20 +14,26 @@ fn version() -> String {
     format!("mpm-scenes {}", env!("CARGO_PKG_VERSION"))
 }
 
-/// The end of the run that left an identity, if a run of this scene may go on from there: title, comments and layout may differ, and the end may be later.
+/// The end of the run that left a checkpoint, if a run of this scene, whose mesh's file has a fingerprint, may go on from there: title, comments and layout may differ, and the end may be later.
 ///
 /// # Errors
 /// What differs otherwise.
-pub fn earlier_end(saved: &str, scene: &Scene) -> Result<f64, String> {
+pub fn earlier_end(saved: &Saved, scene: &Scene, mesh_contents: Option<u64>) -> Result<f64, String> {
     let another = |what: &str| format!("it belongs to another scene: {what}; remove it or name another directory");
-    let Some((program, text)) = saved.split_once('\n') else {
+    let same_mesh = match saved.mesh_contents {
+        Some(own) if mesh_contents.is_some_and(|contents| contents != own) => {
+            Err(another("`mesh.file`: its contents are others than those of the run"))
+        }
+        _ => Ok(()),
+    };
+    let Some((program, text)) = saved.identity.split_once('\n') else {
         return Err(another("it does not say of which"));
     };
     if program != version() {
         return Err(another(&format!("it was written by {program}")));
     }
     if text == scene.text {
-        return Ok(scene.time.end);
+        return same_mesh.map(|()| scene.time.end);
     }
     let (Some((old, end)), Some((new, _))) = (comparable(text), comparable(&scene.text)) else {
         return Err(another("it cannot be read"));
@@ -37,7 +44,7 @@ pub fn earlier_end(saved: &str, scene: &Scene) -> Result<f64, String> {
     if scene.time.end < end {
         return Err(another(&format!("its time.end = {end} is later")));
     }
-    Ok(end)
+    same_mesh.map(|()| end)
 }
 
 /// The document without what may differ, and the end.

@@ -21,6 +21,9 @@ pub(in crate::run) struct Saved {
     pub free_step: f64,
     /// Rows of the series.
     pub rows: usize,
+    /// Fingerprint of the mesh's file, where there is one; checkpoints of earlier versions have none.
+    #[serde(default)]
+    pub mesh_contents: Option<u64>,
     /// The energy budget, where there is one.
     #[serde(default)]
     pub budget: Option<budget::Saved>,
@@ -43,6 +46,7 @@ pub(in crate::run) struct Place {
     pub time: f64,
     pub free_step: f64,
     pub rows: usize,
+    pub mesh_contents: Option<u64>,
     pub budget: Option<budget::Saved>,
 }
 
@@ -55,6 +59,7 @@ impl Saved {
             time: place.time,
             free_step: place.free_step,
             rows: place.rows,
+            mesh_contents: place.mesh_contents,
             budget: place.budget,
             positions: particles.positions.as_flattened().to_vec(),
             velocities: particles.velocities.as_flattened().to_vec(),
