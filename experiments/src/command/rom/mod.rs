@@ -56,7 +56,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     };
     FileKind::Experiment.check(&task.configuration)?;
     let experiment = Experiment::read(&task.configuration)?;
-    interrupt::listen();
+    interrupt::listen_once_begun();
     work(&experiment, &task.out)
 }
 

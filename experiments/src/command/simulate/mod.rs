@@ -28,13 +28,13 @@ pub struct Arguments {
 pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     FileKind::Scene.check(&arguments.scene)?;
     let scene = Scene::read(&arguments.scene)?;
-    interrupt::listen();
+    interrupt::listen_once_begun();
     let mut progress = Bar::new(&format!("{{bar:30}} {{msg}} of {}, {{eta}} left", scene.time.end));
     let start = Instant::now();
     let result = mpm_scenes::simulate(&scene, &arguments.out, &mut progress);
     let seconds = start.elapsed().as_secs_f64();
     progress.clear();
-    // A run that failed has a series too, which may show why; its own error is the one to report.
+    // A run that failed has a series too, which may show why; its own error is the one to report, also where it has none.
     let drawn = figures::draw(&arguments.out, &scene.title);
     let summary = result?;
     drawn?;
