@@ -24,13 +24,15 @@ pub struct Arguments {
 
 /// Reads the raw results and writes report and plots; nothing is sampled or run.
 pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
-    if arguments.directory.join(MODEL).exists() {
-        return rom::report(&arguments.directory);
+    let directory = &arguments.directory;
+    std::fs::read_dir(directory).map_err(|source| CommandError::file("read", directory, source))?;
+    if directory.join(MODEL).exists() {
+        return rom::report(directory);
     }
-    if arguments.directory.join(SCENE).exists() {
-        return simulate::report(&arguments.directory);
+    if directory.join(SCENE).exists() {
+        return simulate::report(directory);
     }
-    study::report(&arguments.directory)
+    study::report(directory)
 }
 
 #[cfg(all(test, feature = "mechanics", feature = "rom"))]

@@ -134,6 +134,60 @@ fn bad_scenes_are_refused_with_file_field_and_value() {
     );
 }
 
+#[test]
+fn what_cannot_be_reported_is_named() {
+    let root = tempfile::tempdir().unwrap();
+    std::fs::write(root.path().join("scene.toml"), SCENE).unwrap();
+    succeeds(root.path(), "simulate scene.toml --out out");
+    let series = root.path().join("out/series.csv");
+    let whole = std::fs::read_to_string(&series).unwrap();
+    let header = whole.lines().next().unwrap();
+    for (text, expected) in [
+        (
+            whole.replacen("\n0.05,", "\n0.05,1.0,", 1),
+            "series.csv, line 3: 22 values for 21 columns",
+        ),
+        (
+            whole.replacen("\n0.05,", "\nx,", 1),
+            "series.csv, line 3: time = `x`: must be a number",
+        ),
+        (format!("{header}\n"), "series.csv: no rows"),
+    ] {
+        assert_ne!(text, whole);
+        std::fs::write(&series, text).unwrap();
+        assert_refused(&parvi(root.path(), "report out"), &[expected]);
+    }
+    std::fs::remove_file(&series).unwrap();
+    assert_refused(&parvi(root.path(), "report out"), &["series.csv: No such file"]);
+    assert_refused(&parvi(root.path(), "report none"), &["cannot read none: No such file"]);
+    assert_refused(
+        &parvi(root.path(), "report scene.toml"),
+        &["cannot read scene.toml: Not a directory"],
+    );
+}
+
+/// A filling of ten million particles is not waited for.
+#[cfg(unix)]
+#[test]
+fn a_run_that_has_not_begun_is_ended_at_once() {
+    let root = tempfile::tempdir().unwrap();
+    let fine = SCENE.replace(
+        "material = \"rubber\"\n",
+        "material = \"rubber\"\nfill = \"poisson-disk\"\nspacing = 2e-4\n",
+    );
+    assert_ne!(fine, SCENE);
+    std::fs::write(root.path().join("scene.toml"), fine).unwrap();
+    let start = std::time::Instant::now();
+    let waited = || start.elapsed().as_millis() > 300;
+    let output = interrupted(root.path(), "simulate scene.toml --out out", waited);
+    assert!(
+        start.elapsed().as_secs() < 5 && stderr(&output).is_empty(),
+        "{}",
+        stderr(&output)
+    );
+    assert!(!root.path().join("out").exists());
+}
+
 #[cfg(unix)]
 #[test]
 fn an_interrupted_run_goes_on_to_the_same_bits() {
@@ -144,10 +198,10 @@ fn an_interrupted_run_goes_on_to_the_same_bits() {
     let whole = succeeds(root.path(), "simulate scene.toml --out whole");
     let second = root.path().join("part/particles_000001.vtu");
     let part = interrupted(root.path(), "simulate scene.toml --out part", || second.exists());
+    let said = stderr(&part);
     assert!(
-        stderr(&part).contains("the same line started again goes on"),
-        "{}",
-        stderr(&part)
+        said.contains("stopping after the step or run at hand") && said.contains("the same line started again goes on"),
+        "{said}"
     );
     assert_eq!(value(&part, "outcome").as_deref(), Some("interrupted"));
     let rest = succeeds(root.path(), "simulate scene.toml --out part");

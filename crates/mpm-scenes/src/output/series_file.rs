@@ -25,15 +25,14 @@ impl SeriesFile {
     /// Goes on with the first `rows` rows of the file that an earlier process left.
     ///
     /// # Errors
-    /// [`SimulationError::File`], also for a file with other columns or fewer rows.
+    /// [`SimulationError::File`], also for a file with other columns or fewer rows, and [`SimulationError::Series`] for a row among them that is none.
     pub fn resume(directory: &Path, columns: Vec<String>, rows: usize) -> Result<Self, SimulationError> {
         let path = directory.join(names::SERIES);
-        let mut series = read_series(directory)?;
+        let series = read_rows(&path, rows)?;
         if series.columns() != columns || series.rows().len() < rows {
             let reason = "it is not the series of the checkpoint; remove the checkpoint to begin again";
             return Err(SimulationError::file(&path, std::io::Error::other(reason)));
         }
-        series.truncate(rows);
         Self::with(path, series)
     }
 
@@ -70,20 +69,37 @@ fn line(row: &[f64]) -> String {
     numbers.join(",") + "\n"
 }
 
-/// The series of a run's directory, without a last row that is not whole.
+/// The series of a run's directory, without a last row that was being written when its process ended.
 ///
 /// # Errors
-/// [`SimulationError::File`].
+/// [`SimulationError::File`], and [`SimulationError::Series`] for a line that is no row.
 pub fn read_series(directory: &Path) -> Result<Series, SimulationError> {
-    let path = directory.join(names::SERIES);
-    let text = std::fs::read_to_string(&path).map_err(|error| SimulationError::file(&path, error))?;
-    let mut lines = text.lines();
-    let columns = lines.next().unwrap_or("").split(',').map(str::to_owned).collect();
-    let mut series = Series::new(columns);
-    for line in lines {
-        let row: Result<Vec<f64>, _> = line.split(',').map(str::parse).collect();
-        if !row.is_ok_and(|row| series.push(row)) {
-            break;
+    read_rows(&directory.join(names::SERIES), usize::MAX)
+}
+
+/// The first rows of a series, at most so many.
+fn read_rows(path: &Path, most: usize) -> Result<Series, SimulationError> {
+    let text = std::fs::read_to_string(path).map_err(|error| SimulationError::file(path, error))?;
+    let refused = |line: usize, message: String| SimulationError::Series {
+        path: path.to_owned(),
+        line,
+        message,
+    };
+    let whole = text.rfind('\n').map_or("", |end| &text[..end]);
+    let mut lines = whole.lines();
+    let header = lines.next().ok_or_else(|| refused(1, "no columns".to_owned()))?;
+    let columns: Vec<String> = header.split(',').map(str::to_owned).collect();
+    let mut series = Series::new(columns.clone());
+    for (line, text) in (2..).zip(lines.take(most)) {
+        let cells: Vec<&str> = text.split(',').collect();
+        let number = |(cell, column): (&&str, &String)| {
+            let number = cell.parse::<f64>();
+            number.map_err(|_| refused(line, format!("{column} = `{cell}`: must be a number")))
+        };
+        let row: Vec<f64> = cells.iter().zip(&columns).map(number).collect::<Result<_, _>>()?;
+        if cells.len() != columns.len() || !series.push(row) {
+            let message = format!("{} values for {} columns", cells.len(), columns.len());
+            return Err(refused(line, message));
         }
     }
     Ok(series)

@@ -122,6 +122,7 @@ impl<'a, const D: usize> Driver<'a, D> {
     fn write(&mut self, time: f64) -> Result<(), SimulationError> {
         if self.body.rows.at(time).is_some() {
             let row = measure::row(&*self.body.motion, &self.probes, self.body.budget.as_ref());
+            self.check_finite(&row)?;
             self.series.push(row)?;
         }
         if let Some(number) = self.body.frames.at(time) {
@@ -136,6 +137,20 @@ impl<'a, const D: usize> Driver<'a, D> {
         Ok(())
     }
 
+    /// A number that is none says that the motion has none any more, or a scene has numbers too large to be added.
+    fn check_finite(&self, row: &[f64]) -> Result<(), SimulationError> {
+        let mut values = self.series.series().columns().iter().zip(row);
+        match values.find(|(_, value)| !value.is_finite()) {
+            None => Ok(()),
+            Some((column, &value)) => Err(SimulationError::Diverged {
+                step: self.body.step,
+                time: self.body.motion.time(),
+                column: column.clone(),
+                value,
+            }),
+        }
+    }
+
     fn write_checkpoint(&self) -> Result<(), SimulationError> {
         let place = Place {
             identity: checkpoint::identity(self.scene),
@@ -143,6 +158,7 @@ impl<'a, const D: usize> Driver<'a, D> {
             time: self.body.motion.time(),
             free_step: self.body.free_step,
             rows: self.series.series().rows().len(),
+            mesh_contents: self.body.mesh_contents,
             budget: self.body.budget.map(|budget| budget.save(&*self.body.motion)),
         };
         let saved = Saved::new(place, self.body.motion.particles());
@@ -155,4 +171,3 @@ fn forget_earlier(out: &Path) -> Result<(), SimulationError> {
     remove_frames(out)?;
     remove_file(&out.join(names::VALIDATION))
 }
-            mesh_contents: self.body.mesh_contents,

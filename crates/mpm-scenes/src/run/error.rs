@@ -41,6 +41,28 @@ pub enum SimulationError {
         /// What the mechanics say.
         source: Box<MpmError>,
     },
+    /// A line of the time series is not one that a run writes.
+    #[error("{}, line {line}: {message}", path.display())]
+    Series {
+        /// The file.
+        path: PathBuf,
+        /// The line, counted from 1.
+        line: usize,
+        /// What is wrong with it.
+        message: String,
+    },
+    /// A column of the time series has a value that is no number.
+    #[error("step {step} at t = {time}: {column} is {value}: the run has diverged")]
+    Diverged {
+        /// Steps taken.
+        step: u64,
+        /// The time.
+        time: f64,
+        /// The first such column.
+        column: String,
+        /// Its value.
+        value: f64,
+    },
     /// A particle has passed the surface of a rigid shape that a barrier should keep it from.
     #[error(
         "step {step} at t = {time}: {}particle {particle} is at distance {distance} from a rigid shape of the barrier",

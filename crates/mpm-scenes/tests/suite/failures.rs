@@ -37,3 +37,20 @@ fn a_particle_that_leaves_the_domain_is_named_and_frames_stay() {
     assert!(error.to_string().contains("outside the domain"), "{error}");
     assert!(directory.path().join("particles_000001.vtu").exists());
 }
+
+#[test]
+fn numbers_that_are_none_end_a_run() {
+    let heavy = BLOCK.replace("density = 1000.0", "density = 1e308");
+    let directory = tempfile::tempdir().expect("a directory");
+    let error = simulate(&scene(&heavy), directory.path(), &mut ()).expect_err("too large to be added");
+    let message = error.to_string();
+    assert!(
+        message.starts_with("step 0 at t = 0: ") && message.ends_with(" is inf: the run has diverged"),
+        "{message}"
+    );
+    let SimulationError::Diverged { column, value, .. } = error else {
+        panic!("{message}")
+    };
+    assert!(column == "kinetic_energy" || column == "potential_energy", "{column}");
+    assert!(value.is_infinite());
+}

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use mpm_scenes::Series;
-use mpm_scenes::output::read_series;
+use mpm_scenes::output::{names, read_series};
 
 use crate::CommandError;
 use crate::output::AtomicFile;
@@ -13,12 +13,15 @@ use crate::plots::{AxisKind, LineSeries, MultiplesPanel, MultiplesPlot, multiple
 /// and the label of the axis.
 type Panel<Text> = (Text, Text, &'static str, &'static str);
 
-/// Draws the series of a directory; nothing where there is none.
+/// Draws the series of a directory.
 pub fn draw(directory: &Path, title: &str) -> Result<(), CommandError> {
-    if !directory.join(mpm_scenes::output::names::SERIES).exists() {
-        return Ok(());
+    let (series, file) = (read_series(directory)?, directory.join(names::SERIES));
+    if series.rows().is_empty() {
+        return Err(CommandError::unreadable(
+            &file,
+            "no rows, so that there is nothing to draw",
+        ));
     }
-    let series = read_series(directory)?;
     let panels = panels(&series);
     let mut groups: Vec<&str> = panels.iter().map(|panel| panel.0.as_str()).collect();
     groups.dedup();
@@ -30,7 +33,8 @@ pub fn draw(directory: &Path, title: &str) -> Result<(), CommandError> {
             continue;
         }
         let plot = MultiplesPlot::traces(format!("{title}: {}", name.replace('_', " ")), "time", panels);
-        AtomicFile::write(directory.join(file_name(name)), multiples(&plot)?)?;
+        let figure = multiples(&plot).map_err(|error| CommandError::unreadable(&file, error))?;
+        AtomicFile::write(directory.join(file_name(name)), figure)?;
     }
     Ok(())
 }
@@ -167,6 +171,6 @@ mod tests {
         );
         let probe = std::fs::read_to_string(directory.path().join("series_probe_tip.svg")).unwrap();
         assert!(probe.contains("front of the share"));
-        assert!(draw(&directory.path().join("none"), "").is_ok());
+        assert!(draw(&directory.path().join("none"), "").is_err());
     }
 }

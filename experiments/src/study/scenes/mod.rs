@@ -138,7 +138,10 @@ fn finished<'a>(
     let summary = match mpm_scenes::simulate(&prepared.scene, &path, observer) {
         Ok(summary) => summary,
         Err(SimulationError::Scene(error)) => return Err(variant.refuse(error.without_line())),
-        Err(error @ (SimulationError::File { .. } | SimulationError::Checkpoint { .. })) => return Err(error.into()),
+        Err(
+            error
+            @ (SimulationError::File { .. } | SimulationError::Checkpoint { .. } | SimulationError::Series { .. }),
+        ) => return Err(error.into()),
         Err(error) => return Ok(Err(Failure::new(Status::Diverged, error).reason)),
     };
     if summary.outcome == Outcome::Interrupted {
