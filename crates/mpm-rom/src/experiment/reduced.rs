@@ -161,10 +161,19 @@ fn reduced_body<const D: usize>(
 ) -> Result<ReducedBody<D>, ExperimentError> {
     let body = ReducedBody::of(scene)?.about(centroid);
     let steps = body.steps_per_frame;
-    body.with_longer_steps(step_factor).ok_or_else(|| {
-        let message = format!("{step_factor} does not divide the {steps} steps of a frame");
-        experiment.field("run.step_factor".to_owned(), message)
-    })
+    let longer = body.with_longer_steps(step_factor);
+    longer.ok_or_else(|| uneven(experiment, step_factor, steps))
+}
+
+/// Refuses time steps that do not divide a frame of so many.
+pub(super) fn check_step_factor(experiment: &Experiment, factor: u64, steps: u64) -> Result<(), ExperimentError> {
+    let divides = factor > 0 && steps.is_multiple_of(factor);
+    divides.then_some(()).ok_or_else(|| uneven(experiment, factor, steps))
+}
+
+fn uneven(experiment: &Experiment, factor: u64, steps: u64) -> ExperimentError {
+    let message = format!("{factor} does not divide the {steps} steps of a frame");
+    experiment.field("run.step_factor".to_owned(), message)
 }
 
 /// The families of maps with the numbers of their networks.

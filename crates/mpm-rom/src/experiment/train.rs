@@ -21,7 +21,7 @@ pub fn train<const D: usize>(
     watch: &mut dyn Watch,
 ) -> Result<Vec<Trained>, ExperimentError> {
     experiment.check_sample_counts::<D>()?;
-    experiment.check_time_steps()?;
+    experiment.check_reducible::<D>()?;
     experiment.occupy(directory)?;
     experiment.check_scene_of(directory)?;
     let start = Instant::now();

@@ -3,21 +3,24 @@
 use std::path::Path;
 
 use super::files::{self, names};
-use super::reduced::chooses_on_training;
+use super::reduced::{check_step_factor, chooses_on_training};
 use super::{Experiment, ExperimentError};
 use crate::full_order::SceneDocument;
-use crate::online::check_time_step;
+use crate::online::check_supported;
 
 impl Experiment {
-    /// Refuses a time step that no reduced run can have, before anything is trained for it: in the scene that is run, and, where runs of it choose sample points or networks, in that of the training.
-    pub(super) fn check_time_steps(&self) -> Result<(), ExperimentError> {
+    /// Refuses what no reduced run can have, before anything is trained for it: in the scene that is run, and, where runs of it choose sample points or networks, in that of the training.
+    pub(super) fn check_reducible<const D: usize>(&self) -> Result<(), ExperimentError> {
         let mut scenes = vec![(self.read_run_scene()?, &self.cases.test)];
         if self.starts > 1 || chooses_on_training(self) {
             scenes.push((self.read_scene()?, &self.cases.train));
         }
         for (document, cases) in scenes {
             for values in cases {
-                check_time_step(&self.scene_of(&document, values)?)?;
+                let steps = check_supported::<D>(&self.scene_of(&document, values)?)?;
+                for &factor in &self.run.step_factor {
+                    check_step_factor(self, factor, steps)?;
+                }
             }
         }
         Ok(())

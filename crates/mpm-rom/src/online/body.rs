@@ -51,26 +51,23 @@ impl<const D: usize> ReducedBody<D> {
         let body = body_of::<D>(scene, &[])?;
         let population = Population::<D>::fill(scene).map_err(refused)?;
         let kinematics = Kinematics::of(scene, &population).map_err(refused)?;
-        let (grid, lower) = supported(scene)?;
-        let [table] = scene.materials.values().collect::<Vec<_>>()[..] else {
-            return unsupported("materials", "a single one");
-        };
+        let Supported { grid, lower, material } = supported(scene)?;
         let shapes = scene
             .bodies
             .iter()
             .map(|body| shape::build::<D>("bodies.shape", &body.shape));
         let frame = scene.output.interval;
-        let steps = (frame / scene.time.step.unwrap_or(f64::NAN)).round();
+        let steps = steps_per_frame(scene)?;
         let origin: [f64; D] = std::array::from_fn(|a| lower.get(a).copied().unwrap_or(0.0));
         Ok(Self {
             density: body.density,
             volumes: population.volumes,
-            material: material(table)?,
+            material,
             gravity: std::array::from_fn(|a| scene.gravity.get(a).copied().unwrap_or(0.0)),
             kinematics,
             grid: UniformGrid::new(vector::subtract(&origin, &body.centroid), grid),
-            time_step: frame / steps,
-            steps_per_frame: steps as u64,
+            time_step: frame / steps as f64,
+            steps_per_frame: steps,
             held: HeldRegion::of(scene).map_err(refused)?,
             shapes: shapes.collect::<Result<_, _>>().map_err(refused)?,
             reference: body.reference,
@@ -123,14 +120,26 @@ impl<const D: usize> ReducedBody<D> {
     }
 }
 
-fn unsupported<T>(field: &'static str, expected: &'static str) -> Result<T, OnlineError> {
-    Err(OnlineError::Unsupported { field, expected })
+fn unsupported<T>(scene: &Scene, field: &'static str, expected: &'static str) -> Result<T, OnlineError> {
+    Err(OnlineError::Unsupported {
+        file: scene.file.display().to_string(),
+        field,
+        expected,
+    })
 }
 
-/// The spacing and the first node of the grid of a scene that can be reduced.
-fn supported(scene: &Scene) -> Result<(f64, &[f64]), OnlineError> {
+/// What a scene that can be reduced has.
+struct Supported<'a, const D: usize> {
+    /// The spacing of its grid.
+    grid: f64,
+    /// The first node of it.
+    lower: &'a [f64],
+    material: Box<dyn Material<D>>,
+}
+
+fn supported<const D: usize>(scene: &Scene) -> Result<Supported<'_, D>, OnlineError> {
     let (Some(grid), Some(domain)) = (&scene.grid, &scene.domain) else {
-        return unsupported("mesh", "left out: a [grid] is needed");
+        return unsupported(scene, "mesh", "left out: a [grid] is needed");
     };
     let turned = scene
         .bodies
@@ -153,31 +162,50 @@ fn supported(scene: &Scene) -> Result<(f64, &[f64]), OnlineError> {
     ];
     for (kept, field, expected) in rules {
         if !kept {
-            return unsupported(field, expected);
+            return unsupported(scene, field, expected);
         }
     }
-    check_time_step(scene)?;
-    Ok((grid.spacing, &domain.lower))
+    steps_per_frame(scene)?;
+    let [table] = scene.materials.values().collect::<Vec<_>>()[..] else {
+        return unsupported(scene, "materials", "a single one");
+    };
+    Ok(Supported {
+        grid: grid.spacing,
+        lower: &domain.lower,
+        material: material(scene, table)?,
+    })
+}
+
+/// Steps of a frame, unless a scene is one that the reduced dynamics do not have; no body is filled for it.
+///
+/// # Errors
+/// [`OnlineError::Unsupported`], as [`ReducedBody::of`].
+pub(crate) fn check_supported<const D: usize>(scene: &Scene) -> Result<u64, OnlineError> {
+    supported::<D>(scene)?;
+    steps_per_frame(scene)
 }
 
 /// Refuses a Δt that is not given or does not divide the frame.
-pub(crate) fn check_time_step(scene: &Scene) -> Result<(), OnlineError> {
+fn steps_per_frame(scene: &Scene) -> Result<u64, OnlineError> {
     let steps = scene.output.interval / scene.time.step.unwrap_or(f64::NAN);
     if !(steps >= 0.5 && (steps - steps.round()).abs() <= 1e-6 * steps) {
-        return unsupported("time.step", "given, and a whole part of output.interval");
+        return unsupported(scene, "time.step", "given, and a whole part of output.interval");
     }
-    Ok(())
+    Ok(steps.round() as u64)
 }
 
-fn material<const D: usize>(table: &MaterialTable) -> Result<Box<dyn Material<D>>, OnlineError> {
+fn material<const D: usize>(scene: &Scene, table: &MaterialTable) -> Result<Box<dyn Material<D>>, OnlineError> {
     let moduli = |solid: &SolidTable| {
         let moduli: Result<_, ParameterError> = ElasticModuli::new(solid.young_modulus, solid.poisson_ratio);
-        moduli.or_else(|_| unsupported("materials", "one whose moduli are in range"))
+        moduli.or_else(|_| unsupported(scene, "materials", "one whose moduli are in range"))
     };
     Ok(match table {
         MaterialTable::FixedCorotated(solid) => Box::new(FixedCorotated::new(moduli(solid)?)),
         MaterialTable::NeoHookean(solid) => Box::new(NeoHookean::new(moduli(solid)?)),
         MaterialTable::Hencky(solid) => Box::new(Hencky::new(moduli(solid)?)),
-        _ => return unsupported("materials.law", "\"fixed-corotated\", \"neo-hookean\" or \"hencky\""),
+        _ => {
+            let expected = "\"fixed-corotated\", \"neo-hookean\" or \"hencky\"";
+            return unsupported(scene, "materials.law", expected);
+        }
     })
 }

@@ -18,8 +18,10 @@ pub enum OnlineError {
     #[error(transparent)]
     Map(#[from] DeformationMapError),
     /// A part of the scene that the reduced dynamics do not have.
-    #[error("{field}: must be {expected} in a reduced run")]
+    #[error("{file}: {field}: must be {expected} in a reduced run")]
     Unsupported {
+        /// The scene's file.
+        file: String,
         /// The part.
         field: &'static str,
         /// What it must be.

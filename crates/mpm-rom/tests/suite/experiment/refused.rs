@@ -87,23 +87,57 @@ fn numbers_of_sample_points_and_scenes_that_are_not_there_are_refused_before_any
 }
 
 #[test]
-fn a_time_step_that_no_reduced_run_can_have_is_refused_before_the_training() {
+fn what_no_reduced_run_can_have_is_refused_before_the_training() {
     let (directory, file) = files();
-    let uneven = SCENE.replace("0.0050000001", "0.003");
-    std::fs::write(directory.path().join("uneven.toml"), uneven).expect("written");
-    let run = "scene = \"uneven.toml\", choice = [\"drawn\"]";
-    for (old, new) in [
-        ("\"strip.toml\"", "\"uneven.toml\""),
-        ("manifold = [\"network\", \"linear\"]", run),
-    ] {
-        let experiment = Experiment::parse(&EXPERIMENT.replace(old, new), &file).expect("sound");
-        let document = SceneDocument::read(&experiment.run_scene_file()).expect("a scene");
-        let scene = experiment.scene_of(&document, &[2.0, 0.1]).expect("a scene");
-        let of_run = ReducedBody::<2>::of(&scene).map(|_| ()).expect_err("refused by a run");
+    let law = "law = \"fixed-corotated\"";
+    for (number, (old, new, field)) in [
+        ("step = 0.0050000001", "step = 0.003", "time.step"),
+        (", step = 0.0050000001", "", "time.step"),
+        ("kind = \"pic\"", "kind = \"apic\"", "transfer.kind"),
+        (law, "law = \"drucker-prager\", friction_angle = 30.0", "materials.law"),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        assert!(SCENE.contains(old), "{old}");
+        let (name, out) = (format!("other_{number}.toml"), directory.path().join("out"));
+        let other = directory.path().join(&name);
+        std::fs::write(&other, SCENE.replace(old, new)).expect("written");
+        let of_run = format!("scene = \"{name}\", choice = [\"drawn\"]");
+        for (old, new) in [
+            ("\"strip.toml\"", format!("\"{name}\"")),
+            ("manifold = [\"network\", \"linear\"]", of_run),
+        ] {
+            let experiment = Experiment::parse(&EXPERIMENT.replace(old, &new), &file).expect("sound");
+            let document = SceneDocument::read(&experiment.run_scene_file()).expect("a scene");
+            let scene = experiment.scene_of(&document, &[2.0, 0.1]).expect("a scene");
+            let of_run = ReducedBody::<2>::of(&scene).map(|_| ()).expect_err("refused by a run");
+            let error = train_experiment(&experiment, &out, &mut ())
+                .expect_err(&new)
+                .to_string();
+            assert_eq!(error, of_run.to_string());
+            assert!(
+                error.starts_with(&format!("{}: {field}: must be ", other.display())),
+                "{error}"
+            );
+            assert!(!out.exists(), "nothing was begun");
+        }
+    }
+}
+
+#[test]
+fn a_step_factor_that_does_not_divide_a_frame_is_refused_before_the_training() {
+    let (directory, file) = files();
+    for factor in [0, 7] {
+        let run = format!("step_factor = [1, {factor}]");
+        let text = EXPERIMENT.replace("manifold = [\"network\", \"linear\"]", &run);
+        let experiment = Experiment::parse(&text, &file).expect("sound");
         let out = directory.path().join("out");
-        let error = train_experiment(&experiment, &out, &mut ()).expect_err(new);
-        assert_eq!(error.to_string(), of_run.to_string());
-        assert!(error.to_string().contains("time.step"), "{error}");
+        let error = train_experiment(&experiment, &out, &mut ())
+            .expect_err("uneven")
+            .to_string();
+        let expected = format!("{}, run.step_factor: {factor} does not divide the ", file.display());
+        assert!(error.starts_with(&expected), "{error}");
         assert!(!out.exists(), "nothing was begun");
     }
 }
