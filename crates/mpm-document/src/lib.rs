@@ -61,6 +61,19 @@ pub fn parse<T: DeserializeOwned>(text: &str, file: &Path) -> Result<T, Document
     })
 }
 
+/// The bytes of a file as a text; `file` is what errors call it.
+///
+/// # Errors
+/// [`DocumentError`] where they stop being UTF-8.
+pub fn text(bytes: Vec<u8>, file: &Path) -> Result<String, DocumentError> {
+    String::from_utf8(bytes).map_err(|error| {
+        let end = error.utf8_error().valid_up_to();
+        let before = String::from_utf8_lossy(&error.as_bytes()[..end]).into_owned();
+        let message = "what follows is not UTF-8, as TOML has to be".to_owned();
+        DocumentError::at(file, &before, end, message)
+    })
+}
+
 impl DocumentError {
     /// An error at a byte of the text.
     pub fn at(file: &Path, text: &str, byte: usize, message: String) -> Self {
@@ -221,6 +234,17 @@ mod tests {
             assert_eq!(message(text), expected);
         }
         assert!(message("title = ").starts_with("a.toml, line 1, column 9: "));
+    }
+
+    #[test]
+    fn bytes_that_are_no_text_are_reported_where_they_are() {
+        let text = |bytes: &[u8]| text(bytes.to_vec(), Path::new("a.toml"));
+        assert_eq!(text("é = 3".as_bytes()).as_deref(), Ok("é = 3"));
+        let error = text(b"# about\ntitle = \"caf\xe9\"\n").expect_err("Latin-1");
+        assert_eq!(
+            error.to_string(),
+            "a.toml, line 2, column 13: what follows is not UTF-8, as TOML has to be (in `title = \"caf`)"
+        );
     }
 
     #[test]

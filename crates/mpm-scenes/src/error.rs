@@ -52,12 +52,22 @@ pub enum SceneFault {
         expected: String,
     },
     /// A value that is needed is not there.
-    #[error("{field} is missing: must be {expected}")]
+    #[error("{field} is missing: it must be {expected}")]
     Missing {
         /// The field.
         field: String,
         /// What is needed.
         expected: String,
+    },
+    /// Two keys of which a table must have one.
+    #[error("{table}: one of `{}` and `{}` must be given, {}", keys[0], keys[1], if *both { "not both" } else { "and neither is" })]
+    OneOf {
+        /// The table, as in `probes[0]`.
+        table: String,
+        /// The keys.
+        keys: [&'static str; 2],
+        /// Whether both are there.
+        both: bool,
     },
     /// A body has no particles: its shape is empty or smaller than the distance between particles.
     #[error("bodies.{body}.shape holds no particle")]
@@ -195,6 +205,15 @@ impl SceneFault {
                 expected: expected.into(),
             },
             None => Self::missing(field, expected),
+        }
+    }
+
+    /// A [`OneOf`](Self::OneOf).
+    pub(crate) fn one_of(table: impl Into<String>, keys: [&'static str; 2], both: bool) -> Self {
+        Self::OneOf {
+            table: table.into(),
+            keys,
+            both,
         }
     }
 

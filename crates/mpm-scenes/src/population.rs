@@ -73,6 +73,11 @@ impl<const D: usize> Population<D> {
         Some(scene.bodies.get(number)?.name.clone())
     }
 
+    /// The side of the cube that a particle takes up.
+    pub(crate) fn width(&self, particle: usize) -> f64 {
+        self.stretches[particle] * self.volumes[particle].powf(1.0 / D as f64)
+    }
+
     fn add(&mut self, scene: &Scene, number: usize, filling: &Filling<D>) -> Result<(), SceneFault> {
         let Some(body) = scene.bodies.get(number) else {
             return Ok(());
@@ -174,7 +179,7 @@ fn fill<const D: usize>(
 ) -> Result<Filling<D>, SceneFault> {
     let field = format!("bodies.{}", body.name);
     let step = step(body, background);
-    let room = background.room();
+    let (room, seed) = (background.room(), body.seed.unwrap_or(0));
     let mesh = || of_shape::<D>(&format!("{field}.shape"), &body.shape, step);
     match body.fill {
         FillKind::Regular => {
@@ -187,9 +192,9 @@ fn fill<const D: usize>(
             };
             regular(&body.name, shape, &origin, step, room).map(|filling| of_volume(filling, shape, room))
         }
-        FillKind::PoissonDisk => poisson_disk(&body.name, shape, step, room, body.seed),
+        FillKind::PoissonDisk => poisson_disk(&body.name, shape, step, room, seed),
         FillKind::Rings => rings(&body.name, shape, step, room),
-        FillKind::Random => random(&body.name, shape, body.particles.unwrap_or(0), room, body.seed),
+        FillKind::Random => random(&body.name, shape, body.particles.unwrap_or(0), room, seed),
         FillKind::Vertices => Ok(vertices(&mesh()?)),
         FillKind::Centroids => Ok(centroids(&mesh()?)),
         FillKind::Cells => match background {

@@ -11,7 +11,8 @@ impl Experiment {
     /// # Errors
     /// [`ExperimentError::File`], [`ExperimentError::Syntax`], [`ExperimentError::Field`].
     pub fn read(file: &Path) -> Result<Self, ExperimentError> {
-        let text = std::fs::read_to_string(file).map_err(|source| ExperimentError::file("read", file, source))?;
+        let bytes = std::fs::read(file).map_err(|source| ExperimentError::file("read", file, source))?;
+        let text = mpm_document::text(bytes, file)?;
         Self::parse(&text, file)
     }
 

@@ -39,18 +39,18 @@ impl<const D: usize> Filling<D> {
 /// Points of a lattice that are looked at, at most.
 const MOST_POINTS: f64 = 5e8;
 
-/// Whole numbers of steps that cover the sides of a box, unless there are too many of them; `body` is whose they are.
-fn counts<const D: usize>(body: &str, sides: &[f64; D], step: f64) -> Result<[u64; D], SceneFault> {
+/// Whole numbers of steps that cover the sides of a box, unless there are more than `most` of them; `body` is whose they are.
+fn counts<const D: usize>(body: &str, sides: &[f64; D], step: f64, most: f64) -> Result<[u64; D], SceneFault> {
     let counts = sides.map(|side| (side / step).ceil().max(0.0));
     let product: f64 = counts.iter().product();
-    if product <= MOST_POINTS {
+    if product <= most {
         return Ok(counts.map(|count| count as u64));
     }
     Err(SceneFault::TooManyPoints {
         body: body.to_owned(),
         key: "spacing",
         distance: step,
-        most: MOST_POINTS,
+        most,
     })
 }
 

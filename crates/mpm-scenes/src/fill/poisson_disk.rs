@@ -1,12 +1,15 @@
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
-use super::{Filling, counts, place};
+use super::{Filling, MOST_POINTS, counts, place};
 use crate::SceneFault;
 use crate::shape::{Bounds, Shape};
 
 /// Candidates around a point before it is given up (Bridson's k).
 const CANDIDATES: u32 = 30;
+
+/// Points in the box around a shape, at most, at the density of the filling: each takes some thirty candidates.
+const MOST_DISKS: f64 = 1e7;
 
 /// Random points in the shape, no two closer than r = (θ_D stepᴰ)^{1/D} and with no room for another one that 30 candidates around
 /// every point would have found; their volumes are equal and sum to the shape's.
@@ -31,6 +34,7 @@ pub fn poisson_disk<const D: usize>(
 ) -> Result<Filling<D>, SceneFault> {
     let bounds = shape.bounds().finite_within(room);
     let radius = step * points_per_radius::<D>().powf(1.0 / D as f64);
+    counts(body, &bounds.sides(), step, MOST_DISKS)?;
     let mut disks = Disks::new(body, bounds, radius)?;
     let mut generator = ChaCha8Rng::seed_from_u64(seed);
     for cell in 0..disks.cells.len() {
@@ -83,7 +87,7 @@ struct Disks<const D: usize> {
 impl<const D: usize> Disks<D> {
     fn new(body: &str, bounds: Bounds<D>, radius: f64) -> Result<Self, SceneFault> {
         let width = radius / (D as f64).sqrt();
-        let counts = counts(body, &std::array::from_fn(|a| bounds.upper[a] - bounds.lower[a]), width)?;
+        let counts = counts(body, &bounds.sides(), width, MOST_POINTS)?;
         Ok(Self {
             origin: bounds.lower,
             radius,

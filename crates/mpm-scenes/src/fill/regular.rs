@@ -1,4 +1,4 @@
-use super::{Filling, counts, place};
+use super::{Filling, MOST_POINTS, counts, place};
 use crate::SceneFault;
 use crate::shape::{Bounds, Shape};
 
@@ -19,7 +19,7 @@ pub fn regular<const D: usize>(
     let bounds = shape.bounds().finite_within(room);
     let first: [f64; D] = std::array::from_fn(|a| ((bounds.lower[a] - origin[a]) / step).floor());
     let sides: [f64; D] = std::array::from_fn(|a| bounds.upper[a] - origin[a] - first[a] * step);
-    let counts = counts(body, &sides, step)?;
+    let counts = counts(body, &sides, step, MOST_POINTS)?;
     let middle = |number: u64| -> [f64; D] {
         let place = place(&counts, number);
         std::array::from_fn(|a| origin[a] + (first[a] + place[a] as f64 + 0.5) * step)

@@ -1,6 +1,6 @@
 use std::f64::consts::PI;
 
-use super::{Filling, counts};
+use super::{Filling, MOST_POINTS, counts};
 use crate::SceneFault;
 use crate::shape::{Bounds, Shape};
 
@@ -27,9 +27,9 @@ pub fn rings<const D: usize>(
         )
     };
     let bounds = shape.bounds().finite_within(room);
-    let sides: [f64; D] = std::array::from_fn(|a| bounds.upper[a] - bounds.lower[a]);
+    let sides = bounds.sides();
     let centre: [f64; D] = std::array::from_fn(|a| 0.5 * (bounds.lower[a] + bounds.upper[a]));
-    counts(body, &sides, step)?;
+    counts(body, &sides, step, MOST_POINTS)?;
     let outer = match sides.get(..2) {
         Some(&[width, height]) if D == 2 && (width - height).abs() <= 1e-9 * width => 0.5 * width,
         _ => return Err(other("what is no disk or annulus")),

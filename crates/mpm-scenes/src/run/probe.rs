@@ -11,6 +11,9 @@ use crate::scene::{ProbeTable, Scene};
 use crate::shape::Bounds;
 use crate::values::{self, vector};
 
+/// How far from its particle the point of a probe may be, in diagonals of the particle's cube: the corner of a regular filling is at half of one.
+const NEAR: f64 = 2.0;
+
 /// Names of the axes.
 pub(super) const AXES: [&str; 3] = ["x", "y", "z"];
 
@@ -50,18 +53,24 @@ impl<const D: usize> Probe<D> {
         })
     }
 
-    /// Whether the points that probes of a scene look about are in the room of its bodies.
+    /// Whether the points that probes of a scene look about are in the room of its bodies, and near one of their particles.
     ///
     /// # Errors
-    /// [`SceneFault::Value`] for one outside.
-    pub fn check_points(scene: &Scene, room: &Bounds<D>) -> Result<(), SceneFault> {
+    /// [`SceneFault::Value`] for one that is not.
+    pub fn check_points(scene: &Scene, room: &Bounds<D>, all: &Population<D>) -> Result<(), SceneFault> {
         for (index, table) in scene.probes.iter().enumerate() {
             let Some(at) = &table.at else { continue };
             let field = format!("probes[{index}].at");
-            let inside = room.contains(&vector::<D>(&field, at)?);
+            let point = vector::<D>(&field, at)?;
+            let inside = room.contains(&point);
             let (name, lower, upper) = (&table.name, &room.lower, &room.upper);
             let expected = format!("in the domain {lower:?} to {upper:?}, of the probe `{name}`");
             values::within(&field, at, inside, &expected)?;
+            let particle = nearest(scene, all, &point, table.body.as_ref());
+            let position = &all.positions[particle];
+            let near = algebra::distance(position, &point) <= NEAR * (D as f64).sqrt() * all.width(particle);
+            let expected = format!("near a particle, of the probe `{name}`: the nearest one is at {position:?}");
+            values::within(&field, at, near, &expected)?;
         }
         Ok(())
     }

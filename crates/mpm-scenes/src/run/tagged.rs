@@ -8,7 +8,7 @@ use mpm_tensor::vector as algebra;
 
 use super::dispatch;
 use crate::background::Background;
-use crate::scene::{FacetCondition, FacetTable, Scene};
+use crate::scene::{FacetCondition, FacetTable, ON_MESH, Scene};
 use crate::values::{vector, within};
 use crate::{SceneFault, velocity};
 
@@ -71,11 +71,7 @@ pub(super) fn build<const D: usize>(scene: &Scene, background: &Background<D>) -
             inner, whole, groups, ..
         } = background
         else {
-            return Err(SceneFault::value(
-                field("group"),
-                &table.group,
-                "left out without a [mesh]",
-            ));
+            return Err(SceneFault::value(field("group"), &table.group, ON_MESH));
         };
         let facets = group(field("group"), table, groups)?;
         let expected = "a group with facets: the file names this one, and no element is in it";

@@ -27,9 +27,8 @@ pub struct BodyTable {
     pub spacing: Option<f64>,
     /// Number of particles; with `fill = "random"` only.
     pub particles: Option<u32>,
-    /// Seed of a random filling. Default 0.
-    #[serde(default)]
-    pub seed: u64,
+    /// Seed of a random filling; with `fill = "poisson-disk"` and `"random"` only. Default 0.
+    pub seed: Option<u64>,
     /// Velocity at t = 0. By default the body is at rest.
     pub velocity: Option<VelocityTable>,
     /// λ in F = λ 1 at t = 0: the shape is that of the deformed body. Default 1.

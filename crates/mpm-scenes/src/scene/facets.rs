@@ -24,6 +24,9 @@ pub struct FacetTable {
     pub ramp: Option<f64>,
 }
 
+/// What the group of a table must be, where there is no mesh.
+pub(crate) const ON_MESH: &str = "one of a [mesh]: a [grid] has no facets, leave [[facets]] out";
+
 /// `facets.condition`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]

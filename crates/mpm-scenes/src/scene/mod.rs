@@ -27,6 +27,7 @@ pub use boundary::{
 };
 pub(crate) use check::MOST_STEPS;
 pub use discretisation::{BasisName, Discretisation, DomainTable, GridTable, MomentsName, TransferKind, TransferTable};
+pub(crate) use facets::ON_MESH;
 pub use facets::{FacetCondition, FacetTable};
 pub use load::LoadTable;
 pub use material::{FluidTable, GasTable, MaterialTable, MetalTable, SandTable, SnowTable, SolidTable};
@@ -34,6 +35,7 @@ pub use mesh::{
     DelaunayTable, GradientName, KernelName, MeshShapeTable, MeshTable, RefinementTable, RotationTable, WidthName,
 };
 pub use output::{OutputTable, ProbeTable, ValidationTable};
+pub(crate) use read::text_of;
 pub use region::ShapeTable;
 pub use time::{StressUpdateName, TimeTable};
 pub use velocity::{VelocityField, VelocityTable};

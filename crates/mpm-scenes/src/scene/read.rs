@@ -13,10 +13,8 @@ impl Scene {
     /// shapes, the longest time step) is left to [`simulate`](crate::simulate).
     pub fn read(path: impl Into<PathBuf>) -> Result<Self, SceneError> {
         let file = path.into();
-        match std::fs::read_to_string(&file) {
-            Ok(text) => Self::parse(&text, &file),
-            Err(error) => Err(refused(&file, error.into())),
-        }
+        let text = text_of(&file)?;
+        Self::parse(&text, &file)
     }
 
     /// As [`read`](Self::read), of a text that is in no file yet; `file` is what errors call it.
@@ -38,6 +36,15 @@ impl Scene {
     pub fn error(&self, fault: SceneFault) -> SceneError {
         refused(&self.file, fault)
     }
+}
+
+/// The text of a file.
+///
+/// # Errors
+/// [`SceneFault::Unreadable`], [`SceneFault::Syntax`] for what is no text.
+pub(crate) fn text_of(file: &Path) -> Result<String, SceneError> {
+    let bytes = std::fs::read(file).map_err(|error| refused(file, error.into()))?;
+    mpm_document::text(bytes, file).map_err(|error| refused(file, error.into()))
 }
 
 fn refused(file: &Path, fault: SceneFault) -> SceneError {

@@ -31,6 +31,11 @@ impl<const D: usize> Bounds<D> {
         }
     }
 
+    /// Its lengths along the axes.
+    pub(crate) fn sides(&self) -> [f64; D] {
+        std::array::from_fn(|a| self.upper[a] - self.lower[a])
+    }
+
     /// The smallest box that holds both.
     pub fn hull(&self, other: &Self) -> Self {
         Self {

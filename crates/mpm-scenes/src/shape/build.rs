@@ -1,5 +1,7 @@
 //! From a shape's table to the shape.
 
+use mpm_mesh::generate::check_outlines;
+
 use super::{Ball, Bounds, Capsule, Cuboid, Difference, HalfSpace, Intersection, Polygon, Shape, Twisted, Union, unit};
 use crate::SceneFault;
 use crate::scene::ShapeTable;
@@ -8,7 +10,7 @@ use crate::values::{finite, positive, vector, within};
 /// The shape that a table describes; `field` is what errors call it.
 ///
 /// # Errors
-/// [`SceneFault::Value`] for a vector of the wrong length, a number that is not finite, a box or polygon that holds no point, a radius that is not
+/// [`SceneFault::Value`] for a vector of the wrong length, a number that is not finite, a box or polygon that holds no point, a polygon that crosses itself, a radius that is not
 /// positive, a normal of no length, a combination of nothing, a polygon in other than two dimensions, a twist in
 /// other than three or of a shape without bounds.
 pub fn build<const D: usize>(field: &str, table: &ShapeTable) -> Result<Box<dyn Shape<D>>, SceneFault> {
@@ -82,9 +84,18 @@ fn polygon<const D: usize>(field: &str, corners: &[[f64; 2]]) -> Result<Polygon,
     for corner in corners {
         vector::<2>(&field, corner)?;
     }
+    // What stands twice in a row is one corner.
+    let mut distinct = corners.to_vec();
+    distinct.dedup();
+    if distinct.len() > 1 && distinct.first() == distinct.last() {
+        distinct.pop();
+    }
+    let expected = "at least three corners around an area";
+    within(&field, corners, distinct.len() >= 3, expected)?;
+    check_outlines(&[distinct])
+        .map_err(|error| SceneFault::value(&field, corners, format!("those of a polygon: {error}")))?;
     let polygon = Polygon {
         corners: corners.to_vec(),
     };
-    let wide = corners.len() >= 3 && polygon.signed_area() != 0.0;
-    within(&field, corners, wide, "at least three corners around an area").map(|_| polygon)
+    within(&field, corners, polygon.signed_area() != 0.0, expected).map(|_| polygon)
 }

@@ -6,6 +6,7 @@ use mpm_document::DocumentError;
 use toml::{Table, Value};
 
 use super::keys;
+use crate::scene::text_of;
 use crate::{Scene, SceneError, SceneFault};
 
 /// The document of a scene.
@@ -19,12 +20,9 @@ impl SceneDocument {
     /// Reads a file.
     ///
     /// # Errors
-    /// [`SceneFault::Unreadable`], or [`SceneFault::Syntax`] for what is no TOML.
+    /// [`SceneFault::Unreadable`], or [`SceneFault::Syntax`] for what is no text or no TOML.
     pub fn read(file: &Path) -> Result<Self, SceneError> {
-        match std::fs::read_to_string(file) {
-            Ok(text) => Self::parse(&text, file),
-            Err(error) => Err(refused(file, error)),
-        }
+        Self::parse(&text_of(file)?, file)
     }
 
     /// As [`read`](Self::read), of a text; `file` is what errors call it.

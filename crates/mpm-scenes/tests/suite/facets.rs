@@ -170,7 +170,7 @@ fn groups_that_name_nothing_are_refused() {
                 "[mesh]\nfile = \"disk.msh\"",
                 "[domain]\nlower = [-2.0, -2.0]\nupper = [2.0, 2.0]\n\n[grid]\nspacing = 0.2",
             )],
-            "facets[0].group = \"rim\": must be left out without a [mesh]",
+            "facets[0].group = \"rim\": must be one of a [mesh]: a [grid] has no facets, leave [[facets]] out",
         ),
         (vec![(velocity, "[output]")], "facets[0].velocity"),
         (

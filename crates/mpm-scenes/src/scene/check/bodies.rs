@@ -54,6 +54,9 @@ impl Scene {
             let (count, expected) = (body.particles_per_axis, "left out where there is a spacing");
             within(&field("particles_per_axis"), count, count.is_none(), expected)?;
         }
+        let drawn = matches!(body.fill, FillKind::PoissonDisk | FillKind::Random);
+        let expected = "left out unless fill = \"poisson-disk\" or \"random\"";
+        within(&field("seed"), body.seed, drawn || body.seed.is_none(), expected)?;
         let (valid, expected) = match body.fill {
             FillKind::Random => (body.particles > Some(0), "at least 1 with fill = \"random\""),
             _ => (body.particles.is_none(), "left out unless fill = \"random\""),

@@ -1,7 +1,7 @@
 //! Conditions on named facets.
 
 use super::boundaries::{check_friction, check_presence};
-use crate::scene::{FacetCondition, FacetTable, Scene, StressUpdateName};
+use crate::scene::{FacetCondition, FacetTable, ON_MESH, Scene, StressUpdateName};
 use crate::values::{check, finite, not_negative, vector, within};
 use crate::{SceneFault, velocity};
 
@@ -10,7 +10,14 @@ impl Scene {
         for (index, table) in self.facets.iter().enumerate() {
             let field = |key: &str| format!("facets[{index}].{key}");
             let on_mesh = self.mesh.is_some();
-            within(&field("group"), &table.group, on_mesh, "left out without a [mesh]")?;
+            within(&field("group"), &table.group, on_mesh, ON_MESH)?;
+            let holds = |table: &FacetTable| table.condition != FacetCondition::Traction;
+            let same = |other: &FacetTable| other.group == table.group && holds(other);
+            let earlier = self.facets[..index].iter().position(same).filter(|_| holds(table));
+            if let Some(earlier) = earlier {
+                let expected = format!("another group than that of facets[{earlier}], which says what happens there");
+                return Err(SceneFault::value(field("group"), &table.group, expected));
+            }
             let prescribed = table.condition == FacetCondition::Prescribed;
             let velocity = table.velocity.as_ref();
             if prescribed && velocity.is_none() {

@@ -31,7 +31,7 @@ impl Scene {
             "barrier.shapes",
             [0; 0],
             some || against.is_some(),
-            "at least one shape",
+            "at least one shape, unless against = \"mesh\" is given",
         )?;
         let on_mesh = self.mesh.is_some() || against.is_none();
         within("barrier.against", against, on_mesh, "left out unless there is a [mesh]")?;

@@ -52,6 +52,9 @@ impl Scene {
     }
 }
 
+/// Rounds of smoothing, at most.
+const MOST_SWEEPS: usize = 1000;
+
 fn check_mesh<const D: usize>(mesh: &MeshTable) -> Result<(), SceneFault> {
     match (&mesh.file, &mesh.generate) {
         (Some(_), None) => {}
@@ -66,10 +69,7 @@ fn check_mesh<const D: usize>(mesh: &MeshTable) -> Result<(), SceneFault> {
                 within("mesh.generate.outer", *outer, fits, "finite and above inner")?;
             }
         }
-        (file, _) => {
-            let expected = "given unless generate is, not beside it";
-            return Err(SceneFault::value("mesh.file", file, expected));
-        }
+        (file, _) => return Err(SceneFault::one_of("mesh", ["file", "generate"], file.is_some())),
     }
     let needed = mesh.kernel != KernelName::Hat || !mesh.positive_weights;
     let expected = "left out with mesh.kernel = \"hat\", whose weights are positive";
@@ -90,6 +90,8 @@ fn check_points_inside(mesh: &MeshTable) -> Result<(), SceneFault> {
     within("mesh.angle", mesh.angle, polygons || mesh.angle == 0.0, of_polygons)?;
     let Some(delaunay) = &mesh.delaunay else { return Ok(()) };
     within("mesh.delaunay", delaunay, polygons, of_polygons)?;
+    let (sweeps, expected) = (delaunay.sweeps, format!("at most {MOST_SWEEPS}"));
+    within("mesh.delaunay.sweeps", sweeps, sweeps <= MOST_SWEEPS, &expected)?;
     for (index, place) in delaunay.refine.iter().enumerate() {
         let field = |key: &str| format!("mesh.delaunay.refine[{index}].{key}");
         positive(&field("size"), place.size)?;

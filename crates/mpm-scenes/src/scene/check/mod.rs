@@ -14,6 +14,9 @@ use crate::values::{check, not_negative, positive, vector, within};
 /// Steps of a run, at most: months of computing time for the smallest bodies.
 pub(crate) const MOST_STEPS: f64 = 1e9;
 
+/// The order of PIC, at most: it takes as many passes.
+const MOST_ORDER: usize = 100;
+
 impl Scene {
     /// Whether every value is in its range and fits the others.
     ///
@@ -29,7 +32,9 @@ impl Scene {
     }
 
     fn check_in<const D: usize>(&self) -> Result<(), SceneFault> {
-        not_negative("gravity_ramp", self.gravity_ramp)?;
+        let ramp = not_negative("gravity_ramp", self.gravity_ramp)?;
+        let acts = ramp == 0.0 || !self.gravity.is_empty();
+        within("gravity_ramp", ramp, acts, "left out without gravity")?;
         if !self.gravity.is_empty() {
             vector::<D>("gravity", &self.gravity)?;
         }
@@ -57,7 +62,9 @@ impl Scene {
         within(field, share, fits, "between 0 and 1")?;
         check(table.pic_rate, "transfer.pic_rate", not_negative)?;
         let (field, order) = ("transfer.pic_order", table.pic_order);
-        within(field, order, order != Some(0), "at least 1")?;
+        let expected = format!("at least 1 and at most {MOST_ORDER}");
+        let fits = order.is_none_or(|order| (1..=MOST_ORDER).contains(&order));
+        within(field, order, fits, &expected)?;
         let of_rate = order.is_none() || table.pic_rate.is_some();
         within(field, order, of_rate, "left out unless transfer.pic_rate is given")?;
         let (field, moments) = ("transfer.moments", table.moments);

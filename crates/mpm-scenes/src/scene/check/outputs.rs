@@ -32,8 +32,8 @@ impl Scene {
                 (Some(at), None) => drop(vector::<D>(&field("at"), at)?),
                 (None, Some(region)) => drop(shape::build::<D>(&field("region"), region)?),
                 (at, _) => {
-                    let expected = "given unless region is, not beside it";
-                    return Err(SceneFault::value(field("at"), at, expected));
+                    let table = format!("probes[{index}]");
+                    return Err(SceneFault::one_of(table, ["at", "region"], at.is_some()));
                 }
             }
             self.check_body_name(field("body"), probe.body.as_ref())?;
