@@ -11,14 +11,15 @@ use crate::online::check_supported;
 impl Experiment {
     /// Refuses what no reduced run can have, before anything is trained for it: in the scene that is run, and, where runs of it choose sample points or networks, in that of the training.
     pub(super) fn check_reducible<const D: usize>(&self) -> Result<(), ExperimentError> {
-        let mut scenes = vec![(self.read_run_scene()?, &self.cases.test)];
+        // Runs by which the training chooses have the time steps of its scene.
+        let mut scenes = vec![(self.read_run_scene()?, &self.cases.test, &self.run.step_factor[..])];
         if self.starts > 1 || chooses_on_training(self) {
-            scenes.push((self.read_scene()?, &self.cases.train));
+            scenes.push((self.read_scene()?, &self.cases.train, &[]));
         }
-        for (document, cases) in scenes {
+        for (document, cases, factors) in scenes {
             for values in cases {
                 let steps = check_supported::<D>(&self.scene_of(&document, values)?)?;
-                for &factor in &self.run.step_factor {
+                for &factor in factors {
                     check_step_factor(self, factor, steps)?;
                 }
             }
