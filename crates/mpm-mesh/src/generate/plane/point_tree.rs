@@ -101,12 +101,21 @@ fn half_of(point: &[f64; 2], place: &Place) -> usize {
 }
 
 fn part(place: Place, first: usize, half: usize) -> Place {
-    let (middle, [mut lower, mut upper]) = (middle(&place), place.1);
-    for axis in 0..2 {
-        let bound = if half >> axis & 1 == 1 { &mut lower } else { &mut upper };
-        bound[axis] = middle[axis];
-    }
-    (first + half, [lower, upper], place.2 + 1)
+    let (middle, [lower, upper]) = (middle(&place), place.1);
+    let bounds = |at_lower: [f64; 2], at_upper: [f64; 2]| {
+        [0, 1].map(|axis| {
+            if half >> axis & 1 == 1 {
+                at_upper[axis]
+            } else {
+                at_lower[axis]
+            }
+        })
+    };
+    (
+        first + half,
+        [bounds(lower, middle), bounds(middle, upper)],
+        place.2 + 1,
+    )
 }
 
 #[cfg(test)]
