@@ -76,9 +76,9 @@ pub(super) fn build<const D: usize>(scene: &Scene, background: &Background<D>) -
         let facets = group(field("group"), table, groups)?;
         let expected = "a group with facets: the file names this one, and no element is in it";
         within(&field("group"), &table.group, !facets.is_empty(), expected)?;
-        let pressed = table.condition == FacetCondition::Traction;
-        let outer = !pressed || named(inner, facets).next().is_some();
-        let expected = "a group with facets of the boundary, on which a traction acts";
+        let holds = matches!(table.condition, FacetCondition::Fixed | FacetCondition::Prescribed);
+        let outer = holds || named(inner, facets).next().is_some();
+        let expected = "a group with facets of the boundary: the others have no normal, and the condition acts on none";
         within(&field("group"), &table.group, outer, expected)?;
         let normals = || normals(inner, whole, facets);
         let contact = match table.condition {

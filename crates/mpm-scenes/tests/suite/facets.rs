@@ -222,6 +222,39 @@ fn groups_that_name_nothing_are_refused() {
     }
 }
 
+/// Within the mesh facets have no side that a body is on.
+#[test]
+fn conditions_along_normals_need_a_boundary() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let velocity =
+        "velocity = { kind = \"linear\", centre = [0.0, 0.0], gradient = [[0.0, 1.5], [0.0, 0.0]] }\n\n[output]";
+    for condition in [
+        "\"slip\"",
+        "\"friction\"\nfriction = 0.3",
+        "\"traction\"\npressure = 1.0",
+    ] {
+        let condition = format!("condition = {condition}");
+        let changes = [
+            ("condition = \"prescribed\"", condition.as_str()),
+            (velocity, "[output]"),
+        ];
+        let inside = scene(directory.path(), &changes).expect("read without the mesh");
+        // The rim is a group of another number, and the first of its elements one between two vertices inside.
+        let whole = file().replace(" 1 2 4 1 ", " 1 2 5 1 ");
+        let first = whole
+            .lines()
+            .find(|line| line.starts_with("1 1 2 5 1 "))
+            .expect("an element");
+        let last = whole.lines().rev().nth(1).expect("a cell");
+        let ends: Vec<&str> = last.split(' ').skip(5).take(2).collect();
+        let text = whole.replacen(first, &format!("1 1 2 4 1 {} {}", ends[0], ends[1]), 1);
+        std::fs::write(directory.path().join("disk.msh"), text).expect("writable");
+        let message = frames(&inside, &mut |_| {}).expect_err(&condition).to_string();
+        let expected = "facets[0].group = \"rim\": must be a group with facets of the boundary";
+        assert!(message.contains(expected), "{message}");
+    }
+}
+
 /// Without a file there is the group of the whole boundary: here the disk's, as `rim` is.
 #[test]
 fn a_generated_mesh_has_its_boundary() {
