@@ -22,8 +22,8 @@ impl<F: Fn(&[f64; 2]) -> f64 + Sync> Counted<F> {
         }
     }
 
-    fn sampled(&self, options: &MpmOptions) -> Samples<2> {
-        let samples = options.sample(self, &Frame::identity(), &Run::new(100, 1), &mut Silent);
+    fn sampled(&self, options: &MpmOptions, particles: usize) -> Samples<2> {
+        let samples = options.sample(self, &Frame::identity(), &Run::new(particles, 1), &mut Silent);
         let samples = samples.expect("particles");
         let counts = [&self.densities, &self.scores].map(|count| count.load(Ordering::Relaxed));
         assert_eq!([samples.density_evaluations, samples.score_evaluations], counts);
@@ -67,7 +67,7 @@ fn what_does_not_fall_off_is_said_to_be_improper() {
     let separated = |x: &[f64; 2]| -softplus(-(x[0] + 2.0 * x[1])) - softplus(-(2.0 * x[0] + x[1])) - softplus(-x[0]);
     let improper: [&(dyn Fn(&[f64; 2]) -> f64 + Sync); 3] = [&|x| x[0], &|_| 0.0, &separated];
     for log_density in improper {
-        let samples = Counted::new(log_density).sampled(&MpmOptions::default());
+        let samples = Counted::new(log_density).sampled(&MpmOptions::default(), 100);
         assert!(
             matches!(doubt(&samples), Some(Doubt::Endless { .. })),
             "{:?}",
@@ -97,15 +97,19 @@ fn proper_densities_fall_off() {
     let funnel = |x: &[f64; 2]| -x[0] * x[0] / 18.0 - 0.5 * x[0] - 0.5 * x[1] * x[1] * (-x[0]).exp();
     let proper: [&(dyn Fn(&[f64; 2]) -> f64 + Sync); 3] = [&cauchy, &boxed, &funnel];
     for log_density in proper {
-        let samples = Counted::new(log_density).sampled(&MpmOptions::default());
+        let samples = Counted::new(log_density).sampled(&MpmOptions::default(), 100);
         assert!(!matches!(doubt(&samples), Some(Doubt::Endless { .. })));
     }
 }
 
 #[test]
 fn a_survey_in_vain_is_counted() {
-    // So narrow, and so far from where a survey looks, that it weighs nothing.
-    let needle = |x: &[f64; 2]| -0.5 * ((x[0] - 3e4).powi(2) + (x[1] + 2e4).powi(2)) * 1e-2 - 1e-3 * x[0].abs().sqrt();
-    let samples = Counted::new(needle).sampled(&MpmOptions::default());
-    assert!(samples.density_evaluations > 0);
+    // A thin, bent ridge, and hardly an evaluation.
+    let ridge = |x: &[f64; 2]| -0.5 * x[0] * x[0] - 0.5 * (x[1] - 500.0 * (x[0] * x[0] - 1.0)).powi(2);
+    let options = MpmOptions {
+        evaluations: Some(300),
+        ..MpmOptions::default()
+    };
+    let samples = Counted::new(ridge).sampled(&options, 1000);
+    assert!(samples.pool.is_none() && samples.density_evaluations > 0);
 }
