@@ -17,6 +17,7 @@ mod options;
 mod output;
 mod pictures;
 mod progress;
+mod provenance;
 mod sampling;
 mod study;
 

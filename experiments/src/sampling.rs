@@ -136,7 +136,8 @@ pub fn unless_failed<T, const D: usize>(
     target: &dyn CatalogueTarget<D>,
     worked: Result<T, CommandError>,
 ) -> Result<T, CommandError> {
-    target.fault().map_or(worked, |fault| Err(fault.into()))
+    let failed = |fault| Err(CommandError::Library(Box::new(fault)));
+    target.fault().map_or(worked, failed)
 }
 
 /// Samples a target that is already built.

@@ -114,6 +114,9 @@ impl MultiplesPlot {
     }
 }
 
+/// Of a panel's range what a line is wide.
+const LINE_SHARE: f64 = 0.01;
+
 /// Draws small multiples as an SVG document.
 ///
 /// # Errors
@@ -134,6 +137,14 @@ pub fn multiples(plot: &MultiplesPlot) -> Result<String, PlotError> {
     let mut panels = Vec::with_capacity(plot.panels.len());
     for panel in &plot.panels {
         let mut series: Vec<ChartSeries> = panel.series.iter().map(line).collect();
+        if bare {
+            let hidden = (0..series.len()).map(|index| hidden_by(&panel.series, index));
+            let gaps: Vec<Connection> = hidden.map(with_gaps).collect();
+            series
+                .iter_mut()
+                .zip(gaps)
+                .for_each(|(series, gaps)| series.connection = gaps);
+        }
         for guide in &panel.guides {
             let dashes = if guide.dotted {
                 Connection::Dotted
@@ -169,4 +180,25 @@ pub fn multiples(plot: &MultiplesPlot) -> Result<String, PlotError> {
         notes: plot.notes.clone(),
     }
     .draw()
+}
+
+/// Lines of a panel that one lies upon, all the way: the first is drawn on top.
+fn hidden_by(series: &[LineSeries], index: usize) -> usize {
+    let values = series.iter().flat_map(|series| &series.y).filter(|y| y.is_finite());
+    let [low, high] = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], y| {
+        [low.min(*y), high.max(*y)]
+    });
+    let line = &series[index];
+    let is_near = |(a, b): (&f64, &f64)| a.is_nan() && b.is_nan() || (a - b).abs() <= LINE_SHARE * (high - low);
+    let is_hidden = |other: &&LineSeries| line.x == other.x && line.y.iter().zip(&other.y).all(is_near);
+    series[index + 1..].iter().filter(is_hidden).count()
+}
+
+/// A line that shows as many lines below.
+fn with_gaps(hidden: usize) -> Connection {
+    match hidden {
+        0 => Connection::Solid,
+        1 => Connection::Dashed,
+        _ => Connection::Dotted,
+    }
 }

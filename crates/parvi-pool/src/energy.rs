@@ -19,6 +19,9 @@ const fn direction_count(dimension: usize) -> usize {
     }
 }
 
+/// Directions that tell whether parts are apart at all.
+const FEW: usize = 16;
+
 /// Bins of the measure along a direction: on a line particles come nearest to it, and there is one direction.
 const fn bin_count(dimension: usize) -> usize {
     if dimension == 1 { 4096 } else { 1024 }
@@ -46,6 +49,10 @@ type Part<const D: usize> = (Vec<Group<D>>, Vec<f64>);
 impl<const D: usize> EnergyDistance<D> {
     /// From a measure, in the coordinates of a frame.
     pub fn new(measure: &Measure<D>, frame: Frame<D>) -> Self {
+        Self::along(&directions(), measure, frame)
+    }
+
+    fn along(directions: &[[f64; D]], measure: &Measure<D>, frame: Frame<D>) -> Self {
         let part = |range: Range<usize>| -> Part<D> {
             let points = measure.points.get(range.clone()).unwrap_or_default().iter();
             let weights = measure.weights.get(range).unwrap_or_default().iter();
@@ -54,7 +61,7 @@ impl<const D: usize> EnergyDistance<D> {
             (packed(&points), weights)
         };
         let parts: Vec<Part<D>> = measure.parts().map(part).collect();
-        let projections = mpm_parallel::map(directions().iter(), &|u| Projection::new(*u, &parts));
+        let projections = mpm_parallel::map(directions.iter(), &|u| Projection::new(*u, &parts));
         Self { frame, projections }
     }
 
@@ -80,6 +87,17 @@ impl<const D: usize> EnergyDistance<D> {
         let each = mpm_parallel::map(self.projections.iter(), of);
         let log_scale = log_gamma_of_half(D as u32 + 1) - log_gamma_of_half(D as u32);
         std::f64::consts::PI.sqrt() * log_scale.exp() * each.iter().sum::<f64>() / each.len().max(1) as f64
+    }
+}
+
+impl<const D: usize> Measure<D> {
+    /// How far its independent parts are apart, [`EnergyDistance::noise`] over E|Y − Y′|, over what the [`variance`](Self::variance) says: 0.3 to 1.7 where the parts stand for the same, 10
+    /// where one of them had lost a mode of mass 0.02. NaN where there is no spread.
+    pub fn inconsistency(&self) -> f64 {
+        let directions = directions();
+        let few = directions.len().min(FEW);
+        let distance = EnergyDistance::along(&directions[..few], self, self.frame());
+        distance.noise() / distance.own() / self.variance
     }
 }
 

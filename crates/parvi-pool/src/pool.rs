@@ -15,6 +15,9 @@ use crate::referee::{Objection, Verdict};
 use crate::sample::moments;
 use crate::weights::effective_size;
 
+/// Of parts that stand for the same.
+const LARGEST_INCONSISTENCY: f64 = 3.0;
+
 /// Probability with which a piece that is seen from a share [`Pool::unseen`] of all draws is overlooked.
 const OVERLOOKED: f64 = 0.05;
 
@@ -35,6 +38,8 @@ pub struct Pool<const D: usize> {
     pub log_evidence_error: f64,
     /// What fresh points of the frozen proposal say.
     pub verdict: Verdict,
+    /// [`Measure::inconsistency`]; zero where it is not known.
+    pub inconsistency: f64,
     /// Evaluations of searches since they last met a piece, over those before; infinite where they met none.
     pub quiet: f64,
     /// Evaluations of searches since they last met a piece.
@@ -76,6 +81,7 @@ impl<const D: usize> Pool<D> {
         let verdict = Verdict::of(&fresh_logs, &frozen.covered, frozen.undefined);
         let all = [&folds[0], &folds[1], fresh];
         let (log_evidence, log_evidence_error, mut measure) = together(all, verdict.effective_share, particles);
+        let inconsistency = Some(measure.inconsistency()).filter(|ratio| ratio.is_finite());
         for y in &mut measure.points {
             *y = frame.to_target(y);
         }
@@ -91,6 +97,7 @@ impl<const D: usize> Pool<D> {
             log_evidence,
             log_evidence_error,
             verdict,
+            inconsistency: inconsistency.unwrap_or(0.0),
             quiet: adaptation.quiet(),
             searched: adaptation.searched_in_vain(),
             density_evaluations: density.density_evaluations,
@@ -118,7 +125,9 @@ impl<const D: usize> Pool<D> {
     pub fn objection(&self, particles: usize) -> Option<Objection> {
         let variance = self.measure.variance * particles as f64;
         let objection = self.verdict.objection(self.log_evidence_error, variance);
-        objection.or((self.quiet < QUIET).then_some(Objection::Searching(self.quiet)))
+        let inconsistent = (self.inconsistency > LARGEST_INCONSISTENCY).then_some(self.inconsistency);
+        let searching = (self.quiet < QUIET).then_some(Objection::Searching(self.quiet));
+        objection.or(inconsistent.map(Objection::Inconsistent)).or(searching)
     }
 
     /// What searches can have overlooked: the share v of their law's draws from which a piece is seen, such that with probability 0.05 none of the `n` that met

@@ -28,6 +28,8 @@ pub enum Objection {
     Uncovered(f64),
     /// The log density is NaN or +∞ at more than 0.02 of the fresh points: what mass is there, nobody knows.
     Undefined(f64),
+    /// The independent parts of the measure are more than three times as far apart as their weights explain; the quotient. One of them has lost what the others met.
+    Inconsistent(f64),
     /// Searches that met a piece were not followed by twice as long ones that met none; the quotient. A. M. Turing's argument, of which I. J. Good tells: where
     /// something was still met of late, there is more.
     Searching(f64),

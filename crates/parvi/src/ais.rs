@@ -14,7 +14,8 @@ sampler! {
 
 impl AisOptions {
     fn run<const D: usize>(&self, task: Task<'_, D>) -> Result<Samples<D>, SampleError> {
-        task.run.particles_of("ais")?;
+        task.run.given.check_taken("ais", true)?;
+        task.run.checked_particles()?;
         task.needs_log_density("method `ais`")?;
         let options = MpmOptions {
             evaluations: self.evaluations,

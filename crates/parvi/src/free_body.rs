@@ -23,12 +23,13 @@ struct Departure<const D: usize> {
     spacing: f64,
 }
 
-/// Rounds until the body is at rest, further ones as long as `cached` scores, which the target then has, get better, and further ones at half of the spacing as long as a rough target gains
+/// Rounds until the body is at rest or the next would take more than the `allowed` evaluations, further ones as long as `cached` scores, which the target then has, get better, and further ones at half of the spacing as long as a rough target gains
 /// by them.
 pub(crate) fn sample<const D: usize>(
     options: &MpmOptions,
     task: Task<'_, D>,
     cached: Option<&CachedScores<'_, D>>,
+    allowed: u64,
     journal: &mut Journal,
 ) -> Result<Samples<D>, SampleError> {
     let (target, frame, run, observer) = task.parts();
@@ -57,7 +58,9 @@ pub(crate) fn sample<const D: usize>(
     };
     let mut body = moved(&departure, rounds.next().unwrap_or(0), 0)?;
     let (mut evaluations, mut steps) = (body.samples.score_evaluations, body.samples.steps);
+    let one_more = evaluations;
     while body.drift > LARGEST_DRIFT
+        && evaluations + one_more <= allowed
         && let Some(round) = rounds.next()
     {
         departure = departure.further(body, 1.0);
@@ -79,6 +82,7 @@ pub(crate) fn sample<const D: usize>(
         }
     }
     while options.spacing.is_none()
+        && evaluations + one_more <= allowed
         && is_rough(&body.scores)
         && let Some(round) = rounds.next()
     {

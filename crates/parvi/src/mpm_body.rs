@@ -121,7 +121,7 @@ impl<const D: usize> Body<'_, D> {
 
 /// What the options say about the motion of a body, with defaults filled in.
 pub(crate) struct Motion {
-    steps: usize,
+    pub steps: usize,
     control: StepControl,
     alpha: Annealing,
 }

@@ -264,6 +264,11 @@ pub enum SampleError {
         /// What is given.
         field: &'static str,
     },
+    /// Start positions that lie in a plane, from which a survey has no first proposal.
+    #[error(
+        "start positions have no spread along some direction: a survey begins with the normal law of their mean and covariance"
+    )]
+    StartWithoutSpread,
     /// The target gave a score that is not finite.
     #[error("step {step}: the score of the target at x = {position:?} is {score:?}, which is not finite")]
     ScoreNotFinite {

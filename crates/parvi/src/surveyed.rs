@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 
 use mpm_tensor::Matrix;
 use parvi_pool::{Kernel, Mixture, Pool, PoolError, PoolOptions, Report, Round, explore};
+use parvi_targets::Frame;
 use rand::RngExt;
 
 use crate::certificate::{Certificate, Doubt};
@@ -15,7 +16,7 @@ use crate::score_check::ScoreCheck;
 use crate::start::Stream;
 use crate::tails::Tails;
 use crate::task::Task;
-use crate::{MpmOptions, Progress, SampleError, Samples, Start, defaults};
+use crate::{MpmOptions, Progress, Run, SampleError, Samples, Start, defaults};
 
 /// A pool whose energy distance is known no better than that of so many times fewer independent draws than particles is none.
 const WORTHLESS: f64 = 30.0;
@@ -30,22 +31,37 @@ pub(crate) struct Spent {
     pub scores: u64,
 }
 
-/// Only what it took where what was weighed is worth nothing, unless log p does not fall off: then a body would find no end either.
+impl Spent {
+    /// Evaluations of all kinds.
+    pub fn evaluations(&self) -> u64 {
+        self.densities + self.scores
+    }
+
+    /// What is left of the evaluations that were asked for; where none were said, there is no limit.
+    pub fn left(&self, options: &MpmOptions) -> u64 {
+        let limit = options.evaluations.unwrap_or(u64::MAX);
+        limit.saturating_sub(self.evaluations())
+    }
+}
+
+/// Only what it took where what was weighed is worth nothing and a body may try, whose first round takes so many evaluations. Where log p does not fall off, a body would find no end either.
 pub(crate) fn sample<const D: usize>(
     options: &MpmOptions,
     task: &mut Task<'_, D>,
     journal: &mut Journal,
+    first_round: u64,
 ) -> Result<Result<Samples<D>, Spent>, SampleError> {
     let pool = surveyed(options, task, journal)?;
     let tails = Tails::of(task.target, task.frame, &pool);
     let is_known = pool.measure.variance * (weighed_for(task) as f64) < WORTHLESS;
-    if is_known || tails.endless.is_some() {
+    let spent = Spent {
+        densities: pool.density_evaluations + tails.densities,
+        scores: pool.score_evaluations,
+    };
+    if is_known || tails.endless.is_some() || spent.left(options) < first_round {
         condensed(options, task, journal, pool, tails).map(Ok)
     } else {
-        Ok(Err(Spent {
-            densities: pool.density_evaluations + tails.densities,
-            scores: pool.score_evaluations,
-        }))
+        Ok(Err(spent))
     }
 }
 
@@ -94,7 +110,8 @@ fn condensed<const D: usize>(
         .certificate
         .then(|| Certificate::of_pool(&pool, doubt, &samples, best.drift, best.kinetic_energy));
     samples.log_evidence = Some(pool.log_evidence);
-    samples.log_evidence_error = Some(pool.log_evidence_error);
+    // Where log p is no number there may be as much mass as elsewhere.
+    samples.log_evidence_error = Some(pool.log_evidence_error.hypot(pool.verdict.undefined));
     samples.pareto_k = pool.verdict.pareto_k;
     samples.unseen = Some(pool.unseen());
     samples.pool = Some(Box::new(pool));
@@ -120,7 +137,7 @@ fn surveyed<const D: usize>(
         ..PoolOptions::default()
     };
     let seed = run.generator(Stream::Survey.of_body(0)).random();
-    let given: Vec<Mixture<D>> = start_law(&run.start).into_iter().collect();
+    let given: Vec<Mixture<D>> = start_law(run, frame)?.into_iter().collect();
     let mut refused = None;
     let tape = journal.tape();
     let mut kept = Instant::now();
@@ -154,14 +171,17 @@ fn surveyed<const D: usize>(
     }
 }
 
-/// The law of the start, where the run has one of its own.
-fn start_law<const D: usize>(start: &Start) -> Option<Mixture<D>> {
-    if *start == Start::default() {
-        return None;
-    }
-    Mixture::new(vec![Kernel {
-        centre: [start.mean; D],
-        factor: Matrix::IDENTITY * start.standard_deviation,
-        share: 1.0,
-    }])
+/// In coordinates of the frame the law of the start, where the run has one of its own: the normal law of given positions, or that of `run.start`.
+fn start_law<const D: usize>(run: &Run, frame: &Frame<D>) -> Result<Option<Mixture<D>>, SampleError> {
+    run.given.check::<D>(run.particles)?;
+    let (centre, factor) = if let Some(positions) = run.given.positions_in(frame) {
+        let law = Frame::of_points(&positions, None).map_err(|_| SampleError::StartWithoutSpread)?;
+        (*law.centre(), *law.factor())
+    } else if run.start == Start::default() {
+        return Ok(None);
+    } else {
+        ([run.start.mean; D], Matrix::IDENTITY * run.start.standard_deviation)
+    };
+    let share = 1.0;
+    Ok(Mixture::new(vec![Kernel { centre, factor, share }]))
 }

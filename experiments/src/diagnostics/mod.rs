@@ -2,8 +2,10 @@
 
 mod moments;
 
+use std::collections::BTreeMap;
+
 use parvi_metrics::{
-    Cloud, InverseMultiquadric, MetricError, effective_sample_size, kernel_stein_discrepancy, quantiles,
+    Cloud, CloudMoments, InverseMultiquadric, MetricError, effective_sample_size, kernel_stein_discrepancy, quantiles,
 };
 use parvi_targets::{CatalogueTarget, Frame};
 use serde::Serialize;
@@ -11,9 +13,12 @@ use serde::Serialize;
 use moments::{Moment, of_certificate, of_expectations};
 
 use crate::CommandError;
+use crate::console::Pair;
 use crate::dispatch::on_target;
 use crate::options::TargetSpecification;
 use crate::output::Particles;
+use crate::plots::results::Value;
+use crate::provenance::Provenance;
 use crate::sampling::{Outcome, unless_failed};
 
 /// Levels of the quantiles.
@@ -45,6 +50,8 @@ pub struct Diagnostics {
     pareto_k: Option<f64>,
     /// The squared energy distance from the target over that of as many independent draws, as far as the pool knows.
     relative_energy_distance: Option<f64>,
+    /// The share of draws of the searches' law from which what these have overlooked can be seen.
+    unseen: Option<f64>,
     /// Everything that was evaluated, weighed; where the method keeps it.
     pool: Option<PoolSize>,
     /// Galerkin–Stein residual relative to independent draws.
@@ -53,6 +60,12 @@ pub struct Diagnostics {
     kernel_stein_discrepancy: Option<f64>,
     /// One entry for each coordinate.
     coordinates: Vec<Coordinate>,
+    /// Covariance of the coordinates, row by row: of the pool where there is one, else of the particles; `null` where it is above the range of numbers.
+    covariance: Option<Vec<Vec<f64>>>,
+    /// What standard output says of the run.
+    run: BTreeMap<&'static str, Value>,
+    /// What the run was computed with.
+    provenance: Provenance,
 }
 
 /// The size of a weighted pool.
@@ -91,11 +104,21 @@ struct Coordinate {
 struct Quantile {
     level: f64,
     value: f64,
-    /// As if the particles were independent draws: half the way between the quantiles one standard error of the level apart.
+    /// The pool's, where there is one.
+    estimate: Option<f64>,
+    /// Of `value`: how far the pool's is off it, and the pool's own error; without a pool that of independent particles. The error of a sample is half the way between the
+    /// quantiles one standard error of the level apart.
     standard_error: f64,
 }
 
-/// Looks at the particles of a run, whose coordinates are called `names`.
+/// A quantile of a sample with its error.
+#[derive(Clone, Copy)]
+struct Known {
+    value: f64,
+    error: f64,
+}
+
+/// Looks at the particles of a run, whose coordinates are called `names` and of which standard output has `said` this.
 ///
 /// # Errors
 /// Particles or scores that are not finite.
@@ -103,14 +126,16 @@ pub fn diagnose(
     target: &TargetSpecification,
     outcome: &Outcome,
     names: &[String],
+    said: &[Pair],
 ) -> Result<Diagnostics, CommandError> {
-    on_target!(target, target, D => unless_failed::<_, D>(target.as_ref(), of_target::<D>(target.as_ref(), outcome, names)))
+    on_target!(target, target, D => unless_failed::<_, D>(target.as_ref(), of_target::<D>(target.as_ref(), outcome, names, said)))
 }
 
 fn of_target<const D: usize>(
     target: &dyn CatalogueTarget<D>,
     outcome: &Outcome,
     names: &[String],
+    said: &[Pair],
 ) -> Result<Diagnostics, CommandError> {
     let particles = &outcome.particles;
     let points = particles.points::<D>().unwrap_or_default();
@@ -122,7 +147,18 @@ fn of_target<const D: usize>(
         Some(certificate) if certificate.moments.len() == D => of_certificate(certificate),
         _ => of_expectations(target, &points, weights),
     };
-    let tails = tails(&cloud, size)?;
+    let pooled = outcome.pool.as_ref();
+    let everything = pooled.map(|pool| pool.points::<D>().unwrap_or_default());
+    let weighed = everything.as_deref().zip(pooled);
+    let weighed = weighed.map(|(points, pool)| {
+        Ok((
+            Cloud::with_optional_weights(points, pool.weights())?,
+            effective_size(pool)?,
+        ))
+    });
+    let weighed = weighed.transpose().map_err(CommandError::Metric)?;
+    let tails = tails(&cloud, size, weighed.as_ref())?;
+    let covariance = CloudMoments::new(weighed.as_ref().map_or(&cloud, |(pool, _)| pool)).ok();
     let coordinates = moments.into_iter().zip(tails).zip(names);
     Ok(Diagnostics {
         particles: points.len(),
@@ -135,6 +171,7 @@ fn of_target<const D: usize>(
         log_evidence_error: outcome.log_evidence_error,
         pareto_k: outcome.pareto_k,
         relative_energy_distance: outcome.relative_energy_distance,
+        unseen: outcome.unseen,
         pool: outcome.pool.as_ref().map(PoolSize::of).transpose()?,
         residual: outcome.residual,
         kernel_stein_discrepancy: discrepancy(target, &points, weights)?,
@@ -146,25 +183,53 @@ fn of_target<const D: usize>(
                 quantiles,
             })
             .collect(),
+        covariance: covariance.map(|moments| moments.covariance.0.iter().map(|row| row.to_vec()).collect()),
+        run: said
+            .iter()
+            .filter(|(_, value)| *value != Value::Empty)
+            .cloned()
+            .collect(),
+        provenance: Provenance::now(rayon::current_num_threads()),
     })
 }
 
-/// The quantiles of every coordinate.
-fn tails<const D: usize>(cloud: &Cloud<'_, D>, size: f64) -> Result<Vec<Vec<Quantile>>, CommandError> {
+/// The quantiles of every coordinate: of the particles, beside those of the pool with its effective size.
+fn tails<const D: usize>(
+    cloud: &Cloud<'_, D>,
+    size: f64,
+    pool: Option<&(Cloud<'_, D>, f64)>,
+) -> Result<Vec<Vec<Quantile>>, CommandError> {
+    let own = known(cloud, size)?;
+    let pool = pool.map(|(pool, size)| known(pool, *size)).transpose()?;
+    let of_axis = |axis: usize| {
+        let of_level = |k: usize| {
+            let own = own[k][axis];
+            let estimate = pool.as_ref().map(|pool| pool[k][axis]);
+            Quantile {
+                level: LEVELS[k],
+                value: own.value,
+                estimate: estimate.map(|known| known.value),
+                standard_error: estimate.map_or(own.error, |known| (own.value - known.value).hypot(known.error)),
+            }
+        };
+        (0..LEVELS.len()).map(of_level).collect()
+    };
+    Ok((0..D).map(of_axis).collect())
+}
+
+/// The quantiles of a sample by level and coordinate, whose effective size is given.
+fn known<const D: usize>(cloud: &Cloud<'_, D>, size: f64) -> Result<Vec<[Known; D]>, MetricError> {
     let error = |level: f64| (level * (1.0 - level) / size).sqrt();
     let lower = quantiles(cloud, &LEVELS.map(|level| (level - error(level)).max(0.0)))?;
     let middle = quantiles(cloud, &LEVELS)?;
     let upper = quantiles(cloud, &LEVELS.map(|level| (level + error(level)).min(1.0)))?;
-    let of_axis = |axis: usize| {
-        (0..LEVELS.len())
-            .map(|k| Quantile {
-                level: LEVELS[k],
-                value: middle[k][axis],
-                standard_error: 0.5 * (upper[k][axis] - lower[k][axis]),
-            })
-            .collect()
+    let of_level = |k: usize| {
+        std::array::from_fn(|axis| Known {
+            value: middle[k][axis],
+            error: 0.5 * (upper[k][axis] - lower[k][axis]),
+        })
     };
-    Ok((0..D).map(of_axis).collect())
+    Ok((0..LEVELS.len()).map(of_level).collect())
 }
 
 /// The kernel Stein discrepancy; `None` for many particles, and for such as lie in a plane.

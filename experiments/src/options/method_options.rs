@@ -214,14 +214,14 @@ options! {
     pool_size: ParticleCount = "N",
     /// End when no point moves farther, in units of the sample's spread
     tolerance: f64 = "TOL" in NOT_NEGATIVE,
-    /// File of the positions at the start, a row per particle, in the target's own coordinates; mpm: with --survey off
+    /// File of the positions at the start, a row per particle, in the target's own coordinates; to a survey their normal law is a first proposal
     start: String = "FILE.csv|.npy",
-    /// Target whose draws the particles start at, in its own coordinates: the paper's p0 by name; mpm: with --survey off
+    /// Target whose draws the particles start at, in its own coordinates: the paper's p0 by name; to a survey the normal law of these is a first proposal
     start_law: String = "TARGET",
-    /// Mean of a normal law to start from, in the target's own coordinates; mpm: with --survey off
+    /// Mean of a normal law to start from, in the target's own coordinates; to a survey this law is a first proposal
     #[arg(allow_hyphen_values = true)]
     start_centre: String = "M1,M2,...",
-    /// Its covariance, the rows between semicolons; mpm: with --survey off [default: identity]
+    /// Its covariance, the rows between semicolons [default: identity]
     #[arg(allow_hyphen_values = true)]
     start_covariance: String = "C11,C12,...;C21,...",
     /// Mean of every coordinate at the start, in units of the target's scale

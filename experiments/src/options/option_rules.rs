@@ -65,7 +65,6 @@ impl MethodOptions {
     }
 
     fn rules_of_gas(&self) -> Vec<Rule> {
-        let begins = "needs --survey off: a survey says where the particles begin";
         // Another score drives the gas away.
         let attracts = "must be a number above 0";
         let flips = matches!(self.transfer, Some(Transfer::Flip | Transfer::AffineFlip));
@@ -78,7 +77,6 @@ impl MethodOptions {
             ("flip-share", flips, "needs the transfer `flip` or `affine-flip`"),
             ("survey", !asks || !caches, "contradicts --score cached, which has none"),
             ("survey", !asks || surveys, "needs a last alpha of 1"),
-            ("start start-law start-centre", !surveys, begins),
             ("evaluations search-effort", surveys, "needs a survey"),
             ("rounds", surveys || has_rounds, "needs a survey"),
             ("pool", surveys, "needs a survey"),

@@ -63,13 +63,19 @@ impl Reference {
 }
 
 /// Rows of [`MOMENTS`] with the particles' `own_mean` and `own_deviation` and what follows from both: `mean_error` = (x̄ − E\[x\])/sd and, of the standard deviation,
-/// the relative `deviation_error` and `deviation_percent`; and the standard error of the reference's mean in its standard deviations, `reference_error`.
+/// the relative `deviation_error` and `deviation_percent`; and the standard errors of the reference's mean and standard deviation in its standard deviations, `reference_error` and
+/// `reference_deviation_error`.
 pub fn compared(particles: &Particles, reference: Vec<Row>) -> Vec<Row> {
     let moments = SampleMoments::of(&particles.to_rows(), particles.weights());
     let own = moments.mean.iter().copied().zip(moments.standard_deviations());
     let axis = |(row, (mean, deviation)): (Row, (f64, f64))| {
-        let [known, error, spread] =
-            ["mean", "mean_standard_error", "standard_deviation"].map(|column| row.number(column).unwrap_or(f64::NAN));
+        let [known, error, spread, spread_error] = [
+            "mean",
+            "mean_standard_error",
+            "standard_deviation",
+            "standard_deviation_standard_error",
+        ]
+        .map(|column| row.number(column).unwrap_or(f64::NAN));
         let (mean_error, deviation_error) = ((mean - known) / spread, deviation / spread - 1.0);
         row.with("own_mean", mean)
             .with("own_deviation", deviation)
@@ -77,6 +83,7 @@ pub fn compared(particles: &Particles, reference: Vec<Row>) -> Vec<Row> {
             .with("deviation_error", deviation_error)
             .with("deviation_percent", 100.0 * deviation_error)
             .with("reference_error", error / spread)
+            .with("reference_deviation_error", spread_error / spread)
     };
     reference.into_iter().zip(own).map(axis).collect()
 }

@@ -10,13 +10,14 @@ use super::configuration::Configuration;
 use super::definition::{Case, Study, Tools};
 use super::derived;
 use super::directory::StudyDirectory;
-use super::manifest::{self, Manifest, Provenance};
+use super::manifest::{self, Manifest};
 use super::results::{self, ResultsFile};
 use super::row_file;
 use super::yardstick::CurrentYardstick;
 use crate::output::AtomicFile;
 use crate::plots::results::Row;
 use crate::progress::Bar;
+use crate::provenance::Provenance;
 use crate::{CommandError, console, interrupt};
 
 /// The page that a study ends with.

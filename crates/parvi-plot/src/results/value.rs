@@ -2,10 +2,13 @@
 
 use std::fmt::{self, Display, Formatter};
 
+use serde::Serialize;
+
 use crate::page::{Cell, number};
 
 /// What stands in a cell. A whole number equals the same number.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize)]
+#[serde(untagged)]
 pub enum Value {
     /// Nothing.
     #[default]

@@ -95,13 +95,27 @@ fn doubt_of_scores(moments: &[MomentEstimate], residual: f64, alpha: f64) -> Opt
 
 /// Whether a mean or a standard deviation may be off, with this much of what is unexplained on top.
 fn doubt_of_moments(moments: &[MomentEstimate], caution: f64) -> Option<Doubt> {
-    let cautious = |error: f64, moment: &MomentEstimate| error + caution * moment.unexplained();
-    let of_mean = |moment: &MomentEstimate| cautious(moment.mean_error(), moment);
-    let of_deviation = |moment: &MomentEstimate| cautious(moment.standard_deviation_error(), moment);
-    if let Some((axis, error)) = worst(moments, &of_mean, LARGEST_ERROR) {
-        return Some(Doubt::Mean { axis, error });
-    }
-    worst(moments, &of_deviation, LARGEST_ERROR).map(|(axis, error)| Doubt::StandardDeviation { axis, error })
+    let larger = |moment: &MomentEstimate| {
+        let errors = [moment.mean_error(), moment.standard_deviation_error()];
+        errors.into_iter().reduce(f64::max).unwrap_or(f64::NAN) + caution * moment.unexplained()
+    };
+    worst(moments, &larger, LARGEST_ERROR)?;
+    let of_mean = |moment: &MomentEstimate| moment.mean_error() + caution * moment.mean.unexplained;
+    let of_deviation =
+        |moment: &MomentEstimate| moment.standard_deviation_error() + caution * moment.standard_deviation.unexplained;
+    // The one that is farther off is named.
+    let (in_mean, mean) = worst(moments, &of_mean, 0.0).unwrap_or((1, 0.0));
+    let (in_deviation, deviation) = worst(moments, &of_deviation, 0.0).unwrap_or((1, 0.0));
+    Some(match exceeds(mean, deviation) {
+        true => Doubt::Mean {
+            axis: in_mean,
+            error: mean,
+        },
+        false => Doubt::StandardDeviation {
+            axis: in_deviation,
+            error: deviation,
+        },
+    })
 }
 
 /// The axis, from 1, at which a value is largest, if it is above its limit there.

@@ -22,6 +22,7 @@ impl Certificate {
             Some(Objection::Noise(variance)) => Some(Doubt::Noise { variance }),
             Some(Objection::Uncovered(mass)) => Some(Doubt::Uncovered { mass }),
             Some(Objection::Undefined(share)) => Some(Doubt::Undefined { share }),
+            Some(Objection::Inconsistent(ratio)) => Some(Doubt::Inconsistent { ratio }),
             Some(Objection::Searching(quiet)) => Some(Doubt::Searching { quiet }),
             // Two standard errors of the pool.
             None => doubt_of_moments(&moments, 2.0 / (samples.positions.len() as f64).sqrt()),

@@ -82,6 +82,11 @@ pub enum Doubt {
         /// Share of fresh points at which it is NaN or +∞.
         share: f64,
     },
+    /// Independent parts of the pool are too far apart.
+    Inconsistent {
+        /// Their distance over what their weights explain.
+        ratio: f64,
+    },
     /// Searches still met pieces of late.
     Searching {
         /// Evaluations since the last piece was met, over those before.
@@ -89,6 +94,11 @@ pub enum Doubt {
     },
     /// Nothing has looked for other pieces of the target, of which the particles would know nothing.
     NotSurveyed,
+    /// A survey has met nothing that could be weighed; a body without one has moved from the start.
+    SurveyInVain {
+        /// Evaluations of the survey.
+        evaluations: u64,
+    },
     /// The particles stand for p^α, and the scores judge p.
     Tempered {
         /// α of the last steps.
@@ -177,9 +187,17 @@ impl fmt::Display for Doubt {
                 "at {:.0} % of fresh points the log density was NaN or +∞: what mass is there, nobody knows",
                 100.0 * share
             ),
+            Self::Inconsistent { ratio } => write!(
+                f,
+                "independent parts of the pool are {ratio:.1} times as far apart as their weights explain: one of them has missed what the others met"
+            ),
             Self::Searching { quiet } => write!(
                 f,
                 "searches for other pieces ended after {quiet:.1} times the evaluations until the last piece was met: there may be more"
+            ),
+            Self::SurveyInVain { evaluations } => write!(
+                f,
+                "{evaluations} evaluations met nothing that could be weighed, and the particles are those of a body without a survey: begin nearer to the mass"
             ),
             Self::NotSurveyed => write!(f, "without a survey nothing has looked for other pieces of the target"),
             Self::Tempered { alpha } => write!(

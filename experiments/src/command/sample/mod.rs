@@ -142,12 +142,12 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     if let (Some(file), Some(watched)) = (best, &outcome.watched) {
         file.write(&watched.best, &names)?;
     }
+    let mut pairs = said::pairs(arguments, &outcome, peak_memory);
     if let Some(mut diagnostics) = diagnostics {
-        let content = diagnose(&target, &outcome, &column_names(&names, dimension))?;
+        let content = diagnose(&target, &outcome, &column_names(&names, dimension), &pairs)?;
         diagnostics.fill(|writer| Ok(serde_json::to_writer_pretty(writer, &content)?))?;
         diagnostics.commit()?;
     }
-    let mut pairs = said::pairs(arguments, &outcome, peak_memory);
     if let Some(frames) = watch.frames {
         let count = frames.finish(&outcome.particles, outcome.steps)?;
         if count == 1 {

@@ -63,7 +63,7 @@ pub fn pairs(arguments: &Arguments, outcome: &Outcome, peak_memory: Option<u64>)
         ("score_disagreement", outcome.score_disagreement.into()),
         ("pareto_k", outcome.pareto_k.into()),
         ("unseen", outcome.unseen.into()),
-        ("wall_seconds", format!("{:.6}", outcome.wall_seconds).into()),
+        ("wall_seconds", ((1e6 * outcome.wall_seconds).round() / 1e6).into()),
         ("best_step", seen.map(|seen| seen.best_step).into()),
         ("best_monitor", seen.map(|seen| seen.best_value).into()),
         ("last_monitor", seen.map(Watched::last_value).into()),

@@ -7,7 +7,7 @@ use super::MethodKind;
 /// Adaptive importance sampling.
 pub const AIS: MethodKind = MethodKind::of_draws(
     "ais",
-    "evaluations search-effort pool start-mean start-sd start-draws",
+    "evaluations search-effort pool start start-law start-centre start-covariance start-mean start-sd start-draws",
     |options, _| {
         Ok(Method::Ais(AisOptions {
             evaluations: options.evaluations(),

@@ -96,7 +96,7 @@ impl Conversation {
                 match answers.len() - before {
                     0 if before == 0 => return Ok(None),
                     found if found == width => {}
-                    found => return Err(self.misunderstood(question, x, &format!("{found} numbers, not {width}"))),
+                    found => return Err(self.misunderstood(question, x, &format!("{found} of {width} numbers"))),
                 }
             }
         }
@@ -109,7 +109,7 @@ impl Conversation {
         match self.output.read_line(&mut self.line) {
             Ok(length) if length > 0 => {}
             Ok(_) => return Err(self.silent(question, x)),
-            Err(error) => return Err(self.misunderstood(question, x, &error.to_string())),
+            Err(error) => return Err(self.misunderstood(question, x, &format!("what cannot be read ({error})"))),
         }
         for word in self.line.split([' ', '\t', ',']).map(str::trim) {
             if word.is_empty() {
@@ -127,10 +127,7 @@ impl Conversation {
     }
 
     fn misunderstood(&self, question: Question, x: &[f64], what: &str) -> TargetError {
-        failed(
-            &self.command,
-            format!("its answer to `{}` is {what}", asked(question, x)),
-        )
+        failed(&self.command, format!("answers `{}` with {what}", asked(question, x)))
     }
 
     /// The program's output has ended.
@@ -191,7 +188,7 @@ fn write_question(text: &mut String, question: Question, x: &[f64]) {
 }
 
 /// A question as it was asked.
-fn asked(question: Question, x: &[f64]) -> String {
+pub(super) fn asked(question: Question, x: &[f64]) -> String {
     let mut text = String::new();
     write_question(&mut text, question, x);
     text.trim_end().to_owned()
