@@ -39,7 +39,18 @@ fn a_gaussian_converges_and_its_moments_are_known() {
         assert_eq!(number(&tail["level"]), 0.01);
         let error = number(&tail["standard_error"]);
         assert!((number(&tail["value"]) + 2.326).abs() < 3.0 * error, "{tail}");
+        assert!((number(&tail["estimate"]) + 2.326).abs() < 0.2, "{tail}");
     }
+    assert!((number(&found["covariance"][1][1]) - 1.0).abs() < 0.05, "{found}");
+    assert!(number(&found["covariance"][0][1]).abs() < 0.05, "{found}");
+    assert_eq!(found["run"]["seed"], 0);
+    assert_eq!(found["run"]["method"], "mpm");
+    assert!(number(&found["run"]["wall_seconds"]) > 0.0 && number(&found["unseen"]) < 0.1);
+    assert!(
+        found["provenance"]["rustc"]
+            .as_str()
+            .is_some_and(|text| text.starts_with("rustc "))
+    );
 }
 
 #[test]

@@ -60,12 +60,23 @@ fn what_is_wrong_with_a_program_is_said_with_the_question() {
         ),
         (
             "while read x; do echo one; done",
-            ["--program: ", "'one', which is not a number"],
+            [
+                "--program: ",
+                "answers `density 0e0 0e0` with 'one', which is not a number",
+            ],
         ),
+        (
+            "while read x; do echo 1; done",
+            ["--program: ", "answers `score 0e0 0e0` with 1 of 2 numbers"],
+        ),
+        (" ", ["--program: ", "is an empty command line"]),
         (ending, ["ended (exit status: 7)", "without an answer to `"]),
     ] {
         let directory = tempfile::tempdir().unwrap();
-        assert_refused(&sample(directory.path(), program, "2"), &parts);
+        let output = sample(directory.path(), program, "2");
+        assert_refused(&output, &parts);
+        // What fails in the course of a run is no error of the line.
+        assert_eq!(output.status.code(), Some(if program == ending { 1 } else { 2 }));
         assert_eq!(files(directory.path()), [""; 0], "{program}");
     }
 }

@@ -4,6 +4,7 @@ mod box_modes;
 mod common;
 mod evidence;
 mod hostile;
+mod lost_modes;
 mod needles;
 mod pieces;
 mod tape;

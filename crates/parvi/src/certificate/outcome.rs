@@ -166,7 +166,7 @@ impl fmt::Display for Doubt {
             ),
             Self::Endless { rays, of } => write!(
                 f,
-                "log p does not fall off along {rays} of {of} rays, up to a thousand times the distance of particles: the density may be improper, without a finite integral"
+                "log p does not fall off along {rays} of {of} rays, up to a thousand times the distance of particles: its mass lies farther away, or it is improper, without a finite integral"
             ),
             Self::Residual { ratio } => write!(f, "the residual is {ratio:.2} of that of independent draws"),
             Self::HeavyTail { pareto_k } => write!(

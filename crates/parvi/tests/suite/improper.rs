@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use parvi::certificate::Doubt;
-use parvi::{AisOptions, MpmOptions, Outcome, Run, Samples, Silent};
+use parvi::{AisOptions, MpmOptions, Outcome, Run, SampleError, Samples, Silent};
 use parvi_targets::{Frame, Target};
 
 /// log p as a function, scores by differences; counts what is evaluated.
@@ -104,12 +104,29 @@ fn proper_densities_fall_off() {
 
 #[test]
 fn a_survey_in_vain_is_counted() {
-    // A thin, bent ridge, and hardly an evaluation.
+    let far = |x: &[f64; 2]| -0.5e6 * ((x[0] - 1e6).powi(2) + (x[1] - 1e6).powi(2));
+    let samples = Counted::new(far).sampled(&MpmOptions::default(), 100);
+    let doubt = doubt(&samples);
+    assert!(
+        matches!(doubt, Some(Doubt::SurveyInVain { .. } | Doubt::Endless { .. })),
+        "{doubt:?}"
+    );
+    assert!(samples.density_evaluations > 0);
+}
+
+#[test]
+fn evaluations_are_bounded_where_nothing_can_be_weighed() {
     let ridge = |x: &[f64; 2]| -0.5 * x[0] * x[0] - 0.5 * (x[1] - 500.0 * (x[0] * x[0] - 1.0)).powi(2);
     let options = MpmOptions {
-        evaluations: Some(300),
+        evaluations: Some(3000),
         ..MpmOptions::default()
     };
     let samples = Counted::new(ridge).sampled(&options, 1000);
-    assert!(samples.pool.is_none() && samples.density_evaluations > 0);
+    let evaluations = samples.density_evaluations + samples.score_evaluations;
+    // The check of the scores and of tails beside them.
+    assert!(samples.pool.is_some() && evaluations < 3500, "{evaluations}");
+    let nothing = Counted::new(|_: &[f64; 2]| f64::NEG_INFINITY);
+    let refused = options.sample(&nothing, &Frame::identity(), &Run::new(1000, 1), &mut Silent);
+    assert!(matches!(refused, Err(SampleError::Pool(_))));
+    assert!(nothing.densities.into_inner() < 4000 && nothing.scores.into_inner() < 1000);
 }

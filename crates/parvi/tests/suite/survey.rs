@@ -1,7 +1,9 @@
 //! The survey of the target: far starts, wrong frames, separate pieces, evidence, what is weighed.
 
 use mpm_tensor::Matrix;
-use parvi::{AisOptions, Method, MpmOptions, Run, Samples, Silent, Start, sample};
+use parvi::{
+    AisOptions, GivenParticles, Method, MpmOptions, Outcome, Run, SampleError, Samples, Silent, Start, sample,
+};
 use parvi_metrics::{Cloud, GaussianEnergy, ModeMasses};
 use parvi_targets::{Banana, CatalogueTarget, Frame, Gaussian, GaussianMixture, StudentT, Target};
 
@@ -46,6 +48,34 @@ fn a_frame_that_is_wrong_by_orders_of_magnitude_is_found() {
             }
         }
     }
+}
+
+/// What is known of place and scale, as positions to begin with.
+#[test]
+fn given_positions_are_a_first_proposal() {
+    let deviations = [1e-3, 3e4];
+    let covariance = Matrix([[1e-6, 0.0], [0.0, 9e8]]);
+    let target = Gaussian::new([1e6, -40.0], covariance).expect("a covariance");
+    let positions: Vec<[f64; 2]> = (0..200)
+        .map(|n| [1e6 + 0.2 * f64::from(n).sin(), 1e5 * f64::from(n).cos()])
+        .collect();
+    let mut run = Run::new(200, 1);
+    run.given = GivenParticles::at(&positions);
+    let frame = Frame::identity();
+    let by_mpm = MpmOptions::default().sample(&target, &frame, &run, &mut Silent);
+    for samples in [by_mpm, AisOptions::default().sample(&target, &frame, &run, &mut Silent)] {
+        let samples = samples.expect("particles");
+        assert_eq!(samples.certificate.expect("a certificate").outcome, Outcome::Converged);
+        for (axis, (mean, deviation)) in [1e6, -40.0].into_iter().zip(deviations).enumerate() {
+            let own = samples.positions.iter().map(|x| x[axis]).sum::<f64>() / 200.0;
+            assert!((own - mean).abs() < 0.05 * deviation, "x{}: {own}", axis + 1);
+        }
+    }
+    run.given = GivenParticles::at(&[[1.0, 2.0]; 200]);
+    let error = MpmOptions::default()
+        .sample(&target, &frame, &run, &mut Silent)
+        .expect_err("no spread");
+    assert_eq!(error, SampleError::StartWithoutSpread);
 }
 
 #[test]

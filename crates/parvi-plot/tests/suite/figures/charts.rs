@@ -312,3 +312,16 @@ fn a_strip_has_a_panel_for_each_moment_on_common_axes() {
     };
     assert!(matches!(strip_of(&[panel]), Err(PlotError::Dimension { .. })));
 }
+
+#[test]
+fn a_curve_that_lies_on_another_has_gaps() {
+    let line = |label: &str, factor: f64| LineSeries::through(label, (0..20).map(|n| (n as f64, factor * n as f64)));
+    let dashed = |lines: Vec<LineSeries>| {
+        let panel = MultiplesPanel::over("y", AxisKind::Linear, lines);
+        let svg = multiples(&MultiplesPlot::traces("", "x", [panel])).unwrap();
+        svg.matches("stroke-dasharray").count()
+    };
+    let [one, same, other] = [("a", 1.0), ("b", 1.001), ("c", 2.0)].map(|(label, factor)| line(label, factor));
+    assert_eq!(dashed(vec![one.clone(), other.clone()]), 0);
+    assert!(dashed(vec![one.clone(), same.clone(), other]) > 0);
+}
