@@ -67,7 +67,7 @@ fn what_is_wrong_with_a_program_is_said_with_the_question() {
         ),
         (
             "while read x; do echo 1; done",
-            ["--program: ", "answers `score 0e0 0e0` with 1 of 2 numbers"],
+            ["--program: ", "answers `score 0e0 0e0` with 1 number, not 2"],
         ),
         (" ", ["--program: ", "is an empty command line"]),
         (ending, ["ended (exit status: 7)", "without an answer to `"]),

@@ -130,6 +130,7 @@ pub fn flag_of(error: &SampleError) -> Option<OptionError> {
         SampleError::GivenValue { field, .. }
         | SampleError::GivenLength { field, .. }
         | SampleError::NotTaken { field, .. } => *field,
+        SampleError::StartWithoutSpread => "start positions",
         _ => return None,
     };
     let name = match field {

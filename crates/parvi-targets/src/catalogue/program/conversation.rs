@@ -96,7 +96,11 @@ impl Conversation {
                 match answers.len() - before {
                     0 if before == 0 => return Ok(None),
                     found if found == width => {}
-                    found => return Err(self.misunderstood(question, x, &format!("{found} of {width} numbers"))),
+                    found => {
+                        let numbers = if found == 1 { "number" } else { "numbers" };
+                        let what = format!("{found} {numbers}, not {width}");
+                        return Err(self.misunderstood(question, x, &what));
+                    }
                 }
             }
         }
