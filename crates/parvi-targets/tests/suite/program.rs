@@ -84,8 +84,8 @@ fn what_is_no_program_is_refused() {
             "while read x; do echo 1 2 3; done",
             ["`density 0e0 0e0`", "3 numbers, not 1"],
         ),
-        ("while read x; do echo 1; done", ["`score 0e0 0e0`", "1 numbers, not 2"]),
-        ("while read x; do echo; done", ["first `density`", "an empty line"]),
+        ("while read x; do echo 1; done", ["`score 0e0 0e0`", "1 number, not 2"]),
+        ("while read x; do echo; done", ["`density 0e0 0e0`", "an empty line"]),
     ] {
         let message = refused(command);
         assert!(message.starts_with(&format!("program `{command}` ")), "{message}");
