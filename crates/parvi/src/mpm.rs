@@ -49,12 +49,15 @@ pub(crate) fn sample<const D: usize>(options: &MpmOptions, mut task: Task<'_, D>
     if let Some(nowhere) = nowhere.clone().filter(|_| left < first_round) {
         return Err(nowhere.into());
     }
-    let has_mass = |x: &[f64; D]| target.log_density(x).is_finite();
     match (free_body::sample(options, task, None, left, &mut journal), nowhere) {
         // Where no density is finite, a score that is none is no news, and neither has the body found one.
         (Err(SampleError::ScoreNotFinite { .. }), Some(nowhere)) => Err(nowhere.into()),
-        (Ok(samples), Some(nowhere)) if !samples.positions.iter().any(has_mass) => Err(nowhere.into()),
-        (Ok(mut samples), _) => {
+        (Ok(mut samples), nowhere) => {
+            if let Some(nowhere) = nowhere {
+                let has_mass = |x: &[f64; D]| target.log_density(x).is_finite();
+                let first = samples.positions.iter().position(has_mass).ok_or(nowhere)?;
+                samples.density_evaluations += first as u64 + 1;
+            }
             samples.density_evaluations += spent.densities;
             samples.score_evaluations += spent.scores;
             if let Some(certificate) = &mut samples.certificate {

@@ -285,7 +285,7 @@ fn files_of_particles_that_make_no_sense_are_named() {
     refused_beside(
         &[("start.csv", two)],
         "--target gaussian --dim 2 --start start.csv",
-        &["--start", "--survey off"],
+        &["--start", "no spread"],
     );
     refused_beside(
         &[("start.csv", two)],
