@@ -6,6 +6,8 @@ use parvi::certificate::Doubt;
 use parvi::{AisOptions, MpmOptions, Outcome, Run, SampleError, Samples, Silent};
 use parvi_targets::{Frame, Target};
 
+type LogDensity<'a> = &'a (dyn Fn(&[f64; 2]) -> f64 + Sync);
+
 /// log p as a function, scores by differences; counts what is evaluated.
 struct Counted<F> {
     log_density: F,
@@ -65,7 +67,7 @@ fn softplus(t: f64) -> f64 {
 fn what_does_not_fall_off_is_said_to_be_improper() {
     // A slope; nothing at all; a logistic regression of separated data without a prior.
     let separated = |x: &[f64; 2]| -softplus(-(x[0] + 2.0 * x[1])) - softplus(-(2.0 * x[0] + x[1])) - softplus(-x[0]);
-    let improper: [&(dyn Fn(&[f64; 2]) -> f64 + Sync); 3] = [&|x| x[0], &|_| 0.0, &separated];
+    let improper: [LogDensity<'_>; 3] = [&|x| x[0], &|_| 0.0, &separated];
     for log_density in improper {
         let samples = Counted::new(log_density).sampled(&MpmOptions::default(), 100);
         assert!(
@@ -95,7 +97,7 @@ fn proper_densities_fall_off() {
         }
     };
     let funnel = |x: &[f64; 2]| -x[0] * x[0] / 18.0 - 0.5 * x[0] - 0.5 * x[1] * x[1] * (-x[0]).exp();
-    let proper: [&(dyn Fn(&[f64; 2]) -> f64 + Sync); 3] = [&cauchy, &boxed, &funnel];
+    let proper: [LogDensity<'_>; 3] = [&cauchy, &boxed, &funnel];
     for log_density in proper {
         let samples = Counted::new(log_density).sampled(&MpmOptions::default(), 100);
         assert!(!matches!(doubt(&samples), Some(Doubt::Endless { .. })));
