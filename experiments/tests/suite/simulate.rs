@@ -138,8 +138,8 @@ fn bad_scenes_are_refused_with_file_field_and_value() {
 fn what_cannot_be_reported_is_named() {
     let root = tempfile::tempdir().unwrap();
     std::fs::write(root.path().join("scene.toml"), SCENE).unwrap();
-    succeeds(root.path(), "simulate scene.toml --out out");
     let series = root.path().join("out/series.csv");
+    succeeds(root.path(), "simulate scene.toml --out out");
     let whole = std::fs::read_to_string(&series).unwrap();
     let header = whole.lines().next().unwrap();
     for (text, expected) in [

@@ -4,6 +4,17 @@ use mpm_rom::online::ReducedBody;
 
 use super::*;
 
+/// A training is refused with the experiment's file and this.
+fn assert_not_begun(text: &str, file: &Path, out: &Path, expected: &str) {
+    let experiment = Experiment::parse(text, file).expect("sound");
+    let error = train_experiment(&experiment, out, &mut ())
+        .expect_err(expected)
+        .to_string();
+    let expected = format!("{}, {expected}", file.display());
+    assert!(error.starts_with(&expected), "{error}");
+    assert!(!out.exists(), "nothing was begun");
+}
+
 #[test]
 fn what_is_wrong_is_named_with_its_file_and_field() {
     let table: toml::Table = include_str!("../../data/strip_rom_refused.toml").parse().expect("TOML");
@@ -77,12 +88,8 @@ fn numbers_of_sample_points_and_scenes_that_are_not_there_are_refused_before_any
         ),
     ];
     for (number, ((old, new), expected)) in cases.into_iter().enumerate() {
-        let experiment = Experiment::parse(&EXPERIMENT.replace(old, new), &file).expect("sound");
         let out = directory.path().join(number.to_string());
-        let error = train_experiment(&experiment, &out, &mut ()).expect_err(new).to_string();
-        let expected = format!("{}, {expected}", file.display());
-        assert!(error.starts_with(&expected), "{error}");
-        assert!(!out.exists(), "nothing was begun");
+        assert_not_begun(&EXPERIMENT.replace(old, new), &file, &out, expected);
     }
 }
 
@@ -131,14 +138,8 @@ fn a_step_factor_that_does_not_divide_a_frame_is_refused_before_the_training() {
     for factor in [0, 7] {
         let run = format!("step_factor = [1, {factor}]");
         let text = EXPERIMENT.replace("manifold = [\"network\", \"linear\"]", &run);
-        let experiment = Experiment::parse(&text, &file).expect("sound");
-        let out = directory.path().join("out");
-        let error = train_experiment(&experiment, &out, &mut ())
-            .expect_err("uneven")
-            .to_string();
-        let expected = format!("{}, run.step_factor: {factor} does not divide the ", file.display());
-        assert!(error.starts_with(&expected), "{error}");
-        assert!(!out.exists(), "nothing was begun");
+        let expected = format!("run.step_factor: {factor} does not divide the ");
+        assert_not_begun(&text, &file, &directory.path().join("out"), &expected);
     }
 }
 
