@@ -49,7 +49,7 @@ fn a_density_in_python_has_its_evidence_and_the_same_bits_on_any_number_of_threa
 
 #[test]
 fn what_is_wrong_with_a_program_is_said_with_the_question() {
-    let ending = "for n in 1 2 3 4 5 6 7 8 9; do read what x; if [ $what = score ]; then echo 0 0; else echo -$n; fi; done; exit 7";
+    let ending = "for n in 1 2 3 4 5 6 7 8 9; do read what x; if [ x$what = xscore ]; then echo 0 0; else echo -$n; fi; done; exit 7";
     for (program, parts) in [
         (
             "exit 3",

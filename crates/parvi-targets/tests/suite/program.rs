@@ -97,7 +97,7 @@ fn what_is_no_program_is_refused() {
 
 /// Answers to five questions.
 const ENDING: &str =
-    "for n in 1 2 3 4 5; do read what x; if [ $what = score ]; then echo 0 0; else echo $n; fi; done; exit 7";
+    "for n in 1 2 3 4 5; do read what x; if [ x$what = xscore ]; then echo 0 0; else echo $n; fi; done; exit 7";
 
 #[test]
 fn a_program_that_ends_is_a_fault_and_its_values_are_none_from_then_on() {
