@@ -198,7 +198,8 @@ pub(super) fn asked(question: Question, x: &[f64]) -> String {
     text.trim_end().to_owned()
 }
 
-fn failed(command: &str, reason: String) -> TargetError {
+/// The error that a program is none to ask.
+pub(super) fn failed(command: &str, reason: String) -> TargetError {
     TargetError::ProgramFailed {
         command: command.to_owned(),
         reason,

@@ -2,7 +2,7 @@
 
 use std::sync::{Mutex, OnceLock, PoisonError};
 
-use super::conversation::{Conversation, Question, asked};
+use super::conversation::{Conversation, Question, asked, failed};
 use crate::{CatalogueTarget, FiniteDifferenceScore, Frame, Target, TargetError};
 
 /// A target in any language: a program that reads questions, a line each, and answers each with a line of numbers.
@@ -30,18 +30,14 @@ impl<const D: usize> ProgramTarget<D> {
     /// # Errors
     /// [`TargetError::ProgramFailed`] if it does not start or does not answer.
     pub fn start(command: &str) -> Result<Self, TargetError> {
-        let failed = |reason: String| TargetError::ProgramFailed {
-            command: command.to_owned(),
-            reason,
-        };
         if command.trim().is_empty() {
-            return Err(failed("is an empty command line".to_owned()));
+            return Err(failed(command, "is an empty command line".to_owned()));
         }
         let mut program = Conversation::begin(command)?;
         let origin = [0.0; D];
         if program.ask(Question::Density, &origin, D)?.is_none() {
             let question = asked(Question::Density, &origin);
-            return Err(failed(format!("answers `{question}` with an empty line")));
+            return Err(failed(command, format!("answers `{question}` with an empty line")));
         }
         let has_score = program.ask(Question::Score, &origin, D)?.is_some();
         Ok(Self {
@@ -64,12 +60,10 @@ impl<const D: usize> ProgramTarget<D> {
             let mut program = idle.map_or_else(|| Conversation::begin(&self.command), Ok)?;
             let answers = program.ask(question, xs.as_flattened(), D)?;
             self.idle.lock().unwrap_or_else(PoisonError::into_inner).push(program);
-            answers.ok_or_else(|| TargetError::ProgramFailed {
-                command: self.command.clone(),
-                reason: format!(
-                    "answers `{}` with an empty line, which its first answer was not",
-                    asked(question, &xs[0])
-                ),
+            answers.ok_or_else(|| {
+                let question = asked(question, &xs[0]);
+                let reason = format!("answers `{question}` with an empty line, which its first answer was not");
+                failed(&self.command, reason)
             })
         };
         let nothing = || vec![f64::NAN; xs.len() * question.width(D)];
