@@ -8,6 +8,7 @@ mod cholesky;
 mod compiled;
 mod condense;
 pub mod defaults;
+mod drawn;
 mod drive;
 mod driven;
 mod exact;

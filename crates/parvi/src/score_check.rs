@@ -6,6 +6,8 @@ use parvi_targets::{Target, normal_quantile};
 use rand::RngExt;
 use rand::rngs::ChaCha8Rng;
 
+use crate::drawn::drawn;
+
 /// Points that are looked at, in one direction each.
 const POINTS: usize = 8;
 
@@ -64,19 +66,6 @@ fn error(slopes: &[f64], differences: &[Vec<f64>], points: &[usize]) -> Option<f
     let least = errors.fold(f64::INFINITY, f64::min);
     let agree = |[one, next]: &[Vec<f64>; 2]| apart(one, next) <= LARGEST_OF_DIFFERENCES * size(one);
     (least > LARGEST && differences.array_windows().any(agree)).then_some(least)
-}
-
-/// So many points, of equal shares of the weights.
-pub(crate) fn drawn<const D: usize>(pool: &Pool<D>, count: usize, offset: f64) -> Vec<[f64; D]> {
-    let mut sum = 0.0;
-    let mut points = Vec::with_capacity(count);
-    for (x, weight) in pool.positions.iter().zip(&pool.weights) {
-        sum += weight;
-        while points.len() < count && sum * count as f64 > points.len() as f64 + offset {
-            points.push(*x);
-        }
-    }
-    points
 }
 
 /// (log p(x + h v) − log p(x − h v)) / 2h.

@@ -4,7 +4,7 @@ use mpm_tensor::vector;
 use parvi_pool::Pool;
 use parvi_targets::{Frame, Target};
 
-use crate::score_check::drawn;
+use crate::drawn::drawn;
 
 /// Rays that are looked along.
 const RAYS: usize = 16;

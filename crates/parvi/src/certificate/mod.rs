@@ -100,22 +100,15 @@ fn doubt_of_moments(moments: &[MomentEstimate], caution: f64) -> Option<Doubt> {
         errors.into_iter().reduce(f64::max).unwrap_or(f64::NAN) + caution * moment.unexplained()
     };
     worst(moments, &larger, LARGEST_ERROR)?;
-    let of_mean = |moment: &MomentEstimate| moment.mean_error() + caution * moment.mean.unexplained;
-    let of_deviation =
-        |moment: &MomentEstimate| moment.standard_deviation_error() + caution * moment.standard_deviation.unexplained;
     // The one that is farther off is named.
-    let (in_mean, mean) = worst(moments, &of_mean, 0.0).unwrap_or((1, 0.0));
-    let (in_deviation, deviation) = worst(moments, &of_deviation, 0.0).unwrap_or((1, 0.0));
-    Some(match exceeds(mean, deviation) {
-        true => Doubt::Mean {
-            axis: in_mean,
-            error: mean,
-        },
-        false => Doubt::StandardDeviation {
-            axis: in_deviation,
-            error: deviation,
-        },
-    })
+    let doubts = (1..).zip(moments).flat_map(|(axis, moment)| {
+        let mean = moment.mean_error() + caution * moment.mean.unexplained;
+        let deviation = moment.standard_deviation_error() + caution * moment.standard_deviation.unexplained;
+        let of_deviation = Doubt::StandardDeviation { axis, error: deviation };
+        [(mean, Doubt::Mean { axis, error: mean }), (deviation, of_deviation)]
+    });
+    let worst = doubts.max_by(|(one, _), (other, _)| one.total_cmp(other));
+    worst.map(|(_, doubt)| doubt)
 }
 
 /// The axis, from 1, at which a value is largest, if it is above its limit there.
@@ -128,4 +121,32 @@ fn worst(moments: &[MomentEstimate], of: &dyn Fn(&MomentEstimate) -> f64, limit:
 /// Whether a value is above its limit, or none.
 fn exceeds(value: f64, limit: f64) -> bool {
     value.is_nan() || value > limit
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_moment_that_is_farther_off_is_named() {
+        let moment = |error: f64, unexplained: f64| EstimatedMoment {
+            value: 1.0 + error,
+            estimate: 1.0,
+            standard_error: error,
+            unexplained,
+        };
+        let of = |mean, standard_deviation| MomentEstimate {
+            mean,
+            standard_deviation,
+        };
+        let sound = of(moment(0.0, 0.5), moment(0.0, 0.5));
+        assert_eq!(doubt_of_moments(&[sound], 0.1), None);
+        let vague = of(moment(0.03, 0.1), moment(0.03, 1.0));
+        let doubt = doubt_of_moments(&[sound, vague], 0.1);
+        let named = matches!(doubt, Some(Doubt::StandardDeviation { axis: 2, error }) if error > 0.12);
+        assert!(named, "{doubt:?}");
+        let off = of(moment(0.3, 0.1), moment(0.0, 0.1));
+        let doubt = doubt_of_moments(&[off, vague], 0.1);
+        assert!(matches!(doubt, Some(Doubt::Mean { axis: 1, .. })), "{doubt:?}");
+    }
 }
