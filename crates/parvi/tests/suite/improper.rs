@@ -110,10 +110,9 @@ fn a_survey_in_vain_is_counted() {
     let samples = Counted::new(far).sampled(&MpmOptions::default(), 100);
     let doubt = doubt(&samples);
     assert!(
-        matches!(doubt, Some(Doubt::SurveyInVain { .. } | Doubt::Endless { .. })),
+        matches!(doubt, Some(Doubt::SurveyInVain { evaluations }) if evaluations >= 900),
         "{doubt:?}"
     );
-    assert!(samples.density_evaluations > 0);
 }
 
 #[test]
