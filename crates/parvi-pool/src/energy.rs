@@ -91,8 +91,8 @@ impl<const D: usize> EnergyDistance<D> {
 }
 
 impl<const D: usize> Measure<D> {
-    /// How far its independent parts are apart, [`EnergyDistance::noise`] over E|Y − Y′|, over what the [`variance`](Self::variance) says: 0.3 to 1.7 where the parts stand for the same, 10
-    /// where one of them had lost a mode of mass 0.02. NaN where there is no spread.
+    /// How far its independent parts are apart, [`EnergyDistance::noise`] over E|Y − Y′|, over what the [`variance`](Self::variance) says: about one where the parts stand for the same,
+    /// many times as much where one of them has lost a mode. NaN where there is no spread.
     pub fn inconsistency(&self) -> f64 {
         let directions = directions();
         let few = directions.len().min(FEW);
