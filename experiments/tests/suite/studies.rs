@@ -19,6 +19,10 @@ fn quickstart() {
     assert!(report.contains("intercept"));
     assert!(["pass", "fail"].contains(&value(&output, "verdict").unwrap().as_str()));
     value(&output, "largest_mean_error").unwrap().parse::<f64>().unwrap();
+    // No reference is that good.
+    let (root, output) = run_study(&text.replace("mean = 0.02", "mean = 1e-9"));
+    assert_eq!(value(&output, "verdict").as_deref(), Some("undecided"));
+    assert!(assert_report(root.path(), 4).contains("undecided, since standard errors of the reference"));
 }
 
 #[test]

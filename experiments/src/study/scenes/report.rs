@@ -33,7 +33,11 @@ pub fn report(study: &Scenes, rows: &Rows<'_>, directory: &StudyDirectory) -> Re
         section(&mut page, family, series, rows, directory)?;
     }
     let failed = rows.count(|row| row.number("value").is_none());
-    let verdict = if judged > 0 && passed == judged { "pass" } else { "fail" };
+    let verdict = match judged {
+        0 => "none",
+        _ if passed == judged => "pass",
+        _ => "fail",
+    };
     let page = page.with("cases", rows.len()).with("failed", failed);
     let page = page.with("judged", judged).with("passed", passed);
     Ok(page.with("verdict", verdict))
