@@ -1,6 +1,7 @@
 //! Step control: how long a step may be, and how far it may move a particle.
 
 use crate::MpmError;
+use crate::error::{not_negative, within};
 
 /// Limits of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -10,7 +11,8 @@ pub struct StepControl {
     /// C > 0 in Δt ≤ C h / (c + max |v_p|), c the wave speed; infinite: off.
     pub courant: f64,
     /// No particle moves farther than this multiple (> 0) of h in a step; infinite: off. Nodal velocities are shortened, and
-    /// the weights of a basis with w ≥ 0 average them, so the limit holds for the particles.
+    /// the weights of a basis with w ≥ 0 average them, so the limit holds for the particles. What is shortened loses its momentum: a guard for sampling, and for
+    /// mechanics one that must not act ([`StepReport::displacement`] says whether it did).
     pub displacement: f64,
     /// Friction γ ≥ 0, finite: velocities are multiplied by e^{−γΔt}.
     pub friction: f64,
@@ -22,34 +24,12 @@ impl StepControl {
     /// # Errors
     /// [`MpmError::InvalidParameter`] with the first that is not.
     pub fn check(&self) -> Result<(), MpmError> {
-        let positive = |value: f64| value > 0.0;
-        let limits = [
-            (
-                "time_step",
-                self.time_step,
-                positive(self.time_step) && self.time_step.is_finite(),
-                "positive and finite",
-            ),
-            ("courant", self.courant, positive(self.courant), "positive"),
-            (
-                "displacement",
-                self.displacement,
-                positive(self.displacement),
-                "positive",
-            ),
-            (
-                "friction",
-                self.friction,
-                self.friction >= 0.0 && self.friction.is_finite(),
-                "at least 0 and finite",
-            ),
-        ];
-        for (field, value, valid, expected) in limits {
-            if !valid {
-                return Err(MpmError::InvalidParameter { field, value, expected });
-            }
-        }
-        Ok(())
+        let positive = |field, value: f64| within(field, value, value > 0.0, "positive");
+        let is_step = self.time_step > 0.0 && self.time_step.is_finite();
+        within("time_step", self.time_step, is_step, "positive and finite")?;
+        positive("courant", self.courant)?;
+        positive("displacement", self.displacement)?;
+        not_negative("friction", self.friction)
     }
 
     /// Δt of the next step, min(`time_step`, C h / (c + max |v_p|)).

@@ -33,7 +33,11 @@ fn fault_of_force<const D: usize>(positions: &[[f64; D]], forces: &[[f64; D]]) -
     })
 }
 
-fn fault_of_velocity<const D: usize>(positions: &[[f64; D]], velocity: &dyn Fn(usize) -> [f64; D]) -> MpmError {
+/// The first nodal velocity that is not finite.
+pub(crate) fn fault_of_velocity<const D: usize>(
+    positions: &[[f64; D]],
+    velocity: &dyn Fn(usize) -> [f64; D],
+) -> MpmError {
     let node = (0..positions.len()).find(|&node| !is_finite(&velocity(node)));
     let node = node.unwrap_or(0);
     MpmError::VelocityNotFinite {
@@ -42,6 +46,7 @@ fn fault_of_velocity<const D: usize>(positions: &[[f64; D]], velocity: &dyn Fn(u
     }
 }
 
-fn is_finite<const D: usize>(vector: &[f64; D]) -> bool {
+/// Whether all components are.
+pub(crate) fn is_finite<const D: usize>(vector: &[f64; D]) -> bool {
     vector.iter().all(|c| c.is_finite())
 }

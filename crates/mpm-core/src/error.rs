@@ -122,3 +122,21 @@ pub enum MpmError {
         expected: &'static str,
     },
 }
+
+/// [`MpmError::InvalidParameter`] unless a value is within its range.
+pub(crate) fn within(field: &'static str, value: f64, is_within: bool, expected: &'static str) -> Result<(), MpmError> {
+    if is_within {
+        return Ok(());
+    }
+    Err(MpmError::InvalidParameter { field, value, expected })
+}
+
+/// The same for 0 ≤ value < ∞.
+pub(crate) fn not_negative(field: &'static str, value: f64) -> Result<(), MpmError> {
+    within(
+        field,
+        value,
+        (0.0..f64::INFINITY).contains(&value),
+        "at least 0 and finite",
+    )
+}

@@ -1,6 +1,6 @@
 //! Particles as structure of arrays; a field that a scene does not use is an empty vector.
 
-use mpm_tensor::Matrix;
+use mpm_tensor::{Matrix, vector};
 
 use crate::MpmError;
 use crate::largest::larger_or_nan;
@@ -314,6 +314,25 @@ impl<const D: usize, S: Copy + Send + Sync> Particles<D, S> {
         let square = |v: &[f64; D]| v.iter().map(|c| c * c).sum::<f64>();
         let each = self.velocities.iter().enumerate();
         0.5 * each.map(|(p, v)| self.masses.get(p) * square(v)).sum::<f64>()
+    }
+
+    /// Σ m_p v_p.
+    pub fn momentum(&self) -> [f64; D] {
+        let mut sum = [0.0; D];
+        for (p, v) in self.velocities.iter().enumerate() {
+            vector::accumulate(&mut sum, self.masses.get(p), v);
+        }
+        sum
+    }
+
+    /// Σ m_p (x_a v_b − x_b v_a + B_ba − B_ab) about the origin; the affine part where there is one (Jiang et al. 2015, §5.3.1).
+    pub fn angular_momentum(&self, (a, b): (usize, usize)) -> f64 {
+        let each = self.positions.iter().zip(&self.velocities).enumerate();
+        each.map(|(p, (x, v))| {
+            let affine = self.affine.get(p).map_or(0.0, |matrix| matrix.0[b][a] - matrix.0[a][b]);
+            self.masses.get(p) * (x[a] * v[b] - x[b] * v[a] + affine)
+        })
+        .sum()
     }
 
     /// Bytes held.

@@ -2,12 +2,12 @@
 
 use mpm_tensor::vector;
 
-use crate::diagnosis::what_is_not_finite;
+use crate::diagnosis::{fault_of_velocity, is_finite, what_is_not_finite};
 use crate::friction::{slow_nodes, sum_up_impulses};
 use crate::transfer::{GridNode, Transfer, advance};
 use crate::{
-    Basis, BodyForce, Boundary, ForceLocation, GridMotion, Medium, Mpm, MpmError, Particles, Sites, StepControl,
-    StepReport, StressUpdate,
+    Basis, BodyForce, Boundary, Extents, ForceLocation, GridMotion, Medium, Mpm, MpmError, Particles, Sites,
+    StepControl, StepReport, StressUpdate,
 };
 
 impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>, C: Boundary<D>> Mpm<D, B, T, M, F, C> {
@@ -15,10 +15,12 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
     ///
     /// # Errors
     /// [`MpmError`]: limits or field lengths that make no sense, an inadmissible deformation, a position outside the grid's
-    /// range, a force or a nodal velocity that is not finite. The particles' state is then what it was, up to their order,
+    /// range, a force or a nodal velocity that is not finite, also of the boundary. The particles' state is then what it was, up to their order,
     /// but that a [`VelocityFilter`](crate::VelocityFilter) may have acted; with [`StressUpdate::First`] they may have deformed, too.
     pub fn step(&mut self, control: &StepControl) -> Result<StepReport, MpmError> {
         control.check()?;
+        self.transfer.check()?;
+        self.boundary.check()?;
         self.check_order()?;
         self.particles
             .check_lengths(T::AFFINE, M::DEFORMS, self.medium.rate_dependent())?;
@@ -52,6 +54,7 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
         self.slow_by_friction();
         self.record(&mut stages);
         self.constrain_grid(dt, true);
+        self.check_nodes()?;
         self.record(&mut stages);
         self.account(&stages, damping);
         self.update_particles(dt, damping);
@@ -182,12 +185,26 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
             self.basis.node_positions(&mut self.node_positions);
             let motion = GridMotion {
                 positions: &self.node_positions,
+                extents: Extents {
+                    positions: &self.particles.positions,
+                    deformation_gradients: &self.particles.deformation_gradients,
+                    reference_volumes: &self.particles.reference_volumes,
+                },
                 time: self.time,
                 time_step: dt,
                 forces,
             };
             self.boundary.constrain(&self.basis, &motion, self.nodes.as_mut_slice());
         }
+    }
+
+    /// Whether the boundary has left all velocities finite.
+    fn check_nodes(&self) -> Result<(), MpmError> {
+        let nodes = self.nodes.as_slice();
+        if C::PRESENT && !nodes.iter().all(|node| is_finite(node.velocity())) {
+            return Err(fault_of_velocity(&self.node_positions, &|node| *nodes[node].velocity()));
+        }
+        Ok(())
     }
 }
 

@@ -2,7 +2,7 @@
 
 use mpm_tensor::Matrix;
 
-use crate::error::not_negative;
+use crate::error::{not_negative, positive};
 use crate::{DeformationError, ElasticModuli, Law, Material, NeoHookean, ParameterError};
 
 /// Visco-elasticity after Kelvin and Voigt at large strain: the [`NeoHookean`] spring beside a Newtonian dashpot, σ = σ_e(F) + 2 η d.
@@ -10,13 +10,15 @@ use crate::{DeformationError, ElasticModuli, Law, Material, NeoHookean, Paramete
 /// τ = τ_e(F) + 2 η J d with the rate d = ½ (L + Lᵀ), the viscosity η (stress × time) and J = det F. The dashpot resists every rate, that of volume too, in any D: in D = 1 the law is σ = σ_e + 2 η ε̇. It
 /// is objective, and it dissipates 2 η J d : d ≥ 0 per reference volume. The energy stored is that of the spring.
 ///
-/// **Defined for J > 0 only**, as the spring is. The wave speed is the spring's and does not hold the viscous limit of an explicit step, Δt ≲ h² ρ / (4 D η) for the cell size h.
+/// **Defined for J > 0 only**, as the spring is. The wave speed is the spring's and does not hold the viscous limit of an explicit step, h² ρ₀ / (4 D η) for the spacing h, which the law says where it
+/// knows its density ([`with_reference_density`](Self::with_reference_density)).
 ///
 /// Source: the one-dimensional model in Simo & Hughes, *Computational Inelasticity*, ch. 10; Landau & Lifshitz, *Theory of Elasticity*, 3rd ed., Eq. 34.5 for the viscous stress (2η d, and ζ = 2η/D).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct KelvinVoigt {
     spring: NeoHookean,
     viscosity: f64,
+    reference_density: Option<f64>,
 }
 
 impl KelvinVoigt {
@@ -29,6 +31,19 @@ impl KelvinVoigt {
         Ok(Self {
             spring: NeoHookean::new(moduli),
             viscosity: not_negative("viscosity", viscosity)?,
+            reference_density: None,
+        })
+    }
+
+    /// The same, of a density ρ₀ at rest.
+    ///
+    /// # Errors
+    ///
+    /// [`ParameterError`] unless 0 < ρ₀ < ∞.
+    pub fn with_reference_density(self, reference_density: f64) -> Result<Self, ParameterError> {
+        Ok(Self {
+            reference_density: Some(positive("density", reference_density)?),
+            ..self
         })
     }
 }
@@ -39,6 +54,17 @@ impl<const D: usize> Law<D> for KelvinVoigt {
     #[inline]
     fn rate_dependent(&self) -> bool {
         self.viscosity > 0.0
+    }
+
+    /// h² ρ₀ / (4 D η) for the spacing h; infinite without a density.
+    fn longest_viscous_step(&self, spacing: f64) -> f64 {
+        let inertia = self
+            .reference_density
+            .map_or(f64::INFINITY, |density| spacing * spacing * density);
+        if self.viscosity == 0.0 {
+            return f64::INFINITY;
+        }
+        inertia / (4.0 * D as f64 * self.viscosity)
     }
 
     #[inline]
@@ -111,6 +137,16 @@ mod tests {
         for value in [-1.0, f64::INFINITY] {
             let error = KelvinVoigt::new(law(0.0).spring.moduli, value).expect_err("out of range");
             assert_eq!(error.parameter(), ("viscosity", value));
+            let error = law(0.5).with_reference_density(value).expect_err("out of range");
+            assert_eq!(error.parameter(), ("density", value));
         }
+    }
+
+    #[test]
+    fn a_viscous_step_has_a_density() {
+        let step = |law: KelvinVoigt| Law::<2>::longest_viscous_step(&law, 0.1);
+        let of_density = |law: KelvinVoigt| law.with_reference_density(3.0).expect("in range");
+        assert_eq!(step(of_density(law(0.5))), 0.1 * 0.1 * 3.0 / (4.0 * 2.0 * 0.5));
+        assert_eq!([step(law(0.5)), step(of_density(law(0.0)))], [f64::INFINITY; 2]);
     }
 }

@@ -16,6 +16,8 @@ const CHUNK: usize = 1 << 12;
 /// ∇w_i = ∇λ is the gradient of w_i, constant in every cell, so that Stein's identity E\[w_i s + ∇w_i\] = 0 holds for every w_i that vanishes on the
 /// boundary. (The diffuse gradient of [`MeshBasis`](crate::MeshBasis) has no such identity.) Nodes are the vertices of the mesh, all of them, by their
 /// own numbers. A particle outside the mesh is an error, [`MpmError::OutsideMesh`].
+///
+/// A node of which particles are far has next to no mass, and ∇w_i all the same: bodies of solid want a tenth of the steps that they take on splines.
 #[derive(Clone, Debug)]
 pub struct HatBasis<const D: usize> {
     search: CellSearch<D>,

@@ -1,3 +1,8 @@
+use mpm_tensor::vector;
+
+use crate::MpmError;
+use crate::error::not_negative;
+
 /// What a rigid surface does to the velocity of the material at it, relative to its own.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Contact {
@@ -5,7 +10,7 @@ pub enum Contact {
     Stick,
     /// The material neither leaves nor enters, and slides freely: a roller, or a plane of symmetry.
     Slip,
-    /// The material may leave, does not enter, and slides against Coulomb friction with coefficient `friction` ≥ 0: the tangential
+    /// The material may leave and does not enter: where a particle would come nearer than half its size, (V_p)^(1/D) / 2, in a step, its nodes go no farther than that. It slides against Coulomb friction with coefficient `friction` ≥ 0: the tangential
     /// velocity falls by at most `friction` times the normal velocity that the surface takes away.
     Separate {
         /// Coefficient of friction.
@@ -14,6 +19,27 @@ pub enum Contact {
 }
 
 impl Contact {
+    /// 0 ≤ friction < ∞.
+    pub(super) fn check(&self) -> Result<(), MpmError> {
+        match *self {
+            Self::Separate { friction } => not_negative("friction", friction),
+            Self::Stick | Self::Slip => Ok(()),
+        }
+    }
+
+    /// As [`resolve`](Self::resolve), where material that can leave is free to come nearer at a speed of `closing` ≥ 0, which may be ∞.
+    #[inline]
+    pub(super) fn resolve_at<const D: usize>(&self, normal: &[f64; D], velocity: &[f64; D], closing: f64) -> [f64; D] {
+        if closing == 0.0 {
+            return self.resolve(normal, velocity);
+        }
+        if closing == f64::INFINITY {
+            return *velocity;
+        }
+        let left = self.resolve(normal, &vector::add_scaled(velocity, closing, normal));
+        vector::add_scaled(&left, -closing, normal)
+    }
+
     /// The velocity that is left of `velocity`, both relative to the surface, whose unit normal points at the material.
     #[inline]
     pub fn resolve<const D: usize>(&self, normal: &[f64; D], velocity: &[f64; D]) -> [f64; D] {
@@ -49,5 +75,12 @@ mod tests {
         assert_eq!(rough.resolve(&normal, &[3.0, 1.0]), [3.0, 1.0], "leaving");
         assert_eq!(rough.resolve(&normal, &[3.0, -2.0]), [2.0, 0.0], "sliding");
         assert_eq!(rough.resolve(&normal, &[3.0, -7.0]), [0.0, 0.0], "sticking");
+        assert_eq!(rough.resolve_at(&normal, &[3.0, -2.0], 2.5), [3.0, -2.0], "coming");
+        assert_eq!(rough.resolve_at(&normal, &[3.0, -2.0], 1.0), [2.5, -1.0], "touching");
+        assert_eq!(
+            rough.resolve_at(&normal, &[3.0, -2.0], f64::INFINITY),
+            [3.0, -2.0],
+            "far"
+        );
     }
 }

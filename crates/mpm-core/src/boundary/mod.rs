@@ -7,6 +7,7 @@ mod obstacle;
 mod plane;
 mod prescribed;
 mod signed_distance;
+mod surface;
 
 pub use contact::Contact;
 pub use node_forces::NodeForces;
@@ -14,14 +15,17 @@ pub use obstacle::Obstacle;
 pub use plane::Plane;
 pub use prescribed::PrescribedVelocity;
 pub use signed_distance::{HalfSpace, SignedDistance};
+pub use surface::Extents;
 
-use crate::{Basis, GridNode};
+use crate::{Basis, GridNode, MpmError};
 
 /// The grid when a boundary is asked: after forces, before particles move.
 #[derive(Clone, Copy, Debug)]
 pub struct GridMotion<'a, const D: usize> {
     /// Positions of the nodes, by number.
     pub positions: &'a [[f64; D]],
+    /// The particles.
+    pub extents: Extents<'a, D>,
     /// Time at the start of the step.
     pub time: f64,
     /// Δt.
@@ -34,6 +38,14 @@ pub struct GridMotion<'a, const D: usize> {
 pub trait Boundary<const D: usize>: Sync {
     /// Whether there are any; without, not even the positions of the nodes are computed.
     const PRESENT: bool = true;
+
+    /// Whether its parameters are in their ranges; asked at the start of every step.
+    ///
+    /// # Errors
+    /// [`MpmError::InvalidParameter`] with the first that is not.
+    fn check(&self) -> Result<(), MpmError> {
+        Ok(())
+    }
 
     /// Change the velocities ([`GridNode::velocity_mut`]) of nodes. What the nodes get goes back to the particles, so the
     /// momentum that is taken is the reaction of the boundary.
@@ -66,6 +78,8 @@ pub struct Boundaries<const D: usize> {
     pub prescribed: Vec<Box<dyn PrescribedVelocity<D>>>,
     /// Masses that mirrored nodes have together.
     masses: Vec<f64>,
+    /// Gaps between a surface and the material around the nodes.
+    gaps: Vec<f64>,
 }
 
 impl<const D: usize> Boundaries<D> {
@@ -77,6 +91,7 @@ impl<const D: usize> Boundaries<D> {
             obstacles,
             prescribed: Vec::new(),
             masses: Vec::new(),
+            gaps: Vec::new(),
         }
     }
 
@@ -94,6 +109,18 @@ impl<const D: usize> Boundaries<D> {
 }
 
 impl<const D: usize> Boundary<D> for Boundaries<D> {
+    fn check(&self) -> Result<(), MpmError> {
+        for wall in &self.walls {
+            wall.contact.check()?;
+            signed_distance::check_normal(&wall.normal)?;
+        }
+        for obstacle in &self.obstacles {
+            obstacle.contact.check()?;
+            obstacle.shape.check()?;
+        }
+        Ok(())
+    }
+
     fn constrain<B: Basis<D>, N: GridNode<D>>(&mut self, basis: &B, motion: &GridMotion<D>, nodes: &mut [N]) {
         for forces in &self.forces {
             forces.act(basis, motion, nodes);
@@ -103,10 +130,10 @@ impl<const D: usize> Boundary<D> for Boundaries<D> {
             self.masses.extend(nodes.iter().map(GridNode::mass));
         }
         for wall in &self.walls {
-            wall.constrain(basis, motion.positions, &mut self.masses, nodes);
+            wall.constrain(basis, motion, (&mut self.masses, &mut self.gaps), nodes);
         }
         for obstacle in &self.obstacles {
-            obstacle.constrain(motion.positions, nodes);
+            obstacle.constrain(basis, motion, &mut self.gaps, nodes);
         }
         for field in &self.prescribed {
             prescribed::prescribe(&**field, motion, nodes);

@@ -1,5 +1,6 @@
-use super::{Contact, SignedDistance};
-use crate::GridNode;
+use super::surface::Surface;
+use super::{Contact, GridMotion, SignedDistance};
+use crate::{Basis, GridNode};
 
 /// A rigid body that moves with a given velocity or rests; it acts on the nodes inside it.
 pub struct Obstacle<const D: usize> {
@@ -12,16 +13,22 @@ pub struct Obstacle<const D: usize> {
 }
 
 impl<const D: usize> Obstacle<D> {
-    pub(super) fn constrain<N: GridNode<D>>(&self, positions: &[[f64; D]], nodes: &mut [N]) {
-        for (x, node) in positions.iter().zip(nodes) {
-            if self.shape.distance(x) <= 0.0 {
-                let v = node.velocity_mut();
-                let relative = std::array::from_fn(|a| v[a] - self.velocity[a]);
-                let left = self.contact.resolve(&self.shape.normal(x), &relative);
-                for a in 0..D {
-                    v[a] = self.velocity[a] + left[a];
-                }
-            }
-        }
+    pub(super) fn constrain<B: Basis<D>, N: GridNode<D>>(
+        &self,
+        basis: &B,
+        motion: &GridMotion<D>,
+        gaps: &mut Vec<f64>,
+        nodes: &mut [N],
+    ) {
+        let numbered = motion.positions.iter().enumerate();
+        let inside = numbered.filter(|(_, x)| self.shape.distance(x) <= 0.0);
+        let inside: Vec<usize> = inside.map(|(number, _)| number).collect();
+        let surface = Surface {
+            contact: self.contact,
+            velocity: &self.velocity,
+            distance: &|x| self.shape.distance_of_particle(x),
+            normal: &|x| self.shape.normal(x),
+        };
+        surface.act(basis, motion, &inside, gaps, nodes);
     }
 }

@@ -1,7 +1,8 @@
 use mpm_tensor::vector;
 
-use super::Contact;
 use super::mirror::mirror;
+use super::surface::Surface;
+use super::{Contact, GridMotion};
 use crate::{Basis, GridNode};
 
 /// A plane wall, endless.
@@ -10,7 +11,8 @@ use crate::{Basis, GridNode};
 /// cannot leave the wall ([`Contact::Stick`], [`Contact::Slip`]), the node is the image of its mirror node: the field of velocities is
 /// odd (or, along a sliding wall, even) about the wall, so the condition holds on the wall itself and the order of the basis is kept. The
 /// pair moves with the momentum both have (the Galerkin method on the odd or even fields), so mass and momentum
-/// along the wall are conserved. Elsewhere, and where material may leave, the condition holds at the nodes on and behind the wall.
+/// along the wall are conserved. Elsewhere, and where material may leave, the condition holds at the nodes on and behind the wall;
+/// material that may leave meets the wall where its particles do ([`Contact::Separate`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plane<const D: usize> {
     /// A point of the wall.
@@ -30,14 +32,16 @@ impl<const D: usize> Plane<D> {
     pub(super) fn constrain<B: Basis<D>, N: GridNode<D>>(
         &self,
         basis: &B,
-        positions: &[[f64; D]],
-        masses: &mut [f64],
+        motion: &GridMotion<D>,
+        (masses, gaps): (&mut [f64], &mut Vec<f64>),
         nodes: &mut [N],
     ) {
         let close = ON_THE_WALL * basis.spacing();
         let mirrored = !matches!(self.contact, Contact::Separate { .. });
-        for (number, x) in positions.iter().enumerate() {
-            let height = vector::dot(&self.normal, &vector::subtract(x, &self.point));
+        let distance = |x: &[f64; D]| vector::dot(&self.normal, &vector::subtract(x, &self.point));
+        let mut at = Vec::new();
+        for (number, x) in motion.positions.iter().enumerate() {
+            let height = distance(x);
             if height > close {
                 continue;
             }
@@ -48,12 +52,14 @@ impl<const D: usize> Plane<D> {
                     continue;
                 }
             }
-            let v = nodes[number].velocity_mut();
-            let relative = vector::subtract(v, &self.velocity);
-            let left = self.contact.resolve(&self.normal, &relative);
-            for a in 0..D {
-                v[a] = self.velocity[a] + left[a];
-            }
+            at.push(number);
         }
+        let surface = Surface {
+            contact: self.contact,
+            velocity: &self.velocity,
+            distance: &distance,
+            normal: &|_| self.normal,
+        };
+        surface.act(basis, motion, &at, gaps, nodes);
     }
 }

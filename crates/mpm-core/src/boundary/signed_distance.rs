@@ -1,7 +1,25 @@
+use mpm_tensor::vector;
+
+use crate::MpmError;
+use crate::error::within;
+
 /// The surface of a rigid body.
 pub trait SignedDistance<const D: usize>: Send + Sync {
     /// Distance to the surface, negative inside the body.
     fn distance(&self, x: &[f64; D]) -> f64;
+
+    /// The same of a particle, where surfaces that stand at nodes alone have another for these.
+    fn distance_of_particle(&self, x: &[f64; D]) -> f64 {
+        self.distance(x)
+    }
+
+    /// Whether its parameters are in their ranges.
+    ///
+    /// # Errors
+    /// [`MpmError::InvalidParameter`] with the first that is not.
+    fn check(&self) -> Result<(), MpmError> {
+        Ok(())
+    }
 
     /// Unit normal, out of the body: the gradient of [`distance`](Self::distance).
     fn normal(&self, x: &[f64; D]) -> [f64; D];
@@ -16,7 +34,17 @@ pub struct HalfSpace<const D: usize> {
     pub normal: [f64; D],
 }
 
+/// A normal's length is 1.
+pub(super) fn check_normal<const D: usize>(normal: &[f64; D]) -> Result<(), MpmError> {
+    let length = vector::norm(normal);
+    within("normal", length, (length - 1.0).abs() < 1e-9, "a vector of length 1")
+}
+
 impl<const D: usize> SignedDistance<D> for HalfSpace<D> {
+    fn check(&self) -> Result<(), MpmError> {
+        check_normal(&self.normal)
+    }
+
     fn distance(&self, x: &[f64; D]) -> f64 {
         (0..D).map(|a| (x[a] - self.point[a]) * self.normal[a]).sum()
     }

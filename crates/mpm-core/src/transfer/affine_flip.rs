@@ -1,6 +1,7 @@
 use mpm_tensor::Matrix;
 
 use super::{Flip, FlipNode, Transfer};
+use crate::MpmError;
 
 /// How B_p changes beside a v_p that changes as with [`Flip`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -42,6 +43,10 @@ impl<const D: usize> Transfer<D> for AffineFlip {
     type Node = FlipNode<D>;
     const AFFINE: bool = true;
     const INCREMENTAL: bool = true;
+
+    fn check(&self) -> Result<(), MpmError> {
+        Transfer::<D>::check(&self.flip)
+    }
 
     #[inline(always)]
     fn over(&self, time_step: f64) -> Self {

@@ -3,6 +3,8 @@ use std::borrow::Cow;
 use mpm_kernels::Deposit;
 
 use super::{GridNode, Sum, Transfer, VelocityNode, shorten};
+use crate::MpmError;
+use crate::error::{not_negative, within};
 
 /// FLIP blend (Brackbill & Ruppel 1986; Zhu & Bridson 2005) with share a of FLIP:
 /// v_p ← (1−a) Σ w_ip v_iⁿ⁺¹ + a (v_p + Σ w_ip (v_iⁿ⁺¹ − v_iⁿ)); positions always move with Σ w_ip v_iⁿ⁺¹.
@@ -28,6 +30,11 @@ impl<const D: usize> Transfer<D> for Flip {
     type Node = FlipNode<D>;
     const AFFINE: bool = false;
     const INCREMENTAL: bool = true;
+
+    fn check(&self) -> Result<(), MpmError> {
+        within("share", self.share, (0.0..=1.0).contains(&self.share), "from 0 to 1")?;
+        not_negative("pic_rate", self.pic_rate)
+    }
 
     #[inline(always)]
     fn over(&self, time_step: f64) -> Self {
@@ -139,5 +146,22 @@ impl<const D: usize> GridNode<D> for FlipNode<D> {
             vector: node.velocity,
         });
         each.map(VelocityNode).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_share_or_a_rate_out_of_range_is_named() {
+        let field = |flip: Flip| match Transfer::<2>::check(&flip) {
+            Err(MpmError::InvalidParameter { field, .. }) => field,
+            other => panic!("{other:?}"),
+        };
+        assert_eq!([-0.1, 1.5, f64::NAN].map(|share| field(Flip::blend(share))), ["share"; 3]);
+        let forgetting = |pic_rate| Flip { share: 1.0, pic_rate };
+        assert_eq!([-1.0, f64::INFINITY].map(|rate| field(forgetting(rate))), ["pic_rate"; 2]);
+        assert!(Transfer::<2>::check(&forgetting(2.0)).is_ok());
     }
 }

@@ -17,6 +17,7 @@ use std::borrow::Cow;
 use mpm_kernels::{Deposit, Packed};
 use mpm_tensor::Matrix;
 
+use crate::MpmError;
 use crate::largest::larger_or_nan;
 
 pub use affine_flip::{AffineFlip, Moments};
@@ -116,6 +117,14 @@ pub trait Transfer<const D: usize>: Copy + Send + Sync {
     #[inline(always)]
     fn takes_moments(&self) -> bool {
         true
+    }
+
+    /// Whether its parameters are in their ranges.
+    ///
+    /// # Errors
+    /// [`MpmError::InvalidParameter`] with the first that is not.
+    fn check(&self) -> Result<(), MpmError> {
+        Ok(())
     }
 
     /// The transfer in a step of length Δt; most do not depend on it.

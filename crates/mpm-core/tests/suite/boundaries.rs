@@ -1,8 +1,8 @@
 //! Walls and obstacles: what the nodes' velocities obey, and what is conserved all the same.
 
 use mpm_core::{
-    Apic, Basis, Boundaries, Boundary, Contact, GridMotion, GridNode, HalfSpace, Mpm, MpmError, Obstacle, Particles,
-    Plane, SignedDistance, SplineGrid, VelocityNode,
+    Apic, Basis, Boundaries, Boundary, Contact, Extents, GridMotion, GridNode, HalfSpace, Mpm, MpmError, Obstacle,
+    Particles, Plane, SignedDistance, SplineGrid, VelocityNode,
 };
 use mpm_kernels::{Cubic, Deposit, Linear, Quadratic, Spline};
 use rand::RngExt;
@@ -21,7 +21,7 @@ struct Constrained<B> {
 
 fn constrained<S: Spline<W>, const W: usize>(boundaries: Boundaries<2>) -> Constrained<SplineGrid<S, W, 2>> {
     let mut basis = SplineGrid::<S, W, 2>::new([0.0; 2], H).unwrap();
-    basis.rebuild(&uniform_cloud::<2>(2000, 1.0, 5)).unwrap();
+    let particles = basis.rebuild(&uniform_cloud::<2>(2000, 1.0, 5)).unwrap();
     let mut random = generator(6);
     let node = |_| {
         let (scalar, velocity) = (random.random::<f64>() + 0.1, normal::<2>(&mut random));
@@ -38,6 +38,10 @@ fn constrained<S: Spline<W>, const W: usize>(boundaries: Boundaries<2>) -> Const
     basis.node_positions(&mut positions);
     let motion = GridMotion {
         positions: &positions,
+        extents: Extents {
+            positions: &particles,
+            ..Extents::default()
+        },
         time: 0.0,
         time_step: 0.1,
         forces: true,
@@ -165,6 +169,7 @@ fn mirroring_is_a_projection() {
     let mut twice = once.after.clone();
     let motion = GridMotion {
         positions: &once.positions,
+        extents: Extents::default(),
         time: 0.0,
         time_step: 0.1,
         forces: true,
@@ -231,4 +236,73 @@ fn a_particle_that_leaves_its_box_is_named() {
     assert!(matches!(&error, MpmError::OutsideDomain { particle: 1, .. }), "{error}");
     let empty = SplineGrid::<Linear, 2, 2>::new([0.0; 2], 0.1).unwrap();
     assert!(empty.with_limits([0.0; 2], [1.0, 0.0]).is_err());
+}
+
+/// A body of 100 particles that moves within the unit square.
+fn block<C: Boundary<2>>(
+    boundary: C,
+) -> Mpm<2, SplineGrid<Quadratic, 3, 2>, Apic, crate::scenes::Solid<2>, Pull<'static, 2>, C> {
+    let mut particles = Particles::at_rest(uniform_cloud::<2>(100, 1.0, 9), 1.0).with_elastic_state(vec![0.01; 100]);
+    particles.velocities.fill([0.3, -1.0]);
+    let grid = SplineGrid::<Quadratic, 3, 2>::new([0.0; 2], H).unwrap();
+    Mpm::new(particles, grid, Apic, neo_hookean(10.0), Pull::none()).with_boundary(boundary)
+}
+
+/// A boundary that gives the nodes what is no velocity.
+struct Undefined(f64);
+
+impl Boundary<2> for Undefined {
+    fn constrain<B: Basis<2>, N: GridNode<2>>(&mut self, _: &B, _: &GridMotion<2>, nodes: &mut [N]) {
+        nodes[3].velocity_mut()[1] = self.0;
+    }
+}
+
+#[test]
+fn a_boundary_that_is_not_finite_is_an_error_and_moves_nothing() {
+    for value in [f64::NAN, f64::INFINITY] {
+        let mut body = block(Undefined(value));
+        let before = body.particles.in_creation_order(&body.particles.positions);
+        let error = body.step(&free(1e-3)).expect_err("no velocity");
+        assert!(matches!(error, MpmError::VelocityNotFinite { .. }), "{error}");
+        assert_eq!(body.particles.in_creation_order(&body.particles.positions), before);
+        assert!(
+            body.particles
+                .deformation_gradients
+                .iter()
+                .all(|gradient| *gradient == mpm_tensor::Matrix::IDENTITY)
+        );
+    }
+}
+
+#[test]
+fn surfaces_without_a_unit_normal_or_a_friction_are_refused() {
+    let rough = |friction| Contact::Separate { friction };
+    let floor = |contact, normal| Plane {
+        normal,
+        ..wall(1, 0.0, contact, [0.0; 2])
+    };
+    let below = |contact, normal| Obstacle {
+        shape: Box::new(HalfSpace {
+            point: [0.0; 2],
+            normal,
+        }),
+        contact,
+        velocity: [0.0; 2],
+    };
+    for (contact, normal, field) in [
+        (Contact::Slip, [0.0, 2.0], "normal"),
+        (Contact::Stick, [0.0, 0.0], "normal"),
+        (rough(0.0), [f64::NAN, 1.0], "normal"),
+        (rough(-1.0), [0.0, 1.0], "friction"),
+        (rough(f64::NAN), [0.0, 1.0], "friction"),
+    ] {
+        let walled = Boundaries::new(vec![floor(contact, normal)], Vec::new());
+        let blocked = Boundaries::new(Vec::new(), vec![below(contact, normal)]);
+        for boundaries in [walled, blocked] {
+            match block(boundaries).step(&free(1e-3)) {
+                Err(MpmError::InvalidParameter { field: named, .. }) => assert_eq!(named, field),
+                other => panic!("{contact:?}, {normal:?}: {other:?}"),
+            }
+        }
+    }
 }

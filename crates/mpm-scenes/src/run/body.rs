@@ -14,7 +14,7 @@ use super::schedule::{SAME, Schedule};
 use crate::background::Background;
 use crate::placement;
 use crate::population::Population;
-use crate::scene::{BodyTable, MOST_STEPS, MaterialTable};
+use crate::scene::{BodyTable, MOST_STEPS};
 use crate::{Kinematics, Scene, SceneFault, StepLimit};
 
 /// The bodies of a scene and the clock of their run.
@@ -174,11 +174,15 @@ fn step_limit<const D: usize>(
     viscous: bool,
 ) -> (StepLimit, Option<String>) {
     if viscous {
-        let viscosity = |body: &&BodyTable| match scene.materials.get(&body.material) {
-            Some(MaterialTable::TaitFluid(fluid)) => fluid.viscosity / fluid.density,
-            _ => 0.0,
+        let viscous_step = |body: &&BodyTable| {
+            let law = scene
+                .materials
+                .get(&body.material)
+                .and_then(|table| table.law::<D>().ok());
+            law.map_or(f64::INFINITY, |law| law.longest_viscous_step(1.0))
         };
-        let body = scene.bodies.iter().max_by(|a, b| viscosity(a).total_cmp(&viscosity(b)));
+        let bodies = scene.bodies.iter();
+        let body = bodies.min_by(|a, b| viscous_step(a).total_cmp(&viscous_step(b)));
         return (StepLimit::Viscosity, body.map(|body| body.name.clone()));
     }
     let (particles, laws) = (motion.particles(), motion.laws());

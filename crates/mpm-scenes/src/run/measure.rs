@@ -75,7 +75,7 @@ pub(super) fn row<const D: usize>(motion: &dyn Motion<D>, probes: &[Probe<D>], b
         row.extend(budget.row(motion, &energies));
     }
     row.extend(sums.momentum);
-    row.extend(rotations::<D>().iter().map(|&pair| angular_momentum(particles, pair)));
+    row.extend(rotations::<D>().iter().map(|&pair| particles.angular_momentum(pair)));
     for a in 0..D {
         row.extend([sums.lower[a], sums.upper[a]]);
     }
@@ -122,17 +122,4 @@ impl<const D: usize> Sums<D> {
         }
         sums
     }
-}
-
-/// Σ m_p (x_a v_b − x_b v_a + B_ba − B_ab), about the origin; the affine part where there is one (Jiang et al. 2015, §5.3.1).
-fn angular_momentum<const D: usize>(particles: &Particles<D, LawState>, (a, b): (usize, usize)) -> f64 {
-    let each = particles.positions.iter().zip(&particles.velocities).enumerate();
-    each.map(|(p, (x, v))| {
-        let affine = particles
-            .affine
-            .get(p)
-            .map_or(0.0, |matrix| matrix.0[b][a] - matrix.0[a][b]);
-        particles.masses.get(p) * (x[a] * v[b] - x[b] * v[a] + affine)
-    })
-    .sum()
 }

@@ -9,6 +9,7 @@ use mpm_tensor::vector as algebra;
 use super::dispatch;
 use crate::background::Background;
 use crate::scene::{FacetCondition, FacetTable, ON_MESH, Scene};
+use crate::shape::{MeshOutside, Shape};
 use crate::values::{vector, within};
 use crate::{SceneFault, velocity};
 
@@ -19,20 +20,32 @@ fn bits<const D: usize>(x: &[f64; D]) -> [u64; D] {
     x.map(f64::to_bits)
 }
 
-/// A surface that stands at vertices and nowhere else, with a unit normal into the mesh at each.
-struct AtVertices<const D: usize>(ByPosition<D>);
+/// A surface that stands at vertices and nowhere else, with a unit normal into the mesh at each. Particles meet the boundary of the mesh.
+struct AtVertices<const D: usize> {
+    normals: ByPosition<D>,
+    /// Where material may leave, as far as particles of a cell's size can be and touch it.
+    boundary: Option<(MeshOutside<D>, f64)>,
+}
 
 impl<const D: usize> SignedDistance<D> for AtVertices<D> {
     fn distance(&self, x: &[f64; D]) -> f64 {
-        if self.0.contains_key(&bits(x)) {
+        if self.normals.contains_key(&bits(x)) {
             0.0
         } else {
             f64::INFINITY
         }
     }
 
+    fn distance_of_particle(&self, x: &[f64; D]) -> f64 {
+        let near = self
+            .boundary
+            .as_ref()
+            .and_then(|(boundary, reach)| boundary.closer_than(x, *reach));
+        near.map_or(f64::INFINITY, |(distance, _)| distance)
+    }
+
     fn normal(&self, x: &[f64; D]) -> [f64; D] {
-        self.0.get(&bits(x)).copied().unwrap_or([0.0; D])
+        self.normals.get(&bits(x)).copied().unwrap_or([0.0; D])
     }
 }
 
@@ -109,7 +122,13 @@ pub(super) fn build<const D: usize>(scene: &Scene, background: &Background<D>) -
             }
         };
         tagged.obstacles.push(Obstacle {
-            shape: Box::new(AtVertices(normals())),
+            shape: Box::new(AtVertices {
+                normals: normals(),
+                boundary: matches!(contact, Contact::Separate { .. }).then(|| {
+                    let reach = 2.0 * inner.edge_lengths().longest;
+                    (MeshOutside::new(inner, reach), reach)
+                }),
+            }),
             contact,
             velocity: [0.0; D],
         });

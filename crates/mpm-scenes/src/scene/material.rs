@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use mpm_materials::{
-    DruckerPrager, ElasticModuli, FixedCorotated, Hencky, IsothermalGas, Law, LinearElastic, Memory, NeoHookean,
-    Numbered, ParameterError, Snow, SofteningHencky, TaitFluid,
+    DruckerPrager, ElasticModuli, FixedCorotated, Hencky, IsothermalGas, KelvinVoigt, Law, LinearElastic, Memory,
+    NeoHookean, Numbered, ParameterError, Snow, SofteningHencky, TaitFluid,
 };
 use serde::Deserialize;
 
@@ -47,6 +47,8 @@ materials! {
     FixedCorotated(solid: SolidTable) => FixedCorotated::new(solid.moduli()?);
     /// Hencky's solid: quadratic in the logarithmic strain.
     Hencky(solid: SolidTable) => Hencky::new(solid.moduli()?);
+    /// The Neo-Hookean solid with a viscosity.
+    KelvinVoigt(solid: ViscousSolidTable) => solid.law()?;
     /// Hencky's solid with von Mises plasticity that softens.
     SofteningHencky(metal: MetalTable) => metal.law()?;
     /// Hencky's solid with Drucker–Prager friction, for sand.
@@ -71,6 +73,20 @@ pub struct SolidTable {
     pub young_modulus: f64,
     /// ν.
     pub poisson_ratio: f64,
+}
+
+/// Parameters of `kelvin-voigt`.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ViscousSolidTable {
+    /// ρ₀.
+    pub density: f64,
+    /// E.
+    pub young_modulus: f64,
+    /// ν.
+    pub poisson_ratio: f64,
+    /// η in σ = σ_e + 2 η d.
+    pub viscosity: f64,
 }
 
 fn one() -> f64 {
@@ -175,6 +191,13 @@ impl SnowTable {
 impl SolidTable {
     fn moduli(&self) -> Result<ElasticModuli, ParameterError> {
         ElasticModuli::new(self.young_modulus, self.poisson_ratio)
+    }
+}
+
+impl ViscousSolidTable {
+    fn law(&self) -> Result<KelvinVoigt, ParameterError> {
+        let moduli = ElasticModuli::new(self.young_modulus, self.poisson_ratio)?;
+        KelvinVoigt::new(moduli, self.viscosity)?.with_reference_density(self.density)
     }
 }
 

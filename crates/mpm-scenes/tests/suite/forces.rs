@@ -42,6 +42,23 @@ fn a_moving_obstacle_pushes_with_the_pressure_of_its_wave() {
     }
 }
 
+/// A standing wave of wave number k dies out at the rate η k² / ρ: its energy is e^(−2 η k² t / ρ) of what it was after a whole period.
+#[test]
+fn a_viscous_bar_swings_out() {
+    let swung = series(
+        &[
+            ("\"linear-elastic\"", "\"kelvin-voigt\"\nviscosity = 2.0"),
+            ("end = 2.0", "end = 8.0"),
+            ("spacing = 1.0", "spacing = 0.5"),
+        ],
+        "",
+    );
+    let energy = swung.column("kinetic_energy").expect("a column");
+    let kept = energy[80] / energy[0];
+    let expected = (-2.0 * 2.0 * 0.15707963267948966_f64.powi(2) * 8.0).exp();
+    assert!((kept / expected - 1.0).abs() < 0.02, "{kept} of {expected}");
+}
+
 /// A bar at rest under a tension t on its end is t L / E longer; the layer that t is spread over takes half its length off.
 #[test]
 fn a_traction_stretches_by_its_stress_over_the_modulus() {

@@ -4,6 +4,7 @@ mod axes;
 mod bad_meshes;
 mod bad_scenes;
 mod budget;
+mod contact;
 mod document;
 mod facets;
 mod failures;

@@ -1,0 +1,100 @@
+//! What a rigid surface gives the nodes at it, and when: bodies meet it where their material is, not where the nodes around them are.
+
+use mpm_tensor::{Matrix, vector};
+
+use super::{Contact, GridMotion};
+use crate::{Basis, GridNode};
+
+/// Places and sizes of the particles, in the present order.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Extents<'a, const D: usize> {
+    /// x_p.
+    pub positions: &'a [[f64; D]],
+    /// F_p; empty where volumes do not change.
+    pub deformation_gradients: &'a [Matrix<D>],
+    /// V⁰_p; empty where particles are points.
+    pub reference_volumes: &'a [f64],
+}
+
+impl<const D: usize> Extents<'_, D> {
+    /// V_p = V⁰_p det F_p ≥ 0.
+    pub fn volume(&self, particle: usize) -> f64 {
+        let reference = self.reference_volumes.get(particle).copied().unwrap_or(0.0);
+        let ratio = self
+            .deformation_gradients
+            .get(particle)
+            .map_or(1.0, Matrix::determinant);
+        (reference * ratio).max(0.0)
+    }
+}
+
+/// A rigid surface as the nodes see it.
+pub(super) struct Surface<'a, const D: usize> {
+    pub contact: Contact,
+    /// Its velocity.
+    pub velocity: &'a [f64; D],
+    /// Distance d(x) of a particle.
+    pub distance: &'a dyn Fn(&[f64; D]) -> f64,
+    /// Unit normal at a node, towards the material.
+    pub normal: &'a dyn Fn(&[f64; D]) -> [f64; D],
+}
+
+impl<const D: usize> Surface<'_, D> {
+    /// Change the velocities of the nodes that are `at` it.
+    pub fn act<B: Basis<D>, N: GridNode<D>>(
+        &self,
+        basis: &B,
+        motion: &GridMotion<D>,
+        at: &[usize],
+        gaps: &mut Vec<f64>,
+        nodes: &mut [N],
+    ) {
+        if at.is_empty() {
+            return;
+        }
+        gaps.clear();
+        if matches!(self.contact, Contact::Separate { .. }) {
+            self.measure(basis, motion, gaps, nodes);
+        }
+        for &node in at {
+            let v = nodes[node].velocity_mut();
+            let closing = gaps.get(node).map_or(0.0, |gap| gap / motion.time_step);
+            let relative = vector::subtract(v, self.velocity);
+            let normal = (self.normal)(&motion.positions[node]);
+            *v = vector::add(self.velocity, &self.contact.resolve_at(&normal, &relative, closing));
+        }
+    }
+
+    /// g_i ≥ 0 of all nodes: the least d(x_p) − r_p of the particles that node i has a share in, r_p = V_p^(1/D) / 2, ∞ where none can reach the surface in this step.
+    fn measure<B: Basis<D>, N: GridNode<D>>(
+        &self,
+        basis: &B,
+        motion: &GridMotion<D>,
+        gaps: &mut Vec<f64>,
+        nodes: &[N],
+    ) {
+        gaps.resize(nodes.len(), f64::INFINITY);
+        let speeds = nodes
+            .iter()
+            .map(|node| vector::distance(node.velocity(), self.velocity));
+        let reach = motion.time_step * speeds.fold(0.0, f64::max);
+        let (extents, schedule, mut scratch) = (&motion.extents, basis.schedule(), Vec::new());
+        for cell in 0..schedule.cell_count() {
+            for p in schedule.cell(cell) {
+                let (x, volume) = (&extents.positions[p], extents.volume(p));
+                let distance = (self.distance)(x);
+                if (2.0 * (distance - reach).max(0.0)).powi(D as i32) > volume {
+                    continue;
+                }
+                let gap = (distance - 0.5 * volume.powf(1.0 / D as f64)).max(0.0);
+                let numbers = basis.cell_nodes(cell, &mut scratch);
+                basis.for_each_node(p, x, |index, entry| {
+                    if entry.weight != 0.0 {
+                        let least = &mut gaps[numbers[index] as usize];
+                        *least = least.min(gap);
+                    }
+                });
+            }
+        }
+    }
+}

@@ -1,0 +1,87 @@
+//! When a body meets a wall that it can leave, and where it stays.
+
+use mpm_scenes::output::read_series;
+use mpm_scenes::{Series, simulate};
+
+use super::scenes::{BAR, scene};
+
+fn series(text: &str) -> Series {
+    let directory = tempfile::tempdir().expect("a directory");
+    simulate(&scene(text), directory.path(), &mut ()).expect("runs");
+    read_series(directory.path()).expect("written")
+}
+
+/// A column of length 1 with c = 10 that falls with speed 1 from 0.3 above y = 0.
+const COLUMN: &str = r#"
+title = "column"
+dimension = 2
+BACKGROUND
+transfer = { kind = "apic" }
+time = { end = 0.6 }
+materials.rubber = { law = "linear-elastic", density = 1.0, young_modulus = 100.0, poisson_ratio = 0.0 }
+output = { interval = 0.6, series_interval = 0.05 }
+
+[[bodies]]
+name = "column"
+material = "rubber"
+shape = { kind = "box", lower = [0.3, 0.3], upper = [0.7, 1.3] }
+spacing = 0.05
+velocity = [0.0, -1.0]
+"#;
+
+const GRID: &str = "grid = { spacing = 0.1 }\ndomain = { lower = [0.0, 0.0], upper = [1.0, 2.0] }";
+const MESH: &str = "mesh = { generate = { kind = \"rectangle\", lower = [0.0, 0.0], upper = [1.0, 2.0], size = 0.1 } }";
+
+/// Nothing pushes before it touches, at t = 0.3, nor after the wave has gone up and down, at 0.5; then it flies as it came.
+#[test]
+fn a_column_meets_a_surface_when_its_end_does() {
+    let wall = "[[walls]]\naxis = \"y\"\nside = \"lower\"\ncondition = \"friction\"\nfriction = 0.3\n";
+    let half_space = "shape = { kind = \"half-space\", point = [0.0, 0.0], normal = [0.0, 1.0] }";
+    let obstacle = format!("[[obstacles]]\n{half_space}\ncontact = \"separate\"\nfriction = 0.3\n");
+    let facets = "[[facets]]\ngroup = \"boundary\"\ncondition = \"friction\"\nfriction = 0.3\n";
+    for (background, surface) in [(GRID, wall), (GRID, obstacle.as_str()), (MESH, facets)] {
+        let fallen = series(&(COLUMN.replace("BACKGROUND", background) + surface));
+        let momentum = fallen.column("momentum_y").expect("a column");
+        let relative: Vec<f64> = momentum.iter().map(|p| p / 0.4).collect();
+        assert!((relative[5] + 1.0).abs() < 1e-9, "{surface}: {relative:?}");
+        assert!(relative[8].abs() < 0.15, "{surface}: {relative:?}");
+        assert!(relative[12] > 0.85, "{surface}: {relative:?}");
+    }
+}
+
+/// A surface that comes to a body at rest begins to push when it arrives: at t = 5, with ρ c v.
+#[test]
+fn a_surface_that_moves_begins_to_push_when_it_arrives() {
+    let start = BAR.find("velocity = {").expect("a velocity");
+    let (rest, output) = (&BAR[..start], &BAR[BAR.find("[output]").expect("an output")..]);
+    let rest = rest
+        .replace("upper = [12.0]", "upper = [13.0]")
+        .replace("end = 2.0", "end = 6.6");
+    let rest = rest.replace("lower = [0.0], upper = [10.0]", "lower = [1.0], upper = [11.0]");
+    let piston = "[[obstacles]]\nshape = { kind = \"half-space\", point = [0.0], normal = [1.0] }\ncontact = \"separate\"\nvelocity = [0.2]\n";
+    let output = output.replace("at = [10.0]", "at = [11.0]");
+    let pushed = series(&format!("{rest}\n{piston}\n{output}"));
+    let column = |name| pushed.column(name).expect("a column");
+    let (time, momentum) = (column("time"), column("momentum_x"));
+    assert!(momentum[..50].iter().all(|p| p.abs() < 1e-12), "{momentum:?}");
+    let rate = (momentum[65] - momentum[55]) / (time[65] - time[55]);
+    assert!((rate / 2.0 - 1.0).abs() < 0.02, "{rate}");
+}
+
+/// A block that is loaded all at once swings, and comes to rest where it lay: it does not hover.
+#[test]
+fn a_block_that_swings_stays_on_its_floor() {
+    let text = COLUMN
+        .replace("BACKGROUND", &format!("{GRID}\ngravity = [0.0, -1.0]"))
+        .replace("[0.3, 0.3], upper = [0.7, 1.3]", "[0.3, 0.0], upper = [0.7, 1.0]")
+        .replace("velocity = [0.0, -1.0]", "")
+        .replace("end = 0.6", "end = 6.0");
+    let wall = "[[walls]]\naxis = \"y\"\nside = \"lower\"\ncondition = \"friction\"\nfriction = 0.3\n";
+    let swung = series(&(text + wall));
+    let column = |name| swung.column(name).expect("a column");
+    assert!(column("lower_y").iter().all(|y| (y - 0.025).abs() < 0.003));
+    let late = &column("centre_y")[60..];
+    let mean = late.iter().sum::<f64>() / late.len() as f64;
+    // ρ g L² / 3 E below where it began.
+    assert!((0.5 - mean - 1.0 / 300.0).abs() < 5e-4, "{mean}");
+}
