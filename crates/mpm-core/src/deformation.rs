@@ -4,7 +4,7 @@ use mpm_kernels::{Wanted, deformed};
 use mpm_tensor::Matrix;
 
 use crate::transfer::{CellField, Moving, MovingParticle, Numbered, Velocities, gather_cells};
-use crate::{Basis, Medium, Member, VelocityNode};
+use crate::{Basis, Medium, Member, StressWork, VelocityNode};
 
 /// What makes of a velocity gradient a deformation.
 pub(crate) struct Deformation<'a, M> {
@@ -47,12 +47,12 @@ impl<'a, M> Deformation<'a, M> {
     {
         if let Some((F, state)) = particle.deformation {
             let trial = deformed(F, gradient, self.time_step);
-            let mut excess = particle.excess;
-            if let Some(excess) = &mut excess {
+            let mut work = particle.work;
+            if let Some(work) = &mut work {
                 let before = particle.velocity_gradient.as_deref().unwrap_or(&Matrix::ZERO);
-                **excess = self
+                **work = self
                     .medium
-                    .stored_beyond_work([F, &trial], &(*gradient * self.time_step), state, before);
+                    .stress_work([F, &trial], &(*gradient * self.time_step), state, before);
             }
             *F = if self.admit {
                 self.medium.advance(&trial, state)
@@ -60,10 +60,10 @@ impl<'a, M> Deformation<'a, M> {
                 trial
             };
             // What a trial beyond the yield surface would store is taken back within the step: none of it is an error of the time integration.
-            if let Some(excess) = excess
+            if let Some(work) = work
                 && self.medium.yields([&trial, F], state)
             {
-                *excess = 0.0;
+                *work = StressWork::default();
             }
             if let (true, Some(velocity_gradient)) = (self.rate_dependent, particle.velocity_gradient) {
                 *velocity_gradient = *gradient;

@@ -3,7 +3,7 @@
 use mpm_tensor::vector::{add, dot, scale, subtract};
 
 use crate::transfer::{GridNode, Transfer};
-use crate::{Basis, BodyForce, Boundary, Medium, Mpm, StressUpdate};
+use crate::{Basis, BodyForce, Boundary, Medium, Mpm, StressUpdate, StressWork};
 
 /// What the kinetic energy of the nodes, K = ½ Σ m_i |v_i|², has gained in all steps, by what gave them impulses. Nodes get v_iⁿ from the particles; then forces, contact, friction and
 /// boundary give impulses J_i, each in its turn, up to v_iⁿ⁺¹. All of them act over the same step, so that the work of each is Σ J_i · (v_iⁿ + v_iⁿ⁺¹) / 2: together they are what K gains,
@@ -25,6 +25,9 @@ pub struct EnergyBudget {
     pub friction: f64,
     /// The work of the [`Boundary`](crate::Boundary).
     pub boundary: f64,
+    /// What the viscous part of the stresses takes, their work along the motion less that of the stresses at rest; no part of what the nodes gain, whose `forces` it is in. 0 unless particles
+    /// deform last ([`StressUpdate::Last`](crate::StressUpdate::Last)).
+    pub viscous: f64,
     /// What the integration in time takes of the energy of the whole body, negative where it gives some; no part of what the nodes gain. Forces are those where a step begins, the
     /// motion is the one with v_iⁿ⁺¹: particles then store V⁰ψ((I + Δt L_p) F_p), which is not what they had and the work of their stresses (of second order in Δt), and forces do
     /// Σ J_i · (v_iⁿ⁺¹ − v_iⁿ) / 2 more along the motion than above. Both are computed for what they are, by particles and by nodes, so that the energy of an elastic body without averaged volumes
@@ -102,7 +105,7 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
             let deforms_last = M::DEFORMS && self.stress_update == StressUpdate::Last;
             budget.add_works(self.nodes.as_slice(), &stages.0, damping, deforms_last);
             if deforms_last {
-                self.excesses.resize(self.particles.len(), 0.0);
+                self.stress_works.resize(self.particles.len(), StressWork::default());
             }
         }
     }
@@ -110,10 +113,13 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
     /// Add what the particles have stored more than the work of their stresses, now that they have deformed.
     pub(crate) fn account_for_deformation(&mut self) {
         if let Some(budget) = &mut self.energy_budget {
-            let each = self.excesses.iter().zip(&self.particles.reference_volumes);
-            budget.time_integration -= each.map(|(excess, volume)| excess * volume).sum::<f64>();
+            for (work, volume) in self.stress_works.iter().zip(&self.particles.reference_volumes) {
+                budget.viscous += work.viscous * volume;
+            }
+            let each = self.stress_works.iter().zip(&self.particles.reference_volumes);
+            budget.time_integration -= each.map(|(work, volume)| work.stored_beyond * volume).sum::<f64>();
         }
-        self.excesses.clear();
+        self.stress_works.clear();
     }
 }
 

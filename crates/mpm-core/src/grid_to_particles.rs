@@ -19,7 +19,7 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
     /// F_p ← (I + Δt Σ_i v_i ∇w_ipᵀ) F_p, then whatever the medium admits of it.
     pub(crate) fn move_and_deform_particles(&mut self, dt: f64, damping: f64) {
         let mut moving = Moving::of(&mut self.particles);
-        moving.excesses = &mut self.excesses;
+        moving.stress_works = &mut self.stress_works;
         let (transfer, deformation) = (
             self.transfer.over(dt),
             Deformation::of(&self.medium, dt, !self.volume_averaging),

@@ -44,7 +44,7 @@ pub use error::MpmError;
 pub use friction::Friction;
 pub use grid::SplineGrid;
 pub use lattice::SimplexLattice;
-pub use medium::{Continuum, DeformsLast, Medium, StressImpulse};
+pub use medium::{Continuum, DeformsLast, Medium, StressImpulse, StressWork};
 pub use mpm::Mpm;
 pub use particles::{Masses, Particles};
 pub use product_grid::{ProductGrid, SplineDegree};

@@ -6,8 +6,8 @@ use crate::contact::NodalContact;
 use crate::friction::NormalImpulse;
 use crate::volume_averaging::NodeVolume;
 use crate::{
-    Basis, BodyForce, Boundary, EnergyBudget, Medium, NoBoundary, NodeSums, Particles, StressUpdate, Transfer,
-    VelocityFilter,
+    Basis, BodyForce, Boundary, EnergyBudget, Medium, NoBoundary, NodeSums, Particles, StressUpdate, StressWork,
+    Transfer, VelocityFilter,
 };
 
 /// A body of particles on a basis: what moves (`particles`), where (`basis`), how velocities travel (`transfer`), what it
@@ -35,8 +35,8 @@ pub struct Mpm<const D: usize, B, T: Transfer<D>, M: Medium<D>, F, C = NoBoundar
     pub energy_budget: Option<EnergyBudget>,
     /// Time since the body was made; every step adds its Δt.
     pub time: f64,
-    /// What every particle has stored per reference volume, in the step, more than the work of its stress; empty without an energy budget.
-    pub(crate) excesses: Vec<f64>,
+    /// What has become, in the step, of the work of every particle's stress; empty without an energy budget.
+    pub(crate) stress_works: Vec<StressWork>,
     /// Nodal masses and velocities, in the order of the basis' numbers.
     pub(crate) nodes: NodeSums<T::Node>,
     /// Body force per unit mass at the particles; empty where it acts at nodes.
@@ -80,7 +80,7 @@ where
             velocity_filter: None,
             energy_budget: None,
             time: 0.0,
-            excesses: Vec::new(),
+            stress_works: Vec::new(),
             nodes: NodeSums::default(),
             accelerations: Vec::new(),
             node_positions: Vec::new(),
@@ -108,7 +108,7 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
             velocity_filter: self.velocity_filter,
             energy_budget: self.energy_budget,
             time: self.time,
-            excesses: self.excesses,
+            stress_works: self.stress_works,
             nodes: self.nodes,
             accelerations: self.accelerations,
             node_positions: self.node_positions,
@@ -129,7 +129,7 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
             + self.normal_impulses.storage_bytes()
             + self.contact.storage_bytes()
             + self.velocity_filter.as_ref().map_or(0, VelocityFilter::storage_bytes)
-            + self.excesses.capacity() * 8
+            + self.stress_works.capacity() * size_of::<StressWork>()
             + vectors * size_of::<[f64; D]>()
     }
 }

@@ -3,7 +3,7 @@ use std::ops::Range;
 use mpm_materials::Law;
 use mpm_tensor::Matrix;
 
-use super::Medium;
+use super::{Medium, StressWork};
 use crate::largest::larger_or_nan;
 use crate::{MpmError, Particles};
 
@@ -117,15 +117,26 @@ impl<const D: usize, L: Law<D>> Medium<D> for Continuum<L> {
     }
 
     #[inline(never)]
-    fn stored_beyond_work(
+    fn stress_work(
         &self,
         [from, to]: [&Matrix<D>; 2],
         way: &Matrix<D>,
         state: &L::State,
         velocity_gradient: &Matrix<D>,
-    ) -> f64 {
+    ) -> StressWork {
         let stored = self.law.energy_density(to, state) - self.law.energy_density(from, state);
-        stored - self.law.kirchhoff_stress(from, state, velocity_gradient).contract(way)
+        let work = self.law.kirchhoff_stress(from, state, velocity_gradient).contract(way);
+        if !self.law.rate_dependent() {
+            return StressWork {
+                stored_beyond: stored - work,
+                viscous: 0.0,
+            };
+        }
+        let at_rest = self.law.kirchhoff_stress(from, state, &Matrix::ZERO).contract(way);
+        StressWork {
+            stored_beyond: stored - at_rest,
+            viscous: work - at_rest,
+        }
     }
 
     #[inline(never)]

@@ -2,7 +2,7 @@ use std::ops::Range;
 
 use mpm_tensor::Matrix;
 
-use super::Medium;
+use super::{Medium, StressWork};
 use crate::{MpmError, Particles};
 
 /// A medium whose particles deform in the pass that moves them, without averaged volumes: the default of a step
@@ -44,14 +44,14 @@ impl<const D: usize, M: Medium<D>> Medium<D> for DeformsLast<M> {
         self.0.advance(trial, state)
     }
 
-    fn stored_beyond_work(
+    fn stress_work(
         &self,
         deformations: [&Matrix<D>; 2],
         way: &Matrix<D>,
         state: &M::State,
         velocity_gradient: &Matrix<D>,
-    ) -> f64 {
-        self.0.stored_beyond_work(deformations, way, state, velocity_gradient)
+    ) -> StressWork {
+        self.0.stress_work(deformations, way, state, velocity_gradient)
     }
 
     fn yields(&self, deformations: [&Matrix<D>; 2], state: &M::State) -> bool {

@@ -41,6 +41,15 @@ impl<const D: usize> StressImpulse<D> for Matrix<D> {
     }
 }
 
+/// What becomes of the work of a particle's stress in a step, per reference volume.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StressWork {
+    /// ψ((I + Δt L) F) − ψ(F) − τ : Δt L, what it stores more than the work of its stress at rest, τ(F, 0).
+    pub stored_beyond: f64,
+    /// The work of what the rate adds to that stress, (τ(F, L_p) − τ(F, 0)) : Δt L.
+    pub viscous: f64,
+}
+
 /// The internal force of a medium: f_i = −Σ_p V⁰_p τ_p ∇w_ip.
 pub trait Medium<const D: usize>: Sync {
     /// −Δt V⁰_p τ_p, as a scalar where the stress is a pressure.
@@ -83,16 +92,16 @@ pub trait Medium<const D: usize>: Sync {
         *trial
     }
 
-    /// ψ((I + Δt L) F) − ψ(F) − τ : Δt L, what a particle stores per reference volume more than the work of its stress along the motion `way` = Δt L, which takes its deformation gradient
-    /// from `from` to `to`; τ by its present state and velocity gradient. 0 for a medium that does not deform.
-    fn stored_beyond_work(
+    /// What becomes of the work of a particle's stress along the motion `way` = Δt L, which takes its deformation gradient from `from` to `to`; stresses by its present state and velocity
+    /// gradient. 0 for a medium that does not deform.
+    fn stress_work(
         &self,
         [_from, _to]: [&Matrix<D>; 2],
         _way: &Matrix<D>,
         _state: &Self::State,
         _velocity_gradient: &Matrix<D>,
-    ) -> f64 {
-        0.0
+    ) -> StressWork {
+        StressWork::default()
     }
 
     /// Whether a particle that was to deform to `trial` has been taken to `kept` at less energy than rounding explains: it yields. `state` is that after.

@@ -159,9 +159,15 @@ mod tests {
             Err(MpmError::InvalidParameter { field, .. }) => field,
             other => panic!("{other:?}"),
         };
-        assert_eq!([-0.1, 1.5, f64::NAN].map(|share| field(Flip::blend(share))), ["share"; 3]);
+        assert_eq!(
+            [-0.1, 1.5, f64::NAN].map(|share| field(Flip::blend(share))),
+            ["share"; 3]
+        );
         let forgetting = |pic_rate| Flip { share: 1.0, pic_rate };
-        assert_eq!([-1.0, f64::INFINITY].map(|rate| field(forgetting(rate))), ["pic_rate"; 2]);
+        assert_eq!(
+            [-1.0, f64::INFINITY].map(|rate| field(forgetting(rate))),
+            ["pic_rate"; 2]
+        );
         assert!(Transfer::<2>::check(&forgetting(2.0)).is_ok());
     }
 }

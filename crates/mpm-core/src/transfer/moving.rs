@@ -1,7 +1,7 @@
 use mpm_tensor::Matrix;
 
 use super::Divide;
-use crate::Particles;
+use crate::{Particles, StressWork};
 
 /// The fields that grid → particles writes.
 pub struct Moving<'a, const D: usize, S> {
@@ -11,8 +11,8 @@ pub struct Moving<'a, const D: usize, S> {
     pub deformation_gradients: &'a mut [Matrix<D>],
     pub velocity_gradients: &'a mut [Matrix<D>],
     pub states: &'a mut [S],
-    /// What they store more than the work of their stresses; empty where nobody asks.
-    pub excesses: &'a mut [f64],
+    /// What becomes of the work of their stresses; empty where nobody asks.
+    pub stress_works: &'a mut [StressWork],
 }
 
 /// Those of one particle.
@@ -23,7 +23,7 @@ pub struct MovingParticle<'a, const D: usize, S> {
     /// With its internal variables.
     pub deformation: Option<(&'a mut Matrix<D>, &'a mut S)>,
     pub velocity_gradient: Option<&'a mut Matrix<D>>,
-    pub excess: Option<&'a mut f64>,
+    pub work: Option<&'a mut StressWork>,
 }
 
 impl<const D: usize, S> Moving<'_, D, S> {
@@ -44,7 +44,7 @@ impl<const D: usize, S> Moving<'_, D, S> {
             } else {
                 None
             },
-            excess: if deforms { self.excesses.get_mut(k) } else { None },
+            work: if deforms { self.stress_works.get_mut(k) } else { None },
         }
     }
 }
@@ -58,7 +58,7 @@ impl<'a, const D: usize, S> Moving<'a, D, S> {
             deformation_gradients: &mut particles.deformation_gradients,
             velocity_gradients: &mut particles.velocity_gradients,
             states: &mut particles.states,
-            excesses: &mut [],
+            stress_works: &mut [],
         }
     }
 }
@@ -71,7 +71,7 @@ impl<const D: usize, S: Send> Divide for Moving<'_, D, S> {
         let (deformation_gradients, right_deformation_gradients) = self.deformation_gradients.divide(count);
         let (velocity_gradients, right_velocity_gradients) = self.velocity_gradients.divide(count);
         let (states, right_states) = self.states.divide(count);
-        let (excesses, right_excesses) = self.excesses.divide(count);
+        let (stress_works, right_stress_works) = self.stress_works.divide(count);
         let left = Self {
             positions,
             velocities,
@@ -79,7 +79,7 @@ impl<const D: usize, S: Send> Divide for Moving<'_, D, S> {
             deformation_gradients,
             velocity_gradients,
             states,
-            excesses,
+            stress_works,
         };
         let right = Self {
             positions: right_positions,
@@ -88,7 +88,7 @@ impl<const D: usize, S: Send> Divide for Moving<'_, D, S> {
             deformation_gradients: right_deformation_gradients,
             velocity_gradients: right_velocity_gradients,
             states: right_states,
-            excesses: right_excesses,
+            stress_works: right_stress_works,
         };
         (left, right)
     }

@@ -22,11 +22,12 @@ pub(super) struct Budget {
 }
 
 /// The names of its columns. Dissipations and works are those since t = 0; `energy_balance` is constant but for what plastic laws dissipate.
-pub(super) const COLUMNS: [&str; 8] = [
+pub(super) const COLUMNS: [&str; 9] = [
     "transfer_dissipation",
     "friction_dissipation",
     "contact_dissipation",
     "damping_dissipation",
+    "viscous_dissipation",
     "time_integration_dissipation",
     "boundary_work",
     "load_work",
@@ -34,7 +35,7 @@ pub(super) const COLUMNS: [&str; 8] = [
 ];
 
 /// Numbers in a checkpoint: those of the nodes, then those of the run.
-pub(super) type Saved = [f64; 11];
+pub(super) type Saved = [f64; 12];
 
 impl Budget {
     /// At t = 0.
@@ -60,13 +61,14 @@ impl Budget {
         let (friction, damping) = (0.0 - nodes.friction, 0.0 - nodes.damping);
         let boundary = nodes.boundary + self.prescribed;
         let integration = nodes.time_integration - self.barrier_integration;
-        let dissipated = transfer + friction + contact + damping + integration;
+        let dissipated = transfer + friction + contact + damping + nodes.viscous + integration;
         let total = now.sum() + dissipated - boundary - self.loads;
         [
             transfer,
             friction,
             contact,
             damping,
+            nodes.viscous,
             integration,
             boundary,
             self.loads,
@@ -116,6 +118,7 @@ impl Budget {
             nodes.contact,
             nodes.friction,
             nodes.boundary,
+            nodes.viscous,
             nodes.time_integration,
             self.kinetic,
             self.barrier,
@@ -133,6 +136,7 @@ impl Budget {
             contact,
             friction,
             boundary,
+            viscous,
             time_integration,
             kinetic,
             barrier,
@@ -146,6 +150,7 @@ impl Budget {
             contact,
             friction,
             boundary,
+            viscous,
             time_integration,
         });
         Self {

@@ -58,6 +58,27 @@ fn drift(series: &Series) -> f64 {
     total.iter().map(|now| (now - total[0]).abs()).fold(0.0, f64::max)
 }
 
+/// A viscous bar that swings: what it loses its viscosity takes, and the books close.
+#[test]
+fn what_a_viscous_bar_loses_is_its_viscositys() {
+    let text = BAR
+        .replace("\"linear-elastic\"", "\"kelvin-voigt\"\nviscosity = 2.0")
+        .replace("courant = 0.2", "courant = 0.05")
+        .replace("series_interval = 0.1", "series_interval = 0.1\nenergy_budget = true");
+    let bar = series(&text);
+    let column = |name: &str| bar.column(name).expect("a budget");
+    let start = column("kinetic_energy")[0];
+    assert!(drift(&bar) < 1e-12 * start, "{}", drift(&bar));
+    let end = |name: &str| *column(name).last().expect("a row");
+    let lost = start - end("kinetic_energy") - end("strain_energy");
+    let viscous = column("viscous_dissipation");
+    assert!(viscous.is_sorted() && lost > 0.05 * start);
+    assert!(
+        (end("viscous_dissipation") / lost - 1.0).abs() < 0.05,
+        "{viscous:?}, {lost}"
+    );
+}
+
 /// The largest size of a value.
 fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |largest, value| value.abs().max(largest))
