@@ -65,8 +65,8 @@ impl Reference {
 /// Rows of [`MOMENTS`] with the particles' `own_mean` and `own_deviation` and what follows from both: `mean_error` = (x̄ − E\[x\])/sd and, of the standard deviation,
 /// the relative `deviation_error` and `deviation_percent`; and the standard errors of the reference's mean and standard deviation in its standard deviations, `reference_error` and
 /// `reference_deviation_error`.
-pub fn compared(particles: &Particles, reference: Vec<Row>) -> Vec<Row> {
-    let moments = SampleMoments::of(&particles.to_rows(), particles.weights());
+pub fn compared(particles: &Particles, reference: Vec<Row>) -> Result<Vec<Row>, CommandError> {
+    let moments = SampleMoments::of(&particles.to_rows(), particles.weights())?;
     let own = moments.mean.iter().copied().zip(moments.standard_deviations());
     let axis = |(row, (mean, deviation)): (Row, (f64, f64))| {
         let [known, error, spread, spread_error] = [
@@ -85,7 +85,7 @@ pub fn compared(particles: &Particles, reference: Vec<Row>) -> Vec<Row> {
             .with("reference_error", error / spread)
             .with("reference_deviation_error", spread_error / spread)
     };
-    reference.into_iter().zip(own).map(axis).collect()
+    Ok(reference.into_iter().zip(own).map(axis).collect())
 }
 
 #[cfg(test)]
@@ -97,7 +97,7 @@ mod tests {
         let reference = Row::default().with("mean", 1.0).with("mean_standard_error", 0.002);
         let reference = reference.with("standard_deviation", 2.0);
         let particles = Particles::new(&[[-0.9], [3.1]], None);
-        let axes = compared(&particles, vec![reference]);
+        let axes = compared(&particles, vec![reference]).unwrap();
         let number = |column: &str| axes[0].number(column).unwrap();
         assert!((number("mean_error") - 0.05).abs() < 1e-12);
         assert!(number("deviation_error").abs() < 1e-12);

@@ -53,6 +53,12 @@ pub enum StatisticsError {
         /// The offending value.
         value: f64,
     },
+    /// The level of a quantile is not between 0 and 1.
+    #[error("{level} is no level of a quantile: it must be from 0 to 1")]
+    Level {
+        /// The level.
+        level: f64,
+    },
     /// All weights are zero.
     #[error("the weights sum to zero")]
     NoWeight,

@@ -1,5 +1,7 @@
 //! Mean and covariance of weighted points.
 
+use super::StatisticsError;
+
 /// First and second moments of weighted points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SampleMoments {
@@ -11,12 +13,20 @@ pub struct SampleMoments {
 
 impl SampleMoments {
     /// Of points with their weights (1/M each where they are equal), whose sum is one.
-    pub fn of(points: &[Vec<f64>], weights: Option<&[f64]>) -> Self {
+    ///
+    /// # Errors
+    /// [`StatisticsError::Length`] where points have different dimensions, or not one weight each.
+    pub fn of(points: &[Vec<f64>], weights: Option<&[f64]>) -> Result<Self, StatisticsError> {
         let dimension = points.first().map_or(0, Vec::len);
-        let weight = |index: usize| match weights {
-            Some(weights) => weights.get(index).copied().unwrap_or(0.0),
-            None => 1.0 / points.len() as f64,
+        let is_of = |what, expected, found| match found == expected {
+            true => Ok(()),
+            false => Err(StatisticsError::Length { what, expected, found }),
         };
+        is_of("weights", points.len(), weights.map_or(points.len(), <[f64]>::len))?;
+        for point in points {
+            is_of("a point", dimension, point.len())?;
+        }
+        let weight = |index: usize| weights.map_or(1.0 / points.len() as f64, |weights| weights[index]);
         let mut mean = vec![0.0; dimension];
         for (index, row) in points.iter().enumerate() {
             for (sum, value) in mean.iter_mut().zip(row) {
@@ -31,7 +41,7 @@ impl SampleMoments {
                 }
             }
         }
-        Self { mean, covariance }
+        Ok(Self { mean, covariance })
     }
 
     /// √Ĉ_ii.

@@ -36,9 +36,12 @@ pub fn summarize(values: &[f64]) -> Result<Summary, StatisticsError> {
 /// their steps in the weighted distribution function, constant beyond the first and last.
 ///
 /// # Errors
-/// See [`StatisticsError`]; the weights need the values' number and a positive sum.
+/// See [`StatisticsError`]; the weights need the values' number and a positive sum, and levels have to be from 0 to 1.
 pub fn weighted_quantile(values: &[f64], weights: Option<&[f64]>, levels: &[f64]) -> Result<Vec<f64>, StatisticsError> {
     let total = check_weighted("values", values, weights)?;
+    if let Some(&level) = levels.iter().find(|level| !(0.0..=1.0).contains(*level)) {
+        return Err(StatisticsError::Level { level });
+    }
     let weight = |index: usize| weights.map_or(1.0, |weights| weights[index]);
     let mut sorted: Vec<(f64, f64)> = (0..values.len())
         .map(|index| (values[index], weight(index) / total))

@@ -72,7 +72,7 @@ impl Study for CovarianceSpacing {
     fn run(&self, case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
         if let Some(outcome) = row.note(case.work.sample(tools.observer))? {
             let points = outcome.particles.to_rows();
-            let moments = SampleMoments::of(&points, outcome.particles.weights());
+            let moments = SampleMoments::of(&points, outcome.particles.weights())?;
             row.set("covariance_error", moments.distance_from_identity());
             row.set("mean_error", moments.largest_mean());
         }

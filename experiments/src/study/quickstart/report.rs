@@ -18,7 +18,7 @@ pub fn report(study: &Quickstart, rows: &Rows<'_>, directory: &StudyDirectory) -
     if finished(REFERENCE) && finished(POSTERIOR) {
         let own = particles(POSTERIOR)?;
         let moments = row_file::read(&file(directory, REFERENCE, "moments"), MOMENTS)?;
-        let axes = compared(&own, moments);
+        let axes = compared(&own, moments)?;
         page = verdict(study, &axes.iter().collect(), rows, page);
         page.section("Posterior moments", &[], &axes);
         page.heading("The posterior");

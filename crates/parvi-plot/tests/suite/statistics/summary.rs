@@ -34,6 +34,14 @@ fn equal_weights_change_nothing() {
 }
 
 #[test]
+fn levels_are_from_zero_to_one() {
+    for level in [-0.1, 1.5, f64::NAN] {
+        let refused = weighted_quantile(&[1.0, 2.0], None, &[0.5, level]);
+        assert!(matches!(refused, Err(StatisticsError::Level { .. })), "{level}");
+    }
+}
+
+#[test]
 fn a_value_without_weight_does_not_count() {
     let quantiles = weighted_quantile(&[1.0, 100.0], Some(&[1.0, 0.0]), &[0.0, 0.5, 1.0]).unwrap();
     assert_eq!(quantiles, [1.0, 1.0, 1.0]);
