@@ -10,7 +10,7 @@ use crate::stein_thinning::GreedyChoice;
 use crate::support_points::ConvexConcave;
 use crate::view::Moment;
 use crate::{
-    Observer, Pool, Progress, Run, SampleError, Samples, SteinThinningOptions, SupportPointsOptions, defaults,
+    Observer, Progress, Run, SampleError, SampleSource, Samples, SteinThinningOptions, SupportPointsOptions, defaults,
 };
 
 /// Streams of random numbers; that of independent draws is another.
@@ -34,11 +34,11 @@ impl SteinThinningOptions {
         let steps = run.particles_of("stein-thinning")?;
         let size = pool_size(self.pool_size, steps)?;
         let pool = match &self.pool {
-            Pool::Exact => Samples {
+            SampleSource::Exact => Samples {
                 positions: exact_draws("stein-thinning", target, &mut run.generator(POOL_STREAM), size)?,
                 ..Samples::default()
             },
-            Pool::Nuts(options) => {
+            SampleSource::Nuts(options) => {
                 let run = Run {
                     particles: size,
                     ..run.clone()

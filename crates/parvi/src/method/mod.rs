@@ -24,7 +24,7 @@ pub use paper_body::PaperBody;
 pub use paper_material::PaperMaterial;
 pub use paper_options::{Coordinates, Guards, PaperOptions, ReferenceVolumes};
 pub use schedule::{Settling, SpacingSchedule};
-pub use stein_thinning_options::{Pool, SteinThinningOptions};
+pub use stein_thinning_options::{SampleSource, SteinThinningOptions};
 pub use support_points_options::SupportPointsOptions;
 pub use svgd_options::SvgdOptions;
 pub use watch::{Monitor, Watch};

@@ -4,14 +4,14 @@ use super::NutsOptions;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SteinThinningOptions {
     /// Where the sample comes from.
-    pub pool: Pool,
+    pub pool: SampleSource,
     /// Its size, at least M (default: [`crate::defaults::pool_size`]).
     pub pool_size: Option<usize>,
 }
 
 /// A sample to choose from.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub enum Pool {
+pub enum SampleSource {
     /// Independent exact draws, where the target has them.
     #[default]
     Exact,

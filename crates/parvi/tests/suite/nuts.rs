@@ -5,7 +5,8 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use parvi::{
-    Method, NutsOptions, Observer, Pool, Progress, Run, SampleError, Samples, Silent, SteinThinningOptions, sample,
+    Method, NutsOptions, Observer, Progress, Run, SampleError, SampleSource, Samples, Silent, SteinThinningOptions,
+    sample,
 };
 use parvi_targets::{Banana, CatalogueTarget, Frame, Funnel, Gaussian, Target};
 
@@ -27,7 +28,7 @@ fn options(warm_up: usize, chains: usize) -> NutsOptions {
 fn the_moments_of_a_gaussian() {
     let target = Gaussian::<2>::autoregressive(0.8).expect("a correlation below one");
     let stein = SteinThinningOptions {
-        pool: Pool::Nuts(NutsOptions::default()),
+        pool: SampleSource::Nuts(NutsOptions::default()),
         pool_size: Some(8000),
     };
     let thinned = NutsOptions {

@@ -2,8 +2,8 @@
 
 use mpm_tensor::vector;
 use parvi::{
-    Method, NutsOptions, PointSetError, Pool, Run, SampleError, Silent, SteinThinningOptions, independent_draws,
-    sample, stein_thinning,
+    Method, NutsOptions, PointSetError, Run, SampleError, SampleSource, Silent, SteinThinningOptions,
+    independent_draws, sample, stein_thinning,
 };
 use parvi_metrics::{Cloud, InverseMultiquadric, kernel_stein_discrepancy};
 use parvi_targets::{Gaussian, Target};
@@ -184,7 +184,7 @@ fn a_pool_must_hold_the_particles() {
 fn without_the_feature_the_no_u_turn_sampler_says_how_to_get_it() {
     let target = Gaussian::<2>::standard();
     let pool = SteinThinningOptions {
-        pool: Pool::Nuts(NutsOptions::default()),
+        pool: SampleSource::Nuts(NutsOptions::default()),
         pool_size: Some(100),
     };
     for method in [Method::Nuts(NutsOptions::default()), Method::SteinThinning(pool)] {

@@ -1,6 +1,6 @@
 //! `stein-thinning` and `support-points`: particles from a bigger sample.
 
-use parvi::{Method, Pool, SteinThinningOptions, SupportPointsOptions};
+use parvi::{Method, SampleSource, SteinThinningOptions, SupportPointsOptions};
 
 use super::MethodKind;
 use crate::options::{ParticleCount, PoolChoice};
@@ -12,9 +12,9 @@ pub const STEIN_THINNING: MethodKind = MethodKind::of_draws(
     |options, _| {
         Ok(Method::SteinThinning(SteinThinningOptions {
             pool: match options.pool_choice()? {
-                None => Pool::default(),
-                Some(PoolChoice::Exact) => Pool::Exact,
-                Some(PoolChoice::Nuts) => Pool::Nuts(options.nuts()),
+                None => SampleSource::default(),
+                Some(PoolChoice::Exact) => SampleSource::Exact,
+                Some(PoolChoice::Nuts) => SampleSource::Nuts(options.nuts()),
             },
             pool_size: options.pool_size.map(ParticleCount::get),
         }))
