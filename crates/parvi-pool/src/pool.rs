@@ -48,7 +48,7 @@ pub struct Pool<const D: usize> {
     pub density_evaluations: u64,
     /// Points at which the score was evaluated.
     pub score_evaluations: u64,
-    /// Values that were not finite or too large.
+    /// Log densities and scores that were not finite or too large, and counted as −∞ and as zero.
     pub values_replaced: u64,
 }
 

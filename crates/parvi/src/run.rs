@@ -81,7 +81,8 @@ pub struct Samples<const D: usize> {
     pub judging_evaluations: u64,
     /// Evaluations of the log density at one point, in total.
     pub density_evaluations: u64,
-    /// Scores that were not finite on the way and have been replaced.
+    /// Scores of moving particles that were not finite and have been replaced ([`NonFiniteScores::PullBack`](crate::NonFiniteScores::PullBack)). Those of a survey are among
+    /// [`Pool::values_replaced`]; `smc` takes them for zero and counts none.
     pub scores_replaced: u64,
     /// With cached scores: root of the mean square of their difference from fresh ones at the particles, in units of one over the particles' standard deviation.
     pub score_disagreement: Option<f64>,

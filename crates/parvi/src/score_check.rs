@@ -6,6 +6,7 @@ use parvi_targets::{Target, normal_quantile};
 use rand::RngExt;
 use rand::rngs::ChaCha8Rng;
 
+use crate::certificate::Doubt;
 use crate::drawn::drawn;
 
 /// Points that are looked at, in one direction each.
@@ -20,8 +21,8 @@ const LARGEST_OF_DIFFERENCES: f64 = 0.02;
 
 /// What a check has found, and what it took.
 pub(crate) struct ScoreCheck {
-    /// By how much the score is not the gradient, over its size, where that is more than a twentieth.
-    pub error: Option<f64>,
+    /// That the score is no number, or by how much it is not the gradient, over its size, where that is more than a twentieth.
+    pub doubt: Option<Doubt>,
     /// Evaluations of the log density and of the score.
     pub densities: u64,
     pub scores: u64,
@@ -31,7 +32,8 @@ impl ScoreCheck {
     /// Compares the score s with central differences of log p at points drawn from the pool, each along a random direction v; the error is the median of |difference − s·v| over that of
     /// |difference|, for the step at which it is least.
     ///
-    /// No error is found where no two differences agree, where log p is finite about fewer than half of the points, or where scores are estimates, which another call changes.
+    /// A score that is not finite where log p is about the point is no gradient. No error is found where no two differences agree, where log p is finite about fewer than half of the points, or where scores are
+    /// estimates, which another call changes.
     pub fn of<const D: usize>(target: &dyn Target<D>, pool: &Pool<D>, rng: &mut ChaCha8Rng) -> Self {
         let factor = *pool.measure.frame().factor();
         let points = drawn(pool, POINTS, rng.random());
@@ -40,22 +42,43 @@ impl ScoreCheck {
             factor.apply(&vector::scale(&z, 1.0 / vector::norm(&z).max(f64::MIN_POSITIVE)))
         };
         let directions: Vec<[f64; D]> = points.iter().map(direction).collect();
-        let [scores, again] = [(), ()].map(|()| {
-            let mut scores = vec![[0.0; D]; points.len()];
-            target.scores(&points, &mut scores);
-            scores
-        });
+        let [scores, again] = [(), ()].map(|()| scores_of(target, &points));
         let differences = STEPS.map(|step| differences(target, &points, &directions, step));
         let is_finite = |&index: &usize| differences.iter().all(|of_step| of_step[index].is_finite());
         let finite: Vec<usize> = (0..points.len()).filter(is_finite).collect();
         let slopes: Vec<f64> = scores.iter().zip(&directions).map(|(s, v)| vector::dot(s, v)).collect();
-        let is_known = scores == again && 2 * finite.len() > points.len();
+        let lacking = finite
+            .iter()
+            .filter(|&&index| !vector::is_finite(&scores[index]))
+            .count();
+        let is_known = are_same(&scores, &again) && 2 * finite.len() > points.len();
+        let doubt = if lacking > 0 {
+            let (points, of) = (lacking, finite.len());
+            Some(Doubt::NoScore { points, of })
+        } else if is_known {
+            error(&slopes, &differences, &finite).map(|error| Doubt::Score { error })
+        } else {
+            None
+        };
         Self {
-            error: is_known.then(|| error(&slopes, &differences, &finite)).flatten(),
+            doubt,
             densities: 2 * (STEPS.len() * points.len()) as u64,
             scores: 2 * points.len() as u64,
         }
     }
+}
+
+/// What the target says at points.
+pub(crate) fn scores_of<const D: usize>(target: &dyn Target<D>, points: &[[f64; D]]) -> Vec<[f64; D]> {
+    let mut scores = vec![[0.0; D]; points.len()];
+    target.scores(points, &mut scores);
+    scores
+}
+
+/// Whether scores are the same to the bit; NaN is NaN.
+pub(crate) fn are_same<const D: usize>(some: &[[f64; D]], others: &[[f64; D]]) -> bool {
+    let mut pairs = some.as_flattened().iter().zip(others.as_flattened());
+    pairs.all(|(a, b)| a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan())
 }
 
 /// The error of slopes beside differences of several steps, at these points; `None` where they pass, or where the differences know no better.

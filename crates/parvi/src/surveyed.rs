@@ -86,7 +86,7 @@ fn condensed<const D: usize>(
 ) -> Result<Samples<D>, SampleError> {
     let check = ScoreCheck::of(task.target, &pool, &mut task.run.generator(Stream::Survey.of_body(1)));
     let of_tails = tails.endless.map(|[rays, of]| Doubt::Endless { rays, of });
-    let doubt = of_tails.or(check.error.map(|error| Doubt::Score { error }));
+    let doubt = of_tails.or(check.doubt);
     // What is no gradient, or leads nowhere, moves nothing.
     let still = MpmOptions {
         rounds: Some(0),

@@ -45,6 +45,13 @@ pub enum Doubt {
         /// By how much, over its size.
         error: f64,
     },
+    /// The score is not finite where log p is; only searches have followed it.
+    NoScore {
+        /// Points of the pool at which it is not.
+        points: usize,
+        /// Points that were looked at.
+        of: usize,
+    },
     /// Along rays through points of the pool r^D p does not fall off, r the distance: the density may be improper.
     Endless {
         /// Rays along which it does not.
@@ -163,6 +170,14 @@ impl fmt::Display for Doubt {
                 f,
                 "the score is not the gradient of log p: differences of log p say that it is {:.0} % off",
                 100.0 * error
+            ),
+            Self::NoScore { points, of } => write!(
+                f,
+                "the score is NaN or infinite at {points} of {of} points of the pool at which log p is finite"
+            ),
+            Self::Outside { particles, of } => write!(
+                f,
+                "log p is -inf or no number at {particles} of {of} particles: where it is, the score does not lead to the mass"
             ),
             Self::Endless { rays, of } => write!(
                 f,
