@@ -40,10 +40,10 @@ mpm_parallel::compiled_ahead!(Compiled);
 ///
 /// `frame`: what is known of place and scale; scouts find what is off by powers of ten. `given`: proposals to begin with beside the scouts' (fits, particles).
 /// `tape`: values of the target that an earlier process with the same arguments had told its observer; they are used instead of evaluating it again, and the
-/// pool is the same to the bit.
+/// pool is the same to the bit. Up to 32 log densities and 32 scores of it, spread over all, are evaluated again all the same, and count as no evaluations: by these a tape of another target is known.
 ///
 /// # Errors
-/// [`PoolError`]: an option out of range, a target that is nowhere finite, or the observer's stop.
+/// [`PoolError`]: an option out of range, a target that is nowhere finite, a tape of another target, or the observer's stop.
 #[allow(clippy::too_many_arguments)]
 pub fn explore<const D: usize>(
     target: &dyn Target<D>,

@@ -17,7 +17,8 @@ const ALL: u64 = u64::MAX / 4;
 /// log q(z) = log p(μ + L z) + log det L, and its score.
 pub(super) struct Density<'a, const D: usize> {
     pub source: Source<'a, D>,
-    frame: &'a Frame<D>,
+    /// Of its coordinates.
+    pub frame: &'a Frame<D>,
     log_determinant: f64,
     /// Points at which log p was evaluated.
     pub density_evaluations: u64,

@@ -8,7 +8,7 @@ use crate::adapt::Adaptation;
 use crate::density::Density;
 use crate::freeze::freeze;
 use crate::mixture::Mixture;
-use crate::options::{PoolError, PoolOptions};
+use crate::options::{Plan, PoolError, PoolOptions};
 use crate::pool::Pool;
 use crate::referee::Objection;
 use crate::report::Observer;
@@ -29,12 +29,27 @@ pub(crate) fn explore<const D: usize>(
     options: &PoolOptions,
     observer: &mut Observer<'_>,
 ) -> Result<Pool<D>, PoolError> {
-    let mut plan = options.plan::<D>(particles)?;
+    let plan = options.plan::<D>(particles)?;
+    let mut density = Density::new(Source::new(target, tape, Some(observer)), frame);
+    let pool = explored(&mut density, given, particles, seed, plan);
+    // A tape that has served for all of it.
+    density.source.prove_tape();
+    density.source.go_on()?;
+    pool
+}
+
+/// Until nothing objects, or nothing is left.
+fn explored<const D: usize>(
+    density: &mut Density<'_, D>,
+    given: &[Mixture<D>],
+    particles: usize,
+    seed: u64,
+    mut plan: Plan,
+) -> Result<Pool<D>, PoolError> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     rng.set_stream(STREAM);
-    let mut density = Density::new(Source::new(target, tape, Some(observer)), frame);
     density.source.limit = plan.evaluations;
-    let begun = Adaptation::begin(&mut density, given, &plan, &mut rng);
+    let begun = Adaptation::begin(density, given, &plan, &mut rng);
     density.source.go_on()?;
     let mut adaptation = begun?;
     let mut number = 0;
@@ -43,21 +58,21 @@ pub(crate) fn explore<const D: usize>(
         while is_due || !adaptation.is_over(&plan, density.evaluations()) {
             is_due = false;
             number += 1;
-            let round = adaptation.round(number, &mut density, &plan, &mut rng);
+            let round = adaptation.round(number, density, &plan, &mut rng);
             density.source.go_on()?;
             density.source.tell(Some(&round?));
             density.source.go_on()?;
         }
-        let met = adaptation.search(&mut density, &plan, &mut rng);
+        let met = adaptation.search(density, &plan, &mut rng);
         density.source.go_on()?;
         if met {
             is_due = true;
             continue;
         }
-        let frozen = freeze(&mut adaptation, &mut density, &plan, &mut rng);
+        let frozen = freeze(&mut adaptation, density, &plan, &mut rng);
         density.source.go_on()?;
         if !frozen.surprised || adaptation.is_used_up(&plan, density.evaluations()) {
-            let pool = Pool::new(&adaptation, &frozen, frame, &density, particles);
+            let pool = Pool::new(&adaptation, &frozen, density, particles);
             let is_final = matches!(pool.objection(particles), None | Some(Objection::Undefined(_)));
             if is_final || !plan.extend() {
                 return Ok(pool);

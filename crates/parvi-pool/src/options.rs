@@ -170,6 +170,9 @@ pub enum PoolError {
         /// Points at which the score was evaluated.
         scores: u64,
     },
+    /// The values of an earlier process are not those of the target: some of its points, evaluated again, differ.
+    #[error("the values that an earlier process left are those of another target")]
+    AnotherTape,
     /// The observer stopped the exploration.
     #[error("interrupted after round {round}")]
     Interrupted {

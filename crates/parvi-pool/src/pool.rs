@@ -70,10 +70,10 @@ impl<const D: usize> Pool<D> {
     pub(crate) fn new(
         adaptation: &Adaptation<D>,
         frozen: &Frozen<D>,
-        frame: &Frame<D>,
         density: &Density<'_, D>,
         particles: usize,
     ) -> Self {
+        let frame = density.frame;
         let folds = &adaptation.folds;
         let fresh = &frozen.fresh;
         let points = fresh.positions.len() as f64;

@@ -1,4 +1,4 @@
-//! Values of the target: those that an earlier process left, then evaluated ones, of which an observer is told.
+//! Values of the target: those that an earlier process left, of which some are evaluated again, then new ones, of which an observer is told.
 
 use std::time::{Duration, Instant};
 
@@ -10,11 +10,24 @@ use crate::report::{Observer, Report};
 /// How long an observer waits for news, unless a batch takes longer.
 const SILENCE: Duration = Duration::from_millis(100);
 
+/// Points of the tape that are evaluated again, of each kind and at most.
+const PROVED: usize = 32;
+
 /// What is evaluated.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 enum Kind {
     Density,
     Score,
+}
+
+impl Kind {
+    /// Numbers at a point.
+    fn width<const D: usize>(self) -> usize {
+        match self {
+            Self::Density => 1,
+            Self::Score => D,
+        }
+    }
 }
 
 /// The target, the tape of all its values, and who is told of them.
@@ -24,6 +37,10 @@ pub(super) struct Source<'a, const D: usize> {
     tape: Vec<f64>,
     /// Values of the tape that have been used.
     read: usize,
+    /// Points whose densities, and scores, an earlier process left, and where these begin on the tape; none once they are proved.
+    played: [Vec<([f64; D], usize)>; 2],
+    /// The tape is of another target.
+    is_of_another: bool,
     /// Points at which anything was evaluated.
     evaluations: u64,
     /// How many there may be, which the observer is told.
@@ -33,7 +50,7 @@ pub(super) struct Source<'a, const D: usize> {
     observer: Option<&'a mut Observer<'a>>,
     told: Instant,
     stopped: bool,
-    /// How long a point took last, by all threads.
+    /// How long a point took last, by all threads; before the first one, long.
     point: Duration,
 }
 
@@ -43,13 +60,15 @@ impl<'a, const D: usize> Source<'a, D> {
             target,
             tape,
             read: 0,
+            played: [Vec::new(), Vec::new()],
+            is_of_another: false,
             evaluations: 0,
             limit: 0,
             rounds: 0,
             observer,
             told: Instant::now(),
             stopped: false,
-            point: Duration::ZERO,
+            point: SILENCE,
         }
     }
 
@@ -58,11 +77,38 @@ impl<'a, const D: usize> Source<'a, D> {
         self.stopped
     }
 
-    /// An error where it has: what followed is of no worth.
+    /// An error where it has, or where the tape is of another target: what followed is of no worth.
     pub fn go_on(&self) -> Result<(), PoolError> {
-        match self.stopped {
-            true => Err(PoolError::Interrupted { round: self.rounds }),
-            false => Ok(()),
+        match (self.is_of_another, self.stopped) {
+            (true, _) => Err(PoolError::AnotherTape),
+            (_, true) => Err(PoolError::Interrupted { round: self.rounds }),
+            _ => Ok(()),
+        }
+    }
+
+    /// Evaluates some of the points again whose values were on the tape, spread over all of them, and stops where any differs. They count as no evaluations.
+    pub fn prove_tape(&mut self) {
+        for (kind, played) in [Kind::Density, Kind::Score]
+            .into_iter()
+            .zip(std::mem::take(&mut self.played))
+        {
+            let stride = played.len().div_ceil(PROVED).max(1);
+            let (xs, places): (Vec<[f64; D]>, Vec<usize>) = played.into_iter().step_by(stride).unzip();
+            let width = kind.width::<D>();
+            let kept: Vec<f64> = places
+                .iter()
+                .flat_map(|&place| self.tape[place..place + width].to_vec())
+                .collect();
+            if self.stopped || kind == Kind::Score && self.target.scores_depend_on_calls() {
+                continue;
+            }
+            let mut fresh = || self.evaluated(kind, &xs, false);
+            let found = fresh();
+            // Scores that another call changes are estimates.
+            let differs = !are_same(&found, &kept) && (kind == Kind::Density || are_same(&found, &fresh()));
+            if differs && !self.stopped {
+                (self.is_of_another, self.stopped) = (true, true);
+            }
         }
     }
 
@@ -93,22 +139,37 @@ impl<'a, const D: usize> Source<'a, D> {
 
     /// The numbers of all points, one after the other.
     fn values(&mut self, xs: &[[f64; D]], kind: Kind) -> Vec<f64> {
-        let width = match kind {
-            Kind::Density => 1,
-            Kind::Score => D,
-        };
-        let mut values = self.played(xs.len(), width);
-        let mut known = values.len() / width;
-        self.evaluations += known as u64;
-        values.resize(xs.len() * width, f64::NAN);
+        let mut values = self.replayed(xs, kind);
+        let fresh = &xs[values.len() / kind.width::<D>()..];
+        self.evaluations += (xs.len() - fresh.len()) as u64;
+        if !fresh.is_empty() {
+            self.prove_tape();
+            let known = self.tape.len();
+            values.extend(self.evaluated(kind, fresh, true));
+            self.read += self.tape.len() - known;
+        }
+        values
+    }
+
+    /// The target's numbers at points, stretch by stretch, on the tape and counted where they are new.
+    fn evaluated(&mut self, kind: Kind, xs: &[[f64; D]], are_new: bool) -> Vec<f64> {
+        let width = kind.width::<D>();
         let batch = match kind {
             Kind::Score if self.target.scores_depend_on_calls() => xs.len(),
             _ => self.target.points_per_call().max(1),
         };
+        let (mut values, mut known) = (vec![f64::NAN; xs.len() * width], 0);
         while known < xs.len() && !self.stopped {
             let next = xs.len().min(known.saturating_add(self.stretch(batch)));
             let stretch = &mut values[width * known..width * next];
             self.evaluate(kind, &xs[known..next], stretch, batch);
+            if are_new {
+                self.tape.extend_from_slice(stretch);
+                self.evaluations += (next - known) as u64;
+            }
+            if self.told.elapsed() >= SILENCE {
+                self.tell(None);
+            }
             known = next;
         }
         values
@@ -121,7 +182,7 @@ impl<'a, const D: usize> Source<'a, D> {
         points.max(batch.saturating_mul(mpm_parallel::threads()))
     }
 
-    /// Evaluates a stretch of points, batches side by side, puts it on the tape, and tells of it if it is time.
+    /// Evaluates a stretch of points, batches side by side.
     fn evaluate(&mut self, kind: Kind, xs: &[[f64; D]], values: &mut [f64], batch: usize) {
         let (target, width, begin) = (self.target, values.len() / xs.len(), Instant::now());
         let tasks = values.chunks_mut(width * batch).zip(xs.chunks(batch));
@@ -130,25 +191,27 @@ impl<'a, const D: usize> Source<'a, D> {
             Kind::Score => target.scores(xs, values.as_chunks_mut().0),
         });
         self.point = begin.elapsed() / u32::try_from(xs.len()).unwrap_or(u32::MAX);
-        self.tape.extend_from_slice(values);
-        self.read += values.len();
-        self.evaluations += xs.len() as u64;
-        if self.told.elapsed() >= SILENCE {
-            self.tell(None);
-        }
     }
 
-    /// The next values of the tape, in whole points of `width` values, at most `count` points.
-    fn played(&mut self, count: usize, width: usize) -> Vec<f64> {
-        let left = (self.tape.len() - self.read) / width;
-        let start = self.read;
-        self.read += width * count.min(left);
-        if left < count {
+    /// The next values of the tape, in whole points, for as many of `xs` as it has.
+    fn replayed(&mut self, xs: &[[f64; D]], kind: Kind) -> Vec<f64> {
+        let (width, start) = (kind.width::<D>(), self.read);
+        let left = (self.tape.len() - start) / width;
+        self.read += width * xs.len().min(left);
+        let places = (start..self.read).step_by(width);
+        self.played[kind as usize].extend(xs.iter().copied().zip(places));
+        if left < xs.len() {
             // The end of the tape: what is left of it belongs to no whole point.
             self.tape.truncate(self.read);
         }
         self.tape[start..self.read].to_vec()
     }
+}
+
+/// Whether numbers are the same to the bit; NaN is NaN.
+fn are_same(some: &[f64], others: &[f64]) -> bool {
+    let is_same = |(a, b): (&f64, &f64)| a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan();
+    some.iter().zip(others).all(is_same)
 }
 
 #[cfg(test)]

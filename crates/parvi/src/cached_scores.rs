@@ -8,12 +8,16 @@ use parvi_targets::{Frame, Target};
 
 use crate::defaults;
 use crate::extent::Extent;
+use crate::score_check::{are_same, scores_of};
 use crate::score_grid::{Cell, ScoreGrid};
 use crate::start::check;
 use crate::{NonFiniteScores, SampleError};
 
 /// Dimensions, at most.
 const LARGEST_DIMENSION: usize = 5;
+
+/// Evaluations of an earlier process that are made again, at most.
+const PROVED: usize = 32;
 
 /// Places of evaluations and what they gave, one after the other: what a checkpoint keeps of a target.
 pub(crate) type Tape = Arc<Mutex<Vec<f64>>>;
@@ -73,6 +77,20 @@ impl<'a, const D: usize> CachedScores<'a, D> {
             tape: Arc::new(Mutex::new(tape.to_vec())),
             pulls_back: policy == NonFiniteScores::PullBack,
         })
+    }
+
+    /// Whether the target still gives some of the scores that an earlier process left, spread over all of them; they count as no evaluations. Scores that another call changes are not compared.
+    pub fn is_of_its_target(&self) -> bool {
+        if self.target.scores_depend_on_calls() {
+            return true;
+        }
+        let tape = locked(&self.tape);
+        let pairs = tape.as_chunks::<D>().0.as_chunks::<2>().0;
+        let stride = pairs.len().div_ceil(PROVED).max(1);
+        let (places, left): (Vec<[f64; D]>, Vec<[f64; D]>) =
+            pairs.iter().step_by(stride).map(|&[x, score]| (x, score)).unzip();
+        let fresh = scores_of(self.target, &places);
+        are_same(&fresh, &left) || !are_same(&fresh, &scores_of(self.target, &places))
     }
 
     /// Evaluations so far, those of an earlier process included.
@@ -139,8 +157,7 @@ impl<'a, const D: usize> CachedScores<'a, D> {
     fn evaluate(&self, state: &mut State<D>, xs: &[[f64; D]]) -> Vec<[f64; D]> {
         let replayed = |x: &[f64; D]| state.replayed.get(&x.map(f64::to_bits)).copied();
         let fresh: Vec<[f64; D]> = xs.iter().filter(|x| replayed(x).is_none()).copied().collect();
-        let mut scores = vec![[0.0; D]; fresh.len()];
-        self.target.scores(&fresh, &mut scores);
+        let scores = scores_of(self.target, &fresh);
         locked(&self.tape).extend(fresh.iter().zip(&scores).flat_map(|(x, score)| [*x, *score]).flatten());
         let mut scores = scores.into_iter();
         (xs.iter())

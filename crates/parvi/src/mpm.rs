@@ -25,6 +25,9 @@ pub(crate) fn sample<const D: usize>(options: &MpmOptions, mut task: Task<'_, D>
     let mut journal = Journal::open(options, target, frame, run)?;
     if caches {
         let cached = CachedScores::new(target, frame, options.non_finite_scores, &journal.tape())?;
+        if !cached.is_of_its_target() {
+            return Err(journal.of_another_target());
+        }
         journal.keep_evaluations(cached.tape());
         return free_body::sample(options, task.of(&cached), Some(&cached), u64::MAX, &mut journal);
     }

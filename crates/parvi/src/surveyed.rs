@@ -167,6 +167,7 @@ fn surveyed<const D: usize>(
     match explored {
         Ok(pool) => Ok(pool),
         Err(PoolError::Interrupted { round }) => Err(SampleError::Interrupted { step: round }),
+        Err(PoolError::AnotherTape) => Err(journal.of_another_target()),
         Err(error) => Err(error.into()),
     }
 }

@@ -44,11 +44,12 @@ fn a_run_goes_on_from_its_tape_to_the_same_bits() {
         let (whole, resumed) = (whole.as_ref().unwrap(), resumed.unwrap());
         assert_eq!(whole.weights, resumed.weights);
         assert_eq!(whole.verdict, resumed.verdict);
-        assert!(length == 0 || asked_again < asked);
+        // Of a short tape every point is evaluated again.
+        assert!(asked_again <= asked, "{length}: {asked_again} {asked}");
     }
     let (all, asked_again) = run(kept.clone(), &mut |_| ControlFlow::Continue(()));
     assert_eq!(all.unwrap().positions, whole.unwrap().positions);
-    assert!(asked - asked_again > 300, "{asked} {asked_again}");
+    assert!(asked - asked_again > 250, "{asked} {asked_again}");
 }
 
 /// Log densities that take a while each.
@@ -69,7 +70,7 @@ impl Target<2> for Dear {
 }
 
 #[test]
-fn a_dear_density_is_stopped_between_rounds_and_nothing_is_evaluated_twice() {
+fn a_dear_density_is_stopped_between_rounds_and_hardly_anything_is_evaluated_twice() {
     let target = Dear(Banana::new(1.0, 0.5).unwrap(), AtomicUsize::new(0));
     let options = PoolOptions {
         effective_size: 1.0,
@@ -97,7 +98,61 @@ fn a_dear_density_is_stopped_between_rounds_and_nothing_is_evaluated_twice() {
         });
         assert!(matches!(stopped, Err(PoolError::Interrupted { .. })), "{stop}");
         let (resumed, after) = run(kept, &mut |_| ControlFlow::Continue(()));
-        assert_eq!(before + after, asked, "{stop}");
+        // Some of what was on the tape, to know whose it is.
+        assert!((asked..=asked + 32).contains(&(before + after)), "{stop}");
         assert_eq!(resumed.unwrap().weights, whole.weights, "{stop}");
+    }
+}
+
+/// N(0, I) with edges at ±`edge` along x₀, and a score times `slope` where x₀ > 1.
+struct Altered {
+    edge: f64,
+    slope: f64,
+}
+
+impl Target<2> for Altered {
+    fn log_density(&self, x: &[f64; 2]) -> f64 {
+        if x[0].abs() < self.edge {
+            -0.5 * (x[0] * x[0] + x[1] * x[1])
+        } else {
+            f64::NEG_INFINITY
+        }
+    }
+    fn score(&self, x: &[f64; 2]) -> [f64; 2] {
+        x.map(|c| if x[0] > 1.0 { -self.slope * c } else { -c })
+    }
+}
+
+#[test]
+fn a_tape_of_another_target_is_refused() {
+    let run = |edge, slope, tape: Vec<f64>, stop: usize| {
+        let (mut kept, target) = (Vec::new(), Altered { edge, slope });
+        let options = PoolOptions::default();
+        let found = explore(
+            &target,
+            &Frame::identity(),
+            &[],
+            tape,
+            100,
+            3,
+            &options,
+            &mut |report| {
+                kept = report.tape.to_vec();
+                match report.round {
+                    Some(round) if round.number == stop => ControlFlow::Break(()),
+                    _ => ControlFlow::Continue(()),
+                }
+            },
+        );
+        (found.map(|pool| pool.weights), kept)
+    };
+    // Of a run that was stopped, and nearly all of one that was not.
+    for stop in [1, usize::MAX] {
+        let (_, tape) = run(5.0, 1.0, Vec::new(), stop);
+        assert!(run(5.0, 1.0, tape.clone(), usize::MAX).0.is_ok());
+        for (edge, slope) in [(1.1, 1.0), (5.0, -1.0), (5.0, 1.0 + 1e-15)] {
+            let (refused, _) = run(edge, slope, tape.clone(), usize::MAX);
+            assert_eq!(refused, Err(PoolError::AnotherTape), "{edge} {slope}");
+        }
     }
 }

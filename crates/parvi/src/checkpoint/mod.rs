@@ -22,6 +22,9 @@ use crate::{MpmOptions, Run, SampleError};
 /// of a run that was never stopped. The file is replaced as a whole, so that a process killed at any moment leaves a good one. That of a run which has
 /// succeeded stays, so that particles which are lost before they are written can be had again: [`remove`](Self::remove) it when they are safe.
 /// A score that depends on earlier calls (minibatches) is beyond it.
+///
+/// The file of another run is refused. A target is known by log p and its score at three points, and by some values of it that the file holds: up to 32 log densities and 32 scores that a survey or a cache asked for
+/// are evaluated again, and have to be the same to the bit. No run counts these among its evaluations.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Checkpoint {
     /// The file.
@@ -117,10 +120,7 @@ impl Journal {
             Ok(file) => {
                 let saved = read(file).map_err(|reason| refused(path, &reason))?;
                 if saved.identity != identity {
-                    return Err(refused(
-                        path,
-                        &"it belongs to another run; remove it or name another file",
-                    ));
+                    return Err(of_another_run(path));
                 }
                 saved
             }
@@ -131,6 +131,15 @@ impl Journal {
             evaluations: None,
             replayed: 0,
         })
+    }
+
+    /// The error that what its file holds is not of this target.
+    pub fn of_another_target(&self) -> SampleError {
+        of_another_run(
+            self.checkpoint
+                .as_ref()
+                .map_or(Path::new(""), |checkpoint| &checkpoint.path),
+        )
     }
 
     /// What a survey evaluated before.
@@ -248,6 +257,10 @@ fn checksum(content: &[u8]) -> u64 {
     })
 }
 
+fn of_another_run(path: &Path) -> SampleError {
+    refused(path, &"it belongs to another run; remove it or name another file")
+}
+
 fn refused(path: &Path, reason: &dyn std::fmt::Display) -> SampleError {
     SampleError::Checkpoint {
         path: path.to_owned(),
@@ -255,7 +268,7 @@ fn refused(path: &Path, reason: &dyn std::fmt::Display) -> SampleError {
     }
 }
 
-/// Everything that the particles depend on; the target by its log density at a few points, or its score.
+/// Everything that the particles depend on; the target by what it says at a few points, of its score where other calls do not change that.
 fn identity<const D: usize>(options: &MpmOptions, target: &dyn Target<D>, frame: &Frame<D>, run: &Run) -> String {
     let options = MpmOptions {
         checkpoint: None,
@@ -264,14 +277,12 @@ fn identity<const D: usize>(options: &MpmOptions, target: &dyn Target<D>, frame:
     let probe = |offset: f64| {
         let z = std::array::from_fn(|a| offset / (1.0 + a as f64));
         let x = frame.to_target(&z);
-        if target.has_log_density() {
-            target.log_density(&x).to_bits()
-        } else {
-            target.score(&x).iter().sum::<f64>().to_bits()
-        }
+        let log_density = target.has_log_density().then(|| target.log_density(&x).to_bits());
+        let score = (!target.scores_depend_on_calls()).then(|| target.score(&x).map(f64::to_bits));
+        (log_density, score)
     };
     format!(
-        "parvi {}, D = {D}, {options:?}, {run:?}, {frame:?}, log densities {:x?}",
+        "parvi {}, D = {D}, {options:?}, {run:?}, {frame:?}, log densities and scores {:x?}",
         env!("CARGO_PKG_VERSION"),
         [0.0, 0.5, -1.0].map(probe)
     )

@@ -1,5 +1,6 @@
 //! Samplers, from the outside. One theme per file.
 
+mod another_target;
 mod bent_targets;
 mod cached_scores;
 mod calibrated;
