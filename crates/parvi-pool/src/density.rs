@@ -8,7 +8,7 @@ use parvi_targets::Frame;
 use crate::options::PoolError;
 use crate::source::Source;
 
-/// Log densities beyond this size are taken for no numbers.
+/// Log densities beyond this size are taken for no numbers: their rounding alone is a tenth.
 const LARGEST: f64 = 1e15;
 
 /// What a stopped source is said to have spent: more than anybody may.
@@ -30,6 +30,8 @@ pub(super) struct Density<'a, const D: usize> {
     pub finite: u64,
     /// Log densities of finite points that were NaN, +∞ or too large: what mass is there, nobody knows.
     pub undefined: u64,
+    /// Log densities of finite points that were numbers below −1e15.
+    beyond: u64,
     /// −∇² log p where it is known, by the bits of the point.
     precisions: HashMap<[u64; D], Matrix<D>>,
 }
@@ -45,6 +47,7 @@ impl<'a, const D: usize> Density<'a, D> {
             replaced: 0,
             finite: 0,
             undefined: 0,
+            beyond: 0,
             precisions: HashMap::new(),
         }
     }
@@ -65,7 +68,9 @@ impl<'a, const D: usize> Density<'a, D> {
             self.finite += u64::from(sound);
             if !sound {
                 self.replaced += u64::from(*value != f64::NEG_INFINITY);
-                self.undefined += u64::from(vector::is_finite(x) && (value.is_nan() || *value > 0.0));
+                let is_place = vector::is_finite(x);
+                self.undefined += u64::from(is_place && (value.is_nan() || *value > 0.0));
+                self.beyond += u64::from(is_place && value.is_finite() && *value < 0.0);
             }
             *value = if sound {
                 *value + self.log_determinant
@@ -116,6 +121,7 @@ impl<'a, const D: usize> Density<'a, D> {
             points: self.density_evaluations,
             finite: self.finite,
             undefined: self.undefined,
+            beyond: self.beyond,
             scores: self.score_evaluations,
         }
     }

@@ -3,8 +3,11 @@
 /// Options of a pool.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PoolOptions {
-    /// Evaluations of all kinds (log densities and scores) at most. By default 15, 25, 45, 80, 140 or 200 per particle in d = 1…6 and above and at least 8,000,
+    /// Evaluations of all kinds (log densities and scores) that are planned with, ≥ 1. By default 15, 25, 45, 80, 140 or 200 per particle in d = 1…6 and above and at least 8,000,
     /// and as long as there is an [`Objection`](crate::Objection) twice as many again, up to 200 per particle and at least 20,000.
+    ///
+    /// Rounds and fresh points keep to them. What a pool begins with is evaluated in any case: 375 log densities per dimension and ¾ per particle, half as many more for each proposal that is
+    /// given, and scouts before them; and searches that meet piece after piece are not cut short.
     pub evaluations: Option<u64>,
     /// Effective size at which the pool is large enough, per particle, but at least 2,000 in all.
     pub effective_size: f64,
@@ -69,6 +72,7 @@ impl PoolOptions {
             particles >= 2 && u32::try_from(particles).is_ok(),
             "from 2 to 2^32 - 1",
         )?;
+        check("evaluations", 0.0, self.evaluations != Some(0), "at least 1")?;
         let size = self.effective_size;
         check(
             "effective size",
@@ -158,15 +162,17 @@ pub enum PoolError {
         /// What is allowed.
         expected: &'static str,
     },
-    /// Of the first points too few have a finite log density: none, as a rule.
-    #[error("{}", nowhere_finite(*.points, *.finite, *.undefined))]
+    /// Of the first points too few have a log density to count with, which is between ±1e15: none, as a rule.
+    #[error("{}", nowhere_finite(*.points, *.finite, *.undefined, *.beyond))]
     NowhereFinite {
         /// Points at which it was evaluated.
         points: u64,
-        /// Those of them at which it was finite.
+        /// Those of them at which it was between ±1e15.
         finite: u64,
-        /// Those at which it was NaN or +∞; at the others it was −∞.
+        /// Those at which it was NaN, +∞ or above 1e15.
         undefined: u64,
+        /// Those at which it was a number below −1e15, which counts as −∞; at the others it was −∞.
+        beyond: u64,
         /// Points at which the score was evaluated.
         scores: u64,
     },
@@ -182,13 +188,20 @@ pub enum PoolError {
 }
 
 /// What the log density was at the points.
-fn nowhere_finite(points: u64, finite: u64, undefined: u64) -> String {
-    if finite == 0 && undefined == 0 {
+fn nowhere_finite(points: u64, finite: u64, undefined: u64, beyond: u64) -> String {
+    let zero = points.saturating_sub(finite + undefined + beyond);
+    let found = if zero == points {
         format!("log p was -inf at all {points} points")
+    } else if beyond == points {
+        format!("log p was below -1e15, which counts as -inf, at all {points} points")
     } else {
-        let zero = points.saturating_sub(finite).saturating_sub(undefined);
+        let beyond = match beyond {
+            0 => String::new(),
+            beyond => format!("below -1e15, which counts as -inf, at {beyond}, "),
+        };
         format!(
-            "log p was -inf at {zero}, NaN or +inf at {undefined} and finite at {finite} of {points} points: too few to begin with"
+            "log p was -inf at {zero}, {beyond}NaN or +inf at {undefined} and finite at {finite} of {points} points: too few to begin with"
         )
-    }
+    };
+    format!("{found}; the frame is to say where the mass lies and how wide it is")
 }

@@ -151,9 +151,9 @@ impl<const D: usize> Pool<D> {
         self.measure.expectation(f)
     }
 
-    /// The quantile of one coordinate; NaN for an axis that is none.
+    /// The quantile of one coordinate; NaN for an axis that is none, and a probability that is none.
     pub fn quantile(&self, axis: usize, probability: f64) -> f64 {
-        if axis >= D {
+        if axis >= D || !(0.0..=1.0).contains(&probability) {
             return f64::NAN;
         }
         let mut order: Vec<usize> = (0..self.positions.len()).filter(|&i| self.weights[i] > 0.0).collect();

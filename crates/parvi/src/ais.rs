@@ -16,6 +16,7 @@ impl AisOptions {
     fn run<const D: usize>(&self, task: Task<'_, D>) -> Result<Samples<D>, SampleError> {
         task.run.given.check_taken("ais", true)?;
         task.run.checked_particles()?;
+        task.run.checked_start()?;
         task.needs_log_density("method `ais`")?;
         let options = MpmOptions {
             evaluations: self.evaluations,

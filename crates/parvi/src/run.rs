@@ -357,6 +357,14 @@ pub enum SampleError {
     /// Nothing could be weighed.
     #[error(transparent)]
     Pool(#[from] PoolError),
+    /// Temperatures of tempered populations did not end: the target is improper, or too far away.
+    #[error(
+        "{temperatures} temperatures have not led from the start to the target: its integral is not finite, or it is too far from where the frame and the start say"
+    )]
+    TooFar {
+        /// How many were tried.
+        temperatures: usize,
+    },
     /// The method is not part of this build.
     #[error("method `{method}`: built without {feature}: rebuild with --features {feature}")]
     NotBuilt {

@@ -71,7 +71,11 @@ impl SmcOptions {
         let mut step = 0;
         while populations.iter().any(Population::is_on_its_way) {
             step += 1;
-            check("temperatures", step as f64, step <= TEMPERATURES, "at most 2000")?;
+            if step > TEMPERATURES {
+                return Err(SampleError::TooFar {
+                    temperatures: TEMPERATURES,
+                });
+            }
             mpm_parallel::each(populations.iter_mut(), &|population| population.advance(ancestors));
             let steps = step + usize::from(populations.iter().any(Population::is_on_its_way));
             if observer.after_step(Progress { step, steps }).is_break() {
@@ -156,6 +160,7 @@ fn nowhere_finite<const D: usize>(
         points,
         finite: 0,
         undefined,
+        beyond: 0,
         scores: 0,
     })
 }

@@ -93,7 +93,7 @@ options! {
     displacement_limit: Limit = "C|off" in POSITIVE,
     /// Weigh evaluations of the log density and condense the particles from them; the material evens out what that leaves; off: a body moves from its start in the target's frame [default: on]
     survey: Switch,
-    /// Evaluations of the survey, of all kinds, at most
+    /// Evaluations that the survey is planned with, of all kinds; what it begins with is evaluated in any case
     evaluations: EvaluationCount = "N",
     /// How many times as much is drawn in search of pieces that no proposal has met, at least 1
     search_effort: f64 = "FACTOR" in RATIO,

@@ -40,21 +40,40 @@ fn densities_that_are_no_numbers_are_survived() {
             points,
             finite: 0,
             undefined,
+            beyond: 0,
             scores: 0,
         } = error
         else {
             panic!("{error}");
         };
         assert_eq!((points > 100, undefined), (true, if is_undefined { points } else { 0 }));
-        let expected = if is_undefined {
+        let found = if is_undefined {
             format!(
                 "log p was -inf at 0, NaN or +inf at {points} and finite at 0 of {points} points: too few to begin with"
             )
         } else {
             format!("log p was -inf at all {points} points")
         };
-        assert_eq!(error.to_string(), expected);
+        assert_eq!(error.to_string(), format!("{found}; {FRAME}"));
     }
+}
+
+/// What every such message ends with.
+const FRAME: &str = "the frame is to say where the mass lies and how wide it is";
+
+#[test]
+fn densities_too_low_to_count_with_are_told_from_those_that_are_zero() {
+    let message = |log_density: &(dyn Fn(&[f64; 2]) -> f64 + Sync)| {
+        let refused = pool_of(&Given(log_density), 100, 1);
+        refused.expect_err("nothing to weigh").to_string()
+    };
+    let narrow = message(&|x| -0.5e24 * ((x[0] - 0.3).powi(2) + x[1] * x[1]));
+    for message in [narrow, message(&|_| -1e300)] {
+        let start = "log p was below -1e15, which counts as -inf, at all ";
+        assert!(message.starts_with(start) && message.ends_with(FRAME), "{message}");
+    }
+    let half = message(&|x| if x[0] > 0.0 { f64::NEG_INFINITY } else { -1e16 });
+    assert!(half.contains(", below -1e15, which counts as -inf, at "), "{half}");
 }
 
 #[test]
@@ -87,6 +106,40 @@ fn options_out_of_range_are_refused() {
         refused.err(),
         Some(PoolError::InvalidOption { field: "particles", .. })
     ));
+    let none = PoolOptions {
+        evaluations: Some(0),
+        ..PoolOptions::default()
+    };
+    assert!(matches!(
+        pool_with(&target, 100, 1, &none).err(),
+        Some(PoolError::InvalidOption {
+            field: "evaluations",
+            ..
+        })
+    ));
+}
+
+#[test]
+fn few_evaluations_are_exceeded_by_what_a_pool_begins_with_alone() {
+    for (particles, limit) in [(100, 1), (1000, 1000), (5000, 3000)] {
+        let options = PoolOptions {
+            evaluations: Some(limit),
+            ..PoolOptions::default()
+        };
+        let pool = pool_with(&Gaussian::<2>::standard(), particles, 1, &options).unwrap();
+        let evaluations = pool.density_evaluations + pool.score_evaluations;
+        let first = 375 * 2 + 3 * particles as u64 / 4;
+        assert!(evaluations <= limit + first, "{particles} {limit}: {evaluations}");
+    }
+}
+
+#[test]
+fn a_quantile_of_no_probability_is_none() {
+    let pool = pool_of(&Gaussian::<2>::standard(), 50, 1).unwrap();
+    for probability in [f64::NAN, -1.0, 1.1, 2.0] {
+        assert!(pool.quantile(0, probability).is_nan());
+    }
+    assert!(pool.quantile(2, 0.5).is_nan() && pool.quantile(0, 0.0) < pool.quantile(0, 1.0));
 }
 
 #[test]

@@ -34,7 +34,7 @@ with_defaults! {
         /// Weigh evaluations of the log density until they represent the target, condense M particles from them, and let the material even these out as
         /// far as that brings them nearer. Without, a body moves in the given frame from the given start, and nothing knows whether it has found everything.
         pub survey: bool = true,
-        /// Evaluations of the survey, of all kinds, at most; `None`: [`PoolOptions`](parvi_pool::PoolOptions) has the default. With cached scores: evaluations from which on
+        /// Evaluations of all kinds that the survey is planned with, ≥ 1; [`PoolOptions`](parvi_pool::PoolOptions) says what is evaluated in any case, and has the default for `None`. With cached scores: evaluations from which on
         /// the grid is not refined any more.
         pub evaluations: Option<u64> = None,
         /// How many times as much a survey draws in search of pieces that no proposal has met, as far as the evaluations last; ≥ 1.
