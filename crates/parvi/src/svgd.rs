@@ -8,7 +8,7 @@ use crate::drive::finite;
 use crate::start::{positive, steps};
 use crate::task::{Task, sampler};
 use crate::view::Moment;
-use crate::{Progress, SampleError, Samples, SvgdOptions, TracePoint, defaults};
+use crate::{Certificate, Progress, SampleError, Samples, SvgdOptions, TracePoint, defaults};
 
 /// The median of pairwise distances is taken over at most this many particles.
 const MEDIAN_SAMPLE: usize = 512;
@@ -16,6 +16,8 @@ const MEDIAN_SAMPLE: usize = 512;
 sampler! {
     /// Move particles by φ(x) = M⁻¹ Σ_j [k(x_j, x) s(x_j) + ∇_{x_j} k(x_j, x)], k(x, y) = exp(−|x − y|² / b), with Adam steps
     /// (Kingma & Ba 2015), in the coordinates of `frame`.
+    ///
+    /// At the end log p is evaluated at the particles, where it is known: if it is not finite at some of them, [`Samples::certificate`] says so, and there is none otherwise.
     ///
     /// # Errors
     /// [`SampleError`]: an option out of range, a score that is not finite, or the observer's stop.
@@ -71,10 +73,20 @@ impl SvgdOptions {
                 return Err(SampleError::Interrupted { step });
             }
         }
+        let positions = finite(positions.iter().map(to_target).collect(), steps)?;
+        let (certificate, density_evaluations) = if target.has_log_density() {
+            let mut log_densities = vec![0.0; positions.len()];
+            target.log_densities(&positions, &mut log_densities);
+            (Certificate::of_outside(&log_densities), positions.len() as u64)
+        } else {
+            (None, 0)
+        };
         Ok(Samples {
-            positions: finite(positions.iter().map(|z| frame.to_target(z)).collect(), steps)?,
+            positions,
             steps,
             score_evaluations: score.evaluations,
+            density_evaluations,
+            certificate,
             trace,
             ..Samples::default()
         })

@@ -36,7 +36,7 @@ pub const LARGEST_DRIFT: f64 = 0.02;
 pub struct Certificate {
     /// How the run ended.
     pub outcome: Outcome,
-    /// Mean and standard deviation of every coordinate.
+    /// Mean and standard deviation of every coordinate; empty where nothing is known of them (`svgd`).
     pub moments: Vec<MomentEstimate>,
     /// Degree of the polynomials that the estimates rest on, where they rest on scores; else 0.
     pub degree: usize,
@@ -60,6 +60,21 @@ impl Certificate {
             drift: body.drift,
             kinetic_energy: body.kinetic_energy,
         }
+    }
+
+    /// That particles are where log p is no number, if some are; nothing is known of the others.
+    pub(crate) fn of_outside(log_densities: &[f64]) -> Option<Self> {
+        let (particles, of) = (
+            log_densities.iter().filter(|log| !log.is_finite()).count(),
+            log_densities.len(),
+        );
+        (particles > 0).then(|| Self {
+            outcome: Outcome::Stalled(Doubt::Outside { particles, of }),
+            moments: Vec::new(),
+            degree: 0,
+            drift: 0.0,
+            kinetic_energy: 0.0,
+        })
     }
 
     /// The largest estimated error of a mean, in standard deviations.

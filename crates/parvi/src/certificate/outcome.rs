@@ -106,6 +106,13 @@ pub enum Doubt {
         /// Evaluations of the survey.
         evaluations: u64,
     },
+    /// Nothing has kept the particles where the target has mass: the score does not lead there.
+    Outside {
+        /// Particles at which log p is −∞, +∞ or NaN.
+        particles: usize,
+        /// Particles.
+        of: usize,
+    },
     /// The particles stand for p^α, and the scores judge p.
     Tempered {
         /// α of the last steps.
