@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use parvi::certificate::Doubt;
-use parvi::{AisOptions, MpmOptions, Outcome, Run, SampleError, Samples, Silent};
+use parvi::{AisOptions, MpmOptions, Outcome, Run, SampleError, Samples, Silent, SmcOptions, Start, SvgdOptions};
 use parvi_targets::{Frame, Target};
 
 type LogDensity<'a> = &'a (dyn Fn(&[f64; 2]) -> f64 + Sync);
@@ -83,6 +83,124 @@ fn what_does_not_fall_off_is_said_to_be_improper() {
         &mut Silent,
     );
     assert!(matches!(doubt(&alone.expect("particles")), Some(Doubt::Endless { .. })));
+}
+
+/// N(0, I), or a slope without end, with a score given by a function.
+struct Scored<S>(bool, S);
+
+impl<S: Fn(&[f64; 2]) -> [f64; 2] + Sync> Target<2> for Scored<S> {
+    fn log_density(&self, x: &[f64; 2]) -> f64 {
+        if self.0 {
+            -0.5 * (x[0] * x[0] + x[1] * x[1])
+        } else {
+            0.5 * x[0]
+        }
+    }
+
+    fn score(&self, x: &[f64; 2]) -> [f64; 2] {
+        (self.1)(x)
+    }
+}
+
+#[test]
+fn a_score_that_is_no_number_is_no_gradient() {
+    let (frame, run) = (Frame::identity(), Run::new(100, 1));
+    for value in [f64::NAN, f64::INFINITY] {
+        let target = Scored(true, move |_: &[f64; 2]| [value; 2]);
+        let ais = AisOptions::default().sample(&target, &frame, &run, &mut Silent);
+        let mpm = MpmOptions::default().sample(&target, &frame, &run, &mut Silent);
+        for samples in [ais, mpm] {
+            let doubt = doubt(&samples.expect("particles"));
+            assert_eq!(doubt, Some(Doubt::NoScore { points: 8, of: 8 }));
+        }
+    }
+}
+
+#[test]
+fn no_temperatures_lead_to_an_improper_density() {
+    let slope = Scored(false, |_: &[f64; 2]| [0.5, 0.0]);
+    let options = SmcOptions {
+        pool_size: Some(256),
+        populations: 2,
+        chain_length: 16,
+    };
+    let error = options.sample(&slope, &Frame::identity(), &Run::new(20, 1), &mut Silent);
+    let error = error.expect_err("no end");
+    assert!(matches!(error, SampleError::TooFar { temperatures: 2000 }), "{error}");
+}
+
+/// The unit square, with a score of zero inside and outside.
+struct UnitSquare;
+
+impl Target<2> for UnitSquare {
+    fn log_density(&self, x: &[f64; 2]) -> f64 {
+        if x.iter().all(|c| (0.0..=1.0).contains(c)) {
+            0.0
+        } else {
+            f64::NEG_INFINITY
+        }
+    }
+
+    fn score(&self, _: &[f64; 2]) -> [f64; 2] {
+        [0.0; 2]
+    }
+}
+
+#[test]
+fn particles_that_end_outside_are_said_to() {
+    let options = SvgdOptions {
+        steps: Some(50),
+        ..SvgdOptions::default()
+    };
+    let samples = options.sample(&UnitSquare, &Frame::identity(), &Run::new(50, 1), &mut Silent);
+    let samples = samples.expect("particles");
+    let outside = |x: &&[f64; 2]| !UnitSquare.log_density(x).is_finite();
+    let particles = samples.positions.iter().filter(outside).count();
+    assert!(particles > 0 && samples.density_evaluations == 50);
+    assert_eq!(doubt(&samples), Some(Doubt::Outside { particles, of: 50 }));
+    let inside = options.sample(
+        &Scored(true, |x: &[f64; 2]| x.map(|c| -c)),
+        &Frame::identity(),
+        &Run::new(50, 1),
+        &mut Silent,
+    );
+    assert_eq!(inside.expect("particles").certificate, None);
+}
+
+#[test]
+fn importance_sampling_takes_no_start_law_that_is_none_and_no_zero_evaluations() {
+    let target = Scored(true, |x: &[f64; 2]| x.map(|c| -c));
+    let ais = |particles, evaluations, standard_deviation| {
+        let mut run = Run::new(particles, 1);
+        run.start = Start {
+            standard_deviation,
+            ..Start::default()
+        };
+        let options = AisOptions {
+            evaluations,
+            ..AisOptions::default()
+        };
+        options.sample(&target, &Frame::identity(), &run, &mut Silent)
+    };
+    for standard_deviation in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let refused = ais(100, None, standard_deviation);
+        assert!(
+            matches!(refused, Err(SampleError::InvalidOption { .. })),
+            "{standard_deviation}"
+        );
+    }
+    assert!(ais(100, Some(0), 1.0).is_err_and(|error| error.to_string().starts_with("evaluations = 0:")));
+    for (count, limit) in [(100, 1), (1000, 1000), (5000, 3000)] {
+        let samples = ais(count, Some(limit), 1.0).expect("particles");
+        let pool = samples.pool.as_ref().expect("a pool");
+        let of_pool = pool.density_evaluations + pool.score_evaluations;
+        let besides = samples.density_evaluations + samples.score_evaluations - of_pool;
+        let first = 375 * 2 + 3 * count as u64 / 4;
+        assert!(
+            of_pool <= limit + first && besides <= count as u64 + 96,
+            "{of_pool} {besides}"
+        );
+    }
 }
 
 #[test]
