@@ -31,8 +31,12 @@ impl Cholesky {
     }
 
     /// A⁻¹ b.
+    ///
+    /// # Panics
+    /// Where b has not as many numbers as A has rows.
     pub fn solve(&self, right: &[f64]) -> Vec<f64> {
         let size = self.factor.nrows();
+        assert_eq!(right.len(), size, "numbers on the right-hand side, and rows");
         let mut solution = Mat::from_fn(size, 1, |i, _| right[i]);
         let mut scratch = MemBuffer::new(solve::solve_in_place_scratch::<f64>(size, 1, Par::Seq));
         let stack = MemStack::new(&mut scratch);

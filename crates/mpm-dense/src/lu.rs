@@ -3,7 +3,7 @@ use faer::linalg::solvers::Solve;
 use crate::DenseMatrix;
 
 impl DenseMatrix {
-    /// A⁻¹ by elimination with row exchanges; entries that are not finite where A is singular.
+    /// A⁻¹ by elimination with row exchanges. Where A is singular entries are not finite, or, where rounding has left a pivot that should be zero, huge and without meaning.
     pub fn inverse(&self) -> Self {
         let identity = Self::identity(self.rows());
         Self(self.0.partial_piv_lu().solve(&identity.0))

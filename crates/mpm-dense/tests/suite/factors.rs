@@ -66,6 +66,20 @@ fn an_inverse_is_one_and_a_determinant_that_of_the_factor() {
 }
 
 #[test]
+fn a_matrix_without_entries_has_no_eigenvalues() {
+    let nothing = DenseMatrix::zeros(0, 0);
+    assert!(SymmetricEigen::new(&nothing).is_some_and(|eigen| eigen.values.is_empty()));
+    assert!(SingularValues::new(&nothing).is_some_and(|found| found.values.is_empty()));
+    assert!(Cholesky::new(&nothing).is_some_and(|factor| factor.solve(&[]).is_empty()));
+}
+
+#[test]
+#[should_panic(expected = "right-hand side")]
+fn a_right_hand_side_of_another_size_is_a_mistake() {
+    Cholesky::new(&DenseMatrix::identity(2)).map(|factor| factor.solve(&[3.0, 3.0, 5.0]));
+}
+
+#[test]
 fn what_is_not_finite_has_no_factors() {
     let matrix = DenseMatrix::from_fn(3, 3, |_, _| f64::NAN);
     assert!(Cholesky::new(&matrix).is_none() && SymmetricEigen::new(&matrix).is_none());
