@@ -38,8 +38,15 @@ impl<const D: usize> Frame<D> {
     /// The frame of the mean and the covariance of points with weights that sum to one (`None`: equal ones).
     ///
     /// # Errors
-    /// As [`new`](Self::new); also where the points lie in a plane.
+    /// As [`new`](Self::new), also where the points lie in a plane; [`TargetError::Length`] unless every point has a weight.
     pub fn of_points(points: &[[f64; D]], weights: Option<&[f64]>) -> Result<Self, TargetError> {
+        if let Some(weights) = weights.filter(|weights| weights.len() != points.len()) {
+            return Err(TargetError::Length {
+                field: "the weights of the points".to_owned(),
+                expected: points.len(),
+                found: weights.len(),
+            });
+        }
         let weight = |p: usize| weights.map_or(1.0 / points.len() as f64, |weights| weights[p]);
         let mut mean = [0.0; D];
         for (p, x) in points.iter().enumerate() {

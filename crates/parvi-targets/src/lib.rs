@@ -38,6 +38,7 @@ mod sobol;
 mod special;
 mod student_t;
 mod sum_target;
+mod synthetic;
 mod target;
 mod weighted_draws;
 

@@ -125,6 +125,12 @@ fn bad_frames_are_refused() {
         Frame::from_scales([f64::INFINITY], [1.0]),
         Err(TargetError::NotFinite { .. })
     ));
+    for weights in [&[0.5][..], &[0.25; 4]] {
+        assert!(matches!(
+            Frame::of_points(&[[0.0], [1.0], [2.0]], Some(weights)),
+            Err(TargetError::Length { expected: 3, .. })
+        ));
+    }
     // Scales from 1e-150 to 1e150 are no obstacle.
     assert!(Frame::new([0.0; 2], Matrix([[1e-300, 0.0], [0.0, 1e300]])).is_ok());
 }
