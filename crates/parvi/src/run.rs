@@ -70,6 +70,9 @@ impl Default for Start {
 #[derive(Clone, Debug, Default)]
 pub struct Samples<const D: usize> {
     /// Particle positions in the target's own coordinates, in the order in which the particles were started.
+    ///
+    /// Those of a target with [`Constraints`](crate::Constraints) are the unconstrained ones, here and in all that is said below, certificate and pool included. `constraints.constrain_all(&positions)` has
+    /// the particles, and `pool.expectation(|y| constraints.constrain(y)[0])` the expectation of a parameter with its error.
     pub positions: Vec<[f64; D]>,
     /// Weights that sum to one; `None` when all are equal.
     pub weights: Option<Vec<f64>>,
