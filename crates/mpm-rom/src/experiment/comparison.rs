@@ -41,8 +41,8 @@ impl<const D: usize> Comparison<D> {
         pairs.map(|(x, expected)| vector::distance(x, expected)).collect()
     }
 
-    /// The error of all frames but the first, in per cent.
-    pub fn percent(&self) -> f64 {
-        self.total.percent().unwrap_or(0.0)
+    /// The error of all frames but the first, in per cent; `None` where there is none.
+    pub fn percent(&self) -> Option<f64> {
+        self.total.percent()
     }
 }

@@ -186,6 +186,11 @@ impl ReducedRuns {
     }
 }
 
+/// The first place whose entry stands in the list before.
+fn repeated<T: PartialEq>(list: &[T]) -> Option<usize> {
+    (0..list.len()).find(|&place| list[..place].contains(&list[place]))
+}
+
 impl Experiment {
     /// The file of the scene that is trained on.
     pub fn scene_file(&self) -> PathBuf {
@@ -221,15 +226,20 @@ impl Experiment {
         }
         let run = &self.run;
         let lists = [
-            ("run.manifold", run.manifold.len()),
-            ("run.samples", run.samples.len()),
-            ("run.choice", run.choice.len()),
-            ("run.quadrature", run.quadrature.len()),
-            ("run.update", run.update.len()),
-            ("run.step_factor", run.step_factor.len()),
+            ("run.manifold", run.manifold.len(), repeated(&run.manifold)),
+            ("run.samples", run.samples.len(), repeated(&run.samples)),
+            ("run.choice", run.choice.len(), repeated(&run.choice)),
+            ("run.quadrature", run.quadrature.len(), repeated(&run.quadrature)),
+            ("run.update", run.update.len(), repeated(&run.update)),
+            ("run.step_factor", run.step_factor.len(), repeated(&run.step_factor)),
+            ("cases.test", self.cases.test.len(), repeated(&self.cases.test)),
         ];
-        for (field, length) in lists {
+        for (field, length, repeated) in lists {
             self.require(length > 0, field, "at least one is needed")?;
+            if let Some(place) = repeated {
+                let field = format!("{field}.{place}");
+                self.require(false, &field, "stands in the list before: its runs would count twice")?;
+            }
         }
         self.require(self.recorded_points != Some(0), "recorded_points", "0: at least 1")?;
         self.require(self.starts > 0, "starts", "0: at least 1")?;

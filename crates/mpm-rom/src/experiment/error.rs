@@ -3,6 +3,7 @@ use std::path::Path;
 use mpm_document::DocumentError;
 use mpm_scenes::{SceneError, SimulationError};
 
+use super::Experiment;
 use crate::deformation_map::DeformationMapError;
 use crate::encoder::EncoderError;
 use crate::full_order::FullOrderError;
@@ -37,6 +38,16 @@ pub enum ExperimentError {
         field: String,
         /// What is wrong.
         message: String,
+    },
+    /// A full-order run of a test case.
+    #[error("the full-order run of test case {case} ({values}): {source}")]
+    TestCase {
+        /// Its number, counted from 0.
+        case: usize,
+        /// Its parameters and their values.
+        values: String,
+        /// What went wrong.
+        source: FullOrderError,
     },
     /// Nothing has been trained there.
     #[error("{model} is missing: `parvi rom train` with this experiment and directory makes it")]
@@ -109,6 +120,17 @@ pub enum ExperimentError {
 }
 
 impl ExperimentError {
+    /// A full-order run of a test case went wrong.
+    pub(super) fn of_test_case(experiment: &Experiment, case: usize, source: FullOrderError) -> Self {
+        let values = experiment.parameters.iter().zip(&experiment.cases.test[case]);
+        let values: Vec<String> = values.map(|(name, value)| format!("{name} = {value:?}")).collect();
+        Self::TestCase {
+            case,
+            values: values.join(", "),
+            source,
+        }
+    }
+
     pub(super) fn file(operation: &'static str, file: &Path, source: std::io::Error) -> Self {
         Self::File {
             operation,

@@ -95,7 +95,9 @@ pub fn run<const D: usize>(
         }
         let recording = Recording::<D>::of(&scene, &experiment.parameters, experiment.recorded_points)?;
         let recording = recording.about(&trained_on.centroid);
-        let (frames_of_run, effort) = recording.run(&scene)?;
+        let (frames_of_run, effort) = recording
+            .run(&scene)
+            .map_err(|error| ExperimentError::of_test_case(experiment, case, error))?;
         let run = Run {
             parameters: values.clone(),
             frames: frames_of_run,
@@ -113,7 +115,7 @@ pub fn run<const D: usize>(
             None => None,
             Some(finer) => {
                 let coarse = reduced_body(experiment, &scene, &trained_on.centroid, 1)?;
-                Some(Finer::run(experiment, finer, &changed, &coarse, &snapshots)?)
+                Some(Finer::run(experiment, finer, (case, &changed), &coarse, &snapshots)?)
             }
         };
         let full = Full {

@@ -27,8 +27,8 @@ pub struct ReducedRow {
     pub update: &'static str,
     /// Δt over that of the full-order run.
     pub step_factor: u64,
-    /// The position error over all frames reached, in per cent.
-    pub error: f64,
+    /// The position error over all frames reached, in per cent; `None` where none was, but for the first.
+    pub error: Option<f64>,
     /// What encoder and network lose of the full-order frames without any dynamics, in per cent; `None` without an encoder.
     pub reconstruction_error: Option<f64>,
     /// At the points of the scene with more points, where there is one.
@@ -103,13 +103,13 @@ fn columns<'a>(parameters: &'a [String], row: &ReducedRow) -> Vec<(&'a str, Stri
         ("quadrature", row.quadrature.to_owned()),
         ("update", row.update.to_owned()),
         ("step_factor", row.step_factor.to_string()),
-        ("position_error_percent", exact(row.error)),
+        ("position_error_percent", some(row.error)),
         ("reconstruction_error_percent", some(row.reconstruction_error)),
         (
             "super_resolution_points",
             fine.map(|fine| fine.points.to_string()).unwrap_or_default(),
         ),
-        ("super_resolution_error_percent", some(fine.map(|fine| fine.error))),
+        ("super_resolution_error_percent", some(fine.and_then(|fine| fine.error))),
         ("tracer_error_percent", some(fine.map(|fine| fine.tracer_error))),
         ("latent_return", exact(row.latent_return)),
         ("simulated_seconds", exact(row.simulated)),

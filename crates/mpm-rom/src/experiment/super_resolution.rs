@@ -19,18 +19,18 @@ pub(super) struct Finer<const D: usize> {
 pub struct SuperResolved {
     /// Points of the scene with more points.
     pub points: usize,
-    /// The position error at these points beside their full-order run, in per cent.
-    pub error: f64,
+    /// The position error at these points beside their full-order run, in per cent; `None` where no frame was reached but the first.
+    pub error: Option<f64>,
     /// That of tracers on the full-order run of the scene that is reduced, in per cent.
     pub tracer_error: f64,
 }
 
 impl<const D: usize> Finer<D> {
-    /// Runs a case of the scene of `document` in full, and its points as tracers on a run of `coarse`, which has the frames of `like`.
+    /// Runs a test case with its number on the scene of `document` in full, and its points as tracers on a run of `coarse`, which has the frames of `like`.
     pub fn run(
         experiment: &Experiment,
         document: &SceneDocument,
-        case: &Case,
+        (number, case): (usize, &Case),
         coarse: &ReducedBody<D>,
         like: &Snapshots<D>,
     ) -> Result<Self, ExperimentError> {
@@ -44,7 +44,8 @@ impl<const D: usize> Finer<D> {
                 "a frame every {found} s, where the scene that is run has one every {expected} s"
             ));
         }
-        let (frames, _) = recording.run(&scene)?;
+        let refused = |error| ExperimentError::of_test_case(experiment, number, error);
+        let (frames, _) = recording.run(&scene).map_err(refused)?;
         let expected: usize = like.runs().iter().map(|run| run.frames.len()).sum();
         if frames.len() != expected {
             let found = frames.len();
@@ -53,7 +54,7 @@ impl<const D: usize> Finer<D> {
         let mut error = PositionError::default();
         let mut traced = TracedRun::new(coarse, &recording.body.reference)?;
         for frame in frames.iter().skip(1) {
-            traced.advance_frame()?;
+            traced.advance_frame().map_err(refused)?;
             error.add(&traced.tracers(), &frame.positions);
         }
         let run = Run {

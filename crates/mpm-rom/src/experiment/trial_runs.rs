@@ -86,8 +86,9 @@ impl<const D: usize> Sampling<'_, D> {
             if !(self.go_on)() {
                 return Err(ExperimentError::Stopped);
             }
-            errors.push((case, row.error));
-            mean_square += row.error.powi(2) / trials.0.len() as f64;
+            let error = row.error.unwrap_or(0.0);
+            errors.push((case, error));
+            mean_square += error.powi(2) / trials.0.len() as f64;
             let promising = row.outcome == "finished" && mean_square.sqrt() <= least;
             if !promising {
                 return Ok(f64::INFINITY);

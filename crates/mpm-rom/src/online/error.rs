@@ -39,7 +39,7 @@ pub enum OnlineError {
     },
     /// Fewer sample points than the coordinates and the kinematic regions need.
     #[error(
-        "{found} sample points, at least {needed} are needed: r / D = {coordinates} / {dimension}, 5 on each kinematic region"
+        "{found} sample points, at least {needed} are needed: 5 on each kinematic region, and r / D = {coordinates} / {dimension}"
     )]
     TooFewSamples {
         /// |𝒫|.

@@ -40,7 +40,7 @@ impl SampleChoice {
     /// The numbers of the sample points among material points with these reference positions, ascending.
     ///
     /// # Errors
-    /// [`OnlineError::TooFewSamples`] for fewer than max(⌈r / D⌉, 1), or too few for the regions; [`OnlineError::TooManySamples`]; for given numbers [`OnlineError::Samples`] and
+    /// [`OnlineError::TooFewSamples`] for fewer than ⌈r / D⌉ beside those of the regions, whose motion is given, or none; [`OnlineError::TooManySamples`]; for given numbers [`OnlineError::Samples`] and
     /// [`OnlineError::TooFewOnRegion`].
     pub fn choose<const D: usize>(
         &self,
@@ -123,7 +123,7 @@ pub(super) fn groups<const D: usize>(
         }
     }
     let held: usize = groups.iter().map(|(_, share)| share).sum();
-    let needed = coordinates.div_ceil(D).max(held).max(1);
+    let needed = (held + coordinates.div_ceil(D)).max(1);
     if count < needed {
         return Err(OnlineError::TooFewSamples {
             found: count,

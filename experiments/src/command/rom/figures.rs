@@ -30,6 +30,11 @@ pub fn groups<'a>(rows: &Rows<'a>) -> Vec<Rows<'a>> {
     rows.by_name(way).into_iter().map(|(_, group)| group).collect()
 }
 
+/// Runs that reached the end of their time.
+pub fn finished<'a>(rows: &Rows<'a>) -> Rows<'a> {
+    rows.with("outcome", "finished")
+}
+
 /// The loss and its terms against the epoch.
 pub fn losses(directory: &Path, title: &str, history: &[EpochReport]) -> Result<(), CommandError> {
     let terms: [(&str, Value); 4] = [
@@ -93,26 +98,35 @@ fn parts(row: &Row) -> [String; 4] {
     ]
 }
 
-/// Position error and wall time against the number of sample points.
+/// Position error and wall time of the runs that finished against the number of sample points; without any there is no figure, nor one of earlier runs.
 pub fn errors(directory: &Path, title: &str, rows: &Rows<'_>) -> Result<(), CommandError> {
     let figures = [
         ("errors.svg", "position error (%)", ERROR),
         ("speed_up.svg", "full-order over reduced wall time", GAIN),
     ];
+    let ended = rows.len() - finished(rows).len();
+    let note = format!("Runs that ended before their time and have no part in the means: {ended}.");
     for (file, y_label, column) in figures {
+        let path = directory.join(file);
+        if ended == rows.len() {
+            // There may be none.
+            let _ = std::fs::remove_file(path);
+            continue;
+        }
         let x_label = "sample points (mean and range over the test cases)";
         let plot = MultiplesPlot {
             title: title.to_owned(),
             y: Axis::new(y_label, AxisKind::Automatic),
             panels: vec![MultiplesPanel::new("", series(rows, column))],
+            notes: (ended > 0).then(|| note.clone()).into_iter().collect(),
             ..MultiplesPlot::logarithmic(x_label, "")
         };
-        AtomicFile::write(directory.join(file), multiples(&plot)?)?;
+        AtomicFile::write(path, multiples(&plot)?)?;
     }
     Ok(())
 }
 
-/// A line for all runs that differ in nothing but the number of their points. All points are a choice of their own, and belong to the line of every choice.
+/// A line for all runs that differ in nothing but the number of their points, with a gap where none of them finished. All points are a choice of their own, and belong to the line of every choice.
 fn series(rows: &Rows<'_>, column: &str) -> Vec<LineSeries> {
     // What all lines share is not in their labels.
     let all_parts: Vec<[String; 4]> = rows.iter().map(parts).collect();
@@ -133,7 +147,7 @@ fn series(rows: &Rows<'_>, column: &str) -> Vec<LineSeries> {
         }
         let samples = group.first().and_then(|row| row.number("samples"));
         for (_, _, line) in lines.iter_mut().filter(|line| is_of(line)) {
-            line.push_mean(samples.unwrap_or(f64::NAN), &group.values(column));
+            line.push_mean(samples.unwrap_or(f64::NAN), &finished(&group).values(column));
         }
     }
     lines.into_iter().map(|(_, _, line)| line).collect()
@@ -146,12 +160,31 @@ mod tests {
     fn row(quadrature: &str, choice: &str, samples: usize, error: f64) -> Row {
         let row = Row::of("0").with("manifold", "network").with("quadrature", quadrature);
         let row = row.with("choice", choice).with("samples", samples);
-        row.with("update", "position-velocity").with(ERROR, error)
+        row.with("update", "position-velocity")
+            .with("outcome", "finished")
+            .with(ERROR, error)
     }
 
     fn lines(rows: &[Row]) -> Vec<(String, Vec<f64>, Vec<f64>)> {
         let lines = series(&rows.iter().collect(), ERROR).into_iter();
         lines.map(|line| (line.label, line.x, line.y)).collect()
+    }
+
+    #[test]
+    fn runs_that_ended_before_their_time_have_no_part_in_the_means() {
+        let ended = |row: Row| row.with("outcome", "J < 0").with(ERROR, None::<f64>);
+        let rows = [
+            row("eulerian", "greedy", 10, 3.0),
+            ended(row("eulerian", "greedy", 10, 0.0)),
+            ended(row("eulerian", "greedy", 20, 0.0)),
+        ];
+        let lines = lines(&rows);
+        assert_eq!((lines[0].1.as_slice(), lines[0].2[0]), ([10.0, 20.0].as_slice(), 3.0));
+        assert!(lines[0].2[1].is_nan());
+        let root = tempfile::tempdir().unwrap();
+        std::fs::write(root.path().join("errors.svg"), "of earlier runs").unwrap();
+        errors(root.path(), "All ended", &rows[1..].iter().collect()).unwrap();
+        assert!(!root.path().join("errors.svg").exists());
     }
 
     #[test]

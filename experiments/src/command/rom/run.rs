@@ -49,17 +49,21 @@ fn made(row: &Row) -> String {
     pairs.join(" ")
 }
 
-/// The means of the runs that were made as the first one.
+/// The means over those of the runs, which were made as the first one, that finished; only how many did where none has.
 fn line(first: &Row, here: &Rows<'_>) -> String {
-    let mut text = format!(
-        "{} runs={} mean_error_percent={:.4} largest_error_percent={:.4} speed_up={:.2} real_time_factor={:.3}",
-        made(first),
-        here.len(),
+    let (made, all) = (made(first), here.len());
+    let here = figures::finished(here);
+    let mut text = format!("{made} finished={}/{all}", here.len());
+    if here.is_empty() {
+        return text + "\n";
+    }
+    text.push_str(&format!(
+        " mean_error_percent={:.4} largest_error_percent={:.4} speed_up={:.2} real_time_factor={:.3}",
         here.mean(figures::ERROR),
         here.largest(figures::ERROR).unwrap_or(f64::NAN),
         here.mean("full_seconds") / here.mean("seconds"),
         here.mean("simulated_seconds") / here.mean("seconds"),
-    );
+    ));
     if first.number("super_resolution_points").is_some() {
         text.push_str(&format!(
             " super_resolution_mean_error_percent={:.4} tracer_mean_error_percent={:.4}",

@@ -24,8 +24,8 @@ fn bad_input_is_an_error_with_its_name() {
             "2 sample points, at least 3 are needed",
         ),
         (
-            refused(&held, drawn(4), LAGRANGIAN),
-            "4 sample points, at least 5 are needed",
+            refused(&held, drawn(7), LAGRANGIAN),
+            "7 sample points, at least 8 are needed",
         ),
         (
             refused(&held, SampleChoice::Given(four_held), LAGRANGIAN),

@@ -93,7 +93,10 @@ fn of_several_starts_the_one_with_the_best_training_runs_is_kept() {
     let rows = run::<2>(&alone, &other, &mut |_, _| true).expect("run");
     let of_first =
         |row: &&ReducedRow| (row.manifold, row.chosen, row.update) == ("network", "greedy", "position-velocity");
-    let squares = rows.iter().filter(of_first).map(|row| row.error.powi(2));
+    let squares = rows
+        .iter()
+        .filter(of_first)
+        .map(|row| row.error.expect("frames").powi(2));
     let together = (squares.sum::<f64>() / 2.0).sqrt();
     assert!((errors[0] / together - 1.0).abs() < 1e-9, "{errors:?} {together}");
     assert_eq!(

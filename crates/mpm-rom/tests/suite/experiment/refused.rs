@@ -76,7 +76,8 @@ fn a_key_that_does_not_fit_the_scene_is_named_with_the_file_that_asks_for_it() {
 fn numbers_of_sample_points_and_scenes_that_are_not_there_are_refused_before_any_run() {
     let (directory, file) = files();
     let cases = [
-        (("[20,", "[0,"), "run.samples: 0 sample points, at least 5 are needed"),
+        (("[20,", "[0,"), "run.samples: 0 sample points, at least 6 are needed"),
+        (("[20,", "[5,"), "run.samples: 5 sample points, at least 6 are needed"),
         (
             ("[20,", "[20, 65,"),
             "run.samples: 65 sample points of 64 material points",
