@@ -120,6 +120,14 @@ pub enum CommandError {
         /// The directory.
         directory: String,
     },
+    /// A directory in which a reduced-order model is trained, without the model yet.
+    #[error(
+        "{directory} holds a training that is not finished: the same `parvi rom train` goes on with it, and reports are of reduced runs"
+    )]
+    Untrained {
+        /// The directory.
+        directory: String,
+    },
     /// A study's own file does not hold what a study writes.
     #[error("{file}: {message}")]
     ResultsUnreadable {

@@ -23,7 +23,7 @@ impl FileKind {
     /// # Errors
     /// [`CommandError::OtherKind`].
     pub fn check(self, file: &Path) -> Result<(), CommandError> {
-        match std::fs::read_to_string(file).ok().and_then(|text| Self::of(&text)) {
+        match Self::of_file(file) {
             Some(found) if found != self => {
                 let ((found, command), (expected, _)) = (found.told(), self.told());
                 Err(CommandError::OtherKind {
@@ -35,6 +35,11 @@ impl FileKind {
             }
             _ => Ok(()),
         }
+    }
+
+    /// The kind of a file, where it can be read and told.
+    pub fn of_file(file: &Path) -> Option<Self> {
+        std::fs::read_to_string(file).ok().and_then(|text| Self::of(&text))
     }
 
     /// By the keys that one kind has to have and the others do not know.

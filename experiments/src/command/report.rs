@@ -4,9 +4,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::file_kind::FileKind;
 use super::{rom, simulate};
 use crate::CommandError;
-use crate::study;
+use crate::study::{self, CONFIGURATION};
 
 /// The file that tells the directory of a reduced-order model.
 const MODEL: &str = "model.safetensors";
@@ -28,6 +29,11 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     std::fs::read_dir(directory).map_err(|source| CommandError::file("read", directory, source))?;
     if directory.join(MODEL).exists() {
         return rom::report(directory);
+    }
+    if FileKind::of_file(&directory.join(CONFIGURATION)) == Some(FileKind::Experiment) {
+        return Err(CommandError::Untrained {
+            directory: directory.display().to_string(),
+        });
     }
     if directory.join(SCENE).exists() {
         return simulate::report(directory);

@@ -48,6 +48,8 @@ use configuration::Configuration;
 use definition::Study;
 use directory::StudyDirectory;
 
+pub use directory::CONFIGURATION;
+
 use crate::CommandError;
 
 /// What can be done with a configuration of one kind.

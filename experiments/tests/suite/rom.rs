@@ -69,6 +69,36 @@ fn a_model_is_trained_and_run() {
         drawn
     );
     assert!(figures[2].exists());
+
+    // A run that failed has no error, and no part in figures and means.
+    let table = root.path().join("out/results.csv");
+    let rows = std::fs::read_to_string(&table).unwrap();
+    let error = rows.lines().nth(1).and_then(|row| row.split(',').nth(10)).unwrap();
+    std::fs::write(
+        &table,
+        rows.replacen("\"finished\"", "\"J < 0\"", 1).replacen(error, "", 1),
+    )
+    .unwrap();
+    let report = succeeds(root.path(), "report out");
+    let lines: Vec<String> = stdout(&report).lines().map(str::to_owned).collect();
+    assert!(
+        lines[0].ends_with(" finished=0/1") && lines[1].contains(" finished=1/1 mean_error_percent="),
+        "{lines:?}"
+    );
+    let figure = std::fs::read_to_string(&figures[1]).unwrap();
+    assert!(figure.contains("no part in the means: 1."), "{figure}");
+}
+
+#[test]
+fn a_training_that_is_not_finished_has_no_report() {
+    let root = tempfile::tempdir().unwrap();
+    std::fs::create_dir(root.path().join("out")).unwrap();
+    std::fs::write(root.path().join("out/config.toml"), EXPERIMENT).unwrap();
+    std::fs::write(root.path().join("out/scene.toml"), SCENE).unwrap();
+    assert_refused(
+        &parvi(root.path(), "report out"),
+        &["out holds a training that is not finished"],
+    );
 }
 
 #[test]
