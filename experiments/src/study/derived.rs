@@ -18,10 +18,13 @@ pub const PER_STEP: [&str; 3] = [
     "wall_seconds_per_step_most",
 ];
 
+/// Standard errors within which two numbers may be the same.
+const REACH: f64 = 3.0;
+
 /// A name and the number, where the row has what it takes, earlier ones included.
 type Derived = (&'static str, fn(&Row) -> Option<f64>);
 
-const DERIVED: [Derived; 25] = [
+const DERIVED: [Derived; 27] = [
     // The energy distance.
     ("energy_above_zero", |row| {
         row.number(ENERGY).filter(|energy| *energy > 0.0)
@@ -61,6 +64,16 @@ const DERIVED: [Derived; 25] = [
     // Of all moments.
     ("larger_error", |row| {
         Some(row.number("mean_error")?.max(row.number("deviation_error")?))
+    }),
+    // What remains of them when the sample that stands for the target is off by three standard errors of its own.
+    ("certain_error", |row| {
+        let certain = |error: &str, of: &str| Some(row.number(error)? - REACH * row.number(of).unwrap_or(0.0));
+        let mean = certain("mean_error", "reference_mean_error")?;
+        Some(mean.max(certain("deviation_error", "reference_deviation_error")?))
+    }),
+    ("certain_ratio", |row| {
+        let reference = ratio(row, "particles", "reference_size").unwrap_or(0.0);
+        Some(row.number("energy_ratio")? - REACH * reference)
     }),
     // log Z beside its known value, also in standard errors of the method's own.
     ("evidence_deviation", |row| {
@@ -110,5 +123,17 @@ mod tests {
         assert_eq!(completed.number("evaluations"), Some(1.0));
         assert_eq!(super::completed(&row).number("evaluations"), Some(8.0));
         assert_eq!(completed.number("evidence_ratio"), None);
+        assert_eq!(completed.number("certain_ratio"), Some(0.5));
+    }
+
+    #[test]
+    fn what_a_small_reference_sample_may_be_off_is_not_held_against_a_run() {
+        let row = Row::of("a").with("mean_error", 0.5).with("deviation_error", 0.2);
+        let row = row.with("particles", 100_usize).with("energy_ratio", 4.0);
+        assert_eq!(completed(&row).number("certain_error"), Some(0.5));
+        let row = row.with("reference_size", 50.0).with("reference_mean_error", 0.125);
+        let completed = completed(&row.with("reference_deviation_error", 0.01));
+        assert_eq!(completed.number("certain_error"), Some(0.2 - 0.03));
+        assert_eq!(completed.number("certain_ratio"), Some(-2.0));
     }
 }

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-pub use parvi_metrics::yardstick::{Coordinates, Errors, YardstickOptions};
+pub use parvi_metrics::yardstick::{Coordinates, Errors, ReferenceError, YardstickOptions};
 use parvi_metrics::yardstick::{TargetYardstick, YardstickError};
 
 use crate::CommandError;
@@ -28,6 +28,9 @@ pub trait Yardstick: Send {
 
     /// The median sliced Wasserstein distance of sets of independent draws.
     fn sliced_level(&self, sets: IndependentSets, seed: u64) -> Result<f64, CommandError>;
+
+    /// How well the sample is known that stands for the target, where one does.
+    fn reference_error(&self) -> Option<ReferenceError>;
 
     /// Whether the target has exact draws.
     fn has_exact_draws(&self) -> bool;
@@ -94,6 +97,10 @@ impl<const D: usize> Yardstick for TargetYardstick<D> {
     fn sliced_level(&self, sets: IndependentSets, seed: u64) -> Result<f64, CommandError> {
         let levels = self.sliced_of_draws(sets.count, sets.size, seed)?;
         Ok(summarize(&levels)?.median)
+    }
+
+    fn reference_error(&self) -> Option<ReferenceError> {
+        TargetYardstick::reference_error(self)
     }
 
     fn has_exact_draws(&self) -> bool {

@@ -46,6 +46,8 @@ fn catalogue() {
             "## From N(3, 0.5²)",
             "gaussian-d2-r0.9",
             "## Claims",
+            "## References",
+            "| wells-small",
         ],
     );
     let claimed: usize = value(&output, "claimed").unwrap().parse().unwrap();

@@ -8,6 +8,7 @@
 //! where it has none those of an importance sample. Their own term is the V-statistic, O(N²) once per target.
 
 mod reference_energy;
+mod reference_error;
 mod representation;
 mod target_yardstick;
 
@@ -15,6 +16,7 @@ use parvi_targets::TargetError;
 
 use crate::MetricError;
 
+pub use reference_error::ReferenceError;
 pub use target_yardstick::TargetYardstick;
 
 /// How a target is represented and particles are measured.

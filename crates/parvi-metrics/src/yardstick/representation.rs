@@ -1,13 +1,13 @@
 //! Points that stand for a target.
 
 use parvi_targets::{
-    BoxedTarget, ImportanceSample, Moments, ReferenceOptions, SobolSequence, TargetError, UnitCubeTransport,
-    WeightedDraws,
+    BoxedTarget, ImportanceSample, Moments, ReferenceMoments, ReferenceOptions, SobolSequence, TargetError,
+    UnitCubeTransport, WeightedDraws,
 };
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
-use super::{Coordinates, YardstickOptions};
+use super::{Coordinates, ReferenceError, YardstickOptions};
 
 /// Points that stand for a target in its own coordinates.
 pub struct Representation<const D: usize> {
@@ -16,6 +16,8 @@ pub struct Representation<const D: usize> {
     pub weights: Option<Vec<f64>>,
     pub moments: Moments<D>,
     pub sample: Option<WeightedDraws<D>>,
+    /// How well the sample is known, where there is one.
+    pub error: Option<ReferenceError>,
 }
 
 /// As [`Coordinates::Own`] says.
@@ -29,6 +31,7 @@ pub fn own_representation<const D: usize>(
             weights: None,
             moments,
             sample: None,
+            error: None,
         });
     }
     let of_sample = ReferenceOptions {
@@ -36,13 +39,14 @@ pub fn own_representation<const D: usize>(
         ..ReferenceOptions::default()
     };
     let sample = ImportanceSample::new(target.as_ref(), &of_sample)?;
-    let moments = sample.moments().moments;
+    let known = sample.moments();
     let sample = sample.into_draws();
     Ok(Representation {
         points: sample.resampled(options.points, options.seed),
         weights: None,
-        moments,
+        moments: known.moments,
         sample: Some(sample),
+        error: Some(ReferenceError::of(&known)),
     })
 }
 
@@ -76,6 +80,7 @@ pub fn standardised_representation<const D: usize>(
             weights: None,
             moments,
             sample: None,
+            error: None,
         });
     }
     let of_sample = ReferenceOptions {
@@ -83,12 +88,23 @@ pub fn standardised_representation<const D: usize>(
         seed: options.seed,
         ..ReferenceOptions::default()
     };
-    let sample = ImportanceSample::new(target.as_ref(), &of_sample)?.into_draws();
+    let sample = ImportanceSample::new(target.as_ref(), &of_sample)?;
+    let known = match target.moments() {
+        Some(moments) => ReferenceMoments {
+            moments,
+            mean_error: [0.0; D],
+            standard_deviation_error: [0.0; D],
+            effective_sample_size: sample.draws().effective_sample_size(),
+        },
+        None => sample.moments(),
+    };
+    let sample = sample.into_draws();
     Ok(Representation {
         points: sample.points.clone(),
         weights: Some(sample.weights.clone()),
-        moments: target.moments().unwrap_or_else(|| sample.moments()),
+        moments: known.moments,
         sample: Some(sample),
+        error: Some(ReferenceError::of(&known)),
     })
 }
 

@@ -6,7 +6,7 @@ use rand::rngs::ChaCha8Rng;
 
 use super::reference_energy::ReferenceEnergy;
 use super::representation::{Representation, independent, own_representation, standardised_representation};
-use super::{Coordinates, Errors, YardstickError, YardstickOptions};
+use super::{Coordinates, Errors, ReferenceError, YardstickError, YardstickOptions};
 use crate::{Cloud, Directions, GaussianEnergy, MetricError, ModeMasses, MomentError, SlicedReference, Standardiser};
 
 /// A target, the points that stand for it and the coordinates in which particles are compared with them.
@@ -17,6 +17,7 @@ pub struct TargetYardstick<const D: usize> {
     coordinates: Option<Standardiser<D>>,
     /// The importance sample of a target without exact draws.
     sample: Option<WeightedDraws<D>>,
+    error: Option<ReferenceError>,
     energy: ReferenceEnergy<D>,
     sliced: SlicedReference<D>,
 }
@@ -37,6 +38,7 @@ impl<const D: usize> TargetYardstick<D> {
             weights,
             moments,
             sample,
+            error,
         } = match options.coordinates {
             Coordinates::Own => own_representation(&target, options)?,
             Coordinates::Scaled | Coordinates::Standardised => standardised_representation(&target, options)?,
@@ -64,6 +66,7 @@ impl<const D: usize> TargetYardstick<D> {
             moments,
             coordinates,
             sample,
+            error,
             energy,
             sliced,
         })
@@ -72,6 +75,11 @@ impl<const D: usize> TargetYardstick<D> {
     /// E‖Y − Y'‖ of the target: divided by M, the expected squared energy distance of M independent draws.
     pub fn mean_distance(&self) -> f64 {
         self.energy.mean_distance()
+    }
+
+    /// How well the sample is known that stands for the target; `None` where its own map or moments do.
+    pub fn reference_error(&self) -> Option<ReferenceError> {
+        self.error
     }
 
     /// Whether the target has exact draws.

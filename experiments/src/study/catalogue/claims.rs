@@ -5,9 +5,9 @@ use crate::study::prelude::*;
 /// The claim holds where no mean is farther off than this, in standard deviations of the target, and no standard deviation by more than this part of it.
 const LARGEST_ERROR: f64 = 0.1;
 
-/// Claims beyond the bounds; particles that could not be measured are beyond any bound.
+/// Claims beyond the bounds by more than the reference may be off; particles that could not be measured are beyond any bound.
 pub fn false_claims<'a>(runs: &Rows<'a>) -> Rows<'a> {
-    runs.false_claims("larger_error", LARGEST_ERROR)
+    runs.false_claims("certain_error", LARGEST_ERROR)
 }
 
 /// How often the runs of a method claim to have converged, what that is worth, and every claim that is false.

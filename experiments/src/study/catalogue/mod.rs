@@ -69,7 +69,7 @@ impl Study for Catalogue {
     const KIND: &'static str = "catalogue";
     const COLUMNS: &'static str = "case status reason outcome target dim method start_mean start_sd particles seed energy_distance_squared \
          energy_level sliced_wasserstein sliced_level mean_error deviation_error mass_error residual steps score_evaluations \
-         density_evaluations wall_seconds";
+         density_evaluations wall_seconds reference_size reference_mean_error reference_deviation_error";
     const REPORT: Report<Self> = report::report;
 
     /// The cases, target by target, so that a target's reference is made once.
@@ -117,6 +117,11 @@ impl Study for Catalogue {
         let yardstick = tools.yardstick;
         let (yardstick, level) = yardstick.levelled(&case.work.target, &self.yardstick(), Some(sets))?;
         row.set("sliced_level", level);
+        if let Some(known) = yardstick.reference_error() {
+            row.set("reference_size", known.effective_size);
+            row.set("reference_mean_error", known.mean);
+            row.set("reference_deviation_error", known.deviation);
+        }
         case.work.run(row, yardstick, tools.observer)
     }
 }

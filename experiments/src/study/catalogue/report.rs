@@ -24,6 +24,10 @@ pub fn report(study: &Catalogue, rows: &Rows<'_>, directory: &StudyDirectory) ->
     };
     let starts = [each("start", &study.starts)];
     page.lines_over("Requirements", &starts, Requirement::ALL.map(line));
+    let sampled = rows.having(|row| row.number("reference_size").is_some());
+    if !sampled.is_empty() {
+        page.section("References", &[], sampled.lines("target", sampled.words("target")));
+    }
     for start in &study.starts {
         page.heading(&format!("From {start}"));
         start_table(study, &targets, &start.runs(rows), &mut page);
@@ -44,7 +48,7 @@ pub fn report(study: &Catalogue, rows: &Rows<'_>, directory: &StudyDirectory) ->
 fn told(study: &Catalogue, targets: &[(String, Requirement)], row: &Row) -> Row {
     let asked = targets.iter().find(|(target, _)| target == row.text("target"));
     let asked = asked.map(|(_, asked)| *asked);
-    let is_met = asked.is_some_and(|asked| row.is_within("energy_ratio", asked.bound));
+    let is_met = asked.is_some_and(|asked| row.is_within("certain_ratio", asked.bound));
     let start = study.starts.iter().find(|start| start.is_of(row));
     row.clone()
         .with("class", asked.map(|asked| asked.class))

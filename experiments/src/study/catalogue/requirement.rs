@@ -20,7 +20,7 @@ const fn class(class: &'static str, bound: f64) -> Requirement {
 
 const SMOOTH_LOW: Requirement = class("one mode, light tails, d ≤ 4", 0.3);
 const SMOOTH_HIGH: Requirement = class("one mode, light tails, d ≥ 5", 0.5);
-/// And what may be any of these: random targets and the eggbox.
+/// And what may be any of these: random targets, the eggbox and programs.
 const DIFFICULT: Requirement = class("funnel, Student t, mixtures", 1.0);
 
 impl Requirement {
@@ -32,7 +32,10 @@ impl Requirement {
     /// # Errors
     /// A target that there is not.
     pub fn of(target: &TargetSpecification) -> Result<Self, CommandError> {
-        let difficult = matches!(target.name.as_str(), "funnel" | "student-t" | "random" | "eggbox");
+        let difficult = matches!(
+            target.name.as_str(),
+            "funnel" | "student-t" | "random" | "eggbox" | "program"
+        );
         Ok(if difficult || target_info(&target.name)?.modes > 1 {
             DIFFICULT
         } else if target.dimension()? <= 4 {
@@ -62,5 +65,6 @@ mod tests {
         assert_eq!(bound("mixture-3", Some(6)), 1.0);
         assert_eq!(bound("funnel", Some(2)), 1.0);
         assert_eq!(bound("student-t", Some(1)), 1.0);
+        assert_eq!(bound("program", Some(2)), 1.0);
     }
 }
