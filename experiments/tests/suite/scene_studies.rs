@@ -237,6 +237,12 @@ fn families_that_make_no_sense() {
         [1.0, 0.5] | [1.0, 1.0] | families.axes | two cases
         at-least | at-most | line | at-most
         kind = "order" | kind = "orders" | line | orders | power-law
+        judged = ["cubic"] | judged = ["cubics"] | families.bar.judged | `cubics` is no part
+        at = [1.0] | at = [1.0, 2.0] | families.bar.judgements.1.at | no run has 2 as its x
+        at-most = 0.5 | at-most = nan | families.end.judgements.0.at-most | must be a number
+        factor = 100.0 | factor = nan | families.bar.read | must be numbers
+        kind = "spread", at-most = 0.5 | kind = "bound", reference = 1.0 | families.end.judgements.0.tolerance | is missing
+        judged = ["cubic"] | drawn = [3.0] | families.bar.drawn | no run has 3
         "grid.spacing" = 0.25 | "grid.width" = 0.25 | families.end.read.offsets | grid.width
         "#,
         |line| refused(line[0], line[1], &line[2..]),
@@ -261,6 +267,11 @@ fn numbers_that_the_run_does_not_have() {
             "column = \"upper_x\"",
             "column = \"upper_z\"",
             ["families.end.read.column", "`upper_x`"],
+        ),
+        (
+            "judged = [",
+            "history = [{ column = \"speed\", label = \"v\" }]\njudged = [",
+            ["families.bar.history.column", "no `speed`, but `time`"],
         ),
     ] {
         let study = STUDY.replace(from, to).replace("[1.0, 0.5]", "[1.0]");

@@ -2,7 +2,9 @@
 
 use serde::Deserialize;
 
+use super::power_law::within;
 use super::{MeasuredSeries, Verdict, bound, order, power_law, spread};
+use crate::page::counted;
 
 /// What is asked; read from a table with its `kind`, as in `{ kind = "order", at-least = 1.9 }`.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -64,15 +66,71 @@ impl Judgement {
                 at,
             } => bound::judge(series, (*reference, *tolerance), at),
         };
-        if series.failed > 0 {
+        let failed = series.failed.iter().filter(|&&x| x.is_nan() || self.is_of(x)).count();
+        if failed > 0 {
             if verdicts.is_empty() {
                 verdicts.push(Verdict::of_nothing(series.name()));
             }
             for verdict in &mut verdicts {
                 verdict.pass = false;
-                verdict.reached += &format!("; {} runs ended before their time", series.failed);
+                verdict.reached += &format!("; {} ended before their time", counted(failed, "runs"));
             }
         }
         verdicts
+    }
+
+    /// Whether values at this x are judged.
+    fn is_of(&self, x: f64) -> bool {
+        match self {
+            Self::Bound { at, .. } => at.is_empty() || at.contains(&x),
+            Self::PowerLaw { from, to, .. } => within((*from, *to), x),
+            Self::Order { .. } | Self::Spread { .. } => true,
+        }
+    }
+
+    /// The x that a bound names.
+    pub fn at(&self) -> &[f64] {
+        match self {
+            Self::Bound { at, .. } => at,
+            _ => &[],
+        }
+    }
+
+    /// What is wrong with it: the key, and why. Rows may have limits of their own, which a bound may then leave out.
+    pub fn fault(&self, rows_have_limits: bool) -> Option<(&'static str, String)> {
+        let mut numbers = match self {
+            Self::Order { at_least } => vec![("at-least", Some(*at_least))],
+            Self::Spread { at_most } => vec![("at-most", Some(*at_most))],
+            Self::PowerLaw {
+                exponent,
+                tolerance,
+                from,
+                to,
+            } => vec![
+                ("exponent", Some(*exponent)),
+                ("tolerance", Some(*tolerance)),
+                ("from", *from),
+                ("to", *to),
+            ],
+            Self::Bound {
+                reference, tolerance, ..
+            } => vec![("reference", *reference), ("tolerance", *tolerance)],
+        };
+        numbers.extend(self.at().iter().map(|x| ("at", Some(*x))));
+        let is_nan = |(_, value): &&(&str, Option<f64>)| value.is_some_and(f64::is_nan);
+        if let Some((key, _)) = numbers.iter().find(is_nan) {
+            return Some((*key, "NaN: must be a number".to_owned()));
+        }
+        let Self::Bound {
+            reference, tolerance, ..
+        } = self
+        else {
+            return None;
+        };
+        let missing = [("reference", reference.is_none()), ("tolerance", tolerance.is_none())];
+        let (key, _) = missing
+            .into_iter()
+            .find(|(_, is_missing)| *is_missing && !rows_have_limits)?;
+        Some((key, "is missing: what is read has none of its own".to_owned()))
     }
 }

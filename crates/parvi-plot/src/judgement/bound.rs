@@ -24,7 +24,8 @@ fn judge_point(label: &str, point: &Point, given: (Option<f64>, Option<f64>)) ->
         asked: match limits {
             Some((0.0, tolerance)) => format!("at most {}", number(tolerance)),
             Some((reference, tolerance)) => format!("{} ± {}", number(reference), number(tolerance)),
-            None => "a reference, which is missing".to_owned(),
+            None if given.0.or(point.reference).is_none() => "a reference, which is missing".to_owned(),
+            None => "a tolerance, which is missing".to_owned(),
         },
         reached: number(point.value),
         pass: limits.is_some_and(|(reference, tolerance)| (point.value - reference).abs() <= tolerance),
@@ -47,6 +48,10 @@ mod tests {
         assert_eq!(verdicts[0].asked, "0.920 ± 0.0200");
         assert_eq!(judge(&series, (Some(0.92), Some(0.02)), &[2.0]).len(), 1);
         assert!(!judge(&series, (None, None), &[])[0].pass);
+        assert_eq!(
+            judge(&series, (Some(1.0), None), &[])[0].asked,
+            "a tolerance, which is missing"
+        );
         (series.points[0].reference, series.points[0].tolerance) = (Some(0.0), Some(1.0));
         let verdict = &judge(&series, (None, None), &[1.0])[0];
         assert!(verdict.pass && verdict.asked == "at most 1.00", "{verdict:?}");

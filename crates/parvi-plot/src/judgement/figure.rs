@@ -1,7 +1,7 @@
 //! What is asked, as it stands in a figure of the numbers.
 
 use super::bound::limits;
-use super::power_law::fit;
+use super::power_law::{fit, within};
 use super::{Judgement, MeasuredSeries};
 use crate::page::number;
 use crate::{GuideCurve, ReferenceLevel, exponent_text};
@@ -38,10 +38,9 @@ fn slope(judged: &[&MeasuredSeries], slope: f64, range: (Option<f64>, Option<f64
 }
 
 /// The least and the largest x of the points within a range.
-fn ends(judged: &[&MeasuredSeries], (from, to): (Option<f64>, Option<f64>)) -> Option<(f64, f64)> {
-    let within = |x: &f64| from.is_none_or(|from| *x >= from) && to.is_none_or(|to| *x <= to);
+fn ends(judged: &[&MeasuredSeries], range: (Option<f64>, Option<f64>)) -> Option<(f64, f64)> {
     let points = || judged.iter().flat_map(|series| &series.points);
-    let x = || points().map(|point| point.x).filter(within);
+    let x = || points().map(|point| point.x).filter(|x| within(range, *x));
     Some((x().reduce(f64::min)?, x().reduce(f64::max)?))
 }
 

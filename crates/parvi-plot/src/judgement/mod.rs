@@ -33,7 +33,16 @@ mod tests {
         MeasuredSeries {
             label: "cubic".to_owned(),
             points: points.iter().map(point).collect(),
-            failed: 0,
+            failed: Vec::new(),
+        }
+    }
+
+    fn bound((reference, tolerance): (Option<f64>, Option<f64>), at: &[f64]) -> Judgement {
+        let at = at.to_vec();
+        Judgement::Bound {
+            reference,
+            tolerance,
+            at,
         }
     }
 
@@ -42,19 +51,39 @@ mod tests {
         let mut series = through(&[(1.0, 1.0), (2.0, 4.0)]);
         let judge = |series: &MeasuredSeries| Judgement::Order { at_least: 1.9 }.judge(series).remove(0);
         assert!(judge(&series).pass);
-        series.failed = 1;
-        assert!(!judge(&series).pass && judge(&series).reached.contains("1 runs ended"));
+        series.failed = vec![3.0];
+        assert!(!judge(&series).pass && judge(&series).reached.contains("1 run ended"));
         series.points.clear();
-        let bound = Judgement::Bound {
-            reference: Some(0.0),
-            tolerance: Some(9.0),
-            at: Vec::new(),
-        };
-        let verdicts = bound.judge(&series);
+        let verdicts = bound((Some(0.0), Some(9.0)), &[]).judge(&series);
         assert!(
-            verdicts.len() == 1 && verdicts[0].reached == "none; 1 runs ended before their time",
+            verdicts.len() == 1 && verdicts[0].reached == "none; 1 run ended before their time",
             "{verdicts:?}"
         );
         assert!(!verdicts[0].pass);
+    }
+
+    #[test]
+    fn a_run_that_failed_where_nothing_is_judged_does_not_count() {
+        let mut series = through(&[(1.0, 1.0), (2.0, 4.0)]);
+        series.failed = vec![3.0];
+        let passes = |judgement: Judgement| judgement.judge(&series)[0].pass;
+        let bound = |at: &[f64]| bound((Some(1.0), Some(0.5)), at);
+        assert!(passes(bound(&[1.0])) && !passes(bound(&[])));
+        let law = |to: Option<f64>| Judgement::PowerLaw {
+            exponent: 2.0,
+            tolerance: 0.5,
+            from: None,
+            to,
+        };
+        assert!(passes(law(Some(2.5))) && !passes(law(None)));
+    }
+
+    #[test]
+    fn numbers_that_are_none_and_limits_that_are_missing_are_faults() {
+        let fault = |judgement: Judgement, own: bool| judgement.fault(own).map(|fault| fault.0);
+        assert_eq!(fault(Judgement::Spread { at_most: f64::NAN }, true), Some("at-most"));
+        assert_eq!(fault(bound((None, None), &[1.0, f64::NAN]), true), Some("at"));
+        assert_eq!(fault(bound((Some(1.0), None), &[]), false), Some("tolerance"));
+        assert_eq!(fault(bound((Some(1.0), None), &[]), true), None);
     }
 }

@@ -7,10 +7,15 @@ use crate::page::MISSING;
 use crate::statistics::{PowerLaw, fit_power_law};
 
 /// The law through the points with `from` ≤ x ≤ `to`; `None` with fewer than two, or values that are not positive.
-pub fn fit(series: &MeasuredSeries, (from, to): (Option<f64>, Option<f64>)) -> Option<PowerLaw> {
-    let within = |x: f64| from.is_none_or(|from| x >= from) && to.is_none_or(|to| x <= to);
-    let (x, y): (Vec<f64>, Vec<f64>) = series.pairs().into_iter().filter(|&(x, _)| within(x)).unzip();
+pub fn fit(series: &MeasuredSeries, range: (Option<f64>, Option<f64>)) -> Option<PowerLaw> {
+    let pairs = series.pairs().into_iter();
+    let (x, y): (Vec<f64>, Vec<f64>) = pairs.filter(|&(x, _)| within(range, x)).unzip();
     fit_power_law(&x, &y).ok()
+}
+
+/// Whether an x is in a range, which may lack ends.
+pub fn within((from, to): (Option<f64>, Option<f64>), x: f64) -> bool {
+    from.is_none_or(|from| x >= from) && to.is_none_or(|to| x <= to)
 }
 
 /// Whether the exponent is within the tolerance; its 95 % interval (Student's t) is told beside it.

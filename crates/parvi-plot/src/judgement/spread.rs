@@ -1,6 +1,7 @@
 //! How much meshes differ, where nothing exact is known.
 
 use super::{MeasuredSeries, Verdict};
+use crate::page::counted;
 
 /// Largest value minus the least, over that at the least x; NaN without points.
 fn relative_spread(series: &MeasuredSeries) -> f64 {
@@ -19,7 +20,11 @@ pub fn judge(series: &MeasuredSeries, at_most: f64) -> Verdict {
     Verdict {
         of: series.name(),
         asked: format!("spread ≤ {} %", 100.0 * at_most),
-        reached: format!("{:.1} % over {} meshes", 100.0 * spread, series.points.len()),
+        reached: format!(
+            "{:.1} % over {}",
+            100.0 * spread,
+            counted(series.points.len(), "meshes")
+        ),
         pass: series.points.len() > 1 && spread <= at_most,
     }
 }

@@ -51,11 +51,66 @@ pub fn percent(part: usize, whole: usize) -> Option<String> {
     (whole > 0).then(|| format!("{:.0} %", 100.0 * part as f64 / whole as f64))
 }
 
+/// Words for several, and for one.
+pub(super) const COUNTED: [(&str, &str); 8] = [
+    ("seeds", "seed"),
+    ("runs", "run"),
+    ("meshes", "mesh"),
+    ("steps", "step"),
+    ("sets", "set"),
+    ("threads", "thread"),
+    ("directions", "direction"),
+    ("points", "point"),
+];
+
+/// So many of what a word for several says: `1 run`, `2 runs`.
+pub fn counted(count: usize, many: &str) -> String {
+    let one = COUNTED.iter().find(|(known, _)| *known == many && count == 1);
+    format!("{count} {}", one.map_or(many, |(_, one)| one))
+}
+
+/// A text that Markdown shows as it is.
+pub fn escaped(text: &str) -> String {
+    let mut shown = String::with_capacity(text.len());
+    for character in text.chars() {
+        match character {
+            '&' => shown.push_str("&amp;"),
+            '<' => shown.push_str("&lt;"),
+            '>' => shown.push_str("&gt;"),
+            '*' | '`' | '[' | ']' | '\\' | '~' => shown.extend(['\\', character]),
+            _ => shown.push(character),
+        }
+    }
+    shown
+}
+
 /// What stands in a table for a value that does not exist.
 pub const MISSING: &str = "–";
 
 /// A number with three significant digits, in scientific notation where that is shorter to read.
 pub fn number(value: f64) -> String {
+    number_of(value, LEAST_DIGITS)
+}
+
+/// Significant digits of numbers in tables, and the most that it may take to tell them apart.
+const LEAST_DIGITS: usize = 3;
+const MOST_DIGITS: usize = 6;
+
+/// How many significant digits tell most of the values apart: 3 to 6.
+pub fn telling_digits(values: &[f64]) -> usize {
+    let told = |digits: usize| {
+        let mut texts: Vec<String> = values.iter().map(|value| number_of(*value, digits)).collect();
+        texts.sort_unstable();
+        texts.dedup();
+        texts.len()
+    };
+    let most = told(MOST_DIGITS);
+    let enough = (LEAST_DIGITS..MOST_DIGITS).find(|digits| told(*digits) == most);
+    enough.unwrap_or(MOST_DIGITS)
+}
+
+/// The same as [`number`] with so many significant digits.
+pub fn number_of(value: f64, digits: usize) -> String {
     if !value.is_finite() {
         return MISSING.to_owned();
     }
@@ -63,9 +118,10 @@ pub fn number(value: f64) -> String {
     if value == 0.0 {
         "0".to_owned()
     } else if (1e-3..1e5).contains(&size) {
-        let decimals = (2.0 - size.log10().floor()).clamp(0.0, 6.0) as usize;
+        let last = digits as f64 - 1.0;
+        let decimals = (last - size.log10().floor()).clamp(0.0, last + 4.0) as usize;
         format!("{value:.decimals$}")
     } else {
-        format!("{value:.2e}")
+        format!("{value:.*e}", digits - 1)
     }
 }

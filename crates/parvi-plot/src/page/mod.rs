@@ -10,7 +10,7 @@ use crate::PlotError;
 use prose::{Prose, filled};
 
 pub(crate) use cell::exponent;
-pub use cell::{Cell, MISSING, number, percent};
+pub use cell::{Cell, MISSING, counted, escaped, number, number_of, percent, telling_digits};
 pub use line::{Line, each};
 
 /// A page that grows by paragraphs, tables and figures.
@@ -123,11 +123,14 @@ impl Page {
         let rule: Vec<&str> = (0..header.len())
             .map(|column| if numeric(column) { "---:" } else { "---" })
             .collect();
-        self.text
-            .push_str(&format!("\n| {} |\n| {} |\n", header.join(" | "), rule.join(" | ")));
+        let line = |cells: &[String]| {
+            let cells: Vec<String> = cells.iter().map(|cell| cell.replace('|', "\\|")).collect();
+            format!("| {} |\n", cells.join(" | "))
+        };
+        let rule = format!("| {} |\n", rule.join(" | "));
+        self.text.push_str(&format!("\n{}{rule}", line(header)));
         for row in rows {
-            let cells: Vec<String> = row.iter().map(|cell| cell.replace('|', "\\|")).collect();
-            self.text.push_str(&format!("| {} |\n", cells.join(" | ")));
+            self.text.push_str(&line(row));
         }
     }
 

@@ -2,6 +2,8 @@
 
 use std::fmt::Display;
 
+use super::cell::{COUNTED, escaped};
+
 /// A text whose sections, captions and tables are written where they are asked for.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Prose(String);
@@ -67,11 +69,9 @@ impl Prose {
             let end = columns.iter().rposition(is_of)? + 1;
             let group: Vec<(String, String)> = columns.drain(first..end).collect();
             let of = |value: &String| {
-                let put = |text: &String| text.replace(&place, value);
-                group
-                    .iter()
-                    .map(|(head, cell)| (put(head), put(cell)))
-                    .collect::<Vec<_>>()
+                let shown = escaped(value);
+                let of = |(head, cell): &(String, String)| (head.replace(&place, &shown), cell.replace(&place, value));
+                group.iter().map(of).collect::<Vec<_>>()
             };
             columns.splice(first..first, values.iter().flat_map(of));
         }
@@ -88,9 +88,15 @@ fn cells_of(line: &str) -> Vec<String> {
     inner.split(" | ").map(str::to_owned).collect()
 }
 
-/// A text with values in the places that are called by their names.
+/// A text with values in the places that are called by their names; a word for several behind a 1 becomes that for one.
 pub(super) fn filled(text: &str, values: &[(&str, &dyn Display)]) -> String {
-    let fill =
-        |text: String, (name, value): &(&str, &dyn Display)| text.replace(&format!("{{{name}}}"), &value.to_string());
+    let fill = |text: String, (name, value): &(&str, &dyn Display)| {
+        let (place, value) = (format!("{{{name}}}"), value.to_string());
+        let several = COUNTED.iter().filter(|_| value == "1");
+        let text = several.fold(text, |text, (many, one)| {
+            text.replace(&format!("{place} {many}"), &format!("{place} {one}"))
+        });
+        text.replace(&place, &value)
+    };
     values.iter().fold(text.to_owned(), fill)
 }

@@ -4,7 +4,7 @@ use std::fmt::{self, Display, Formatter};
 
 use serde::Serialize;
 
-use crate::page::{Cell, number};
+use crate::page::{Cell, escaped, number};
 
 /// What stands in a cell. A whole number equals the same number.
 #[derive(Clone, Debug, Default, Serialize)]
@@ -60,6 +60,7 @@ impl Cell for Value {
         match self {
             Self::Empty => None::<f64>.cell(),
             Self::Number(value) => number(*value),
+            Self::Text(text) => escaped(text),
             value => value.to_string(),
         }
     }

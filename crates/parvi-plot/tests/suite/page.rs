@@ -1,6 +1,6 @@
 //! Pages from paragraphs and from a Markdown text.
 
-use parvi_plot::page::{Line, Page};
+use parvi_plot::page::{Line, Page, counted, each, number_of, telling_digits};
 use parvi_plot::results::{Row, Rows};
 
 #[test]
@@ -76,4 +76,30 @@ fn a_list_without_lines_says_so_or_nothing() {
     page.list("Misses", &["- a".to_owned(), "- b".to_owned()], None);
     page.items(&[]);
     assert_eq!(page.text, "\n## Misses\n\nNone.\n\n## Misses\n\n- a\n- b\n");
+}
+
+#[test]
+fn names_that_markdown_would_read_stand_as_they_are() {
+    let prose =
+        "# A\n\n### b\n\n| method | {name} |\n| --- | --- |\n| {first method} | {first x where method = {name}} |\n";
+    let mut page = Page::of(prose, &[]);
+    let rows = [Row::of("a").with("method", "<b>*|&`").with("x", 3.0)];
+    let rows: Rows<'_> = rows.iter().collect();
+    page.lines_over("b", &[each("name", ["<b>*|&`"])], [rows]);
+    let name = "&lt;b&gt;\\*\\|&amp;\\`";
+    assert!(page.text.contains(&format!("| method | {name} |\n")), "{}", page.text);
+    assert!(page.text.contains(&format!("| {name} | 3.00 |\n")), "{}", page.text);
+}
+
+#[test]
+fn one_is_counted_as_one_and_digits_tell_values_apart() {
+    let page = Page::of("# A\n\n{seeds} seeds, {runs} runs.\n", &[("seeds", &1), ("runs", &12)]);
+    assert_eq!(page.text, "# A\n\n1 seed, 12 runs.\n");
+    assert_eq!(
+        (counted(1, "meshes"), counted(2, "meshes")),
+        ("1 mesh".to_owned(), "2 meshes".to_owned())
+    );
+    let digits = telling_digits(&[12.5012, 12.5034, 12.5034]);
+    assert_eq!((digits, number_of(12.5012, digits)), (5, "12.501".to_owned()));
+    assert_eq!(telling_digits(&[1.0, 1.0 + 1e-12, 2.0]), 3);
 }

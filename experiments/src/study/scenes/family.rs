@@ -5,7 +5,7 @@ use mpm_scenes::variation::Axis;
 use serde::Deserializer;
 use toml::Table;
 
-use crate::plots::judgement::Judgement;
+use crate::plots::judgement::{Judgement, MeasuredSeries};
 use crate::study::prelude::*;
 
 /// Runs of one scene with changes, of each of which one number is read.
@@ -40,7 +40,7 @@ pub struct Family {
     /// What is asked of the numbers.
     #[serde(default)]
     pub judgements: Vec<Judgement>,
-    /// Parts of the labels of the series that are judged; empty: all.
+    /// The labels, or parts of them, of the series that are judged; empty: all.
     #[serde(default)]
     pub judged: Vec<String>,
     /// Columns of the runs' series that are drawn over time, a panel each.
@@ -108,7 +108,51 @@ impl Family {
         ] {
             is_fit.then_some(()).ok_or_else(|| self.refuse(field, otherwise))?;
         }
+        let given = self
+            .read
+            .offsets
+            .values()
+            .chain(&self.read.factor)
+            .chain(&self.read.offset);
+        if given.into_iter().any(|number| number.is_nan()) {
+            return Err(self.refuse("read", "NaN: `factor`, `offset` and `offsets` must be numbers"));
+        }
+        for (place, judgement) in self.judgements.iter().enumerate() {
+            if let Some((key, message)) = judgement.fault(self.read.quantity.is_some()) {
+                return Err(self.refuse(&format!("judgements.{place}.{key}"), message));
+            }
+        }
         self.read.check().map_err(|error| self.misread(error))
+    }
+
+    /// Refuses choices among its runs, of which there are label and x, that none of them meets.
+    ///
+    /// # Errors
+    /// `judged`, the `at` of a judgement, or `drawn`.
+    pub fn check_choices(&self, runs: &[(&str, f64)]) -> Result<(), CommandError> {
+        let is_of = |label: &str, names: &[String]| MeasuredSeries::named(label).is_among(names);
+        for name in &self.judged {
+            if !runs.iter().any(|(label, _)| is_of(label, std::slice::from_ref(name))) {
+                return Err(self.refuse("judged", format!("`{name}` is no part of the label of a series")));
+            }
+        }
+        let judged: Vec<f64> = runs
+            .iter()
+            .filter(|(label, _)| is_of(label, &self.judged))
+            .map(|(_, x)| *x)
+            .collect();
+        for (place, judgement) in self.judgements.iter().enumerate() {
+            let at = format!("judgements.{place}.at");
+            self.check_places(&at, judgement.at(), &judged)?;
+        }
+        let all: Vec<f64> = runs.iter().map(|(_, x)| *x).collect();
+        self.check_places("drawn", &self.drawn, &all)
+    }
+
+    fn check_places(&self, field: &str, chosen: &[f64], known: &[f64]) -> Result<(), CommandError> {
+        let missed = chosen.iter().find(|x| !known.contains(x));
+        let message = |x: &f64| format!("no run has {x} as its x; there are {known:?}");
+        missed.map_or(Ok(()), |x| Err(self.refuse(field, message(x))))
     }
 
     /// What a reading refuses, of the family.

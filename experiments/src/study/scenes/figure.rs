@@ -32,8 +32,8 @@ pub fn plot(family: &Family, series: &[MeasuredSeries]) -> MultiplesPlot {
     }
 }
 
-/// A line that is named even if it is the only one.
+/// A line that is named even if it is the only one, with gaps where runs ended before their time.
 fn line(family: &Family, series: &MeasuredSeries) -> LineSeries {
     let named = Some(&series.label).filter(|label| !label.is_empty());
-    LineSeries::through(named.unwrap_or(&family.title), series.pairs())
+    LineSeries::through(named.unwrap_or(&family.title), series.pairs_with_gaps())
 }

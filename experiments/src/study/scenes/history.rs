@@ -1,5 +1,6 @@
 //! Figures over time: columns of the series of a family's runs.
 
+use mpm_scenes::Series;
 use mpm_scenes::output::read_series;
 use mpm_scenes::reading::curve;
 
@@ -9,6 +10,21 @@ use crate::study::prelude::*;
 
 /// Points of a line, at most.
 const MOST_POINTS: usize = 400;
+
+/// Refuses columns that a series does not have.
+pub fn check(family: &Family, series: &Series) -> Result<(), CommandError> {
+    let mut panels = family.history.iter();
+    panels.try_for_each(|panel| found(family, series, panel).map(drop))
+}
+
+/// What a panel shows of a series.
+fn found(family: &Family, series: &Series, panel: &HistoryPanel) -> Result<Vec<(f64, f64)>, CommandError> {
+    let known = || series.columns().join("`, `");
+    let message = |name: String| format!("the series has no `{name}`, but `{}`", known());
+    let curve = curve(series, &panel.column);
+    let curve = curve.map_err(|name| family.refuse("history.column", message(name)))?;
+    Ok(curve.points().collect())
+}
 
 /// The figure of the runs whose x is among the family's `drawn`, and of the runs that they are compared with; none where nothing is to be drawn.
 ///
@@ -47,10 +63,9 @@ pub fn plot(
     for (label, scene) in runs {
         let series = read_series(&directory.raw(scene))?;
         for (panel, history) in panels.iter_mut().zip(&family.history) {
-            let curve = curve(&series, &history.column);
-            let curve = curve.map_err(|name| family.refuse("history", format!("the series has no column `{name}`")))?;
-            let every = curve.times.len().div_ceil(MOST_POINTS).max(1);
-            let points = curve.points().step_by(every);
+            let points = found(family, &series, history)?;
+            let every = points.len().div_ceil(MOST_POINTS).max(1);
+            let points = points.into_iter().step_by(every);
             panel.series.push(LineSeries::through(label.as_str(), points));
         }
     }

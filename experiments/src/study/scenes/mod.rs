@@ -50,8 +50,16 @@ impl Study for Scenes {
     fn open(&mut self, configuration: &Path) -> Result<(), CommandError> {
         let directory = configuration.parent().unwrap_or(Path::new(""));
         self.files = SceneFiles::read(&self.resolved()?, directory)?;
-        for case in self.cases()? {
-            self.files.scene(&case.work)?;
+        let cases = self.cases()?;
+        let x = |case: &Case<Variant>| Ok(self.files.scene(&case.work)?.x);
+        let x: Vec<f64> = cases.iter().map(x).collect::<Result<_, CommandError>>()?;
+        for family in self.resolved()? {
+            let runs = cases
+                .iter()
+                .zip(&x)
+                .filter(|(case, _)| case.row.is("family", family.name.as_str()));
+            let runs: Vec<(&str, f64)> = runs.map(|(case, x)| (case.row.text("label"), *x)).collect();
+            family.check_choices(&runs)?;
         }
         Ok(())
     }
@@ -108,6 +116,7 @@ impl Study for Scenes {
             Ok(other) => other,
             Err(reason) => return diverged(row, format!("what it is compared with: {reason}")),
         };
+        history::check(&variant.family, &run.series)?;
         let measured = variant.family.read.read(&run, other.as_ref());
         let measured = measured.map_err(|error| variant.family.misread(error))?;
         row.set("reference", measured.reference);

@@ -5,6 +5,7 @@ use super::family::Family;
 use super::figure;
 use super::history;
 use crate::plots::judgement::{Judgement, MeasuredSeries, Verdict, orders};
+use crate::plots::page::{escaped, number_of, telling_digits};
 use crate::study::prelude::*;
 
 /// Judgements, then each family with its figure and its numbers.
@@ -80,30 +81,38 @@ fn section(
     if family.judgements.iter().any(order) {
         page.lines("orders", series.iter().map(order_line));
     }
-    page.lines("runs", rows.with("family", family.name.as_str()).iter().map(line));
+    let own = rows.with("family", family.name.as_str());
+    let significant = telling_digits(&own.values("value"));
+    page.lines("runs", own.iter().map(|row| line(row, significant)));
     Ok(())
 }
 
 fn order_line(series: &MeasuredSeries) -> Line<'static> {
     let (between, overall) = orders(series);
     let between: Vec<String> = between.iter().map(|order| format!("{order:.2}")).collect();
-    let line = Line::default().with("series", series.label.as_str());
+    let line = Line::default().with("series", escaped(&series.label));
     let line = line.with("between", between.join(", "));
     line.with("overall", overall.map(|order| format!("{order:.2}")))
 }
 
-fn line(row: &Row) -> Line<'_> {
-    let value = row.number("value").map(|value| digits(value, row.number("reference")));
+/// A run, its value with as many digits as it takes to tell it from others.
+fn line(row: &Row, significant: usize) -> Line<'_> {
+    let value = row.number("value");
+    let value = value.map(|value| digits(value, row.number("reference"), significant));
     let ended = value.as_ref().map_or(row.text("reason"), |_| "at the end");
     let x = row.number("x").unwrap_or(f64::NAN).to_string();
     Line::from(row).with("x", x).with("digits", value).with("ended", ended)
 }
 
 /// As many digits as it takes to compare with a reference: one more than usual where there is one that is not 0.
-fn digits(value: f64, reference: Option<f64>) -> String {
+fn digits(value: f64, reference: Option<f64>, significant: usize) -> String {
+    let told = number_of(value, significant);
     match reference {
-        Some(reference) if reference != 0.0 && (1e-3..1e3).contains(&value.abs()) => format!("{value:.4}"),
-        _ => number(value),
+        Some(reference) if reference != 0.0 && (1e-3..1e3).contains(&value.abs()) => {
+            let compared = format!("{value:.4}");
+            if compared.len() < told.len() { told } else { compared }
+        }
+        _ => told,
     }
 }
 
@@ -128,7 +137,7 @@ mod tests {
         let series = MeasuredSeries {
             label: "graded, local".to_owned(),
             points: vec![point],
-            failed: 0,
+            failed: Vec::new(),
         };
         let judged = |names: &[&str]| {
             let judged = names.iter().map(|name| (*name).to_owned()).collect();
@@ -140,8 +149,8 @@ mod tests {
                 std::slice::from_ref(&series),
             )
         };
-        let unknown = judged(&["graded, local"]);
+        let unknown = judged(&["graded, global"]);
         assert!(unknown.len() == 1 && !unknown[0].pass && unknown[0].reached == "none");
-        assert!(judged(&["graded"])[0].pass);
+        assert!(judged(&["graded"])[0].pass && judged(&["graded, local"])[0].pass);
     }
 }
