@@ -33,6 +33,13 @@ impl<'a> Legend<'a> {
         self.names.len()
     }
 
+    /// How many labels before this one have its colour.
+    pub fn turn(&self, label: &str) -> usize {
+        let own = self.style(label).color;
+        let before = self.names.iter().take_while(|name| **name != label);
+        before.zip(&self.styles).filter(|(_, style)| style.color == own).count()
+    }
+
     /// The style of a label.
     pub fn style(&self, label: &str) -> SeriesStyle {
         self.styles[self.names.iter().position(|name| *name == label).unwrap_or(0)]
@@ -54,6 +61,8 @@ struct Prepared {
     x: Scale,
     y: Scale,
     y_ticks: Ticks,
+    /// Labels of axes that would be logarithmic without zeros.
+    linear_for_zeros: Vec<String>,
 }
 
 impl Chart {
@@ -145,7 +154,14 @@ impl Chart {
             draw_panel(&mut drawing, &axes, panel, &parts);
         }
         let bottom = row_tops[rows];
-        Ok(noted(drawing, width, bottom - 4.0, &self.notes))
+        let mut notes = self.notes.clone();
+        for label in prepared.iter().flat_map(|prepared| &prepared.linear_for_zeros) {
+            let note = format!("The axis of {label} is linear, as some of the values are 0.");
+            if !notes.contains(&note) {
+                notes.push(note);
+            }
+        }
+        Ok(noted(drawing, width, bottom - 4.0, &notes))
     }
 
     /// Checks sizes, fits the scales and divides the vertical axes.
@@ -174,11 +190,16 @@ impl Chart {
             }
             drawable |= !abscissas.is_empty();
             ordinates.extend(panel.levels.iter().map(|level| level.value));
+            let for_zeros = [(&panel.x, &abscissas), (&panel.y, &ordinates)].into_iter();
+            let for_zeros =
+                for_zeros.filter(|(axis, values)| Scale::is_linear_for_zeros(values.iter().copied(), axis.kind));
+            let linear_for_zeros = for_zeros.map(|(axis, _)| format!("“{}”", axis.label)).collect();
             let y = Scale::around(ordinates, panel.y.kind, 0.06);
             prepared.push(Prepared {
                 x: Scale::around(abscissas, panel.x.kind, 0.04),
                 y_ticks: y_ticks(&y, self.panel_height, 5.0),
                 y,
+                linear_for_zeros,
             });
         }
         if drawable {

@@ -13,6 +13,9 @@ const ROW: f64 = 14.0;
 /// The part of a row's height over which its markers are spread, so that equal values stay apart.
 const SPREAD: f64 = 0.62;
 
+/// How wide the label of a row may be.
+const WIDEST_LABEL: f64 = 0.5 * FIGURE_WIDTH;
+
 /// A row.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct DotRow {
@@ -112,7 +115,7 @@ pub fn dots(plot: &DotPlot) -> Result<String, PlotError> {
 
     let (mut drawing, mut top) = titled(&plot.title, FIGURE_WIDTH);
     let labels = plot.rows.iter().map(|row| width(&row.label, TEXT_SIZE));
-    let left = MARGIN + labels.fold(0.0, f64::max).min(0.5 * FIGURE_WIDTH) + 6.0;
+    let left = MARGIN + labels.fold(0.0, f64::max).min(WIDEST_LABEL) + 6.0;
     let legend_room = FIGURE_WIDTH - left - MARGIN;
     let legend = draw_legend(&mut drawing, (left, top), legend_room, &legend_entries(plot));
     top += legend + 8.0;
@@ -160,7 +163,7 @@ fn draw_rows(drawing: &mut Drawing, axes: &Panel, plot: &DotPlot) {
         let y = middle(index);
         drawing.line((area.x, y), (area.right(), y), Stroke::solid(GRID, 0.6));
         let at = (area.x - 5.0, y + 0.36 * TEXT_SIZE);
-        drawing.text(at, &row.label, TextStyle::plain(Anchor::End));
+        drawing.fitted_text(at, &row.label, WIDEST_LABEL, TextStyle::plain(Anchor::End));
         if let Some(x) = row.bound.and_then(|bound| axes.x_at(bound)) {
             let (from, to) = ((x, y - 0.5 * ROW), (x, y + 0.5 * ROW));
             drawing.line(from, to, Stroke::dashed(GUIDE, 1.1));

@@ -69,11 +69,9 @@ pub fn draw_legend(drawing: &mut Drawing, at: (f64, f64), room: f64, entries: &[
         for (row, entry) in column.iter().enumerate() {
             let middle = at.1 + (row as f64 + 0.5) * ROW;
             draw_swatch(drawing, (x, middle), entry.swatch);
-            drawing.text(
-                (x + SWATCH + GAP, middle + 0.36 * TEXT_SIZE),
-                &entry.label,
-                TextStyle::plain(Anchor::Start),
-            );
+            let from = x + SWATCH + GAP;
+            let (start, room) = ((from, middle + 0.36 * TEXT_SIZE), at.0 + room - from);
+            drawing.fitted_text(start, &entry.label, room + 0.01, TextStyle::plain(Anchor::Start));
         }
         x += entry_width(column) + COLUMN_GAP;
     }
@@ -121,7 +119,7 @@ fn draw_title(drawing: &mut Drawing, at: (f64, f64), room: f64, title: &str) -> 
     let lines = wrap(title, room / 1.1, TITLE_SIZE);
     for (index, line) in lines.iter().enumerate() {
         let baseline = at.1 + TITLE_SIZE * (0.85 + 1.25 * index as f64);
-        drawing.text((at.0, baseline), line, style);
+        drawing.fitted_text((at.0, baseline), line, room / 1.1, style);
     }
     if lines.is_empty() {
         0.0

@@ -59,6 +59,13 @@ impl LineSeries {
         }
     }
 
+    /// Interrupts the line.
+    pub fn push_gap(&mut self) {
+        self.x.push(f64::NAN);
+        self.y.push(f64::NAN);
+        self.bars.push((f64::NAN, f64::NAN));
+    }
+
     /// Adds the mean of the values, with a bar from the least to the largest; a value that is not finite interrupts the line.
     pub fn push_mean(&mut self, x: f64, values: &[f64]) {
         let least = values.iter().copied().fold(f64::INFINITY, f64::min);

@@ -138,8 +138,16 @@ pub fn multiples(plot: &MultiplesPlot) -> Result<String, PlotError> {
     for panel in &plot.panels {
         let mut series: Vec<ChartSeries> = panel.series.iter().map(line).collect();
         if bare {
-            let hidden = (0..series.len()).map(|index| hidden_by(&panel.series, index));
-            let gaps: Vec<Connection> = hidden.map(with_gaps).collect();
+            let looks = panel.series.iter().enumerate().map(|(index, line)| {
+                // Colours that come again have dashes of their own, as there are no markers to tell them apart.
+                match legend.turn(&line.label) {
+                    0 => with_gaps(hidden_by(&panel.series, index)),
+                    1 => Connection::LongDashed,
+                    2 => Connection::DashDotted,
+                    _ => Connection::ShortDashed,
+                }
+            });
+            let gaps: Vec<Connection> = looks.collect();
             series
                 .iter_mut()
                 .zip(gaps)

@@ -3,7 +3,7 @@
 use super::scale::{Scale, Ticks};
 use super::style::{AXIS_WIDTH, GRID, INK, LABEL_SIZE, MAJOR_TICK, MINOR_TICK, TEXT_SIZE};
 use super::svg::{Drawing, Rectangle, Stroke};
-use super::text::{Anchor, TextStyle, power_of_ten, width, wrap};
+use super::text::{Anchor, TextStyle, cut, power_of_ten, width, wrap};
 
 /// The distance between a tick and its label.
 const TICK_GAP: f64 = 2.5;
@@ -11,6 +11,8 @@ const TICK_GAP: f64 = 2.5;
 /// Widths of bold letters over those of plain ones, and the least size of a title that is too wide, over the usual one.
 const BOLDER: f64 = 1.12;
 const LEAST_TITLE: f64 = 0.75;
+/// How far a title may stick out of its panel.
+const BESIDE: f64 = 8.0;
 
 /// A rectangle with a horizontal and a vertical scale.
 #[derive(Debug, Clone, Copy)]
@@ -82,14 +84,15 @@ impl Panel {
         drawing.lines(&segments, Stroke::solid(GRID, 0.6));
     }
 
-    /// A title above the frame, smaller where it would be wider than that.
+    /// A title above the frame, smaller where it would be wider than that, and cut where it still is.
     pub fn draw_title(&self, drawing: &mut Drawing, title: &str) {
         let share = self.area.width / (BOLDER * width(title, LABEL_SIZE)).max(f64::MIN_POSITIVE);
         let style = TextStyle {
             bold: true,
             ..TextStyle::sized(LABEL_SIZE * share.clamp(LEAST_TITLE, 1.0), Anchor::Start)
         };
-        drawing.text((self.area.x, self.area.y - 4.5), title, style);
+        let room = (self.area.width + BESIDE) / BOLDER;
+        drawing.fitted_text((self.area.x, self.area.y - 4.5), title, room, style);
     }
 
     /// The frame, ticks and labels.
@@ -123,7 +126,7 @@ impl Panel {
             for (index, line) in lines.iter().enumerate() {
                 let y = baseline + 3.5 + LABEL_SIZE + index as f64 * LINE_HEIGHT;
                 let style = TextStyle::sized(LABEL_SIZE, Anchor::Middle);
-                drawing.text((middle, y), line, style);
+                drawing.titled_text((middle, y), (line, whole(line, label)), style);
             }
         }
         if let Some(tick_room) = parts.y_tick_room {
@@ -140,7 +143,7 @@ impl Panel {
                     ..TextStyle::sized(LABEL_SIZE, Anchor::Middle)
                 };
                 let middle = area.y + 0.5 * area.height;
-                drawing.text((area.x - distance, middle), line, style);
+                drawing.titled_text((area.x - distance, middle), (line, whole(line, parts.y_label)), style);
             }
         }
     }
@@ -152,12 +155,22 @@ pub const TITLE_ROOM: f64 = LABEL_SIZE + 5.0;
 /// The distance between the lines of a label.
 const LINE_HEIGHT: f64 = 1.2 * LABEL_SIZE;
 
-/// An axis label with the power of ten that the tick labels leave out, in lines not much longer than the axis.
+/// Lines of an axis label, at most, and how long one may be over the axis.
+const MOST_LINES: usize = 4;
+const LONGER: f64 = 1.15;
+
+/// What a line of a label stands for: all of it where the line was cut.
+fn whole<'a>(line: &'a str, label: &'a str) -> &'a str {
+    if line.ends_with('…') { label } else { line }
+}
+
+/// An axis label with the power of ten that the tick labels leave out, in a few lines not much longer than the axis; what has no room is cut, but never the power.
 pub fn label_lines(label: &str, exponent: i32, length: f64) -> Vec<String> {
+    let power = format!("(×{})", power_of_ten(exponent));
     let label = if exponent == 0 {
         label.to_string()
     } else {
-        format!("{label} (×{})", power_of_ten(exponent))
+        format!("{label} {power}")
     };
     // What stands in parentheses, such as a unit, stays together.
     let mut depth = 0;
@@ -176,7 +189,19 @@ pub fn label_lines(label: &str, exponent: i32, length: f64) -> Vec<String> {
             }
         })
         .collect();
-    wrap(&joined, length, LABEL_SIZE)
+    let mut lines = wrap(&joined, length, LABEL_SIZE);
+    if lines.len() > MOST_LINES {
+        lines.truncate(MOST_LINES);
+        if exponent != 0 {
+            lines[MOST_LINES - 1] = power;
+        }
+        let last = MOST_LINES - 1 - usize::from(exponent != 0);
+        lines[last].push('…');
+    }
+    for line in &mut lines {
+        *line = cut(line, LONGER * length, LABEL_SIZE);
+    }
+    lines
 }
 
 /// The room that an axis label of so many lines needs beside the tick labels.

@@ -5,6 +5,9 @@ use super::text::{decimal, power_of_ten};
 /// Values beyond this magnitude are not drawn.
 const LARGEST: f64 = 1e300;
 
+/// The factor between the ends of an axis above which it is better logarithmic.
+const LOGARITHMIC_FROM: f64 = 30.0;
+
 /// Whether a figure can show this value.
 pub fn plottable(value: f64) -> bool {
     value.is_finite() && value.abs() < LARGEST
@@ -80,7 +83,7 @@ impl Scale {
         let logarithmic = match kind {
             AxisKind::Linear => false,
             AxisKind::Logarithmic => true,
-            AxisKind::Automatic => low > 1e-300 && high / low > 30.0,
+            AxisKind::Automatic => low > 1e-300 && high / low > LOGARITHMIC_FROM,
         };
         if !logarithmic {
             return Scale::linear(low, high, padding);
@@ -97,6 +100,19 @@ impl Scale {
             low: low - margin,
             high: high + margin,
         }
+    }
+
+    /// Whether an axis that chooses for itself is linear because of zeros alone: without them it would be logarithmic.
+    pub fn is_linear_for_zeros(values: impl IntoIterator<Item = f64>, kind: AxisKind) -> bool {
+        let (mut least, mut positive, mut most) = (f64::INFINITY, f64::INFINITY, 0.0_f64);
+        for value in values.into_iter().filter(|&value| plottable(value)) {
+            least = least.min(value);
+            most = most.max(value);
+            if value > 1e-300 {
+                positive = positive.min(value);
+            }
+        }
+        kind == AxisKind::Automatic && least == 0.0 && most / positive > LOGARITHMIC_FROM
     }
 
     /// A linear scale from `low` to `high` with a margin.

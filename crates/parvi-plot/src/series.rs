@@ -32,6 +32,12 @@ pub(super) enum Connection {
     Dashed,
     /// By dotted lines.
     Dotted,
+    /// By long dashes.
+    LongDashed,
+    /// By dashes and dots in turn.
+    DashDotted,
+    /// By short dashes.
+    ShortDashed,
 }
 
 impl Connection {
@@ -42,6 +48,9 @@ impl Connection {
             Connection::Solid => Some(""),
             Connection::Dashed => Some("4.5 2.5"),
             Connection::Dotted => Some("1.2 2.4"),
+            Connection::LongDashed => Some("9 3"),
+            Connection::DashDotted => Some("6 2 1.2 2"),
+            Connection::ShortDashed => Some("2.5 1.5"),
         }
     }
 }

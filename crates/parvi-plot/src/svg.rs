@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::style::{FONT_FAMILY, INK, MARKER_RADIUS, Marker, SeriesStyle};
-use super::text::{Anchor, TextStyle, escape, markup, number, plain_text};
+use super::text::{Anchor, TextStyle, cut, escape, markup, number, plain_text};
 
 /// A rectangle on the page.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -145,9 +145,23 @@ impl Drawing {
 
     /// A text whose baseline starts, ends or is centred at a point; `^{…}` and `_{…}` mark scripts.
     pub fn text(&mut self, at: (f64, f64), label: &str, style: TextStyle) {
+        self.titled_text(at, (label, label), style);
+    }
+
+    /// The same with no more of it than fits into `room`; all of it is the title of the element, which viewers show at the pointer.
+    pub fn fitted_text(&mut self, at: (f64, f64), label: &str, room: f64, style: TextStyle) {
+        self.titled_text(at, (&cut(label, room, style.size), label), style);
+    }
+
+    /// What is shown of a text, which is the title of the element where it is another.
+    pub fn titled_text(&mut self, at: (f64, f64), (label, whole): (&str, &str), style: TextStyle) {
         if label.is_empty() {
             return;
         }
+        let title = match label == whole {
+            true => String::new(),
+            false => format!("<title>{}</title>", escape(&plain_text(whole))),
+        };
         let (x, y) = (number(at.0), number(at.1));
         let anchor = match style.anchor {
             Anchor::Start => "",
@@ -162,7 +176,7 @@ impl Drawing {
         };
         let _ = writeln!(
             self.body,
-            "<text x=\"{x}\" y=\"{y}\" font-size=\"{}\"{anchor}{weight}{rotation}>{}</text>",
+            "<text x=\"{x}\" y=\"{y}\" font-size=\"{}\"{anchor}{weight}{rotation}>{title}{}</text>",
             number(style.size),
             markup(label, style.size)
         );

@@ -146,6 +146,21 @@ pub fn width(label: &str, size: f64) -> f64 {
         .sum()
 }
 
+/// The beginning of a label with `…` behind it that is no wider than `room`; the label itself where it fits.
+pub fn cut(label: &str, room: f64, size: f64) -> String {
+    if width(label, size) <= room {
+        return label.to_owned();
+    }
+    let start = |end: usize| format!("{}…", label[..end].trim_end());
+    let ends: Vec<usize> = label.char_indices().map(|(end, _)| end).collect();
+    let fitting = ends.partition_point(|&end| width(&start(end), size) <= room);
+    let end = fitting.checked_sub(1).map_or(0, |last| ends[last]);
+    // Within a superscript or subscript nothing is cut.
+    let opening = ["^{", "_{"].iter().filter_map(|mark| label[..end].rfind(mark)).max();
+    let open = opening.filter(|&opening| !label[opening..end].contains('}'));
+    start(open.unwrap_or(end))
+}
+
 /// Breaks a text at spaces into lines of at most `room` points where words allow.
 pub fn wrap(text: &str, room: f64, size: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
@@ -252,6 +267,21 @@ mod tests {
         assert_eq!(plain_text("x_{1} (10^{n} m)"), "x1 (10n m)");
         assert_eq!(markup("x_{1", 10.0), "x_{1");
         assert!(width("10^{n}", 10.0) < width("10n", 10.0));
+    }
+
+    #[test]
+    fn what_is_too_wide_is_cut_at_its_end() {
+        assert_eq!(cut("short", 100.0, 10.0), "short");
+        let label = "a long label of ED^{mean square} in units of its own";
+        for room in [0.0, 8.0, 50.0, 120.0, 160.0, 200.0, 250.0] {
+            let shown = cut(label, room, 10.0);
+            assert!(
+                width(&shown, 10.0) <= room.max(10.0) && shown.ends_with('…'),
+                "{room}: {shown}"
+            );
+            assert_eq!(shown.matches('{').count(), shown.matches('}').count(), "{shown}");
+        }
+        assert_eq!(cut("öäü µm", 25.0, 10.0), "öä…");
     }
 
     #[test]

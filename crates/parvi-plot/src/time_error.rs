@@ -29,8 +29,9 @@ impl TimeErrorCurve {
             let (costs, errors): (Vec<f64>, Vec<f64>) = known.unzip();
             runs += setting.len();
             failed += setting.len() - errors.len();
-            if let Ok(cost) = summarize(&costs) {
-                line.push_median(cost.median, &errors);
+            match summarize(&costs) {
+                Ok(cost) => line.push_median(cost.median, &errors),
+                Err(_) => line.push_gap(),
             }
         }
         (line, runs, failed)

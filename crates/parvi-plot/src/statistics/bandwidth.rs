@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::{StatisticsError, check_weighted, weighted_quantile};
 
 /// The standard deviation of a Gaussian kernel for `values` with `weights` (equal if `None`): the plug-in estimate of Botev, Grotowski & Kroese (Ann. Statist. 38, 2010, Algorithm 1), which does
-/// not assume that the density resembles a Gaussian and so keeps separated modes apart; where it finds no solution, Silverman's rule 0.9 min(σ, IQR / 1.34) n^(−1/5). With
+/// not assume that the density resembles a Gaussian and so keeps separated modes apart. Of several solutions it is the largest below Silverman's rule 0.9 min(σ, IQR / 1.34) n^(−1/5), as smaller ones resolve the noise; where there is none, it is that rule. With
 /// weights, the sample size n is the effective one, (Σw)² / Σw².
 ///
 /// # Errors
@@ -25,12 +25,11 @@ pub fn bandwidth(values: &[f64], weights: Option<&[f64]>) -> Result<f64, Statist
         });
     }
     let levels = weighted_quantile(values, weights, &[0.001, 0.25, 0.75, 0.999])?;
-    let silverman = || {
-        let spread = (levels[2] - levels[1]) / 1.34;
-        let scale = if spread > 0.0 { spread.min(deviation) } else { deviation };
-        0.9 * scale * size.powf(-0.2)
-    };
-    Ok(sheather_jones(values, weights, size, (levels[0], levels[3])).unwrap_or_else(silverman))
+    let spread = (levels[2] - levels[1]) / 1.34;
+    let scale = if spread > 0.0 { spread.min(deviation) } else { deviation };
+    let silverman = 0.9 * scale * size.powf(-0.2);
+    let core = (levels[0], levels[3]);
+    Ok(sheather_jones(values, weights, size, core, silverman).unwrap_or(silverman))
 }
 
 /// The number of bins of the histogram that the plug-in estimate works on.
@@ -38,8 +37,8 @@ const BINS: usize = 1024;
 
 /// The improved Sheather–Jones width: the root t* of t = ξ γ⁽⁵⁾(t), where γ chains the plug-in estimates of ‖f⁽ˢ⁾‖² from
 /// s = 7 down to 2, computed from the discrete cosine transform of a histogram. The core between two outer quantiles
-/// decides, so that single far points do not coarsen the histogram.
-fn sheather_jones(values: &[f64], weights: Option<&[f64]>, size: f64, core: (f64, f64)) -> Option<f64> {
+/// decides, so that single far points do not coarsen the histogram. The largest root below `widest`; `None` without one.
+fn sheather_jones(values: &[f64], weights: Option<&[f64]>, size: f64, core: (f64, f64), widest: f64) -> Option<f64> {
     let range = 2.0 * (core.1 - core.0);
     if !(range > 0.0 && range.is_finite()) {
         return None;
@@ -90,16 +89,16 @@ fn sheather_jones(values: &[f64], weights: Option<&[f64]>, size: f64, core: (f64
         }
         time - (2.0 * size * PI.sqrt() * roughness_estimate).powf(-0.4)
     };
-    // The smallest root: from a time far below any sensible one, upwards until the sign changes, then bisection.
-    let mut below = 1e-9;
-    if excess(below).partial_cmp(&0.0) != Some(std::cmp::Ordering::Less) {
+    // The largest root: from the widest kernel downwards until the sign changes, then bisection.
+    let mut above = (widest / range).powi(2).min(0.1);
+    if excess(above).partial_cmp(&0.0) != Some(std::cmp::Ordering::Greater) {
         return None;
     }
-    let mut above = below;
-    while excess(above) < 0.0 {
-        below = above;
-        above *= 2.0;
-        if above > 0.1 {
+    let mut below = above;
+    while excess(below) >= 0.0 {
+        above = below;
+        below /= 1.5;
+        if below < 1e-9 {
             return None;
         }
     }

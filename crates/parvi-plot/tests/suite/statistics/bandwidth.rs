@@ -42,3 +42,12 @@ fn constant_values_have_no_width() {
         Err(StatisticsError::NoSpread { .. })
     ));
 }
+
+/// Points in six heaps, as noise makes them: the smallest solution of the plug-in rule tells them apart.
+#[test]
+fn no_width_is_above_that_of_silvermans_rule() {
+    let points = normal_points(1000, 0.0, 1.0);
+    let silverman = 0.9 * 1000f64.powf(-0.2);
+    let width = bandwidth(&points, None).unwrap();
+    assert!((0.8..1.0001).contains(&(width / silverman)), "{width}");
+}
