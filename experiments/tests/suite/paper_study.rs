@@ -87,6 +87,7 @@ fn the_papers_algorithms() {
             "| as written | algorithm 1 |",
             "## When does it work?",
             "| variant | runs | ended |",
+            "| target | start as written | start guards on, frame |",
             "best before the end",
             "The least median over all targets is",
             "- α geometric 0.1…1: better than the constant one in",

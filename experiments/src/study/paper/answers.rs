@@ -38,20 +38,22 @@ fn when(findings: &Findings<'_>, page: &mut Page) {
             let here = rows.with("target", target.as_str());
             (format!("median {label}"), here.cell("median of all final_ratio"))
         });
-        let first = all_groups.first().map(|(_, rows)| rows.with("target", target.as_str()));
-        let first = first.unwrap_or_default();
-        let size = first.first().and_then(|row| row.count("particles")).unwrap_or(0);
+        let here = base.with("target", target.as_str());
+        let size = here.first().and_then(|row| row.count("particles")).unwrap_or(0);
         let (label, best) = best(&bodies.with("target", target.as_str()).with("particles", size)).unzip();
         let best = best.unwrap_or_default();
         at_least_as_good += usize::from(best.median_of_all(RATIO).is_some_and(|ratio| ratio <= 1.0));
-        let line = Line::from(first).with("target", target.as_str()).with_all(medians);
+        let line = Line::from(here.with("particles", size))
+            .with("target", target.as_str())
+            .with_all(medians);
         let line = line.with("best", best.cell("median of all final_ratio"));
         lines.push(line.with("which", label));
     }
     let values: [(&str, &dyn Display); 2] = [("good", &at_least_as_good), ("all", &targets.len())];
     page.part("targets", &values);
     let labels = all_groups.iter().map(|(label, _)| label);
-    page.lines_over("targets", &[each("setting", labels)], lines);
+    let repeated = [each("variant", base.words("variant")), each("setting", labels)];
+    page.lines_over("targets", &repeated, lines);
 }
 
 fn laws(rows: &Rows<'_>, page: &mut Page) {

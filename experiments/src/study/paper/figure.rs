@@ -21,12 +21,17 @@ fn panel(title: String, rows: &Rows<'_>, by: (&str, &str), x: &str, y: &str) -> 
     MultiplesPanel::new(title, rows.by(column).into_iter().map(line))
 }
 
+/// What says that a run is by one of the paper's algorithms, shorter.
+fn short(text: &str) -> String {
+    text.replace("algorithm ", "Alg. ")
+}
+
 /// ED² at the end over α and over E, one panel per variant and algorithm.
 pub fn strength(alpha: &Rows<'_>, stiffness: &Rows<'_>) -> MultiplesPlot {
     let mut panels = Vec::new();
     for (name, rows, x) in [("α", alpha, "alpha"), ("E", stiffness, "youngs_modulus")] {
         let setting = |row: &Row| {
-            let method = row.text("method").replace("algorithm ", "");
+            let method = short(row.text("method"));
             format!("{name}: {method}, {}", row.text("variant"))
         };
         for (title, here) in rows.by_name(setting) {
@@ -44,7 +49,7 @@ pub fn strength(alpha: &Rows<'_>, stiffness: &Rows<'_>) -> MultiplesPlot {
 pub fn transient(base: &Rows<'_>) -> DotPlot {
     let mut named: Vec<(String, Rows<'_>)> = Vec::new();
     for (setting, rows) in groups(base) {
-        let setting = setting.replace("algorithm ", "");
+        let setting = short(&setting);
         let by_target = rows.by("target").into_iter();
         named.extend(by_target.map(|(target, rows)| (format!("{target}, {setting}"), rows)));
     }
