@@ -3,6 +3,7 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use parvi::SampleError;
+use parvi_targets::TargetError;
 
 use super::status::Status;
 use super::value::single_line;
@@ -40,6 +41,14 @@ pub fn attempt<T>(result: Result<T, CommandError>) -> Result<Attempt<T>, Command
             _ => return Err(error),
         };
         Ok(Err(Failure::new(status, error)))
+    })
+}
+
+/// As [`attempt`], of the points that stand for a target: a log density that is no number makes none, of this target alone.
+pub fn of_reference<T>(result: Result<T, CommandError>) -> Result<Attempt<T>, CommandError> {
+    result.map(Ok).or_else(|error| match error {
+        CommandError::Target(TargetError::ReferenceFailed { .. }) => Ok(Err(Failure::new(Status::Diverged, error))),
+        error => Err(error),
     })
 }
 

@@ -1,5 +1,6 @@
 //! Reading a study's configuration: every mistake is reported with file, line, column and the text of the line.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::ops::Range;
 use std::path::Path;
@@ -73,6 +74,21 @@ impl Configuration {
         values
     }
 
+    /// Fingerprints of the files that parameters of targets name as their `data`, by these names.
+    ///
+    /// # Errors
+    /// A file that cannot be read.
+    pub fn data_fingerprints(&self) -> Result<BTreeMap<String, String>, CommandError> {
+        let mut files = Vec::new();
+        data_files(&Value::Table(self.text.parse().unwrap_or_default()), &mut files);
+        let of = |file: String| {
+            let bytes = fs::read(&file).map_err(|source| CommandError::file("read", &file, source))?;
+            let print = fingerprint(&String::from_utf8_lossy(&bytes));
+            Ok((file, print))
+        };
+        files.into_iter().map(of).collect()
+    }
+
     /// The configuration as its kind understands it, without the keys of the head. Unknown keys are errors.
     pub fn parse<T: DeserializeOwned>(&self) -> Result<T, CommandError> {
         let mut text = without_key(&self.text, &self.head.kind.span());
@@ -118,6 +134,19 @@ fn collect(table: &Table, place: &str, values: &mut Vec<(String, String)>) {
             other => other.to_string(),
         };
         values.push((key, value));
+    }
+}
+
+/// Adds what stands at `parameters.data` of any table.
+fn data_files(value: &Value, files: &mut Vec<String>) {
+    match value {
+        Value::Table(table) => {
+            let data = table.get("parameters").and_then(|parameters| parameters.get("data"));
+            files.extend(data.and_then(Value::as_str).map(str::to_owned));
+            table.values().for_each(|value| data_files(value, files));
+        }
+        Value::Array(list) => list.iter().for_each(|value| data_files(value, files)),
+        _ => {}
     }
 }
 

@@ -33,15 +33,17 @@ impl StudyDirectory {
     pub fn claim(path: &Path, configuration: &Configuration) -> Result<Self, CommandError> {
         let mut directory = Self::of(path, configuration);
         let existing = directory.file(CONFIGURATION);
+        if !path.exists() {
+            fs::create_dir_all(path).map_err(|source| CommandError::file("create", path, source))?;
+        }
+        directory.claimed =
+            mpm_document::claim(path).map_err(|source| CommandError::file("write into", path, source))?;
         if existing.exists() {
             directory.check_same_study(configuration)?;
         } else {
             directory.check_empty()?;
-            fs::create_dir_all(path).map_err(|source| CommandError::file("create", path, source))?;
             AtomicFile::write(existing, &configuration.text)?;
         }
-        directory.claimed =
-            mpm_document::claim(path).map_err(|source| CommandError::file("write into", path, source))?;
         directory.make_parts()?;
         if directory.claimed.is_some() {
             directory.clear_partial()?;
@@ -188,6 +190,12 @@ mod tests {
         assert!(path.join("raw/whole.csv").exists());
         let empty = root.path().join("empty");
         fs::create_dir(&empty).unwrap();
+        let starting = mpm_document::claim(&empty).unwrap();
+        if starting.is_some() {
+            StudyDirectory::claim(&empty, &study).unwrap_err();
+            assert!(!empty.join(CONFIGURATION).exists());
+        }
+        drop(starting);
         StudyDirectory::claim(&empty, &study).unwrap();
         assert_eq!(fs::read_to_string(empty.join(CONFIGURATION)).unwrap(), study.text);
     }

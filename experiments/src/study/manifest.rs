@@ -19,6 +19,9 @@ pub struct Manifest {
     pub kind: String,
     /// Fingerprint of the configuration.
     pub config_hash: String,
+    /// Fingerprints of the data files that the configuration names, by their names there.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub data: BTreeMap<String, String>,
     /// Seeds, as in the configuration.
     pub seed: Vec<u64>,
     /// The first start.
@@ -37,6 +40,7 @@ impl Manifest {
         Self {
             kind: kind.to_owned(),
             config_hash: config_hash.to_owned(),
+            data: BTreeMap::new(),
             seed,
             first: Provenance::now(threads),
             resumed: Vec::new(),

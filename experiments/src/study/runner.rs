@@ -6,12 +6,15 @@ use std::path::Path;
 use parvi::SampleError;
 use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 
+use super::attempt::of_reference;
+use super::checks::holds;
 use super::configuration::Configuration;
 use super::definition::{Case, Study, Tools};
 use super::derived;
 use super::directory::StudyDirectory;
 use super::manifest::{self, Manifest};
 use super::results::{self, ResultsFile};
+use super::row::RunRow;
 use super::row_file;
 use super::yardstick::CurrentYardstick;
 use crate::output::AtomicFile;
@@ -29,6 +32,8 @@ pub fn run<S: Study>(configuration: &Configuration, out: &Path) -> Result<(), Co
     let located = |error| in_file(error, configuration);
     study.open(Path::new(&configuration.file)).map_err(located)?;
     let cases = due(&study).map_err(located)?;
+    let none = || "leaves no case: it is below the `particles` of every one".to_owned();
+    holds(!cases.is_empty(), "largest-particles", none).map_err(located)?;
     if let Some(feature) = cases.iter().find_map(|case| case.lacks) {
         return Err(SampleError::NotBuilt {
             method: feature,
@@ -40,16 +45,17 @@ pub fn run<S: Study>(configuration: &Configuration, out: &Path) -> Result<(), Co
     in_threads(configuration.threads(), || {
         let (results, rows) = ResultsFile::open(&directory.file(results::FILE_NAME), S::COLUMNS)?;
         study.check_earlier(&rows).map_err(located)?;
-        note_start::<S>(&cases, configuration, &directory)?;
+        note_start::<S>(&cases, configuration, &directory).map_err(located)?;
         run_missing(&study, &cases, &directory, results, &rows).map_err(located)?;
-        write_report(&study, &directory)
+        write_report(&study, &directory).map_err(located)
     })
 }
 
 /// Writes the report of what a directory holds.
 pub fn report<S: Study>(configuration: &Configuration, directory: &StudyDirectory) -> Result<(), CommandError> {
     let study: S = configuration.parse()?;
-    in_threads(configuration.threads(), || write_report(&study, directory))
+    let report = || write_report(&study, directory).map_err(|error| in_file(error, configuration));
+    in_threads(configuration.threads(), report)
 }
 
 /// The cases that run.
@@ -78,7 +84,7 @@ fn in_threads<T: Send>(
     pool.map_err(refused)?.install(work)
 }
 
-/// Writes the manifest, or adds this start to it. Seeds that the configuration does not say are those of the cases.
+/// Writes the manifest, or adds this start to it. Seeds that the configuration does not say are those of the cases. A study whose data files have changed since it began is refused.
 fn note_start<S: Study>(
     cases: &[Case<S::Work>],
     configuration: &Configuration,
@@ -86,8 +92,14 @@ fn note_start<S: Study>(
 ) -> Result<(), CommandError> {
     let threads = rayon::current_num_threads();
     let path = directory.file(manifest::FILE_NAME);
+    let data = configuration.data_fingerprints()?;
     let manifest = if path.exists() {
         let mut manifest = Manifest::read(&path)?;
+        for (file, now) in data {
+            let before = manifest.data.entry(file.clone()).or_insert_with(|| now.clone());
+            let changed = || format!("{file} has changed since this study began; choose another --out");
+            holds(*before == now, "data", changed)?;
+        }
         manifest.resumed.push(Provenance::now(threads));
         manifest
     } else {
@@ -98,7 +110,10 @@ fn note_start<S: Study>(
             seeds.sort_unstable();
             seeds.dedup();
         }
-        Manifest::new(S::KIND, &configuration.hash, seeds, threads)
+        Manifest {
+            data,
+            ..Manifest::new(S::KIND, &configuration.hash, seeds, threads)
+        }
     };
     manifest.write(&path)
 }
@@ -127,7 +142,10 @@ fn run_missing<S: Study>(
             directory,
             observer: &mut progress,
         };
-        study.run(case, &mut row, tools)?;
+        if let Err(failure) = of_reference(study.run(case, &mut row, tools))? {
+            row.set("ending", failure.status);
+            row.fail(failure);
+        }
         kept += 1;
         results.append(&row)
     };

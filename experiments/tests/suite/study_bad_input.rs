@@ -63,6 +63,7 @@ fn methods_and_their_options() {
     for_each_line(
         r#"
         "mpm" | "magic" | study.toml, line 4 | magic | paper-pic
+        steps = 3 } } | steps = 3 }, largest-particles = 3 } | study.toml | largest-particles | leaves no case
         steps = 3 | steps = 3, youngs-modulus = 2 | line 4 | youngs-modulus | 2 | mpm
         "#,
         |line| refused(line[0], line[1], &line[2..]),

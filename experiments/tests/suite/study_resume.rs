@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::support::{files, interrupted, stderr, succeeds, value};
+use crate::support::{assert_refused, files, interrupted, parvi, stderr, succeeds, value};
 
 const STUDY: &str = r#"
 kind = "time-error"
@@ -95,6 +95,46 @@ fn a_finished_study_is_not_run_again_and_its_report_needs_the_raw_results_alone(
     assert_eq!(std::fs::read_to_string(out.join("report.md")).unwrap(), report);
     assert_eq!(std::fs::read(out.join("figures").join(&figures[0])).unwrap(), drawing);
     assert_eq!(value(&output, "study").unwrap(), "time-error");
+}
+
+#[test]
+fn data_that_have_changed_are_another_study() {
+    let root = tempfile::tempdir().unwrap();
+    let of =
+        "targets = [{ name = \"logistic\", parameters = { data = \"data.csv\" } }]\nmethods = [{ name = \"svgd\" }]\n";
+    let head = STUDY.split("targets").next().unwrap();
+    std::fs::write(root.path().join("study.toml"), format!("{head}{of}")).unwrap();
+    let data = root.path().join("data.csv");
+    std::fs::write(&data, "y,a\n0,1\n1,2\n1,0\n0,3\n").unwrap();
+    run(root.path(), "out");
+    run(root.path(), "out");
+    let before = std::fs::read(root.path().join("out/results.csv")).unwrap();
+    std::fs::write(&data, "y,a\n0,1\n1,2\n1,0\n0,4\n").unwrap();
+    let output = parvi(root.path(), "run study.toml --out out");
+    assert_refused(
+        &output,
+        &["study.toml", "data", "data.csv has changed since this study began"],
+    );
+    assert_eq!(std::fs::read(root.path().join("out/results.csv")).unwrap(), before);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_target_that_answers_nan_does_not_end_a_study() {
+    let program = "while read what x; do if [ $what = density ]; then echo nan; else echo 0 0; fi; done";
+    let of = format!(
+        "targets = [{{ name = \"program\", dim = 2, parameters = {{ program = \"{program}\" }} }}, {{ name = \"banana\" }}]\n\
+         methods = [{{ name = \"svgd\" }}]\n"
+    );
+    let root = tempfile::tempdir().unwrap();
+    let head = STUDY.split("targets").next().unwrap();
+    std::fs::write(root.path().join("study.toml"), format!("{head}{of}")).unwrap();
+    let output = succeeds(root.path(), "run study.toml --out out");
+    assert_eq!(value(&output, "diverged").as_deref(), Some("2"));
+    let rows = crate::support::rows(root.path());
+    let ends: Vec<&str> = rows.iter().map(|row| row["status"].as_str()).collect();
+    assert_eq!(ends, ["diverged", "diverged", "finished", "finished"]);
+    assert!(rows[0]["note"].contains("NaN"), "{rows:?}");
 }
 
 #[cfg(unix)]

@@ -50,7 +50,7 @@ impl Study for TimeError {
 
     const KIND: &'static str = "time-error";
     const COLUMNS: &'static str = "case status note target dim method particles steps seed score_evaluations density_evaluations \
-         wall_seconds energy_distance_squared energy_level sliced_wasserstein mean_error deviation_error mass_error residual";
+         wall_seconds energy_distance_squared energy_level sliced_wasserstein mean_error deviation_error mass_error residual outcome";
     const REPORT: Report<Self> = report::report;
 
     /// The cases, target by target, so that a target's reference is made once.
