@@ -123,7 +123,7 @@ options! {
     weighted: Switch,
     /// What is done about a particle whose score is not finite [default: pull-back]
     non_finite: NonFinite,
-    /// Judge the particles at the end (mpm, paper-*) [default: on]
+    /// Judge the particles at the end [default: on]
     certificate: Switch,
     /// The algorithms exactly as the paper writes them: the target's own coordinates, no guard; every departure can be set beside it
     #[arg(num_args = 0..=1, default_missing_value = "on")]

@@ -70,6 +70,7 @@ impl MethodOptions {
         let flips = matches!(self.transfer, Some(Transfer::Flip | Transfer::AffineFlip));
         let (surveys, asks) = (self.surveys(), self.survey == Some(Switch::On));
         let caches = self.score == Some(Score::Cached);
+        let weighs = surveys && !caches;
         let has_rounds = self.rounds.is_none_or(|rounds| rounds.get() > 0);
         let has_mesh = self.basis != Some(Basis::Mesh) || self.mesh.is_some();
         let is_limited = self.displacement_limit.is_none_or(|limit| limit.value().is_some());
@@ -77,12 +78,12 @@ impl MethodOptions {
             ("flip-share", flips, "needs the transfer `flip` or `affine-flip`"),
             ("survey", !asks || !caches, "contradicts --score cached, which has none"),
             ("survey", !asks || surveys, "needs a last alpha of 1"),
-            ("evaluations search-effort", surveys, "needs a survey"),
+            ("evaluations", surveys || caches, "needs a survey, or --score cached"),
+            ("search-effort pool", weighs, "needs a survey"),
             ("rounds", surveys || has_rounds, "needs a survey"),
-            ("pool", surveys, "needs a survey"),
             (
                 "weighted",
-                surveys || self.weighted != Some(Switch::On),
+                weighs || self.weighted != Some(Switch::On),
                 "needs a survey",
             ),
             ("alpha", self.alpha > Some(0.0), attracts),

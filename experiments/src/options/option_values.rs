@@ -101,7 +101,7 @@ words! {
         Particles,
         /// At the nodes
         Nodes,
-        /// At the particles, interpolated from a grid whose nodes are evaluated once (of mpm on the lattice)
+        /// At the particles, interpolated from a grid whose nodes are evaluated once (mpm, not on a mesh)
         Cached,
     }
 

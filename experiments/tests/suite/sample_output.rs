@@ -158,6 +158,18 @@ fn options_of_a_body_that_has_not_moved_are_named() {
     assert!(notice.starts_with("--spacing, --shifts: without effect"), "{notice}");
     let (steps, notice) = said("--spacing 0.5 --rounds 2");
     assert!(steps != "0" && !notice.contains("without effect"), "{steps}: {notice}");
+    let (_, notice) = said("--rounds 0 --steps 50");
+    assert!(
+        notice.starts_with("--steps: without effect: none is moved with --rounds 0"),
+        "{notice}"
+    );
+    let moving = |options: &str| said(&format!("--survey off --steps 5 {options}")).1;
+    let notice = moving("--shifts off --spacing-range 2 --rotation on --settling-shifts on");
+    let expected = "--rotation, --spacing-range, --settling-shifts: without effect: the basis keeps still";
+    assert!(notice.contains(expected), "{notice}");
+    assert!(moving("--basis quadratic --rotation on").contains("--rotation: without effect"));
+    assert!(moving("--settling 0 --settling-shifts off").contains("--settling-shifts: without effect"));
+    assert!(!moving("--rotation on --spacing-range 2").contains("without effect"));
     let (_, notice) = said("--moment-correction off");
     assert!(!notice.contains("without effect"), "{notice}");
 }

@@ -72,6 +72,7 @@ fn options_of_a_survey() {
         r#"
         --evaluations 0 | --evaluations | 0 | from 1
         --evaluations -5 | --evaluations | -5
+        --search-effort 3 --score cached | --search-effort | 3 | needs a survey
         --evaluations 500 --survey off | --evaluations | 500 | needs a survey
         --evaluations 500 --method svgd | --evaluations | 500 | svgd
         --rounds 0 --survey off | --rounds | 0 | needs a survey

@@ -5,7 +5,7 @@ use parvi::Certificate;
 use super::Arguments;
 use crate::console::{self, Pair};
 use crate::machine::PEAK_MEMORY_KEY;
-use crate::options::{MethodName, Switch, is_among};
+use crate::options::{Basis, MethodName, Switch, is_among};
 use crate::sampling::{Outcome, Watched};
 
 /// What only moves of `mpm`'s particles depend on.
@@ -17,15 +17,50 @@ fn warn_of_rest(arguments: &Arguments, outcome: &Outcome) {
     if arguments.method != MethodName::Mpm || outcome.steps > 0 {
         return;
     }
-    let idle = arguments.options.given().filter(|(name, _)| is_among(OF_MOVES, name));
+    let has_rounds = arguments.options.rounds.is_none_or(|rounds| rounds.get() > 0);
+    let why = match arguments.options.weighted {
+        Some(Switch::On) => "weighted particles are not moved",
+        _ if !has_rounds => "none is moved with --rounds 0",
+        _ => {
+            "the weighed evaluations served all particles, and none was moved; --steps or --rounds lets the material try"
+        }
+    };
+    let is_idle = |name: &str| is_among(OF_MOVES, name) || name == "steps" && !has_rounds;
+    notice_idle(arguments, is_idle, why);
+}
+
+/// Says which of the options that were given do nothing beside others, in a run that moves particles.
+fn warn_of_idle(arguments: &Arguments, outcome: &Outcome) {
+    let options = &arguments.options;
+    if arguments.method != MethodName::Mpm || outcome.steps == 0 {
+        return;
+    }
+    let keeps_still = options.shifts == Some(Switch::Off);
+    let is_lattice = matches!(options.basis, None | Some(Basis::Lattice));
+    for (names, is_idle, why) in [
+        (
+            "rotation settling-shifts spacing-range",
+            keeps_still,
+            "the basis keeps still with --shifts off",
+        ),
+        ("rotation", !keeps_still && !is_lattice, "only the lattice is turned"),
+        (
+            "settling-shifts",
+            !keeps_still && options.settling == Some(0.0),
+            "nothing settles with --settling 0",
+        ),
+    ] {
+        if is_idle {
+            notice_idle(arguments, |name| is_among(names, name), why);
+        }
+    }
+}
+
+/// Names those of the options that were given.
+fn notice_idle(arguments: &Arguments, is_idle: impl Fn(&str) -> bool, why: &str) {
+    let idle = arguments.options.given().filter(|(name, _)| is_idle(name));
     let idle: Vec<String> = idle.map(|(name, _)| format!("--{name}")).collect();
     if !idle.is_empty() {
-        let why = match arguments.options.weighted {
-            Some(Switch::On) => "weighted particles are not moved",
-            _ => {
-                "the weighed evaluations served all particles, and none was moved; --steps or --rounds lets the material try"
-            }
-        };
         console::notice(&format!("{}: without effect: {why}", idle.join(", ")));
     }
 }
@@ -33,6 +68,7 @@ fn warn_of_rest(arguments: &Arguments, outcome: &Outcome) {
 /// What a user should know before trusting the particles.
 pub fn warn(arguments: &Arguments, outcome: &Outcome) {
     warn_of_rest(arguments, outcome);
+    warn_of_idle(arguments, outcome);
     if outcome.scores_replaced > 0 {
         let (count, remedy) = (
             outcome.scores_replaced,
