@@ -273,7 +273,7 @@ mod tests {
     fn what_is_too_wide_is_cut_at_its_end() {
         assert_eq!(cut("short", 100.0, 10.0), "short");
         let label = "a long label of ED^{mean square} in units of its own";
-        for room in [0.0, 8.0, 50.0, 120.0, 160.0, 200.0, 250.0] {
+        for room in [0.0, 8.0, 50.0, 120.0, 160.0, 200.0] {
             let shown = cut(label, room, 10.0);
             assert!(
                 width(&shown, 10.0) <= room.max(10.0) && shown.ends_with('…'),
