@@ -2,6 +2,7 @@
 
 mod charts;
 mod hostile;
+mod labels;
 
 use parvi_plot::statistics::{DensityGrid, StatisticsError, equidistant};
 use parvi_plot::*;
