@@ -47,7 +47,7 @@ pub enum ExperimentError {
         /// Its parameters and their values.
         values: String,
         /// What went wrong.
-        source: FullOrderError,
+        source: Box<FullOrderError>,
     },
     /// Nothing has been trained there.
     #[error("{model} is missing: `parvi rom train` with this experiment and directory makes it")]
@@ -127,7 +127,7 @@ impl ExperimentError {
         Self::TestCase {
             case,
             values: values.join(", "),
-            source,
+            source: Box::new(source),
         }
     }
 
