@@ -12,8 +12,6 @@ const GRAVITY: [f64; 2] = [5.0, -8.660254037844386];
 const DENSITY: f64 = 1000.0;
 /// λ and μ of E = 1 MPa, ν = 0.3.
 const LAME: [f64; 2] = [1e6 * 0.3 / (1.3 * 0.4), 1e6 / 2.6];
-const FRICTION: f64 = 0.7;
-const END: f64 = 4.0;
 
 /// What the runs differ by.
 #[derive(Clone, Copy, Default)]
@@ -23,6 +21,10 @@ struct Loading {
     /// Rate at which velocities fall.
     damping: f64,
 }
+
+/// μ of the slope, and how long the block is watched.
+const FRICTION: f64 = 0.7;
+const END: f64 = 4.0;
 
 /// ∂N/∂x of the four nodes at a point of the unit square, for elements of edge h.
 fn gradients([s, t]: [f64; 2], h: f64) -> [[f64; 2]; 4] {
