@@ -110,14 +110,16 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
         }
     }
 
-    /// Add what the particles have stored more than the work of their stresses, now that they have deformed.
+    /// Add what has become of the work of the particles' stresses, now that they have deformed.
     pub(crate) fn account_for_deformation(&mut self) {
         if let Some(budget) = &mut self.energy_budget {
+            let mut sum = StressWork::default();
             for (work, volume) in self.stress_works.iter().zip(&self.particles.reference_volumes) {
-                budget.viscous += work.viscous * volume;
+                sum.viscous += work.viscous * volume;
+                sum.stored_beyond += work.stored_beyond * volume;
             }
-            let each = self.stress_works.iter().zip(&self.particles.reference_volumes);
-            budget.time_integration -= each.map(|(work, volume)| work.stored_beyond * volume).sum::<f64>();
+            budget.viscous += sum.viscous;
+            budget.time_integration -= sum.stored_beyond;
         }
         self.stress_works.clear();
     }

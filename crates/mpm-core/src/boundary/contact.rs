@@ -10,8 +10,8 @@ pub enum Contact {
     Stick,
     /// The material neither leaves nor enters, and slides freely: a roller, or a plane of symmetry.
     Slip,
-    /// The material may leave and does not enter: where a particle would come nearer than half its size, (V_p)^(1/D) / 2, in a step, its nodes go no farther than that. It slides against Coulomb friction with coefficient `friction` ≥ 0: the tangential
-    /// velocity falls by at most `friction` times the normal velocity that the surface takes away.
+    /// The material may leave and does not enter: where a particle would come nearer than half its size, (V_p)^(1/D) / 2, in a step, its nodes go no farther than that. It slides
+    /// against Coulomb friction with coefficient `friction` ≥ 0: the tangential velocity falls by at most `friction` times the normal velocity that the surface takes away.
     Separate {
         /// Coefficient of friction.
         friction: f64,
