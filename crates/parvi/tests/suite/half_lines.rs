@@ -119,10 +119,10 @@ fn a_density_that_is_zero_at_all_points_is_said_to_be() {
 }
 
 /// The unit cube, with a score of zero inside and outside.
-struct UnitCube;
+pub struct UnitCube;
 
-impl Target<4> for UnitCube {
-    fn log_density(&self, x: &[f64; 4]) -> f64 {
+impl<const D: usize> Target<D> for UnitCube {
+    fn log_density(&self, x: &[f64; D]) -> f64 {
         if x.iter().all(|x| (0.0..=1.0).contains(x)) {
             0.0
         } else {
@@ -130,8 +130,8 @@ impl Target<4> for UnitCube {
         }
     }
 
-    fn score(&self, _: &[f64; 4]) -> [f64; 4] {
-        [0.0; 4]
+    fn score(&self, _: &[f64; D]) -> [f64; D] {
+        [0.0; D]
     }
 }
 

@@ -6,6 +6,8 @@ use parvi::certificate::Doubt;
 use parvi::{AisOptions, MpmOptions, Outcome, Run, SampleError, Samples, Silent, SmcOptions, Start, SvgdOptions};
 use parvi_targets::{Frame, Target};
 
+use crate::half_lines::UnitCube;
+
 type LogDensity<'a> = &'a (dyn Fn(&[f64; 2]) -> f64 + Sync);
 
 /// log p as a function, scores by differences; counts what is evaluated.
@@ -129,32 +131,15 @@ fn no_temperatures_lead_to_an_improper_density() {
     assert!(matches!(error, SampleError::TooFar { temperatures: 2000 }), "{error}");
 }
 
-/// The unit square, with a score of zero inside and outside.
-struct UnitSquare;
-
-impl Target<2> for UnitSquare {
-    fn log_density(&self, x: &[f64; 2]) -> f64 {
-        if x.iter().all(|c| (0.0..=1.0).contains(c)) {
-            0.0
-        } else {
-            f64::NEG_INFINITY
-        }
-    }
-
-    fn score(&self, _: &[f64; 2]) -> [f64; 2] {
-        [0.0; 2]
-    }
-}
-
 #[test]
 fn particles_that_end_outside_are_said_to() {
     let options = SvgdOptions {
         steps: Some(50),
         ..SvgdOptions::default()
     };
-    let samples = options.sample(&UnitSquare, &Frame::identity(), &Run::new(50, 1), &mut Silent);
+    let samples = options.sample(&UnitCube, &Frame::<2>::identity(), &Run::new(50, 1), &mut Silent);
     let samples = samples.expect("particles");
-    let outside = |x: &&[f64; 2]| !UnitSquare.log_density(x).is_finite();
+    let outside = |x: &&[f64; 2]| !UnitCube.log_density(x).is_finite();
     let particles = samples.positions.iter().filter(outside).count();
     assert!(particles > 0 && samples.density_evaluations == 50);
     assert_eq!(doubt(&samples), Some(Doubt::Outside { particles, of: 50 }));
