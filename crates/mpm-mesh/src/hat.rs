@@ -17,7 +17,7 @@ const CHUNK: usize = 1 << 12;
 /// boundary. (The diffuse gradient of [`MeshBasis`](crate::MeshBasis) has no such identity.) Nodes are the vertices of the mesh, all of them, by their
 /// own numbers. A particle outside the mesh is an error, [`MpmError::OutsideMesh`].
 ///
-/// A node of which particles are far has next to no mass, and ∇w_i all the same: bodies of solid want shorter steps than on splines (a Courant number of 0.05 where these take 0.3).
+/// A node of which particles are far has next to no mass, and ∇w_i all the same: bodies of solid want shorter steps than on splines.
 #[derive(Clone, Debug)]
 pub struct HatBasis<const D: usize> {
     search: CellSearch<D>,

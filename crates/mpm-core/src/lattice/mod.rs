@@ -22,7 +22,7 @@ const SORT_INTERVAL: u32 = 8;
 /// Nodes are found through a table over the bounding box of the cloud where the box holds few nodes per particle, else
 /// through a hash map: the cost follows the particles, not the extent.
 ///
-/// A node of which particles are far has next to no mass beside its gradient: bodies of solid want shorter steps than on splines (a Courant number of 0.05 where these take 0.3).
+/// A node of which particles are far has next to no mass beside its gradient: bodies of solid want shorter steps than on splines.
 #[derive(Debug)]
 pub struct SimplexLattice<const D: usize> {
     geometry: SimplexGeometry<D>,
