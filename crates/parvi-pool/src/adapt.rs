@@ -59,6 +59,8 @@ pub(super) struct Adaptation<const D: usize> {
     /// Evaluations that searches have taken, and those until they last met a piece.
     searched: u64,
     met: u64,
+    /// Draws of searches since they last met a piece.
+    drawn_in_vain: u64,
     /// Effective sizes before the last round and after it.
     sizes: [f64; 2],
 }
@@ -95,6 +97,7 @@ impl<const D: usize> Adaptation<D> {
             without_advance: 0,
             searched: 0,
             met: 0,
+            drawn_in_vain: 0,
             sizes: [0.0, size],
         })
     }
@@ -126,8 +129,9 @@ impl<const D: usize> Adaptation<D> {
                 break false;
             }
             let before = density.evaluations();
-            let found = search(&mut self.folds, density, count, allowed, rng);
+            let (drawn, found) = search(&mut self.folds, density, count, allowed, rng);
             self.searched += density.evaluations() - before;
+            self.drawn_in_vain += drawn;
             if let Some(found) = found {
                 for fold in &mut self.folds {
                     fold.draw(density, found.clone(), plan.round / 4, rng.random());
@@ -135,7 +139,7 @@ impl<const D: usize> Adaptation<D> {
                 // What summits promise, their surroundings need not keep, or were known to.
                 let news = self.folds.each_ref().map(Fold::news_of_last);
                 if news.iter().any(|&mass| mass >= LIGHTEST) {
-                    self.met = self.searched;
+                    (self.met, self.drawn_in_vain) = (self.searched, 0);
                     break true;
                 }
             }
@@ -159,13 +163,13 @@ impl<const D: usize> Adaptation<D> {
         if self.met == 0 {
             f64::INFINITY
         } else {
-            self.searched_in_vain() as f64 / met
+            (self.searched - self.met) as f64 / met
         }
     }
 
-    /// Evaluations of searches since they last met a piece.
-    pub fn searched_in_vain(&self) -> u64 {
-        self.searched - self.met
+    /// Draws of searches since they last met a piece.
+    pub fn drawn_in_vain(&self) -> u64 {
+        self.drawn_in_vain
     }
 
     /// Takes fresh points in after all: they met what the rounds had not.

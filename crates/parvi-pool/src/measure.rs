@@ -21,7 +21,7 @@ const WORTH: f64 = 0.2;
 ///
 /// In every fold the last proposal q serves as a control variate (A. Owen, Y. Zhou, *Safe and effective importance sampling*, J. Am. Stat. Assoc. 95, 2000, §2):
 /// ∫ p f / Z ≈ Σ_i (p(x_i)/Z − β q(x_i)) / S(x_i) f(x_i) + β/K Σ_k f(y_k), S(x) = Σ_t n_t q_t(x), with K draws y of q, which cost no evaluation.
-/// Z = Ẑ / (1 + β (Σ_i q(x_i)/S(x_i) − 1)) makes the weights sum to one; β in [0, 1] makes Σ c_i² least. The nearer q is to p, the smaller the c_i are.
+/// Z = Ẑ / (1 + β (Σ_i q(x_i)/S(x_i) − 1)) makes the weights sum to one; β in [0, 1] makes Σ c_i² r_i ([`variance`](Self::variance)) least. The nearer q is to p, the smaller the c_i are.
 #[derive(Clone, Debug, Default)]
 pub struct Measure<const D: usize> {
     /// Where the mass is.

@@ -42,8 +42,8 @@ pub struct Pool<const D: usize> {
     pub inconsistency: f64,
     /// Evaluations of searches since they last met a piece, over those before; infinite where they met none.
     pub quiet: f64,
-    /// Evaluations of searches since they last met a piece.
-    pub searched: u64,
+    /// Draws of searches' wide law since they last met a piece.
+    pub drawn_in_vain: u64,
     /// Points at which log p was evaluated.
     pub density_evaluations: u64,
     /// Points at which the score was evaluated.
@@ -99,7 +99,7 @@ impl<const D: usize> Pool<D> {
             verdict,
             inconsistency: inconsistency.unwrap_or(0.0),
             quiet: adaptation.quiet(),
-            searched: adaptation.searched_in_vain(),
+            drawn_in_vain: adaptation.drawn_in_vain(),
             density_evaluations: density.density_evaluations,
             score_evaluations: density.score_evaluations,
             values_replaced: density.replaced,
@@ -133,7 +133,7 @@ impl<const D: usize> Pool<D> {
     /// What searches can have overlooked: the share v of their law's draws from which a piece is seen, such that with probability 0.05 none of the `n` that met
     /// nothing was one, (1 − v)ⁿ = 0.05; about 3/n. A piece that is seen from more of them is known, with 95 % confidence.
     pub fn unseen(&self) -> f64 {
-        1.0 - OVERLOOKED.powf(1.0 / self.searched as f64)
+        1.0 - OVERLOOKED.powf(1.0 / self.drawn_in_vain as f64)
     }
 
     /// Kish's effective size of the weights.

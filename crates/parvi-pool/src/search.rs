@@ -51,7 +51,7 @@ const OF_SCORES: f64 = 0.5;
 const FOREIGN: f64 = 0.2;
 
 /// Draws `count` points at a time of a wide law into the folds and sends scouts from them, as long as these find something and `evaluations` last.
-/// Kernels about the summits that no proposal covered, if there are any, none of them fitted.
+/// How many it has drawn, and kernels about the summits that no proposal covered, if there are any, none of them fitted.
 ///
 /// What is drawn costs one density each, and is weighed like every other point: in few dimensions that meets a narrow piece more cheaply than ways uphill from
 /// everywhere do.
@@ -61,10 +61,12 @@ pub(super) fn search<const D: usize>(
     count: usize,
     evaluations: u64,
     rng: &mut ChaCha8Rng,
-) -> Option<Mixture<D>> {
+) -> (u64, Option<Mixture<D>>) {
     let until = density.evaluations() + evaluations;
-    let mut covered = Covered::by(folds)?;
-    let mut found: Vec<Summit<D>> = Vec::new();
+    let Some(mut covered) = Covered::by(folds) else {
+        return (0, None);
+    };
+    let (mut drawn, mut found) = (0, Vec::<Summit<D>>::new());
     while density.evaluations() + count as u64 <= until {
         let Some(Known { law, factor, spread }) = known(folds, &found) else {
             break;
@@ -79,6 +81,7 @@ pub(super) fn search<const D: usize>(
             points.extend_from_slice(&fold.positions[first..]);
             logs.extend_from_slice(&fold.log_densities[first..]);
         }
+        drawn += points.len() as u64;
         let whitener = factor.lower_triangular_inverse().unwrap_or(Matrix::IDENTITY);
         let mut new = covered.climb_from_surprises(density, &points, &logs, WIDEST * spread);
         new.extend(covered.climb_from_peaks(density, &points, &logs, &whitener, WIDEST * spread));
@@ -89,7 +92,7 @@ pub(super) fn search<const D: usize>(
         }
         found.extend(new);
     }
-    Mixture::new(about(&found)).map(|found| found.with_core(0))
+    (drawn, Mixture::new(about(&found)).map(|found| found.with_core(0)))
 }
 
 /// What the folds and new summits say.

@@ -4,7 +4,7 @@ use mpm_kernels::{SimplexGeometry, SimplexPoint};
 use mpm_tensor::{Matrix, vector};
 use proptest::prelude::*;
 
-/// The shape function of the node at 0 in lattice coordinates t: (1 + min(0, t) − max(0, t))₊ (docs/theory.md, Eq. 18).
+/// The shape function of the node at 0 in lattice coordinates t: (1 + min(0, t) − max(0, t))₊ (docs/theory.md, Eq. 20).
 fn hat<const D: usize>(t: &[f64; D]) -> f64 {
     let low = t.iter().fold(0.0, |low: f64, &c| low.min(c));
     let high = t.iter().fold(0.0, |high: f64, &c| high.max(c));

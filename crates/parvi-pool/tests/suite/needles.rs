@@ -2,7 +2,7 @@
 
 use mpm_tensor::vector;
 use parvi_pool::{Objection, PoolOptions};
-use parvi_targets::Target;
+use parvi_targets::{Gaussian, Target};
 
 use crate::common::{pool_of, pool_with};
 
@@ -56,11 +56,23 @@ fn what_searches_met_of_late_is_followed_by_quiet_or_an_objection() {
         .find(|pool| pool.quiet.is_finite())
         .expect("a search that met a piece");
     assert!(pool.quiet >= 2.0, "{}", pool.quiet);
-    let overlooked = (1.0 - pool.unseen()).powf(pool.searched as f64);
-    assert!(pool.searched > 1000 && (overlooked - 0.05).abs() < 1e-9, "{overlooked}");
+    let overlooked = (1.0 - pool.unseen()).powf(pool.drawn_in_vain as f64);
+    assert!(
+        pool.drawn_in_vain > 1000 && (overlooked - 0.05).abs() < 1e-9,
+        "{overlooked}"
+    );
     assert_eq!(pool.objection(500), None, "{pool:?}");
     pool.quiet = 1.9;
     assert_eq!(pool.objection(500), Some(Objection::Searching(1.9)));
+}
+
+/// Scouts climb to what is known, and scores point to it: neither is a draw that might have met a piece.
+#[test]
+fn what_is_unseen_goes_by_draws_alone() {
+    let pool = pool_of(&Gaussian::<3>::standard(), 1000, 0).unwrap();
+    let draws = 0.05_f64.ln() / (1.0 - pool.unseen()).ln();
+    // 2.25 per particle, in a whole number of groups of 16.
+    assert_eq!(draws.round(), 2240.0);
 }
 
 #[test]
