@@ -1,3 +1,4 @@
+use super::element_types::simplex;
 use crate::MeshError;
 
 /// A place in a file.
@@ -77,7 +78,10 @@ pub enum MshError {
         place: Place,
     },
     /// An element of the mesh's dimension is not a simplex with straight edges, or its type is not known.
-    #[error("{place}: elements of type {kind} ({name}) in a mesh of dimension {dimension}")]
+    #[error(
+        "{place}: elements of type {kind} ({name}) in a mesh of dimension {dimension}, whose cells are {}s with straight edges (type {})",
+        simplex(*dimension).1, simplex(*dimension).0
+    )]
     UnsupportedElement {
         /// Number of the type.
         kind: u64,

@@ -32,6 +32,24 @@ impl Groups {
         if cursor.encoding != Encoding::Text {
             cursor.skip_line();
         }
+        self.read_entities_of(cursor, false)
+    }
+
+    /// The section `$PartitionedEntities` of version 4.1, whose entities the elements of a partitioned mesh are on: how many partitions, and the ghosts, each with its tag and its
+    /// partition; then as in `$Entities`, with dimension and tag of the parent and the list of partitions behind each tag.
+    pub fn read_partitioned_entities(&mut self, cursor: &mut Cursor) -> Result<(), MshError> {
+        if cursor.encoding != Encoding::Text {
+            cursor.skip_line();
+        }
+        cursor.size("the number of partitions")?;
+        for _ in 0..cursor.size("a number of ghost entities")? {
+            cursor.signed_integer("the tag of a ghost entity")?;
+            cursor.signed_integer("the partition of a ghost entity")?;
+        }
+        self.read_entities_of(cursor, true)
+    }
+
+    fn read_entities_of(&mut self, cursor: &mut Cursor, partitioned: bool) -> Result<(), MshError> {
         let mut counts = [0; 4];
         for count in &mut counts {
             *count = cursor.size("a number of entities")?;
@@ -39,6 +57,13 @@ impl Groups {
         for (dimension, count) in (0..).zip(counts) {
             for _ in 0..count {
                 let tag = cursor.signed_integer("the tag of an entity")?;
+                if partitioned {
+                    cursor.signed_integer("the dimension of a parent")?;
+                    cursor.signed_integer("the tag of a parent")?;
+                    for _ in 0..cursor.size("a number of partitions")? {
+                        cursor.signed_integer("the number of a partition")?;
+                    }
+                }
                 for _ in 0..if dimension == 0 { 3 } else { 6 } {
                     cursor.real("a coordinate of an entity")?;
                 }

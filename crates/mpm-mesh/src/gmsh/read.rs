@@ -9,7 +9,7 @@ use crate::{MeshError, SimplexMesh};
 ///
 /// Cells are the elements of dimension D with straight edges: segments (type 1), triangles (2), tetrahedra (4); everything else is passed over
 /// ([`read_named_msh`] keeps physical groups). Vertices are numbered in the order of the file, without nodes that
-/// belong to no cell; tags of nodes may have gaps and any order. In two dimensions all vertices have the same z, in one the same
+/// belong to no cell; tags of nodes may have gaps and any order. A cell that version 2.2 repeats, once for each physical group that it is in, is one; meshes may be partitioned. In two dimensions all vertices have the same z, in one the same
 /// y and z. Where all cells are negatively oriented (triangles clockwise), all are turned; where some are, the mesh is
 /// refused.
 ///
@@ -64,6 +64,10 @@ fn read_sections<const D: usize>(bytes: &[u8]) -> Result<(Raw, Cursor<'_>), MshE
             "$Entities" if matches!(version, Version::Four) => {
                 raw.groups.read_entities(&mut cursor)?;
                 cursor.expect("$EndEntities")?;
+            }
+            "$PartitionedEntities" if matches!(version, Version::Four) => {
+                raw.groups.read_partitioned_entities(&mut cursor)?;
+                cursor.expect("$EndPartitionedEntities")?;
             }
             other => {
                 let name = other.strip_prefix('$');

@@ -90,9 +90,14 @@ pub(super) fn build<const D: usize>(scene: &Scene, background: &Background<D>) -
         let expected = "a group with facets: the file names this one, and no element is in it";
         within(&field("group"), &table.group, !facets.is_empty(), expected)?;
         let holds = matches!(table.condition, FacetCondition::Fixed | FacetCondition::Prescribed);
-        let outer = holds || named(inner, facets).next().is_some();
+        let outer = named(inner, facets).count();
         let expected = "a group with facets of the boundary: the others have no normal, and the condition acts on none";
-        within(&field("group"), &table.group, outer, expected)?;
+        within(&field("group"), &table.group, holds || outer > 0, expected)?;
+        let inside = keys::<D>(facets).len() - outer;
+        let expected = format!(
+            "a group of facets of the boundary alone: {inside} are inside the mesh, have no normal, and the condition does not act there"
+        );
+        within(&field("group"), &table.group, holds || inside == 0, &expected)?;
         let normals = || normals(inner, whole, facets);
         let contact = match table.condition {
             FacetCondition::Fixed => Contact::Stick,
@@ -150,14 +155,21 @@ fn group<'a>(
         .ok_or_else(|| SceneFault::value(field, &table.group, expected))
 }
 
+/// The vertices of a facet in ascending order.
+fn key(facet: &[u32]) -> Vec<u32> {
+    let mut facet = facet.to_vec();
+    facet.sort_unstable();
+    facet
+}
+
+/// The facets of a group, each once.
+fn keys<const D: usize>(facets: &[u32]) -> HashSet<Vec<u32>> {
+    facets.chunks_exact(D.max(1)).map(key).collect()
+}
+
 /// The facets of the boundary that a group names, by any order of their vertices.
 fn named<const D: usize>(inner: &SimplexMesh<D>, facets: &[u32]) -> impl Iterator<Item = BoundaryFacet<D>> {
-    let key = |facet: &[u32]| {
-        let mut facet = facet.to_vec();
-        facet.sort_unstable();
-        facet
-    };
-    let named: HashSet<Vec<u32>> = facets.chunks_exact(D.max(1)).map(key).collect();
+    let named = keys::<D>(facets);
     let boundary = inner.boundary().into_iter();
     boundary.filter(move |facet| named.contains(&key(&facet.vertices)))
 }

@@ -252,6 +252,16 @@ fn conditions_along_normals_need_a_boundary() {
         let message = frames(&inside, &mut |_| {}).expect_err(&condition).to_string();
         let expected = "facets[0].group = \"rim\": must be a group with facets of the boundary";
         assert!(message.contains(expected), "{message}");
+        // The whole rim, and that facet inside.
+        let text = file().replacen(
+            first.replace(" 5 1 ", " 4 1 ").as_str(),
+            &format!("1 1 2 4 1 {} {}", ends[0], ends[1]),
+            1,
+        );
+        std::fs::write(directory.path().join("disk.msh"), text).expect("writable");
+        let message = frames(&inside, &mut |_| {}).expect_err(&condition).to_string();
+        let expected = "must be a group of facets of the boundary alone: 1 are inside the mesh";
+        assert!(message.contains(expected), "{message}");
     }
 }
 

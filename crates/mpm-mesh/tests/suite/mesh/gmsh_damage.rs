@@ -215,6 +215,11 @@ fn elements_of_other_kinds() {
     let byte = text.rfind(block).expect("a block of quadrangles");
     let place = line(byte, 1 + text[..byte].matches('\n').count());
     assert_eq!(refused(text), unsupported(3, "quadrangle", 2, place));
+    let message = refused(text).to_string();
+    assert!(
+        message.ends_with("elements of type 3 (quadrangle) in a mesh of dimension 2, whose cells are triangles with straight edges (type 2)"),
+        "{message}"
+    );
     let cells = CELLS.replace("2 2 2 0", "2 99 2 0");
     let place = line(HEADER.len() + NODES.len() + CELLS.find("2 2 2 0").expect("it"), 14);
     assert_eq!(

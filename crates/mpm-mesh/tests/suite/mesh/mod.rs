@@ -5,6 +5,7 @@ mod conformance;
 mod figures;
 mod gmsh_damage;
 mod gmsh_files;
+mod gmsh_groups;
 mod layers;
 mod mirror_layer;
 mod parameters;
